@@ -1,0 +1,57 @@
+// What can go wrong, as types that carry their data. Every message is one line: what, where, what to do.
+//
+// Input errors end the command line with status 2, all others with status 1.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+namespace itin {
+
+/// The root of every exception this toolkit throws on purpose.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The call or its input is wrong: an option, a value, a geometry.
+class InputError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// A file could not be read, written or understood.
+class FileError : public Error {
+ public:
+  FileError(std::string path, const std::string& what) : Error(path + ": " + what), path_(std::move(path)) {}
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+/// Not a store at all, or one written by a newer itin.
+class StoreFormatError : public FileError {
+ public:
+  using FileError::FileError;
+};
+
+/// A store whose bytes are not what was written. `place` names the table and row, as `itin check` does.
+class CorruptStore : public FileError {
+ public:
+  CorruptStore(std::string path, std::string place, const std::string& what)
+      : FileError(std::move(path), place + ": " + what), place_(std::move(place)) {}
+  const std::string& place() const { return place_; }
+
+ private:
+  std::string place_;
+};
+
+/// The user, or a signal, asked to stop.
+class Cancelled : public Error {
+ public:
+  Cancelled() : Error("interrupted") {}
+};
+
+}  // namespace itin

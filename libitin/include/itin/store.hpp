@@ -1,0 +1,97 @@
+// A multiscale implicit TIN on disk, open for reading.
+//
+//   itin::Store store("wales.itin");
+//   std::cout << store.metadata().levels.size();
+//
+// A Store is safe to use from any number of threads. Blocks are decoded once and kept in a cache shared by all
+// threads, bounded by StoreOptions::cache_bytes. No triangle is stored; see triangulate.hpp.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <itin/geometry.hpp>
+#include <itin/progress.hpp>
+
+namespace itin {
+
+class PointIndex;  // src/store/point_index.hpp
+
+/// T_k + lo <= T_0 <= T_k + hi, metres.
+struct CertifiedError {
+  double lo = 0;
+  double hi = 0;
+};
+
+struct LevelInfo {
+  double tolerance = 0;          ///< metres; 0 for level 0, which holds everything
+  double lateral_tolerance = 0;  ///< metres, for lines
+  std::uint64_t vertices = 0;    ///< vertices whose coarsest level this is
+  CertifiedError certified_error;
+};
+
+/// One imported file.
+struct SourceInfo {
+  std::string path;         ///< as given to the import
+  std::string kind;         ///< "terrain"
+  std::string imported;     ///< UTC, ISO 8601
+  std::string sha256;       ///< of the file's bytes; empty where the source is not a plain file
+  std::string source_crs;   ///< as found or given, authority:code or WKT
+  std::uint64_t vertices = 0;  ///< that came from it and are still there
+  /// Ground is triangulated across gaps up to these two vectors u, v (metres, projected): 1.5 times the two lattice
+  /// steps of a raster (a missing post leaves a hole); (G, 0) and (0, G) for scattered points with max-gap G. An edge
+  /// e = a u + b v between two vertices may be ground when |a| <= 1 and |b| <= 1 for either vertex's source.
+  std::array<double, 4> gap_basis{};  ///< ux, uy, vx, vy
+  double spacing = 0;                 ///< metres: lattice step (geometric mean of the two), or mean point spacing
+  bool replaces = false;       ///< took the place of coarser ground (--replace)
+};
+
+struct StoreMetadata {
+  int format_version = 0;
+  std::string crs_wkt;
+  Grid grid;
+  GridBox bounds;                   ///< of all vertices
+  std::vector<LevelInfo> levels;    ///< level 0 (tolerance 0) first, then coarser and coarser
+  std::vector<SourceInfo> sources;  ///< also the import history, in order
+  std::uint64_t vertices = 0;
+};
+
+struct StoreOptions {
+  // Changes the speed, never the answer.
+  std::uint64_t cache_bytes = std::uint64_t{256} << 20;
+};
+
+class Store {
+ public:
+  /// Throws FileError (missing, unreadable), StoreFormatError (foreign, too new), CorruptStore (damaged).
+  explicit Store(const std::string& path, const StoreOptions& options = {});
+  Store(Store&&) noexcept;
+  Store& operator=(Store&&) noexcept;
+  ~Store();
+
+  const std::string& path() const;
+  const StoreMetadata& metadata() const;
+  std::uint64_t file_bytes() const;
+  /// For the libraries of this toolkit: the quadtrees themselves.
+  const PointIndex& points() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// One damaged place.
+struct Damage {
+  std::string place;  ///< for example "block 3/0000041c"
+  std::string what;
+};
+
+/// Reads every byte of the store and verifies checksums, index, order and counts, and that certificates are present
+/// wherever there is ground. Returns an empty vector for a sound store.
+std::vector<Damage> check(const Store& store, Progress& progress);
+
+}  // namespace itin

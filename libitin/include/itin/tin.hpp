@@ -1,0 +1,45 @@
+// A triangulated piece of the surface: what a window query returns.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <itin/geometry.hpp>
+
+namespace itin {
+
+/// The Morton code of a vertex's grid position: unique in a store, and the same in every query, level and import order.
+using VertexId = std::uint64_t;
+
+/// Indices into Tin::vertices, counterclockwise seen from above, the smallest first.
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// What retrieving a window cost.
+struct RetrievalStatistics {
+  std::uint64_t points_read = 0;  ///< points decoded, used or not
+  std::uint64_t blocks_read = 0;  ///< blocks fetched, from cache or disk
+  RetrievalStatistics& operator+=(const RetrievalStatistics& s) {
+    points_read += s.points_read;
+    blocks_read += s.blocks_read;
+    return *this;
+  }
+};
+
+/// An immutable triangulation. Vertices are in ascending order of their VertexId, triangles in ascending order of
+/// their indices: two Tins of the same query are equal byte for byte. Only ground is present: a hole in the coverage
+/// is a hole here. A vertex is listed if and only if a triangle uses it.
+struct Tin {
+  Grid grid;
+  std::vector<GridPoint> vertices;
+  std::vector<std::uint16_t> sources;  ///< per vertex: index into StoreMetadata::sources
+  std::vector<Triangle> triangles;
+  RetrievalStatistics statistics;
+
+  Point3 point(std::uint32_t vertex) const { return grid.point(vertices[vertex]); }
+  VertexId id(std::uint32_t vertex) const;
+  /// The smallest box of all vertices, metres.
+  Box bounds() const;
+};
+
+}  // namespace itin

@@ -1,0 +1,21 @@
+// Window queries: the triangles of the global constrained Delaunay triangulation that meet a window (law 1).
+#pragma once
+
+#include <itin/detail.hpp>
+#include <itin/progress.hpp>
+#include <itin/tin.hpp>
+#include <itin/window.hpp>
+
+namespace itin {
+
+class Store;
+
+/// Exactly those ground triangles of the triangulation of the whole store, at this detail, that meet the window,
+/// whatever the window, the tiling or the number of threads.
+///
+/// Cost: reads the leaves that meet the window and a few around it; O(n log n) in the points read. Memory follows the
+/// window: about 300 bytes a point while running, 28 bytes a point for the result.
+/// Throws CorruptStore, FileError, Cancelled. An answer without triangles is not an error.
+Tin triangulate(const Store& store, const Window& window, const Detail& detail, Progress& progress);
+
+}  // namespace itin

@@ -1,0 +1,51 @@
+// The region a query asks for: box, polygon with holes, disc, wedge or corridor.
+//
+//   Window w = Window::disc({318000, 176000}, 5000);
+//   Tin tin = triangulate(store, w, Detail::tolerance(2));
+//
+// A window is a closed region of the plane. A triangle belongs to the answer when it meets the window (touching
+// counts). Shapes are kept as polygons in metres and quantised to the store's grid once, so that membership is decided
+// exactly: a disc is the regular polygon of kArcSides sides around it (it contains the disc), a wedge has its arc cut
+// into as many parts, in proportion.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <itin/geometry.hpp>
+
+namespace itin {
+
+class Window {
+ public:
+  static constexpr int kArcSides = 256;
+
+  using Ring = std::vector<Point2>;  ///< closed implicitly, either orientation
+  struct Polygon {
+    Ring outer;
+    std::vector<Ring> holes;
+  };
+
+  /// Everything the store covers.
+  static Window all();
+  static Window box(const Box& b);
+  /// Rings must not cross themselves or each other; parts must not overlap.
+  static Window polygons(std::vector<Polygon> parts);
+  static Window disc(Point2 centre, double radius);
+  /// Azimuths clockwise from grid north, degrees; `width` in (0, 360].
+  static Window wedge(Point2 apex, double azimuth, double width, double radius);
+  /// The rectangle of all points within width / 2 to either side of the line and between its ends.
+  static Window corridor(Point2 from, Point2 to, double width);
+
+  bool is_all() const { return all_; }
+  const std::vector<Polygon>& parts() const { return parts_; }
+  /// Empty for `all()`.
+  Box bounds() const;
+
+ private:
+  bool all_ = false;
+  std::vector<Polygon> parts_;
+};
+
+}  // namespace itin

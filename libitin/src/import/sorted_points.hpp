@@ -1,0 +1,68 @@
+// Points on their way into a store: sorted along the Morton curve in a temporary file, never all in memory.
+//
+//   PointSorter sorter(directory, memory_bytes);
+//   sorter.add({morton(p.x, p.y), p.z, source});           // any order
+//   SortedPoints points = sorter.finish(rank_of_source);   // sorted, one point a position
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <itin/progress.hpp>
+
+namespace itin {
+
+struct RawPoint {
+  std::uint64_t code = 0;  ///< Morton code of the grid position
+  std::int32_t z = 0;      ///< grid units
+  std::uint16_t source = 0;
+  std::uint16_t level = 0;  ///< set by the pyramid
+};
+static_assert(sizeof(RawPoint) == 16);
+
+/// A temporary file of RawPoints in ascending order of code, all codes distinct; removed with the object.
+/// Reading is safe from any thread; writing is safe for disjoint ranges.
+class SortedPoints {
+ public:
+  SortedPoints(SortedPoints&&) noexcept;
+  SortedPoints& operator=(SortedPoints&&) noexcept;
+  ~SortedPoints();
+
+  std::uint64_t size() const;
+  /// Reads points [first, first + out.size()). Throws FileError.
+  void read(std::uint64_t first, std::span<RawPoint> out) const;
+  /// Overwrites points [first, first + points.size()); codes must stay what they are.
+  void write(std::uint64_t first, std::span<const RawPoint> points);
+  /// The number of points whose code is below `code`. One small read, thanks to a sparse index in memory.
+  std::uint64_t lower_bound(std::uint64_t code) const;
+
+ private:
+  friend class PointSorter;
+  class Impl;
+  explicit SortedPoints(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+/// External merge sort. Temporary files are unlinked at once where the system allows, so that none outlives a kill.
+class PointSorter {
+ public:
+  /// Uses at most about `memory_bytes` for its buffers.
+  PointSorter(std::string directory, std::uint64_t memory_bytes);
+  ~PointSorter();
+  /// Not thread-safe.
+  void add(const RawPoint& point);
+  void add(std::span<const RawPoint> points);
+  /// Of several points at one position the one whose source has the least rank stays (ranks: finer spacing first),
+  /// among equal ranks the highest, among equal heights the lowest source number: a rule on the points alone.
+  /// `spacing_of_source[s]` in metres. `duplicates`, if given, receives the number dropped. Throws FileError, Cancelled.
+  SortedPoints finish(std::span<const double> spacing_of_source, Progress& progress, std::uint64_t* duplicates = nullptr);
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace itin

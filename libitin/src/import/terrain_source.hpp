@@ -1,0 +1,50 @@
+// Terrain files, seen as streams of grid points in the store's projection.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <itin/import.hpp>
+#include <itin/progress.hpp>
+#include <itin/store.hpp>
+
+namespace itin {
+
+/// What was met on the way.
+struct ReadCounts {
+  std::uint64_t read = 0;      ///< points handed on
+  std::uint64_t voids = 0;     ///< posts without data
+  std::uint64_t filtered = 0;  ///< left out by class or where
+};
+
+/// One file to import. Opened and understood at planning time, read once, in bounded memory.
+class TerrainSource {
+ public:
+  using Sink = std::function<void(std::span<const GridPoint>)>;
+  virtual ~TerrainSource() = default;
+  /// Streams every point, heights in grid units. Throws FileError, InputError, Cancelled.
+  virtual ReadCounts read(const Sink& sink, Progress& progress) = 0;
+  /// Complete (gap_basis, spacing, ...) only after read(); `vertices` is left to the importer.
+  virtual SourceInfo info() const = 0;
+  /// For progress: bytes or posts, whatever is at hand.
+  virtual double size_hint() const = 0;
+};
+
+struct ImportPlan {
+  std::string crs_wkt;      ///< of the store: projected, metres
+  std::string crs_name;
+  bool crs_chosen = false;  ///< a UTM zone was chosen
+  Grid grid;
+  std::vector<std::unique_ptr<TerrainSource>> sources;
+  std::vector<std::string> warnings;
+};
+
+/// Opens all sources and settles CRS and grid; `existing` (may be null) fixes both. Nothing is written.
+/// The grid's origin is the centre of the first source, rounded to a multiple of 2^29 resolutions in each axis: (0, 0)
+/// for nearly every CRS at 1 cm. Throws InputError, FileError.
+ImportPlan plan_import(const ImportOptions& options, const StoreMetadata* existing);
+
+}  // namespace itin

@@ -1,0 +1,62 @@
+// What triangulation needs of a set of points: the leaves that meet a box, and their points.
+//
+// Store implements it on disk; the importer implements it on its sorted temporary file, so that one triangulation
+// serves both.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <itin/geometry.hpp>
+
+#include "store/cell.hpp"
+
+namespace itin {
+
+/// A leaf of a point quadtree. In a store there is one tree a level, and a leaf's points all have the leaf's level.
+/// In the importer's single tree `level` is the coarsest any of its points may have; Block::levels tells each one's.
+struct Leaf {
+  Cell cell;
+  int level = 0;
+  std::uint32_t points = 0;
+  std::int32_t zmin = 0;  ///< grid units
+  std::int32_t zmax = 0;
+  std::int32_t lo = 0;  ///< T_level + lo <= T_0 <= T_level + hi over the cell, grid units
+  std::int32_t hi = 0;
+  std::uint64_t key = 0;  ///< private to the index
+};
+
+/// A leaf's points, in ascending Morton order.
+struct Block {
+  std::vector<GridPoint> points;
+  std::vector<std::uint16_t> sources;  ///< per point
+  std::vector<std::uint8_t> levels;    ///< per point, or empty when all have the leaf's level
+};
+
+/// A piece of a constraint line, ends on vertices of the coarsest level. A coverage segment has ground to its left.
+/// Vertices of any level may lie on it, and split it where they are selected; no other segment crosses it.
+struct Segment {
+  std::int32_t ax = 0, ay = 0;
+  std::int32_t bx = 0, by = 0;
+  friend auto operator<=>(const Segment&, const Segment&) = default;
+};
+
+/// Safe for concurrent use.
+class PointIndex {
+ public:
+  virtual ~PointIndex() = default;
+
+  virtual int level_count() const = 0;
+  /// The box of all points.
+  virtual GridBox bounds() const = 0;
+
+  /// Appends every non-empty leaf that meets `box` and may hold a point of level `finest` or coarser, each once.
+  virtual void leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const = 0;
+  virtual std::shared_ptr<const Block> block(const Leaf& leaf) const = 0;
+
+  /// Appends every coverage segment that meets `box`, and perhaps others nearby; the same one may come twice.
+  virtual void segments(const GridBox& box, std::vector<Segment>& out) const = 0;
+};
+
+}  // namespace itin

@@ -1,0 +1,51 @@
+// Writes a whole store, leaf by leaf, into a temporary file beside the target; commit() puts it in place at once.
+//
+//   StoreWriter writer(path, crs_wkt, grid, tolerances);
+//   for each level, finest first: for each leaf in Morton order: writer.add_leaf(...);
+//   writer.add_segments(segments);
+//   writer.commit(sources);
+//
+// Until commit() returns, and whatever happens before, the file at `path` is what it was. Destroying an uncommitted
+// writer removes the temporary file. A file left behind by a killed process is removed by the next writer.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <itin/store.hpp>
+
+#include "store/point_index.hpp"
+
+namespace itin {
+
+class StoreWriter {
+ public:
+  /// `tolerances` in metres, level 0 (tolerance 0) first. Throws FileError.
+  StoreWriter(const std::string& path, const std::string& crs_wkt, const Grid& grid,
+              const std::vector<double>& tolerances);
+  ~StoreWriter();
+  StoreWriter(const StoreWriter&) = delete;
+  StoreWriter& operator=(const StoreWriter&) = delete;
+
+  /// One leaf of one level's tree, in ascending order of (level, cell.code). `points` in Morton order, possibly none
+  /// (an empty cell over ground still has its certificate). lo and hi in grid units. `leaf.points/zmin/zmax/key` are
+  /// derived from the points.
+  void add_leaf(int level, const Cell& cell, std::span<const GridPoint> points, std::span<const std::uint16_t> sources,
+                std::int32_t lo, std::int32_t hi);
+  /// The coverage outline, all at once, in any order; kept in an edge quadtree.
+  void add_segments(std::vector<Segment> segments);
+  /// Certified error of each level = the union of its leaves'. Syncs and renames. Throws FileError (disk full, ...).
+  void commit(std::vector<SourceInfo> sources);
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The most points a leaf of a store's quadtree holds.
+inline constexpr std::uint32_t kLeafCapacity = 512;
+
+}  // namespace itin
