@@ -48,8 +48,8 @@ struct Box {
   }
   void extend(const Box& b) {
     if (b.empty()) return;
-    extend({b.xmin, b.ymin});
-    extend({b.xmax, b.ymax});
+    extend(Point2{b.xmin, b.ymin});
+    extend(Point2{b.xmax, b.ymax});
   }
   friend bool operator==(const Box&, const Box&) = default;
 };
