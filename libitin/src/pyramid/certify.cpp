@@ -72,12 +72,6 @@ GridBox box_of(const RegionMesh& mesh) {
   return box;
 }
 
-/// The cell's square in the plane.
-GridBox square(const Cell& cell) {
-  const GridBox box = cell.box();
-  return {box.xmin, box.ymin, box.xmax + 1, box.ymax + 1};
-}
-
 /// Verifies one cell.
 class CellVerification {
  public:
@@ -86,7 +80,7 @@ class CellVerification {
 
   /// Levels with their bit set in `levels` are verified; bounds of the cell's leaves are replaced for these.
   Levels run(unsigned levels, LeafBounds& bounds) {
-    fine_ = triangulate_region(index_, levels_from(0, tolerances_), square(cell_.cell));
+    fine_ = triangulate_region(index_, levels_from(0, tolerances_), square_of(cell_.cell));
     if (!fine_.mesh.triangles.empty()) edges_ = std::make_unique<FineEdges>(fine_);
     for (int k = static_cast<int>(tolerances_.size()) - 1; k >= 1; --k) {
       if (!(levels >> k & 1)) continue;

@@ -10,12 +10,6 @@ namespace {
 
 constexpr std::size_t kReadAhead = 1 << 16;
 
-/// The cell's square in the plane, which reaches up to the next cell's first position.
-GridBox square(const Cell& cell) {
-  const GridBox box = cell.box();
-  return {box.xmin, box.ymin, box.xmax + 1, box.ymax + 1};
-}
-
 }  // namespace
 
 WorkingIndex::WorkingIndex(SortedPoints& points, int level_count, std::uint32_t leaf_capacity)
@@ -47,7 +41,7 @@ std::uint32_t WorkingIndex::leaf_of(std::uint64_t code) const {
 
 void WorkingIndex::visit(Cell cell, std::uint32_t first, std::uint32_t last, const GridBox& box,
                          std::vector<std::uint32_t>& out) const {
-  if (!square(cell).meets(box)) return;
+  if (!square_of(cell).meets(box)) return;
   if (last - first == 1) {
     out.push_back(first);
     return;
@@ -134,7 +128,7 @@ std::vector<CurveRange> WorkingIndex::tiles(std::uint32_t capacity) const {
       tile = {larger, tile.first, static_cast<std::uint32_t>(count)};
       end = j;
     }
-    if (square(tile.cell).meets(bounds_)) result.push_back(tile);
+    if (square_of(tile.cell).meets(bounds_)) result.push_back(tile);
     i = end;
   }
   return result;
