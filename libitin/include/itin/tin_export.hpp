@@ -13,8 +13,8 @@
 // .glb      glTF 2.0, for viewing: y up, x east, z south. Single-precision positions about a local origin, wrong by at
 //           most 2^-23 of the extent; the origin (easting, northing, up, exact) and the CRS are in the scene's extras.
 //           Normals, colours by height; _VERTEX_ID as four 16-bit words, least first; _SOURCE.
-// .gpkg     layers `triangles` (polygons with z; vertex_a/b/c, source_a/b/c) and `vertices` (points with z; id,
-// source).
+// .gpkg     layers `triangles` (polygons with z; vertex_a/b/c, source_a/b/c) and `vertices` (points with z; id and
+//           source). Only the former has a spatial index, which is what takes the time: 12 s a million triangles.
 //           Timestamps are fixed, so that equal Tins give equal files.
 // .geojson  polygons with z in the store's CRS, named in the `crs` member of GeoJSON 2008, which GDAL and QGIS follow;
 //           the same properties. Ids are integers beyond 2^53: read them with 64 bits.

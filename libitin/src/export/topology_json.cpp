@@ -43,7 +43,7 @@ void write_triangle_based(const Tin& tin, BufferedFile& file, StepProgress& step
   const auto adjacent = adjacent_triangles(tin);
   write_array(file, "adjacent_triangles", adjacent.size(), steps, [&](std::uint32_t t) {
     const auto text = [&](std::size_t i) {
-      return index_or_null(adjacent[t][i] == kNoTriangle ? std::nullopt : std::optional(adjacent[t][i]));
+      return index_or_null(adjacent[t][i] == kNoNeighbour ? std::nullopt : std::optional(adjacent[t][i]));
     };
     file.print("[{},{},{}]", text(0), text(1), text(2));
   });

@@ -1,6 +1,8 @@
 // What all formats share: names, replacing, and leaving nothing behind.
+#include <csignal>
 #include <filesystem>
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
 #include <gtest/gtest.h>
 
@@ -83,7 +85,6 @@ TEST_F(OutputTest, MissingFoldersAndFoldersAreNamed) {
 }
 
 TEST_F(OutputTest, CancellingLeavesNothing) {
-  std::mt19937 random(1);
   // Enough steps that every format looks for cancellation.
   std::vector<GridPoint> points;
   for (std::int32_t y = 0; y < 200; ++y)
@@ -96,12 +97,39 @@ TEST_F(OutputTest, CancellingLeavesNothing) {
   EXPECT_THAT(directory_.names(), IsEmpty());
 }
 
-TEST_F(OutputTest, FullDiskIsAFileError) {
-  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
-  // The temporary name is predictable enough only for the folder; a full device stands for one.
+/// Stands for a full disk: writes beyond the limit fail.
+class LimitedFileSize {
+ public:
+  explicit LimitedFileSize(rlim_t bytes) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~LimitedFileSize() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int) = nullptr;
+};
+
+TEST_F(OutputTest, FullDiskIsAFileErrorAndLeavesNothing) {
+  for (const char* name : kNames) {
+    const LimitedFileSize limit(5000);
+    const std::string text = message([&] { exported(name); });
+    EXPECT_THAT(text, HasSubstr(directory_.file(name))) << name;
+    EXPECT_EQ(text.find('\n'), std::string::npos);
+  }
+  EXPECT_THAT(directory_.names(), IsEmpty());
+}
+
+TEST_F(OutputTest, NeverWritesThroughSomeoneElsesTemporaryFile) {
   const PendingFile output(directory_.file("a.ply"), false);
-  std::filesystem::create_symlink("/dev/full", output.temporary_path());
-  EXPECT_THROW(BufferedFile{output}, FileError) << "an existing temporary name must not be written through";
+  std::ofstream(output.temporary_path()) << "theirs";
+  EXPECT_THROW(BufferedFile{output}, FileError);
 }
 
 }  // namespace
