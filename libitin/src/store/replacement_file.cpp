@@ -15,10 +15,13 @@ namespace itin {
 namespace fs = std::filesystem;
 
 ReplacementFile::ReplacementFile(const std::string& target) : shown_(target), target_(target) {
-  std::error_code error;
-  if (fs::is_symlink(target, error)) target_ = fs::weakly_canonical(target, error).string();
-  if (error) fail(error.message());
-  if (fs::is_directory(target_, error)) fail("is a directory, name a file");
+  std::error_code missing;  // no target yet: neither a link nor a directory
+  if (fs::is_symlink(target, missing)) {
+    std::error_code error;
+    target_ = fs::weakly_canonical(target, error).string();
+    if (error) fail(error.message());
+  }
+  if (fs::is_directory(target_, missing)) fail("is a directory, name a file");
   temporary_ = target_ + ".writing";
   lock();
   struct stat old = {};
