@@ -15,7 +15,7 @@ namespace itin {
 namespace {
 
 /// Points a cell of the first round, which takes the whole surface, and of the later ones, which mend near borders.
-constexpr std::uint32_t kFirstCell = 1 << 16;
+constexpr std::uint32_t kFirstCell = 1 << 14;
 constexpr std::uint32_t kLaterCell = 1 << 11;
 
 using Levels = std::unordered_map<std::uint64_t, int>;  ///< by Morton code
@@ -34,9 +34,12 @@ class RaisedIndex final : public PointIndex {
     if (codes_.empty()) return base_.leaves(finest, box, out);
     const std::size_t before = out.size();
     base_.leaves(0, box, out);
-    const auto unselected = [&](const Leaf& leaf) { return leaf.level < finest && !any_raised(leaf.cell); };
-    out.erase(std::remove_if(out.begin() + static_cast<std::ptrdiff_t>(before), out.end(), unselected), out.end());
-    for (std::size_t i = before; i < out.size(); ++i) out[i].level = std::max(out[i].level, finest);
+    const auto none_raised = [&](const Leaf& leaf) { return !any_raised(leaf.cell); };
+    out.erase(std::remove_if(out.begin() + static_cast<std::ptrdiff_t>(before), out.end(), none_raised), out.end());
+    std::vector<Leaf> selected;
+    base_.leaves(finest, box, selected);
+    std::erase_if(selected, [&](const Leaf& leaf) { return any_raised(leaf.cell); });
+    out.insert(out.end(), selected.begin(), selected.end());
   }
   std::shared_ptr<const Block> block(const Leaf& leaf) const override {
     auto block = base_.block(leaf);

@@ -18,6 +18,11 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xffffffff;
 
+// Heights are whole units, so differences are often exactly a tolerance. Verification decides points exactly and rounds
+// crossings outwards; these margins make greedy insertion decide alike.
+constexpr double kPointError = 1e-6;
+constexpr double kCrossingError = 2e-5;
+
 /// The points not yet inserted that lie in a face, as a linked list.
 struct FacePoints {
   std::uint32_t first = kNone;
@@ -167,7 +172,7 @@ class GreedyInsertion {
         worst_point = q;
       }
     }
-    queue_.push({worst, worst_point, f->info().version, f, Vertex(), Vertex()});
+    queue_.push({worst - kPointError, worst_point, f->info().version, f, Vertex(), Vertex()});
   }
 
   /// Proposes what would break up edge ab: at its worst crossing with a fine edge, the end of that edge nearer to it, or
@@ -192,7 +197,7 @@ class GreedyInsertion {
       worst = error;
       remedy = found;
     });
-    if (remedy != kNone) queue_.push({worst, remedy, 0, Face(), from, to});
+    if (remedy != kNone) queue_.push({worst + kCrossingError, remedy, 0, Face(), from, to});
   }
 
   std::uint32_t opposite(std::uint32_t triangle, std::uint32_t p, std::uint32_t q) const {
