@@ -14,8 +14,8 @@ namespace itin {
 
 namespace {
 
-/// Points a cell of the first round, which takes the whole surface, and of the later ones, which mend near borders.
-constexpr std::uint32_t kFirstCell = 1 << 14;
+/// Points a cell of the first round, which only looks, and of the later ones, which mend where it does not hold.
+constexpr std::uint32_t kFirstCell = 1 << 15;
 constexpr std::uint32_t kLaterCell = 1 << 11;
 
 using Levels = std::unordered_map<std::uint64_t, int>;  ///< by Morton code
@@ -82,8 +82,9 @@ class CellVerification {
   CellVerification(const WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const CurveRange& cell)
       : index_(index), tolerances_(tolerances), cell_(cell) {}
 
-  /// Levels with their bit set in `levels` are verified; bounds of the cell's leaves are replaced for these.
-  Levels run(unsigned levels, LeafBounds& bounds) {
+  /// Levels with their bit set in `levels` are verified, and the cell's points raised, if `mend`, until they hold; bounds
+  /// of the cell's leaves are replaced for these levels.
+  Levels run(unsigned levels, bool mend, LeafBounds& bounds) {
     fine_ = triangulate_region(index_, levels_from(0, tolerances_), square_of(cell_.cell));
     if (!fine_.mesh.triangles.empty()) edges_ = std::make_unique<FineEdges>(fine_);
     for (int k = static_cast<int>(tolerances_.size()) - 1; k >= 1; --k) {
@@ -91,7 +92,7 @@ class CellVerification {
       clear(k, bounds);
       if (edges_ == nullptr) continue;
       Difference d = compare(k);
-      while (raise(k, d)) d = compare(k);
+      while (mend && raise(k, d)) d = compare(k);
       record(k, d, bounds);
     }
     return raised_;
@@ -239,6 +240,14 @@ void mark_star(const WorkingIndex& index, const std::vector<std::int32_t>& toler
   }
 }
 
+void mark_failures(const LeafBounds& bounds, const std::vector<std::int32_t>& tolerances, std::size_t leaves, Disturbed& disturbed) {
+  for (std::uint32_t leaf = 0; leaf < leaves; ++leaf) {
+    for (std::size_t k = 1; k < tolerances.size(); ++k) {
+      if (bounds.at(leaf, static_cast<int>(k)).size() > tolerances[k]) disturbed.mark(leaf, 1u << k);
+    }
+  }
+}
+
 }  // namespace
 
 LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& tolerances, Progress& progress) {
@@ -259,9 +268,9 @@ LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& toleran
     std::atomic<std::size_t> done = 0;
     parallel_for(cells.size(), [&](std::size_t i) {
       progress.throw_if_cancelled();
-      raised[i] = CellVerification(index, tolerances, cells[i].first).run(cells[i].second, bounds);
+      raised[i] = CellVerification(index, tolerances, cells[i].first).run(cells[i].second, round > 0, bounds);
       const double share = static_cast<double>(++done) / static_cast<double>(cells.size());
-      progress.report(round == 0 ? "verifying the levels" : "verifying across borders", share);
+      progress.report(round == 0 ? "verifying the levels" : "mending the levels", share);
     });
 
     std::vector<Raise> raises;
@@ -276,6 +285,7 @@ LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& toleran
       if (!points.empty()) index.write(cells[i].first, points);
     }
     parallel_for(raises.size(), [&](std::size_t i) { mark_star(index, tolerances, raises[i], disturbed); });
+    if (round == 0) mark_failures(bounds, tolerances, index.ranges().size(), disturbed);
   }
 }
 
