@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -62,38 +63,33 @@ char separator_of(std::string_view line) {
   return ' ';
 }
 
-/// Cuts the first field, at most up to the next separator, off the line.
-std::string_view take_field(std::string_view& line, char separator) {
-  if (separator == ' ') {
-    line = trimmed(line);
-    const auto end = std::find_if(line.begin(), line.end(), is_blank) - line.begin();
-    const std::string_view field = line.substr(0, static_cast<std::size_t>(end));
-    line.remove_prefix(field.size());
-    line = trimmed(line);
-    return field;
+/// The columns' texts, at most `most` of them, parted by runs of blanks.
+void split_at_blanks(std::string_view line, std::size_t most, std::vector<std::string_view>& fields) {
+  for (line = trimmed(line); !line.empty() && fields.size() < most; line = trimmed(line)) {
+    const auto end = std::find_if(line.begin(), line.end(), is_blank);
+    fields.push_back(line.substr(0, static_cast<std::size_t>(end - line.begin())));
+    line.remove_prefix(fields.back().size());
   }
+}
+
+/// The text up to the next separator, which a field in double quotes may contain; its quotes are left out.
+std::string_view first_field(std::string_view line, char separator, std::size_t& end) {
   const std::size_t start = line.find_first_not_of(' ');
   const bool quoted = start != std::string_view::npos && line[start] == '"';
   const std::size_t closing = quoted ? line.find('"', start + 1) : std::string_view::npos;
-  const std::size_t end = line.find(separator, closing == std::string_view::npos ? 0 : closing);
-  std::string_view field = trimmed(line.substr(0, end));
-  line.remove_prefix(end == std::string_view::npos ? line.size() : end + 1);
-  if (field.size() >= 2 && field.front() == '"' && field.back() == '"')
-    field = trimmed(field.substr(1, field.size() - 2));
-  return field;
+  end = line.find(separator, closing == std::string_view::npos ? 0 : closing);
+  const std::string_view field = trimmed(line.substr(0, end));
+  if (field.size() < 2 || field.front() != '"' || field.back() != '"') return field;
+  return trimmed(field.substr(1, field.size() - 2));
 }
 
 /// The first `most` fields.
 void split(std::string_view line, char separator, std::size_t most, std::vector<std::string_view>& fields) {
   fields.clear();
-  bool more = !line.empty();
-  while (more && fields.size() < most) {
-    const std::size_t before = line.size();
-    const std::string_view field = take_field(line, separator);
-    fields.push_back(field);
-    // A separator at the very end opens one more, empty field.
-    more = !line.empty() || (separator != ' ' && before > 0 && field.data() + field.size() < line.data() &&
-                             line.data()[-1] == separator);
+  if (separator == ' ') return split_at_blanks(line, most, fields);
+  for (std::size_t end = 0; end != std::string_view::npos && fields.size() < most;) {
+    fields.push_back(first_field(line, separator, end));
+    if (end != std::string_view::npos) line.remove_prefix(end + 1);
   }
 }
 
