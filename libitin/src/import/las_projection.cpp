@@ -1,14 +1,14 @@
 #include "import/las_projection.hpp"
 
 #include <cmath>
-#include <utility>
 
 #include <cpl_conv.h>
-#include <cpl_error.h>
 #include <fmt/format.h>
 #include <ogr_spatialref.h>
 
 #include <itin/error.hpp>
+
+#include "import/gdal_errors.hpp"
 
 namespace itin {
 
@@ -91,10 +91,7 @@ std::string crs_of_keys(const LasFile& file) {
 
 LasProjection las_projection(const LasFile& file) {
   const std::string& wkt = file.projection().wkt;
-  CPLPushErrorHandler(CPLQuietErrorHandler);
-  const struct Pop {
-    ~Pop() { CPLPopErrorHandler(); }
-  } pop;
+  const QuietErrors quiet;
   LasProjection result;
   if (wkt.empty() || !file.header().prefers_wkt) result.crs = crs_of_keys(file);
   if (result.crs.empty()) {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <cpl_conv.h>
-#include <cpl_error.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gdal_priv.h>
@@ -15,28 +14,13 @@
 
 #include <itin/error.hpp>
 
+#include "import/gdal_errors.hpp"
+
 namespace itin {
 
 namespace {
 
-/// Keeps GDAL's messages to itself; they are passed on in exceptions.
-class QuietErrors {
- public:
-  QuietErrors() {
-    CPLPushErrorHandler(CPLQuietErrorHandler);
-    CPLErrorReset();
-  }
-  ~QuietErrors() { CPLPopErrorHandler(); }
-  QuietErrors(const QuietErrors&) = delete;
-  QuietErrors& operator=(const QuietErrors&) = delete;
-};
-
-/// GDAL's last message on one line.
-std::string gdal_message() {
-  std::string message = CPLGetLastErrorMsg();
-  std::replace(message.begin(), message.end(), '\n', ' ');
-  return message;
-}
+constexpr double kVoid = std::numeric_limits<double>::quiet_NaN();
 
 OGRLayer& choose_layer(GDALDataset& dataset, const std::string& path, const std::string& name) {
   std::vector<std::string> names;
@@ -76,10 +60,12 @@ class PointLayer final : public PointReader {
  private:
   void check_geometry_type() const;
   Point2 find_centre();
+  OGRFeatureUniquePtr next_feature();
   void add(const OGRFeature& feature, PointBatch& batch) const;
   void add(const OGRPoint& point, const OGRFeature& feature, PointBatch& batch) const;
   double attribute_height(const OGRFeature& feature) const;
   [[noreturn]] void refuse_geometry(const std::string& type) const;
+  [[noreturn]] void refuse_heightless() const;
   std::string place(const OGRFeature& feature) const;
 
   std::string path_;
@@ -123,6 +109,14 @@ void PointLayer::refuse_geometry(const std::string& type) const {
       path_, layer_->GetName(), type));
 }
 
+void PointLayer::refuse_heightless() const {
+  throw InputError(
+      height_field_ < 0
+          ? fmt::format("{}: the points of layer '{}' have no Z; name the field of the height with --z-field", path_,
+                        layer_->GetName())
+          : fmt::format("{}: layer '{}' has a height in no feature; check --z-field", path_, layer_->GetName()));
+}
+
 std::string PointLayer::crs() const {
   const OGRSpatialReference* reference = layer_->GetSpatialRef();
   if (!reference) return {};
@@ -134,14 +128,27 @@ std::string PointLayer::crs() const {
   return result;
 }
 
+/// The next feature; null at the end. GDAL tells an end from a failure only by its error state, which others may leave
+/// set between two calls.
+OGRFeatureUniquePtr PointLayer::next_feature() {
+  const QuietErrors quiet;
+  OGRFeatureUniquePtr feature(layer_->GetNextFeature());
+  if (!feature && CPLGetLastErrorType() >= CE_Failure) throw FileError(path_, gdal_message());
+  return feature;
+}
+
 Point2 PointLayer::find_centre() {
   layer_->ResetReading();
-  for (const auto& feature : *layer_) {
-    const OGRGeometry* geometry = feature->GetGeometryRef();
-    if (!geometry || geometry->IsEmpty()) continue;
-    OGREnvelope extent;
-    geometry->getEnvelope(&extent);
-    return {(extent.MinX + extent.MaxX) / 2, (extent.MinY + extent.MaxY) / 2};
+  PointBatch batch;
+  while (const auto feature = next_feature()) {
+    add(*feature, batch);
+    if (batch.size() == 0 || std::isnan(batch.x.front())) {
+      batch.clear();
+      continue;
+    }
+    // Layers declared flat sometimes hold points with Z all the same, so the first feature has its say.
+    if (height_field_ < 0 && !wkbHasZ(layer_->GetGeomType()) && std::isnan(batch.z.front())) refuse_heightless();
+    return {batch.x.front(), batch.y.front()};
   }
   throw FileError(path_, fmt::format("layer '{}' holds no points{}", layer_->GetName(),
                                      filtered_ > 0 ? " that match --where" : ""));
@@ -150,26 +157,24 @@ Point2 PointLayer::find_centre() {
 std::uint64_t PointLayer::read(const Sink& sink) {
   PointBatch batch;
   GIntBig done = 0;
+  bool any_height = false;
   const auto hand_on = [&] {
+    any_height = any_height || !std::all_of(batch.z.begin(), batch.z.end(), [](double z) { return std::isnan(z); });
     sink(batch, std::min(1.0, static_cast<double>(done) / static_cast<double>(std::max<GIntBig>(1, matching_))));
     batch.clear();
   };
-  {
-    const QuietErrors quiet;
-    layer_->ResetReading();
-    for (const auto& feature : *layer_) {
-      add(*feature, batch);
-      ++done;
-      if (batch.size() >= kPointBatchSize) hand_on();
-    }
-    if (CPLGetLastErrorType() >= CE_Failure) throw FileError(path_, gdal_message());
+  layer_->ResetReading();
+  while (const auto feature = next_feature()) {
+    add(*feature, batch);
+    ++done;
+    if (batch.size() >= kPointBatchSize) hand_on();
   }
   if (batch.size() > 0) hand_on();
+  if (!any_height) refuse_heightless();
   return filtered_;
 }
 
 void PointLayer::add(const OGRFeature& feature, PointBatch& batch) const {
-  constexpr double kVoid = std::numeric_limits<double>::quiet_NaN();
   const OGRGeometry* geometry = feature.GetGeometryRef();
   if (!geometry || geometry->IsEmpty()) return batch.add(kVoid, kVoid, kVoid);
   const OGRwkbGeometryType type = geometry->getGeometryType();
@@ -183,16 +188,14 @@ void PointLayer::add(const OGRPoint& point, const OGRFeature& feature, PointBatc
   if (!std::isfinite(point.getX()) || !std::isfinite(point.getY()))
     throw InputError(fmt::format("{}: a coordinate is not a finite number", place(feature)));
   if (height_field_ >= 0) return batch.add(point.getX(), point.getY(), attribute_height(feature));
-  if (!point.Is3D())
-    throw InputError(
-        fmt::format("{}: its points have no Z; name the field of the height with --z-field", place(feature)));
+  if (!point.Is3D()) return batch.add(point.getX(), point.getY(), kVoid);
   if (!std::isfinite(point.getZ())) throw InputError(fmt::format("{}: Z is not a finite number", place(feature)));
   batch.add(point.getX(), point.getY(), point.getZ());
 }
 
 /// NaN for null.
 double PointLayer::attribute_height(const OGRFeature& feature) const {
-  if (!feature.IsFieldSetAndNotNull(height_field_)) return std::numeric_limits<double>::quiet_NaN();
+  if (!feature.IsFieldSetAndNotNull(height_field_)) return kVoid;
   const OGRFieldDefn& field = *feature.GetFieldDefnRef(height_field_);
   const double height = feature.GetFieldAsDouble(height_field_);
   const bool numeric =
