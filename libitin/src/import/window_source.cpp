@@ -4,7 +4,6 @@
 #include <string_view>
 #include <vector>
 
-#include <cpl_error.h>
 #include <fmt/format.h>
 #include <gdal_priv.h>
 #include <ogr_spatialref.h>
@@ -13,20 +12,13 @@
 #include <itin/error.hpp>
 #include <itin/window_source.hpp>
 
+#include "import/gdal_errors.hpp"
+
 namespace itin {
 
 namespace {
 
 using Geometry = std::unique_ptr<OGRGeometry>;
-
-/// Keeps GDAL's messages to itself; they are passed on in exceptions.
-class QuietErrors {
- public:
-  QuietErrors() { CPLPushErrorHandler(CPLQuietErrorHandler); }
-  ~QuietErrors() { CPLPopErrorHandler(); }
-  QuietErrors(const QuietErrors&) = delete;
-  QuietErrors& operator=(const QuietErrors&) = delete;
-};
 
 bool is_well_known_text(const std::string& text) {
   const auto start = std::find_if_not(text.begin(), text.end(), [](unsigned char c) { return std::isspace(c); });
@@ -113,7 +105,7 @@ std::vector<Window::Polygon> polygons_of_file(const std::string& path, const std
   for (OGRLayer* layer : dataset->GetLayers()) {
     CPLErrorReset();
     append_layer(*layer, target_crs, parts);
-    if (CPLGetLastErrorType() >= CE_Failure) throw FileError(path, CPLGetLastErrorMsg());
+    if (CPLGetLastErrorType() >= CE_Failure) throw FileError(path, gdal_message());
   }
   if (parts.empty()) throw InputError(path + ": holds no polygon");
   return parts;
