@@ -290,7 +290,7 @@ TEST_P(RealLas, CountsAndExtentsAreThoseOnRecord) {
     last = fraction;
     count += points.size();
     for (const LasPoint& p : points) {
-      bounds.extend({p.x, p.y});
+      bounds.extend(Point2{p.x, p.y});
       zmin = std::min(zmin, p.z), zmax = std::max(zmax, p.z);
     }
   });
@@ -331,9 +331,9 @@ INSTANTIATE_TEST_SUITE_P(, RealLas,
                                                   788.99325,
                                                   829.75825,
                                                   "EPSG:2949"}),
-                         [](const auto& info) { return std::filesystem::path(info.param.name).stem().string(); });
+                         [](const auto& real) { return std::filesystem::path(real.param.name).stem().string(); });
 
-TEST(RealLas, GroundOnlyIsLessThanAll) {
+TEST(LasReader, GroundOnlyIsLessThanAll) {
   const std::string path = std::string(ITIN_DATA_DIR) + "/derived-las/ign_0299_6802.las";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is absent";
   std::map<int, std::uint64_t> histogram;
@@ -351,7 +351,7 @@ TEST(RealLas, GroundOnlyIsLessThanAll) {
   EXPECT_GT(histogram[2], 1000u);
 }
 
-TEST(RealLas, CompressedFilesAreRefusedWithAHint) {
+TEST(LasReader, CompressedFilesAreRefusedWithAHint) {
 #ifdef ITIN_HAVE_PDAL
   GTEST_SKIP() << "this build reads LAZ";
 #endif
