@@ -94,11 +94,17 @@ void split(std::string_view line, char separator, std::size_t most, std::vector<
 }
 
 std::optional<double> number(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
   return value;
+}
+
+/// Also what is no valid number, such as one with a decimal comma: such a line is no header, but a bad row.
+bool looks_numeric(std::string_view text) {
+  return text.find_first_of("0123456789") != std::string_view::npos &&
+         text.find_first_not_of("0123456789+-.,eE") == std::string_view::npos;
 }
 
 /// Fit for one line of a message.
@@ -182,7 +188,7 @@ void DelimitedText::understand(std::string_view line, const std::string& z_field
   separator_ = separator_of(trimmed(line));
   std::vector<std::string_view> fields;
   split(line, separator_, std::numeric_limits<std::size_t>::max(), fields);
-  has_header_ = std::none_of(fields.begin(), fields.end(), [](auto field) { return number(field).has_value(); });
+  has_header_ = std::none_of(fields.begin(), fields.end(), looks_numeric);
   if (has_header_)
     choose_columns(fields, z_field);
   else if (!z_field.empty())

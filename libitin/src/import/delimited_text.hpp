@@ -4,9 +4,9 @@
 //   DelimitedText text("survey.csv", "height_od");
 //   text.read([](PointBatch& points, double fraction) { ... });
 //
-// A first line without any number is a header, and the columns are taken by name, in any case of letters: x, y, z, or
-// easting, northing, height and the like. Otherwise the first three columns are x, y and height. Numbers are decimal
-// with a point, whatever the locale; an empty height is a void.
+// A first line without anything like a number is a header, and the columns are taken by name, in any case of letters:
+// x, y, z, or easting, northing, height and the like. Otherwise the first three columns are x, y and height. Numbers
+// are decimal with a point, whatever the locale; an empty height is a void.
 #pragma once
 
 #include <array>

@@ -59,6 +59,7 @@ class PointLayer final : public PointReader {
 
  private:
   void check_geometry_type() const;
+  void select(const std::string& where);
   Point2 find_centre();
   OGRFeatureUniquePtr next_feature();
   void add(const OGRFeature& feature, PointBatch& batch) const;
@@ -86,13 +87,17 @@ PointLayer::PointLayer(const std::string& path, const ImportOptions& options) : 
   check_geometry_type();
   if (!options.z_field.empty()) height_field_ = height_field(*layer_, path, options.z_field);
   const GIntBig all = layer_->GetFeatureCount();
-  if (!options.where.empty()) {
-    if (layer_->SetAttributeFilter(options.where.c_str()) != OGRERR_NONE)
-      throw InputError(fmt::format("{}: --where '{}' is not understood: {}", path, options.where, gdal_message()));
-  }
+  if (!options.where.empty()) select(options.where);
   matching_ = layer_->GetFeatureCount();
   filtered_ = static_cast<std::uint64_t>(std::max<GIntBig>(0, all - matching_));
   centre_ = find_centre();
+}
+
+void PointLayer::select(const std::string& where) {
+  // Databases look at the clause only when they count or read.
+  const bool understood = layer_->SetAttributeFilter(where.c_str()) == OGRERR_NONE && layer_->GetFeatureCount() >= 0 &&
+                          CPLGetLastErrorType() < CE_Failure;
+  if (!understood) throw InputError(fmt::format("{}: --where {} is not understood: {}", path_, where, gdal_message()));
 }
 
 void PointLayer::check_geometry_type() const {

@@ -7,6 +7,7 @@
 #include <itin/error.hpp>
 
 #include "import/delimited_text.hpp"
+#include "import/las_reader.hpp"
 #include "import/point_layer.hpp"
 #include "import/scattered_source.hpp"
 
@@ -24,6 +25,10 @@ std::unique_ptr<SourceFile> open_point_source(const std::string& path, const Imp
     if (!value->empty())
       throw InputError(path + ": " + name + " applies to vector layers, not to delimited text; import it by itself");
   return scattered_source(std::make_unique<DelimitedText>(path, options.z_field), options);
+}
+
+std::unique_ptr<SourceFile> open_las_source(const std::string& path, const ImportOptions& options) {
+  return scattered_source(open_las_reader(path, options), options);
 }
 
 }  // namespace itin

@@ -1,4 +1,4 @@
-// Point files other than LAS, opened by what they are.
+// Point files in the importer's two steps, opened by what they are.
 #pragma once
 
 #include <memory>
@@ -16,5 +16,8 @@ bool is_delimited_text(const std::string& path);
 /// Delimited text by its name's ending, otherwise a layer of points through GDAL. Throws FileError, InputError; also
 /// InputError where options ask for a layer or an attribute filter of delimited text, which has neither.
 std::unique_ptr<SourceFile> open_point_source(const std::string& path, const ImportOptions& options);
+
+/// LAS or LAZ; see las_reader.hpp. Throws FileError, InputError.
+std::unique_ptr<SourceFile> open_las_source(const std::string& path, const ImportOptions& options);
 
 }  // namespace itin

@@ -1,4 +1,4 @@
-#include "import/las_source.hpp"
+#include "import/las_reader.hpp"
 
 #include <bitset>
 #include <cmath>
@@ -10,7 +10,6 @@
 #include "import/las_file.hpp"
 #include "import/las_projection.hpp"
 #include "import/laz_points.hpp"
-#include "import/scattered_source.hpp"
 
 namespace itin {
 
@@ -102,10 +101,6 @@ class LasReader final : public PointReader {
 
 std::unique_ptr<PointReader> open_las_reader(const std::string& path, const ImportOptions& options) {
   return std::make_unique<LasReader>(path, options);
-}
-
-std::unique_ptr<SourceFile> open_las_source(const std::string& path, const ImportOptions& options) {
-  return scattered_source(open_las_reader(path, options), options);
 }
 
 }  // namespace itin
