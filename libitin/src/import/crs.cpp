@@ -13,7 +13,7 @@
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
 
-#include "import/gdal_errors.hpp"
+#include "import/quiet_gdal.hpp"
 
 namespace itin {
 
@@ -75,7 +75,7 @@ std::string wkt_of(const OGRSpatialReference& reference) {
 }
 
 Crs parse_crs(const std::string& text, const std::string& place) {
-  const QuietErrors quiet;
+  const QuietGdal quiet;
   OGRSpatialReference reference = understood(text, place);
   Crs crs;
   if (reference.IsCompound()) {
@@ -96,7 +96,7 @@ Crs parse_crs(const std::string& text, const std::string& place) {
 }
 
 Crs utm_zone(const Crs& crs, Point2 position, const std::string& place) {
-  const QuietErrors quiet;
+  const QuietGdal quiet;
   const OGRSpatialReference reference = understood(crs.wkt, place);
   std::unique_ptr<OGRSpatialReference> geographic(reference.CloneGeogCS());
   if (!geographic) throw InputError(fmt::format("{}: no UTM zone for {}; give --to-crs", place, crs.name));
@@ -120,7 +120,7 @@ class PointTransform::Impl {
     const std::size_t workers = std::min<std::size_t>(chunks, static_cast<std::size_t>(thread_count()));
     while (copies_.size() < workers) copies_.emplace_back(copies_.front()->Clone());
     parallel_for(workers, [&](std::size_t worker) {
-      const QuietErrors quiet;
+      const QuietGdal quiet;
       for (std::size_t chunk = worker; chunk < chunks; chunk += workers) {
         const std::size_t first = chunk * kChunk, count = std::min(kChunk, x.size() - first);
         transform_chunk(*copies_[worker], x.subspan(first, count), y.subspan(first, count));
@@ -146,7 +146,7 @@ class PointTransform::Impl {
 };
 
 PointTransform::PointTransform(const std::string& source_wkt, const std::string& target_wkt, const std::string& place) {
-  const QuietErrors quiet;
+  const QuietGdal quiet;
   const OGRSpatialReference source = understood(source_wkt, place), target = understood(target_wkt, place);
   if (same(source, target)) return;
   Transformation transformation(OGRCreateCoordinateTransformation(&source, &target));

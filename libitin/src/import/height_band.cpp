@@ -10,7 +10,7 @@
 
 #include <itin/error.hpp>
 
-#include "import/gdal_errors.hpp"
+#include "import/quiet_gdal.hpp"
 
 namespace itin {
 
@@ -33,8 +33,8 @@ GDALRasterBand* first_band(GDALDataset& dataset, const std::string& path) {
 void read_rows(GDALRasterBand& band, const std::string& path, int first_row, int rows, void* out, GDALDataType type) {
   const int columns = band.GetXSize();
   if (band.RasterIO(GF_Read, 0, first_row, columns, rows, out, columns, rows, type, 0, 0, nullptr) != CE_None)
-    throw FileError(path,
-                    fmt::format("rows {} to {} cannot be read: {}", first_row, first_row + rows - 1, gdal_message()));
+    throw FileError(path, fmt::format("rows {} to {} cannot be read: {}", first_row, first_row + rows - 1,
+                                      QuietGdal::message("unknown error")));
 }
 
 }  // namespace
@@ -79,7 +79,7 @@ int HeightBand::strip_rows() const {
 }
 
 void HeightBand::read(int first_row, int rows, std::vector<double>& heights) {
-  const QuietErrors quiet;
+  const QuietGdal quiet;
   heights.resize(static_cast<std::size_t>(band_->GetXSize()) * static_cast<std::size_t>(rows));
   read_rows(*band_, path_, first_row, rows, heights.data(), GDT_Float64);
   if (mask_) {

@@ -15,8 +15,8 @@
 
 #include <itin/error.hpp>
 
-#include "import/gdal_errors.hpp"
 #include "import/height_band.hpp"
+#include "import/quiet_gdal.hpp"
 
 namespace itin {
 
@@ -56,9 +56,9 @@ std::vector<std::string> rasters_in_archive(const std::string& archive) {
 }
 
 GDALDatasetUniquePtr open_dataset(const std::string& path) {
-  const QuietErrors quiet;
+  const QuietGdal quiet;
   GDALDatasetUniquePtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
-  if (!dataset) throw FileError(path, "cannot be read as a raster: " + gdal_message());
+  if (!dataset) throw FileError(path, "cannot be read as a raster: " + QuietGdal::message("unknown error"));
   return dataset;
 }
 
@@ -227,7 +227,7 @@ class RasterFile final : public SourceFile {
       if (!value->empty())
         throw InputError(fmt::format("{}: {} has no meaning for a raster; import it by itself", path, name));
     const GDALDatasetUniquePtr dataset = open_dataset(path);
-    const QuietErrors quiet;
+    const QuietGdal quiet;
     const HeightBand band(*dataset, path);
     lattice_ = lattice_of(*dataset, path);
     crs_ = source_crs(path, options.crs, crs_text(*dataset));
@@ -257,15 +257,13 @@ class RasterFile final : public SourceFile {
 }  // namespace
 
 std::vector<std::string> find_rasters(const std::string& path) {
-  GDALAllRegister();
-  const QuietErrors quiet;
+  const QuietGdal quiet;
   if (EQUAL(CPLGetExtension(path.c_str()), "zip"))
-    return rasters_in_archive(path.starts_with("/vsi") ? path : "/vsizip/" + path);
+    return rasters_in_archive(path.starts_with("/vsizip/") ? path : "/vsizip/" + path);
   return is_raster(path) ? std::vector{path} : std::vector<std::string>{};
 }
 
 std::unique_ptr<SourceFile> open_raster_source(const std::string& path, const ImportOptions& options) {
-  GDALAllRegister();
   return std::make_unique<RasterFile>(path, options);
 }
 
