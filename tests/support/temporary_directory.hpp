@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <stdlib.h>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace itin::test {
@@ -23,7 +25,15 @@ class TemporaryDirectory {
   TemporaryDirectory(const TemporaryDirectory&) = delete;
   TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
 
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
+  std::string path() const { return path_.string(); }
+  std::string file(std::string_view name) const { return (path_ / name).string(); }
+  /// Writes a file and returns its path.
+  std::string write(std::string_view name, std::string_view content) const {
+    // Truncating a file in place makes ext4 flush it, which slows a loop of damage down a hundredfold.
+    std::filesystem::remove(file(name));
+    std::ofstream(file(name), std::ios::binary) << content;
+    return file(name);
+  }
   /// The names of all files, hidden ones too.
   std::vector<std::string> names() const {
     std::vector<std::string> names;

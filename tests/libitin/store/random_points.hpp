@@ -10,6 +10,7 @@
 
 #include "store/cell.hpp"
 #include "store/point_index.hpp"
+#include "support/temporary_directory.hpp"
 
 namespace itin::test {
 
@@ -42,18 +43,6 @@ struct GivenStore {
   void write(const std::string& path) const;
 };
 GivenStore random_store(std::uint64_t seed, std::size_t points, int levels = 4);
-
-/// A directory of its own that goes with the object.
-class TemporaryDirectory {
- public:
-  TemporaryDirectory();
-  ~TemporaryDirectory();
-  std::string file(const std::string& name) const { return path_ + "/" + name; }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
 
 std::string read_bytes(const std::string& path);
 void write_bytes(const std::string& path, const std::string& bytes);
