@@ -41,15 +41,6 @@ GridBox box_of(const std::vector<RawPoint>& points) {
 
 std::uint64_t code_of(const SelectedVertex& v) { return morton(v.point.x, v.point.y); }
 
-std::vector<std::uint8_t> ground_triangles(const RegionMesh& region, const GapRule& gaps) {
-  std::vector<std::uint8_t> ground;
-  for (const auto& [a, b, c] : region.mesh.triangles) {
-    const SelectedVertex &va = region.vertices[a], &vb = region.vertices[b], &vc = region.vertices[c];
-    ground.push_back(gaps.bridges(va, vb) && gaps.bridges(vb, vc) && gaps.bridges(vc, va));
-  }
-  return ground;
-}
-
 Segment segment(const RegionMesh& region, std::uint32_t from, std::uint32_t to) {
   const GridPoint &a = region.vertices[from].point, &b = region.vertices[to].point;
   return {a.x, a.y, b.x, b.y};
@@ -69,13 +60,24 @@ std::vector<std::uint64_t> corners_in(const Cell& tile, const std::vector<Segmen
 
 }  // namespace
 
+std::vector<std::uint8_t> ground_triangles(const RegionMesh& region, const std::vector<std::array<double, 4>>& gap_bases) {
+  const GapRule gaps(gap_bases);
+  std::vector<std::uint8_t> ground;
+  for (const auto& [a, b, c] : region.mesh.triangles) {
+    const SelectedVertex &va = region.vertices[a], &vb = region.vertices[b], &vc = region.vertices[c];
+    ground.push_back(gaps.bridges(va, vb) && gaps.bridges(vb, vc) && gaps.bridges(vc, va));
+  }
+  return ground;
+}
+
 TileSurvey survey_tile(const WorkingIndex& index, const CurveRange& tile, const std::vector<std::array<double, 4>>& gap_bases) {
   TileSurvey survey;
-  const std::vector<RawPoint> own = index.read(tile);
+  std::vector<RawPoint> own = index.read(tile);
+  std::erase_if(own, [](const RawPoint& p) { return p.level == kDropped; });
   const Selection everything(Detail::tolerance(0), {0.0}, Grid{});
   survey.surface = triangulate_region(index, everything, box_of(own));
   const RegionMesh& region = survey.surface;
-  const std::vector<std::uint8_t> ground = ground_triangles(region, GapRule(gap_bases));
+  const std::vector<std::uint8_t> ground = ground_triangles(region, gap_bases);
 
   std::vector<std::uint8_t> touched(region.vertices.size(), 0);
   std::vector<Segment> edges_at_tile;

@@ -21,6 +21,9 @@ struct TileSurvey {
   std::vector<std::uint64_t> isolated;   ///< the tile's points of no ground triangle, as Morton codes
 };
 
+/// Which triangles of a plain Delaunay triangulation are ground. `gap_bases` per source, grid units.
+std::vector<std::uint8_t> ground_triangles(const RegionMesh& region, const std::vector<std::array<double, 4>>& gap_bases);
+
 /// `gap_bases` per source, grid units. The index must have no segments yet, and nothing dropped meanwhile.
 TileSurvey survey_tile(const WorkingIndex& index, const CurveRange& tile, const std::vector<std::array<double, 4>>& gap_bases);
 

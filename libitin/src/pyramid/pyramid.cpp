@@ -11,6 +11,7 @@
 #include "pyramid/coverage.hpp"
 #include "pyramid/greedy.hpp"
 #include "pyramid/leaf_cutter.hpp"
+#include "pyramid/replacement.hpp"
 #include "pyramid/working_index.hpp"
 
 namespace itin {
@@ -27,19 +28,6 @@ std::vector<std::array<double, 4>> gap_bases(const std::vector<SourceInfo>& sour
     for (double& component : bases.back()) component /= grid.resolution;
   }
   return bases;
-}
-
-void drop(WorkingIndex& index, const std::vector<CurveRange>& tiles, std::vector<std::uint64_t> codes) {
-  std::sort(codes.begin(), codes.end());
-  parallel_for(tiles.size(), [&](std::size_t i) {
-    const auto first = std::lower_bound(codes.begin(), codes.end(), tiles[i].cell.code);
-    if (first == codes.end() || *first >= tiles[i].cell.end()) return;
-    std::vector<RawPoint> points = index.read(tiles[i]);
-    for (RawPoint& p : points) {
-      if (std::binary_search(codes.begin(), codes.end(), p.code)) p.level = kDropped;
-    }
-    index.write(tiles[i], points);
-  });
 }
 
 struct Proposals {
@@ -139,6 +127,7 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
     in_units.push_back(in_whole_units.back());
   }
   const std::vector<std::array<double, 4>> bases = gap_bases(sources, grid);
+  report.replaced = drop_replaced(index, tiles, sources, bases, progress);
   std::vector<Proposals> proposals(tiles.size());
   std::atomic<std::size_t> done = 0;
   parallel_for(tiles.size(), [&](std::size_t i) {
@@ -152,8 +141,7 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
     outline.insert(outline.end(), p.outline.begin(), p.outline.end());
     isolated.insert(isolated.end(), p.isolated.begin(), p.isolated.end());
   }
-  report.isolated = isolated.size();
-  drop(index, tiles, std::move(isolated));
+  report.isolated = index.drop(std::move(isolated));
   index.set_segments(join_collinear(std::move(outline)));
 
   LeafBounds bounds = certify(index, in_whole_units, progress);

@@ -13,6 +13,7 @@
 namespace itin {
 
 struct PyramidReport {
+  std::uint64_t replaced = 0;                      ///< coarser points that made room
   std::uint64_t isolated = 0;                      ///< points left out: no ground about them
   std::vector<std::uint64_t> vertices_of_source;
 };

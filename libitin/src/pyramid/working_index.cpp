@@ -160,6 +160,22 @@ void WorkingIndex::count_levels(std::uint32_t leaf, std::span<const RawPoint> po
   }
 }
 
+std::uint64_t WorkingIndex::drop(std::vector<std::uint64_t> codes) {
+  std::sort(codes.begin(), codes.end());
+  codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
+  for (auto at = codes.begin(); at != codes.end();) {
+    const CurveRange& leaf = ranges_[leaf_of(*at)];
+    const auto end = std::lower_bound(at, codes.end(), leaf.cell.end());
+    std::vector<RawPoint> points = read(leaf);
+    for (RawPoint& p : points) {
+      if (std::binary_search(at, end, p.code)) p.level = kDropped;
+    }
+    write(leaf, points);
+    at = end;
+  }
+  return codes.size();
+}
+
 void WorkingIndex::promote(std::uint64_t code, int level) {
   const std::uint32_t leaf = leaf_of(code);
   std::vector<RawPoint> points = read(ranges_[leaf]);

@@ -45,6 +45,8 @@ class WorkingIndex final : public PointIndex {
 
   std::vector<RawPoint> read(const CurveRange& range) const;
   void write(const CurveRange& range, std::span<const RawPoint> points);
+  /// Leaves these points out of the surface, in any order, also twice; returns how many they are. Not thread-safe.
+  std::uint64_t drop(std::vector<std::uint64_t> codes);
   /// Raises one point's level. Not thread-safe.
   void promote(std::uint64_t code, int level);
 
