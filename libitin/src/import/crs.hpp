@@ -9,19 +9,27 @@
 
 #include <itin/geometry.hpp>
 
+class OGRSpatialReference;
+
 namespace itin {
 
 /// A CRS that was understood. Horizontal only: the vertical part of a compound CRS leaves nothing but its unit.
 struct Crs {
   std::string wkt;                          ///< WKT 2
   std::string name;                         ///< "EPSG:27700" where an authority knows it, otherwise its name
-  bool metric = false;                      ///< projected, axes in metres: fit for a store
+  std::optional<double> metres_per_axis;    ///< of a projected CRS; angles have none
   std::optional<double> metres_per_height;  ///< of a vertical part, where there is one
+
+  /// Projected, axes in metres: fit for a store.
+  bool metric() const { return metres_per_axis == 1.0; }
 };
 
 /// `text` is authority:code, WKT, PROJ or whatever else GDAL understands. Throws InputError, which begins with `place`
 /// (a file or an option).
 Crs parse_crs(const std::string& text, const std::string& place);
+
+/// WKT 2.
+std::string wkt_of(const OGRSpatialReference& reference);
 
 /// The UTM zone of a position in `crs`: of ETRS89 or NAD83 where that is the CRS's datum, otherwise of WGS 84. Throws
 /// InputError where the position has no zone (a CRS without datum, the poles).

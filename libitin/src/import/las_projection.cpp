@@ -8,7 +8,7 @@
 
 #include <itin/error.hpp>
 
-#include "import/gdal_errors.hpp"
+#include "import/quiet_gdal.hpp"
 
 namespace itin {
 
@@ -91,7 +91,7 @@ std::string crs_of_keys(const LasFile& file) {
 
 LasProjection las_projection(const LasFile& file) {
   const std::string& wkt = file.projection().wkt;
-  const QuietErrors quiet;
+  const QuietGdal quiet;
   LasProjection result;
   if (wkt.empty() || !file.header().prefers_wkt) result.crs = crs_of_keys(file);
   if (result.crs.empty()) {

@@ -14,7 +14,7 @@
 
 #include <itin/error.hpp>
 
-#include "import/gdal_errors.hpp"
+#include "import/quiet_gdal.hpp"
 
 namespace itin {
 
@@ -79,10 +79,9 @@ class PointLayer final : public PointReader {
 };
 
 PointLayer::PointLayer(const std::string& path, const ImportOptions& options) : path_(path) {
-  GDALAllRegister();
-  const QuietErrors quiet;
+  const QuietGdal quiet;
   dataset_.reset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
-  if (!dataset_) throw FileError(path, "cannot be read as a point layer: " + gdal_message());
+  if (!dataset_) throw FileError(path, "cannot be read as a point layer: " + QuietGdal::message("unknown error"));
   layer_ = &choose_layer(*dataset_, path, options.layer);
   check_geometry_type();
   if (!options.z_field.empty()) height_field_ = height_field(*layer_, path, options.z_field);
@@ -97,7 +96,9 @@ void PointLayer::select(const std::string& where) {
   // Databases look at the clause only when they count or read.
   const bool understood = layer_->SetAttributeFilter(where.c_str()) == OGRERR_NONE && layer_->GetFeatureCount() >= 0 &&
                           CPLGetLastErrorType() < CE_Failure;
-  if (!understood) throw InputError(fmt::format("{}: --where {} is not understood: {}", path_, where, gdal_message()));
+  if (!understood)
+    throw InputError(
+        fmt::format("{}: --where {} is not understood: {}", path_, where, QuietGdal::message("unknown error")));
 }
 
 void PointLayer::check_geometry_type() const {
@@ -136,9 +137,9 @@ std::string PointLayer::crs() const {
 /// The next feature; null at the end. GDAL tells an end from a failure only by its error state, which others may leave
 /// set between two calls.
 OGRFeatureUniquePtr PointLayer::next_feature() {
-  const QuietErrors quiet;
+  const QuietGdal quiet;
   OGRFeatureUniquePtr feature(layer_->GetNextFeature());
-  if (!feature && CPLGetLastErrorType() >= CE_Failure) throw FileError(path_, gdal_message());
+  if (!feature && QuietGdal::failed()) throw FileError(path_, QuietGdal::message("unknown error"));
   return feature;
 }
 

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@
 #include <itin/geometry.hpp>
 
 #include "import/crs.hpp"
+#include "import/file_digest.hpp"
 #include "import/terrain_source.hpp"
 
 namespace itin {
@@ -43,6 +45,15 @@ class SourceFile {
 /// where both are empty.
 Crs source_crs(const std::string& path, const std::string& option_crs, const std::string& found);
 
+struct HeightUnit {
+  double metres = 1;
+  std::string warning;  ///< empty when there is nothing to say
+};
+
+/// The unit of a source's heights: `stated` by the file (in metres), else the vertical part's of its CRS, else that of
+/// the CRS's own axes, for a survey in feet has its heights in feet though few files say so, else metres.
+HeightUnit height_unit(const std::string& path, std::optional<double> stated, const Crs& crs);
+
 /// Takes points from a source's coordinates to the grid, a batch at a time; the last step of every kind of source.
 class Placement {
  public:
@@ -50,8 +61,8 @@ class Placement {
   Placement(std::string path, const Crs& crs, double metres_per_height, const SourceContext& context);
 
   /// Transforms x and y in place, and replaces `points` by those that have a position and a height. Points whose height
-  /// is NaN, beyond +-20,000 m, or whose position has no image are counted as voids. Throws InputError for a position
-  /// the grid cannot hold.
+  /// is NaN, below -12,000 m or above 20,000 m, or whose position has no image are counted as voids. Throws InputError
+  /// for a position the grid cannot hold.
   void place(std::span<double> x, std::span<double> y, std::span<const double> z, std::vector<GridPoint>& points);
   /// Positions only: of the corners of a lattice step, say. NaN where there is no image.
   void transform(std::span<double> x, std::span<double> y) const { transform_.transform(x, y); }
@@ -64,12 +75,8 @@ class Placement {
   PointTransform transform_;
   double metres_per_height_;
   Grid grid_;
-  std::uint64_t placed_ = 0, voids_ = 0, too_high_ = 0, unmapped_ = 0;
+  std::uint64_t placed_ = 0, voids_ = 0, out_of_range_ = 0, unmapped_ = 0;
 };
-
-/// The SHA-256 of a file's bytes in hexadecimal; empty for what is not a plain file (/vsizip/..., a directory).
-/// Throws FileError, Cancelled.
-std::string file_sha256(const std::string& path, Progress& progress);
 
 /// "2024-05-31T12:00:00Z", now.
 std::string utc_now();
