@@ -26,7 +26,7 @@ RasterGrid::RasterGrid(Point2 north_west, double cell_width, double cell_height,
     throw InputError("raster: its corner is not a finite position");
   if (!(std::isfinite(cell_width) && std::isfinite(cell_height) && cell_width > 0 && cell_height > 0))
     throw InputError(fmt::format("raster: cells of {} x {} m; give a positive cell size", cell_width, cell_height));
-  if (columns < 1 || rows < 1 || columns > kMaxCells / rows)
+  if (columns < 1 || rows < 1 || columns > kMaxSide || rows > kMaxSide || columns > kMaxCells / rows)
     throw InputError(
         fmt::format("raster: {} x {} cells of {:g} m; give larger cells or a smaller area", columns, rows, cell_width));
 }

@@ -22,7 +22,8 @@ std::vector<BoundaryEdge> boundary_edges(const Tin& tin) {
   const auto adjacent = adjacent_triangles(tin);
   for (std::size_t t = 0; t < adjacent.size(); ++t) {
     for (std::size_t i = 0; i < 3; ++i) {
-      if (adjacent[t][i] == kNoTriangle) edges.push_back({tin.triangles[t][i], tin.triangles[t][(i + 1) % 3]});
+      if (adjacent[t][i] == kNoTriangle)
+        edges.push_back({tin.triangles[t][i], tin.triangles[t][(i + 1) % 3], static_cast<std::uint32_t>(t)});
     }
   }
   return edges;

@@ -12,6 +12,7 @@ namespace itin::viewshed {
 struct BoundaryEdge {
   std::uint32_t from = 0;
   std::uint32_t to = 0;
+  std::uint32_t triangle = 0;
 };
 
 /// In ascending order of the triangles they belong to. O(n) time, 40 bytes a triangle while running.

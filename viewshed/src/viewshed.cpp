@@ -46,38 +46,16 @@ RasterGrid grid_of_tiles(const RasterGrid& cells, std::int64_t side) {
           (cells.rows() + side - 1) / side};
 }
 
-/// About as many bins as triangles, so that a few triangles lie in each.
-RasterGrid location_grid(const Tin& tin) {
-  const Box box = tin.bounds();
-  const double size = std::max({box.width(), box.height(), tin.grid.resolution});
-  const auto side = static_cast<std::int64_t>(std::clamp(std::sqrt(tin.triangles.size()), 1.0, 512.0));
-  // A hundredth more than needed, so that the eastern and southern edges lie inside.
-  const double bin = size * 1.01 / static_cast<double>(side);
-  return {{box.xmin, box.ymax}, bin, bin, side, side};
-}
-
-std::vector<double> grounds_of(const Tin& tin, const std::vector<Observer>& observers) {
-  std::optional<RasterGrid> grid;
-  std::optional<TriangleBins> bins;
-  if (!tin.triangles.empty()) {
-    grid = location_grid(tin);
-    bins.emplace(tin, *grid);
-  }
-  std::vector<double> grounds;
-  for (const Observer& observer : observers) {
-    std::optional<double> height;
-    if (const auto bin = grid ? grid->cell_at(observer.position) : std::nullopt)
-      height = surface_height(tin, bins->triangles(grid->index(*bin)), observer.position);
-    if (!height)
-      throw InputError(fmt::format("observer {} at {:.10g},{:.10g}: there is no data there; move it onto the data",
-                                   observer.name, observer.position.x, observer.position.y));
-    const double ground = *height * tin.grid.resolution;
-    if (observer.absolute && observer.height < ground)
-      throw InputError(fmt::format("observer {} at {:.10g},{:.10g}: its elevation {:g} m is below the ground, {:.2f} m",
-                                   observer.name, observer.position.x, observer.position.y, observer.height, ground));
-    grounds.push_back(ground);
-  }
-  return grounds;
+double ground_of(const Scene& scene, const Observer& observer) {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(fmt::format("observer {} at {:.10g},{:.10g}: {}", observer.name, observer.position.x,
+                                 observer.position.y, what));
+  };
+  const std::optional<double> ground = scene.ground(observer.position);
+  if (!ground) refuse("there is no data there; move it onto the data");
+  if (observer.absolute && observer.height < *ground)
+    refuse(fmt::format("its elevation {:g} m is below the ground, {:.2f} m", observer.height, *ground));
+  return *ground;
 }
 
 /// Decides tiles of cells. Tiles are independent of each other.
@@ -232,16 +210,15 @@ std::vector<Eye> eyes_of(const Grid& grid, const Request& request, const std::ve
 }
 
 /// Above every end of every sight line, metres.
-double ceiling_of(const Tin& tin, const Request& request, const std::vector<Eye>& eyes) {
-  double ceiling = 0;
-  for (const GridPoint& v : tin.vertices) ceiling = std::max(ceiling, v.z * tin.grid.resolution);
-  ceiling = std::max(request.target_absolute ? request.target_height : ceiling + request.target_height, ceiling);
-  for (const Eye& eye : eyes) ceiling = std::max(ceiling, eye.elevation);
-  return ceiling;
+double ceiling_of(const Tin& tin, const Request& request) {
+  double highest = 0;
+  for (const GridPoint& v : tin.vertices) highest = std::max(highest, v.z * tin.grid.resolution);
+  double above = std::max(request.target_height, 0.0);
+  for (const Observer& observer : request.observers) above = std::max(above, observer.height);
+  return highest + above;
 }
 
-void look_for_voids(const Tin& tin, Result& result) {
-  const std::vector<BoundaryEdge> boundary = boundary_edges(tin);
+void look_for_voids(const Tin& tin, const std::vector<BoundaryEdge>& boundary, Result& result) {
   const double reach = result.request.radius.value_or(std::numeric_limits<double>::infinity());
   for (const Observer& observer : result.request.observers) {
     result.crosses_voids = result.crosses_voids || surface_resumes(tin, boundary, observer.position, reach);
@@ -259,11 +236,10 @@ Result compute(const Tin& tin, const Request& request, Progress& progress) {
   result.request = request;
   Stopwatch watch;
   progress.report("scene", 0);
-  result.ground_m = grounds_of(tin, request.observers);
+  const Scene scene(tin, request.earth, request.nodata, ceiling_of(tin, request));
+  for (const Observer& observer : request.observers) result.ground_m.push_back(ground_of(scene, observer));
   result.grid = cells_of(request, tin.bounds());
-  const std::vector<Eye> eyes = eyes_of(tin.grid, request, result.ground_m);
-  const Scene scene(tin, request.earth, request.nodata, ceiling_of(tin, request, eyes));
-  look_for_voids(tin, result);
+  look_for_voids(tin, scene.boundary(), result);
   result.statistics.triangles = tin.triangles.size();
   result.statistics.retrieval = tin.statistics;
   result.statistics.scene_seconds = watch.lap();
@@ -275,7 +251,7 @@ Result compute(const Tin& tin, const Request& request, Progress& progress) {
   } else {
     result.visible.resize(result.grid.cell_count());
   }
-  Caster(tin, scene, eyes, bins, tiles, result).run(progress);
+  Caster(tin, scene, eyes_of(tin.grid, request, result.ground_m), bins, tiles, result).run(progress);
   result.statistics.rays_seconds = watch.lap();
   return result;
 }

@@ -29,14 +29,15 @@ class RasterGrid {
   };
 
   RasterGrid() = default;
-  /// From the north-west corner. Throws InputError unless sizes are positive, counts at least 1, and the cells number
-  /// at most kMaxCells.
+  /// From the north-west corner. Throws InputError unless sizes are positive, counts at least 1, and within the
+  /// limits below.
   RasterGrid(Point2 north_west, double cell_width, double cell_height, std::int64_t columns, std::int64_t rows);
   /// The smallest grid of square cells over the box whose cell edges are multiples of the cell size. A box edge within
   /// a millionth of a cell of such a multiple counts as lying on it. Throws InputError as above, or for an empty box.
   static RasterGrid aligned(const Box& box, double cell_size);
 
   static constexpr std::int64_t kMaxCells = std::int64_t{1} << 33;
+  static constexpr std::int64_t kMaxSide = 0x7fffffff;  ///< what GDAL counts
 
   std::int64_t columns() const { return columns_; }
   std::int64_t rows() const { return rows_; }

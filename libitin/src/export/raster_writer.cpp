@@ -2,6 +2,7 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <tuple>
 #include <unistd.h>
 
 #include <cpl_conv.h>
@@ -141,7 +142,9 @@ void attach(GDALDataset& dataset, std::vector<Level<T>>& levels, GDALDataType ty
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const int columns = static_cast<int>(levels[i].columns), rows = static_cast<int>(levels[i].rows);
     GDALRasterBand* const overview = dataset.GetRasterBand(1)->GetOverview(static_cast<int>(i));
-    overview->RasterIO(GF_Write, 0, 0, columns, rows, levels[i].values.data(), columns, rows, type, 0, 0, nullptr);
+    // A failure reaches the caller through GdalCall.
+    std::ignore =
+        overview->RasterIO(GF_Write, 0, 0, columns, rows, levels[i].values.data(), columns, rows, type, 0, 0, nullptr);
   }
 }
 

@@ -11,9 +11,10 @@
 // Both ends of a sight line stand on the surface queried. A cell is decided by its centre (cx, cy): the target is at
 // T(cx, cy) + target_height. A sight line that grazes the surface sees (law 4).
 //
-// Accuracy. Rays are cast in single precision with both ends raised by e, the numerical error bound of the scene (see
-// src/scene.hpp; Result::error_bound_m is the largest that was used). A cell that is truly visible is reported visible,
-// and a hidden cell is reported visible only if raising its sight line by 2e would make it so.
+// Accuracy. A cell reported hidden is hidden, decided in double precision: ground that rises less than a micrometre
+// above a sight line grazes it. A cell reported visible is so or would be if its sight line were raised by 2e, where e
+// is the error bound of ray casting in single precision (formula in src/scene.hpp; Result::error_bound_m is the largest
+// used: millimetres at kilometres).
 #pragma once
 
 #include <cstdint>
@@ -92,7 +93,6 @@ struct Statistics {
   std::uint64_t rays = 0;
   double retrieval_seconds = 0;
   double scene_seconds = 0;
-  double heights_seconds = 0;
   double rays_seconds = 0;
 };
 
