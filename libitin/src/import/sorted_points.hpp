@@ -2,7 +2,7 @@
 //
 //   PointSorter sorter(directory, memory_bytes);
 //   sorter.add({morton(p.x, p.y), p.z, source});           // any order
-//   SortedPoints points = sorter.finish(rank_of_source);   // sorted, one point a position
+//   SortedPoints points = sorter.finish(spacing_of_source, progress);   // sorted, one point a position
 #pragma once
 
 #include <cstdint>
@@ -55,10 +55,12 @@ class PointSorter {
   /// Not thread-safe.
   void add(const RawPoint& point);
   void add(std::span<const RawPoint> points);
-  /// Of several points at one position the one whose source has the least rank stays (ranks: finer spacing first),
-  /// among equal ranks the highest, among equal heights the lowest source number: a rule on the points alone.
-  /// `spacing_of_source[s]` in metres. `duplicates`, if given, receives the number dropped. Throws FileError, Cancelled.
-  SortedPoints finish(std::span<const double> spacing_of_source, Progress& progress, std::uint64_t* duplicates = nullptr);
+  /// Of several points at one position the one whose source has the finest spacing stays, among
+  /// equal spacings the highest, among equal heights the lowest source number: a rule on the points alone.
+  /// `spacing_of_source[s]` in metres. `duplicates`, if given, receives the number dropped. Throws FileError,
+  /// Cancelled.
+  SortedPoints finish(std::span<const double> spacing_of_source, Progress& progress,
+                      std::uint64_t* duplicates = nullptr);
 
  private:
   class Impl;

@@ -15,9 +15,10 @@ namespace itin {
 
 /// What was met on the way.
 struct ReadCounts {
-  std::uint64_t read = 0;      ///< points handed on
-  std::uint64_t voids = 0;     ///< posts without data
-  std::uint64_t filtered = 0;  ///< left out by class or where
+  std::uint64_t read = 0;             ///< points handed on
+  std::uint64_t voids = 0;            ///< posts without data
+  std::uint64_t filtered = 0;         ///< left out by class or where
+  std::vector<std::string> warnings;  ///< one line each
 };
 
 /// One file to import. Opened and understood at planning time, read once, in bounded memory.
@@ -34,7 +35,7 @@ class TerrainSource {
 };
 
 struct ImportPlan {
-  std::string crs_wkt;      ///< of the store: projected, metres
+  std::string crs_wkt;  ///< of the store: projected, metres
   std::string crs_name;
   bool crs_chosen = false;  ///< a UTM zone was chosen
   Grid grid;

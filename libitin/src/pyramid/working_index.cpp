@@ -29,7 +29,9 @@ WorkingIndex::WorkingIndex(SortedPoints& points, int level_count, std::uint32_t 
     }
   }
   cutter.finish();
-  coarsest_ = std::vector<std::atomic<std::uint8_t>>(ranges_.size());
+  // At first all points are of the finest level.
+  selected_ = std::vector<std::atomic<std::uint32_t>>(ranges_.size() * static_cast<std::size_t>(level_count));
+  for (std::size_t i = 0; i < ranges_.size(); ++i) selected_[i * static_cast<std::size_t>(level_count)] = ranges_[i].count;
   segment_start_.assign(ranges_.size() + 1, 0);
 }
 
@@ -77,12 +79,11 @@ void WorkingIndex::leaves(int finest, const GridBox& box, std::vector<Leaf>& out
   leaves_at(box, found);
   for (const std::uint32_t i : found) {
     const CurveRange& range = ranges_[i];
-    const int coarsest = coarsest_[i].load(std::memory_order_relaxed);
-    if (range.count == 0 || coarsest < finest || !range.cell.box().meets(box)) continue;
     Leaf leaf;
+    leaf.points = selected(i, finest);
+    if (leaf.points == 0 || !range.cell.box().meets(box)) continue;
     leaf.cell = range.cell;
-    leaf.level = coarsest;
-    leaf.points = range.count;
+    leaf.level = level_count_ - 1;
     leaf.key = i;
     out.push_back(leaf);
   }
@@ -144,11 +145,18 @@ void WorkingIndex::write(const CurveRange& range, std::span<const RawPoint> poin
   points_.write(range.first, points);
   for (std::uint32_t leaf = leaf_of(range.cell.code); leaf < ranges_.size() && ranges_[leaf].cell.code < range.cell.end(); ++leaf) {
     const CurveRange& r = ranges_[leaf];
-    std::uint8_t coarsest = 0;
-    for (const RawPoint& p : points.subspan(r.first - range.first, r.count)) {
-      if (p.level != kDropped) coarsest = std::max(coarsest, static_cast<std::uint8_t>(p.level));
-    }
-    coarsest_[leaf].store(coarsest, std::memory_order_relaxed);
+    count_levels(leaf, points.subspan(r.first - range.first, r.count));
+  }
+}
+
+void WorkingIndex::count_levels(std::uint32_t leaf, std::span<const RawPoint> points) {
+  std::vector<std::uint32_t> count(static_cast<std::size_t>(level_count_) + 1, 0);
+  for (const RawPoint& p : points) {
+    if (p.level != kDropped) count[p.level] += 1;
+  }
+  for (std::size_t k = static_cast<std::size_t>(level_count_); k-- > 0;) {
+    count[k] += count[k + 1];
+    selected_[std::size_t{leaf} * static_cast<std::size_t>(level_count_) + k].store(count[k], std::memory_order_relaxed);
   }
 }
 

@@ -1,0 +1,167 @@
+#include "import/crs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <cpl_conv.h>
+#include <fmt/format.h>
+#include <ogr_spatialref.h>
+
+#include <itin/error.hpp>
+#include <itin/parallel.hpp>
+
+#include "import/quiet_gdal.hpp"
+
+namespace itin {
+
+namespace {
+
+OGRSpatialReference understood(const std::string& text, const std::string& place) {
+  constexpr const char* kOptions[] = {"ALLOW_NETWORK_ACCESS=NO", nullptr};
+  OGRSpatialReference reference;
+  if (text.empty() || reference.SetFromUserInput(text.c_str(), kOptions) != OGRERR_NONE)
+    throw InputError(fmt::format("{}: the CRS '{:.60}' is not understood; give it as EPSG:xxxx or WKT", place, text));
+  reference.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  return reference;
+}
+
+/// ESRI's and other dialects come without codes, and with datum names that coordinate operations are not found by.
+void replace_by_authority(OGRSpatialReference& reference) {
+  if (reference.GetAuthorityCode(nullptr)) return;
+  const std::unique_ptr<OGRSpatialReference> known(reference.FindBestMatch());
+  if (!known) return;
+  reference = *known;
+  reference.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+}
+
+std::string name_of(const OGRSpatialReference& reference) {
+  const char* authority = reference.GetAuthorityName(nullptr);
+  const char* code = reference.GetAuthorityCode(nullptr);
+  if (authority && code) return fmt::format("{}:{}", authority, code);
+  return reference.GetName() ? reference.GetName() : "unnamed";
+}
+
+bool same(const OGRSpatialReference& a, const OGRSpatialReference& b) {
+  constexpr const char* kOptions[] = {"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES",
+                                      "CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS", nullptr};
+  return a.IsSame(&b, kOptions);
+}
+
+using Transformation = std::unique_ptr<OGRCoordinateTransformation>;
+
+/// The first EPSG code of the zones of the CRS's own datum, less zone 0; WGS 84 where it has no such zone.
+int utm_base(const OGRSpatialReference& geographic, int zone, bool north) {
+  const auto has_datum = [&](int code) {
+    OGRSpatialReference datum;
+    return datum.importFromEPSG(code) == OGRERR_NONE && geographic.IsSameGeogCS(&datum);
+  };
+  if (north && zone >= 28 && zone <= 38 && has_datum(4258)) return 25800;
+  if (north && zone <= 23 && has_datum(4269)) return 26900;
+  return north ? 32600 : 32700;
+}
+
+}  // namespace
+
+std::string wkt_of(const OGRSpatialReference& reference) {
+  char* wkt = nullptr;
+  constexpr const char* kOptions[] = {"FORMAT=WKT2_2018", nullptr};
+  reference.exportToWkt(&wkt, kOptions);
+  std::string result = wkt ? wkt : "";
+  CPLFree(wkt);
+  return result;
+}
+
+Crs parse_crs(const std::string& text, const std::string& place) {
+  const QuietGdal quiet;
+  OGRSpatialReference reference = understood(text, place);
+  Crs crs;
+  if (reference.IsCompound()) {
+    crs.metres_per_height = reference.GetTargetLinearUnits("VERT_CS");
+    reference.StripVertical();
+  } else if (reference.IsVertical()) {
+    throw InputError(
+        fmt::format("{}: the CRS {} is only vertical; a horizontal one is needed", place, name_of(reference)));
+  }
+  if (reference.GetAxesCount() == 3) reference.DemoteTo2D(nullptr);
+  replace_by_authority(reference);
+  if (!reference.IsProjected() && !reference.IsGeographic())
+    throw InputError(fmt::format("{}: the CRS {} is neither projected nor geographic", place, name_of(reference)));
+  crs.wkt = wkt_of(reference);
+  crs.name = name_of(reference);
+  if (reference.IsProjected()) crs.metres_per_axis = reference.GetLinearUnits();
+  return crs;
+}
+
+Crs utm_zone(const Crs& crs, Point2 position, const std::string& place) {
+  const QuietGdal quiet;
+  const OGRSpatialReference reference = understood(crs.wkt, place);
+  std::unique_ptr<OGRSpatialReference> geographic(reference.CloneGeogCS());
+  if (!geographic) throw InputError(fmt::format("{}: no UTM zone for {}; give --to-crs", place, crs.name));
+  geographic->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  PointTransform(crs.wkt, wkt_of(*geographic), place).transform(std::span(&position.x, 1), std::span(&position.y, 1));
+  const double longitude = position.x * geographic->GetAngularUnits() * 180 / M_PI;
+  const double latitude = position.y * geographic->GetAngularUnits() * 180 / M_PI;
+  if (!(latitude >= -80 && latitude <= 84 && std::abs(longitude) <= 360))
+    throw InputError(
+        fmt::format("{}: no UTM zone at longitude {:.4f}, latitude {:.4f}; give --to-crs", place, longitude, latitude));
+  const int zone = std::min(60, static_cast<int>((std::remainder(longitude, 360) + 180) / 6) + 1);
+  return parse_crs(fmt::format("EPSG:{}", utm_base(*geographic, zone, latitude >= 0) + zone), place);
+}
+
+class PointTransform::Impl {
+ public:
+  explicit Impl(Transformation transformation) { copies_.push_back(std::move(transformation)); }
+
+  void transform(std::span<double> x, std::span<double> y) {
+    const std::size_t chunks = (x.size() + kChunk - 1) / kChunk;
+    const std::size_t workers = std::min<std::size_t>(chunks, static_cast<std::size_t>(thread_count()));
+    while (copies_.size() < workers) copies_.emplace_back(copies_.front()->Clone());
+    parallel_for(workers, [&](std::size_t worker) {
+      const QuietGdal quiet;
+      for (std::size_t chunk = worker; chunk < chunks; chunk += workers) {
+        const std::size_t first = chunk * kChunk, count = std::min(kChunk, x.size() - first);
+        transform_chunk(*copies_[worker], x.subspan(first, count), y.subspan(first, count));
+      }
+    });
+  }
+
+ private:
+  // Of several operations between two CRSs, GDAL takes the best one for the middle of what it is given: chunks must not
+  // depend on the number of threads.
+  static constexpr std::size_t kChunk = 1024;
+
+  static void transform_chunk(OGRCoordinateTransformation& transformation, std::span<double> x, std::span<double> y) {
+    std::vector<int> succeeded(x.size());
+    transformation.Transform(static_cast<int>(x.size()), x.data(), y.data(), nullptr, succeeded.data());
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (!succeeded[i] || !std::isfinite(x[i]) || !std::isfinite(y[i]))
+        x[i] = y[i] = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+
+  std::vector<Transformation> copies_;  // one a worker: a transformation has a state
+};
+
+PointTransform::PointTransform(const std::string& source_wkt, const std::string& target_wkt, const std::string& place) {
+  const QuietGdal quiet;
+  const OGRSpatialReference source = understood(source_wkt, place), target = understood(target_wkt, place);
+  if (same(source, target)) return;
+  Transformation transformation(OGRCreateCoordinateTransformation(&source, &target));
+  if (!transformation)
+    throw InputError(
+        fmt::format("{}: coordinates cannot be transformed from {} to {}", place, name_of(source), name_of(target)));
+  impl_ = std::make_unique<Impl>(std::move(transformation));
+}
+
+PointTransform::PointTransform(PointTransform&&) noexcept = default;
+PointTransform& PointTransform::operator=(PointTransform&&) noexcept = default;
+PointTransform::~PointTransform() = default;
+
+void PointTransform::transform(std::span<double> x, std::span<double> y) const {
+  if (impl_) impl_->transform(x, y);
+}
+
+}  // namespace itin

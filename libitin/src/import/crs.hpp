@@ -1,0 +1,56 @@
+// Coordinate reference systems of sources and stores, as far as import needs them. Axes are always easting, northing
+// (or longitude, latitude), whatever the CRS's authority says.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include <itin/geometry.hpp>
+
+class OGRSpatialReference;
+
+namespace itin {
+
+/// A CRS that was understood. Horizontal only: the vertical part of a compound CRS leaves nothing but its unit.
+struct Crs {
+  std::string wkt;                          ///< WKT 2
+  std::string name;                         ///< "EPSG:27700" where an authority knows it, otherwise its name
+  std::optional<double> metres_per_axis;    ///< of a projected CRS; angles have none
+  std::optional<double> metres_per_height;  ///< of a vertical part, where there is one
+
+  /// Projected, axes in metres: fit for a store.
+  bool metric() const { return metres_per_axis == 1.0; }
+};
+
+/// `text` is authority:code, WKT, PROJ or whatever else GDAL understands. Throws InputError, which begins with `place`
+/// (a file or an option).
+Crs parse_crs(const std::string& text, const std::string& place);
+
+/// WKT 2.
+std::string wkt_of(const OGRSpatialReference& reference);
+
+/// The UTM zone of a position in `crs`: of ETRS89 or NAD83 where that is the CRS's datum, otherwise of WGS 84. Throws
+/// InputError where the position has no zone (a CRS without datum, the poles).
+Crs utm_zone(const Crs& crs, Point2 position, const std::string& place);
+
+/// How a source's coordinates become the store's. One thread at a time.
+class PointTransform {
+ public:
+  /// The identity when both are equivalent. Throws InputError for what cannot be transformed.
+  PointTransform(const std::string& source_wkt, const std::string& target_wkt, const std::string& place);
+  PointTransform(PointTransform&&) noexcept;
+  PointTransform& operator=(PointTransform&&) noexcept;
+  ~PointTransform();
+
+  bool identity() const { return !impl_; }
+  /// In place; both coordinates of a point that cannot be transformed become NaN.
+  void transform(std::span<double> x, std::span<double> y) const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace itin

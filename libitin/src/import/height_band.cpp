@@ -1,0 +1,103 @@
+#include "import/height_band.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <gdal_priv.h>
+
+#include <itin/error.hpp>
+
+#include "import/quiet_gdal.hpp"
+
+namespace itin {
+
+namespace {
+
+constexpr int kStripPosts = 1 << 22;  // posts read at a time
+
+GDALRasterBand* first_band(GDALDataset& dataset, const std::string& path) {
+  if (dataset.GetRasterCount() == 0) {
+    const char* subdataset = dataset.GetMetadataItem("SUBDATASET_1_NAME", "SUBDATASETS");
+    throw FileError(path, subdataset ? fmt::format("holds several rasters; name one of them, such as {}", subdataset)
+                                     : std::string("holds no raster band"));
+  }
+  GDALRasterBand* band = dataset.GetRasterBand(1);
+  if (GDALDataTypeIsComplex(band->GetRasterDataType())) throw FileError(path, "holds complex numbers, not heights");
+  if (band->GetColorTable()) throw FileError(path, "holds colours, not heights; give the elevation model itself");
+  return band;
+}
+
+void read_rows(GDALRasterBand& band, const std::string& path, int first_row, int rows, void* out, GDALDataType type) {
+  const int columns = band.GetXSize();
+  if (band.RasterIO(GF_Read, 0, first_row, columns, rows, out, columns, rows, type, 0, 0, nullptr) != CE_None)
+    throw FileError(path, fmt::format("rows {} to {} cannot be read: {}", first_row, first_row + rows - 1,
+                                      QuietGdal::message("unknown error")));
+}
+
+}  // namespace
+
+HeightBand::HeightBand(GDALDataset& dataset, const std::string& path)
+    : path_(path), band_(first_band(dataset, path)), scale_(band_->GetScale()), offset_(band_->GetOffset()) {
+  int has_nodata = 0;
+  const double nodata = band_->GetNoDataValue(&has_nodata);
+  const int flags = band_->GetMaskFlags();
+  if (!(flags & GMF_ALL_VALID)) mask_ = band_->GetMaskBand();
+  declares_nodata_ = has_nodata != 0;
+  // A mask of its own hides the nodata value from GDAL's.
+  if (declares_nodata_ && !(flags & GMF_NODATA)) nodata_ = nodata;
+}
+
+std::optional<double> HeightBand::stated_unit(std::vector<std::string>& warnings) const {
+  struct Unit {
+    std::array<const char*, 6> names;
+    double metres;
+  };
+  static constexpr std::array kUnits{
+      Unit{{"m", "metre", "metres", "meter", "meters", "1 metre"}, 1},
+      Unit{{"ft", "foot", "feet", "international foot", "international feet", "ift"}, 0.3048},
+      Unit{{"us-ft", "us survey foot", "us survey feet", "foot_us", "sfoot", "ftus"}, 1200.0 / 3937},
+      Unit{{"km", "kilometre", "kilometer", "kilometres", "kilometers", "1 km"}, 1000},
+      Unit{{"dm", "decimetre", "decimeter", "decimetres", "decimeters", "0.1 m"}, 0.1},
+      Unit{{"cm", "centimetre", "centimeter", "centimetres", "centimeters", "0.01 m"}, 0.01},
+      Unit{{"mm", "millimetre", "millimeter", "millimetres", "millimeters", "0.001 m"}, 0.001}};
+  const std::string text = band_->GetUnitType();
+  if (text.empty()) return std::nullopt;
+  for (const Unit& unit : kUnits)
+    if (std::any_of(unit.names.begin(), unit.names.end(), [&](const char* name) { return EQUAL(text.c_str(), name); }))
+      return unit.metres;
+  warnings.push_back(fmt::format("{}: the unit of heights, '{}', is not understood; taken as metres", path_, text));
+  return 1;
+}
+
+int HeightBand::strip_rows() const {
+  int block_columns = 0, block_rows = 0;
+  band_->GetBlockSize(&block_columns, &block_rows);
+  return std::clamp(block_rows, 1, std::max(1, kStripPosts / band_->GetXSize()));
+}
+
+void HeightBand::read(int first_row, int rows, std::vector<double>& heights) {
+  const QuietGdal quiet;
+  heights.resize(static_cast<std::size_t>(band_->GetXSize()) * static_cast<std::size_t>(rows));
+  read_rows(*band_, path_, first_row, rows, heights.data(), GDT_Float64);
+  if (mask_) {
+    valid_.resize(heights.size());
+    read_rows(*mask_, path_, first_row, rows, valid_.data(), GDT_Byte);
+  }
+  for (std::size_t i = 0; i < heights.size(); ++i) heights[i] = height(heights[i], !mask_ || valid_[i] != 0);
+}
+
+double HeightBand::height(double raw, bool valid) {
+  constexpr double kVoid = std::numeric_limits<double>::quiet_NaN();
+  if (!valid || std::isnan(raw) || raw == nodata_) return kVoid;
+  // -9999 could be the bottom of a trench, in a file that declares another value.
+  if (raw == -32768 || raw == -32767 || (raw == -9999 && !declares_nodata_)) {
+    ++undeclared_voids_;
+    return kVoid;
+  }
+  return raw * scale_ + offset_;
+}
+
+}  // namespace itin

@@ -1,0 +1,46 @@
+// The band of a raster that holds heights.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+class GDALDataset;
+class GDALRasterBand;
+
+namespace itin {
+
+/// Band 1 with everything that makes its numbers heights: scale, offset, nodata, mask. The dataset must outlive it.
+class HeightBand {
+ public:
+  /// Throws FileError where the raster holds no heights.
+  HeightBand(GDALDataset& dataset, const std::string& path);
+
+  /// The unit the band states, in metres; nothing where it states none. One it cannot make sense of is a metre, with a
+  /// warning line.
+  std::optional<double> stated_unit(std::vector<std::string>& warnings) const;
+
+  /// How many rows to read at a time: whole rows of blocks where memory allows.
+  int strip_rows() const;
+
+  /// Heights in the band's unit, row by row, NaN where there is none. Throws FileError.
+  void read(int first_row, int rows, std::vector<double>& heights);
+
+  /// How many posts read so far held what customarily stands for missing data though the file does not declare it.
+  std::uint64_t undeclared_voids() const { return undeclared_voids_; }
+
+ private:
+  double height(double raw, bool valid);
+
+  std::string path_;
+  GDALRasterBand* band_;
+  GDALRasterBand* mask_ = nullptr;  // null where all posts are valid
+  std::optional<double> nodata_;    // where the mask does not know of it
+  bool declares_nodata_ = false;
+  double scale_ = 1, offset_ = 0;
+  std::vector<unsigned char> valid_;
+  std::uint64_t undeclared_voids_ = 0;
+};
+
+}  // namespace itin

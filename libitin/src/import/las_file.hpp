@@ -1,0 +1,73 @@
+// LAS 1.0 to 1.4, point formats 0 to 10, read front to back in bounded memory. After the ASPRS LAS
+// specification 1.4-R15.
+//
+//   LasFile file("tile.las");
+//   file.read([](std::span<const LasPoint> points, double fraction) { ... });
+//
+// Every count, offset and length in the file is checked against the file's size before it is used, so that truncated
+// and damaged files end in a FileError naming the offset, never in a large allocation or a wild read.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <span>
+#include <string>
+
+#include <itin/geometry.hpp>
+
+namespace itin {
+
+struct LasPoint {
+  double x = 0, y = 0, z = 0;  ///< scale and offset applied; the file's units
+  std::uint8_t classification = 0;
+  bool withheld = false;  ///< deleted, as the specification puts it
+};
+
+struct LasHeader {
+  int minor_version = 0;
+  int point_format = 0;  ///< 0 to 10, without the bits that mark compression
+  bool compressed = false;
+  bool prefers_wkt = false;  ///< global encoding says that the CRS is the WKT record
+  std::uint16_t header_size = 0;
+  std::uint16_t record_length = 0;  ///< of a point: the format's own, and extra bytes
+  std::uint64_t point_offset = 0;
+  std::uint32_t vlr_count = 0;
+  std::uint64_t evlr_offset = 0;
+  std::uint32_t evlr_count = 0;
+  std::uint64_t point_count = 0;
+  std::array<double, 3> scale{}, offset{};
+  Box bounds;  ///< as the header claims
+};
+
+/// What the (extended) variable length records say of the CRS.
+struct LasProjectionRecords {
+  std::map<std::uint16_t, std::uint16_t> geo_keys;  ///< GeoTIFF keys whose value is a code
+  std::string wkt;
+};
+
+class LasFile {
+ public:
+  using Sink = std::function<void(std::span<const LasPoint> points, double fraction)>;
+
+  /// Reads header and projection records. Throws FileError.
+  explicit LasFile(std::string path);
+
+  const std::string& path() const { return path_; }
+  const LasHeader& header() const { return header_; }
+  const LasProjectionRecords& projection() const { return projection_; }
+  std::uint64_t file_size() const { return file_size_; }
+  /// The first point, without its attributes. Precondition: not compressed, and at least one point.
+  LasPoint first_point() const;
+  /// All points in the file's order. Precondition: not compressed. Throws FileError, and what the sink throws.
+  void read(const Sink& sink) const;
+
+ private:
+  std::string path_;
+  std::uint64_t file_size_ = 0;
+  LasHeader header_;
+  LasProjectionRecords projection_;
+};
+
+}  // namespace itin

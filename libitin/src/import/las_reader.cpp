@@ -1,0 +1,106 @@
+#include "import/las_reader.hpp"
+
+#include <bitset>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+
+#include "import/las_file.hpp"
+#include "import/las_projection.hpp"
+#include "import/laz_points.hpp"
+
+namespace itin {
+
+namespace {
+
+using Classes = std::bitset<256>;
+
+Classes kept_classes(const std::string& path, const std::vector<int>& classes) {
+  constexpr int kLowNoise = 7, kHighNoise = 18;
+  Classes kept;
+  if (classes.empty()) return kept.set().reset(kLowNoise).reset(kHighNoise);
+  for (const int c : classes) {
+    if (c < 0 || c > 255) throw InputError(fmt::format("{}: --class {}: LAS classes are 0 to 255", path, c));
+    kept.set(static_cast<std::size_t>(c));
+  }
+  return kept;
+}
+
+void read_points(const LasFile& file, const LasFile::Sink& sink) {
+#ifdef ITIN_HAVE_PDAL
+  if (file.header().compressed) return read_laz(file, sink);
+#endif
+  file.read(sink);
+}
+
+void refuse_unreadable([[maybe_unused]] const LasFile& file) {
+#ifndef ITIN_HAVE_PDAL
+  if (file.header().compressed)
+    throw FileError(file.path(),
+                    "compressed (LAZ), which this build cannot read; convert it with `las2las -i in.laz -o out.las` or "
+                    "`pdal translate in.laz out.las`");
+#endif
+}
+
+class LasReader final : public PointReader {
+ public:
+  LasReader(const std::string& path, const ImportOptions& options)
+      : file_(path), projection_(las_projection(file_)), kept_(kept_classes(path, options.classes)) {
+    if (file_.header().point_count == 0) throw FileError(path, "holds no points");
+    refuse_unreadable(file_);
+    centre_ = find_centre();
+  }
+
+  const std::string& path() const override { return file_.path(); }
+  std::string crs() const override { return projection_.crs; }
+  std::optional<double> metres_per_height() const override { return projection_.metres_per_height; }
+  Point2 centre() const override { return centre_; }
+  double size_hint() const override { return static_cast<double>(file_.header().point_count); }
+
+  std::uint64_t read(const Sink& sink) override {
+    PointBatch batch;
+    std::uint64_t filtered = 0;
+    const auto take = [&](std::span<const LasPoint> points, double fraction) {
+      batch.clear();
+      for (const LasPoint& p : points) {
+        if (!p.withheld && kept_[p.classification])
+          batch.add(p.x, p.y, p.z);
+        else
+          ++filtered;
+      }
+      sink(batch, fraction);
+    };
+    read_points(file_, take);
+    return filtered;
+  }
+
+ private:
+  /// The header's box is a claim; a writer that leaves it empty must not move the store's grid to (0, 0).
+  Point2 find_centre() const {
+    const Box& claimed = file_.header().bounds;
+    const Point2 centre{claimed.xmin + claimed.width() / 2, claimed.ymin + claimed.height() / 2};
+    const bool finite = std::isfinite(centre.x) && std::isfinite(centre.y) && !claimed.empty();
+    if (!file_.header().compressed) {
+      const LasPoint first = file_.first_point();
+      if (!finite || !claimed.contains({first.x, first.y})) return {first.x, first.y};
+    } else if (!finite) {
+      throw FileError(file_.path(), "offset 179: the header's bounding box makes no sense");
+    }
+    return centre;
+  }
+
+  LasFile file_;
+  LasProjection projection_;
+  Classes kept_;
+  Point2 centre_;
+};
+
+}  // namespace
+
+std::unique_ptr<PointReader> open_las_reader(const std::string& path, const ImportOptions& options) {
+  return std::make_unique<LasReader>(path, options);
+}
+
+}  // namespace itin

@@ -1,0 +1,119 @@
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+
+#include "import/las_source.hpp"
+#include "import/point_source.hpp"
+#include "import/raster_source.hpp"
+#include "import/source_context.hpp"
+#include "import/terrain_source.hpp"
+
+namespace itin {
+
+namespace {
+
+using SourceFiles = std::vector<std::unique_ptr<SourceFile>>;
+
+// Finer, and heights of 20 km would not fit; coarser, and the posts of detailed models would fall together.
+constexpr double kFinestResolution = 0.0001, kCoarsestResolution = 10;
+
+bool is_las(const std::string& path) {
+  std::array<char, 4> magic{};
+  std::ifstream(path, std::ios::binary).read(magic.data(), magic.size());
+  return std::string_view(magic.data(), magic.size()) == "LASF";
+}
+
+void require_readable(const std::string& path) {
+  errno = 0;
+  if (!std::ifstream(path, std::ios::binary)) {
+    throw FileError(path, "cannot be opened: " + std::generic_category().message(errno));
+  }
+}
+
+void open_sources(const std::string& path, const ImportOptions& options, SourceFiles& opened) {
+  if (is_las(path)) {
+    opened.push_back(open_las_source(path, options));
+    return;
+  }
+  const std::vector<std::string> rasters = find_rasters(path);
+  for (const std::string& raster : rasters) opened.push_back(open_raster_source(raster, options));
+  if (!rasters.empty()) return;
+  if (!path.starts_with("/vsi")) require_readable(path);
+  if (path.ends_with(".zip")) throw FileError(path, "holds no raster that can be read; unpack other files first");
+  opened.push_back(open_point_source(path, options));
+}
+
+Crs metric_crs(const std::string& text, const std::string& place) {
+  Crs crs = parse_crs(text, place);
+  if (!crs.metric())
+    throw InputError(
+        fmt::format("{}: {} is not projected with axes in metres, as a store's CRS must be; choose one "
+                    "that is, such as a UTM zone",
+                    place, crs.name));
+  return crs;
+}
+
+struct StoreCrs {
+  Crs crs;
+  bool chosen = false;
+};
+
+StoreCrs settle_crs(const ImportOptions& options, const StoreMetadata* existing, const SourceFile& first) {
+  if (existing) {
+    const StoreCrs settled{parse_crs(existing->crs_wkt, "the store's CRS")};
+    if (!options.to_crs.empty() &&
+        !PointTransform(metric_crs(options.to_crs, "--to-crs").wkt, settled.crs.wkt, "--to-crs").identity())
+      throw InputError(
+          fmt::format("--to-crs {}: the store's CRS is {} already; leave the option out, or import into a "
+                      "new store",
+                      options.to_crs, settled.crs.name));
+    return settled;
+  }
+  if (!options.to_crs.empty()) return {metric_crs(options.to_crs, "--to-crs")};
+  const Crs crs = first.crs();
+  if (crs.metric()) return {crs};
+  return {utm_zone(crs, first.centre(), options.sources.front()), true};
+}
+
+Grid settle_grid(const ImportOptions& options, const StoreMetadata* existing, const SourceFile& first, const Crs& crs) {
+  if (existing) return existing->grid;
+  if (!(options.resolution >= kFinestResolution && options.resolution <= kCoarsestResolution))
+    throw InputError(fmt::format("--resolution {}: give {} to {} metres", options.resolution, kFinestResolution,
+                                 kCoarsestResolution));
+  const std::string& place = options.sources.front();
+  Point2 centre = first.centre();
+  PointTransform(first.crs().wkt, crs.wkt, place).transform(std::span(&centre.x, 1), std::span(&centre.y, 1));
+  if (!std::isfinite(centre.x) || !std::isfinite(centre.y))
+    throw InputError(
+        fmt::format("{}: lies where {} is not defined; choose another CRS with --to-crs", place, crs.name));
+  const double step = kGridHalfSide * options.resolution;
+  // Adding zero turns -0, which would be written differently, into 0.
+  return {{std::round(centre.x / step) * step + 0.0, std::round(centre.y / step) * step + 0.0}, options.resolution};
+}
+
+}  // namespace
+
+ImportPlan plan_import(const ImportOptions& options, const StoreMetadata* existing) {
+  if (options.sources.empty()) throw InputError("import: name at least one source");
+  SourceFiles opened;
+  for (const std::string& path : options.sources) open_sources(path, options, opened);
+  const auto [crs, chosen] = settle_crs(options, existing, *opened.front());
+  ImportPlan plan{crs.wkt, crs.name, chosen, settle_grid(options, existing, *opened.front(), crs), {}, {}};
+  for (const std::unique_ptr<SourceFile>& file : opened) {
+    plan.sources.push_back(file->bind({plan.grid, plan.crs_wkt}));
+    std::vector<std::string> warnings = file->warnings();
+    std::move(warnings.begin(), warnings.end(), std::back_inserter(plan.warnings));
+  }
+  return plan;
+}
+
+}  // namespace itin

@@ -1,0 +1,34 @@
+#include "import/point_source.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include <itin/error.hpp>
+
+#include "import/delimited_text.hpp"
+#include "import/las_reader.hpp"
+#include "import/point_layer.hpp"
+#include "import/scattered_source.hpp"
+
+namespace itin {
+
+bool is_delimited_text(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending == ".csv" || ending == ".xyz" || ending == ".txt" || ending == ".tsv";
+}
+
+std::unique_ptr<SourceFile> open_point_source(const std::string& path, const ImportOptions& options) {
+  if (!is_delimited_text(path)) return scattered_source(open_point_layer(path, options), options);
+  for (const auto& [value, name] : {std::pair{&options.layer, "--layer"}, std::pair{&options.where, "--where"}})
+    if (!value->empty())
+      throw InputError(path + ": " + name + " applies to vector layers, not to delimited text; import it by itself");
+  return scattered_source(std::make_unique<DelimitedText>(path, options.z_field), options);
+}
+
+std::unique_ptr<SourceFile> open_las_source(const std::string& path, const ImportOptions& options) {
+  return scattered_source(open_las_reader(path, options), options);
+}
+
+}  // namespace itin

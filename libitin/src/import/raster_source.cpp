@@ -1,0 +1,270 @@
+#include "import/raster_source.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+#include <fmt/format.h>
+#include <gdal_priv.h>
+#include <ogr_spatialref.h>
+
+#include <itin/error.hpp>
+
+#include "import/height_band.hpp"
+#include "import/quiet_gdal.hpp"
+
+namespace itin {
+
+namespace {
+
+constexpr double kGapSteps = 1.5;         // a missing post leaves a hole, a diagonal does not
+constexpr double kSteadySteps = 1.25;     // steps that vary more than this earn a warning
+constexpr std::size_t kBatch = 1 << 16;   // posts placed at a time
+constexpr std::uint64_t kCacheShare = 8;  // of the memory, for GDAL's cache of blocks
+
+/// Post (column, row) lies at origin + column u + row v, in the raster's own CRS.
+struct Lattice {
+  int columns = 0, rows = 0;
+  Point2 origin, u, v;
+
+  Point2 post(double column, double row) const {
+    return {origin.x + column * u.x + row * v.x, origin.y + column * u.y + row * v.y};
+  }
+};
+
+bool is_text_of_points(GDALDriver& driver) {
+  return EQUAL(driver.GetDescription(), "XYZ");
+}
+
+bool is_raster(const std::string& path) {
+  auto* driver = static_cast<GDALDriver*>(GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, nullptr, nullptr));
+  return driver && !is_text_of_points(*driver);
+}
+
+std::vector<std::string> rasters_in_archive(const std::string& archive) {
+  std::vector<std::string> found;
+  const CPLStringList entries(VSIReadDirRecursive(archive.c_str()));
+  for (int i = 0; i < entries.size(); ++i)
+    if (const std::string path = archive + "/" + entries[i]; is_raster(path)) found.push_back(path);
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+GDALDatasetUniquePtr open_dataset(const std::string& path) {
+  const QuietGdal quiet;
+  GDALDatasetUniquePtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
+  if (!dataset) throw FileError(path, "cannot be read as a raster: " + QuietGdal::message("unknown error"));
+  return dataset;
+}
+
+Lattice lattice_of(GDALDataset& dataset, const std::string& path) {
+  std::array<double, 6> t{};
+  if (dataset.GetGeoTransform(t.data()) != CE_None || t[1] * t[5] - t[2] * t[4] == 0)
+    throw InputError(path + ": has no georeference; give it one, with gdal_translate -a_ullr or gdalwarp");
+  return {dataset.GetRasterXSize(),
+          dataset.GetRasterYSize(),
+          {t[0] + (t[1] + t[2]) / 2, t[3] + (t[4] + t[5]) / 2},
+          {t[1], t[4]},
+          {t[2], t[5]}};
+}
+
+std::string crs_text(const GDALDataset& dataset) {
+  const OGRSpatialReference* reference = dataset.GetSpatialRef();
+  // A local system is how some formats say "none".
+  return reference && !reference->IsLocal() ? wkt_of(*reference) : std::string();
+}
+
+/// Lends GDAL's cache of blocks, which the whole process shares, no more than this source may take.
+class BlockCacheLimit {
+ public:
+  explicit BlockCacheLimit(std::uint64_t bytes) : before_(GDALGetCacheMax64()) {
+    GDALSetCacheMax64(std::min(before_, static_cast<GIntBig>(bytes)));
+  }
+  ~BlockCacheLimit() { GDALSetCacheMax64(before_); }
+  BlockCacheLimit(const BlockCacheLimit&) = delete;
+  BlockCacheLimit& operator=(const BlockCacheLimit&) = delete;
+
+ private:
+  GIntBig before_;
+};
+
+/// The longest of a kind of step between posts, and by how much they vary.
+struct Steps {
+  Point2 longest;
+  double least = std::numeric_limits<double>::infinity();
+
+  static double length(Point2 p) { return std::hypot(p.x, p.y); }
+  void add(Point2 from, Point2 to) {
+    const Point2 step{to.x - from.x, to.y - from.y};
+    if (std::isnan(step.x) || std::isnan(step.y)) return;
+    if (length(step) > length(longest)) longest = step;
+    least = std::min(least, length(step));
+  }
+  double variation() const { return length(longest) / least; }
+};
+
+class RasterTerrain final : public TerrainSource {
+ public:
+  RasterTerrain(std::string path, const Lattice& lattice, const Crs& crs, double metres_per_height,
+                std::uint64_t memory_bytes, const SourceContext& context)
+      : path_(std::move(path)),
+        lattice_(lattice),
+        memory_bytes_(memory_bytes),
+        placement_(path_, crs, metres_per_height, context) {
+    info_.path = path_;
+    info_.kind = "terrain";
+    info_.source_crs = crs.name;
+    measure_steps();
+  }
+
+  double size_hint() const override { return static_cast<double>(lattice_.columns) * lattice_.rows; }
+  SourceInfo info() const override { return info_; }
+
+  ReadCounts read(const Sink& sink, Progress& progress) override {
+    const std::string stage = "reading " + path_;
+    const BlockCacheLimit limit(memory_bytes_ / kCacheShare);
+    const GDALDatasetUniquePtr dataset = open_dataset(path_);
+    HeightBand band(*dataset, path_);
+    const int strip = band.strip_rows();
+    std::vector<double> heights;
+    for (int row = 0; row < lattice_.rows; row += strip) {
+      progress.throw_if_cancelled();
+      progress.report(stage, static_cast<double>(row) / lattice_.rows);
+      band.read(row, std::min(strip, lattice_.rows - row), heights);
+      place_rows(row, heights, sink);
+    }
+    flush(sink);
+    info_.sha256 = file_sha256(path_, progress);
+    info_.imported = utc_now();
+    return counts(band.undeclared_voids());
+  }
+
+ private:
+  void measure_steps();
+  void place_rows(int first_row, const std::vector<double>& heights, const Sink& sink);
+  void flush(const Sink& sink);
+  ReadCounts counts(std::uint64_t undeclared_voids) const;
+
+  std::string path_;
+  Lattice lattice_;
+  std::uint64_t memory_bytes_;
+  Placement placement_;
+  SourceInfo info_;
+  std::vector<std::string> warnings_;
+  std::uint64_t voids_ = 0;
+  std::vector<double> x_, y_, z_;
+  std::vector<GridPoint> points_;
+};
+
+void RasterTerrain::measure_steps() {
+  const double right = std::max(0, lattice_.columns - 2), bottom = std::max(0, lattice_.rows - 2);
+  const auto in_store = [&](double column, double row) {
+    Point2 p = lattice_.post(column, row);
+    placement_.transform(std::span(&p.x, 1), std::span(&p.y, 1));
+    return p;
+  };
+  Steps across, down;
+  for (const Point2 at : {Point2{0, 0}, Point2{right, 0}, Point2{0, bottom}, Point2{right, bottom},
+                          Point2{std::floor(right / 2), std::floor(bottom / 2)}}) {
+    const Point2 from = in_store(at.x, at.y);
+    across.add(from, in_store(at.x + 1, at.y));
+    down.add(from, in_store(at.x, at.y + 1));
+  }
+  const Point2 u = across.longest, v = down.longest;
+  const double cell = std::abs(u.x * v.y - u.y * v.x);
+  if (!(cell > 0))
+    throw InputError(fmt::format("{}: lies where the store's CRS is not defined; choose another with --to-crs", path_));
+  info_.gap_basis = {kGapSteps * u.x, kGapSteps * u.y, kGapSteps * v.x, kGapSteps * v.y};
+  info_.spacing = std::sqrt(cell);
+  if (const double variation = std::max(across.variation(), down.variation()); variation > kSteadySteps)
+    warnings_.push_back(fmt::format(
+        "{}: steps between posts vary {:.2f} fold in the store's CRS, so that narrow voids may be bridged where posts "
+        "are dense; import smaller pieces, or choose a nearer CRS with --to-crs",
+        path_, variation));
+}
+
+void RasterTerrain::place_rows(int first_row, const std::vector<double>& heights, const Sink& sink) {
+  const auto columns = static_cast<std::size_t>(lattice_.columns);
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    if (std::isnan(heights[i])) {
+      ++voids_;
+      continue;
+    }
+    const Point2 p = lattice_.post(static_cast<double>(i % columns), first_row + static_cast<double>(i / columns));
+    x_.push_back(p.x), y_.push_back(p.y), z_.push_back(heights[i]);
+    if (x_.size() == kBatch) flush(sink);
+  }
+}
+
+void RasterTerrain::flush(const Sink& sink) {
+  placement_.place(x_, y_, z_, points_);
+  x_.clear(), y_.clear(), z_.clear();
+  if (!points_.empty()) sink(points_);
+}
+
+ReadCounts RasterTerrain::counts(std::uint64_t undeclared_voids) const {
+  ReadCounts counts = placement_.counts();
+  counts.voids += voids_;
+  counts.warnings.insert(counts.warnings.begin(), warnings_.begin(), warnings_.end());
+  if (undeclared_voids > 0)
+    counts.warnings.push_back(
+        fmt::format("{}: {} posts of -9999, -32767 or -32768 were taken as missing, though the file does not declare "
+                    "these as nodata",
+                    path_, undeclared_voids));
+  return counts;
+}
+
+class RasterFile final : public SourceFile {
+ public:
+  RasterFile(const std::string& path, const ImportOptions& options) : path_(path), memory_bytes_(options.memory_bytes) {
+    for (const auto& [value, name] : {std::pair{&options.layer, "--layer"}, std::pair{&options.where, "--where"},
+                                      std::pair{&options.z_field, "--z-field"}})
+      if (!value->empty())
+        throw InputError(fmt::format("{}: {} has no meaning for a raster; import it by itself", path, name));
+    const GDALDatasetUniquePtr dataset = open_dataset(path);
+    const QuietGdal quiet;
+    const HeightBand band(*dataset, path);
+    lattice_ = lattice_of(*dataset, path);
+    crs_ = source_crs(path, options.crs, crs_text(*dataset));
+    const HeightUnit unit = height_unit(path, band.stated_unit(warnings_), crs_);
+    metres_per_height_ = unit.metres;
+    if (!unit.warning.empty()) warnings_.push_back(unit.warning);
+    if (const int bands = dataset->GetRasterCount(); bands > 1)
+      warnings_.push_back(fmt::format("{}: has {} bands; heights are taken from the first", path, bands));
+  }
+
+  Crs crs() const override { return crs_; }
+  Point2 centre() const override { return lattice_.post((lattice_.columns - 1) / 2.0, (lattice_.rows - 1) / 2.0); }
+  std::vector<std::string> warnings() const override { return warnings_; }
+  std::unique_ptr<TerrainSource> bind(const SourceContext& context) override {
+    return std::make_unique<RasterTerrain>(path_, lattice_, crs_, metres_per_height_, memory_bytes_, context);
+  }
+
+ private:
+  std::string path_;
+  std::uint64_t memory_bytes_;
+  Lattice lattice_;
+  Crs crs_;
+  double metres_per_height_ = 1;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace
+
+std::vector<std::string> find_rasters(const std::string& path) {
+  const QuietGdal quiet;
+  if (EQUAL(CPLGetExtension(path.c_str()), "zip"))
+    return rasters_in_archive(path.starts_with("/vsizip/") ? path : "/vsizip/" + path);
+  return is_raster(path) ? std::vector{path} : std::vector<std::string>{};
+}
+
+std::unique_ptr<SourceFile> open_raster_source(const std::string& path, const ImportOptions& options) {
+  return std::make_unique<RasterFile>(path, options);
+}
+
+}  // namespace itin

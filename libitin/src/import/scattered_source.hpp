@@ -1,0 +1,21 @@
+// Scattered points of any file as terrain in the store's projection.
+#pragma once
+
+#include <memory>
+
+#include <itin/import.hpp>
+
+#include "import/point_reader.hpp"
+#include "import/source_context.hpp"
+
+namespace itin {
+
+/// Settles the CRS (options.crs, else the reader's) and the unit of the heights: the reader's, else the CRS's vertical
+/// part's, else that of the CRS's own axes (with a warning where these are not metres), else metres.
+///
+/// After reading, SourceInfo::spacing is the mean point spacing: the square root of bounding-box area over number; for
+/// points nearly on a line, its length over their number. The gap is options.max_gap, or 100 times the spacing.
+/// Throws InputError for a CRS that is missing or not understood.
+std::unique_ptr<SourceFile> scattered_source(std::unique_ptr<PointReader> reader, const ImportOptions& options);
+
+}  // namespace itin

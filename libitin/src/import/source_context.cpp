@@ -1,0 +1,89 @@
+#include "import/source_context.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+
+namespace itin {
+
+namespace {
+
+// No ground lies beyond these; what does is a marker for missing data, or a height in the wrong unit.
+constexpr double kLowest = -12000, kHighest = 20000;
+
+}  // namespace
+
+Crs source_crs(const std::string& path, const std::string& option_crs, const std::string& found) {
+  if (!option_crs.empty()) return parse_crs(option_crs, "--crs");
+  if (found.empty()) throw InputError(path + ": does not say its CRS; give it with --crs EPSG:xxxx");
+  return parse_crs(found, path);
+}
+
+HeightUnit height_unit(const std::string& path, std::optional<double> stated, const Crs& crs) {
+  const auto differs = [](double metres) { return std::abs(metres - 1) > 1e-9; };
+  if (!stated) stated = crs.metres_per_height;
+  if (stated && differs(*stated))
+    return {*stated, fmt::format("{}: heights are in units of {:.9g} m, and were converted to metres", path, *stated)};
+  if (stated || !crs.metres_per_axis || !differs(*crs.metres_per_axis)) return {};
+  return {
+      *crs.metres_per_axis,
+      fmt::format("{}: the unit of heights is not stated; taken as that of the coordinates, {:.9g} m. If they are in "
+                  "metres, give --crs a compound CRS, such as {}+5703",
+                  path, *crs.metres_per_axis, crs.name)};
+}
+
+Placement::Placement(std::string path, const Crs& crs, double metres_per_height, const SourceContext& context)
+    : path_(std::move(path)),
+      transform_(crs.wkt, context.crs_wkt, path_),
+      metres_per_height_(metres_per_height),
+      grid_(context.grid) {}
+
+void Placement::place(std::span<double> x, std::span<double> y, std::span<const double> z,
+                      std::vector<GridPoint>& points) {
+  points.clear();
+  transform_.transform(x, y);
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    const double height = z[i] * metres_per_height_;
+    if (std::isnan(height)) {
+      ++voids_;
+    } else if (!(height >= kLowest && height <= kHighest)) {
+      ++out_of_range_;
+    } else if (std::isnan(x[i]) || std::isnan(y[i])) {
+      ++unmapped_;
+    } else if (grid_.covers({x[i], y[i]})) {
+      points.push_back(grid_.quantise({x[i], y[i], height}));
+    } else {
+      throw InputError(fmt::format(
+          "{}: position {:.2f}, {:.2f} lies beyond the {:.0f} km about {:.2f}, {:.2f} that the store's grid holds at "
+          "{} m; import it into a store of its own, or give a coarser --resolution",
+          path_, x[i], y[i], kGridHalfSide * grid_.resolution / 1000, grid_.origin.x, grid_.origin.y,
+          grid_.resolution));
+    }
+  }
+  placed_ += points.size();
+}
+
+ReadCounts Placement::counts() const {
+  ReadCounts counts{placed_, voids_ + out_of_range_ + unmapped_, 0, {}};
+  if (out_of_range_ > 0)
+    counts.warnings.push_back(
+        fmt::format("{}: {} heights below {} m or above {} m were taken as missing; check their "
+                    "unit and the file's nodata value",
+                    path_, out_of_range_, kLowest, kHighest));
+  if (unmapped_ > 0)
+    counts.warnings.push_back(
+        fmt::format("{}: {} points have no position in the store's CRS, and were taken as missing", path_, unmapped_));
+  return counts;
+}
+
+std::string utc_now() {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
+                     fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
+}
+
+}  // namespace itin

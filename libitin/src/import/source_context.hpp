@@ -1,0 +1,84 @@
+// Import in two steps: a source is opened to learn its CRS and centre; once the store's CRS and grid are settled by the
+// first one, it is bound to them and becomes a TerrainSource.
+//
+//   std::unique_ptr<SourceFile> open_raster_source(const std::string& path, const ImportOptions&);
+//   std::unique_ptr<SourceFile> open_point_source(const std::string& path, const ImportOptions&);
+//   std::unique_ptr<SourceFile> open_las_source(const std::string& path, const ImportOptions&);
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <itin/geometry.hpp>
+
+#include "import/crs.hpp"
+#include "import/file_digest.hpp"
+#include "import/terrain_source.hpp"
+
+namespace itin {
+
+/// What a source needs to know of the store.
+struct SourceContext {
+  Grid grid;
+  std::string crs_wkt;
+};
+
+/// A file that was opened and understood. The constructor's work is bounded: headers, not points.
+class SourceFile {
+ public:
+  virtual ~SourceFile() = default;
+  /// --crs, else as found in the file. Throws InputError where there is neither: see missing_crs().
+  virtual Crs crs() const = 0;
+  /// A position amid the file's points, in its own CRS.
+  virtual Point2 centre() const = 0;
+  /// One line each: assumptions made on opening.
+  virtual std::vector<std::string> warnings() const { return {}; }
+  /// Called once. Throws InputError where coordinates cannot be transformed.
+  virtual std::unique_ptr<TerrainSource> bind(const SourceContext& context) = 0;
+};
+
+/// The CRS of a source: --crs, else `found`, the text the file holds. Throws InputError that says `--crs EPSG:xxxx`
+/// where both are empty.
+Crs source_crs(const std::string& path, const std::string& option_crs, const std::string& found);
+
+struct HeightUnit {
+  double metres = 1;
+  std::string warning;  ///< empty when there is nothing to say
+};
+
+/// The unit of a source's heights: `stated` by the file (in metres), else the vertical part's of its CRS, else that of
+/// the CRS's own axes, for a survey in feet has its heights in feet though few files say so, else metres.
+HeightUnit height_unit(const std::string& path, std::optional<double> stated, const Crs& crs);
+
+/// Takes points from a source's coordinates to the grid, a batch at a time; the last step of every kind of source.
+class Placement {
+ public:
+  /// `metres_per_height` converts the source's heights.
+  Placement(std::string path, const Crs& crs, double metres_per_height, const SourceContext& context);
+
+  /// Transforms x and y in place, and replaces `points` by those that have a position and a height. Points whose height
+  /// is NaN, below -12,000 m or above 20,000 m, or whose position has no image are counted as voids. Throws InputError
+  /// for a position the grid cannot hold.
+  void place(std::span<double> x, std::span<double> y, std::span<const double> z, std::vector<GridPoint>& points);
+  /// Positions only: of the corners of a lattice step, say. NaN where there is no image.
+  void transform(std::span<double> x, std::span<double> y) const { transform_.transform(x, y); }
+
+  /// What has been placed so far, with warning lines for heights and positions that were refused.
+  ReadCounts counts() const;
+
+ private:
+  std::string path_;
+  PointTransform transform_;
+  double metres_per_height_;
+  Grid grid_;
+  std::uint64_t placed_ = 0, voids_ = 0, out_of_range_ = 0, unmapped_ = 0;
+};
+
+/// "2024-05-31T12:00:00Z", now.
+std::string utc_now();
+
+}  // namespace itin
