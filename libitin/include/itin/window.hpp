@@ -6,7 +6,10 @@
 // A window is a closed region of the plane. A triangle belongs to the answer when it meets the window (touching
 // counts). Shapes are kept as polygons in metres and quantised to the store's grid once, so that membership is decided
 // exactly: a disc is the regular polygon of kArcSides sides around it (it contains the disc), a wedge has its arc cut
-// into as many parts, in proportion.
+// into as many parts, in proportion. Quantising moves corners by at most half a grid step an axis.
+//
+// Every function that makes a window throws InputError, naming the shape, when a coordinate is not a finite number
+// within kLimit of 0 or when the shape has no area.
 #pragma once
 
 #include <string>
@@ -20,6 +23,7 @@ namespace itin {
 class Window {
  public:
   static constexpr int kArcSides = 256;
+  static constexpr double kLimit = 1e12;  ///< metres; every coordinate and length lies within it
 
   using Ring = std::vector<Point2>;  ///< closed implicitly, either orientation
   struct Polygon {
@@ -30,10 +34,13 @@ class Window {
   /// Everything the store covers.
   static Window all();
   static Window box(const Box& b);
-  /// Rings must not cross themselves or each other; parts must not overlap.
+  /// The union of the parts, which may overlap. Within a part, rings may touch; InputError if edges cross (found where
+  /// double arithmetic is sure of it), or if a ring has fewer than three distinct corners. O(n log n) for n edges that
+  /// are short against the whole.
   static Window polygons(std::vector<Polygon> parts);
   static Window disc(Point2 centre, double radius);
-  /// Azimuths clockwise from grid north, degrees; `width` in (0, 360].
+  /// The sector about the direction `azimuth`, width / 2 to either side. Clockwise from grid north, degrees; `width` in
+  /// (0, 360].
   static Window wedge(Point2 apex, double azimuth, double width, double radius);
   /// The rectangle of all points within width / 2 to either side of the line and between its ends.
   static Window corridor(Point2 from, Point2 to, double width);

@@ -1,0 +1,313 @@
+#include "triangulate/grid_window.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace itin {
+
+namespace {
+
+// Rings are cut off here: data lie strictly inside, so that what runs along the cut meets none.
+constexpr std::int32_t kCut = kGridHalfSide + 1;
+constexpr GridBox kWholeGrid{-kGridHalfSide, -kGridHalfSide, kGridHalfSide - 1, kGridHalfSide - 1};
+
+GridBox intersection(const GridBox& a, const GridBox& b) {
+  return {std::max(a.xmin, b.xmin), std::max(a.ymin, b.ymin), std::min(a.xmax, b.xmax), std::min(a.ymax, b.ymax)};
+}
+
+/// The part of a ring where sign * coordinate <= kCut, in grid units (Sutherland and Hodgman). Winding numbers inside
+/// the half plane stay what they are.
+Window::Ring cut(const Window::Ring& ring, double Point2::*axis, double sign) {
+  Window::Ring kept;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point2& p = ring[i];
+    const Point2& q = ring[(i + 1) % ring.size()];
+    const double over_p = sign * p.*axis - kCut, over_q = sign * q.*axis - kCut;
+    if (over_p <= 0) kept.push_back(p);
+    if ((over_p < 0 && over_q > 0) || (over_p > 0 && over_q < 0)) {
+      const double t = over_p / (over_p - over_q);
+      Point2 crossing{p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)};
+      crossing.*axis = sign * kCut;
+      kept.push_back(crossing);
+    }
+  }
+  return kept;
+}
+
+/// Groups edges by bucket: `visit(edge, add)` calls add(bucket) for each bucket of an edge.
+template <typename Visit>
+void group(std::size_t buckets, std::size_t edges, std::vector<std::uint32_t>& first, std::vector<std::uint32_t>& items,
+           const Visit& visit) {
+  first.assign(buckets + 1, 0);
+  for (std::size_t e = 0; e < edges; ++e) visit(e, [&](std::size_t bucket) { ++first[bucket + 1]; });
+  for (std::size_t b = 0; b < buckets; ++b) first[b + 1] += first[b];
+  items.resize(first[buckets]);
+  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+  for (std::size_t e = 0; e < edges; ++e)
+    visit(e, [&](std::size_t bucket) { items[next[bucket]++] = static_cast<std::uint32_t>(e); });
+}
+
+}  // namespace
+
+/// Twice the signed area. |coordinates| <= kCut, so differences fit in 31 bits and the result in 63.
+std::int64_t GridWindow::turn(Corner a, Corner b, Corner c) {
+  return std::int64_t{b.x - a.x} * (c.y - a.y) - std::int64_t{b.y - a.y} * (c.x - a.x);
+}
+
+GridBox GridWindow::Edge::box() const {
+  return {std::min(a.x, b.x), std::min(a.y, b.y), std::max(a.x, b.x), std::max(a.y, b.y)};
+}
+
+/// Disjointness of convex figures by the separating axis theorem: boxes first, then the direction of every edge. Exact,
+/// and right for degenerate figures too (parallel collinear ones are told apart by their boxes).
+class GridWindow::Figure {
+ public:
+  explicit Figure(const GridBox& b)
+      : corners_{{{b.xmin, b.ymin}, {b.xmax, b.ymin}, {b.xmax, b.ymax}, {b.xmin, b.ymax}}}, size_(4), box_(b) {}
+  Figure(const GridPoint& a, const GridPoint& b, const GridPoint& c)
+      : corners_{{{a.x, a.y}, {b.x, b.y}, {c.x, c.y}, {}}}, size_(3) {
+    for (const Corner& p : corners()) box_.extend(p.x, p.y);
+  }
+
+  std::span<const Corner> corners() const { return {corners_.data(), size_}; }
+  const GridBox& box() const { return box_; }
+
+  bool meets(const Edge& edge) const {
+    if (!box_.meets(edge.box()) || separated_along(edge.a, edge.b, corners(), {})) return false;
+    return size_ == 4 || !separated_by_own_edge(std::array{edge.a, edge.b});
+  }
+  bool meets(const Figure& box) const { return box_.meets(box.box_) && !separated_by_own_edge(box.corners()); }
+
+ private:
+  /// Whether the line through a and b, or one parallel to it, has `own` and a on one side and `others` on the other.
+  static bool separated_along(Corner a, Corner b, std::span<const Corner> others, std::span<const Corner> own) {
+    std::int64_t own_low = 0, own_high = 0;
+    for (const Corner& p : own)
+      own_low = std::min(own_low, turn(a, b, p)), own_high = std::max(own_high, turn(a, b, p));
+    std::int64_t low = turn(a, b, others[0]), high = low;
+    for (const Corner& p : others.subspan(1)) low = std::min(low, turn(a, b, p)), high = std::max(high, turn(a, b, p));
+    return low > own_high || high < own_low;
+  }
+  /// For triangles; the edges of a box have been dealt with by comparing boxes.
+  bool separated_by_own_edge(std::span<const Corner> others) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (separated_along(corners_[i], corners_[(i + 1) % 3], others, {&corners_[(i + 2) % 3], 1})) return true;
+    }
+    return false;
+  }
+
+  std::array<Corner, 4> corners_;
+  std::size_t size_;
+  GridBox box_;
+};
+
+GridWindow::GridWindow(const Window& window, const Grid& grid, const GridBox& data_bounds) {
+  if (window.is_all()) {
+    extent_ = bounds_ = data_bounds;
+    return;
+  }
+  for (const Window::Polygon& part : window.parts()) {
+    add_ring(corners_on(grid, part.outer), false);
+    for (const Window::Ring& hole : part.holes) add_ring(corners_on(grid, hole), true);
+  }
+  for (const Edge& e : edges_) extent_.extend(e.box());
+  bounds_ = intersection(extent_, kWholeGrid);
+
+  if (forms_box()) {
+    edges_.clear();
+  } else if (!edges_.empty()) {
+    index_edges();
+  }
+}
+
+/// Whether the edges are the four sides of extent_, of either orientation.
+bool GridWindow::forms_box() const {
+  if (edges_.size() != 4) return false;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Edge& e = edges_[i];
+    const Corner next = edges_[(i + 1) % 4].a, opposite = edges_[(i + 2) % 4].a;
+    const bool side = (e.a.x == e.b.x) != (e.a.y == e.b.y);
+    if (!side || e.b != next || e.a.x == opposite.x || e.a.y == opposite.y) return false;
+  }
+  return true;
+}
+
+std::vector<GridWindow::Corner> GridWindow::corners_on(const Grid& grid, const Window::Ring& ring) {
+  Window::Ring scaled;
+  bool outside = false;
+  for (const Point2& p : ring) {
+    scaled.push_back({(p.x - grid.origin.x) / grid.resolution, (p.y - grid.origin.y) / grid.resolution});
+    outside = outside || std::abs(scaled.back().x) > kCut || std::abs(scaled.back().y) > kCut;
+  }
+  if (outside) {
+    for (const auto axis : {&Point2::x, &Point2::y})
+      for (const double sign : {1.0, -1.0}) scaled = cut(scaled, axis, sign);
+  }
+  std::vector<Corner> corners;
+  for (const Point2& p : scaled) {
+    const Corner corner{static_cast<std::int32_t>(std::llround(p.x)), static_cast<std::int32_t>(std::llround(p.y))};
+    if (corners.empty() || corners.back() != corner) corners.push_back(corner);
+  }
+  while (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
+  return corners;
+}
+
+void GridWindow::add_ring(std::vector<Corner> corners, bool hole) {
+  // Unsigned: the sum of a ring with many turns may pass through values beyond 64 bits, its end does not.
+  std::uint64_t twice_area = 0;
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i)
+    twice_area += static_cast<std::uint64_t>(turn(corners[0], corners[i], corners[i + 1]));
+  if ((static_cast<std::int64_t>(twice_area) < 0) != hole) std::reverse(corners.begin(), corners.end());
+  for (std::size_t i = 0; i < corners.size(); ++i) edges_.push_back({corners[i], corners[(i + 1) % corners.size()]});
+}
+
+void GridWindow::index_edges() {
+  choose_cells();
+  group(std::size_t{columns_} * rows_, edges_.size(), cell_first_, cell_edges_,
+        [this](std::size_t e, const auto& add) { visit_cells(edges_[e], add); });
+  group(rows_, edges_.size(), row_first_, row_edges_, [this](std::size_t e, const auto& add) {
+    const CellRange range = cells(edges_[e].box());
+    for (std::uint32_t row = range.row0; row <= range.row1; ++row) add(row);
+  });
+  classify_cells();
+}
+
+void GridWindow::choose_cells() {
+  // About 16 cells an edge make a round shape's boundary one edge a cell; the limits bound the index to a few MB.
+  const std::size_t limit = std::clamp<std::size_t>(16 * edges_.size(), 256, std::size_t{1} << 20);
+  const std::uint32_t width = static_cast<std::uint32_t>(extent_.xmax - extent_.xmin);
+  const std::uint32_t height = static_cast<std::uint32_t>(extent_.ymax - extent_.ymin);
+  while (std::size_t{(width >> log2_cell_) + 1} * ((height >> log2_cell_) + 1) > limit) ++log2_cell_;
+  columns_ = (width >> log2_cell_) + 1;
+  rows_ = (height >> log2_cell_) + 1;
+}
+
+GridBox GridWindow::cell_box(std::uint32_t column, std::uint32_t row) const {
+  // Neighbours share their border: edges run between grid positions too. The last column may reach beyond the extent.
+  const std::int64_t side = std::int64_t{1} << log2_cell_;
+  const std::int64_t x = extent_.xmin + column * side, y = extent_.ymin + row * side;
+  return {static_cast<std::int32_t>(x), static_cast<std::int32_t>(y),
+          static_cast<std::int32_t>(std::min<std::int64_t>(x + side, kCut)),
+          static_cast<std::int32_t>(std::min<std::int64_t>(y + side, kCut))};
+}
+
+/// The cells of the positions of a box that meets the extent.
+GridWindow::CellRange GridWindow::cells(const GridBox& box) const {
+  const GridBox b = intersection(box, extent_);
+  const auto index = [this](std::int32_t v, std::int32_t low) {
+    return (static_cast<std::uint32_t>(v) - static_cast<std::uint32_t>(low)) >> log2_cell_;
+  };
+  return {index(b.xmin, extent_.xmin), index(b.xmax, extent_.xmin), index(b.ymin, extent_.ymin),
+          index(b.ymax, extent_.ymin)};
+}
+
+/// Every closed cell the edge meets.
+template <typename Visit>
+void GridWindow::visit_cells(const Edge& edge, const Visit& visit) const {
+  // A position on a cell's lower border belongs to the cell before as well.
+  const auto closed_cells = [this](const GridBox& b) { return cells({b.xmin - 1, b.ymin - 1, b.xmax, b.ymax}); };
+  const GridBox box = edge.box();
+  const CellRange range = closed_cells(box);
+  const double slope = edge.a.y == edge.b.y ? 0 : (double{1} * edge.b.x - edge.a.x) / (double{1} * edge.b.y - edge.a.y);
+  for (std::uint32_t row = range.row0; row <= range.row1; ++row) {
+    CellRange span = range;
+    if (slope != 0) {
+      const GridBox strip = cell_box(0, row);
+      const double x0 = edge.a.x + (std::max(strip.ymin, box.ymin) - double{1} * edge.a.y) * slope;
+      const double x1 = edge.a.x + (std::min(strip.ymax, box.ymax) - double{1} * edge.a.y) * slope;
+      // Two steps of slack swallow the rounding; the exact test below has the last word.
+      GridBox part = box;
+      part.xmin = std::max(box.xmin, static_cast<std::int32_t>(std::floor(std::min(x0, x1))) - 2);
+      part.xmax = std::min(box.xmax, static_cast<std::int32_t>(std::ceil(std::max(x0, x1))) + 2);
+      span = closed_cells(part);
+    }
+    for (std::uint32_t column = span.column0; column <= span.column1; ++column) {
+      if (Figure(cell_box(column, row)).meets(edge)) visit(cell(column, row));
+    }
+  }
+}
+
+void GridWindow::classify_cells() {
+  states_.assign(std::size_t{columns_} * rows_, State::Mixed);
+  for (std::uint32_t row = 0; row < rows_; ++row) {
+    for (std::uint32_t column = 0; column < columns_; ++column) {
+      const std::size_t c = cell(column, row);
+      if (cell_first_[c] != cell_first_[c + 1]) continue;
+      // No edge meets the border shared with an unmixed neighbour, so both are on one side.
+      if (column > 0 && states_[c - 1] != State::Mixed) {
+        states_[c] = states_[c - 1];
+      } else {
+        const GridBox box = cell_box(column, row);
+        states_[c] = wound(box.xmin, box.ymin) ? State::Inside : State::Outside;
+      }
+    }
+  }
+}
+
+/// Whether the position, within the extent, is inside or on a ring.
+bool GridWindow::wound(std::int32_t x, std::int32_t y) const {
+  const std::uint32_t row = cells({x, y, x, y}).row0;
+  const Corner p{x, y};
+  int winding = 0;
+  for (std::uint32_t i = row_first_[row]; i < row_first_[row + 1]; ++i) {
+    const Edge& edge = edges_[row_edges_[i]];
+    const bool upward = edge.a.y <= y && y < edge.b.y, downward = edge.b.y <= y && y < edge.a.y;
+    const bool beside = edge.box().contains(x, y);
+    if (!upward && !downward && !beside) continue;
+    const std::int64_t side = turn(edge.a, edge.b, p);
+    if (side == 0 && beside) return true;
+    if (upward && side > 0) ++winding;
+    if (downward && side < 0) --winding;
+  }
+  return winding > 0;
+}
+
+bool GridWindow::contains(std::int32_t x, std::int32_t y) const {
+  if (!extent_.contains(x, y)) return false;
+  if (is_box()) return true;
+  const CellRange range = cells({x, y, x, y});
+  const State state = states_[cell(range.column0, range.row0)];
+  return state == State::Mixed ? wound(x, y) : state == State::Inside;
+}
+
+bool GridWindow::boundary_meets(const Figure& figure, const CellRange& range) const {
+  if (range.count() > edges_.size())
+    return std::any_of(edges_.begin(), edges_.end(), [&](const Edge& e) { return figure.meets(e); });
+  for (std::uint32_t row = range.row0; row <= range.row1; ++row) {
+    for (std::uint32_t column = range.column0; column <= range.column1; ++column) {
+      const std::size_t c = cell(column, row);
+      for (std::uint32_t i = cell_first_[c]; i < cell_first_[c + 1]; ++i) {
+        if (figure.meets(edges_[cell_edges_[i]])) return true;
+      }
+    }
+  }
+  return false;
+}
+
+bool GridWindow::meets(const GridBox& box) const {
+  if (box.empty() || !extent_.meets(box)) return false;
+  if (is_box()) return true;
+  // A figure that no ring meets is on one side as a whole; one of its positions decides.
+  const GridBox part = intersection(box, extent_);
+  return contains(part.xmin, part.ymin) || boundary_meets(Figure(part), cells(part));
+}
+
+bool GridWindow::meets(const GridPoint& a, const GridPoint& b, const GridPoint& c) const {
+  const Figure figure(a, b, c);
+  if (!extent_.meets(figure.box())) return false;
+  if (is_box()) {
+    return extent_.contains(a.x, a.y) || extent_.contains(b.x, b.y) || extent_.contains(c.x, c.y) ||
+           figure.meets(Figure(extent_));
+  }
+  const CellRange range = cells(figure.box());
+  if (range.count() == 1) {
+    const State state = states_[cell(range.column0, range.row0)];
+    if (state == State::Outside) return false;
+    if (state == State::Inside && extent_.contains(figure.box())) return true;
+  }
+  return contains(a.x, a.y) || boundary_meets(figure, range);
+}
+
+}  // namespace itin
