@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-namespace itin::testing {
+namespace itin::test {
 
 namespace {
 
@@ -56,4 +56,4 @@ std::vector<CommandCase> read_cases(const std::string& directory) {
   return cases;
 }
 
-}  // namespace itin::testing
+}  // namespace itin::test

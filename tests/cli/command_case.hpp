@@ -16,7 +16,7 @@
 #include <string_view>
 #include <vector>
 
-namespace itin::testing {
+namespace itin::test {
 
 struct Expectation {
   std::string what;   ///< the first word of its line
@@ -38,4 +38,4 @@ struct CommandCase {
 /// file and line, for a line that is not understood.
 std::vector<CommandCase> read_cases(const std::string& directory);
 
-}  // namespace itin::testing
+}  // namespace itin::test

@@ -7,7 +7,7 @@
 #include "cli/command_case.hpp"
 #include "cli/shell.hpp"
 
-namespace itin::testing {
+namespace itin::test {
 
 namespace {
 
@@ -79,4 +79,4 @@ INSTANTIATE_TEST_SUITE_P(Cases, CommandLine, ::testing::ValuesIn(read_cases(ITIN
 
 }  // namespace
 
-}  // namespace itin::testing
+}  // namespace itin::test

@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-namespace itin::testing {
+namespace itin::test {
 
 namespace fs = std::filesystem;
 
@@ -80,4 +80,4 @@ void write_hill(const fs::path& path) {
       << R"(PARAMETER["false_northing",-100000],UNIT["metre",1],AUTHORITY["EPSG","27700"]])" << '\n';
 }
 
-}  // namespace itin::testing
+}  // namespace itin::test

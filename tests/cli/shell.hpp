@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-namespace itin::testing {
+namespace itin::test {
 
 struct Outcome {
   int status = 0;
@@ -35,4 +35,4 @@ class Shell {
 /// .prj beside it. The two posts in the north-west corner have no data.
 void write_hill(const std::filesystem::path& path);
 
-}  // namespace itin::testing
+}  // namespace itin::test
