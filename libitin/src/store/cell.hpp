@@ -74,4 +74,10 @@ struct Cell {
   friend constexpr auto operator<=>(const Cell&, const Cell&) = default;
 };
 
+/// The cell's square in the plane, which reaches up to the next cell's first positions.
+constexpr GridBox square_of(const Cell& cell) {
+  const GridBox box = cell.box();
+  return {box.xmin, box.ymin, box.xmax + 1, box.ymax + 1};
+}
+
 }  // namespace itin

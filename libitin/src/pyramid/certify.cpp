@@ -1,0 +1,269 @@
+#include "pyramid/certify.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <unordered_map>
+
+#include <itin/detail.hpp>
+#include <itin/parallel.hpp>
+
+namespace itin {
+
+namespace {
+
+/// Points a cell of the first round, which takes the whole surface, and of the later ones, which mend near borders.
+constexpr std::uint32_t kFirstCell = 1 << 16;
+constexpr std::uint32_t kLaterCell = 1 << 11;
+
+using Levels = std::unordered_map<std::uint64_t, int>;  ///< by Morton code
+
+/// The index, with some points raised.
+class RaisedIndex final : public PointIndex {
+ public:
+  RaisedIndex(const PointIndex& base, const Levels& raised) : base_(base), raised_(raised) {
+    for (const auto& [code, level] : raised) codes_.push_back(code);
+    std::sort(codes_.begin(), codes_.end());
+  }
+
+  int level_count() const override { return base_.level_count(); }
+  GridBox bounds() const override { return base_.bounds(); }
+  void leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const override {
+    if (codes_.empty()) return base_.leaves(finest, box, out);
+    const std::size_t before = out.size();
+    base_.leaves(0, box, out);
+    const auto unselected = [&](const Leaf& leaf) { return leaf.level < finest && !any_raised(leaf.cell); };
+    out.erase(std::remove_if(out.begin() + static_cast<std::ptrdiff_t>(before), out.end(), unselected), out.end());
+    for (std::size_t i = before; i < out.size(); ++i) out[i].level = std::max(out[i].level, finest);
+  }
+  std::shared_ptr<const Block> block(const Leaf& leaf) const override {
+    auto block = base_.block(leaf);
+    if (!any_raised(leaf.cell)) return block;
+    auto copy = std::make_shared<Block>(*block);
+    for (std::size_t i = 0; i < copy->points.size(); ++i) {
+      const auto found = raised_.find(morton(copy->points[i].x, copy->points[i].y));
+      if (found != raised_.end()) copy->levels[i] = std::max(copy->levels[i], static_cast<std::uint8_t>(found->second));
+    }
+    return copy;
+  }
+  void segments(const GridBox& box, std::vector<Segment>& out) const override { base_.segments(box, out); }
+
+ private:
+  bool any_raised(const Cell& cell) const {
+    const auto at = std::lower_bound(codes_.begin(), codes_.end(), cell.code);
+    return at != codes_.end() && *at < cell.end();
+  }
+
+  const PointIndex& base_;
+  const Levels& raised_;
+  std::vector<std::uint64_t> codes_;
+};
+
+/// Selects level k and coarser.
+Selection levels_from(int k, const std::vector<std::int32_t>& tolerances) {
+  const std::vector<double> metres(tolerances.begin(), tolerances.end());
+  return Selection(Detail::tolerance(metres[static_cast<std::size_t>(k)]), metres, Grid{});
+}
+
+GridBox box_of(const RegionMesh& mesh) {
+  GridBox box;
+  for (const SelectedVertex& v : mesh.vertices) box.extend(v.point.x, v.point.y);
+  return box;
+}
+
+/// Verifies one cell.
+class CellVerification {
+ public:
+  CellVerification(const WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const CurveRange& cell)
+      : index_(index), tolerances_(tolerances), cell_(cell) {}
+
+  /// Levels with their bit set in `levels` are verified; bounds of the cell's leaves are replaced for these.
+  Levels run(unsigned levels, LeafBounds& bounds) {
+    fine_ = triangulate_region(index_, levels_from(0, tolerances_), square_of(cell_.cell));
+    if (!fine_.mesh.triangles.empty()) edges_ = std::make_unique<FineEdges>(fine_);
+    for (int k = static_cast<int>(tolerances_.size()) - 1; k >= 1; --k) {
+      if (!(levels >> k & 1)) continue;
+      clear(k, bounds);
+      if (edges_ == nullptr) continue;
+      Difference d = compare(k);
+      while (raise(k, d)) d = compare(k);
+      record(k, d, bounds);
+    }
+    return raised_;
+  }
+
+ private:
+  Difference compare(int k) const {
+    const RaisedIndex raised(index_, raised_);
+    return difference(fine_, *edges_, triangulate_region(raised, levels_from(k, tolerances_), box_of(fine_)));
+  }
+
+  std::uint64_t code(std::uint32_t v) const { return morton(fine_.vertices[v].point.x, fine_.vertices[v].point.y); }
+
+  void raise(std::uint32_t v, int k) {
+    if (cell_.cell.contains(code(v))) raised_[code(v)] = k;
+  }
+
+  /// Raises the cell's own points that break the bound of level k. True when there are any.
+  bool raise(int k, const Difference& d) {
+    const std::int32_t tolerance = tolerances_[static_cast<std::size_t>(k)];
+    const std::size_t before = count(k);
+    for (std::uint32_t v = 0; v < d.at_vertex.size(); ++v) {
+      if (d.at_vertex[v].size() > tolerance) raise(v, k);
+    }
+    for (std::uint32_t e = 0; e < d.along_edge.size(); ++e) {
+      const FineEdges::Edge& edge = edges_->edges()[e];
+      if (d.along_edge[e].size() <= tolerance) continue;
+      if (d.at_vertex[edge.u].size() > tolerance || d.at_vertex[edge.v].size() > tolerance) continue;
+      if (const auto v = remedy(edge, d)) raise(*v, k);
+    }
+    return count(k) > before;
+  }
+
+  std::size_t count(int k) const {
+    return static_cast<std::size_t>(std::count_if(raised_.begin(), raised_.end(), [&](const auto& r) { return r.second >= k; }));
+  }
+
+  /// For an edge that is off only between its ends: its worse end that is not in the coarse surface yet. If both are, one
+  /// of the opposite corners is not, or the fine triangles would be coarse ones as well.
+  std::optional<std::uint32_t> remedy(const FineEdges::Edge& edge, const Difference& d) const {
+    std::optional<std::uint32_t> best;
+    const auto consider = [&](std::uint32_t v) {
+      if (d.is_coarse_vertex[v]) return;
+      if (!best || d.at_vertex[v].size() > d.at_vertex[*best].size() ||
+          (d.at_vertex[v].size() == d.at_vertex[*best].size() && v < *best)) {
+        best = v;
+      }
+    };
+    consider(edge.u);
+    consider(edge.v);
+    if (best) return best;
+    for (const std::uint32_t t : {edge.triangle, edge.other}) {
+      if (t == kNoTriangle) continue;
+      for (const std::uint32_t v : fine_.mesh.triangles[t]) consider(v);
+    }
+    return best;
+  }
+
+  template <class Visit>
+  void visit_leaves(const Visit& visit) const {
+    const auto& ranges = index_.ranges();
+    for (std::uint32_t leaf = index_.leaf_of(cell_.cell.code); leaf < ranges.size() && ranges[leaf].cell.code < cell_.cell.end(); ++leaf) {
+      visit(leaf);
+    }
+  }
+
+  void clear(int k, LeafBounds& bounds) const {
+    visit_leaves([&](std::uint32_t leaf) { bounds.at(leaf, k) = {}; });
+  }
+
+  /// Every leaf that a fine triangle may meet takes the triangle's range.
+  void record(int k, const Difference& d, LeafBounds& bounds) const {
+    std::vector<DifferenceRange> of_triangle(fine_.mesh.triangles.size());
+    for (std::uint32_t e = 0; e < d.along_edge.size(); ++e) {
+      const FineEdges::Edge& edge = edges_->edges()[e];
+      of_triangle[edge.triangle].add(d.along_edge[e]);
+      if (edge.other != kNoTriangle) of_triangle[edge.other].add(d.along_edge[e]);
+    }
+    std::vector<std::uint32_t> leaves;
+    for (std::uint32_t t = 0; t < of_triangle.size(); ++t) {
+      GridBox box;
+      for (const std::uint32_t v : fine_.mesh.triangles[t]) box.extend(fine_.vertices[v].point.x, fine_.vertices[v].point.y);
+      leaves.clear();
+      index_.leaves_at(box, leaves);
+      for (const std::uint32_t leaf : leaves) {
+        if (cell_.cell.contains(index_.ranges()[leaf].cell)) bounds.at(leaf, k).add(of_triangle[t]);
+      }
+    }
+  }
+
+  const WorkingIndex& index_;
+  const std::vector<std::int32_t>& tolerances_;
+  CurveRange cell_;
+  RegionMesh fine_;
+  std::unique_ptr<FineEdges> edges_;
+  Levels raised_;
+};
+
+/// Which levels of which leaves must be verified again.
+class Disturbed {
+ public:
+  explicit Disturbed(std::size_t leaves) : levels_(leaves) {}
+
+  void mark(std::uint32_t leaf, unsigned levels) { levels_[leaf].fetch_or(levels, std::memory_order_relaxed); }
+  unsigned in(const WorkingIndex& index, const CurveRange& cell) const {
+    unsigned levels = 0;
+    for (std::uint32_t leaf = index.leaf_of(cell.cell.code); leaf < levels_.size() && index.ranges()[leaf].cell.code < cell.cell.end(); ++leaf) {
+      levels |= levels_[leaf].load(std::memory_order_relaxed);
+    }
+    return levels;
+  }
+  void clear() {
+    for (auto& l : levels_) l.store(0, std::memory_order_relaxed);
+  }
+
+ private:
+  std::vector<std::atomic<unsigned>> levels_;
+};
+
+struct Raise {
+  std::uint64_t code;
+  int from, to;
+  Cell cell;  ///< the cell that raised it, whose own bounds know of it
+};
+
+/// A raised vertex changes the surface within its star, for every level it newly belongs to.
+void mark_star(const WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const Raise& raise, Disturbed& disturbed) {
+  const Position p{morton_x(raise.code), morton_y(raise.code)};
+  std::vector<std::uint32_t> leaves;
+  for (int k = raise.from + 1; k <= raise.to; ++k) {
+    leaves.clear();
+    index.leaves_at(box_of(triangulate_region(index, levels_from(k, tolerances), {p.x, p.y, p.x, p.y})), leaves);
+    for (const std::uint32_t leaf : leaves) {
+      if (!raise.cell.contains(index.ranges()[leaf].cell)) disturbed.mark(leaf, 1u << k);
+    }
+  }
+}
+
+}  // namespace
+
+LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& tolerances, Progress& progress) {
+  const int levels = static_cast<int>(tolerances.size());
+  LeafBounds bounds(index.ranges().size(), levels);
+  Disturbed disturbed(index.ranges().size());
+  for (std::uint32_t leaf = 0; leaf < index.ranges().size(); ++leaf) disturbed.mark(leaf, (1u << levels) - 2);
+
+  for (int round = 0;; ++round) {
+    std::vector<std::pair<CurveRange, unsigned>> cells;
+    for (const CurveRange& cell : index.tiles(round == 0 ? kFirstCell : kLaterCell)) {
+      if (const unsigned todo = disturbed.in(index, cell); todo != 0) cells.emplace_back(cell, todo);
+    }
+    if (cells.empty()) return bounds;
+    disturbed.clear();
+
+    std::vector<Levels> raised(cells.size());
+    std::atomic<std::size_t> done = 0;
+    parallel_for(cells.size(), [&](std::size_t i) {
+      progress.throw_if_cancelled();
+      raised[i] = CellVerification(index, tolerances, cells[i].first).run(cells[i].second, bounds);
+      const double share = static_cast<double>(++done) / static_cast<double>(cells.size());
+      progress.report(round == 0 ? "verifying the levels" : "verifying across borders", share);
+    });
+
+    std::vector<Raise> raises;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      std::vector<RawPoint> points = raised[i].empty() ? std::vector<RawPoint>{} : index.read(cells[i].first);
+      for (RawPoint& p : points) {
+        const auto found = raised[i].find(p.code);
+        if (found == raised[i].end() || found->second <= p.level) continue;
+        raises.push_back({p.code, p.level, found->second, cells[i].first.cell});
+        p.level = static_cast<std::uint16_t>(found->second);
+      }
+      if (!points.empty()) index.write(cells[i].first, points);
+    }
+    parallel_for(raises.size(), [&](std::size_t i) { mark_star(index, tolerances, raises[i], disturbed); });
+  }
+}
+
+}  // namespace itin

@@ -1,0 +1,35 @@
+// Verification of the pyramid against law 2, and the certificates that come of it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <itin/progress.hpp>
+
+#include "pyramid/overlay.hpp"
+#include "pyramid/working_index.hpp"
+
+namespace itin {
+
+/// What every leaf of the working index knows of every level: T_k + lo <= T_0 <= T_k + hi over the leaf.
+class LeafBounds {
+ public:
+  LeafBounds(std::size_t leaves, int levels) : levels_(levels), bounds_(leaves * static_cast<std::size_t>(levels)) {}
+  DifferenceRange& at(std::uint32_t leaf, int level) { return bounds_[std::size_t{leaf} * levels_ + level]; }
+  const DifferenceRange& at(std::uint32_t leaf, int level) const { return bounds_[std::size_t{leaf} * levels_ + level]; }
+
+ private:
+  int levels_;
+  std::vector<DifferenceRange> bounds_;
+};
+
+/// Raises levels in the index until |T_0 - T_k| <= tolerances[k] everywhere, for each k >= 1, and returns the bounds by
+/// leaf. `tolerances` in whole grid units, level 0 first. Leaves without ground keep empty bounds.
+///
+/// In rounds: each cell is verified alone, against real windows of the whole, and raises its own points until its part
+/// holds while its neighbours stay as they were. Cells near which a neighbour raised something are verified again. So
+/// the outcome depends on the points alone, not on threads.
+LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& tolerances, Progress& progress);
+
+}  // namespace itin

@@ -1,0 +1,229 @@
+#include "pyramid/overlay.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <itin/error.hpp>
+
+namespace itin {
+
+namespace {
+
+std::uint64_t code_of(const SelectedVertex& v) { return morton(v.point.x, v.point.y); }
+
+std::int32_t floor_divide(__int128 numerator, __int128 positive) {
+  const __int128 quotient = numerator / positive;
+  return static_cast<std::int32_t>(quotient - (numerator % positive < 0));
+}
+
+/// How far v lies above the triangle's plane: exact, by integer barycentric weights below 2^62.
+DifferenceRange above_plane(const RegionMesh& m, std::uint32_t triangle, const GridPoint& v) {
+  const auto& [a, b, c] = m.mesh.triangles[triangle];
+  const GridPoint &pa = m.vertices[a].point, &pb = m.vertices[b].point, &pc = m.vertices[c].point;
+  const __int128 wa = doubled_area(v, pb, pc), wb = doubled_area(pa, v, pc), wc = doubled_area(pa, pb, v);
+  const __int128 weight = wa + wb + wc, numerator = v.z * weight - (wa * pa.z + wb * pb.z + wc * pc.z);
+  return {floor_divide(numerator, weight), -floor_divide(-numerator, weight)};
+}
+
+/// T0 - Tk where fine edge uv crosses coarse edge pq: weights exact, heights below 2^31, so rounding stays below 1e-5.
+DifferenceRange above_crossing(const GridPoint& u, const GridPoint& v, const GridPoint& p, const GridPoint& q) {
+  const auto pu = static_cast<double>(doubled_area(p, q, u)), pv = static_cast<double>(doubled_area(p, q, v));
+  const auto up = static_cast<double>(doubled_area(u, v, p)), uq = static_cast<double>(doubled_area(u, v, q));
+  const double along_fine = pu / (pu - pv), along_coarse = up / (up - uq);
+  const double d = (u.z + along_fine * (static_cast<double>(v.z) - u.z)) - (p.z + along_coarse * (static_cast<double>(q.z) - p.z));
+  return {static_cast<std::int32_t>(std::floor(d - 1e-5)), static_cast<std::int32_t>(std::ceil(d + 1e-5))};
+}
+
+/// Follows fine edges through the coarse mesh.
+class CoarseWalk {
+ public:
+  explicit CoarseWalk(const RegionMesh& coarse) : coarse_(coarse), mesh_(coarse.mesh) {}
+
+  bool contains(std::uint32_t t, Position p) const {
+    for (int i = 0; i < 3; ++i) {
+      if (orientation(corner(t, i), corner(t, i + 1), p) < 0) return false;
+    }
+    return true;
+  }
+
+  /// Calls on_crossing(p, q) for every coarse edge pq that uv crosses, where `face` holds u, and returns a face that
+  /// holds v. No coarse vertex lies strictly between u and v, for uv is an edge of a finer triangulation.
+  template <class OnCrossing>
+  std::uint32_t walk(Position u, std::uint32_t face, Position v, const OnCrossing& on_crossing) const {
+    Exit exit = leave_start(u, face, v);
+    while (exit.edge >= 0) {
+      on_crossing(mesh_.triangles[exit.face][(exit.edge + 1) % 3], mesh_.triangles[exit.face][(exit.edge + 2) % 3]);
+      const std::uint32_t next = mesh_.neighbours[exit.face][exit.edge];
+      if (next == kNoTriangle) throw Error("the coarse surface does not cover the full one");
+      exit = leave(u, next, v);
+    }
+    return exit.face;
+  }
+
+ private:
+  /// Edge through which uv leaves the face, or -1 where v lies in it.
+  struct Exit {
+    std::uint32_t face;
+    int edge;
+  };
+  static constexpr int kStays = -1, kElsewhere = -2;
+
+  Position corner(std::uint32_t t, int i) const { return coarse_.vertices[mesh_.triangles[t][i % 3]].position(); }
+
+  /// Out of a face that uv enters or starts in: an edge with u strictly inside of it and v strictly outside.
+  int exit_edge(Position u, std::uint32_t t, Position v) const {
+    if (contains(t, v)) return kStays;
+    for (int i = 0; i < 3; ++i) {
+      const Position p = corner(t, i + 1), q = corner(t, i + 2);
+      if (orientation(p, q, v) < 0 && orientation(p, q, u) > 0 && orientation(u, v, p) <= 0 && orientation(u, v, q) >= 0) return i;
+    }
+    return kElsewhere;
+  }
+
+  Exit leave(Position u, std::uint32_t t, Position v) const {
+    const int edge = exit_edge(u, t, v);
+    if (edge == kElsewhere) throw Error("lost the way through the coarse surface");
+    return {t, edge};
+  }
+
+  /// u may lie on an edge or corner of its face, and then uv may start into any face around it.
+  Exit leave_start(Position u, std::uint32_t face, Position v) const {
+    if (const int edge = exit_edge(u, face, v); edge != kElsewhere) return {face, edge};
+    for (int i = 0; i < 3; ++i) {
+      if (corner(face, i) == u) return leave_vertex(u, face, v);
+    }
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t n = mesh_.neighbours[face][i];
+      if (n != kNoTriangle && orientation(corner(face, i + 1), corner(face, i + 2), u) == 0) return leave(u, n, v);
+    }
+    throw Error("lost the way through the coarse surface");
+  }
+
+  Exit leave_vertex(Position u, std::uint32_t start, Position v) const {
+    for (const int turn : {1, 2}) {
+      std::uint32_t t = start;
+      do {
+        if (const int edge = exit_edge(u, t, v); edge != kElsewhere) return {t, edge};
+        const int i = corner(t, 0) == u ? 0 : corner(t, 1) == u ? 1 : 2;
+        t = mesh_.neighbours[t][(i + turn) % 3];
+      } while (t != kNoTriangle && t != start);
+    }
+    throw Error("lost the way through the coarse surface");
+  }
+
+  const RegionMesh& coarse_;
+  const PlaneMesh& mesh_;
+};
+
+class DifferenceSweep {
+ public:
+  DifferenceSweep(const RegionMesh& fine, const FineEdges& edges, const RegionMesh& coarse)
+      : fine_(fine), edges_(edges), coarse_(coarse), walk_(coarse), face_(fine.vertices.size(), kNoTriangle), visited_(fine.vertices.size(), 0) {
+    result_.at_vertex.resize(fine.vertices.size());
+    result_.along_edge.resize(edges.edges().size());
+    result_.is_coarse_vertex.assign(fine.vertices.size(), 0);
+  }
+
+  Difference run() {
+    seed_at_coarse_vertices();
+    for (std::uint32_t v = 0; v < face_.size(); ++v) {
+      // Breadth first from vertex to vertex; what no coarse vertex reaches is located the slow way.
+      if (visited_[v]) continue;
+      if (face_[v] == kNoTriangle) locate(v);
+      spread_from(v);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  void seed_at_coarse_vertices() {
+    std::vector<std::uint32_t> some_face(coarse_.vertices.size(), kNoTriangle);
+    for (std::uint32_t t = 0; t < coarse_.mesh.triangles.size(); ++t) {
+      for (const std::uint32_t v : coarse_.mesh.triangles[t]) some_face[v] = t;
+    }
+    std::uint32_t c = 0;
+    for (std::uint32_t v = 0; v < face_.size(); ++v) {
+      const std::uint64_t code = code_of(fine_.vertices[v]);
+      while (c < coarse_.vertices.size() && code_of(coarse_.vertices[c]) < code) ++c;
+      if (c == coarse_.vertices.size() || code_of(coarse_.vertices[c]) != code) continue;
+      settle(v, some_face[c]);
+      result_.is_coarse_vertex[v] = 1;
+    }
+  }
+
+  void settle(std::uint32_t v, std::uint32_t face) {
+    face_[v] = face;
+    result_.at_vertex[v] = above_plane(coarse_, face, fine_.vertices[v].point);
+  }
+
+  void locate(std::uint32_t v) {
+    for (std::uint32_t t = 0; t < coarse_.mesh.triangles.size(); ++t) {
+      if (walk_.contains(t, fine_.vertices[v].position())) return settle(v, t);
+    }
+    throw Error("the coarse surface does not cover the full one");
+  }
+
+  void spread_from(std::uint32_t first) {
+    std::vector<std::uint32_t> queue{first};
+    visited_[first] = 1;
+    for (std::size_t at = 0; at < queue.size(); ++at) {
+      const std::uint32_t u = queue[at];
+      for (std::uint32_t k = edges_.start()[u]; k < edges_.start()[u + 1]; ++k) {
+        const std::uint32_t e = edges_.list()[k];
+        const std::uint32_t v = edges_.edges()[e].u == u ? edges_.edges()[e].v : edges_.edges()[e].u;
+        follow(e, u, v);
+        if (!visited_[v]) {
+          visited_[v] = 1;
+          queue.push_back(v);
+        }
+      }
+    }
+  }
+
+  void follow(std::uint32_t e, std::uint32_t u, std::uint32_t v) {
+    DifferenceRange& range = result_.along_edge[e];
+    if (!range.empty()) return;  // followed from its other end
+    const GridPoint &pu = fine_.vertices[u].point, &pv = fine_.vertices[v].point;
+    const std::uint32_t end = walk_.walk(Position{pu.x, pu.y}, face_[u], Position{pv.x, pv.y}, [&](std::uint32_t p, std::uint32_t q) {
+      range.add(above_crossing(pu, pv, coarse_.vertices[p].point, coarse_.vertices[q].point));
+    });
+    if (face_[v] == kNoTriangle) settle(v, end);
+    range.add(result_.at_vertex[u]);
+    range.add(result_.at_vertex[v]);
+  }
+
+  const RegionMesh& fine_;
+  const FineEdges& edges_;
+  const RegionMesh& coarse_;
+  CoarseWalk walk_;
+  std::vector<std::uint32_t> face_;  ///< per fine vertex, a coarse face that holds it
+  std::vector<std::uint8_t> visited_;
+  Difference result_;
+};
+
+}  // namespace
+
+FineEdges::FineEdges(const RegionMesh& fine) : start_(fine.vertices.size() + 1, 0) {
+  const PlaneMesh& mesh = fine.mesh;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t n = mesh.neighbours[t][i];
+      if (n != kNoTriangle && n < t) continue;
+      edges_.push_back({mesh.triangles[t][(i + 1) % 3], mesh.triangles[t][(i + 2) % 3], t, n});
+    }
+  }
+  for (const Edge& e : edges_) start_[e.u + 1] += 1, start_[e.v + 1] += 1;
+  for (std::size_t v = 1; v < start_.size(); ++v) start_[v] += start_[v - 1];
+  list_.resize(2 * edges_.size());
+  std::vector<std::uint32_t> fill(start_.begin(), start_.end() - 1);
+  for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+    list_[fill[edges_[e].u]++] = e;
+    list_[fill[edges_[e].v]++] = e;
+  }
+}
+
+Difference difference(const RegionMesh& fine, const FineEdges& edges, const RegionMesh& coarse) {
+  return DifferenceSweep(fine, edges, coarse).run();
+}
+
+}  // namespace itin

@@ -1,0 +1,56 @@
+// The difference between the full surface and a coarse one, exactly where its extremes lie.
+//
+// T0 - Tk is linear on every face of the overlay of both triangulations. The overlay's vertices are T0's vertices and
+// the crossings of T0's edges with Tk's (Tk's vertices are T0's as well). So the extremes over a triangle of T0 lie on
+// its edges, at their ends and crossings (law 2).
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "triangulate/region.hpp"
+
+namespace itin {
+
+/// A range of differences in grid units, rounded outwards; empty at first.
+struct DifferenceRange {
+  std::int32_t lo = std::numeric_limits<std::int32_t>::max();
+  std::int32_t hi = std::numeric_limits<std::int32_t>::min();
+
+  bool empty() const { return lo > hi; }
+  /// The larger of both sides.
+  std::int32_t size() const { return empty() ? 0 : std::max(-lo, hi); }
+  void add(const DifferenceRange& r) { lo = std::min(lo, r.lo), hi = std::max(hi, r.hi); }
+};
+
+/// The edges of a fine mesh, each once, and which of them leave each vertex.
+class FineEdges {
+ public:
+  struct Edge {
+    std::uint32_t u, v;
+    std::uint32_t triangle, other;  ///< the triangles at it; kNoTriangle where there is none
+  };
+  explicit FineEdges(const RegionMesh& fine);
+
+  const std::vector<Edge>& edges() const { return edges_; }
+  /// Numbers of the edges at vertex v: list[start[v]] .. list[start[v + 1]].
+  const std::vector<std::uint32_t>& start() const { return start_; }
+  const std::vector<std::uint32_t>& list() const { return list_; }
+
+ private:
+  std::vector<Edge> edges_;
+  std::vector<std::uint32_t> start_, list_;
+};
+
+struct Difference {
+  std::vector<DifferenceRange> at_vertex;      ///< T0 - Tk at each vertex of the fine mesh
+  std::vector<DifferenceRange> along_edge;     ///< over each fine edge
+  std::vector<std::uint8_t> is_coarse_vertex;  ///< per fine vertex
+};
+
+/// The coarse mesh's vertices must be among the full surface's, and it must cover every vertex of the fine mesh.
+Difference difference(const RegionMesh& fine, const FineEdges& edges, const RegionMesh& coarse);
+
+}  // namespace itin

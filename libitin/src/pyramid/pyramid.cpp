@@ -1,0 +1,168 @@
+#include "pyramid/pyramid.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <deque>
+
+#include <itin/parallel.hpp>
+
+#include "pyramid/certify.hpp"
+#include "pyramid/coverage.hpp"
+#include "pyramid/greedy.hpp"
+#include "pyramid/leaf_cutter.hpp"
+#include "pyramid/working_index.hpp"
+
+namespace itin {
+
+namespace {
+
+/// Points a tile of greedy insertion.
+constexpr std::uint32_t kTilePoints = 1 << 16;
+
+std::vector<std::array<double, 4>> gap_bases(const std::vector<SourceInfo>& sources, const Grid& grid) {
+  std::vector<std::array<double, 4>> bases;
+  for (const SourceInfo& source : sources) {
+    bases.push_back(source.gap_basis);
+    for (double& component : bases.back()) component /= grid.resolution;
+  }
+  return bases;
+}
+
+void drop(WorkingIndex& index, const std::vector<CurveRange>& tiles, std::vector<std::uint64_t> codes) {
+  std::sort(codes.begin(), codes.end());
+  parallel_for(tiles.size(), [&](std::size_t i) {
+    const auto first = std::lower_bound(codes.begin(), codes.end(), tiles[i].cell.code);
+    if (first == codes.end() || *first >= tiles[i].cell.end()) return;
+    std::vector<RawPoint> points = index.read(tiles[i]);
+    for (RawPoint& p : points) {
+      if (std::binary_search(codes.begin(), codes.end(), p.code)) p.level = kDropped;
+    }
+    index.write(tiles[i], points);
+  });
+}
+
+/// The ends of the outline's straight runs, as ascending Morton codes: they belong to every level.
+std::vector<std::uint64_t> corners_of(const std::vector<Segment>& outline) {
+  std::vector<std::uint64_t> corners;
+  for (const Segment& s : outline) {
+    corners.push_back(morton(s.ax, s.ay));
+    corners.push_back(morton(s.bx, s.by));
+  }
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
+void propose_levels(WorkingIndex& index, const CurveRange& tile, const std::vector<std::uint64_t>& corners,
+                    std::span<const double> tolerances) {
+  std::vector<RawPoint> raw = index.read(tile);
+  std::vector<GridPoint> points;
+  std::vector<std::uint8_t> forced;
+  std::vector<std::size_t> place;
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    if (raw[i].level == kDropped) continue;
+    points.push_back({morton_x(raw[i].code), morton_y(raw[i].code), raw[i].z});
+    forced.push_back(std::binary_search(corners.begin(), corners.end(), raw[i].code));
+    place.push_back(i);
+  }
+  const std::vector<std::uint8_t> levels = greedy_levels(points, forced, tolerances);
+  for (std::size_t i = 0; i < levels.size(); ++i) raw[place[i]].level = levels[i];
+  index.write(tile, raw);
+}
+
+/// Writes one level's quadtree; its leaves take the bounds of the working leaves in them.
+class LevelWriter {
+ public:
+  LevelWriter(const WorkingIndex& index, const LeafBounds& bounds, int level, StoreWriter& writer)
+      : index_(index), bounds_(bounds), level_(level), writer_(writer),
+        cutter_(kLeafCapacity, [this](const Cell& cell, std::uint32_t count) { write(cell, count); }) {}
+  LevelWriter(const LevelWriter&) = delete;
+
+  void add(const RawPoint& p) {
+    points_.push_back({morton_x(p.code), morton_y(p.code), p.z});
+    sources_.push_back(p.source);
+    cutter_.add(p.code);
+  }
+  void finish() { cutter_.finish(); }
+
+ private:
+  void write(const Cell& cell, std::uint32_t count) {
+    // The working tree is the finer one: it holds every level's points and has the same capacity.
+    DifferenceRange range;
+    for (; leaf_ < index_.ranges().size() && index_.ranges()[leaf_].cell.code < cell.end(); ++leaf_) range.add(bounds_.at(leaf_, level_));
+    if (count == 0 && range.empty()) return;
+    if (range.empty()) range = {0, 0};
+    writer_.add_leaf(level_, cell, std::span(points_).first(count), std::span(sources_).first(count), range.lo, range.hi);
+    points_.erase(points_.begin(), points_.begin() + count);
+    sources_.erase(sources_.begin(), sources_.begin() + count);
+  }
+
+  const WorkingIndex& index_;
+  const LeafBounds& bounds_;
+  int level_;
+  StoreWriter& writer_;
+  std::vector<GridPoint> points_;
+  std::vector<std::uint16_t> sources_;
+  std::uint32_t leaf_ = 0;
+  LeafCutter<std::function<void(const Cell&, std::uint32_t)>> cutter_;
+};
+
+void write_levels(const WorkingIndex& index, LeafBounds& bounds, const std::vector<CurveRange>& tiles, int levels,
+                  StoreWriter& writer, PyramidReport& report, Progress& progress) {
+  for (std::uint32_t leaf = 0; leaf < index.ranges().size(); ++leaf) {
+    // The full surface differs from itself by nothing, wherever there is ground.
+    if (levels > 1 && !bounds.at(leaf, 1).empty()) bounds.at(leaf, 0) = {0, 0};
+  }
+  std::size_t done = 0;
+  for (int k = 0; k < levels; ++k) {
+    LevelWriter level(index, bounds, k, writer);
+    for (const CurveRange& tile : tiles) {
+      progress.throw_if_cancelled();
+      for (const RawPoint& p : index.read(tile)) {
+        if (p.level != k) continue;
+        level.add(p);
+        report.vertices_of_source[p.source] += 1;
+      }
+      progress.report("writing", static_cast<double>(++done) / static_cast<double>(tiles.size() * static_cast<std::size_t>(levels)));
+    }
+    level.finish();
+  }
+}
+
+}  // namespace
+
+PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>& sources, const Grid& grid,
+                            const std::vector<double>& tolerances, StoreWriter& writer, Progress& progress) {
+  const int levels = static_cast<int>(tolerances.size());
+  WorkingIndex index(points, levels, kLeafCapacity);
+  const std::vector<CurveRange> tiles = index.tiles(kTilePoints);
+  PyramidReport report;
+  report.vertices_of_source.assign(sources.size(), 0);
+
+  Coverage coverage = find_coverage(index, tiles, gap_bases(sources, grid), progress);
+  report.isolated = coverage.isolated.size();
+  drop(index, tiles, std::move(coverage.isolated));
+  const std::vector<std::uint64_t> corners = corners_of(coverage.outline);
+  index.set_segments(std::move(coverage.outline));
+
+  std::vector<double> in_units;
+  std::vector<std::int32_t> in_whole_units;
+  for (const double metres : tolerances) {
+    in_units.push_back(std::floor(metres / grid.resolution + 1e-9));
+    in_whole_units.push_back(static_cast<std::int32_t>(in_units.back()));
+  }
+  std::atomic<std::size_t> done = 0;
+  parallel_for(tiles.size(), [&](std::size_t i) {
+    progress.throw_if_cancelled();
+    propose_levels(index, tiles[i], corners, in_units);
+    progress.report("choosing the levels", static_cast<double>(++done) / static_cast<double>(tiles.size()));
+  });
+
+  LeafBounds bounds = certify(index, in_whole_units, progress);
+  write_levels(index, bounds, tiles, levels, writer, report, progress);
+  writer.add_segments(index.all_segments());
+  return report;
+}
+
+}  // namespace itin

@@ -1,0 +1,199 @@
+#include "pyramid/working_index.hpp"
+
+#include <algorithm>
+
+#include "pyramid/leaf_cutter.hpp"
+
+namespace itin {
+
+namespace {
+
+constexpr std::size_t kReadAhead = 1 << 16;
+
+}  // namespace
+
+WorkingIndex::WorkingIndex(SortedPoints& points, int level_count, std::uint32_t leaf_capacity)
+    : points_(points), level_count_(level_count) {
+  std::uint64_t first = 0;
+  LeafCutter cutter(leaf_capacity, [&](const Cell& cell, std::uint32_t count) {
+    ranges_.push_back({cell, first, count});
+    first += count;
+  });
+  std::vector<RawPoint> buffer;
+  for (std::uint64_t at = 0; at < points.size(); at += buffer.size()) {
+    buffer.resize(std::min<std::uint64_t>(kReadAhead, points.size() - at));
+    points.read(at, buffer);
+    for (const RawPoint& p : buffer) {
+      cutter.add(p.code);
+      bounds_.extend(morton_x(p.code), morton_y(p.code));
+    }
+  }
+  cutter.finish();
+  coarsest_ = std::vector<std::atomic<std::uint8_t>>(ranges_.size());
+  segment_start_.assign(ranges_.size() + 1, 0);
+}
+
+std::uint32_t WorkingIndex::leaf_of(std::uint64_t code) const {
+  const auto after = std::upper_bound(ranges_.begin(), ranges_.end(), code,
+                                      [](std::uint64_t c, const CurveRange& r) { return c < r.cell.code; });
+  return static_cast<std::uint32_t>(after - ranges_.begin()) - 1;
+}
+
+void WorkingIndex::visit(Cell cell, std::uint32_t first, std::uint32_t last, const GridBox& box,
+                         std::vector<std::uint32_t>& out) const {
+  if (!square_of(cell).meets(box)) return;
+  if (last - first == 1) {
+    out.push_back(first);
+    return;
+  }
+  for (int i = 0; i < 4; ++i) {
+    const Cell child = cell.child(i);
+    const auto end = i == 3 ? last
+                            : static_cast<std::uint32_t>(std::lower_bound(ranges_.begin() + first, ranges_.begin() + last, child.end(),
+                                                                          [](const CurveRange& r, std::uint64_t c) {
+                                                                            return r.cell.code < c;
+                                                                          }) -
+                                                         ranges_.begin());
+    visit(child, first, end, box, out);
+    first = end;
+  }
+}
+
+void WorkingIndex::leaves_at(const GridBox& box, std::vector<std::uint32_t>& out) const {
+  if (box.empty()) return;
+  // Enter the tree at the smallest cell around the box.
+  const auto inside = [](std::int32_t v) { return std::clamp(v, -kGridHalfSide, kGridHalfSide - 1); };
+  const std::uint64_t low = morton(inside(box.xmin - 1), inside(box.ymin - 1));
+  const std::uint64_t high = morton(inside(box.xmax), inside(box.ymax));
+  Cell cell{low, 0};
+  while (!cell.contains(high)) cell = cell.parent();
+  const std::uint32_t first = leaf_of(cell.code);
+  if (ranges_[first].cell.contains(cell)) return visit(ranges_[first].cell, first, first + 1, box, out);
+  visit(cell, first, leaf_of(cell.end() - 1) + 1, box, out);
+}
+
+void WorkingIndex::leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const {
+  std::vector<std::uint32_t> found;
+  leaves_at(box, found);
+  for (const std::uint32_t i : found) {
+    const CurveRange& range = ranges_[i];
+    const int coarsest = coarsest_[i].load(std::memory_order_relaxed);
+    if (range.count == 0 || coarsest < finest || !range.cell.box().meets(box)) continue;
+    Leaf leaf;
+    leaf.cell = range.cell;
+    leaf.level = coarsest;
+    leaf.points = range.count;
+    leaf.key = i;
+    out.push_back(leaf);
+  }
+}
+
+std::shared_ptr<const Block> WorkingIndex::block(const Leaf& leaf) const {
+  const std::vector<RawPoint> raw = read(ranges_[leaf.key]);
+  auto block = std::make_shared<Block>();
+  block->points.reserve(raw.size());
+  block->sources.reserve(raw.size());
+  block->levels.reserve(raw.size());
+  for (const RawPoint& p : raw) {
+    if (p.level == kDropped) continue;
+    block->points.push_back({morton_x(p.code), morton_y(p.code), p.z});
+    block->sources.push_back(p.source);
+    block->levels.push_back(static_cast<std::uint8_t>(p.level));
+  }
+  return block;
+}
+
+void WorkingIndex::segments(const GridBox& box, std::vector<Segment>& out) const {
+  if (segments_.empty()) return;
+  std::vector<std::uint32_t> found;
+  leaves_at(box, found);
+  for (const std::uint32_t i : found) {
+    for (std::uint32_t k = segment_start_[i]; k < segment_start_[i + 1]; ++k) out.push_back(segments_[segment_list_[k]]);
+  }
+}
+
+std::vector<CurveRange> WorkingIndex::tiles(std::uint32_t capacity) const {
+  std::vector<CurveRange> result;
+  for (std::size_t i = 0; i < ranges_.size();) {
+    // Grow from the leaf to the largest aligned ancestor that is not too full: siblings follow on the curve.
+    CurveRange tile = ranges_[i];
+    std::size_t end = i + 1;
+    while (tile.cell.log2_side < kRootLog2Side) {
+      const Cell larger = tile.cell.parent();
+      if (larger.code != tile.cell.code) break;
+      std::uint64_t count = tile.count;
+      std::size_t j = end;
+      for (; j < ranges_.size() && ranges_[j].cell.code < larger.end() && count <= capacity; ++j) count += ranges_[j].count;
+      if (count > capacity) break;
+      tile = {larger, tile.first, static_cast<std::uint32_t>(count)};
+      end = j;
+    }
+    if (square_of(tile.cell).meets(bounds_)) result.push_back(tile);
+    i = end;
+  }
+  return result;
+}
+
+std::vector<RawPoint> WorkingIndex::read(const CurveRange& range) const {
+  std::vector<RawPoint> result(range.count);
+  points_.read(range.first, result);
+  return result;
+}
+
+void WorkingIndex::write(const CurveRange& range, std::span<const RawPoint> points) {
+  points_.write(range.first, points);
+  for (std::uint32_t leaf = leaf_of(range.cell.code); leaf < ranges_.size() && ranges_[leaf].cell.code < range.cell.end(); ++leaf) {
+    const CurveRange& r = ranges_[leaf];
+    std::uint8_t coarsest = 0;
+    for (const RawPoint& p : points.subspan(r.first - range.first, r.count)) {
+      if (p.level != kDropped) coarsest = std::max(coarsest, static_cast<std::uint8_t>(p.level));
+    }
+    coarsest_[leaf].store(coarsest, std::memory_order_relaxed);
+  }
+}
+
+void WorkingIndex::promote(std::uint64_t code, int level) {
+  const std::uint32_t leaf = leaf_of(code);
+  std::vector<RawPoint> points = read(ranges_[leaf]);
+  const auto at = std::lower_bound(points.begin(), points.end(), code, [](const RawPoint& p, std::uint64_t c) { return p.code < c; });
+  if (at == points.end() || at->code != code || at->level == kDropped || at->level >= level) return;
+  at->level = static_cast<std::uint16_t>(level);
+  write(ranges_[leaf], points);
+}
+
+void WorkingIndex::leaves_along(Point2 p, Point2 q, std::vector<std::uint32_t>& out) const {
+  const GridBox box{static_cast<std::int32_t>(std::floor(std::min(p.x, q.x))), static_cast<std::int32_t>(std::floor(std::min(p.y, q.y))),
+                    static_cast<std::int32_t>(std::ceil(std::max(p.x, q.x))), static_cast<std::int32_t>(std::ceil(std::max(p.y, q.y)))};
+  const std::size_t before = out.size();
+  leaves_at(box, out);
+  // A box this small or thin, or with this few leaves, claims hardly more than the segment does.
+  if (out.size() - before <= 4 || box.xmax - box.xmin <= 2 || box.ymax - box.ymin <= 2) return;
+  out.resize(before);
+  const Point2 middle{(p.x + q.x) / 2, (p.y + q.y) / 2};
+  leaves_along(p, middle, out);
+  leaves_along(middle, q, out);
+}
+
+void WorkingIndex::set_segments(std::vector<Segment> segments) {
+  segments_ = std::move(segments);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings;
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t s = 0; s < segments_.size(); ++s) {
+    const Segment& segment = segments_[s];
+    found.clear();
+    leaves_along({double(segment.ax), double(segment.ay)}, {double(segment.bx), double(segment.by)}, found);
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    for (const std::uint32_t leaf : found) crossings.emplace_back(leaf, s);
+  }
+  std::sort(crossings.begin(), crossings.end());
+  segment_start_.assign(ranges_.size() + 1, 0);
+  segment_list_.clear();
+  for (const auto& [leaf, s] : crossings) {
+    segment_start_[leaf + 1] += 1;
+    segment_list_.push_back(s);
+  }
+  for (std::size_t i = 1; i < segment_start_.size(); ++i) segment_start_[i] += segment_start_[i - 1];
+}
+
+}  // namespace itin

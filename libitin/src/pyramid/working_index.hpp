@@ -1,0 +1,70 @@
+// The importer's points as a PointIndex: one quadtree over the sorted temporary file, every point with its level.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "import/sorted_points.hpp"
+#include "store/point_index.hpp"
+
+namespace itin {
+
+/// The level of a point that is left out of the surface.
+inline constexpr std::uint16_t kDropped = 0xffff;
+
+/// A contiguous piece of the curve: a quadtree cell and its points' place in the sorted file.
+struct CurveRange {
+  Cell cell;
+  std::uint64_t first = 0;
+  std::uint32_t count = 0;
+};
+
+/// Reading is safe from any thread. Levels may be changed, through write(), for disjoint ranges at the same time, but
+/// not while others read those ranges.
+class WorkingIndex final : public PointIndex {
+ public:
+  WorkingIndex(SortedPoints& points, int level_count, std::uint32_t leaf_capacity);
+
+  int level_count() const override { return level_count_; }
+  GridBox bounds() const override { return bounds_; }
+  void leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const override;
+  std::shared_ptr<const Block> block(const Leaf& leaf) const override;
+  void segments(const GridBox& box, std::vector<Segment>& out) const override;
+
+  /// All leaves of the quadtree, empty ones included, in Morton order: they tile the root.
+  const std::vector<CurveRange>& ranges() const { return ranges_; }
+  /// Appends the numbers, in ranges(), of the leaves whose square meets `box`, empty ones included.
+  void leaves_at(const GridBox& box, std::vector<std::uint32_t>& out) const;
+  /// The number of the leaf that holds this code.
+  std::uint32_t leaf_of(std::uint64_t code) const;
+  /// Coarser cells with at most `capacity` points each, perhaps none, that together cover bounds().
+  std::vector<CurveRange> tiles(std::uint32_t capacity) const;
+
+  std::vector<RawPoint> read(const CurveRange& range) const;
+  void write(const CurveRange& range, std::span<const RawPoint> points);
+  /// Raises one point's level. Not thread-safe.
+  void promote(std::uint64_t code, int level);
+
+  /// The coverage outline, once known.
+  void set_segments(std::vector<Segment> segments);
+  const std::vector<Segment>& all_segments() const { return segments_; }
+
+ private:
+  /// Appends the leaves that segment pq meets, and perhaps some beside it or twice.
+  void leaves_along(Point2 p, Point2 q, std::vector<std::uint32_t>& out) const;
+  void visit(Cell cell, std::uint32_t first, std::uint32_t last, const GridBox& box, std::vector<std::uint32_t>& out) const;
+
+  SortedPoints& points_;
+  int level_count_;
+  GridBox bounds_;
+  std::vector<CurveRange> ranges_;
+  std::vector<std::atomic<std::uint8_t>> coarsest_;  ///< per range: the coarsest level among its points
+  std::vector<Segment> segments_;
+  std::vector<std::uint32_t> segment_start_;  ///< per range, into segment_list_
+  std::vector<std::uint32_t> segment_list_;   ///< numbers of the segments that meet the range's cell
+};
+
+}  // namespace itin

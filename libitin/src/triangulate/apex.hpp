@@ -1,0 +1,75 @@
+// Third vertices of constrained Delaunay triangles, straight from the quadtrees (design.md, "Apex and cross-section").
+//
+//   ApexSearch search(index, selection);
+//   std::optional<SelectedVertex> c = search.apex(a, b);   // abc is a triangle of the global triangulation
+//
+// For a candidate c to the left of ab, with m the midpoint of ab, n the unit normal to the left and r = |ab| / 2, the
+// circle through a, b, c has its centre at m + lambda n with
+//     lambda(c) = (|c - m|^2 - r^2) / (2 n . (c - m)),
+// and its part on the left of ab grows with lambda. Leaves are visited in about the order of that bound and skipped when
+// the best circle so far does not reach them. Skipping is conservative floating point; every decision is exact.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <itin/geometry.hpp>
+#include <itin/tin.hpp>
+
+#include "store/point_index.hpp"
+#include "triangulate/predicates.hpp"
+#include "triangulate/selection.hpp"
+
+namespace itin {
+
+/// A vertex as read from an index.
+struct SelectedVertex {
+  GridPoint point;
+  std::uint16_t source = 0;
+  std::uint8_t level = 0;
+
+  Position position() const { return {point.x, point.y}; }
+};
+
+/// One search serves one thread. It counts what it reads.
+class ApexSearch {
+ public:
+  ApexSearch(const PointIndex& index, const Selection& selection) : index_(index), selection_(selection) {}
+
+  /// The third vertex of the triangle to the left of ab, an edge of the global triangulation that is no constraint;
+  /// nullopt on the hull.
+  std::optional<SelectedVertex> apex(Position a, Position b);
+
+  /// A vertex to the left of ab, visible from both ends, inside the circle through a, b and c, which lies to the right
+  /// of ab: the least such circle's, if there is any. (By the tie rule, where a vertex lies on the circle.)
+  std::optional<SelectedVertex> intruder(Position a, Position b, Position c);
+
+  /// A vertex in the closed triangle abc (counterclockwise) other than its corners, if there is any.
+  std::optional<SelectedVertex> inside(Position a, Position b, Position c);
+
+  /// The selected vertex at this very position.
+  std::optional<SelectedVertex> at(Position p);
+
+  const RetrievalStatistics& statistics() const { return statistics_; }
+
+ private:
+  struct Frame;
+  std::uint8_t level_of(const Leaf& leaf, const Block& block, std::size_t k) const;
+  std::shared_ptr<const Block> read(const Leaf& leaf);
+  std::optional<SelectedVertex> nearest_circle(const Frame& frame, double lambda, const Position* beyond);
+
+  const PointIndex& index_;
+  const Selection& selection_;
+  RetrievalStatistics statistics_;
+  // Kept between calls for their memory.
+  std::vector<Leaf> leaves_;
+  std::vector<Segment> segments_;
+};
+
+/// Whether segment s properly crosses the line of sight pq: touching does not block it.
+bool crosses(const Segment& s, Position p, Position q);
+
+}  // namespace itin

@@ -1,0 +1,133 @@
+#include "triangulate/delaunay.hpp"
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Constrained_triangulation_face_base_2.h>
+#include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_2.h>
+
+#include "triangulate/cgal_traits.hpp"
+
+namespace itin {
+
+namespace {
+
+using VertexBase = CGAL::Triangulation_vertex_base_2<GridTraits>;
+using FaceBase = CGAL::Triangulation_face_base_with_info_2<std::uint32_t, GridTraits>;
+using ConstrainedFaceBase = CGAL::Triangulation_face_base_with_info_2<std::uint32_t, GridTraits,
+                                                                      CGAL::Constrained_triangulation_face_base_2<GridTraits>>;
+using Free = CGAL::Delaunay_triangulation_2<GridTraits, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
+using Constrained = CGAL::Constrained_Delaunay_triangulation_2<
+    GridTraits, CGAL::Triangulation_data_structure_2<VertexBase, ConstrainedFaceBase>, CGAL::No_constraint_intersection_requiring_constructions_tag>;
+
+/// Each round inserts one in kThinning of the points not yet in, all of them along the curve: the triangulation is
+/// always about evenly dense, so walks stay short and flips few, without shuffling (measured: 1.4 times as fast as
+/// CGAL's own biased randomised order on random points, 1.8 times on lattices).
+constexpr std::size_t kThinning = 8;
+
+template <class Triangulation>
+class Builder {
+ public:
+  using Vertex = typename Triangulation::Vertex_handle;
+  using Face = typename Triangulation::Face_handle;
+
+  void insert(std::span<const Position> positions) {
+    const std::size_t first = vertices_.size();
+    vertices_.resize(first + positions.size());
+    std::size_t step = 1;
+    while (step * kThinning < positions.size()) step *= kThinning;
+    for (const std::size_t top = step; step >= 1; step /= kThinning) {
+      for (std::size_t i = 0; i < positions.size(); i += step) {
+        if (step != top && i % (step * kThinning) == 0) continue;
+        const TraitsPoint p{positions[i].x, positions[i].y, static_cast<std::uint32_t>(first + i)};
+        vertices_[first + i] = triangulation_.insert(p, hint_);
+        hint_ = vertices_[first + i]->face();
+      }
+    }
+  }
+
+  void constrain(std::span<const Delaunay::Constraint> constraints) {
+    for (const auto& [a, b] : constraints) triangulation_.insert_constraint(vertices_[a], vertices_[b]);
+    hint_ = Face();
+  }
+
+  PlaneMesh mesh() {
+    PlaneMesh mesh;
+    if (triangulation_.dimension() < 2) return mesh;
+    const std::size_t count = triangulation_.number_of_faces();
+    mesh.triangles.reserve(count);
+    mesh.neighbours.reserve(count);
+    mesh.constrained.reserve(count);
+    for (auto f = triangulation_.all_faces_begin(); f != triangulation_.all_faces_end(); ++f) f->info() = kNoTriangle;
+    std::uint32_t next = 0;
+    for (Face f : triangulation_.finite_face_handles()) f->info() = next++;
+    for (Face f : triangulation_.finite_face_handles()) {
+      mesh.triangles.push_back({number(f, 0), number(f, 1), number(f, 2)});
+      mesh.neighbours.push_back({f->neighbor(0)->info(), f->neighbor(1)->info(), f->neighbor(2)->info()});
+      mesh.constrained.push_back(constrained_edges(f));
+    }
+    return mesh;
+  }
+
+  std::vector<Position> positions() const {
+    std::vector<Position> result(vertices_.size());
+    for (std::size_t i = 0; i < vertices_.size(); ++i) result[i] = {vertices_[i]->point().x, vertices_[i]->point().y};
+    return result;
+  }
+
+ private:
+  static std::uint32_t number(Face f, int corner) { return f->vertex(corner)->point().vertex; }
+
+  static std::uint8_t constrained_edges([[maybe_unused]] Face f) {
+    std::uint8_t bits = 0;
+    if constexpr (std::is_same_v<Triangulation, Constrained>) {
+      for (int i = 0; i < 3; ++i) bits |= static_cast<std::uint8_t>(f->is_constrained(i) << i);
+    }
+    return bits;
+  }
+
+  Triangulation triangulation_;
+  std::vector<Vertex> vertices_;
+  Face hint_;
+};
+
+}  // namespace
+
+/// Starts unconstrained, which is faster, and changes over at the first constraint.
+class Delaunay::Impl {
+ public:
+  void insert(std::span<const Position> positions) {
+    if (constrained_) {
+      constrained_->insert(positions);
+    } else {
+      free_->insert(positions);
+    }
+  }
+
+  void constrain(std::span<const Constraint> constraints) {
+    if (constraints.empty()) return;
+    if (!constrained_) {
+      constrained_ = std::make_unique<Builder<Constrained>>();
+      constrained_->insert(free_->positions());
+      free_.reset();
+    }
+    constrained_->constrain(constraints);
+  }
+
+  PlaneMesh mesh() { return constrained_ ? constrained_->mesh() : free_->mesh(); }
+
+ private:
+  std::unique_ptr<Builder<Free>> free_ = std::make_unique<Builder<Free>>();
+  std::unique_ptr<Builder<Constrained>> constrained_;
+};
+
+Delaunay::Delaunay() : impl_(std::make_unique<Impl>()) {}
+Delaunay::Delaunay(Delaunay&&) noexcept = default;
+Delaunay& Delaunay::operator=(Delaunay&&) noexcept = default;
+Delaunay::~Delaunay() = default;
+
+void Delaunay::insert(std::span<const Position> positions) { impl_->insert(positions); }
+void Delaunay::constrain(std::span<const Constraint> constraints) { impl_->constrain(constraints); }
+PlaneMesh Delaunay::mesh() const { return impl_->mesh(); }
+
+}  // namespace itin

@@ -1,0 +1,430 @@
+#include "triangulate/region.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <unordered_map>
+
+#include <itin/error.hpp>
+
+namespace itin {
+
+namespace {
+
+/// The box is this many mean point spacings wider than the region: most circumdiscs of the region's triangles fit in.
+constexpr double kMargin = 3;
+
+GridBox intersection(const GridBox& a, const GridBox& b) {
+  return {std::max(a.xmin, b.xmin), std::max(a.ymin, b.ymin), std::min(a.xmax, b.xmax), std::min(a.ymax, b.ymax)};
+}
+
+GridBox expanded(const GridBox& b, double margin) {
+  const auto cut = [](double v) {
+    return static_cast<std::int32_t>(std::clamp(v, -1.0 * kGridHalfSide, kGridHalfSide - 1.0));
+  };
+  return {cut(std::floor(b.xmin - margin)), cut(std::floor(b.ymin - margin)), cut(std::ceil(b.xmax + margin)),
+          cut(std::ceil(b.ymax + margin))};
+}
+
+double area(const GridBox& b) {
+  return b.empty() ? 0 : (1.0 + b.xmax - b.xmin) * (1.0 + b.ymax - b.ymin);
+}
+
+/// Closed segment against closed box, exactly.
+bool meets(Position p, Position q, const GridBox& box) {
+  if (!box.meets({std::min(p.x, q.x), std::min(p.y, q.y), std::max(p.x, q.x), std::max(p.y, q.y)})) return false;
+  bool left = false, right = false;
+  for (const Position c : {Position{box.xmin, box.ymin}, Position{box.xmax, box.ymin}, Position{box.xmin, box.ymax},
+                           Position{box.xmax, box.ymax}}) {
+    const int side = orientation(p, q, c);
+    left |= side >= 0;
+    right |= side <= 0;
+  }
+  return left && right;
+}
+
+}  // namespace
+
+bool circumdisc_in(Position a, Position b, Position c, const GridBox& box) {
+  const double bx = static_cast<double>(b.x) - a.x, by = static_cast<double>(b.y) - a.y;
+  const double cx = static_cast<double>(c.x) - a.x, cy = static_cast<double>(c.y) - a.y;
+  const double b2 = bx * bx + by * by, c2 = cx * cx + cy * cy, d = 2 * (bx * cy - by * cx);
+  const double ux = (cy * b2 - by * c2) / d, uy = (bx * c2 - cx * b2) / d, radius = std::hypot(ux, uy);
+  // The numerators lose at most 2^-50 of |b|^2 |c| + |c|^2 |b|; the area is exact to an ulp.
+  const double slack = 1 + 1e-14 * (b2 * std::sqrt(c2) + c2 * std::sqrt(b2)) / std::abs(d) + 1e-14 * radius;
+  const double x = a.x + ux, y = a.y + uy, reach = radius + slack;
+  return x - reach >= box.xmin && x + reach <= box.xmax && y - reach >= box.ymin && y + reach <= box.ymax;
+}
+
+namespace {
+
+class RegionTriangulation {
+ public:
+  RegionTriangulation(const PointIndex& index, const Selection& selection, const GridBox& tile, const GridWindow* window)
+      : index_(index), selection_(selection), window_(window), search_(index, selection) {
+    tile_ = intersection(tile, index.bounds());
+    if (window != nullptr) tile_ = intersection(tile_, window->bounds());
+  }
+
+  RegionMesh run() {
+    RegionMesh result;
+    if (!tile_.empty() && triangulate_box()) {
+      while (true) {
+        mark_ground();
+        if (!mend()) break;
+        mesh_ = delaunay_.mesh();
+      }
+      result = extract();
+    }
+    result.statistics = statistics_;
+    result.statistics += search_.statistics();
+    return result;
+  }
+
+ private:
+  /// Reads and triangulates a box around the region, at least so large that there is a triangle. False when there is
+  /// none anywhere.
+  bool triangulate_box() {
+    for (double margin = first_margin();; margin *= 4) {
+      box_ = intersection(expanded(tile_, margin), expanded(index_.bounds(), 1));
+      read_points();
+      segments_.clear();
+      const std::vector<Segment> segments = read_segments(box_);
+      std::vector<Position> positions(vertices_.size());
+      std::transform(vertices_.begin(), vertices_.end(), positions.begin(), [](const SelectedVertex& v) { return v.position(); });
+      delaunay_ = Delaunay();
+      delaunay_.insert(positions);
+      constraints_.clear();
+      insert_segments(segments);
+      mesh_ = delaunay_.mesh();
+      // A triangle needs a vertex or a segment in the box, and those tell ground from its absence.
+      if (!mesh_.triangles.empty()) return true;
+      if (box_.contains(index_.bounds())) return false;
+    }
+  }
+
+  double first_margin() const {
+    std::vector<Leaf> leaves;
+    index_.leaves(selection_.finest_in(tile_), tile_, leaves);
+    double points = 0;
+    for (const Leaf& leaf : leaves) points += leaf.points * area(intersection(leaf.cell.box(), tile_)) / area(leaf.cell.box());
+    const double spacing = points > 0 ? std::sqrt(area(tile_) / points) : std::sqrt(area(tile_));
+    return kMargin * spacing + 1;
+  }
+
+  void read_points() {
+    std::vector<Leaf> leaves;
+    index_.leaves(selection_.finest_in(box_), box_, leaves);
+    std::vector<std::pair<std::uint64_t, SelectedVertex>> found;
+    for (const Leaf& leaf : leaves) {
+      if (leaf.level < selection_.finest_in(intersection(leaf.cell.box(), box_))) continue;
+      const auto block = index_.block(leaf);
+      statistics_.points_read += block->points.size();
+      statistics_.blocks_read += 1;
+      for (std::size_t k = 0; k < block->points.size(); ++k) {
+        const GridPoint& p = block->points[k];
+        if (!box_.contains(p.x, p.y)) continue;
+        const auto level = block->levels.empty() ? static_cast<std::uint8_t>(leaf.level) : block->levels[k];
+        if (selection_.selects(level, p.x, p.y)) found.push_back({morton(p.x, p.y), {p, block->sources[k], level}});
+      }
+    }
+    std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    vertices_.clear();
+    extras_.clear();
+    unread_.clear();
+    vertices_.reserve(found.size());
+    for (const auto& [code, vertex] : found) vertices_.push_back(vertex);
+    sorted_ = vertices_.size();
+  }
+
+  /// Adds the segments of a box to segments_ and returns those that are new.
+  std::vector<Segment> read_segments(const GridBox& box) {
+    std::vector<Segment> found, fresh;
+    index_.segments(box, found);
+    for (const Segment& s : found) {
+      if (meets({s.ax, s.ay}, {s.bx, s.by}, box) && segments_.insert(s).second) fresh.push_back(s);
+    }
+    return fresh;
+  }
+
+  /// The number of the vertex at p, which is inserted if it is not there yet: as a mere position if `known` is null.
+  std::uint32_t vertex_at(Position p, const SelectedVertex* known) {
+    const auto first = vertices_.begin(), last = first + static_cast<std::ptrdiff_t>(sorted_);
+    const std::uint64_t code = morton(p.x, p.y);
+    const auto at = std::lower_bound(first, last, code, [](const SelectedVertex& v, std::uint64_t c) {
+      return morton(v.point.x, v.point.y) < c;
+    });
+    if (at != last && at->position() == p) return static_cast<std::uint32_t>(at - first);
+    const auto [extra, fresh] = extras_.try_emplace(code, static_cast<std::uint32_t>(vertices_.size()));
+    if (fresh) {
+      vertices_.push_back(known ? *known : SelectedVertex{{p.x, p.y, 0}, 0, 0});
+      delaunay_.insert(std::array{p});
+    }
+    if (known) {
+      vertices_[extra->second] = *known;
+      unread_.erase(extra->second);
+    } else if (fresh) {
+      unread_.insert(extra->second);
+    }
+    return extra->second;
+  }
+
+  void insert_segments(const std::vector<Segment>& segments) {
+    std::vector<Delaunay::Constraint> constraints;
+    for (const Segment& s : segments) {
+      constraints.emplace_back(vertex_at({s.ax, s.ay}, nullptr), vertex_at({s.bx, s.by}, nullptr));
+    }
+    delaunay_.constrain(constraints);
+    constraints_.insert(constraints_.end(), constraints.begin(), constraints.end());
+  }
+
+  Position position(std::uint32_t vertex) const { return vertices_[vertex].position(); }
+  Position corner(std::uint32_t triangle, int i) const { return position(mesh_.triangles[triangle][i % 3]); }
+  bool constrained(std::uint32_t triangle, int i) const { return mesh_.constrained[triangle] >> i & 1; }
+
+  /// ground_[t] is right for every triangle that meets the box: no segment crosses the box unseen, so a triangle's part
+  /// in the box is ground or not as a whole, and so are neighbours whose common edge meets the box unless it is
+  /// constrained. Without segments the box holds a vertex, hence is ground.
+  void mark_ground() {
+    ground_.assign(mesh_.triangles.size(), Ground::kUnknown);
+    if (constraints_.empty()) {
+      std::fill(ground_.begin(), ground_.end(), Ground::kYes);
+      return;
+    }
+    std::vector<std::uint32_t> stack;
+    const auto settle = [&](std::uint32_t t, Ground ground) {
+      if (t == kNoTriangle || ground_[t] != Ground::kUnknown) return;
+      ground_[t] = ground;
+      stack.push_back(t);
+    };
+    visit_segment_edges([&](Position p, Position q, std::uint32_t left, std::uint32_t right) {
+      if (!meets(p, q, box_)) return;
+      settle(left, Ground::kYes);
+      settle(right, Ground::kNo);
+    });
+    while (!stack.empty()) {
+      const std::uint32_t t = stack.back();
+      stack.pop_back();
+      for (int i = 0; i < 3; ++i) {
+        if (!constrained(t, i) && meets(corner(t, i + 1), corner(t, i + 2), box_)) settle(mesh_.neighbours[t][i], ground_[t]);
+      }
+    }
+  }
+
+  /// Calls visit(p, q, left triangle, right triangle) for every edge pq of the mesh along every segment, in its direction.
+  template <class Visit>
+  void visit_segment_edges(const Visit& visit) const {
+    std::vector<std::uint32_t> some_triangle(vertices_.size(), kNoTriangle);
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      for (const std::uint32_t v : mesh_.triangles[t]) some_triangle[v] = t;
+    }
+    for (const auto& [from, to] : constraints_) {
+      for (std::uint32_t at = from; at != to;) {
+        const DirectedEdge edge = edge_towards(at, to, some_triangle[at]);
+        visit(position(at), position(edge.end), edge.left, edge.right);
+        at = edge.end;
+      }
+    }
+  }
+
+  struct DirectedEdge {
+    std::uint32_t end, left, right;
+  };
+
+  /// The edge that leaves vertex `at` straight towards vertex `to`; there is one, as segments are constraints.
+  DirectedEdge edge_towards(std::uint32_t at, std::uint32_t to, std::uint32_t start) const {
+    const Position p = position(at), goal = position(to);
+    const auto leads = [&](std::uint32_t v) {
+      const Position q = position(v);
+      return orientation(p, q, goal) == 0 && (std::int64_t{q.x} - p.x) * (std::int64_t{goal.x} - p.x) +
+                                                     (std::int64_t{q.y} - p.y) * (std::int64_t{goal.y} - p.y) > 0;
+    };
+    for (const int turn : {1, 2}) {  // counterclockwise, and clockwise from where the hull stopped that
+      std::uint32_t t = start;
+      do {
+        const auto& v = mesh_.triangles[t];
+        const int i = v[0] == at ? 0 : v[1] == at ? 1 : 2, next = (i + 1) % 3, previous = (i + 2) % 3;
+        if (leads(v[next])) return {v[next], t, mesh_.neighbours[t][previous]};
+        if (leads(v[previous])) return {v[previous], mesh_.neighbours[t][next], t};
+        t = mesh_.neighbours[t][(i + turn) % 3];
+      } while (t != kNoTriangle && t != start);
+    }
+    throw Error("constraint lost in triangulation");
+  }
+
+  /// Whether triangle t meets tile and window.
+  bool in_region(std::uint32_t t) const {
+    const GridBox corners = box_of(t);
+    if (!corners.meets(tile_)) return false;
+    if (!tile_.contains(corners) && !reaches_tile(t)) return false;
+    if (window_ == nullptr) return true;
+    const auto& [a, b, c] = mesh_.triangles[t];
+    return window_->meets(vertices_[a].point, vertices_[b].point, vertices_[c].point);
+  }
+
+  GridBox box_of(std::uint32_t t) const {
+    GridBox box;
+    for (const std::uint32_t v : mesh_.triangles[t]) box.extend(vertices_[v].point.x, vertices_[v].point.y);
+    return box;
+  }
+
+  /// The separating axis theorem, the boxes known to overlap: is the whole tile right of one edge?
+  bool reaches_tile(std::uint32_t t) const {
+    for (int i = 0; i < 3; ++i) {
+      if (!tile_reaches_left_of(corner(t, i), corner(t, i + 1), 0)) return false;
+    }
+    return true;
+  }
+
+  /// Whether some corner of the tile has orientation >= least relative to pq.
+  bool tile_reaches_left_of(Position p, Position q, int least) const {
+    // The corner farthest to the left of pq.
+    const Position c{q.y > p.y ? tile_.xmin : tile_.xmax, q.x > p.x ? tile_.ymax : tile_.ymin};
+    return orientation(p, q, c) >= least;
+  }
+
+  /// Proves every ground triangle of the region, or inserts what disproves it. True when something was inserted.
+  bool mend() {
+    std::vector<SelectedVertex> intruders;
+    std::vector<Segment> fresh;
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      if (ground_[t] != Ground::kYes) continue;
+      if (!circumdisc_in(corner(t, 0), corner(t, 1), corner(t, 2), box_) && in_region(t)) prove(t, intruders, fresh);
+      look_beyond_hull(t, intruders);
+    }
+    for (const SelectedVertex& v : intruders) vertex_at(v.position(), &v);
+    insert_segments(fresh);
+    return !intruders.empty() || !fresh.empty();
+  }
+
+  void prove(std::uint32_t t, std::vector<SelectedVertex>& intruders, std::vector<Segment>& fresh) {
+    const Triangle key = smallest_first(mesh_.triangles[t]);
+    if (proven_.contains(key)) return;
+    const std::vector<Segment> crossing = read_segments(box_of(t));
+    fresh.insert(fresh.end(), crossing.begin(), crossing.end());
+    bool sound = crossing.empty();
+    if (const auto found = search_.inside(corner(t, 0), corner(t, 1), corner(t, 2))) {
+      intruders.push_back(*found);
+      sound = false;
+    }
+    for (int i = 0; i < 3; ++i) {
+      if (constrained(t, i)) continue;
+      // Beyond edge i is left of its reverse.
+      if (const auto found = search_.intruder(corner(t, i + 2), corner(t, i + 1), corner(t, i))) {
+        intruders.push_back(*found);
+        sound = false;
+      }
+    }
+    if (sound) proven_.insert(key);
+  }
+
+  /// Where the region reaches beyond a hull edge, or just to it, with ground on this side, the next triangle's vertex is missing, unless
+  /// the edge is on the hull of the whole surface.
+  void look_beyond_hull(std::uint32_t t, std::vector<SelectedVertex>& intruders) {
+    for (int i = 0; i < 3; ++i) {
+      if (mesh_.neighbours[t][i] != kNoTriangle || constrained(t, i)) continue;
+      const Position p = corner(t, i + 2), q = corner(t, i + 1);
+      if (!tile_reaches_left_of(p, q, 0)) continue;
+      const Triangle key{mesh_.triangles[t][(i + 1) % 3], mesh_.triangles[t][(i + 2) % 3], kNoTriangle};
+      if (proven_.contains(key)) continue;
+      if (const auto found = search_.apex(p, q)) {
+        intruders.push_back(*found);
+      } else {
+        proven_.insert(key);
+      }
+    }
+  }
+
+  static Triangle smallest_first(const Triangle& t) {
+    if (t[1] < t[0] && t[1] < t[2]) return {t[1], t[2], t[0]};
+    if (t[2] < t[0] && t[2] < t[1]) return {t[2], t[0], t[1]};
+    return t;
+  }
+
+  RegionMesh extract() {
+    RegionMesh result;
+    std::vector<std::uint32_t> triangle_number(mesh_.triangles.size(), kNoTriangle);
+    std::vector<std::uint32_t> kept;
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      if (ground_[t] != Ground::kYes || !in_region(t)) continue;
+      triangle_number[t] = static_cast<std::uint32_t>(kept.size());
+      kept.push_back(t);
+    }
+    const std::vector<std::uint32_t> vertex_number = number_vertices(kept, result.vertices);
+    for (const std::uint32_t t : kept) {
+      Triangle triangle{}, neighbours{};
+      for (int i = 0; i < 3; ++i) {
+        triangle[i] = vertex_number[mesh_.triangles[t][i]];
+        const std::uint32_t n = mesh_.neighbours[t][i];
+        neighbours[i] = n == kNoTriangle ? kNoTriangle : triangle_number[n];
+      }
+      result.mesh.triangles.push_back(triangle);
+      result.mesh.neighbours.push_back(neighbours);
+      result.mesh.constrained.push_back(mesh_.constrained[t]);
+    }
+    return result;
+  }
+
+  /// New numbers in Morton order for the vertices of the kept triangles.
+  std::vector<std::uint32_t> number_vertices(const std::vector<std::uint32_t>& kept, std::vector<SelectedVertex>& out) {
+    std::vector<std::uint8_t> used(vertices_.size(), 0);
+    for (const std::uint32_t t : kept) {
+      for (const std::uint32_t v : mesh_.triangles[t]) used[v] = 1;
+    }
+    const auto code = [&](std::uint32_t v) { return morton(vertices_[v].point.x, vertices_[v].point.y); };
+    std::vector<std::uint32_t> order, late;
+    for (std::uint32_t v = 0; v < vertices_.size(); ++v) {
+      if (used[v]) (v < sorted_ ? order : late).push_back(v);
+    }
+    for (const std::uint32_t v : late) read_late(v);
+    const auto less = [&](std::uint32_t a, std::uint32_t b) { return code(a) < code(b); };
+    std::sort(late.begin(), late.end(), less);
+    const auto middle = static_cast<std::ptrdiff_t>(order.size());
+    order.insert(order.end(), late.begin(), late.end());
+    std::inplace_merge(order.begin(), order.begin() + middle, order.end(), less);
+    std::vector<std::uint32_t> number(vertices_.size(), kNoTriangle);
+    out.reserve(order.size());
+    for (const std::uint32_t v : order) {
+      number[v] = static_cast<std::uint32_t>(out.size());
+      out.push_back(vertices_[v]);
+    }
+    return number;
+  }
+
+  /// A segment's end that came in as a mere position gets its height.
+  void read_late(std::uint32_t v) {
+    if (!unread_.contains(v)) return;
+    const auto found = search_.at(position(v));
+    if (!found) throw Error("an end of a constraint line is not among the vertices; run itin check on the store");
+    vertices_[v] = *found;
+  }
+
+  enum class Ground : std::uint8_t { kUnknown, kYes, kNo };
+
+  const PointIndex& index_;
+  const Selection& selection_;
+  const GridWindow* window_;
+  ApexSearch search_;
+  GridBox tile_;  ///< the region's box
+  GridBox box_;   ///< everything selected in it has been read
+  std::vector<SelectedVertex> vertices_;
+  std::size_t sorted_ = 0;  ///< the first so many vertices are in Morton order
+  std::unordered_map<std::uint64_t, std::uint32_t> extras_;  ///< the others by Morton code
+  std::set<std::uint32_t> unread_;                           ///< of these, those known by position only
+  std::set<Segment> segments_;
+  std::vector<Delaunay::Constraint> constraints_;
+  Delaunay delaunay_;
+  PlaneMesh mesh_;
+  std::vector<Ground> ground_;
+  std::set<Triangle> proven_;
+  RetrievalStatistics statistics_;
+};
+
+}  // namespace
+
+RegionMesh triangulate_region(const PointIndex& index, const Selection& selection, const GridBox& tile,
+                              const GridWindow* window) {
+  return RegionTriangulation(index, selection, tile, window).run();
+}
+
+}  // namespace itin

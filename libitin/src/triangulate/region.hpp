@@ -1,0 +1,40 @@
+// The triangles of the global constrained Delaunay triangulation that meet one region, by one thread.
+//
+// This is the kernel under every window query and under the import's verification. It triangulates what lies in a box
+// around the region, then proves each ground triangle that meets the region to be global, or mends it:
+//   1. a triangle whose circumdisc lies in the box is global, for all that could disturb it has been read;
+//   2. otherwise no segment may cross it, no vertex lie in it, and beyond none of its unconstrained edges may a vertex,
+//      visible from both ends of the edge, lie in its circumcircle (apex.hpp looks that up). What is found is inserted,
+//      and so on.
+// At the end every triangle satisfies the constrained Delaunay property against the whole store, whatever the region
+// or its box (C. L. Lawson's local test made global; Lee and Lin 1986).
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <itin/tin.hpp>
+
+#include "store/point_index.hpp"
+#include "triangulate/apex.hpp"
+#include "triangulate/delaunay.hpp"
+#include "triangulate/grid_window.hpp"
+#include "triangulate/selection.hpp"
+
+namespace itin {
+
+/// Only ground triangles that meet the region, and only vertices that they use, in ascending Morton order.
+struct RegionMesh {
+  std::vector<SelectedVertex> vertices;
+  PlaneMesh mesh;  ///< neighbours are kNoTriangle where there is no triangle in this mesh
+  RetrievalStatistics statistics;
+};
+
+/// Whether the circumdisc of the counterclockwise abc surely lies in `box`.
+bool circumdisc_in(Position a, Position b, Position c, const GridBox& box);
+
+/// Triangles that meet both `tile` and, if given, `window`. Touching counts.
+RegionMesh triangulate_region(const PointIndex& index, const Selection& selection, const GridBox& tile,
+                              const GridWindow* window = nullptr);
+
+}  // namespace itin

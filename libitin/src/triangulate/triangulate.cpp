@@ -1,0 +1,152 @@
+#include <itin/triangulate.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include <itin/parallel.hpp>
+#include <itin/store.hpp>
+
+#include "triangulate/region.hpp"
+
+namespace itin {
+
+namespace {
+
+/// Large windows are cut into quadtree cells of about this many points: enough to make borders cheap, few enough to keep
+/// a cell's triangulation in the processor's cache.
+constexpr double kTilePoints = 32768;
+
+/// Cells that cover the window.
+class TilePlan {
+ public:
+  TilePlan(const PointIndex& index, const Selection& selection, const GridWindow& window)
+      : index_(index), selection_(selection), window_(window) {
+    index_.leaves(selection_.finest_in(window_.bounds()), window_.bounds(), leaves_);
+    std::erase_if(leaves_, [&](const Leaf& leaf) { return leaf.level < selection_.finest_in(leaf.cell.box()); });
+    std::vector<std::uint32_t> all(leaves_.size());
+    for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
+    split(Cell{}, all);
+  }
+
+  const std::vector<Cell>& cells() const { return cells_; }
+
+ private:
+  void split(const Cell& cell, const std::vector<std::uint32_t>& leaves) {
+    const GridBox square = square_of(cell);
+    if (!window_.meets(square)) return;
+    double points = 0;
+    std::vector<std::uint32_t> inside;
+    for (const std::uint32_t i : leaves) {
+      const Cell& leaf = leaves_[i].cell;
+      if (!cell.contains(leaf) && !leaf.contains(cell)) continue;
+      inside.push_back(i);
+      points += leaves_[i].points * std::min(1.0, std::ldexp(1.0, 2 * (cell.log2_side - leaf.log2_side)));
+    }
+    if (points <= kTilePoints || cell.log2_side == 0) {
+      cells_.push_back(cell);
+      return;
+    }
+    for (int i = 0; i < 4; ++i) split(cell.child(i), inside);
+  }
+
+  const PointIndex& index_;
+  const Selection& selection_;
+  const GridWindow& window_;
+  std::vector<Leaf> leaves_;
+  std::vector<Cell> cells_;
+};
+
+/// Puts the regions of a plan's cells together. Regions agree where they overlap, so what several hold is taken once.
+class Assembly {
+ public:
+  Assembly(std::vector<RegionMesh> regions, const Grid& grid) : regions_(std::move(regions)) { tin_.grid = grid; }
+
+  Tin run() && {
+    number_vertices();
+    gather_triangles();
+    for (const RegionMesh& region : regions_) tin_.statistics += region.statistics;
+    return std::move(tin_);
+  }
+
+ private:
+  static std::uint64_t code(const SelectedVertex& v) { return morton(v.point.x, v.point.y); }
+
+  /// Merges the regions' vertex lists, each in Morton order already, and notes each one's new number.
+  void number_vertices() {
+    std::vector<std::vector<std::uint64_t>> codes(regions_.size());
+    parallel_for(regions_.size(), [&](std::size_t r) {
+      codes[r].resize(regions_[r].vertices.size());
+      std::transform(regions_[r].vertices.begin(), regions_[r].vertices.end(), codes[r].begin(), code);
+    });
+    std::vector<std::uint64_t> all;
+    for (const auto& c : codes) all.insert(all.end(), c.begin(), c.end());
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    tin_.vertices.resize(all.size());
+    tin_.sources.resize(all.size());
+    numbers_.resize(regions_.size());
+    parallel_for(regions_.size(), [&](std::size_t r) {
+      numbers_[r].resize(codes[r].size());
+      auto at = all.begin();
+      for (std::size_t v = 0; v < codes[r].size(); ++v) {
+        at = std::lower_bound(at, all.end(), codes[r][v]);
+        numbers_[r][v] = static_cast<std::uint32_t>(at - all.begin());
+      }
+    });
+    for (std::size_t r = 0; r < regions_.size(); ++r) {
+      for (std::size_t v = 0; v < numbers_[r].size(); ++v) {
+        tin_.vertices[numbers_[r][v]] = regions_[r].vertices[v].point;
+        tin_.sources[numbers_[r][v]] = regions_[r].vertices[v].source;
+      }
+    }
+  }
+
+  void gather_triangles() {
+    std::vector<std::vector<Triangle>> parts(regions_.size());
+    parallel_for(regions_.size(), [&](std::size_t r) {
+      for (const auto& [a, b, c] : regions_[r].mesh.triangles) {
+        Triangle t{numbers_[r][a], numbers_[r][b], numbers_[r][c]};
+        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+        parts[r].push_back(t);
+      }
+      std::sort(parts[r].begin(), parts[r].end());
+    });
+    for (const auto& part : parts) {
+      const auto middle = static_cast<std::ptrdiff_t>(tin_.triangles.size());
+      tin_.triangles.insert(tin_.triangles.end(), part.begin(), part.end());
+      // Cells come in Morton order, so parts overlap only near their borders.
+      const auto low = part.empty() ? tin_.triangles.end()
+                                    : std::lower_bound(tin_.triangles.begin(), tin_.triangles.begin() + middle, part.front());
+      std::inplace_merge(low, tin_.triangles.begin() + middle, tin_.triangles.end());
+    }
+    tin_.triangles.erase(std::unique(tin_.triangles.begin(), tin_.triangles.end()), tin_.triangles.end());
+  }
+
+  std::vector<RegionMesh> regions_;
+  std::vector<std::vector<std::uint32_t>> numbers_;  ///< per region and vertex: its number in the result
+  Tin tin_;
+};
+
+}  // namespace
+
+Tin triangulate(const Store& store, const Window& window, const Detail& detail, Progress& progress) {
+  const StoreMetadata& metadata = store.metadata();
+  std::vector<double> tolerances;
+  for (const LevelInfo& level : metadata.levels) tolerances.push_back(level.tolerance);
+  const Selection selection(detail, tolerances, metadata.grid);
+  const GridWindow grid_window(window, metadata.grid, metadata.bounds);
+  const TilePlan plan(store.points(), selection, grid_window);
+
+  std::vector<RegionMesh> regions(plan.cells().size());
+  std::atomic<std::size_t> done = 0;
+  parallel_for(regions.size(), [&](std::size_t i) {
+    progress.throw_if_cancelled();
+    const Cell& cell = plan.cells()[i];
+    regions[i] = triangulate_region(store.points(), selection, square_of(cell), window.is_all() ? nullptr : &grid_window);
+    progress.report("triangulating", static_cast<double>(++done) / static_cast<double>(regions.size()));
+  });
+  return Assembly(std::move(regions), metadata.grid).run();
+}
+
+}  // namespace itin

@@ -1,0 +1,235 @@
+// Law 1: the window equals the whole.
+#include "triangulate/region.hpp"
+
+#include <map>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include <itin/detail.hpp>
+#include <itin/window.hpp>
+
+#include "pyramid/coverage.hpp"
+#include "support/points.hpp"
+
+namespace itin {
+namespace {
+
+using test::LevelPoint;
+using test::Pattern;
+
+using Corner = std::array<std::int32_t, 3>;
+using TriangleKey = std::array<Corner, 3>;
+
+TriangleKey key(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
+  TriangleKey k{{{a.x, a.y, a.z}, {b.x, b.y, b.z}, {c.x, c.y, c.z}}};
+  std::rotate(k.begin(), std::min_element(k.begin(), k.end()), k.end());
+  return k;
+}
+
+std::set<TriangleKey> keys(const RegionMesh& region) {
+  std::set<TriangleKey> result;
+  for (const auto& [a, b, c] : region.mesh.triangles) {
+    result.insert(key(region.vertices[a].point, region.vertices[b].point, region.vertices[c].point));
+  }
+  EXPECT_EQ(result.size(), region.mesh.triangles.size()) << "a triangle twice";
+  return result;
+}
+
+/// The triangulation of everything at once, as CGAL gives it, ground or not.
+struct Whole {
+  std::vector<GridPoint> points;
+  PlaneMesh mesh;
+};
+
+Whole whole(const std::vector<GridPoint>& points, const std::vector<Segment>& segments) {
+  Whole result{points, {}};
+  std::vector<Position> positions;
+  std::map<std::pair<int, int>, std::uint32_t> number;
+  for (const GridPoint& p : points) {
+    number[{p.x, p.y}] = static_cast<std::uint32_t>(positions.size());
+    positions.push_back({p.x, p.y});
+  }
+  // Shuffled, so that nothing rests on the order of insertion.
+  Delaunay delaunay;
+  delaunay.insert(positions);
+  std::vector<Delaunay::Constraint> constraints;
+  for (const Segment& s : segments) constraints.emplace_back(number.at({s.ax, s.ay}), number.at({s.bx, s.by}));
+  delaunay.constrain(constraints);
+  result.mesh = delaunay.mesh();
+  return result;
+}
+
+/// Empty when both sets are equal, else what differs, as text.
+std::string differences(const std::set<TriangleKey>& found, const std::set<TriangleKey>& expected) {
+  std::ostringstream text;
+  const auto list = [&](const char* title, const std::set<TriangleKey>& a, const std::set<TriangleKey>& b) {
+    for (const TriangleKey& t : a) {
+      if (b.contains(t)) continue;
+      text << title;
+      for (const Corner& c : t) text << " (" << c[0] << ", " << c[1] << ")";
+      text << "\n";
+    }
+  };
+  list("wrong:  ", found, expected);
+  list("missing:", expected, found);
+  return text.str();
+}
+
+Selection all_levels() { return Selection(Detail::tolerance(0), {0.0}, Grid{{0, 0}, 1.0}); }
+
+std::set<TriangleKey> meeting(const Whole& whole, const GridWindow& window) {
+  std::set<TriangleKey> result;
+  for (const auto& [a, b, c] : whole.mesh.triangles) {
+    if (window.meets(whole.points[a], whole.points[b], whole.points[c])) {
+      result.insert(key(whole.points[a], whole.points[b], whole.points[c]));
+    }
+  }
+  return result;
+}
+
+GridBox box_of(const std::vector<GridPoint>& points) {
+  GridBox box;
+  for (const GridPoint& p : points) box.extend(p.x, p.y);
+  return box;
+}
+
+std::vector<Window> windows_about(const GridBox& b, std::mt19937& random) {
+  const auto in = [&](double low, double high) { return low + (high - low) * static_cast<double>(random() % 10001) / 10000.0; };
+  const double width = std::max(1, b.xmax - b.xmin), height = std::max(1, b.ymax - b.ymin);
+  const auto point = [&] { return Point2{in(b.xmin - 0.1 * width, b.xmax + 0.1 * width), in(b.ymin - 0.1 * height, b.ymax + 0.1 * height)}; };
+  std::vector<Window> result{Window::all()};
+  for (int i = 0; i < 4; ++i) {
+    const Point2 p = point(), q = point(), r = point();
+    result.push_back(Window::box({std::min(p.x, q.x), std::min(p.y, q.y), std::max(p.x, q.x) + 1, std::max(p.y, q.y) + 1}));
+    result.push_back(Window::disc(p, in(1, width / 2)));
+    result.push_back(Window::wedge(q, in(0, 360), in(1, 360), in(2, width)));
+    if (p.x != q.x) result.push_back(Window::corridor(p, q, in(2, width / 10)));
+    const double s = in(10, width / 2 + 20);
+    result.push_back(Window::polygons({{{{r.x - s, r.y - s}, {r.x + s, r.y - s}, {r.x, r.y + s}}, {{{r.x, r.y - s / 2}, {r.x + s / 8, r.y - s / 2}, {r.x, r.y}}}}}));
+  }
+  return result;
+}
+
+class RegionPatterns : public testing::TestWithParam<Pattern> {};
+
+TEST_P(RegionPatterns, WindowEqualsWhole) {
+  const auto seed = static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed());
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed + static_cast<unsigned>(GetParam()));
+  for (int run = 0; run < 12; ++run) {
+    const std::vector<GridPoint> points = test::make_points(GetParam(), 3 + static_cast<int>(random() % 1500), random);
+    std::vector<LevelPoint> with_levels;
+    for (const GridPoint& p : points) with_levels.push_back({p, 0});
+    test::TestIndex index(with_levels, 1, 1 + random() % 40);
+    const Whole truth = whole(points, {});
+    const Selection selection = all_levels();
+    for (const Window& window : windows_about(box_of(points), random)) {
+      const GridWindow grid_window(window, Grid{{0, 0}, 1.0}, index->bounds());
+      const RegionMesh region = triangulate_region(*index, selection, grid_window.bounds(), &grid_window);
+      ASSERT_EQ(differences(keys(region), meeting(truth, grid_window)), "")
+          << "run " << run << ", " << points.size() << " points, window " << testing::PrintToString(grid_window.bounds().xmin) << " "
+          << grid_window.bounds().ymin << " " << grid_window.bounds().xmax << " " << grid_window.bounds().ymax;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Region, RegionPatterns,
+                         testing::Values(Pattern::kRandom, Pattern::kLattice, Pattern::kClusters, Pattern::kContours,
+                                         Pattern::kCollinear, Pattern::kCocircular));
+
+/// Whether three times the centroid of abc lies in a triangle of `ground`, scaled likewise.
+bool centroid_in(const std::vector<std::array<GridPoint, 3>>& ground, const GridPoint& a, const GridPoint& b, const GridPoint& c) {
+  const Position p{a.x + b.x + c.x, a.y + b.y + c.y};
+  return std::any_of(ground.begin(), ground.end(), [&](const auto& t) {
+    const Position q{3 * t[0].x, 3 * t[0].y}, r{3 * t[1].x, 3 * t[1].y}, s{3 * t[2].x, 3 * t[2].y};
+    return orientation(q, r, p) >= 0 && orientation(r, s, p) >= 0 && orientation(s, q, p) >= 0;
+  });
+}
+
+/// The outline of the union of some triangles of a triangulation, joined where it runs straight.
+std::vector<Segment> outline_of(const Whole& whole, const std::vector<std::array<GridPoint, 3>>& ground) {
+  std::set<Segment> edges;
+  for (const auto& t : ground) {
+    for (std::size_t i = 0; i < 3; ++i) edges.insert({t[i].x, t[i].y, t[(i + 1) % 3].x, t[(i + 1) % 3].y});
+  }
+  std::vector<Segment> outline;
+  for (const Segment& s : edges) {
+    if (!edges.contains({s.bx, s.by, s.ax, s.ay})) outline.push_back(s);
+  }
+  EXPECT_FALSE(whole.mesh.triangles.empty());
+  return join_collinear(outline);
+}
+
+class RegionCoverage : public testing::TestWithParam<Pattern> {};
+
+TEST_P(RegionCoverage, WindowEqualsWholeAtEveryLevelAcrossVoids) {
+  const auto seed = static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed());
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed + static_cast<unsigned>(GetParam()));
+  constexpr int kLevels = 4;
+  for (int run = 0; run < 8; ++run) {
+    std::vector<GridPoint> points = test::make_points(GetParam(), 200 + static_cast<int>(random() % 1000), random);
+    const GridBox box = box_of(points);
+    const double gap = 2.0 * std::sqrt(1.0 * (box.xmax - box.xmin) * (box.ymax - box.ymin) / static_cast<double>(points.size()));
+    for (int i = 0; i < 3; ++i) {
+      const std::int64_t x = box.xmin + static_cast<int>(random() % static_cast<unsigned>(box.xmax - box.xmin));
+      const std::int64_t y = box.ymin + static_cast<int>(random() % static_cast<unsigned>(box.ymax - box.ymin));
+      std::erase_if(points, [&](const GridPoint& p) { return (p.x - x) * (p.x - x) + (p.y - y) * (p.y - y) < 6 * gap * gap; });
+    }
+    std::vector<LevelPoint> with_levels;
+    for (const GridPoint& p : points) {
+      const unsigned dice = static_cast<unsigned>(random() % 16);
+      with_levels.push_back({p, dice < 9 ? 0 : dice < 13 ? 1 : dice < 15 ? 2 : 3});
+    }
+    test::TestIndex index(with_levels, kLevels, 1 + random() % 40);
+    NoProgress progress;
+    const Coverage coverage = find_coverage(*index, index->tiles(1 + random() % 300), {{gap, 0, 0, gap}}, progress);
+    index->set_segments(coverage.outline);
+    for (const Segment& s : coverage.outline) {
+      index->promote(morton(s.ax, s.ay), kLevels - 1);
+      index->promote(morton(s.bx, s.by), kLevels - 1);
+    }
+
+    std::vector<std::array<GridPoint, 3>> ground;
+    const Whole finest = whole(points, {});
+    for (const auto& [a, b, c] : finest.mesh.triangles) {
+      const std::array t{points[a], points[b], points[c]};
+      const auto short_enough = [&](const GridPoint& p, const GridPoint& q) { return std::abs(p.x - q.x) <= gap && std::abs(p.y - q.y) <= gap; };
+      if (short_enough(t[0], t[1]) && short_enough(t[1], t[2]) && short_enough(t[2], t[0])) ground.push_back(t);
+    }
+
+    ASSERT_EQ(coverage.outline, outline_of(finest, ground)) << "run " << run << ", " << points.size() << " points, gap " << gap;
+
+    for (const Segment& s : coverage.outline) {
+      for (const Segment& t : coverage.outline) {
+        ASSERT_FALSE(crosses(s, {t.ax, t.ay}, {t.bx, t.by})) << s.ax << " " << s.ay << " " << s.bx << " " << s.by << " x " << t.ax << " " << t.ay << " " << t.bx << " " << t.by;
+      }
+    }
+    for (int k = 0; k < kLevels; ++k) {
+      std::vector<GridPoint> selected;
+      for (const CurveRange& tile : index->tiles(1 << 30)) {
+        for (const RawPoint& p : index->read(tile)) {
+          if (p.level >= k) selected.push_back({morton_x(p.code), morton_y(p.code), p.z});
+        }
+      }
+      Whole truth = whole(selected, coverage.outline);
+      std::erase_if(truth.mesh.triangles, [&](const auto& t) { return !centroid_in(ground, selected[t[0]], selected[t[1]], selected[t[2]]); });
+      const std::vector<double> tolerances{0, 1, 2, 3};
+      const Selection selection(Detail::tolerance(k), tolerances, Grid{{0, 0}, 1.0});
+      for (const Window& window : windows_about(box, random)) {
+        const GridWindow grid_window(window, Grid{{0, 0}, 1.0}, index->bounds());
+        const RegionMesh region = triangulate_region(*index, selection, grid_window.bounds(), &grid_window);
+        ASSERT_EQ(differences(keys(region), meeting(truth, grid_window)), "")
+            << "run " << run << ", level " << k << ", " << points.size() << " points, gap " << gap << ", window "
+            << grid_window.bounds().xmin << " " << grid_window.bounds().ymin << " " << grid_window.bounds().xmax << " " << grid_window.bounds().ymax;
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Region, RegionCoverage,
+                         testing::Values(Pattern::kRandom, Pattern::kLattice, Pattern::kClusters, Pattern::kContours));
+
+}  // namespace
+}  // namespace itin
