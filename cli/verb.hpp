@@ -15,9 +15,10 @@ using Document = nlohmann::ordered_json;
 
 /// What a verb found out, for machines and for people; the program prints one of the two on stdout.
 struct Result {
-  Document document;    ///< without `itin`, `command` and the process's statistics, which the program adds
-  std::string text;     ///< ends with a newline
-  std::string failure;  ///< not empty: the result is printed all the same, then this error, and the status is 1
+  Document document =
+      Document::object();  ///< without `itin`, `command` and the process's statistics, which the program adds
+  std::string text;        ///< ends with a newline
+  std::string failure;     ///< not empty: the result is printed all the same, then this error, and the status is 1
 };
 
 class Verb {
