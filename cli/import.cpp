@@ -91,7 +91,7 @@ class ImportVerb final : public Verb {
 
  private:
   std::vector<double> growing_levels() const {
-    const std::vector<double> tolerances = parse_numbers("--levels", levels_, Range::kPositive);
+    std::vector<double> tolerances = parse_numbers("--levels", levels_, Range::kPositive);
     if (!std::is_sorted(tolerances.begin(), tolerances.end(), std::less_equal<>())) {
       throw InputError(fmt::format("--levels '{}': expected growing tolerances", levels_));
     }

@@ -23,10 +23,10 @@
 namespace itin {
 
 /// Stands for the missing neighbour across a boundary edge in flat arrays.
-inline constexpr std::uint32_t kNoTriangle = 0xffffffff;
+inline constexpr std::uint32_t kNoNeighbour = 0xffffffff;
 
 /// For each triangle t and i = 0, 1, 2 the triangle across the edge from corner i to corner (i + 1) % 3, or
-/// kNoTriangle. O(n) time, about 40 bytes a triangle while running. Precondition here and below: tin.triangles are
+/// kNoNeighbour. O(n) time, about 40 bytes a triangle while running. Precondition here and below: tin.triangles are
 /// those of a planar triangulation, counterclockwise, fewer than 2^32 / 3.
 std::vector<std::array<std::uint32_t, 3>> adjacent_triangles(const Tin& tin);
 
@@ -49,7 +49,7 @@ class Topology {
   std::uint32_t destination(std::uint32_t h) const { return origin(next(h)); }
   /// Nothing at the boundary.
   std::optional<std::uint32_t> twin(std::uint32_t h) const {
-    return twins_[h] == kNoTriangle ? std::nullopt : std::optional(twins_[h]);
+    return twins_[h] == kNoNeighbour ? std::nullopt : std::optional(twins_[h]);
   }
   std::uint32_t edge(std::uint32_t h) const { return edge_of_half_edge_[h]; }
   /// The only half-edge of a boundary edge, else the lesser of two.
@@ -97,7 +97,7 @@ class Topology {
   void order_stars(std::vector<std::uint32_t>& outgoing);
 
   const Tin* tin_;
-  std::vector<std::uint32_t> twins_;  ///< by half-edge; kNoTriangle at the boundary
+  std::vector<std::uint32_t> twins_;  ///< by half-edge; kNoNeighbour at the boundary
   std::vector<std::uint32_t> edge_of_half_edge_;
   std::vector<std::uint32_t> half_edge_of_edge_;
   // Of vertex v: [first[v], first[v + 1]).

@@ -12,8 +12,6 @@
 // within kLimit of 0 or when the shape has no area.
 #pragma once
 
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include <itin/geometry.hpp>

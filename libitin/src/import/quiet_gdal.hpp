@@ -1,16 +1,21 @@
-// GDAL prints its errors on stderr unless told otherwise; a library must not.
+// GDAL without its own messages: what it has to say goes into exceptions.
 #pragma once
 
+#include <algorithm>
+#include <mutex>
 #include <string>
 
 #include <cpl_error.h>
+#include <gdal.h>
 
 namespace itin {
 
-/// While one lives, GDAL prints nothing on this thread.
+/// While one lives, this thread's GDAL errors are kept, not printed. Drivers are registered once.
 class QuietGdal {
  public:
   QuietGdal() {
+    static std::once_flag registered;
+    std::call_once(registered, GDALAllRegister);
     CPLPushErrorHandler(CPLQuietErrorHandler);
     CPLErrorReset();
   }
@@ -18,12 +23,11 @@ class QuietGdal {
   QuietGdal(const QuietGdal&) = delete;
   QuietGdal& operator=(const QuietGdal&) = delete;
 
-  /// What GDAL said last, on one line; `otherwise` if it said nothing.
-  static std::string reason(const char* otherwise) {
+  static bool failed() { return CPLGetLastErrorType() >= CE_Failure; }
+  /// The last error on one line, or `otherwise`.
+  static std::string message(const std::string& otherwise) {
     std::string text = CPLGetLastErrorMsg();
-    for (char& c : text) {
-      if (c == '\n' || c == '\r') c = ' ';
-    }
+    std::replace(text.begin(), text.end(), '\n', ' ');
     return text.empty() ? otherwise : text;
   }
 };

@@ -16,14 +16,13 @@ namespace itin {
 namespace {
 
 GDALDatasetUniquePtr opened(const std::string& path) {
-  GDALAllRegister();
   // Only the CSV driver knows these names; other drivers pass them over.
   const char* const options[] = {"X_POSSIBLE_NAMES=x,easting,lon,longitude", "Y_POSSIBLE_NAMES=y,northing,lat,latitude",
                                  "AUTODETECT_TYPE=YES", nullptr};
   GDALDatasetUniquePtr dataset(
       GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, options, nullptr));
   if (!dataset) {
-    throw FileError(path, "not readable as a vector file (" + QuietGdal::reason("GDAL knows no such format") + ")");
+    throw FileError(path, "not readable as a vector file (" + QuietGdal::message("GDAL knows no such format") + ")");
   }
   return dataset;
 }
@@ -105,7 +104,7 @@ std::vector<Site> read_sites(const SiteQuery& query, const std::string& to_crs) 
   const int height_field = field_index(layer, query.path, query.height_field);
   const int name_field = field_index(layer, query.path, query.name_field);
   if (!query.where.empty() && layer.SetAttributeFilter(query.where.c_str()) != OGRERR_NONE) {
-    throw FileError(query.path, fmt::format("--where '{}': {}", query.where, QuietGdal::reason("not understood")));
+    throw FileError(query.path, fmt::format("--where '{}': {}", query.where, QuietGdal::message("not understood")));
   }
   const std::optional<CoordinateTransform> transform = transform_from(layer, query, to_crs);
 

@@ -4,7 +4,6 @@
 #include <string_view>
 #include <vector>
 
-#include <cpl_error.h>
 #include <fmt/format.h>
 #include <gdal_priv.h>
 #include <ogr_spatialref.h>
@@ -13,20 +12,13 @@
 #include <itin/error.hpp>
 #include <itin/window_source.hpp>
 
+#include "import/quiet_gdal.hpp"
+
 namespace itin {
 
 namespace {
 
 using Geometry = std::unique_ptr<OGRGeometry>;
-
-/// Keeps GDAL's messages to itself; they are passed on in exceptions.
-class QuietErrors {
- public:
-  QuietErrors() { CPLPushErrorHandler(CPLQuietErrorHandler); }
-  ~QuietErrors() { CPLPopErrorHandler(); }
-  QuietErrors(const QuietErrors&) = delete;
-  QuietErrors& operator=(const QuietErrors&) = delete;
-};
 
 bool is_well_known_text(const std::string& text) {
   const auto start = std::find_if_not(text.begin(), text.end(), [](unsigned char c) { return std::isspace(c); });
@@ -106,14 +98,12 @@ void append_layer(OGRLayer& layer, const std::string& target_crs, std::vector<Wi
 }
 
 std::vector<Window::Polygon> polygons_of_file(const std::string& path, const std::string& target_crs) {
-  GDALAllRegister();
   const GDALDatasetUniquePtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
   if (!dataset) throw FileError(path, "neither well-known text nor a vector file that can be read");
   std::vector<Window::Polygon> parts;
   for (OGRLayer* layer : dataset->GetLayers()) {
-    CPLErrorReset();
     append_layer(*layer, target_crs, parts);
-    if (CPLGetLastErrorType() >= CE_Failure) throw FileError(path, CPLGetLastErrorMsg());
+    if (QuietGdal::failed()) throw FileError(path, QuietGdal::message("cannot be read"));
   }
   if (parts.empty()) throw InputError(path + ": holds no polygon");
   return parts;
@@ -122,7 +112,7 @@ std::vector<Window::Polygon> polygons_of_file(const std::string& path, const std
 }  // namespace
 
 Window window_from_polygon(const std::string& wkt_or_file, const std::string& target_crs, const std::string& wkt_crs) {
-  const QuietErrors quiet;
+  const QuietGdal quiet;
   if (!is_well_known_text(wkt_or_file)) return Window::polygons(polygons_of_file(wkt_or_file, target_crs));
   std::vector<Window::Polygon> parts;
   append_polygons(*geometry_from_text(wkt_or_file, target_crs, wkt_crs), parts);

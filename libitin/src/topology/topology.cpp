@@ -72,7 +72,7 @@ void Topology::group_by_origin(std::vector<std::uint32_t>& outgoing) {
 /// Walks the fans of every vertex.
 void Topology::order_stars(std::vector<std::uint32_t>& outgoing) {
   const auto boundary =
-      static_cast<std::size_t>(std::count(twins_.begin(), twins_.end(), kNoTriangle));  // one fan begins at each
+      static_cast<std::size_t>(std::count(twins_.begin(), twins_.end(), kNoNeighbour));  // one fan begins at each
   triangles_.reserve(twins_.size());
   neighbours_.reserve(twins_.size() + boundary);
   edges_.reserve(twins_.size() + boundary);
@@ -82,7 +82,7 @@ void Topology::order_stars(std::vector<std::uint32_t>& outgoing) {
   const auto at_end = [this](std::uint32_t h) -> const GridPoint& { return tin_->vertices[destination(h)]; };
   for (std::uint32_t v = 0; v < vertex_count(); ++v) {
     const auto begin = outgoing.begin() + first_triangle_[v], end = outgoing.begin() + first_triangle_[v + 1];
-    auto fans_end = std::partition(begin, end, [this](std::uint32_t h) { return twins_[h] == kNoTriangle; });
+    auto fans_end = std::partition(begin, end, [this](std::uint32_t h) { return twins_[h] == kNoNeighbour; });
     if (fans_end == begin && begin != end) ++fans_end;  // enclosed: begin anywhere, which is with the least
     if (fans_end - begin > 1) {
       std::iter_swap(begin, std::min_element(begin, fans_end));
@@ -97,11 +97,11 @@ void Topology::order_stars(std::vector<std::uint32_t>& outgoing) {
         edges_.push_back(edge(h));
         const std::uint32_t last = previous(h);
         h = twins_[last];
-        if (h == kNoTriangle) {
+        if (h == kNoNeighbour) {
           neighbours_.push_back(origin(last));
           edges_.push_back(edge(last));
         }
-      } while (h != kNoTriangle && h != *fan);
+      } while (h != kNoNeighbour && h != *fan);
     }
     first_neighbour_.push_back(static_cast<std::uint32_t>(neighbours_.size()));
   }

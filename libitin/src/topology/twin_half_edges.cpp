@@ -25,7 +25,7 @@ std::vector<std::uint32_t> twin_half_edges(const Tin& tin) {
 
   std::vector<Waiting> waiting(first.back());
   std::vector<std::uint32_t> end(first.begin(), first.end() - 1);
-  std::vector<std::uint32_t> twins(3 * tin.triangles.size(), kNoTriangle);
+  std::vector<std::uint32_t> twins(3 * tin.triangles.size(), kNoNeighbour);
   std::uint32_t half_edge = 0;
   for (const Triangle& t : tin.triangles) {
     for (std::size_t i = 0; i < 3; ++i, ++half_edge) {
@@ -49,7 +49,7 @@ std::vector<std::array<std::uint32_t, 3>> adjacent_triangles(const Tin& tin) {
   const std::vector<std::uint32_t> twins = twin_half_edges(tin);
   std::vector<std::array<std::uint32_t, 3>> adjacent(tin.triangles.size());
   for (std::size_t h = 0; h < twins.size(); ++h)
-    adjacent[h / 3][h % 3] = twins[h] == kNoTriangle ? kNoTriangle : Topology::face(twins[h]);
+    adjacent[h / 3][h % 3] = twins[h] == kNoNeighbour ? kNoNeighbour : Topology::face(twins[h]);
   return adjacent;
 }
 

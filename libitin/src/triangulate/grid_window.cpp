@@ -203,13 +203,11 @@ GridWindow::CellRange GridWindow::cells(const GridBox& box) const {
           index(b.ymax, extent_.ymin)};
 }
 
-/// Every closed cell the edge meets.
+/// Every cell the edge meets; as for positions, a border belongs to the cell after it.
 template <typename Visit>
 void GridWindow::visit_cells(const Edge& edge, const Visit& visit) const {
-  // A position on a cell's lower border belongs to the cell before as well.
-  const auto closed_cells = [this](const GridBox& b) { return cells({b.xmin - 1, b.ymin - 1, b.xmax, b.ymax}); };
   const GridBox box = edge.box();
-  const CellRange range = closed_cells(box);
+  const CellRange range = cells(box);
   const double slope = edge.a.y == edge.b.y ? 0 : (double{1} * edge.b.x - edge.a.x) / (double{1} * edge.b.y - edge.a.y);
   for (std::uint32_t row = range.row0; row <= range.row1; ++row) {
     CellRange span = range;
@@ -221,7 +219,7 @@ void GridWindow::visit_cells(const Edge& edge, const Visit& visit) const {
       GridBox part = box;
       part.xmin = std::max(box.xmin, static_cast<std::int32_t>(std::floor(std::min(x0, x1))) - 2);
       part.xmax = std::min(box.xmax, static_cast<std::int32_t>(std::ceil(std::max(x0, x1))) + 2);
-      span = closed_cells(part);
+      span = cells(part);
     }
     for (std::uint32_t column = span.column0; column <= span.column1; ++column) {
       if (Figure(cell_box(column, row)).meets(edge)) visit(cell(column, row));
@@ -303,9 +301,9 @@ bool GridWindow::meets(const GridPoint& a, const GridPoint& b, const GridPoint& 
   }
   const CellRange range = cells(figure.box());
   if (range.count() == 1) {
+    // A cell at the rim of the extent is never Inside, so one that is holds the whole triangle.
     const State state = states_[cell(range.column0, range.row0)];
-    if (state == State::Outside) return false;
-    if (state == State::Inside && extent_.contains(figure.box())) return true;
+    if (state != State::Mixed) return state == State::Inside;
   }
   return contains(a.x, a.y) || boundary_meets(figure, range);
 }

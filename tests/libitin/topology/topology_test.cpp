@@ -69,7 +69,7 @@ void check_triangles(const Tin& tin, const Topology& topology) {
     for (std::size_t i = 0; i < 3; ++i) {
       const auto expected = triangle_across(tin, t, i);
       ASSERT_EQ(topology.triangles_of_triangle(t)[i], expected);
-      ASSERT_EQ(adjacent[t][i], expected.value_or(kNoTriangle));
+      ASSERT_EQ(adjacent[t][i], expected.value_or(kNoNeighbour));
       const auto ends = topology.vertices_of_edge(topology.edges_of_triangle(t)[i]);
       ASSERT_EQ(std::minmax(ends[0], ends[1]), std::minmax(tin.triangles[t][i], tin.triangles[t][(i + 1) % 3]));
     }

@@ -201,6 +201,12 @@ TEST_F(GridWindowTest, OverlappingPartsAreTheirUnion) {
   }
 }
 
+TEST_F(GridWindowTest, HolesOutsideTheirPartAreNothingButTheirBoundary) {
+  for (int i = 0; i < 5; ++i) {
+    compare(Window::polygons({{star({-40, 0}, 20, 40, 9), {star({40, 0}, 20, 40, 9)}}}), 100, 3000);
+  }
+}
+
 TEST_F(GridWindowTest, ShapesThinnerThanTheGridKeepTheirBoundary) {
   const GridWindow segment(Window::corridor({0, 0}, {10, 10}, 0.01), kUnitGrid, {});
   EXPECT_TRUE(segment.contains(4, 4));
@@ -214,6 +220,15 @@ TEST_F(GridWindowTest, ShapesThinnerThanTheGridKeepTheirBoundary) {
   EXPECT_TRUE(point.meets({6, 3, 0}, {8, 3, 0}, {7, 9, 0}));
   EXPECT_FALSE(point.meets({6, 4, 0}, {8, 4, 0}, {7, 9, 0}));
   EXPECT_TRUE(point.meets({7, 0, 7, 9}));
+}
+
+TEST_F(GridWindowTest, TwoSidesOfABoxAreNotTheBox) {
+  const GridWindow sides(
+      Window::polygons({{{{0, 0}, {9, 0}, {9, 0.1}, {0, 0.1}}, {}}, {{{9, 9}, {0, 9}, {0, 9.1}, {9, 9.1}}, {}}}),
+      kUnitGrid, {});
+  EXPECT_TRUE(sides.contains(5, 0));
+  EXPECT_TRUE(sides.contains(5, 9));
+  EXPECT_FALSE(sides.contains(5, 5));
 }
 
 TEST_F(GridWindowTest, AllIsTheDataBounds) {

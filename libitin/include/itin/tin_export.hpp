@@ -1,0 +1,66 @@
+// Writes a Tin to the formats that others read.
+//
+//   TinExportOptions options;
+//   options.crs_wkt = store.metadata().crs_wkt;
+//   export_tin(tin, "hills.ply", options, progress);
+//
+// The file name's ending chooses the format. Vertices keep their order, and triangles theirs, in every format.
+//
+// .ply      binary, little-endian. Vertex properties: double x y z; uint id_high id_low, where the VertexId is
+//           id_high * 2^32 + id_low; ushort source. Faces: vertex_indices. The CRS is a comment.
+// .obj      text; positions as the shortest decimals that read back as the same doubles. No ids: it has no place for
+//           them. The CRS is a comment.
+// .glb      glTF 2.0, for viewing: y up, x east, z south. Single-precision positions about a local origin, wrong by at
+//           most 2^-23 of the extent; the origin (easting, northing, up, exact) and the CRS are in the scene's extras.
+//           Normals, colours by height; _VERTEX_ID as four 16-bit words, least first; _SOURCE.
+// .gpkg     layers `triangles` (polygons with z; vertex_a/b/c, source_a/b/c) and `vertices` (points with z; id and
+//           source). Only the former has a spatial index, which is what takes the time: 12 s a million triangles.
+//           Timestamps are fixed, so that equal Tins give equal files.
+// .geojson  polygons with z in the store's CRS, named in the `crs` member of GeoJSON 2008, which GDAL and QGIS follow;
+//           the same properties. Ids are integers beyond 2^53: read them with 64 bits.
+//
+// Coordinates are exact but for .glb: they quantise to the same grid positions.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <itin/progress.hpp>
+#include <itin/tin.hpp>
+
+namespace itin {
+
+struct TinExportOptions {
+  std::string crs_wkt;        ///< of the coordinates; empty: unknown
+  bool overwrite = false;     ///< replace an existing file
+  std::string metadata_json;  ///< a JSON object that says where the Tin comes from, or nothing. Kept by .glb (extras),
+                              ///< .gpkg (metadata item METADATA_JSON), .geojson (`metadata`); its members open a
+                              ///< topology document.
+};
+
+/// The three structures of topology.hpp.
+enum class TopologyKind { TriangleBased, VertexBased, EdgeBased };
+
+/// "triangle", "vertex" or "edge". Throws InputError.
+TopologyKind topology_kind(std::string_view name);
+
+/// Throws what export_tin() or export_topology() would throw before writing: InputError for an unknown ending,
+/// FileError for an existing file without overwrite or a missing folder. Worth calling before a long query.
+void require_tin_output(const std::string& path, bool overwrite);
+void require_topology_output(const std::string& path, bool overwrite);
+
+/// Written under a temporary name beside `path` and renamed when complete; whatever is thrown, `path` stays as it was.
+/// Throws InputError (unknown ending; metadata that is not an object; a CRS without an EPSG code for .geojson; too many
+/// vertices for .glb), FileError, Cancelled. O(n) time and, but for .glb (24 bytes a vertex), constant memory.
+void export_tin(const Tin& tin, const std::string& path, const TinExportOptions& options, Progress& progress);
+
+/// A JSON document (path ends in .json): `topology` (the kind), `crs` (WKT), `vertex_ids` (decimal strings, for many
+/// readers lose digits beyond 2^53), `sources`, `vertices` [[x, y, z]], and
+///   triangle: `triangles` [[a, b, c]], `adjacent_triangles` [[across ab, across bc, across ca]], null at the boundary
+///   vertex:   `neighbours` [[...]] counterclockwise, a boundary vertex's from the boundary on; `boundary` [bool]
+///   edge:     `half_edges` [[origin, twin, next, face]], twin null at the boundary
+/// Indices count from 0. Errors as above.
+void export_topology(const Tin& tin, TopologyKind kind, const std::string& path, const TinExportOptions& options,
+                     Progress& progress);
+
+}  // namespace itin

@@ -1,0 +1,22 @@
+// What an export says about itself besides its triangles.
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace itin {
+
+/// TinExportOptions::metadata_json as an object, empty for nothing; members keep their order. Throws InputError.
+nlohmann::ordered_json parsed_metadata(const std::string& metadata_json);
+
+/// As compact text; bytes that are not UTF-8 are replaced, never an error.
+std::string dumped(const nlohmann::ordered_json& json);
+
+/// For comments: line ends become spaces.
+std::string on_one_line(std::string text);
+
+/// For GeoJSON, "urn:ogc:def:crs:EPSG::27700"; empty for an unknown CRS. Throws InputError for one without EPSG code.
+std::string crs_urn(const std::string& crs_wkt);
+
+}  // namespace itin

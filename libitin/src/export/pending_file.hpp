@@ -1,0 +1,37 @@
+// An output that takes its name only when it is complete.
+//
+//   PendingFile output(path, overwrite);
+//   write(output.temporary_path());
+//   output.commit();
+#pragma once
+
+#include <string>
+
+namespace itin {
+
+class PendingFile {
+ public:
+  /// Throws FileError if `path` exists and may not be replaced, is a folder, or is in a folder that does not exist.
+  static void require_possible(const std::string& path, bool overwrite);
+
+  /// Throws as require_possible() does.
+  PendingFile(std::string path, bool overwrite);
+  /// Removes the temporary file, if not committed.
+  ~PendingFile();
+  PendingFile(const PendingFile&) = delete;
+  PendingFile& operator=(const PendingFile&) = delete;
+
+  const std::string& path() const { return path_; }
+  /// In the same folder, with the same ending; no other PendingFile has the same.
+  const std::string& temporary_path() const { return temporary_path_; }
+  /// Renames. Throws FileError, also when another program has made the file meanwhile and it may not be replaced.
+  void commit();
+
+ private:
+  std::string path_;
+  std::string temporary_path_;
+  bool overwrite_;
+  bool committed_ = false;
+};
+
+}  // namespace itin

@@ -1,0 +1,45 @@
+#include "export/buffered_file.hpp"
+#include "export/export_metadata.hpp"
+#include "export/step_progress.hpp"
+#include "export/tin_formats.hpp"
+
+namespace itin {
+
+namespace {
+
+void write_feature(const Tin& tin, std::size_t triangle, BufferedFile& file) {
+  const auto [a, b, c] = tin.triangles[triangle];
+  file.print(R"({{"type":"Feature","id":{},"properties":{{"vertex_a":{},"vertex_b":{},"vertex_c":{},)", triangle,
+             tin.id(a), tin.id(b), tin.id(c));
+  file.print(R"("source_a":{},"source_b":{},"source_c":{}}},)", tin.sources[a], tin.sources[b], tin.sources[c]);
+  file.write(R"("geometry":{"type":"Polygon","coordinates":[[)");
+  const char* separator = "";
+  for (const std::uint32_t v : {a, b, c, a}) {
+    const Point3 p = tin.point(v);
+    file.print("{}[{},{},{}]", separator, p.x, p.y, p.z);
+    separator = ",";
+  }
+  file.write("]]}}");
+}
+
+}  // namespace
+
+void write_geojson(const Tin& tin, const PendingFile& output, const TinExportOptions& options, Progress& progress) {
+  const nlohmann::ordered_json metadata = parsed_metadata(options.metadata_json);
+  const std::string urn = crs_urn(options.crs_wkt);
+  BufferedFile file(output);
+  file.write(R"({"type":"FeatureCollection","name":"triangles",)");
+  if (!urn.empty()) file.print(R"("crs":{{"type":"name","properties":{{"name":"{}"}}}},)", urn);
+  if (!metadata.empty()) file.print(R"("metadata":{},)", dumped(metadata));
+  file.write("\"features\":[");
+  StepProgress steps(progress, tin.triangles.size());
+  for (std::size_t t = 0; t < tin.triangles.size(); ++t) {
+    file.write(t == 0 ? "\n" : ",\n");
+    write_feature(tin, t, file);
+    steps.step();
+  }
+  file.write("\n]}\n");
+  file.close();
+}
+
+}  // namespace itin

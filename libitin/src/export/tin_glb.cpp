@@ -1,0 +1,222 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <itin/error.hpp>
+
+#include "export/buffered_file.hpp"
+#include "export/export_metadata.hpp"
+#include "export/step_progress.hpp"
+#include "export/tin_formats.hpp"
+
+namespace itin {
+
+namespace {
+
+// Names as in the glTF 2.0 specification.
+constexpr int kUnsignedByte = 5121, kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;
+constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
+
+using Json = nlohmann::ordered_json;
+using Vector = std::array<float, 3>;
+
+/// East, north, up to glTF's axes: y up, right-handed.
+Vector gltf_axes(double east, double north, double up) {
+  return {static_cast<float>(east), static_cast<float>(up), static_cast<float>(-north)};
+}
+
+/// The buffer views' places in the file's one buffer, in the order in which they are written.
+class Layout {
+ public:
+  /// `stride` bytes an element; 0 for indices, which must not say it.
+  std::size_t add(std::size_t count, std::size_t element_bytes, int target) {
+    Json view = {{"buffer", 0}, {"byteOffset", bytes_}, {"byteLength", count * element_bytes}, {"target", target}};
+    if (target == kArrayBuffer) view["byteStride"] = element_bytes;
+    views_.push_back(std::move(view));
+    bytes_ += count * element_bytes;  // all elements are multiples of four bytes, as the format demands of offsets
+    return views_.size() - 1;
+  }
+  std::size_t bytes() const { return bytes_; }
+  const Json& views() const { return views_; }
+
+ private:
+  std::size_t bytes_ = 0;
+  Json views_ = Json::array();
+};
+
+class GlbWriter {
+ public:
+  GlbWriter(const Tin& tin, const TinExportOptions& options) : tin_(tin), options_(options) {
+    box_ = {};
+    for (const GridPoint& p : tin.vertices) {
+      box_.extend(p.x, p.y);
+      zmin_ = std::min(zmin_, p.z), zmax_ = std::max(zmax_, p.z);
+    }
+    if (tin.vertices.empty()) return;
+    const auto middle = [](std::int32_t low, std::int32_t high) {
+      return static_cast<std::int32_t>((std::int64_t{low} + high) / 2);
+    };
+    origin_ = {middle(box_.xmin, box_.xmax), middle(box_.ymin, box_.ymax), middle(zmin_, zmax_)};
+  }
+
+  void write(const PendingFile& output, Progress& progress) const {
+    Layout layout;
+    std::string json = dumped(document(layout));
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    const std::size_t total = 12 + 8 + json.size() + (layout.bytes() > 0 ? 8 + layout.bytes() : 0);
+    if (total > std::numeric_limits<std::uint32_t>::max())
+      throw InputError("export: glTF files end at 4 GB; choose a coarser tolerance, a smaller window or .ply");
+
+    BufferedFile file(output);
+    file.write("glTF");
+    file.little_endian(std::uint32_t{2});
+    file.little_endian(static_cast<std::uint32_t>(total));
+    file.little_endian(static_cast<std::uint32_t>(json.size()));
+    file.write("JSON");
+    file.write(json);
+    if (layout.bytes() > 0) {
+      file.little_endian(static_cast<std::uint32_t>(layout.bytes()));
+      file.write(std::string_view("BIN\0", 4));
+      write_buffer(file, progress);
+    }
+    file.close();
+  }
+
+ private:
+  Vector position(const GridPoint& p) const {
+    const double r = tin_.grid.resolution;
+    return gltf_axes((p.x - origin_.x) * r, (p.y - origin_.y) * r, (double{1} * p.z - origin_.z) * r);
+  }
+
+  Json document(Layout& layout) const {
+    Json extras = parsed_metadata(options_.metadata_json);
+    const Point3 o = tin_.grid.point(origin_);
+    extras["origin"] = {o.x, o.y, o.z};
+    extras["axes"] = "x east, y up, z south; metres about origin (easting, northing, up)";
+    extras["crs"] = options_.crs_wkt;
+    Json scene = {{"extras", std::move(extras)}};
+    Json document = {{"asset", {{"version", "2.0"}, {"generator", std::string("itin ") + ITIN_VERSION}}}, {"scene", 0}};
+    if (!tin_.triangles.empty()) {
+      scene["nodes"] = {0};
+      document["nodes"] = Json::array({{{"name", "surface"}, {"mesh", 0}}});
+      add_mesh(document, layout);
+    }
+    document["scenes"] = Json::array({std::move(scene)});
+    return document;
+  }
+
+  void add_mesh(Json& document, Layout& layout) const {
+    const std::size_t n = tin_.vertices.size(), m = 3 * tin_.triangles.size();
+    // z south is -north: the largest northing is the least z.
+    const Vector low = position({box_.xmin, box_.ymax, zmin_}), high = position({box_.xmax, box_.ymin, zmax_});
+    document["accessors"] = {
+        {{"bufferView", layout.add(n, 12, kArrayBuffer)},
+         {"componentType", kFloat},
+         {"count", n},
+         {"type", "VEC3"},
+         {"min", low},
+         {"max", high}},
+        {{"bufferView", layout.add(n, 12, kArrayBuffer)}, {"componentType", kFloat}, {"count", n}, {"type", "VEC3"}},
+        {{"bufferView", layout.add(n, 4, kArrayBuffer)},
+         {"componentType", kUnsignedByte},
+         {"normalized", true},
+         {"count", n},
+         {"type", "VEC4"}},
+        {{"bufferView", layout.add(n, 8, kArrayBuffer)},
+         {"componentType", kUnsignedShort},
+         {"count", n},
+         {"type", "VEC4"}},
+        {{"bufferView", layout.add(n, 4, kArrayBuffer)},
+         {"componentType", kUnsignedShort},
+         {"count", n},
+         {"type", "SCALAR"}},
+        {{"bufferView", layout.add(m, 4, kElementArrayBuffer)},
+         {"componentType", kUnsignedInt},
+         {"count", m},
+         {"type", "SCALAR"}}};
+    document["bufferViews"] = layout.views();
+    document["buffers"] = Json::array({{{"byteLength", layout.bytes()}}});
+    document["materials"] = Json::array({{{"name", "terrain"},
+                                          {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 1}}},
+                                          {"doubleSided", true}}});
+    const Json attributes = {{"POSITION", 0}, {"NORMAL", 1}, {"COLOR_0", 2}, {"_VERTEX_ID", 3}, {"_SOURCE", 4}};
+    document["meshes"] = Json::array(
+        {{{"name", "surface"},
+          {"primitives", Json::array({{{"attributes", attributes}, {"indices", 5}, {"material", 0}, {"mode", 4}}})}}});
+  }
+
+  /// Sums of the triangles' normals weighted by area; upward, as every triangle's is.
+  std::vector<std::array<double, 3>> normals() const {
+    std::vector<std::array<double, 3>> sums(tin_.vertices.size());
+    for (const Triangle& t : tin_.triangles) {
+      const GridPoint &a = tin_.vertices[t[0]], &b = tin_.vertices[t[1]], &c = tin_.vertices[t[2]];
+      const double ux = double{1} * b.x - a.x, uy = double{1} * b.y - a.y, uz = double{1} * b.z - a.z;
+      const double vx = double{1} * c.x - a.x, vy = double{1} * c.y - a.y, vz = double{1} * c.z - a.z;
+      const std::array<double, 3> normal{uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx};
+      for (const std::uint32_t v : t)
+        for (std::size_t i = 0; i < 3; ++i) sums[v][i] += normal[i];
+    }
+    return sums;
+  }
+
+  /// From lowland green over ochre and brown to white, as on school maps; linear RGBA.
+  std::array<std::uint8_t, 4> colour(const GridPoint& p) const {
+    static constexpr std::array<std::array<double, 3>, 4> kStops{
+        {{60, 120, 50}, {200, 180, 90}, {140, 90, 50}, {245, 245, 245}}};
+    const double range = std::max(double{1} * zmax_ - zmin_, 1.0);
+    const double at = (double{1} * p.z - zmin_) / range * (kStops.size() - 1);
+    const auto below = std::min(static_cast<std::size_t>(at), kStops.size() - 2);
+    std::array<std::uint8_t, 4> rgba{0, 0, 0, 255};
+    for (std::size_t i = 0; i < 3; ++i) {
+      rgba[i] = static_cast<std::uint8_t>(
+          std::lround(std::lerp(kStops[below][i], kStops[below + 1][i], at - static_cast<double>(below))));
+    }
+    return rgba;
+  }
+
+  /// In the order of add_mesh().
+  void write_buffer(BufferedFile& file, Progress& progress) const {
+    StepProgress steps(progress, 5 * tin_.vertices.size() + tin_.triangles.size());
+    const auto each_vertex = [&](const auto& write_vertex) {
+      for (std::uint32_t v = 0; v < tin_.vertices.size(); ++v) {
+        write_vertex(v);
+        steps.step();
+      }
+    };
+    each_vertex([&](std::uint32_t v) {
+      for (const float c : position(tin_.vertices[v])) file.little_endian(c);
+    });
+    const auto sums = normals();
+    each_vertex([&](std::uint32_t v) {
+      const auto& [east, north, up] = sums[v];
+      const double length = std::hypot(east, north, up);
+      for (const float c : gltf_axes(east / length, north / length, up / length)) file.little_endian(c);
+    });
+    each_vertex([&](std::uint32_t v) {
+      for (const std::uint8_t c : colour(tin_.vertices[v])) file.little_endian(c);
+    });
+    each_vertex([&](std::uint32_t v) { file.little_endian(tin_.id(v)); });
+    each_vertex([&](std::uint32_t v) { file.little_endian(std::uint32_t{tin_.sources[v]}); });
+    for (const Triangle& t : tin_.triangles) {
+      for (const std::uint32_t v : t) file.little_endian(v);
+      steps.step();
+    }
+  }
+
+  const Tin& tin_;
+  const TinExportOptions& options_;
+  GridBox box_;
+  std::int32_t zmin_ = std::numeric_limits<std::int32_t>::max();
+  std::int32_t zmax_ = std::numeric_limits<std::int32_t>::min();
+  GridPoint origin_;
+};
+
+}  // namespace
+
+void write_glb(const Tin& tin, const PendingFile& output, const TinExportOptions& options, Progress& progress) {
+  GlbWriter(tin, options).write(output, progress);
+}
+
+}  // namespace itin
