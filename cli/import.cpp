@@ -86,7 +86,7 @@ class ImportVerb final : public Verb {
   Result execute(Progress& progress) override {
     const ImportReport report = import_terrain(store_, options_, progress);
     const Store store(store_);
-    return {document(report, store.metadata()), text(report, store.metadata()), {}};
+    return {document(report, store.metadata()), text(report, store.metadata()), report.warnings, {}};
   }
 
  private:
@@ -112,17 +112,15 @@ class ImportVerb final : public Verb {
     document["bytes"] = report.store_bytes;
     document["bytes_per_vertex"] = bytes_per_vertex(report);
     document["levels"] = levels_document(metadata);
-    document["warnings"] = report.warnings;
     document["statistics"] = {{"points_read", report.read}};
     return document;
   }
 
   std::string text(const ImportReport& report, const StoreMetadata& metadata) const {
-    std::string text;
-    for (const std::string& warning : report.warnings) text += fmt::format("warning: {}\n", warning);
-    text += fmt::format("{}: {} vertices in {}, {:.2f} bytes a vertex, {}{}\n", store_, grouped(report.vertices),
-                        readable_bytes(report.store_bytes), bytes_per_vertex(report), report.crs_name,
-                        report.crs_chosen ? " (chosen; see --to-crs)" : "");
+    std::string text =
+        fmt::format("{}: {} vertices in {}, {:.2f} bytes a vertex, {}{}\n", store_, grouped(report.vertices),
+                    readable_bytes(report.store_bytes), bytes_per_vertex(report), report.crs_name,
+                    report.crs_chosen ? " (chosen; see --to-crs)" : "");
     text += fmt::format("read {} points in {:.1f} s", grouped(report.read), report.seconds);
     const auto mention = [&](std::uint64_t count, const char* what) {
       if (count > 0) text += fmt::format(", {} {}", grouped(count), what);

@@ -78,7 +78,7 @@ class InfoVerb final : public Verb {
   Document parameters() const override { return {{"store", store_}}; }
   Result execute(Progress&) override {
     const Store store(store_);
-    return {info_document(store), info_text(store), {}};
+    return {info_document(store), info_text(store), {}, {}};
   }
 
  private:

@@ -97,6 +97,7 @@ Document complete_document(const Verb& verb, Result& result, double seconds) {
   Document statistics = result.document.value("statistics", Document::object());
   result.document.erase("statistics");
   document.update(result.document);
+  document["warnings"] = result.warnings;
   statistics["seconds"] = seconds;
   statistics["peak_memory_bytes"] = peak_memory_bytes();
   document["statistics"] = std::move(statistics);
@@ -117,6 +118,7 @@ void run_verb(Verb& verb, const Everywhere& everywhere) {
     StderrProgress progress(StderrProgress::style_for(everywhere.quiet));
     result = verb.execute(progress);
   }
+  for (const std::string& warning : result.warnings) std::cerr << "itin: warning: " << warning << "\n";
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   print(everywhere.json ? complete_document(verb, result, elapsed.count()).dump(2) + "\n" : result.text);
   if (!result.failure.empty()) throw Error(result.failure);

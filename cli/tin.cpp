@@ -64,7 +64,7 @@ class TinVerb final : public Verb {
     const Tin tin = triangulate(store, window, detail, progress);
     const Document surface = surface_document(store.metadata(), detail);
     write(tin, store.metadata(), surface, progress);
-    return {document(tin, store.metadata(), surface), text(tin), {}};
+    return {document(tin, store.metadata(), surface), text(tin), {}, {}};
   }
 
  private:

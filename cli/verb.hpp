@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -18,7 +19,8 @@ struct Result {
   Document document =
       Document::object();  ///< without `itin`, `command` and the process's statistics, which the program adds
   std::string text;        ///< ends with a newline
-  std::string failure;     ///< not empty: the result is printed all the same, then this error, and the status is 1
+  std::vector<std::string> warnings;  ///< one line each, for stderr and the document
+  std::string failure;  ///< not empty: the result is printed all the same, then this error, and the status is 1
 };
 
 class Verb {
@@ -29,7 +31,8 @@ class Verb {
   virtual void declare(CLI::App& app) = 0;
   /// Understands every option, touching no file. Throws InputError.
   virtual void validate() = 0;
-  /// The parameters as understood, defaults included, without those that cannot change the result.
+  /// The parameters as understood, defaults included, without those that cannot change the result. Asked for after
+  /// execute().
   virtual Document parameters() const = 0;
   /// Throws itin::Error.
   virtual Result execute(Progress& progress) = 0;
