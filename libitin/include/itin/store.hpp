@@ -20,6 +20,7 @@
 namespace itin {
 
 class PointIndex;  // src/store/point_index.hpp
+class StoreFile;   // src/store/store_file.hpp
 
 /// T_k + lo <= T_0 <= T_k + hi, metres.
 struct CertifiedError {
@@ -36,18 +37,18 @@ struct LevelInfo {
 
 /// One imported file.
 struct SourceInfo {
-  std::string path;         ///< as given to the import
-  std::string kind;         ///< "terrain"
-  std::string imported;     ///< UTC, ISO 8601
-  std::string sha256;       ///< of the file's bytes; empty where the source is not a plain file
-  std::string source_crs;   ///< as found or given, authority:code or WKT
+  std::string path;            ///< as given to the import
+  std::string kind;            ///< "terrain"
+  std::string imported;        ///< UTC, ISO 8601
+  std::string sha256;          ///< of the file's bytes; empty where the source is not a plain file
+  std::string source_crs;      ///< as found or given, authority:code or WKT
   std::uint64_t vertices = 0;  ///< that came from it and are still there
   /// Ground is triangulated across gaps up to these two vectors u, v (metres, projected): 1.5 times the two lattice
   /// steps of a raster (a missing post leaves a hole); (G, 0) and (0, G) for scattered points with max-gap G. An edge
   /// e = a u + b v between two vertices may be ground when |a| <= 1 and |b| <= 1 for either vertex's source.
   std::array<double, 4> gap_basis{};  ///< ux, uy, vx, vy
   double spacing = 0;                 ///< metres: lattice step (geometric mean of the two), or mean point spacing
-  bool replaces = false;       ///< took the place of coarser ground (--replace)
+  bool replaces = false;              ///< took the place of coarser ground (--replace)
 };
 
 struct StoreMetadata {
@@ -65,6 +66,12 @@ struct StoreOptions {
   std::uint64_t cache_bytes = std::uint64_t{256} << 20;
 };
 
+/// One damaged place.
+struct Damage {
+  std::string place;  ///< for example "block 3/0000000041c00"
+  std::string what;
+};
+
 class Store {
  public:
   /// Throws FileError (missing, unreadable), StoreFormatError (foreign, too new), CorruptStore (damaged).
@@ -78,20 +85,18 @@ class Store {
   std::uint64_t file_bytes() const;
   /// For the libraries of this toolkit: the quadtrees themselves.
   const PointIndex& points() const;
+  /// The widest bounds of the level's cells that meet the box: T_level + lo <= T_0 <= T_level + hi all over it.
+  /// Nullopt where there is no ground. Throws InputError for a level the store does not have, CorruptStore.
+  std::optional<CertifiedError> certified_error(int level, const Box& box) const;
 
  private:
-  class Impl;
-  std::unique_ptr<Impl> impl_;
-};
-
-/// One damaged place.
-struct Damage {
-  std::string place;  ///< for example "block 3/0000041c"
-  std::string what;
+  friend std::vector<Damage> check(const Store& store, Progress& progress);
+  std::unique_ptr<StoreFile> file_;
 };
 
 /// Reads every byte of the store and verifies checksums, index, order and counts, and that certificates are present
-/// wherever there is ground. Returns an empty vector for a sound store.
+/// wherever there is ground. Returns an empty vector for a sound store. Throws FileError when reading itself fails,
+/// and Cancelled.
 std::vector<Damage> check(const Store& store, Progress& progress);
 
 }  // namespace itin

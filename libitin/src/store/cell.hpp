@@ -68,9 +68,7 @@ struct Cell {
   constexpr Cell child(int i) const {
     return {code + (static_cast<std::uint64_t>(i) << (2 * (log2_side - 1))), log2_side - 1};
   }
-  constexpr Cell parent() const {
-    return {code & ~((std::uint64_t{1} << (2 * (log2_side + 1))) - 1), log2_side + 1};
-  }
+  constexpr Cell parent() const { return {code & ~((std::uint64_t{1} << (2 * (log2_side + 1))) - 1), log2_side + 1}; }
   friend constexpr auto operator<=>(const Cell&, const Cell&) = default;
 };
 

@@ -1,0 +1,342 @@
+#include "store/block_codec.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <limits>
+#include <numeric>
+
+#include "store/bit_stream.hpp"
+#include "store/byte_stream.hpp"
+#include "store/height_predictor.hpp"
+
+namespace itin {
+
+namespace {
+
+// A position within the block: on the block's lattice where there is one, else in grid units from the cell's corner.
+struct Local {
+  std::uint32_t x, y;
+};
+
+// The lattice all positions lie on: x = x0 + i * step_x with i < width. Steps of 1 mean that there is none; then
+// positions are coded along the Morton curve, otherwise row by row.
+struct Lattice {
+  std::uint64_t step_x = 1, step_y = 1;
+  std::uint32_t x0 = 0, y0 = 0;  // from the cell's corner
+  std::uint64_t width = 1;
+
+  bool scattered() const { return step_x == 1 && step_y == 1; }
+};
+
+// Adapts the Rice parameter of height residuals to their running mean.
+class ResidualScale {
+ public:
+  explicit ResidualScale(int k) : mean_(std::uint64_t{16} << k) {}
+  int parameter() const { return std::min<int>(std::bit_width(mean_ >> 5), kMaxRiceParameter); }
+  void add(std::uint64_t v) { mean_ += v - (mean_ >> 4); }
+
+ private:
+  std::uint64_t mean_;  // times 16
+};
+
+Lattice find_lattice(const Cell& cell, std::span<const GridPoint> points) {
+  const GridBox box = cell.box();
+  GridBox extent;
+  Lattice lattice{0, 0, 0, 0, 1};
+  for (const GridPoint& p : points) {
+    lattice.step_x = std::gcd(lattice.step_x, static_cast<std::uint64_t>(std::abs(p.x - points[0].x)));
+    lattice.step_y = std::gcd(lattice.step_y, static_cast<std::uint64_t>(std::abs(p.y - points[0].y)));
+    extent.extend(p.x, p.y);
+  }
+  lattice.step_x = std::max<std::uint64_t>(lattice.step_x, 1);
+  lattice.step_y = std::max<std::uint64_t>(lattice.step_y, 1);
+  if (lattice.scattered()) return {};
+  lattice.x0 = static_cast<std::uint32_t>(extent.xmin - box.xmin);
+  lattice.y0 = static_cast<std::uint32_t>(extent.ymin - box.ymin);
+  lattice.width = static_cast<std::uint64_t>(extent.xmax - extent.xmin) / lattice.step_x + 1;
+  return lattice;
+}
+
+// The rank of each point in the order of coding, less that of its predecessor, less 1.
+std::vector<std::uint64_t> gaps_of(const Cell& cell, const Lattice& lattice, std::span<const GridPoint> points) {
+  const GridBox box = cell.box();
+  std::vector<std::uint64_t> gaps;
+  gaps.reserve(points.size());
+  std::uint64_t next = 0;
+  for (const GridPoint& p : points) {
+    const auto x = static_cast<std::uint64_t>(p.x - box.xmin), y = static_cast<std::uint64_t>(p.y - box.ymin);
+    const std::uint64_t rank =
+        lattice.scattered() ? morton(p.x, p.y) - cell.code
+                            : (y - lattice.y0) / lattice.step_y * lattice.width + (x - lattice.x0) / lattice.step_x;
+    gaps.push_back(rank - next);
+    next = rank + 1;
+  }
+  return gaps;
+}
+
+std::uint64_t rice_bits(std::span<const std::uint64_t> values, int k) {
+  std::uint64_t bits = 0;
+  for (const std::uint64_t v : values) {
+    bits += (v >> k) < kRiceEscape ? (v >> k) + 1 + static_cast<unsigned>(k)
+                                   : kRiceEscape + 6 + static_cast<unsigned>(std::bit_width(v));
+  }
+  return bits;
+}
+
+int best_rice_parameter(std::span<const std::uint64_t> values) {
+  const std::uint64_t sum = std::accumulate(values.begin(), values.end(), std::uint64_t{0});
+  const int guess = std::bit_width(sum / values.size());
+  int best = std::max(0, guess - 6);
+  for (int k = best + 1; k <= std::min(guess + 1, kMaxRiceParameter); ++k) {
+    if (rice_bits(values, k) < rice_bits(values, best)) best = k;
+  }
+  return std::min(best, kMaxRiceParameter);
+}
+
+void put_sources(std::vector<std::uint8_t>& out, std::span<const std::uint16_t> sources) {
+  for (std::size_t i = 0; i < sources.size();) {
+    std::size_t end = i;
+    while (end < sources.size() && sources[end] == sources[i]) ++end;
+    const bool more = end < sources.size();
+    put_varint(out, std::uint64_t{sources[i]} << 1 | (more ? 1 : 0));
+    if (more) put_varint(out, end - i - 1);
+    i = end;
+  }
+}
+
+std::vector<std::uint16_t> read_sources(ByteReader& in, std::size_t count) {
+  std::vector<std::uint16_t> sources;
+  sources.reserve(count);
+  while (sources.size() < count) {
+    const std::uint64_t v = in.varint(0, 0x1ffff);
+    const std::size_t left = count - sources.size();
+    if ((v & 1) && left < 2) throw DecodeError("more sources than points");
+    const std::size_t run = (v & 1) ? in.varint(0, left - 2) + 1 : left;
+    sources.insert(sources.end(), run, static_cast<std::uint16_t>(v >> 1));
+  }
+  return sources;
+}
+
+// Width and height of the positions' extent, and the positions moved to its corner.
+Local move_to_corner(std::vector<Local>& positions) {
+  Local low = positions.front(), high = low;
+  for (const Local& p : positions) {
+    low.x = std::min(low.x, p.x), high.x = std::max(high.x, p.x);
+    low.y = std::min(low.y, p.y), high.y = std::max(high.y, p.y);
+  }
+  for (Local& p : positions) p.x -= low.x, p.y -= low.y;
+  return {high.x - low.x + 1, high.y - low.y + 1};
+}
+
+// Positions are counted from the corner of the cell, or of the lattice.
+std::vector<Local> read_positions(BitReader& in, std::size_t count, int rice, const Cell& cell,
+                                  const Lattice& lattice) {
+  const std::uint64_t ranks = lattice.scattered() ? cell.end() - cell.code : lattice.width << (cell.log2_side + 1);
+  std::vector<Local> positions(count);
+  std::uint64_t rank = ~std::uint64_t{0}, row = 0, row_start = 0;
+  for (Local& p : positions) {
+    const std::uint64_t gap = in.rice(rice);
+    if (gap >= ranks || (rank += gap + 1) >= ranks) throw DecodeError("a point lies outside its cell");
+    if (lattice.scattered()) {
+      p = {detail_morton::gather(rank), detail_morton::gather(rank >> 1)};
+      continue;
+    }
+    if (rank - row_start >= lattice.width) row = rank / lattice.width, row_start = row * lattice.width;
+    p = {static_cast<std::uint32_t>(rank - row_start), static_cast<std::uint32_t>(row)};
+  }
+  return positions;
+}
+
+// Sorts by Morton code. All codes differ already without the bits that the lattice step leaves free, so few bytes of
+// key are enough for a radix sort.
+void sort_lattice_points(const Cell& cell, const Lattice& lattice, std::vector<GridPoint>& points) {
+  const int low_bits = 2 * (std::bit_width(std::min(lattice.step_x, lattice.step_y)) - 1);
+  const int key_bits = std::max(0, 2 * cell.log2_side - low_bits);
+  struct Keyed {
+    std::uint64_t key;
+    GridPoint point;
+  };
+  std::vector<Keyed> from, to(points.size());
+  from.reserve(points.size());
+  for (const GridPoint& p : points) from.push_back({(morton(p.x, p.y) - cell.code) >> low_bits, p});
+  for (int shift = 0; shift < key_bits; shift += 8) {
+    std::array<std::uint32_t, 257> first{};
+    for (const Keyed& k : from) ++first[(k.key >> shift & 0xff) + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    for (const Keyed& k : from) to[first[k.key >> shift & 0xff]++] = k;
+    from.swap(to);
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = from[i].point;
+}
+
+// Heights in steps from the first one, in the order of coding.
+std::vector<std::int64_t> heights_of(std::span<const GridPoint> points, std::uint64_t step) {
+  std::vector<std::int64_t> heights;
+  heights.reserve(points.size());
+  for (const GridPoint& p : points) {
+    heights.push_back((std::int64_t{p.z} - points[0].z) / static_cast<std::int64_t>(step));
+  }
+  return heights;
+}
+
+// Calls visit(i, prediction) for each point but the first; visit returns the height.
+template <typename Visit>
+void for_each_prediction(std::vector<Local> positions, const Visit& visit) {
+  const Local size = move_to_corner(positions);
+  HeightPredictor predictor(size.x, size.y, positions.size());
+  predictor.add(positions[0].x, positions[0].y, 0);
+  for (std::size_t i = 1; i < positions.size(); ++i) {
+    predictor.add(positions[i].x, positions[i].y, visit(i, predictor.predict(positions[i].x, positions[i].y)));
+  }
+}
+
+// The parameter the residuals' scale starts from: that of their mean.
+int mean_parameter(std::span<const std::uint64_t> residuals) {
+  if (residuals.empty()) return 0;
+  const std::uint64_t sum = std::accumulate(residuals.begin(), residuals.end(), std::uint64_t{0});
+  return std::min<int>(std::bit_width(sum / residuals.size()), kMaxRiceParameter);
+}
+
+std::vector<Local> local_positions(const Cell& cell, const Lattice& lattice, std::span<const GridPoint> points) {
+  const GridBox box = cell.box();
+  std::vector<Local> positions;
+  positions.reserve(points.size());
+  for (const GridPoint& p : points) {
+    positions.push_back(
+        {static_cast<std::uint32_t>((static_cast<std::uint64_t>(p.x - box.xmin) - lattice.x0) / lattice.step_x),
+         static_cast<std::uint32_t>((static_cast<std::uint64_t>(p.y - box.ymin) - lattice.y0) / lattice.step_y)});
+  }
+  return positions;
+}
+
+std::uint64_t height_step(std::span<const GridPoint> points) {
+  std::uint64_t step = 0;
+  for (const GridPoint& p : points) {
+    step = std::gcd(step, static_cast<std::uint64_t>(std::abs(std::int64_t{p.z} - points[0].z)));
+  }
+  return std::max<std::uint64_t>(step, 1);
+}
+
+void put_header(std::vector<std::uint8_t>& out, std::size_t count, const Lattice& lattice, std::uint64_t step_z) {
+  put_varint(out, count);
+  put_varint(out, lattice.step_x);
+  put_varint(out, lattice.step_y);
+  put_varint(out, step_z);
+  if (lattice.scattered()) return;
+  put_varint(out, lattice.x0);
+  put_varint(out, lattice.y0);
+  put_varint(out, lattice.width);
+}
+
+Lattice read_lattice(ByteReader& in, const Cell& cell) {
+  const std::uint64_t side = std::uint64_t{1} << cell.log2_side;
+  Lattice lattice;
+  lattice.step_x = in.varint(1, side);
+  lattice.step_y = in.varint(1, side);
+  return lattice;
+}
+
+void read_lattice_origin(ByteReader& in, const Cell& cell, Lattice& lattice) {
+  if (lattice.scattered()) return;
+  const std::uint64_t last = (std::uint64_t{1} << cell.log2_side) - 1;
+  lattice.x0 = static_cast<std::uint32_t>(in.varint(0, last));
+  lattice.y0 = static_cast<std::uint32_t>(in.varint(0, last));
+  lattice.width = in.varint(1, (last - lattice.x0) / lattice.step_x + 1);
+}
+
+std::int32_t checked_height(std::int64_t z) {
+  if (z < std::numeric_limits<std::int32_t>::min() || z > std::numeric_limits<std::int32_t>::max()) {
+    throw DecodeError("a height is out of range");
+  }
+  return static_cast<std::int32_t>(z);
+}
+
+// The plan position of each local one, heights 0.
+std::vector<GridPoint> plan_points(const Cell& cell, const Lattice& lattice, std::span<const Local> positions) {
+  const GridBox box = cell.box();
+  const auto last_row = ((std::uint64_t{1} << cell.log2_side) - 1 - lattice.y0) / lattice.step_y;
+  if (positions.back().y > last_row && !lattice.scattered()) throw DecodeError("a point lies outside its cell");
+  std::vector<GridPoint> points;
+  points.reserve(positions.size());
+  for (const Local& p : positions) {
+    points.push_back({static_cast<std::int32_t>(box.xmin + lattice.x0 + p.x * lattice.step_x),
+                      static_cast<std::int32_t>(box.ymin + lattice.y0 + p.y * lattice.step_y), 0});
+  }
+  return points;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encode_block(const Cell& cell, std::span<const GridPoint> points,
+                                       std::span<const std::uint16_t> sources) {
+  const Lattice lattice = find_lattice(cell, points);
+  std::vector<GridPoint> ordered(points.begin(), points.end());
+  if (!lattice.scattered()) {
+    std::sort(ordered.begin(), ordered.end(),
+              [](const GridPoint& a, const GridPoint& b) { return std::pair(a.y, a.x) < std::pair(b.y, b.x); });
+  }
+  const std::uint64_t step_z = height_step(ordered);
+  const std::vector<std::uint64_t> gaps = gaps_of(cell, lattice, ordered);
+  const std::vector<std::int64_t> heights = heights_of(ordered, step_z);
+  std::vector<std::uint64_t> residuals;
+  residuals.reserve(heights.size());
+  for_each_prediction(local_positions(cell, lattice, ordered), [&](std::size_t i, std::int64_t prediction) {
+    residuals.push_back(zigzag(heights[i] - prediction));
+    return heights[i];
+  });
+  const int gap_rice = best_rice_parameter(gaps), first_rice = mean_parameter(residuals);
+
+  std::vector<std::uint8_t> out;
+  put_header(out, points.size(), lattice, step_z);
+  put_varint(out, zigzag(ordered[0].z));
+  out.push_back(static_cast<std::uint8_t>(gap_rice));
+  out.push_back(static_cast<std::uint8_t>(first_rice));
+  put_sources(out, sources);
+  BitWriter bits(out);
+  for (const std::uint64_t gap : gaps) bits.rice(gap, gap_rice);
+  ResidualScale scale(first_rice);
+  for (const std::uint64_t r : residuals) {
+    bits.rice(r, scale.parameter());
+    scale.add(r);
+  }
+  bits.finish();
+  return out;
+}
+
+Block decode_block(const Cell& cell, std::span<const std::uint8_t> bytes) {
+  ByteReader header(bytes);
+  const auto count = static_cast<std::size_t>(header.varint(1, kMaxBlockPoints));
+  Lattice lattice = read_lattice(header, cell);
+  const std::uint64_t step_z = header.varint(1, std::uint64_t{1} << 32);
+  read_lattice_origin(header, cell, lattice);
+  const std::int64_t first_z = checked_height(header.signed_varint());
+  const auto gap_rice = static_cast<int>(header.varint(0, kMaxRiceParameter));
+  const auto first_rice = static_cast<int>(header.varint(0, kMaxRiceParameter));
+  Block block;
+  block.sources = read_sources(header, count);
+
+  std::vector<std::uint8_t> padded(header.rest().begin(), header.rest().end());
+  padded.resize(padded.size() + BitReader::kPadding);
+  BitReader bits(padded);
+  std::vector<Local> positions = read_positions(bits, count, gap_rice, cell, lattice);
+  block.points = plan_points(cell, lattice, positions);
+  block.points[0].z = static_cast<std::int32_t>(first_z);
+  const std::int64_t most_steps = (std::int64_t{1} << 32) / static_cast<std::int64_t>(step_z);
+  ResidualScale scale(first_rice);
+  for_each_prediction(std::move(positions), [&](std::size_t i, std::int64_t prediction) {
+    const std::uint64_t residual = bits.rice(scale.parameter());
+    scale.add(residual);
+    // Only heights whose product with the step is a 32-bit difference may be multiplied.
+    const auto height = static_cast<std::int64_t>(static_cast<std::uint64_t>(prediction) +
+                                                  static_cast<std::uint64_t>(unzigzag(residual)));
+    if (height < -most_steps || height > most_steps) throw DecodeError("a height is out of range");
+    block.points[i].z = checked_height(first_z + height * static_cast<std::int64_t>(step_z));
+    return height;
+  });
+  if (!bits.finished_cleanly()) throw DecodeError("points end too early or too late");
+  if (!lattice.scattered()) sort_lattice_points(cell, lattice, block.points);
+  return block;
+}
+
+}  // namespace itin

@@ -1,0 +1,24 @@
+// The bytes of a leaf's points. See libitin/FORMAT.md, "Point block".
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "store/cell.hpp"
+#include "store/point_index.hpp"
+
+namespace itin {
+
+/// Precondition: 1 <= points.size() <= kMaxBlockPoints, in strictly ascending Morton order, within `cell`; as many
+/// sources as points. Equal input gives equal bytes.
+std::vector<std::uint8_t> encode_block(const Cell& cell, std::span<const GridPoint> points,
+                                       std::span<const std::uint16_t> sources);
+
+/// Whatever the bytes, returns a block of `cell` in strictly ascending Morton order, or throws DecodeError.
+/// About 25 ns a point.
+Block decode_block(const Cell& cell, std::span<const std::uint8_t> bytes);
+
+inline constexpr std::uint32_t kMaxBlockPoints = 4096;
+
+}  // namespace itin

@@ -1,0 +1,122 @@
+// Reads all of a store and names what is damaged, never stopping at the first.
+
+#include <algorithm>
+#include <vector>
+
+#include <itin/error.hpp>
+#include <itin/store.hpp>
+
+#include "store/store_file.hpp"
+#include "store/store_format.hpp"
+
+namespace itin {
+
+namespace {
+
+class Inspection {
+ public:
+  Inspection(const StoreFile& file, Progress& progress) : file_(file), progress_(progress) {}
+
+  std::vector<Damage> run() {
+    for (const std::string& what : file_.rows().structural_damage()) damage_.push_back({"file", what});
+    for (const auto& [tree, chunks] : file_.chunks()) {
+      for (const ChunkEntry& entry : chunks) total_ += entry.leaves;
+    }
+    for (const auto& [tree, chunks] : file_.chunks()) inspect_tree(tree, chunks);
+    compare_keys(BlobKind::Directory, chunk_keys_);
+    compare_keys(BlobKind::Block, block_keys_);
+    compare_totals();
+    progress_.report("checking", 1);
+    return std::move(damage_);
+  }
+
+ private:
+  // Runs `read` and keeps what it finds damaged. Only a damaged place is a finding: an unreadable disk ends the check.
+  template <typename Read>
+  void guarded(const Read& read) {
+    try {
+      read();
+    } catch (const CorruptStore& e) {
+      const std::string prefix = e.path() + ": " + e.place() + ": ";
+      const std::string what = e.what();
+      damage_.push_back({e.place(), what.starts_with(prefix) ? what.substr(prefix.size()) : what});
+    }
+  }
+
+  void inspect_tree(int tree, const std::vector<ChunkEntry>& chunks) {
+    const bool known = tree == format::kCoverageTree || tree < file_.level_count();
+    if (!known) damage_.push_back({format::place("directory", format::kChunkListKey), "lists an unknown tree"});
+    for (const ChunkEntry& entry : chunks) {
+      progress_.throw_if_cancelled();
+      progress_.report("checking",
+                       static_cast<double>(done_) / static_cast<double>(std::max<std::uint64_t>(total_, 1)));
+      chunk_keys_.push_back(format::key(tree, entry.code));
+      guarded([&] { inspect_leaves(tree, file_.read_chunk(tree, entry)); });
+      done_ += entry.leaves;
+    }
+  }
+
+  void inspect_leaves(int tree, const DirectoryChunk& chunk) {
+    for (const Leaf& leaf : chunk) {
+      if (leaf.points > 0) block_keys_.push_back(leaf.key);
+      if (tree == format::kCoverageTree) {
+        guarded([&] { file_.read_edges(leaf); });
+        continue;
+      }
+      if (leaf.lo > 0 || leaf.hi < 0) damage_.push_back({format::place("directory", leaf.key), "has no certificate"});
+      if (leaf.points > 0) guarded([&] { inspect_block(leaf); });
+    }
+  }
+
+  void inspect_block(const Leaf& leaf) {
+    const Block block = file_.read_block(leaf);
+    for (const GridPoint& p : block.points) bounds_.extend(p.x, p.y);
+    vertices_[static_cast<std::size_t>(leaf.level)] += block.points.size();
+    const std::uint16_t last = *std::max_element(block.sources.begin(), block.sources.end());
+    if (last >= file_.metadata().sources.size()) {
+      damage_.push_back({format::place("block", leaf.key), "names a source that the store does not have"});
+    }
+  }
+
+  // Rows that no directory leads to. Missing ones were found when they were to be read.
+  void compare_keys(BlobKind kind, std::vector<std::uint64_t>& expected) {
+    if (kind == BlobKind::Directory) expected.push_back(format::kChunkListKey);
+    if (!damage_.empty()) return;  // a damaged chunk would make all its blocks look lost
+    std::sort(expected.begin(), expected.end());
+    guarded([&] {
+      file_.rows().for_each_key(kind, [&](std::uint64_t key) {
+        if (std::binary_search(expected.begin(), expected.end(), key)) return;
+        damage_.push_back({format::place(table_name(kind), key), "belongs to no leaf"});
+      });
+    });
+  }
+
+  void compare_totals() {
+    if (!damage_.empty()) return;
+    const StoreMetadata& metadata = file_.metadata();
+    std::uint64_t sum = 0;
+    for (std::size_t level = 0; level < metadata.levels.size(); ++level) {
+      sum += vertices_[level];
+      if (vertices_[level] == metadata.levels[level].vertices) continue;
+      damage_.push_back({"metadata", "level " + std::to_string(level) + " has another number of vertices"});
+    }
+    if (sum != metadata.vertices) damage_.push_back({"metadata", "the number of vertices is another"});
+    if (bounds_ != metadata.bounds) damage_.push_back({"metadata", "the bounds are not those of the vertices"});
+  }
+
+  const StoreFile& file_;
+  Progress& progress_;
+  std::vector<Damage> damage_;
+  std::uint64_t total_ = 0, done_ = 0;
+  std::vector<std::uint64_t> chunk_keys_, block_keys_;
+  std::vector<std::uint64_t> vertices_ = std::vector<std::uint64_t>(format::kMaxLevels);
+  GridBox bounds_;
+};
+
+}  // namespace
+
+std::vector<Damage> check(const Store& store, Progress& progress) {
+  return Inspection(*store.file_, progress).run();
+}
+
+}  // namespace itin

@@ -1,0 +1,82 @@
+// SQLite with errors of ours. One connection, for one thread at a time.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace itin {
+
+class Statement;
+
+/// Messages name `shown`, the store the user knows, whatever file it is written to.
+class Database {
+ public:
+  /// An empty database in the file at `path`, without journal or syncs: whoever writes it renames it when complete.
+  static Database create(const std::string& path, const std::string& shown);
+  /// For reading a file that nobody changes in place.
+  static Database open(const std::string& path);
+
+  void execute(const std::string& sql);
+  Statement prepare(const std::string& sql);
+  /// Throws FileError when writing out fails; the destructor could not tell.
+  void close();
+
+ private:
+  friend class Statement;
+  struct Closer {
+    void operator()(sqlite3* db) const;
+  };
+  Database(std::string shown, bool reading) : shown_(std::move(shown)), reading_(reading) {}
+  void open_handle(const std::string& path, int flags);
+  [[noreturn]] void fail(const std::string& place) const;
+
+  std::unique_ptr<sqlite3, Closer> handle_;
+  std::string shown_;
+  bool reading_ = false;
+};
+
+/// Must not outlive its database, which must not move meanwhile.
+class Statement {
+ public:
+  void bind(int index, std::int64_t v);
+  void bind(int index, const std::string& v);
+  void bind(int index, std::span<const std::uint8_t> v);
+  /// The next row is there. `place` goes into errors.
+  bool step(const std::string& place);
+  void reset();
+
+  std::int64_t integer(int column) const;
+  std::string text(int column) const;
+  std::vector<std::uint8_t> blob(int column) const;
+
+ private:
+  friend class Database;
+  struct Finalizer {
+    void operator()(sqlite3_stmt* statement) const;
+  };
+  explicit Statement(Database& database) : database_(&database) {}
+
+  Database* database_;
+  std::unique_ptr<sqlite3_stmt, Finalizer> handle_;
+};
+
+/// Resets a statement when it ends, by an exception too.
+class StatementReset {
+ public:
+  explicit StatementReset(Statement& statement) : statement_(statement) {}
+  ~StatementReset() { statement_.reset(); }
+  StatementReset(const StatementReset&) = delete;
+  StatementReset& operator=(const StatementReset&) = delete;
+
+ private:
+  Statement& statement_;
+};
+
+}  // namespace itin

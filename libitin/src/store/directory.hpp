@@ -1,0 +1,38 @@
+// The directory of a quadtree's leaves, in chunks of up to format::kChunkLeaves, and the list of all chunks. See
+// libitin/FORMAT.md, "Directory".
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "store/point_index.hpp"
+
+namespace itin {
+
+/// Leaves of one tree in ascending order of cell.code.
+using DirectoryChunk = std::vector<Leaf>;
+
+/// What is always in memory of a chunk.
+struct ChunkEntry {
+  std::uint64_t code = 0;  ///< of its first leaf
+  std::uint64_t end = 0;   ///< of its last leaf
+  std::uint64_t leaves = 0;
+  std::uint64_t points = 0;  ///< or segments, of an edge tree
+};
+
+/// The chunks of each tree in ascending order of code.
+using ChunkList = std::map<int, std::vector<ChunkEntry>>;
+
+ChunkEntry entry_of(const DirectoryChunk& chunk);
+
+std::vector<std::uint8_t> encode_chunk(const DirectoryChunk& chunk);
+/// Throws DecodeError unless the bytes are a chunk of `tree` that fits `entry`.
+DirectoryChunk decode_chunk(std::span<const std::uint8_t> bytes, int tree, const ChunkEntry& entry);
+
+std::vector<std::uint8_t> encode_chunk_list(const ChunkList& list);
+/// Throws DecodeError unless the bytes are a list of disjoint chunks in ascending order.
+ChunkList decode_chunk_list(std::span<const std::uint8_t> bytes);
+
+}  // namespace itin

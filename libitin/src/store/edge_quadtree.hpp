@@ -1,0 +1,32 @@
+// The PMR quadtree of a theme's segments: each leaf lists every segment that crosses it, with both ends.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "store/cell.hpp"
+#include "store/point_index.hpp"
+
+namespace itin {
+
+/// A leaf with more segments is split, unless its side is 2^kMinEdgeLeafLog2Side.
+inline constexpr std::size_t kEdgeLeafCapacity = 64;
+inline constexpr int kMinEdgeLeafLog2Side = 8;
+
+/// Whether the segment meets the cell, its border included. A cell reaches up to its neighbours' first positions, so
+/// that a segment between grid positions is in some cell everywhere.
+bool crosses(const Segment& segment, const Cell& cell);
+
+/// Calls visit(cell, segments) for every non-empty leaf along the curve; segments in ascending order, each once. The
+/// tree depends on the set of segments alone. Needs about twice their memory.
+void for_each_edge_leaf(std::vector<Segment> segments,
+                        const std::function<void(const Cell&, const std::vector<Segment>&)>& visit);
+
+/// Precondition: in ascending order.
+std::vector<std::uint8_t> encode_edges(const Cell& cell, const std::vector<Segment>& segments);
+/// Throws DecodeError unless the bytes are `count` segments in ascending order, each crossing the cell.
+std::vector<Segment> decode_edges(const Cell& cell, std::size_t count, std::span<const std::uint8_t> bytes);
+
+}  // namespace itin

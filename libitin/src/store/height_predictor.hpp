@@ -1,0 +1,41 @@
+// Predicts the height of a block's next point from those before it: a weighted least-squares plane through the latest
+// points of the surrounding buckets, with the slope damped.
+//
+// Encoder and decoder must come to the same number to the last bit on every machine. All sums are integers; the five
+// floating-point operations at the end are IEEE 754 binary64, each rounded to nearest (never compile with contraction
+// or fast-math). FORMAT.md repeats this arithmetic.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace itin {
+
+class HeightPredictor {
+ public:
+  /// Local positions lie in [0, width) x [0, height); `count` of them will come.
+  HeightPredictor(std::uint32_t width, std::uint32_t height, std::size_t count);
+
+  /// Precondition: at least one point was added.
+  std::int64_t predict(std::uint32_t x, std::uint32_t y) const;
+  /// |z| <= 2^33
+  void add(std::uint32_t x, std::uint32_t y, std::int64_t z);
+
+ private:
+  struct Sample {
+    std::uint32_t x, y;
+    std::int64_t z;
+  };
+  std::size_t bucket(std::uint32_t x, std::uint32_t y) const {
+    return ((y >> shift_) + kMargin) * stride_ + (x >> shift_) + kMargin;
+  }
+
+  static constexpr std::size_t kMargin = 2;
+  int shift_ = 0;         ///< log2 of a bucket's side
+  int offset_shift_ = 0;  ///< brings differences of positions below 32
+  std::size_t stride_ = 0;
+  std::vector<Sample> samples_;
+  std::vector<std::uint16_t> latest_;  ///< by bucket: index of its latest sample plus 1, or 0
+};
+
+}  // namespace itin

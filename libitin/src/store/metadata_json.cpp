@@ -1,0 +1,110 @@
+#include "store/metadata_json.hpp"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "store/byte_stream.hpp"
+#include "store/store_format.hpp"
+
+namespace itin {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+namespace {
+
+// Certified errors are kept in grid units, so that no rounding comes between them and the cells' own.
+ordered_json level_to_json(const LevelInfo& level, double resolution) {
+  return {{"tolerance_m", level.tolerance},
+          {"lateral_tolerance_m", level.lateral_tolerance},
+          {"vertices", level.vertices},
+          {"certified_error",
+           {std::llround(level.certified_error.lo / resolution), std::llround(level.certified_error.hi / resolution)}}};
+}
+
+LevelInfo level_from_json(const json& j, double resolution) {
+  LevelInfo level;
+  level.tolerance = j.at("tolerance_m").get<double>();
+  level.lateral_tolerance = j.at("lateral_tolerance_m").get<double>();
+  level.vertices = j.at("vertices").get<std::uint64_t>();
+  level.certified_error.lo = static_cast<double>(j.at("certified_error").at(0).get<std::int64_t>()) * resolution;
+  level.certified_error.hi = static_cast<double>(j.at("certified_error").at(1).get<std::int64_t>()) * resolution;
+  return level;
+}
+
+ordered_json source_to_json(const SourceInfo& source) {
+  return {{"path", source.path},
+          {"kind", source.kind},
+          {"imported", source.imported},
+          {"sha256", source.sha256},
+          {"source_crs", source.source_crs},
+          {"vertices", source.vertices},
+          {"gap_basis_m", source.gap_basis},
+          {"spacing_m", source.spacing},
+          {"replaces", source.replaces}};
+}
+
+SourceInfo source_from_json(const json& j) {
+  SourceInfo source;
+  source.path = j.at("path").get<std::string>();
+  source.kind = j.at("kind").get<std::string>();
+  source.imported = j.at("imported").get<std::string>();
+  source.sha256 = j.at("sha256").get<std::string>();
+  source.source_crs = j.at("source_crs").get<std::string>();
+  source.vertices = j.at("vertices").get<std::uint64_t>();
+  source.gap_basis = j.at("gap_basis_m").get<std::array<double, 4>>();
+  source.spacing = j.at("spacing_m").get<double>();
+  source.replaces = j.at("replaces").get<bool>();
+  return source;
+}
+
+StoreMetadata read_document(const json& j) {
+  StoreMetadata metadata;
+  metadata.format_version = static_cast<int>(format::kVersion);
+  metadata.crs_wkt = j.at("crs_wkt").get<std::string>();
+  metadata.grid.origin = {j.at("grid").at("origin_x").get<double>(), j.at("grid").at("origin_y").get<double>()};
+  metadata.grid.resolution = j.at("grid").at("resolution_m").get<double>();
+  const auto bounds = j.at("bounds").get<std::array<std::int32_t, 4>>();
+  metadata.bounds = {bounds[0], bounds[1], bounds[2], bounds[3]};
+  for (const json& level : j.at("levels")) {
+    metadata.levels.push_back(level_from_json(level, metadata.grid.resolution));
+  }
+  for (const json& source : j.at("sources")) metadata.sources.push_back(source_from_json(source));
+  metadata.vertices = j.at("vertices").get<std::uint64_t>();
+  return metadata;
+}
+
+}  // namespace
+
+std::string metadata_to_json(const StoreMetadata& metadata) {
+  ordered_json j;
+  j["crs_wkt"] = metadata.crs_wkt;
+  j["grid"] = {{"origin_x", metadata.grid.origin.x},
+               {"origin_y", metadata.grid.origin.y},
+               {"resolution_m", metadata.grid.resolution}};
+  j["bounds"] = {metadata.bounds.xmin, metadata.bounds.ymin, metadata.bounds.xmax, metadata.bounds.ymax};
+  j["levels"] = ordered_json::array();
+  for (const LevelInfo& level : metadata.levels) {
+    j["levels"].push_back(level_to_json(level, metadata.grid.resolution));
+  }
+  j["sources"] = ordered_json::array();
+  for (const SourceInfo& source : metadata.sources) j["sources"].push_back(source_to_json(source));
+  j["vertices"] = metadata.vertices;
+  // File names may hold bytes that are no UTF-8.
+  return j.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+StoreMetadata metadata_from_json(const std::string& text) {
+  try {
+    const StoreMetadata metadata = read_document(json::parse(text));
+    if (metadata.levels.empty() || metadata.levels.size() > format::kMaxLevels || !(metadata.grid.resolution > 0)) {
+      throw DecodeError("describes no store");
+    }
+    return metadata;
+  } catch (const json::exception& e) {
+    throw DecodeError(e.what());
+  }
+}
+
+}  // namespace itin

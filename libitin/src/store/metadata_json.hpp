@@ -1,0 +1,14 @@
+// StoreMetadata as the JSON text kept in the store.
+#pragma once
+
+#include <string>
+
+#include <itin/store.hpp>
+
+namespace itin {
+
+std::string metadata_to_json(const StoreMetadata& metadata);
+/// Throws DecodeError where the text is not such a document.
+StoreMetadata metadata_from_json(const std::string& text);
+
+}  // namespace itin

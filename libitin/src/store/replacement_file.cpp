@@ -1,0 +1,78 @@
+#include "store/replacement_file.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <filesystem>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <itin/error.hpp>
+
+namespace itin {
+
+namespace fs = std::filesystem;
+
+ReplacementFile::ReplacementFile(const std::string& target) : shown_(target), target_(target) {
+  std::error_code missing;  // no target yet: neither a link nor a directory
+  if (fs::is_symlink(target, missing)) {
+    std::error_code error;
+    target_ = fs::weakly_canonical(target, error).string();
+    if (error) fail(error.message());
+  }
+  if (fs::is_directory(target_, missing)) fail("is a directory, name a file");
+  temporary_ = target_ + ".writing";
+  lock();
+  struct stat old = {};
+  const bool kept = ::stat(target_.c_str(), &old) != 0 || ::fchmod(descriptor_, old.st_mode & 07777) == 0;
+  if (!kept || ::ftruncate(descriptor_, 0) != 0) {
+    const int code = errno;
+    ::unlink(temporary_.c_str());
+    ::close(descriptor_);
+    fail(std::strerror(code));
+  }
+}
+
+// Whoever held the lock before us may have renamed or removed the file that we opened and waited for: then it is no
+// longer the one under this name, and we start again.
+void ReplacementFile::lock() {
+  for (;;) {
+    descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (descriptor_ < 0) fail(std::string("cannot be written: ") + std::strerror(errno));
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+      ::close(descriptor_);
+      fail("another import is writing this store; wait for it to end");
+    }
+    struct stat opened = {}, named = {};
+    if (::fstat(descriptor_, &opened) == 0 && ::stat(temporary_.c_str(), &named) == 0 &&
+        opened.st_ino == named.st_ino && opened.st_dev == named.st_dev) {
+      return;
+    }
+    ::close(descriptor_);
+  }
+}
+
+ReplacementFile::~ReplacementFile() {
+  if (!committed_) ::unlink(temporary_.c_str());
+  ::close(descriptor_);
+}
+
+void ReplacementFile::commit() {
+  if (::fsync(descriptor_) != 0) fail(std::string("cannot be written: ") + std::strerror(errno));
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) {
+    fail(std::string("cannot be replaced: ") + std::strerror(errno));
+  }
+  committed_ = true;
+  const fs::path parent = fs::path(target_).parent_path();
+  const int directory = ::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (directory < 0) return;  // a directory we may write but not read: its entry is synced with the next flush
+  ::fsync(directory);
+  ::close(directory);
+}
+
+void ReplacementFile::fail(const std::string& what) const {
+  throw FileError(shown_, what);
+}
+
+}  // namespace itin

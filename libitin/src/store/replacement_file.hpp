@@ -1,0 +1,35 @@
+// A file that takes the place of another at once, or not at all.
+//
+// It is written beside the target, under a lock that lets nobody else write the same target; the lock dies with the
+// process, so what a killed one left behind is simply overwritten by the next.
+#pragma once
+
+#include <string>
+
+namespace itin {
+
+class ReplacementFile {
+ public:
+  /// Creates the empty temporary file. Throws FileError: not writable, or another process is writing this target.
+  explicit ReplacementFile(const std::string& target);
+  /// Removes the temporary file unless committed.
+  ~ReplacementFile();
+  ReplacementFile(const ReplacementFile&) = delete;
+  ReplacementFile& operator=(const ReplacementFile&) = delete;
+
+  const std::string& temporary_path() const { return temporary_; }
+  /// Syncs the bytes, renames, syncs the directory. Throws FileError; the target is then what it was.
+  void commit();
+
+ private:
+  void lock();
+  [[noreturn]] void fail(const std::string& what) const;
+
+  std::string shown_;   ///< as the caller calls the target
+  std::string target_;  ///< the same with symbolic links followed
+  std::string temporary_;
+  int descriptor_ = -1;
+  bool committed_ = false;
+};
+
+}  // namespace itin

@@ -1,0 +1,145 @@
+#include "store/store_file.hpp"
+
+#include <algorithm>
+
+#include <itin/error.hpp>
+
+#include "store/block_codec.hpp"
+#include "store/byte_stream.hpp"
+#include "store/edge_quadtree.hpp"
+#include "store/metadata_json.hpp"
+#include "store/store_format.hpp"
+
+namespace itin {
+
+namespace {
+
+// Runs `decode`, naming the place of what it throws.
+template <typename Decode>
+auto at_place(const std::string& path, const std::string& place, const Decode& decode) {
+  try {
+    return decode();
+  } catch (const DecodeError& e) {
+    throw CorruptStore(path, place, e.what());
+  }
+}
+
+// Blocks and chunks may have the same key, and share one cache.
+std::uint64_t cache_key(BlobKind kind, std::uint64_t key) {
+  return key << 1 | (kind == BlobKind::Directory ? 1 : 0);
+}
+
+std::size_t bytes_of(const Block& block) {
+  return sizeof(Block) + block.points.size() * (sizeof(GridPoint) + sizeof(std::uint16_t));
+}
+
+}  // namespace
+
+StoreFile::StoreFile(const std::string& path, const StoreOptions& options) : rows_(path), cache_(options.cache_bytes) {
+  metadata_ = at_place(path, "metadata", [&] { return metadata_from_json(rows_.read_metadata()); });
+  const std::uint64_t key = format::kChunkListKey;
+  chunks_ = at_place(path, format::place("directory", key),
+                     [&] { return decode_chunk_list(rows_.read(BlobKind::Directory, key)); });
+}
+
+DirectoryChunk StoreFile::read_chunk(int tree, const ChunkEntry& entry) const {
+  const std::uint64_t key = format::key(tree, entry.code);
+  return at_place(rows_.path(), format::place("directory", key),
+                  [&] { return decode_chunk(rows_.read(BlobKind::Directory, key), tree, entry); });
+}
+
+Block StoreFile::read_block(const Leaf& leaf) const {
+  return at_place(rows_.path(), format::place("block", leaf.key), [&] {
+    Block block = decode_block(leaf.cell, rows_.read(BlobKind::Block, leaf.key));
+    const auto [low, high] = std::minmax_element(block.points.begin(), block.points.end(),
+                                                 [](const GridPoint& a, const GridPoint& b) { return a.z < b.z; });
+    if (block.points.size() != leaf.points || low->z != leaf.zmin || high->z != leaf.zmax) {
+      throw DecodeError("does not agree with its directory");
+    }
+    return block;
+  });
+}
+
+std::vector<Segment> StoreFile::read_edges(const Leaf& leaf) const {
+  return at_place(rows_.path(), format::place("block", leaf.key),
+                  [&] { return decode_edges(leaf.cell, leaf.points, rows_.read(BlobKind::Block, leaf.key)); });
+}
+
+std::shared_ptr<const DirectoryChunk> StoreFile::chunk(int tree, const ChunkEntry& entry) const {
+  const std::uint64_t key = cache_key(BlobKind::Directory, format::key(tree, entry.code));
+  if (auto cached = cache_.find(key)) return std::static_pointer_cast<const DirectoryChunk>(std::move(cached));
+  auto chunk = std::make_shared<const DirectoryChunk>(read_chunk(tree, entry));
+  cache_.insert(key, chunk, sizeof(DirectoryChunk) + chunk->size() * sizeof(Leaf));
+  return chunk;
+}
+
+template <typename Visit>
+void StoreFile::for_each_leaf(int tree, const GridBox& box, const Visit& visit) const {
+  const auto found = chunks_.find(tree);
+  if (found == chunks_.end() || !MortonRange::exists(box)) return;
+  const std::vector<ChunkEntry>& entries = found->second;
+  const MortonRange range(box);
+  const auto ends_after = [](std::uint64_t code, const auto& e) { return code < e.end; };
+  auto entry = entries.begin();
+  for (std::optional<std::uint64_t> code = range.next(0); code;) {
+    entry = std::upper_bound(entry, entries.end(), *code, ends_after);
+    if (entry == entries.end()) return;
+    if (entry->code > *code) code = range.next(entry->code);
+    if (!code || *code >= entry->end) continue;
+    const std::shared_ptr<const DirectoryChunk> leaves = chunk(tree, *entry);
+    // Invariant: *code is in the box, and no leaf below it is left to visit.
+    for (auto leaf = leaves->begin(); code && *code < entry->end;) {
+      leaf =
+          std::upper_bound(leaf, leaves->end(), *code, [](std::uint64_t c, const Leaf& l) { return c < l.cell.end(); });
+      if (leaf->cell.code > *code) code = range.next(leaf->cell.code);
+      if (!code || *code >= leaf->cell.end()) continue;
+      visit(*leaf);
+      code = range.next(leaf->cell.end());
+    }
+  }
+}
+
+void StoreFile::leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const {
+  for (int level = std::max(finest, 0); level < level_count(); ++level) {
+    for_each_leaf(level, box, [&](const Leaf& leaf) {
+      if (leaf.points > 0) out.push_back(leaf);
+    });
+  }
+}
+
+std::shared_ptr<const Block> StoreFile::block(const Leaf& leaf) const {
+  const std::uint64_t key = cache_key(BlobKind::Block, leaf.key);
+  if (auto cached = cache_.find(key)) return std::static_pointer_cast<const Block>(std::move(cached));
+  auto block = std::make_shared<const Block>(read_block(leaf));
+  cache_.insert(key, block, bytes_of(*block));
+  return block;
+}
+
+void StoreFile::segments(const GridBox& box, std::vector<Segment>& out) const {
+  for_each_leaf(format::kCoverageTree, box, [&](const Leaf& leaf) {
+    const std::uint64_t key = cache_key(BlobKind::Block, leaf.key);
+    auto edges = std::static_pointer_cast<const std::vector<Segment>>(cache_.find(key));
+    if (!edges) {
+      edges = std::make_shared<const std::vector<Segment>>(read_edges(leaf));
+      cache_.insert(key, edges, sizeof(*edges) + edges->size() * sizeof(Segment));
+    }
+    for (const Segment& s : *edges) {
+      const GridBox extent{std::min(s.ax, s.bx), std::min(s.ay, s.by), std::max(s.ax, s.bx), std::max(s.ay, s.by)};
+      if (extent.meets(box)) out.push_back(s);
+    }
+  });
+}
+
+std::optional<CertifiedError> StoreFile::certified_error(int level, const Box& box) const {
+  if (level < 0 || level >= level_count()) throw InputError("level " + std::to_string(level) + ": the store has none");
+  std::optional<CertifiedError> widest;
+  const double unit = metadata_.grid.resolution;
+  for_each_leaf(level, metadata_.grid.enclosing(box), [&](const Leaf& leaf) {
+    if (!widest) widest = CertifiedError{leaf.lo * unit, leaf.hi * unit};
+    widest->lo = std::min(widest->lo, leaf.lo * unit);
+    widest->hi = std::max(widest->hi, leaf.hi * unit);
+  });
+  return widest;
+}
+
+}  // namespace itin

@@ -1,0 +1,52 @@
+// An open store: its quadtrees, read through the cache.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <itin/store.hpp>
+
+#include "store/block_cache.hpp"
+#include "store/directory.hpp"
+#include "store/morton_range.hpp"
+#include "store/point_index.hpp"
+#include "store/store_rows.hpp"
+
+namespace itin {
+
+class StoreFile final : public PointIndex {
+ public:
+  StoreFile(const std::string& path, const StoreOptions& options);
+
+  int level_count() const override { return static_cast<int>(metadata_.levels.size()); }
+  GridBox bounds() const override { return metadata_.bounds; }
+  void leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const override;
+  std::shared_ptr<const Block> block(const Leaf& leaf) const override;
+  void segments(const GridBox& box, std::vector<Segment>& out) const override;
+
+  std::optional<CertifiedError> certified_error(int level, const Box& box) const;
+
+  const StoreMetadata& metadata() const { return metadata_; }
+  const StoreRows& rows() const { return rows_; }
+  const ChunkList& chunks() const { return chunks_; }
+
+  /// Read and decoded, past the cache.
+  DirectoryChunk read_chunk(int tree, const ChunkEntry& entry) const;
+  Block read_block(const Leaf& leaf) const;
+  std::vector<Segment> read_edges(const Leaf& leaf) const;
+
+ private:
+  /// Calls visit(leaf) for every leaf of the tree, empty ones too, that meets the box, along the curve.
+  template <typename Visit>
+  void for_each_leaf(int tree, const GridBox& box, const Visit& visit) const;
+  std::shared_ptr<const DirectoryChunk> chunk(int tree, const ChunkEntry& entry) const;
+
+  StoreRows rows_;
+  StoreMetadata metadata_;
+  ChunkList chunks_;
+  mutable BlockCache cache_;
+};
+
+}  // namespace itin

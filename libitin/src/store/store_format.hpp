@@ -1,0 +1,52 @@
+// Every name, number and key of the file format in one place. libitin/FORMAT.md explains them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "store/cell.hpp"
+
+namespace itin::format {
+
+inline constexpr std::uint32_t kApplicationId = 0x4954494e;  // "ITIN"
+inline constexpr std::uint32_t kVersion = 1;
+inline constexpr int kPageSize = 32768;
+
+inline constexpr const char* kSchema =
+    "CREATE TABLE metadata(name TEXT PRIMARY KEY, value TEXT NOT NULL, checksum INTEGER NOT NULL) WITHOUT ROWID;"
+    "CREATE TABLE directory(key INTEGER PRIMARY KEY, data BLOB NOT NULL);"
+    "CREATE TABLE block(key INTEGER PRIMARY KEY, data BLOB NOT NULL);";
+
+/// Quadtrees are numbered: a level's points by the level, a theme's edges from kFirstEdgeTree.
+inline constexpr int kMaxLevels = 64;
+inline constexpr int kFirstEdgeTree = 1024;
+inline constexpr int kCoverageTree = kFirstEdgeTree;
+inline constexpr int kLastTree = 2046;
+
+/// A leaf is never smaller, so that its code's low 8 bits are zero and tree and code fit into 63 bits.
+inline constexpr int kMinLeafLog2Side = 4;
+/// The most leaves in a chunk of a directory.
+inline constexpr std::size_t kChunkLeaves = 1024;
+
+/// The key of a leaf's block, or of the directory chunk that begins with the leaf. Ascending along the curve.
+constexpr std::uint64_t key(int tree, std::uint64_t code) {
+  return static_cast<std::uint64_t>(tree) << 52 | code >> 8;
+}
+constexpr int tree_of(std::uint64_t key) {
+  return static_cast<int>(key >> 52);
+}
+constexpr std::uint64_t code_of(std::uint64_t key) {
+  return (key & ((std::uint64_t{1} << 52) - 1)) << 8;
+}
+/// The directory's own list of chunks.
+inline constexpr std::uint64_t kChunkListKey = std::uint64_t{kLastTree + 1} << 52;
+
+/// How messages and `itin check` name a row.
+inline std::string place(const char* table, std::uint64_t key) {
+  if (key == kChunkListKey) return fmt::format("{} list", table);
+  return fmt::format("{} {}/{:013x}", table, tree_of(key), key & ((std::uint64_t{1} << 52) - 1));
+}
+
+}  // namespace itin::format

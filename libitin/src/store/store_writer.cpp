@@ -1,0 +1,159 @@
+#include "store/store_writer.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+
+#include "store/block_codec.hpp"
+#include "store/database.hpp"
+#include "store/directory.hpp"
+#include "store/edge_quadtree.hpp"
+#include "store/metadata_json.hpp"
+#include "store/replacement_file.hpp"
+#include "store/seal.hpp"
+#include "store/store_format.hpp"
+
+namespace itin {
+
+static_assert(kLeafCapacity <= kMaxBlockPoints);
+
+class StoreWriter::Impl {
+ public:
+  Impl(const std::string& path, const std::string& crs_wkt, const Grid& grid, const std::vector<double>& tolerances);
+
+  void add_point_leaf(int level, const Cell& cell, std::span<const GridPoint> points,
+                      std::span<const std::uint16_t> sources, std::int32_t lo, std::int32_t hi);
+  void add_segments(std::vector<Segment> segments);
+  void commit(std::vector<SourceInfo> sources);
+
+ private:
+  void add_leaf(const Leaf& leaf, std::span<const std::uint8_t> block);
+  void flush_chunk();
+  void insert(Statement& statement, BlobKind kind, std::uint64_t key, std::span<const std::uint8_t> bytes);
+  void widen(LevelInfo& level, std::int32_t lo, std::int32_t hi) const;
+
+  // Destroyed in reverse order: statements, database, file.
+  ReplacementFile file_;
+  Database database_;
+  std::optional<Statement> insert_block_, insert_chunk_;
+  StoreMetadata metadata_;
+  DirectoryChunk chunk_;
+  ChunkList chunks_;
+  Leaf last_;  ///< added; only its tree and cell matter
+  bool has_last_ = false;
+};
+
+StoreWriter::Impl::Impl(const std::string& path, const std::string& crs_wkt, const Grid& grid,
+                        const std::vector<double>& tolerances)
+    : file_(path), database_(Database::create(file_.temporary_path(), path)) {
+  if (tolerances.empty() || tolerances.size() > format::kMaxLevels) {
+    throw std::invalid_argument("a store has 1 to 64 levels");
+  }
+  metadata_.crs_wkt = crs_wkt;
+  metadata_.grid = grid;
+  for (const double t : tolerances) metadata_.levels.push_back({t, 0, 0, {}});
+  database_.execute("PRAGMA page_size=" + std::to_string(format::kPageSize) + ";PRAGMA encoding='UTF-8';");
+  database_.execute("PRAGMA application_id=" + std::to_string(format::kApplicationId) +
+                    ";PRAGMA user_version=" + std::to_string(format::kVersion) + ";");
+  database_.execute(std::string("BEGIN;") + format::kSchema);
+  insert_block_ = database_.prepare("INSERT INTO block(key, data) VALUES(?, ?)");
+  insert_chunk_ = database_.prepare("INSERT INTO directory(key, data) VALUES(?, ?)");
+}
+
+void StoreWriter::Impl::insert(Statement& statement, BlobKind kind, std::uint64_t key,
+                               std::span<const std::uint8_t> bytes) {
+  statement.bind(1, static_cast<std::int64_t>(key));
+  statement.bind(2, seal(kind, key, bytes));
+  statement.step("row");
+  statement.reset();
+}
+
+void StoreWriter::Impl::add_leaf(const Leaf& leaf, std::span<const std::uint8_t> block) {
+  const bool same_tree = has_last_ && last_.level == leaf.level;
+  if (leaf.cell.log2_side < format::kMinLeafLog2Side || (has_last_ && last_.level > leaf.level) ||
+      (same_tree && last_.cell.end() > leaf.cell.code)) {
+    throw std::invalid_argument("leaves must come in order, disjoint, with sides of at least 16");
+  }
+  if (!chunk_.empty() && (!same_tree || chunk_.size() == format::kChunkLeaves)) flush_chunk();
+  chunk_.push_back(leaf);
+  last_ = leaf, has_last_ = true;
+  if (leaf.points > 0) insert(*insert_block_, BlobKind::Block, leaf.key, block);
+}
+
+void StoreWriter::Impl::flush_chunk() {
+  const int tree = chunk_.front().level;
+  insert(*insert_chunk_, BlobKind::Directory, chunk_.front().key, encode_chunk(chunk_));
+  chunks_[tree].push_back(entry_of(chunk_));
+  chunk_.clear();
+}
+
+void StoreWriter::Impl::widen(LevelInfo& level, std::int32_t lo, std::int32_t hi) const {
+  level.certified_error.lo = std::min(level.certified_error.lo, lo * metadata_.grid.resolution);
+  level.certified_error.hi = std::max(level.certified_error.hi, hi * metadata_.grid.resolution);
+}
+
+void StoreWriter::Impl::add_point_leaf(int level, const Cell& cell, std::span<const GridPoint> points,
+                                       std::span<const std::uint16_t> sources, std::int32_t lo, std::int32_t hi) {
+  if (level < 0 || static_cast<std::size_t>(level) >= metadata_.levels.size() || points.size() > kLeafCapacity ||
+      points.size() != sources.size()) {
+    throw std::invalid_argument("not a leaf of this store");
+  }
+  Leaf leaf{cell, level, static_cast<std::uint32_t>(points.size()), 0, 0, lo, hi, format::key(level, cell.code)};
+  std::vector<std::uint8_t> block;
+  if (!points.empty()) {
+    const auto [low, high] = std::minmax_element(points.begin(), points.end(),
+                                                 [](const GridPoint& a, const GridPoint& b) { return a.z < b.z; });
+    leaf.zmin = low->z, leaf.zmax = high->z;
+    block = encode_block(cell, points, sources);
+  }
+  for (const GridPoint& p : points) metadata_.bounds.extend(p.x, p.y);
+  LevelInfo& info = metadata_.levels[static_cast<std::size_t>(level)];
+  info.vertices += points.size();
+  metadata_.vertices += points.size();
+  widen(info, lo, hi);
+  add_leaf(leaf, block);
+}
+
+void StoreWriter::Impl::add_segments(std::vector<Segment> segments) {
+  for_each_edge_leaf(std::move(segments), [&](const Cell& cell, const std::vector<Segment>& in_cell) {
+    const std::uint64_t key = format::key(format::kCoverageTree, cell.code);
+    add_leaf({cell, format::kCoverageTree, static_cast<std::uint32_t>(in_cell.size()), 0, 0, 0, 0, key},
+             encode_edges(cell, in_cell));
+  });
+}
+
+void StoreWriter::Impl::commit(std::vector<SourceInfo> sources) {
+  if (!chunk_.empty()) flush_chunk();
+  insert(*insert_chunk_, BlobKind::Directory, format::kChunkListKey, encode_chunk_list(chunks_));
+  metadata_.sources = std::move(sources);
+  const std::string json = metadata_to_json(metadata_);
+  {
+    Statement statement = database_.prepare("INSERT INTO metadata(name, value, checksum) VALUES('store', ?, ?)");
+    statement.bind(1, json);
+    statement.bind(2, text_checksum(json));
+    statement.step("metadata");
+  }
+  insert_block_.reset();
+  insert_chunk_.reset();
+  database_.execute("COMMIT");
+  database_.close();
+  file_.commit();
+}
+
+StoreWriter::StoreWriter(const std::string& path, const std::string& crs_wkt, const Grid& grid,
+                         const std::vector<double>& tolerances)
+    : impl_(std::make_unique<Impl>(path, crs_wkt, grid, tolerances)) {}
+StoreWriter::~StoreWriter() = default;
+
+void StoreWriter::add_leaf(int level, const Cell& cell, std::span<const GridPoint> points,
+                           std::span<const std::uint16_t> sources, std::int32_t lo, std::int32_t hi) {
+  impl_->add_point_leaf(level, cell, points, sources, lo, hi);
+}
+void StoreWriter::add_segments(std::vector<Segment> segments) {
+  impl_->add_segments(std::move(segments));
+}
+void StoreWriter::commit(std::vector<SourceInfo> sources) {
+  impl_->commit(std::move(sources));
+}
+
+}  // namespace itin

@@ -1,0 +1,150 @@
+#include "store/block_codec.hpp"
+
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "libitin/store/random_points.hpp"
+#include "store/byte_stream.hpp"
+#include "store/store_writer.hpp"
+
+namespace itin {
+namespace {
+
+using test::Scatter;
+
+void expect_round_trip(const Cell& cell, const std::vector<GridPoint>& points,
+                       const std::vector<std::uint16_t>& sources) {
+  const auto bytes = encode_block(cell, points, sources);
+  const Block block = decode_block(cell, bytes);
+  EXPECT_EQ(block.points, points);
+  EXPECT_EQ(block.sources, sources);
+  EXPECT_TRUE(block.levels.empty());
+}
+
+class BlockCodecScatter : public testing::TestWithParam<Scatter> {};
+
+TEST_P(BlockCodecScatter, RoundTrip) {
+  SCOPED_TRACE(test::test_seed());
+  std::mt19937_64 random(test::test_seed());
+  for (const int log2_side : {4, 5, 7, 10, 13, 17, 22, 29, 30}) {
+    for (const std::size_t count : {1, 2, 3, 10, 255, 512, 2000}) {
+      Cell cell{morton(-12345, 67890), log2_side};
+      cell.code &= ~((std::uint64_t{1} << (2 * log2_side)) - 1);
+      const auto points = test::scatter(GetParam(), cell, count, random);
+      std::vector<std::uint16_t> sources;
+      for (std::size_t i = 0; i < points.size(); ++i) sources.push_back(random() % 7 ? 3 : random() & 0xffff);
+      SCOPED_TRACE(testing::Message() << "side 2^" << log2_side << ", " << points.size() << " points");
+      expect_round_trip(cell, points, sources);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BlockCodecScatter,
+                         testing::Values(Scatter::Uniform, Scatter::Clustered, Scatter::Lattice, Scatter::SparseLattice,
+                                         Scatter::Line, Scatter::FlatLattice));
+
+TEST(BlockCodec, ExtremeHeightsAndCorners) {
+  constexpr std::int32_t low = -kGridHalfSide, high = kGridHalfSide - 1;
+  constexpr auto least = std::numeric_limits<std::int32_t>::min(), most = std::numeric_limits<std::int32_t>::max();
+  const auto points = test::in_curve_order(
+      {{low, low, least}, {high, low, most}, {low, high, most}, {high, high, least}, {0, 0, 0}, {-1, -1, most}});
+  expect_round_trip(Cell{}, points, {0, 1, 65535, 65535, 0, 0});
+  expect_round_trip(Cell{}, {{low, low, least}, {low, high, most}}, {1, 1});
+  expect_round_trip(Cell{}, {{high, high, most}}, {9});
+}
+
+TEST(BlockCodec, FullLatticeOfFullCapacity) {
+  std::vector<GridPoint> points;
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 64; ++x) points.push_back({x, y, x * y});
+  }
+  expect_round_trip(Cell{morton(0, 0), 6}, test::in_curve_order(points),
+                    std::vector<std::uint16_t>(kMaxBlockPoints, 2));
+}
+
+// The round trip alone would not notice that a pattern is no longer found.
+TEST(BlockCodec, CommonStepsAndSmoothHeightsVanish) {
+  std::vector<GridPoint> points;
+  for (int y = 0; y < 20; ++y) {
+    for (int x = 0; x < 20; ++x) points.push_back({2500 + 5000 * x, 700 + 5000 * y, 10 * (x + 2 * y)});
+  }
+  const auto bytes =
+      encode_block(Cell{morton(0, 0), 17}, test::in_curve_order(points), std::vector<std::uint16_t>(400));
+  EXPECT_LT(bytes.size(), 250u);  // five bits a point: one for the position, the rest for the height
+}
+
+RC_GTEST_PROP(BlockCodec, AnyPointsRoundTrip, ()) {
+  const Cell cell{morton(0, 0), 12};
+  std::vector<GridPoint> points = {{0, 0, 0}};
+  for (int i = *rc::gen::inRange(0, 300); i > 0; --i) {
+    points.push_back({*rc::gen::inRange(0, 4096), *rc::gen::inRange(0, 4096), *rc::gen::arbitrary<std::int32_t>()});
+  }
+  points = test::in_curve_order(std::move(points));
+  const std::vector<std::uint16_t> sources(points.size(), *rc::gen::arbitrary<std::uint16_t>());
+  const Block block = decode_block(cell, encode_block(cell, points, sources));
+  RC_ASSERT(block.points == points);
+  RC_ASSERT(block.sources == sources);
+}
+
+// Whatever the bytes: an error, or a block that keeps its promises.
+void expect_error_or_valid(const Cell& cell, const std::vector<std::uint8_t>& bytes) {
+  try {
+    const Block block = decode_block(cell, bytes);
+    ASSERT_FALSE(block.points.empty());
+    ASSERT_EQ(block.sources.size(), block.points.size());
+    for (std::size_t i = 0; i < block.points.size(); ++i) {
+      const std::uint64_t code = morton(block.points[i].x, block.points[i].y);
+      ASSERT_TRUE(cell.box().contains(block.points[i].x, block.points[i].y));
+      if (i > 0) {
+        ASSERT_LT(morton(block.points[i - 1].x, block.points[i - 1].y), code);
+      }
+    }
+  } catch (const DecodeError&) {
+  }
+}
+
+TEST(BlockCodec, DamagedBytesNeverBreakThePromises) {
+  SCOPED_TRACE(test::test_seed());
+  std::mt19937_64 random(test::test_seed());
+  for (const Scatter how : {Scatter::Uniform, Scatter::Lattice, Scatter::SparseLattice, Scatter::Clustered}) {
+    const Cell cell{morton(0, 0), 16};
+    const auto points = test::scatter(how, cell, 200, random);
+    const auto sound = encode_block(cell, points, std::vector<std::uint16_t>(points.size(), 1));
+    for (int i = 0; i < 5000; ++i) {
+      auto bytes = sound;
+      const std::size_t reach = i % 2 ? bytes.size() : std::min<std::size_t>(bytes.size(), 24);
+      for (std::size_t n = 1 + random() % 3; n > 0; --n) bytes[random() % reach] = static_cast<std::uint8_t>(random());
+      if (i % 5 == 0) bytes.resize(random() % bytes.size());
+      expect_error_or_valid(cell, bytes);
+    }
+  }
+}
+
+TEST(BlockCodec, RandomBytesNeverBreakThePromises) {
+  SCOPED_TRACE(test::test_seed());
+  std::mt19937_64 random(test::test_seed());
+  for (int i = 0; i < 50000; ++i) {
+    std::vector<std::uint8_t> bytes(random() % 80);
+    // Small bytes make headers that get further.
+    for (auto& b : bytes) b = static_cast<std::uint8_t>(random() % 2 ? random() : random() % 8);
+    expect_error_or_valid(Cell{morton(0, 0), 4 + static_cast<int>(random() % 26)}, bytes);
+  }
+}
+
+TEST(BlockCodec, TruncationAndTrailingBytesAreErrors) {
+  std::mt19937_64 random(7);
+  const Cell cell{morton(0, 0), 16};
+  const auto points = test::scatter(Scatter::Uniform, cell, 100, random);
+  auto bytes = encode_block(cell, points, std::vector<std::uint16_t>(points.size(), 1));
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    EXPECT_THROW(decode_block(cell, std::span(bytes).first(size)), DecodeError) << size;
+  }
+  bytes.push_back(0);
+  EXPECT_THROW(decode_block(cell, bytes), DecodeError);
+}
+
+}  // namespace
+}  // namespace itin

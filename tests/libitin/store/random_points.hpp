@@ -1,0 +1,61 @@
+// Seeded sets of points and whole stores for the tests of the store.
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <itin/geometry.hpp>
+
+#include "store/cell.hpp"
+#include "store/point_index.hpp"
+
+namespace itin::test {
+
+/// A new seed each run, printed with every failure; ITIN_TEST_SEED repeats one.
+std::uint64_t test_seed();
+
+/// Sorted along the Morton curve, one point a position.
+std::vector<GridPoint> in_curve_order(std::vector<GridPoint> points);
+
+enum class Scatter { Uniform, Clustered, Lattice, SparseLattice, Line, FlatLattice };
+/// Up to `count` points of `cell` in curve order; lattices have steps that are no powers of two.
+std::vector<GridPoint> scatter(Scatter how, const Cell& cell, std::size_t count, std::mt19937_64& random);
+
+/// A leaf as it was given to the writer.
+struct GivenLeaf {
+  int level = 0;
+  Cell cell;
+  std::vector<GridPoint> points;
+  std::vector<std::uint16_t> sources;
+  std::int32_t lo = 0, hi = 0;
+};
+
+/// What a store was written from: the slow twin that its reader is compared with.
+struct GivenStore {
+  std::vector<double> tolerances;
+  std::vector<GivenLeaf> leaves;  ///< in the writer's order
+  std::vector<Segment> segments;
+  Grid grid{{1000, -2000}, 0.01};
+
+  void write(const std::string& path) const;
+};
+GivenStore random_store(std::uint64_t seed, std::size_t points, int levels = 4);
+
+/// A directory of its own that goes with the object.
+class TemporaryDirectory {
+ public:
+  TemporaryDirectory();
+  ~TemporaryDirectory();
+  std::string file(const std::string& name) const { return path_ + "/" + name; }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+std::string read_bytes(const std::string& path);
+void write_bytes(const std::string& path, const std::string& bytes);
+
+}  // namespace itin::test
