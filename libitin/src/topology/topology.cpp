@@ -3,6 +3,7 @@
 #include <itin/topology.hpp>
 
 #include "topology/twin_half_edges.hpp"
+#include "triangulate/predicates.hpp"
 
 namespace itin {
 
@@ -18,10 +19,7 @@ class Around {
   }
 
  private:
-  // Differences of grid coordinates fit in 31 bits, so the result is exact.
-  std::int64_t turn(const GridPoint& p, const GridPoint& q) const {
-    return std::int64_t{p.x - centre_.x} * (q.y - centre_.y) - std::int64_t{p.y - centre_.y} * (q.x - centre_.x);
-  }
+  std::int64_t turn(const GridPoint& p, const GridPoint& q) const { return doubled_area(centre_, p, q); }
   std::int64_t along(const GridPoint& p) const {
     return std::int64_t{p.x - centre_.x} * (start_.x - centre_.x) +
            std::int64_t{p.y - centre_.y} * (start_.y - centre_.y);

@@ -9,7 +9,8 @@ namespace itin {
 
 namespace {
 
-// Rings are cut off here: data lie strictly inside, so that what runs along the cut meets none.
+// Rings are cut off here: data lie strictly inside, so that what runs along the cut meets none. One step beyond the
+// grid, differences still fit in 31 bits and doubled areas in 63.
 constexpr std::int32_t kCut = kGridHalfSide + 1;
 constexpr GridBox kWholeGrid{-kGridHalfSide, -kGridHalfSide, kGridHalfSide - 1, kGridHalfSide - 1};
 
@@ -51,11 +52,6 @@ void group(std::size_t buckets, std::size_t edges, std::vector<std::uint32_t>& f
 
 }  // namespace
 
-/// Twice the signed area. |coordinates| <= kCut, so differences fit in 31 bits and the result in 63.
-std::int64_t GridWindow::turn(Corner a, Corner b, Corner c) {
-  return std::int64_t{b.x - a.x} * (c.y - a.y) - std::int64_t{b.y - a.y} * (c.x - a.x);
-}
-
 GridBox GridWindow::Edge::box() const {
   return {std::min(a.x, b.x), std::min(a.y, b.y), std::max(a.x, b.x), std::max(a.y, b.y)};
 }
@@ -68,10 +64,10 @@ class GridWindow::Figure {
       : corners_{{{b.xmin, b.ymin}, {b.xmax, b.ymin}, {b.xmax, b.ymax}, {b.xmin, b.ymax}}}, size_(4), box_(b) {}
   Figure(const GridPoint& a, const GridPoint& b, const GridPoint& c)
       : corners_{{{a.x, a.y}, {b.x, b.y}, {c.x, c.y}, {}}}, size_(3) {
-    for (const Corner& p : corners()) box_.extend(p.x, p.y);
+    for (const Position& p : corners()) box_.extend(p.x, p.y);
   }
 
-  std::span<const Corner> corners() const { return {corners_.data(), size_}; }
+  std::span<const Position> corners() const { return {corners_.data(), size_}; }
   const GridBox& box() const { return box_; }
 
   bool meets(const Edge& edge) const {
@@ -82,23 +78,24 @@ class GridWindow::Figure {
 
  private:
   /// Whether the line through a and b, or one parallel to it, has `own` and a on one side and `others` on the other.
-  static bool separated_along(Corner a, Corner b, std::span<const Corner> others, std::span<const Corner> own) {
+  static bool separated_along(Position a, Position b, std::span<const Position> others, std::span<const Position> own) {
     std::int64_t own_low = 0, own_high = 0;
-    for (const Corner& p : own)
-      own_low = std::min(own_low, turn(a, b, p)), own_high = std::max(own_high, turn(a, b, p));
-    std::int64_t low = turn(a, b, others[0]), high = low;
-    for (const Corner& p : others.subspan(1)) low = std::min(low, turn(a, b, p)), high = std::max(high, turn(a, b, p));
+    for (const Position& p : own)
+      own_low = std::min(own_low, doubled_area(a, b, p)), own_high = std::max(own_high, doubled_area(a, b, p));
+    std::int64_t low = doubled_area(a, b, others[0]), high = low;
+    for (const Position& p : others.subspan(1))
+      low = std::min(low, doubled_area(a, b, p)), high = std::max(high, doubled_area(a, b, p));
     return low > own_high || high < own_low;
   }
   /// For triangles; the edges of a box have been dealt with by comparing boxes.
-  bool separated_by_own_edge(std::span<const Corner> others) const {
+  bool separated_by_own_edge(std::span<const Position> others) const {
     for (std::size_t i = 0; i < 3; ++i) {
       if (separated_along(corners_[i], corners_[(i + 1) % 3], others, {&corners_[(i + 2) % 3], 1})) return true;
     }
     return false;
   }
 
-  std::array<Corner, 4> corners_;
+  std::array<Position, 4> corners_;
   std::size_t size_;
   GridBox box_;
 };
@@ -127,14 +124,14 @@ bool GridWindow::forms_box() const {
   if (edges_.size() != 4) return false;
   for (std::size_t i = 0; i < 4; ++i) {
     const Edge& e = edges_[i];
-    const Corner next = edges_[(i + 1) % 4].a, opposite = edges_[(i + 2) % 4].a;
+    const Position next = edges_[(i + 1) % 4].a, opposite = edges_[(i + 2) % 4].a;
     const bool side = (e.a.x == e.b.x) != (e.a.y == e.b.y);
     if (!side || e.b != next || e.a.x == opposite.x || e.a.y == opposite.y) return false;
   }
   return true;
 }
 
-std::vector<GridWindow::Corner> GridWindow::corners_on(const Grid& grid, const Window::Ring& ring) {
+std::vector<Position> GridWindow::corners_on(const Grid& grid, const Window::Ring& ring) {
   Window::Ring scaled;
   bool outside = false;
   for (const Point2& p : ring) {
@@ -145,20 +142,20 @@ std::vector<GridWindow::Corner> GridWindow::corners_on(const Grid& grid, const W
     for (const auto axis : {&Point2::x, &Point2::y})
       for (const double sign : {1.0, -1.0}) scaled = cut(scaled, axis, sign);
   }
-  std::vector<Corner> corners;
+  std::vector<Position> corners;
   for (const Point2& p : scaled) {
-    const Corner corner{static_cast<std::int32_t>(std::llround(p.x)), static_cast<std::int32_t>(std::llround(p.y))};
+    const Position corner{static_cast<std::int32_t>(std::llround(p.x)), static_cast<std::int32_t>(std::llround(p.y))};
     if (corners.empty() || corners.back() != corner) corners.push_back(corner);
   }
   while (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
   return corners;
 }
 
-void GridWindow::add_ring(std::vector<Corner> corners, bool hole) {
+void GridWindow::add_ring(std::vector<Position> corners, bool hole) {
   // Unsigned: the sum of a ring with many turns may pass through values beyond 64 bits, its end does not.
   std::uint64_t twice_area = 0;
   for (std::size_t i = 1; i + 1 < corners.size(); ++i)
-    twice_area += static_cast<std::uint64_t>(turn(corners[0], corners[i], corners[i + 1]));
+    twice_area += static_cast<std::uint64_t>(doubled_area(corners[0], corners[i], corners[i + 1]));
   if ((static_cast<std::int64_t>(twice_area) < 0) != hole) std::reverse(corners.begin(), corners.end());
   for (std::size_t i = 0; i < corners.size(); ++i) edges_.push_back({corners[i], corners[(i + 1) % corners.size()]});
 }
@@ -247,14 +244,14 @@ void GridWindow::classify_cells() {
 /// Whether the position, within the extent, is inside or on a ring.
 bool GridWindow::wound(std::int32_t x, std::int32_t y) const {
   const std::uint32_t row = cells({x, y, x, y}).row0;
-  const Corner p{x, y};
+  const Position p{x, y};
   int winding = 0;
   for (std::uint32_t i = row_first_[row]; i < row_first_[row + 1]; ++i) {
     const Edge& edge = edges_[row_edges_[i]];
     const bool upward = edge.a.y <= y && y < edge.b.y, downward = edge.b.y <= y && y < edge.a.y;
     const bool beside = edge.box().contains(x, y);
     if (!upward && !downward && !beside) continue;
-    const std::int64_t side = turn(edge.a, edge.b, p);
+    const std::int64_t side = doubled_area(edge.a, edge.b, p);
     if (side == 0 && beside) return true;
     if (upward && side > 0) ++winding;
     if (downward && side < 0) --winding;

@@ -16,6 +16,8 @@
 #include <itin/geometry.hpp>
 #include <itin/window.hpp>
 
+#include "triangulate/predicates.hpp"
+
 namespace itin {
 
 /// Immutable; safe for concurrent use. A query about a small figure costs O(1) away from the window's boundary and the
@@ -37,16 +39,10 @@ class GridWindow {
  private:
   enum class State : std::uint8_t { Outside, Inside, Mixed };
 
-  struct Corner {
-    std::int32_t x;
-    std::int32_t y;
-    friend bool operator==(const Corner&, const Corner&) = default;
-  };
-
   /// Of a ring, the window's inside to its left.
   struct Edge {
-    Corner a;
-    Corner b;
+    Position a;
+    Position b;
     GridBox box() const;
   };
 
@@ -59,9 +55,8 @@ class GridWindow {
     std::size_t count() const { return std::size_t{column1 - column0 + 1} * (row1 - row0 + 1); }
   };
 
-  static std::int64_t turn(Corner a, Corner b, Corner c);
-  static std::vector<Corner> corners_on(const Grid& grid, const Window::Ring& ring);
-  void add_ring(std::vector<Corner> corners, bool hole);
+  static std::vector<Position> corners_on(const Grid& grid, const Window::Ring& ring);
+  void add_ring(std::vector<Position> corners, bool hole);
   bool forms_box() const;
   bool is_box() const { return edges_.empty(); }
   void index_edges();

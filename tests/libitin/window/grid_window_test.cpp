@@ -13,24 +13,24 @@ namespace {
 
 __extension__ typedef __int128 Int128;
 
-struct Position {
+struct Corner {
   std::int64_t x, y;
 };
 
-using Ring = std::vector<Position>;
+using Ring = std::vector<Corner>;
 
-Int128 turn(Position a, Position b, Position c) {
+Int128 turn(Corner a, Corner b, Corner c) {
   return Int128{b.x - a.x} * (c.y - a.y) - Int128{b.y - a.y} * (c.x - a.x);
 }
 int sign(Int128 v) {
   return v > 0 ? 1 : v < 0 ? -1 : 0;
 }
 
-bool on_segment(Position a, Position b, Position p) {
+bool on_segment(Corner a, Corner b, Corner p) {
   return turn(a, b, p) == 0 && std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) && std::min(a.y, b.y) <= p.y &&
          p.y <= std::max(a.y, b.y);
 }
-bool segments_meet(Position a, Position b, Position c, Position d) {
+bool segments_meet(Corner a, Corner b, Corner c, Corner d) {
   if (on_segment(a, b, c) || on_segment(a, b, d) || on_segment(c, d, a) || on_segment(c, d, b)) return true;
   return sign(turn(a, b, c)) * sign(turn(a, b, d)) < 0 && sign(turn(c, d, a)) * sign(turn(c, d, b)) < 0;
 }
@@ -39,10 +39,10 @@ bool segments_meet(Position a, Position b, Position c, Position d) {
 struct Twin {
   std::vector<Ring> outers, holes;
 
-  static bool inside_ring(const Ring& ring, Position p) {
+  static bool inside_ring(const Ring& ring, Corner p) {
     bool inside = false;
     for (std::size_t i = 0; i < ring.size(); ++i) {
-      Position a = ring[i], b = ring[(i + 1) % ring.size()];
+      Corner a = ring[i], b = ring[(i + 1) % ring.size()];
       if (a.y > b.y) std::swap(a, b);
       if (a.y <= p.y && p.y < b.y && turn(a, b, p) > 0) inside = !inside;
     }
@@ -58,8 +58,8 @@ struct Twin {
     }
     return false;
   }
-  bool contains(Position p) const {
-    if (any_edge([&](Position a, Position b) { return on_segment(a, b, p); })) return true;
+  bool contains(Corner p) const {
+    if (any_edge([&](Corner a, Corner b) { return on_segment(a, b, p); })) return true;
     int wound = 0;
     for (const Ring& r : outers) wound += inside_ring(r, p);
     for (const Ring& r : holes) wound -= inside_ring(r, p);
@@ -68,11 +68,11 @@ struct Twin {
   /// `figure`: the corners of a convex polygon.
   bool meets(const Ring& figure) const {
     if (contains(figure[0])) return true;
-    return any_edge([&](Position a, Position b) {
+    return any_edge([&](Corner a, Corner b) {
       bool within = true;
       int side = 0;
       for (std::size_t i = 0; i < figure.size(); ++i) {
-        const Position p = figure[i], q = figure[(i + 1) % figure.size()];
+        const Corner p = figure[i], q = figure[(i + 1) % figure.size()];
         if (segments_meet(a, b, p, q)) return true;
         const int s = sign(turn(p, q, a));
         within = within && s != 0 && (side == 0 || s == side);
@@ -128,7 +128,7 @@ class GridWindowTest : public ::testing::Test {
     const Twin slow = twin_of(window);
     const auto corner = [&]() -> GridPoint {
       const auto& ring = slow.outers[static_cast<std::size_t>(integer(0, static_cast<int>(slow.outers.size()) - 1))];
-      const Position p = ring[static_cast<std::size_t>(integer(0, static_cast<int>(ring.size()) - 1))];
+      const Corner p = ring[static_cast<std::size_t>(integer(0, static_cast<int>(ring.size()) - 1))];
       return {static_cast<std::int32_t>(p.x), static_cast<std::int32_t>(p.y), 0};
     };
     int hits = 0;
