@@ -1,4 +1,5 @@
-// Ctrl-C and its kin: the first asks the running call to stop and clean up, the second ends the process at once.
+// Ctrl-C and its kin: the first asks the running call to stop and clean up; one that comes more than a second
+// later ends the process at once.
 #pragma once
 
 namespace itin::cli {
