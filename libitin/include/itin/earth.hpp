@@ -20,8 +20,8 @@ struct Earth {
   double radius = 6371000;                 ///< metres
   std::optional<double> effective_factor;  ///< radio's K
 
-  static Earth flat() { return {.curvature = false}; }
-  static Earth effective_earth(double factor) { return {.effective_factor = factor}; }
+  static Earth flat();
+  static Earth effective_earth(double factor);
 
   /// Throws InputError unless the radius is a positive number, the factor (where given) too, and k a number below 1:
   /// from 1 on sight lines would bend as much as the Earth, and the horizon be gone.
