@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <atomic>
 #include <memory>
-#include <optional>
+#include <tuple>
 #include <unordered_map>
 
 #include <itin/detail.hpp>
+#include <itin/error.hpp>
 #include <itin/parallel.hpp>
 
 namespace itin {
@@ -96,54 +97,63 @@ class CellVerification {
  private:
   Difference compare(int k) const {
     const RaisedIndex raised(index_, raised_);
-    return difference(fine_, *edges_, triangulate_region(raised, levels_from(k, tolerances_), box_of(fine_)));
+    const RegionMesh coarse = triangulate_region(raised, levels_from(k, tolerances_), box_of(fine_));
+    return difference(fine_, *edges_, coarse, tolerances_[static_cast<std::size_t>(k)]);
   }
 
   std::uint64_t code(std::uint32_t v) const { return morton(fine_.vertices[v].point.x, fine_.vertices[v].point.y); }
 
-  void raise(std::uint32_t v, int k) {
-    if (cell_.cell.contains(code(v))) raised_[code(v)] = k;
-  }
-
-  /// Raises the cell's own points that break the bound of level k. True when there are any.
+  /// Raises, if it is the cell's own, the worst point of each coarse face and what breaks up each coarse edge that is
+  /// more than the tolerance off. True when there was any.
   bool raise(int k, const Difference& d) {
-    const std::int32_t tolerance = tolerances_[static_cast<std::size_t>(k)];
-    const std::size_t before = count(k);
-    for (std::uint32_t v = 0; v < d.at_vertex.size(); ++v) {
-      if (d.at_vertex[v].size() > tolerance) raise(v, k);
-    }
-    for (std::uint32_t e = 0; e < d.along_edge.size(); ++e) {
-      const FineEdges::Edge& edge = edges_->edges()[e];
-      if (d.along_edge[e].size() <= tolerance) continue;
-      if (d.at_vertex[edge.u].size() > tolerance || d.at_vertex[edge.v].size() > tolerance) continue;
-      if (const auto v = remedy(edge, d)) raise(*v, k);
-    }
-    return count(k) > before;
-  }
-
-  std::size_t count(int k) const {
-    return static_cast<std::size_t>(std::count_if(raised_.begin(), raised_.end(), [&](const auto& r) { return r.second >= k; }));
-  }
-
-  /// For an edge that is off only between its ends: its worse end that is not in the coarse surface yet. If both are, one
-  /// of the opposite corners is not, or the fine triangles would be coarse ones as well.
-  std::optional<std::uint32_t> remedy(const FineEdges::Edge& edge, const Difference& d) const {
-    std::optional<std::uint32_t> best;
-    const auto consider = [&](std::uint32_t v) {
-      if (d.is_coarse_vertex[v]) return;
-      if (!best || d.at_vertex[v].size() > d.at_vertex[*best].size() ||
-          (d.at_vertex[v].size() == d.at_vertex[*best].size() && v < *best)) {
-        best = v;
-      }
+    bool any = false;
+    const auto raise_own = [&](std::uint32_t v) {
+      if (!cell_.cell.contains(code(v))) return;
+      raised_[code(v)] = k;
+      any = true;
     };
-    consider(edge.u);
-    consider(edge.v);
-    if (best) return best;
+    for (const std::uint32_t v : worst_by_face(d, tolerances_[static_cast<std::size_t>(k)])) raise_own(v);
+    for (const Difference::Crossing& c : worst_by_edge(d)) raise_own(remedy(c, d));
+    return any;
+  }
+
+  static std::vector<std::uint32_t> worst_by_face(const Difference& d, std::int32_t tolerance) {
+    std::unordered_map<std::uint32_t, std::uint32_t> worst;
+    std::vector<std::uint32_t> faces;
+    for (std::uint32_t v = 0; v < d.at_vertex.size(); ++v) {
+      if (d.at_vertex[v].size() <= tolerance) continue;
+      const auto [at, fresh] = worst.try_emplace(d.face[v], v);
+      if (fresh) faces.push_back(d.face[v]);
+      if (d.at_vertex[v].size() > d.at_vertex[at->second].size()) at->second = v;
+    }
+    std::vector<std::uint32_t> result;
+    for (const std::uint32_t face : faces) result.push_back(worst[face]);
+    return result;
+  }
+
+  static std::vector<Difference::Crossing> worst_by_edge(const Difference& d) {
+    std::vector<Difference::Crossing> crossings = d.too_large;
+    const auto key = [](const Difference::Crossing& c) { return std::tuple(c.coarse_from, c.coarse_to, -c.size, c.fine_edge); };
+    std::sort(crossings.begin(), crossings.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
+    const auto same_edge = [](const auto& a, const auto& b) { return a.coarse_from == b.coarse_from && a.coarse_to == b.coarse_to; };
+    crossings.erase(std::unique(crossings.begin(), crossings.end(), same_edge), crossings.end());
+    return crossings;
+  }
+
+  /// The fine edge's nearer end, or the other one, or a corner opposite: the first that is not in the coarse surface
+  /// yet. There is one, or both fine triangles would be coarse ones as well.
+  std::uint32_t remedy(const Difference::Crossing& c, const Difference& d) const {
+    const FineEdges::Edge& edge = edges_->edges()[c.fine_edge];
+    for (const std::uint32_t v : {c.nearer_u ? edge.u : edge.v, c.nearer_u ? edge.v : edge.u}) {
+      if (!d.is_coarse_vertex[v]) return v;
+    }
     for (const std::uint32_t t : {edge.triangle, edge.other}) {
       if (t == kNoTriangle) continue;
-      for (const std::uint32_t v : fine_.mesh.triangles[t]) consider(v);
+      for (const std::uint32_t v : fine_.mesh.triangles[t]) {
+        if (!d.is_coarse_vertex[v]) return v;
+      }
     }
-    return best;
+    throw Error("a coarse edge cannot be mended");
   }
 
   template <class Visit>

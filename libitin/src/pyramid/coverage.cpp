@@ -1,12 +1,10 @@
 #include "pyramid/coverage.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <map>
 
 #include <itin/detail.hpp>
-#include <itin/parallel.hpp>
 
 #include "triangulate/region.hpp"
 
@@ -41,46 +39,76 @@ GridBox box_of(const std::vector<RawPoint>& points) {
   return box;
 }
 
-/// The coverage as seen from one tile's own points: outline edges belong to the tile of their end first on the curve.
-Coverage tile_coverage(const WorkingIndex& index, const CurveRange& tile, const GapRule& gaps) {
-  static const Selection everything(Detail::tolerance(0), {0.0}, Grid{});
-  const RegionMesh region = triangulate_region(index, everything, box_of(index.read(tile)));
-  const PlaneMesh& mesh = region.mesh;
-  const auto code = [&](std::uint32_t v) { return morton(region.vertices[v].point.x, region.vertices[v].point.y); };
+std::uint64_t code_of(const SelectedVertex& v) { return morton(v.point.x, v.point.y); }
 
-  std::vector<std::uint8_t> ground(mesh.triangles.size());
-  std::vector<std::uint8_t> touched(region.vertices.size(), 0);
-  for (std::size_t t = 0; t < ground.size(); ++t) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    ground[t] = gaps.bridges(region.vertices[a], region.vertices[b]) && gaps.bridges(region.vertices[b], region.vertices[c]) &&
-                gaps.bridges(region.vertices[c], region.vertices[a]);
-    if (ground[t]) touched[a] = touched[b] = touched[c] = 1;
+std::vector<std::uint8_t> ground_triangles(const RegionMesh& region, const GapRule& gaps) {
+  std::vector<std::uint8_t> ground;
+  for (const auto& [a, b, c] : region.mesh.triangles) {
+    const SelectedVertex &va = region.vertices[a], &vb = region.vertices[b], &vc = region.vertices[c];
+    ground.push_back(gaps.bridges(va, vb) && gaps.bridges(vb, vc) && gaps.bridges(vc, va));
   }
+  return ground;
+}
 
-  Coverage result;
-  for (std::size_t t = 0; t < ground.size(); ++t) {
-    if (!ground[t]) continue;
-    for (int i = 0; i < 3; ++i) {
-      const std::uint32_t n = mesh.neighbours[t][i];
-      if (n != kNoTriangle && ground[n]) continue;
-      const std::uint32_t from = mesh.triangles[t][(i + 1) % 3], to = mesh.triangles[t][(i + 2) % 3];
-      if (!tile.cell.contains(std::min(code(from), code(to)))) continue;
-      const GridPoint &a = region.vertices[from].point, &b = region.vertices[to].point;
-      result.outline.push_back({a.x, a.y, b.x, b.y});
-    }
+Segment segment(const RegionMesh& region, std::uint32_t from, std::uint32_t to) {
+  const GridPoint &a = region.vertices[from].point, &b = region.vertices[to].point;
+  return {a.x, a.y, b.x, b.y};
+}
+
+/// The tile's own corners: ends of straight runs of all outline edges at its points.
+std::vector<std::uint64_t> corners_in(const Cell& tile, const std::vector<Segment>& edges_at_tile) {
+  std::vector<std::uint64_t> corners;
+  for (const Segment& s : join_collinear(edges_at_tile)) {
+    corners.push_back(morton(s.ax, s.ay));
+    corners.push_back(morton(s.bx, s.by));
   }
-  // Points that no triangle meets at all (fewer than three, or all in line) are isolated, too.
-  std::vector<std::uint64_t> grounded;
-  for (std::uint32_t v = 0; v < region.vertices.size(); ++v) {
-    if (touched[v]) grounded.push_back(code(v));
-  }
-  for (const RawPoint& p : index.read(tile)) {
-    if (!std::binary_search(grounded.begin(), grounded.end(), p.code)) result.isolated.push_back(p.code);
-  }
-  return result;
+  std::erase_if(corners, [&](std::uint64_t code) { return !tile.contains(code); });
+  std::sort(corners.begin(), corners.end());
+  return corners;
 }
 
 }  // namespace
+
+TileSurvey survey_tile(const WorkingIndex& index, const CurveRange& tile, const std::vector<std::array<double, 4>>& gap_bases) {
+  TileSurvey survey;
+  const std::vector<RawPoint> own = index.read(tile);
+  const Selection everything(Detail::tolerance(0), {0.0}, Grid{});
+  survey.surface = triangulate_region(index, everything, box_of(own));
+  const RegionMesh& region = survey.surface;
+  const std::vector<std::uint8_t> ground = ground_triangles(region, GapRule(gap_bases));
+
+  std::vector<std::uint8_t> touched(region.vertices.size(), 0);
+  std::vector<Segment> edges_at_tile;
+  for (std::size_t t = 0; t < ground.size(); ++t) {
+    if (!ground[t]) continue;
+    for (int i = 0; i < 3; ++i) {
+      touched[region.mesh.triangles[t][i]] = 1;
+      const std::uint32_t n = region.mesh.neighbours[t][i];
+      if (n != kNoTriangle && ground[n]) continue;
+      const std::uint32_t from = region.mesh.triangles[t][(i + 1) % 3], to = region.mesh.triangles[t][(i + 2) % 3];
+      const std::uint64_t code_from = code_of(region.vertices[from]), code_to = code_of(region.vertices[to]);
+      if (!tile.cell.contains(code_from) && !tile.cell.contains(code_to)) continue;
+      edges_at_tile.push_back(segment(region, from, to));
+      // An edge belongs to the tile of its end first on the curve.
+      if (tile.cell.contains(std::min(code_from, code_to))) survey.outline.push_back(edges_at_tile.back());
+    }
+  }
+
+  const std::vector<std::uint64_t> corners = corners_in(tile.cell, edges_at_tile);
+  std::vector<std::uint64_t> grounded;
+  for (std::uint32_t v = 0; v < region.vertices.size(); ++v) {
+    const std::uint64_t code = code_of(region.vertices[v]);
+    const bool free = touched[v] && tile.cell.contains(code);
+    const bool corner = free && std::binary_search(corners.begin(), corners.end(), code);
+    survey.candidacy.push_back(corner ? Candidacy::kCorner : free ? Candidacy::kFree : Candidacy::kNone);
+    if (free) grounded.push_back(code);
+  }
+  // Points that no triangle meets at all (fewer than three, or all in line) are isolated, too.
+  for (const RawPoint& p : own) {
+    if (!std::binary_search(grounded.begin(), grounded.end(), p.code)) survey.isolated.push_back(p.code);
+  }
+  return survey;
+}
 
 std::vector<Segment> join_collinear(std::vector<Segment> edges) {
   std::sort(edges.begin(), edges.end());
@@ -113,25 +141,6 @@ std::vector<Segment> join_collinear(std::vector<Segment> edges) {
     for (const Segment* next = onwards(edges[i]); next != nullptr; next = onwards(*next)) joined.bx = next->bx, joined.by = next->by;
     result.push_back(joined);
   }
-  return result;
-}
-
-Coverage find_coverage(const WorkingIndex& index, const std::vector<CurveRange>& tiles,
-                       const std::vector<std::array<double, 4>>& gap_bases, Progress& progress) {
-  const GapRule gaps(gap_bases);
-  std::vector<Coverage> parts(tiles.size());
-  std::atomic<std::size_t> done = 0;
-  parallel_for(tiles.size(), [&](std::size_t i) {
-    progress.throw_if_cancelled();
-    parts[i] = tile_coverage(index, tiles[i], gaps);
-    progress.report("finding the coverage", static_cast<double>(++done) / static_cast<double>(tiles.size()));
-  });
-  Coverage result;
-  for (const Coverage& part : parts) {
-    result.outline.insert(result.outline.end(), part.outline.begin(), part.outline.end());
-    result.isolated.insert(result.isolated.end(), part.isolated.begin(), part.isolated.end());
-  }
-  result.outline = join_collinear(std::move(result.outline));
   return result;
 }
 

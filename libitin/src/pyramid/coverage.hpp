@@ -7,24 +7,24 @@
 #include <cstdint>
 #include <vector>
 
-#include <itin/progress.hpp>
-
+#include "pyramid/greedy.hpp"
 #include "pyramid/working_index.hpp"
+#include "triangulate/region.hpp"
 
 namespace itin {
 
-struct Coverage {
-  /// Ground to the left; ends at the outline's corners, so pieces in line are one segment. No two cross.
-  std::vector<Segment> outline;
-  /// Points of no ground triangle, as Morton codes.
-  std::vector<std::uint64_t> isolated;
+/// The full surface about one tile, and what its own points have of the coverage.
+struct TileSurvey {
+  RegionMesh surface;                    ///< every triangle about the tile's points, ground or not
+  std::vector<Candidacy> candidacy;      ///< per vertex: corners of the outline are kCorner, isolated points kNone
+  std::vector<Segment> outline;          ///< edges with ground to the left, each in one tile only
+  std::vector<std::uint64_t> isolated;   ///< the tile's points of no ground triangle, as Morton codes
 };
 
-/// `gap_bases` per source, grid units. The index must have no segments yet.
-Coverage find_coverage(const WorkingIndex& index, const std::vector<CurveRange>& tiles,
-                       const std::vector<std::array<double, 4>>& gap_bases, Progress& progress);
+/// `gap_bases` per source, grid units. The index must have no segments yet, and nothing dropped meanwhile.
+TileSurvey survey_tile(const WorkingIndex& index, const CurveRange& tile, const std::vector<std::array<double, 4>>& gap_bases);
 
-/// One segment for each maximal straight run of the directed edges, in a canonical order.
+/// One segment for each maximal straight run of directed edges, in a canonical order. Their ends are the corners.
 std::vector<Segment> join_collinear(std::vector<Segment> edges);
 
 }  // namespace itin

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <queue>
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_2.h>
 
+#include "pyramid/vertex_walk.hpp"
 #include "triangulate/cgal_traits.hpp"
 
 namespace itin {
@@ -16,10 +18,9 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xffffffff;
 
-/// The points not yet inserted that lie in a face, as a linked list, and the worst of them.
+/// The points not yet inserted that lie in a face, as a linked list.
 struct FacePoints {
   std::uint32_t first = kNone;
-  std::uint32_t worst = kNone;
   std::uint32_t version = 0;  ///< counts the face's reincarnations, to recognise stale queue entries
 };
 
@@ -29,23 +30,23 @@ using Triangulation = CGAL::Delaunay_triangulation_2<
 using Face = Triangulation::Face_handle;
 using Vertex = Triangulation::Vertex_handle;
 
-struct Candidate {
+/// What to insert next: the worst point of a face, or what breaks up the worst edge.
+struct Proposal {
   double error;
   std::uint32_t point;
-  std::uint32_t version;
+  std::uint32_t version;  ///< of the face
   Face face;
+  Vertex edge_from, edge_to;  ///< null for a face's proposal
   /// Greatest error first, then the first point in order.
-  bool operator<(const Candidate& c) const { return error != c.error ? error < c.error : point > c.point; }
+  bool operator<(const Proposal& p) const { return error != p.error ? error < p.error : point > p.point; }
 };
 
 class GreedyInsertion {
  public:
-  explicit GreedyInsertion(std::span<const GridPoint> points)
-      : points_(points), next_(points.size(), kNone), inserted_(points.size(), 0) {}
+  GreedyInsertion(const RegionMesh& fine, std::span<const Candidacy> candidacy)
+      : fine_(fine), candidacy_(candidacy), walk_(fine), next_(fine.vertices.size(), kNone), inserted_(fine.vertices.size(), 0) {}
 
-  bool inserted(std::uint32_t point) const { return inserted_[point]; }
-
-  /// Starts from these vertices, whose hull must contain all points; false while they are collinear.
+  /// Starts from these vertices, whose hull must contain all candidates; false while they are collinear.
   bool start(const std::vector<std::uint32_t>& vertices) {
     Face hint;
     for (const std::uint32_t v : vertices) {
@@ -54,39 +55,50 @@ class GreedyInsertion {
       hint = triangulation_.insert(position(v), hint)->face();
     }
     if (triangulation_.dimension() < 2) return false;
-    for (std::uint32_t p = 0; p < points_.size(); ++p) {
-      if (inserted_[p]) continue;
-      hint = triangulation_.locate(position(p), hint);
-      if (triangulation_.is_infinite(hint)) hint = finite_face_on_hull(hint);
+    for (std::uint32_t p = 0; p < candidacy_.size(); ++p) {
+      if (inserted_[p] || candidacy_[p] == Candidacy::kNone) continue;
+      hint = locate(p, hint);
       link(p, hint);
     }
-    for (Face f : triangulation_.finite_face_handles()) enqueue(f);
+    for (Face f : triangulation_.finite_face_handles()) propose_worst_point(f);
+    for (const auto& edge : triangulation_.finite_edges()) {
+      propose_edge(edge.first->vertex(Triangulation::ccw(edge.second)), edge.first->vertex(Triangulation::cw(edge.second)));
+    }
     return true;
   }
 
-  /// Inserts worst points until none is more than `tolerance` off; calls on_insert(point) for each.
+  /// Inserts what is worst until nothing is more than `tolerance` off; calls on_insert(point) for each.
   template <class OnInsert>
   void refine(double tolerance, const OnInsert& on_insert) {
     while (!queue_.empty() && queue_.top().error > tolerance) {
-      const Candidate top = queue_.top();
+      const Proposal top = queue_.top();
       queue_.pop();
-      if (top.face->info().version != top.version) continue;
-      insert(top.point, top.face);
-      on_insert(top.point);
+      const bool of_edge = top.edge_from != Vertex();
+      if (of_edge ? !triangulation_.is_edge(top.edge_from, top.edge_to) : top.face->info().version != top.version) continue;
+      if (!inserted_[top.point]) {
+        insert(top.point, of_edge ? locate(top.point, top.edge_from->face()) : top.face);
+        on_insert(top.point);
+      }
+      // An edge that has outlived the insertion needs another one.
+      if (of_edge && triangulation_.is_edge(top.edge_from, top.edge_to)) propose_edge(top.edge_from, top.edge_to);
     }
   }
 
  private:
-  TraitsPoint position(std::uint32_t p) const { return {points_[p].x, points_[p].y, p}; }
-  const GridPoint& corner(Face f, int i) const { return points_[f->vertex(i)->point().vertex]; }
+  TraitsPoint position(std::uint32_t p) const { return {point(p).x, point(p).y, p}; }
+  const GridPoint& point(std::uint32_t p) const { return fine_.vertices[p].point; }
+  const GridPoint& corner(Face f, int i) const { return point(f->vertex(i)->point().vertex); }
 
   void link(std::uint32_t p, Face f) {
     next_[p] = f->info().first;
     f->info().first = p;
   }
 
-  /// A point on the hull is located in an infinite face now and then; its neighbour holds it.
-  Face finite_face_on_hull(Face f) const { return f->neighbor(f->index(triangulation_.infinite_vertex())); }
+  /// A finite face that holds p; a point on the hull may be found in an infinite one, whose neighbour holds it, too.
+  Face locate(std::uint32_t p, Face hint) const {
+    const Face f = triangulation_.locate(position(p), hint);
+    return triangulation_.is_infinite(f) ? f->neighbor(f->index(triangulation_.infinite_vertex())) : f;
+  }
 
   void insert(std::uint32_t p, Face start) {
     inserted_[p] = 1;
@@ -100,11 +112,10 @@ class GreedyInsertion {
       }
       f->info().first = kNone;
     }
-    const Vertex v = triangulation_.star_hole(position(p), boundary_.begin(), boundary_.end(), conflicts_.begin(), conflicts_.end());
-    resettle(v);
+    resettle(triangulation_.star_hole(position(p), boundary_.begin(), boundary_.end(), conflicts_.begin(), conflicts_.end()));
   }
 
-  /// Gives every homeless point to the face of v's star that holds it.
+  /// Gives every homeless point to the face of v's star that holds it, and looks at the star's faces and edges.
   void resettle(Vertex v) {
     star_.clear();
     auto face = triangulation_.incident_faces(v), end = face;
@@ -120,7 +131,11 @@ class GreedyInsertion {
       for (std::size_t tried = 0; tried < star_.size() && !in_wedge(star_[at], centre, p); ++tried) at = (at + 1) % star_.size();
       link(q, star_[at].face);
     }
-    for (const StarFace& s : star_) enqueue(s.face);
+    for (const StarFace& s : star_) propose_worst_point(s.face);
+    auto neighbour = triangulation_.incident_vertices(v), last = neighbour;
+    do {
+      if (!triangulation_.is_infinite(neighbour)) propose_edge(v, neighbour);
+    } while (++neighbour != last);
   }
 
   struct StarFace {
@@ -134,8 +149,7 @@ class GreedyInsertion {
     return orientation(centre, right, p) >= 0 && orientation(centre, left, p) <= 0;
   }
 
-  /// Finds the face's worst point and queues it.
-  void enqueue(Face f) {
+  void propose_worst_point(Face f) {
     const std::uint32_t first = f->info().first;
     if (first == kNone) return;
     const GridPoint &a = corner(f, 0), &b = corner(f, 1), &c = corner(f, 2);
@@ -144,22 +158,63 @@ class GreedyInsertion {
     const double area = bx * cy - by * cx;
     const double sx = (bz * cy - cz * by) / area, sy = (bx * cz - cx * bz) / area;
     double worst = -1;
+    std::uint32_t worst_point = kNone;
     for (std::uint32_t q = first; q != kNone; q = next_[q]) {
-      const GridPoint& p = points_[q];
+      const GridPoint& p = point(q);
       const double error = std::abs(static_cast<double>(p.z) - a.z - sx * (static_cast<double>(p.x) - a.x) - sy * (static_cast<double>(p.y) - a.y));
-      if (error > worst || (error == worst && q < f->info().worst)) {
+      if (error > worst || (error == worst && q < worst_point)) {
         worst = error;
-        f->info().worst = q;
+        worst_point = q;
       }
     }
-    queue_.push({worst, f->info().worst, f->info().version, f});
+    queue_.push({worst, worst_point, f->info().version, f, Vertex(), Vertex()});
   }
 
-  std::span<const GridPoint> points_;
+  /// Proposes what would break up edge ab: at its worst crossing with a fine edge, the end of that edge nearer to it, or
+  /// the other end, or a corner opposite; whichever is first a candidate not yet inserted.
+  void propose_edge(Vertex from, Vertex to) {
+    std::uint32_t a = from->point().vertex, b = to->point().vertex;
+    if (a > b) std::swap(a, b);
+    const GridPoint &pa = point(a), &pb = point(b);
+    double worst = -1;
+    std::uint32_t remedy = kNone;
+    walk_.walk(a, b, [&](std::uint32_t p, std::uint32_t q, std::uint32_t before, std::uint32_t behind) {
+      const GridPoint &pp = point(p), &pq = point(q);
+      const auto ap = static_cast<double>(doubled_area(pa, pb, pp)), aq = static_cast<double>(doubled_area(pa, pb, pq));
+      const auto pqa = static_cast<double>(doubled_area(pp, pq, pa)), pqb = static_cast<double>(doubled_area(pp, pq, pb));
+      const double fine = pp.z + ap / (ap - aq) * (static_cast<double>(pq.z) - pp.z);
+      const double coarse = pa.z + pqa / (pqa - pqb) * (static_cast<double>(pb.z) - pa.z);
+      const double error = std::abs(fine - coarse);
+      if (error <= worst) return;
+      const bool nearer_p = std::abs(ap) <= std::abs(aq);
+      const std::uint32_t found = first_free({nearer_p ? p : q, nearer_p ? q : p, opposite(before, p, q), opposite(behind, p, q)});
+      if (found == kNone) return;
+      worst = error;
+      remedy = found;
+    });
+    if (remedy != kNone) queue_.push({worst, remedy, 0, Face(), from, to});
+  }
+
+  std::uint32_t opposite(std::uint32_t triangle, std::uint32_t p, std::uint32_t q) const {
+    if (triangle == kNoTriangle) return kNone;
+    const auto& [a, b, c] = fine_.mesh.triangles[triangle];
+    return a != p && a != q ? a : b != p && b != q ? b : c;
+  }
+
+  std::uint32_t first_free(std::initializer_list<std::uint32_t> vertices) const {
+    for (const std::uint32_t v : vertices) {
+      if (v != kNone && !inserted_[v] && candidacy_[v] != Candidacy::kNone) return v;
+    }
+    return kNone;
+  }
+
+  const RegionMesh& fine_;
+  std::span<const Candidacy> candidacy_;
+  VertexWalk walk_;
   std::vector<std::uint32_t> next_;
   std::vector<std::uint8_t> inserted_;
   Triangulation triangulation_;
-  std::priority_queue<Candidate> queue_;
+  std::priority_queue<Proposal> queue_;
   // Kept between insertions for their memory.
   std::vector<Face> conflicts_;
   std::vector<Triangulation::Edge> boundary_;
@@ -167,41 +222,41 @@ class GreedyInsertion {
   std::vector<StarFace> star_;
 };
 
-/// Indices of the convex hull's vertices, without those inside its edges (A. M. Andrew's monotone chain).
-std::vector<std::uint32_t> convex_hull(std::span<const GridPoint> points) {
-  std::vector<std::uint32_t> order(points.size());
-  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return points[a].x != points[b].x ? points[a].x < points[b].x : points[a].y < points[b].y;
-  });
+/// The convex hull's vertices, without those inside its edges (A. M. Andrew's monotone chain).
+std::vector<std::uint32_t> convex_hull(const RegionMesh& fine, std::vector<std::uint32_t> candidates) {
+  const auto at = [&](std::uint32_t v) { return fine.vertices[v].position(); };
+  std::sort(candidates.begin(), candidates.end(), [&](std::uint32_t a, std::uint32_t b) { return at(a) < at(b); });
+  if (candidates.size() < 3) return candidates;
   std::vector<std::uint32_t> hull;
   for (int chain = 0; chain < 2; ++chain) {
     const std::size_t base = hull.size();
-    for (const std::uint32_t p : order) {
-      while (hull.size() >= base + 2 && orientation(points[hull[hull.size() - 2]], points[hull.back()], points[p]) <= 0) hull.pop_back();
+    for (const std::uint32_t p : candidates) {
+      while (hull.size() >= base + 2 && orientation(at(hull[hull.size() - 2]), at(hull.back()), at(p)) <= 0) hull.pop_back();
       hull.push_back(p);
     }
     hull.pop_back();
-    std::reverse(order.begin(), order.end());
+    std::reverse(candidates.begin(), candidates.end());
   }
   return hull;
 }
 
 }  // namespace
 
-std::vector<std::uint8_t> greedy_levels(std::span<const GridPoint> points, std::span<const std::uint8_t> corners,
-                                        std::span<const double> tolerances) {
+std::vector<std::uint8_t> greedy_levels(const RegionMesh& fine, std::span<const Candidacy> candidacy, std::span<const double> tolerances) {
   const int coarsest = static_cast<int>(tolerances.size()) - 1;
-  std::vector<std::uint8_t> levels(points.size(), 0);
-  std::vector<std::uint32_t> first = convex_hull(points);
-  for (std::uint32_t p = 0; p < points.size(); ++p) {
-    if (corners[p]) first.push_back(p);
+  std::vector<std::uint8_t> levels(candidacy.size(), 0);
+  std::vector<std::uint32_t> candidates, corners;
+  for (std::uint32_t v = 0; v < candidacy.size(); ++v) {
+    if (candidacy[v] != Candidacy::kNone) candidates.push_back(v);
+    if (candidacy[v] == Candidacy::kCorner) corners.push_back(v);
   }
+  std::vector<std::uint32_t> first = convex_hull(fine, candidates);
+  first.insert(first.end(), corners.begin(), corners.end());
   for (const std::uint32_t p : first) levels[p] = static_cast<std::uint8_t>(coarsest);
-  GreedyInsertion greedy(points);
+  GreedyInsertion greedy(fine, candidacy);
   if (!greedy.start(first)) return levels;
   for (int k = coarsest; k >= 1; --k) {
-    greedy.refine(tolerances[k], [&](std::uint32_t p) { levels[p] = static_cast<std::uint8_t>(k); });
+    greedy.refine(tolerances[static_cast<std::size_t>(k)], [&](std::uint32_t p) { levels[p] = static_cast<std::uint8_t>(k); });
   }
   return levels;
 }

@@ -5,17 +5,24 @@
 #include <span>
 #include <vector>
 
-#include <itin/geometry.hpp>
+#include "triangulate/region.hpp"
 
 namespace itin {
 
-/// The level of each point: the coarsest whose triangulation needs it, so that the Delaunay triangulation of the points
-/// of levels >= k keeps within tolerances[k] of every point, for each k >= 1. A proposal: it knows nothing of the
-/// neighbouring tiles and looks at points only; verification has the last word (certify.hpp).
+/// What greedy insertion does with a vertex.
+enum class Candidacy : std::uint8_t {
+  kNone,    ///< another tile's
+  kFree,    ///< gets a level
+  kCorner,  ///< belongs to the coarsest level from the start
+};
+
+/// The level of each vertex of `fine`, the full surface about the tile: the coarsest whose triangulation needs it, so
+/// that the Delaunay triangulation of the candidates of levels >= k differs from `fine` by at most tolerances[k], at
+/// every candidate and along every coarse edge, for each k >= 1. (Along an edge the difference is greatest where it
+/// crosses fine edges.) A proposal: it knows nothing of the neighbouring tiles' choice; certify.hpp has the last word.
 ///
-/// `points` in Morton order, positions distinct; `corners[i]` != 0 forces a point into the coarsest level.
-/// `tolerances` in grid units, ascending, the first one 0. Ties go to the first point in order. O(n log n) expected.
-std::vector<std::uint8_t> greedy_levels(std::span<const GridPoint> points, std::span<const std::uint8_t> corners,
+/// `tolerances` in grid units, ascending, the first one 0. Ties go to the first vertex in order. O(n log n) expected.
+std::vector<std::uint8_t> greedy_levels(const RegionMesh& fine, std::span<const Candidacy> candidacy,
                                         std::span<const double> tolerances);
 
 }  // namespace itin

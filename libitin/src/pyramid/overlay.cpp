@@ -117,8 +117,9 @@ class CoarseWalk {
 
 class DifferenceSweep {
  public:
-  DifferenceSweep(const RegionMesh& fine, const FineEdges& edges, const RegionMesh& coarse)
-      : fine_(fine), edges_(edges), coarse_(coarse), walk_(coarse), face_(fine.vertices.size(), kNoTriangle), visited_(fine.vertices.size(), 0) {
+  DifferenceSweep(const RegionMesh& fine, const FineEdges& edges, const RegionMesh& coarse, std::int32_t allowed)
+      : fine_(fine), edges_(edges), coarse_(coarse), allowed_(allowed), walk_(coarse), visited_(fine.vertices.size(), 0) {
+    result_.face.assign(fine.vertices.size(), kNoTriangle);
     result_.at_vertex.resize(fine.vertices.size());
     result_.along_edge.resize(edges.edges().size());
     result_.is_coarse_vertex.assign(fine.vertices.size(), 0);
@@ -126,10 +127,10 @@ class DifferenceSweep {
 
   Difference run() {
     seed_at_coarse_vertices();
-    for (std::uint32_t v = 0; v < face_.size(); ++v) {
+    for (std::uint32_t v = 0; v < result_.face.size(); ++v) {
       // Breadth first from vertex to vertex; what no coarse vertex reaches is located the slow way.
       if (visited_[v]) continue;
-      if (face_[v] == kNoTriangle) locate(v);
+      if (result_.face[v] == kNoTriangle) locate(v);
       spread_from(v);
     }
     return std::move(result_);
@@ -142,7 +143,7 @@ class DifferenceSweep {
       for (const std::uint32_t v : coarse_.mesh.triangles[t]) some_face[v] = t;
     }
     std::uint32_t c = 0;
-    for (std::uint32_t v = 0; v < face_.size(); ++v) {
+    for (std::uint32_t v = 0; v < result_.face.size(); ++v) {
       const std::uint64_t code = code_of(fine_.vertices[v]);
       while (c < coarse_.vertices.size() && code_of(coarse_.vertices[c]) < code) ++c;
       if (c == coarse_.vertices.size() || code_of(coarse_.vertices[c]) != code) continue;
@@ -152,7 +153,7 @@ class DifferenceSweep {
   }
 
   void settle(std::uint32_t v, std::uint32_t face) {
-    face_[v] = face;
+    result_.face[v] = face;
     result_.at_vertex[v] = above_plane(coarse_, face, fine_.vertices[v].point);
   }
 
@@ -184,10 +185,16 @@ class DifferenceSweep {
     DifferenceRange& range = result_.along_edge[e];
     if (!range.empty()) return;  // followed from its other end
     const GridPoint &pu = fine_.vertices[u].point, &pv = fine_.vertices[v].point;
-    const std::uint32_t end = walk_.walk(Position{pu.x, pu.y}, face_[u], Position{pv.x, pv.y}, [&](std::uint32_t p, std::uint32_t q) {
-      range.add(above_crossing(pu, pv, coarse_.vertices[p].point, coarse_.vertices[q].point));
+    const std::uint32_t end = walk_.walk(Position{pu.x, pu.y}, result_.face[u], Position{pv.x, pv.y}, [&](std::uint32_t p, std::uint32_t q) {
+      const GridPoint &pp = coarse_.vertices[p].point, &pq = coarse_.vertices[q].point;
+      const DifferenceRange d = above_crossing(pu, pv, pp, pq);
+      range.add(d);
+      if (d.size() > allowed_) {
+        const bool nearer_u = std::abs(doubled_area(pp, pq, pu)) <= std::abs(doubled_area(pp, pq, pv));
+        result_.too_large.push_back({std::min(p, q), std::max(p, q), d.size(), e, edges_.edges()[e].u == u ? nearer_u : !nearer_u});
+      }
     });
-    if (face_[v] == kNoTriangle) settle(v, end);
+    if (result_.face[v] == kNoTriangle) settle(v, end);
     range.add(result_.at_vertex[u]);
     range.add(result_.at_vertex[v]);
   }
@@ -195,8 +202,8 @@ class DifferenceSweep {
   const RegionMesh& fine_;
   const FineEdges& edges_;
   const RegionMesh& coarse_;
+  std::int32_t allowed_;
   CoarseWalk walk_;
-  std::vector<std::uint32_t> face_;  ///< per fine vertex, a coarse face that holds it
   std::vector<std::uint8_t> visited_;
   Difference result_;
 };
@@ -222,8 +229,8 @@ FineEdges::FineEdges(const RegionMesh& fine) : start_(fine.vertices.size() + 1, 
   }
 }
 
-Difference difference(const RegionMesh& fine, const FineEdges& edges, const RegionMesh& coarse) {
-  return DifferenceSweep(fine, edges, coarse).run();
+Difference difference(const RegionMesh& fine, const FineEdges& edges, const RegionMesh& coarse, std::int32_t allowed) {
+  return DifferenceSweep(fine, edges, coarse, allowed).run();
 }
 
 }  // namespace itin

@@ -45,12 +45,23 @@ class FineEdges {
 };
 
 struct Difference {
-  std::vector<DifferenceRange> at_vertex;      ///< T0 - Tk at each vertex of the fine mesh
-  std::vector<DifferenceRange> along_edge;     ///< over each fine edge
-  std::vector<std::uint8_t> is_coarse_vertex;  ///< per fine vertex
+  std::vector<DifferenceRange> at_vertex;          ///< T0 - Tk at each vertex of the fine mesh
+  std::vector<std::uint32_t> face;                 ///< a coarse triangle that holds each fine vertex
+  std::vector<std::uint8_t> is_coarse_vertex;      ///< per fine vertex
+  std::vector<DifferenceRange> along_edge;         ///< over each fine edge
+
+  /// Where a fine edge crosses a coarse one with a greater difference than allowed.
+  struct Crossing {
+    std::uint32_t coarse_from, coarse_to;  ///< the coarse edge's ends, the lesser first
+    std::int32_t size;
+    std::uint32_t fine_edge;
+    bool nearer_u;  ///< whether the fine edge's end u is the nearer one to the coarse edge
+  };
+  std::vector<Crossing> too_large;
 };
 
 /// The coarse mesh's vertices must be among the full surface's, and it must cover every vertex of the fine mesh.
-Difference difference(const RegionMesh& fine, const FineEdges& edges, const RegionMesh& coarse);
+/// Crossings with differences above `allowed` are listed.
+Difference difference(const RegionMesh& fine, const FineEdges& edges, const RegionMesh& coarse, std::int32_t allowed);
 
 }  // namespace itin

@@ -42,33 +42,25 @@ void drop(WorkingIndex& index, const std::vector<CurveRange>& tiles, std::vector
   });
 }
 
-/// The ends of the outline's straight runs, as ascending Morton codes: they belong to every level.
-std::vector<std::uint64_t> corners_of(const std::vector<Segment>& outline) {
-  std::vector<std::uint64_t> corners;
-  for (const Segment& s : outline) {
-    corners.push_back(morton(s.ax, s.ay));
-    corners.push_back(morton(s.bx, s.by));
-  }
-  std::sort(corners.begin(), corners.end());
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-  return corners;
-}
+struct Proposals {
+  std::vector<Segment> outline;
+  std::vector<std::uint64_t> isolated;
+};
 
-void propose_levels(WorkingIndex& index, const CurveRange& tile, const std::vector<std::uint64_t>& corners,
-                    std::span<const double> tolerances) {
-  std::vector<RawPoint> raw = index.read(tile);
-  std::vector<GridPoint> points;
-  std::vector<std::uint8_t> forced;
-  std::vector<std::size_t> place;
-  for (std::size_t i = 0; i < raw.size(); ++i) {
-    if (raw[i].level == kDropped) continue;
-    points.push_back({morton_x(raw[i].code), morton_y(raw[i].code), raw[i].z});
-    forced.push_back(std::binary_search(corners.begin(), corners.end(), raw[i].code));
-    place.push_back(i);
+/// Finds the tile's part of the coverage and writes the levels that its points should have.
+Proposals propose_levels(WorkingIndex& index, const CurveRange& tile, const std::vector<std::array<double, 4>>& bases,
+                         std::span<const double> tolerances) {
+  TileSurvey survey = survey_tile(index, tile, bases);
+  const std::vector<std::uint8_t> levels = greedy_levels(survey.surface, survey.candidacy, tolerances);
+  std::vector<RawPoint> points = index.read(tile);
+  std::size_t v = 0;
+  for (RawPoint& p : points) {
+    while (v < levels.size() && morton(survey.surface.vertices[v].point.x, survey.surface.vertices[v].point.y) < p.code) ++v;
+    if (v == levels.size()) break;
+    if (morton(survey.surface.vertices[v].point.x, survey.surface.vertices[v].point.y) == p.code) p.level = levels[v];
   }
-  const std::vector<std::uint8_t> levels = greedy_levels(points, forced, tolerances);
-  for (std::size_t i = 0; i < levels.size(); ++i) raw[place[i]].level = levels[i];
-  index.write(tile, raw);
+  index.write(tile, points);
+  return {std::move(survey.outline), std::move(survey.isolated)};
 }
 
 /// Writes one level's quadtree; its leaves take the bounds of the working leaves in them.
@@ -140,24 +132,29 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
   PyramidReport report;
   report.vertices_of_source.assign(sources.size(), 0);
 
-  Coverage coverage = find_coverage(index, tiles, gap_bases(sources, grid), progress);
-  report.isolated = coverage.isolated.size();
-  drop(index, tiles, std::move(coverage.isolated));
-  const std::vector<std::uint64_t> corners = corners_of(coverage.outline);
-  index.set_segments(std::move(coverage.outline));
-
   std::vector<double> in_units;
   std::vector<std::int32_t> in_whole_units;
   for (const double metres : tolerances) {
-    in_units.push_back(std::floor(metres / grid.resolution + 1e-9));
-    in_whole_units.push_back(static_cast<std::int32_t>(in_units.back()));
+    in_whole_units.push_back(static_cast<std::int32_t>(std::floor(metres / grid.resolution + 1e-9)));
+    in_units.push_back(in_whole_units.back());
   }
+  const std::vector<std::array<double, 4>> bases = gap_bases(sources, grid);
+  std::vector<Proposals> proposals(tiles.size());
   std::atomic<std::size_t> done = 0;
   parallel_for(tiles.size(), [&](std::size_t i) {
     progress.throw_if_cancelled();
-    propose_levels(index, tiles[i], corners, in_units);
+    proposals[i] = propose_levels(index, tiles[i], bases, in_units);
     progress.report("choosing the levels", static_cast<double>(++done) / static_cast<double>(tiles.size()));
   });
+  std::vector<Segment> outline;
+  std::vector<std::uint64_t> isolated;
+  for (const Proposals& p : proposals) {
+    outline.insert(outline.end(), p.outline.begin(), p.outline.end());
+    isolated.insert(isolated.end(), p.isolated.begin(), p.isolated.end());
+  }
+  report.isolated = isolated.size();
+  drop(index, tiles, std::move(isolated));
+  index.set_segments(join_collinear(std::move(outline)));
 
   LeafBounds bounds = certify(index, in_whole_units, progress);
   write_levels(index, bounds, tiles, levels, writer, report, progress);

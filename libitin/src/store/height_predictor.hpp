@@ -1,9 +1,9 @@
 // Predicts the height of a block's next point from those before it: a weighted least-squares plane through the latest
 // points of the surrounding buckets, with the slope damped.
 //
-// Encoder and decoder must come to the same number to the last bit on every machine. All sums are integers; the five
-// floating-point operations at the end are IEEE 754 binary64, each rounded to nearest (never compile with contraction
-// or fast-math). FORMAT.md repeats this arithmetic.
+// Encoder and decoder must come to the same number to the last bit on every machine. All sums are integers that
+// binary64 holds exactly; the operations after them are IEEE 754, each rounded to nearest (never compile with
+// contraction or fast-math). FORMAT.md repeats this arithmetic.
 #pragma once
 
 #include <cstdint>

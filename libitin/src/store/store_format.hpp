@@ -12,7 +12,7 @@ namespace itin::format {
 
 inline constexpr std::uint32_t kApplicationId = 0x4954494e;  // "ITIN"
 inline constexpr std::uint32_t kVersion = 1;
-inline constexpr int kPageSize = 32768;
+inline constexpr int kPageSize = 16384;
 
 inline constexpr const char* kSchema =
     "CREATE TABLE metadata(name TEXT PRIMARY KEY, value TEXT NOT NULL, checksum INTEGER NOT NULL) WITHOUT ROWID;"

@@ -184,13 +184,9 @@ class RegionTriangulation {
 
   /// ground_[t] is right for every triangle that meets the box: no segment crosses the box unseen, so a triangle's part
   /// in the box is ground or not as a whole, and so are neighbours whose common edge meets the box unless it is
-  /// constrained. Without segments the box holds a vertex, hence is ground.
+  /// constrained. A box without segments holds a vertex, hence is ground.
   void mark_ground() {
     ground_.assign(mesh_.triangles.size(), Ground::kUnknown);
-    if (constraints_.empty()) {
-      std::fill(ground_.begin(), ground_.end(), Ground::kYes);
-      return;
-    }
     std::vector<std::uint32_t> stack;
     const auto settle = [&](std::uint32_t t, Ground ground) {
       if (t == kNoTriangle || ground_[t] != Ground::kUnknown) return;
@@ -202,6 +198,7 @@ class RegionTriangulation {
       settle(left, Ground::kYes);
       settle(right, Ground::kNo);
     });
+    if (stack.empty()) std::fill(ground_.begin(), ground_.end(), Ground::kYes);
     while (!stack.empty()) {
       const std::uint32_t t = stack.back();
       stack.pop_back();
@@ -214,6 +211,7 @@ class RegionTriangulation {
   /// Calls visit(p, q, left triangle, right triangle) for every edge pq of the mesh along every segment, in its direction.
   template <class Visit>
   void visit_segment_edges(const Visit& visit) const {
+    if (constraints_.empty()) return;
     std::vector<std::uint32_t> some_triangle(vertices_.size(), kNoTriangle);
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
       for (const std::uint32_t v : mesh_.triangles[t]) some_triangle[v] = t;

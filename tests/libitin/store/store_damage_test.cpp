@@ -97,7 +97,7 @@ TEST_F(StoreDamage, AnyByte) {
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < 100; ++i) places.push_back(i);
   for (int i = 0; i < 1500; ++i) places.push_back(random() % sound_.size());
-  for (std::size_t page = 0; page < sound_.size(); page += 32768) {
+  for (std::size_t page = 0; page < sound_.size(); page += 16384) {
     for (std::size_t i = 0; i < 24; ++i) places.push_back(page + i);  // b-tree page headers and cell pointers
   }
   for (const std::size_t place : places) {
@@ -111,7 +111,7 @@ TEST_F(StoreDamage, AnyByte) {
 
 TEST_F(StoreDamage, AnyTruncation) {
   std::mt19937_64 random(seed_);
-  std::vector<std::size_t> sizes = {0, 1, 15, 16, 99, 100, 512, 32767, 32768, 32769, sound_.size() - 1};
+  std::vector<std::size_t> sizes = {0, 1, 15, 16, 99, 100, 512, 16383, 16384, 16385, 32768, sound_.size() - 1};
   for (int i = 0; i < 50; ++i) sizes.push_back(random() % sound_.size());
   for (const std::size_t size : sizes) {
     test::write_bytes(path_, sound_.substr(0, size));

@@ -16,6 +16,7 @@
 #include <itin/store.hpp>
 
 #include "libitin/store/random_points.hpp"
+#include "store/store_rows.hpp"
 
 namespace itin {
 namespace {
@@ -135,11 +136,15 @@ TEST_F(StoreWriterTest, LinkAndModeOfTheTargetStay) {
   EXPECT_EQ(fs::status(path_).permissions(), fs::perms::owner_read | fs::perms::owner_write);
 }
 
-TEST_F(StoreWriterTest, OpenStoreGoesOnReadingTheOldFileOrSaysThatItWasReplaced) {
+TEST_F(StoreWriterTest, OpenStoreNeverMixesOldAndNew) {
   const Store store(path_, {0});
+  const StoreRows rows(path_);
   new_.write(path_);
   NoProgress progress;
-  EXPECT_TRUE(check(store, progress).empty());
+  EXPECT_TRUE(check(store, progress).empty());  // on the connection that it has
+  rows.for_each_key(BlobKind::Block, [&](std::uint64_t key) {
+    EXPECT_THROW(rows.read(BlobKind::Block, key), FileError);  // a second connection would see the new file
+  });
 }
 
 TEST_F(StoreWriterTest, EmptyStore) {

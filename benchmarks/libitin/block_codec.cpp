@@ -1,0 +1,101 @@
+// Block codec: points a second both ways, and bytes a point, on synthetic terrain like the real thing.
+//
+//   itin_benchmarks --benchmark_filter=Block
+#include "store/block_codec.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "store/cell.hpp"
+
+namespace itin {
+namespace {
+
+struct Sample {
+  Cell cell;
+  std::vector<GridPoint> points;
+  std::vector<std::uint16_t> sources;
+};
+
+// Octaves of waves whose height falls with their length, as in hills; metres.
+double height(double x, double y) {
+  double z = 0;
+  for (int octave = 0; octave < 7; ++octave) {
+    const double length = 4000.0 / (1 << octave), turn = 1.3 * octave;
+    const double along = x * std::cos(turn) + y * std::sin(turn), across = y * std::cos(turn) - x * std::sin(turn);
+    z += length / 20 * std::sin(along * 6.283 / length) * std::cos(across * 4.4 / length + octave);
+  }
+  return z;
+}
+
+std::vector<Sample> sample(bool lattice) {
+  std::mt19937_64 random(1);
+  std::vector<Sample> samples;
+  for (int k = 0; k < 256; ++k) {
+    Sample s{{morton((k % 16) << 17, (k / 16) << 17), 17}, {}, {}};
+    std::vector<std::uint64_t> codes;
+    if (lattice) {  // 50 m posts in decimetres, of which the coarser levels have taken 4 in 10
+      for (std::int32_t y = 1250; y < 1 << 17; y += 5000) {
+        for (std::int32_t x = 3300; x < 1 << 17; x += 5000) {
+          if (random() % 10 < 6) codes.push_back(morton(s.cell.box().xmin + x, s.cell.box().ymin + y));
+        }
+      }
+    } else {  // lidar at 1 cm, 2.5 m apart
+      s.cell.log2_side = 12;
+      for (int i = 0; i < 270; ++i) codes.push_back(s.cell.code + random() % (std::uint64_t{1} << 24));
+    }
+    std::sort(codes.begin(), codes.end());
+    codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
+    for (const std::uint64_t code : codes) {
+      GridPoint p{morton_x(code), morton_y(code), 0};
+      const double z = height(p.x * 0.01, p.y * 0.01);
+      p.z = lattice ? 10 * static_cast<std::int32_t>(std::lround(z * 10))
+                    : static_cast<std::int32_t>(std::lround(z * 100)) + static_cast<std::int32_t>(random() % 9);
+      s.points.push_back(p);
+    }
+    s.sources.assign(s.points.size(), 0);
+    samples.push_back(std::move(s));
+  }
+  return samples;
+}
+
+std::int64_t count(const std::vector<Sample>& samples) {
+  std::size_t n = 0;
+  for (const Sample& s : samples) n += s.points.size();
+  return static_cast<std::int64_t>(n);
+}
+
+void BlockEncode(benchmark::State& state, bool lattice) {
+  const auto samples = sample(lattice);
+  std::size_t bytes = 0;
+  for (auto _ : state) {
+    bytes = 0;
+    for (const Sample& s : samples) bytes += encode_block(s.cell, s.points, s.sources).size();
+  }
+  state.SetItemsProcessed(state.iterations() * count(samples));
+  state.counters["bytes_per_point"] = static_cast<double>(bytes) / static_cast<double>(count(samples));
+}
+
+void BlockDecode(benchmark::State& state, bool lattice) {
+  const auto samples = sample(lattice);
+  std::vector<std::vector<std::uint8_t>> blocks;
+  for (const Sample& s : samples) blocks.push_back(encode_block(s.cell, s.points, s.sources));
+  for (auto _ : state) {
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+      benchmark::DoNotOptimize(decode_block(samples[i].cell, blocks[i]));
+    }
+  }
+  state.SetItemsProcessed(state.iterations() * count(samples));
+}
+
+BENCHMARK_CAPTURE(BlockEncode, dem_50m, true)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(BlockEncode, lidar, false)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(BlockDecode, dem_50m, true)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(BlockDecode, lidar, false)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace itin
