@@ -12,8 +12,8 @@
 // Of every run that ends with status 1, 2 or 130 stderr must be one line that begins with "itin: error: ".
 #pragma once
 
+#include <ostream>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace itin::test {
@@ -32,6 +32,8 @@ struct CommandCase {
   std::vector<std::string> runs;
   int status = 0;
   std::vector<Expectation> expectations;
+
+  friend void PrintTo(const CommandCase& c, std::ostream* stream) { *stream << c.file << ":" << c.line; }
 };
 
 /// Every case of every `.cases` file in a directory, files in alphabetical order. Throws std::runtime_error, naming
