@@ -23,24 +23,30 @@ std::vector<double> tolerances_of(const ImportOptions& options, const Store* exi
   if (existing != nullptr) {
     std::vector<double> stored;
     for (const LevelInfo& level : existing->metadata().levels) stored.push_back(level.tolerance);
-    if (!options.tolerances.empty() && !std::equal(options.tolerances.begin(), options.tolerances.end(), stored.begin() + 1, stored.end())) {
+    if (!options.tolerances.empty() &&
+        !std::equal(options.tolerances.begin(), options.tolerances.end(), stored.begin() + 1, stored.end())) {
       throw InputError("--levels: " + existing->path() + " has other levels already; leave --levels out to add to it");
     }
     return stored;
   }
   std::vector<double> tolerances{0.0};
   for (const double t : options.tolerances.empty() ? kDefaultTolerances : options.tolerances) {
-    if (!std::isfinite(t) || t <= tolerances.back()) throw InputError("--levels: tolerances must be positive and ascending");
-    if (t < options.resolution) throw InputError("--levels: a tolerance below the resolution means nothing; raise it or lower --resolution");
+    if (!std::isfinite(t) || t <= tolerances.back())
+      throw InputError("--levels: tolerances must be positive and ascending");
+    if (t < options.resolution)
+      throw InputError("--levels: a tolerance below the resolution means nothing; raise it or lower --resolution");
     tolerances.push_back(t);
   }
   return tolerances;
 }
 
 void check_resolution(const ImportOptions& options, const Store* existing) {
-  if (!std::isfinite(options.resolution) || options.resolution <= 0) throw InputError("--resolution: must be positive, in metres");
-  if (existing != nullptr && options.resolution != ImportOptions{}.resolution && options.resolution != existing->metadata().grid.resolution) {
-    throw InputError("--resolution: " + existing->path() + " has another one already; leave it out to add to the store");
+  if (!std::isfinite(options.resolution) || options.resolution <= 0)
+    throw InputError("--resolution: must be positive, in metres");
+  if (existing != nullptr && options.resolution != ImportOptions{}.resolution &&
+      options.resolution != existing->metadata().grid.resolution) {
+    throw InputError("--resolution: " + existing->path() +
+                     " has another one already; leave it out to add to the store");
   }
 }
 
@@ -65,7 +71,8 @@ std::uint64_t add_stored(const Store& store, PointSorter& sorter, Progress& prog
   return count;
 }
 
-void add_source(TerrainSource& source, std::uint16_t number, PointSorter& sorter, ImportReport& report, Progress& progress) {
+void add_source(TerrainSource& source, std::uint16_t number, PointSorter& sorter, ImportReport& report,
+                Progress& progress) {
   std::vector<RawPoint> raw;
   const ReadCounts counts = source.read(
       [&](std::span<const GridPoint> points) {
@@ -103,7 +110,8 @@ ImportReport import_terrain(const std::string& store_path, const ImportOptions& 
   report.warnings = plan.warnings;
   std::vector<SourceInfo> sources;
   if (store != nullptr) sources = store->metadata().sources;
-  if (sources.size() + plan.sources.size() > 65535) throw InputError("a store holds at most 65,535 sources; merge some of them first");
+  if (sources.size() + plan.sources.size() > 65535)
+    throw InputError("a store holds at most 65,535 sources; merge some of them first");
 
   // The writer comes first: it holds the lock, and a place that cannot be written is known before hours of work.
   StoreWriter writer(store_path, plan.crs_wkt, plan.grid, tolerances);
@@ -127,7 +135,8 @@ ImportReport import_terrain(const std::string& store_path, const ImportOptions& 
     sources[s].vertices = pyramid.vertices_of_source[s];
     report.vertices += sources[s].vertices;
   }
-  if (report.vertices == 0) throw InputError("nothing to import: no three points are near enough to each other to be ground (see --max-gap)");
+  if (report.vertices == 0)
+    throw InputError("nothing to import: no three points are near enough to each other to be ground (see --max-gap)");
   writer.commit(std::move(sources));
 
   const Store written(store_path);

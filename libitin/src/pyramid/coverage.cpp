@@ -39,7 +39,9 @@ GridBox box_of(const std::vector<RawPoint>& points) {
   return box;
 }
 
-std::uint64_t code_of(const SelectedVertex& v) { return morton(v.point.x, v.point.y); }
+std::uint64_t code_of(const SelectedVertex& v) {
+  return morton(v.point.x, v.point.y);
+}
 
 Segment segment(const RegionMesh& region, std::uint32_t from, std::uint32_t to) {
   const GridPoint &a = region.vertices[from].point, &b = region.vertices[to].point;
@@ -60,7 +62,8 @@ std::vector<std::uint64_t> corners_in(const Cell& tile, const std::vector<Segmen
 
 }  // namespace
 
-std::vector<std::uint8_t> ground_triangles(const RegionMesh& region, const std::vector<std::array<double, 4>>& gap_bases) {
+std::vector<std::uint8_t> ground_triangles(const RegionMesh& region,
+                                           const std::vector<std::array<double, 4>>& gap_bases) {
   const GapRule gaps(gap_bases);
   std::vector<std::uint8_t> ground;
   for (const auto& [a, b, c] : region.mesh.triangles) {
@@ -70,7 +73,8 @@ std::vector<std::uint8_t> ground_triangles(const RegionMesh& region, const std::
   return ground;
 }
 
-TileSurvey survey_tile(const WorkingIndex& index, const CurveRange& tile, const std::vector<std::array<double, 4>>& gap_bases) {
+TileSurvey survey_tile(const WorkingIndex& index, const CurveRange& tile,
+                       const std::vector<std::array<double, 4>>& gap_bases) {
   TileSurvey survey;
   std::vector<RawPoint> own = index.read(tile);
   std::erase_if(own, [](const RawPoint& p) { return p.level == kDropped; });
@@ -118,7 +122,9 @@ std::vector<Segment> join_collinear(std::vector<Segment> edges) {
   std::map<End, int> arriving;
   for (const Segment& s : edges) arriving[{s.bx, s.by}] += 1;
   const auto leaving = [&](End p) {
-    const auto first = std::lower_bound(edges.begin(), edges.end(), p, [](const Segment& s, End e) { return End{s.ax, s.ay} < e; });
+    const auto first = std::lower_bound(edges.begin(), edges.end(), p, [](const Segment& s, End e) {
+      return End{s.ax, s.ay} < e;
+    });
     auto last = first;
     while (last != edges.end() && End{last->ax, last->ay} == p) ++last;
     return std::pair{first, last};
@@ -129,7 +135,9 @@ std::vector<Segment> join_collinear(std::vector<Segment> edges) {
     const auto [first, last] = leaving(p);
     if (last - first != 1 || arriving[p] != 1) return nullptr;
     const Position a{s.ax, s.ay}, b{s.bx, s.by}, c{first->bx, first->by};
-    const bool forward = (std::int64_t{b.x} - a.x) * (std::int64_t{c.x} - b.x) + (std::int64_t{b.y} - a.y) * (std::int64_t{c.y} - b.y) > 0;
+    const bool forward =
+        (std::int64_t{b.x} - a.x) * (std::int64_t{c.x} - b.x) + (std::int64_t{b.y} - a.y) * (std::int64_t{c.y} - b.y) >
+        0;
     return forward && orientation(a, b, c) == 0 ? &*first : nullptr;
   };
   std::vector<std::uint8_t> continued(edges.size(), 0);
@@ -140,7 +148,8 @@ std::vector<Segment> join_collinear(std::vector<Segment> edges) {
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (continued[i]) continue;  // a straight run starts elsewhere; it cannot be a closed loop
     Segment joined = edges[i];
-    for (const Segment* next = onwards(edges[i]); next != nullptr; next = onwards(*next)) joined.bx = next->bx, joined.by = next->by;
+    for (const Segment* next = onwards(edges[i]); next != nullptr; next = onwards(*next))
+      joined.bx = next->bx, joined.by = next->by;
     result.push_back(joined);
   }
   return result;

@@ -43,7 +43,8 @@ Proposals propose_levels(WorkingIndex& index, const CurveRange& tile, const std:
   std::vector<RawPoint> points = index.read(tile);
   std::size_t v = 0;
   for (RawPoint& p : points) {
-    while (v < levels.size() && morton(survey.surface.vertices[v].point.x, survey.surface.vertices[v].point.y) < p.code) ++v;
+    while (v < levels.size() && morton(survey.surface.vertices[v].point.x, survey.surface.vertices[v].point.y) < p.code)
+      ++v;
     if (v == levels.size()) break;
     if (morton(survey.surface.vertices[v].point.x, survey.surface.vertices[v].point.y) == p.code) p.level = levels[v];
   }
@@ -55,7 +56,10 @@ Proposals propose_levels(WorkingIndex& index, const CurveRange& tile, const std:
 class LevelWriter {
  public:
   LevelWriter(const WorkingIndex& index, const LeafBounds& bounds, int level, StoreWriter& writer)
-      : index_(index), bounds_(bounds), level_(level), writer_(writer),
+      : index_(index),
+        bounds_(bounds),
+        level_(level),
+        writer_(writer),
         cutter_(kLeafCapacity, [this](const Cell& cell, std::uint32_t count) { write(cell, count); }) {}
   LevelWriter(const LevelWriter&) = delete;
 
@@ -70,10 +74,12 @@ class LevelWriter {
   void write(const Cell& cell, std::uint32_t count) {
     // The working tree is the finer one: it holds every level's points and has the same capacity.
     DifferenceRange range;
-    for (; leaf_ < index_.ranges().size() && index_.ranges()[leaf_].cell.code < cell.end(); ++leaf_) range.add(bounds_.at(leaf_, level_));
+    for (; leaf_ < index_.ranges().size() && index_.ranges()[leaf_].cell.code < cell.end(); ++leaf_)
+      range.add(bounds_.at(leaf_, level_));
     if (count == 0 && range.empty()) return;
     if (range.empty()) range = {0, 0};
-    writer_.add_leaf(level_, cell, std::span(points_).first(count), std::span(sources_).first(count), range.lo, range.hi);
+    writer_.add_leaf(level_, cell, std::span(points_).first(count), std::span(sources_).first(count), range.lo,
+                     range.hi);
     points_.erase(points_.begin(), points_.begin() + count);
     sources_.erase(sources_.begin(), sources_.begin() + count);
   }
@@ -104,7 +110,8 @@ void write_levels(const WorkingIndex& index, LeafBounds& bounds, const std::vect
         level.add(p);
         report.vertices_of_source[p.source] += 1;
       }
-      progress.report("writing", static_cast<double>(++done) / static_cast<double>(tiles.size() * static_cast<std::size_t>(levels)));
+      progress.report("writing", static_cast<double>(++done) /
+                                     static_cast<double>(tiles.size() * static_cast<std::size_t>(levels)));
     }
     level.finish();
   }

@@ -53,7 +53,8 @@ std::map<std::uint16_t, Sources> replacing(const std::vector<SourceInfo>& source
 }
 
 /// Codes of those points (ordered by x) that lie in a ground triangle of the given sources.
-std::vector<std::uint64_t> covered(const WorkingIndex& index, const Sources& sources, const std::vector<Position>& points,
+std::vector<std::uint64_t> covered(const WorkingIndex& index, const Sources& sources,
+                                   const std::vector<Position>& points,
                                    const std::vector<std::array<double, 4>>& gap_bases) {
   GridBox box;
   for (const Position p : points) box.extend(p.x, p.y);
@@ -67,9 +68,11 @@ std::vector<std::uint64_t> covered(const WorkingIndex& index, const Sources& sou
     const Position a = region.vertices[corners[0]].position(), b = region.vertices[corners[1]].position();
     const Position c = region.vertices[corners[2]].position();
     const std::int32_t last = std::max({a.x, b.x, c.x});
-    auto p = std::lower_bound(points.begin(), points.end(), std::min({a.x, b.x, c.x}), [](Position q, std::int32_t x) { return q.x < x; });
+    auto p = std::lower_bound(points.begin(), points.end(), std::min({a.x, b.x, c.x}),
+                              [](Position q, std::int32_t x) { return q.x < x; });
     for (; p != points.end() && p->x <= last; ++p) {
-      if (orientation(a, b, *p) >= 0 && orientation(b, c, *p) >= 0 && orientation(c, a, *p) >= 0) result.push_back(morton(p->x, p->y));
+      if (orientation(a, b, *p) >= 0 && orientation(b, c, *p) >= 0 && orientation(c, a, *p) >= 0)
+        result.push_back(morton(p->x, p->y));
     }
   }
   std::sort(result.begin(), result.end());
@@ -78,8 +81,9 @@ std::vector<std::uint64_t> covered(const WorkingIndex& index, const Sources& sou
 
 }  // namespace
 
-std::uint64_t drop_replaced(WorkingIndex& index, const std::vector<CurveRange>& tiles, const std::vector<SourceInfo>& sources,
-                            const std::vector<std::array<double, 4>>& gap_bases, Progress& progress) {
+std::uint64_t drop_replaced(WorkingIndex& index, const std::vector<CurveRange>& tiles,
+                            const std::vector<SourceInfo>& sources, const std::vector<std::array<double, 4>>& gap_bases,
+                            Progress& progress) {
   const std::map<std::uint16_t, Sources> replaced_by = replacing(sources);
   if (replaced_by.empty()) return 0;
   // All tiles are read before any is written: what is dropped here must not change what covers it there.
