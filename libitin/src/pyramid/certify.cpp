@@ -82,8 +82,8 @@ class CellVerification {
   CellVerification(const WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const CurveRange& cell)
       : index_(index), tolerances_(tolerances), cell_(cell) {}
 
-  /// Levels with their bit set in `levels` are verified, and the cell's points raised, if `mend`, until they hold; bounds
-  /// of the cell's leaves are replaced for these levels.
+  /// Levels with their bit set in `levels` are verified, and the cell's points raised, if `mend`, until they hold;
+  /// bounds of the cell's leaves are replaced for these levels.
   Levels run(unsigned levels, bool mend, LeafBounds& bounds) {
     fine_ = triangulate_region(index_, levels_from(0, tolerances_), square_of(cell_.cell));
     if (!fine_.mesh.triangles.empty()) edges_ = std::make_unique<FineEdges>(fine_);
@@ -137,9 +137,13 @@ class CellVerification {
 
   static std::vector<Difference::Crossing> worst_by_edge(const Difference& d) {
     std::vector<Difference::Crossing> crossings = d.too_large;
-    const auto key = [](const Difference::Crossing& c) { return std::tuple(c.coarse_from, c.coarse_to, -c.size, c.fine_edge); };
+    const auto key = [](const Difference::Crossing& c) {
+      return std::tuple(c.coarse_from, c.coarse_to, -c.size, c.fine_edge);
+    };
     std::sort(crossings.begin(), crossings.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
-    const auto same_edge = [](const auto& a, const auto& b) { return a.coarse_from == b.coarse_from && a.coarse_to == b.coarse_to; };
+    const auto same_edge = [](const auto& a, const auto& b) {
+      return a.coarse_from == b.coarse_from && a.coarse_to == b.coarse_to;
+    };
     crossings.erase(std::unique(crossings.begin(), crossings.end(), same_edge), crossings.end());
     return crossings;
   }
@@ -163,7 +167,8 @@ class CellVerification {
   template <class Visit>
   void visit_leaves(const Visit& visit) const {
     const auto& ranges = index_.ranges();
-    for (std::uint32_t leaf = index_.leaf_of(cell_.cell.code); leaf < ranges.size() && ranges[leaf].cell.code < cell_.cell.end(); ++leaf) {
+    for (std::uint32_t leaf = index_.leaf_of(cell_.cell.code);
+         leaf < ranges.size() && ranges[leaf].cell.code < cell_.cell.end(); ++leaf) {
       visit(leaf);
     }
   }
@@ -183,7 +188,8 @@ class CellVerification {
     std::vector<std::uint32_t> leaves;
     for (std::uint32_t t = 0; t < of_triangle.size(); ++t) {
       GridBox box;
-      for (const std::uint32_t v : fine_.mesh.triangles[t]) box.extend(fine_.vertices[v].point.x, fine_.vertices[v].point.y);
+      for (const std::uint32_t v : fine_.mesh.triangles[t])
+        box.extend(fine_.vertices[v].point.x, fine_.vertices[v].point.y);
       leaves.clear();
       index_.leaves_at(box, leaves);
       for (const std::uint32_t leaf : leaves) {
@@ -208,7 +214,8 @@ class Disturbed {
   void mark(std::uint32_t leaf, unsigned levels) { levels_[leaf].fetch_or(levels, std::memory_order_relaxed); }
   unsigned in(const WorkingIndex& index, const CurveRange& cell) const {
     unsigned levels = 0;
-    for (std::uint32_t leaf = index.leaf_of(cell.cell.code); leaf < levels_.size() && index.ranges()[leaf].cell.code < cell.cell.end(); ++leaf) {
+    for (std::uint32_t leaf = index.leaf_of(cell.cell.code);
+         leaf < levels_.size() && index.ranges()[leaf].cell.code < cell.cell.end(); ++leaf) {
       levels |= levels_[leaf].load(std::memory_order_relaxed);
     }
     return levels;
@@ -228,7 +235,8 @@ struct Raise {
 };
 
 /// A raised vertex changes the surface within its star, for every level it newly belongs to.
-void mark_star(const WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const Raise& raise, Disturbed& disturbed) {
+void mark_star(const WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const Raise& raise,
+               Disturbed& disturbed) {
   const Position p{morton_x(raise.code), morton_y(raise.code)};
   std::vector<std::uint32_t> leaves;
   for (int k = raise.from + 1; k <= raise.to; ++k) {
@@ -240,7 +248,8 @@ void mark_star(const WorkingIndex& index, const std::vector<std::int32_t>& toler
   }
 }
 
-void mark_failures(const LeafBounds& bounds, const std::vector<std::int32_t>& tolerances, std::size_t leaves, Disturbed& disturbed) {
+void mark_failures(const LeafBounds& bounds, const std::vector<std::int32_t>& tolerances, std::size_t leaves,
+                   Disturbed& disturbed) {
   for (std::uint32_t leaf = 0; leaf < leaves; ++leaf) {
     for (std::size_t k = 1; k < tolerances.size(); ++k) {
       if (bounds.at(leaf, static_cast<int>(k)).size() > tolerances[k]) disturbed.mark(leaf, 1u << k);
