@@ -41,13 +41,14 @@ struct Light {
 /// Brightness of a slope with gradient (east, north).
 double shade(double east, double north) {
   constexpr Light kLights[] = {{315, 0.55}, {270, 0.15}, {0, 0.15}, {225, 0.15}};
-  constexpr double kElevation = 40 * std::numbers::pi / 180;
+  constexpr double kRise = kLevelShade;  // sine of the light's elevation, 40 degrees
+  const double reach = std::sqrt(1 - kRise * kRise);
   const double steepness = std::sqrt(1 + east * east + north * north);
   double sum = 0;
   for (const Light& light : kLights) {
     const double azimuth = light.azimuth * std::numbers::pi / 180;
     const double facing = -east * std::sin(azimuth) - north * std::cos(azimuth);
-    sum += light.weight * std::max(0.0, (std::sin(kElevation) + std::cos(kElevation) * facing) / steepness);
+    sum += light.weight * std::max(0.0, (kRise + reach * facing) / steepness);
   }
   return sum;
 }

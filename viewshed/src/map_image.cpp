@@ -24,6 +24,8 @@ constexpr Colour kFaint{95, 95, 95};
 constexpr Colour kPaper{255, 255, 255};
 constexpr Colour kVoid{244, 244, 244};
 
+constexpr std::uint8_t kLevelGrey = 214;  ///< of level ground
+
 constexpr double kOverlay = 0.55;     ///< opacity of what is seen
 constexpr double kOutsideFade = 0.6;  ///< how far ground outside the field of view fades into the paper
 
@@ -156,7 +158,8 @@ class MapDrawing {
           canvas_.blend(px, py, kVoid, 1);
           continue;
         }
-        const auto grey = static_cast<std::uint8_t>(std::clamp(70.0 + 215.0 * shade, 60.0, 252.0));
+        const auto grey =
+            static_cast<std::uint8_t>(std::clamp(kLevelGrey + 150.0 * (shade - kLevelShade), 100.0, 250.0));
         const Shown shown = shown_at(x, y);
         canvas_.blend(px, py, {grey, grey, grey}, 1);
         canvas_.blend(px, py, kPaper, kOutsideFade * shown.outside);
@@ -244,13 +247,17 @@ class MapDrawing {
     letters_.draw(canvas_, length_text(length), {x0 + pixels, baseline}, unit_, kInk, Align::kCentre);
   }
 
-  /// A patch of colour over mid-grey ground, as it looks on the map, and what it means.
-  void draw_key(int row, double overlay, double fade, const std::string& text) {
+  /// A patch of the map's colours over level ground, and what it means.
+  void draw_key(int row, const std::vector<double>& overlays, double fade, const std::string& text) {
     const int x = left_, y = top_ + height_ + unit_ + row * 7 * unit_ / 4;
-    canvas_.fill_rectangle(x, y, 2 * unit_, 5 * unit_ / 4, {206, 206, 206});
-    canvas_.fill_rectangle(x, y, 2 * unit_, 5 * unit_ / 4, kPaper, fade);
-    canvas_.fill_rectangle(x, y, 2 * unit_, 5 * unit_ / 4, kSeen, overlay);
-    canvas_.frame(x, y, 2 * unit_, 5 * unit_ / 4, kFaint);
+    const int width = 2 * unit_, height = 5 * unit_ / 4, bands = static_cast<int>(overlays.size());
+    canvas_.fill_rectangle(x, y, width, height, {kLevelGrey, kLevelGrey, kLevelGrey});
+    canvas_.fill_rectangle(x, y, width, height, kPaper, fade);
+    for (int i = 0; i < bands; ++i) {
+      const int from = width * i / bands, to = width * (i + 1) / bands;
+      canvas_.fill_rectangle(x + from, y, to - from, height, kSeen, overlays[static_cast<std::size_t>(i)]);
+    }
+    canvas_.frame(x, y, width, height, kFaint);
     letters_.draw(canvas_, text, {x + 2.6 * unit_, y + 1.05 * unit_}, unit_, kInk);
   }
 
@@ -261,9 +268,11 @@ class MapDrawing {
   }
 
   void draw_legend() {
-    draw_key(0, kOverlay, 0, share_text("Visible", result_.cells.visible));
-    draw_key(1, 0, 0, share_text("Hidden", result_.cells.hidden));
-    if (result_.cells.outside > 0) draw_key(2, 0, kOutsideFade, "Outside the field of view");
+    std::vector<double> overlays;
+    for (const CountClass& c : classes_) overlays.push_back(c.opacity);
+    draw_key(0, overlays, 0, share_text("Visible", result_.cells.visible));
+    draw_key(1, {}, 0, share_text("Hidden", result_.cells.hidden));
+    if (result_.cells.outside > 0) draw_key(2, {}, kOutsideFade, "Outside the field of view, or no data");
     const double y = top_ + height_ + unit_ + 3 * 7 * unit_ / 4 + 0.65 * unit_;
     draw_mark({left_ + 1.0 * unit_, y});
     letters_.draw(canvas_, result_.request.observers.size() == 1 ? "Observer" : "Observers",
@@ -281,7 +290,7 @@ class MapDrawing {
     for (std::size_t i = 0; i < classes_.size(); ++i) {
       const CountClass& c = classes_[i];
       const int x = x0 + static_cast<int>(i) * step;
-      canvas_.fill_rectangle(x, y + 7 * unit_ / 4, step, 5 * unit_ / 4, {206, 206, 206});
+      canvas_.fill_rectangle(x, y + 7 * unit_ / 4, step, 5 * unit_ / 4, {kLevelGrey, kLevelGrey, kLevelGrey});
       canvas_.fill_rectangle(x, y + 7 * unit_ / 4, step, 5 * unit_ / 4, kSeen, c.opacity);
       const std::string text = c.least == c.most ? fmt::format("{}", c.least) : fmt::format("{}–{}", c.least, c.most);
       letters_.draw(canvas_, text, {x + 0.5 * step, y + 4.2 * unit_}, fitting_size(text, step - 4, unit_), kInk,
