@@ -1,1 +1,5 @@
-int main() { return 0; }
+#include "program.hpp"
+
+int main(int argc, char** argv) {
+  return itin::cli::run(argc, argv);
+}

@@ -1,12 +1,12 @@
 #include <itin/parallel.hpp>
 
 #ifdef ITIN_PARALLEL
+#include <memory>
+#include <mutex>
+
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
-
-#include <memory>
-#include <mutex>
 #endif
 
 namespace itin {
@@ -45,7 +45,9 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& bod
 
 void set_thread_count(int) {}
 
-int thread_count() { return 1; }
+int thread_count() {
+  return 1;
+}
 
 #endif
 

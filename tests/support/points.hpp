@@ -33,8 +33,12 @@ inline std::vector<GridPoint> make_points(Pattern pattern, int count, std::mt199
   for (int i = 0; i < count; ++i) {
     GridPoint p;
     switch (pattern) {
-      case Pattern::kRandom: p = {below(100000), below(100000), 0}; break;
-      case Pattern::kLattice: p = {i % side * 50, i / side * 50, 0}; break;
+      case Pattern::kRandom:
+        p = {below(100000), below(100000), 0};
+        break;
+      case Pattern::kLattice:
+        p = {i % side * 50, i / side * 50, 0};
+        break;
       case Pattern::kClusters: {
         const int centre = below(5);
         p = {centre * 20000 + below(300) * below(30), centre * centre * 3000 + below(300) * below(30), 0};
@@ -42,13 +46,17 @@ inline std::vector<GridPoint> make_points(Pattern pattern, int count, std::mt199
       }
       case Pattern::kContours: {
         const double angle = below(1000) * 0.00628318, radius = 1000.0 * (1 + below(8));
-        p = {static_cast<std::int32_t>(radius * std::cos(angle)), static_cast<std::int32_t>(radius * std::sin(angle)), 0};
+        p = {static_cast<std::int32_t>(radius * std::cos(angle)), static_cast<std::int32_t>(radius * std::sin(angle)),
+             0};
         break;
       }
-      case Pattern::kCollinear: p = {below(50) * 10, below(3) * 700, 0}; break;
+      case Pattern::kCollinear:
+        p = {below(50) * 10, below(3) * 700, 0};
+        break;
       case Pattern::kCocircular: {
         // Pythagorean: many integer points on one circle.
-        static constexpr std::array<std::array<int, 2>, 7> kLegs{{{65, 0}, {63, 16}, {60, 25}, {56, 33}, {52, 39}, {33, 56}, {16, 63}}};
+        static constexpr std::array<std::array<int, 2>, 7> kLegs{
+            {{65, 0}, {63, 16}, {60, 25}, {56, 33}, {52, 39}, {33, 56}, {16, 63}}};
         const auto& leg = kLegs[static_cast<std::size_t>(below(7))];
         const int circle = 1 + below(3);
         p = {(below(2) ? 1 : -1) * leg[0] * circle, (below(2) ? 1 : -1) * leg[1] * circle, 0};
@@ -59,7 +67,8 @@ inline std::vector<GridPoint> make_points(Pattern pattern, int count, std::mt199
     points.push_back(p);
   }
   std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end(), [](const GridPoint& a, const GridPoint& b) { return a.x == b.x && a.y == b.y; }),
+  points.erase(std::unique(points.begin(), points.end(),
+                           [](const GridPoint& a, const GridPoint& b) { return a.x == b.x && a.y == b.y; }),
                points.end());
   return points;
 }

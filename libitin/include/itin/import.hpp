@@ -22,39 +22,41 @@ struct ImportOptions {
   std::vector<std::string> sources;  ///< anything GDAL opens as a raster or a point layer, .las, .csv, .xyz, .txt
 
   // Changes the answer.
-  std::string crs;      ///< of sources that do not say; overrides those that do
-  std::string to_crs;   ///< of the store; default: the source's own if metric and projected, else a UTM zone
-  std::string z_field;  ///< the height attribute of point layers and CSV; default: Z of the geometry, or the third column
+  std::string crs;     ///< of sources that do not say; overrides those that do
+  std::string to_crs;  ///< of the store; default: the source's own if metric and projected, else a UTM zone
+  std::string
+      z_field;  ///< the height attribute of point layers and CSV; default: Z of the geometry, or the third column
   std::string layer;
   std::string where;
-  std::vector<int> classes;       ///< LAS classes to keep; empty: all but noise (7, 18)
-  double max_gap = 0;             ///< metres, scattered points: ground is not triangulated over longer edges;
-                                  ///< 0: 100 times the mean spacing of the source
-  bool replace = false;           ///< these sources take the place of coarser ones within their coverage
-  std::vector<double> tolerances; ///< metres; default 0.5,1,2,4,8,16,32. An existing store keeps its own.
-  double resolution = 0.01;       ///< metres; an existing store keeps its own
+  std::vector<int> classes;        ///< LAS classes to keep; empty: all but noise (7, 18)
+  double max_gap = 0;              ///< metres, scattered points: ground is not triangulated over longer edges;
+                                   ///< 0: 100 times the mean spacing of the source
+  bool replace = false;            ///< these sources take the place of coarser ones within their coverage
+  std::vector<double> tolerances;  ///< metres; default 0.5,1,2,4,8,16,32. An existing store keeps its own.
+  double resolution = 0.01;        ///< metres; an existing store keeps its own
 
   // Changes the speed only.
   std::uint64_t memory_bytes = std::uint64_t{4} << 30;
 };
 
 struct ImportReport {
-  std::string crs_name;         ///< of the store
-  bool crs_chosen = false;      ///< a UTM zone was chosen, because the source is not metric
-  std::uint64_t read = 0;       ///< posts and points read with a height
-  std::uint64_t voids = 0;      ///< posts without data
-  std::uint64_t filtered = 0;   ///< points left out by class or where
-  std::uint64_t duplicates = 0; ///< positions that were there already
-  std::uint64_t replaced = 0;   ///< coarser points that made room
-  std::uint64_t isolated = 0;   ///< points left out because no ground could be triangulated about them
-  std::uint64_t vertices = 0;   ///< of the store now
+  std::string crs_name;          ///< of the store
+  bool crs_chosen = false;       ///< a UTM zone was chosen, because the source is not metric
+  std::uint64_t read = 0;        ///< posts and points read with a height
+  std::uint64_t voids = 0;       ///< posts without data
+  std::uint64_t filtered = 0;    ///< points left out by class or where
+  std::uint64_t duplicates = 0;  ///< positions that were there already
+  std::uint64_t replaced = 0;    ///< coarser points that made room
+  std::uint64_t isolated = 0;    ///< points left out because no ground could be triangulated about them
+  std::uint64_t vertices = 0;    ///< of the store now
   std::uint64_t store_bytes = 0;
   double seconds = 0;
   std::vector<LevelInfo> levels;
   std::vector<std::string> warnings;  ///< one line each
 };
 
-/// Throws InputError, FileError, StoreFormatError, CorruptStore, Cancelled. Whatever is thrown, the store stays as it was.
+/// Throws InputError, FileError, StoreFormatError, CorruptStore, Cancelled. Whatever is thrown, the store stays as it
+/// was.
 ImportReport import_terrain(const std::string& store_path, const ImportOptions& options, Progress& progress);
 
 }  // namespace itin

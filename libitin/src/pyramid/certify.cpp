@@ -14,8 +14,8 @@ namespace itin {
 
 namespace {
 
-/// Points a cell of the first round, which takes the whole surface, and of the later ones, which mend near borders.
-constexpr std::uint32_t kFirstCell = 1 << 16;
+/// Points a cell of the first round, which only looks, and of the later ones, which mend where it does not hold.
+constexpr std::uint32_t kFirstCell = 1 << 15;
 constexpr std::uint32_t kLaterCell = 1 << 11;
 
 using Levels = std::unordered_map<std::uint64_t, int>;  ///< by Morton code
@@ -34,9 +34,12 @@ class RaisedIndex final : public PointIndex {
     if (codes_.empty()) return base_.leaves(finest, box, out);
     const std::size_t before = out.size();
     base_.leaves(0, box, out);
-    const auto unselected = [&](const Leaf& leaf) { return leaf.level < finest && !any_raised(leaf.cell); };
-    out.erase(std::remove_if(out.begin() + static_cast<std::ptrdiff_t>(before), out.end(), unselected), out.end());
-    for (std::size_t i = before; i < out.size(); ++i) out[i].level = std::max(out[i].level, finest);
+    const auto none_raised = [&](const Leaf& leaf) { return !any_raised(leaf.cell); };
+    out.erase(std::remove_if(out.begin() + static_cast<std::ptrdiff_t>(before), out.end(), none_raised), out.end());
+    std::vector<Leaf> selected;
+    base_.leaves(finest, box, selected);
+    std::erase_if(selected, [&](const Leaf& leaf) { return any_raised(leaf.cell); });
+    out.insert(out.end(), selected.begin(), selected.end());
   }
   std::shared_ptr<const Block> block(const Leaf& leaf) const override {
     auto block = base_.block(leaf);
@@ -79,8 +82,9 @@ class CellVerification {
   CellVerification(const WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const CurveRange& cell)
       : index_(index), tolerances_(tolerances), cell_(cell) {}
 
-  /// Levels with their bit set in `levels` are verified; bounds of the cell's leaves are replaced for these.
-  Levels run(unsigned levels, LeafBounds& bounds) {
+  /// Levels with their bit set in `levels` are verified, and the cell's points raised, if `mend`, until they hold;
+  /// bounds of the cell's leaves are replaced for these levels.
+  Levels run(unsigned levels, bool mend, LeafBounds& bounds) {
     fine_ = triangulate_region(index_, levels_from(0, tolerances_), square_of(cell_.cell));
     if (!fine_.mesh.triangles.empty()) edges_ = std::make_unique<FineEdges>(fine_);
     for (int k = static_cast<int>(tolerances_.size()) - 1; k >= 1; --k) {
@@ -88,7 +92,7 @@ class CellVerification {
       clear(k, bounds);
       if (edges_ == nullptr) continue;
       Difference d = compare(k);
-      while (raise(k, d)) d = compare(k);
+      while (mend && raise(k, d)) d = compare(k);
       record(k, d, bounds);
     }
     return raised_;
@@ -133,9 +137,13 @@ class CellVerification {
 
   static std::vector<Difference::Crossing> worst_by_edge(const Difference& d) {
     std::vector<Difference::Crossing> crossings = d.too_large;
-    const auto key = [](const Difference::Crossing& c) { return std::tuple(c.coarse_from, c.coarse_to, -c.size, c.fine_edge); };
+    const auto key = [](const Difference::Crossing& c) {
+      return std::tuple(c.coarse_from, c.coarse_to, -c.size, c.fine_edge);
+    };
     std::sort(crossings.begin(), crossings.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
-    const auto same_edge = [](const auto& a, const auto& b) { return a.coarse_from == b.coarse_from && a.coarse_to == b.coarse_to; };
+    const auto same_edge = [](const auto& a, const auto& b) {
+      return a.coarse_from == b.coarse_from && a.coarse_to == b.coarse_to;
+    };
     crossings.erase(std::unique(crossings.begin(), crossings.end(), same_edge), crossings.end());
     return crossings;
   }
@@ -159,7 +167,8 @@ class CellVerification {
   template <class Visit>
   void visit_leaves(const Visit& visit) const {
     const auto& ranges = index_.ranges();
-    for (std::uint32_t leaf = index_.leaf_of(cell_.cell.code); leaf < ranges.size() && ranges[leaf].cell.code < cell_.cell.end(); ++leaf) {
+    for (std::uint32_t leaf = index_.leaf_of(cell_.cell.code);
+         leaf < ranges.size() && ranges[leaf].cell.code < cell_.cell.end(); ++leaf) {
       visit(leaf);
     }
   }
@@ -179,7 +188,8 @@ class CellVerification {
     std::vector<std::uint32_t> leaves;
     for (std::uint32_t t = 0; t < of_triangle.size(); ++t) {
       GridBox box;
-      for (const std::uint32_t v : fine_.mesh.triangles[t]) box.extend(fine_.vertices[v].point.x, fine_.vertices[v].point.y);
+      for (const std::uint32_t v : fine_.mesh.triangles[t])
+        box.extend(fine_.vertices[v].point.x, fine_.vertices[v].point.y);
       leaves.clear();
       index_.leaves_at(box, leaves);
       for (const std::uint32_t leaf : leaves) {
@@ -204,7 +214,8 @@ class Disturbed {
   void mark(std::uint32_t leaf, unsigned levels) { levels_[leaf].fetch_or(levels, std::memory_order_relaxed); }
   unsigned in(const WorkingIndex& index, const CurveRange& cell) const {
     unsigned levels = 0;
-    for (std::uint32_t leaf = index.leaf_of(cell.cell.code); leaf < levels_.size() && index.ranges()[leaf].cell.code < cell.cell.end(); ++leaf) {
+    for (std::uint32_t leaf = index.leaf_of(cell.cell.code);
+         leaf < levels_.size() && index.ranges()[leaf].cell.code < cell.cell.end(); ++leaf) {
       levels |= levels_[leaf].load(std::memory_order_relaxed);
     }
     return levels;
@@ -224,7 +235,8 @@ struct Raise {
 };
 
 /// A raised vertex changes the surface within its star, for every level it newly belongs to.
-void mark_star(const WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const Raise& raise, Disturbed& disturbed) {
+void mark_star(const WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const Raise& raise,
+               Disturbed& disturbed) {
   const Position p{morton_x(raise.code), morton_y(raise.code)};
   std::vector<std::uint32_t> leaves;
   for (int k = raise.from + 1; k <= raise.to; ++k) {
@@ -232,6 +244,15 @@ void mark_star(const WorkingIndex& index, const std::vector<std::int32_t>& toler
     index.leaves_at(box_of(triangulate_region(index, levels_from(k, tolerances), {p.x, p.y, p.x, p.y})), leaves);
     for (const std::uint32_t leaf : leaves) {
       if (!raise.cell.contains(index.ranges()[leaf].cell)) disturbed.mark(leaf, 1u << k);
+    }
+  }
+}
+
+void mark_failures(const LeafBounds& bounds, const std::vector<std::int32_t>& tolerances, std::size_t leaves,
+                   Disturbed& disturbed) {
+  for (std::uint32_t leaf = 0; leaf < leaves; ++leaf) {
+    for (std::size_t k = 1; k < tolerances.size(); ++k) {
+      if (bounds.at(leaf, static_cast<int>(k)).size() > tolerances[k]) disturbed.mark(leaf, 1u << k);
     }
   }
 }
@@ -256,9 +277,9 @@ LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& toleran
     std::atomic<std::size_t> done = 0;
     parallel_for(cells.size(), [&](std::size_t i) {
       progress.throw_if_cancelled();
-      raised[i] = CellVerification(index, tolerances, cells[i].first).run(cells[i].second, bounds);
+      raised[i] = CellVerification(index, tolerances, cells[i].first).run(cells[i].second, round > 0, bounds);
       const double share = static_cast<double>(++done) / static_cast<double>(cells.size());
-      progress.report(round == 0 ? "verifying the levels" : "verifying across borders", share);
+      progress.report(round == 0 ? "verifying the levels" : "mending the levels", share);
     });
 
     std::vector<Raise> raises;
@@ -273,6 +294,7 @@ LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& toleran
       if (!points.empty()) index.write(cells[i].first, points);
     }
     parallel_for(raises.size(), [&](std::size_t i) { mark_star(index, tolerances, raises[i], disturbed); });
+    if (round == 0) mark_failures(bounds, tolerances, index.ranges().size(), disturbed);
   }
 }
 

@@ -17,7 +17,9 @@ class LeafBounds {
  public:
   LeafBounds(std::size_t leaves, int levels) : levels_(levels), bounds_(leaves * static_cast<std::size_t>(levels)) {}
   DifferenceRange& at(std::uint32_t leaf, int level) { return bounds_[std::size_t{leaf} * levels_ + level]; }
-  const DifferenceRange& at(std::uint32_t leaf, int level) const { return bounds_[std::size_t{leaf} * levels_ + level]; }
+  const DifferenceRange& at(std::uint32_t leaf, int level) const {
+    return bounds_[std::size_t{leaf} * levels_ + level];
+  }
 
  private:
   int levels_;
@@ -27,9 +29,9 @@ class LeafBounds {
 /// Raises levels in the index until |T_0 - T_k| <= tolerances[k] everywhere, for each k >= 1, and returns the bounds by
 /// leaf. `tolerances` in whole grid units, level 0 first. Leaves without ground keep empty bounds.
 ///
-/// In rounds: each cell is verified alone, against real windows of the whole, and raises its own points until its part
-/// holds while its neighbours stay as they were. Cells near which a neighbour raised something are verified again. So
-/// the outcome depends on the points alone, not on threads.
+/// In rounds. The first one measures everything, against real windows of the whole. In the later ones each cell that
+/// fails raises its own points until its part holds while its neighbours stay as they were; cells near which a
+/// neighbour raised something are verified again. So the outcome depends on the points alone, not on threads.
 LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& tolerances, Progress& progress);
 
 }  // namespace itin

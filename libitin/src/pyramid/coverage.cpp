@@ -39,15 +39,8 @@ GridBox box_of(const std::vector<RawPoint>& points) {
   return box;
 }
 
-std::uint64_t code_of(const SelectedVertex& v) { return morton(v.point.x, v.point.y); }
-
-std::vector<std::uint8_t> ground_triangles(const RegionMesh& region, const GapRule& gaps) {
-  std::vector<std::uint8_t> ground;
-  for (const auto& [a, b, c] : region.mesh.triangles) {
-    const SelectedVertex &va = region.vertices[a], &vb = region.vertices[b], &vc = region.vertices[c];
-    ground.push_back(gaps.bridges(va, vb) && gaps.bridges(vb, vc) && gaps.bridges(vc, va));
-  }
-  return ground;
+std::uint64_t code_of(const SelectedVertex& v) {
+  return morton(v.point.x, v.point.y);
 }
 
 Segment segment(const RegionMesh& region, std::uint32_t from, std::uint32_t to) {
@@ -69,13 +62,26 @@ std::vector<std::uint64_t> corners_in(const Cell& tile, const std::vector<Segmen
 
 }  // namespace
 
-TileSurvey survey_tile(const WorkingIndex& index, const CurveRange& tile, const std::vector<std::array<double, 4>>& gap_bases) {
+std::vector<std::uint8_t> ground_triangles(const RegionMesh& region,
+                                           const std::vector<std::array<double, 4>>& gap_bases) {
+  const GapRule gaps(gap_bases);
+  std::vector<std::uint8_t> ground;
+  for (const auto& [a, b, c] : region.mesh.triangles) {
+    const SelectedVertex &va = region.vertices[a], &vb = region.vertices[b], &vc = region.vertices[c];
+    ground.push_back(gaps.bridges(va, vb) && gaps.bridges(vb, vc) && gaps.bridges(vc, va));
+  }
+  return ground;
+}
+
+TileSurvey survey_tile(const WorkingIndex& index, const CurveRange& tile,
+                       const std::vector<std::array<double, 4>>& gap_bases) {
   TileSurvey survey;
-  const std::vector<RawPoint> own = index.read(tile);
+  std::vector<RawPoint> own = index.read(tile);
+  std::erase_if(own, [](const RawPoint& p) { return p.level == kDropped; });
   const Selection everything(Detail::tolerance(0), {0.0}, Grid{});
   survey.surface = triangulate_region(index, everything, box_of(own));
   const RegionMesh& region = survey.surface;
-  const std::vector<std::uint8_t> ground = ground_triangles(region, GapRule(gap_bases));
+  const std::vector<std::uint8_t> ground = ground_triangles(region, gap_bases);
 
   std::vector<std::uint8_t> touched(region.vertices.size(), 0);
   std::vector<Segment> edges_at_tile;
@@ -116,7 +122,9 @@ std::vector<Segment> join_collinear(std::vector<Segment> edges) {
   std::map<End, int> arriving;
   for (const Segment& s : edges) arriving[{s.bx, s.by}] += 1;
   const auto leaving = [&](End p) {
-    const auto first = std::lower_bound(edges.begin(), edges.end(), p, [](const Segment& s, End e) { return End{s.ax, s.ay} < e; });
+    const auto first = std::lower_bound(edges.begin(), edges.end(), p, [](const Segment& s, End e) {
+      return End{s.ax, s.ay} < e;
+    });
     auto last = first;
     while (last != edges.end() && End{last->ax, last->ay} == p) ++last;
     return std::pair{first, last};
@@ -127,7 +135,9 @@ std::vector<Segment> join_collinear(std::vector<Segment> edges) {
     const auto [first, last] = leaving(p);
     if (last - first != 1 || arriving[p] != 1) return nullptr;
     const Position a{s.ax, s.ay}, b{s.bx, s.by}, c{first->bx, first->by};
-    const bool forward = (std::int64_t{b.x} - a.x) * (std::int64_t{c.x} - b.x) + (std::int64_t{b.y} - a.y) * (std::int64_t{c.y} - b.y) > 0;
+    const bool forward =
+        (std::int64_t{b.x} - a.x) * (std::int64_t{c.x} - b.x) + (std::int64_t{b.y} - a.y) * (std::int64_t{c.y} - b.y) >
+        0;
     return forward && orientation(a, b, c) == 0 ? &*first : nullptr;
   };
   std::vector<std::uint8_t> continued(edges.size(), 0);
@@ -138,7 +148,8 @@ std::vector<Segment> join_collinear(std::vector<Segment> edges) {
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (continued[i]) continue;  // a straight run starts elsewhere; it cannot be a closed loop
     Segment joined = edges[i];
-    for (const Segment* next = onwards(edges[i]); next != nullptr; next = onwards(*next)) joined.bx = next->bx, joined.by = next->by;
+    for (const Segment* next = onwards(edges[i]); next != nullptr; next = onwards(*next))
+      joined.bx = next->bx, joined.by = next->by;
     result.push_back(joined);
   }
   return result;

@@ -15,14 +15,19 @@ namespace itin {
 
 /// The full surface about one tile, and what its own points have of the coverage.
 struct TileSurvey {
-  RegionMesh surface;                    ///< every triangle about the tile's points, ground or not
-  std::vector<Candidacy> candidacy;      ///< per vertex: corners of the outline are kCorner, isolated points kNone
-  std::vector<Segment> outline;          ///< edges with ground to the left, each in one tile only
-  std::vector<std::uint64_t> isolated;   ///< the tile's points of no ground triangle, as Morton codes
+  RegionMesh surface;                   ///< every triangle about the tile's points, ground or not
+  std::vector<Candidacy> candidacy;     ///< per vertex: corners of the outline are kCorner, isolated points kNone
+  std::vector<Segment> outline;         ///< edges with ground to the left, each in one tile only
+  std::vector<std::uint64_t> isolated;  ///< the tile's points of no ground triangle, as Morton codes
 };
 
+/// Which triangles of a plain Delaunay triangulation are ground. `gap_bases` per source, grid units.
+std::vector<std::uint8_t> ground_triangles(const RegionMesh& region,
+                                           const std::vector<std::array<double, 4>>& gap_bases);
+
 /// `gap_bases` per source, grid units. The index must have no segments yet, and nothing dropped meanwhile.
-TileSurvey survey_tile(const WorkingIndex& index, const CurveRange& tile, const std::vector<std::array<double, 4>>& gap_bases);
+TileSurvey survey_tile(const WorkingIndex& index, const CurveRange& tile,
+                       const std::vector<std::array<double, 4>>& gap_bases);
 
 /// One segment for each maximal straight run of directed edges, in a canonical order. Their ends are the corners.
 std::vector<Segment> join_collinear(std::vector<Segment> edges);

@@ -18,6 +18,11 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xffffffff;
 
+// Heights are whole units, so differences are often exactly a tolerance. Verification decides points exactly and rounds
+// crossings outwards; these margins make greedy insertion decide alike.
+constexpr double kPointError = 1e-6;
+constexpr double kCrossingError = 2e-5;
+
 /// The points not yet inserted that lie in a face, as a linked list.
 struct FacePoints {
   std::uint32_t first = kNone;
@@ -25,8 +30,9 @@ struct FacePoints {
 };
 
 using Triangulation = CGAL::Delaunay_triangulation_2<
-    GridTraits, CGAL::Triangulation_data_structure_2<CGAL::Triangulation_vertex_base_2<GridTraits>,
-                                                     CGAL::Triangulation_face_base_with_info_2<FacePoints, GridTraits>>>;
+    GridTraits,
+    CGAL::Triangulation_data_structure_2<CGAL::Triangulation_vertex_base_2<GridTraits>,
+                                         CGAL::Triangulation_face_base_with_info_2<FacePoints, GridTraits>>>;
 using Face = Triangulation::Face_handle;
 using Vertex = Triangulation::Vertex_handle;
 
@@ -44,7 +50,11 @@ struct Proposal {
 class GreedyInsertion {
  public:
   GreedyInsertion(const RegionMesh& fine, std::span<const Candidacy> candidacy)
-      : fine_(fine), candidacy_(candidacy), walk_(fine), next_(fine.vertices.size(), kNone), inserted_(fine.vertices.size(), 0) {}
+      : fine_(fine),
+        candidacy_(candidacy),
+        walk_(fine),
+        next_(fine.vertices.size(), kNone),
+        inserted_(fine.vertices.size(), 0) {}
 
   /// Starts from these vertices, whose hull must contain all candidates; false while they are collinear.
   bool start(const std::vector<std::uint32_t>& vertices) {
@@ -62,7 +72,8 @@ class GreedyInsertion {
     }
     for (Face f : triangulation_.finite_face_handles()) propose_worst_point(f);
     for (const auto& edge : triangulation_.finite_edges()) {
-      propose_edge(edge.first->vertex(Triangulation::ccw(edge.second)), edge.first->vertex(Triangulation::cw(edge.second)));
+      propose_edge(edge.first->vertex(Triangulation::ccw(edge.second)),
+                   edge.first->vertex(Triangulation::cw(edge.second)));
     }
     return true;
   }
@@ -74,7 +85,8 @@ class GreedyInsertion {
       const Proposal top = queue_.top();
       queue_.pop();
       const bool of_edge = top.edge_from != Vertex();
-      if (of_edge ? !triangulation_.is_edge(top.edge_from, top.edge_to) : top.face->info().version != top.version) continue;
+      if (of_edge ? !triangulation_.is_edge(top.edge_from, top.edge_to) : top.face->info().version != top.version)
+        continue;
       if (!inserted_[top.point]) {
         insert(top.point, of_edge ? locate(top.point, top.edge_from->face()) : top.face);
         on_insert(top.point);
@@ -104,7 +116,8 @@ class GreedyInsertion {
     inserted_[p] = 1;
     conflicts_.clear();
     boundary_.clear();
-    triangulation_.get_conflicts_and_boundary(position(p), std::back_inserter(conflicts_), std::back_inserter(boundary_), start);
+    triangulation_.get_conflicts_and_boundary(position(p), std::back_inserter(conflicts_),
+                                              std::back_inserter(boundary_), start);
     homeless_.clear();
     for (Face f : conflicts_) {
       for (std::uint32_t q = f->info().first; q != kNone; q = next_[q]) {
@@ -112,7 +125,8 @@ class GreedyInsertion {
       }
       f->info().first = kNone;
     }
-    resettle(triangulation_.star_hole(position(p), boundary_.begin(), boundary_.end(), conflicts_.begin(), conflicts_.end()));
+    resettle(triangulation_.star_hole(position(p), boundary_.begin(), boundary_.end(), conflicts_.begin(),
+                                      conflicts_.end()));
   }
 
   /// Gives every homeless point to the face of v's star that holds it, and looks at the star's faces and edges.
@@ -128,7 +142,8 @@ class GreedyInsertion {
     std::size_t at = 0;
     for (const std::uint32_t q : homeless_) {
       const TraitsPoint p = position(q);
-      for (std::size_t tried = 0; tried < star_.size() && !in_wedge(star_[at], centre, p); ++tried) at = (at + 1) % star_.size();
+      for (std::size_t tried = 0; tried < star_.size() && !in_wedge(star_[at], centre, p); ++tried)
+        at = (at + 1) % star_.size();
       link(q, star_[at].face);
     }
     for (const StarFace& s : star_) propose_worst_point(s.face);
@@ -153,25 +168,28 @@ class GreedyInsertion {
     const std::uint32_t first = f->info().first;
     if (first == kNone) return;
     const GridPoint &a = corner(f, 0), &b = corner(f, 1), &c = corner(f, 2);
-    const double bx = static_cast<double>(b.x) - a.x, by = static_cast<double>(b.y) - a.y, bz = static_cast<double>(b.z) - a.z;
-    const double cx = static_cast<double>(c.x) - a.x, cy = static_cast<double>(c.y) - a.y, cz = static_cast<double>(c.z) - a.z;
+    const double bx = static_cast<double>(b.x) - a.x, by = static_cast<double>(b.y) - a.y,
+                 bz = static_cast<double>(b.z) - a.z;
+    const double cx = static_cast<double>(c.x) - a.x, cy = static_cast<double>(c.y) - a.y,
+                 cz = static_cast<double>(c.z) - a.z;
     const double area = bx * cy - by * cx;
     const double sx = (bz * cy - cz * by) / area, sy = (bx * cz - cx * bz) / area;
     double worst = -1;
     std::uint32_t worst_point = kNone;
     for (std::uint32_t q = first; q != kNone; q = next_[q]) {
       const GridPoint& p = point(q);
-      const double error = std::abs(static_cast<double>(p.z) - a.z - sx * (static_cast<double>(p.x) - a.x) - sy * (static_cast<double>(p.y) - a.y));
+      const double error = std::abs(static_cast<double>(p.z) - a.z - sx * (static_cast<double>(p.x) - a.x) -
+                                    sy * (static_cast<double>(p.y) - a.y));
       if (error > worst || (error == worst && q < worst_point)) {
         worst = error;
         worst_point = q;
       }
     }
-    queue_.push({worst, worst_point, f->info().version, f, Vertex(), Vertex()});
+    queue_.push({worst - kPointError, worst_point, f->info().version, f, Vertex(), Vertex()});
   }
 
-  /// Proposes what would break up edge ab: at its worst crossing with a fine edge, the end of that edge nearer to it, or
-  /// the other end, or a corner opposite; whichever is first a candidate not yet inserted.
+  /// Proposes what would break up edge ab: at its worst crossing with a fine edge, the end of that edge nearer to it,
+  /// or the other end, or a corner opposite; whichever is first a candidate not yet inserted.
   void propose_edge(Vertex from, Vertex to) {
     std::uint32_t a = from->point().vertex, b = to->point().vertex;
     if (a > b) std::swap(a, b);
@@ -181,18 +199,20 @@ class GreedyInsertion {
     walk_.walk(a, b, [&](std::uint32_t p, std::uint32_t q, std::uint32_t before, std::uint32_t behind) {
       const GridPoint &pp = point(p), &pq = point(q);
       const auto ap = static_cast<double>(doubled_area(pa, pb, pp)), aq = static_cast<double>(doubled_area(pa, pb, pq));
-      const auto pqa = static_cast<double>(doubled_area(pp, pq, pa)), pqb = static_cast<double>(doubled_area(pp, pq, pb));
+      const auto pqa = static_cast<double>(doubled_area(pp, pq, pa)),
+                 pqb = static_cast<double>(doubled_area(pp, pq, pb));
       const double fine = pp.z + ap / (ap - aq) * (static_cast<double>(pq.z) - pp.z);
       const double coarse = pa.z + pqa / (pqa - pqb) * (static_cast<double>(pb.z) - pa.z);
       const double error = std::abs(fine - coarse);
       if (error <= worst) return;
       const bool nearer_p = std::abs(ap) <= std::abs(aq);
-      const std::uint32_t found = first_free({nearer_p ? p : q, nearer_p ? q : p, opposite(before, p, q), opposite(behind, p, q)});
+      const std::uint32_t found =
+          first_free({nearer_p ? p : q, nearer_p ? q : p, opposite(before, p, q), opposite(behind, p, q)});
       if (found == kNone) return;
       worst = error;
       remedy = found;
     });
-    if (remedy != kNone) queue_.push({worst, remedy, 0, Face(), from, to});
+    if (remedy != kNone) queue_.push({worst + kCrossingError, remedy, 0, Face(), from, to});
   }
 
   std::uint32_t opposite(std::uint32_t triangle, std::uint32_t p, std::uint32_t q) const {
@@ -231,7 +251,8 @@ std::vector<std::uint32_t> convex_hull(const RegionMesh& fine, std::vector<std::
   for (int chain = 0; chain < 2; ++chain) {
     const std::size_t base = hull.size();
     for (const std::uint32_t p : candidates) {
-      while (hull.size() >= base + 2 && orientation(at(hull[hull.size() - 2]), at(hull.back()), at(p)) <= 0) hull.pop_back();
+      while (hull.size() >= base + 2 && orientation(at(hull[hull.size() - 2]), at(hull.back()), at(p)) <= 0)
+        hull.pop_back();
       hull.push_back(p);
     }
     hull.pop_back();
@@ -242,7 +263,8 @@ std::vector<std::uint32_t> convex_hull(const RegionMesh& fine, std::vector<std::
 
 }  // namespace
 
-std::vector<std::uint8_t> greedy_levels(const RegionMesh& fine, std::span<const Candidacy> candidacy, std::span<const double> tolerances) {
+std::vector<std::uint8_t> greedy_levels(const RegionMesh& fine, std::span<const Candidacy> candidacy,
+                                        std::span<const double> tolerances) {
   const int coarsest = static_cast<int>(tolerances.size()) - 1;
   std::vector<std::uint8_t> levels(candidacy.size(), 0);
   std::vector<std::uint32_t> candidates, corners;
@@ -256,7 +278,8 @@ std::vector<std::uint8_t> greedy_levels(const RegionMesh& fine, std::span<const 
   GreedyInsertion greedy(fine, candidacy);
   if (!greedy.start(first)) return levels;
   for (int k = coarsest; k >= 1; --k) {
-    greedy.refine(tolerances[static_cast<std::size_t>(k)], [&](std::uint32_t p) { levels[p] = static_cast<std::uint8_t>(k); });
+    greedy.refine(tolerances[static_cast<std::size_t>(k)],
+                  [&](std::uint32_t p) { levels[p] = static_cast<std::uint8_t>(k); });
   }
   return levels;
 }

@@ -9,10 +9,12 @@ namespace itin {
 
 namespace {
 
-std::uint64_t code_of(const SelectedVertex& v) { return morton(v.point.x, v.point.y); }
+std::uint64_t code_of(const SelectedVertex& v) {
+  return morton(v.point.x, v.point.y);
+}
 
-std::int32_t floor_divide(__int128 numerator, __int128 positive) {
-  const __int128 quotient = numerator / positive;
+std::int32_t floor_divide(Int128 numerator, Int128 positive) {
+  const Int128 quotient = numerator / positive;
   return static_cast<std::int32_t>(quotient - (numerator % positive < 0));
 }
 
@@ -20,8 +22,8 @@ std::int32_t floor_divide(__int128 numerator, __int128 positive) {
 DifferenceRange above_plane(const RegionMesh& m, std::uint32_t triangle, const GridPoint& v) {
   const auto& [a, b, c] = m.mesh.triangles[triangle];
   const GridPoint &pa = m.vertices[a].point, &pb = m.vertices[b].point, &pc = m.vertices[c].point;
-  const __int128 wa = doubled_area(v, pb, pc), wb = doubled_area(pa, v, pc), wc = doubled_area(pa, pb, v);
-  const __int128 weight = wa + wb + wc, numerator = v.z * weight - (wa * pa.z + wb * pb.z + wc * pc.z);
+  const Int128 wa = doubled_area(v, pb, pc), wb = doubled_area(pa, v, pc), wc = doubled_area(pa, pb, v);
+  const Int128 weight = wa + wb + wc, numerator = v.z * weight - (wa * pa.z + wb * pb.z + wc * pc.z);
   return {floor_divide(numerator, weight), -floor_divide(-numerator, weight)};
 }
 
@@ -30,7 +32,8 @@ DifferenceRange above_crossing(const GridPoint& u, const GridPoint& v, const Gri
   const auto pu = static_cast<double>(doubled_area(p, q, u)), pv = static_cast<double>(doubled_area(p, q, v));
   const auto up = static_cast<double>(doubled_area(u, v, p)), uq = static_cast<double>(doubled_area(u, v, q));
   const double along_fine = pu / (pu - pv), along_coarse = up / (up - uq);
-  const double d = (u.z + along_fine * (static_cast<double>(v.z) - u.z)) - (p.z + along_coarse * (static_cast<double>(q.z) - p.z));
+  const double d =
+      (u.z + along_fine * (static_cast<double>(v.z) - u.z)) - (p.z + along_coarse * (static_cast<double>(q.z) - p.z));
   return {static_cast<std::int32_t>(std::floor(d - 1e-5)), static_cast<std::int32_t>(std::ceil(d + 1e-5))};
 }
 
@@ -75,7 +78,9 @@ class CoarseWalk {
     if (contains(t, v)) return kStays;
     for (int i = 0; i < 3; ++i) {
       const Position p = corner(t, i + 1), q = corner(t, i + 2);
-      if (orientation(p, q, v) < 0 && orientation(p, q, u) > 0 && orientation(u, v, p) <= 0 && orientation(u, v, q) >= 0) return i;
+      if (orientation(p, q, v) < 0 && orientation(p, q, u) > 0 && orientation(u, v, p) <= 0 &&
+          orientation(u, v, q) >= 0)
+        return i;
     }
     return kElsewhere;
   }
@@ -118,7 +123,12 @@ class CoarseWalk {
 class DifferenceSweep {
  public:
   DifferenceSweep(const RegionMesh& fine, const FineEdges& edges, const RegionMesh& coarse, std::int32_t allowed)
-      : fine_(fine), edges_(edges), coarse_(coarse), allowed_(allowed), walk_(coarse), visited_(fine.vertices.size(), 0) {
+      : fine_(fine),
+        edges_(edges),
+        coarse_(coarse),
+        allowed_(allowed),
+        walk_(coarse),
+        visited_(fine.vertices.size(), 0) {
     result_.face.assign(fine.vertices.size(), kNoTriangle);
     result_.at_vertex.resize(fine.vertices.size());
     result_.along_edge.resize(edges.edges().size());
@@ -185,15 +195,17 @@ class DifferenceSweep {
     DifferenceRange& range = result_.along_edge[e];
     if (!range.empty()) return;  // followed from its other end
     const GridPoint &pu = fine_.vertices[u].point, &pv = fine_.vertices[v].point;
-    const std::uint32_t end = walk_.walk(Position{pu.x, pu.y}, result_.face[u], Position{pv.x, pv.y}, [&](std::uint32_t p, std::uint32_t q) {
-      const GridPoint &pp = coarse_.vertices[p].point, &pq = coarse_.vertices[q].point;
-      const DifferenceRange d = above_crossing(pu, pv, pp, pq);
-      range.add(d);
-      if (d.size() > allowed_) {
-        const bool nearer_u = std::abs(doubled_area(pp, pq, pu)) <= std::abs(doubled_area(pp, pq, pv));
-        result_.too_large.push_back({std::min(p, q), std::max(p, q), d.size(), e, edges_.edges()[e].u == u ? nearer_u : !nearer_u});
-      }
-    });
+    const std::uint32_t end =
+        walk_.walk(Position{pu.x, pu.y}, result_.face[u], Position{pv.x, pv.y}, [&](std::uint32_t p, std::uint32_t q) {
+          const GridPoint &pp = coarse_.vertices[p].point, &pq = coarse_.vertices[q].point;
+          const DifferenceRange d = above_crossing(pu, pv, pp, pq);
+          range.add(d);
+          if (d.size() > allowed_) {
+            const bool nearer_u = std::abs(doubled_area(pp, pq, pu)) <= std::abs(doubled_area(pp, pq, pv));
+            result_.too_large.push_back(
+                {std::min(p, q), std::max(p, q), d.size(), e, edges_.edges()[e].u == u ? nearer_u : !nearer_u});
+          }
+        });
     if (result_.face[v] == kNoTriangle) settle(v, end);
     range.add(result_.at_vertex[u]);
     range.add(result_.at_vertex[v]);

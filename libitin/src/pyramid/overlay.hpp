@@ -45,10 +45,10 @@ class FineEdges {
 };
 
 struct Difference {
-  std::vector<DifferenceRange> at_vertex;          ///< T0 - Tk at each vertex of the fine mesh
-  std::vector<std::uint32_t> face;                 ///< a coarse triangle that holds each fine vertex
-  std::vector<std::uint8_t> is_coarse_vertex;      ///< per fine vertex
-  std::vector<DifferenceRange> along_edge;         ///< over each fine edge
+  std::vector<DifferenceRange> at_vertex;      ///< T0 - Tk at each vertex of the fine mesh
+  std::vector<std::uint32_t> face;             ///< a coarse triangle that holds each fine vertex
+  std::vector<std::uint8_t> is_coarse_vertex;  ///< per fine vertex
+  std::vector<DifferenceRange> along_edge;     ///< over each fine edge
 
   /// Where a fine edge crosses a coarse one with a greater difference than allowed.
   struct Crossing {

@@ -11,6 +11,7 @@
 #include "pyramid/coverage.hpp"
 #include "pyramid/greedy.hpp"
 #include "pyramid/leaf_cutter.hpp"
+#include "pyramid/replacement.hpp"
 #include "pyramid/working_index.hpp"
 
 namespace itin {
@@ -29,19 +30,6 @@ std::vector<std::array<double, 4>> gap_bases(const std::vector<SourceInfo>& sour
   return bases;
 }
 
-void drop(WorkingIndex& index, const std::vector<CurveRange>& tiles, std::vector<std::uint64_t> codes) {
-  std::sort(codes.begin(), codes.end());
-  parallel_for(tiles.size(), [&](std::size_t i) {
-    const auto first = std::lower_bound(codes.begin(), codes.end(), tiles[i].cell.code);
-    if (first == codes.end() || *first >= tiles[i].cell.end()) return;
-    std::vector<RawPoint> points = index.read(tiles[i]);
-    for (RawPoint& p : points) {
-      if (std::binary_search(codes.begin(), codes.end(), p.code)) p.level = kDropped;
-    }
-    index.write(tiles[i], points);
-  });
-}
-
 struct Proposals {
   std::vector<Segment> outline;
   std::vector<std::uint64_t> isolated;
@@ -55,7 +43,8 @@ Proposals propose_levels(WorkingIndex& index, const CurveRange& tile, const std:
   std::vector<RawPoint> points = index.read(tile);
   std::size_t v = 0;
   for (RawPoint& p : points) {
-    while (v < levels.size() && morton(survey.surface.vertices[v].point.x, survey.surface.vertices[v].point.y) < p.code) ++v;
+    while (v < levels.size() && morton(survey.surface.vertices[v].point.x, survey.surface.vertices[v].point.y) < p.code)
+      ++v;
     if (v == levels.size()) break;
     if (morton(survey.surface.vertices[v].point.x, survey.surface.vertices[v].point.y) == p.code) p.level = levels[v];
   }
@@ -67,7 +56,10 @@ Proposals propose_levels(WorkingIndex& index, const CurveRange& tile, const std:
 class LevelWriter {
  public:
   LevelWriter(const WorkingIndex& index, const LeafBounds& bounds, int level, StoreWriter& writer)
-      : index_(index), bounds_(bounds), level_(level), writer_(writer),
+      : index_(index),
+        bounds_(bounds),
+        level_(level),
+        writer_(writer),
         cutter_(kLeafCapacity, [this](const Cell& cell, std::uint32_t count) { write(cell, count); }) {}
   LevelWriter(const LevelWriter&) = delete;
 
@@ -82,10 +74,12 @@ class LevelWriter {
   void write(const Cell& cell, std::uint32_t count) {
     // The working tree is the finer one: it holds every level's points and has the same capacity.
     DifferenceRange range;
-    for (; leaf_ < index_.ranges().size() && index_.ranges()[leaf_].cell.code < cell.end(); ++leaf_) range.add(bounds_.at(leaf_, level_));
+    for (; leaf_ < index_.ranges().size() && index_.ranges()[leaf_].cell.code < cell.end(); ++leaf_)
+      range.add(bounds_.at(leaf_, level_));
     if (count == 0 && range.empty()) return;
     if (range.empty()) range = {0, 0};
-    writer_.add_leaf(level_, cell, std::span(points_).first(count), std::span(sources_).first(count), range.lo, range.hi);
+    writer_.add_leaf(level_, cell, std::span(points_).first(count), std::span(sources_).first(count), range.lo,
+                     range.hi);
     points_.erase(points_.begin(), points_.begin() + count);
     sources_.erase(sources_.begin(), sources_.begin() + count);
   }
@@ -116,7 +110,8 @@ void write_levels(const WorkingIndex& index, LeafBounds& bounds, const std::vect
         level.add(p);
         report.vertices_of_source[p.source] += 1;
       }
-      progress.report("writing", static_cast<double>(++done) / static_cast<double>(tiles.size() * static_cast<std::size_t>(levels)));
+      progress.report("writing", static_cast<double>(++done) /
+                                     static_cast<double>(tiles.size() * static_cast<std::size_t>(levels)));
     }
     level.finish();
   }
@@ -139,6 +134,7 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
     in_units.push_back(in_whole_units.back());
   }
   const std::vector<std::array<double, 4>> bases = gap_bases(sources, grid);
+  report.replaced = drop_replaced(index, tiles, sources, bases, progress);
   std::vector<Proposals> proposals(tiles.size());
   std::atomic<std::size_t> done = 0;
   parallel_for(tiles.size(), [&](std::size_t i) {
@@ -152,8 +148,7 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
     outline.insert(outline.end(), p.outline.begin(), p.outline.end());
     isolated.insert(isolated.end(), p.isolated.begin(), p.isolated.end());
   }
-  report.isolated = isolated.size();
-  drop(index, tiles, std::move(isolated));
+  report.isolated = index.drop(std::move(isolated));
   index.set_segments(join_collinear(std::move(outline)));
 
   LeafBounds bounds = certify(index, in_whole_units, progress);

@@ -12,7 +12,8 @@ namespace itin {
 class VertexWalk {
  public:
   /// The mesh must cover every segment that is walked.
-  explicit VertexWalk(const RegionMesh& region) : region_(region), mesh_(region.mesh), some_triangle_(region.vertices.size(), kNoTriangle) {
+  explicit VertexWalk(const RegionMesh& region)
+      : region_(region), mesh_(region.mesh), some_triangle_(region.vertices.size(), kNoTriangle) {
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
       for (const std::uint32_t v : mesh_.triangles[t]) some_triangle_[v] = t;
     }
@@ -46,7 +47,8 @@ class VertexWalk {
       const int side = orientation(from, to, position(corners[i]));
       if (side == 0) return corners[i];
       // Corner i lies left or right of the way; the edge on its other side is crossed next.
-      edge = side > 0 ? (corners[(i + 1) % 3] == right ? (i + 2) % 3 : (i + 1) % 3) : (corners[(i + 1) % 3] == left ? (i + 2) % 3 : (i + 1) % 3);
+      edge = side > 0 ? (corners[(i + 1) % 3] == right ? (i + 2) % 3 : (i + 1) % 3)
+                      : (corners[(i + 1) % 3] == left ? (i + 2) % 3 : (i + 1) % 3);
       t = n;
     }
   }
@@ -63,7 +65,8 @@ class VertexWalk {
       do {
         const auto& v = mesh_.triangles[t];
         const int i = v[0] == u ? 0 : v[1] == u ? 1 : 2, next = (i + 1) % 3, previous = (i + 2) % 3;
-        const int after_right = orientation(from, position(v[next]), to), before_left = orientation(from, to, position(v[previous]));
+        const int after_right = orientation(from, position(v[next]), to),
+                  before_left = orientation(from, to, position(v[previous]));
         if (after_right == 0 && ahead(from, position(v[next]), to)) return {v[next], t, 0};
         if (before_left == 0 && ahead(from, position(v[previous]), to)) return {v[previous], t, 0};
         if (after_right > 0 && before_left > 0) return {kNoTriangle, t, i};
@@ -74,7 +77,9 @@ class VertexWalk {
   }
 
   static bool ahead(Position from, Position p, Position to) {
-    return (std::int64_t{p.x} - from.x) * (std::int64_t{to.x} - from.x) + (std::int64_t{p.y} - from.y) * (std::int64_t{to.y} - from.y) > 0;
+    return (std::int64_t{p.x} - from.x) * (std::int64_t{to.x} - from.x) +
+               (std::int64_t{p.y} - from.y) * (std::int64_t{to.y} - from.y) >
+           0;
   }
 
   const RegionMesh& region_;

@@ -29,7 +29,10 @@ WorkingIndex::WorkingIndex(SortedPoints& points, int level_count, std::uint32_t 
     }
   }
   cutter.finish();
-  coarsest_ = std::vector<std::atomic<std::uint8_t>>(ranges_.size());
+  // At first all points are of the finest level.
+  selected_ = std::vector<std::atomic<std::uint32_t>>(ranges_.size() * static_cast<std::size_t>(level_count));
+  for (std::size_t i = 0; i < ranges_.size(); ++i)
+    selected_[i * static_cast<std::size_t>(level_count)] = ranges_[i].count;
   segment_start_.assign(ranges_.size() + 1, 0);
 }
 
@@ -48,12 +51,12 @@ void WorkingIndex::visit(Cell cell, std::uint32_t first, std::uint32_t last, con
   }
   for (int i = 0; i < 4; ++i) {
     const Cell child = cell.child(i);
-    const auto end = i == 3 ? last
-                            : static_cast<std::uint32_t>(std::lower_bound(ranges_.begin() + first, ranges_.begin() + last, child.end(),
-                                                                          [](const CurveRange& r, std::uint64_t c) {
-                                                                            return r.cell.code < c;
-                                                                          }) -
-                                                         ranges_.begin());
+    const auto end = i == 3
+                         ? last
+                         : static_cast<std::uint32_t>(
+                               std::lower_bound(ranges_.begin() + first, ranges_.begin() + last, child.end(),
+                                                [](const CurveRange& r, std::uint64_t c) { return r.cell.code < c; }) -
+                               ranges_.begin());
     visit(child, first, end, box, out);
     first = end;
   }
@@ -77,12 +80,11 @@ void WorkingIndex::leaves(int finest, const GridBox& box, std::vector<Leaf>& out
   leaves_at(box, found);
   for (const std::uint32_t i : found) {
     const CurveRange& range = ranges_[i];
-    const int coarsest = coarsest_[i].load(std::memory_order_relaxed);
-    if (range.count == 0 || coarsest < finest || !range.cell.box().meets(box)) continue;
     Leaf leaf;
+    leaf.points = selected(i, finest);
+    if (leaf.points == 0 || !range.cell.box().meets(box)) continue;
     leaf.cell = range.cell;
-    leaf.level = coarsest;
-    leaf.points = range.count;
+    leaf.level = level_count_ - 1;
     leaf.key = i;
     out.push_back(leaf);
   }
@@ -108,7 +110,8 @@ void WorkingIndex::segments(const GridBox& box, std::vector<Segment>& out) const
   std::vector<std::uint32_t> found;
   leaves_at(box, found);
   for (const std::uint32_t i : found) {
-    for (std::uint32_t k = segment_start_[i]; k < segment_start_[i + 1]; ++k) out.push_back(segments_[segment_list_[k]]);
+    for (std::uint32_t k = segment_start_[i]; k < segment_start_[i + 1]; ++k)
+      out.push_back(segments_[segment_list_[k]]);
   }
 }
 
@@ -123,7 +126,8 @@ std::vector<CurveRange> WorkingIndex::tiles(std::uint32_t capacity) const {
       if (larger.code != tile.cell.code) break;
       std::uint64_t count = tile.count;
       std::size_t j = end;
-      for (; j < ranges_.size() && ranges_[j].cell.code < larger.end() && count <= capacity; ++j) count += ranges_[j].count;
+      for (; j < ranges_.size() && ranges_[j].cell.code < larger.end() && count <= capacity; ++j)
+        count += ranges_[j].count;
       if (count > capacity) break;
       tile = {larger, tile.first, static_cast<std::uint32_t>(count)};
       end = j;
@@ -142,28 +146,56 @@ std::vector<RawPoint> WorkingIndex::read(const CurveRange& range) const {
 
 void WorkingIndex::write(const CurveRange& range, std::span<const RawPoint> points) {
   points_.write(range.first, points);
-  for (std::uint32_t leaf = leaf_of(range.cell.code); leaf < ranges_.size() && ranges_[leaf].cell.code < range.cell.end(); ++leaf) {
+  for (std::uint32_t leaf = leaf_of(range.cell.code);
+       leaf < ranges_.size() && ranges_[leaf].cell.code < range.cell.end(); ++leaf) {
     const CurveRange& r = ranges_[leaf];
-    std::uint8_t coarsest = 0;
-    for (const RawPoint& p : points.subspan(r.first - range.first, r.count)) {
-      if (p.level != kDropped) coarsest = std::max(coarsest, static_cast<std::uint8_t>(p.level));
-    }
-    coarsest_[leaf].store(coarsest, std::memory_order_relaxed);
+    count_levels(leaf, points.subspan(r.first - range.first, r.count));
   }
+}
+
+void WorkingIndex::count_levels(std::uint32_t leaf, std::span<const RawPoint> points) {
+  std::vector<std::uint32_t> count(static_cast<std::size_t>(level_count_) + 1, 0);
+  for (const RawPoint& p : points) {
+    if (p.level != kDropped) count[p.level] += 1;
+  }
+  for (std::size_t k = static_cast<std::size_t>(level_count_); k-- > 0;) {
+    count[k] += count[k + 1];
+    selected_[std::size_t{leaf} * static_cast<std::size_t>(level_count_) + k].store(count[k],
+                                                                                    std::memory_order_relaxed);
+  }
+}
+
+std::uint64_t WorkingIndex::drop(std::vector<std::uint64_t> codes) {
+  std::sort(codes.begin(), codes.end());
+  codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
+  for (auto at = codes.begin(); at != codes.end();) {
+    const CurveRange& leaf = ranges_[leaf_of(*at)];
+    const auto end = std::lower_bound(at, codes.end(), leaf.cell.end());
+    std::vector<RawPoint> points = read(leaf);
+    for (RawPoint& p : points) {
+      if (std::binary_search(at, end, p.code)) p.level = kDropped;
+    }
+    write(leaf, points);
+    at = end;
+  }
+  return codes.size();
 }
 
 void WorkingIndex::promote(std::uint64_t code, int level) {
   const std::uint32_t leaf = leaf_of(code);
   std::vector<RawPoint> points = read(ranges_[leaf]);
-  const auto at = std::lower_bound(points.begin(), points.end(), code, [](const RawPoint& p, std::uint64_t c) { return p.code < c; });
+  const auto at = std::lower_bound(points.begin(), points.end(), code,
+                                   [](const RawPoint& p, std::uint64_t c) { return p.code < c; });
   if (at == points.end() || at->code != code || at->level == kDropped || at->level >= level) return;
   at->level = static_cast<std::uint16_t>(level);
   write(ranges_[leaf], points);
 }
 
 void WorkingIndex::leaves_along(Point2 p, Point2 q, std::vector<std::uint32_t>& out) const {
-  const GridBox box{static_cast<std::int32_t>(std::floor(std::min(p.x, q.x))), static_cast<std::int32_t>(std::floor(std::min(p.y, q.y))),
-                    static_cast<std::int32_t>(std::ceil(std::max(p.x, q.x))), static_cast<std::int32_t>(std::ceil(std::max(p.y, q.y)))};
+  const GridBox box{static_cast<std::int32_t>(std::floor(std::min(p.x, q.x))),
+                    static_cast<std::int32_t>(std::floor(std::min(p.y, q.y))),
+                    static_cast<std::int32_t>(std::ceil(std::max(p.x, q.x))),
+                    static_cast<std::int32_t>(std::ceil(std::max(p.y, q.y)))};
   const std::size_t before = out.size();
   leaves_at(box, out);
   // A box this small or thin, or with this few leaves, claims hardly more than the segment does.

@@ -45,6 +45,8 @@ class WorkingIndex final : public PointIndex {
 
   std::vector<RawPoint> read(const CurveRange& range) const;
   void write(const CurveRange& range, std::span<const RawPoint> points);
+  /// Leaves these points out of the surface, in any order, also twice; returns how many they are. Not thread-safe.
+  std::uint64_t drop(std::vector<std::uint64_t> codes);
   /// Raises one point's level. Not thread-safe.
   void promote(std::uint64_t code, int level);
 
@@ -55,13 +57,20 @@ class WorkingIndex final : public PointIndex {
  private:
   /// Appends the leaves that segment pq meets, and perhaps some beside it or twice.
   void leaves_along(Point2 p, Point2 q, std::vector<std::uint32_t>& out) const;
-  void visit(Cell cell, std::uint32_t first, std::uint32_t last, const GridBox& box, std::vector<std::uint32_t>& out) const;
+  std::uint32_t selected(std::uint32_t leaf, int level) const {
+    return selected_[std::size_t{leaf} * static_cast<std::size_t>(level_count_) + static_cast<std::size_t>(level)].load(
+        std::memory_order_relaxed);
+  }
+  void count_levels(std::uint32_t leaf, std::span<const RawPoint> points);
+  void visit(Cell cell, std::uint32_t first, std::uint32_t last, const GridBox& box,
+             std::vector<std::uint32_t>& out) const;
 
   SortedPoints& points_;
   int level_count_;
   GridBox bounds_;
   std::vector<CurveRange> ranges_;
-  std::vector<std::atomic<std::uint8_t>> coarsest_;  ///< per range: the coarsest level among its points
+  /// Per range and level: how many of its points have that level or a coarser one.
+  std::vector<std::atomic<std::uint32_t>> selected_;
   std::vector<Segment> segments_;
   std::vector<std::uint32_t> segment_start_;  ///< per range, into segment_list_
   std::vector<std::uint32_t> segment_list_;   ///< numbers of the segments that meet the range's cell

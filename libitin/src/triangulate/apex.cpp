@@ -75,8 +75,9 @@ struct ApexSearch::Frame {
     const auto cut = [](double v, std::int32_t low, std::int32_t high) {
       return static_cast<std::int32_t>(std::clamp(v, static_cast<double>(low), static_cast<double>(high)));
     };
-    return {cut(std::floor(xmin - slack), limit.xmin, limit.xmax), cut(std::floor(ymin - slack), limit.ymin, limit.ymax),
-            cut(std::ceil(xmax + slack), limit.xmin, limit.xmax), cut(std::ceil(ymax + slack), limit.ymin, limit.ymax)};
+    return {cut(std::floor(xmin - slack), limit.xmin, limit.xmax),
+            cut(std::floor(ymin - slack), limit.ymin, limit.ymax), cut(std::ceil(xmax + slack), limit.xmin, limit.xmax),
+            cut(std::ceil(ymax + slack), limit.ymin, limit.ymax)};
   }
 };
 
@@ -146,7 +147,8 @@ std::optional<SelectedVertex> ApexSearch::intruder(Position a, Position b, Posit
 std::optional<SelectedVertex> ApexSearch::apex(Position a, Position b) {
   const Frame frame(a, b);
   const GridBox all = index_.bounds();
-  const double span = frame.r + std::hypot(static_cast<double>(all.xmax) - all.xmin, static_cast<double>(all.ymax) - all.ymin);
+  const double span =
+      frame.r + std::hypot(static_cast<double>(all.xmax) - all.xmin, static_cast<double>(all.ymax) - all.ymin);
   for (double lambda = frame.r; lambda < span; lambda *= 4) {
     const auto best = nearest_circle(frame, lambda, nullptr);
     // What lies on the searched circle itself may have rivals that rounding left out.

@@ -6,8 +6,8 @@
 // For a candidate c to the left of ab, with m the midpoint of ab, n the unit normal to the left and r = |ab| / 2, the
 // circle through a, b, c has its centre at m + lambda n with
 //     lambda(c) = (|c - m|^2 - r^2) / (2 n . (c - m)),
-// and its part on the left of ab grows with lambda. Leaves are visited in about the order of that bound and skipped when
-// the best circle so far does not reach them. Skipping is conservative floating point; every decision is exact.
+// and its part on the left of ab grows with lambda. Leaves are visited in about the order of that bound and skipped
+// when the best circle so far does not reach them. Skipping is conservative floating point; every decision is exact.
 #pragma once
 
 #include <cstdint>

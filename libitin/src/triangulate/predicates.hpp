@@ -15,11 +15,22 @@
 
 namespace itin {
 
+/// 128 bits, which GCC and Clang have on every 64-bit machine.
+__extension__ typedef __int128 Int128;
+
 /// Anything with integer members x and y.
 template <class P>
 concept GridPosition = requires(const P& p) {
-  { p.x + std::int64_t{0} } -> std::same_as<std::int64_t>;
-  { p.y + std::int64_t{0} } -> std::same_as<std::int64_t>;
+  {
+    p.x + std::int64_t {
+      0
+    }
+    } -> std::same_as<std::int64_t>;
+  {
+    p.y + std::int64_t {
+      0
+    }
+    } -> std::same_as<std::int64_t>;
 };
 
 /// A bare grid position.
@@ -63,7 +74,8 @@ inline int in_circle(const P& a, const P& b, const P& c, const P& d) {
   if (det > bound) return 1;
   if (det < -bound) return -1;
 
-  const __int128 exact = static_cast<__int128>(a2) * bc + static_cast<__int128>(b2) * ca + static_cast<__int128>(c2) * ab;
+  const Int128 exact =
+      static_cast<Int128>(a2) * bc + static_cast<Int128>(b2) * ca + static_cast<Int128>(c2) * ab;
   return (exact > 0) - (exact < 0);
 }
 

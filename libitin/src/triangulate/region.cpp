@@ -60,7 +60,8 @@ namespace {
 
 class RegionTriangulation {
  public:
-  RegionTriangulation(const PointIndex& index, const Selection& selection, const GridBox& tile, const GridWindow* window)
+  RegionTriangulation(const PointIndex& index, const Selection& selection, const GridBox& tile,
+                      const GridWindow* window)
       : index_(index), selection_(selection), window_(window), search_(index, selection) {
     tile_ = intersection(tile, index.bounds());
     if (window != nullptr) tile_ = intersection(tile_, window->bounds());
@@ -91,7 +92,8 @@ class RegionTriangulation {
       segments_.clear();
       const std::vector<Segment> segments = read_segments(box_);
       std::vector<Position> positions(vertices_.size());
-      std::transform(vertices_.begin(), vertices_.end(), positions.begin(), [](const SelectedVertex& v) { return v.position(); });
+      std::transform(vertices_.begin(), vertices_.end(), positions.begin(),
+                     [](const SelectedVertex& v) { return v.position(); });
       delaunay_ = Delaunay();
       delaunay_.insert(positions);
       constraints_.clear();
@@ -107,7 +109,8 @@ class RegionTriangulation {
     std::vector<Leaf> leaves;
     index_.leaves(selection_.finest_in(tile_), tile_, leaves);
     double points = 0;
-    for (const Leaf& leaf : leaves) points += leaf.points * area(intersection(leaf.cell.box(), tile_)) / area(leaf.cell.box());
+    for (const Leaf& leaf : leaves)
+      points += leaf.points * area(intersection(leaf.cell.box(), tile_)) / area(leaf.cell.box());
     const double spacing = points > 0 ? std::sqrt(area(tile_) / points) : std::sqrt(area(tile_));
     return kMargin * spacing + 1;
   }
@@ -151,9 +154,8 @@ class RegionTriangulation {
   std::uint32_t vertex_at(Position p, const SelectedVertex* known) {
     const auto first = vertices_.begin(), last = first + static_cast<std::ptrdiff_t>(sorted_);
     const std::uint64_t code = morton(p.x, p.y);
-    const auto at = std::lower_bound(first, last, code, [](const SelectedVertex& v, std::uint64_t c) {
-      return morton(v.point.x, v.point.y) < c;
-    });
+    const auto at = std::lower_bound(
+        first, last, code, [](const SelectedVertex& v, std::uint64_t c) { return morton(v.point.x, v.point.y) < c; });
     if (at != last && at->position() == p) return static_cast<std::uint32_t>(at - first);
     const auto [extra, fresh] = extras_.try_emplace(code, static_cast<std::uint32_t>(vertices_.size()));
     if (fresh) {
@@ -203,12 +205,14 @@ class RegionTriangulation {
       const std::uint32_t t = stack.back();
       stack.pop_back();
       for (int i = 0; i < 3; ++i) {
-        if (!constrained(t, i) && meets(corner(t, i + 1), corner(t, i + 2), box_)) settle(mesh_.neighbours[t][i], ground_[t]);
+        if (!constrained(t, i) && meets(corner(t, i + 1), corner(t, i + 2), box_))
+          settle(mesh_.neighbours[t][i], ground_[t]);
       }
     }
   }
 
-  /// Calls visit(p, q, left triangle, right triangle) for every edge pq of the mesh along every segment, in its direction.
+  /// Calls visit(p, q, left triangle, right triangle) for every edge pq of the mesh along every segment, in its
+  /// direction.
   template <class Visit>
   void visit_segment_edges(const Visit& visit) const {
     if (constraints_.empty()) return;
@@ -235,7 +239,8 @@ class RegionTriangulation {
     const auto leads = [&](std::uint32_t v) {
       const Position q = position(v);
       return orientation(p, q, goal) == 0 && (std::int64_t{q.x} - p.x) * (std::int64_t{goal.x} - p.x) +
-                                                     (std::int64_t{q.y} - p.y) * (std::int64_t{goal.y} - p.y) > 0;
+                                                     (std::int64_t{q.y} - p.y) * (std::int64_t{goal.y} - p.y) >
+                                                 0;
     };
     for (const int turn : {1, 2}) {  // counterclockwise, and clockwise from where the hull stopped that
       std::uint32_t t = start;
@@ -316,8 +321,8 @@ class RegionTriangulation {
     if (sound) proven_.insert(key);
   }
 
-  /// Where the region reaches beyond a hull edge, or just to it, with ground on this side, the next triangle's vertex is missing, unless
-  /// the edge is on the hull of the whole surface.
+  /// Where the region reaches beyond a hull edge, or just to it, with ground on this side, the next triangle's vertex
+  /// is missing, unless the edge is on the hull of the whole surface.
   void look_beyond_hull(std::uint32_t t, std::vector<SelectedVertex>& intruders) {
     for (int i = 0; i < 3; ++i) {
       if (mesh_.neighbours[t][i] != kNoTriangle || constrained(t, i)) continue;
@@ -406,7 +411,7 @@ class RegionTriangulation {
   GridBox tile_;  ///< the region's box
   GridBox box_;   ///< everything selected in it has been read
   std::vector<SelectedVertex> vertices_;
-  std::size_t sorted_ = 0;  ///< the first so many vertices are in Morton order
+  std::size_t sorted_ = 0;                                   ///< the first so many vertices are in Morton order
   std::unordered_map<std::uint64_t, std::uint32_t> extras_;  ///< the others by Morton code
   std::set<std::uint32_t> unread_;                           ///< of these, those known by position only
   std::set<Segment> segments_;

@@ -1,11 +1,10 @@
-#include <itin/triangulate.hpp>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 
 #include <itin/parallel.hpp>
 #include <itin/store.hpp>
+#include <itin/triangulate.hpp>
 
 #include "triangulate/region.hpp"
 
@@ -13,8 +12,8 @@ namespace itin {
 
 namespace {
 
-/// Large windows are cut into quadtree cells of about this many points: enough to make borders cheap, few enough to keep
-/// a cell's triangulation in the processor's cache.
+/// Large windows are cut into quadtree cells of about this many points: enough to make borders cheap, few enough to
+/// keep a cell's triangulation in the processor's cache.
 constexpr double kTilePoints = 32768;
 
 /// Cells that cover the window.
@@ -116,8 +115,9 @@ class Assembly {
       const auto middle = static_cast<std::ptrdiff_t>(tin_.triangles.size());
       tin_.triangles.insert(tin_.triangles.end(), part.begin(), part.end());
       // Cells come in Morton order, so parts overlap only near their borders.
-      const auto low = part.empty() ? tin_.triangles.end()
-                                    : std::lower_bound(tin_.triangles.begin(), tin_.triangles.begin() + middle, part.front());
+      const auto low = part.empty()
+                           ? tin_.triangles.end()
+                           : std::lower_bound(tin_.triangles.begin(), tin_.triangles.begin() + middle, part.front());
       std::inplace_merge(low, tin_.triangles.begin() + middle, tin_.triangles.end());
     }
     tin_.triangles.erase(std::unique(tin_.triangles.begin(), tin_.triangles.end()), tin_.triangles.end());
@@ -143,7 +143,8 @@ Tin triangulate(const Store& store, const Window& window, const Detail& detail, 
   parallel_for(regions.size(), [&](std::size_t i) {
     progress.throw_if_cancelled();
     const Cell& cell = plan.cells()[i];
-    regions[i] = triangulate_region(store.points(), selection, square_of(cell), window.is_all() ? nullptr : &grid_window);
+    regions[i] =
+        triangulate_region(store.points(), selection, square_of(cell), window.is_all() ? nullptr : &grid_window);
     progress.report("triangulating", static_cast<double>(++done) / static_cast<double>(regions.size()));
   });
   return Assembly(std::move(regions), metadata.grid).run();

@@ -76,7 +76,9 @@ std::string differences(const std::set<TriangleKey>& found, const std::set<Trian
   return text.str();
 }
 
-Selection all_levels() { return Selection(Detail::tolerance(0), {0.0}, Grid{{0, 0}, 1.0}); }
+Selection all_levels() {
+  return Selection(Detail::tolerance(0), {0.0}, Grid{{0, 0}, 1.0});
+}
 
 std::set<TriangleKey> meeting(const Whole& whole, const GridWindow& window) {
   std::set<TriangleKey> result;
@@ -95,18 +97,24 @@ GridBox box_of(const std::vector<GridPoint>& points) {
 }
 
 std::vector<Window> windows_about(const GridBox& b, std::mt19937& random) {
-  const auto in = [&](double low, double high) { return low + (high - low) * static_cast<double>(random() % 10001) / 10000.0; };
+  const auto in = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(random() % 10001) / 10000.0;
+  };
   const double width = std::max(1, b.xmax - b.xmin), height = std::max(1, b.ymax - b.ymin);
-  const auto point = [&] { return Point2{in(b.xmin - 0.1 * width, b.xmax + 0.1 * width), in(b.ymin - 0.1 * height, b.ymax + 0.1 * height)}; };
+  const auto point = [&] {
+    return Point2{in(b.xmin - 0.1 * width, b.xmax + 0.1 * width), in(b.ymin - 0.1 * height, b.ymax + 0.1 * height)};
+  };
   std::vector<Window> result{Window::all()};
   for (int i = 0; i < 4; ++i) {
     const Point2 p = point(), q = point(), r = point();
-    result.push_back(Window::box({std::min(p.x, q.x), std::min(p.y, q.y), std::max(p.x, q.x) + 1, std::max(p.y, q.y) + 1}));
+    result.push_back(
+        Window::box({std::min(p.x, q.x), std::min(p.y, q.y), std::max(p.x, q.x) + 1, std::max(p.y, q.y) + 1}));
     result.push_back(Window::disc(p, in(1, width / 2)));
     result.push_back(Window::wedge(q, in(0, 360), in(1, 360), in(2, width)));
     if (p.x != q.x) result.push_back(Window::corridor(p, q, in(2, width / 10)));
     const double s = in(10, width / 2 + 20);
-    result.push_back(Window::polygons({{{{r.x - s, r.y - s}, {r.x + s, r.y - s}, {r.x, r.y + s}}, {{{r.x, r.y - s / 2}, {r.x + s / 8, r.y - s / 2}, {r.x, r.y}}}}}));
+    result.push_back(Window::polygons({{{{r.x - s, r.y - s}, {r.x + s, r.y - s}, {r.x, r.y + s}},
+                                        {{{r.x, r.y - s / 2}, {r.x + s / 8, r.y - s / 2}, {r.x, r.y}}}}}));
   }
   return result;
 }
@@ -128,8 +136,9 @@ TEST_P(RegionPatterns, WindowEqualsWhole) {
       const GridWindow grid_window(window, Grid{{0, 0}, 1.0}, index->bounds());
       const RegionMesh region = triangulate_region(*index, selection, grid_window.bounds(), &grid_window);
       ASSERT_EQ(differences(keys(region), meeting(truth, grid_window)), "")
-          << "run " << run << ", " << points.size() << " points, window " << testing::PrintToString(grid_window.bounds().xmin) << " "
-          << grid_window.bounds().ymin << " " << grid_window.bounds().xmax << " " << grid_window.bounds().ymax;
+          << "run " << run << ", " << points.size() << " points, window "
+          << testing::PrintToString(grid_window.bounds().xmin) << " " << grid_window.bounds().ymin << " "
+          << grid_window.bounds().xmax << " " << grid_window.bounds().ymax;
     }
   }
 }
@@ -139,7 +148,8 @@ INSTANTIATE_TEST_SUITE_P(Region, RegionPatterns,
                                          Pattern::kCollinear, Pattern::kCocircular));
 
 /// Whether three times the centroid of abc lies in a triangle of `ground`, scaled likewise.
-bool centroid_in(const std::vector<std::array<GridPoint, 3>>& ground, const GridPoint& a, const GridPoint& b, const GridPoint& c) {
+bool centroid_in(const std::vector<std::array<GridPoint, 3>>& ground, const GridPoint& a, const GridPoint& b,
+                 const GridPoint& c) {
   const Position p{a.x + b.x + c.x, a.y + b.y + c.y};
   return std::any_of(ground.begin(), ground.end(), [&](const auto& t) {
     const Position q{3 * t[0].x, 3 * t[0].y}, r{3 * t[1].x, 3 * t[1].y}, s{3 * t[2].x, 3 * t[2].y};
@@ -171,11 +181,13 @@ TEST_P(RegionCoverage, WindowEqualsWholeAtEveryLevelAcrossVoids) {
   for (int run = 0; run < 8; ++run) {
     std::vector<GridPoint> points = test::make_points(GetParam(), 200 + static_cast<int>(random() % 1000), random);
     const GridBox box = box_of(points);
-    const double gap = 2.0 * std::sqrt(1.0 * (box.xmax - box.xmin) * (box.ymax - box.ymin) / static_cast<double>(points.size()));
+    const double gap =
+        2.0 * std::sqrt(1.0 * (box.xmax - box.xmin) * (box.ymax - box.ymin) / static_cast<double>(points.size()));
     for (int i = 0; i < 3; ++i) {
       const std::int64_t x = box.xmin + static_cast<int>(random() % static_cast<unsigned>(box.xmax - box.xmin));
       const std::int64_t y = box.ymin + static_cast<int>(random() % static_cast<unsigned>(box.ymax - box.ymin));
-      std::erase_if(points, [&](const GridPoint& p) { return (p.x - x) * (p.x - x) + (p.y - y) * (p.y - y) < 6 * gap * gap; });
+      std::erase_if(points,
+                    [&](const GridPoint& p) { return (p.x - x) * (p.x - x) + (p.y - y) * (p.y - y) < 6 * gap * gap; });
     }
     std::vector<LevelPoint> with_levels;
     for (const GridPoint& p : points) {
@@ -195,15 +207,20 @@ TEST_P(RegionCoverage, WindowEqualsWholeAtEveryLevelAcrossVoids) {
     const Whole finest = whole(points, {});
     for (const auto& [a, b, c] : finest.mesh.triangles) {
       const std::array t{points[a], points[b], points[c]};
-      const auto short_enough = [&](const GridPoint& p, const GridPoint& q) { return std::abs(p.x - q.x) <= gap && std::abs(p.y - q.y) <= gap; };
+      const auto short_enough = [&](const GridPoint& p, const GridPoint& q) {
+        return std::abs(p.x - q.x) <= gap && std::abs(p.y - q.y) <= gap;
+      };
       if (short_enough(t[0], t[1]) && short_enough(t[1], t[2]) && short_enough(t[2], t[0])) ground.push_back(t);
     }
 
-    ASSERT_EQ(coverage.outline, outline_of(finest, ground)) << "run " << run << ", " << points.size() << " points, gap " << gap;
+    ASSERT_EQ(coverage.outline, outline_of(finest, ground))
+        << "run " << run << ", " << points.size() << " points, gap " << gap;
 
     for (const Segment& s : coverage.outline) {
       for (const Segment& t : coverage.outline) {
-        ASSERT_FALSE(crosses(s, {t.ax, t.ay}, {t.bx, t.by})) << s.ax << " " << s.ay << " " << s.bx << " " << s.by << " x " << t.ax << " " << t.ay << " " << t.bx << " " << t.by;
+        ASSERT_FALSE(crosses(s, {t.ax, t.ay}, {t.bx, t.by}))
+            << s.ax << " " << s.ay << " " << s.bx << " " << s.by << " x " << t.ax << " " << t.ay << " " << t.bx << " "
+            << t.by;
       }
     }
     for (int k = 0; k < kLevels; ++k) {
@@ -214,7 +231,9 @@ TEST_P(RegionCoverage, WindowEqualsWholeAtEveryLevelAcrossVoids) {
         }
       }
       Whole truth = whole(selected, coverage.outline);
-      std::erase_if(truth.mesh.triangles, [&](const auto& t) { return !centroid_in(ground, selected[t[0]], selected[t[1]], selected[t[2]]); });
+      std::erase_if(truth.mesh.triangles, [&](const auto& t) {
+        return !centroid_in(ground, selected[t[0]], selected[t[1]], selected[t[2]]);
+      });
       const std::vector<double> tolerances{0, 1, 2, 3};
       const Selection selection(Detail::tolerance(k), tolerances, Grid{{0, 0}, 1.0});
       for (const Window& window : windows_about(box, random)) {
@@ -222,7 +241,8 @@ TEST_P(RegionCoverage, WindowEqualsWholeAtEveryLevelAcrossVoids) {
         const RegionMesh region = triangulate_region(*index, selection, grid_window.bounds(), &grid_window);
         ASSERT_EQ(differences(keys(region), meeting(truth, grid_window)), "")
             << "run " << run << ", level " << k << ", " << points.size() << " points, gap " << gap << ", window "
-            << grid_window.bounds().xmin << " " << grid_window.bounds().ymin << " " << grid_window.bounds().xmax << " " << grid_window.bounds().ymax;
+            << grid_window.bounds().xmin << " " << grid_window.bounds().ymin << " " << grid_window.bounds().xmax << " "
+            << grid_window.bounds().ymax;
       }
     }
   }

@@ -1,0 +1,55 @@
+# Sourced by the scripts beside it: runs commands under GNU time and remembers what they cost.
+
+# measure NAME COMMAND...: sets seconds[NAME] and megabytes[NAME] (peak resident memory), and prints both.
+declare -A seconds megabytes
+measure() {
+  local name=$1 figures
+  shift
+  figures=$(mktemp)
+  if ! /usr/bin/time -f '%e %M' -o "$figures" "$@" >"$figures.log" 2>&1; then
+    cat "$figures.log" >&2
+    echo "$name failed: $*" >&2
+    exit 1
+  fi
+  read -r seconds[$name] megabytes[$name] < <(awk '{ printf "%s %.0f\n", $1, $2 / 1024 }' "$figures")
+  rm -f "$figures" "$figures.log"
+  printf '  %-34s %9.2f s %9d MB\n' "$name" "${seconds[$name]}" "${megabytes[$name]}"
+}
+
+# ratio A B: how many times as long A took as B.
+ratio() { awk -v a="${seconds[$1]}" -v b="${seconds[$2]}" 'BEGIN { printf "%.2f", a / (b > 0 ? b : 0.01) }'; }
+
+require_tools() {
+  local tool
+  for tool in /usr/bin/time "$@"; do
+    command -v "$tool" >/dev/null || { echo "$0: needs $tool (apt install time gdal-bin grass-core python3-gdal python3-numpy)" >&2; exit 1; }
+  done
+}
+
+# The release build's program, and a folder for what is made on the way.
+readonly root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+readonly itin=${ITIN_PROGRAM:-$root/build/release/bin/itin}
+readonly data=${ITIN_DATA_DIR:-$root/../shared/data}
+readonly work=${ITIN_BENCHMARK_DIR:-$root/build/peers}
+mkdir -p "$work"
+[ -x "$itin" ] || { echo "$0: build first: cmake --preset release && cmake --build --preset release" >&2; exit 1; }
+
+# fractal.tif and wales.tif in $work, made once.
+make_terrain() {
+  if [ ! -f "$work/fractal.tif" ]; then
+    "$root/benchmarks/peers/fractal.py" "$work/fractal.part.tif"
+    mv "$work/fractal.part.tif" "$work/fractal.tif"
+  fi
+  local tiles=$data/os-terrain50-wales/tiles
+  if [ ! -f "$work/wales.tif" ] && [ -d "$tiles" ]; then
+    local zip name
+    for zip in "$tiles"/*.zip; do
+      name=$(basename "$zip" .zip)
+      echo "/vsizip/$zip/${name^^}.asc"
+    done >"$work/wales.txt"
+    # The sea has no tiles; it is at height 0.
+    gdalbuildvrt -q -a_srs EPSG:27700 -input_file_list "$work/wales.txt" "$work/wales.vrt" 2>/dev/null
+    gdal_translate -q -a_nodata none -co TILED=YES -co COMPRESS=DEFLATE -co PREDICTOR=3 "$work/wales.vrt" "$work/wales.part.tif"
+    mv "$work/wales.part.tif" "$work/wales.tif"
+  fi
+}

@@ -1,0 +1,99 @@
+// The parts of a viewshed and the whole: scene, sight lines, writing; on fractal terrain of half a million triangles.
+#include <filesystem>
+#include <unistd.h>
+
+#include <benchmark/benchmark.h>
+
+#include <itin/progress.hpp>
+#include <viewshed/viewshed.hpp>
+
+#include "scene.hpp"
+#include "support/terrain_tin.hpp"
+#include "surface_heights.hpp"
+#include "triangle_bins.hpp"
+
+namespace itin::viewshed {
+namespace {
+
+constexpr std::int32_t kSide = 513;  // 524,288 triangles
+constexpr double kSpacing = 80;      // 41 km across
+
+const Tin& terrain() {
+  static const Tin tin = test::fractal_tin(kSide, kSpacing, 900, 0.5, 1);
+  return tin;
+}
+
+Request whole(std::int64_t cells) {
+  Request request;
+  const double extent = (kSide - 1) * kSpacing;
+  const Box box = terrain().bounds();
+  request.observers = {{"middle", {box.xmin + 0.49 * extent, box.ymin + 0.51 * extent}, 30}};
+  request.target_height = 2;
+  request.grid = RasterGrid({box.xmin, box.ymax}, extent / static_cast<double>(cells),
+                            extent / static_cast<double>(cells), cells, cells);
+  return request;
+}
+
+void BM_Scene(benchmark::State& state) {
+  for (auto _ : state) benchmark::DoNotOptimize(Scene(terrain(), Earth{}, NoData::kClear, 1000));
+}
+BENCHMARK(BM_Scene)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void BM_Heights(benchmark::State& state) {
+  const Request request = whole(4096);
+  const RasterGrid tiles(request.grid->north_west(), request.grid->cell_width() * Tile::kSide,
+                         request.grid->cell_height() * Tile::kSide, 64, 64);
+  TileValues<double> heights;
+  for (auto _ : state) {
+    const TriangleBins bins(terrain(), tiles);
+    for (std::int64_t i = 0; i < 4096; ++i) {
+      scan_convert(terrain(), bins.triangles(static_cast<std::size_t>(i)), *request.grid,
+                   {i % 64 * 64, i / 64 * 64, 64, 64}, heights);
+      benchmark::DoNotOptimize(heights);
+    }
+  }
+  state.SetItemsProcessed(state.iterations() * 4096 * 4096);
+}
+BENCHMARK(BM_Heights)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void BM_Viewshed(benchmark::State& state) {
+  const Request request = whole(state.range(0));
+  NoProgress progress;
+  Result result;
+  for (auto _ : state) result = compute(terrain(), request, progress);
+  state.counters["rays_per_second"] =
+      benchmark::Counter(static_cast<double>(result.statistics.rays), benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["scene_s"] = result.statistics.scene_seconds;
+  state.counters["rays_s"] = result.statistics.rays_seconds;
+  state.counters["visible_share"] =
+      static_cast<double>(result.cells.visible) / static_cast<double>(result.grid.cell_count());
+}
+BENCHMARK(BM_Viewshed)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+std::string output() {
+  return (std::filesystem::temp_directory_path() / ("itin-benchmark-" + std::to_string(getpid()) + ".tif")).string();
+}
+
+void BM_WriteGeotiff(benchmark::State& state) {
+  NoProgress progress;
+  const Result result = compute(terrain(), whole(4096), progress);
+  GeotiffOptions options;
+  options.overwrite = true;
+  for (auto _ : state) write_geotiff(output(), result, options);
+  state.counters["bytes"] = static_cast<double>(std::filesystem::file_size(output()));
+  std::filesystem::remove(output());
+}
+BENCHMARK(BM_WriteGeotiff)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void BM_ViewshedToGeotiff(benchmark::State& state) {
+  const Request request = whole(4096);
+  NoProgress progress;
+  GeotiffOptions options;
+  options.overwrite = true;
+  for (auto _ : state) write_geotiff(output(), compute(terrain(), request, progress), options);
+  std::filesystem::remove(output());
+}
+BENCHMARK(BM_ViewshedToGeotiff)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+}  // namespace
+}  // namespace itin::viewshed

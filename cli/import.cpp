@@ -1,0 +1,152 @@
+// itin import: terrain into a store.
+
+#include <algorithm>
+#include <functional>
+
+#include <fmt/format.h>
+
+#include <itin/coordinates.hpp>
+#include <itin/import.hpp>
+
+#include "store_document.hpp"
+#include "values.hpp"
+#include "verb.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+class ImportVerb final : public Verb {
+ public:
+  std::string name() const override { return "import"; }
+  std::string summary() const override { return "Create a store from terrain, or add terrain to it"; }
+
+  void declare(CLI::App& app) override {
+    app.add_option("STORE", store_, "The store, created if there is none")->required();
+    app.add_option("SOURCE", options_.sources, "Rasters, point files or LAS, as many as wanted")->required();
+    app.add_option("--kind", kind_, "What the sources are (this version: terrain)")->type_name("KIND");
+    app.add_option("--theme", theme_, "Name of the theme (this version: terrain only, which has none)")
+        ->type_name("NAME");
+    app.add_option("--height-field", height_field_, "Heights of features (this version: terrain only)")
+        ->type_name("FIELD");
+    app.add_option("--crs", options_.crs, "CRS of the sources, whatever they say themselves")->type_name("CRS");
+    app.add_option("--to-crs", options_.to_crs,
+                   "CRS of a new store: projected, in metres (default: the sources' own, else their UTM zone)")
+        ->type_name("CRS");
+    app.add_option("--z-field", options_.z_field, "The field or column that holds heights")->type_name("FIELD");
+    app.add_option("--layer", options_.layer, "The layer to read")->type_name("NAME");
+    app.add_option("--where", options_.where, "Only features that this SQL condition holds for")->type_name("SQL");
+    app.add_option("--class", classes_, "Only these LAS classes (default: all but noise, 7 and 18)")
+        ->type_name("C,C...");
+    app.add_option("--max-gap", max_gap_,
+                   "Scattered points: no ground across wider gaps (default: 100 times their mean spacing)")
+        ->type_name("METRES");
+    app.add_flag("--replace", options_.replace, "Take the place of coarser terrain within the sources' coverage");
+    app.add_option("--levels", levels_, "Tolerances of a new store's levels (default: 0.5,1,2,4,8,16,32)")
+        ->type_name("T,T...");
+    app.add_option("--resolution", resolution_, "Grid of a new store's coordinates (default: 0.01)")
+        ->type_name("METRES");
+    app.add_option("--memory", memory_, "Memory to work in; the result never depends on it (default: 4G)")
+        ->type_name("SIZE");
+  }
+
+  void validate() override {
+    if (kind_ != "terrain") {
+      parse_choice("--kind", kind_,
+                   {"terrain", "contours", "breaklines", "buildings", "vegetation", "walls", "roads", "water"});
+      throw InputError(fmt::format("--kind {}: this version imports terrain only", kind_));
+    }
+    if (!theme_.empty()) throw InputError("--theme: terrain has no theme; leave it out");
+    if (!height_field_.empty()) throw InputError("--height-field: terrain takes its heights from --z-field");
+    if (!classes_.empty()) options_.classes = parse_wholes("--class", classes_, 0, 255);
+    if (!max_gap_.empty()) options_.max_gap = parse_number("--max-gap", max_gap_, Range::kPositive);
+    if (!levels_.empty()) options_.tolerances = growing_levels();
+    if (!resolution_.empty()) options_.resolution = parse_number("--resolution", resolution_, Range::kPositive);
+    if (!memory_.empty()) options_.memory_bytes = parse_bytes("--memory", memory_);
+  }
+
+  Document parameters() const override {
+    Document parameters{{"store", store_}, {"sources", options_.sources}, {"kind", kind_}};
+    const auto given = [&](const char* name, const std::string& value) {
+      if (!value.empty()) parameters[name] = value;
+    };
+    given("crs", options_.crs);
+    given("to_crs", options_.to_crs);
+    given("z_field", options_.z_field);
+    given("layer", options_.layer);
+    given("where", options_.where);
+    if (!options_.classes.empty()) parameters["classes"] = options_.classes;
+    if (options_.max_gap > 0) parameters["max_gap_m"] = options_.max_gap;
+    parameters["replace"] = options_.replace;
+    if (!options_.tolerances.empty()) parameters["tolerances_m"] = options_.tolerances;
+    parameters["resolution_m"] = options_.resolution;
+    return parameters;
+  }
+
+  Result execute(Progress& progress) override {
+    const ImportReport report = import_terrain(store_, options_, progress);
+    const Store store(store_);
+    return {document(report, store.metadata()), text(report, store.metadata()), report.warnings, {}};
+  }
+
+ private:
+  std::vector<double> growing_levels() const {
+    std::vector<double> tolerances = parse_numbers("--levels", levels_, Range::kPositive);
+    if (!std::is_sorted(tolerances.begin(), tolerances.end(), std::less_equal<>())) {
+      throw InputError(fmt::format("--levels '{}': expected growing tolerances", levels_));
+    }
+    return tolerances;
+  }
+
+  static Document document(const ImportReport& report, const StoreMetadata& metadata) {
+    Document document;
+    document["crs"] = crs_identifier(metadata.crs_wkt);
+    document["crs_chosen"] = report.crs_chosen;
+    document["read"] = report.read;
+    document["voids"] = report.voids;
+    document["filtered"] = report.filtered;
+    document["duplicates"] = report.duplicates;
+    document["replaced"] = report.replaced;
+    document["isolated"] = report.isolated;
+    document["vertices"] = report.vertices;
+    document["bytes"] = report.store_bytes;
+    document["bytes_per_vertex"] = bytes_per_vertex(report);
+    document["levels"] = levels_document(metadata);
+    document["statistics"] = {{"points_read", report.read}};
+    return document;
+  }
+
+  std::string text(const ImportReport& report, const StoreMetadata& metadata) const {
+    std::string text =
+        fmt::format("{}: {} vertices in {}, {:.2f} bytes a vertex, {}{}\n", store_, grouped(report.vertices),
+                    readable_bytes(report.store_bytes), bytes_per_vertex(report), report.crs_name,
+                    report.crs_chosen ? " (chosen; see --to-crs)" : "");
+    text += fmt::format("read {} points in {:.1f} s", grouped(report.read), report.seconds);
+    const auto mention = [&](std::uint64_t count, const char* what) {
+      if (count > 0) text += fmt::format(", {} {}", grouped(count), what);
+    };
+    mention(report.voids, "posts without data");
+    mention(report.filtered, "filtered out");
+    mention(report.duplicates, "duplicate positions");
+    mention(report.replaced, "coarser points replaced");
+    mention(report.isolated, "isolated points left out");
+    return text + "\n\n" + levels_table(metadata);
+  }
+
+  static double bytes_per_vertex(const ImportReport& report) {
+    return report.vertices == 0 ? 0 : static_cast<double>(report.store_bytes) / static_cast<double>(report.vertices);
+  }
+
+  std::string store_;
+  std::string kind_ = "terrain";
+  std::string theme_, height_field_, classes_, max_gap_, levels_, resolution_, memory_;
+  ImportOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_import_verb() {
+  return std::make_unique<ImportVerb>();
+}
+
+}  // namespace itin::cli

@@ -1,0 +1,22 @@
+// `--in-crs`: points given in another coordinate reference system than the store's.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include <itin/geometry.hpp>
+
+namespace itin::cli {
+
+struct InCrs {
+  std::string crs;  ///< empty: the store's
+
+  void declare(CLI::App& app);
+  /// Takes points to the CRS `wkt`. Throws InputError for an unknown CRS, and when called for a point that has no
+  /// place in it.
+  std::function<Point2(Point2)> transform_to(const std::string& wkt) const;
+};
+
+}  // namespace itin::cli

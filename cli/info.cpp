@@ -1,0 +1,94 @@
+// itin info: what a store holds.
+
+#include <fmt/format.h>
+
+#include <itin/coordinates.hpp>
+#include <itin/store.hpp>
+
+#include "store_document.hpp"
+#include "verb.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+double bytes_per_vertex(const Store& store) {
+  const std::uint64_t vertices = store.metadata().vertices;
+  return vertices == 0 ? 0 : static_cast<double>(store.file_bytes()) / static_cast<double>(vertices);
+}
+
+Document sources_document(const StoreMetadata& metadata) {
+  Document sources = Document::array();
+  for (const SourceInfo& source : metadata.sources) {
+    sources.push_back({{"path", source.path},
+                       {"kind", source.kind},
+                       {"imported", source.imported},
+                       {"sha256", source.sha256},
+                       {"crs", source.source_crs},
+                       {"vertices", source.vertices},
+                       {"spacing_m", source.spacing},
+                       {"replaces", source.replaces}});
+  }
+  return sources;
+}
+
+Document info_document(const Store& store) {
+  const StoreMetadata& metadata = store.metadata();
+  Document document;
+  document["crs"] = crs_identifier(metadata.crs_wkt);
+  document["crs_name"] = crs_title(metadata.crs_wkt);
+  document["format_version"] = metadata.format_version;
+  document["bounds"] = box_document(metadata.grid.box(metadata.bounds));
+  document["resolution_m"] = metadata.grid.resolution;
+  document["vertices"] = metadata.vertices;
+  document["bytes"] = store.file_bytes();
+  document["bytes_per_vertex"] = bytes_per_vertex(store);
+  document["levels"] = levels_document(metadata);
+  document["themes"] = Document::array();
+  document["sources"] = sources_document(metadata);
+  return document;
+}
+
+std::string info_text(const Store& store) {
+  const StoreMetadata& metadata = store.metadata();
+  const Box bounds = metadata.grid.box(metadata.bounds);
+  std::string text =
+      fmt::format("{:<12}{} ({})\n", "CRS", crs_title(metadata.crs_wkt), crs_identifier(metadata.crs_wkt));
+  text += fmt::format("{:<12}{:.2f},{:.2f} to {:.2f},{:.2f} ({:.1f} x {:.1f} km)\n", "bounds", bounds.xmin, bounds.ymin,
+                      bounds.xmax, bounds.ymax, bounds.width() / 1000, bounds.height() / 1000);
+  text += fmt::format("{:<12}{:g} m\n", "resolution", metadata.grid.resolution);
+  text += fmt::format("{:<12}{} in {}, {:.2f} bytes a vertex\n", "vertices", grouped(metadata.vertices),
+                      readable_bytes(store.file_bytes()), bytes_per_vertex(store));
+  text += fmt::format("{:<12}none\n\n", "themes");
+  text += levels_table(metadata);
+  text += "\nimported\n";
+  for (const SourceInfo& source : metadata.sources) {
+    text += fmt::format("  {}  {}{}  {:>13} vertices, every {:.4g} m  {}\n", source.imported, source.kind,
+                        source.replaces ? " (replacing)" : "", grouped(source.vertices), source.spacing, source.path);
+  }
+  return text;
+}
+
+class InfoVerb final : public Verb {
+ public:
+  std::string name() const override { return "info"; }
+  std::string summary() const override { return "Show what a store holds"; }
+  void declare(CLI::App& app) override { app.add_option("STORE", store_, "The store")->required(); }
+  void validate() override {}
+  Document parameters() const override { return {{"store", store_}}; }
+  Result execute(Progress&) override {
+    const Store store(store_);
+    return {info_document(store), info_text(store), {}, {}};
+  }
+
+ private:
+  std::string store_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_info_verb() {
+  return std::make_unique<InfoVerb>();
+}
+
+}  // namespace itin::cli

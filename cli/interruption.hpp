@@ -1,0 +1,12 @@
+// Ctrl-C and its kin: the first asks the running call to stop and clean up; one that comes more than a second
+// later ends the process at once.
+#pragma once
+
+namespace itin::cli {
+
+/// Catches SIGINT, SIGTERM and SIGHUP from now on; a closed pipe becomes a write error instead of a signal.
+void catch_interruptions();
+
+bool interrupted();
+
+}  // namespace itin::cli

@@ -1,0 +1,91 @@
+#include "observer_options.hpp"
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+
+namespace itin::cli {
+
+void ObserverOptions::declare(CLI::App& app) {
+  app.add_option("--observer", observers_, "An observer; may be given again, or several in a row")
+      ->type_name("x,y[,h]")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_option("--observers", sites_.path, "Observers from a vector file, or from CSV with columns x,y")
+      ->type_name("FILE");
+  app.add_option("--layer", sites_.layer, "The layer of that file")->type_name("NAME");
+  app.add_option("--where", sites_.where, "Only observers that this SQL condition holds for")->type_name("SQL");
+  app.add_option("--height-field", sites_.height_field, "The field of that file that holds h")->type_name("FIELD");
+  app.add_option("--name-field", sites_.name_field, "The field of that file that holds names")->type_name("FIELD");
+  app.add_option("--observer-height", height_text_, "h of observers that do not say (default: 2)")->type_name("METRES");
+  app.add_flag("--absolute-heights", absolute_heights_, "Every h is an elevation, not a height above the surface");
+  app.add_option("--observer-on", observer_on_, "What observers stand on (without themes both are the same)")
+      ->type_name("ground|surface");
+  in_crs_.declare(app);
+}
+
+void ObserverOptions::validate() {
+  if (observers_.empty() == sites_.path.empty()) {
+    throw InputError("give observers by --observer x,y,h or by --observers FILE");
+  }
+  if (sites_.path.empty()) {
+    const auto refuse = [](const std::string& value, const char* option) {
+      if (!value.empty()) throw InputError(fmt::format("{} is of use with --observers only", option));
+    };
+    refuse(sites_.layer, "--layer");
+    refuse(sites_.where, "--where");
+    refuse(sites_.height_field, "--height-field");
+    refuse(sites_.name_field, "--name-field");
+  }
+  parse_choice("--observer-on", observer_on_, {"ground", "surface"});
+  if (!height_text_.empty()) height_ = parse_number("--observer-height", height_text_);
+  require_above_ground("--observer-height", height_);
+  for (const std::string& text : observers_) {
+    given_.push_back(parse_place("--observer", text));
+    require_above_ground(fmt::format("--observer '{}'", text), given_.back().height.value_or(height_));
+  }
+}
+
+void ObserverOptions::require_above_ground(const std::string& where, double height) const {
+  if (!absolute_heights_ && height < 0) {
+    throw InputError(where + ": a height must not be negative; for an elevation give --absolute-heights");
+  }
+}
+
+std::vector<ObserverPlace> ObserverOptions::places(const StoreMetadata& metadata) const {
+  return sites_.path.empty() ? places_given(metadata) : places_of_file(metadata);
+}
+
+std::vector<ObserverPlace> ObserverOptions::places_given(const StoreMetadata& metadata) const {
+  const auto transform = in_crs_.transform_to(metadata.crs_wkt);
+  std::vector<ObserverPlace> places;
+  for (const Place& place : given_) {
+    places.push_back({fmt::format("{}", places.size() + 1), transform(place.position), place.height.value_or(height_)});
+  }
+  return places;
+}
+
+std::vector<ObserverPlace> ObserverOptions::places_of_file(const StoreMetadata& metadata) const {
+  SiteQuery query = sites_;
+  query.crs = in_crs_.crs;
+  std::vector<ObserverPlace> places;
+  for (const Site& site : read_sites(query, metadata.crs_wkt)) {
+    places.push_back({site.name, site.position, site.height.value_or(height_)});
+    require_above_ground(fmt::format("{}: feature {}", query.path, site.feature), places.back().height);
+  }
+  if (places.empty()) throw InputError(query.path + ": holds no observer that was asked for; see --layer and --where");
+  return places;
+}
+
+Document observers_document(const std::vector<ObserverPlace>& places, bool absolute_heights) {
+  Document observers = Document::array();
+  for (const ObserverPlace& place : places) {
+    observers.push_back({{"name", place.name},
+                         {"x", place.position.x},
+                         {"y", place.position.y},
+                         {absolute_heights ? "elevation_m" : "height_m", place.height}});
+  }
+  return observers;
+}
+
+}  // namespace itin::cli

@@ -1,0 +1,30 @@
+#include "output_path.hpp"
+
+#include <filesystem>
+#include <unistd.h>
+
+#include <itin/error.hpp>
+
+namespace itin::cli {
+
+void OutputPolicy::declare(CLI::App& app) {
+  app.add_flag("--overwrite", overwrite, "Replace existing outputs");
+}
+
+void OutputPolicy::require_writable(const std::string& path) const {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path, ignored);
+  if (fs::is_directory(status)) throw FileError(path, "is a directory; name a file");
+  if (fs::exists(status) && !overwrite) throw FileError(path, "exists; give --overwrite to replace it");
+  fs::path directory = fs::path(path).parent_path();
+  if (directory.empty()) directory = ".";
+  if (!fs::is_directory(directory, ignored)) {
+    throw FileError(path, "its directory does not exist; create it or name another place");
+  }
+  if (access(directory.c_str(), W_OK) != 0) {
+    throw FileError(path, "its directory is not writable; change its permissions or name another place");
+  }
+}
+
+}  // namespace itin::cli

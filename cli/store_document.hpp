@@ -1,0 +1,36 @@
+// What documents say about the store behind a result, and numbers in the form people read.
+#pragma once
+
+#include <string>
+
+#include <itin/detail.hpp>
+#include <itin/store.hpp>
+
+#include "verb.hpp"
+
+namespace itin::cli {
+
+/// [lo, hi] of a certificate.
+Document error_interval(const CertifiedError& error);
+
+/// `surface`: tolerance, certified error and themes of the surface that a query at this detail sees. With rings the
+/// tolerance is the coarsest, the error covers all, and the rings are listed.
+Document surface_document(const StoreMetadata& metadata, const Detail& detail);
+
+/// `levels`, finest first. A level's `vertices` are those stored in it, so that they sum up to the store's;
+/// `query_vertices` are those that a query at its tolerance reads: its own and all coarser ones.
+Document levels_document(const StoreMetadata& metadata);
+
+/// The same as an aligned table.
+std::string levels_table(const StoreMetadata& metadata);
+
+/// [xmin, ymin, xmax, ymax] with names.
+Document box_document(const Box& box);
+
+/// 1234567 as "1,234,567".
+std::string grouped(std::uint64_t number);
+
+/// 1234567 as "1.2 MB".
+std::string readable_bytes(std::uint64_t bytes);
+
+}  // namespace itin::cli

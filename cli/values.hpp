@@ -1,0 +1,66 @@
+// Option values: text to numbers, lists, sizes, points and rings; strictly, and whatever the locale.
+//
+// `option` is what the error calls the value, for instance "--radius". Every function throws InputError, one line:
+// which option, what was given, what was expected.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <itin/detail.hpp>
+#include <itin/geometry.hpp>
+
+namespace itin::cli {
+
+/// Which numbers an option takes.
+enum class Range { kAny, kNotNegative, kPositive };
+
+/// A finite decimal number and nothing else.
+double parse_number(std::string_view option, std::string_view text, Range range = Range::kAny);
+
+/// A ratio `a/b`, or a number; positive.
+double parse_ratio(std::string_view option, std::string_view text);
+
+/// A whole number in [least, most].
+int parse_whole(std::string_view option, std::string_view text, int least, int most);
+
+/// Numbers separated by commas, at least one.
+std::vector<double> parse_numbers(std::string_view option, std::string_view text, Range range = Range::kAny);
+
+/// Exactly `names.size()` numbers separated by commas; `shape` is the expected form, for instance "x,y,r".
+std::vector<double> parse_tuple(std::string_view option, std::string_view text, std::size_t count,
+                                std::string_view shape);
+
+/// Whole numbers in [least, most] separated by commas, at least one.
+std::vector<int> parse_wholes(std::string_view option, std::string_view text, int least, int most);
+
+/// Bytes, with an optional K, M, G or T for powers of 1024.
+std::uint64_t parse_bytes(std::string_view option, std::string_view text);
+
+/// `on` or `off`.
+bool parse_switch(std::string_view option, std::string_view text);
+
+/// The index in `choices` of `text`.
+std::size_t parse_choice(std::string_view option, std::string_view text, const std::vector<std::string_view>& choices);
+
+/// `xmin,ymin,xmax,ymax` with xmin < xmax and ymin < ymax.
+Box parse_box(std::string_view option, std::string_view text);
+
+/// `radius:tolerance,...`, nearest first.
+std::vector<Ring> parse_rings(std::string_view option, std::string_view text);
+
+/// `x,y` or `x,y,h`.
+struct Place {
+  Point2 position;
+  std::optional<double> height;
+};
+Place parse_place(std::string_view option, std::string_view text);
+
+/// Whether `text` could be a place: no more than a hint, to tell it from a file name.
+bool looks_like_place(std::string_view text);
+
+}  // namespace itin::cli

@@ -1,0 +1,47 @@
+// A verb of the command line, in three steps: declare options, validate, execute.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <itin/progress.hpp>
+
+namespace itin::cli {
+
+using Document = nlohmann::ordered_json;
+
+/// What a verb found out, for machines and for people; the program prints one of the two on stdout.
+struct Result {
+  Document document =
+      Document::object();  ///< without `itin`, `command` and the process's statistics, which the program adds
+  std::string text;        ///< ends with a newline
+  std::vector<std::string> warnings;  ///< one line each, for stderr and the document
+  std::string failure;  ///< not empty: the result is printed all the same, then this error, and the status is 1
+};
+
+class Verb {
+ public:
+  virtual ~Verb() = default;
+  virtual std::string name() const = 0;
+  virtual std::string summary() const = 0;
+  virtual void declare(CLI::App& app) = 0;
+  /// Understands every option, touching no file. Throws InputError.
+  virtual void validate() = 0;
+  /// The parameters as understood, defaults included, without those that cannot change the result. Asked for after
+  /// execute().
+  virtual Document parameters() const = 0;
+  /// Throws itin::Error.
+  virtual Result execute(Progress& progress) = 0;
+};
+
+std::unique_ptr<Verb> make_import_verb();
+std::unique_ptr<Verb> make_info_verb();
+std::unique_ptr<Verb> make_check_verb();
+std::unique_ptr<Verb> make_tin_verb();
+std::unique_ptr<Verb> make_viewshed_verb();
+
+}  // namespace itin::cli

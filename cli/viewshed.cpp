@@ -1,0 +1,270 @@
+// itin viewshed: what observers see.
+
+#include <filesystem>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include <itin/coordinates.hpp>
+#include <itin/error.hpp>
+#include <itin/store.hpp>
+#include <viewshed/map_image.hpp>
+#include <viewshed/viewshed.hpp>
+
+#include "detail_options.hpp"
+#include "earth_options.hpp"
+#include "observer_options.hpp"
+#include "output_path.hpp"
+#include "store_document.hpp"
+#include "surface_options.hpp"
+#include "verb.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+std::optional<viewshed::AngleRange> parse_angles(std::string_view option, const std::string& text, double least,
+                                                 double most) {
+  if (text.empty()) return std::nullopt;
+  const std::vector<double> v = parse_tuple(option, text, 2, "from,to");
+  for (const double angle : v) {
+    if (angle < least || angle > most) {
+      throw InputError(fmt::format("{} '{}': expected degrees from {} to {}", option, text, least, most));
+    }
+  }
+  return viewshed::AngleRange{v[0], v[1]};
+}
+
+class ViewshedVerb final : public Verb {
+ public:
+  std::string name() const override { return "viewshed"; }
+  std::string summary() const override { return "Write what observers see, as a raster and a map"; }
+
+  void declare(CLI::App& app) override {
+    app.add_option("STORE", store_, "The store")->required();
+    app.add_option("-o,--output", output_, "The raster to write, a GeoTIFF (.tif)")->type_name("FILE");
+    app.add_option("--image", image_, "A map to write (.png, .jpg)")->type_name("FILE");
+    app.add_option("--mode", mode_text_, "visible (to any observer) or count (how many see it) (default: visible)")
+        ->type_name("MODE");
+    observers_.declare(app);
+    declare_targets(app);
+    detail_.declare(app);
+    themes_.declare(app);
+    earth_.declare(app);
+    app.add_option("--nodata", nodata_text_, "What ground without data does to sight lines (default: unknown)")
+        ->type_name("unknown|block|clear");
+    app.add_flag("--precise", precise_, "Not in this version");
+    policy_.declare(app);
+  }
+
+  void validate() override {
+    validate_outputs();
+    observers_.validate();
+    validate_targets();
+    detail_.validate();
+    themes_.validate();
+    earth_.validate();
+    request_.earth = earth_.earth();
+    if (!mode_text_.empty()) request_.mode = parse_mode();
+    if (!nodata_text_.empty()) {
+      using enum viewshed::NoData;
+      constexpr viewshed::NoData kChoices[] = {kUnknown, kBlock, kClear};
+      request_.nodata = kChoices[parse_choice("--nodata", nodata_text_, {"unknown", "block", "clear"})];
+    }
+    if (precise_)
+      throw InputError("--precise: not in this version; without it every sight line is cast at --tolerance");
+  }
+
+  Document parameters() const override {
+    Document parameters{{"store", store_}, {"observers", observers_document(places_, observers_.absolute_heights())}};
+    parameters["mode"] = request_.mode == viewshed::Mode::kCount ? "count" : "visible";
+    parameters[request_.target_absolute ? "target_elevation_m" : "target_height_m"] = request_.target_height;
+    if (request_.radius) parameters["radius_m"] = *request_.radius;
+    if (request_.min_radius > 0) parameters["min_radius_m"] = request_.min_radius;
+    const auto angles = [&](const char* name, const std::optional<viewshed::AngleRange>& range) {
+      if (range) parameters[name] = {range->from, range->to};
+    };
+    angles("azimuth_deg", request_.azimuth);
+    angles("elevation_deg", request_.elevation);
+    if (request_.cell_size) parameters["cell_m"] = *request_.cell_size;
+    if (!like_.empty()) parameters["like"] = like_;
+    parameters.update(detail_.parameters());
+    parameters["nodata"] = nodata_text_.empty() ? "unknown" : nodata_text_;
+    return parameters;
+  }
+
+  Result execute(Progress& progress) override {
+    for (const std::string& path : outputs()) policy_.require_writable(path);
+    const Store store(store_);
+    const StoreMetadata& metadata = store.metadata();
+    complete_request(metadata);
+    const viewshed::Surveyed surveyed = viewshed::compute_with_surface(store, request_, progress);
+    const Document surface = surface_document(metadata, request_.detail);
+    Result result;
+    result.warnings = surveyed.result.warnings;
+    write(surveyed, metadata, surface, result.warnings);
+    result.document = document(surveyed.result, metadata, surface);
+    result.text = text(surveyed.result);
+    return result;
+  }
+
+ private:
+  void declare_targets(CLI::App& app) {
+    app.add_option("--target-height", target_height_text_, "h of the targets, one in every cell (default: 0)")
+        ->type_name("METRES");
+    app.add_option("--target-on", target_on_, "What targets stand on (without themes both are the same)")
+        ->type_name("ground|surface");
+    app.add_option("--radius", radius_text_, "How far to look (default: as far as there is ground)")
+        ->type_name("METRES");
+    app.add_option("--min-radius", min_radius_text_, "Leave out what is nearer (default: 0)")->type_name("METRES");
+    app.add_option("--azimuth", azimuth_text_, "The field of view, degrees clockwise from grid north")
+        ->type_name("FROM,TO");
+    app.add_option("--elevation", elevation_text_, "The field of view, degrees above the horizontal")
+        ->type_name("FROM,TO");
+    app.add_option("--cell", cell_text_, "Size of the raster's cells (default: a round size for at most 2048 a side)")
+        ->type_name("METRES");
+    app.add_option("--like", like_, "Take the cells of this raster")->type_name("FILE");
+  }
+
+  void validate_outputs() const {
+    if (output_.empty() && image_.empty()) throw InputError("give an output: --output FILE.tif, or --image FILE.png");
+    if (output_.empty()) return;
+    const std::string ending = std::filesystem::path(output_).extension().string();
+    if (ending != ".tif" && ending != ".tiff") {
+      throw InputError(fmt::format("--output '{}': a viewshed is written as .tif", output_));
+    }
+    if (output_ == image_) throw InputError("--output and --image name the same file");
+  }
+
+  void validate_targets() {
+    if (!target_height_text_.empty()) request_.target_height = parse_number("--target-height", target_height_text_);
+    request_.target_absolute = observers_.absolute_heights();
+    if (!request_.target_absolute && request_.target_height < 0) {
+      throw InputError("--target-height: a height must not be negative; for an elevation give --absolute-heights");
+    }
+    parse_choice("--target-on", target_on_, {"ground", "surface"});
+    if (!radius_text_.empty()) request_.radius = parse_number("--radius", radius_text_, Range::kPositive);
+    if (!min_radius_text_.empty()) {
+      request_.min_radius = parse_number("--min-radius", min_radius_text_, Range::kNotNegative);
+    }
+    if (request_.radius && request_.min_radius >= *request_.radius) {
+      throw InputError("--min-radius: must be less than --radius");
+    }
+    request_.azimuth = parse_angles("--azimuth", azimuth_text_, -360, 360);
+    request_.elevation = parse_angles("--elevation", elevation_text_, -90, 90);
+    if (!cell_text_.empty() && !like_.empty()) throw InputError("--cell and --like exclude each other");
+    if (!cell_text_.empty()) request_.cell_size = parse_number("--cell", cell_text_, Range::kPositive);
+    if (request_.cell_size && request_.radius && *request_.cell_size > *request_.radius) {
+      throw InputError(fmt::format("--cell '{}': larger than the radius", cell_text_));
+    }
+  }
+
+  viewshed::Mode parse_mode() const {
+    const std::size_t mode =
+        parse_choice("--mode", mode_text_, {"visible", "count", "certified", "height", "angle", "which"});
+    if (mode > 1)
+      throw InputError(fmt::format("--mode {}: not in this version; it knows visible and count", mode_text_));
+    return mode == 0 ? viewshed::Mode::kVisible : viewshed::Mode::kCount;
+  }
+
+  /// What takes the store's CRS to understand.
+  void complete_request(const StoreMetadata& metadata) {
+    places_ = observers_.places(metadata);
+    if (detail_.has_rings() && places_.size() > 1) {
+      throw InputError("--rings lie about one observer; for several give --tolerance");
+    }
+    for (const ObserverPlace& place : places_) {
+      request_.observers.push_back({place.name, place.position, place.height, observers_.absolute_heights()});
+    }
+    request_.detail = detail_.detail(places_.front().position);
+    if (!like_.empty()) request_.grid = raster_grid_like(like_, metadata.crs_wkt);
+  }
+
+  void write(const viewshed::Surveyed& surveyed, const StoreMetadata& metadata, const Document& surface,
+             std::vector<std::string>& warnings) const {
+    std::optional<viewshed::MapImage> map;
+    if (!image_.empty()) {
+      map = viewshed::draw_map(surveyed.tin, surveyed.result);
+      warnings.insert(warnings.end(), map->warnings.begin(), map->warnings.end());
+    }
+    if (!output_.empty()) {
+      viewshed::GeotiffOptions options;
+      options.crs_wkt = metadata.crs_wkt;
+      options.metadata = {{"itin", ITIN_VERSION}, {"surface", surface.dump()}};
+      options.overwrite = policy_.overwrite;
+      viewshed::write_geotiff(output_, surveyed.result, options);
+    }
+    if (map) viewshed::write_image(image_, *map, policy_.overwrite);
+  }
+
+  std::vector<std::string> outputs() const {
+    std::vector<std::string> paths;
+    for (const std::string& path : {output_, image_}) {
+      if (!path.empty()) paths.push_back(path);
+    }
+    return paths;
+  }
+
+  Document document(const viewshed::Result& result, const StoreMetadata& metadata, const Document& surface) const {
+    const viewshed::CellCounts& cells = result.cells;
+    const double area = result.grid.cell_area();
+    Document document;
+    document["crs"] = crs_identifier(metadata.crs_wkt);
+    document["surface"] = surface;
+    document["refraction"] = earth_.document();
+    document["grid"] = {{"bounds", box_document(result.grid.bounds())},
+                        {"columns", result.grid.columns()},
+                        {"rows", result.grid.rows()},
+                        {"cell_m", {result.grid.cell_width(), result.grid.cell_height()}}};
+    document["cells"] = {
+        {"visible", cells.visible}, {"hidden", cells.hidden}, {"undecided", 0}, {"outside", cells.outside}};
+    document["area_m2"] = {{"visible", static_cast<double>(cells.visible) * area},
+                           {"hidden", static_cast<double>(cells.hidden) * area},
+                           {"undecided", 0.0},
+                           {"outside", static_cast<double>(cells.outside) * area}};
+    document["ray_error_bound_m"] = result.error_bound_m;
+    document["outputs"] = outputs();
+    const viewshed::Statistics& statistics = result.statistics;
+    document["statistics"] = {{"points_read", statistics.retrieval.points_read},
+                              {"blocks_read", statistics.retrieval.blocks_read},
+                              {"triangles", statistics.triangles},
+                              {"rays", statistics.rays}};
+    return document;
+  }
+
+  std::string text(const viewshed::Result& result) const {
+    const viewshed::CellCounts& cells = result.cells;
+    const std::uint64_t decided = cells.visible + cells.hidden;
+    const double share = decided == 0 ? 0 : 100.0 * static_cast<double>(cells.visible) / static_cast<double>(decided);
+    std::string text;
+    for (const std::string& path : outputs()) {
+      text += fmt::format("{}: {}\n", path, readable_bytes(std::filesystem::file_size(path)));
+    }
+    text += fmt::format("visible: {} of {} cells ({:.1f} %), {:.2f} km2\n", grouped(cells.visible), grouped(decided),
+                        share, static_cast<double>(cells.visible) * result.grid.cell_area() / 1e6);
+    text += fmt::format("{} triangles, {} rays; {}\n", grouped(result.statistics.triangles),
+                        grouped(result.statistics.rays), earth_.earth().convention());
+    return text;
+  }
+
+  std::string store_, output_, image_, mode_text_, nodata_text_, like_;
+  std::string target_height_text_, radius_text_, min_radius_text_, azimuth_text_, elevation_text_, cell_text_;
+  std::string target_on_ = "ground";
+  bool precise_ = false;
+  ObserverOptions observers_;
+  DetailOptions detail_;
+  ThemeOptions themes_;
+  EarthOptions earth_;
+  OutputPolicy policy_;
+
+  std::vector<ObserverPlace> places_;
+  viewshed::Request request_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_viewshed_verb() {
+  return std::make_unique<ViewshedVerb>();
+}
+
+}  // namespace itin::cli

@@ -1,0 +1,40 @@
+// Coordinate reference systems by name, and points from one to another.
+//
+//   CoordinateTransform to_store("EPSG:4326", store.metadata().crs_wkt);
+//   Point2 p = to_store({-3.18, 51.48});  // longitude, latitude
+//
+// Axis order is the one of maps and files, whatever the authority says: easting, northing; longitude, latitude.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <itin/geometry.hpp>
+
+namespace itin {
+
+/// Not thread-safe; make one a thread.
+class CoordinateTransform {
+ public:
+  /// CRSs as authority:code, WKT, PROJ string or anything else GDAL understands. Throws InputError for one that is
+  /// unknown or for a pair without a transformation between them.
+  CoordinateTransform(const std::string& from_crs, const std::string& to_crs);
+  CoordinateTransform(CoordinateTransform&&) noexcept;
+  CoordinateTransform& operator=(CoordinateTransform&&) noexcept;
+  ~CoordinateTransform();
+
+  /// Throws InputError for a point outside the transformation's domain.
+  Point2 operator()(Point2 p) const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// "EPSG:27700" where the CRS has an authority's code, else the WKT itself.
+std::string crs_identifier(const std::string& wkt);
+
+/// What people call it: "OSGB36 / British National Grid".
+std::string crs_title(const std::string& wkt);
+
+}  // namespace itin

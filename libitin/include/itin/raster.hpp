@@ -1,0 +1,104 @@
+// Rasters that results are written on: where their cells lie, and how they get into files.
+//
+//   RasterGrid grid = RasterGrid::aligned({318000, 176000, 328000, 186000}, 10);
+//   Point2 p = grid.centre(0, 0);                            // of the north-west cell
+//   write_raster("visible.tif", grid, std::span<const std::uint8_t>(values), description);
+//
+// North up: row 0 is the northernmost, and values lie row by row from west to east. This file is the only place that
+// knows how rows map to northings and where a cell's centre is.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <itin/geometry.hpp>
+
+namespace itin {
+
+class RasterGrid {
+ public:
+  struct Cell {
+    std::int64_t column = 0;
+    std::int64_t row = 0;
+    friend bool operator==(const Cell&, const Cell&) = default;
+  };
+
+  RasterGrid() = default;
+  /// From the north-west corner. Throws InputError unless sizes are positive, counts at least 1, and within the
+  /// limits below.
+  RasterGrid(Point2 north_west, double cell_width, double cell_height, std::int64_t columns, std::int64_t rows);
+  /// The smallest grid of square cells over the box whose cell edges are multiples of the cell size. A box edge within
+  /// a millionth of a cell of such a multiple counts as lying on it. Throws InputError as above, or for an empty box.
+  static RasterGrid aligned(const Box& box, double cell_size);
+
+  static constexpr std::int64_t kMaxCells = std::int64_t{1} << 33;
+  static constexpr std::int64_t kMaxSide = 0x7fffffff;  ///< what GDAL counts
+
+  std::int64_t columns() const { return columns_; }
+  std::int64_t rows() const { return rows_; }
+  std::size_t cell_count() const { return static_cast<std::size_t>(columns_ * rows_); }
+  double cell_width() const { return cell_width_; }
+  double cell_height() const { return cell_height_; }
+  double cell_area() const { return cell_width_ * cell_height_; }
+  Point2 north_west() const { return north_west_; }
+  Box bounds() const;
+
+  double centre_x(std::int64_t column) const {
+    return north_west_.x + (static_cast<double>(column) + 0.5) * cell_width_;
+  }
+  double centre_y(std::int64_t row) const { return north_west_.y - (static_cast<double>(row) + 0.5) * cell_height_; }
+  Point2 centre(std::int64_t column, std::int64_t row) const { return {centre_x(column), centre_y(row)}; }
+  /// Where a position lies in units of cells from the north-west corner: centre_x(c) is at c + 0.5.
+  double column_at(double x) const { return (x - north_west_.x) / cell_width_; }
+  double row_at(double y) const { return (north_west_.y - y) / cell_height_; }
+  /// The cell that holds a position; of neighbours that share it the eastern, the southern. Nothing outside.
+  std::optional<Cell> cell_at(Point2 p) const;
+  std::size_t index(Cell cell) const { return static_cast<std::size_t>(cell.row * columns_ + cell.column); }
+
+  friend bool operator==(const RasterGrid&, const RasterGrid&) = default;
+
+ private:
+  Point2 north_west_;
+  double cell_width_ = 1;
+  double cell_height_ = 1;
+  std::int64_t columns_ = 0;
+  std::int64_t rows_ = 0;
+};
+
+/// The grid of an existing raster file. Throws FileError if GDAL cannot read it; InputError if its rows do not run
+/// from west to east (rotated) or if its CRS and `crs_wkt` are both known and differ.
+RasterGrid raster_grid_like(const std::string& path, const std::string& crs_wkt);
+
+/// A value that stands for a class.
+struct RasterClass {
+  int value = 0;
+  std::string name;
+  std::uint8_t red = 0, green = 0, blue = 0, alpha = 255;
+};
+
+struct RasterDescription {
+  std::string crs_wkt;  ///< may be empty: unknown
+  std::optional<double> nodata;
+  std::string band_name;             ///< may be empty
+  std::vector<RasterClass> classes;  ///< not empty: colour table and category names (Byte only)
+  std::vector<std::pair<std::string, std::string>> metadata;  ///< name, value
+  bool overwrite = false;                                     ///< an existing file may be replaced
+};
+
+/// Writes a cloud-optimised GeoTIFF: tiled, compressed, with overviews (the value most frequent for classes, the
+/// nearest otherwise). Precondition: values.size() == grid.cell_count(). The file appears under its name only when it
+/// is complete; its bytes do not depend on the number of threads. Throws FileError if the place cannot be written or
+/// the file exists and may not be replaced.
+void write_raster(const std::string& path, const RasterGrid& grid, std::span<const std::uint8_t> values,
+                  const RasterDescription& description);
+void write_raster(const std::string& path, const RasterGrid& grid, std::span<const std::uint16_t> values,
+                  const RasterDescription& description);
+void write_raster(const std::string& path, const RasterGrid& grid, std::span<const float> values,
+                  const RasterDescription& description);
+
+}  // namespace itin

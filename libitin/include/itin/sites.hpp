@@ -1,0 +1,38 @@
+// Lists of sites, observers, candidates or turbines: named points with an optional height, from any vector file.
+//
+//   SiteQuery query;
+//   query.path = "masts.gpkg";
+//   query.height_field = "mast_m";
+//   for (const Site& site : read_sites(query, store.metadata().crs_wkt)) ...
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <itin/geometry.hpp>
+
+namespace itin {
+
+struct SiteQuery {
+  std::string path;          ///< GeoPackage, GeoJSON, Shapefile, CSV with columns x,y; whatever GDAL reads
+  std::string layer;         ///< default: the file's only layer
+  std::string where;         ///< an attribute filter in OGR's SQL; default: all features
+  std::string height_field;  ///< metres; default: no heights
+  std::string name_field;    ///< default: the feature's number
+  std::string crs;           ///< of a file that does not say; default: the one asked for. Overrides nothing.
+};
+
+struct Site {
+  std::int64_t feature = 0;  ///< the file's own number for it
+  std::string name;
+  Point2 position;  ///< in the CRS asked for
+  std::optional<double> height;
+};
+
+/// All sites in the file's order, in the CRS `to_crs` (WKT). Throws FileError for a file, layer, field, filter or
+/// feature that is missing or not understood (naming it), InputError for a CRS that is unknown.
+std::vector<Site> read_sites(const SiteQuery& query, const std::string& to_crs);
+
+}  // namespace itin

@@ -1,0 +1,235 @@
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <tuple>
+#include <unistd.h>
+
+#include <cpl_conv.h>
+#include <cpl_error.h>
+#include <cpl_string.h>
+#include <fmt/format.h>
+#include <gdal_priv.h>
+
+#include <itin/error.hpp>
+#include <itin/parallel.hpp>
+#include <itin/raster.hpp>
+
+namespace itin {
+
+namespace {
+
+constexpr int kTileSide = 512;
+
+/// Collects GDAL's first failure on this thread in place of printing it, and keeps GDAL from leaving side files.
+class GdalCall {
+ public:
+  GdalCall() {
+    CPLPushErrorHandlerEx(remember, this);
+    CPLSetThreadLocalConfigOption("GDAL_PAM_ENABLED", "NO");
+  }
+  ~GdalCall() {
+    CPLSetThreadLocalConfigOption("GDAL_PAM_ENABLED", nullptr);
+    CPLPopErrorHandler();
+  }
+  GdalCall(const GdalCall&) = delete;
+  GdalCall& operator=(const GdalCall&) = delete;
+  const std::string& failure() const { return failure_; }
+
+ private:
+  static void CPL_STDCALL remember(CPLErr error_class, CPLErrorNum, const char* message) {
+    auto& self = *static_cast<GdalCall*>(CPLGetErrorHandlerUserData());
+    if (error_class >= CE_Failure && self.failure_.empty()) self.failure_ = message;
+  }
+  std::string failure_;
+};
+
+/// A name beside the target that is removed unless it was renamed to the target.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const std::string& target)
+      : target_(target), name_(fmt::format("{}.{}.tmp", target, getpid())) {}
+  ~TemporaryFile() {
+    std::error_code ignored;
+    if (!kept_) std::filesystem::remove(name_, ignored);
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  const std::string& name() const { return name_; }
+  void rename_to_target() {
+    std::error_code error;
+    std::filesystem::rename(name_, target_, error);
+    if (error) throw FileError(target_, "cannot be written: " + error.message());
+    kept_ = true;
+    // It would describe the raster that was replaced.
+    std::filesystem::remove(target_ + ".aux.xml", error);
+  }
+
+ private:
+  std::string target_;
+  std::string name_;
+  bool kept_ = false;
+};
+
+template <class T>
+struct Level {
+  std::vector<T> values;
+  std::int64_t columns = 0;
+  std::int64_t rows = 0;
+};
+
+template <class T>
+T most_frequent(const std::array<T, 4>& v) {
+  // Of four values one occurs more often than any other or the first of the tied ones stands for them.
+  if (v[0] == v[1] || v[0] == v[2] || v[0] == v[3]) return v[0];
+  if (v[1] == v[2] || v[1] == v[3]) return v[1];
+  return v[2] == v[3] ? v[2] : v[0];
+}
+
+/// The next overview: each value stands for two by two, cut off at the southern and eastern edge.
+template <class T>
+Level<T> halve(const T* values, std::int64_t columns, std::int64_t rows, bool classes) {
+  Level<T> half{{}, (columns + 1) / 2, (rows + 1) / 2};
+  half.values.resize(static_cast<std::size_t>(half.columns * half.rows));
+  constexpr std::int64_t kStrip = 64;
+  parallel_for(static_cast<std::size_t>((half.rows + kStrip - 1) / kStrip), [&](std::size_t strip) {
+    const std::int64_t first = static_cast<std::int64_t>(strip) * kStrip, last = std::min(half.rows, first + kStrip);
+    for (std::int64_t r = first; r < last; ++r) {
+      const T* const north = values + 2 * r * columns;
+      const T* const south = values + std::min(2 * r + 1, rows - 1) * columns;
+      T* const out = half.values.data() + r * half.columns;
+      for (std::int64_t c = 0; c < half.columns; ++c) {
+        const std::int64_t west = 2 * c, east = std::min(2 * c + 1, columns - 1);
+        out[c] = classes ? most_frequent<T>({north[west], north[east], south[west], south[east]}) : north[west];
+      }
+    }
+  });
+  return half;
+}
+
+template <class T>
+std::vector<Level<T>> overviews(std::span<const T> values, const RasterGrid& grid, bool classes) {
+  std::vector<Level<T>> levels;
+  const T* finer = values.data();
+  std::int64_t columns = grid.columns(), rows = grid.rows();
+  while (std::max(columns, rows) > kTileSide) {
+    levels.push_back(halve(finer, columns, rows, classes));
+    finer = levels.back().values.data(), columns = levels.back().columns, rows = levels.back().rows;
+  }
+  return levels;
+}
+
+/// A dataset over the caller's values, without copying them; GDAL only reads from it.
+template <class T>
+GDALDatasetUniquePtr wrap(const T* values, const RasterGrid& grid, GDALDataType type) {
+  GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("MEM");
+  GDALDatasetUniquePtr dataset(
+      driver->Create("", static_cast<int>(grid.columns()), static_cast<int>(grid.rows()), 0, type, nullptr));
+  CPLStringList options;
+  std::array<char, 32> pointer{};
+  CPLPrintPointer(pointer.data(), const_cast<T*>(values), static_cast<int>(pointer.size()) - 1);
+  options.SetNameValue("DATAPOINTER", pointer.data());
+  dataset->AddBand(type, options.List());
+  return dataset;
+}
+
+template <class T>
+void attach(GDALDataset& dataset, std::vector<Level<T>>& levels, GDALDataType type) {
+  if (levels.empty()) return;
+  std::vector<int> factors;
+  for (std::size_t i = 0; i < levels.size(); ++i) factors.push_back(2 << i);
+  dataset.BuildOverviews("NONE", static_cast<int>(factors.size()), factors.data(), 0, nullptr, nullptr, nullptr);
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const int columns = static_cast<int>(levels[i].columns), rows = static_cast<int>(levels[i].rows);
+    GDALRasterBand* const overview = dataset.GetRasterBand(1)->GetOverview(static_cast<int>(i));
+    // A failure reaches the caller through GdalCall.
+    std::ignore =
+        overview->RasterIO(GF_Write, 0, 0, columns, rows, levels[i].values.data(), columns, rows, type, 0, 0, nullptr);
+  }
+}
+
+void describe(GDALDataset& dataset, const RasterGrid& grid, const RasterDescription& description) {
+  std::array<double, 6> affine{grid.north_west().x, grid.cell_width(), 0, grid.north_west().y, 0, -grid.cell_height()};
+  dataset.SetGeoTransform(affine.data());
+  if (!description.crs_wkt.empty()) dataset.SetProjection(description.crs_wkt.c_str());
+  for (const auto& [name, value] : description.metadata) dataset.SetMetadataItem(name.c_str(), value.c_str());
+  GDALRasterBand& band = *dataset.GetRasterBand(1);
+  if (description.nodata) band.SetNoDataValue(*description.nodata);
+  band.SetDescription(description.band_name.c_str());
+  if (description.classes.empty()) return;
+  GDALColorTable colours;
+  for (int value = 0; value < 256; ++value) {
+    const GDALColorEntry unused{0, 0, 0, 0};
+    colours.SetColorEntry(value, &unused);
+  }
+  for (const RasterClass& c : description.classes) {
+    const GDALColorEntry colour{c.red, c.green, c.blue, c.alpha};
+    colours.SetColorEntry(c.value, &colour);
+    // GeoTIFF has no place for category names, and GDAL would leave a side file for them.
+    band.SetMetadataItem(fmt::format("class_{}", c.value).c_str(), c.name.c_str());
+  }
+  band.SetColorTable(&colours);
+  band.SetColorInterpretation(GCI_PaletteIndex);
+}
+
+CPLStringList creation_options(bool floating) {
+  CPLStringList options;
+  options.SetNameValue("COMPRESS", "DEFLATE");
+  options.SetNameValue("LEVEL", "1");
+  options.SetNameValue("PREDICTOR", floating ? "YES" : "NO");
+  options.SetNameValue("BLOCKSIZE", std::to_string(kTileSide).c_str());
+  options.SetNameValue("NUM_THREADS", std::to_string(thread_count()).c_str());
+  return options;
+}
+
+void require_place(const std::string& path, bool overwrite) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path, ignored);
+  if (fs::is_directory(status)) throw FileError(path, "is a directory; name a file");
+  if (fs::exists(status) && !overwrite) throw FileError(path, "exists already; allow overwriting or name another file");
+}
+
+template <class T>
+void write(const std::string& path, const RasterGrid& grid, std::span<const T> values, GDALDataType type,
+           const RasterDescription& description) {
+  require_place(path, description.overwrite);
+  GDALAllRegister();
+  GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("COG");
+  if (!driver) throw FileError(path, "GDAL here cannot write cloud-optimised GeoTIFFs; install GDAL 3.1 or later");
+  std::vector<Level<T>> levels = overviews(values, grid, !description.classes.empty());
+  TemporaryFile file(path);
+  {
+    const GdalCall call;
+    const GDALDatasetUniquePtr source = wrap(values.data(), grid, type);
+    attach(*source, levels, type);
+    describe(*source, grid, description);
+    GDALDatasetUniquePtr written(driver->CreateCopy(file.name().c_str(), source.get(), false,
+                                                    creation_options(std::is_floating_point_v<T>).List(), nullptr,
+                                                    nullptr));
+    const bool created = written != nullptr;
+    written.reset();  // the last bytes are written on closing
+    if (!created || !call.failure().empty())
+      throw FileError(path, "cannot be written: " + (call.failure().empty() ? "unknown reason" : call.failure()));
+  }
+  file.rename_to_target();
+}
+
+}  // namespace
+
+void write_raster(const std::string& path, const RasterGrid& grid, std::span<const std::uint8_t> values,
+                  const RasterDescription& description) {
+  write(path, grid, values, GDT_Byte, description);
+}
+
+void write_raster(const std::string& path, const RasterGrid& grid, std::span<const std::uint16_t> values,
+                  const RasterDescription& description) {
+  write(path, grid, values, GDT_UInt16, description);
+}
+
+void write_raster(const std::string& path, const RasterGrid& grid, std::span<const float> values,
+                  const RasterDescription& description) {
+  write(path, grid, values, GDT_Float32, description);
+}
+
+}  // namespace itin

@@ -1,0 +1,43 @@
+#include <array>
+#include <cmath>
+
+#include <cpl_error.h>
+#include <gdal_priv.h>
+#include <ogr_spatialref.h>
+
+#include <itin/error.hpp>
+#include <itin/raster.hpp>
+
+namespace itin {
+
+namespace {
+
+bool same_crs(const OGRSpatialReference& crs, const std::string& wkt) {
+  OGRSpatialReference other;
+  if (other.SetFromUserInput(wkt.c_str()) != OGRERR_NONE) throw InputError("the store's CRS is not understood");
+  // Files spell one CRS in several ways; only what changes positions matters.
+  constexpr const char* kOptions[] = {"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES", "CRITERION=EQUIVALENT", nullptr};
+  return crs.IsSame(&other, kOptions);
+}
+
+}  // namespace
+
+RasterGrid raster_grid_like(const std::string& path, const std::string& crs_wkt) {
+  GDALAllRegister();
+  CPLErrorReset();
+  CPLPushErrorHandler(CPLQuietErrorHandler);
+  const GDALDatasetUniquePtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
+  CPLPopErrorHandler();
+  if (!dataset) throw FileError(path, "no raster that can be read; name one for its grid");
+  std::array<double, 6> affine{};
+  if (dataset->GetGeoTransform(affine.data()) != CE_None)
+    throw InputError(path + ": has no georeference, so its grid is unknown");
+  if (affine[2] != 0 || affine[4] != 0 || affine[1] <= 0 || affine[5] >= 0)
+    throw InputError(path + ": its rows do not run from west to east and north to south; warp it north-up first");
+  const OGRSpatialReference* crs = dataset->GetSpatialRef();
+  if (crs && !crs_wkt.empty() && !same_crs(*crs, crs_wkt))
+    throw InputError(path + ": its CRS is not the store's; warp it to the store's CRS first");
+  return {{affine[0], affine[3]}, affine[1], -affine[5], dataset->GetRasterXSize(), dataset->GetRasterYSize()};
+}
+
+}  // namespace itin

@@ -1,0 +1,21 @@
+// --replace: finer ground takes the place of coarser ground within its own coverage.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <itin/progress.hpp>
+#include <itin/store.hpp>
+
+#include "pyramid/working_index.hpp"
+
+namespace itin {
+
+/// Drops every point of a source that lies in the coverage (coverage.hpp) of the replacing sources of finer spacing,
+/// taken together, unless it is one of theirs; returns how many. The rule knows no order of import. `gap_bases` in grid
+/// units.
+std::uint64_t drop_replaced(WorkingIndex& index, const std::vector<CurveRange>& tiles,
+                            const std::vector<SourceInfo>& sources, const std::vector<std::array<double, 4>>& gap_bases,
+                            Progress& progress);
+
+}  // namespace itin

@@ -1,0 +1,19 @@
+// What a user of the installed package writes first: compiles, links and runs without a store at hand.
+#include <cstdlib>
+
+#include <itin/detail.hpp>
+#include <itin/error.hpp>
+#include <itin/store.hpp>
+#include <itin/triangulate.hpp>
+#include <itin/window.hpp>
+
+int main() {
+  try {
+    const itin::Store store("no such store.itin");
+    itin::NoProgress progress;
+    const itin::Window window = itin::Window::disc({318000, 176000}, 5000);
+    return static_cast<int>(itin::triangulate(store, window, itin::Detail::tolerance(2), progress).triangles.size());
+  } catch (const itin::FileError&) {
+    return EXIT_SUCCESS;
+  }
+}

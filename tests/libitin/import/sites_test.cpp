@@ -1,0 +1,121 @@
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <gmock/gmock.h>
+
+#include <gtest/gtest.h>
+
+#include <itin/error.hpp>
+#include <itin/sites.hpp>
+
+namespace itin {
+
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+class Sites : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (std::filesystem::temp_directory_path() / "itin-sites-XXXXXX").string();
+    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+    directory_ = pattern;
+  }
+  void TearDown() override { std::filesystem::remove_all(directory_); }
+
+  SiteQuery file(const std::string& name, const std::string& contents) const {
+    std::ofstream(directory_ / name) << contents;
+    SiteQuery query;
+    query.path = (directory_ / name).string();
+    return query;
+  }
+
+  std::filesystem::path directory_;
+};
+
+constexpr const char* kMasts =
+    "name,x,y,mast_m\n"
+    "Garth,310375,183525,12.5\n"
+    "\"Machen, Mynydd\",322300,190000,30\n";
+
+TEST_F(Sites, ComeFromCsvInTheFilesOrder) {
+  SiteQuery query = file("masts.csv", kMasts);
+  query.height_field = "mast_m";
+  query.name_field = "name";
+  const std::vector<Site> sites = read_sites(query, "EPSG:27700");
+  ASSERT_EQ(sites.size(), 2u);
+  EXPECT_EQ(sites[0].name, "Garth");
+  EXPECT_EQ(sites[0].position, (Point2{310375, 183525}));
+  EXPECT_EQ(sites[0].height, 12.5);
+  EXPECT_EQ(sites[1].name, "Machen, Mynydd");
+  EXPECT_EQ(sites[1].height, 30);
+}
+
+TEST_F(Sites, HaveNoHeightUnlessAsked) {
+  const std::vector<Site> sites = read_sites(file("masts.csv", kMasts), "EPSG:27700");
+  ASSERT_EQ(sites.size(), 2u);
+  EXPECT_EQ(sites[0].height, std::nullopt);
+  EXPECT_EQ(sites[0].name, std::to_string(sites[0].feature));
+}
+
+TEST_F(Sites, AreFilteredByAttributes) {
+  SiteQuery query = file("masts.csv", kMasts);
+  query.where = "mast_m > 20";
+  const std::vector<Site> sites = read_sites(query, "EPSG:27700");
+  ASSERT_EQ(sites.size(), 1u);
+  EXPECT_EQ(sites[0].position, (Point2{322300, 190000}));
+}
+
+TEST_F(Sites, AreTransformedFromTheFilesOwnSystem) {
+  const SiteQuery query =
+      file("masts.geojson", R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{},)"
+                            R"("geometry":{"type":"Point","coordinates":[-3.2934,51.5437]}}]})");
+  const std::vector<Site> sites = read_sites(query, "EPSG:27700");
+  ASSERT_EQ(sites.size(), 1u);
+  EXPECT_NEAR(sites[0].position.x, 310375, 200);
+  EXPECT_NEAR(sites[0].position.y, 183525, 300);
+}
+
+TEST_F(Sites, OfAFileWithoutSystemAreInTheOneGiven) {
+  SiteQuery query = file("masts.csv", "lon,lat\n-3.2934,51.5437\n");
+  query.crs = "EPSG:4326";
+  const std::vector<Site> sites = read_sites(query, "EPSG:27700");
+  ASSERT_EQ(sites.size(), 1u);
+  EXPECT_NEAR(sites[0].position.x, 310375, 200);
+}
+
+TEST_F(Sites, NameWhatIsWrong) {
+  const auto message_of = [](const SiteQuery& query) { return [query] { read_sites(query, "EPSG:27700"); }; };
+  const auto says = [](const char* text) { return ThrowsMessage<FileError>(HasSubstr(text)); };
+
+  SiteQuery missing;
+  missing.path = (directory_ / "none.gpkg").string();
+  EXPECT_THAT(message_of(missing), says("none.gpkg"));
+
+  SiteQuery masts = file("masts.csv", kMasts);
+  SiteQuery query = masts;
+  query.layer = "towers";
+  EXPECT_THAT(message_of(query), says("no layer 'towers'"));
+  query = masts;
+  query.height_field = "tower_m";
+  EXPECT_THAT(message_of(query), says("no field 'tower_m'"));
+  query = masts;
+  query.name_field = "label";
+  EXPECT_THAT(message_of(query), says("no field 'label'"));
+  query = masts;
+  query.where = "tower_m > 2";
+  EXPECT_THAT(message_of(query), says("--where 'tower_m > 2'"));
+  query = masts;
+  query.height_field = "name";
+  EXPECT_THAT(message_of(query), says("feature 1: its height field 'name' holds no number"));
+
+  EXPECT_THAT(message_of(file("places.csv", "name,where\nGarth,here\n")), says("has no point"));
+  EXPECT_THAT(message_of(file("line.geojson", R"({"type":"Feature","properties":{},"geometry":)"
+                                              R"({"type":"LineString","coordinates":[[0,51],[1,52]]}})")),
+              says("is a LINESTRING, not a point"));
+}
+
+}  // namespace
+
+}  // namespace itin

@@ -1,0 +1,178 @@
+// Cell for cell against a brute-force line of sight on the same triangles, within the promise of scene.hpp.
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <itin/parallel.hpp>
+#include <viewshed/viewshed.hpp>
+
+#include "scene.hpp"
+#include "support/delaunay_tin.hpp"
+#include "support/exact_line_of_sight.hpp"
+#include "support/real_terrain.hpp"
+#include "support/terrain_tin.hpp"
+
+namespace itin::viewshed {
+namespace {
+
+/// Rounding of double precision in the exact side, metres; a hidden cell lies at least kGrazing behind.
+constexpr double kExactness = 1e-7;
+
+struct Agreement {
+  std::uint64_t cells = 0;
+  std::uint64_t visible = 0;
+  std::uint64_t missed = 0;  ///< hidden by more than the grazing threshold but reported visible
+};
+
+/// One observer. Every cell's value must follow from the exact clearance, or be explained by the promise.
+Agreement compare(const Tin& tin, const Request& request) {
+  NoProgress progress;
+  const Result result = compute(tin, request, progress);
+  const test::ExactLineOfSight exact(tin, request.earth);
+  const Scene scene(tin, request.earth, request.nodata, 0);
+  const Observer& observer = request.observers.front();
+  const double base = observer.absolute ? 0 : exact.height(observer.position).value();
+  const Point3 from{observer.position.x, observer.position.y, base + observer.height};
+  Agreement agreement;
+  for (std::int64_t row = 0; row < result.grid.rows(); ++row) {
+    for (std::int64_t column = 0; column < result.grid.columns(); ++column) {
+      const Point2 centre = result.grid.centre(column, row);
+      const std::uint8_t value = result.visible[result.grid.index({column, row})];
+      const double distance = std::hypot(centre.x - from.x, centre.y - from.y);
+      if (request.radius && distance > *request.radius) {
+        EXPECT_EQ(value, kOutside);
+        continue;
+      }
+      const auto ground = exact.height(centre);
+      if (value == kOutside) {
+        EXPECT_FALSE(exact.height(centre, -1e-6)) << "no value at " << centre.x << "," << centre.y;
+        continue;
+      }
+      if (!ground) {
+        ADD_FAILURE() << "a value without data at " << centre.x << "," << centre.y;
+        continue;
+      }
+      const Point3 to{centre.x, centre.y, *ground + request.target_height};
+      const double clearance = distance == 0 ? 0 : exact.clearance(from, to);
+      ++agreement.cells;
+      agreement.visible += value == kVisible ? 1U : 0U;
+      if (value == kHidden) {
+        EXPECT_LT(clearance, -kGrazing + kExactness) << "visible cell lost at " << centre.x << "," << centre.y;
+      } else if (clearance < -kGrazing - kExactness) {
+        ++agreement.missed;
+        // Moving the line up by 2e, or sideways by delta, must clear it.
+        const double length = std::hypot(distance, to.z - from.z);
+        const double up = 2 * scene.error_bound(length), aside = scene.lateral_error_bound(length);
+        const double nx = -(to.y - from.y) / distance * aside, ny = (to.x - from.x) / distance * aside;
+        const auto moved = [&](double side) {
+          return exact.clearance({from.x + side * nx, from.y + side * ny, from.z + up},
+                                 {to.x + side * nx, to.y + side * ny, to.z + up});
+        };
+        EXPECT_TRUE(moved(0) >= 0 || moved(1) >= 0 || moved(-1) >= 0)
+            << "hidden by " << -clearance << " m but reported visible at " << centre.x << "," << centre.y;
+      }
+    }
+  }
+  return agreement;
+}
+
+Request look(Point2 position, double height, double target_height, double cell) {
+  Request request;
+  request.observers = {{"o", position, height}};
+  request.target_height = target_height;
+  request.cell_size = cell;
+  return request;
+}
+
+void expect_exact(const Agreement& agreement) {
+  EXPECT_GT(agreement.cells, 0U);
+  EXPECT_GT(agreement.visible, 0U);
+  EXPECT_LT(agreement.visible, agreement.cells);
+  // Grazing cells are few; were they many, the bound would be useless.
+  EXPECT_LE(static_cast<double>(agreement.missed), 2 + 0.005 * static_cast<double>(agreement.cells));
+}
+
+std::uint32_t logged_seed() {
+  const std::uint32_t seed = std::random_device{}();
+  ::testing::Test::RecordProperty("seed", std::to_string(seed));
+  std::cout << "seed " << seed << '\n';
+  return seed;
+}
+
+TEST(Exactness, RandomTins) {
+  std::mt19937 random(logged_seed());
+  for (int i = 0; i < 6; ++i) {
+    const Tin tin = test::random_tin(random, 400, 0, {{500000, 4000000}, 0.01}, 50000);
+    const Point3 v = tin.point(static_cast<std::uint32_t>(random() % tin.vertices.size()));
+    expect_exact(compare(tin, look({v.x, v.y}, i % 2 == 0 ? 2 : 0.1, i % 3 == 0 ? 0 : 1, 15)));
+  }
+}
+
+TEST(Exactness, FractalTerrainWithEveryTargetHeight) {
+  const std::uint32_t seed = logged_seed();
+  const Tin tin = test::fractal_tin(33, 50, 150, 0.55, seed);
+  const Point2 middle{300000 + 801.3, 200000 + 777.7};
+  for (const double target : {0.0, 0.5, 2.0, 20.0}) expect_exact(compare(tin, look(middle, 10, target, 40)));
+}
+
+TEST(Exactness, CurvatureOverLongEdges) {
+  // Posts 4 km apart: the scene must cut its edges, the answer must not show it.
+  const Tin tin = test::fractal_tin(17, 4000, 60, 0.5, logged_seed());
+  const Point2 middle{300000 + 31234.5, 200000 + 33456.7};
+  for (const double k : {0.13, 0.0, -0.5, 0.9}) {
+    Request request = look(middle, 40, 2, 1500);
+    request.earth.refraction = k;
+    expect_exact(compare(tin, request));
+  }
+}
+
+TEST(Exactness, ObserversOnVerticesEdgesAndCellCorners) {
+  const Tin tin = test::fractal_tin(33, 50, 100, 0.55, logged_seed());
+  const Point2 corner{300000, 200000};
+  for (const Point2 offset : {Point2{800, 800}, Point2{825, 800}, Point2{800, 812}, Point2{825, 825},
+                              Point2{812.5, 812.5}, Point2{0, 0}, Point2{1600, 800}, Point2{1600, 1600}}) {
+    expect_exact(compare(tin, look({corner.x + offset.x, corner.y + offset.y}, 5, 0, 50)));
+  }
+}
+
+TEST(Exactness, ThinPillarsOnAPlane) {
+  // A pillar 1 m wide and 40 m high every 200 m; between them cells must be seen again behind each.
+  const Tin tin = test::lattice_tin(
+      401, 401, 1, [](std::int32_t c, std::int32_t r) { return c % 100 == 50 && r % 100 == 50 ? 40.0 : 0.0; });
+  Request request = look({300000 + 201.3, 200000 + 198.9}, 10, 1, 4);
+  request.radius = 190;
+  NoProgress progress;
+  const Result result = compute(tin, request, progress);
+  const auto at = [&](double x, double y) { return result.visible[result.grid.index(*result.grid.cell_at({x, y}))]; };
+  EXPECT_EQ(at(300000 + 126, 200000 + 126), kHidden);  // right behind the pillar at 150, 150
+  EXPECT_EQ(at(300000 + 150, 200000 + 130), kVisible);
+  // The twin tests every triangle for every cell: a smaller piece, with the same pillars.
+  const Tin piece = test::lattice_tin(
+      61, 61, 1, [](std::int32_t c, std::int32_t r) { return c % 20 == 10 && r % 20 == 10 ? 40.0 : 0.0; });
+  expect_exact(compare(piece, look({300000 + 31.3, 200000 + 28.9}, 10, 1, 2)));
+  expect_exact(compare(piece, look({300000 + 30.5, 200000 + 30.5}, 1, 0, 2)));
+}
+
+TEST(Exactness, HolesLetSightLinesPass) {
+  std::mt19937 random(logged_seed());
+  const Tin tin = test::random_tin(random, 500, 0.1, {{0, 0}, 0.01}, 50000);
+  const Triangle& t = tin.triangles[tin.triangles.size() / 2];
+  const Point3 a = tin.point(t[0]), b = tin.point(t[1]), c = tin.point(t[2]);
+  Request request = look({(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3}, 2, 1, 20);
+  request.nodata = NoData::kClear;
+  expect_exact(compare(tin, request));
+}
+
+TEST(Exactness, RealTerrain) {
+  const auto tin = test::big_tujunga(300, 300, 40);
+  if (!tin) GTEST_SKIP() << "needs " << test::big_tujunga_path();
+  const Box box = tin->bounds();
+  for (const double target : {0.0, 2.0}) {
+    Request request = look({box.xmin + 0.47 * box.width(), box.ymin + 0.55 * box.height()}, 10, target, 30);
+    expect_exact(compare(*tin, request));
+  }
+}
+
+}  // namespace
+}  // namespace itin::viewshed

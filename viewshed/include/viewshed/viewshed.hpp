@@ -1,0 +1,140 @@
+// Which cells of a raster observers see, by casting a ray to every cell's centre.
+//
+//   viewshed::Request request;
+//   request.observers = {{"mast", {318000, 176000}, 20}};
+//   request.target_height = 2;
+//   request.radius = 10000;
+//   request.detail = Detail::tolerance(2);
+//   viewshed::Result result = viewshed::compute(store, request, progress);
+//   viewshed::write_geotiff("out.tif", result, {.crs_wkt = store.metadata().crs_wkt});
+//
+// Both ends of a sight line stand on the surface queried. A cell is decided by its centre (cx, cy): the target is at
+// T(cx, cy) + target_height. A sight line that grazes the surface sees (law 4).
+//
+// Accuracy. A cell reported hidden is hidden, decided in double precision: ground that rises less than a micrometre
+// above a sight line grazes it. A cell reported visible is so or would be if its sight line were raised by 2e, where e
+// is the error bound of ray casting in single precision (formula in src/scene.hpp; Result::error_bound_m is the largest
+// used: millimetres at kilometres).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <itin/detail.hpp>
+#include <itin/earth.hpp>
+#include <itin/progress.hpp>
+#include <itin/raster.hpp>
+#include <itin/store.hpp>
+#include <itin/tin.hpp>
+
+namespace itin::viewshed {
+
+struct Observer {
+  std::string name;  ///< for messages and maps; may be empty
+  Point2 position;
+  double height = 2;  ///< metres above the surface, or an elevation when `absolute`
+  bool absolute = false;
+};
+
+/// What ground without data does to sight lines.
+enum class NoData {
+  kUnknown,  ///< they pass, and a warning says so if any could be concerned
+  kBlock,    ///< none passes: the edge of the surface is a curtain up to the sky
+  kClear     ///< they pass
+};
+
+enum class Mode { kVisible, kCount };
+
+/// Degrees. Azimuths are clockwise from grid north and may pass through it (350 to 10); elevations are those of the
+/// straight line after curvature and refraction, -90 to 90, upwards positive.
+struct AngleRange {
+  double from = 0;
+  double to = 0;
+};
+
+struct Request {
+  std::vector<Observer> observers;
+  double target_height = 0;  ///< metres above the surface, or an elevation when `target_absolute`
+  bool target_absolute = false;
+  // The field of view, the same for every observer.
+  std::optional<double> radius;  ///< metres; none: the whole coverage
+  double min_radius = 0;
+  std::optional<AngleRange> azimuth;
+  std::optional<AngleRange> elevation;
+  // The cells: one of the two, or neither. Then the cell size is the least of 1, 2, 5, 10, ... (or their decimal
+  // fractions) metres that gives at most kDefaultCells cells a side.
+  std::optional<double> cell_size;
+  std::optional<RasterGrid> grid;
+  Earth earth;
+  Detail detail = Detail::tolerance(0);  ///< of the surface; not used with a Tin
+  NoData nodata = NoData::kUnknown;
+  Mode mode = Mode::kVisible;
+};
+
+inline constexpr int kDefaultCells = 2048;
+
+inline constexpr std::uint8_t kHidden = 0;
+inline constexpr std::uint8_t kVisible = 1;
+inline constexpr std::uint8_t kOutside = 255;  ///< outside every field of view, or no data
+inline constexpr std::uint16_t kCountOutside = 65535;
+
+struct CellCounts {
+  std::uint64_t visible = 0;  ///< to at least one observer
+  std::uint64_t hidden = 0;
+  std::uint64_t outside = 0;
+};
+
+struct Statistics {
+  RetrievalStatistics retrieval;
+  std::uint64_t triangles = 0;
+  std::uint64_t rays = 0;
+  double retrieval_seconds = 0;
+  double scene_seconds = 0;
+  double rays_seconds = 0;
+};
+
+struct Result {
+  Request request;  ///< as understood
+  RasterGrid grid;
+  std::vector<std::uint8_t> visible;  ///< Mode::kVisible: one of the three values above a cell
+  std::vector<std::uint16_t> count;   ///< Mode::kCount: how many observers see the cell, or kCountOutside
+  CellCounts cells;                   ///< areas are these times grid.cell_area()
+  std::vector<double> ground_m;       ///< of each observer
+  double error_bound_m = 0;           ///< e
+  bool crosses_voids = false;         ///< some sight line may have passed over ground without data
+  std::vector<std::string> warnings;  ///< one line each
+  Statistics statistics;
+};
+
+/// On a given surface. The Tin must hold every triangle that sight lines cross; where it ends there is no data.
+/// Cost: O(n) for n triangles (about 0.3 microseconds each) and about 50 ns a cell and observer, on two cores; memory
+/// about 150 bytes a triangle and 5 to 9 bytes a cell. The result does not depend on the number of threads.
+/// Throws InputError (an observer outside the data, by name; an unusable radius, cell size or angle; more than 65534
+/// observers to count), Cancelled.
+Result compute(const Tin& tin, const Request& request, Progress& progress);
+
+/// On the surface of a store at `request.detail`: retrieves what the fields of view need. Throws also what
+/// triangulate() throws.
+Result compute(const Store& store, const Request& request, Progress& progress);
+
+/// The same, keeping the surface for further use (maps).
+struct Surveyed {
+  Tin tin;
+  Result result;
+};
+Surveyed compute_with_surface(const Store& store, const Request& request, Progress& progress);
+
+struct GeotiffOptions {
+  std::string crs_wkt;
+  std::vector<std::pair<std::string, std::string>> metadata;  ///< added to what the request says of itself
+  bool overwrite = false;
+};
+
+/// Byte classes (visible 1, hidden 0, nodata 255), or UInt16 counts (nodata 65535), as write_raster() writes them.
+/// Throws FileError.
+void write_geotiff(const std::string& path, const Result& result, const GeotiffOptions& options);
+
+}  // namespace itin::viewshed

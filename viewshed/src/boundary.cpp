@@ -1,0 +1,46 @@
+#include "boundary.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <itin/topology.hpp>
+
+namespace itin::viewshed {
+
+namespace {
+
+double distance_to_segment(Point2 p, Point2 a, Point2 b) {
+  const double dx = b.x - a.x, dy = b.y - a.y;
+  const double along = std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
+  return std::hypot(a.x + along * dx - p.x, a.y + along * dy - p.y);
+}
+
+}  // namespace
+
+std::vector<BoundaryEdge> boundary_edges(const Tin& tin) {
+  std::vector<BoundaryEdge> edges;
+  const auto adjacent = adjacent_triangles(tin);
+  for (std::size_t t = 0; t < adjacent.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (adjacent[t][i] == kNoTriangle)
+        edges.push_back({tin.triangles[t][i], tin.triangles[t][(i + 1) % 3], static_cast<std::uint32_t>(t)});
+    }
+  }
+  return edges;
+}
+
+bool surface_resumes(const Tin& tin, const std::vector<BoundaryEdge>& boundary, Point2 position, double reach) {
+  const Point2 p{(position.x - tin.grid.origin.x) / tin.grid.resolution,
+                 (position.y - tin.grid.origin.y) / tin.grid.resolution};
+  return std::any_of(boundary.begin(), boundary.end(), [&](const BoundaryEdge& edge) {
+    const GridPoint &from = tin.vertices[edge.from], &to = tin.vertices[edge.to];
+    const Point2 a{static_cast<double>(from.x), static_cast<double>(from.y)};
+    const Point2 b{static_cast<double>(to.x), static_cast<double>(to.y)};
+    const double side = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+    // A millionth of a grid unit, so that a position on the boundary's own line does not count.
+    const bool outside = side < -1e-6 * std::hypot(b.x - a.x, b.y - a.y);
+    return outside && distance_to_segment(p, a, b) * tin.grid.resolution < reach;
+  });
+}
+
+}  // namespace itin::viewshed

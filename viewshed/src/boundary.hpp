@@ -1,0 +1,25 @@
+// Where the surface ends: edges of a Tin with a triangle on one side only.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <itin/tin.hpp>
+
+namespace itin::viewshed {
+
+/// The surface is to the left of from -> to.
+struct BoundaryEdge {
+  std::uint32_t from = 0;
+  std::uint32_t to = 0;
+  std::uint32_t triangle = 0;
+};
+
+/// In ascending order of the triangles they belong to. O(n) time, 40 bytes a triangle while running.
+std::vector<BoundaryEdge> boundary_edges(const Tin& tin);
+
+/// Whether a sight line within `reach` metres of a position on the surface can cross ground without data: whether the
+/// surface begins anew across some boundary edge, seen from there.
+bool surface_resumes(const Tin& tin, const std::vector<BoundaryEdge>& boundary, Point2 position, double reach);
+
+}  // namespace itin::viewshed

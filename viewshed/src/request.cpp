@@ -1,0 +1,114 @@
+#include "request.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+
+namespace itin::viewshed {
+
+namespace {
+
+bool positive(double v) {
+  return std::isfinite(v) && v > 0;
+}
+
+void validate_observer(const Observer& observer) {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(fmt::format("observer {} at {:.10g},{:.10g}: {}", observer.name, observer.position.x,
+                                 observer.position.y, what));
+  };
+  if (!std::isfinite(observer.position.x) || !std::isfinite(observer.position.y)) refuse("its position is not finite");
+  if (!std::isfinite(observer.height)) refuse("its height is not a finite number");
+  if (!observer.absolute && observer.height < 0) refuse("its height is below the ground; give 0 or more");
+}
+
+void validate_field_of_view(const Request& request) {
+  if (request.radius && !positive(*request.radius))
+    throw InputError(
+        fmt::format("radius {:g}: give a positive number of metres, or none for all the data", *request.radius));
+  if (!(std::isfinite(request.min_radius) && request.min_radius >= 0))
+    throw InputError(fmt::format("least radius {:g}: give 0 or a positive number of metres", request.min_radius));
+  if (request.radius && request.min_radius > *request.radius)
+    throw InputError(fmt::format("least radius {:g} exceeds the radius {:g}", request.min_radius, *request.radius));
+  const auto finite = [](const AngleRange& r) { return std::isfinite(r.from) && std::isfinite(r.to); };
+  if (request.azimuth && !finite(*request.azimuth)) throw InputError("azimuth: give two numbers of degrees");
+  if (const auto& e = request.elevation; e && !(finite(*e) && e->from >= -90 && e->to <= 90 && e->from <= e->to))
+    throw InputError("elevation: give two numbers of degrees from -90 to 90, the lower first");
+}
+
+/// The least of 1, 2, 5, 10, ... or their decimal fractions with at most kDefaultCells cells a side.
+double default_cell_size(const Box& box) {
+  const double least = std::max(box.width(), box.height()) / kDefaultCells;
+  const double decade = std::pow(10, std::floor(std::log10(least)));
+  for (const double step : {1.0, 2.0, 5.0})
+    if (step * decade >= least) return step * decade;
+  return 10 * decade;
+}
+
+Box disc_box(Point2 centre, double radius) {
+  return {centre.x - radius, centre.y - radius, centre.x + radius, centre.y + radius};
+}
+
+Box intersection(const Box& a, const Box& b) {
+  return {std::max(a.xmin, b.xmin), std::max(a.ymin, b.ymin), std::min(a.xmax, b.xmax), std::min(a.ymax, b.ymax)};
+}
+
+Window::Polygon rectangle(const Box& b) {
+  return {{{b.xmin, b.ymin}, {b.xmax, b.ymin}, {b.xmax, b.ymax}, {b.xmin, b.ymax}}, {}};
+}
+
+}  // namespace
+
+void validate(const Request& request) {
+  if (request.observers.empty()) throw InputError("no observer: give at least one");
+  if (request.mode == Mode::kCount && request.observers.size() >= kCountOutside)
+    throw InputError(fmt::format("{} observers are too many to count: give at most {}", request.observers.size(),
+                                 kCountOutside - 1));
+  for (const Observer& observer : request.observers) validate_observer(observer);
+  if (!std::isfinite(request.target_height) || (!request.target_absolute && request.target_height < 0))
+    throw InputError(fmt::format("target height {:g}: give 0 or a positive number of metres", request.target_height));
+  validate_field_of_view(request);
+  if (request.cell_size && request.grid) throw InputError("both a cell size and a grid are given: give one of them");
+  if (request.cell_size && !positive(*request.cell_size))
+    throw InputError(fmt::format("cell size {:g}: give a positive number of metres", *request.cell_size));
+  const double cell =
+      request.grid ? std::max(request.grid->cell_width(), request.grid->cell_height()) : request.cell_size.value_or(0);
+  if (request.radius && cell > *request.radius)
+    throw InputError(
+        fmt::format("cells of {:g} m are larger than the radius of {:g} m: give smaller cells", cell, *request.radius));
+  request.earth.validate();
+}
+
+RasterGrid cells_of(const Request& request, const Box& coverage) {
+  if (request.grid) return *request.grid;
+  Box area = coverage;
+  if (request.radius) {
+    area = {};
+    for (const Observer& observer : request.observers)
+      area.extend(intersection(disc_box(observer.position, *request.radius), coverage));
+  }
+  if (area.empty()) throw InputError("no observer's radius reaches any data");
+  return RasterGrid::aligned(area, request.cell_size ? *request.cell_size : default_cell_size(area));
+}
+
+Window window_of(const Request& request) {
+  if (!request.radius && !request.grid) return Window::all();
+  // Each part is convex (or a wedge about the observer) and holds the observer, so that it holds the sight lines too.
+  std::vector<Window::Polygon> parts;
+  for (const Observer& observer : request.observers) {
+    if (request.grid) {
+      Box box = request.grid->bounds();
+      box.extend(observer.position);
+      if (request.radius) box = intersection(box, disc_box(observer.position, *request.radius));
+      parts.push_back(rectangle(box));
+    } else {
+      parts.push_back(Window::disc(observer.position, *request.radius).parts().front());
+    }
+  }
+  return Window::polygons(std::move(parts));
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,68 @@
+// Sight lines against a Tin: Embree finds triangles that may hide, double precision decides whether they do.
+//
+//   Scene scene(tin, earth, NoData::kClear, ceiling);
+//   SightLines lines;                       // up to 16, as close together as possible
+//   unsigned hidden = scene.hidden(lines);  // one bit a line
+//
+// Accuracy. Rays are cast in single precision about the Tin's centre with both ends raised by
+//     e(l) = sag + u (4 Z + 16 l),    u = 2^-24,
+// l the line's length in three dimensions, Z the greatest height in the scene about its centre, sag = kSag where
+// curvature is on. This covers the chords' sag, the rounding of heights (u Z each at a vertex and at both ends), and
+// Embree's arithmetic, which takes vertices relative to the ray's origin and multiplies three such numbers: 16
+// roundings bound each of its edge functions. The triangle that a raised ray goes through must then rise above the line
+// itself, which SightLine verifies in double precision, with the curvature exact inside the triangle. Where it does not
+// (the ray ran along an edge, and Embree took the neighbour), the line is decided against every triangle under it. So
+// - a line reported hidden is hidden, on every processor and however the scene was built;
+// - a line reported visible has a clearance above -2 e(l), unless it passes a steep side's silhouette within
+//   delta(l) = u (4 X + 16 l), X the greatest coordinate about the centre: beside ground of slope S the clearance is
+//   above -2 (e + S delta).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include <itin/earth.hpp>
+#include <itin/tin.hpp>
+#include <viewshed/viewshed.hpp>
+
+#include "boundary.hpp"
+#include "sight_line.hpp"
+
+namespace itin::viewshed {
+
+/// A packet of sight lines, in grid units (heights too).
+struct SightLines {
+  static constexpr unsigned kSize = 16;
+  alignas(64) std::array<double, kSize> from_x{}, from_y{}, from_z{};
+  alignas(64) std::array<double, kSize> to_x{}, to_y{}, to_z{};
+  unsigned active = 0;  ///< one bit a line; ends of active lines differ horizontally
+};
+
+class Scene {
+ public:
+  /// The Tin must outlive the scene. With NoData::kBlock curtains stand along the Tin's boundary, `ceiling` metres
+  /// high: no end may lie higher. Throws FileError... never; std::bad_alloc when Embree runs out of memory.
+  Scene(const Tin& tin, const Earth& earth, NoData nodata, double ceiling);
+  Scene(Scene&&) noexcept;
+  Scene& operator=(Scene&&) noexcept;
+  ~Scene();
+
+  /// One bit a line: 1 hidden. Only bits of active lines are set. From any number of threads.
+  unsigned hidden(const SightLines& lines) const;
+  /// Height of the surface in metres, if there is any at that position.
+  std::optional<double> ground(Point2 position) const;
+  /// Where the surface ends.
+  const std::vector<BoundaryEdge>& boundary() const;
+  /// e(l) in metres for a line of `length` metres.
+  double error_bound(double length) const;
+  /// delta(l) in metres.
+  double lateral_error_bound(double length) const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace itin::viewshed

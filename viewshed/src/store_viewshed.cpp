@@ -1,0 +1,26 @@
+#include <chrono>
+
+#include <itin/error.hpp>
+#include <itin/triangulate.hpp>
+#include <viewshed/viewshed.hpp>
+
+#include "request.hpp"
+
+namespace itin::viewshed {
+
+Surveyed compute_with_surface(const Store& store, const Request& request, Progress& progress) {
+  validate(request);
+  const auto start = std::chrono::steady_clock::now();
+  Surveyed surveyed;
+  surveyed.tin = triangulate(store, window_of(request), request.detail, progress);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  surveyed.result = compute(surveyed.tin, request, progress);
+  surveyed.result.statistics.retrieval_seconds = elapsed.count();
+  return surveyed;
+}
+
+Result compute(const Store& store, const Request& request, Progress& progress) {
+  return compute_with_surface(store, request, progress).result;
+}
+
+}  // namespace itin::viewshed

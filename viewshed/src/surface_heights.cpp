@@ -1,0 +1,103 @@
+#include "surface_heights.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace itin::viewshed {
+
+namespace {
+
+struct Crossing {
+  double x = 0;
+  double z = 0;
+};
+
+/// A triangle with its vertices in ascending order of (y, x), so that both triangles at an edge see the edge alike and
+/// its crossings with a row agree to the last bit.
+class RowSections {
+ public:
+  RowSections(const Tin& tin, const Triangle& t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const GridPoint& v = tin.vertices[t[i]];
+      corners_[i] = {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+    }
+    std::sort(corners_.begin(), corners_.end(),
+              [](const Point3& a, const Point3& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
+  }
+
+  double lowest() const { return corners_[0].y; }
+  double highest() const { return corners_[2].y; }
+
+  /// From west to east. Precondition: lowest() <= y <= highest().
+  std::pair<Crossing, Crossing> at(double y) const {
+    const auto& [a, b, c] = corners_;
+    Crossing p = cross(a, c, y);
+    Crossing q = y < b.y ? cross(a, b, y) : cross(b, c, y);
+    if (y == b.y) q = {b.x, b.z};
+    if (q.x < p.x) std::swap(p, q);
+    return {p, q};
+  }
+
+  static double height(const Crossing& west, const Crossing& east, double x) {
+    if (east.x == west.x) return west.z;
+    return west.z + (east.z - west.z) * ((x - west.x) / (east.x - west.x));
+  }
+
+ private:
+  static Crossing cross(const Point3& a, const Point3& b, double y) {
+    if (y >= b.y) return {b.x, b.z};
+    const double w = (y - a.y) / (b.y - a.y);
+    return {a.x + w * (b.x - a.x), a.z + w * (b.z - a.z)};
+  }
+
+  std::array<Point3, 3> corners_;
+};
+
+}  // namespace
+
+void scan_convert(const Tin& tin, std::span<const std::uint32_t> triangles, const RasterGrid& grid, const Tile& tile,
+                  TileValues<double>& heights) {
+  heights.fill(kNoSurface);
+  const Grid& units = tin.grid;
+  std::array<double, Tile::kSide> x{}, y{};
+  for (std::int64_t c = 0; c < tile.columns; ++c)
+    x[static_cast<std::size_t>(c)] = (grid.centre_x(tile.column + c) - units.origin.x) / units.resolution;
+  for (std::int64_t r = 0; r < tile.rows; ++r)
+    y[static_cast<std::size_t>(r)] = (grid.centre_y(tile.row + r) - units.origin.y) / units.resolution;
+  const double per_row = grid.cell_height() / units.resolution, per_column = grid.cell_width() / units.resolution;
+  // Rows and columns are found by division, give or take one, and then compared exactly.
+  const auto first_at = [](double cells, std::int64_t limit) {
+    return static_cast<std::int64_t>(std::clamp(std::floor(cells), 0.0, static_cast<double>(limit)));
+  };
+  for (const std::uint32_t t : triangles) {
+    const RowSections sections(tin, tin.triangles[t]);
+    for (std::int64_t r = first_at((y[0] - sections.highest()) / per_row, tile.rows); r < tile.rows; ++r) {
+      const double row_y = y[static_cast<std::size_t>(r)];
+      if (row_y > sections.highest()) continue;
+      if (row_y < sections.lowest()) break;
+      const auto [west, east] = sections.at(row_y);
+      double* const out = heights.data() + r * Tile::kSide;
+      for (std::int64_t c = first_at((west.x - x[0]) / per_column, tile.columns); c < tile.columns; ++c) {
+        const double cell_x = x[static_cast<std::size_t>(c)];
+        if (cell_x < west.x) continue;
+        if (cell_x > east.x) break;
+        if (std::isnan(out[c])) out[c] = RowSections::height(west, east, cell_x);
+      }
+    }
+  }
+}
+
+std::optional<double> surface_height(const Tin& tin, std::span<const std::uint32_t> triangles, Point2 position) {
+  const double x = (position.x - tin.grid.origin.x) / tin.grid.resolution;
+  const double y = (position.y - tin.grid.origin.y) / tin.grid.resolution;
+  for (const std::uint32_t t : triangles) {
+    const RowSections sections(tin, tin.triangles[t]);
+    if (y < sections.lowest() || y > sections.highest()) continue;
+    const auto [west, east] = sections.at(y);
+    if (x >= west.x && x <= east.x) return RowSections::height(west, east, x);
+  }
+  return std::nullopt;
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,39 @@
+// Heights of a Tin's surface at cell centres and at single positions, in double precision.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include <itin/raster.hpp>
+#include <itin/tin.hpp>
+
+#include "triangle_bins.hpp"
+
+namespace itin::viewshed {
+
+/// A square block of cells, decided together.
+struct Tile {
+  static constexpr std::int64_t kSide = 64;
+  std::int64_t column = 0;  ///< of its north-west cell
+  std::int64_t row = 0;
+  std::int64_t columns = 0;
+  std::int64_t rows = 0;
+};
+
+/// One value a cell of a tile, row by row, kSide to a row.
+template <class T>
+using TileValues = std::array<T, Tile::kSide * Tile::kSide>;
+
+inline constexpr double kNoSurface = std::numeric_limits<double>::quiet_NaN();
+
+/// Heights in grid units at the tile's cell centres, kNoSurface where no triangle lies. Each centre is given its height
+/// by the first of `triangles` that holds it; triangles are closed, so none falls between two.
+void scan_convert(const Tin& tin, std::span<const std::uint32_t> triangles, const RasterGrid& grid, const Tile& tile,
+                  TileValues<double>& heights);
+
+/// Height in grid units at a position in metres, if one of `triangles` holds it.
+std::optional<double> surface_height(const Tin& tin, std::span<const std::uint32_t> triangles, Point2 position);
+
+}  // namespace itin::viewshed

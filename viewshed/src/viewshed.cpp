@@ -1,0 +1,259 @@
+#include <atomic>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+#include <itin/parallel.hpp>
+#include <viewshed/viewshed.hpp>
+
+#include "boundary.hpp"
+#include "field_of_view.hpp"
+#include "request.hpp"
+#include "scene.hpp"
+#include "surface_heights.hpp"
+#include "triangle_bins.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+class Stopwatch {
+ public:
+  /// Seconds since the last call.
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// The upper end of an observer, in metres and in grid units.
+struct Eye {
+  Point2 position;
+  double elevation = 0;
+  Point3 units;
+};
+
+RasterGrid grid_of_tiles(const RasterGrid& cells, std::int64_t side) {
+  return {cells.north_west(), cells.cell_width() * static_cast<double>(side),
+          cells.cell_height() * static_cast<double>(side), (cells.columns() + side - 1) / side,
+          (cells.rows() + side - 1) / side};
+}
+
+double ground_of(const Scene& scene, const Observer& observer) {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(fmt::format("observer {} at {:.10g},{:.10g}: {}", observer.name, observer.position.x,
+                                 observer.position.y, what));
+  };
+  const std::optional<double> ground = scene.ground(observer.position);
+  if (!ground) refuse("there is no data there; move it onto the data");
+  if (observer.absolute && observer.height < *ground)
+    refuse(fmt::format("its elevation {:g} m is below the ground, {:.2f} m", observer.height, *ground));
+  return *ground;
+}
+
+/// Decides tiles of cells. Tiles are independent of each other.
+class Caster {
+ public:
+  Caster(const Tin& tin, const Scene& scene, std::vector<Eye> eyes, const TriangleBins& bins, const RasterGrid& tiles,
+         Result& result)
+      : tin_(tin),
+        scene_(scene),
+        eyes_(std::move(eyes)),
+        bins_(bins),
+        tiles_(tiles),
+        result_(result),
+        view_(result.request),
+        grazing_(kGrazing / tin.grid.resolution) {}
+
+  void run(Progress& progress) {
+    const std::size_t count = tiles_.cell_count();
+    std::atomic<std::size_t> done = 0;
+    std::vector<Tally> tallies(count);
+    parallel_for(count, [&](std::size_t i) {
+      progress.throw_if_cancelled();
+      tallies[i] = decide(i);
+      const std::size_t now = ++done;
+      if (now % 64 == 0 || now == count) progress.report("sight lines", static_cast<double>(now) / count);
+    });
+    for (const Tally& tally : tallies) {
+      result_.cells.visible += tally.cells.visible;
+      result_.cells.hidden += tally.cells.hidden;
+      result_.cells.outside += tally.cells.outside;
+      result_.statistics.rays += tally.rays;
+      result_.error_bound_m = std::max(result_.error_bound_m, scene_.error_bound(tally.longest));
+    }
+  }
+
+ private:
+  struct Tally {
+    CellCounts cells;
+    std::uint64_t rays = 0;
+    double longest = 0;  ///< metres
+  };
+
+  /// What is known of a tile's cells so far.
+  struct TileState {
+    Tile tile;
+    TileValues<double> heights;
+    TileValues<std::uint16_t> seen;  ///< by how many observers, or kCountOutside
+    Tally tally;
+  };
+
+  /// Packets are four by four cells: the closer together, the fewer boxes of the scene they meet.
+  static constexpr std::int64_t kPacketSide = 4;
+  static_assert(kPacketSide * kPacketSide == SightLines::kSize && Tile::kSide % kPacketSide == 0);
+
+  Tally decide(std::size_t index) const {
+    const auto state = std::make_unique<TileState>();
+    const std::int64_t column = static_cast<std::int64_t>(index) % tiles_.columns() * Tile::kSide;
+    const std::int64_t row = static_cast<std::int64_t>(index) / tiles_.columns() * Tile::kSide;
+    state->tile = {column, row, std::min(Tile::kSide, result_.grid.columns() - column),
+                   std::min(Tile::kSide, result_.grid.rows() - row)};
+    scan_convert(tin_, bins_.triangles(index), result_.grid, state->tile, state->heights);
+    state->seen.fill(kCountOutside);
+    for (const Eye& eye : eyes_) {
+      for (std::int64_t r = 0; r < state->tile.rows; r += kPacketSide)
+        for (std::int64_t c = 0; c < state->tile.columns; c += kPacketSide) decide_packet(eye, r, c, *state);
+    }
+    store(*state);
+    return state->tally;
+  }
+
+  void decide_packet(const Eye& eye, std::int64_t row, std::int64_t column, TileState& state) const {
+    SightLines lines;
+    lines.from_x.fill(eye.units.x), lines.from_y.fill(eye.units.y), lines.from_z.fill(eye.units.z);
+    const double per_metre = 1 / tin_.grid.resolution;
+    double longest = 0;
+    for (unsigned i = 0; i < SightLines::kSize; ++i) {
+      const std::int64_t r = row + i / kPacketSide, c = column + i % kPacketSide;
+      const std::size_t cell = cell_of(r, c);
+      if (std::isnan(state.heights[cell]) || already_seen(state.seen[cell])) continue;
+      const Point2 centre = result_.grid.centre(state.tile.column + c, state.tile.row + r);
+      const double ground = state.heights[cell] * tin_.grid.resolution;
+      const double target =
+          result_.request.target_absolute ? result_.request.target_height : ground + result_.request.target_height;
+      const double dx = centre.x - eye.position.x, dy = centre.y - eye.position.y, dz = target - eye.elevation;
+      if (!view_.contains(dx, dy, dz)) continue;
+      if (state.seen[cell] == kCountOutside) state.seen[cell] = 0;
+      lines.to_x[i] = (centre.x - tin_.grid.origin.x) * per_metre;
+      lines.to_y[i] = (centre.y - tin_.grid.origin.y) * per_metre;
+      lines.to_z[i] = target * per_metre;
+      if (lines.to_z[i] < state.heights[cell] - grazing_) continue;  // an elevation below the ground
+      if (lines.to_x[i] == eye.units.x && lines.to_y[i] == eye.units.y) {
+        ++state.seen[cell];
+        continue;
+      }
+      lines.active |= 1U << i;
+      longest = std::max(longest, dx * dx + dy * dy + dz * dz);
+    }
+    if (lines.active == 0) return;
+    state.tally.longest = std::max(state.tally.longest, std::sqrt(longest));
+    state.tally.rays += static_cast<unsigned>(std::popcount(lines.active));
+    const unsigned visible = lines.active & ~scene_.hidden(lines);
+    for (unsigned i = 0; i < SightLines::kSize; ++i)
+      if ((visible >> i & 1) != 0) ++state.seen[cell_of(row + i / kPacketSide, column + i % kPacketSide)];
+  }
+
+  static std::size_t cell_of(std::int64_t row, std::int64_t column) {
+    return static_cast<std::size_t>(row * Tile::kSide + column);
+  }
+  bool already_seen(std::uint16_t seen) const {
+    return result_.request.mode == Mode::kVisible && seen != 0 && seen != kCountOutside;
+  }
+
+  void store(TileState& state) const {
+    const Tile& tile = state.tile;
+    for (std::int64_t r = 0; r < tile.rows; ++r) {
+      const std::uint16_t* const seen = state.seen.data() + r * Tile::kSide;
+      const std::size_t first = result_.grid.index({tile.column, tile.row + r});
+      for (std::int64_t c = 0; c < tile.columns; ++c) {
+        const bool outside = seen[c] == kCountOutside, visible = !outside && seen[c] > 0;
+        ++(outside ? state.tally.cells.outside : visible ? state.tally.cells.visible : state.tally.cells.hidden);
+        const std::size_t i = first + static_cast<std::size_t>(c);
+        if (result_.request.mode == Mode::kCount) {
+          result_.count[i] = seen[c];
+        } else {
+          result_.visible[i] = outside ? kOutside : visible ? kVisible : kHidden;
+        }
+      }
+    }
+  }
+
+  const Tin& tin_;
+  const Scene& scene_;
+  std::vector<Eye> eyes_;
+  const TriangleBins& bins_;
+  const RasterGrid& tiles_;
+  Result& result_;
+  FieldOfView view_;
+  double grazing_;
+};
+
+std::vector<Eye> eyes_of(const Grid& grid, const Request& request, const std::vector<double>& grounds) {
+  std::vector<Eye> eyes;
+  for (std::size_t i = 0; i < grounds.size(); ++i) {
+    const Observer& observer = request.observers[i];
+    const double elevation = observer.absolute ? observer.height : grounds[i] + observer.height;
+    eyes.push_back({observer.position,
+                    elevation,
+                    {(observer.position.x - grid.origin.x) / grid.resolution,
+                     (observer.position.y - grid.origin.y) / grid.resolution, elevation / grid.resolution}});
+  }
+  return eyes;
+}
+
+/// Above every end of every sight line, metres.
+double ceiling_of(const Tin& tin, const Request& request) {
+  double highest = 0;
+  for (const GridPoint& v : tin.vertices) highest = std::max(highest, v.z * tin.grid.resolution);
+  double above = std::max(request.target_height, 0.0);
+  for (const Observer& observer : request.observers) above = std::max(above, observer.height);
+  return highest + above;
+}
+
+void look_for_voids(const Tin& tin, const std::vector<BoundaryEdge>& boundary, Result& result) {
+  const double reach = result.request.radius.value_or(std::numeric_limits<double>::infinity());
+  for (const Observer& observer : result.request.observers) {
+    result.crosses_voids = result.crosses_voids || surface_resumes(tin, boundary, observer.position, reach);
+  }
+  if (result.crosses_voids && result.request.nodata == NoData::kUnknown)
+    result.warnings.push_back(
+        "sight lines may cross ground without data, which counts as clear; give nodata block or clear to choose");
+}
+
+}  // namespace
+
+Result compute(const Tin& tin, const Request& request, Progress& progress) {
+  validate(request);
+  Result result;
+  result.request = request;
+  Stopwatch watch;
+  progress.report("scene", 0);
+  const Scene scene(tin, request.earth, request.nodata, ceiling_of(tin, request));
+  for (const Observer& observer : request.observers) result.ground_m.push_back(ground_of(scene, observer));
+  result.grid = cells_of(request, tin.bounds());
+  look_for_voids(tin, scene.boundary(), result);
+  result.statistics.triangles = tin.triangles.size();
+  result.statistics.retrieval = tin.statistics;
+  result.statistics.scene_seconds = watch.lap();
+
+  const RasterGrid tiles = grid_of_tiles(result.grid, Tile::kSide);
+  const TriangleBins bins(tin, tiles);
+  if (request.mode == Mode::kCount) {
+    result.count.resize(result.grid.cell_count());
+  } else {
+    result.visible.resize(result.grid.cell_count());
+  }
+  Caster(tin, scene, eyes_of(tin.grid, request, result.ground_m), bins, tiles, result).run(progress);
+  result.statistics.rays_seconds = watch.lap();
+  return result;
+}
+
+}  // namespace itin::viewshed
