@@ -1,0 +1,377 @@
+// Rasters of every format, made and real, against a slow reading that shares no code with the import.
+#include "import/raster_source.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <random>
+
+#include <itin/error.hpp>
+#include <itin/parallel.hpp>
+
+#include "libitin/import/raster_fixture.hpp"
+#include "support/temporary_directory.hpp"
+
+namespace itin {
+namespace {
+
+using test::MadeRaster;
+using test::TemporaryDirectory;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+ImportPlan plan_of(const std::string& path, ImportOptions options = {}) {
+  options.sources = {path};
+  return plan_import(options, nullptr);
+}
+
+/// Hills with decimetres, some metres high.
+MadeRaster hills(int columns, int rows) {
+  MadeRaster made;
+  made.columns = columns, made.rows = rows;
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column)
+      made.posts.push_back(std::round(1000 * std::sin(column * 0.1) + 800 * std::cos(row * 0.07) + column) / 10);
+  return made;
+}
+
+MadeRaster whole_metres(MadeRaster made) {
+  made.type = GDT_Int16;
+  for (double& post : made.posts) post = std::round(post);
+  return made;
+}
+
+class RasterSource : public ::testing::Test {
+ protected:
+  /// Reads a raster and compares it with the slow reading.
+  test::Reading expect_exact(const std::string& path, const test::SlowRules& rules = {}, ImportOptions options = {}) {
+    plan_ = plan_of(path, std::move(options));
+    EXPECT_EQ(plan_.sources.size(), 1U);
+    test::Reading reading = test::read(*plan_.sources.at(0));
+    test::expect_same(reading, test::read_slowly(path, plan_, rules));
+    return reading;
+  }
+
+  template <class E>
+  std::string refusal(const std::string& path, const ImportOptions& options = {}) {
+    try {
+      for (const auto& source : plan_of(path, options).sources) test::read(*source);
+    } catch (const E& error) {
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+      return error.what();
+    }
+    ADD_FAILURE() << "no exception";
+    return {};
+  }
+
+  TemporaryDirectory directory_;
+  ImportPlan plan_;
+};
+
+TEST_F(RasterSource, ReadsGeoTiff) {
+  MadeRaster made = hills(300, 200);
+  made.nodata = -9999;
+  for (std::size_t i = 0; i < made.posts.size(); i += 7) made.posts[i] = -9999;
+  test::write_raster(directory_.file("a.tif"), made);
+  const test::Reading reading = expect_exact(directory_.file("a.tif"));
+  EXPECT_THAT(reading.counts.warnings, IsEmpty());
+  EXPECT_THAT(plan_.warnings, IsEmpty());
+  EXPECT_EQ(reading.counts.voids, (made.posts.size() + 6) / 7);
+}
+
+TEST_F(RasterSource, PlacesPostsAtCellCentres) {
+  MadeRaster made = hills(2, 2);
+  made.posts = {1, 2.5, 3.25, 4.01};
+  test::write_raster(directory_.file("a.tif"), made);
+  EXPECT_THAT(test::read(*plan_of(directory_.file("a.tif")).sources.at(0)).points,
+              ElementsAre(GridPoint{30002500, 19992500, 325}, GridPoint{30002500, 19997500, 100},
+                          GridPoint{30007500, 19992500, 401}, GridPoint{30007500, 19997500, 250}));
+}
+
+TEST_F(RasterSource, ReadsAsciiGrid) {
+  MadeRaster made = hills(40, 30);
+  made.driver = "AAIGrid";
+  made.nodata = -9999;
+  made.posts[17] = -9999;
+  test::write_raster(directory_.file("a.asc"), made);
+  expect_exact(directory_.file("a.asc"));
+  std::filesystem::rename(directory_.file("a.asc"), directory_.file("a.txt"));
+  std::filesystem::rename(directory_.file("a.prj"), directory_.file("a_.prj"));
+  ImportOptions options;
+  options.crs = "EPSG:27700";
+  expect_exact(directory_.file("a.txt"), {1, "EPSG:27700"}, options);
+}
+
+TEST_F(RasterSource, ReadsDted) {
+  MadeRaster made = whole_metres(hills(121, 121));
+  made.driver = "DTED";
+  made.crs = "EPSG:4326";
+  made.transform = {7 - 1.0 / 240, 1.0 / 120, 0, 47 + 1.0 / 240, 0, -1.0 / 120};
+  test::write_raster(directory_.file("a.dt0"), made);
+  expect_exact(directory_.file("a.dt0"));
+  EXPECT_EQ(plan_.crs_name, "EPSG:32632");
+  EXPECT_TRUE(plan_.crs_chosen);
+}
+
+TEST_F(RasterSource, ReadsSrtmHgt) {
+  MadeRaster made = whole_metres(hills(1201, 1201));
+  made.driver = "SRTMHGT";
+  made.crs = "EPSG:4326";
+  made.nodata = -32768;
+  made.transform = {-122 - 1.0 / 2400, 1.0 / 1200, 0, 47 + 1.0 / 2400, 0, -1.0 / 1200};
+  made.posts[5] = -32768;
+  test::write_raster(directory_.file("N46W122.hgt"), made);
+  const test::Reading reading = expect_exact(directory_.file("N46W122.hgt"));
+  EXPECT_THAT(reading.counts.warnings, IsEmpty());
+  EXPECT_EQ(plan_.crs_name, "EPSG:32610");
+}
+
+TEST_F(RasterSource, ReadsVrtAndZip) {
+  test::write_raster(directory_.file("a.tif"), hills(64, 48));
+  MadeRaster zipped = hills(20, 30);
+  zipped.transform[0] += 5000;
+  test::write_raster("/vsizip/" + directory_.file("b.zip") + "/deep/b.tif", hills(64, 48));
+  test::write_raster("/vsizip/" + directory_.file("b.zip") + "/deep/a.tif", zipped);
+  const GDALDatasetUniquePtr source(GDALDataset::Open(directory_.file("a.tif").c_str()));
+  test::driver("VRT").CreateCopy(directory_.file("a.vrt").c_str(), source.get(), FALSE, nullptr, nullptr, nullptr);
+  expect_exact(directory_.file("a.vrt"));
+  expect_exact("/vsizip/" + directory_.file("b.zip") + "/deep/b.tif");
+
+  ImportPlan plan = plan_of(directory_.file("b.zip"));
+  ASSERT_EQ(plan.sources.size(), 2U);
+  for (const auto& [k, name] : {std::pair{0, "/deep/a.tif"}, std::pair{1, "/deep/b.tif"}}) {
+    const test::Reading reading = test::read(*plan.sources[static_cast<std::size_t>(k)]);
+    EXPECT_EQ(reading.info.path, "/vsizip/" + directory_.file("b.zip") + name);
+    EXPECT_EQ(reading.info.sha256, "");
+    test::expect_same(reading, test::read_slowly(reading.info.path, plan));
+  }
+}
+
+TEST_F(RasterSource, DoesNotDependOnBlocksOrThreads) {
+  MadeRaster made = hills(1500, 300);  // more than a batch
+  made.crs = "EPSG:4258";
+  made.transform = {8, 0.001, 0, 50, 0, -0.001};
+  test::write_raster(directory_.file("a.tif"), made);
+  const test::Reading first = expect_exact(directory_.file("a.tif"));
+  const GDALDatasetUniquePtr source(GDALDataset::Open(directory_.file("a.tif").c_str()));
+  const char* const tiled[] = {"TILED=YES", "BLOCKXSIZE=128", "BLOCKYSIZE=64", "COMPRESS=DEFLATE", nullptr};
+  test::driver("GTiff").CreateCopy(directory_.file("t.tif").c_str(), source.get(), FALSE, const_cast<char**>(tiled),
+                                   nullptr, nullptr);
+  for (const int threads : {1, 2}) {
+    set_thread_count(threads);
+    EXPECT_EQ(test::read(*plan_of(directory_.file("t.tif")).sources.at(0)).points, first.points);
+  }
+  set_thread_count(0);
+}
+
+TEST_F(RasterSource, HonoursMaskNodataAndNanTogether) {
+  MadeRaster made = hills(10, 10);
+  made.nodata = -5;
+  made.posts[3] = -5;
+  made.posts[4] = std::numeric_limits<double>::quiet_NaN();
+  made.mask.assign(made.posts.size(), 255);
+  made.mask[7] = made.mask[8] = 0;
+  CPLSetConfigOption("GDAL_TIFF_INTERNAL_MASK", "YES");
+  test::write_raster(directory_.file("a.tif"), made);
+  CPLSetConfigOption("GDAL_TIFF_INTERNAL_MASK", nullptr);
+  const test::Reading reading = test::read(*plan_of(directory_.file("a.tif")).sources.at(0));
+  EXPECT_EQ(reading.counts.voids, 4U);
+  EXPECT_EQ(reading.points.size(), 96U);
+  EXPECT_THAT(reading.counts.warnings, IsEmpty());
+}
+
+TEST_F(RasterSource, AppliesScaleAndOffset) {
+  MadeRaster made = whole_metres(hills(30, 20));
+  made.scale = 0.1, made.offset = 300;
+  made.nodata = 12;  // of raw values
+  test::write_raster(directory_.file("a.tif"), made);
+  expect_exact(directory_.file("a.tif"));
+}
+
+TEST_F(RasterSource, FollowsRotatedRasters) {
+  MadeRaster made = hills(30, 20);
+  made.transform = {300000, 40, 30, 200000, 30, -40};
+  test::write_raster(directory_.file("a.tif"), made);
+  const test::Reading reading = expect_exact(directory_.file("a.tif"));
+  EXPECT_THAT(reading.info.gap_basis, ElementsAre(60, 45, 45, -60));
+  EXPECT_DOUBLE_EQ(reading.info.spacing, 50);
+}
+
+TEST_F(RasterSource, ConvertsStatedFeet) {
+  for (const auto& [unit, metres] : {std::pair{"ft", 0.3048}, std::pair{"US survey foot", 1200.0 / 3937},
+                                     std::pair{"dm", 0.1}, std::pair{"metre", 1.0}}) {
+    MadeRaster made = hills(30, 20);
+    made.unit = unit;
+    test::write_raster(directory_.file("a.tif"), made);
+    expect_exact(directory_.file("a.tif"), {metres});
+    if (metres == 1) {
+      EXPECT_THAT(plan_.warnings, IsEmpty());
+    } else {
+      EXPECT_THAT(plan_.warnings, ElementsAre(HasSubstr("converted to metres"))) << unit;
+    }
+  }
+}
+
+TEST_F(RasterSource, TakesTheUnitOfACompoundCrs) {
+  test::write_raster(directory_.file("a.tif"), hills(30, 20));
+  ImportOptions options;
+  options.crs = "EPSG:27700+6360";  // NAVD88 height (ftUS)
+  expect_exact(directory_.file("a.tif"), {1200.0 / 3937}, options);
+  EXPECT_EQ(plan_.crs_name, "EPSG:27700");
+  EXPECT_THAT(plan_.warnings, ElementsAre(HasSubstr("converted to metres")));
+}
+
+TEST_F(RasterSource, SaysWhenAUnitIsNotUnderstood) {
+  MadeRaster made = hills(30, 20);
+  made.unit = "furlong";
+  test::write_raster(directory_.file("a.tif"), made);
+  expect_exact(directory_.file("a.tif"));
+  EXPECT_THAT(plan_.warnings, ElementsAre(HasSubstr("'furlong', is not understood; taken as metres")));
+}
+
+TEST_F(RasterSource, TakesUndeclaredMarkersForVoids) {
+  MadeRaster made = whole_metres(hills(30, 20));
+  made.posts[0] = -32768, made.posts[1] = -32767, made.posts[2] = -9999, made.posts[3] = -13000, made.posts[4] = 21000;
+  test::write_raster(directory_.file("a.tif"), made);
+  const auto is_void = [](double raw) { return raw < -9000 || raw > 20000; };
+  const test::Reading reading = expect_exact(directory_.file("a.tif"), {1, "", is_void});
+  EXPECT_THAT(reading.counts.warnings,
+              ElementsAre(HasSubstr("2 heights below -12000 m or above 20000 m"), HasSubstr("3 posts of -9999")));
+
+  made.nodata = -1;  // then -9999 is a depth
+  test::write_raster(directory_.file("b.tif"), made);
+  expect_exact(directory_.file("b.tif"), {1, "", [](double raw) { return raw < -12000 || raw > 20000; }});
+}
+
+TEST_F(RasterSource, SaysThatItTakesTheFirstOfSeveralBands) {
+  MadeRaster made = hills(30, 20);
+  made.bands = 3;
+  test::write_raster(directory_.file("a.tif"), made);
+  expect_exact(directory_.file("a.tif"));
+  EXPECT_THAT(plan_.warnings, ElementsAre(HasSubstr("has 3 bands; heights are taken from the first")));
+}
+
+TEST_F(RasterSource, GivesItsLatticeSteps) {
+  test::write_raster(directory_.file("a.tif"), hills(30, 20));
+  const SourceInfo info = expect_exact(directory_.file("a.tif")).info;
+  EXPECT_THAT(info.gap_basis, ElementsAre(75, 0, 0, -75));
+  EXPECT_DOUBLE_EQ(info.spacing, 50);
+  EXPECT_EQ(info.path, directory_.file("a.tif"));
+  EXPECT_EQ(info.kind, "terrain");
+  EXPECT_EQ(info.source_crs, "EPSG:27700");
+  EXPECT_EQ(info.imported.size(), 20U);
+}
+
+TEST_F(RasterSource, BoundsProjectedSteps) {
+  MadeRaster made = hills(100, 80);
+  made.crs = "EPSG:4326";
+  made.transform = {8.5, 0.01, 0, 47, 0, -0.01};
+  test::write_raster(directory_.file("a.tif"), made);
+  const test::Reading reading = expect_exact(directory_.file("a.tif"));
+  EXPECT_THAT(reading.counts.warnings, IsEmpty());
+  // Every edge and diagonal of the lattice is ground, two steps in a row are not.
+  const auto [ux, uy, vx, vy] = reading.info.gap_basis;
+  OGRSpatialReference from, to;
+  from.importFromEPSG(4326);
+  from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  to.SetFromUserInput(plan_.crs_wkt.c_str());
+  to.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  const std::unique_ptr<OGRCoordinateTransformation> transformation(OGRCreateCoordinateTransformation(&from, &to));
+  const auto post = [&](int column, int row) {
+    double x = 8.505 + column * 0.01, y = 46.995 - row * 0.01;
+    transformation->Transform(1, &x, &y);
+    return Point2{x, y};
+  };
+  const auto is_ground = [&, ux = ux, uy = uy, vx = vx, vy = vy](Point2 p, Point2 q) {
+    const double ex = q.x - p.x, ey = q.y - p.y, cell = ux * vy - uy * vx;
+    return std::abs((ex * vy - ey * vx) / cell) <= 1 && std::abs((ux * ey - uy * ex) / cell) <= 1;
+  };
+  for (int row = 0; row < 78; ++row) {
+    for (int column = 0; column < 98; ++column) {
+      const Point2 p = post(column, row);
+      ASSERT_TRUE(is_ground(p, post(column + 1, row)));
+      ASSERT_TRUE(is_ground(p, post(column, row + 1)));
+      ASSERT_TRUE(is_ground(p, post(column + 1, row + 1)));
+      ASSERT_TRUE(is_ground(post(column + 1, row), post(column, row + 1)));
+      ASSERT_FALSE(is_ground(p, post(column + 2, row)));
+      ASSERT_FALSE(is_ground(p, post(column, row + 2)));
+      ASSERT_FALSE(is_ground(p, post(column + 2, row + 2)));
+    }
+  }
+}
+
+TEST_F(RasterSource, SaysWhenStepsVary) {
+  MadeRaster made = hills(20, 60);
+  made.crs = "EPSG:4326";
+  made.transform = {8, 0.1, 0, 60, 0, -1};
+  test::write_raster(directory_.file("a.tif"), made);
+  EXPECT_THAT(test::read(*plan_of(directory_.file("a.tif")).sources.at(0)).counts.warnings,
+              ElementsAre(HasSubstr("steps between posts vary")));
+}
+
+TEST_F(RasterSource, DigestsPlainFiles) {
+  test::write_raster(directory_.file("a.tif"), hills(30, 20));
+  const std::string digest = expect_exact(directory_.file("a.tif")).info.sha256;
+  ASSERT_EQ(
+      std::system(("sha256sum " + directory_.file("a.tif") + " | cut -c1-64 > " + directory_.file("sum")).c_str()), 0);
+  std::string expected;
+  std::ifstream(directory_.file("sum")) >> expected;
+  EXPECT_EQ(digest, expected);
+}
+
+TEST_F(RasterSource, StopsWhenCancelled) {
+  class Cancelling final : public Progress {
+   public:
+    void report(std::string_view, double) override {}
+    bool cancelled() const override { return true; }
+  } progress;
+  test::write_raster(directory_.file("a.tif"), hills(30, 20));
+  ImportPlan plan = plan_of(directory_.file("a.tif"));
+  EXPECT_THROW(plan.sources[0]->read([](std::span<const GridPoint>) {}, progress), Cancelled);
+}
+
+TEST_F(RasterSource, RefusesWhatHoldsNoHeights) {
+  MadeRaster plain = hills(8, 8);
+  plain.transform = {};
+  test::write_raster(directory_.file("plain.tif"), plain);
+  EXPECT_THAT(refusal<InputError>(directory_.file("plain.tif")), HasSubstr("plain.tif: has no georeference"));
+
+  MadeRaster homeless = hills(8, 8);
+  homeless.crs.clear();
+  test::write_raster(directory_.file("homeless.tif"), homeless);
+  EXPECT_EQ(refusal<InputError>(directory_.file("homeless.tif")),
+            directory_.file("homeless.tif") + ": does not say its CRS; give it with --crs EPSG:xxxx");
+
+  MadeRaster complex = hills(8, 8);
+  complex.type = GDT_CFloat32;
+  test::write_raster(directory_.file("complex.tif"), complex);
+  EXPECT_THAT(refusal<FileError>(directory_.file("complex.tif")), HasSubstr("holds complex numbers"));
+
+  const GDALDatasetUniquePtr picture(
+      test::driver("GTiff").Create(directory_.file("map.tif").c_str(), 8, 8, 1, GDT_Byte, nullptr));
+  GDALColorTable colours;
+  const GDALColorEntry green{0, 255, 0, 255};
+  colours.SetColorEntry(0, &green);
+  picture->GetRasterBand(1)->SetColorTable(&colours);
+  picture->FlushCache();
+  EXPECT_THAT(refusal<FileError>(directory_.file("map.tif")), HasSubstr("holds colours, not heights"));
+}
+
+TEST_F(RasterSource, RefusesOptionsOfPointLayers) {
+  test::write_raster(directory_.file("a.tif"), hills(8, 8));
+  ImportOptions options;
+  options.where = "z > 0";
+  EXPECT_THAT(refusal<InputError>(directory_.file("a.tif"), options), HasSubstr("--where has no meaning for a raster"));
+}
+
+TEST_F(RasterSource, RefusesDamagedFiles) {
+  test::write_raster(directory_.file("a.tif"), hills(300, 300));
+  std::filesystem::resize_file(directory_.file("a.tif"), 200000);
+  EXPECT_THAT(refusal<FileError>(directory_.file("a.tif")), HasSubstr("cannot be read"));
+  std::filesystem::resize_file(directory_.file("a.tif"), 6);
+  EXPECT_THAT(refusal<FileError>(directory_.file("a.tif")), HasSubstr("a.tif: cannot be read"));
+}
+
+}  // namespace
+}  // namespace itin
