@@ -11,7 +11,6 @@
 
 #include <itin/error.hpp>
 
-#include "import/las_source.hpp"
 #include "import/point_source.hpp"
 #include "import/raster_source.hpp"
 #include "import/source_context.hpp"
