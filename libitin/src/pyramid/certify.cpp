@@ -93,6 +93,7 @@ class CellVerification {
   CellOutcome run(unsigned levels, bool mend, LeafBounds& bounds) {
     fine_ = triangulate_region(index_, levels_from(0, tolerances_), square_of(cell_.cell));
     if (!fine_.mesh.triangles.empty()) edges_ = std::make_unique<FineEdges>(fine_);
+    find_leaves();
     for (int k = static_cast<int>(tolerances_.size()) - 1; k >= 1; --k) {
       if (!(levels >> k & 1)) continue;
       clear(k, bounds);
@@ -195,15 +196,19 @@ class CellVerification {
       of_triangle[edge.triangle].add(d.along_edge[e]);
       if (edge.other != kNoTriangle) of_triangle[edge.other].add(d.along_edge[e]);
     }
+    for (const auto& [t, leaf] : triangles_of_leaves_) bounds.at(leaf, k).add(of_triangle[t]);
+  }
+
+  /// Which of the cell's leaves each fine triangle may meet.
+  void find_leaves() {
     std::vector<std::uint32_t> leaves;
-    for (std::uint32_t t = 0; t < of_triangle.size(); ++t) {
+    for (std::uint32_t t = 0; t < fine_.mesh.triangles.size(); ++t) {
       GridBox box;
-      for (const std::uint32_t v : fine_.mesh.triangles[t])
-        box.extend(fine_.vertices[v].point.x, fine_.vertices[v].point.y);
+      for (const std::uint32_t v : fine_.mesh.triangles[t]) box.extend(fine_.vertices[v].point.x, fine_.vertices[v].point.y);
       leaves.clear();
       index_.leaves_at(box, leaves);
       for (const std::uint32_t leaf : leaves) {
-        if (cell_.cell.contains(index_.ranges()[leaf].cell)) bounds.at(leaf, k).add(of_triangle[t]);
+        if (cell_.cell.contains(index_.ranges()[leaf].cell)) triangles_of_leaves_.emplace_back(t, leaf);
       }
     }
   }
@@ -213,6 +218,7 @@ class CellVerification {
   CurveRange cell_;
   RegionMesh fine_;
   std::unique_ptr<FineEdges> edges_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> triangles_of_leaves_;
   Levels raised_;
   std::vector<std::pair<std::uint64_t, int>> left_to_others_;
 };
