@@ -43,7 +43,11 @@ bool is_text_of_points(GDALDriver& driver) {
 
 bool is_raster(const std::string& path) {
   auto* driver = static_cast<GDALDriver*>(GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, nullptr, nullptr));
-  return driver && !is_text_of_points(*driver);
+  if (!driver || is_text_of_points(*driver)) return false;
+  if (!driver->GetMetadataItem(GDAL_DCAP_VECTOR)) return true;
+  // A GeoPackage, say, holds either; only opening it tells.
+  const QuietGdal quiet;
+  return GDALDatasetUniquePtr(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY)) != nullptr;
 }
 
 std::vector<std::string> rasters_in_archive(const std::string& archive) {

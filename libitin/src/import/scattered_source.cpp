@@ -5,10 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-#include <ogr_spatialref.h>
-
-#include <itin/error.hpp>
+#include "import/file_digest.hpp"
 
 namespace itin {
 
@@ -68,13 +65,6 @@ class ScatteredTerrain final : public TerrainSource {
   SourceInfo info_;
 };
 
-/// Of the axes; nothing for angles.
-std::optional<double> metres_per_axis_unit(const Crs& crs) {
-  OGRSpatialReference reference;
-  if (reference.SetFromUserInput(crs.wkt.c_str()) != OGRERR_NONE || !reference.IsProjected()) return std::nullopt;
-  return reference.GetLinearUnits();
-}
-
 class ScatteredFile final : public SourceFile {
  public:
   ScatteredFile(std::unique_ptr<PointReader> reader, const ImportOptions& options)
@@ -82,18 +72,9 @@ class ScatteredFile final : public SourceFile {
         crs_(source_crs(reader_->path(), options.crs, reader_->crs())),
         max_gap_(options.max_gap),
         warnings_(reader_->warnings()) {
-    if (const auto stated = reader_->metres_per_height()) {
-      metres_per_height_ = *stated;
-    } else if (crs_.metres_per_height) {
-      metres_per_height_ = *crs_.metres_per_height;
-    } else if (const auto unit = metres_per_axis_unit(crs_); unit && std::abs(*unit - 1) > 1e-9) {
-      // A survey in feet has its heights in feet, though few files say so.
-      metres_per_height_ = *unit;
-      warnings_.push_back(fmt::format(
-          "{}: the unit of heights is not stated; taken as that of the coordinates ({} m). If they are in metres, give "
-          "--crs a compound CRS, such as {}+5703",
-          reader_->path(), *unit, crs_.name));
-    }
+    HeightUnit unit = height_unit(reader_->path(), reader_->metres_per_height(), crs_);
+    metres_per_height_ = unit.metres;
+    if (!unit.warning.empty()) warnings_.push_back(std::move(unit.warning));
   }
 
   Crs crs() const override { return crs_; }

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <fmt/format.h>
+#include <gdal_priv.h>
 #include <gtest/gtest.h>
 
 #include <itin/error.hpp>
@@ -25,8 +26,8 @@ constexpr double kSurveyFoot = 1200.0 / 3937.0;
 class ScatteredSource : public testing::Test {
  protected:
   /// Reads a source into a store at 1 cm in the given CRS.
-  ReadCounts read(SourceFile& file, const std::string& store_crs) {
-    source_ = file.bind({Grid{}, parse_crs(store_crs, "test").wkt});
+  ReadCounts read(SourceFile& file, const std::string& store_crs, Point2 origin = {}) {
+    source_ = file.bind({Grid{origin, 0.01}, parse_crs(store_crs, "test").wkt});
     NoProgress progress;
     return source_->read([&](std::span<const GridPoint> p) { points_.insert(points_.end(), p.begin(), p.end()); },
                          progress);
@@ -44,7 +45,7 @@ class ScatteredSource : public testing::Test {
 };
 
 TEST_F(ScatteredSource, PutsPointsOnTheGridAndDescribesThem) {
-  const ReadCounts counts = read_text("x,y,z\n0,0,1\n30,0,\n30,40,2.005\n0,40,3\n15,20,-1.5\n");
+  const ReadCounts counts = read_text("x,y,z\n0,0,1\n30,0,\n30,40,2.006\n0,40,3\n15,20,-1.5\n");
   EXPECT_EQ(counts.read, 4u);
   EXPECT_EQ(counts.voids, 1u);
   EXPECT_EQ(counts.filtered, 0u);
@@ -94,8 +95,8 @@ TEST_F(ScatteredSource, LongitudeAndLatitudeAreProjected) {
   const std::string path = directory_.write("p.csv", "lon,lat,height\n-3,51.5,10\n-2.99,51.5,11\n");
   const auto file = open_point_source(path, {});
   EXPECT_EQ(file->crs().name, "EPSG:4326");
-  EXPECT_FALSE(file->crs().metric);
-  read(*file, "EPSG:32630");
+  EXPECT_FALSE(file->crs().metric());
+  read(*file, "EPSG:32630", {0, 5e6});
   // On zone 30's central meridian.
   ASSERT_EQ(points_.size(), 2u);
   EXPECT_EQ(points_[0].x, 50'000'000);
@@ -118,9 +119,10 @@ TEST_F(ScatteredSource, FeetBecomeMetres) {
     EXPECT_EQ(points_.at(0).y, std::lround(2e6 * kSurveyFoot * 100));
     return std::pair(points_.at(0).z, file->warnings().size());
   };
-  EXPECT_EQ(keys({{3072, 2229}, {4099, 9003}}), std::pair(10'000, std::size_t{0}));
+  // Feet are always mentioned.
+  EXPECT_EQ(keys({{3072, 2229}, {4099, 9003}}), std::pair(10'000, std::size_t{1}));
   EXPECT_EQ(keys({{3072, 2229}, {4099, 9001}}), std::pair(32'808, std::size_t{0}));
-  // Not stated: as the axes, and said so.
+  // Not stated: as the axes.
   EXPECT_EQ(keys({{3072, 2229}}), std::pair(10'000, std::size_t{1}));
 }
 
@@ -139,13 +141,46 @@ TEST_F(ScatteredSource, RealLidarKeepsEveryPointButNoise) {
   const auto file = open_las_source(path, {});
   EXPECT_EQ(file->crs().name, "EPSG:2154");
   EXPECT_NEAR(file->centre().x, 299'500, 1);
-  const ReadCounts counts = read(*file, "EPSG:2154");
+  const ReadCounts counts = read(*file, "EPSG:2154", {0, 6e6});
   EXPECT_EQ(counts.read + counts.filtered, 278'810u);
   EXPECT_EQ(counts.voids, 0u);
   EXPECT_NEAR(source_->info().spacing, 1000 / std::sqrt(278'810), 0.01);
   GridBox bounds;
   for (const GridPoint& p : points_) bounds.extend(p.x, p.y);
-  EXPECT_EQ(bounds, (GridBox{29'900'000, 680'100'000, 30'000'000, 680'200'000}));
+  EXPECT_EQ(bounds, (GridBox{29'900'000, 80'100'000, 30'000'000, 80'200'000}));
+}
+
+TEST_F(ScatteredSource, PlanningFindsTheRightReader) {
+  GDALAllRegister();
+  const std::string layer = directory_.file("a.gpkg");
+  {
+    const GDALDatasetUniquePtr json(
+        GDALDataset::Open(directory_
+                              .write("a.geojson",
+                                     R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{},
+                       "geometry":{"type":"Point","coordinates":[-3,51.5,7]}}]})")
+                              .c_str(),
+                          GDAL_OF_VECTOR));
+    const GDALDatasetUniquePtr copy(
+        GetGDALDriverManager()->GetDriverByName("GPKG")->Create(layer.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+    ASSERT_TRUE(copy->CopyLayer(json->GetLayer(0), "points"));
+  }
+  LasContents las;
+  las.vlrs = {{"LASF_Projection", 34735, test::geo_key_directory({{2048, 4326}})}};
+  las.points = {{-300, 5150, 700}};
+  ImportOptions options;
+  options.to_crs = "EPSG:32630";
+  // A regular lattice, which GDAL would take for a raster.
+  const std::string lattice = directory_.write("a.xyz", "lon lat z\n-3 51.5 7\n-2 51.5 7\n-3 51 7\n-2 51 7\n");
+  options.sources = {directory_.file("a.geojson"), layer, directory_.write("a.las", las_bytes(las)), lattice};
+  const ImportPlan plan = plan_import(options, nullptr);
+  ASSERT_EQ(plan.sources.size(), 4u);
+  NoProgress progress;
+  for (const auto& source : plan.sources)
+    source->read([&](std::span<const GridPoint> p) { points_.insert(points_.end(), p.begin(), p.end()); }, progress);
+  ASSERT_EQ(points_.size(), 7u);
+  for (const GridPoint& p : points_) EXPECT_EQ(p.z, 700);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(points_[i], points_[0]);
 }
 
 class CancelAtOnce final : public Progress {
