@@ -48,6 +48,15 @@ TEST(Crs, RecognisesDialectsWithoutCodes) {
   EXPECT_TRUE(PointTransform(crs.wkt, "EPSG:27700", "a").identity());
 }
 
+TEST(Crs, TakesNoUnknownDatumForAKnownOne) {
+  const Crs crs = parse_crs("+proj=utm +zone=55 +south +ellps=GRS80 +units=m", "a");  // of no authority
+  EXPECT_EQ(crs.name.find("EPSG"), std::string::npos) << crs.name;
+  EXPECT_EQ(parse_crs("+proj=utm +zone=55 +south +datum=WGS84 +units=m", "a").name, "EPSG:32755");
+  // A false easting of its own.
+  EXPECT_EQ(parse_crs("+proj=tmerc +lon_0=147 +k=0.9996 +x_0=500001 +y_0=10000000 +datum=WGS84 +units=m", "a").name,
+            "unknown");
+}
+
 TEST(Crs, RefusesWhatItDoesNotUnderstandInOneLine) {
   for (const auto& [text, reason] :
        {std::pair{"EPSG:1", "is not understood"}, std::pair{"", "is not understood"},
