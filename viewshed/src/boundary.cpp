@@ -22,7 +22,7 @@ std::vector<BoundaryEdge> boundary_edges(const Tin& tin) {
   const auto adjacent = adjacent_triangles(tin);
   for (std::size_t t = 0; t < adjacent.size(); ++t) {
     for (std::size_t i = 0; i < 3; ++i) {
-      if (adjacent[t][i] == kNoTriangle)
+      if (adjacent[t][i] == kNoNeighbour)
         edges.push_back({tin.triangles[t][i], tin.triangles[t][(i + 1) % 3], static_cast<std::uint32_t>(t)});
     }
   }

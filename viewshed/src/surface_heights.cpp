@@ -56,6 +56,18 @@ class RowSections {
 
 }  // namespace
 
+RasterGrid grid_of_tiles(const RasterGrid& cells) {
+  constexpr auto kSide = static_cast<double>(Tile::kSide);
+  return {cells.north_west(), cells.cell_width() * kSide, cells.cell_height() * kSide,
+          (cells.columns() + Tile::kSide - 1) / Tile::kSide, (cells.rows() + Tile::kSide - 1) / Tile::kSide};
+}
+
+Tile tile_at(const RasterGrid& cells, const RasterGrid& tiles, std::size_t index) {
+  const std::int64_t column = static_cast<std::int64_t>(index) % tiles.columns() * Tile::kSide;
+  const std::int64_t row = static_cast<std::int64_t>(index) / tiles.columns() * Tile::kSide;
+  return {column, row, std::min(Tile::kSide, cells.columns() - column), std::min(Tile::kSide, cells.rows() - row)};
+}
+
 void scan_convert(const Tin& tin, std::span<const std::uint32_t> triangles, const RasterGrid& grid, const Tile& tile,
                   TileValues<double>& heights) {
   heights.fill(kNoSurface);

@@ -22,6 +22,10 @@ struct Tile {
   std::int64_t rows = 0;
 };
 
+/// The tiles of a grid as the cells of a coarser one, and the tile that is cell `index` of it.
+RasterGrid grid_of_tiles(const RasterGrid& cells);
+Tile tile_at(const RasterGrid& cells, const RasterGrid& tiles, std::size_t index);
+
 /// One value a cell of a tile, row by row, kSide to a row.
 template <class T>
 using TileValues = std::array<T, Tile::kSide * Tile::kSide>;

@@ -40,12 +40,6 @@ struct Eye {
   Point3 units;
 };
 
-RasterGrid grid_of_tiles(const RasterGrid& cells, std::int64_t side) {
-  return {cells.north_west(), cells.cell_width() * static_cast<double>(side),
-          cells.cell_height() * static_cast<double>(side), (cells.columns() + side - 1) / side,
-          (cells.rows() + side - 1) / side};
-}
-
 double ground_of(const Scene& scene, const Observer& observer) {
   const auto refuse = [&](const std::string& what) {
     throw InputError(fmt::format("observer {} at {:.10g},{:.10g}: {}", observer.name, observer.position.x,
@@ -112,10 +106,7 @@ class Caster {
 
   Tally decide(std::size_t index) const {
     const auto state = std::make_unique<TileState>();
-    const std::int64_t column = static_cast<std::int64_t>(index) % tiles_.columns() * Tile::kSide;
-    const std::int64_t row = static_cast<std::int64_t>(index) / tiles_.columns() * Tile::kSide;
-    state->tile = {column, row, std::min(Tile::kSide, result_.grid.columns() - column),
-                   std::min(Tile::kSide, result_.grid.rows() - row)};
+    state->tile = tile_at(result_.grid, tiles_, index);
     scan_convert(tin_, bins_.triangles(index), result_.grid, state->tile, state->heights);
     state->seen.fill(kCountOutside);
     for (const Eye& eye : eyes_) {
@@ -244,7 +235,7 @@ Result compute(const Tin& tin, const Request& request, Progress& progress) {
   result.statistics.retrieval = tin.statistics;
   result.statistics.scene_seconds = watch.lap();
 
-  const RasterGrid tiles = grid_of_tiles(result.grid, Tile::kSide);
+  const RasterGrid tiles = grid_of_tiles(result.grid);
   const TriangleBins bins(tin, tiles);
   if (request.mode == Mode::kCount) {
     result.count.resize(result.grid.cell_count());

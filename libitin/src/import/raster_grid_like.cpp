@@ -1,12 +1,13 @@
 #include <array>
 #include <cmath>
 
-#include <cpl_error.h>
 #include <gdal_priv.h>
 #include <ogr_spatialref.h>
 
 #include <itin/error.hpp>
 #include <itin/raster.hpp>
+
+#include "import/quiet_gdal.hpp"
 
 namespace itin {
 
@@ -23,11 +24,8 @@ bool same_crs(const OGRSpatialReference& crs, const std::string& wkt) {
 }  // namespace
 
 RasterGrid raster_grid_like(const std::string& path, const std::string& crs_wkt) {
-  GDALAllRegister();
-  CPLErrorReset();
-  CPLPushErrorHandler(CPLQuietErrorHandler);
+  const QuietGdal quiet;
   const GDALDatasetUniquePtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
-  CPLPopErrorHandler();
   if (!dataset) throw FileError(path, "no raster that can be read; name one for its grid");
   std::array<double, 6> affine{};
   if (dataset->GetGeoTransform(affine.data()) != CE_None)

@@ -76,6 +76,12 @@ GridBox box_of(const RegionMesh& mesh) {
   return box;
 }
 
+struct CellOutcome {
+  Levels raised;
+  /// Points of other cells, with levels, that would mend what still fails here. Their cells see the same failure.
+  std::vector<std::pair<std::uint64_t, int>> left_to_others;
+};
+
 /// Verifies one cell.
 class CellVerification {
  public:
@@ -84,9 +90,10 @@ class CellVerification {
 
   /// Levels with their bit set in `levels` are verified, and the cell's points raised, if `mend`, until they hold;
   /// bounds of the cell's leaves are replaced for these levels.
-  Levels run(unsigned levels, bool mend, LeafBounds& bounds) {
+  CellOutcome run(unsigned levels, bool mend, LeafBounds& bounds) {
     fine_ = triangulate_region(index_, levels_from(0, tolerances_), square_of(cell_.cell));
     if (!fine_.mesh.triangles.empty()) edges_ = std::make_unique<FineEdges>(fine_);
+    find_leaves();
     for (int k = static_cast<int>(tolerances_.size()) - 1; k >= 1; --k) {
       if (!(levels >> k & 1)) continue;
       clear(k, bounds);
@@ -95,7 +102,7 @@ class CellVerification {
       while (mend && raise(k, d)) d = compare(k);
       record(k, d, bounds);
     }
-    return raised_;
+    return {std::move(raised_), std::move(left_to_others_)};
   }
 
  private:
@@ -111,8 +118,12 @@ class CellVerification {
   /// more than the tolerance off. True when there was any.
   bool raise(int k, const Difference& d) {
     bool any = false;
+    std::erase_if(left_to_others_, [&](const auto& p) { return p.second == k; });
     const auto raise_own = [&](std::uint32_t v) {
-      if (!cell_.cell.contains(code(v))) return;
+      if (!cell_.cell.contains(code(v))) {
+        left_to_others_.emplace_back(code(v), k);
+        return;
+      }
       raised_[code(v)] = k;
       any = true;
     };
@@ -185,15 +196,19 @@ class CellVerification {
       of_triangle[edge.triangle].add(d.along_edge[e]);
       if (edge.other != kNoTriangle) of_triangle[edge.other].add(d.along_edge[e]);
     }
+    for (const auto& [t, leaf] : triangles_of_leaves_) bounds.at(leaf, k).add(of_triangle[t]);
+  }
+
+  /// Which of the cell's leaves each fine triangle may meet.
+  void find_leaves() {
     std::vector<std::uint32_t> leaves;
-    for (std::uint32_t t = 0; t < of_triangle.size(); ++t) {
+    for (std::uint32_t t = 0; t < fine_.mesh.triangles.size(); ++t) {
       GridBox box;
-      for (const std::uint32_t v : fine_.mesh.triangles[t])
-        box.extend(fine_.vertices[v].point.x, fine_.vertices[v].point.y);
+      for (const std::uint32_t v : fine_.mesh.triangles[t]) box.extend(fine_.vertices[v].point.x, fine_.vertices[v].point.y);
       leaves.clear();
       index_.leaves_at(box, leaves);
       for (const std::uint32_t leaf : leaves) {
-        if (cell_.cell.contains(index_.ranges()[leaf].cell)) bounds.at(leaf, k).add(of_triangle[t]);
+        if (cell_.cell.contains(index_.ranges()[leaf].cell)) triangles_of_leaves_.emplace_back(t, leaf);
       }
     }
   }
@@ -203,7 +218,9 @@ class CellVerification {
   CurveRange cell_;
   RegionMesh fine_;
   std::unique_ptr<FineEdges> edges_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> triangles_of_leaves_;
   Levels raised_;
+  std::vector<std::pair<std::uint64_t, int>> left_to_others_;
 };
 
 /// Which levels of which leaves must be verified again.
@@ -273,27 +290,31 @@ LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& toleran
     if (cells.empty()) return bounds;
     disturbed.clear();
 
-    std::vector<Levels> raised(cells.size());
+    std::vector<CellOutcome> outcomes(cells.size());
     std::atomic<std::size_t> done = 0;
     parallel_for(cells.size(), [&](std::size_t i) {
       progress.throw_if_cancelled();
-      raised[i] = CellVerification(index, tolerances, cells[i].first).run(cells[i].second, round > 0, bounds);
+      outcomes[i] = CellVerification(index, tolerances, cells[i].first).run(cells[i].second, round > 0, bounds);
       const double share = static_cast<double>(++done) / static_cast<double>(cells.size());
       progress.report(round == 0 ? "verifying the levels" : "mending the levels", share);
     });
 
     std::vector<Raise> raises;
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      std::vector<RawPoint> points = raised[i].empty() ? std::vector<RawPoint>{} : index.read(cells[i].first);
+      const Levels& raised = outcomes[i].raised;
+      std::vector<RawPoint> points = raised.empty() ? std::vector<RawPoint>{} : index.read(cells[i].first);
       for (RawPoint& p : points) {
-        const auto found = raised[i].find(p.code);
-        if (found == raised[i].end() || found->second <= p.level) continue;
+        const auto found = raised.find(p.code);
+        if (found == raised.end() || found->second <= p.level) continue;
         raises.push_back({p.code, p.level, found->second, cells[i].first.cell});
         p.level = static_cast<std::uint16_t>(found->second);
       }
       if (!points.empty()) index.write(cells[i].first, points);
     }
     parallel_for(raises.size(), [&](std::size_t i) { mark_star(index, tolerances, raises[i], disturbed); });
+    for (const CellOutcome& outcome : outcomes) {
+      for (const auto& [code, level] : outcome.left_to_others) disturbed.mark(index.leaf_of(code), 1u << level);
+    }
     if (round == 0) mark_failures(bounds, tolerances, index.ranges().size(), disturbed);
   }
 }

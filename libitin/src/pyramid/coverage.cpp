@@ -12,6 +12,9 @@ namespace itin {
 
 namespace {
 
+/// Mean spacings. A wider fringe leaves less to mend along the tiles' borders, and costs more here.
+constexpr double kFringe = 8;
+
 /// Decides whether an edge may be ground, by the gap bases of its ends' sources.
 class GapRule {
  public:
@@ -48,16 +51,25 @@ Segment segment(const RegionMesh& region, std::uint32_t from, std::uint32_t to) 
   return {a.x, a.y, b.x, b.y};
 }
 
-/// The tile's own corners: ends of straight runs of all outline edges at its points.
-std::vector<std::uint64_t> corners_in(const Cell& tile, const std::vector<Segment>& edges_at_tile) {
+/// Ends of the straight runs, ascending.
+std::vector<std::uint64_t> corners_of(const std::vector<Segment>& edges) {
   std::vector<std::uint64_t> corners;
-  for (const Segment& s : join_collinear(edges_at_tile)) {
+  for (const Segment& s : join_collinear(edges)) {
     corners.push_back(morton(s.ax, s.ay));
     corners.push_back(morton(s.bx, s.by));
   }
-  std::erase_if(corners, [&](std::uint64_t code) { return !tile.contains(code); });
   std::sort(corners.begin(), corners.end());
   return corners;
+}
+
+/// The points' box and a fringe of some mean spacings, in which neighbouring tiles see the same surface and choose alike.
+GridBox with_fringe(const std::vector<RawPoint>& points) {
+  GridBox box = box_of(points);
+  if (box.empty()) return box;
+  const double area = (1.0 + box.xmax - box.xmin) * (1.0 + box.ymax - box.ymin);
+  const double margin = std::ceil(kFringe * std::sqrt(area / static_cast<double>(points.size())));
+  const auto inside = [](double v) { return static_cast<std::int32_t>(std::clamp(v, -1.0 * kGridHalfSide, kGridHalfSide - 1.0)); };
+  return {inside(box.xmin - margin), inside(box.ymin - margin), inside(box.xmax + margin), inside(box.ymax + margin)};
 }
 
 }  // namespace
@@ -79,12 +91,14 @@ TileSurvey survey_tile(const WorkingIndex& index, const CurveRange& tile,
   std::vector<RawPoint> own = index.read(tile);
   std::erase_if(own, [](const RawPoint& p) { return p.level == kDropped; });
   const Selection everything(Detail::tolerance(0), {0.0}, Grid{});
-  survey.surface = triangulate_region(index, everything, box_of(own));
+  const GridBox box = with_fringe(own);
+  survey.surface = triangulate_region(index, everything, box);
   const RegionMesh& region = survey.surface;
   const std::vector<std::uint8_t> ground = ground_triangles(region, gap_bases);
 
   std::vector<std::uint8_t> touched(region.vertices.size(), 0);
-  std::vector<Segment> edges_at_tile;
+  const auto in_box = [&](std::uint32_t v) { return box.contains(region.vertices[v].point.x, region.vertices[v].point.y); };
+  std::vector<Segment> edges;
   for (std::size_t t = 0; t < ground.size(); ++t) {
     if (!ground[t]) continue;
     for (int i = 0; i < 3; ++i) {
@@ -92,19 +106,20 @@ TileSurvey survey_tile(const WorkingIndex& index, const CurveRange& tile,
       const std::uint32_t n = region.mesh.neighbours[t][i];
       if (n != kNoTriangle && ground[n]) continue;
       const std::uint32_t from = region.mesh.triangles[t][(i + 1) % 3], to = region.mesh.triangles[t][(i + 2) % 3];
-      const std::uint64_t code_from = code_of(region.vertices[from]), code_to = code_of(region.vertices[to]);
-      if (!tile.cell.contains(code_from) && !tile.cell.contains(code_to)) continue;
-      edges_at_tile.push_back(segment(region, from, to));
+      // All triangles at a vertex in the box are known, so its edges are; farther away some neighbours are missing.
+      if (!in_box(from) && !in_box(to)) continue;
+      edges.push_back(segment(region, from, to));
       // An edge belongs to the tile of its end first on the curve.
-      if (tile.cell.contains(std::min(code_from, code_to))) survey.outline.push_back(edges_at_tile.back());
+      const std::uint64_t owner = std::min(code_of(region.vertices[from]), code_of(region.vertices[to]));
+      if (tile.cell.contains(owner)) survey.outline.push_back(edges.back());
     }
   }
 
-  const std::vector<std::uint64_t> corners = corners_in(tile.cell, edges_at_tile);
+  const std::vector<std::uint64_t> corners = corners_of(edges);
   std::vector<std::uint64_t> grounded;
   for (std::uint32_t v = 0; v < region.vertices.size(); ++v) {
     const std::uint64_t code = code_of(region.vertices[v]);
-    const bool free = touched[v] && tile.cell.contains(code);
+    const bool free = touched[v] && in_box(v);
     const bool corner = free && std::binary_search(corners.begin(), corners.end(), code);
     survey.candidacy.push_back(corner ? Candidacy::kCorner : free ? Candidacy::kFree : Candidacy::kNone);
     if (free) grounded.push_back(code);

@@ -11,15 +11,15 @@ namespace itin {
 
 /// What greedy insertion does with a vertex.
 enum class Candidacy : std::uint8_t {
-  kNone,    ///< another tile's
-  kFree,    ///< gets a level
+  kNone,    ///< beyond the fringe, or isolated
+  kFree,    ///< gets a level, if only a proposed one in the fringe
   kCorner,  ///< belongs to the coarsest level from the start
 };
 
 /// The level of each vertex of `fine`, the full surface about the tile: the coarsest whose triangulation needs it, so
 /// that the Delaunay triangulation of the candidates of levels >= k differs from `fine` by at most tolerances[k], at
 /// every candidate and along every coarse edge, for each k >= 1. (Along an edge the difference is greatest where it
-/// crosses fine edges.) A proposal: it knows nothing of the neighbouring tiles' choice; certify.hpp has the last word.
+/// crosses fine edges.) A proposal: it does not know the neighbouring tiles' choice; certify.hpp has the last word.
 ///
 /// `tolerances` in grid units, ascending, the first one 0. Ties go to the first vertex in order. O(n log n) expected.
 std::vector<std::uint8_t> greedy_levels(const RegionMesh& fine, std::span<const Candidacy> candidacy,

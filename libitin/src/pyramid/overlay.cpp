@@ -18,12 +18,21 @@ std::int32_t floor_divide(Int128 numerator, Int128 positive) {
   return static_cast<std::int32_t>(quotient - (numerator % positive < 0));
 }
 
-/// How far v lies above the triangle's plane: exact, by integer barycentric weights below 2^62.
+/// How far v lies above the triangle's plane. The weights are exact, so the double result is off by less than 1e-6; next
+/// to a whole number integers decide.
 DifferenceRange above_plane(const RegionMesh& m, std::uint32_t triangle, const GridPoint& v) {
   const auto& [a, b, c] = m.mesh.triangles[triangle];
   const GridPoint &pa = m.vertices[a].point, &pb = m.vertices[b].point, &pc = m.vertices[c].point;
-  const Int128 wa = doubled_area(v, pb, pc), wb = doubled_area(pa, v, pc), wc = doubled_area(pa, pb, v);
-  const Int128 weight = wa + wb + wc, numerator = v.z * weight - (wa * pa.z + wb * pb.z + wc * pc.z);
+  const std::int64_t wa = doubled_area(v, pb, pc), wb = doubled_area(pa, v, pc), wc = doubled_area(pa, pb, v);
+  const double above = (static_cast<double>(wa) * (v.z - static_cast<double>(pa.z)) +
+                        static_cast<double>(wb) * (v.z - static_cast<double>(pb.z)) +
+                        static_cast<double>(wc) * (v.z - static_cast<double>(pc.z))) /
+                       (static_cast<double>(wa) + static_cast<double>(wb) + static_cast<double>(wc));
+  const double below = std::floor(above);
+  if (above - below > 1e-5 && above - below < 1 - 1e-5) {
+    return {static_cast<std::int32_t>(below), static_cast<std::int32_t>(below) + 1};
+  }
+  const Int128 weight = Int128{wa} + wb + wc, numerator = v.z * weight - (Int128{wa} * pa.z + Int128{wb} * pb.z + Int128{wc} * pc.z);
   return {floor_divide(numerator, weight), -floor_divide(-numerator, weight)};
 }
 
@@ -195,6 +204,11 @@ class DifferenceSweep {
     DifferenceRange& range = result_.along_edge[e];
     if (!range.empty()) return;  // followed from its other end
     const GridPoint &pu = fine_.vertices[u].point, &pv = fine_.vertices[v].point;
+    if (result_.face[v] == result_.face[u]) {  // a triangle is convex: nothing is crossed
+      range.add(result_.at_vertex[u]);
+      range.add(result_.at_vertex[v]);
+      return;
+    }
     const std::uint32_t end =
         walk_.walk(Position{pu.x, pu.y}, result_.face[u], Position{pv.x, pv.y}, [&](std::uint32_t p, std::uint32_t q) {
           const GridPoint &pp = coarse_.vertices[p].point, &pq = coarse_.vertices[q].point;

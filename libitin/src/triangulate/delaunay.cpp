@@ -60,14 +60,12 @@ class Builder {
     const std::size_t count = triangulation_.number_of_faces();
     mesh.triangles.reserve(count);
     mesh.neighbours.reserve(count);
-    mesh.constrained.reserve(count);
     for (auto f = triangulation_.all_faces_begin(); f != triangulation_.all_faces_end(); ++f) f->info() = kNoTriangle;
     std::uint32_t next = 0;
     for (Face f : triangulation_.finite_face_handles()) f->info() = next++;
     for (Face f : triangulation_.finite_face_handles()) {
       mesh.triangles.push_back({number(f, 0), number(f, 1), number(f, 2)});
       mesh.neighbours.push_back({f->neighbor(0)->info(), f->neighbor(1)->info(), f->neighbor(2)->info()});
-      mesh.constrained.push_back(constrained_edges(f));
     }
     return mesh;
   }
@@ -81,14 +79,6 @@ class Builder {
  private:
   static std::uint32_t number(Face f, int corner) { return f->vertex(corner)->point().vertex; }
 
-  static std::uint8_t constrained_edges([[maybe_unused]] Face f) {
-    std::uint8_t bits = 0;
-    if constexpr (std::is_same_v<Triangulation, Constrained>) {
-      for (int i = 0; i < 3; ++i) bits |= static_cast<std::uint8_t>(f->is_constrained(i) << i);
-    }
-    return bits;
-  }
-
   Triangulation triangulation_;
   std::vector<Vertex> vertices_;
   Face hint_;
@@ -96,7 +86,7 @@ class Builder {
 
 }  // namespace
 
-/// Starts unconstrained, which is faster, and changes over at the first constraint.
+/// The unconstrained triangulation is faster; the first constraint changes it over.
 class Delaunay::Impl {
  public:
   void insert(std::span<const Position> positions) {

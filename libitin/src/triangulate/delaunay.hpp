@@ -27,7 +27,7 @@ inline constexpr std::uint32_t kNoTriangle = std::numeric_limits<std::uint32_t>:
 struct PlaneMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;   ///< vertex numbers, counterclockwise
   std::vector<std::array<std::uint32_t, 3>> neighbours;  ///< kNoTriangle beyond the hull
-  std::vector<std::uint8_t> constrained;                 ///< bit i: edge i is part of a constraint
+  std::vector<std::uint8_t> constrained;                 ///< bit i: edge i is part of a constraint (region.hpp)
 };
 
 class Delaunay {

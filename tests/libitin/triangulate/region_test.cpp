@@ -195,13 +195,26 @@ TEST_P(RegionCoverage, WindowEqualsWholeAtEveryLevelAcrossVoids) {
       with_levels.push_back({p, dice < 9 ? 0 : dice < 13 ? 1 : dice < 15 ? 2 : 3});
     }
     test::TestIndex index(with_levels, kLevels, 1 + random() % 40);
-    NoProgress progress;
-    const Coverage coverage = find_coverage(*index, index->tiles(1 + random() % 300), {{gap, 0, 0, gap}}, progress);
-    index->set_segments(coverage.outline);
-    for (const Segment& s : coverage.outline) {
-      index->promote(morton(s.ax, s.ay), kLevels - 1);
-      index->promote(morton(s.bx, s.by), kLevels - 1);
+    std::vector<Segment> edges;
+    std::set<std::uint64_t> corners;
+    for (const CurveRange& tile : index->tiles(1 + random() % 300)) {
+      const TileSurvey survey = survey_tile(*index, tile, {{gap, 0, 0, gap}});
+      edges.insert(edges.end(), survey.outline.begin(), survey.outline.end());
+      for (std::size_t v = 0; v < survey.candidacy.size(); ++v) {
+        const GridPoint& p = survey.surface.vertices[v].point;
+        if (survey.candidacy[v] == Candidacy::kCorner && tile.cell.contains(morton(p.x, p.y))) corners.insert(morton(p.x, p.y));
+      }
     }
+    const std::vector<Segment> outline = join_collinear(edges);
+    index->set_segments(outline);
+    std::set<std::uint64_t> ends;
+    for (const Segment& s : outline) {
+      for (const std::uint64_t end : {morton(s.ax, s.ay), morton(s.bx, s.by)}) {
+        ends.insert(end);
+        index->promote(end, kLevels - 1);
+      }
+    }
+    ASSERT_EQ(corners, ends);
 
     std::vector<std::array<GridPoint, 3>> ground;
     const Whole finest = whole(points, {});
@@ -213,11 +226,11 @@ TEST_P(RegionCoverage, WindowEqualsWholeAtEveryLevelAcrossVoids) {
       if (short_enough(t[0], t[1]) && short_enough(t[1], t[2]) && short_enough(t[2], t[0])) ground.push_back(t);
     }
 
-    ASSERT_EQ(coverage.outline, outline_of(finest, ground))
+    ASSERT_EQ(outline, outline_of(finest, ground))
         << "run " << run << ", " << points.size() << " points, gap " << gap;
 
-    for (const Segment& s : coverage.outline) {
-      for (const Segment& t : coverage.outline) {
+    for (const Segment& s : outline) {
+      for (const Segment& t : outline) {
         ASSERT_FALSE(crosses(s, {t.ax, t.ay}, {t.bx, t.by}))
             << s.ax << " " << s.ay << " " << s.bx << " " << s.by << " x " << t.ax << " " << t.ay << " " << t.bx << " "
             << t.by;
@@ -230,7 +243,7 @@ TEST_P(RegionCoverage, WindowEqualsWholeAtEveryLevelAcrossVoids) {
           if (p.level >= k) selected.push_back({morton_x(p.code), morton_y(p.code), p.z});
         }
       }
-      Whole truth = whole(selected, coverage.outline);
+      Whole truth = whole(selected, outline);
       std::erase_if(truth.mesh.triangles, [&](const auto& t) {
         return !centroid_in(ground, selected[t[0]], selected[t[1]], selected[t[2]]);
       });

@@ -1,0 +1,65 @@
+// Heights at cell centres against the brute-force surface; no centre may fall between two triangles.
+#include "surface_heights.hpp"
+
+#include <cmath>
+#include <iostream>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "support/delaunay_tin.hpp"
+#include "support/exact_line_of_sight.hpp"
+#include "support/terrain_tin.hpp"
+
+namespace itin::viewshed {
+namespace {
+
+void compare(const Tin& tin, const RasterGrid& grid) {
+  const test::ExactLineOfSight exact(tin, Earth::flat());
+  const RasterGrid tiles = grid_of_tiles(grid);
+  const TriangleBins bins(tin, tiles);
+  TileValues<double> heights;
+  int inside = 0;
+  for (std::size_t i = 0; i < tiles.cell_count(); ++i) {
+    const Tile tile = tile_at(grid, tiles, i);
+    scan_convert(tin, bins.triangles(i), grid, tile, heights);
+    for (std::int64_t r = 0; r < tile.rows; ++r) {
+      for (std::int64_t c = 0; c < tile.columns; ++c) {
+        const Point2 centre = grid.centre(tile.column + c, tile.row + r);
+        const double height = heights[static_cast<std::size_t>(r * Tile::kSide + c)] * tin.grid.resolution;
+        if (std::isnan(height)) {
+          EXPECT_FALSE(exact.height(centre, -1e-6)) << centre.x << "," << centre.y;
+        } else {
+          ++inside;
+          const auto expected = exact.height(centre, 1e-6);
+          ASSERT_TRUE(expected) << centre.x << "," << centre.y;
+          EXPECT_NEAR(height, *expected, 1e-6) << centre.x << "," << centre.y;
+        }
+        const auto alone = surface_height(tin, bins.triangles(i), centre);
+        EXPECT_EQ(alone.has_value(), !std::isnan(height));
+      }
+    }
+  }
+  EXPECT_GT(inside, 500);
+}
+
+TEST(SurfaceHeights, OnALatticeWhoseEdgesRunThroughTheCentres) {
+  const Tin tin = test::fractal_tin(33, 10, 20, 0.6, 4);
+  const Box box = tin.bounds();
+  compare(tin, RasterGrid({box.xmin - 5, box.ymax + 5}, 10, 10, 33, 33));    // on vertices
+  compare(tin, RasterGrid({box.xmin - 2.5, box.ymax + 2.5}, 5, 5, 66, 66));  // on vertices, edges and diagonals
+  compare(tin, RasterGrid({box.xmin - 33.3, box.ymax + 7.7}, 3.7, 6.1, 110, 60));
+}
+
+TEST(SurfaceHeights, OnRandomTinsWithHoles) {
+  const std::uint32_t seed = std::random_device{}();
+  std::cout << "seed " << seed << '\n';
+  std::mt19937 random(seed);
+  for (int i = 0; i < 5; ++i) {
+    const Tin tin = test::random_tin(random, 200, 0.1, {{500000, 4000000}, 0.01}, 20000);
+    compare(tin, RasterGrid::aligned(tin.bounds(), 7));
+  }
+}
+
+}  // namespace
+}  // namespace itin::viewshed
