@@ -9,6 +9,7 @@
 #include <cpl_conv.h>
 #include <fmt/format.h>
 #include <ogr_spatialref.h>
+#include <ogr_srs_api.h>
 
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
@@ -28,15 +29,6 @@ OGRSpatialReference understood(const std::string& text, const std::string& place
   return reference;
 }
 
-/// ESRI's and other dialects come without codes, and with datum names that coordinate operations are not found by.
-void replace_by_authority(OGRSpatialReference& reference) {
-  if (reference.GetAuthorityCode(nullptr)) return;
-  const std::unique_ptr<OGRSpatialReference> known(reference.FindBestMatch());
-  if (!known) return;
-  reference = *known;
-  reference.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-}
-
 std::string name_of(const OGRSpatialReference& reference) {
   const char* authority = reference.GetAuthorityName(nullptr);
   const char* code = reference.GetAuthorityCode(nullptr);
@@ -44,13 +36,56 @@ std::string name_of(const OGRSpatialReference& reference) {
   return reference.GetName() ? reference.GetName() : "unnamed";
 }
 
+using Transformation = std::unique_ptr<OGRCoordinateTransformation>;
+
+/// Whether both CRSs give the same coordinates, to within a millimetre, all over the area that `known` is used in.
+bool agree(const OGRSpatialReference& given, const OGRSpatialReference& known) {
+  constexpr double kMetres = 0.001, kDegrees = 1e-8;
+  double west = 0, south = 0, east = 0, north = 0;
+  if (!given.IsSameGeogCS(&known) || given.IsProjected() != known.IsProjected() ||
+      !known.GetAreaOfUse(&west, &south, &east, &north, nullptr))
+    return false;
+  if (east < west) east += 360;
+  const std::unique_ptr<OGRSpatialReference> geographic(known.CloneGeogCS());
+  geographic->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  const Transformation to_given(OGRCreateCoordinateTransformation(geographic.get(), &given));
+  const Transformation to_known(OGRCreateCoordinateTransformation(geographic.get(), &known));
+  if (!to_given || !to_known) return false;
+  const double tolerance = known.IsProjected() ? kMetres / known.GetLinearUnits() : kDegrees;
+  for (const double across : {0.0, 0.5, 1.0}) {
+    for (const double up : {0.0, 0.5, 1.0}) {
+      double x = west + across * (east - west), y = south + up * (north - south), known_x = x, known_y = y;
+      if (!to_given->Transform(1, &x, &y) || !to_known->Transform(1, &known_x, &known_y) ||
+          !(std::hypot(x - known_x, y - known_y) <= tolerance))
+        return false;
+    }
+  }
+  return true;
+}
+
+/// ESRI's and other dialects come without codes, with rounded parameters, and with datum names that coordinate
+/// operations are not found by.
+void replace_by_authority(OGRSpatialReference& reference) {
+  if (reference.GetAuthorityCode(nullptr)) return;
+  int count = 0;
+  int* confidences = nullptr;
+  OGRSpatialReferenceH* candidates = reference.FindMatches(nullptr, &count, &confidences);
+  CPLFree(confidences);
+  const std::unique_ptr<OGRSpatialReferenceH, void (*)(OGRSpatialReferenceH*)> owner(candidates, OSRFreeSRSArray);
+  for (int i = 0; i < count; ++i) {
+    // A match does not always know its area of use; the authority does.
+    const OGRSpatialReference known = understood(name_of(*OGRSpatialReference::FromHandle(candidates[i])), "PROJ");
+    if (!agree(reference, known)) continue;
+    reference = known;
+    return;
+  }
+}
+
 bool same(const OGRSpatialReference& a, const OGRSpatialReference& b) {
   constexpr const char* kOptions[] = {"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES",
                                       "CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS", nullptr};
   return a.IsSame(&b, kOptions);
 }
-
-using Transformation = std::unique_ptr<OGRCoordinateTransformation>;
 
 /// The first EPSG code of the zones of the CRS's own datum, less zone 0; WGS 84 where it has no such zone.
 int utm_base(const OGRSpatialReference& geographic, int zone, bool north) {

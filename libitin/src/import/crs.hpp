@@ -24,8 +24,8 @@ struct Crs {
   bool metric() const { return metres_per_axis == 1.0; }
 };
 
-/// `text` is authority:code, WKT, PROJ or whatever else GDAL understands. Throws InputError, which begins with `place`
-/// (a file or an option).
+/// `text` is authority:code, WKT, PROJ or whatever else GDAL understands. What agrees to a millimetre with a CRS that
+/// an authority knows is taken for that. Throws InputError, which begins with `place` (a file or an option).
 Crs parse_crs(const std::string& text, const std::string& place);
 
 /// WKT 2.

@@ -14,6 +14,7 @@
 
 #include <itin/error.hpp>
 
+#include "import/crs.hpp"
 #include "import/quiet_gdal.hpp"
 
 namespace itin {
@@ -125,13 +126,7 @@ void PointLayer::refuse_heightless() const {
 
 std::string PointLayer::crs() const {
   const OGRSpatialReference* reference = layer_->GetSpatialRef();
-  if (!reference) return {};
-  char* wkt = nullptr;
-  constexpr const char* kOptions[] = {"FORMAT=WKT2_2018", nullptr};
-  reference->exportToWkt(&wkt, kOptions);
-  std::string result = wkt ? wkt : "";
-  CPLFree(wkt);
-  return result;
+  return reference ? wkt_of(*reference) : std::string();
 }
 
 /// The next feature; null at the end. GDAL tells an end from a failure only by its error state, which others may leave
