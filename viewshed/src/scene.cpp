@@ -47,6 +47,7 @@ struct PacketContext {
   RayContext context;
   const SightLines* lines;
   const SightLine* exact;
+  Occluder* occluder;
   unsigned doubtful = 0;  ///< one bit a line: Embree took a triangle for hiding that does not
 };
 
@@ -102,14 +103,18 @@ class Scene::Impl {
     tessellation_.indices = {};
   }
 
-  unsigned hidden(const SightLines& lines) const {
+  unsigned hidden(const SightLines& lines, Occluder& occluder) const {
+    const std::array<SightLine, SightLines::kSize> exact =
+        exact_lines(lines, std::make_index_sequence<SightLines::kSize>());
+    const unsigned known = hidden_by_one(occluder, exact, lines.active);
+    if (known == lines.active) return known;
     alignas(64) RTCRay16 rays;
     alignas(64) std::array<int, SightLines::kSize> valid;
-    cast_from(lines, rays, valid);
-    std::array<SightLine, SightLines::kSize> exact = exact_lines(lines, std::make_index_sequence<SightLines::kSize>());
+    cast_from(lines, lines.active & ~known, rays, valid);
     PacketContext packet;
     packet.lines = &lines;
     packet.exact = exact.data();
+    packet.occluder = &occluder;
 #if ITIN_EMBREE_MAJOR >= 4
     rtcInitRayQueryContext(&packet.context);
     RTCOccludedArguments arguments;
@@ -122,9 +127,9 @@ class Scene::Impl {
     packet.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     rtcOccluded16(valid.data(), scene_.get(), &packet.context, &rays);
 #endif
-    unsigned result = 0;
-    for (unsigned i = 0; i < SightLines::kSize; ++i) result |= static_cast<unsigned>(rays.tfar[i] < 0) << i;
-    result &= lines.active;
+    unsigned result = known;
+    for (unsigned i = 0; i < SightLines::kSize; ++i)
+      result |= static_cast<unsigned>(valid[i] != 0 && rays.tfar[i] < 0) << i;
     for (unsigned doubtful = packet.doubtful & ~result; doubtful != 0; doubtful &= doubtful - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(doubtful));
       if (hidden_by_any(lines, i, exact[i])) result |= 1U << i;
@@ -157,7 +162,8 @@ class Scene::Impl {
   }
 
   /// Single precision, lowered by the Earth's curvature, raised by the error bound.
-  void cast_from(const SightLines& lines, RTCRay16& rays, std::array<int, SightLines::kSize>& valid) const {
+  void cast_from(const SightLines& lines, unsigned active, RTCRay16& rays,
+                 std::array<int, SightLines::kSize>& valid) const {
     const double cx = tessellation_.centre.x, cy = tessellation_.centre.y, cz = tessellation_.centre.z;
     const double constant = error_bound(0) / tin_.grid.resolution;
     for (unsigned i = 0; i < SightLines::kSize; ++i) {
@@ -180,7 +186,7 @@ class Scene::Impl {
       rays.mask[i] = 0xffffffff;
       rays.id[i] = i;
       rays.flags[i] = 0;
-      valid[i] = (lines.active >> i & 1) != 0 ? -1 : 0;
+      valid[i] = (active >> i & 1) != 0 ? -1 : 0;
     }
   }
 
@@ -208,10 +214,25 @@ class Scene::Impl {
       const auto& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
       filter(arguments, [&](const PacketContext& packet, unsigned line, std::uint32_t piece) {
         const auto& parents = self.tessellation_.parents;
-        return self.hides(packet.exact[line], parents.empty() ? piece : parents[piece]) ? Hit::kHides : Hit::kDoubtful;
+        const std::uint32_t triangle = parents.empty() ? piece : parents[piece];
+        if (!self.hides(packet.exact[line], triangle)) return Hit::kDoubtful;
+        packet.occluder->triangle = triangle;
+        return Hit::kHides;
       });
     });
     attach(geometry);
+  }
+
+  /// Those of the lines that the occluder hides.
+  unsigned hidden_by_one(const Occluder& occluder, const std::array<SightLine, SightLines::kSize>& lines,
+                         unsigned active) const {
+    if (!occluder.triangle) return 0;
+    unsigned result = 0;
+    for (; active != 0; active &= active - 1) {
+      const auto i = static_cast<unsigned>(std::countr_zero(active));
+      if (hides(lines[i], *occluder.triangle)) result |= 1U << i;
+    }
+    return result;
   }
 
   bool hides(const SightLine& line, std::uint32_t triangle) const {
@@ -316,8 +337,8 @@ Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 Scene::~Scene() = default;
 
-unsigned Scene::hidden(const SightLines& lines) const {
-  return impl_->hidden(lines);
+unsigned Scene::hidden(const SightLines& lines, Occluder& occluder) const {
+  return impl_->hidden(lines, occluder);
 }
 std::optional<double> Scene::ground(Point2 position) const {
   return impl_->ground(position);

@@ -2,7 +2,8 @@
 //
 //   Scene scene(tin, earth, NoData::kClear, ceiling);
 //   SightLines lines;                       // up to 16, as close together as possible
-//   unsigned hidden = scene.hidden(lines);  // one bit a line
+//   Occluder occluder;                      // kept from packet to packet
+//   unsigned hidden = scene.hidden(lines, occluder);  // one bit a line
 //
 // Accuracy. Rays are cast in single precision about the Tin's centre with both ends raised by
 //     e(l) = sag + u (4 Z + 16 l),    u = 2^-24,
@@ -40,6 +41,11 @@ struct SightLines {
   unsigned active = 0;  ///< one bit a line; ends of active lines differ horizontally
 };
 
+/// The triangle that hid the last line: it most often hides the next ones too.
+struct Occluder {
+  std::optional<std::uint32_t> triangle;
+};
+
 class Scene {
  public:
   /// The Tin must outlive the scene. With NoData::kBlock curtains stand along the Tin's boundary, `ceiling` metres
@@ -49,8 +55,9 @@ class Scene {
   Scene& operator=(Scene&&) noexcept;
   ~Scene();
 
-  /// One bit a line: 1 hidden. Only bits of active lines are set. From any number of threads.
-  unsigned hidden(const SightLines& lines) const;
+  /// One bit a line: 1 hidden. Only bits of active lines are set. From any number of threads, each with its own
+  /// occluder.
+  unsigned hidden(const SightLines& lines, Occluder& occluder) const;
   /// Height of the surface in metres, if there is any at that position.
   std::optional<double> ground(Point2 position) const;
   /// Where the surface ends.

@@ -97,6 +97,7 @@ class Caster {
     Tile tile;
     TileValues<double> heights;
     TileValues<std::uint16_t> seen;  ///< by how many observers, or kCountOutside
+    Occluder occluder;
     Tally tally;
   };
 
@@ -147,7 +148,7 @@ class Caster {
     if (lines.active == 0) return;
     state.tally.longest = std::max(state.tally.longest, std::sqrt(longest));
     state.tally.rays += static_cast<unsigned>(std::popcount(lines.active));
-    const unsigned visible = lines.active & ~scene_.hidden(lines);
+    const unsigned visible = lines.active & ~scene_.hidden(lines, state.occluder);
     for (unsigned i = 0; i < SightLines::kSize; ++i)
       if ((visible >> i & 1) != 0) ++state.seen[cell_of(row + i / kPacketSide, column + i % kPacketSide)];
   }
