@@ -31,6 +31,7 @@ struct ImportOptions {
   std::vector<int> classes;        ///< LAS classes to keep; empty: all but noise (7, 18)
   double max_gap = 0;              ///< metres, scattered points: ground is not triangulated over longer edges;
                                    ///< 0: 100 times the mean spacing of the source
+  bool allow_mixed_vertical = false;  ///< take heights as they are, though they refer to different vertical datums
   bool replace = false;            ///< these sources take the place of coarser ones within their coverage
   std::vector<double> tolerances;  ///< metres; default 0.5,1,2,4,8,16,32. An existing store keeps its own.
   double resolution = 0.01;        ///< metres; an existing store keeps its own

@@ -87,6 +87,25 @@ bool same(const OGRSpatialReference& a, const OGRSpatialReference& b) {
   return a.IsSame(&b, kOptions);
 }
 
+/// Empty where it is not known. The datum rather than the vertical CRS: NAVD88 in feet and in metres are one.
+std::string vertical_datum_of(const OGRSpatialReference& compound) {
+  const char* datum = compound.GetAttrValue("VERT_DATUM");
+  // Files give these names to what they do not know.
+  return !datum || EQUALN(datum, "unknown", 7) || EQUALN(datum, "unnamed", 7) ? "" : datum;
+}
+
+/// authority:code, else WKT 2: a name alone would not be understood again.
+std::string text_of(const OGRSpatialReference& reference) {
+  return reference.GetAuthorityCode(nullptr) ? name_of(reference) : wkt_of(reference);
+}
+
+/// Of the whole or of the part called `key`; empty where it has none.
+std::string epsg_code(const OGRSpatialReference& reference, const char* key) {
+  const char* authority = reference.GetAuthorityName(key);
+  const char* code = reference.GetAuthorityCode(key);
+  return authority && code && EQUAL(authority, "EPSG") ? code : "";
+}
+
 /// The first EPSG code of the zones of the CRS's own datum, less zone 0; WGS 84 where it has no such zone.
 int utm_base(const OGRSpatialReference& geographic, int zone, bool north) {
   const auto has_datum = [&](int code) {
@@ -113,19 +132,32 @@ Crs parse_crs(const std::string& text, const std::string& place) {
   const QuietGdal quiet;
   OGRSpatialReference reference = understood(text, place);
   Crs crs;
+  crs.whole = text_of(reference);
+  const bool has_code = reference.GetAuthorityCode(nullptr) != nullptr;
+  std::string vertical_code;
   if (reference.IsCompound()) {
     crs.metres_per_height = reference.GetTargetLinearUnits("VERT_CS");
+    crs.vertical_datum = vertical_datum_of(reference);
+    vertical_code = epsg_code(reference, "VERT_CS");
     reference.StripVertical();
   } else if (reference.IsVertical()) {
     throw InputError(
         fmt::format("{}: the CRS {} is only vertical; a horizontal one is needed", place, name_of(reference)));
   }
-  if (reference.GetAxesCount() == 3) reference.DemoteTo2D(nullptr);
+  if (reference.GetAxesCount() == 3) {
+    crs.vertical_datum = "the ellipsoid";
+    reference.DemoteTo2D(nullptr);
+  }
   replace_by_authority(reference);
   if (!reference.IsProjected() && !reference.IsGeographic())
     throw InputError(fmt::format("{}: the CRS {} is neither projected nor geographic", place, name_of(reference)));
   crs.wkt = wkt_of(reference);
   crs.name = name_of(reference);
+  // The parts may have codes where the whole has none.
+  if (crs.vertical_datum.empty()) crs.whole = text_of(reference);
+  const std::string horizontal_code = epsg_code(reference, nullptr);
+  if (!has_code && !horizontal_code.empty() && !vertical_code.empty())
+    crs.whole = fmt::format("EPSG:{}+{}", horizontal_code, vertical_code);
   if (reference.IsProjected()) crs.metres_per_axis = reference.GetLinearUnits();
   return crs;
 }

@@ -97,9 +97,14 @@ void PointLayer::select(const std::string& where) {
   // Databases look at the clause only when they count or read.
   const bool understood = layer_->SetAttributeFilter(where.c_str()) == OGRERR_NONE && layer_->GetFeatureCount() >= 0 &&
                           CPLGetLastErrorType() < CE_Failure;
-  if (!understood)
-    throw InputError(
-        fmt::format("{}: --where {} is not understood: {}", path_, where, QuietGdal::message("unknown error")));
+  if (understood) return;
+  const std::string reason = QuietGdal::message("unknown error");
+  // OGR's own SQL, then SQLite's: the contract tells an unknown field from a clause that makes no sense.
+  if (reason.find("not recognised as an available field") != std::string::npos ||
+      reason.find("no such column") != std::string::npos)
+    throw FileError(
+        path_, fmt::format("--where {} names a field that layer '{}' has not: {}", where, layer_->GetName(), reason));
+  throw InputError(fmt::format("{}: --where {} is not understood: {}", path_, where, reason));
 }
 
 void PointLayer::check_geometry_type() const {

@@ -122,7 +122,7 @@ class RasterTerrain final : public TerrainSource {
         placement_(path_, crs, metres_per_height, context) {
     info_.path = path_;
     info_.kind = "terrain";
-    info_.source_crs = crs.name;
+    info_.source_crs = crs.whole;
     measure_steps();
   }
 
@@ -243,6 +243,7 @@ class RasterFile final : public SourceFile {
   }
 
   Crs crs() const override { return crs_; }
+  const std::string& path() const override { return path_; }
   Point2 centre() const override { return lattice_.post((lattice_.columns - 1) / 2.0, (lattice_.rows - 1) / 2.0); }
   std::vector<std::string> warnings() const override { return warnings_; }
   std::unique_ptr<TerrainSource> bind(const SourceContext& context) override {

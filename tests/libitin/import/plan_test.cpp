@@ -111,6 +111,26 @@ TEST_F(Plan, FollowsAnExistingStore) {
       "--to-crs EPSG:27700: the store's CRS is EPSG:32630 already; leave the option out, or import into a new store");
 }
 
+TEST_F(Plan, RefusesToMixVerticalDatums) {
+  const std::array<double, 6> place{85000, 5, 0, 446000, 0, -5};
+  const std::string nap = raster("nap.tif", "EPSG:7415", place), plain = raster("plain.tif", "EPSG:28992", place);
+  const std::string evrf = raster("evrf.tif", "EPSG:28992+5621", place);
+  EXPECT_EQ(plan({nap, plain}).sources.front()->info().source_crs, "EPSG:28992+5709");
+  EXPECT_THAT(refusal<InputError>({nap, plain, evrf}), HasSubstr("evrf.tif: heights refer to European Vertical"));
+
+  StoreMetadata existing;
+  existing.crs_wkt = parse_crs("EPSG:28992", "a").wkt;
+  existing.grid = {{0, 0}, 0.01};
+  SourceInfo before;
+  before.path = "before.tif";
+  before.source_crs = plan({evrf}).sources.front()->info().source_crs;
+  existing.sources = {before};
+  EXPECT_EQ(plan({plain}, &existing).sources.size(), 1U);
+  EXPECT_THAT(refusal<InputError>({nap}, &existing), HasSubstr("before.tif"));
+  options_.allow_mixed_vertical = true;
+  EXPECT_EQ(plan({nap, evrf}, &existing).sources.size(), 2U);
+}
+
 TEST_F(Plan, TellsKindsByContent) {
   const std::string points = directory_.write("p.csv", "x,y,z\n318000,176000,5\n318010,176000,6\n318000,176020,7\n");
   std::filesystem::copy(british(), directory_.file("really-a-tif.csv"));
