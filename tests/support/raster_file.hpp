@@ -4,10 +4,9 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <vector>
-
-#include <stdexcept>
 
 #include <gdal_priv.h>
 #include <ogr_spatialref.h>
@@ -26,7 +25,8 @@ struct RasterShape {
 };
 
 /// Writes heights height(column, row) at cell centres as a Float32 GeoTIFF; NaN becomes nodata.
-inline void write_raster(const std::string& path, const RasterShape& shape, const std::function<double(int, int)>& height) {
+inline void write_raster(const std::string& path, const RasterShape& shape,
+                         const std::function<double(int, int)>& height) {
   GDALAllRegister();
   auto* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
   auto* dataset = driver->Create(path.c_str(), shape.columns, shape.rows, 1, GDT_Float32, nullptr);
@@ -42,7 +42,8 @@ inline void write_raster(const std::string& path, const RasterShape& shape, cons
       const double h = height(c, r);
       row[static_cast<std::size_t>(c)] = static_cast<float>(std::isnan(h) ? kNoData : h);
     }
-    if (dataset->GetRasterBand(1)->RasterIO(GF_Write, 0, r, shape.columns, 1, row.data(), shape.columns, 1, GDT_Float32, 0, 0) != CE_None) {
+    if (dataset->GetRasterBand(1)->RasterIO(GF_Write, 0, r, shape.columns, 1, row.data(), shape.columns, 1, GDT_Float32,
+                                            0, 0) != CE_None) {
       throw std::runtime_error("cannot write " + path);
     }
   }
@@ -57,15 +58,17 @@ class CardiffTerrain {
     auto* dataset = GDALDataset::Open((std::string(ITIN_SOURCE_DIR) + "/scripts/demo-data/cardiff.tif").c_str());
     columns_ = dataset->GetRasterXSize();
     heights_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(dataset->GetRasterYSize()));
-    if (dataset->GetRasterBand(1)->RasterIO(GF_Read, 0, 0, columns_, dataset->GetRasterYSize(), heights_.data(), columns_,
-                                            dataset->GetRasterYSize(), GDT_Float64, 0, 0) != CE_None) {
+    if (dataset->GetRasterBand(1)->RasterIO(GF_Read, 0, 0, columns_, dataset->GetRasterYSize(), heights_.data(),
+                                            columns_, dataset->GetRasterYSize(), GDT_Float64, 0, 0) != CE_None) {
       throw std::runtime_error("cannot read the bundled terrain");
     }
     scale_ = dataset->GetRasterBand(1)->GetScale();
     GDALClose(dataset);
   }
   double operator()(int column, int row) const {
-    return heights_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column)] * scale_;
+    return heights_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                    static_cast<std::size_t>(column)] *
+           scale_;
   }
 
  private:

@@ -204,7 +204,8 @@ class CellVerification {
     std::vector<std::uint32_t> leaves;
     for (std::uint32_t t = 0; t < fine_.mesh.triangles.size(); ++t) {
       GridBox box;
-      for (const std::uint32_t v : fine_.mesh.triangles[t]) box.extend(fine_.vertices[v].point.x, fine_.vertices[v].point.y);
+      for (const std::uint32_t v : fine_.mesh.triangles[t])
+        box.extend(fine_.vertices[v].point.x, fine_.vertices[v].point.y);
       leaves.clear();
       index_.leaves_at(box, leaves);
       for (const std::uint32_t leaf : leaves) {

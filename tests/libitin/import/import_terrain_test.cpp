@@ -1,9 +1,9 @@
 // Whole imports: order, addition, holes, replacement, interruption.
 #include <algorithm>
+#include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <atomic>
 
 #include <gtest/gtest.h>
 
@@ -69,8 +69,8 @@ class ImportTerrain : public testing::Test {
 };
 
 TEST_F(ImportTerrain, OrderAndPortionsDoNotMatter) {
-  const std::vector<std::string> tiles{piece("a.tif", 0, 0, 60, 60), piece("b.tif", 59, 0, 60, 60), piece("c.tif", 0, 60, 60, 40),
-                                       piece("d.tif", 60, 60, 59, 40)};
+  const std::vector<std::string> tiles{piece("a.tif", 0, 0, 60, 60), piece("b.tif", 59, 0, 60, 60),
+                                       piece("c.tif", 0, 60, 60, 40), piece("d.tif", 60, 60, 59, 40)};
   import(path("once.itin"), tiles);
   import(path("backwards.itin"), {tiles[3], tiles[2], tiles[1], tiles[0]});
   import(path("later.itin"), {tiles[2]});
@@ -92,7 +92,9 @@ TEST_F(ImportTerrain, ThreadsDoNotMatter) {
 
 TEST_F(ImportTerrain, NothingIsTriangulatedAcrossVoids) {
   const RasterShape shape;
-  const auto is_void = [](int c, int r) { return (c > 10 && c < 20 && r > 5 && r < 30) || (c == 30 && r == 30) || c + r < 6; };
+  const auto is_void = [](int c, int r) {
+    return (c > 10 && c < 20 && r > 5 && r < 30) || (c == 30 && r == 30) || c + r < 6;
+  };
   test::write_raster(path("v.tif"), shape, [&](int c, int r) { return is_void(c, r) ? std::nan("") : terrain_(c, r); });
   import(path("v.itin"), {path("v.tif")});
   const Store store(path("v.itin"));
@@ -106,8 +108,11 @@ TEST_F(ImportTerrain, NothingIsTriangulatedAcrossVoids) {
         for (int column = 0; column < shape.columns; ++column) {
           if (!is_void(column, row)) continue;
           const double x = shape.xmin + (column + 0.5) * shape.step, y = shape.ymax - (row + 0.5) * shape.step;
-          const auto left = [&](const Point3& p, const Point3& q) { return (q.x - p.x) * (y - p.y) - (q.y - p.y) * (x - p.x) > 0; };
-          EXPECT_FALSE(left(a, b) && left(b, c) && left(c, a)) << "a triangle over the void at " << column << ", " << row;
+          const auto left = [&](const Point3& p, const Point3& q) {
+            return (q.x - p.x) * (y - p.y) - (q.y - p.y) * (x - p.x) > 0;
+          };
+          EXPECT_FALSE(left(a, b) && left(b, c) && left(c, a))
+              << "a triangle over the void at " << column << ", " << row;
         }
       }
     }
@@ -115,7 +120,8 @@ TEST_F(ImportTerrain, NothingIsTriangulatedAcrossVoids) {
     int squares = 0, halves = 0;
     for (int row = 0; row + 1 < shape.rows; ++row) {
       for (int column = 0; column + 1 < shape.columns; ++column) {
-        const int voids = is_void(column, row) + is_void(column + 1, row) + is_void(column, row + 1) + is_void(column + 1, row + 1);
+        const int voids =
+            is_void(column, row) + is_void(column + 1, row) + is_void(column, row + 1) + is_void(column + 1, row + 1);
         squares += voids == 0;
         halves += voids == 1;
       }

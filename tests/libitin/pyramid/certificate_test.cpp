@@ -1,5 +1,5 @@
-// Law 2 against brute force on real terrain: the difference between the full surface and a coarse one, at every vertex of
-// the overlay of both, lies within the certificates of every box that holds it.
+// Law 2 against brute force on real terrain: the difference between the full surface and a coarse one, at every vertex
+// of the overlay of both, lies within the certificates of every box that holds it.
 #include <filesystem>
 #include <optional>
 #include <random>
@@ -22,8 +22,12 @@ struct Sample {
   double difference;
 };
 
-double cross(Point2 a, Point2 b, Point2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
-Point2 flat(const Point3& p) { return {p.x, p.y}; }
+double cross(Point2 a, Point2 b, Point2 c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+Point2 flat(const Point3& p) {
+  return {p.x, p.y};
+}
 
 /// Height of a Tin at a point, by looking at every triangle.
 std::optional<double> height_at(const Tin& tin, Point2 p) {
@@ -61,7 +65,8 @@ std::vector<Sample> overlay(const Tin& fine, const Tin& coarse) {
       const double ac = cross(flat(a), flat(b), flat(c)), ad = cross(flat(a), flat(b), flat(d));
       if (ca * cb >= 0 || ac * ad >= 0) continue;
       const double s = ca / (ca - cb), t = ac / (ac - ad);
-      samples.push_back({{a.x + s * (b.x - a.x), a.y + s * (b.y - a.y)}, a.z + s * (b.z - a.z) - c.z - t * (d.z - c.z)});
+      samples.push_back(
+          {{a.x + s * (b.x - a.x), a.y + s * (b.y - a.y)}, a.z + s * (b.z - a.z) - c.z - t * (d.z - c.z)});
     }
   }
   return samples;
@@ -84,7 +89,9 @@ void expect_certified(const Store& store, unsigned seed) {
     EXPECT_NEAR(level.certified_error.lo, lo, 0.0101) << "level " << k;
     EXPECT_NEAR(level.certified_error.hi, hi, 0.0101) << "level " << k;
     for (int i = 0; i < 200; ++i) {
-      const auto in = [&](double low, double high) { return low + (high - low) * static_cast<double>(random() % 1000) / 1000; };
+      const auto in = [&](double low, double high) {
+        return low + (high - low) * static_cast<double>(random() % 1000) / 1000;
+      };
       const double x = in(bounds.xmin, bounds.xmax), y = in(bounds.ymin, bounds.ymax), side = in(1, 1500);
       const Box box{x, y, x + side, y + side};
       const auto certified = store.certified_error(static_cast<int>(k), box);
