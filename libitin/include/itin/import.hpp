@@ -5,7 +5,9 @@
 //   ImportReport report = import_terrain("cardiff.itin", options, progress);
 //
 // Importing into an existing store adds to it: the result is the same, byte for byte but for the import history, as if
-// all sources had been imported at once, in whatever order.
+// all sources had been imported at once, in whatever order. One exception: a point that no ground triangle touches is
+// left out and counted (ImportReport::isolated), so a later import cannot find it again. Adding rebuilds the pyramid of
+// the whole store; it takes as long as importing everything anew.
 #pragma once
 
 #include <cstdint>

@@ -275,6 +275,16 @@ void mark_failures(const LeafBounds& bounds, const std::vector<std::int32_t>& to
   }
 }
 
+/// No store is written that promises what does not hold.
+void require_within(const LeafBounds& bounds, const std::vector<std::int32_t>& tolerances, std::size_t leaves) {
+  for (std::uint32_t leaf = 0; leaf < leaves; ++leaf) {
+    for (std::size_t k = 1; k < tolerances.size(); ++k) {
+      if (bounds.at(leaf, static_cast<int>(k)).size() > tolerances[k])
+        throw Error("a level could not be brought within its tolerance; nothing was written; please report this");
+    }
+  }
+}
+
 }  // namespace
 
 LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& tolerances, Progress& progress) {
@@ -288,7 +298,10 @@ LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& toleran
     for (const CurveRange& cell : index.tiles(round == 0 ? kFirstCell : kLaterCell)) {
       if (const unsigned todo = disturbed.in(index, cell); todo != 0) cells.emplace_back(cell, todo);
     }
-    if (cells.empty()) return bounds;
+    if (cells.empty()) {
+      require_within(bounds, tolerances, index.ranges().size());
+      return bounds;
+    }
     disturbed.clear();
 
     std::vector<CellOutcome> outcomes(cells.size());
