@@ -91,9 +91,12 @@ std::uint8_t ApexSearch::level_of(const Leaf& leaf, const Block& block, std::siz
 }
 
 std::shared_ptr<const Block> ApexSearch::read(const Leaf& leaf) {
-  auto block = index_.block(leaf);
-  statistics_.points_read += block->points.size();
-  statistics_.blocks_read += 1;
+  std::shared_ptr<const Block>& block = blocks_[leaf.key];
+  if (block == nullptr) {
+    block = index_.block(leaf);
+    statistics_.points_read += block->points.size();
+    statistics_.blocks_read += 1;
+  }
   return block;
 }
 

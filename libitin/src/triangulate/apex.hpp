@@ -14,6 +14,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include <itin/geometry.hpp>
@@ -34,7 +35,7 @@ struct SelectedVertex {
   Position position() const { return {point.x, point.y}; }
 };
 
-/// One search serves one thread. It counts what it reads.
+/// One search serves one thread and one region: it keeps the blocks it has read, and counts them.
 class ApexSearch {
  public:
   ApexSearch(const PointIndex& index, const Selection& selection) : index_(index), selection_(selection) {}
@@ -64,6 +65,8 @@ class ApexSearch {
   const PointIndex& index_;
   const Selection& selection_;
   RetrievalStatistics statistics_;
+  /// Searches about one region come back to the same few leaves.
+  std::unordered_map<std::uint64_t, std::shared_ptr<const Block>> blocks_;
   // Kept between calls for their memory.
   std::vector<Leaf> leaves_;
   std::vector<Segment> segments_;
