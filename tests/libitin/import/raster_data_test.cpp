@@ -103,7 +103,7 @@ TEST_F(RasterData, TilesOfTerrain50DoNotOverlap) {
 }
 
 TEST_F(RasterData, AnnArborIsInFeet) {
-  const test::Reading reading = expect_exact(data("annarbor-viewscape/test_dtm.tif"), {0.3048});
+  const test::Reading reading = expect_exact(data("annarbor-viewscape/test_dtm.tif"), {.metres_per_height = 0.3048});
   EXPECT_EQ(plan_.crs_name, "EPSG:26917");
   EXPECT_THAT(plan_.warnings, ElementsAre(HasSubstr("the unit of heights is not stated; taken as that of the "
                                                     "coordinates, 0.3048 m")));
@@ -111,7 +111,7 @@ TEST_F(RasterData, AnnArborIsInFeet) {
 
   ImportOptions metres;
   metres.crs = "EPSG:2253+5703";
-  expect_exact(data("annarbor-viewscape/test_dtm.tif"), {1}, metres);
+  expect_exact(data("annarbor-viewscape/test_dtm.tif"), {.metres_per_height = 1}, metres);
   EXPECT_THAT(plan_.warnings, IsEmpty());
 }
 

@@ -103,7 +103,7 @@ struct SlowReading {
 
 struct SlowRules {
   double metres_per_height = 1;
-  std::string crs;                                             ///< overrides the file's
+  std::string crs = {};                                        ///< overrides the file's
   bool (*is_void)(double raw) = [](double) { return false; };  ///< beside nodata and NaN
 };
 

@@ -203,7 +203,7 @@ TEST_F(RasterSource, ConvertsStatedFeet) {
     MadeRaster made = hills(30, 20);
     made.unit = unit;
     test::write_raster(directory_.file("a.tif"), made);
-    expect_exact(directory_.file("a.tif"), {metres});
+    expect_exact(directory_.file("a.tif"), {.metres_per_height = metres});
     if (metres == 1) {
       EXPECT_THAT(plan_.warnings, IsEmpty());
     } else {
@@ -216,7 +216,7 @@ TEST_F(RasterSource, TakesTheUnitOfACompoundCrs) {
   test::write_raster(directory_.file("a.tif"), hills(30, 20));
   ImportOptions options;
   options.crs = "EPSG:27700+6360";  // NAVD88 height (ftUS)
-  expect_exact(directory_.file("a.tif"), {1200.0 / 3937}, options);
+  expect_exact(directory_.file("a.tif"), {.metres_per_height = 1200.0 / 3937}, options);
   EXPECT_EQ(plan_.crs_name, "EPSG:27700");
   EXPECT_THAT(plan_.warnings, ElementsAre(HasSubstr("converted to metres")));
 }
