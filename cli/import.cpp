@@ -41,6 +41,8 @@ class ImportVerb final : public Verb {
     app.add_option("--max-gap", max_gap_,
                    "Scattered points: no ground across wider gaps (default: 100 times their mean spacing)")
         ->type_name("METRES");
+    app.add_flag("--allow-mixed-vertical", options_.allow_mixed_vertical,
+                 "Take heights as they are, though sources refer to different vertical datums");
     app.add_flag("--replace", options_.replace, "Take the place of coarser terrain within the sources' coverage");
     app.add_option("--levels", levels_, "Tolerances of a new store's levels (default: 0.5,1,2,4,8,16,32)")
         ->type_name("T,T...");

@@ -15,6 +15,7 @@
 #include <viewshed/map_image.hpp>
 
 #include "lettering.hpp"
+#include "plain_text.hpp"
 
 namespace itin::viewshed {
 
@@ -60,8 +61,8 @@ void Lettering::draw(Canvas& canvas, const std::string& text, Point2 baseline, i
   const TextAlignX x = align == Align::kLeft     ? TextAlignX::Left
                        : align == Align::kCentre ? TextAlignX::Center
                                                  : TextAlignX::Right;
-  OIIO::ImageBufAlgo::render_text(image, static_cast<int>(baseline.x), static_cast<int>(baseline.y), text, size, font_,
-                                  rgb, x);
+  OIIO::ImageBufAlgo::render_text(image, static_cast<int>(baseline.x), static_cast<int>(baseline.y), plain_text(text),
+                                  size, font_, rgb, x);
 }
 
 void Lettering::draw_with_rim(Canvas& canvas, const std::string& text, Point2 baseline, int size, Colour colour) const {
@@ -72,7 +73,7 @@ void Lettering::draw_with_rim(Canvas& canvas, const std::string& text, Point2 ba
 }
 
 int Lettering::width(const std::string& text, int size) const {
-  return available() ? OIIO::ImageBufAlgo::text_size(text, size, font_).width() : 0;
+  return available() ? OIIO::ImageBufAlgo::text_size(plain_text(text), size, font_).width() : 0;
 }
 
 void write_image(const std::string& path, const MapImage& image, bool overwrite) {

@@ -40,15 +40,18 @@ struct Eye {
   Point3 units;
 };
 
+[[noreturn]] void refuse(const Observer& observer, const std::string& why) {
+  throw InputError(
+      fmt::format("observer {} at {:.10g},{:.10g}: {}", observer.name, observer.position.x, observer.position.y, why));
+}
+
+constexpr const char* kNoGround = "there is no data there; move it onto the data";
+
 double ground_of(const Scene& scene, const Observer& observer) {
-  const auto refuse = [&](const std::string& what) {
-    throw InputError(fmt::format("observer {} at {:.10g},{:.10g}: {}", observer.name, observer.position.x,
-                                 observer.position.y, what));
-  };
   const std::optional<double> ground = scene.ground(observer.position);
-  if (!ground) refuse("there is no data there; move it onto the data");
+  if (!ground) refuse(observer, kNoGround);
   if (observer.absolute && observer.height < *ground)
-    refuse(fmt::format("its elevation {:g} m is below the ground, {:.2f} m", observer.height, *ground));
+    refuse(observer, fmt::format("its elevation {:g} m is below the ground, {:.2f} m", observer.height, *ground));
   return *ground;
 }
 
@@ -225,6 +228,7 @@ void look_for_voids(const Tin& tin, const std::vector<BoundaryEdge>& boundary, R
 
 Result compute(const Tin& tin, const Request& request, Progress& progress) {
   validate(request);
+  if (tin.triangles.empty()) refuse(request.observers.front(), kNoGround);
   Result result;
   result.request = request;
   Stopwatch watch;

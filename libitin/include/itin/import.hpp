@@ -5,7 +5,9 @@
 //   ImportReport report = import_terrain("cardiff.itin", options, progress);
 //
 // Importing into an existing store adds to it: the result is the same, byte for byte but for the import history, as if
-// all sources had been imported at once, in whatever order.
+// all sources had been imported at once, in whatever order. One exception: a point that no ground triangle touches is
+// left out and counted (ImportReport::isolated), so a later import cannot find it again. Adding rebuilds the pyramid of
+// the whole store; it takes as long as importing everything anew.
 #pragma once
 
 #include <cstdint>
@@ -28,12 +30,13 @@ struct ImportOptions {
       z_field;  ///< the height attribute of point layers and CSV; default: Z of the geometry, or the third column
   std::string layer;
   std::string where;
-  std::vector<int> classes;        ///< LAS classes to keep; empty: all but noise (7, 18)
-  double max_gap = 0;              ///< metres, scattered points: ground is not triangulated over longer edges;
-                                   ///< 0: 100 times the mean spacing of the source
-  bool replace = false;            ///< these sources take the place of coarser ones within their coverage
-  std::vector<double> tolerances;  ///< metres; default 0.5,1,2,4,8,16,32. An existing store keeps its own.
-  double resolution = 0.01;        ///< metres; an existing store keeps its own
+  std::vector<int> classes;           ///< LAS classes to keep; empty: all but noise (7, 18)
+  double max_gap = 0;                 ///< metres, scattered points: ground is not triangulated over longer edges;
+                                      ///< 0: 100 times the mean spacing of the source
+  bool allow_mixed_vertical = false;  ///< take heights as they are, though they refer to different vertical datums
+  bool replace = false;               ///< these sources take the place of coarser ones within their coverage
+  std::vector<double> tolerances;     ///< metres; default 0.5,1,2,4,8,16,32. An existing store keeps its own.
+  double resolution = 0.01;           ///< metres; an existing store keeps its own
 
   // Changes the speed only.
   std::uint64_t memory_bytes = std::uint64_t{4} << 30;

@@ -9,6 +9,7 @@
 #include <cpl_conv.h>
 #include <fmt/format.h>
 #include <ogr_spatialref.h>
+#include <ogr_srs_api.h>
 
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
@@ -28,20 +29,56 @@ OGRSpatialReference understood(const std::string& text, const std::string& place
   return reference;
 }
 
-/// ESRI's and other dialects come without codes, and with datum names that coordinate operations are not found by.
-void replace_by_authority(OGRSpatialReference& reference) {
-  if (reference.GetAuthorityCode(nullptr)) return;
-  const std::unique_ptr<OGRSpatialReference> known(reference.FindBestMatch());
-  if (!known) return;
-  reference = *known;
-  reference.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-}
-
 std::string name_of(const OGRSpatialReference& reference) {
   const char* authority = reference.GetAuthorityName(nullptr);
   const char* code = reference.GetAuthorityCode(nullptr);
   if (authority && code) return fmt::format("{}:{}", authority, code);
   return reference.GetName() ? reference.GetName() : "unnamed";
+}
+
+using Transformation = std::unique_ptr<OGRCoordinateTransformation>;
+
+/// Whether both CRSs give the same coordinates, to within a millimetre, all over the area that `known` is used in.
+bool agree(const OGRSpatialReference& given, const OGRSpatialReference& known) {
+  constexpr double kMetres = 0.001, kDegrees = 1e-8;
+  double west = 0, south = 0, east = 0, north = 0;
+  if (!given.IsSameGeogCS(&known) || given.IsProjected() != known.IsProjected() ||
+      !known.GetAreaOfUse(&west, &south, &east, &north, nullptr))
+    return false;
+  if (east < west) east += 360;
+  const std::unique_ptr<OGRSpatialReference> geographic(known.CloneGeogCS());
+  geographic->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  const Transformation to_given(OGRCreateCoordinateTransformation(geographic.get(), &given));
+  const Transformation to_known(OGRCreateCoordinateTransformation(geographic.get(), &known));
+  if (!to_given || !to_known) return false;
+  const double tolerance = known.IsProjected() ? kMetres / known.GetLinearUnits() : kDegrees;
+  for (const double across : {0.0, 0.5, 1.0}) {
+    for (const double up : {0.0, 0.5, 1.0}) {
+      double x = west + across * (east - west), y = south + up * (north - south), known_x = x, known_y = y;
+      if (!to_given->Transform(1, &x, &y) || !to_known->Transform(1, &known_x, &known_y) ||
+          !(std::hypot(x - known_x, y - known_y) <= tolerance))
+        return false;
+    }
+  }
+  return true;
+}
+
+/// ESRI's and other dialects come without codes, with rounded parameters, and with datum names that coordinate
+/// operations are not found by.
+void replace_by_authority(OGRSpatialReference& reference) {
+  if (reference.GetAuthorityCode(nullptr)) return;
+  int count = 0;
+  int* confidences = nullptr;
+  OGRSpatialReferenceH* candidates = reference.FindMatches(nullptr, &count, &confidences);
+  CPLFree(confidences);
+  const std::unique_ptr<OGRSpatialReferenceH, void (*)(OGRSpatialReferenceH*)> owner(candidates, OSRFreeSRSArray);
+  for (int i = 0; i < count; ++i) {
+    // A match does not always know its area of use; the authority does.
+    const OGRSpatialReference known = understood(name_of(*OGRSpatialReference::FromHandle(candidates[i])), "PROJ");
+    if (!agree(reference, known)) continue;
+    reference = known;
+    return;
+  }
 }
 
 bool same(const OGRSpatialReference& a, const OGRSpatialReference& b) {
@@ -50,7 +87,24 @@ bool same(const OGRSpatialReference& a, const OGRSpatialReference& b) {
   return a.IsSame(&b, kOptions);
 }
 
-using Transformation = std::unique_ptr<OGRCoordinateTransformation>;
+/// Empty where it is not known. The datum rather than the vertical CRS: NAVD88 in feet and in metres are one.
+std::string vertical_datum_of(const OGRSpatialReference& compound) {
+  const char* datum = compound.GetAttrValue("VERT_DATUM");
+  // Files give these names to what they do not know.
+  return !datum || EQUALN(datum, "unknown", 7) || EQUALN(datum, "unnamed", 7) ? "" : datum;
+}
+
+/// authority:code, else WKT 2: a name alone would not be understood again.
+std::string text_of(const OGRSpatialReference& reference) {
+  return reference.GetAuthorityCode(nullptr) ? name_of(reference) : wkt_of(reference);
+}
+
+/// Of the whole or of the part called `key`; empty where it has none.
+std::string epsg_code(const OGRSpatialReference& reference, const char* key) {
+  const char* authority = reference.GetAuthorityName(key);
+  const char* code = reference.GetAuthorityCode(key);
+  return authority && code && EQUAL(authority, "EPSG") ? code : "";
+}
 
 /// The first EPSG code of the zones of the CRS's own datum, less zone 0; WGS 84 where it has no such zone.
 int utm_base(const OGRSpatialReference& geographic, int zone, bool north) {
@@ -78,19 +132,32 @@ Crs parse_crs(const std::string& text, const std::string& place) {
   const QuietGdal quiet;
   OGRSpatialReference reference = understood(text, place);
   Crs crs;
+  crs.whole = text_of(reference);
+  const bool has_code = reference.GetAuthorityCode(nullptr) != nullptr;
+  std::string vertical_code;
   if (reference.IsCompound()) {
     crs.metres_per_height = reference.GetTargetLinearUnits("VERT_CS");
+    crs.vertical_datum = vertical_datum_of(reference);
+    vertical_code = epsg_code(reference, "VERT_CS");
     reference.StripVertical();
   } else if (reference.IsVertical()) {
     throw InputError(
         fmt::format("{}: the CRS {} is only vertical; a horizontal one is needed", place, name_of(reference)));
   }
-  if (reference.GetAxesCount() == 3) reference.DemoteTo2D(nullptr);
+  if (reference.GetAxesCount() == 3) {
+    crs.vertical_datum = "the ellipsoid";
+    reference.DemoteTo2D(nullptr);
+  }
   replace_by_authority(reference);
   if (!reference.IsProjected() && !reference.IsGeographic())
     throw InputError(fmt::format("{}: the CRS {} is neither projected nor geographic", place, name_of(reference)));
   crs.wkt = wkt_of(reference);
   crs.name = name_of(reference);
+  // The parts may have codes where the whole has none.
+  if (crs.vertical_datum.empty()) crs.whole = text_of(reference);
+  const std::string horizontal_code = epsg_code(reference, nullptr);
+  if (!has_code && !horizontal_code.empty() && !vertical_code.empty())
+    crs.whole = fmt::format("EPSG:{}+{}", horizontal_code, vertical_code);
   if (reference.IsProjected()) crs.metres_per_axis = reference.GetLinearUnits();
   return crs;
 }

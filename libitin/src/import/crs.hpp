@@ -13,19 +13,21 @@ class OGRSpatialReference;
 
 namespace itin {
 
-/// A CRS that was understood. Horizontal only: the vertical part of a compound CRS leaves nothing but its unit.
+/// A CRS that was understood. Horizontal only: the vertical part of a compound CRS leaves but its unit and datum.
 struct Crs {
   std::string wkt;                          ///< WKT 2
   std::string name;                         ///< "EPSG:27700" where an authority knows it, otherwise its name
   std::optional<double> metres_per_axis;    ///< of a projected CRS; angles have none
   std::optional<double> metres_per_height;  ///< of a vertical part, where there is one
+  std::string vertical_datum;               ///< its name; empty where it is not known
+  std::string whole;                        ///< authority:code or WKT 2, vertical part included
 
   /// Projected, axes in metres: fit for a store.
   bool metric() const { return metres_per_axis == 1.0; }
 };
 
-/// `text` is authority:code, WKT, PROJ or whatever else GDAL understands. Throws InputError, which begins with `place`
-/// (a file or an option).
+/// `text` is authority:code, WKT, PROJ or whatever else GDAL understands. What agrees to a millimetre with a CRS that
+/// an authority knows is taken for that. Throws InputError, which begins with `place` (a file or an option).
 Crs parse_crs(const std::string& text, const std::string& place);
 
 /// WKT 2.

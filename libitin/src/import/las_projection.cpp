@@ -2,12 +2,12 @@
 
 #include <cmath>
 
-#include <cpl_conv.h>
 #include <fmt/format.h>
 #include <ogr_spatialref.h>
 
 #include <itin/error.hpp>
 
+#include "import/crs.hpp"
 #include "import/quiet_gdal.hpp"
 
 namespace itin {
@@ -69,12 +69,7 @@ std::string projected_crs(const LasFile& file, std::uint16_t epsg) {
   if (!unit || crs.importFromEPSG(epsg) != OGRERR_NONE) return name;
   if (std::abs(crs.GetLinearUnits() - *unit) <= 1e-9 * *unit) return name;
   crs.SetLinearUnitsAndUpdateParameters(fmt::format("{} m", *unit).c_str(), *unit);
-  char* wkt = nullptr;
-  constexpr const char* kOptions[] = {"FORMAT=WKT2_2018", nullptr};
-  crs.exportToWkt(&wkt, kOptions);
-  std::string result = wkt ? wkt : "";
-  CPLFree(wkt);
-  return result;
+  return wkt_of(crs);
 }
 
 std::string crs_of_keys(const LasFile& file) {

@@ -83,6 +83,32 @@ StoreCrs settle_crs(const ImportOptions& options, const StoreMetadata* existing,
   return {utm_zone(crs, first.centre(), options.sources.front()), true};
 }
 
+/// Heights on different datums differ by metres, which no CRS of a store would show. Unknown datums are trusted.
+class VerticalDatums {
+ public:
+  void add(const std::string& datum, const std::string& place) {
+    if (datum.empty()) return;
+    if (datum_.empty()) datum_ = datum, place_ = place;
+    if (datum != datum_)
+      throw InputError(
+          fmt::format("{}: heights refer to {}, but those of {} to {}; convert one of them, or take them as they are "
+                      "with --allow-mixed-vertical",
+                      place, datum, place_, datum_));
+  }
+
+ private:
+  std::string datum_, place_;
+};
+
+void check_vertical_datums(const SourceFiles& opened, const ImportOptions& options, const StoreMetadata* existing) {
+  VerticalDatums datums;
+  if (existing)
+    for (const SourceInfo& source : existing->sources)
+      if (!source.source_crs.empty()) datums.add(parse_crs(source.source_crs, source.path).vertical_datum, source.path);
+  if (!options.to_crs.empty()) datums.add(parse_crs(options.to_crs, "--to-crs").vertical_datum, "--to-crs");
+  for (const std::unique_ptr<SourceFile>& file : opened) datums.add(file->crs().vertical_datum, file->path());
+}
+
 Grid settle_grid(const ImportOptions& options, const StoreMetadata* existing, const SourceFile& first, const Crs& crs) {
   if (existing) return existing->grid;
   if (!(options.resolution >= kFinestResolution && options.resolution <= kCoarsestResolution))
@@ -105,6 +131,7 @@ ImportPlan plan_import(const ImportOptions& options, const StoreMetadata* existi
   if (options.sources.empty()) throw InputError("import: name at least one source");
   SourceFiles opened;
   for (const std::string& path : options.sources) open_sources(path, options, opened);
+  if (!options.allow_mixed_vertical) check_vertical_datums(opened, options, existing);
   const auto [crs, chosen] = settle_crs(options, existing, *opened.front());
   ImportPlan plan{crs.wkt, crs.name, chosen, settle_grid(options, existing, *opened.front(), crs), {}, {}};
   for (const std::unique_ptr<SourceFile>& file : opened) {

@@ -14,6 +14,7 @@
 
 #include <itin/error.hpp>
 
+#include "import/crs.hpp"
 #include "import/quiet_gdal.hpp"
 
 namespace itin {
@@ -96,9 +97,14 @@ void PointLayer::select(const std::string& where) {
   // Databases look at the clause only when they count or read.
   const bool understood = layer_->SetAttributeFilter(where.c_str()) == OGRERR_NONE && layer_->GetFeatureCount() >= 0 &&
                           CPLGetLastErrorType() < CE_Failure;
-  if (!understood)
-    throw InputError(
-        fmt::format("{}: --where {} is not understood: {}", path_, where, QuietGdal::message("unknown error")));
+  if (understood) return;
+  const std::string reason = QuietGdal::message("unknown error");
+  // OGR's own SQL, then SQLite's: the contract tells an unknown field from a clause that makes no sense.
+  if (reason.find("not recognised as an available field") != std::string::npos ||
+      reason.find("no such column") != std::string::npos)
+    throw FileError(
+        path_, fmt::format("--where {} names a field that layer '{}' has not: {}", where, layer_->GetName(), reason));
+  throw InputError(fmt::format("{}: --where {} is not understood: {}", path_, where, reason));
 }
 
 void PointLayer::check_geometry_type() const {
@@ -125,13 +131,7 @@ void PointLayer::refuse_heightless() const {
 
 std::string PointLayer::crs() const {
   const OGRSpatialReference* reference = layer_->GetSpatialRef();
-  if (!reference) return {};
-  char* wkt = nullptr;
-  constexpr const char* kOptions[] = {"FORMAT=WKT2_2018", nullptr};
-  reference->exportToWkt(&wkt, kOptions);
-  std::string result = wkt ? wkt : "";
-  CPLFree(wkt);
-  return result;
+  return reference ? wkt_of(*reference) : std::string();
 }
 
 /// The next feature; null at the end. GDAL tells an end from a failure only by its error state, which others may leave

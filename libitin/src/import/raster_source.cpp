@@ -112,6 +112,12 @@ struct Steps {
   double variation() const { return length(longest) / least; }
 };
 
+/// Posts on their way to the grid.
+struct Batch {
+  std::vector<double> x, y, z;
+  std::vector<GridPoint> points;
+};
+
 class RasterTerrain final : public TerrainSource {
  public:
   RasterTerrain(std::string path, const Lattice& lattice, const Crs& crs, double metres_per_height,
@@ -122,7 +128,7 @@ class RasterTerrain final : public TerrainSource {
         placement_(path_, crs, metres_per_height, context) {
     info_.path = path_;
     info_.kind = "terrain";
-    info_.source_crs = crs.name;
+    info_.source_crs = crs.whole;
     measure_steps();
   }
 
@@ -136,13 +142,14 @@ class RasterTerrain final : public TerrainSource {
     HeightBand band(*dataset, path_);
     const int strip = band.strip_rows();
     std::vector<double> heights;
+    Batch batch;  // not a member: thousands of sources may be planned at once
     for (int row = 0; row < lattice_.rows; row += strip) {
       progress.throw_if_cancelled();
       progress.report(stage, static_cast<double>(row) / lattice_.rows);
       band.read(row, std::min(strip, lattice_.rows - row), heights);
-      place_rows(row, heights, sink);
+      place_rows(row, heights, batch, sink);
     }
-    flush(sink);
+    hand_on(batch, sink);
     info_.sha256 = file_sha256(path_, progress);
     info_.imported = utc_now();
     return counts(band.undeclared_voids());
@@ -150,8 +157,8 @@ class RasterTerrain final : public TerrainSource {
 
  private:
   void measure_steps();
-  void place_rows(int first_row, const std::vector<double>& heights, const Sink& sink);
-  void flush(const Sink& sink);
+  void place_rows(int first_row, const std::vector<double>& heights, Batch& batch, const Sink& sink);
+  void hand_on(Batch& batch, const Sink& sink);
   ReadCounts counts(std::uint64_t undeclared_voids) const;
 
   std::string path_;
@@ -161,8 +168,6 @@ class RasterTerrain final : public TerrainSource {
   SourceInfo info_;
   std::vector<std::string> warnings_;
   std::uint64_t voids_ = 0;
-  std::vector<double> x_, y_, z_;
-  std::vector<GridPoint> points_;
 };
 
 void RasterTerrain::measure_steps() {
@@ -192,7 +197,7 @@ void RasterTerrain::measure_steps() {
         path_, variation));
 }
 
-void RasterTerrain::place_rows(int first_row, const std::vector<double>& heights, const Sink& sink) {
+void RasterTerrain::place_rows(int first_row, const std::vector<double>& heights, Batch& batch, const Sink& sink) {
   const auto columns = static_cast<std::size_t>(lattice_.columns);
   for (std::size_t i = 0; i < heights.size(); ++i) {
     if (std::isnan(heights[i])) {
@@ -200,15 +205,15 @@ void RasterTerrain::place_rows(int first_row, const std::vector<double>& heights
       continue;
     }
     const Point2 p = lattice_.post(static_cast<double>(i % columns), first_row + static_cast<double>(i / columns));
-    x_.push_back(p.x), y_.push_back(p.y), z_.push_back(heights[i]);
-    if (x_.size() == kBatch) flush(sink);
+    batch.x.push_back(p.x), batch.y.push_back(p.y), batch.z.push_back(heights[i]);
+    if (batch.x.size() == kBatch) hand_on(batch, sink);
   }
 }
 
-void RasterTerrain::flush(const Sink& sink) {
-  placement_.place(x_, y_, z_, points_);
-  x_.clear(), y_.clear(), z_.clear();
-  if (!points_.empty()) sink(points_);
+void RasterTerrain::hand_on(Batch& batch, const Sink& sink) {
+  placement_.place(batch.x, batch.y, batch.z, batch.points);
+  batch.x.clear(), batch.y.clear(), batch.z.clear();
+  if (!batch.points.empty()) sink(batch.points);
 }
 
 ReadCounts RasterTerrain::counts(std::uint64_t undeclared_voids) const {
@@ -243,6 +248,7 @@ class RasterFile final : public SourceFile {
   }
 
   Crs crs() const override { return crs_; }
+  const std::string& path() const override { return path_; }
   Point2 centre() const override { return lattice_.post((lattice_.columns - 1) / 2.0, (lattice_.rows - 1) / 2.0); }
   std::vector<std::string> warnings() const override { return warnings_; }
   std::unique_ptr<TerrainSource> bind(const SourceContext& context) override {

@@ -30,7 +30,7 @@ class ScatteredTerrain final : public TerrainSource {
         max_gap_(max_gap) {
     info_.path = reader_->path();
     info_.kind = "terrain";
-    info_.source_crs = crs.name;
+    info_.source_crs = crs.whole;
   }
 
   double size_hint() const override { return reader_->size_hint(); }
@@ -78,6 +78,7 @@ class ScatteredFile final : public SourceFile {
   }
 
   Crs crs() const override { return crs_; }
+  const std::string& path() const override { return reader_->path(); }
   Point2 centre() const override { return reader_->centre(); }
   std::vector<std::string> warnings() const override { return warnings_; }
   std::unique_ptr<TerrainSource> bind(const SourceContext& context) override {

@@ -9,6 +9,7 @@
 #include <itin/error.hpp>
 #include <itin/sites.hpp>
 
+#include "import/crs.hpp"
 #include "import/quiet_gdal.hpp"
 
 namespace itin {
@@ -50,13 +51,7 @@ int field_index(OGRLayer& layer, const std::string& path, const std::string& nam
 /// Empty when the layer is in the wanted CRS already.
 std::optional<CoordinateTransform> transform_from(OGRLayer& layer, const SiteQuery& query, const std::string& to_crs) {
   std::string from_crs = query.crs;
-  if (const OGRSpatialReference* own = layer.GetSpatialRef()) {
-    char* wkt = nullptr;
-    const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
-    own->exportToWkt(&wkt, options);
-    from_crs = wkt;
-    CPLFree(wkt);
-  }
+  if (const OGRSpatialReference* own = layer.GetSpatialRef()) from_crs = wkt_of(*own);
   if (from_crs.empty() || from_crs == to_crs) return std::nullopt;
   return CoordinateTransform(from_crs, to_crs);
 }

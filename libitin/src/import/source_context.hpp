@@ -31,6 +31,8 @@ struct SourceContext {
 class SourceFile {
  public:
   virtual ~SourceFile() = default;
+  /// Before bind() only.
+  virtual const std::string& path() const = 0;
   /// --crs, else as found in the file. Throws InputError where there is neither: see missing_crs().
   virtual Crs crs() const = 0;
   /// A position amid the file's points, in its own CRS.

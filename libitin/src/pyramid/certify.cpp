@@ -93,6 +93,7 @@ class CellVerification {
   CellOutcome run(unsigned levels, bool mend, LeafBounds& bounds) {
     fine_ = triangulate_region(index_, levels_from(0, tolerances_), square_of(cell_.cell));
     if (!fine_.mesh.triangles.empty()) edges_ = std::make_unique<FineEdges>(fine_);
+    find_leaves();
     for (int k = static_cast<int>(tolerances_.size()) - 1; k >= 1; --k) {
       if (!(levels >> k & 1)) continue;
       clear(k, bounds);
@@ -195,15 +196,20 @@ class CellVerification {
       of_triangle[edge.triangle].add(d.along_edge[e]);
       if (edge.other != kNoTriangle) of_triangle[edge.other].add(d.along_edge[e]);
     }
+    for (const auto& [t, leaf] : triangles_of_leaves_) bounds.at(leaf, k).add(of_triangle[t]);
+  }
+
+  /// Which of the cell's leaves each fine triangle may meet.
+  void find_leaves() {
     std::vector<std::uint32_t> leaves;
-    for (std::uint32_t t = 0; t < of_triangle.size(); ++t) {
+    for (std::uint32_t t = 0; t < fine_.mesh.triangles.size(); ++t) {
       GridBox box;
       for (const std::uint32_t v : fine_.mesh.triangles[t])
         box.extend(fine_.vertices[v].point.x, fine_.vertices[v].point.y);
       leaves.clear();
       index_.leaves_at(box, leaves);
       for (const std::uint32_t leaf : leaves) {
-        if (cell_.cell.contains(index_.ranges()[leaf].cell)) bounds.at(leaf, k).add(of_triangle[t]);
+        if (cell_.cell.contains(index_.ranges()[leaf].cell)) triangles_of_leaves_.emplace_back(t, leaf);
       }
     }
   }
@@ -213,6 +219,7 @@ class CellVerification {
   CurveRange cell_;
   RegionMesh fine_;
   std::unique_ptr<FineEdges> edges_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> triangles_of_leaves_;
   Levels raised_;
   std::vector<std::pair<std::uint64_t, int>> left_to_others_;
 };
@@ -268,6 +275,16 @@ void mark_failures(const LeafBounds& bounds, const std::vector<std::int32_t>& to
   }
 }
 
+/// No store is written that promises what does not hold.
+void require_within(const LeafBounds& bounds, const std::vector<std::int32_t>& tolerances, std::size_t leaves) {
+  for (std::uint32_t leaf = 0; leaf < leaves; ++leaf) {
+    for (std::size_t k = 1; k < tolerances.size(); ++k) {
+      if (bounds.at(leaf, static_cast<int>(k)).size() > tolerances[k])
+        throw Error("a level could not be brought within its tolerance; nothing was written; please report this");
+    }
+  }
+}
+
 }  // namespace
 
 LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& tolerances, Progress& progress) {
@@ -281,7 +298,10 @@ LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& toleran
     for (const CurveRange& cell : index.tiles(round == 0 ? kFirstCell : kLaterCell)) {
       if (const unsigned todo = disturbed.in(index, cell); todo != 0) cells.emplace_back(cell, todo);
     }
-    if (cells.empty()) return bounds;
+    if (cells.empty()) {
+      require_within(bounds, tolerances, index.ranges().size());
+      return bounds;
+    }
     disturbed.clear();
 
     std::vector<CellOutcome> outcomes(cells.size());

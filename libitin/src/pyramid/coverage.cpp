@@ -62,13 +62,16 @@ std::vector<std::uint64_t> corners_of(const std::vector<Segment>& edges) {
   return corners;
 }
 
-/// The points' box and a fringe of some mean spacings, in which neighbouring tiles see the same surface and choose alike.
+/// The points' box and a fringe of some mean spacings, in which neighbouring tiles see the same surface and choose
+/// alike.
 GridBox with_fringe(const std::vector<RawPoint>& points) {
   GridBox box = box_of(points);
   if (box.empty()) return box;
   const double area = (1.0 + box.xmax - box.xmin) * (1.0 + box.ymax - box.ymin);
   const double margin = std::ceil(kFringe * std::sqrt(area / static_cast<double>(points.size())));
-  const auto inside = [](double v) { return static_cast<std::int32_t>(std::clamp(v, -1.0 * kGridHalfSide, kGridHalfSide - 1.0)); };
+  const auto inside = [](double v) {
+    return static_cast<std::int32_t>(std::clamp(v, -1.0 * kGridHalfSide, kGridHalfSide - 1.0));
+  };
   return {inside(box.xmin - margin), inside(box.ymin - margin), inside(box.xmax + margin), inside(box.ymax + margin)};
 }
 
@@ -97,7 +100,9 @@ TileSurvey survey_tile(const WorkingIndex& index, const CurveRange& tile,
   const std::vector<std::uint8_t> ground = ground_triangles(region, gap_bases);
 
   std::vector<std::uint8_t> touched(region.vertices.size(), 0);
-  const auto in_box = [&](std::uint32_t v) { return box.contains(region.vertices[v].point.x, region.vertices[v].point.y); };
+  const auto in_box = [&](std::uint32_t v) {
+    return box.contains(region.vertices[v].point.x, region.vertices[v].point.y);
+  };
   std::vector<Segment> edges;
   for (std::size_t t = 0; t < ground.size(); ++t) {
     if (!ground[t]) continue;

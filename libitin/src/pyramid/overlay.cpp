@@ -18,8 +18,8 @@ std::int32_t floor_divide(Int128 numerator, Int128 positive) {
   return static_cast<std::int32_t>(quotient - (numerator % positive < 0));
 }
 
-/// How far v lies above the triangle's plane. The weights are exact, so the double result is off by less than 1e-6; next
-/// to a whole number integers decide.
+/// How far v lies above the triangle's plane. The weights are exact, so the double result is off by less than 1e-6;
+/// next to a whole number integers decide.
 DifferenceRange above_plane(const RegionMesh& m, std::uint32_t triangle, const GridPoint& v) {
   const auto& [a, b, c] = m.mesh.triangles[triangle];
   const GridPoint &pa = m.vertices[a].point, &pb = m.vertices[b].point, &pc = m.vertices[c].point;
@@ -32,7 +32,8 @@ DifferenceRange above_plane(const RegionMesh& m, std::uint32_t triangle, const G
   if (above - below > 1e-5 && above - below < 1 - 1e-5) {
     return {static_cast<std::int32_t>(below), static_cast<std::int32_t>(below) + 1};
   }
-  const Int128 weight = Int128{wa} + wb + wc, numerator = v.z * weight - (Int128{wa} * pa.z + Int128{wb} * pb.z + Int128{wc} * pc.z);
+  const Int128 weight = Int128{wa} + wb + wc,
+               numerator = v.z * weight - (Int128{wa} * pa.z + Int128{wb} * pb.z + Int128{wc} * pc.z);
   return {floor_divide(numerator, weight), -floor_divide(-numerator, weight)};
 }
 

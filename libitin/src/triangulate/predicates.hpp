@@ -74,8 +74,7 @@ inline int in_circle(const P& a, const P& b, const P& c, const P& d) {
   if (det > bound) return 1;
   if (det < -bound) return -1;
 
-  const Int128 exact =
-      static_cast<Int128>(a2) * bc + static_cast<Int128>(b2) * ca + static_cast<Int128>(c2) * ab;
+  const Int128 exact = static_cast<Int128>(a2) * bc + static_cast<Int128>(b2) * ca + static_cast<Int128>(c2) * ab;
   return (exact > 0) - (exact < 0);
 }
 

@@ -163,6 +163,8 @@ TEST_F(PointLayer, UnknownNamesAreAnsweredWithTheKnown) {
   options.z_field.clear();
   options.where = "no such = 'thing";
   EXPECT_THAT(refusal<InputError>(path, options), HasSubstr("--where"));
+  options.where = "elevation > 100";
+  EXPECT_THAT(refusal<FileError>(path, options), HasSubstr("a field that layer 'spots' has not"));
   options.where = "h > 100";
   EXPECT_THAT(refusal<FileError>(path, options), HasSubstr("match --where"));
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <iterator>
 #include <limits>
 #include <memory>
@@ -12,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include <cpl_string.h>
+#include <cpl_vsi.h>
 #include <gdal_priv.h>
 #include <gtest/gtest.h>
 #include <ogr_spatialref.h>
@@ -71,6 +74,25 @@ inline void write_raster(const std::string& path, MadeRaster made) {
   const GDALDatasetUniquePtr written(
       driver(made.driver).CreateCopy(path.c_str(), memory.get(), FALSE, nullptr, nullptr, nullptr));
   ASSERT_NE(written, nullptr) << CPLGetLastErrorMsg();
+}
+
+inline void copy_raster(const std::string& format, const std::string& from, const std::string& to,
+                        const std::vector<std::string>& options = {}) {
+  const GDALDatasetUniquePtr source(GDALDataset::Open(from.c_str()));
+  CPLStringList list;
+  for (const std::string& option : options) list.AddString(option.c_str());
+  const GDALDatasetUniquePtr copy(
+      driver(format).CreateCopy(to.c_str(), source.get(), FALSE, list.List(), nullptr, nullptr));
+  ASSERT_NE(copy, nullptr) << CPLGetLastErrorMsg();
+}
+
+inline void add_to_zip(const std::string& zip, const std::string& name, const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  VSILFILE* out = VSIFOpenL(("/vsizip/" + zip + "/" + name).c_str(), "wb");
+  ASSERT_NE(out, nullptr);
+  EXPECT_EQ(VSIFWriteL(bytes.data(), 1, bytes.size(), out), bytes.size());
+  VSIFCloseL(out);
 }
 
 /// What the import should make of a raster.

@@ -149,7 +149,10 @@ TEST_F(StoreDamage, ForeignContentsUnderOurApplicationId) {
 
 TEST_F(StoreDamage, CheckNamesEveryDamagedBlock) {
   const std::string two = "(SELECT key FROM block ORDER BY key LIMIT 2 OFFSET 1)";
-  execute("UPDATE block SET data = x'00' || substr(data, 2) WHERE key IN " + two);
+  execute(
+      "UPDATE block SET data = CASE substr(data, 1, 1) WHEN x'00' THEN x'01' ELSE x'00' END || substr(data, 2) WHERE "
+      "key IN " +
+      two);
   const auto places = damaged_places();
   EXPECT_EQ(places.size(), 2u);
   for (const auto& place : places) EXPECT_THAT(place, StartsWith("block 0/"));

@@ -202,7 +202,8 @@ TEST_P(RegionCoverage, WindowEqualsWholeAtEveryLevelAcrossVoids) {
       edges.insert(edges.end(), survey.outline.begin(), survey.outline.end());
       for (std::size_t v = 0; v < survey.candidacy.size(); ++v) {
         const GridPoint& p = survey.surface.vertices[v].point;
-        if (survey.candidacy[v] == Candidacy::kCorner && tile.cell.contains(morton(p.x, p.y))) corners.insert(morton(p.x, p.y));
+        if (survey.candidacy[v] == Candidacy::kCorner && tile.cell.contains(morton(p.x, p.y)))
+          corners.insert(morton(p.x, p.y));
       }
     }
     const std::vector<Segment> outline = join_collinear(edges);
@@ -226,8 +227,7 @@ TEST_P(RegionCoverage, WindowEqualsWholeAtEveryLevelAcrossVoids) {
       if (short_enough(t[0], t[1]) && short_enough(t[1], t[2]) && short_enough(t[2], t[0])) ground.push_back(t);
     }
 
-    ASSERT_EQ(outline, outline_of(finest, ground))
-        << "run " << run << ", " << points.size() << " points, gap " << gap;
+    ASSERT_EQ(outline, outline_of(finest, ground)) << "run " << run << ", " << points.size() << " points, gap " << gap;
 
     for (const Segment& s : outline) {
       for (const Segment& t : outline) {

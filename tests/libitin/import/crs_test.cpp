@@ -1,0 +1,136 @@
+#include "import/crs.hpp"
+
+#include <cmath>
+#include <gmock/gmock.h>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <ogr_spatialref.h>
+
+#include <itin/error.hpp>
+#include <itin/parallel.hpp>
+
+namespace itin {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(Crs, TellsMetricOnesFromOthers) {
+  EXPECT_TRUE(parse_crs("EPSG:27700", "a").metric());
+  EXPECT_TRUE(parse_crs("EPSG:3857", "a").metric());
+  EXPECT_FALSE(parse_crs("EPSG:4326", "a").metric());
+  EXPECT_FALSE(parse_crs("EPSG:2253", "a").metric());
+  EXPECT_FALSE(parse_crs("EPSG:4326", "a").metres_per_axis);
+  EXPECT_DOUBLE_EQ(parse_crs("EPSG:2253", "a").metres_per_axis.value(), 0.3048);
+}
+
+TEST(Crs, KeepsOnlyTheHorizontalPart) {
+  const Crs crs = parse_crs("EPSG:32617+6360", "a");
+  EXPECT_EQ(crs.name, "EPSG:32617");
+  EXPECT_TRUE(PointTransform(crs.wkt, "EPSG:32617", "a").identity());
+  EXPECT_NEAR(crs.metres_per_height.value(), 1200.0 / 3937, 1e-12);
+  EXPECT_DOUBLE_EQ(parse_crs("EPSG:27700+5701", "a").metres_per_height.value(), 1);
+  EXPECT_FALSE(parse_crs("EPSG:27700", "a").metres_per_height);
+  EXPECT_EQ(parse_crs("EPSG:4979", "a").metres_per_axis, std::nullopt);  // 3D
+}
+
+TEST(Crs, RecognisesDialectsWithoutCodes) {
+  // As it comes with OS Terrain 50.
+  const Crs crs = parse_crs(
+      R"(PROJCS["British_National_Grid",GEOGCS["GCS_OSGB_1936",DATUM["D_OSGB_1936",SPHEROID["Airy_1830",6377563.396,)"
+      R"(299.3249646]],PRIMEM["Greenwich",0.0],UNIT["Degree",0.0174532925199433]],PROJECTION["Transverse_Mercator"],)"
+      R"(PARAMETER["False_Easting",400000.0],PARAMETER["False_Northing",-100000.0],PARAMETER["Central_Meridian",-2.0],)"
+      R"(PARAMETER["Scale_Factor",0.9996012717],PARAMETER["Latitude_Of_Origin",49.0],UNIT["Meter",1.0]])",
+      "a");
+  EXPECT_EQ(crs.name, "EPSG:27700");
+  EXPECT_TRUE(PointTransform(crs.wkt, "EPSG:27700", "a").identity());
+}
+
+TEST(Crs, TakesNoUnknownDatumForAKnownOne) {
+  const Crs crs = parse_crs("+proj=utm +zone=55 +south +ellps=GRS80 +units=m", "a");  // of no authority
+  EXPECT_EQ(crs.name.find("EPSG"), std::string::npos) << crs.name;
+  EXPECT_EQ(parse_crs("+proj=utm +zone=55 +south +datum=WGS84 +units=m", "a").name, "EPSG:32755");
+  // A false easting of its own.
+  EXPECT_EQ(parse_crs("+proj=tmerc +lon_0=147 +k=0.9996 +x_0=500001 +y_0=10000000 +datum=WGS84 +units=m", "a").name,
+            "unknown");
+}
+
+TEST(Crs, RefusesWhatItDoesNotUnderstandInOneLine) {
+  for (const auto& [text, reason] :
+       {std::pair{"EPSG:1", "is not understood"}, std::pair{"", "is not understood"},
+        std::pair{"nonsense", "is not understood"}, std::pair{"EPSG:5703", "only vertical"},
+        std::pair{"EPSG:4978", "neither projected nor geographic"}}) {
+    try {
+      parse_crs(text, "--crs");
+      ADD_FAILURE() << text;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(reason));
+      EXPECT_THAT(error.what(), HasSubstr("--crs: "));
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    }
+  }
+}
+
+TEST(UtmZone, IsTheOneOfThePositionAndDatum) {
+  const auto zone = [](const char* crs, double x, double y) { return utm_zone(parse_crs(crs, "a"), {x, y}, "a").name; };
+  EXPECT_EQ(zone("EPSG:4326", -3.2, 51.5), "EPSG:32630");
+  EXPECT_EQ(zone("EPSG:4326", -180, 1), "EPSG:32601");
+  EXPECT_EQ(zone("EPSG:4326", 179.99, 1), "EPSG:32660");
+  EXPECT_EQ(zone("EPSG:4326", 190, 1), "EPSG:32602");
+  EXPECT_EQ(zone("EPSG:4326", 147.3, -42.9), "EPSG:32755");
+  EXPECT_EQ(zone("EPSG:4258", 9, 50), "EPSG:25832");
+  EXPECT_EQ(zone("EPSG:4258", -40, 50), "EPSG:32624");  // ETRS89 has no such zone
+  EXPECT_EQ(zone("EPSG:4269", -84.5, 42), "EPSG:26916");
+  EXPECT_EQ(zone("EPSG:2253", 13293600, 282500), "EPSG:26917");  // NAD83, feet
+  EXPECT_THROW(zone("EPSG:4326", 0, 89), InputError);
+  EXPECT_THROW(zone("EPSG:4326", 0, -85), InputError);
+}
+
+TEST(PointTransform, AgreesWithSinglePointsWhateverTheThreads) {
+  const std::uint64_t seed = std::random_device{}();
+  SCOPED_TRACE(seed);
+  std::mt19937_64 random(seed);
+  std::vector<double> x(5000), y(5000);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    x[i] = -6 + 6e-6 * static_cast<double>(random() % 1000000);
+    y[i] = 49 + 6e-6 * static_cast<double>(random() % 1000000);
+  }
+  OGRSpatialReference from, to;
+  from.importFromEPSG(4326);
+  to.importFromEPSG(32630);
+  for (OGRSpatialReference* crs : {&from, &to}) crs->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  const std::unique_ptr<OGRCoordinateTransformation> truth(OGRCreateCoordinateTransformation(&from, &to));
+  for (const int threads : {1, 2, 0}) {
+    set_thread_count(threads);
+    std::vector<double> tx = x, ty = y;
+    PointTransform("EPSG:4326", "EPSG:32630", "a").transform(tx, ty);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      double ex = x[i], ey = y[i];
+      ASSERT_TRUE(truth->Transform(1, &ex, &ey));
+      ASSERT_EQ(tx[i], ex);
+      ASSERT_EQ(ty[i], ey);
+    }
+  }
+  set_thread_count(0);
+}
+
+TEST(PointTransform, MarksWhatHasNoImage) {
+  std::vector<double> x{0, 500, std::numeric_limits<double>::quiet_NaN(), 3}, y{0, 500, 0, 50};
+  const PointTransform transform("EPSG:4326", "EPSG:32631", "a");
+  transform.transform(x, y);
+  EXPECT_FALSE(std::isnan(x[0]));
+  EXPECT_TRUE(std::isnan(x[1]) && std::isnan(y[1]));
+  EXPECT_TRUE(std::isnan(x[2]) && std::isnan(y[2]));
+  EXPECT_NEAR(x[3], 500000, 1e-6);
+}
+
+TEST(PointTransform, IsTheIdentityBetweenEquals) {
+  EXPECT_TRUE(PointTransform("EPSG:4326", "OGC:CRS84", "a").identity());
+  EXPECT_TRUE(PointTransform(parse_crs("EPSG:27700", "a").wkt, "EPSG:27700", "a").identity());
+  EXPECT_FALSE(PointTransform("EPSG:27700", "EPSG:32630", "a").identity());
+}
+
+}  // namespace
+}  // namespace itin
