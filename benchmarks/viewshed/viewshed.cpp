@@ -41,14 +41,13 @@ BENCHMARK(BM_Scene)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void BM_Heights(benchmark::State& state) {
   const Request request = whole(4096);
-  const RasterGrid tiles(request.grid->north_west(), request.grid->cell_width() * Tile::kSide,
-                         request.grid->cell_height() * Tile::kSide, 64, 64);
+  const RasterGrid tiles = grid_of_tiles(*request.grid);
   TileValues<double> heights;
   for (auto _ : state) {
     const TriangleBins bins(terrain(), tiles);
-    for (std::int64_t i = 0; i < 4096; ++i) {
-      scan_convert(terrain(), bins.triangles(static_cast<std::size_t>(i)), *request.grid,
-                   {i % 64 * 64, i / 64 * 64, 64, 64}, heights);
+    for (std::size_t i = 0; i < tiles.cell_count(); ++i) {
+      const Tile tile = tile_at(*request.grid, tiles, i);
+      scan_convert(terrain(), bins.triangles(i), tile, TileCentres(terrain().grid, *request.grid, tile), heights);
       benchmark::DoNotOptimize(heights);
     }
   }

@@ -22,7 +22,7 @@ void compare(const Tin& tin, const RasterGrid& grid) {
   int inside = 0;
   for (std::size_t i = 0; i < tiles.cell_count(); ++i) {
     const Tile tile = tile_at(grid, tiles, i);
-    scan_convert(tin, bins.triangles(i), grid, tile, heights);
+    scan_convert(tin, bins.triangles(i), tile, TileCentres(tin.grid, grid, tile), heights);
     for (std::int64_t r = 0; r < tile.rows; ++r) {
       for (std::int64_t c = 0; c < tile.columns; ++c) {
         const Point2 centre = grid.centre(tile.column + c, tile.row + r);

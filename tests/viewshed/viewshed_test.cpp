@@ -249,6 +249,20 @@ TEST(Viewshed, TheEdgeOfTheDataHidesNothingOnThisSide) {
   }
 }
 
+TEST(Viewshed, PostsAtTheEdgeOfTheDataBelongToIt) {
+  // A national grid's numbers at 1 mm: metres and grid units do not convert without rounding.
+  const Tin tin =
+      test::lattice_tin(21, 21, 50, [](std::int32_t, std::int32_t) { return 10.0; }, 0.001, {531234.567, 4181234.567});
+  Request request;
+  const Box box = tin.bounds();
+  request.grid = RasterGrid({box.xmin - 25, box.ymax + 25}, 50, 50, 21, 21);
+  for (std::uint32_t v = 0; v < tin.vertices.size(); v += 7) {
+    const Point3 p = tin.point(v);
+    request.observers = {{"post", {p.x, p.y}, 2}};
+    ASSERT_THAT(run(tin, request).visible, Each(kVisible)) << p.x << "," << p.y;
+  }
+}
+
 TEST(Viewshed, VoidsOutOfReachAreNotMentioned) {
   Request request = look(105, 205);
   request.radius = 90;

@@ -22,7 +22,7 @@ std::vector<float> heights_in_metres(const Tin& tin, const RasterGrid& pixels) {
   parallel_for(tiles.cell_count(), [&](std::size_t i) {
     const Tile tile = tile_at(pixels, tiles, i);
     TileValues<double> values;
-    scan_convert(tin, bins.triangles(i), pixels, tile, values);
+    scan_convert(tin, bins.triangles(i), tile, TileCentres(tin.grid, pixels, tile), values);
     for (std::int64_t r = 0; r < tile.rows; ++r) {
       for (std::int64_t c = 0; c < tile.columns; ++c) {
         heights[pixels.index({tile.column + c, tile.row + r})] =

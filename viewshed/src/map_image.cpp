@@ -34,8 +34,8 @@ std::string length_text(double metres) {
 }
 
 std::string area_text(double square_metres) {
-  if (square_metres >= 1e5) return fmt::format("{:.4g} km²", square_metres / 1e6);
-  return fmt::format("{:.0f} m²", square_metres);
+  if (square_metres >= 1e5) return fmt::format("{:.4g} sq km", square_metres / 1e6);
+  return fmt::format("{:.0f} sq m", square_metres);
 }
 
 /// 1, 2 or 5 times a power of ten, at most v.

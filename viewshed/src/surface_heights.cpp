@@ -8,6 +8,11 @@ namespace itin::viewshed {
 
 namespace {
 
+double snapped(double units) {
+  const double whole = std::round(units);
+  return std::abs(units - whole) < 1e-4 ? whole : units;
+}
+
 struct Crossing {
   double x = 0;
   double z = 0;
@@ -56,6 +61,13 @@ class RowSections {
 
 }  // namespace
 
+double easting_in_units(const Grid& grid, double x) {
+  return snapped((x - grid.origin.x) / grid.resolution);
+}
+double northing_in_units(const Grid& grid, double y) {
+  return snapped((y - grid.origin.y) / grid.resolution);
+}
+
 RasterGrid grid_of_tiles(const RasterGrid& cells) {
   constexpr auto kSide = static_cast<double>(Tile::kSide);
   return {cells.north_west(), cells.cell_width() * kSide, cells.cell_height() * kSide,
@@ -68,19 +80,25 @@ Tile tile_at(const RasterGrid& cells, const RasterGrid& tiles, std::size_t index
   return {column, row, std::min(Tile::kSide, cells.columns() - column), std::min(Tile::kSide, cells.rows() - row)};
 }
 
-void scan_convert(const Tin& tin, std::span<const std::uint32_t> triangles, const RasterGrid& grid, const Tile& tile,
-                  TileValues<double>& heights) {
-  heights.fill(kNoSurface);
-  const Grid& units = tin.grid;
-  std::array<double, Tile::kSide> x{}, y{};
+TileCentres::TileCentres(const Grid& units, const RasterGrid& grid, const Tile& tile) {
   for (std::int64_t c = 0; c < tile.columns; ++c)
-    x[static_cast<std::size_t>(c)] = (grid.centre_x(tile.column + c) - units.origin.x) / units.resolution;
+    x[static_cast<std::size_t>(c)] = easting_in_units(units, grid.centre_x(tile.column + c));
   for (std::int64_t r = 0; r < tile.rows; ++r)
-    y[static_cast<std::size_t>(r)] = (grid.centre_y(tile.row + r) - units.origin.y) / units.resolution;
-  const double per_row = grid.cell_height() / units.resolution, per_column = grid.cell_width() / units.resolution;
+    y[static_cast<std::size_t>(r)] = northing_in_units(units, grid.centre_y(tile.row + r));
+}
+
+void scan_convert(const Tin& tin, std::span<const std::uint32_t> triangles, const Tile& tile,
+                  const TileCentres& centres, TileValues<double>& heights) {
+  heights.fill(kNoSurface);
+  const auto& [x, y] = centres;
+  const auto spacing = [](double first, double last, std::int64_t count) {
+    return count > 1 ? std::abs(last - first) / static_cast<double>(count - 1) : 1.0;
+  };
+  const double per_column = spacing(x[0], x[static_cast<std::size_t>(tile.columns - 1)], tile.columns);
+  const double per_row = spacing(y[0], y[static_cast<std::size_t>(tile.rows - 1)], tile.rows);
   // Rows and columns are found by division, give or take one, and then compared exactly.
   const auto first_at = [](double cells, std::int64_t limit) {
-    return static_cast<std::int64_t>(std::clamp(std::floor(cells), 0.0, static_cast<double>(limit)));
+    return static_cast<std::int64_t>(std::clamp(std::floor(cells) - 1, 0.0, static_cast<double>(limit)));
   };
   for (const std::uint32_t t : triangles) {
     const RowSections sections(tin, tin.triangles[t]);
@@ -101,8 +119,8 @@ void scan_convert(const Tin& tin, std::span<const std::uint32_t> triangles, cons
 }
 
 std::optional<double> surface_height(const Tin& tin, std::span<const std::uint32_t> triangles, Point2 position) {
-  const double x = (position.x - tin.grid.origin.x) / tin.grid.resolution;
-  const double y = (position.y - tin.grid.origin.y) / tin.grid.resolution;
+  const double x = easting_in_units(tin.grid, position.x);
+  const double y = northing_in_units(tin.grid, position.y);
   for (const std::uint32_t t : triangles) {
     const RowSections sections(tin, tin.triangles[t]);
     if (y < sections.lowest() || y > sections.highest()) continue;

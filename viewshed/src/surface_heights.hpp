@@ -13,6 +13,11 @@
 
 namespace itin::viewshed {
 
+/// Metres to grid units. What lies within a ten-thousandth of a unit of a whole number is meant to be there: sites and
+/// cell centres often are vertices, also at the edge of the data, where rounding would put them outside.
+double easting_in_units(const Grid& grid, double x);
+double northing_in_units(const Grid& grid, double y);
+
 /// A square block of cells, decided together.
 struct Tile {
   static constexpr std::int64_t kSide = 64;
@@ -26,6 +31,13 @@ struct Tile {
 RasterGrid grid_of_tiles(const RasterGrid& cells);
 Tile tile_at(const RasterGrid& cells, const RasterGrid& tiles, std::size_t index);
 
+/// Where a tile's cell centres lie, in grid units.
+struct TileCentres {
+  TileCentres(const Grid& units, const RasterGrid& grid, const Tile& tile);
+  std::array<double, Tile::kSide> x{};  ///< a column
+  std::array<double, Tile::kSide> y{};  ///< a row
+};
+
 /// One value a cell of a tile, row by row, kSide to a row.
 template <class T>
 using TileValues = std::array<T, Tile::kSide * Tile::kSide>;
@@ -34,8 +46,8 @@ inline constexpr double kNoSurface = std::numeric_limits<double>::quiet_NaN();
 
 /// Heights in grid units at the tile's cell centres, kNoSurface where no triangle lies. Each centre is given its height
 /// by the first of `triangles` that holds it; triangles are closed, so none falls between two.
-void scan_convert(const Tin& tin, std::span<const std::uint32_t> triangles, const RasterGrid& grid, const Tile& tile,
-                  TileValues<double>& heights);
+void scan_convert(const Tin& tin, std::span<const std::uint32_t> triangles, const Tile& tile,
+                  const TileCentres& centres, TileValues<double>& heights);
 
 /// Height in grid units at a position in metres, if one of `triangles` holds it.
 std::optional<double> surface_height(const Tin& tin, std::span<const std::uint32_t> triangles, Point2 position);

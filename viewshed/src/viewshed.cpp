@@ -97,7 +97,9 @@ class Caster {
 
   /// What is known of a tile's cells so far.
   struct TileState {
+    TileState(const Grid& units, const RasterGrid& grid, const Tile& t) : tile(t), centres(units, grid, t) {}
     Tile tile;
+    TileCentres centres;
     TileValues<double> heights;
     TileValues<std::uint16_t> seen;  ///< by how many observers, or kCountOutside
     Occluder occluder;
@@ -109,9 +111,8 @@ class Caster {
   static_assert(kPacketSide * kPacketSide == SightLines::kSize && Tile::kSide % kPacketSide == 0);
 
   Tally decide(std::size_t index) const {
-    const auto state = std::make_unique<TileState>();
-    state->tile = tile_at(result_.grid, tiles_, index);
-    scan_convert(tin_, bins_.triangles(index), result_.grid, state->tile, state->heights);
+    const auto state = std::make_unique<TileState>(tin_.grid, result_.grid, tile_at(result_.grid, tiles_, index));
+    scan_convert(tin_, bins_.triangles(index), state->tile, state->centres, state->heights);
     state->seen.fill(kCountOutside);
     for (const Eye& eye : eyes_) {
       for (std::int64_t r = 0; r < state->tile.rows; r += kPacketSide)
@@ -137,8 +138,8 @@ class Caster {
       const double dx = centre.x - eye.position.x, dy = centre.y - eye.position.y, dz = target - eye.elevation;
       if (!view_.contains(dx, dy, dz)) continue;
       if (state.seen[cell] == kCountOutside) state.seen[cell] = 0;
-      lines.to_x[i] = (centre.x - tin_.grid.origin.x) * per_metre;
-      lines.to_y[i] = (centre.y - tin_.grid.origin.y) * per_metre;
+      lines.to_x[i] = state.centres.x[static_cast<std::size_t>(c)];
+      lines.to_y[i] = state.centres.y[static_cast<std::size_t>(r)];
       lines.to_z[i] = target * per_metre;
       if (lines.to_z[i] < state.heights[cell] - grazing_) continue;  // an elevation below the ground
       if (lines.to_x[i] == eye.units.x && lines.to_y[i] == eye.units.y) {
@@ -198,8 +199,8 @@ std::vector<Eye> eyes_of(const Grid& grid, const Request& request, const std::ve
     const double elevation = observer.absolute ? observer.height : grounds[i] + observer.height;
     eyes.push_back({observer.position,
                     elevation,
-                    {(observer.position.x - grid.origin.x) / grid.resolution,
-                     (observer.position.y - grid.origin.y) / grid.resolution, elevation / grid.resolution}});
+                    {easting_in_units(grid, observer.position.x), northing_in_units(grid, observer.position.y),
+                     elevation / grid.resolution}});
   }
   return eyes;
 }
