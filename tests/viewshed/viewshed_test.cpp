@@ -164,8 +164,7 @@ TEST(Viewshed, SeveralObserversSeeWhatAnySees) {
   EXPECT_EQ(seen_by(245, 345), kCountOutside);
   EXPECT_TRUE(count.visible.empty());
   std::uint64_t counted = 0;
-  for (std::size_t i = 0; i < count.count.size(); ++i)
-    counted += count.count[i] != 0 && count.count[i] != kCountOutside;
+  for (const std::uint16_t n : count.count) counted += n != 0 && n != kCountOutside;
   EXPECT_EQ(counted, count.cells.visible);
   request.radius.reset();
   request.observers[0].height = request.observers[1].height = 100;

@@ -273,7 +273,7 @@ class MapDrawing {
     draw_key(0, overlays, 0, share_text("Visible", result_.cells.visible));
     draw_key(1, {}, 0, share_text("Hidden", result_.cells.hidden));
     if (result_.cells.outside > 0) draw_key(2, {}, kOutsideFade, "Outside the field of view, or no data");
-    const double y = top_ + height_ + unit_ + 3 * 7 * unit_ / 4 + 0.65 * unit_;
+    const double y = top_ + height_ + 6.9 * unit_;
     draw_mark({left_ + 1.0 * unit_, y});
     letters_.draw(canvas_, result_.request.observers.size() == 1 ? "Observer" : "Observers",
                   {left_ + 2.6 * unit_, y + 0.4 * unit_}, unit_, kInk);

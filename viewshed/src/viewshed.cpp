@@ -220,7 +220,7 @@ void look_for_voids(const Tin& tin, const std::vector<BoundaryEdge>& boundary, R
     result.crosses_voids = result.crosses_voids || surface_resumes(tin, boundary, observer.position, reach);
   }
   if (result.crosses_voids && result.request.nodata == NoData::kUnknown)
-    result.warnings.push_back(
+    result.warnings.emplace_back(
         "sight lines may cross ground without data, which counts as clear; give nodata block or clear to choose");
 }
 

@@ -204,7 +204,8 @@ void RasterTerrain::place_rows(int first_row, const std::vector<double>& heights
       ++voids_;
       continue;
     }
-    const Point2 p = lattice_.post(static_cast<double>(i % columns), first_row + static_cast<double>(i / columns));
+    const std::size_t row = i / columns;
+    const Point2 p = lattice_.post(static_cast<double>(i - row * columns), first_row + static_cast<double>(row));
     batch.x.push_back(p.x), batch.y.push_back(p.y), batch.z.push_back(heights[i]);
     if (batch.x.size() == kBatch) hand_on(batch, sink);
   }

@@ -139,6 +139,8 @@ std::uint64_t total(std::span<const Run> runs) {
 
 class SortedPoints::Impl {
  public:
+  explicit Impl(TemporaryFile sorted) : file(std::move(sorted)) {}
+
   TemporaryFile file;
   std::uint64_t size = 0;
   std::vector<std::uint64_t> index;  // the codes of points 0, kIndexStep, 2 kIndexStep...

@@ -1,8 +1,8 @@
 #include "import/temporary_file.hpp"
 
 #include <cerrno>
+#include <cstdlib>
 #include <fcntl.h>
-#include <stdlib.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>

@@ -44,9 +44,10 @@ class SourceIndex final : public PointIndex {
 /// For each source, those that take its place. Empty sets are left out.
 std::map<std::uint16_t, Sources> replacing(const std::vector<SourceInfo>& sources) {
   std::map<std::uint16_t, Sources> result;
-  for (std::uint16_t s = 0; s < sources.size(); ++s) {
-    for (std::uint16_t r = 0; r < sources.size(); ++r) {
-      if (sources[r].replaces && sources[r].spacing < sources[s].spacing) result[s].insert(r);
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    for (std::size_t r = 0; r < sources.size(); ++r) {
+      if (!sources[r].replaces || sources[r].spacing >= sources[s].spacing) continue;
+      result[static_cast<std::uint16_t>(s)].insert(static_cast<std::uint16_t>(r));
     }
   }
   return result;

@@ -110,7 +110,7 @@ TEST_F(ScatteredSource, FeetBecomeMetres) {
   LasContents las;
   las.scale = {0.01, 0.01, 0.01};
   las.points = {{656'166'667, 200'000'000, 32'808}};
-  const auto keys = [&](std::vector<std::array<std::uint16_t, 2>> list) {
+  const auto keys = [&](const std::vector<std::array<std::uint16_t, 2>>& list) {
     las.vlrs = {{"LASF_Projection", 34735, test::geo_key_directory(list)}};
     points_.clear();
     const auto file = open_las_source(directory_.write("a.las", las_bytes(las)), {});
