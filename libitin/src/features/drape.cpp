@@ -1,0 +1,79 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "features/feature_group.hpp"
+#include "features/planar.hpp"
+
+namespace itin {
+
+namespace {
+
+bool separated(const GridPoint& a, const GridPoint& b, const GridPoint& c, Position p, Position q) {
+  // The segment lies beyond one side of the triangle, or the triangle on one side of the segment.
+  const auto beyond = [&](const GridPoint& s, const GridPoint& t) {
+    return orientation(s, t, p) < 0 && orientation(s, t, q) < 0;
+  };
+  if (beyond(a, b) || beyond(b, c) || beyond(c, a)) return true;
+  const int sa = orientation(p, q, a), sb = orientation(p, q, b), sc = orientation(p, q, c);
+  return (sa > 0 && sb > 0 && sc > 0) || (sa < 0 && sb < 0 && sc < 0);
+}
+
+using TerrainEdge = std::pair<std::uint32_t, std::uint32_t>;
+
+/// Of all triangles that the plan's rings meet.
+std::set<TerrainEdge> edges_at_rings(const GridPolygon& plan, const TerrainHeights& terrain) {
+  std::set<TerrainEdge> edges;
+  for_each_edge(plan, [&](Position p, Position q) {
+    GridBox box;
+    box.extend(p.x, p.y);
+    box.extend(q.x, q.y);
+    for (const std::uint32_t t : terrain.triangles_near(box)) {
+      const Triangle& v = terrain.triangle(t);
+      if (separated(terrain.vertex(v[0]), terrain.vertex(v[1]), terrain.vertex(v[2]), p, q)) continue;
+      for (int i = 0; i < 3; ++i) edges.insert(std::minmax(v[i], v[(i + 1) % 3]));
+    }
+  });
+  return edges;
+}
+
+PlanarLines plan_lines(const GridPolygon& plan, const TerrainHeights& terrain) {
+  constexpr std::uint32_t kEaves = 0, kCrease = 1;
+  const auto at = [](Point2 p) {
+    return GridPoint{static_cast<std::int32_t>(std::llround(p.x)), static_cast<std::int32_t>(std::llround(p.y)), 0};
+  };
+  std::vector<OwnedSegment> segments;
+  for_each_edge(plan, [&](Position a, Position b) { segments.push_back({{a.x, a.y, 0}, {b.x, b.y, 0}, kEaves}); });
+  for (const auto& [v, w] : edges_at_rings(plan, terrain)) {
+    const GridPoint &p = terrain.vertex(v), &q = terrain.vertex(w);
+    for (const auto& [from, to] : inside_parts(plan, {1.0 * p.x, 1.0 * p.y}, {1.0 * q.x, 1.0 * q.y}))
+      segments.push_back({at(from), at(to), kCrease});
+  }
+  return make_planar(std::move(segments));
+}
+
+}  // namespace
+
+bool drape(const GridPolygon& plan, double above, const TerrainHeights& terrain, std::vector<RoofLine>& lines,
+           std::vector<GridPoint>& loose) {
+  PlanarLines planar = plan_lines(plan, terrain);
+  std::set<Position> taken;
+  for (GridPoint& p : planar.vertices) {
+    const auto ground = terrain.height_at({p.x, p.y});
+    if (!ground) return false;
+    p.z = static_cast<std::int32_t>(std::llround(*ground / terrain.grid().resolution + above));
+    taken.insert({p.x, p.y});
+  }
+  for (const PlanarEdge& e : planar.edges)
+    lines.push_back({planar.vertices[e.from], planar.vertices[e.to], e.owner == 0});
+  for (const std::uint32_t t : terrain.triangles_near(bounds_of({plan}))) {
+    for (const std::uint32_t v : terrain.triangle(t)) {
+      const GridPoint& p = terrain.vertex(v);
+      if (side_of(plan, {p.x, p.y}) != Side::inside || !taken.insert({p.x, p.y}).second) continue;
+      loose.push_back({p.x, p.y, static_cast<std::int32_t>(std::llround(p.z + above))});
+    }
+  }
+  return true;
+}
+
+}  // namespace itin

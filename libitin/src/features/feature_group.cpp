@@ -1,0 +1,236 @@
+#include "features/feature_group.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "features/planar.hpp"
+#include "features/planarity.hpp"
+
+namespace itin {
+
+namespace {
+
+std::int32_t whole(double z) {
+  return static_cast<std::int32_t>(std::llround(z));
+}
+
+GridEdge plan_of(const PlacedSegment& s) {
+  return {{s.a.x, s.a.y}, {s.b.x, s.b.y}};
+}
+
+/// One attempt at a group. What cannot stand is found on the way, and the group is built again without it, for its
+/// neighbours' walls and feet depend on it.
+class GroupBuilder {
+ public:
+  GroupBuilder(const std::vector<PreparedFeature>& features, double offset, const TerrainHeights* terrain)
+      : features_(features), offset_(offset), terrain_(terrain) {}
+
+  /// The features that cannot stand, by their index here, and why; none if the attempt succeeded.
+  std::map<std::uint32_t, std::string> run() {
+    std::vector<Patch> patches;
+    for (std::uint32_t f = 0; f < features_.size(); ++f) {
+      for (const Patch& patch : features_[f].patches) {
+        patches.push_back(patch);
+        feature_of_.push_back(f);
+      }
+    }
+    arrangement_ = arrange(patches, offset_);
+    refuse_what_has_no_top();
+    if (!objections_.empty()) return objections_;
+    add_masks();
+    add_feet();
+    add_tops(patches);
+    if (objections_.empty()) settle();
+    return objections_;
+  }
+
+  GroupMesh& mesh() { return mesh_; }
+
+ private:
+  const PreparedFeature& feature_of(std::size_t patch) const { return features_[feature_of_[patch]]; }
+  void report(std::uint32_t f, std::string text) { mesh_.findings.push_back({features_[f].number, std::move(text)}); }
+
+  void refuse_what_has_no_top() {
+    std::vector<bool> has_ground(features_.size(), false), has_top(features_.size(), false);
+    for (std::size_t i = 0; i < arrangement_.patches.size(); ++i) {
+      if (!arrangement_.patches[i].footprint.empty()) has_ground[feature_of_[i]] = true;
+      if (!arrangement_.patches[i].top.empty()) has_top[feature_of_[i]] = true;
+    }
+    for (std::uint32_t f = 0; f < features_.size(); ++f) {
+      if (!has_ground[f]) objections_[f] = "left out: lies wholly under others that are as high or higher";
+    }
+    // Those without a top first lose what covers them; only then are they judged.
+    if (!objections_.empty()) return;
+    for (std::uint32_t f = 0; f < features_.size(); ++f)
+      if (!has_top[f]) objections_[f] = "left out: nowhere as wide as twice the wall offset";
+  }
+
+  void add_masks() {
+    std::vector<double> kept(features_.size(), 0), asked(features_.size(), 0);
+    for (std::size_t i = 0; i < arrangement_.patches.size(); ++i) {
+      for (GridPolygon& polygon : arrangement_.patches[i].footprint) {
+        kept[feature_of_[i]] += area(polygon);
+        mesh_.masks.push_back({feature_of(i).number, polygon});
+      }
+    }
+    for (std::size_t i = 0; i < feature_of_.size(); ++i) asked[feature_of_[i]] += area(feature_of(i).patches[0].plan);
+    for (std::uint32_t f = 0; f < features_.size(); ++f) {
+      // Parts of measured roofs overlap by nature.
+      if (!features_[f].measured && kept[f] < 0.99 * asked[f])
+        report(f, fmt::format("loses {:.1f} % of its footprint to higher features that overlap it",
+                              100 * (1 - kept[f] / asked[f])));
+    }
+  }
+
+  std::optional<double> foot_height(const PreparedFeature& feature, Position p) const {
+    if (!feature.foot_on_terrain) return feature.heights.base;
+    const auto z = terrain_->height_at(p);
+    return z ? std::optional(*z / terrain_->grid().resolution) : std::nullopt;
+  }
+
+  void add_feet() {
+    std::map<Position, std::int32_t> heights;
+    std::vector<std::pair<GridEdge, std::uint32_t>> pieces;
+    for (const auto& [edge, patch] : arrangement_.feet) {
+      const std::uint32_t f = feature_of_[patch];
+      std::vector<Position> way{edge.first};
+      if (features_[f].foot_on_terrain) {
+        const std::vector<Position> between = terrain_->crossings(edge.first, edge.second);
+        way.insert(way.end(), between.begin(), between.end());
+      }
+      way.push_back(edge.second);
+      for (const Position& p : way) {
+        const auto z = foot_height(features_[f], p);
+        if (!z) {
+          objections_[f] = "left out: reaches beyond the terrain";
+          return;
+        }
+        // Where features touch, the wall reaches down to the lower base.
+        const auto [at, first] = heights.emplace(p, whole(*z));
+        if (!first) at->second = std::min(at->second, whole(*z));
+      }
+      for (std::size_t i = 1; i < way.size(); ++i) pieces.push_back({{way[i - 1], way[i]}, f});
+    }
+    for (const auto& [edge, f] : pieces) {
+      const auto& [a, b] = edge;
+      mesh_.segments.push_back(
+          {{a.x, a.y, heights.at(a)}, {b.x, b.y, heights.at(b)}, features_[f].number, SegmentClass::foot});
+    }
+  }
+
+  void add_tops(const std::vector<Patch>& patches) {
+    for (std::size_t i = 0; i < patches.size(); ++i) {
+      for (const GridPolygon& plan : arrangement_.patches[i].top) {
+        const std::uint32_t f = feature_of_[i];
+        std::vector<RoofLine> lines;
+        if (features_[f].drapes()) {
+          if (!drape(plan, features_[f].above_terrain, *terrain_, lines, mesh_.loose))
+            objections_[f] = "left out: reaches beyond the terrain";
+        } else if (features_[f].measured) {
+          lines = plane_roof(plan, patches[i].top);
+        } else {
+          lines = roof(f, plan);
+        }
+        for (const RoofLine& line : lines) {
+          mesh_.segments.push_back(
+              {line.a, line.b, features_[f].number, line.eaves ? SegmentClass::eaves : SegmentClass::roof});
+        }
+      }
+    }
+  }
+
+  static std::vector<RoofLine> plane_roof(const GridPolygon& plan, const Plane& plane) {
+    std::vector<RoofLine> lines;
+    const auto point = [&](Position p) { return GridPoint{p.x, p.y, whole(plane.at({1.0 * p.x, 1.0 * p.y}))}; };
+    for_each_edge(plan, [&](Position a, Position b) { lines.push_back({point(a), point(b), true}); });
+    return lines;
+  }
+
+  std::vector<RoofLine> roof(std::uint32_t f, const GridPolygon& plan) {
+    RoofLines made = make_roof(features_[f].roof, plan, features_[f].heights);
+    if (!made.fallback.empty() && flat_.insert(f).second) {
+      ++mesh_.flat_instead;
+      report(f, "has a flat roof instead: " + made.fallback);
+    }
+    return std::move(made.lines);
+  }
+
+  /// The promise of planarity, kept by construction in all but the narrowest places.
+  void settle() {
+    std::vector<GridEdge> edges;
+    for (const PlacedSegment& s : mesh_.segments) edges.push_back(plan_of(s));
+    const auto found = conflicts(edges);
+    if (found.empty()) return;
+    std::set<std::uint32_t> involved;
+    for (const auto& [s, t] : found) involved.insert({mesh_.segments[s].feature, mesh_.segments[t].feature});
+    for (const std::uint32_t number : involved)
+      mesh_.findings.push_back({number, "lines closer than the grid can tell apart were joined"});
+    snap();
+  }
+
+  void snap() {
+    // Heights come from the foot first, then from eaves and creases.
+    std::map<std::pair<SegmentClass, std::uint32_t>, std::uint32_t> owners;
+    for (const PlacedSegment& s : mesh_.segments) owners[{s.kind, s.feature}] = 0;
+    std::vector<std::pair<SegmentClass, std::uint32_t>> named;
+    for (auto& [key, number] : owners) {
+      number = static_cast<std::uint32_t>(named.size());
+      named.push_back(key);
+    }
+    std::vector<OwnedSegment> segments;
+    for (const PlacedSegment& s : mesh_.segments) segments.push_back({s.a, s.b, owners.at({s.kind, s.feature})});
+    const PlanarLines planar = make_planar(std::move(segments));
+    mesh_.segments.clear();
+    const PlanarEdge* last = nullptr;
+    for (const PlanarEdge& e : planar.edges) {
+      if (last && last->from == e.from && last->to == e.to) continue;  // sorted: the first owner has it
+      const auto& [kind, feature] = named[e.owner];
+      mesh_.segments.push_back({planar.vertices[e.from], planar.vertices[e.to], feature, kind});
+      last = &e;
+    }
+  }
+
+  const std::vector<PreparedFeature>& features_;
+  const double offset_;
+  const TerrainHeights* terrain_;
+  std::vector<std::uint32_t> feature_of_;  ///< by patch
+  Arrangement arrangement_;
+  std::map<std::uint32_t, std::string> objections_;
+  std::set<std::uint32_t> flat_;
+  GroupMesh mesh_;
+};
+
+}  // namespace
+
+GroupMesh build_group(std::vector<PreparedFeature> features, double offset, const TerrainHeights* terrain) {
+  std::vector<Finding> refusals;
+  std::vector<std::uint32_t> refused;
+  for (;;) {
+    GroupBuilder builder(features, offset, terrain);
+    const std::map<std::uint32_t, std::string> objections = builder.run();
+    if (objections.empty()) {
+      GroupMesh mesh = std::move(builder.mesh());
+      mesh.findings.insert(mesh.findings.end(), refusals.begin(), refusals.end());
+      mesh.refused = std::move(refused);
+      return mesh;
+    }
+    std::vector<PreparedFeature> standing;
+    for (std::uint32_t f = 0; f < features.size(); ++f) {
+      const auto objection = objections.find(f);
+      if (objection == objections.end()) {
+        standing.push_back(std::move(features[f]));
+      } else {
+        refusals.push_back({features[f].number, objection->second});
+        refused.push_back(features[f].number);
+      }
+    }
+    features = std::move(standing);
+  }
+}
+
+}  // namespace itin

@@ -1,0 +1,58 @@
+// Features that may touch each other, turned into lines together: one step of build_feature_mesh().
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "features/feature_mesh.hpp"
+#include "features/footprint_arrangement.hpp"
+#include "features/roof.hpp"
+
+namespace itin {
+
+/// A feature on the grid. Heights in grid units.
+struct PreparedFeature {
+  std::uint32_t number = 0;  ///< of the feature in the call
+  FeatureKind kind = FeatureKind::building;
+  RoofKind roof = RoofKind::flat;
+  bool measured = false;  ///< each patch is a plane piece of roof; else there is one patch
+  bool foot_on_terrain = false;
+  RoofHeights heights;       ///< of a building
+  double above_terrain = 0;  ///< of what drapes
+  std::vector<Patch> patches;
+
+  bool drapes() const { return kind != FeatureKind::building; }
+};
+
+struct PlacedSegment {
+  GridPoint a, b;
+  std::uint32_t feature;
+  SegmentClass kind;
+};
+
+struct Finding {
+  std::uint32_t feature;
+  std::string text;
+};
+
+struct GroupMesh {
+  std::vector<PlacedSegment> segments;
+  std::vector<GridPoint> loose;  ///< vertices without segments
+  std::vector<FeatureMask> masks;
+  std::vector<Finding> findings;
+  std::vector<std::uint32_t> refused;  ///< numbers of features
+  std::uint64_t flat_instead = 0;
+};
+
+/// `offset` in grid units.
+GroupMesh build_group(std::vector<PreparedFeature> features, double offset, const TerrainHeights* terrain);
+
+/// Lines of the terrain raised over a plan: its rings as eaves, and the terrain's edges near them as creases, so that
+/// the terrain's triangles inside come out as they are. Appends the vertices that stand by themselves.
+/// False, with nothing appended, where the plan reaches beyond the terrain.
+bool drape(const GridPolygon& plan, double above, const TerrainHeights& terrain, std::vector<RoofLine>& lines,
+           std::vector<GridPoint>& loose);
+
+}  // namespace itin

@@ -1,0 +1,133 @@
+#include "features/feature_mesh.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+#include <itin/parallel.hpp>
+
+#include "features/feature_group.hpp"
+#include "features/prepare_feature.hpp"
+#include "store/cell.hpp"
+
+namespace itin {
+
+namespace {
+
+void check(const FeatureOptions& options, const TerrainHeights* terrain) {
+  const double least = 2 * options.grid.resolution;
+  if (!(options.wall_offset >= least && options.wall_offset <= 10))
+    throw InputError(
+        fmt::format("a wall offset of {} m: from {} (two grid steps) to 10 m is possible", options.wall_offset, least));
+  if (!(options.pitch_degrees > 0 && options.pitch_degrees < 80))
+    throw InputError(
+        fmt::format("a roof pitch of {} degrees: above 0 and below 80 is possible", options.pitch_degrees));
+  if (terrain && terrain->grid() != options.grid) throw InputError("features and terrain are on different grids");
+}
+
+/// What the groups found, put together.
+class Assembly {
+ public:
+  explicit Assembly(const Grid& grid) { mesh_.grid = grid; }
+
+  void add(const GroupMesh& group) {
+    // Feet come first in every group: where lines were joined their heights count.
+    for (const PlacedSegment& s : group.segments) segments_.push_back(s);
+    for (const PlacedSegment& s : group.segments) points_.insert(points_.end(), {s.a, s.b});
+    points_.insert(points_.end(), group.loose.begin(), group.loose.end());
+    mesh_.masks.insert(mesh_.masks.end(), group.masks.begin(), group.masks.end());
+    mesh_.flat_instead += group.flat_instead;
+  }
+
+  FeatureMesh finish() && {
+    const auto code = [](const GridPoint& p) { return morton(p.x, p.y); };
+    std::stable_sort(points_.begin(), points_.end(), [&](auto& a, auto& b) { return code(a) < code(b); });
+    points_.erase(std::unique(points_.begin(), points_.end(), [&](auto& a, auto& b) { return code(a) == code(b); }),
+                  points_.end());
+    const auto number = [&](const GridPoint& p) {
+      const auto at = std::lower_bound(points_.begin(), points_.end(), code(p),
+                                       [&](const GridPoint& q, std::uint64_t c) { return code(q) < c; });
+      return static_cast<std::uint32_t>(at - points_.begin());
+    };
+    for (const PlacedSegment& s : segments_) mesh_.segments.push_back({number(s.a), number(s.b), s.feature, s.kind});
+    mesh_.vertices = std::move(points_);
+    return std::move(mesh_);
+  }
+
+ private:
+  FeatureMesh mesh_;
+  std::vector<PlacedSegment> segments_;
+  std::vector<GridPoint> points_;
+};
+
+GridBox box_of(const PreparedFeature& feature) {
+  GridBox box;
+  for (const Patch& patch : feature.patches) box.extend(bounds_of(patch.plan));
+  return box;
+}
+
+}  // namespace
+
+FeatureMesh build_feature_mesh(std::span<const FootprintFeature> features, const FeatureOptions& options,
+                               const TerrainHeights* terrain, Progress& progress) {
+  check(options, terrain);
+  std::vector<Preparation> prepared(features.size());
+  parallel_for(features.size(), [&](std::size_t i) {
+    prepared[i] = prepare(features[i], static_cast<std::uint32_t>(i), options, terrain);
+  });
+  std::vector<GridBox> boxes;
+  for (const Preparation& p : prepared) boxes.push_back(p.stands ? box_of(p.feature) : GridBox{});
+  const auto groups = groups_of(boxes);
+  std::vector<GroupMesh> meshes(groups.size());
+  std::atomic<std::size_t> done = 0;
+  parallel_for(groups.size(), [&](std::size_t g) {
+    progress.throw_if_cancelled();
+    std::vector<PreparedFeature> members;
+    for (const std::uint32_t i : groups[g])
+      if (prepared[i].stands) members.push_back(std::move(prepared[i].feature));
+    if (!members.empty())
+      meshes[g] = build_group(std::move(members), options.wall_offset / options.grid.resolution, terrain);
+    progress.report("features", static_cast<double>(++done) / static_cast<double>(groups.size()));
+  });
+  Assembly assembly(options.grid);
+  std::vector<std::vector<std::string>> findings(features.size());
+  std::uint64_t refused = 0;
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    findings[i] = std::move(prepared[i].findings);
+    refused += prepared[i].stands ? 0 : 1;
+  }
+  for (const GroupMesh& mesh : meshes) {
+    assembly.add(mesh);
+    refused += mesh.refused.size();
+    for (const Finding& finding : mesh.findings) findings[finding.feature].push_back(finding.text);
+  }
+  FeatureMesh mesh = std::move(assembly).finish();
+  for (std::size_t i = 0; i < features.size(); ++i)
+    for (const std::string& text : findings[i]) mesh.reports.push_back(features[i].name + ": " + text);
+  mesh.refused = refused;
+  mesh.built = features.size() - refused;
+  return mesh;
+}
+
+std::vector<PlanRing> band_about(const PlanRing& line, double thickness, const Grid& grid) {
+  std::vector<Position> positions;
+  for (const Point2& p : line) {
+    if (!grid.covers(p)) throw InputError(fmt::format("a line leaves the grid at {}, {}", p.x, p.y));
+    const GridPoint q = grid.quantise({p.x, p.y, 0});
+    positions.push_back({q.x, q.y});
+  }
+  std::vector<PlanRing> rings;
+  for (const GridPolygon& polygon : thickened(positions, thickness / grid.resolution)) {
+    for_each_ring(polygon, [&](const GridRing& ring) {
+      PlanRing& out = rings.emplace_back();
+      for (const Position& p : ring) out.push_back(grid.position(p.x, p.y));
+    });
+  }
+  return rings;
+}
+
+}  // namespace itin

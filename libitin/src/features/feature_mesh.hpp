@@ -1,0 +1,73 @@
+// Features as lines in the triangulation: what must be inserted into the terrain so that it carries buildings, walls,
+// trees and terraces.
+//
+//   FeatureMesh mesh = build_feature_mesh(features, options, &terrain, progress);
+//   // leave out the terrain's vertices and lines within mesh.masks, insert mesh.vertices and mesh.segments
+//
+// A building is its outline at its base and, the wall offset inside, rings at the height of its eaves, with the creases
+// of its roof between them. What drapes is the same with heights above the terrain, whose edges it repeats within its
+// top. Who gets the ground where footprints overlap, and where walls stand between those that touch, is the rule of
+// footprint_arrangement.hpp.
+//
+// The segments are planar: they meet only at vertices, all of which lie on the grid, one a position. That is verified
+// exactly, and made so by snap rounding where it does not hold (and reported). Vertices without segments are ground
+// repeated at the top of what drapes. The result depends on the features' order (which settles ties) but not on
+// threads.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <itin/geometry.hpp>
+#include <itin/progress.hpp>
+
+#include "features/footprint.hpp"
+#include "features/plan_overlay.hpp"
+#include "features/terrain_heights.hpp"
+
+namespace itin {
+
+enum class SegmentClass : std::uint8_t { foot, eaves, roof };
+
+struct FeatureSegment {
+  std::uint32_t from, to;
+  std::uint32_t feature;  ///< index of the feature it belongs to
+  SegmentClass kind;
+};
+
+/// Ground that a feature covers, its border included: terrain vertices there make way.
+struct FeatureMask {
+  std::uint32_t feature;
+  GridPolygon polygon;
+};
+
+struct FeatureMesh {
+  Grid grid;
+  std::vector<GridPoint> vertices;  ///< in Morton order
+  std::vector<FeatureSegment> segments;
+  std::vector<FeatureMask> masks;    ///< disjoint but for their borders
+  std::vector<std::string> reports;  ///< one line a feature and finding, "NAME: ..."
+  std::uint64_t built = 0;           ///< features that stand
+  std::uint64_t refused = 0;         ///< features that do not, each reported
+  std::uint64_t flat_instead = 0;    ///< roofs that were refused, each reported
+};
+
+struct FeatureOptions {
+  Grid grid;
+  double wall_offset = 0.05;  ///< metres; at least 2 grid units
+  double pitch_degrees = 35;  ///< of roofs that do not say
+  BaseRule base = BaseRule::minimum;
+};
+
+/// Without terrain only buildings with a base of their own stand. Throws InputError for an offset or pitch out of range
+/// and for terrain on another grid, Cancelled. What is wrong with single features is reported, not thrown.
+FeatureMesh build_feature_mesh(std::span<const FootprintFeature> features, const FeatureOptions& options,
+                               const TerrainHeights* terrain, Progress& progress);
+
+/// A band about a line: the footprint of a wall, fence or hedge. Thickness in metres. Empty where the line has no
+/// length.
+std::vector<PlanRing> band_about(const PlanRing& line, double thickness, const Grid& grid);
+
+}  // namespace itin

@@ -1,0 +1,39 @@
+// What stands on the ground, as sources give it: a footprint in plan and how high it reaches.
+//
+// Units: metres, in the CRS of the store. Rings are open or closed, of any orientation, and are read by the even-odd
+// rule: a ring inside another is a courtyard, one inside that is solid again.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <itin/geometry.hpp>
+
+namespace itin {
+
+enum class FeatureKind { building, vegetation, wall, terrace };
+enum class RoofKind { flat, gabled, hipped, skeleton };
+/// Where a building meets the ground. The first three are one elevation taken from the terrain under the footprint;
+/// with the last its foot lies on the terrain everywhere, and its heights are above the mean.
+enum class BaseRule { minimum, mean, maximum, terrain_following };
+
+using PlanRing = std::vector<Point2>;
+
+/// A plane piece of a roof with its elevations; the first ring is its outline, all others are holes.
+struct RoofSurface {
+  std::vector<std::vector<Point3>> rings;
+};
+
+struct FootprintFeature {
+  std::string name;  ///< what messages call it
+  FeatureKind kind = FeatureKind::building;
+  std::vector<PlanRing> rings;
+  std::optional<double> base;    ///< elevation; default: from the terrain. Of buildings only: all else drapes
+  std::optional<double> height;  ///< of the highest point above the base (above the terrain, where it drapes)
+  std::optional<double> eaves;   ///< of the eaves above the base; default: from height and pitch
+  RoofKind roof = RoofKind::flat;
+  std::vector<RoofSurface> surfaces;  ///< a measured roof; takes the place of height, eaves and roof
+};
+
+}  // namespace itin

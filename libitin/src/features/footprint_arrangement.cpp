@@ -1,0 +1,160 @@
+#include "features/footprint_arrangement.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+#include <unordered_map>
+
+#include "features/planar.hpp"
+#include "features/terrain_heights.hpp"
+
+namespace itin {
+
+namespace {
+
+constexpr std::uint32_t kNobody = 0xffffffff;
+
+std::vector<GridEdge> noded_outlines(const std::vector<Patch>& patches) {
+  std::vector<OwnedSegment> segments;
+  for (const Patch& patch : patches) {
+    for (const GridPolygon& polygon : patch.plan)
+      for_each_edge(polygon, [&](Position a, Position b) { segments.push_back({{a.x, a.y, 0}, {b.x, b.y, 0}, 0}); });
+  }
+  const PlanarLines lines = make_planar(std::move(segments));
+  std::vector<GridEdge> edges;
+  edges.reserve(lines.edges.size());
+  const auto position = [&](std::uint32_t v) { return Position{lines.vertices[v].x, lines.vertices[v].y}; };
+  for (const PlanarEdge& e : lines.edges) edges.emplace_back(position(e.from), position(e.to));
+  return edges;
+}
+
+class Arranging {
+ public:
+  Arranging(const std::vector<Patch>& patches, double offset) : patches_(patches), offset_(offset) {}
+
+  Arrangement run() {
+    for (const Patch& patch : patches_) boxes_.push_back(bounds_of(patch.plan));
+    share_out();
+    find_neighbours();
+    for (std::uint32_t i = 0; i < patches_.size(); ++i) result_.patches[i].top = top_of(i);
+    return std::move(result_);
+  }
+
+ private:
+  std::uint32_t owner_at(Point2 p) const {
+    std::uint32_t owner = kNobody;
+    for (std::uint32_t i = 0; i < patches_.size(); ++i) {
+      if (p.x < boxes_[i].xmin || p.x > boxes_[i].xmax || p.y < boxes_[i].ymin || p.y > boxes_[i].ymax) continue;
+      if (!covers(patches_[i].plan, p)) continue;
+      if (owner == kNobody || patches_[i].top.at(p) > patches_[owner].top.at(p)) owner = i;
+    }
+    return owner;
+  }
+
+  void share_out() {
+    std::vector<GridPolygons> faces(patches_.size());
+    for (PlanFace& face : faces_of(noded_outlines(patches_))) {
+      const std::uint32_t owner = owner_at(face.inside);
+      if (owner == kNobody) continue;
+      for_each_edge(face.polygon, [&](Position a, Position b) { left_of_[{a, b}] = owner; });
+      faces[owner].push_back(std::move(face.polygon));
+    }
+    result_.patches.resize(patches_.size());
+    for (std::size_t i = 0; i < faces.size(); ++i) result_.patches[i].footprint = united(faces[i]);
+  }
+
+  void find_neighbours() {
+    neighbours_.resize(patches_.size());
+    for (const auto& [edge, owner] : left_of_) {
+      const auto other = left_of_.find({edge.second, edge.first});
+      if (other == left_of_.end()) {
+        result_.feet.emplace_back(edge, owner);
+      } else if (other->second != owner) {
+        neighbours_[owner].insert(other->second);
+      }
+    }
+  }
+
+  bool lower(std::uint32_t a, std::uint32_t b) const {
+    return patches_[a].rank != patches_[b].rank ? patches_[a].rank < patches_[b].rank : a > b;
+  }
+
+  GridPolygons top_of(std::uint32_t i) const {
+    const GridPolygons& own = result_.patches[i].footprint;
+    GridPolygons ground = own;
+    for (const std::uint32_t n : neighbours_[i]) {
+      if (!lower(n, i)) continue;
+      const GridPolygons& theirs = result_.patches[n].footprint;
+      ground.insert(ground.end(), theirs.begin(), theirs.end());
+    }
+    if (ground.size() == own.size()) return eroded(own, offset_);
+    return common_part(own, eroded(united(ground), offset_));
+  }
+
+  const std::vector<Patch>& patches_;
+  const double offset_;
+  std::vector<GridBox> boxes_;
+  std::map<GridEdge, std::uint32_t> left_of_;
+  std::vector<std::set<std::uint32_t>> neighbours_;
+  Arrangement result_;
+};
+
+/// Union-find with the least member as representative.
+class Groups {
+ public:
+  explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
+  std::uint32_t find(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = find(a), b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+}  // namespace
+
+Arrangement arrange(const std::vector<Patch>& patches, double offset) {
+  return Arranging(patches, offset).run();
+}
+
+std::vector<std::vector<std::uint32_t>> groups_of(const std::vector<GridBox>& boxes) {
+  // A sweep along x with the open boxes ordered by their least y: only those that begin below a box's top are tried.
+  std::vector<std::uint32_t> order(boxes.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(),
+            [&](auto a, auto b) { return boxes[a].xmin != boxes[b].xmin ? boxes[a].xmin < boxes[b].xmin : a < b; });
+  std::int32_t tallest = 0;
+  for (const GridBox& box : boxes)
+    if (!box.empty()) tallest = std::max(tallest, box.ymax - box.ymin);
+  Groups groups(boxes.size());
+  std::multimap<std::int32_t, std::uint32_t> open;
+  for (const std::uint32_t i : order) {
+    if (boxes[i].empty()) continue;
+    // Nothing that begins further below than the tallest box is high reaches this one.
+    const std::int64_t from = std::int64_t{boxes[i].ymin} - tallest - 2;
+    auto at = open.lower_bound(static_cast<std::int32_t>(std::max<std::int64_t>(from, -kGridHalfSide)));
+    while (at != open.end() && at->first <= boxes[i].ymax + 1) {
+      const GridBox& other = boxes[at->second];
+      if (other.xmax + 1 < boxes[i].xmin) {
+        at = open.erase(at);
+        continue;
+      }
+      if (other.ymax + 1 >= boxes[i].ymin) groups.join(i, at->second);
+      ++at;
+    }
+    open.emplace(boxes[i].ymin, i);
+  }
+  std::map<std::uint32_t, std::vector<std::uint32_t>> members;
+  for (std::uint32_t i = 0; i < boxes.size(); ++i) members[groups.find(i)].push_back(i);
+  std::vector<std::vector<std::uint32_t>> result;
+  for (auto& [first, group] : members) result.push_back(std::move(group));
+  return result;
+}
+
+}  // namespace itin

@@ -1,0 +1,87 @@
+// Polygons on the grid, and what footprints need done to them. The only place that knows GEOS.
+//
+// Coordinates are grid positions throughout: what is computed between them is rounded to the grid as by snap rounding,
+// so results are valid polygons whose edges lie within a grid step of the exact ones. Every function is free of shared
+// state and may run on many threads.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include <itin/geometry.hpp>
+
+#include "triangulate/predicates.hpp"
+
+namespace itin {
+
+/// Open: the first position is not repeated.
+using GridRing = std::vector<Position>;
+
+/// The outline runs counterclockwise, holes clockwise: the inside is always to the left.
+struct GridPolygon {
+  GridRing outline;
+  std::vector<GridRing> holes;
+};
+
+using GridPolygons = std::vector<GridPolygon>;
+using GridEdge = std::pair<Position, Position>;
+
+/// Calls visit(ring) for the outline and each hole.
+template <class Visit>
+void for_each_ring(const GridPolygon& polygon, const Visit& visit) {
+  visit(polygon.outline);
+  for (const GridRing& hole : polygon.holes) visit(hole);
+}
+/// Calls visit(a, b) for each directed edge.
+template <class Visit>
+void for_each_edge(const GridPolygon& polygon, const Visit& visit) {
+  for_each_ring(polygon, [&](const GridRing& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) visit(ring[i], ring[(i + 1) % ring.size()]);
+  });
+}
+
+/// Square grid units.
+double area(const GridPolygon& polygon);
+double area(const GridPolygons& polygons);
+
+enum class Side { outside, border, inside };
+/// Exact.
+Side side_of(const GridPolygon& polygon, Position p);
+/// By the even-odd rule; p anywhere, borders as floating point has it.
+bool covers(const GridPolygons& polygons, Point2 p);
+
+/// The pieces of the segment pq inside a polygon, in order from p, as floating point has it.
+std::vector<std::pair<Point2, Point2>> inside_parts(const GridPolygon& polygon, Point2 p, Point2 q);
+
+struct EvenOdd {
+  GridPolygons polygons;
+  bool repaired = false;  ///< the rings crossed or touched themselves or each other
+};
+/// What rings enclose. Empty where they enclose nothing.
+EvenOdd even_odd(const std::vector<GridRing>& rings);
+
+/// A bounded face of an arrangement, with a position inside it.
+struct PlanFace {
+  GridPolygon polygon;
+  Point2 inside;
+};
+/// The faces of edges that meet only at their ends, without regard to edges that bound none.
+std::vector<PlanFace> faces_of(const std::vector<GridEdge>& edges);
+
+/// Of polygons that have no area in common and meet at shared edges.
+GridPolygons united(const GridPolygons& faces);
+/// All positions further than `distance` from the outside; corners stay sharp.
+GridPolygons eroded(const GridPolygons& polygons, double distance);
+GridPolygons common_part(const GridPolygons& a, const GridPolygons& b);
+
+/// A line as a band, square at its ends.
+GridPolygons thickened(const std::vector<Position>& line, double thickness);
+
+/// The smallest rectangle about a ring, as its centre, half sides and the direction (a unit vector) of the longer.
+struct Rectangle {
+  Point2 centre, axis;
+  double half_length = 0, half_width = 0;
+};
+Rectangle enclosing_rectangle(const GridRing& ring);
+
+}  // namespace itin

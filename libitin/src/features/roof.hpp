@@ -1,0 +1,57 @@
+// Roofs over a plan: where they crease, and how high they stand.
+//
+// Every roof is a continuous, piecewise linear function of plan position, so that ring vertices, creases and the points
+// where creases meet the ring carry its exact height (but for the rounding of positions to the grid). Lines come out
+// planar.
+//   flat      the eaves' height everywhere
+//   gabled    two planes that meet in a ridge along the longer axis of the smallest rectangle about the plan; at its
+//             ends the ring rises with them, which makes the gables
+//   hipped    four planes that rise from the sides of that rectangle: over a rectangle the straight skeleton's roof
+//   skeleton  a plane rises from each side of the plan, courtyards' sides included
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <itin/geometry.hpp>
+
+#include "features/footprint.hpp"
+#include "features/plan_overlay.hpp"
+
+namespace itin {
+
+/// Heights of a roof, grid units above the grid's zero.
+///
+/// With eaves and ridge the slope follows from both. With the ridge alone (the total height), it is the pitch, and the
+/// eaves lie accordingly lower, but never below half way between base and ridge: there the roof gets flatter. With the
+/// eaves alone it is the pitch, and the ridge is where it ends up.
+struct RoofHeights {
+  double base = 0;
+  std::optional<double> eaves;
+  std::optional<double> ridge;  ///< of the two at least one
+  double slope = 0.7;           ///< the tangent of the pitch
+};
+
+struct RoofLine {
+  GridPoint a, b;
+  bool eaves;  ///< along the plan's rings, otherwise a crease
+};
+
+struct RoofLines {
+  std::vector<RoofLine> lines;
+  std::string fallback;  ///< why the roof is flat though another was asked for; empty if all is well
+};
+
+RoofLines make_roof(RoofKind kind, const GridPolygon& plan, const RoofHeights& heights);
+
+/// A roof's crease or eave with its distances from the eaves, grid units.
+struct SkeletonArc {
+  Point2 a, b;
+  double rise_a = 0, rise_b = 0;
+};
+/// The bisectors of the straight skeleton; nothing where CGAL refuses the polygon or answers nonsense.
+std::optional<std::vector<SkeletonArc>> straight_skeleton(const GridPolygon& plan);
+
+}  // namespace itin

@@ -1,0 +1,235 @@
+#include "features/terrain_heights.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace itin {
+
+namespace {
+
+GridBox box_of(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
+  GridBox box;
+  for (const GridPoint* p : {&a, &b, &c}) box.extend(p->x, p->y);
+  return box;
+}
+
+/// The height at (x, y) of the plane through a triangle, grid units.
+double plane_height(const GridPoint& a, const GridPoint& b, const GridPoint& c, double x, double y) {
+  const double abx = double{1} * b.x - a.x, aby = double{1} * b.y - a.y;
+  const double acx = double{1} * c.x - a.x, acy = double{1} * c.y - a.y;
+  const double det = abx * acy - aby * acx, px = x - a.x, py = y - a.y;
+  const double s = (px * acy - py * acx) / det, t = (abx * py - aby * px) / det;
+  return a.z + s * (double{1} * b.z - a.z) + t * (double{1} * c.z - a.z);
+}
+
+struct Integral {
+  double area = 0, x = 0, y = 0;  ///< and first moments
+};
+
+/// Of a closed ring about `origin`; signed, counterclockwise positive.
+Integral integral(const std::vector<Point2>& ring, Point2 origin) {
+  Integral sum;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point2 p{ring[i].x - origin.x, ring[i].y - origin.y};
+    const Point2& next = ring[(i + 1) % ring.size()];
+    const Point2 q{next.x - origin.x, next.y - origin.y};
+    const double cross = p.x * q.y - p.y * q.x;
+    sum.area += cross / 2;
+    sum.x += cross * (p.x + q.x) / 6;
+    sum.y += cross * (p.y + q.y) / 6;
+  }
+  return sum;
+}
+
+/// Sutherland and Hodgman. A ring that enters several times comes out as one with coinciding edges there and back,
+/// which is all the same to an integral.
+void clip_to_half_plane(std::vector<Point2>& ring, Point2 a, Point2 b) {
+  const auto side = [&](const Point2& p) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); };
+  std::vector<Point2> kept;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point2 &p = ring[i], &q = ring[(i + 1) % ring.size()];
+    const double sp = side(p), sq = side(q);
+    if (sp >= 0) kept.push_back(p);
+    if ((sp > 0 && sq < 0) || (sp < 0 && sq > 0)) {
+      const double t = sp / (sp - sq);
+      kept.push_back({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)});
+    }
+  }
+  ring = std::move(kept);
+}
+
+}  // namespace
+
+struct TerrainHeights::Extremes {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  void add(double z) { low = std::min(low, z), high = std::max(high, z); }
+};
+
+GridBox bounds_of(const GridPolygons& polygons) {
+  GridBox box;
+  for (const GridPolygon& polygon : polygons)
+    for (const Position& p : polygon.outline) box.extend(p.x, p.y);
+  return box;
+}
+
+TerrainHeights::TerrainHeights(const Tin& tin) : tin_(&tin) {
+  for (const GridPoint& v : tin.vertices) bounds_.extend(v.x, v.y);
+  if (tin.triangles.empty() || bounds_.empty()) return;
+  const double width = double{1} * bounds_.xmax - bounds_.xmin, height = double{1} * bounds_.ymax - bounds_.ymin;
+  const double side = std::sqrt(2 * width * height / static_cast<double>(tin.triangles.size()));
+  bucket_side_ = std::max<std::int64_t>(1, static_cast<std::int64_t>(side));
+  columns_ = static_cast<std::int32_t>(static_cast<std::int64_t>(width) / bucket_side_ + 1);
+  rows_ = static_cast<std::int32_t>(static_cast<std::int64_t>(height) / bucket_side_ + 1);
+  fill_buckets();
+}
+
+/// Columns and rows of the buckets that a box meets; empty if none.
+GridBox TerrainHeights::bucket_range(const GridBox& box) const {
+  if (columns_ == 0 || !box.meets(bounds_)) return {};
+  const auto at = [&](std::int64_t v, std::int64_t origin, std::int32_t count) {
+    return static_cast<std::int32_t>(std::clamp<std::int64_t>((v - origin) / bucket_side_, 0, count - 1));
+  };
+  return {at(box.xmin, bounds_.xmin, columns_), at(box.ymin, bounds_.ymin, rows_), at(box.xmax, bounds_.xmin, columns_),
+          at(box.ymax, bounds_.ymin, rows_)};
+}
+
+void TerrainHeights::fill_buckets() {
+  const auto for_each_bucket = [&](std::uint32_t t, const auto& visit) {
+    const Triangle& v = tin_->triangles[t];
+    const GridBox range = bucket_range(box_of(vertex(v[0]), vertex(v[1]), vertex(v[2])));
+    for (std::int32_t r = range.ymin; r <= range.ymax; ++r)
+      for (std::int32_t c = range.xmin; c <= range.xmax; ++c) visit(static_cast<std::size_t>(r) * columns_ + c);
+  };
+  const auto count = static_cast<std::uint32_t>(tin_->triangles.size());
+  first_.assign(static_cast<std::size_t>(columns_) * rows_ + 1, 0);
+  for (std::uint32_t t = 0; t < count; ++t) for_each_bucket(t, [&](std::size_t i) { ++first_[i + 1]; });
+  for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+  triangles_.resize(first_.back());
+  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+  for (std::uint32_t t = 0; t < count; ++t) for_each_bucket(t, [&](std::size_t i) { triangles_[next[i]++] = t; });
+}
+
+std::vector<std::uint32_t> TerrainHeights::triangles_near(const GridBox& box) const {
+  std::vector<std::uint32_t> found;
+  const GridBox range = bucket_range(box);
+  if (range.empty()) return found;
+  for (std::int32_t r = range.ymin; r <= range.ymax; ++r) {
+    for (std::int32_t c = range.xmin; c <= range.xmax; ++c) {
+      const std::size_t i = static_cast<std::size_t>(r) * columns_ + c;
+      for (std::uint32_t k = first_[i]; k < first_[i + 1]; ++k) {
+        const Triangle& v = tin_->triangles[triangles_[k]];
+        if (box.meets(box_of(vertex(v[0]), vertex(v[1]), vertex(v[2])))) found.push_back(triangles_[k]);
+      }
+    }
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+std::optional<double> TerrainHeights::height_at(Position p) const {
+  const GridBox range = bucket_range({p.x, p.y, p.x, p.y});
+  if (range.empty()) return std::nullopt;
+  const std::size_t i = static_cast<std::size_t>(range.ymin) * columns_ + range.xmin;
+  for (std::uint32_t k = first_[i]; k < first_[i + 1]; ++k) {
+    const Triangle& v = tin_->triangles[triangles_[k]];
+    const GridPoint &a = vertex(v[0]), &b = vertex(v[1]), &c = vertex(v[2]);
+    if (orientation(a, b, p) < 0 || orientation(b, c, p) < 0 || orientation(c, a, p) < 0) continue;
+    for (const GridPoint* q : {&a, &b, &c})
+      if (q->x == p.x && q->y == p.y) return q->z * grid().resolution;
+    return plane_height(a, b, c, p.x, p.y) * grid().resolution;
+  }
+  return std::nullopt;
+}
+
+std::vector<Position> TerrainHeights::crossings(Position a, Position b) const {
+  GridBox box;
+  box.extend(a.x, a.y);
+  box.extend(b.x, b.y);
+  const double dx = double{1} * b.x - a.x, dy = double{1} * b.y - a.y;
+  std::vector<std::pair<double, Position>> found;
+  for (const std::uint32_t t : triangles_near(box)) {
+    const Triangle& v = tin_->triangles[t];
+    for (int i = 0; i < 3; ++i) {
+      const GridPoint &p = vertex(v[i]), &q = vertex(v[(i + 1) % 3]);
+      const std::int64_t sp = doubled_area(a, b, p), sq = doubled_area(a, b, q);
+      if (sp == 0) {
+        const double along = (dx * (double{1} * p.x - a.x) + dy * (double{1} * p.y - a.y)) / (dx * dx + dy * dy);
+        if (along > 0 && along < 1) found.push_back({along, {p.x, p.y}});
+      }
+      if ((sp > 0) == (sq > 0) || sp == 0 || sq == 0) continue;
+      const std::int64_t sa = doubled_area(p, q, a), sb = doubled_area(p, q, b);
+      if (sa == 0 || sb == 0 || (sa > 0) == (sb > 0)) continue;
+      const double along = static_cast<double>(sa) / (static_cast<double>(sa) - static_cast<double>(sb));
+      found.push_back({along,
+                       {static_cast<std::int32_t>(std::llround(a.x + along * dx)),
+                        static_cast<std::int32_t>(std::llround(a.y + along * dy))}});
+    }
+  }
+  std::sort(found.begin(), found.end());
+  std::vector<Position> ordered;
+  for (const auto& [along, p] : found)
+    if (p != a && p != b && (ordered.empty() || ordered.back() != p)) ordered.push_back(p);
+  return ordered;
+}
+
+std::optional<double> TerrainHeights::mean_height(const GridPolygons& footprint,
+                                                  const std::vector<std::uint32_t>& near) const {
+  double area = 0, volume = 0;
+  for (const std::uint32_t t : near) {
+    const Triangle& v = tin_->triangles[t];
+    const GridPoint &a = vertex(v[0]), &b = vertex(v[1]), &c = vertex(v[2]);
+    const std::array<Point2, 3> corner{Point2{1.0 * a.x, 1.0 * a.y}, {1.0 * b.x, 1.0 * b.y}, {1.0 * c.x, 1.0 * c.y}};
+    Integral part;
+    for (const GridPolygon& polygon : footprint) {
+      for_each_ring(polygon, [&](const GridRing& outline) {
+        std::vector<Point2> ring;
+        for (const Position& p : outline) ring.push_back({1.0 * p.x, 1.0 * p.y});
+        for (std::size_t i = 0; i < 3 && !ring.empty(); ++i) clip_to_half_plane(ring, corner[i], corner[(i + 1) % 3]);
+        const Integral piece = integral(ring, corner[0]);
+        part.area += piece.area, part.x += piece.x, part.y += piece.y;
+      });
+    }
+    if (part.area <= 0) continue;
+    area += part.area;
+    // The integral of a linear function is the area times its value at the centroid.
+    volume += part.area * plane_height(a, b, c, corner[0].x + part.x / part.area, corner[0].y + part.y / part.area);
+  }
+  if (area <= 0) return std::nullopt;
+  return volume / area * grid().resolution;
+}
+
+void TerrainHeights::add_outline(const GridPolygons& footprint, Extremes& extremes) const {
+  const auto add = [&](Position p) {
+    if (const auto z = height_at(p)) extremes.add(*z);
+  };
+  for (const GridPolygon& polygon : footprint) {
+    for_each_edge(polygon, [&](Position a, Position b) {
+      add(a);
+      for (const Position& p : crossings(a, b)) add(p);
+    });
+  }
+}
+
+std::optional<double> TerrainHeights::base_height(const GridPolygons& footprint, BaseRule rule) const {
+  const std::vector<std::uint32_t> near = triangles_near(bounds_of(footprint));
+  if (rule == BaseRule::mean || rule == BaseRule::terrain_following) return mean_height(footprint, near);
+  Extremes extremes;
+  add_outline(footprint, extremes);
+  for (const std::uint32_t t : near) {
+    for (const std::uint32_t v : tin_->triangles[t]) {
+      const Position p{vertex(v).x, vertex(v).y};
+      const bool inside = std::any_of(footprint.begin(), footprint.end(),
+                                      [&](const GridPolygon& g) { return side_of(g, p) == Side::inside; });
+      if (inside) extremes.add(vertex(v).z * grid().resolution);
+    }
+  }
+  if (extremes.low > extremes.high) return std::nullopt;
+  return rule == BaseRule::minimum ? extremes.low : extremes.high;
+}
+
+}  // namespace itin

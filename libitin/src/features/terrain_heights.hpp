@@ -1,0 +1,59 @@
+// Heights of the ground under features, exactly those of a triangulation: at positions, along edges, under footprints.
+//
+//   const TerrainHeights terrain(tin);                    // of the full surface, in a window about the features
+//   std::optional<double> z = terrain.height_at(p);       // metres; nothing outside the triangulation
+//   std::optional<double> base = terrain.base_height(footprint, BaseRule::mean);
+//
+// Immutable and safe for concurrent use. Refers to the Tin, which must outlive it. About 12 bytes a triangle; a look-up
+// takes time proportional to the triangles near it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <itin/tin.hpp>
+
+#include "features/footprint.hpp"
+#include "features/plan_overlay.hpp"
+
+namespace itin {
+
+class TerrainHeights {
+ public:
+  explicit TerrainHeights(const Tin& tin);
+
+  const Grid& grid() const { return tin_->grid; }
+  std::optional<double> height_at(Position p) const;
+
+  /// Where an edge of the triangulation meets the open segment ab, rounded to the grid, in order from a. Edges along ab
+  /// give their ends.
+  std::vector<Position> crossings(Position a, Position b) const;
+
+  /// Indices, ascending, of the triangles whose boxes meet the box.
+  std::vector<std::uint32_t> triangles_near(const GridBox& box) const;
+  const Triangle& triangle(std::uint32_t t) const { return tin_->triangles[t]; }
+  const GridPoint& vertex(std::uint32_t v) const { return tin_->vertices[v]; }
+
+  /// Extremes and mean over the part of the footprint that lies on the triangulation, nothing if there is none. Least
+  /// and greatest are those at vertices inside, at the outline's vertices and where it crosses edges; the mean is the
+  /// integral over the area. terrain_following asks for the mean.
+  std::optional<double> base_height(const GridPolygons& footprint, BaseRule rule) const;
+
+ private:
+  struct Extremes;
+  GridBox bucket_range(const GridBox& box) const;
+  void fill_buckets();
+  std::optional<double> mean_height(const GridPolygons& footprint, const std::vector<std::uint32_t>& near) const;
+  void add_outline(const GridPolygons& footprint, Extremes& extremes) const;
+
+  const Tin* tin_;
+  GridBox bounds_;
+  std::int64_t bucket_side_ = 1;
+  std::int32_t columns_ = 0, rows_ = 0;
+  std::vector<std::uint32_t> first_, triangles_;  ///< of bucket i: triangles_[first_[i], first_[i + 1])
+};
+
+GridBox bounds_of(const GridPolygons& polygons);
+
+}  // namespace itin
