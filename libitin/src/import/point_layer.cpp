@@ -8,7 +8,6 @@
 
 #include <cpl_conv.h>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
@@ -16,33 +15,13 @@
 
 #include "import/crs.hpp"
 #include "import/quiet_gdal.hpp"
+#include "import/vector_layer.hpp"
 
 namespace itin {
 
 namespace {
 
 constexpr double kVoid = std::numeric_limits<double>::quiet_NaN();
-
-OGRLayer& choose_layer(GDALDataset& dataset, const std::string& path, const std::string& name) {
-  std::vector<std::string> names;
-  for (OGRLayer* layer : dataset.GetLayers()) names.emplace_back(layer->GetName());
-  if (names.empty()) throw FileError(path, "has no layers");
-  if (name.empty()) {
-    if (names.size() == 1) return *dataset.GetLayer(0);
-    throw FileError(path, fmt::format("has several layers; choose one with --layer: {}", names));
-  }
-  if (OGRLayer* layer = dataset.GetLayerByName(name.c_str())) return *layer;
-  throw FileError(path, fmt::format("has no layer '{}'; it has {}", name, names));
-}
-
-int height_field(OGRLayer& layer, const std::string& path, const std::string& name) {
-  const OGRFeatureDefn& definition = *layer.GetLayerDefn();
-  const int index = definition.GetFieldIndex(name.c_str());
-  if (index >= 0) return index;
-  std::vector<std::string> names;
-  for (int i = 0; i < definition.GetFieldCount(); ++i) names.emplace_back(definition.GetFieldDefn(i)->GetNameRef());
-  throw FileError(path, fmt::format("layer '{}' has no field '{}'; it has {}", layer.GetName(), name, names));
-}
 
 bool is_point_type(OGRwkbGeometryType type) {
   return wkbFlatten(type) == wkbPoint || wkbFlatten(type) == wkbMultiPoint;
@@ -60,7 +39,6 @@ class PointLayer final : public PointReader {
 
  private:
   void check_geometry_type() const;
-  void select(const std::string& where);
   Point2 find_centre();
   OGRFeatureUniquePtr next_feature();
   void add(const OGRFeature& feature, PointBatch& batch) const;
@@ -85,26 +63,12 @@ PointLayer::PointLayer(const std::string& path, const ImportOptions& options) : 
   if (!dataset_) throw FileError(path, "cannot be read as a point layer: " + QuietGdal::message("unknown error"));
   layer_ = &choose_layer(*dataset_, path, options.layer);
   check_geometry_type();
-  if (!options.z_field.empty()) height_field_ = height_field(*layer_, path, options.z_field);
+  if (!options.z_field.empty()) height_field_ = field_of_layer(*layer_, path, options.z_field);
   const GIntBig all = layer_->GetFeatureCount();
-  if (!options.where.empty()) select(options.where);
+  if (!options.where.empty()) select_features(*layer_, path, options.where);
   matching_ = layer_->GetFeatureCount();
   filtered_ = static_cast<std::uint64_t>(std::max<GIntBig>(0, all - matching_));
   centre_ = find_centre();
-}
-
-void PointLayer::select(const std::string& where) {
-  // Databases look at the clause only when they count or read.
-  const bool understood = layer_->SetAttributeFilter(where.c_str()) == OGRERR_NONE && layer_->GetFeatureCount() >= 0 &&
-                          CPLGetLastErrorType() < CE_Failure;
-  if (understood) return;
-  const std::string reason = QuietGdal::message("unknown error");
-  // OGR's own SQL, then SQLite's: the contract tells an unknown field from a clause that makes no sense.
-  if (reason.find("not recognised as an available field") != std::string::npos ||
-      reason.find("no such column") != std::string::npos)
-    throw FileError(
-        path_, fmt::format("--where {} names a field that layer '{}' has not: {}", where, layer_->GetName(), reason));
-  throw InputError(fmt::format("{}: --where {} is not understood: {}", path_, where, reason));
 }
 
 void PointLayer::check_geometry_type() const {

@@ -1,0 +1,25 @@
+// Buildings from CityJSON 1.0 to 2.0 (OGC 20-072r5): solids and surfaces, LoD 1 and 2.
+//
+// Of each Building and BuildingPart the geometry of the greatest level of detail is taken. Roof and ground surfaces are
+// known by their semantics where they have any, otherwise by facing up or down. Pieces of one plane that share edges
+// (triangulated roofs) are joined.
+#pragma once
+
+#include <string>
+
+#include "import/footprint_reader.hpp"
+
+namespace itin {
+
+struct CityJsonQuery {
+  std::string path;
+  std::string crs;             ///< overrides the file's own
+  bool ground_as_base = true;  ///< the least elevation of the ground surfaces; otherwise left to the terrain
+};
+
+/// In the CRS `to_crs` (WKT). What cannot be used is passed over with a warning: a line an object, or a line a type for
+/// objects that are no buildings. Throws FileError for a file that is not readable or no CityJSON, InputError for a CRS
+/// that is missing or unknown.
+FootprintSource read_city_json(const CityJsonQuery& query, const std::string& to_crs);
+
+}  // namespace itin

@@ -1,0 +1,174 @@
+#include "import/footprint_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include <cpl_conv.h>
+#include <fmt/format.h>
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include <itin/error.hpp>
+
+#include "features/feature_mesh.hpp"
+#include "import/crs.hpp"
+#include "import/quiet_gdal.hpp"
+#include "import/source_context.hpp"
+#include "import/vector_layer.hpp"
+
+namespace itin {
+
+namespace {
+
+struct Fields {
+  int height = -1, eaves = -1, base = -1, name = -1;
+};
+
+class FootprintLayer {
+ public:
+  FootprintLayer(const FootprintQuery& query, const std::string& to_crs, const Grid& grid)
+      : query_(query), grid_(grid), dataset_(open(query.path)) {
+    layer_ = &choose_layer(*dataset_, query.path, query.layer);
+    fields_ = {field(query.height_field), field(query.eaves_field), field(query.base_field), field(query.name_field)};
+    if (!query.where.empty()) select_features(*layer_, query.path, query.where);
+    const OGRSpatialReference* own = layer_->GetSpatialRef();
+    const Crs crs = source_crs(query.path, query.crs, own ? wkt_of(*own) : std::string());
+    transform_.emplace(crs.wkt, to_crs, query.path);
+    const HeightUnit unit = height_unit(query.path, std::nullopt, crs);
+    metres_ = unit.metres;
+    const bool heights_used = fields_.height >= 0 || fields_.eaves >= 0 || fields_.base >= 0;
+    if (heights_used && !unit.warning.empty()) source_.warnings.push_back(unit.warning);
+  }
+
+  FootprintSource read() {
+    layer_->ResetReading();
+    for (;;) {
+      CPLErrorReset();
+      const OGRFeatureUniquePtr feature(layer_->GetNextFeature());
+      if (!feature) break;
+      add(*feature);
+    }
+    if (QuietGdal::failed()) throw FileError(query_.path, QuietGdal::message("unknown error"));
+    if (unused_z_)
+      source_.warnings.push_back(query_.path + ": Z of the footprints is not used; say whether it is base or top");
+    return std::move(source_);
+  }
+
+ private:
+  static GDALDatasetUniquePtr open(const std::string& path) {
+    GDALDatasetUniquePtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
+    if (!dataset) throw FileError(path, "cannot be read as a vector layer: " + QuietGdal::message("unknown error"));
+    return dataset;
+  }
+
+  int field(const std::string& name) { return name.empty() ? -1 : field_of_layer(*layer_, query_.path, name); }
+
+  void add(const OGRFeature& feature) {
+    FootprintFeature footprint;
+    footprint.name =
+        fields_.name >= 0 ? feature.GetFieldAsString(fields_.name) : fmt::format("feature {}", feature.GetFID());
+    footprint.kind = query_.kind;
+    footprint.roof = query_.roof;
+    const OGRGeometry* geometry = feature.GetGeometryRef();
+    if (!geometry || geometry->IsEmpty()) return pass_over(footprint.name, "has no geometry");
+    // Arcs become chords here.
+    const std::unique_ptr<OGRGeometry> linear(geometry->getLinearGeometry());
+    lowest_ = std::numeric_limits<double>::infinity(), highest_ = -lowest_;
+    try {
+      if (!linear || !add_rings(*linear, footprint))
+        return pass_over(footprint.name, std::string("is a ") + geometry->getGeometryName());
+    } catch (const InputError& error) {
+      return pass_over(footprint.name, error.what());
+    }
+    add_heights(feature, footprint);
+    source_.features.push_back(std::move(footprint));
+  }
+
+  void pass_over(const std::string& name, const std::string& why) {
+    source_.warnings.push_back(fmt::format("{}: {}: passed over: {}", query_.path, name, why));
+  }
+
+  /// False for a kind of geometry that has no footprint.
+  bool add_rings(const OGRGeometry& geometry, FootprintFeature& footprint) {
+    const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
+    if (type == wkbPolygon || type == wkbTriangle) {
+      for (const OGRLinearRing* ring : *geometry.toPolygon()) footprint.rings.push_back(plan(*ring));
+      return true;
+    }
+    if (type == wkbLineString) {
+      const OGRLineString& line = *geometry.toLineString();
+      for (PlanRing& ring : band_about(plan(line), query_.thickness, grid_)) footprint.rings.push_back(std::move(ring));
+      return true;
+    }
+    if (type != wkbMultiPolygon && type != wkbMultiLineString && type != wkbGeometryCollection) return false;
+    const OGRGeometryCollection& parts = *geometry.toGeometryCollection();
+    return std::all_of(parts.begin(), parts.end(),
+                       [&](const OGRGeometry* part) { return add_rings(*part, footprint); });
+  }
+
+  PlanRing plan(const OGRSimpleCurve& line) {
+    const auto count = static_cast<std::size_t>(line.getNumPoints());
+    std::vector<double> x(count), y(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const int at = static_cast<int>(i);
+      x[i] = line.getX(at), y[i] = line.getY(at);
+      if (line.Is3D()) lowest_ = std::min(lowest_, line.getZ(at)), highest_ = std::max(highest_, line.getZ(at));
+    }
+    transform_->transform(x, y);
+    PlanRing ring;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!std::isfinite(x[i]) || !std::isfinite(y[i]))
+        throw InputError("a vertex has no place in the CRS of the store");
+      ring.push_back({x[i], y[i]});
+    }
+    return ring;
+  }
+
+  std::optional<double> metres(const OGRFeature& feature, int index) {
+    if (index < 0 || !feature.IsFieldSetAndNotNull(index)) return std::nullopt;
+    const OGRFieldDefn& definition = *feature.GetFieldDefnRef(index);
+    const bool text = definition.GetType() == OFTString;
+    const double value = feature.GetFieldAsDouble(index);
+    if ((text && CPLGetValueType(feature.GetFieldAsString(index)) == CPL_VALUE_STRING) || !std::isfinite(value)) {
+      source_.warnings.push_back(fmt::format("{}: feature {}: {} '{}' is not a number; taken as missing", query_.path,
+                                             feature.GetFID(), definition.GetNameRef(),
+                                             feature.GetFieldAsString(index)));
+      return std::nullopt;
+    }
+    return value * metres_;
+  }
+
+  void add_heights(const OGRFeature& feature, FootprintFeature& footprint) {
+    footprint.height = metres(feature, fields_.height);
+    footprint.eaves = metres(feature, fields_.eaves);
+    footprint.base = metres(feature, fields_.base);
+    const bool has_z = lowest_ <= highest_ && (lowest_ != 0 || highest_ != 0);
+    if (has_z && query_.z == FootprintZ::ignored) unused_z_ = true;
+    if (has_z && query_.z == FootprintZ::base && !footprint.base) footprint.base = lowest_ * metres_;
+    if (has_z && query_.z == FootprintZ::top && !footprint.height && footprint.base)
+      footprint.height = highest_ * metres_ - *footprint.base;
+    if (!footprint.height && !footprint.eaves) footprint.height = query_.height;
+  }
+
+  const FootprintQuery& query_;
+  const Grid& grid_;
+  GDALDatasetUniquePtr dataset_;
+  OGRLayer* layer_ = nullptr;
+  Fields fields_;
+  std::optional<PointTransform> transform_;
+  double metres_ = 1;
+  double lowest_ = 0, highest_ = 0;  ///< Z of the feature at hand
+  bool unused_z_ = false;
+  FootprintSource source_;
+};
+
+}  // namespace
+
+FootprintSource read_footprints(const FootprintQuery& query, const std::string& to_crs, const Grid& grid) {
+  const QuietGdal quiet;
+  return FootprintLayer(query, to_crs, grid).read();
+}
+
+}  // namespace itin
