@@ -52,7 +52,9 @@ TEST(TerrainHeights, AgreeWithEveryTriangle) {
     const Position p{anywhere(random), anywhere(random)};
     const auto expected = slow_height(tin, p), found = terrain.height_at(p);
     ASSERT_EQ(expected.has_value(), found.has_value());
-    if (found) ASSERT_NEAR(*found, *expected, 1e-9);
+    if (found) {
+      ASSERT_NEAR(*found, *expected, 1e-9);
+    }
   }
   for (const GridPoint& v : tin.vertices) ASSERT_EQ(*terrain.height_at({v.x, v.y}), v.z * 0.01);
 }
@@ -115,11 +117,10 @@ TEST(TerrainHeights, BaseRulesAgreeWithDenseSampling) {
 TEST(TerrainHeights, MeanOnAPlaneIsTheHeightAtTheCentroid) {
   const Tin tin = test::lattice_tin(11, 11, 10, [](auto c, auto r) { return 100 + 2.0 * c + 3.0 * r; });
   const TerrainHeights terrain(tin);
-  const GridPolygons court{{{{1000, 1000}, {5000, 1000}, {5000, 5000}, {1000, 5000}},
-                            {{{1000, 1000}, {1000, 2000}, {2000, 2000}, {2000, 1000}}}}};
+  const GridPolygons court{{{{2000, 1000}, {5000, 1000}, {5000, 5000}, {1000, 5000}, {1000, 2000}, {2000, 2000}}, {}}};
   // 40 m square less 10 m square at its corner: centroid (16 30 - 1 15) / 15 = 31 m.
   EXPECT_NEAR(*terrain.base_height(court, BaseRule::mean), 100 + 31 * 0.5, 1e-9);
-  EXPECT_NEAR(*terrain.base_height(court, BaseRule::minimum), 100 + 10 * 0.2 + 20 * 0.3, 1e-9);
+  EXPECT_NEAR(*terrain.base_height(court, BaseRule::minimum), 100 + 20 * 0.2 + 10 * 0.3, 1e-9);
   EXPECT_NEAR(*terrain.base_height(court, BaseRule::maximum), 100 + 50 * 0.5, 1e-9);
   EXPECT_FALSE(terrain.base_height({GridPolygon{{{-500, -500}, {-400, -500}, {-400, -400}}, {}}}, BaseRule::mean));
 }
@@ -161,8 +162,8 @@ TEST(Drape, RepeatsTheTerrain) {
     wood.kind = FeatureKind::vegetation;
     wood.height = 12;
     PlanRing& ring = wood.rings.emplace_back();
-    for (const Position& p : star(random, {0, 0}, 6000).front().outline)
-      ring.push_back(kFeatureGrid.position(p.x, p.y));
+    const GridPolygons plan = star(random, {0, 0}, 6000);
+    for (const Position& p : plan.front().outline) ring.push_back(kFeatureGrid.position(p.x, p.y));
     const FeatureMesh mesh = meshed({wood}, &terrain);
     ASSERT_EQ(mesh.built, 1U) << testing::PrintToString(mesh.reports);
     expect_planar(mesh);
@@ -174,13 +175,12 @@ TEST(Drape, RepeatsTheTerrain) {
         ASSERT_NEAR(p.z * 0.01, *terrain.height_at({p.x, p.y}) + (s.kind == SegmentClass::foot ? 0 : 12), 0.0051);
       }
     }
+    const GridPolygons top = eroded({mesh.masks.front().polygon}, 7);
     std::uniform_int_distribution<std::int32_t> anywhere(-6000, 6000);
     int inside = 0;
     double worst = 0;
     for (int i = 0; i < 20000; ++i) {
       const Position p{anywhere(random), anywhere(random)};
-      GridPolygons top = eroded({mesh.masks.front().polygon}, 7);
-      if (i == 0) ASSERT_FALSE(top.empty());
       if (!covers(top, {1.0 * p.x, 1.0 * p.y})) continue;
       ++inside;
       worst = std::max(worst, std::abs(*surface.height_at(p) - *terrain.height_at(p) - 12));

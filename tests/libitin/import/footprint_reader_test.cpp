@@ -36,11 +36,7 @@ std::string wkt(const std::string& crs) {
 
 class FootprintReader : public testing::Test {
  protected:
-  std::string write(const std::string& name, const std::string& text) {
-    const std::string path = directory_.path() / name;
-    std::ofstream(path) << text;
-    return path;
-  }
+  std::string write(const std::string& name, const std::string& text) { return directory_.write(name, text); }
   std::string layer(const std::string& features) {
     return write("f.geojson", R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:27700"}},
       "features":[)" + features + "]}");
