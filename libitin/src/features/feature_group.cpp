@@ -42,8 +42,9 @@ class GroupBuilder {
     arrangement_ = arrange(patches, offset_);
     refuse_what_has_no_top();
     if (!objections_.empty()) return objections_;
-    add_masks();
     add_feet();
+    if (!objections_.empty()) return objections_;
+    add_masks();
     add_tops(patches);
     if (objections_.empty()) settle();
     return objections_;
@@ -75,7 +76,7 @@ class GroupBuilder {
     for (std::size_t i = 0; i < arrangement_.patches.size(); ++i) {
       for (GridPolygon& polygon : arrangement_.patches[i].footprint) {
         kept[feature_of_[i]] += area(polygon);
-        mesh_.masks.push_back({feature_of(i).number, polygon});
+        mesh_.masks.push_back({feature_of(i).number, along_feet(polygon)});
       }
     }
     for (std::size_t i = 0; i < feature_of_.size(); ++i) asked[feature_of_[i]] += area(feature_of(i).patches[0].plan);
@@ -85,6 +86,22 @@ class GroupBuilder {
         report(f, fmt::format("loses {:.1f} % of its footprint to higher features that overlap it",
                               100 * (1 - kept[f] / asked[f])));
     }
+  }
+
+  /// With the vertices that feet have where they cross the terrain's edges: rounded, those lie off the straight line.
+  GridPolygon along_feet(const GridPolygon& polygon) const {
+    const auto with_feet = [&](const GridRing& ring) {
+      GridRing way;
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        way.push_back(ring[i]);
+        const auto foot = between_.find({ring[i], ring[(i + 1) % ring.size()]});
+        if (foot != between_.end()) way.insert(way.end(), foot->second.begin(), foot->second.end());
+      }
+      return way;
+    };
+    GridPolygon result{with_feet(polygon.outline), {}};
+    for (const GridRing& hole : polygon.holes) result.holes.push_back(with_feet(hole));
+    return result;
   }
 
   std::optional<double> foot_height(const PreparedFeature& feature, Position p) const {
@@ -100,7 +117,7 @@ class GroupBuilder {
       const std::uint32_t f = feature_of_[patch];
       std::vector<Position> way{edge.first};
       if (features_[f].foot_on_terrain) {
-        const std::vector<Position> between = terrain_->crossings(edge.first, edge.second);
+        const std::vector<Position>& between = between_[edge] = terrain_->crossings(edge.first, edge.second);
         way.insert(way.end(), between.begin(), between.end());
       }
       way.push_back(edge.second);
@@ -200,6 +217,7 @@ class GroupBuilder {
   const TerrainHeights* terrain_;
   std::vector<std::uint32_t> feature_of_;  ///< by patch
   Arrangement arrangement_;
+  std::map<GridEdge, std::vector<Position>> between_;  ///< of feet on the terrain, by edge
   std::map<std::uint32_t, std::string> objections_;
   std::set<std::uint32_t> flat_;
   GroupMesh mesh_;

@@ -37,7 +37,8 @@ struct FeatureSegment {
   SegmentClass kind;
 };
 
-/// Ground that a feature covers, its border included: terrain vertices there make way.
+/// Ground that a feature covers, its border included: terrain vertices there make way. Feet run along the border
+/// (within a grid step of it, where lines had to be joined).
 struct FeatureMask {
   std::uint32_t feature;
   GridPolygon polygon;
