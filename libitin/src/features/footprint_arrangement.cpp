@@ -1,10 +1,10 @@
 #include "features/footprint_arrangement.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <set>
-#include <unordered_map>
 
 #include "features/planar.hpp"
 #include "features/terrain_heights.hpp"
@@ -29,12 +29,40 @@ std::vector<GridEdge> noded_outlines(const std::vector<Patch>& patches) {
   return edges;
 }
 
+/// Which boxes may hold a position: as many cells as boxes, each with those that meet it.
+class BoxCells {
+ public:
+  explicit BoxCells(const std::vector<GridBox>& boxes) {
+    for (const GridBox& box : boxes) bounds_.extend(box);
+    side_ = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(boxes.size()))));
+    cells_.resize(static_cast<std::size_t>(side_) * side_);
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+      if (boxes[i].empty()) continue;
+      for (int r = row(boxes[i].ymin); r <= row(boxes[i].ymax); ++r)
+        for (int c = column(boxes[i].xmin); c <= column(boxes[i].xmax); ++c) cells_[number(c, r)].push_back(i);
+    }
+  }
+  /// Ascending.
+  const std::vector<std::uint32_t>& at(Point2 p) const { return cells_[number(column(p.x), row(p.y))]; }
+
+ private:
+  int cell(double v, double low, double high) const {
+    return high <= low ? 0 : std::clamp(static_cast<int>((v - low) / (high - low) * side_), 0, side_ - 1);
+  }
+  int column(double x) const { return cell(x, bounds_.xmin, bounds_.xmax); }
+  int row(double y) const { return cell(y, bounds_.ymin, bounds_.ymax); }
+  std::size_t number(int c, int r) const { return static_cast<std::size_t>(r) * side_ + c; }
+
+  GridBox bounds_;
+  int side_ = 1;
+  std::vector<std::vector<std::uint32_t>> cells_;
+};
+
 class Arranging {
  public:
   Arranging(const std::vector<Patch>& patches, double offset) : patches_(patches), offset_(offset) {}
 
   Arrangement run() {
-    for (const Patch& patch : patches_) boxes_.push_back(bounds_of(patch.plan));
     share_out();
     find_neighbours();
     for (std::uint32_t i = 0; i < patches_.size(); ++i) result_.patches[i].top = top_of(i);
@@ -42,10 +70,9 @@ class Arranging {
   }
 
  private:
-  std::uint32_t owner_at(Point2 p) const {
+  std::uint32_t owner_at(const BoxCells& cells, Point2 p) const {
     std::uint32_t owner = kNobody;
-    for (std::uint32_t i = 0; i < patches_.size(); ++i) {
-      if (p.x < boxes_[i].xmin || p.x > boxes_[i].xmax || p.y < boxes_[i].ymin || p.y > boxes_[i].ymax) continue;
+    for (const std::uint32_t i : cells.at(p)) {
       if (!covers(patches_[i].plan, p)) continue;
       if (owner == kNobody || patches_[i].top.at(p) > patches_[owner].top.at(p)) owner = i;
     }
@@ -53,9 +80,12 @@ class Arranging {
   }
 
   void share_out() {
+    std::vector<GridBox> boxes;
+    for (const Patch& patch : patches_) boxes.push_back(bounds_of(patch.plan));
+    const BoxCells cells(boxes);
     std::vector<GridPolygons> faces(patches_.size());
     for (PlanFace& face : faces_of(noded_outlines(patches_))) {
-      const std::uint32_t owner = owner_at(face.inside);
+      const std::uint32_t owner = owner_at(cells, face.inside);
       if (owner == kNobody) continue;
       for_each_edge(face.polygon, [&](Position a, Position b) { left_of_[{a, b}] = owner; });
       faces[owner].push_back(std::move(face.polygon));
@@ -94,7 +124,6 @@ class Arranging {
 
   const std::vector<Patch>& patches_;
   const double offset_;
-  std::vector<GridBox> boxes_;
   std::map<GridEdge, std::uint32_t> left_of_;
   std::vector<std::set<std::uint32_t>> neighbours_;
   Arrangement result_;

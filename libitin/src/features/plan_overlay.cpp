@@ -202,23 +202,24 @@ std::vector<std::pair<Point2, Point2>> inside_parts(const GridPolygon& polygon, 
 }
 
 EvenOdd even_odd(const std::vector<GridRing>& rings) {
-  std::vector<Geometry> lines, shells;
+  std::vector<Geometry> shells;
   for (GridRing ring : rings) {
     ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
     while (ring.size() > 1 && ring.back() == ring.front()) ring.pop_back();
     if (ring.size() >= 3) shells.push_back(to_geos(GridPolygon{std::move(ring), {}}));
   }
   EvenOdd result;
-  Geometry whole;
   for (Geometry& shell : shells) {
-    if (GEOSisValid_r(geos(), shell.get()) != 1) {
-      shell = checked(GEOSMakeValid_r(geos(), shell.get()));
-      result.repaired = true;
-    }
-    // Parity: what two rings both enclose is outside.
-    whole = whole ? checked(GEOSSymDifferencePrec_r(geos(), whole.get(), shell.get(), kGridSize)) : std::move(shell);
+    if (GEOSisValid_r(geos(), shell.get()) == 1) continue;
+    shell = checked(GEOSMakeValid_r(geos(), shell.get()));
+    result.repaired = true;
   }
-  if (whole) result.polygons = from_geos(on_grid(whole));
+  // Parity: what two rings both enclose is outside. In pairs, for many rings.
+  for (std::size_t step = 1; step < shells.size(); step *= 2) {
+    for (std::size_t i = 0; i + step < shells.size(); i += 2 * step)
+      shells[i] = checked(GEOSSymDifferencePrec_r(geos(), shells[i].get(), shells[i + step].get(), kGridSize));
+  }
+  if (!shells.empty()) result.polygons = from_geos(on_grid(shells.front()));
   return result;
 }
 

@@ -29,7 +29,7 @@ struct RectangleRise {
     return std::max(0.0, rise);
   }
   Point2 position(double along, double across) const {
-    const auto& [centre, u, length, width] = rectangle;
+    const Point2 &centre = rectangle.centre, &u = rectangle.axis;
     return {centre.x + along * u.x - across * u.y, centre.y + along * u.y + across * u.x};
   }
   std::vector<std::pair<Point2, Point2>> creases() const {
@@ -123,7 +123,18 @@ bool stays_inside(const GridPolygon& plan, const std::vector<RoofLine>& lines) {
                       [&](const RoofLine& line) { return !line.eaves && (strays(line.a) || strays(line.b)); });
 }
 
+/// Skeletons take time that grows with the square of the corners and more; no house has so many.
+constexpr std::size_t kMostCorners = 1000;
+
+std::size_t corners(const GridPolygon& plan) {
+  std::size_t count = 0;
+  for_each_ring(plan, [&](const GridRing& ring) { count += ring.size(); });
+  return count;
+}
+
 RoofLines skeleton_roof(const GridPolygon& plan, const RoofHeights& heights) {
+  if (corners(plan) > kMostCorners)
+    return {flat_roof(plan, flat_height(heights)), "too many corners for a straight skeleton"};
   const auto arcs = straight_skeleton(plan);
   if (!arcs) return {flat_roof(plan, flat_height(heights)), "the straight skeleton was refused"};
   double run = 0;

@@ -222,7 +222,7 @@ class CityModel {
     for (const auto& [edge, s] : left_of) {
       const auto other = left_of.find({edge.second, edge.first});
       if (other == left_of.end() || !same_plane(planes[s], planes[other->second], edge.first)) continue;
-      const auto [a, b] = std::minmax(find(s), find(other->second));
+      const auto [a, b] = std::minmax({find(s), find(other->second)});
       parent[b] = a;
     }
     std::map<std::size_t, std::vector<const Surface*>> groups;
