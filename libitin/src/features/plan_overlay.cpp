@@ -248,7 +248,12 @@ std::vector<PlanFace> faces_of(const std::vector<GridEdge>& edges) {
 
 GridPolygons united(const GridPolygons& faces) {
   if (faces.size() < 2) return faces;
-  return from_geos(checked(GEOSUnaryUnionPrec_r(geos(), to_geos(faces).get(), kGridSize)));
+  // Nothing may be snapped again: edges that pass a vertex closely would move.
+  return from_geos(checked(GEOSCoverageUnion_r(geos(), to_geos(faces).get())));
+}
+
+GridPolygons merged(const GridPolygons& polygons) {
+  return from_geos(checked(GEOSUnaryUnionPrec_r(geos(), to_geos(polygons).get(), kGridSize)));
 }
 
 GridPolygons eroded(const GridPolygons& polygons, double distance) {

@@ -68,8 +68,10 @@ struct PlanFace {
 /// The faces of edges that meet only at their ends, without regard to edges that bound none.
 std::vector<PlanFace> faces_of(const std::vector<GridEdge>& edges);
 
-/// Of polygons that have no area in common and meet at shared edges.
+/// Of polygons that have no area in common and meet at shared edges; vertices stay.
 GridPolygons united(const GridPolygons& faces);
+/// Of any polygons.
+GridPolygons merged(const GridPolygons& polygons);
 /// All positions further than `distance` from the outside; corners stay sharp.
 GridPolygons eroded(const GridPolygons& polygons, double distance);
 GridPolygons common_part(const GridPolygons& a, const GridPolygons& b);

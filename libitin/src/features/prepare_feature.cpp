@@ -121,7 +121,7 @@ class Preparing {
       if (const auto plan = polygons(surface.rings))
         all.insert(all.end(), plan->polygons.begin(), plan->polygons.end());
     }
-    return united(all);
+    return merged(all);
   }
 
   void add_patch(GridPolygons plan, const Plane& top) {

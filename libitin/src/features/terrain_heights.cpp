@@ -146,12 +146,13 @@ std::optional<double> TerrainHeights::height_at(Position p) const {
   return std::nullopt;
 }
 
-std::vector<Position> TerrainHeights::crossings(Position a, Position b) const {
+/// In order from a; one at an edge of two triangles is found twice.
+std::vector<TerrainHeights::Crossing> TerrainHeights::all_crossings(Position a, Position b) const {
   GridBox box;
   box.extend(a.x, a.y);
   box.extend(b.x, b.y);
   const double dx = double{1} * b.x - a.x, dy = double{1} * b.y - a.y;
-  std::vector<std::pair<double, Position>> found;
+  std::vector<Crossing> found;
   for (const std::uint32_t t : triangles_near(box)) {
     const Triangle& v = tin_->triangles[t];
     for (int i = 0; i < 3; ++i) {
@@ -159,21 +160,27 @@ std::vector<Position> TerrainHeights::crossings(Position a, Position b) const {
       const std::int64_t sp = doubled_area(a, b, p), sq = doubled_area(a, b, q);
       if (sp == 0) {
         const double along = (dx * (double{1} * p.x - a.x) + dy * (double{1} * p.y - a.y)) / (dx * dx + dy * dy);
-        if (along > 0 && along < 1) found.push_back({along, {p.x, p.y}});
+        if (along > 0 && along < 1) found.push_back({along, {p.x, p.y}, double{1} * p.z});
       }
       if ((sp > 0) == (sq > 0) || sp == 0 || sq == 0) continue;
       const std::int64_t sa = doubled_area(p, q, a), sb = doubled_area(p, q, b);
       if (sa == 0 || sb == 0 || (sa > 0) == (sb > 0)) continue;
       const double along = static_cast<double>(sa) / (static_cast<double>(sa) - static_cast<double>(sb));
+      const double part = static_cast<double>(sp) / (static_cast<double>(sp) - static_cast<double>(sq));
       found.push_back({along,
                        {static_cast<std::int32_t>(std::llround(a.x + along * dx)),
-                        static_cast<std::int32_t>(std::llround(a.y + along * dy))}});
+                        static_cast<std::int32_t>(std::llround(a.y + along * dy))},
+                       p.z + part * (double{1} * q.z - p.z)});
     }
   }
   std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::vector<Position> TerrainHeights::crossings(Position a, Position b) const {
   std::vector<Position> ordered;
-  for (const auto& [along, p] : found)
-    if (p != a && p != b && (ordered.empty() || ordered.back() != p)) ordered.push_back(p);
+  for (const Crossing& c : all_crossings(a, b))
+    if (c.at != a && c.at != b && (ordered.empty() || ordered.back() != c.at)) ordered.push_back(c.at);
   return ordered;
 }
 
@@ -204,13 +211,10 @@ std::optional<double> TerrainHeights::mean_height(const GridPolygons& footprint,
 }
 
 void TerrainHeights::add_outline(const GridPolygons& footprint, Extremes& extremes) const {
-  const auto add = [&](Position p) {
-    if (const auto z = height_at(p)) extremes.add(*z);
-  };
   for (const GridPolygon& polygon : footprint) {
     for_each_edge(polygon, [&](Position a, Position b) {
-      add(a);
-      for (const Position& p : crossings(a, b)) add(p);
+      if (const auto z = height_at(a)) extremes.add(*z);
+      for (const Crossing& c : all_crossings(a, b)) extremes.add(c.height * grid().resolution);
     });
   }
 }

@@ -42,6 +42,13 @@ class TerrainHeights {
 
  private:
   struct Extremes;
+  struct Crossing {
+    double along;  ///< 0 to 1
+    Position at;
+    double height;  ///< grid units, where the edges meet: `at` is rounded
+    friend auto operator<=>(const Crossing&, const Crossing&) = default;
+  };
+  std::vector<Crossing> all_crossings(Position a, Position b) const;
   GridBox bucket_range(const GridBox& box) const;
   void fill_buckets();
   std::optional<double> mean_height(const GridPolygons& footprint, const std::vector<std::uint32_t>& near) const;

@@ -197,7 +197,8 @@ class CityModel {
         for (const Index v : ring) points.push_back(vertices_[v]);
       }
     }
-    for (const Surface& ground : grounds)
+    // Solids without a floor stand on the feet of their walls.
+    for (const Surface& ground : grounds.empty() ? surfaces : grounds)
       for (const auto& ring : ground.rings)
         for (const Index v : ring) feature.base = std::min(feature.base.value_or(vertices_[v].z), vertices_[v].z);
     if (!query_.ground_as_base) feature.base.reset();

@@ -14,7 +14,7 @@ namespace itin {
 struct CityJsonQuery {
   std::string path;
   std::string crs;             ///< overrides the file's own
-  bool ground_as_base = true;  ///< the least elevation of the ground surfaces; otherwise left to the terrain
+  bool ground_as_base = true;  ///< the least elevation of the ground surfaces, or of all; else the terrain's
 };
 
 /// In the CRS `to_crs` (WKT). What cannot be used is passed over with a warning: a line an object, or a line a type for
