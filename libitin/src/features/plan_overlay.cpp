@@ -5,6 +5,7 @@
 #include <geos_c.h>
 #include <limits>
 #include <memory>
+#include <set>
 #include <string>
 
 #include <itin/error.hpp>
@@ -248,8 +249,20 @@ std::vector<PlanFace> faces_of(const std::vector<GridEdge>& edges) {
 
 GridPolygons united(const GridPolygons& faces) {
   if (faces.size() < 2) return faces;
-  // Nothing may be snapped again: edges that pass a vertex closely would move.
-  return from_geos(checked(GEOSCoverageUnion_r(geos(), to_geos(faces).get())));
+  // Edges between two faces go; of the rest every face to the left of one is inside. Nothing may be snapped again:
+  // edges that pass a vertex closely would move.
+  std::set<GridEdge> border;
+  for (const GridPolygon& face : faces) {
+    for_each_edge(face, [&](Position from, Position to) {
+      if (border.erase({to, from}) == 0) border.insert({from, to});
+    });
+  }
+  GridPolygons result;
+  for (PlanFace& face : faces_of({border.begin(), border.end()})) {
+    const GridRing& outline = face.polygon.outline;
+    if (border.contains({outline[0], outline[1]})) result.push_back(std::move(face.polygon));
+  }
+  return result;
 }
 
 GridPolygons merged(const GridPolygons& polygons) {
