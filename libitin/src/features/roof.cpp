@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <set>
 
 #include "features/planar.hpp"
+#include "features/planarity.hpp"
 
 namespace itin {
 
@@ -126,15 +128,22 @@ bool stays_inside(const GridPolygon& plan, const std::vector<RoofLine>& lines) {
 /// Skeletons take time that grows with the square of the corners and more; no house has so many.
 constexpr std::size_t kMostCorners = 1000;
 
-std::size_t corners(const GridPolygon& plan) {
-  std::size_t count = 0;
-  for_each_ring(plan, [&](const GridRing& ring) { count += ring.size(); });
-  return count;
+/// Why a plan is not fit for CGAL, which does not check: it crashes or runs for ever where rings touch.
+std::string unfit(const GridPolygon& plan) {
+  std::vector<GridEdge> edges;
+  std::set<Position> corners;
+  for_each_edge(plan, [&](Position a, Position b) {
+    edges.emplace_back(a, b);
+    corners.insert(a);
+  });
+  if (edges.size() > kMostCorners) return "too many corners for a straight skeleton";
+  if (corners.size() < edges.size() || !conflicts(edges).empty()) return "its outline touches itself";
+  return {};
 }
 
 RoofLines skeleton_roof(const GridPolygon& plan, const RoofHeights& heights) {
-  if (corners(plan) > kMostCorners)
-    return {flat_roof(plan, flat_height(heights)), "too many corners for a straight skeleton"};
+  if (std::string reason = unfit(plan); !reason.empty())
+    return {flat_roof(plan, flat_height(heights)), std::move(reason)};
   const auto arcs = straight_skeleton(plan);
   if (!arcs) return {flat_roof(plan, flat_height(heights)), "the straight skeleton was refused"};
   double run = 0;

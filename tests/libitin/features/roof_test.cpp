@@ -123,12 +123,26 @@ TEST(Roof, SkeletonGoesRoundACourtyard) {
   EXPECT_NEAR(low, 10 - 2.95 * kTan35, 0.02);
 }
 
-TEST(Roof, FallsBackWhereTheSkeletonCannotBe) {
-  // Clockwise: no polygon to CGAL.
-  const GridPolygon plan{{{0, 0}, {0, 600}, {1000, 600}, {1000, 0}}, {}};
-  EXPECT_FALSE(straight_skeleton(plan));
+// A courtyard that touches the outline at (12, 18) made CGAL crash.
+TEST(Roof, FallsBackWhereRingsTouch) {
+  const GridPolygon plan{{{4, 15},
+                          {5, 16},
+                          {6, 16},
+                          {8, 17},
+                          {12, 18},
+                          {17, 15},
+                          {28, 19},
+                          {30, 24},
+                          {23, 26},
+                          {15, 26},
+                          {7, 27},
+                          {-5, 28},
+                          {-6, 28},
+                          {1, 20},
+                          {2, 18}},
+                         {{{12, 18}, {9, 20}, {8, 20}, {5, 22}, {-4, 27}, {7, 25}, {11, 24}, {22, 22}}}};
   const RoofLines roof = make_roof(RoofKind::skeleton, plan, total(0, 900));
-  EXPECT_NE(roof.fallback, "");
+  EXPECT_EQ(roof.fallback, "its outline touches itself");
   for (const GridPoint& p : vertices(roof)) EXPECT_EQ(p.z, 900);
 }
 
