@@ -69,6 +69,10 @@ class GroupBuilder {
     if (!objections_.empty()) return;
     for (std::uint32_t f = 0; f < features_.size(); ++f)
       if (!has_top[f]) objections_[f] = "left out: nowhere as wide as twice the wall offset";
+    for (std::size_t i = 0; i < arrangement_.patches.size(); ++i) {
+      const std::string& failure = arrangement_.patches[i].failure;
+      if (!failure.empty()) objections_[feature_of_[i]] = "left out: its walls cannot be placed: " + failure;
+    }
   }
 
   void add_masks() {
@@ -223,6 +227,18 @@ class GroupBuilder {
   GroupMesh mesh_;
 };
 
+/// As run(); where the group as a whole is beyond GEOS, all its features object.
+std::map<std::uint32_t, std::string> attempt(GroupBuilder& builder, std::size_t count) {
+  try {
+    return builder.run();
+  } catch (const OverlayError& error) {
+    std::map<std::uint32_t, std::string> objections;
+    for (std::uint32_t f = 0; f < count; ++f)
+      objections[f] = std::string("left out with its neighbours: ") + error.what();
+    return objections;
+  }
+}
+
 }  // namespace
 
 GroupMesh build_group(std::vector<PreparedFeature> features, double offset, const TerrainHeights* terrain) {
@@ -230,7 +246,7 @@ GroupMesh build_group(std::vector<PreparedFeature> features, double offset, cons
   std::vector<std::uint32_t> refused;
   for (;;) {
     GroupBuilder builder(features, offset, terrain);
-    const std::map<std::uint32_t, std::string> objections = builder.run();
+    const std::map<std::uint32_t, std::string> objections = attempt(builder, features.size());
     if (objections.empty()) {
       GroupMesh mesh = std::move(builder.mesh());
       mesh.findings.insert(mesh.findings.end(), refusals.begin(), refusals.end());

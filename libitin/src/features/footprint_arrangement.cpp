@@ -65,7 +65,13 @@ class Arranging {
   Arrangement run() {
     share_out();
     find_neighbours();
-    for (std::uint32_t i = 0; i < patches_.size(); ++i) result_.patches[i].top = top_of(i);
+    for (std::uint32_t i = 0; i < patches_.size(); ++i) {
+      try {
+        result_.patches[i].top = top_of(i);
+      } catch (const OverlayError& error) {
+        result_.patches[i].failure = error.what();
+      }
+    }
     return std::move(result_);
   }
 

@@ -11,6 +11,8 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "features/plan_overlay.hpp"
@@ -33,6 +35,7 @@ struct Patch {
 struct ArrangedPatch {
   GridPolygons footprint;  ///< disjoint from all others; what it lost to higher ones, or to the grid, is gone
   GridPolygons top;        ///< empty where nothing is as wide as twice the offset
+  std::string failure;     ///< why there is no top though there may be room
 };
 
 struct Arrangement {

@@ -8,8 +8,6 @@
 #include <set>
 #include <string>
 
-#include <itin/error.hpp>
-
 namespace itin {
 
 namespace {
@@ -49,7 +47,7 @@ struct Destroy {
 using Geometry = std::unique_ptr<GEOSGeometry, Destroy>;
 
 Geometry checked(GEOSGeometry* g) {
-  if (!g) throw Error("polygon overlay: " + geos().error());
+  if (!g) throw OverlayError("polygon overlay: " + geos().error());
   return Geometry(g);
 }
 

@@ -8,11 +8,18 @@
 #include <utility>
 #include <vector>
 
+#include <itin/error.hpp>
 #include <itin/geometry.hpp>
 
 #include "triangulate/predicates.hpp"
 
 namespace itin {
+
+/// GEOS gave up, as it does on a few outlines about as small as the grid. The functions below may throw it.
+class OverlayError : public Error {
+ public:
+  using Error::Error;
+};
 
 /// Open: the first position is not repeated.
 using GridRing = std::vector<Position>;

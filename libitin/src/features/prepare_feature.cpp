@@ -28,7 +28,11 @@ class Preparing {
   }
 
   Preparation run() {
-    out_.stands = place() && (out_.feature.drapes() ? raise_from_terrain() : found()) && add_surfaces();
+    try {
+      out_.stands = place() && (out_.feature.drapes() ? raise_from_terrain() : found()) && add_surfaces();
+    } catch (const OverlayError& error) {
+      out_.stands = refuse(error.what());
+    }
     return std::move(out_);
   }
 
