@@ -16,10 +16,14 @@ namespace itin {
 /// The full surface about one tile, and what its own points have of the coverage.
 struct TileSurvey {
   RegionMesh surface;                   ///< every triangle about the tile's points, ground or not
+  GridBox verge;                        ///< the tile's points and half the fringe seen around them
   std::vector<Candidacy> candidacy;     ///< per vertex: corners of the outline are kCorner, isolated points kNone
   std::vector<Segment> outline;         ///< edges with ground to the left, each in one tile only
   std::vector<std::uint64_t> isolated;  ///< the tile's points of no ground triangle, as Morton codes
 };
+
+/// A box that holds all that the survey of a tile depends on, but for the positions of far away points.
+GridBox reach_of(const CurveRange& tile);
 
 /// Which triangles of a plain Delaunay triangulation are ground. `gap_bases` per source, grid units.
 std::vector<std::uint8_t> ground_triangles(const RegionMesh& region,

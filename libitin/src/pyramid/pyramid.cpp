@@ -1,7 +1,6 @@
 #include "pyramid/pyramid.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <deque>
 
@@ -9,8 +8,8 @@
 
 #include "pyramid/certify.hpp"
 #include "pyramid/coverage.hpp"
-#include "pyramid/greedy.hpp"
 #include "pyramid/leaf_cutter.hpp"
+#include "pyramid/proposal.hpp"
 #include "pyramid/replacement.hpp"
 #include "pyramid/working_index.hpp"
 
@@ -18,8 +17,10 @@ namespace itin {
 
 namespace {
 
-/// Points a tile of greedy insertion.
-constexpr std::uint32_t kTilePoints = 1 << 16;
+/// Points a tile of greedy insertion: few borders, but still enough tiles for all threads.
+std::uint32_t tile_points(std::uint64_t points) {
+  return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(points / 32, 1 << 15, 1 << 18));
+}
 
 std::vector<std::array<double, 4>> gap_bases(const std::vector<SourceInfo>& sources, const Grid& grid) {
   std::vector<std::array<double, 4>> bases;
@@ -28,28 +29,6 @@ std::vector<std::array<double, 4>> gap_bases(const std::vector<SourceInfo>& sour
     for (double& component : bases.back()) component /= grid.resolution;
   }
   return bases;
-}
-
-struct Proposals {
-  std::vector<Segment> outline;
-  std::vector<std::uint64_t> isolated;
-};
-
-/// Finds the tile's part of the coverage and writes the levels that its points should have.
-Proposals propose_levels(WorkingIndex& index, const CurveRange& tile, const std::vector<std::array<double, 4>>& bases,
-                         std::span<const double> tolerances) {
-  TileSurvey survey = survey_tile(index, tile, bases);
-  const std::vector<std::uint8_t> levels = greedy_levels(survey.surface, survey.candidacy, tolerances);
-  std::vector<RawPoint> points = index.read(tile);
-  std::size_t v = 0;
-  for (RawPoint& p : points) {
-    while (v < levels.size() && morton(survey.surface.vertices[v].point.x, survey.surface.vertices[v].point.y) < p.code)
-      ++v;
-    if (v == levels.size()) break;
-    if (morton(survey.surface.vertices[v].point.x, survey.surface.vertices[v].point.y) == p.code) p.level = levels[v];
-  }
-  index.write(tile, points);
-  return {std::move(survey.outline), std::move(survey.isolated)};
 }
 
 /// Writes one level's quadtree; its leaves take the bounds of the working leaves in them.
@@ -123,7 +102,7 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
                             const std::vector<double>& tolerances, StoreWriter& writer, Progress& progress) {
   const int levels = static_cast<int>(tolerances.size());
   WorkingIndex index(points, levels, kLeafCapacity);
-  const std::vector<CurveRange> tiles = index.tiles(kTilePoints);
+  const std::vector<CurveRange> tiles = index.tiles(tile_points(points.size()));
   PyramidReport report;
   report.vertices_of_source.assign(sources.size(), 0);
 
@@ -135,21 +114,9 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
   }
   const std::vector<std::array<double, 4>> bases = gap_bases(sources, grid);
   report.replaced = drop_replaced(index, tiles, sources, bases, progress);
-  std::vector<Proposals> proposals(tiles.size());
-  std::atomic<std::size_t> done = 0;
-  parallel_for(tiles.size(), [&](std::size_t i) {
-    progress.throw_if_cancelled();
-    proposals[i] = propose_levels(index, tiles[i], bases, in_units);
-    progress.report("choosing the levels", static_cast<double>(++done) / static_cast<double>(tiles.size()));
-  });
-  std::vector<Segment> outline;
-  std::vector<std::uint64_t> isolated;
-  for (const Proposals& p : proposals) {
-    outline.insert(outline.end(), p.outline.begin(), p.outline.end());
-    isolated.insert(isolated.end(), p.isolated.begin(), p.isolated.end());
-  }
-  report.isolated = index.drop(std::move(isolated));
-  index.set_segments(join_collinear(std::move(outline)));
+  Proposal proposal = propose_levels(index, tiles, bases, in_units, progress);
+  report.isolated = index.drop(std::move(proposal.isolated));
+  index.set_segments(join_collinear(std::move(proposal.outline)));
 
   LeafBounds bounds = certify(index, in_whole_units, progress);
   write_levels(index, bounds, tiles, levels, writer, report, progress);
