@@ -92,18 +92,20 @@ const std::vector<std::uint32_t>& WorkingIndex::occupied(int level) const {
   return occupied_[static_cast<std::size_t>(level)];
 }
 
-void WorkingIndex::occupied_leaves_at(int level, const GridBox& box, std::vector<std::uint32_t>& out) const {
+template <class Visit>
+void WorkingIndex::visit_those_at(const std::vector<std::uint32_t>& leaves, const GridBox& box,
+                                  const Visit& visit) const {
   if (!MortonRange::exists(box)) return;
   const MortonRange range(box);
-  const std::vector<std::uint32_t>& list = occupied(level);
   std::optional<std::uint64_t> code = range.next(0);
-  for (auto leaf = list.begin(); code;) {
+  for (auto leaf = leaves.begin(); code;) {
     // Invariant: *code is in the box, and no leaf below it is left to visit.
-    leaf = std::partition_point(leaf, list.end(), [&](std::uint32_t i) { return ranges_[i].cell.end() <= *code; });
-    if (leaf == list.end()) return;
+    leaf = std::partition_point(leaf, leaves.end(), [&](std::uint32_t i) { return ranges_[i].cell.end() <= *code; });
+    if (leaf == leaves.end()) return;
     const Cell& cell = ranges_[*leaf].cell;
-    if (cell.contains(*code)) out.push_back(*leaf++);
-    code = range.next(cell.contains(*code) ? cell.end() : cell.code);
+    const bool meets = cell.contains(*code);
+    if (meets) visit(*leaf++);
+    code = range.next(meets ? cell.end() : cell.code);
   }
 }
 
@@ -112,7 +114,7 @@ void WorkingIndex::leaves(int finest, const GridBox& box, std::vector<Leaf>& out
   if (finest == 0) {
     leaves_at(box, found);
   } else {
-    occupied_leaves_at(finest, box, found);
+    visit_those_at(occupied(finest), box, [&](std::uint32_t leaf) { found.push_back(leaf); });
   }
   for (const std::uint32_t i : found) {
     const CurveRange& range = ranges_[i];
@@ -142,13 +144,10 @@ std::shared_ptr<const Block> WorkingIndex::block(const Leaf& leaf) const {
 }
 
 void WorkingIndex::segments(const GridBox& box, std::vector<Segment>& out) const {
-  if (segments_.empty()) return;
-  std::vector<std::uint32_t> found;
-  leaves_at(box, found);
-  for (const std::uint32_t i : found) {
-    for (std::uint32_t k = segment_start_[i]; k < segment_start_[i + 1]; ++k)
+  visit_those_at(segment_leaves_, box, [&](std::uint32_t leaf) {
+    for (std::uint32_t k = segment_start_[leaf]; k < segment_start_[leaf + 1]; ++k)
       out.push_back(segments_[segment_list_[k]]);
-  }
+  });
 }
 
 std::uint64_t WorkingIndex::selected_points(int level) const {
@@ -264,7 +263,9 @@ void WorkingIndex::set_segments(std::vector<Segment> segments) {
   std::sort(crossings.begin(), crossings.end());
   segment_start_.assign(ranges_.size() + 1, 0);
   segment_list_.clear();
+  segment_leaves_.clear();
   for (const auto& [leaf, s] : crossings) {
+    if (segment_leaves_.empty() || segment_leaves_.back() != leaf) segment_leaves_.push_back(leaf);
     segment_start_[leaf + 1] += 1;
     segment_list_.push_back(s);
   }

@@ -66,7 +66,9 @@ class WorkingIndex final : public PointIndex {
   }
   /// The leaves with points of this level (not 0) or a coarser one: few, for the coarse levels.
   const std::vector<std::uint32_t>& occupied(int level) const;
-  void occupied_leaves_at(int level, const GridBox& box, std::vector<std::uint32_t>& out) const;
+  /// Calls visit(leaf) for each of these leaves, in ascending order, that holds a position of the box.
+  template <class Visit>
+  void visit_those_at(const std::vector<std::uint32_t>& leaves, const GridBox& box, const Visit& visit) const;
   void count_levels(std::uint32_t leaf, std::span<const RawPoint> points);
   void visit(Cell cell, std::uint32_t first, std::uint32_t last, const GridBox& box,
              std::vector<std::uint32_t>& out) const;
@@ -81,8 +83,9 @@ class WorkingIndex final : public PointIndex {
   mutable std::atomic<bool> occupied_known_ = false;
   mutable std::mutex occupied_mutex_;
   std::vector<Segment> segments_;
-  std::vector<std::uint32_t> segment_start_;  ///< per range, into segment_list_
-  std::vector<std::uint32_t> segment_list_;   ///< numbers of the segments that meet the range's cell
+  std::vector<std::uint32_t> segment_start_;   ///< per range, into segment_list_
+  std::vector<std::uint32_t> segment_leaves_;  ///< the ranges that segments meet, ascending
+  std::vector<std::uint32_t> segment_list_;    ///< numbers of the segments that meet the range's cell
 };
 
 }  // namespace itin

@@ -13,6 +13,9 @@ namespace {
 
 /// The box is this many mean point spacings wider than the region: most circumdiscs of the region's triangles fit in.
 constexpr double kMargin = 3;
+/// After so many rounds of mending the box may grow, if that reads no more than so many times the points.
+constexpr int kPatience = 3;
+constexpr std::uint64_t kGrowth = 8;
 
 GridBox intersection(const GridBox& a, const GridBox& b) {
   return {std::max(a.xmin, b.xmin), std::max(a.ymin, b.ymin), std::min(a.xmax, b.xmax), std::min(a.ymax, b.ymax)};
@@ -69,11 +72,16 @@ class RegionTriangulation {
 
   RegionMesh run() {
     RegionMesh result;
-    if (!tile_.empty() && triangulate_box()) {
-      while (true) {
+    if (!tile_.empty() && triangulate_box(first_margin())) {
+      for (int mended = 0;; ++mended) {
         mark_ground();
         if (!mend()) break;
-        make_mesh();
+        if (mended == kPatience && worth_growing()) {
+          triangulate_box(4 * margin_);
+          mended = 0;
+        } else {
+          make_mesh();
+        }
       }
       result = extract();
     }
@@ -85,9 +93,10 @@ class RegionTriangulation {
  private:
   /// Reads and triangulates a box around the region, at least so large that there is a triangle. False when there is
   /// none anywhere.
-  bool triangulate_box() {
-    for (double margin = first_margin();; margin *= 4) {
-      box_ = intersection(expanded(tile_, margin), expanded(index_.bounds(), 1));
+  bool triangulate_box(double margin) {
+    for (margin_ = margin;; margin_ *= 4) {
+      box_ = box_with(margin_);
+      proven_.clear();
       read_points();
       segments_.clear();
       const std::vector<Segment> segments = read_segments(box_);
@@ -104,6 +113,19 @@ class RegionTriangulation {
       if (!mesh_.triangles.empty()) return true;
       if (box_.contains(index_.bounds())) return false;
     }
+  }
+
+  GridBox box_with(double margin) const { return intersection(expanded(tile_, margin), expanded(index_.bounds(), 1)); }
+
+  /// Where triangles reach far, as across the sea, one vertex after another turns up. A larger box has them at once.
+  bool worth_growing() const {
+    if (box_.contains(index_.bounds())) return false;
+    const GridBox box = box_with(4 * margin_);
+    std::vector<Leaf> leaves;
+    index_.leaves(selection_.finest_in(box), box, leaves);
+    std::uint64_t points = 0;
+    for (const Leaf& leaf : leaves) points += leaf.points;
+    return points < kGrowth * (vertices_.size() + 512);
   }
 
   double first_margin() const {
@@ -445,7 +467,8 @@ class RegionTriangulation {
   const GridWindow* window_;
   ApexSearch search_;
   GridBox tile_;  ///< the region's box
-  GridBox box_;   ///< everything selected in it has been read
+  double margin_ = 0;
+  GridBox box_;  ///< everything selected in it has been read
   std::vector<SelectedVertex> vertices_;
   std::size_t sorted_ = 0;                                   ///< the first so many vertices are in Morton order
   std::unordered_map<std::uint64_t, std::uint32_t> extras_;  ///< the others by Morton code
