@@ -44,9 +44,9 @@ class TileCache {
     // Of several threads that want one tile the first makes it.
     const std::lock_guard lock(makers_[(key * 0x9e3779b97f4a7c15u) >> 58]);
     if (auto tile = find(key)) return tile;
-    RegionMesh region = triangulate_region(index_, selection_, square_of(cell));
+    const RegionMesh region = triangulate_region(index_, selection_, square_of(cell));
     statistics += region.statistics;
-    const auto tile = std::make_shared<const SectionTile>(square_of(cell), std::move(region));
+    const auto tile = std::make_shared<const SectionTile>(square_of(cell), region);
     cache_.insert(key, tile, tile->bytes());
     return tile;
   }
@@ -98,14 +98,17 @@ class TiledTriangles final : public TriangleFinder {
   TiledTriangles(TileCache& tiles, const SectionLine& line) : tiles_(tiles), line_(line) {}
 
   GridPoint beyond(const CrossedEdge& edge) override {
-    std::uint32_t next = triangle_ == kNoTriangle ? kNoTriangle : tile_->neighbour(triangle_, edge);
-    if (next == kNoTriangle) next = enter_tile(edge);
-    triangle_ = next;
-    return next == kNoTriangle ? beyond_by_retrieval(edge) : tile_->apex(next, edge);
+    if (at_.triangle != kNoTriangle) {
+      const GridPoint& apex = tile_->apex(at_);
+      const bool keeps_left = edge.right.x == apex.x && edge.right.y == apex.y;
+      at_ = tile_->onwards(at_, keeps_left);
+    }
+    if (at_.triangle == kNoTriangle) enter_tile(edge);
+    return at_.triangle == kNoTriangle ? beyond_by_retrieval(edge) : tile_->apex(at_);
   }
 
   std::vector<std::array<GridPoint, 3>> around(const GridBox& box) override {
-    triangle_ = kNoTriangle;
+    at_ = {};
     go_to({box.xmin, box.ymin});
     if (tile_->square().contains(box)) return tile_->around(box);
     const RegionMesh region = triangulate_region(tiles_.index(), tiles_.selection(), box);
@@ -114,7 +117,7 @@ class TiledTriangles final : public TriangleFinder {
   }
 
   CrossedEdge edge_on(const OutlineCrossing& segment, const SectionLine& line, OnLine on_line) override {
-    triangle_ = kNoTriangle;
+    at_ = {};
     return find_edge_on(tiles_.index(), tiles_.selection(), segment, line, on_line, statistics_);
   }
 
@@ -125,13 +128,13 @@ class TiledTriangles final : public TriangleFinder {
     if (!tile_ || !tile_->square().contains(place.x, place.y)) tile_ = tiles_.tile_at(place, statistics_);
   }
 
-  /// The triangle ahead of an edge in the tile where the line crosses it; kNoTriangle in the rare case that the
+  /// Visits the triangle ahead of an edge in the tile where the line crosses it; none in the rare case that the
   /// crossing, rounded, is in a tile that the triangle does not meet.
-  std::uint32_t enter_tile(const CrossedEdge& edge) {
+  void enter_tile(const CrossedEdge& edge) {
     const Grid& grid = line_.grid();
     const GridPoint place = grid.quantise(line_.crossing(edge.left, edge.right).position);
     go_to({place.x, place.y});
-    return tile_->triangle_ahead(edge, {place.x, place.y});
+    at_ = tile_->ahead(edge, {place.x, place.y});
   }
 
   GridPoint beyond_by_retrieval(const CrossedEdge& edge) {
@@ -145,7 +148,7 @@ class TiledTriangles final : public TriangleFinder {
   TileCache& tiles_;
   const SectionLine& line_;
   std::shared_ptr<const SectionTile> tile_;
-  std::uint32_t triangle_ = kNoTriangle;
+  SectionTile::Stop at_;  ///< of tile_
   RetrievalStatistics statistics_;
 };
 
