@@ -41,8 +41,8 @@ class Walk {
   double clearance_over(const ProfilePoint& p) const {
     const double length = profile_.length_m;
     const double t = length > 0 ? p.distance_m / length : 0;
-    const double ray = length > 0 ? antennas_.from_m * (1 - t) + antennas_.to_m * t
-                                  : std::min(antennas_.from_m, antennas_.to_m);
+    const double ray =
+        length > 0 ? antennas_.from_m * (1 - t) + antennas_.to_m * t : std::min(antennas_.from_m, antennas_.to_m);
     return ray - p.ground_m - drop_ * p.distance_m * (length - p.distance_m);
   }
 
