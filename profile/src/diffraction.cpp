@@ -118,8 +118,7 @@ double deygout(const Span& span, const std::vector<Edge>& edges) {
   first.b = second.a = *main;
   const double of_main = knife_edge_loss_db(span.v(*main));
   const double correction = 10 + 0.04 * span.length();
-  return of_main +
-         (1 - std::exp(-of_main / 6)) * (edge_loss(first, edges) + edge_loss(second, edges) + correction);
+  return of_main + (1 - std::exp(-of_main / 6)) * (edge_loss(first, edges) + edge_loss(second, edges) + correction);
 }
 
 /// Elevation angle of something `rise_m` higher at d km over the curved Earth, mrad: P.452-17 equation (152).

@@ -57,8 +57,8 @@ class Tightest {
   void consider_inside(const RayPiece& p) {
     const Cubic cubic{-p.square, 1.5 * p.square, p.linear / 2 + p.constant, -p.constant / 2};
     const std::array<double, 2> turns = stationary_points(cubic, p.from);
-    const std::array<double, 4> bounds = {p.from, std::clamp(turns[0], p.from, p.to), std::clamp(turns[1], p.from, p.to),
-                                          p.to};
+    const std::array<double, 4> bounds = {p.from, std::clamp(turns[0], p.from, p.to),
+                                          std::clamp(turns[1], p.from, p.to), p.to};
     for (std::size_t i = 0; i + 1 < bounds.size(); ++i) {
       const auto root = root_between(cubic, bounds[i], bounds[i + 1]);
       if (root) consider(*root, p.at(*root));
@@ -84,8 +84,7 @@ std::optional<FresnelClearance> fresnel_clearance(const Profile& profile, const 
   const double bulge = earth.drop_coefficient() * profile.length_m * profile.length_m;
   for (const ProfilePoint& p : profile.points) {
     const double t = p.distance_m / profile.length_m;
-    tightest.consider(
-        t, antennas.from_m * (1 - t) + antennas.to_m * t - p.ground_m - bulge * t * (1 - t));
+    tightest.consider(t, antennas.from_m * (1 - t) + antennas.to_m * t - p.ground_m - bulge * t * (1 - t));
   }
   for_each_piece(profile, antennas, earth.drop_coefficient(),
                  [&](const RayPiece& piece, std::size_t) { tightest.consider_inside(piece); });

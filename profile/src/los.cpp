@@ -59,30 +59,36 @@ SightVerdict sight_verdict(const LosReport& report) {
   return *report.clearance_m >= 0 ? SightVerdict::kVisible : SightVerdict::kHidden;
 }
 
-/// At the surface's certified error: clear and obstructed must hold whatever it hides.
-CriterionVerdict criterion_verdict(const CriterionResult& result, double error_m, double radius_share) {
-  const double clearance = result.clearance_m.value_or(std::numeric_limits<double>::infinity());
-  if (clearance < -error_m) return CriterionVerdict::kObstructed;
-  if (clearance < error_m) return error_m > 0 ? CriterionVerdict::kUndecided : CriterionVerdict::kMarginal;
-  const double spare = result.clearance_f1 ? *result.clearance_f1 - radius_share : 0;
-  return spare >= 0 ? CriterionVerdict::kClear : CriterionVerdict::kMarginal;
+/// The least of the fractions of F1, or without a wavelength a sign, with both antennas `shift` metres higher: lifting
+/// the ray is lowering the surface.
+struct Margin {
+  std::optional<double> clearance_m, fraction;
+  bool cut() const { return clearance_m && *clearance_m < 0; }
+  bool meets(const Criterion& c) const { return !cut() && (c.fraction == 0 || !fraction || *fraction >= c.fraction); }
+};
+Margin margin(const LosReport& report, const Earth& earth, double shift) {
+  const Antennas antennas{report.antennas.from_m + shift, report.antennas.to_m + shift};
+  Margin result;
+  if (const auto line = line_clearance(report.profile, antennas, earth)) result.clearance_m = line->clearance_m;
+  if (!report.query.radio) return result;
+  const auto fresnel = fresnel_clearance(report.profile, antennas, earth, wavelength_of(report.query));
+  if (fresnel) result.fraction = fresnel->fraction;
+  return result;
+}
+
+/// Certain verdicts hold whatever the surface's certified error hides.
+CriterionVerdict criterion_verdict(const LosReport& report, const Criterion& criterion, const Earth& earth) {
+  const double error = report.query.clearance_error_m;
+  const Margin least = margin(report, earth, -error), most = margin(report, earth, error);
+  if (most.cut()) return CriterionVerdict::kObstructed;
+  if (least.meets(criterion)) return CriterionVerdict::kClear;
+  return !least.cut() && !most.meets(criterion) ? CriterionVerdict::kMarginal : CriterionVerdict::kUndecided;
 }
 
 CriterionResult judge(const LosReport& report, const Criterion& criterion) {
   const Earth earth = earth_of(criterion, report.query.earth);
-  CriterionResult result{criterion, CriterionVerdict::kClear, {}, {}};
-  if (const auto line = line_clearance(report.profile, report.antennas, earth)) result.clearance_m = line->clearance_m;
-  if (report.query.radio) {
-    const auto fresnel = fresnel_clearance(report.profile, report.antennas, earth, wavelength_of(report.query));
-    if (fresnel) result.clearance_f1 = fresnel->fraction;
-  }
-  result.verdict = criterion_verdict(result, report.query.clearance_error_m, criterion.fraction);
-  // Grazing is free, where no part of the Fresnel zone is asked for.
-  if (criterion.fraction == 0 && result.clearance_m && result.verdict == CriterionVerdict::kMarginal &&
-      *result.clearance_m >= 0) {
-    result.verdict = CriterionVerdict::kClear;
-  }
-  return result;
+  const Margin as_is = margin(report, earth, 0);
+  return {criterion, criterion_verdict(report, criterion, earth), as_is.clearance_m, as_is.fraction};
 }
 
 std::string criterion_name(const Criterion& c) {

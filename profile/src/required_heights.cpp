@@ -25,9 +25,9 @@ class Demand {
   Demand(const Profile& profile, const Requirement& requirement)
       : profile_(profile),
         bulge_(requirement.earth.drop_coefficient() * profile.length_m * profile.length_m),
-        radius_(requirement.fraction == 0 ? 0
-                                          : requirement.fraction * std::sqrt(requirement.wavelength * profile.length_m)) {
-  }
+        radius_(requirement.fraction == 0
+                    ? 0
+                    : requirement.fraction * std::sqrt(requirement.wavelength * profile.length_m)) {}
 
   /// The least factor such that base + factor * weight meets the demand everywhere; infinity where none does, and
   /// minus infinity where every one does.
@@ -105,8 +105,7 @@ class Demand {
 class HeightDemand {
  public:
   HeightDemand(const Profile& profile, const Requirement& requirement)
-      : demand_(profile, requirement),
-        ground_{profile.points.front().ground_m, profile.points.back().ground_m} {}
+      : demand_(profile, requirement), ground_{profile.points.front().ground_m, profile.points.back().ground_m} {}
 
   std::optional<double> from_alone(double to) const { return least({ground_.start, ground_.end + to}, {1, 0}); }
   std::optional<double> to_alone(double from) const { return least({ground_.start + from, ground_.end}, {0, 1}); }

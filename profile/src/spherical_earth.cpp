@@ -39,7 +39,8 @@ double distance_term(double x) {
 /// Equations (35) and (36) with the limit below them.
 double height_gain(double y, double beta, double k) {
   const double b = beta * y;
-  const double gain = b > 2 ? 17.6 * std::sqrt(b - 1.1) - 5 * std::log10(b - 1.1) - 8 : 20 * std::log10(b + 0.1 * b * b * b);
+  const double gain =
+      b > 2 ? 17.6 * std::sqrt(b - 1.1) - 5 * std::log10(b - 1.1) - 8 : 20 * std::log10(b + 0.1 * b * b * b);
   return std::max(gain, 2 + 20 * std::log10(k));
 }
 
@@ -72,12 +73,10 @@ SmoothClearance smooth_clearance(const SmoothPath& s, const RadioPath& path) {
   const double sum = s.from_m + s.to_m, radius = path.effective_earth_km, d = s.distance_km;
   const double c = (s.from_m - s.to_m) / sum, m = 250 * d * d / (radius * sum);
   const double cosine = std::clamp(1.5 * c * std::sqrt(3 * m / std::pow(m + 1, 3)), -1.0, 1.0);
-  const double b = m == 0 ? c
-                          : 2 * std::sqrt((m + 1) / (3 * m)) *
-                                std::cos(std::numbers::pi / 3 + std::acos(cosine) / 3);
+  const double b =
+      m == 0 ? c : 2 * std::sqrt((m + 1) / (3 * m)) * std::cos(std::numbers::pi / 3 + std::acos(cosine) / 3);
   const double d1 = d / 2 * (1 + b), d2 = d - d1;
-  const double least =
-      ((s.from_m - 500 * d1 * d1 / radius) * d2 + (s.to_m - 500 * d2 * d2 / radius) * d1) / d;
+  const double least = ((s.from_m - 500 * d1 * d1 / radius) * d2 + (s.to_m - 500 * d2 * d2 / radius) * d1) / d;
   return {least, 17.456 * std::sqrt(d1 * d2 * wavelength_m(path.frequency_ghz) / d)};
 }
 

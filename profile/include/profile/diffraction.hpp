@@ -10,8 +10,8 @@
 // edges after Deygout). Distances of formulas are km, heights m, frequencies GHz, as there. The wavelength is
 // 0.299792458 / f throughout, where some published examples have 0.3 / f: that moves losses by less than 0.01 dB.
 //
-// Clutter is added to the ground for the losses, except nearer than kClutterFreeM to an end (P.452-18); horizons and smooth
-// heights use bare ground. A profile's points are taken as they are: see with_spacing().
+// Clutter is added to the ground for the losses, except nearer than kClutterFreeM to an end (P.452-18); horizons and
+// smooth heights use bare ground. A profile's points are taken as they are: see with_spacing().
 #pragma once
 
 #include <optional>

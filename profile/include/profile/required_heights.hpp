@@ -29,10 +29,10 @@ struct HeightPair {
 };
 
 struct RequiredHeights {
-  std::optional<double> from_alone_m;   ///< nothing: no height is enough while the other end stands where it does
-  std::optional<double> to_alone_m;     ///< likewise
-  std::optional<double> both_equal_m;   ///< nothing: ground in the way at an end itself
-  std::vector<HeightPair> curve;        ///< ascending in from_m, descending in to_m
+  std::optional<double> from_alone_m;  ///< nothing: no height is enough while the other end stands where it does
+  std::optional<double> to_alone_m;    ///< likewise
+  std::optional<double> both_equal_m;  ///< nothing: ground in the way at an end itself
+  std::vector<HeightPair> curve;       ///< ascending in from_m, descending in to_m
 };
 
 /// `from_m`, `to_m`: heights of the two ends as planned, above their ground. Precondition: the profile has ground at
@@ -47,11 +47,11 @@ RequiredHeights required_heights(const Profile& profile, const PlannedHeights& p
 
 /// What is seen of an upright object at the second end from an antenna or eye at the first.
 struct VisibleHeight {
-  double from_m = 0;          ///< above the object's ground: below this it is hidden
-  double hub_visible_m = 0;   ///< seen of the part up to the hub
-  double tip_visible_m = 0;   ///< seen of the part up to the tip
-  double hub_fraction = 0;    ///< of the hub's height
-  double tip_fraction = 0;    ///< of the tip's height
+  double from_m = 0;         ///< above the object's ground: below this it is hidden
+  double hub_visible_m = 0;  ///< seen of the part up to the hub
+  double tip_visible_m = 0;  ///< seen of the part up to the tip
+  double hub_fraction = 0;   ///< of the hub's height
+  double tip_fraction = 0;   ///< of the tip's height
 };
 
 /// `eye_m` above the ground at the first end; hub <= tip above the ground at the second.
