@@ -182,7 +182,6 @@ class ProfileVerb final : public Verb {
     }
   }
 
-  /// Without an output the table itself, for one profile.
   std::string text(const std::vector<SurfaceProfile>& profiles, const RetrievalStatistics& statistics) const {
     std::string text;
     for (const SurfaceProfile& surface : profiles) {
