@@ -224,8 +224,11 @@ class SightChart {
     drawing_.polyline(mast, {kInk, 2.2, {}});
     drawing_.circle(top, 2.6, kRay);
     const std::string text = fmt::format("{}, {:g} m", name, std::round(height * 100) / 100);
-    const double y = std::max(top.y - 8, frame_.box.ymin + 10);
-    drawing_.text({top.x + (first ? 5 : -5), y}, text, {8.5, kInk, first ? Align::kLeft : Align::kRight, true, 0});
+    const Lettering lettering{8.5, kInk, Align::kLeft, true, 0};
+    const double width = drawing_.text_width(text, lettering), y = std::max(top.y - 14, frame_.box.ymin + 24);
+    const double x = first ? top.x + 5 : top.x - 5 - width;
+    drawing_.rectangle({x - 2, y - 8.5, x + width + 2, y + 3}, kWhite);
+    drawing_.text({x, y}, text, lettering);
   }
   void draw_masts() {
     const auto& points = report_.profile.points;
