@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
+#include "ray.hpp"
 #include "ray_piece.hpp"
 
 namespace itin::profile {
@@ -28,22 +30,45 @@ std::optional<std::pair<double, double>> cut_part(const RayPiece& p) {
 class Walk {
  public:
   Walk(const Profile& profile, const Antennas& antennas, const Earth& earth)
-      : profile_(profile), antennas_(antennas), drop_(earth.drop_coefficient()) {}
+      : profile_(profile),
+        antennas_(antennas),
+        drop_(earth.drop_coefficient()),
+        mirrored_(runs_backwards(profile)),
+        ray_(mirrored_ ? antennas.to_m : antennas.from_m, mirrored_ ? antennas.from_m : antennas.to_m, profile.length_m,
+             drop_) {}
 
   std::optional<LineClearance> run() {
     if (profile_.points.empty()) return std::nullopt;
     for (const ProfilePoint& p : profile_.points) consider(p, clearance_over(p));
     for_each_piece(profile_, antennas_, drop_, [&](const RayPiece& piece, std::size_t i) { take(piece, i); });
+    settle();
     return result_;
   }
 
  private:
+  /// SightLines look along a line from its lesser end in (x, y); so does this, to agree to the last bit.
+  static bool runs_backwards(const Profile& profile) {
+    if (profile.points.empty()) return false;
+    const ProfilePoint &a = profile.points.front(), &b = profile.points.back();
+    return std::tie(b.x, b.y) < std::tie(a.x, a.y);
+  }
+
+  GroundPoint seen(const ProfilePoint& p) const {
+    return {mirrored_ ? profile_.length_m - p.distance_m : p.distance_m, p.ground_m};
+  }
+
+  /// The verdict is the clearance's; obstructions thinner than its rounding error follow it.
+  void settle() {
+    if (result_.clearance_m >= 0) result_.obstructions.clear();
+    if (result_.clearance_m >= 0 || !result_.obstructions.empty()) return;
+    const ProfilePoint& p = result_.critical;
+    result_.obstructions.push_back(
+        {p.distance_m, p.distance_m, p.distance_m, p.ground_m, -result_.clearance_m, p.theme, p.feature});
+  }
+
   double clearance_over(const ProfilePoint& p) const {
-    const double length = profile_.length_m;
-    const double t = length > 0 ? p.distance_m / length : 0;
-    const double ray =
-        length > 0 ? antennas_.from_m * (1 - t) + antennas_.to_m * t : std::min(antennas_.from_m, antennas_.to_m);
-    return ray - p.ground_m - drop_ * p.distance_m * (length - p.distance_m);
+    if (profile_.length_m == 0) return std::min(antennas_.from_m, antennas_.to_m) - p.ground_m;
+    return ray_.clearance(seen(p));
   }
 
   void consider(const ProfilePoint& p, double clearance) {
@@ -67,10 +92,11 @@ class Walk {
   }
 
   void take(const RayPiece& piece, std::size_t i) {
-    const double turn = piece.square > 0 ? -piece.linear / (2 * piece.square) : piece.from;
-    if (turn > piece.from && turn < piece.to) {
-      const ProfilePoint p = between(i, turn * profile_.length_m);
-      consider(p, piece.at(turn));
+    const GroundPoint a = seen(profile_.points[i]), b = seen(profile_.points[i + 1]);
+    if (const auto lowest = mirrored_ ? ray_.lowest_between(b, a) : ray_.lowest_between(a, b)) {
+      ProfilePoint p = between(i, mirrored_ ? profile_.length_m - lowest->distance : lowest->distance);
+      p.ground_m = lowest->z;
+      consider(p, ray_.clearance(*lowest));
     }
     if (const auto cut = cut_part(piece)) add(piece, i, cut->first, cut->second);
   }
@@ -100,6 +126,8 @@ class Walk {
   const Profile& profile_;
   const Antennas& antennas_;
   double drop_;
+  bool mirrored_;
+  Ray ray_;
   bool found_ = false, last_open_ = false;
   std::size_t last_ = 0;
   LineClearance result_;

@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <shared_mutex>
+#include <unordered_map>
 
 #include <itin/cross_section.hpp>
 #include <itin/error.hpp>
@@ -18,8 +21,11 @@ namespace itin {
 
 namespace {
 
-/// A tile's side in sides of the smallest leaf there is at a place: some thousand points.
-constexpr int kTileLog2Leaves = 2;
+/// A tile is the largest cell with at most about so many points: few enough to be made soon, enough to make its border
+/// cheap.
+constexpr double kTilePoints = 8192;
+/// Where the search for it begins.
+constexpr int kUsualLog2Side = 18;
 
 /// Tiles by the cell they cover, made when first asked for.
 class TileCache {
@@ -30,45 +36,59 @@ class TileCache {
   const PointIndex& index() const { return index_; }
   const Selection& selection() const { return selection_; }
 
-  /// A tile whose square contains the place; null where the place is far from all vertices.
+  /// The tile whose square contains the place.
   std::shared_ptr<const SectionTile> tile_at(Position place, RetrievalStatistics& statistics) {
-    const std::optional<Cell> cell = cell_at(place);
-    if (!cell) return nullptr;
-    const std::uint64_t key = cell->code << 4 | static_cast<std::uint64_t>(cell->log2_side / 2);
-    if (auto tile = find(key, *cell)) return tile;
+    const Cell cell = cell_at(place);
+    const std::uint64_t key = key_of(cell);
+    if (auto tile = find(key)) return tile;
     // Of several threads that want one tile the first makes it.
     const std::lock_guard lock(makers_[(key * 0x9e3779b97f4a7c15u) >> 58]);
-    if (auto tile = find(key, *cell)) return tile;
-    RegionMesh region = triangulate_region(index_, selection_, square_of(*cell));
+    if (auto tile = find(key)) return tile;
+    const RegionMesh region = triangulate_region(index_, selection_, square_of(cell));
     statistics += region.statistics;
-    const auto tile = std::make_shared<const SectionTile>(square_of(*cell), std::move(region));
+    const auto tile = std::make_shared<const SectionTile>(square_of(cell), region);
     cache_.insert(key, tile, tile->bytes());
     return tile;
   }
 
  private:
-  std::shared_ptr<const SectionTile> find(std::uint64_t key, const Cell& cell) {
-    auto tile = std::static_pointer_cast<const SectionTile>(cache_.find(key));
-    return tile && tile->square() == square_of(cell) ? tile : nullptr;
+  std::shared_ptr<const SectionTile> find(std::uint64_t key) {
+    return std::static_pointer_cast<const SectionTile>(cache_.find(key));
   }
 
-  /// Tiles of neighbouring places may overlap, which costs memory and nothing else.
-  std::optional<Cell> cell_at(Position place) const {
-    const GridBox box{place.x, place.y, place.x, place.y};
+  /// The lowest bit set tells the size: a code has 2 log2_side zeros at its end.
+  static std::uint64_t key_of(const Cell& cell) { return cell.code | std::uint64_t{1} << (2 * cell.log2_side - 1); }
+
+  Cell cell_at(Position place) {
+    const std::uint64_t code = morton(place.x, place.y);
+    const auto of_side = [code](int log2_side) { return Cell{code >> (2 * log2_side) << (2 * log2_side), log2_side}; };
+    Cell cell = of_side(kUsualLog2Side);
+    while (cell.log2_side > 1 && !is_small(cell)) cell = of_side(cell.log2_side - 1);
+    while (cell.log2_side < kRootLog2Side && is_small(cell.parent())) cell = cell.parent();
+    return cell;
+  }
+
+  bool is_small(const Cell& cell) {
+    {
+      const std::shared_lock lock(sizes_);
+      if (const auto known = small_.find(key_of(cell)); known != small_.end()) return known->second;
+    }
+    const GridBox box = cell.box();
     std::vector<Leaf> leaves;
     index_.leaves(selection_.finest_in(box), box, leaves);
-    if (leaves.empty()) return std::nullopt;
-    Cell cell = leaves.front().cell;
+    double points = 0;
     for (const Leaf& leaf : leaves) {
-      if (leaf.cell.log2_side < cell.log2_side) cell = leaf.cell;
+      points += leaf.points * std::min(1.0, std::ldexp(1.0, 2 * (cell.log2_side - leaf.cell.log2_side)));
     }
-    for (int i = 0; i < kTileLog2Leaves && cell.log2_side < kRootLog2Side; ++i) cell = cell.parent();
-    return cell;
+    const std::lock_guard lock(sizes_);
+    return small_[key_of(cell)] = points <= kTilePoints;
   }
 
   const PointIndex& index_;
   const Selection& selection_;
   BlockCache cache_;
+  std::shared_mutex sizes_;
+  std::unordered_map<std::uint64_t, bool> small_;  ///< whether a cell has few enough points
   std::array<std::mutex, 64> makers_;
 };
 
@@ -78,16 +98,18 @@ class TiledTriangles final : public TriangleFinder {
   TiledTriangles(TileCache& tiles, const SectionLine& line) : tiles_(tiles), line_(line) {}
 
   GridPoint beyond(const CrossedEdge& edge) override {
-    std::uint32_t next = triangle_ == kNoTriangle ? kNoTriangle : tile_->neighbour(triangle_, edge);
-    if (next == kNoTriangle) next = enter_tile(edge);
-    triangle_ = next;
-    return next == kNoTriangle ? beyond_by_retrieval(edge) : tile_->apex(next, edge);
+    if (at_.triangle != kNoTriangle) {
+      const GridPoint& apex = tile_->apex(at_);
+      const bool keeps_left = edge.right.x == apex.x && edge.right.y == apex.y;
+      at_ = tile_->onwards(at_, keeps_left);
+    }
+    if (at_.triangle == kNoTriangle) enter_tile(edge);
+    return at_.triangle == kNoTriangle ? beyond_by_retrieval(edge) : tile_->apex(at_);
   }
 
   std::vector<std::array<GridPoint, 3>> around(const GridBox& box) override {
-    triangle_ = kNoTriangle;
-    // A box that reaches over a tile's border touches it, and so do the triangles that meet it.
-    if (!go_to({box.xmin, box.ymin})) return {};
+    at_ = {};
+    go_to({box.xmin, box.ymin});
     if (tile_->square().contains(box)) return tile_->around(box);
     const RegionMesh region = triangulate_region(tiles_.index(), tiles_.selection(), box);
     statistics_ += region.statistics;
@@ -95,25 +117,24 @@ class TiledTriangles final : public TriangleFinder {
   }
 
   CrossedEdge edge_on(const OutlineCrossing& segment, const SectionLine& line, OnLine on_line) override {
-    triangle_ = kNoTriangle;
+    at_ = {};
     return find_edge_on(tiles_.index(), tiles_.selection(), segment, line, on_line, statistics_);
   }
 
   const RetrievalStatistics& statistics() const { return statistics_; }
 
  private:
-  bool go_to(Position place) {
+  void go_to(Position place) {
     if (!tile_ || !tile_->square().contains(place.x, place.y)) tile_ = tiles_.tile_at(place, statistics_);
-    return tile_ != nullptr;
   }
 
-  /// The triangle ahead of an edge in the tile where the line crosses it; kNoTriangle in the rare case that the
+  /// Visits the triangle ahead of an edge in the tile where the line crosses it; none in the rare case that the
   /// crossing, rounded, is in a tile that the triangle does not meet.
-  std::uint32_t enter_tile(const CrossedEdge& edge) {
+  void enter_tile(const CrossedEdge& edge) {
     const Grid& grid = line_.grid();
     const GridPoint place = grid.quantise(line_.crossing(edge.left, edge.right).position);
-    if (!go_to({place.x, place.y})) return kNoTriangle;
-    return tile_->triangle_ahead(edge, {place.x, place.y});
+    go_to({place.x, place.y});
+    at_ = tile_->ahead(edge, {place.x, place.y});
   }
 
   GridPoint beyond_by_retrieval(const CrossedEdge& edge) {
@@ -127,7 +148,7 @@ class TiledTriangles final : public TriangleFinder {
   TileCache& tiles_;
   const SectionLine& line_;
   std::shared_ptr<const SectionTile> tile_;
-  std::uint32_t triangle_ = kNoTriangle;
+  SectionTile::Stop at_;  ///< of tile_
   RetrievalStatistics statistics_;
 };
 

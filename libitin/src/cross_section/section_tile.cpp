@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 namespace itin {
 
@@ -14,10 +15,22 @@ bool same_place(const GridPoint& a, const GridPoint& b) {
 
 }  // namespace
 
-SectionTile::SectionTile(const GridBox& square, RegionMesh region) : square_(square), region_(std::move(region)) {
-  const auto count = static_cast<std::uint32_t>(region_.mesh.triangles.size());
-  region_.mesh.constrained = {};
-  region_.vertices.shrink_to_fit();
+SectionTile::SectionTile(const GridBox& square, const RegionMesh& region) : square_(square) {
+  const auto count = static_cast<std::uint32_t>(region.mesh.triangles.size());
+  for (const SelectedVertex& v : region.vertices) vertices_.push_back(v.point);
+  std::vector<std::uint32_t> order(count), place(count);
+  std::iota(order.begin(), order.end(), 0u);
+  const auto least_corner = [&](std::uint32_t t) {
+    return *std::min_element(region.mesh.triangles[t].begin(), region.mesh.triangles[t].end());
+  };
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return least_corner(a) < least_corner(b); });
+  for (std::uint32_t i = 0; i < count; ++i) place[order[i]] = i;
+  for (const std::uint32_t t : order) {
+    Face face{region.mesh.triangles[t], region.mesh.neighbours[t]};
+    for (std::uint32_t& n : face.neighbours) n = n == kNoTriangle ? kNoTriangle : place[n];
+    faces_.push_back(face);
+  }
   // Bins of about one triangle.
   const double side = static_cast<double>(square.xmax) - square.xmin;
   bin_shift_ = std::bit_width(static_cast<std::uint32_t>(side / std::sqrt(count + 1.0)));
@@ -33,8 +46,7 @@ SectionTile::SectionTile(const GridBox& square, RegionMesh region) : square_(squ
 }
 
 std::size_t SectionTile::bytes() const {
-  return sizeof(*this) + region_.vertices.size() * sizeof(SelectedVertex) +
-         region_.mesh.triangles.size() * 2 * sizeof(Triangle) +
+  return sizeof(*this) + vertices_.capacity() * sizeof(GridPoint) + faces_.capacity() * sizeof(Face) +
          (first_.size() + triangles_.size()) * sizeof(std::uint32_t);
 }
 
@@ -64,27 +76,22 @@ std::span<const std::uint32_t> SectionTile::in_bin(std::size_t bin) const {
   return {triangles_.data() + first_[bin], first_[bin + 1] - first_[bin]};
 }
 
-std::uint32_t SectionTile::triangle_ahead(const CrossedEdge& edge, Position place) const {
+SectionTile::Stop SectionTile::ahead(const CrossedEdge& edge, Position place) const {
   for (const std::uint32_t t : in_bin(std::size_t{row(place.y)} * columns_ + column(place.x))) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (same_place(corner(t, i), edge.left) && same_place(corner(t, (i + 1) % 3), edge.right)) return t;
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      if (same_place(corner(t, i), edge.left) && same_place(corner(t, (i + 1) % 3), edge.right))
+        return {t, (i + 2) % 3};
     }
   }
-  return kNoTriangle;
+  return {};
 }
 
-std::size_t SectionTile::corner_off(std::uint32_t triangle, const CrossedEdge& edge) const {
-  std::size_t i = 0;
-  while (same_place(corner(triangle, i), edge.left) || same_place(corner(triangle, i), edge.right)) ++i;
-  return i;
-}
-
-std::uint32_t SectionTile::neighbour(std::uint32_t triangle, const CrossedEdge& edge) const {
-  return region_.mesh.neighbours[triangle][corner_off(triangle, edge)];
-}
-
-const GridPoint& SectionTile::apex(std::uint32_t triangle, const CrossedEdge& edge) const {
-  return corner(triangle, corner_off(triangle, edge));
+SectionTile::Stop SectionTile::onwards(const Stop& from, bool keeps_left) const {
+  // Counterclockwise: apex, left, right.
+  const std::uint32_t next = faces_[from.triangle].neighbours[(from.apex + (keeps_left ? 2 : 1)) % 3];
+  if (next == kNoTriangle) return {};
+  const auto& back = faces_[next].neighbours;
+  return {next, back[0] == from.triangle ? 0u : back[1] == from.triangle ? 1u : 2u};
 }
 
 std::vector<std::array<GridPoint, 3>> SectionTile::around(const GridBox& box) const {

@@ -324,6 +324,7 @@ class RegionTriangulation {
       if (!circumdisc_in(corner(t, 0), corner(t, 1), corner(t, 2), box_) && in_region(t)) prove(t, intruders, fresh);
       look_beyond_hull(t, intruders);
     }
+    for (const SegmentEdge& edge : segment_edges_) look_beside(edge, intruders);
     for (const SelectedVertex& v : intruders) vertex_at(v.position(), &v);
     insert_segments(fresh);
     return !intruders.empty() || !fresh.empty();
@@ -364,6 +365,19 @@ class RegionTriangulation {
       } else {
         proven_.insert(key);
       }
+    }
+  }
+
+  /// Likewise where a segment is the hull of what was read and its ground lies outside.
+  void look_beside(const SegmentEdge& edge, std::vector<SelectedVertex>& intruders) {
+    const Position p = position(edge.from), q = position(edge.to);
+    if (edge.left != kNoTriangle || !tile_reaches_left_of(p, q, 0)) return;
+    const Triangle key{edge.to, edge.from, kNoTriangle};
+    if (proven_.contains(key)) return;
+    if (const auto found = search_.apex(p, q)) {
+      intruders.push_back(*found);
+    } else {
+      proven_.insert(key);
     }
   }
 
