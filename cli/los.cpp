@@ -31,8 +31,8 @@ std::string optional_metres(const std::optional<double>& value) {
 std::string text_of(const profile::LosReport& report) {
   std::string text = fmt::format("{}, {:.1f} m", name_of(report.verdict), report.profile.length_m);
   if (report.clearance_m && report.critical) {
-    text += fmt::format("; least clearance {:.2f} m at {:.1f} m ({})", *report.clearance_m,
-                        report.critical->distance_m, cause_of(report, report.critical->theme));
+    text += fmt::format("; least clearance {:.2f} m at {:.1f} m ({})", *report.clearance_m, report.critical->distance_m,
+                        cause_of(report, report.critical->theme));
   }
   text += "\n";
   for (const profile::Obstruction& o : report.obstructions) {
@@ -45,9 +45,9 @@ std::string text_of(const profile::LosReport& report) {
     text += "\n";
   }
   for (const profile::NamedHeights& r : report.required) {
-    text += fmt::format("for {}: first end {}, second end {}, both {}\n", r.name,
-                        optional_metres(r.heights.from_alone_m), optional_metres(r.heights.to_alone_m),
-                        optional_metres(r.heights.both_equal_m));
+    text +=
+        fmt::format("for {}: first end {}, second end {}, both {}\n", r.name, optional_metres(r.heights.from_alone_m),
+                    optional_metres(r.heights.to_alone_m), optional_metres(r.heights.both_equal_m));
   }
   if (report.losses) {
     const profile::PathLosses& l = *report.losses;
@@ -55,9 +55,10 @@ std::string text_of(const profile::LosReport& report) {
                         l.free_space_db, l.ld_db, report.fresnel ? report.fresnel->fraction : 0);
   }
   if (report.visible) {
-    text += fmt::format("of the object at the second end {:.1f} m are seen ({:.0f} %), up to its hub {:.1f} m ({:.0f} %)\n",
-                        report.visible->tip_visible_m, 100 * report.visible->tip_fraction,
-                        report.visible->hub_visible_m, 100 * report.visible->hub_fraction);
+    text +=
+        fmt::format("of the object at the second end {:.1f} m are seen ({:.0f} %), up to its hub {:.1f} m ({:.0f} %)\n",
+                    report.visible->tip_visible_m, 100 * report.visible->tip_fraction, report.visible->hub_visible_m,
+                    100 * report.visible->hub_fraction);
   }
   return text + report.query.earth.convention() + "\n";
 }
@@ -76,8 +77,9 @@ class LosVerb final : public Verb {
     earth_.declare(app);
     earth_.declare_radius(app);
     radio_.declare(app);
-    app.add_option("--report", reports_,
-                   "Write the report, as its ending says: .json .csv .svg .pdf .png .html .kml .gpkg; may be given again")
+    app.add_option(
+           "--report", reports_,
+           "Write the report, as its ending says: .json .csv .svg .pdf .png .html .kml .gpkg; may be given again")
         ->type_name("FILE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -95,7 +97,8 @@ class LosVerb final : public Verb {
       heights_ = parse_tuple("--heights", heights_text_, 2, "h1,h2");
       if (heights_[0] < 0 || heights_[1] < 0) throw InputError("--heights: a height must not be negative");
     } else {
-      if (!heights_text_.empty()) throw InputError("--heights is of use with --profile-csv; give heights in --from, --to");
+      if (!heights_text_.empty())
+        throw InputError("--heights is of use with --profile-csv; give heights in --from, --to");
       line_.validate(radio_.object() ? std::optional(radio_.object()->tip_m) : std::nullopt);
     }
     for (const std::string& path : reports_) profile::require_report_format(path, !store_.empty());

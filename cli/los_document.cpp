@@ -101,10 +101,14 @@ Document radio_document(const LosReport& report) {
   radio["hte_m"] = report.antennas.from_m - losses.smooth.hstd_m;
   radio["hre_m"] = report.antennas.to_m - losses.smooth.hsrd_m;
   radio["v"] = number(losses.largest_v);
-  radio["losses_db"] = {{"free_space", losses.free_space_db}, {"knife_edge", losses.knife_edge_db},
-                        {"bullington", losses.lba_db},        {"lba", losses.lba_db},
-                        {"lbs", losses.lbs_db},               {"ldsph", losses.ldsph_db},
-                        {"ld", losses.ld_db},                 {"deygout", losses.deygout_db}};
+  radio["losses_db"] = {{"free_space", losses.free_space_db},
+                        {"knife_edge", losses.knife_edge_db},
+                        {"bullington", losses.lba_db},
+                        {"lba", losses.lba_db},
+                        {"lbs", losses.lbs_db},
+                        {"ldsph", losses.ldsph_db},
+                        {"ld", losses.ld_db},
+                        {"deygout", losses.deygout_db}};
   return radio;
 }
 

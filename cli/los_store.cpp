@@ -70,16 +70,17 @@ std::vector<std::pair<std::string, std::string>> facts_about(const Store& store,
       sources += ", ...";
       break;
     }
-    sources += fmt::format("{}{}{}", sources.empty() ? "" : ", ", std::filesystem::path(source.path).filename().string(),
-                           source.sha256.empty() ? "" : " (SHA-256 " + source.sha256.substr(0, 12) + ")");
+    sources +=
+        fmt::format("{}{}{}", sources.empty() ? "" : ", ", std::filesystem::path(source.path).filename().string(),
+                    source.sha256.empty() ? "" : " (SHA-256 " + source.sha256.substr(0, 12) + ")");
   }
   return {{"Store", std::filesystem::path(store.path()).filename().string()},
           {"Sources", sources},
           {"CRS", fmt::format("{} ({})", crs_title(metadata.crs_wkt), crs_identifier(metadata.crs_wkt))},
-          {"Surface", fmt::format("tolerance {:g} m, certified error {:+.2f} to {:+.2f} m; themes: none",
-                                  surface.at("tolerance_m").get<double>(),
-                                  surface.at("certified_error_m").at(0).get<double>(),
-                                  surface.at("certified_error_m").at(1).get<double>())}};
+          {"Surface",
+           fmt::format("tolerance {:g} m, certified error {:+.2f} to {:+.2f} m; themes: none",
+                       surface.at("tolerance_m").get<double>(), surface.at("certified_error_m").at(0).get<double>(),
+                       surface.at("certified_error_m").at(1).get<double>())}};
 }
 
 }  // namespace
@@ -120,9 +121,8 @@ void LosStoreOptions::validate(std::optional<double> object_tip_m) {
 
 Document LosStoreOptions::parameters() const {
   const auto end = [&](const Place& place, double height) {
-    return Document{{"x", place.position.x},
-                    {"y", place.position.y},
-                    {absolute_heights_ ? "elevation_m" : "height_m", height}};
+    return Document{
+        {"x", place.position.x}, {"y", place.position.y}, {absolute_heights_ ? "elevation_m" : "height_m", height}};
   };
   Document parameters{{"from", end(from_, from_height_)}, {"to", end(to_, to_height_)}};
   if (!in_crs_.crs.empty()) parameters["in_crs"] = in_crs_.crs;
@@ -134,7 +134,8 @@ Document LosStoreOptions::parameters() const {
 double LosStoreOptions::height_at(const char* option, double ground_m, double given_m) const {
   if (!absolute_heights_) return given_m;
   if (given_m < ground_m) {
-    throw InputError(fmt::format("{}: elevation {:g} m is below the ground there, {:.2f} m", option, given_m, ground_m));
+    throw InputError(
+        fmt::format("{}: elevation {:g} m is below the ground there, {:.2f} m", option, given_m, ground_m));
   }
   return given_m - ground_m;
 }

@@ -44,18 +44,18 @@ Arc arc_for(const Reduced& r, double lambda) {
 double next_lambda(const Arc& a, double longitude_difference) {
   const double c = kFlattening / 16 * a.cos2_alpha * (4 + kFlattening * (4 - 3 * a.cos2_alpha));
   const double m = a.cos_2sigma_m;
-  return longitude_difference + (1 - c) * kFlattening * a.sin_alpha *
-                                    (a.sigma + c * a.sin_sigma * (m + c * a.cos_sigma * (2 * m * m - 1)));
+  return longitude_difference +
+         (1 - c) * kFlattening * a.sin_alpha * (a.sigma + c * a.sin_sigma * (m + c * a.cos_sigma * (2 * m * m - 1)));
 }
 
 double length_of(const Arc& arc) {
   const double u2 = arc.cos2_alpha * (kMajor * kMajor - kMinor * kMinor) / (kMinor * kMinor), m = arc.cos_2sigma_m;
   const double a = 1 + u2 / 16384 * (4096 + u2 * (-768 + u2 * (320 - 175 * u2)));
   const double b = u2 / 1024 * (256 + u2 * (-128 + u2 * (74 - 47 * u2)));
-  const double correction =
-      b * arc.sin_sigma *
-      (m + b / 4 * (arc.cos_sigma * (2 * m * m - 1) -
-                    b / 6 * m * (4 * arc.sin_sigma * arc.sin_sigma - 3) * (4 * m * m - 3)));
+  const double correction = b * arc.sin_sigma *
+                            (m + b / 4 *
+                                     (arc.cos_sigma * (2 * m * m - 1) -
+                                      b / 6 * m * (4 * arc.sin_sigma * arc.sin_sigma - 3) * (4 * m * m - 3)));
   return kMinor * a * (arc.sigma - correction);
 }
 
@@ -75,8 +75,7 @@ Geodesic geodesic(Point2 from, Point2 to) {
     lambda = next;
     if (!settled) continue;
     const double sine = std::sin(lambda), cosine = std::cos(lambda);
-    return {length_of(arc_for(r, lambda)),
-            azimuth(r.cos_u2 * sine, r.cos_u1 * r.sin_u2 - r.sin_u1 * r.cos_u2 * cosine),
+    return {length_of(arc_for(r, lambda)), azimuth(r.cos_u2 * sine, r.cos_u1 * r.sin_u2 - r.sin_u1 * r.cos_u2 * cosine),
             azimuth(-r.cos_u1 * sine, r.sin_u2 * r.cos_u1 * -cosine + r.cos_u2 * r.sin_u1)};
   }
   throw InputError("no direction between nearly antipodal points");

@@ -140,9 +140,9 @@ std::string report_kml(const LosReport& report) {
   Kml kml(report);
   kml.point(fmt::format("A, {:g} m", report.query.from_height_m), path.ray(0));
   kml.point(fmt::format("B, {:g} m", report.query.to_height_m), path.ray(length));
-  if (report.critical) {
-    kml.point("Critical point, " + critical_line(report),
-              {report.critical->x, report.critical->y, report.critical->ground_m});
+  if (const auto tightest = tightest_point(report)) {
+    const Point2 p = path.position(tightest->distance_m);
+    kml.point("Critical point, " + critical_line(report), {p.x, p.y, tightest->ground_m});
   }
   kml.line("Ray", "ray", path.ray_line());
   kml.line("Ground", "ground", path.ground_line());

@@ -224,8 +224,15 @@ class SightChart {
     drawing_.polyline(mast, {kInk, 2.2, {}});
     drawing_.circle(top, 2.6, kRay);
     const std::string text = fmt::format("{}, {:g} m", name, std::round(height * 100) / 100);
-    const double y = std::max(top.y - 8, frame_.box.ymin + 10);
-    drawing_.text({top.x + (first ? 5 : -5), y}, text, {8.5, kInk, first ? Align::kLeft : Align::kRight, true, 0});
+    const Lettering lettering{8.5, kInk, Align::kLeft, true, 0};
+    const double width = drawing_.text_width(text, lettering);
+    const double x = first ? top.x + 5 : top.x - 5 - width;
+    // Clear of the ray and its zone, which may rise away from the mast.
+    const double end = std::clamp((width + 10) / (frame_.x.to - frame_.x.from), 0.0, 1.0) * length_;
+    const double beside = first ? end : length_ - end;
+    const double y = std::max(std::min(top.y, frame_.y.at(ray(beside) + radius(beside))) - 8, frame_.box.ymin + 24);
+    drawing_.rectangle({x - 2, y - 8.5, x + width + 2, y + 3}, kWhite);
+    drawing_.text({x, y}, text, lettering);
   }
   void draw_masts() {
     const auto& points = report_.profile.points;
@@ -235,8 +242,9 @@ class SightChart {
 
   /// Its label hangs from the top of the chart, clear of the ray, on a line down to the point.
   void draw_critical() {
-    if (!report_.critical) return;
-    const Point2 point = at(*report_.critical);
+    const auto tightest = tightest_point(report_);
+    if (!tightest) return;
+    const Point2 point = at(tightest->distance_m, tightest->ground_m + bulge(tightest->distance_m));
     const Lettering lettering{8.5, kMarker, Align::kLeft, false, 0};
     const std::string text = "Critical point, " + critical_line(report_);
     const double width = drawing_.text_width(text, lettering), y = frame_.box.ymin + 12;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -20,13 +21,18 @@ std::string capitalised(std::string text) {
   return text;
 }
 
-/// Of the critical point, which is where the clearance in metres is least.
-std::string in_f1(const LosReport& report) {
-  if (!report.query.radio || !report.critical) return "";
-  const double d = report.critical->distance_m;
-  const double radius =
-      fresnel_radius_m(d, report.profile.length_m - d, wavelength_m(report.query.radio->frequency_ghz));
-  return radius > 0 ? fmt::format(", {:.2f} F1", *report.clearance_m / radius) : "";
+/// What stands at a distance: the higher neighbour's theme.
+std::uint16_t theme_at(const Profile& profile, double distance_m) {
+  std::uint16_t theme = 0;
+  double highest = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i + 1 < profile.points.size(); ++i) {
+    const ProfilePoint &a = profile.points[i], &b = profile.points[i + 1];
+    if (distance_m < a.distance_m || distance_m > b.distance_m) continue;
+    for (const ProfilePoint* p : {&a, &b}) {
+      if (p->ground_m > highest) highest = p->ground_m, theme = p->theme;
+    }
+  }
+  return theme;
 }
 
 Table criteria_table(const LosReport& report) {
@@ -125,10 +131,31 @@ std::string distance_text(double metres) {
   return metres < 2000 ? fmt::format("{:.1f} m", metres) : fmt::format("{:.3f} km", metres / 1000);
 }
 
+std::optional<TightestPoint> tightest_point(const LosReport& report) {
+  if (!report.critical || !report.clearance_m) return std::nullopt;
+  const bool free = *report.clearance_m >= 0;
+  if (free && report.fresnel) {
+    const double d = report.fresnel->distance_m,
+                 bulge = report.query.earth.drop_coefficient() * d * (report.profile.length_m - d);
+    return TightestPoint{d, ray_elevation_m(report, d) - bulge - report.fresnel->clearance_m,
+                         report.fresnel->clearance_m, report.fresnel->fraction, theme_at(report.profile, d)};
+  }
+  const ProfilePoint& p = *report.critical;
+  TightestPoint point{p.distance_m, p.ground_m, *report.clearance_m, {}, p.theme};
+  if (report.query.radio) {
+    const double radius = fresnel_radius_m(p.distance_m, report.profile.length_m - p.distance_m,
+                                           wavelength_m(report.query.radio->frequency_ghz));
+    if (radius > 0) point.fraction = point.clearance_m / radius;
+  }
+  return point;
+}
+
 std::string critical_line(const LosReport& report) {
-  if (!report.critical || !report.clearance_m) return "no ground between the ends";
-  return fmt::format("{}: clearance {:.2f} m{}; {}", distance_text(report.critical->distance_m), *report.clearance_m,
-                     in_f1(report), cause_of(report, report.critical->theme));
+  const auto point = tightest_point(report);
+  if (!point) return "no ground between the ends";
+  return fmt::format("{}: clearance {:.2f} m{}; {}", distance_text(point->distance_m), point->clearance_m,
+                     point->fraction ? fmt::format(", {:.2f} F1", *point->fraction) : "",
+                     cause_of(report, point->theme));
 }
 
 std::string verdict_line(const LosReport& report) {

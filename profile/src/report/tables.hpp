@@ -1,6 +1,8 @@
 // What a report says in words and numbers, as tables that every format sets in its own way.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,14 @@ struct Table {
 
 /// "Hidden", with the clearance and where it is least, in one line.
 std::string verdict_line(const LosReport& report);
+/// The point a planner looks at: where the ray is cut deepest, or, on a free path with a frequency, where the Fresnel
+/// zone is tightest (the least clearance in metres of a free path is often that of a mast over its own foot).
+struct TightestPoint {
+  double distance_m = 0, ground_m = 0, clearance_m = 0;
+  std::optional<double> fraction;  ///< of F1
+  std::uint16_t theme = 0;
+};
+std::optional<TightestPoint> tightest_point(const LosReport& report);
 /// "4532.1 m: clearance 3.20 m, 0.45 F1; terrain".
 std::string critical_line(const LosReport& report);
 
