@@ -13,6 +13,7 @@
 
 #include "earth_options.hpp"
 #include "los_document.hpp"
+#include "los_links.hpp"
 #include "los_store.hpp"
 #include "output_path.hpp"
 #include "radio_options.hpp"
@@ -74,6 +75,7 @@ class LosVerb final : public Verb {
     app.add_option("--profile-csv", profile_csv_, "Work on this profile instead of a store: d_km,h_m[,clutter_m]")
         ->type_name("FILE");
     app.add_option("--heights", heights_text_, "Heights of the two ends above that profile")->type_name("h1,h2");
+    links_.declare(app);
     earth_.declare(app);
     earth_.declare_radius(app);
     radio_.declare(app);
@@ -90,6 +92,15 @@ class LosVerb final : public Verb {
   void validate() override {
     earth_.validate();
     radio_.validate();
+    if (links_.given()) {
+      if (store_.empty() || line_.given()) throw InputError("--links takes a STORE, and the place of --from and --to");
+      if (!reports_.empty()) throw InputError("--report is for one line; --links writes a table, -o out.csv");
+      links_.validate();
+      line_.validate_surface();
+      query_.earth = earth_.earth();
+      query_.radio = radio_.radio(query_.earth);
+      return;
+    }
     if (store_.empty() == profile_csv_.empty()) throw InputError("give a STORE with --from and --to, or --profile-csv");
     if (store_.empty()) {
       if (line_.given()) throw InputError("--from and --to take a STORE; with --profile-csv give --heights h1,h2");
@@ -115,13 +126,15 @@ class LosVerb final : public Verb {
       parameters["heights_m"] = heights_;
     } else {
       parameters["store"] = store_;
-      parameters.update(line_.parameters());
+      if (links_.given()) parameters.update(links_.parameters());
+      parameters.update(links_.given() ? line_.surface_parameters() : line_.parameters());
     }
     parameters.update(radio_.parameters());
     return parameters;
   }
 
-  Result execute(Progress&) override {
+  Result execute(Progress& progress) override {
+    if (links_.given()) return run_links(progress);
     for (const std::string& path : reports_) policy_.require_writable(path);
     Result result = store_.empty() ? run_profile() : run_store();
     add_warnings(result);
@@ -154,6 +167,15 @@ class LosVerb final : public Verb {
     Result result;
     result.document["crs"] = nullptr;
     complete(result, from, to);
+    return result;
+  }
+
+  Result run_links(Progress& progress) {
+    policy_.require_writable(links_.output());
+    const Store store(store_);
+    Result result = links_.run(store, line_, query_, policy_.overwrite, progress);
+    result.document["refraction"] = earth_.document();
+    add_warnings(result);
     return result;
   }
 
@@ -203,6 +225,7 @@ class LosVerb final : public Verb {
   std::vector<std::string> reports_;
   std::vector<double> heights_;
   LosStoreOptions line_;
+  LosLinks links_;
   EarthOptions earth_;
   RadioOptions radio_;
   OutputPolicy policy_;

@@ -119,6 +119,21 @@ void LosStoreOptions::validate(std::optional<double> object_tip_m) {
   }
 }
 
+void LosStoreOptions::validate_surface() {
+  if (!nodata_text_.empty()) parse_choice("--nodata", nodata_text_, {"unknown", "block", "clear"});
+  detail_.validate();
+  themes_.validate();
+  if (detail_.has_rings()) throw InputError("--rings have no one centre for many links; give --tolerance");
+  if (absolute_heights_) throw InputError("--absolute-heights is not for --links, whose heights are above the ground");
+}
+
+Document LosStoreOptions::surface_parameters() const {
+  Document parameters = detail_.parameters();
+  if (!in_crs_.crs.empty()) parameters["in_crs"] = in_crs_.crs;
+  parameters["nodata"] = nodata_text_.empty() ? "unknown" : nodata_text_;
+  return parameters;
+}
+
 Document LosStoreOptions::parameters() const {
   const auto end = [&](const Place& place, double height) {
     return Document{

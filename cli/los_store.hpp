@@ -27,6 +27,12 @@ class LosStoreOptions {
   bool given() const { return !from_text_.empty() || !to_text_.empty(); }
   /// Throws InputError. `object_tip_m`: the height of what stands at --to, where it does not say.
   void validate(std::optional<double> object_tip_m);
+  /// For links, which bring their own ends: everything but --from and --to. Throws InputError.
+  void validate_surface();
+  Document surface_parameters() const;
+  Detail detail() const { return detail_.detail({}); }
+  bool gaps_block() const { return nodata_text_ == "block"; }
+  const std::string& in_crs() const { return in_crs_.crs; }
   Document parameters() const;
 
   struct Result {
