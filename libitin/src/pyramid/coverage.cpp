@@ -62,8 +62,8 @@ std::vector<std::uint64_t> corners_of(const std::vector<Segment>& edges) {
   return corners;
 }
 
-/// The points' box and a fringe of some mean spacings, in which neighbouring tiles see the same surface and choose
-/// alike.
+}  // namespace
+
 GridBox with_fringe(const std::vector<RawPoint>& points) {
   GridBox box = box_of(points);
   if (box.empty()) return box;
@@ -74,8 +74,6 @@ GridBox with_fringe(const std::vector<RawPoint>& points) {
   };
   return {inside(box.xmin - margin), inside(box.ymin - margin), inside(box.xmax + margin), inside(box.ymax + margin)};
 }
-
-}  // namespace
 
 std::vector<std::uint8_t> ground_triangles(const RegionMesh& region,
                                            const std::vector<std::array<double, 4>>& gap_bases) {
@@ -89,13 +87,16 @@ std::vector<std::uint8_t> ground_triangles(const RegionMesh& region,
 }
 
 TileSurvey survey_tile(const WorkingIndex& index, const CurveRange& tile,
-                       const std::vector<std::array<double, 4>>& gap_bases) {
+                       const std::vector<std::array<double, 4>>& gap_bases, const Sources* ground_sources) {
   TileSurvey survey;
   std::vector<RawPoint> own = index.read(tile);
-  std::erase_if(own, [](const RawPoint& p) { return p.level == kDropped; });
+  std::erase_if(own, [&](const RawPoint& p) {
+    return p.level == kDropped || (ground_sources != nullptr && !ground_sources->contains(p.source));
+  });
   const Selection everything(Detail::tolerance(0), {0.0}, Grid{});
   const GridBox box = with_fringe(own);
-  survey.surface = triangulate_region(index, everything, box);
+  survey.surface = ground_sources == nullptr ? triangulate_region(index, everything, box)
+                                             : triangulate_region(SourceIndex(index, *ground_sources), everything, box);
   const RegionMesh& region = survey.surface;
   const std::vector<std::uint8_t> ground = ground_triangles(region, gap_bases);
 

@@ -5,12 +5,13 @@
 #include <cmath>
 #include <deque>
 
+#include <itin/detail.hpp>
 #include <itin/parallel.hpp>
 
 #include "pyramid/certify.hpp"
 #include "pyramid/coverage.hpp"
 #include "pyramid/greedy.hpp"
-#include "pyramid/leaf_cutter.hpp"
+#include "store/leaf_cutter.hpp"
 #include "pyramid/replacement.hpp"
 #include "pyramid/working_index.hpp"
 
@@ -35,21 +36,105 @@ struct Proposals {
   std::vector<std::uint64_t> isolated;
 };
 
-/// Finds the tile's part of the coverage and writes the levels that its points should have.
-Proposals propose_levels(WorkingIndex& index, const CurveRange& tile, const std::vector<std::array<double, 4>>& bases,
-                         std::span<const double> tolerances) {
-  TileSurvey survey = survey_tile(index, tile, bases);
-  const std::vector<std::uint8_t> levels = greedy_levels(survey.surface, survey.candidacy, tolerances);
+/// Writes the levels that a tile's points should have.
+void write_proposals(WorkingIndex& index, const CurveRange& tile, const RegionMesh& surface,
+                     std::span<const Candidacy> candidacy, std::span<const double> tolerances) {
+  const std::vector<std::uint8_t> levels = greedy_levels(surface, candidacy, tolerances);
   std::vector<RawPoint> points = index.read(tile);
   std::size_t v = 0;
   for (RawPoint& p : points) {
-    while (v < levels.size() && morton(survey.surface.vertices[v].point.x, survey.surface.vertices[v].point.y) < p.code)
-      ++v;
+    while (v < levels.size() && morton(surface.vertices[v].point.x, surface.vertices[v].point.y) < p.code) ++v;
     if (v == levels.size()) break;
-    if (morton(survey.surface.vertices[v].point.x, survey.surface.vertices[v].point.y) == p.code) p.level = levels[v];
+    if (p.level != kDropped && morton(surface.vertices[v].point.x, surface.vertices[v].point.y) == p.code)
+      p.level = levels[v];
   }
   index.write(tile, points);
-  return {std::move(survey.outline), std::move(survey.isolated)};
+}
+
+/// The same where lines are part of the surface. `fixed`: what belongs to the coarsest level, ascending codes.
+void propose_levels(WorkingIndex& index, const CurveRange& tile, const std::vector<std::uint64_t>& fixed,
+                    std::span<const double> tolerances) {
+  std::vector<RawPoint> own = index.read(tile);
+  std::erase_if(own, [](const RawPoint& p) { return p.level == kDropped; });
+  const GridBox box = with_fringe(own);
+  // Greedy insertion walks straight across voids, so it wants triangles there as well.
+  Selection selection(Detail::tolerance(0), {0.0}, Grid{});
+  selection.leave_out(kCoverage);
+  const RegionMesh surface = triangulate_region(index, selection, box);
+  std::vector<Candidacy> candidacy;
+  for (const SelectedVertex& v : surface.vertices) {
+    const bool in_box = box.contains(v.point.x, v.point.y);
+    const bool corner = in_box && std::binary_search(fixed.begin(), fixed.end(), morton(v.point.x, v.point.y));
+    candidacy.push_back(corner ? Candidacy::kCorner : in_box ? Candidacy::kFree : Candidacy::kNone);
+  }
+  write_proposals(index, tile, surface, candidacy, tolerances);
+}
+
+/// Sources whose points are ground by themselves: all but lines that add to it.
+Sources ground_sources(const std::vector<SourceInfo>& sources) {
+  Sources ground;
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    if (sources[s].theme.empty() || sources[s].kind == name_of(ThemeKind::Contours))
+      ground.insert(static_cast<std::uint16_t>(s));
+  }
+  return ground;
+}
+
+/// Runs work(i) for every tile, in parallel.
+template <class Work>
+void for_each_tile(const std::vector<CurveRange>& tiles, const char* stage, Progress& progress, const Work& work) {
+  std::atomic<std::size_t> done = 0;
+  parallel_for(tiles.size(), [&](std::size_t i) {
+    progress.throw_if_cancelled();
+    work(i);
+    progress.report(stage, static_cast<double>(++done) / static_cast<double>(tiles.size()));
+  });
+}
+
+/// The vertices that each theme has besides those of the full surface, with the themes they belong to.
+void write_features(const PlacedLines& placed, const ThemeLines& lines, const std::vector<GridPoint>& draped,
+                    StoreWriter& writer, PyramidReport& report) {
+  std::vector<std::pair<std::uint16_t, std::uint64_t>> ends;  // theme, code
+  for (const Segment& s : placed.features) {
+    ends.emplace_back(s.theme, morton(s.ax, s.ay));
+    ends.emplace_back(s.theme, morton(s.bx, s.by));
+  }
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  const auto by_code = [](const GridPoint& p, std::uint64_t code) { return morton(p.x, p.y) < code; };
+  for (auto at = ends.begin(); at != ends.end();) {
+    const std::uint16_t theme = at->first;
+    std::vector<GridPoint> points;
+    std::vector<std::uint16_t> sources;
+    for (; at != ends.end() && at->first == theme; ++at) {
+      const auto point = std::lower_bound(draped.begin(), draped.end(), at->second, by_code);
+      if (point == draped.end() || morton(point->x, point->y) != at->second) continue;
+      const auto vertex =
+          std::lower_bound(lines.lines.vertices.begin(), lines.lines.vertices.end(), at->second, by_code);
+      points.push_back(*point);
+      sources.push_back(lines.sources[static_cast<std::size_t>(vertex - lines.lines.vertices.begin())]);
+      report.vertices_of_source[sources.back()] += 1;
+    }
+    writer.add_theme_vertices(theme, points, sources);
+  }
+}
+
+void count_lines(const PlacedLines& placed, std::size_t themes, PyramidReport& report) {
+  std::vector<std::vector<std::uint64_t>> ends(themes);
+  report.segments.assign(themes, 0);
+  report.left_out = placed.left_out;
+  for (const std::vector<Segment>* segments : {&placed.terrain, &placed.features}) {
+    for (const Segment& s : *segments) {
+      report.segments[s.theme - std::size_t{1}] += 1;
+      ends[s.theme - std::size_t{1}].push_back(morton(s.ax, s.ay));
+      ends[s.theme - std::size_t{1}].push_back(morton(s.bx, s.by));
+    }
+  }
+  for (std::vector<std::uint64_t>& codes : ends) {
+    std::sort(codes.begin(), codes.end());
+    report.line_vertices.push_back(
+        static_cast<std::uint64_t>(std::unique(codes.begin(), codes.end()) - codes.begin()));
+  }
 }
 
 /// Writes one level's quadtree; its leaves take the bounds of the working leaves in them.
@@ -134,13 +219,14 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
     in_units.push_back(in_whole_units.back());
   }
   const std::vector<std::array<double, 4>> bases = gap_bases(sources, grid);
+  const Sources ground = ground_sources(sources);
+  const Sources* const only = ground.size() < sources.size() ? &ground : nullptr;
   report.replaced = drop_replaced(index, tiles, sources, bases, progress);
   std::vector<Proposals> proposals(tiles.size());
-  std::atomic<std::size_t> done = 0;
-  parallel_for(tiles.size(), [&](std::size_t i) {
-    progress.throw_if_cancelled();
-    proposals[i] = propose_levels(index, tiles[i], bases, in_units);
-    progress.report("choosing the levels", static_cast<double>(++done) / static_cast<double>(tiles.size()));
+  for_each_tile(tiles, lines.empty() ? "choosing the levels" : "finding the ground", progress, [&](std::size_t i) {
+    TileSurvey survey = survey_tile(index, tiles[i], bases, only);
+    if (lines.empty()) write_proposals(index, tiles[i], survey.surface, survey.candidacy, in_units);
+    proposals[i] = {std::move(survey.outline), std::move(survey.isolated)};
   });
   std::vector<Segment> outline;
   std::vector<std::uint64_t> isolated;
@@ -149,11 +235,31 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
     isolated.insert(isolated.end(), p.isolated.begin(), p.isolated.end());
   }
   report.isolated = index.drop(std::move(isolated));
-  index.set_segments(join_collinear(std::move(outline)));
+  outline = join_collinear(std::move(outline));
+  PlacedLines placed;
+  if (!lines.empty()) {
+    placed = place_lines(lines, index, tiles, ground, bases, outline, progress);
+    index.drop(placed.strays);
+  }
+  std::vector<Segment> segments = outline;
+  segments.insert(segments.end(), placed.terrain.begin(), placed.terrain.end());
+  index.set_segments(std::move(segments));
+  if (!lines.empty()) {
+    std::vector<std::uint64_t> fixed = placed.ends;
+    for (const Segment& s : outline) fixed.push_back(morton(s.ax, s.ay));
+    for (const Segment& s : outline) fixed.push_back(morton(s.bx, s.by));
+    std::sort(fixed.begin(), fixed.end());
+    for_each_tile(tiles, "choosing the levels", progress,
+                  [&](std::size_t i) { propose_levels(index, tiles[i], fixed, in_units); });
+  }
 
   LeafBounds bounds = certify(index, in_whole_units, progress);
   write_levels(index, bounds, tiles, levels, writer, report, progress);
-  writer.add_segments(index.all_segments());
+  if (!placed.features.empty()) write_features(placed, lines, drape(placed.ends, index, tiles, progress), writer, report);
+  count_lines(placed, lines.terrain.size(), report);
+  segments = index.all_segments();
+  segments.insert(segments.end(), placed.features.begin(), placed.features.end());
+  writer.add_segments(std::move(segments));
   return report;
 }
 

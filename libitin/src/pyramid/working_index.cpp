@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "pyramid/leaf_cutter.hpp"
+#include "store/leaf_cutter.hpp"
 
 namespace itin {
 
