@@ -205,7 +205,8 @@ void write_levels(const WorkingIndex& index, LeafBounds& bounds, const std::vect
 }  // namespace
 
 PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>& sources, const Grid& grid,
-                            const std::vector<double>& tolerances, StoreWriter& writer, Progress& progress) {
+                            const std::vector<double>& tolerances, const ThemeLines& lines, StoreWriter& writer,
+                            Progress& progress) {
   const int levels = static_cast<int>(tolerances.size());
   WorkingIndex index(points, levels, kLeafCapacity);
   const std::vector<CurveRange> tiles = index.tiles(kTilePoints);

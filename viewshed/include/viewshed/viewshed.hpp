@@ -24,6 +24,7 @@
 #include <vector>
 
 #include <itin/detail.hpp>
+#include <itin/theme.hpp>
 #include <itin/earth.hpp>
 #include <itin/progress.hpp>
 #include <itin/raster.hpp>
@@ -70,6 +71,7 @@ struct Request {
   std::optional<RasterGrid> grid;
   Earth earth;
   Detail detail = Detail::tolerance(0);  ///< of the surface; not used with a Tin
+  ThemeChoice themes = ThemeChoice::none();  ///< likewise
   NoData nodata = NoData::kUnknown;
   Mode mode = Mode::kVisible;
 };
