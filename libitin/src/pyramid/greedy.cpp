@@ -78,6 +78,10 @@ class GreedyInsertion {
     return true;
   }
 
+  void force(std::uint32_t p) {
+    if (!inserted_[p]) insert(p, locate(p, Face()));
+  }
+
   /// Inserts what is worst until nothing is more than `tolerance` off; calls on_insert(point) for each.
   template <class OnInsert>
   void refine(double tolerance, const OnInsert& on_insert) {
@@ -264,7 +268,7 @@ std::vector<std::uint32_t> convex_hull(const RegionMesh& fine, std::vector<std::
 }  // namespace
 
 std::vector<std::uint8_t> greedy_levels(const RegionMesh& fine, std::span<const Candidacy> candidacy,
-                                        std::span<const double> tolerances) {
+                                        std::span<const double> tolerances, std::span<const std::uint8_t> floors) {
   const int coarsest = static_cast<int>(tolerances.size()) - 1;
   std::vector<std::uint8_t> levels(candidacy.size(), 0);
   std::vector<std::uint32_t> candidates, corners;
@@ -278,6 +282,11 @@ std::vector<std::uint8_t> greedy_levels(const RegionMesh& fine, std::span<const 
   GreedyInsertion greedy(fine, candidacy);
   if (!greedy.start(first)) return levels;
   for (int k = coarsest; k >= 1; --k) {
+    for (std::uint32_t v = 0; v < floors.size(); ++v) {
+      if (floors[v] != k || candidacy[v] == Candidacy::kNone) continue;
+      greedy.force(v);
+      levels[v] = std::max(levels[v], floors[v]);
+    }
     greedy.refine(tolerances[static_cast<std::size_t>(k)],
                   [&](std::uint32_t p) { levels[p] = static_cast<std::uint8_t>(k); });
   }

@@ -4,10 +4,12 @@
 #include <atomic>
 #include <cmath>
 #include <deque>
+#include <optional>
 
 #include <itin/detail.hpp>
 #include <itin/parallel.hpp>
 
+#include "features/line_hierarchy.hpp"
 #include "pyramid/certify.hpp"
 #include "pyramid/coverage.hpp"
 #include "pyramid/greedy.hpp"
@@ -36,10 +38,26 @@ struct Proposals {
   std::vector<std::uint64_t> isolated;
 };
 
+/// The levels that lines and outline ask of vertices.
+class LineLevels {
+ public:
+  void add(std::uint64_t code, int level) { levels_.emplace_back(code, static_cast<std::uint8_t>(level)); }
+  void finish() { std::sort(levels_.begin(), levels_.end()); }
+  /// The greatest; 0 where nothing was asked.
+  std::uint8_t of(std::uint64_t code) const {
+    const auto after = std::upper_bound(levels_.begin(), levels_.end(), std::pair(code, std::uint8_t{0xff}));
+    return after != levels_.begin() && std::prev(after)->first == code ? std::prev(after)->second : std::uint8_t{0};
+  }
+
+ private:
+  std::vector<std::pair<std::uint64_t, std::uint8_t>> levels_;
+};
+
 /// Writes the levels that a tile's points should have.
 void write_proposals(WorkingIndex& index, const CurveRange& tile, const RegionMesh& surface,
-                     std::span<const Candidacy> candidacy, std::span<const double> tolerances) {
-  const std::vector<std::uint8_t> levels = greedy_levels(surface, candidacy, tolerances);
+                     std::span<const Candidacy> candidacy, std::span<const double> tolerances,
+                     std::span<const std::uint8_t> floors = {}) {
+  const std::vector<std::uint8_t> levels = greedy_levels(surface, candidacy, tolerances, floors);
   std::vector<RawPoint> points = index.read(tile);
   std::size_t v = 0;
   for (RawPoint& p : points) {
@@ -51,8 +69,8 @@ void write_proposals(WorkingIndex& index, const CurveRange& tile, const RegionMe
   index.write(tile, points);
 }
 
-/// The same where lines are part of the surface. `fixed`: what belongs to the coarsest level, ascending codes.
-void propose_levels(WorkingIndex& index, const CurveRange& tile, const std::vector<std::uint64_t>& fixed,
+/// The same where lines are part of the surface.
+void propose_levels(WorkingIndex& index, const CurveRange& tile, const LineLevels& line_levels,
                     std::span<const double> tolerances) {
   std::vector<RawPoint> own = index.read(tile);
   std::erase_if(own, [](const RawPoint& p) { return p.level == kDropped; });
@@ -62,12 +80,14 @@ void propose_levels(WorkingIndex& index, const CurveRange& tile, const std::vect
   selection.leave_out(kCoverage);
   const RegionMesh surface = triangulate_region(index, selection, box);
   std::vector<Candidacy> candidacy;
+  std::vector<std::uint8_t> floors;
   for (const SelectedVertex& v : surface.vertices) {
     const bool in_box = box.contains(v.point.x, v.point.y);
-    const bool corner = in_box && std::binary_search(fixed.begin(), fixed.end(), morton(v.point.x, v.point.y));
+    floors.push_back(line_levels.of(morton(v.point.x, v.point.y)));
+    const bool corner = in_box && floors.back() + std::size_t{1} == tolerances.size();
     candidacy.push_back(corner ? Candidacy::kCorner : in_box ? Candidacy::kFree : Candidacy::kNone);
   }
-  write_proposals(index, tile, surface, candidacy, tolerances);
+  write_proposals(index, tile, surface, candidacy, tolerances, floors);
 }
 
 /// Sources whose points are ground by themselves: all but lines that add to it.
@@ -78,6 +98,25 @@ Sources ground_sources(const std::vector<SourceInfo>& sources) {
       ground.insert(static_cast<std::uint16_t>(s));
   }
   return ground;
+}
+
+/// The lines of the terrain at all levels; nothing where there are none.
+std::optional<LineHierarchy> generalised(const PlacedLines& placed, const std::vector<Segment>& outline,
+                                         const ThemeLines& lines, const std::vector<double>& tolerances) {
+  if (placed.terrain.empty()) return std::nullopt;
+  std::vector<LineTolerance> by_level;
+  for (const double t : tolerances) by_level.push_back({t, lateral_tolerance(t)});
+  std::vector<std::uint64_t> nodes = placed.on_outline;
+  for (const Segment& s : outline) {
+    nodes.push_back(morton(s.ax, s.ay));
+    nodes.push_back(morton(s.bx, s.by));
+  }
+  const auto height = [&](Position p) {
+    const auto at = std::lower_bound(lines.lines.vertices.begin(), lines.lines.vertices.end(), morton(p.x, p.y),
+                                     [](const GridPoint& v, std::uint64_t code) { return morton(v.x, v.y) < code; });
+    return at->z;
+  };
+  return LineHierarchy(placed.terrain, placed.features, nodes, height, by_level);
 }
 
 /// Runs work(i) for every tile, in parallel.
@@ -242,23 +281,41 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
     placed = place_lines(lines, index, tiles, ground, bases, outline, progress);
     index.drop(placed.strays);
   }
-  std::vector<Segment> segments = outline;
-  segments.insert(segments.end(), placed.terrain.begin(), placed.terrain.end());
-  index.set_segments(std::move(segments));
+  std::optional<LineHierarchy> hierarchy = generalised(placed, outline, lines, in_units);
+  const auto set_segments = [&] {
+    std::vector<Segment> segments = outline;
+    const std::vector<Segment> of_lines = hierarchy ? hierarchy->segments() : std::vector<Segment>{};
+    segments.insert(segments.end(), of_lines.begin(), of_lines.end());
+    index.set_segments(std::move(segments));
+  };
+  set_segments();
   if (!lines.empty()) {
-    std::vector<std::uint64_t> fixed = placed.ends;
-    for (const Segment& s : outline) fixed.push_back(morton(s.ax, s.ay));
-    for (const Segment& s : outline) fixed.push_back(morton(s.bx, s.by));
-    std::sort(fixed.begin(), fixed.end());
+    LineLevels line_levels;
+    for (const Segment& s : outline) line_levels.add(morton(s.ax, s.ay), levels - 1);
+    for (const Segment& s : outline) line_levels.add(morton(s.bx, s.by), levels - 1);
+    for (const Segment& s : placed.features) line_levels.add(morton(s.ax, s.ay), levels - 1);
+    for (const Segment& s : placed.features) line_levels.add(morton(s.bx, s.by), levels - 1);
+    if (hierarchy) {
+      for (const auto& [code, level] : hierarchy->levels()) line_levels.add(code, level);
+    }
+    line_levels.finish();
     for_each_tile(tiles, "choosing the levels", progress,
-                  [&](std::size_t i) { propose_levels(index, tiles[i], fixed, in_units); });
+                  [&](std::size_t i) { propose_levels(index, tiles[i], line_levels, in_units); });
   }
 
-  LeafBounds bounds = certify(index, in_whole_units, progress);
+  const auto restore = [&](const std::vector<FailedPlace>& failed) {
+    bool any = false;
+    for (const FailedPlace& place : failed) any |= hierarchy && hierarchy->restore(place.box, place.level);
+    if (!any) return false;
+    for (const auto& [code, level] : hierarchy->levels()) index.promote(code, level);
+    set_segments();
+    return true;
+  };
+  LeafBounds bounds = certify(index, in_whole_units, restore, progress);
   write_levels(index, bounds, tiles, levels, writer, report, progress);
   if (!placed.features.empty()) write_features(placed, lines, drape(placed.ends, index, tiles, progress), writer, report);
   count_lines(placed, lines.terrain.size(), report);
-  segments = index.all_segments();
+  std::vector<Segment> segments = index.all_segments();
   segments.insert(segments.end(), placed.features.begin(), placed.features.end());
   writer.add_segments(std::move(segments));
   return report;

@@ -114,6 +114,13 @@ class OutlineTest {
     return found->second != (kTouchesA | kTouchesB) || middle_inside(s);
   }
 
+  void ends_on_outline(const Segment& s, Codes& out) const {
+    const auto found = contacts_.find(s);
+    if (found == contacts_.end()) return;
+    if (found->second & kTouchesA) out.push_back(morton(s.ax, s.ay));
+    if (found->second & kTouchesB) out.push_back(morton(s.bx, s.by));
+  }
+
  private:
   static constexpr unsigned kCrosses = 1, kTouchesA = 2, kTouchesB = 4;
 
@@ -174,6 +181,7 @@ PlacedLines place_lines(const ThemeLines& lines, const WorkingIndex& index, cons
     const bool terrain = lines.terrain[s.theme - std::size_t{1}];
     (terrain ? placed.terrain : placed.features).push_back(s);
     for (const std::uint64_t end : {morton(s.ax, s.ay), morton(s.bx, s.by)}) placed.ends.push_back(end);
+    test.ends_on_outline(s, placed.on_outline);
   }
   placed.left_out = lines.lines.edges.size() - placed.terrain.size() - placed.features.size();
   std::sort(placed.ends.begin(), placed.ends.end());

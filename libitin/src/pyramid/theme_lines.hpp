@@ -26,6 +26,7 @@ struct PlacedLines {
   std::vector<Segment> terrain;       ///< part of the full surface; their ends are points of the index
   std::vector<Segment> features;      ///< on it
   std::vector<std::uint64_t> ends;    ///< of both, ascending Morton codes
+  std::vector<std::uint64_t> on_outline;  ///< of these, those on it
   std::vector<std::uint64_t> strays;  ///< vertices of terrain lines beyond the ground
   std::uint64_t left_out = 0;         ///< segments beyond the ground, or that leave it
 };

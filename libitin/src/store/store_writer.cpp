@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "features/line_hierarchy.hpp"
 #include "store/block_codec.hpp"
 #include "store/database.hpp"
 #include "store/directory.hpp"
@@ -58,7 +59,7 @@ StoreWriter::Impl::Impl(const std::string& path, const std::string& crs_wkt, con
   }
   metadata_.crs_wkt = crs_wkt;
   metadata_.grid = grid;
-  for (const double t : tolerances) metadata_.levels.push_back({t, 0, 0, {}});
+  for (const double t : tolerances) metadata_.levels.push_back({t, lateral_tolerance(t), 0, {}});
   database_.execute("PRAGMA page_size=" + std::to_string(format::kPageSize) + ";PRAGMA encoding='UTF-8';");
   database_.execute("PRAGMA application_id=" + std::to_string(format::kApplicationId) +
                     ";PRAGMA user_version=" + std::to_string(format::kVersion) + ";");
