@@ -5,6 +5,8 @@
 #include <set>
 #include <unordered_map>
 
+#include <fmt/format.h>
+
 #include <itin/error.hpp>
 
 namespace itin {
@@ -446,7 +448,10 @@ class RegionTriangulation {
   void read_late(std::uint32_t v) {
     if (!unread_.contains(v)) return;
     const auto found = search_.at(position(v));
-    if (!found) throw Error("an end of a constraint line is not among the vertices; run itin check on the store");
+    if (!found) {
+      throw Error(fmt::format("an end of a constraint line at grid position {}, {} is not among the vertices; run itin check on the store",
+                              position(v).x, position(v).y));
+    }
     vertices_[v] = *found;
   }
 

@@ -67,7 +67,7 @@ void selected_leaves(const PointIndex& index, const Selection& selection, const 
   const auto first = static_cast<std::ptrdiff_t>(out.size());
   index.leaves(selection.finest_in(box), box, out);
   out.erase(std::remove_if(out.begin() + first, out.end(),
-                           [&](const Leaf& leaf) { return !selection.includes(leaf.theme); }),
+                           [&](const Leaf& leaf) { return leaf.theme != 0 && !selection.includes(leaf.theme); }),
             out.end());
 }
 

@@ -20,7 +20,7 @@ class Selection {
   /// `tolerances` of the levels in metres, ascending, level 0 (tolerance 0) first.
   Selection(const Detail& detail, const std::vector<double>& tolerances, const Grid& grid);
 
-  /// Leaves out a theme, by its number. At first all are selected.
+  /// Leaves out a theme, by its number, or the coverage outline. At first all are selected.
   void leave_out(std::uint16_t theme);
   bool includes(std::uint16_t theme) const { return theme >= left_out_.size() || !left_out_[theme]; }
 
