@@ -21,6 +21,7 @@
 #include "support/temporary_directory.hpp"
 #include "support/vector_file.hpp"
 #include "triangulate/delaunay.hpp"
+#include "triangulate/selection.hpp"
 
 namespace itin {
 namespace {
@@ -45,22 +46,27 @@ struct Content {
   std::vector<Segment> segments;
 };
 
-Content content(const Store& store, int level, const std::set<std::uint16_t>& themes) {
+Content content(const Store& store, const Detail& detail, const ThemeChoice& choice) {
+  const StoreMetadata& metadata = store.metadata();
+  std::vector<double> tolerances;
+  for (const LevelInfo& level : metadata.levels) tolerances.push_back(level.tolerance);
+  const Selection selection(detail, tolerances, metadata.grid);
+  const auto chosen = [&](std::uint16_t theme) { return theme == 0 || choice.includes(metadata.themes[theme - 1u]); };
   Content result;
   std::vector<Leaf> leaves;
-  store.points().leaves(level, store.points().bounds(), leaves);
+  store.points().leaves(0, store.points().bounds(), leaves);
   std::set<GridPoint> points;
   for (const Leaf& leaf : leaves) {
-    if (leaf.theme != 0 && !themes.contains(leaf.theme)) continue;
-    const auto block = store.points().block(leaf);
-    points.insert(block->points.begin(), block->points.end());
+    if (!chosen(leaf.theme)) continue;
+    for (const GridPoint& p : store.points().block(leaf)->points) {
+      if (selection.selects(leaf.level, p.x, p.y)) points.insert(p);
+    }
   }
   result.points.assign(points.begin(), points.end());
   std::vector<Segment> segments;
   store.points().segments(store.points().bounds(), segments);
   for (const Segment& s : std::set<Segment>(segments.begin(), segments.end())) {
-    if (s.theme != kCoverage && !themes.contains(s.theme)) continue;
-    if (s.finest <= level && level <= s.coarsest) result.segments.push_back(s);
+    if (chosen(s.theme) && selection.selects(s)) result.segments.push_back(s);
   }
   return result;
 }
@@ -140,14 +146,14 @@ void expect_windows_of_the_whole(const Store& store, std::mt19937& random, const
   NoProgress progress;
   const StoreMetadata& metadata = store.metadata();
   const Box bounds = metadata.grid.box(metadata.bounds);
+  std::vector<Detail> details;
+  for (const LevelInfo& level : metadata.levels) details.push_back(Detail::tolerance(level.tolerance));
+  const Point2 centre{(bounds.xmin + bounds.xmax) / 2, (bounds.ymin + bounds.ymax) / 2};
+  details.push_back(Detail::rings(centre, {{bounds.width() / 8, 0}, {bounds.width() / 4, 2}, {bounds.width(), 32}}));
   for (const ThemeChoice& choice : choices) {
-    std::set<std::uint16_t> themes;
-    for (std::size_t t = 0; t < metadata.themes.size(); ++t) {
-      if (choice.includes(metadata.themes[t])) themes.insert(static_cast<std::uint16_t>(t + 1));
-    }
-    for (std::size_t k = 0; k < metadata.levels.size(); ++k) {
-      const Detail detail = Detail::tolerance(metadata.levels[k].tolerance);
-      const Content all = content(store, static_cast<int>(k), themes);
+    for (std::size_t k = 0; k < details.size(); ++k) {
+      const Detail& detail = details[k];
+      const Content all = content(store, detail, choice);
       const std::set<Corners> truth = global(all);
       const Tin whole = triangulate(store, Window::all(), detail, progress, choice);
       const std::set<Corners> found = triangles_of(whole);
@@ -159,8 +165,10 @@ void expect_windows_of_the_whole(const Store& store, std::mt19937& random, const
         const Point3 a = whole.point(e.from), b = whole.point(e.to);
         length[e.theme] += std::hypot(a.x - b.x, a.y - b.y);
       }
+      // The two halves of a narrow ring may have become one and the same segment.
+      std::set<std::array<std::int32_t, 5>> distinct;
       for (const Segment& s : all.segments) {
-        if (s.theme == kCoverage) continue;
+        if (s.theme == kCoverage || !distinct.insert({s.ax, s.ay, s.bx, s.by, s.theme}).second) continue;
         expected[s.theme] += std::hypot(double(s.ax) - s.bx, double(s.ay) - s.by) * metadata.grid.resolution;
       }
       ASSERT_EQ(length.size(), expected.size());
@@ -180,8 +188,8 @@ void expect_windows_of_the_whole(const Store& store, std::mt19937& random, const
             return b;
           }();
           // Wholly inside a box window, so surely in it.
-          if (i % 2 == 0 && box.xmin >= x && box.xmax <= x + side && box.ymin >= y && box.ymax <= y + side)
-            ASSERT_TRUE(part.contains(c)) << "level " << k;
+          const bool within = box.xmin >= x && box.xmax <= x + side && box.ymin >= y && box.ymax <= y + side;
+          ASSERT_TRUE(i % 2 == 1 || !within || part.contains(c)) << "level " << k;
         }
       }
     }
