@@ -23,13 +23,14 @@ class ImportVerb final : public Verb {
 
   void declare(CLI::App& app) override {
     app.add_option("STORE", store_, "The store, created if there is none")->required();
-    app.add_option("SOURCE", options_.sources, "Rasters, point files, LAS, or layers of lines and polygons")->required();
-    app.add_option("--kind", kind_, 
-                   "What the sources are: terrain (default); contours, breaklines or water, which are lines with heights "
-                   "and become part of the terrain; roads, walls, buildings or vegetation, which are lines on it")
+    app.add_option("SOURCE", options_.sources, "Rasters, point files, LAS, or layers of lines and polygons")
+        ->required();
+    app.add_option(
+           "--kind", kind_,
+           "What the sources are: terrain (default); contours, breaklines or water, which are lines with heights "
+           "and become part of the terrain; roads, walls, buildings or vegetation, which are lines on it")
         ->type_name("KIND");
-    app.add_option("--theme", options_.theme, "Name of the lines' theme (default: the kind)")
-        ->type_name("NAME");
+    app.add_option("--theme", options_.theme, "Name of the lines' theme (default: the kind)")->type_name("NAME");
     app.add_option("--crs", options_.crs, "CRS of the sources, whatever they say themselves")->type_name("CRS");
     app.add_option("--to-crs", options_.to_crs,
                    "CRS of a new store: projected, in metres (default: the sources' own, else their UTM zone)")
@@ -90,7 +91,7 @@ class ImportVerb final : public Verb {
   }
 
   Result execute(Progress& progress) override {
-    const ImportReport report = 
+    const ImportReport report =
         options_.kind ? import_lines(store_, options_, progress) : import_terrain(store_, options_, progress);
     const Store store(store_);
     return {document(report, store.metadata()), text(report, store.metadata()), report.warnings, {}};

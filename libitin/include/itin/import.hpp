@@ -26,8 +26,8 @@ struct ImportOptions {
   // Changes the answer.
   std::optional<ThemeKind> kind;  ///< of lines, for import_lines(); nothing: terrain points
   std::string theme;              ///< of lines: its name
-  std::string crs;     ///< of sources that do not say; overrides those that do
-  std::string to_crs;  ///< of the store; default: the source's own if metric and projected, else a UTM zone
+  std::string crs;                ///< of sources that do not say; overrides those that do
+  std::string to_crs;             ///< of the store; default: the source's own if metric and projected, else a UTM zone
   std::string
       z_field;  ///< the height attribute of point layers and CSV; default: Z of the geometry, or the third column
   std::string layer;
@@ -67,11 +67,11 @@ struct ImportReport {
 /// was.
 ImportReport import_terrain(const std::string& store_path, const ImportOptions& options, Progress& progress);
 
-/// Adds lines and polygons (as their rings) to a theme, which is made if there is none of that name. Contours may make a
-/// new store; other lines need ground to lie on. All lines of the store are made planar together: crossings get a vertex,
-/// and no line moves by more than half a grid step. Heights of lines of the terrain win over those of points; of lines
-/// that meet, those of the terrain and then the first name in order decide. Lines of other kinds take the heights of the
-/// full surface at their vertices. Throws as above.
+/// Adds lines and polygons (as their rings) to a theme, which is made if there is none of that name. Contours may make
+/// a new store; other lines need ground to lie on. All lines of the store are made planar together: crossings get a
+/// vertex, and no line moves by more than half a grid step. Heights of lines of the terrain win over those of points;
+/// of lines that meet, those of the terrain and then the first name in order decide. Lines of other kinds take the
+/// heights of the full surface at their vertices. Throws as above.
 ImportReport import_lines(const std::string& store_path, const ImportOptions& options, Progress& progress);
 
 }  // namespace itin

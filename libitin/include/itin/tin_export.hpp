@@ -15,8 +15,9 @@
 //           most 2^-23 of the extent; the origin (easting, northing, up, exact) and the CRS are in the scene's extras.
 //           Normals, colours by height; _VERTEX_ID as four 16-bit words, least first; _SOURCE.
 // .gpkg     layers `triangles` (polygons with z; vertex_a/b/c, source_a/b/c), `vertices` (points with z; id and
-//           source) and, where there are lines, `lines` (edges with z; vertex_a/b, theme by name). Only the former has a spatial index, which is what takes the time: 12 s a million triangles.
-//           Timestamps are fixed, so that equal Tins give equal files.
+//           source) and, where there are lines, `lines` (edges with z; vertex_a/b, theme by name). Only the former has
+//           a spatial index, which is what takes the time: 12 s a million triangles. Timestamps are fixed, so that
+//           equal Tins give equal files.
 // .geojson  polygons with z in the store's CRS, named in the `crs` member of GeoJSON 2008, which GDAL and QGIS follow;
 //           the same properties. Ids are integers beyond 2^53: read them with 64 bits.
 //
@@ -34,8 +35,8 @@ namespace itin {
 
 struct TinExportOptions {
   std::vector<std::string> theme_names;  ///< of Tin::lines: theme t is theme_names[t - 1]
-  std::string crs_wkt;        ///< of the coordinates; empty: unknown
-  bool overwrite = false;     ///< replace an existing file
+  std::string crs_wkt;                   ///< of the coordinates; empty: unknown
+  bool overwrite = false;                ///< replace an existing file
   std::string metadata_json;  ///< a JSON object that says where the Tin comes from, or nothing. Kept by .glb (extras),
                               ///< .gpkg (metadata item METADATA_JSON), .geojson (`metadata`); its members open a
                               ///< topology document.

@@ -16,7 +16,8 @@ void write_ply(const Tin& tin, const PendingFile& output, const TinExportOptions
   if (!tin.lines.empty()) {
     for (std::size_t t = 0; t < options.theme_names.size(); ++t)
       file.print("comment theme {} {}\n", t + 1, on_one_line(options.theme_names[t]));
-    file.print("element edge {}\nproperty int vertex1\nproperty int vertex2\nproperty ushort theme\n", tin.lines.size());
+    file.print("element edge {}\nproperty int vertex1\nproperty int vertex2\nproperty ushort theme\n",
+               tin.lines.size());
   }
   file.print("end_header\n");
 

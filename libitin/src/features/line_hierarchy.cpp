@@ -112,7 +112,7 @@ class LineHierarchy::Graph {
     chain.themes = themes_.at(edge(start, next));
     chain.vertices.push_back(position_of(start));
     std::uint64_t before = start;
-    for (std::uint64_t at = next;; ) {
+    for (std::uint64_t at = next;;) {
       used_[edge(before, at)] = true;
       chain.vertices.push_back(position_of(at));
       if (at == start || is_node(at)) return chain;
@@ -132,8 +132,8 @@ class LineHierarchy::Graph {
       const std::int64_t dx = std::int64_t{p.x} - v.front().x, dy = std::int64_t{p.y} - v.front().y;
       return dx * dx + dy * dy;
     };
-    const auto last = std::max_element(v.begin(), v.end(),
-                                       [&](Position a, Position b) { return from_first(a) < from_first(b); });
+    const auto last =
+        std::max_element(v.begin(), v.end(), [&](Position a, Position b) { return from_first(a) < from_first(b); });
     const auto farthest = std::max_element(v.begin(), v.end(), [&](Position a, Position b) {
       return std::abs(doubled_area(v.front(), *last, a)) < std::abs(doubled_area(v.front(), *last, b));
     });
@@ -251,7 +251,8 @@ void LineHierarchy::for_each_edge(const Chain& chain, const Visit& visit) const 
           for (std::size_t i = from; i < to; i = below.at(i).to) edge.extent.extend(below.at(i).extent);
         }
         const std::uint8_t coarsest = std::min(chain.levels[from], chain.levels[to]);
-        visit(from, to, static_cast<std::uint8_t>(k), coarsest == coarsest_ ? std::uint8_t{0xff} : coarsest, edge.extent);
+        visit(from, to, static_cast<std::uint8_t>(k), coarsest == coarsest_ ? std::uint8_t{0xff} : coarsest,
+              edge.extent);
       }
       // Widened alike on all sides, so that what it stands for stays within when it is read again.
       const GridBox plain = box_of({chain.vertices[from], chain.vertices[to]}, 0, 1);
@@ -273,7 +274,8 @@ std::vector<Segment> LineHierarchy::segments() const {
       const auto [a, b] = std::minmax({chain.vertices[from], chain.vertices[to]});
       const std::int32_t reach = std::max({std::min(a.x, b.x) - extent.xmin, extent.xmax - std::max(a.x, b.x),
                                            std::min(a.y, b.y) - extent.ymin, extent.ymax - std::max(a.y, b.y)});
-      for (const std::uint16_t theme : chain.themes) result.push_back({a.x, a.y, b.x, b.y, theme, finest, coarsest, reach});
+      for (const std::uint16_t theme : chain.themes)
+        result.push_back({a.x, a.y, b.x, b.y, theme, finest, coarsest, reach});
     });
   }
   std::sort(result.begin(), result.end());

@@ -6,10 +6,11 @@
 //   for (const Segment& s : lines.segments()) ...       // of all levels, with finest, coarsest and reach
 //
 // Lines are cut into chains at their junctions, where themes change and at `nodes`; closed chains at three extremes.
-// These vertices stay at every level. A shortcut may take the place of a piece of a chain where the piece's vertices lie
-// within the level's tolerances of it, where it does not cross the piece, and where no other vertex of any line lies in
-// the closed region between both (D. H. Douglas and T. K. Peucker, 1973, choose the pieces). So a shortcut crosses no
-// other line and no other line's shortcut, of whatever levels: what crosses it would have to end in that region.
+// These vertices stay at every level. A shortcut may take the place of a piece of a chain where the piece's vertices
+// lie within the level's tolerances of it, where it does not cross the piece, and where no other vertex of any line
+// lies in the closed region between both (D. H. Douglas and T. K. Peucker, 1973, choose the pieces). So a shortcut
+// crosses no other line and no other line's shortcut, of whatever levels: what crosses it would have to end in that
+// region.
 #pragma once
 
 #include <cstdint>
@@ -55,7 +56,8 @@ class LineHierarchy {
   /// The coarsest level that needs each vertex, ascending by code; without those of `whole` alone.
   std::vector<VertexLevel> levels() const;
 
-  /// Puts everything that a shortcut of level k near `box` stands for back into levels <= k. False where there was none.
+  /// Puts everything that a shortcut of level k near `box` stands for back into levels <= k. False where there was
+  /// none.
   bool restore(const GridBox& box, int level);
 
  private:

@@ -98,8 +98,8 @@ void add_source(TerrainSource& source, std::uint16_t number, PointSorter& sorter
 void add_lines(LineLayer& layer, std::uint16_t number, const ImportPlan& plan, const ImportOptions& options,
                LineCollection& lines, ImportReport& report, Progress& progress) {
   const std::uint32_t theme = lines.theme(options.theme, *options.kind);
-  const ReadCounts counts = layer.read({plan.grid, plan.crs_wkt},
-                                       [&](std::span<const GridPoint> line) { lines.add(theme, number, line); }, progress);
+  const ReadCounts counts = layer.read(
+      {plan.grid, plan.crs_wkt}, [&](std::span<const GridPoint> line) { lines.add(theme, number, line); }, progress);
   lines.add_features(theme, layer.features());
   report.read += counts.read;
   report.voids += counts.voids;

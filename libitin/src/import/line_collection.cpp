@@ -47,7 +47,8 @@ void LineCollection::take_segments(const PointIndex& index) {
 std::uint32_t LineCollection::theme(const std::string& name, ThemeKind kind) {
   const auto found = std::find_if(themes_.begin(), themes_.end(), [&](const ThemeInfo& t) { return t.name == name; });
   if (found == themes_.end()) {
-    if (themes_.size() == format::kMaxThemes) throw InputError(fmt::format("a store holds at most {} themes", format::kMaxThemes));
+    if (themes_.size() == format::kMaxThemes)
+      throw InputError(fmt::format("a store holds at most {} themes", format::kMaxThemes));
     themes_.push_back({name, kind, 0, 0, 0});
     first_source_.push_back(0);
     return static_cast<std::uint32_t>(themes_.size() - 1);

@@ -111,7 +111,8 @@ ReadCounts LineLayer::read(const SourceContext& context, const Sink& sink, Progr
       any = true;
     }
     features_ += any ? 1 : 0;
-    progress.report(stage, static_cast<double>(++done) / static_cast<double>(std::max<std::uint64_t>(1, layer_.matching())));
+    progress.report(stage,
+                    static_cast<double>(++done) / static_cast<double>(std::max<std::uint64_t>(1, layer_.matching())));
   }
   describe(bounds, vertices, context.grid, progress);
   ReadCounts counts = placement.counts();

@@ -1,5 +1,5 @@
-// Lines in any vector format GDAL reads, in the importer's two steps: opened to learn the CRS, then read into the store's
-// grid.
+// Lines in any vector format GDAL reads, in the importer's two steps: opened to learn the CRS, then read into the
+// store's grid.
 #pragma once
 
 #include <functional>

@@ -53,7 +53,8 @@ PointLayer::PointLayer(const std::string& path, const ImportOptions& options) : 
 void PointLayer::check_geometry_type() const {
   const OGRwkbGeometryType type = layer_.geometry_type();
   if (type == wkbNone)
-    throw InputError(fmt::format("{}: layer '{}' has no geometry; give a layer of points", layer_.path(), layer_.name()));
+    throw InputError(
+        fmt::format("{}: layer '{}' has no geometry; give a layer of points", layer_.path(), layer_.name()));
   // Of an unknown type each feature is judged by itself.
   if (wkbFlatten(type) != wkbUnknown && !is_point_type(type)) refuse_geometry(OGRGeometryTypeToName(type));
 }
@@ -67,8 +68,8 @@ void PointLayer::refuse_geometry(const std::string& type) const {
 void PointLayer::refuse_heightless() const {
   throw InputError(
       !layer_.has_height_field()
-          ? fmt::format("{}: the points of layer '{}' have no Z; name the field of the height with --z-field", layer_.path(),
-                        layer_.name())
+          ? fmt::format("{}: the points of layer '{}' have no Z; name the field of the height with --z-field",
+                        layer_.path(), layer_.name())
           : fmt::format("{}: layer '{}' has a height in no feature; check --z-field", layer_.path(), layer_.name()));
 }
 
@@ -82,11 +83,12 @@ Point2 PointLayer::find_centre() {
       continue;
     }
     // Layers declared flat sometimes hold points with Z all the same, so the first feature has its say.
-    if (!layer_.has_height_field() && !wkbHasZ(layer_.geometry_type()) && std::isnan(batch.z.front())) refuse_heightless();
+    if (!layer_.has_height_field() && !wkbHasZ(layer_.geometry_type()) && std::isnan(batch.z.front()))
+      refuse_heightless();
     return {batch.x.front(), batch.y.front()};
   }
   throw FileError(layer_.path(), fmt::format("layer '{}' holds no points{}", layer_.name(),
-                                     layer_.filtered() > 0 ? " that match --where" : ""));
+                                             layer_.filtered() > 0 ? " that match --where" : ""));
 }
 
 std::uint64_t PointLayer::read(const Sink& sink) {
@@ -95,7 +97,8 @@ std::uint64_t PointLayer::read(const Sink& sink) {
   bool any_height = false;
   const auto hand_on = [&] {
     any_height = any_height || !std::all_of(batch.z.begin(), batch.z.end(), [](double z) { return std::isnan(z); });
-    sink(batch, std::min(1.0, static_cast<double>(done) / static_cast<double>(std::max<std::uint64_t>(1, layer_.matching()))));
+    sink(batch,
+         std::min(1.0, static_cast<double>(done) / static_cast<double>(std::max<std::uint64_t>(1, layer_.matching()))));
     batch.clear();
   };
   layer_.rewind();
@@ -124,7 +127,8 @@ void PointLayer::add(const OGRPoint& point, const OGRFeature& feature, PointBatc
     throw InputError(fmt::format("{}: a coordinate is not a finite number", layer_.place(feature)));
   if (layer_.has_height_field()) return batch.add(point.getX(), point.getY(), layer_.height(feature));
   if (!point.Is3D()) return batch.add(point.getX(), point.getY(), kVoid);
-  if (!std::isfinite(point.getZ())) throw InputError(fmt::format("{}: Z is not a finite number", layer_.place(feature)));
+  if (!std::isfinite(point.getZ()))
+    throw InputError(fmt::format("{}: Z is not a finite number", layer_.place(feature)));
   batch.add(point.getX(), point.getY(), point.getZ());
 }
 

@@ -41,9 +41,9 @@ using RestoreLines = std::function<bool(const std::vector<FailedPlace>&)>;
 /// fails raises its own points until its part holds while its neighbours stay as they were; cells near which a
 /// neighbour raised something are verified again. So the outcome depends on the points alone, not on threads.
 ///
-/// Where a level lacks no vertex any more and still fails, its lines differ from the full surface's: `restore` is called
-/// with these places, puts lines back, and it starts again. Without lines there are no such places. Throws Error where
-/// restore has nothing to put back.
+/// Where a level lacks no vertex any more and still fails, its lines differ from the full surface's: `restore` is
+/// called with these places, puts lines back, and it starts again. Without lines there are no such places. Throws Error
+/// where restore has nothing to put back.
 LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const RestoreLines& restore,
                    Progress& progress);
 

@@ -13,9 +13,9 @@
 #include "pyramid/certify.hpp"
 #include "pyramid/coverage.hpp"
 #include "pyramid/greedy.hpp"
-#include "store/leaf_cutter.hpp"
 #include "pyramid/replacement.hpp"
 #include "pyramid/working_index.hpp"
+#include "store/leaf_cutter.hpp"
 
 namespace itin {
 
@@ -171,8 +171,7 @@ void count_lines(const PlacedLines& placed, std::size_t themes, PyramidReport& r
   }
   for (std::vector<std::uint64_t>& codes : ends) {
     std::sort(codes.begin(), codes.end());
-    report.line_vertices.push_back(
-        static_cast<std::uint64_t>(std::unique(codes.begin(), codes.end()) - codes.begin()));
+    report.line_vertices.push_back(static_cast<std::uint64_t>(std::unique(codes.begin(), codes.end()) - codes.begin()));
   }
 }
 
@@ -313,7 +312,8 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
   };
   LeafBounds bounds = certify(index, in_whole_units, restore, progress);
   write_levels(index, bounds, tiles, levels, writer, report, progress);
-  if (!placed.features.empty()) write_features(placed, lines, drape(placed.ends, index, tiles, progress), writer, report);
+  if (!placed.features.empty())
+    write_features(placed, lines, drape(placed.ends, index, tiles, progress), writer, report);
   count_lines(placed, lines.terrain.size(), report);
   std::vector<Segment> segments = index.all_segments();
   segments.insert(segments.end(), placed.features.begin(), placed.features.end());

@@ -163,9 +163,9 @@ PlacedLines place_lines(const ThemeLines& lines, const WorkingIndex& index, cons
   Codes codes;
   for (const GridPoint& p : vertices) codes.push_back(code_of(p));
   const SourceIndex ground_index(index, ground);
-  const Codes on_ground =
-      by_tile<std::uint64_t>(codes, tiles, "laying lines on the ground", progress,
-                             [&](std::span<const std::uint64_t> own) { return grounded(own, ground_index, gap_bases); });
+  const Codes on_ground = by_tile<std::uint64_t>(
+      codes, tiles, "laying lines on the ground", progress,
+      [&](std::span<const std::uint64_t> own) { return grounded(own, ground_index, gap_bases); });
   const auto lies = [&](std::uint32_t v) { return std::binary_search(on_ground.begin(), on_ground.end(), codes[v]); };
 
   std::vector<Segment> candidates;

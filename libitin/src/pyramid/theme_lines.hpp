@@ -23,12 +23,12 @@ struct ThemeLines {
 
 /// What of them lies on the ground.
 struct PlacedLines {
-  std::vector<Segment> terrain;       ///< part of the full surface; their ends are points of the index
-  std::vector<Segment> features;      ///< on it
-  std::vector<std::uint64_t> ends;    ///< of both, ascending Morton codes
+  std::vector<Segment> terrain;           ///< part of the full surface; their ends are points of the index
+  std::vector<Segment> features;          ///< on it
+  std::vector<std::uint64_t> ends;        ///< of both, ascending Morton codes
   std::vector<std::uint64_t> on_outline;  ///< of these, those on it
-  std::vector<std::uint64_t> strays;  ///< vertices of terrain lines beyond the ground
-  std::uint64_t left_out = 0;         ///< segments beyond the ground, or that leave it
+  std::vector<std::uint64_t> strays;      ///< vertices of terrain lines beyond the ground
+  std::uint64_t left_out = 0;             ///< segments beyond the ground, or that leave it
 };
 
 /// Leaves out every segment that is not wholly on the ground of the given sources, whose outline is `outline`.

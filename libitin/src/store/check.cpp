@@ -123,7 +123,7 @@ class Inspection {
   std::uint64_t total_ = 0, done_ = 0;
   std::vector<std::uint64_t> chunk_keys_, block_keys_;
   std::vector<std::uint64_t> vertices_ = std::vector<std::uint64_t>(format::kFirstEdgeTree);  ///< by tree
-  std::vector<std::uint64_t> segments_ = std::vector<std::uint64_t>(format::kLastTree);      ///< by theme
+  std::vector<std::uint64_t> segments_ = std::vector<std::uint64_t>(format::kLastTree);       ///< by theme
   GridBox bounds_;
 };
 

@@ -36,16 +36,11 @@ LevelInfo level_from_json(const json& j, double resolution) {
 }
 
 ordered_json source_to_json(const SourceInfo& source) {
-  return {{"path", source.path},
-          {"kind", source.kind},
-          {"theme", source.theme},
-          {"imported", source.imported},
-          {"sha256", source.sha256},
-          {"source_crs", source.source_crs},
-          {"vertices", source.vertices},
-          {"gap_basis_m", source.gap_basis},
-          {"spacing_m", source.spacing},
-          {"replaces", source.replaces}};
+  return {{"path", source.path},         {"kind", source.kind},
+          {"theme", source.theme},       {"imported", source.imported},
+          {"sha256", source.sha256},     {"source_crs", source.source_crs},
+          {"vertices", source.vertices}, {"gap_basis_m", source.gap_basis},
+          {"spacing_m", source.spacing}, {"replaces", source.replaces}};
 }
 
 SourceInfo source_from_json(const json& j) {

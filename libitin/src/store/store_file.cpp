@@ -62,8 +62,9 @@ Block StoreFile::read_block(const Leaf& leaf) const {
 }
 
 std::vector<Segment> StoreFile::read_edges(const Leaf& leaf) const {
-  return at_place(rows_.path(), format::place("block", leaf.key),
-                  [&] { return decode_edges(leaf.cell, format::theme_of(leaf.level), leaf.points, rows_.read(BlobKind::Block, leaf.key)); });
+  return at_place(rows_.path(), format::place("block", leaf.key), [&] {
+    return decode_edges(leaf.cell, format::theme_of(leaf.level), leaf.points, rows_.read(BlobKind::Block, leaf.key));
+  });
 }
 
 std::shared_ptr<const DirectoryChunk> StoreFile::chunk(int tree, const ChunkEntry& entry) const {

@@ -32,8 +32,8 @@ class StoreWriter::Impl {
   void commit(std::vector<SourceInfo> sources, std::vector<ThemeInfo> themes);
 
  private:
-  void add_points(int tree, const Cell& cell, std::span<const GridPoint> points,
-                  std::span<const std::uint16_t> sources, std::int32_t lo, std::int32_t hi);
+  void add_points(int tree, const Cell& cell, std::span<const GridPoint> points, std::span<const std::uint16_t> sources,
+                  std::int32_t lo, std::int32_t hi);
   void add_edges(std::uint16_t theme, std::vector<Segment> segments);
   void add_leaf(const Leaf& leaf, std::span<const std::uint8_t> block);
   void flush_chunk();

@@ -137,8 +137,9 @@ class RegionTriangulation {
     }
     std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     // Themes may share a vertex.
-    found.erase(std::unique(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first == b.first; }),
-                found.end());
+    found.erase(
+        std::unique(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first == b.first; }),
+        found.end());
     vertices_.clear();
     extras_.clear();
     unread_.clear();
@@ -271,7 +272,8 @@ class RegionTriangulation {
       for (int i = 0; i < 3; ++i) {
         if (mesh_.triangles[t][i] != edge.from && mesh_.triangles[t][i] != edge.to) {
           mesh_.constrained[t] |= static_cast<std::uint8_t>(1 << i);
-          if (edge.theme == kCoverage) mesh_.constrained[t] |= static_cast<std::uint8_t>(1 << (i + PlaneMesh::kOutline));
+          if (edge.theme == kCoverage)
+            mesh_.constrained[t] |= static_cast<std::uint8_t>(1 << (i + PlaneMesh::kOutline));
         }
       }
     }
@@ -449,8 +451,9 @@ class RegionTriangulation {
     if (!unread_.contains(v)) return;
     const auto found = search_.at(position(v));
     if (!found) {
-      throw Error(fmt::format("an end of a constraint line at grid position {}, {} is not among the vertices; run itin check on the store",
-                              position(v).x, position(v).y));
+      throw Error(fmt::format(
+          "an end of a constraint line at grid position {}, {} is not among the vertices; run itin check on the store",
+          position(v).x, position(v).y));
     }
     vertices_[v] = *found;
   }
@@ -470,7 +473,7 @@ class RegionTriangulation {
   std::set<Segment> segments_;
   std::vector<Delaunay::Constraint> constraints_;
   std::vector<std::uint16_t> themes_;  ///< of the constraints
-  bool constrain_ = false;  ///< whether delaunay_ knows the constraints
+  bool constrain_ = false;             ///< whether delaunay_ knows the constraints
   std::vector<SegmentEdge> segment_edges_;
   Delaunay delaunay_;
   PlaneMesh mesh_;

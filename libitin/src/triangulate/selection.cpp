@@ -56,8 +56,10 @@ void Selection::leave_out(std::uint16_t theme) {
 bool Selection::selects(const Segment& s) const {
   if (!includes(s.theme)) return false;
   if (s.finest <= finest_ && coarsest_ <= s.coarsest) return true;
-  const std::int64_t xmin = std::int64_t{std::min(s.ax, s.bx)} - s.reach, xmax = std::int64_t{std::max(s.ax, s.bx)} + s.reach;
-  const std::int64_t ymin = std::int64_t{std::min(s.ay, s.by)} - s.reach, ymax = std::int64_t{std::max(s.ay, s.by)} + s.reach;
+  const std::int64_t xmin = std::int64_t{std::min(s.ax, s.bx)} - s.reach,
+                     xmax = std::int64_t{std::max(s.ax, s.bx)} + s.reach;
+  const std::int64_t ymin = std::int64_t{std::min(s.ay, s.by)} - s.reach,
+                     ymax = std::int64_t{std::max(s.ay, s.by)} + s.reach;
   const int nearest = level_at(std::clamp(x_, xmin, xmax), std::clamp(y_, ymin, ymax));
   const int farthest = level_at(x_ - xmin > xmax - x_ ? xmin : xmax, y_ - ymin > ymax - y_ ? ymin : ymax);
   return s.finest <= nearest && farthest <= s.coarsest;

@@ -50,7 +50,7 @@ class Selection {
   int coarsest_ = 0;
   std::int64_t x_ = 0;
   std::int64_t y_ = 0;
-  std::vector<Disc> discs_;  ///< all rings but the last, which has no end
+  std::vector<Disc> discs_;     ///< all rings but the last, which has no end
   std::vector<bool> left_out_;  ///< by theme
 };
 

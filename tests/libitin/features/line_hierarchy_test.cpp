@@ -24,7 +24,8 @@ struct Lines {
   std::vector<LineTolerance> tolerances{{0, 0}, {8, 8}, {16, 16}, {32, 32}, {64, 64}, {128, 128}};
 
   LineHierarchy hierarchy(const std::vector<std::uint64_t>& nodes = {}) const {
-    return LineHierarchy(segments, whole, nodes, [&](Position p) { return heights.at(p); }, tolerances);
+    return LineHierarchy(
+        segments, whole, nodes, [&](Position p) { return heights.at(p); }, tolerances);
   }
 };
 
@@ -42,8 +43,8 @@ Lines wandering(std::mt19937& random, int lines, int length) {
     for (int k = 0; k < length; ++k) {
       heading += in(-80, 80) / 100.0;
       const int step = in(5, 40);
-      const GridPoint q{p.x + static_cast<int>(step * std::cos(heading)), p.y + static_cast<int>(step * std::sin(heading)),
-                        p.z + in(-5, 5)};
+      const GridPoint q{p.x + static_cast<int>(step * std::cos(heading)),
+                        p.y + static_cast<int>(step * std::sin(heading)), p.z + in(-5, 5)};
       pieces.push_back({p, q, owner});
       p = q;
     }
@@ -75,8 +76,8 @@ void expect_no_crossing(const std::vector<Segment>& segments) {
     for (const Segment& t : segments) {
       const Position a{s.ax, s.ay}, b{s.bx, s.by}, c{t.ax, t.ay}, d{t.bx, t.by};
       if (exclusive(s, t) || exclusive(t, s)) continue;
-      ASSERT_FALSE(crosses(s, c, d)) << a.x << " " << a.y << " " << b.x << " " << b.y << " x " << c.x << " " << c.y << " "
-                                     << d.x << " " << d.y;
+      ASSERT_FALSE(crosses(s, c, d)) << a.x << " " << a.y << " " << b.x << " " << b.y << " x " << c.x << " " << c.y
+                                     << " " << d.x << " " << d.y;
       for (const Position end : {c, d}) ASSERT_TRUE(end == a || end == b || !on_segment(a, b, end));
     }
   }
@@ -147,8 +148,7 @@ TEST(LineHierarchy, HeightsCountLikePositions) {
   for (int i = 0; i < 2; ++i) lines.segments.push_back({10 * i, 0, 10 * i + 10, 0, 1});
   lines.heights = {{{0, 0}, 0}, {{10, 0}, 50}, {{20, 0}, 0}};
   // 50 units off: within 64, not within 32.
-  for (const auto& [code, level] : lines.hierarchy().levels())
-    EXPECT_EQ(level, code == morton(10, 0) ? 3 : kCoarsest);
+  for (const auto& [code, level] : lines.hierarchy().levels()) EXPECT_EQ(level, code == morton(10, 0) ? 3 : kCoarsest);
 }
 
 TEST(LineHierarchy, AVertexInTheWayKeepsTheLine) {

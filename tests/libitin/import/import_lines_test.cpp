@@ -1,11 +1,11 @@
 // Lines in a store: law 1 with constraints against a global triangulation, certificates, themes, later additions.
 #include <algorithm>
 #include <filesystem>
+#include <gmock/gmock.h>
 #include <map>
 #include <random>
 #include <set>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <itin/error.hpp>
@@ -239,9 +239,9 @@ TEST_F(ImportLines, RoadsTakeTheTerrainsHeightAndLeaveItAsItWas) {
       const std::int64_t wa = doubled_area(p, c[1], c[2]), wb = doubled_area(c[0], p, c[2]),
                          wc = doubled_area(c[0], c[1], p);
       if (wa < 0 || wb < 0 || wc < 0) continue;
-      const double z = (static_cast<double>(wa) * c[0].z + static_cast<double>(wb) * c[1].z +
-                        static_cast<double>(wc) * c[2].z) /
-                       static_cast<double>(wa + wb + wc);
+      const double z =
+          (static_cast<double>(wa) * c[0].z + static_cast<double>(wb) * c[1].z + static_cast<double>(wc) * c[2].z) /
+          static_cast<double>(wa + wb + wc);
       EXPECT_NEAR(p.z, z, 0.50001);
       draped += wa != 0 && wb != 0 && wc != 0;
       break;

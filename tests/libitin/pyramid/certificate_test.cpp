@@ -146,7 +146,8 @@ TEST(Certificate, HoldsWithLinesOfTheTerrain) {
       Point3 p{in(300300, 301500), in(198500, 199700), 0};
       double heading = in(0, 6.28);
       for (int k = 0; k < 40; ++k) {
-        const double ground = terrain(static_cast<int>((p.x - 300000) / 50) + 150, static_cast<int>((200000 - p.y) / 50) + 250);
+        const double ground =
+            terrain(static_cast<int>((p.x - 300000) / 50) + 150, static_cast<int>((200000 - p.y) / 50) + 250);
         f.vertices.push_back({p.x, p.y, ground + (cliffs ? in(-20, 20) : 0)});
         heading += in(-0.7, 0.7);
         p = {p.x + 12 * std::cos(heading), p.y + 12 * std::sin(heading), 0};

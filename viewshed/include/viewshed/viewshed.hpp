@@ -24,11 +24,11 @@
 #include <vector>
 
 #include <itin/detail.hpp>
-#include <itin/theme.hpp>
 #include <itin/earth.hpp>
 #include <itin/progress.hpp>
 #include <itin/raster.hpp>
 #include <itin/store.hpp>
+#include <itin/theme.hpp>
 #include <itin/tin.hpp>
 
 namespace itin::viewshed {
@@ -70,7 +70,7 @@ struct Request {
   std::optional<double> cell_size;
   std::optional<RasterGrid> grid;
   Earth earth;
-  Detail detail = Detail::tolerance(0);  ///< of the surface; not used with a Tin
+  Detail detail = Detail::tolerance(0);      ///< of the surface; not used with a Tin
   ThemeChoice themes = ThemeChoice::none();  ///< likewise
   NoData nodata = NoData::kUnknown;
   Mode mode = Mode::kVisible;
