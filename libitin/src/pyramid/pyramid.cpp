@@ -1,7 +1,6 @@
 #include "pyramid/pyramid.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <deque>
 #include <optional>
@@ -12,7 +11,7 @@
 #include "features/line_hierarchy.hpp"
 #include "pyramid/certify.hpp"
 #include "pyramid/coverage.hpp"
-#include "pyramid/greedy.hpp"
+#include "pyramid/proposal.hpp"
 #include "pyramid/replacement.hpp"
 #include "pyramid/working_index.hpp"
 #include "store/leaf_cutter.hpp"
@@ -21,8 +20,10 @@ namespace itin {
 
 namespace {
 
-/// Points a tile of greedy insertion.
-constexpr std::uint32_t kTilePoints = 1 << 16;
+/// Points a tile of greedy insertion: few borders, but still enough tiles for all threads.
+std::uint32_t tile_points(std::uint64_t points) {
+  return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(points / 32, 1 << 15, 1 << 18));
+}
 
 std::vector<std::array<double, 4>> gap_bases(const std::vector<SourceInfo>& sources, const Grid& grid) {
   std::vector<std::array<double, 4>> bases;
@@ -31,63 +32,6 @@ std::vector<std::array<double, 4>> gap_bases(const std::vector<SourceInfo>& sour
     for (double& component : bases.back()) component /= grid.resolution;
   }
   return bases;
-}
-
-struct Proposals {
-  std::vector<Segment> outline;
-  std::vector<std::uint64_t> isolated;
-};
-
-/// The levels that lines and outline ask of vertices.
-class LineLevels {
- public:
-  void add(std::uint64_t code, int level) { levels_.emplace_back(code, static_cast<std::uint8_t>(level)); }
-  void finish() { std::sort(levels_.begin(), levels_.end()); }
-  /// The greatest; 0 where nothing was asked.
-  std::uint8_t of(std::uint64_t code) const {
-    const auto after = std::upper_bound(levels_.begin(), levels_.end(), std::pair(code, std::uint8_t{0xff}));
-    return after != levels_.begin() && std::prev(after)->first == code ? std::prev(after)->second : std::uint8_t{0};
-  }
-
- private:
-  std::vector<std::pair<std::uint64_t, std::uint8_t>> levels_;
-};
-
-/// Writes the levels that a tile's points should have.
-void write_proposals(WorkingIndex& index, const CurveRange& tile, const RegionMesh& surface,
-                     std::span<const Candidacy> candidacy, std::span<const double> tolerances,
-                     std::span<const std::uint8_t> floors = {}) {
-  const std::vector<std::uint8_t> levels = greedy_levels(surface, candidacy, tolerances, floors);
-  std::vector<RawPoint> points = index.read(tile);
-  std::size_t v = 0;
-  for (RawPoint& p : points) {
-    while (v < levels.size() && morton(surface.vertices[v].point.x, surface.vertices[v].point.y) < p.code) ++v;
-    if (v == levels.size()) break;
-    if (p.level != kDropped && morton(surface.vertices[v].point.x, surface.vertices[v].point.y) == p.code)
-      p.level = levels[v];
-  }
-  index.write(tile, points);
-}
-
-/// The same where lines are part of the surface.
-void propose_levels(WorkingIndex& index, const CurveRange& tile, const LineLevels& line_levels,
-                    std::span<const double> tolerances) {
-  std::vector<RawPoint> own = index.read(tile);
-  std::erase_if(own, [](const RawPoint& p) { return p.level == kDropped; });
-  const GridBox box = with_fringe(own);
-  // Greedy insertion walks straight across voids, so it wants triangles there as well.
-  Selection selection(Detail::tolerance(0), {0.0}, Grid{});
-  selection.leave_out(kCoverage);
-  const RegionMesh surface = triangulate_region(index, selection, box);
-  std::vector<Candidacy> candidacy;
-  std::vector<std::uint8_t> floors;
-  for (const SelectedVertex& v : surface.vertices) {
-    const bool in_box = box.contains(v.point.x, v.point.y);
-    floors.push_back(line_levels.of(morton(v.point.x, v.point.y)));
-    const bool corner = in_box && floors.back() + std::size_t{1} == tolerances.size();
-    candidacy.push_back(corner ? Candidacy::kCorner : in_box ? Candidacy::kFree : Candidacy::kNone);
-  }
-  write_proposals(index, tile, surface, candidacy, tolerances, floors);
 }
 
 /// Sources whose points are ground by themselves: all but lines that add to it.
@@ -117,17 +61,6 @@ std::optional<LineHierarchy> generalised(const PlacedLines& placed, const std::v
     return at->z;
   };
   return LineHierarchy(placed.terrain, placed.features, nodes, height, by_level);
-}
-
-/// Runs work(i) for every tile, in parallel.
-template <class Work>
-void for_each_tile(const std::vector<CurveRange>& tiles, const char* stage, Progress& progress, const Work& work) {
-  std::atomic<std::size_t> done = 0;
-  parallel_for(tiles.size(), [&](std::size_t i) {
-    progress.throw_if_cancelled();
-    work(i);
-    progress.report(stage, static_cast<double>(++done) / static_cast<double>(tiles.size()));
-  });
 }
 
 /// The vertices that each theme has besides those of the full surface, with the themes they belong to.
@@ -247,7 +180,7 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
                             Progress& progress) {
   const int levels = static_cast<int>(tolerances.size());
   WorkingIndex index(points, levels, kLeafCapacity);
-  const std::vector<CurveRange> tiles = index.tiles(kTilePoints);
+  const std::vector<CurveRange> tiles = index.tiles(tile_points(points.size()));
   PyramidReport report;
   report.vertices_of_source.assign(sources.size(), 0);
 
@@ -261,53 +194,41 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
   const Sources ground = ground_sources(sources);
   const Sources* const only = ground.size() < sources.size() ? &ground : nullptr;
   report.replaced = drop_replaced(index, tiles, sources, bases, progress);
-  std::vector<Proposals> proposals(tiles.size());
-  for_each_tile(tiles, lines.empty() ? "choosing the levels" : "finding the ground", progress, [&](std::size_t i) {
-    TileSurvey survey = survey_tile(index, tiles[i], bases, only);
-    if (lines.empty()) write_proposals(index, tiles[i], survey.surface, survey.candidacy, in_units);
-    proposals[i] = {std::move(survey.outline), std::move(survey.isolated)};
-  });
-  std::vector<Segment> outline;
-  std::vector<std::uint64_t> isolated;
-  for (const Proposals& p : proposals) {
-    outline.insert(outline.end(), p.outline.begin(), p.outline.end());
-    isolated.insert(isolated.end(), p.isolated.begin(), p.isolated.end());
-  }
-  report.isolated = index.drop(std::move(isolated));
-  outline = join_collinear(std::move(outline));
+  Proposal proposal = lines.empty() ? propose_levels(index, tiles, bases, in_units, progress)
+                                    : find_ground(index, tiles, bases, only, progress);
+  report.isolated = index.drop(std::move(proposal.isolated));
+  const std::vector<Segment> outline = join_collinear(std::move(proposal.outline));
   PlacedLines placed;
   if (!lines.empty()) {
     placed = place_lines(lines, index, tiles, ground, bases, outline, progress);
     index.drop(placed.strays);
   }
   std::optional<LineHierarchy> hierarchy = generalised(placed, outline, lines, in_units);
-  const auto set_segments = [&] {
+  const auto set_lines = [&] {
     std::vector<Segment> segments = outline;
-    const std::vector<Segment> of_lines = hierarchy ? hierarchy->segments() : std::vector<Segment>{};
-    segments.insert(segments.end(), of_lines.begin(), of_lines.end());
+    if (hierarchy) {
+      for (const auto& [code, level] : hierarchy->levels()) index.promote(code, level);
+      const std::vector<Segment> of_lines = hierarchy->segments();
+      segments.insert(segments.end(), of_lines.begin(), of_lines.end());
+    }
     index.set_segments(std::move(segments));
   };
-  set_segments();
+  set_lines();
   if (!lines.empty()) {
-    LineLevels line_levels;
-    for (const Segment& s : outline) line_levels.add(morton(s.ax, s.ay), levels - 1);
-    for (const Segment& s : outline) line_levels.add(morton(s.bx, s.by), levels - 1);
-    for (const Segment& s : placed.features) line_levels.add(morton(s.ax, s.ay), levels - 1);
-    for (const Segment& s : placed.features) line_levels.add(morton(s.bx, s.by), levels - 1);
-    if (hierarchy) {
-      for (const auto& [code, level] : hierarchy->levels()) line_levels.add(code, level);
+    std::vector<Segment> whole = outline;
+    whole.insert(whole.end(), placed.features.begin(), placed.features.end());
+    for (const Segment& s : whole) {
+      index.promote(morton(s.ax, s.ay), levels - 1);
+      index.promote(morton(s.bx, s.by), levels - 1);
     }
-    line_levels.finish();
-    for_each_tile(tiles, "choosing the levels", progress,
-                  [&](std::size_t i) { propose_levels(index, tiles[i], line_levels, in_units); });
+    propose_levels_with_lines(index, tiles, in_units, progress);
   }
 
   const auto restore = [&](const std::vector<FailedPlace>& failed) {
     bool any = false;
     for (const FailedPlace& place : failed) any |= hierarchy && hierarchy->restore(place.box, place.level);
     if (!any) return false;
-    for (const auto& [code, level] : hierarchy->levels()) index.promote(code, level);
-    set_segments();
+    set_lines();
     return true;
   };
   LeafBounds bounds = certify(index, in_whole_units, restore, progress);

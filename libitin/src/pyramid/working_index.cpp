@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "store/leaf_cutter.hpp"
+#include "store/morton_range.hpp"
 
 namespace itin {
 
@@ -75,9 +76,44 @@ void WorkingIndex::leaves_at(const GridBox& box, std::vector<std::uint32_t>& out
   visit(cell, first, leaf_of(cell.end() - 1) + 1, box, out);
 }
 
+const std::vector<std::uint32_t>& WorkingIndex::occupied(int level) const {
+  if (!occupied_known_.load(std::memory_order_acquire)) {
+    const std::scoped_lock lock(occupied_mutex_);
+    if (!occupied_known_.load(std::memory_order_relaxed)) {
+      occupied_.assign(static_cast<std::size_t>(level_count_), {});
+      for (int k = 1; k < level_count_; ++k) {
+        for (std::uint32_t leaf = 0; leaf < ranges_.size(); ++leaf) {
+          if (selected(leaf, k) > 0) occupied_[static_cast<std::size_t>(k)].push_back(leaf);
+        }
+      }
+      occupied_known_.store(true, std::memory_order_release);
+    }
+  }
+  return occupied_[static_cast<std::size_t>(level)];
+}
+
+void WorkingIndex::occupied_leaves_at(int level, const GridBox& box, std::vector<std::uint32_t>& out) const {
+  if (!MortonRange::exists(box)) return;
+  const MortonRange range(box);
+  const std::vector<std::uint32_t>& list = occupied(level);
+  std::optional<std::uint64_t> code = range.next(0);
+  for (auto leaf = list.begin(); code;) {
+    // Invariant: *code is in the box, and no leaf below it is left to visit.
+    leaf = std::partition_point(leaf, list.end(), [&](std::uint32_t i) { return ranges_[i].cell.end() <= *code; });
+    if (leaf == list.end()) return;
+    const Cell& cell = ranges_[*leaf].cell;
+    if (cell.contains(*code)) out.push_back(*leaf++);
+    code = range.next(cell.contains(*code) ? cell.end() : cell.code);
+  }
+}
+
 void WorkingIndex::leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const {
   std::vector<std::uint32_t> found;
-  leaves_at(box, found);
+  if (finest == 0) {
+    leaves_at(box, found);
+  } else {
+    occupied_leaves_at(finest, box, found);
+  }
   for (const std::uint32_t i : found) {
     const CurveRange& range = ranges_[i];
     Leaf leaf;
@@ -115,6 +151,12 @@ void WorkingIndex::segments(const GridBox& box, std::vector<Segment>& out) const
   }
 }
 
+std::uint64_t WorkingIndex::selected_points(int level) const {
+  std::uint64_t points = 0;
+  for (std::uint32_t leaf = 0; leaf < ranges_.size(); ++leaf) points += selected(leaf, level);
+  return points;
+}
+
 std::vector<CurveRange> WorkingIndex::tiles(std::uint32_t capacity) const {
   std::vector<CurveRange> result;
   for (std::size_t i = 0; i < ranges_.size();) {
@@ -146,6 +188,7 @@ std::vector<RawPoint> WorkingIndex::read(const CurveRange& range) const {
 
 void WorkingIndex::write(const CurveRange& range, std::span<const RawPoint> points) {
   points_.write(range.first, points);
+  occupied_known_.store(false, std::memory_order_relaxed);
   for (std::uint32_t leaf = leaf_of(range.cell.code);
        leaf < ranges_.size() && ranges_[leaf].cell.code < range.cell.end(); ++leaf) {
     const CurveRange& r = ranges_[leaf];

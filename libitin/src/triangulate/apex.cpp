@@ -149,8 +149,11 @@ std::optional<SelectedVertex> ApexSearch::intruder(Position a, Position b, Posit
 }
 
 std::optional<SelectedVertex> ApexSearch::apex(Position a, Position b) {
-  const Frame frame(a, b);
   const GridBox all = index_.bounds();
+  // The edges along the border of a raster are many.
+  const Position farthest{b.y > a.y ? all.xmin : all.xmax, b.x > a.x ? all.ymax : all.ymin};
+  if (orientation(a, b, farthest) <= 0) return std::nullopt;
+  const Frame frame(a, b);
   const double span =
       frame.r + std::hypot(static_cast<double>(all.xmax) - all.xmin, static_cast<double>(all.ymax) - all.ymin);
   for (double lambda = frame.r; lambda < span; lambda *= 4) {

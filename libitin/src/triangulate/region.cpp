@@ -341,6 +341,9 @@ class RegionTriangulation {
       if (!circumdisc_in(corner(t, 0), corner(t, 1), corner(t, 2), box_) && in_region(t)) prove(t, intruders, fresh);
       look_beyond_hull(t, intruders);
     }
+    for (const SegmentEdge& edge : segment_edges_) {
+      if (edge.theme == kCoverage && edge.left == kNoTriangle) look_left_of(edge.from, edge.to, intruders);
+    }
     for (const SelectedVertex& v : intruders) vertex_at(v.position(), &v);
     insert_segments(fresh);
     return !intruders.empty() || !fresh.empty();
@@ -367,20 +370,24 @@ class RegionTriangulation {
     if (sound) proven_.insert(key);
   }
 
-  /// Where the region reaches beyond a hull edge, or just to it, with ground on this side, the next triangle's vertex
-  /// is missing, unless the edge is on the hull of the whole surface.
   void look_beyond_hull(std::uint32_t t, std::vector<SelectedVertex>& intruders) {
+    const auto& v = mesh_.triangles[t];
     for (int i = 0; i < 3; ++i) {
-      if (mesh_.neighbours[t][i] != kNoTriangle || on_outline(t, i)) continue;
-      const Position p = corner(t, i + 2), q = corner(t, i + 1);
-      if (!tile_reaches_left_of(p, q, 0)) continue;
-      const Triangle key{mesh_.triangles[t][(i + 1) % 3], mesh_.triangles[t][(i + 2) % 3], kNoTriangle};
-      if (proven_.contains(key)) continue;
-      if (const auto found = search_.apex(p, q)) {
-        intruders.push_back(*found);
-      } else {
-        proven_.insert(key);
-      }
+      if (mesh_.neighbours[t][i] == kNoTriangle && !on_outline(t, i))
+        look_left_of(v[(i + 2) % 3], v[(i + 1) % 3], intruders);
+    }
+  }
+
+  /// Where the region reaches beyond a hull edge, or just to it, and there is ground, the next triangle's vertex is
+  /// missing, unless the edge is on the hull of the whole surface.
+  void look_left_of(std::uint32_t from, std::uint32_t to, std::vector<SelectedVertex>& intruders) {
+    const Position p = position(from), q = position(to);
+    const Triangle key{from, to, kNoTriangle};
+    if (!tile_reaches_left_of(p, q, 0) || proven_.contains(key)) return;
+    if (const auto found = search_.apex(p, q)) {
+      intruders.push_back(*found);
+    } else {
+      proven_.insert(key);
     }
   }
 

@@ -174,13 +174,12 @@ std::vector<Segment> outline_of(const Whole& whole, const std::vector<std::array
 
 class RegionCoverage : public testing::TestWithParam<Pattern> {};
 
-TEST_P(RegionCoverage, WindowEqualsWholeAtEveryLevelAcrossVoids) {
-  const auto seed = static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed());
+void expect_windows_equal_the_whole_across_voids(Pattern pattern, unsigned seed) {
   SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937 random(seed + static_cast<unsigned>(GetParam()));
+  std::mt19937 random(seed + static_cast<unsigned>(pattern));
   constexpr int kLevels = 4;
   for (int run = 0; run < 8; ++run) {
-    std::vector<GridPoint> points = test::make_points(GetParam(), 200 + static_cast<int>(random() % 1000), random);
+    std::vector<GridPoint> points = test::make_points(pattern, 200 + static_cast<int>(random() % 1000), random);
     const GridBox box = box_of(points);
     const double gap =
         2.0 * std::sqrt(1.0 * (box.xmax - box.xmin) * (box.ymax - box.ymin) / static_cast<double>(points.size()));
@@ -260,6 +259,16 @@ TEST_P(RegionCoverage, WindowEqualsWholeAtEveryLevelAcrossVoids) {
       }
     }
   }
+}
+
+TEST_P(RegionCoverage, WindowEqualsWholeAtEveryLevelAcrossVoids) {
+  expect_windows_equal_the_whole_across_voids(GetParam(),
+                                              static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed()));
+}
+
+// A small window within one large triangle, behind an outline that is all that was read at first.
+TEST_P(RegionCoverage, WindowBehindAnOutlineEqualsTheWhole) {
+  expect_windows_equal_the_whole_across_voids(GetParam(), 102);
 }
 
 INSTANTIATE_TEST_SUITE_P(Region, RegionCoverage,
