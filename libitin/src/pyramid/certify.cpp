@@ -140,7 +140,9 @@ class CellVerification {
       any = true;
     };
     for (const std::uint32_t v : worst_by_face(d, tolerances_[static_cast<std::size_t>(k)])) raise_own(v);
-    for (const Difference::Crossing& c : worst_by_edge(d)) raise_own(remedy(c, d));
+    for (const Difference::Crossing& c : worst_by_edge(d)) {
+      if (const auto v = remedy(c, d)) raise_own(*v);
+    }
     return any;
   }
 
@@ -172,8 +174,8 @@ class CellVerification {
   }
 
   /// The fine edge's nearer end, or the other one, or a corner opposite: the first that is not in the coarse surface
-  /// yet. There is one, or both fine triangles would be coarse ones as well.
-  std::uint32_t remedy(const Difference::Crossing& c, const Difference& d) const {
+  /// yet. There is one, or both fine triangles would be coarse ones as well, unless lines differ.
+  std::optional<std::uint32_t> remedy(const Difference::Crossing& c, const Difference& d) const {
     const FineEdges::Edge& edge = edges_->edges()[c.fine_edge];
     for (const std::uint32_t v : {c.nearer_u ? edge.u : edge.v, c.nearer_u ? edge.v : edge.u}) {
       if (!d.is_coarse_vertex[v]) return v;
@@ -184,7 +186,7 @@ class CellVerification {
         if (!d.is_coarse_vertex[v]) return v;
       }
     }
-    throw Error("a coarse edge cannot be mended");
+    return std::nullopt;
   }
 
   void clear(int k, LeafBounds& bounds) const {
@@ -335,19 +337,20 @@ void mark_failures(const LeafBounds& bounds, const std::vector<std::int32_t>& to
   }
 }
 
-/// No store is written that promises what does not hold.
-void require_within(const LeafBounds& bounds, const std::vector<std::int32_t>& tolerances, std::size_t leaves) {
-  for (std::uint32_t leaf = 0; leaf < leaves; ++leaf) {
+std::vector<FailedPlace> failures(const LeafBounds& bounds, const std::vector<std::int32_t>& tolerances,
+                                  const WorkingIndex& index) {
+  std::vector<FailedPlace> places;
+  for (std::uint32_t leaf = 0; leaf < index.ranges().size(); ++leaf) {
     for (std::size_t k = 1; k < tolerances.size(); ++k) {
       if (bounds.at(leaf, static_cast<int>(k)).size() > tolerances[k])
-        throw Error("a level could not be brought within its tolerance; nothing was written; please report this");
+        places.push_back({square_of(index.ranges()[leaf].cell), static_cast<int>(k)});
     }
   }
+  return places;
 }
 
-}  // namespace
-
-LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& tolerances, Progress& progress) {
+/// Mends what more vertices can mend.
+LeafBounds mend(WorkingIndex& index, const std::vector<std::int32_t>& tolerances, Progress& progress) {
   const int levels = static_cast<int>(tolerances.size());
   LeafBounds bounds(index.ranges().size(), levels);
   Disturbed disturbed(index.ranges().size());
@@ -356,10 +359,7 @@ LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& toleran
   for (int round = 0;; ++round) {
     const std::vector<Task> tasks =
         disturbed_cells(index, round == 0 ? std::vector<Tiling>{{kFirstCell, ~0u}} : tilings(index), disturbed);
-    if (tasks.empty()) {
-      require_within(bounds, tolerances, index.ranges().size());
-      return bounds;
-    }
+    if (tasks.empty()) return bounds;
     disturbed.clear();
 
     std::vector<CellOutcome> outcomes(tasks.size());
@@ -378,6 +378,20 @@ LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& toleran
       for (const auto& [code, level] : outcome.left_to_others) disturbed.mark(index.leaf_of(code), 1u << level);
     }
     if (round == 0) mark_failures(bounds, tolerances, index.ranges().size(), disturbed);
+  }
+}
+
+}  // namespace
+
+LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const RestoreLines& restore,
+                   Progress& progress) {
+  while (true) {
+    LeafBounds bounds = mend(index, tolerances, progress);
+    const std::vector<FailedPlace> failed = failures(bounds, tolerances, index);
+    if (failed.empty()) return bounds;
+    // No store is written that promises what does not hold.
+    if (!restore(failed))
+      throw Error("a level could not be brought within its tolerance; nothing was written; please report this");
   }
 }
 

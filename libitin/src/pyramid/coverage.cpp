@@ -94,17 +94,20 @@ std::vector<std::uint8_t> ground_triangles(const RegionMesh& region,
 }
 
 TileSurvey survey_tile(const WorkingIndex& index, const CurveRange& tile,
-                       const std::vector<std::array<double, 4>>& gap_bases) {
+                       const std::vector<std::array<double, 4>>& gap_bases, const Sources* ground_sources) {
   TileSurvey survey;
   std::vector<RawPoint> own = index.read(tile);
-  std::erase_if(own, [](const RawPoint& p) { return p.level == kDropped; });
+  std::erase_if(own, [&](const RawPoint& p) {
+    return p.level == kDropped || (ground_sources != nullptr && !ground_sources->contains(p.source));
+  });
   const Selection everything(Detail::tolerance(0), {0.0}, Grid{});
   const GridBox points = box_of(own);
   if (points.empty()) return survey;
   const double margin = fringe(points, tile.count);
   const GridBox box = widened(points, margin);
   survey.verge = widened(points, margin / 2);
-  survey.surface = triangulate_region(index, everything, box);
+  survey.surface = ground_sources == nullptr ? triangulate_region(index, everything, box)
+                                             : triangulate_region(SourceIndex(index, *ground_sources), everything, box);
   const RegionMesh& region = survey.surface;
   const std::vector<std::uint8_t> ground = ground_triangles(region, gap_bases);
 
@@ -142,6 +145,23 @@ TileSurvey survey_tile(const WorkingIndex& index, const CurveRange& tile,
   for (const RawPoint& p : own) {
     if (!std::binary_search(grounded.begin(), grounded.end(), p.code)) survey.isolated.push_back(p.code);
   }
+  return survey;
+}
+
+TileSurvey survey_surface(const WorkingIndex& index, const CurveRange& tile) {
+  TileSurvey survey;
+  std::vector<RawPoint> own = index.read(tile);
+  std::erase_if(own, [](const RawPoint& p) { return p.level == kDropped; });
+  const GridBox points = box_of(own);
+  if (points.empty()) return survey;
+  const double margin = fringe(points, tile.count);
+  const GridBox box = widened(points, margin);
+  survey.verge = widened(points, margin / 2);
+  Selection selection(Detail::tolerance(0), {0.0}, Grid{});
+  selection.leave_out(kCoverage);
+  survey.surface = triangulate_region(index, selection, box);
+  for (const SelectedVertex& v : survey.surface.vertices)
+    survey.candidacy.push_back(box.contains(v.point.x, v.point.y) ? Candidacy::kFree : Candidacy::kNone);
   return survey;
 }
 

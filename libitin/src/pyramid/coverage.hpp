@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pyramid/greedy.hpp"
+#include "pyramid/source_index.hpp"
 #include "pyramid/working_index.hpp"
 #include "triangulate/region.hpp"
 
@@ -29,9 +30,14 @@ GridBox reach_of(const CurveRange& tile);
 std::vector<std::uint8_t> ground_triangles(const RegionMesh& region,
                                            const std::vector<std::array<double, 4>>& gap_bases);
 
-/// `gap_bases` per source, grid units. The index must have no segments yet, and nothing dropped meanwhile.
+/// `gap_bases` per source, grid units. Points of other sources than `ground`, if given, are passed over: they are
+/// neither ground nor isolated. The index must have no segments yet, and nothing dropped meanwhile.
 TileSurvey survey_tile(const WorkingIndex& index, const CurveRange& tile,
-                       const std::vector<std::array<double, 4>>& gap_bases);
+                       const std::vector<std::array<double, 4>>& gap_bases, const Sources* ground = nullptr);
+
+/// The full surface about one tile where lines are part of it, and its points are known to be ground: without outline.
+/// There are triangles across voids, for greedy insertion walks straight.
+TileSurvey survey_surface(const WorkingIndex& index, const CurveRange& tile);
 
 /// One segment for each maximal straight run of directed edges, in a canonical order. Their ends are the corners.
 std::vector<Segment> join_collinear(std::vector<Segment> edges);

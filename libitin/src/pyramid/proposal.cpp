@@ -27,9 +27,8 @@ std::uint64_t code_of(const SelectedVertex& v) {
   return morton(v.point.x, v.point.y);
 }
 
-TileProposal propose(WorkingIndex& index, const CurveRange& tile, const std::vector<std::array<double, 4>>& gap_bases,
+TileProposal propose(WorkingIndex& index, const CurveRange& tile, TileSurvey survey,
                      std::span<const double> tolerances) {
-  TileSurvey survey = survey_tile(index, tile, gap_bases);
   const std::vector<SelectedVertex>& vertices = survey.surface.vertices;
   const std::vector<std::uint8_t> levels = greedy_levels(survey.surface, survey.candidacy, tolerances);
   TileProposal proposal{{std::move(survey.outline), std::move(survey.isolated)}, {}};
@@ -77,29 +76,62 @@ void raise_settled(WorkingIndex& index, const std::vector<CurveRange>& tiles, co
   }
 }
 
-}  // namespace
-
-Proposal propose_levels(WorkingIndex& index, const std::vector<CurveRange>& tiles,
-                        const std::vector<std::array<double, 4>>& gap_bases, std::span<const double> tolerances,
-                        Progress& progress) {
+/// Proposes for all tiles, wave by wave, what `survey(tile)` sees of each.
+template <class Survey>
+std::vector<TileProposal> propose_in_waves(WorkingIndex& index, const std::vector<CurveRange>& tiles,
+                                           std::span<const double> tolerances, Progress& progress,
+                                           const Survey& survey) {
   std::vector<TileProposal> proposals(tiles.size());
   std::vector<std::uint8_t> settled(tiles.size(), 0);
   std::atomic<std::size_t> done = 0;
   for (const std::vector<std::size_t>& wave : waves(tiles)) {
     parallel_for(wave.size(), [&](std::size_t i) {
       progress.throw_if_cancelled();
-      proposals[wave[i]] = propose(index, tiles[wave[i]], gap_bases, tolerances);
+      const CurveRange& tile = tiles[wave[i]];
+      proposals[wave[i]] = propose(index, tile, survey(tile), tolerances);
       progress.report("choosing the levels", static_cast<double>(++done) / static_cast<double>(tiles.size()));
     });
     for (const std::size_t tile : wave) raise_settled(index, tiles, settled, proposals[tile].beyond);
     for (const std::size_t tile : wave) settled[tile] = 1;
   }
+  return proposals;
+}
+
+Proposal together(const std::vector<TileProposal>& proposals) {
   Proposal result;
   for (const TileProposal& p : proposals) {
     result.outline.insert(result.outline.end(), p.coverage.outline.begin(), p.coverage.outline.end());
     result.isolated.insert(result.isolated.end(), p.coverage.isolated.begin(), p.coverage.isolated.end());
   }
   return result;
+}
+
+}  // namespace
+
+Proposal propose_levels(WorkingIndex& index, const std::vector<CurveRange>& tiles,
+                        const std::vector<std::array<double, 4>>& gap_bases, std::span<const double> tolerances,
+                        Progress& progress) {
+  return together(propose_in_waves(index, tiles, tolerances, progress,
+                                   [&](const CurveRange& tile) { return survey_tile(index, tile, gap_bases); }));
+}
+
+Proposal find_ground(const WorkingIndex& index, const std::vector<CurveRange>& tiles,
+                     const std::vector<std::array<double, 4>>& gap_bases, const Sources* ground, Progress& progress) {
+  std::vector<TileProposal> proposals(tiles.size());
+  std::atomic<std::size_t> done = 0;
+  parallel_for(tiles.size(), [&](std::size_t i) {
+    progress.throw_if_cancelled();
+    TileSurvey survey = survey_tile(index, tiles[i], gap_bases, ground);
+    proposals[i].coverage = {std::move(survey.outline), std::move(survey.isolated)};
+    progress.report("finding the ground", static_cast<double>(++done) / static_cast<double>(tiles.size()));
+  });
+  return together(proposals);
+}
+
+void propose_levels_with_lines(WorkingIndex& index, const std::vector<CurveRange>& tiles,
+                               std::span<const double> tolerances, Progress& progress) {
+  propose_in_waves(index, tiles, tolerances, progress,
+                   [&](const CurveRange& tile) { return survey_surface(index, tile); });
 }
 
 }  // namespace itin

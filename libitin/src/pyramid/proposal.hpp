@@ -8,6 +8,7 @@
 
 #include <itin/progress.hpp>
 
+#include "pyramid/source_index.hpp"
 #include "pyramid/working_index.hpp"
 
 namespace itin {
@@ -28,5 +29,13 @@ struct Proposal {
 Proposal propose_levels(WorkingIndex& index, const std::vector<CurveRange>& tiles,
                         const std::vector<std::array<double, 4>>& gap_bases, std::span<const double> tolerances,
                         Progress& progress);
+
+/// The coverage alone, by the points of the given sources, or of all.
+Proposal find_ground(const WorkingIndex& index, const std::vector<CurveRange>& tiles,
+                     const std::vector<std::array<double, 4>>& gap_bases, const Sources* ground, Progress& progress);
+
+/// The levels alone, where the index has its lines already. Points that have a level keep it, or get a coarser one.
+void propose_levels_with_lines(WorkingIndex& index, const std::vector<CurveRange>& tiles,
+                               std::span<const double> tolerances, Progress& progress);
 
 }  // namespace itin

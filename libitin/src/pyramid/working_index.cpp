@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "pyramid/leaf_cutter.hpp"
+#include "store/leaf_cutter.hpp"
 #include "store/morton_range.hpp"
 
 namespace itin {

@@ -30,11 +30,12 @@ std::optional<SelectedVertex> ApexSearch::nearest_circle(const ApexFrame& frame,
                                                          const Position* beyond) {
   const GridBox box = frame.cap_box(lambda, index_.bounds());
   leaves_.clear();
-  index_.leaves(selection_.finest_in(box), box, leaves_);
+  selected_leaves(index_, selection_, box, leaves_);
   std::erase_if(leaves_, [&](const Leaf& leaf) { return !frame.cap_meets(lambda, leaf.cell.box()); });
   if (leaves_.empty()) return std::nullopt;
   segments_.clear();
   index_.segments(box, segments_);
+  std::erase_if(segments_, [&](const Segment& s) { return !selection_.selects(s); });
   std::vector<std::pair<double, std::uint32_t>> order(leaves_.size());
   for (std::uint32_t i = 0; i < leaves_.size(); ++i) order[i] = {frame.key(leaves_[i].cell.box()), i};
   std::sort(order.begin(), order.end());
@@ -95,7 +96,7 @@ std::optional<SelectedVertex> ApexSearch::inside(Position a, Position b, Positio
   GridBox box;
   for (const Position p : {a, b, c}) box.extend(p.x, p.y);
   leaves_.clear();
-  index_.leaves(selection_.finest_in(box), box, leaves_);
+  selected_leaves(index_, selection_, box, leaves_);
   for (const Leaf& leaf : leaves_) {
     const auto block = read(leaf);
     for (std::size_t k = 0; k < block->points.size(); ++k) {
@@ -112,7 +113,7 @@ std::optional<SelectedVertex> ApexSearch::inside(Position a, Position b, Positio
 std::optional<SelectedVertex> ApexSearch::at(Position p) {
   const GridBox box{p.x, p.y, p.x, p.y};
   leaves_.clear();
-  index_.leaves(selection_.finest_in(box), box, leaves_);
+  selected_leaves(index_, selection_, box, leaves_);
   for (const Leaf& leaf : leaves_) {
     const auto block = read(leaf);
     const auto found = std::lower_bound(block->points.begin(), block->points.end(), morton(p.x, p.y),

@@ -5,6 +5,8 @@
 #include <set>
 #include <unordered_map>
 
+#include <fmt/format.h>
+
 #include <itin/error.hpp>
 
 namespace itin {
@@ -106,6 +108,7 @@ class RegionTriangulation {
       delaunay_ = Delaunay();
       delaunay_.insert(positions);
       constraints_.clear();
+      themes_.clear();
       constrain_ = false;
       insert_segments(segments);
       make_mesh();
@@ -130,7 +133,7 @@ class RegionTriangulation {
 
   double first_margin() const {
     std::vector<Leaf> leaves;
-    index_.leaves(selection_.finest_in(tile_), tile_, leaves);
+    selected_leaves(index_, selection_, tile_, leaves);
     double points = 0;
     for (const Leaf& leaf : leaves)
       points += leaf.points * area(intersection(leaf.cell.box(), tile_)) / area(leaf.cell.box());
@@ -140,7 +143,7 @@ class RegionTriangulation {
 
   void read_points() {
     std::vector<Leaf> leaves;
-    index_.leaves(selection_.finest_in(box_), box_, leaves);
+    selected_leaves(index_, selection_, box_, leaves);
     std::vector<std::pair<std::uint64_t, SelectedVertex>> found;
     for (const Leaf& leaf : leaves) {
       if (leaf.level < selection_.finest_in(intersection(leaf.cell.box(), box_))) continue;
@@ -155,6 +158,10 @@ class RegionTriangulation {
       }
     }
     std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    // Themes may share a vertex.
+    found.erase(
+        std::unique(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first == b.first; }),
+        found.end());
     vertices_.clear();
     extras_.clear();
     unread_.clear();
@@ -168,7 +175,8 @@ class RegionTriangulation {
     std::vector<Segment> found, fresh;
     index_.segments(box, found);
     for (const Segment& s : found) {
-      if (meets({s.ax, s.ay}, {s.bx, s.by}, box) && segments_.insert(s).second) fresh.push_back(s);
+      if (meets({s.ax, s.ay}, {s.bx, s.by}, box) && selection_.selects(s) && segments_.insert(s).second)
+        fresh.push_back(s);
     }
     return fresh;
   }
@@ -198,6 +206,7 @@ class RegionTriangulation {
     std::vector<Delaunay::Constraint> constraints;
     for (const Segment& s : segments) {
       constraints.emplace_back(vertex_at({s.ax, s.ay}, nullptr), vertex_at({s.bx, s.by}, nullptr));
+      themes_.push_back(s.theme);
     }
     if (constrain_) delaunay_.constrain(constraints);
     constraints_.insert(constraints_.end(), constraints.begin(), constraints.end());
@@ -206,10 +215,13 @@ class RegionTriangulation {
   Position position(std::uint32_t vertex) const { return vertices_[vertex].position(); }
   Position corner(std::uint32_t triangle, int i) const { return position(mesh_.triangles[triangle][i % 3]); }
   bool constrained(std::uint32_t triangle, int i) const { return mesh_.constrained[triangle] >> i & 1; }
+  bool on_outline(std::uint32_t triangle, int i) const {
+    return mesh_.constrained[triangle] >> (i + PlaneMesh::kOutline) & 1;
+  }
 
   /// ground_[t] is right for every triangle that meets the box: no segment crosses the box unseen, so a triangle's part
   /// in the box is ground or not as a whole, and so are neighbours whose common edge meets the box unless it is
-  /// constrained. A box without segments holds a vertex, hence is ground.
+  /// part of the outline. A box that no outline meets has a vertex or a line in it, hence is ground.
   void mark_ground() {
     ground_.assign(mesh_.triangles.size(), Ground::kUnknown);
     std::vector<std::uint32_t> stack;
@@ -219,7 +231,7 @@ class RegionTriangulation {
       stack.push_back(t);
     };
     for (const SegmentEdge& edge : segment_edges_) {
-      if (!meets(position(edge.from), position(edge.to), box_)) continue;
+      if (edge.theme != kCoverage || !meets(position(edge.from), position(edge.to), box_)) continue;
       settle(edge.left, Ground::kYes);
       settle(edge.right, Ground::kNo);
     }
@@ -228,7 +240,7 @@ class RegionTriangulation {
       const std::uint32_t t = stack.back();
       stack.pop_back();
       for (int i = 0; i < 3; ++i) {
-        if (!constrained(t, i) && meets(corner(t, i + 1), corner(t, i + 2), box_))
+        if (!on_outline(t, i) && meets(corner(t, i + 1), corner(t, i + 2), box_))
           settle(mesh_.neighbours[t][i], ground_[t]);
       }
     }
@@ -249,6 +261,7 @@ class RegionTriangulation {
   struct SegmentEdge {
     std::uint32_t from, to;
     std::uint32_t left, right;
+    std::uint16_t theme = kCoverage;
   };
 
   /// Finds every segment's edges and marks them as constrained. False when some segment is not made of edges.
@@ -260,11 +273,13 @@ class RegionTriangulation {
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
       for (const std::uint32_t v : mesh_.triangles[t]) some_triangle[v] = t;
     }
-    for (const auto& [from, to] : constraints_) {
+    for (std::size_t k = 0; k < constraints_.size(); ++k) {
+      const auto [from, to] = constraints_[k];
       for (std::uint32_t at = from; at != to;) {
         if (some_triangle[at] == kNoTriangle) return false;
-        const std::optional<SegmentEdge> edge = edge_towards(at, to, some_triangle[at]);
+        std::optional<SegmentEdge> edge = edge_towards(at, to, some_triangle[at]);
         if (!edge) return false;
+        edge->theme = themes_[k];
         mark_constrained(*edge);
         segment_edges_.push_back(*edge);
         at = edge->to;
@@ -279,6 +294,8 @@ class RegionTriangulation {
       for (int i = 0; i < 3; ++i) {
         if (mesh_.triangles[t][i] != edge.from && mesh_.triangles[t][i] != edge.to) {
           mesh_.constrained[t] |= static_cast<std::uint8_t>(1 << i);
+          if (edge.theme == kCoverage)
+            mesh_.constrained[t] |= static_cast<std::uint8_t>(1 << (i + PlaneMesh::kOutline));
         }
       }
     }
@@ -347,7 +364,7 @@ class RegionTriangulation {
       look_beyond_hull(t, intruders);
     }
     for (const SegmentEdge& edge : segment_edges_) {
-      if (edge.left == kNoTriangle) look_left_of(edge.from, edge.to, intruders);
+      if (edge.theme == kCoverage && edge.left == kNoTriangle) look_left_of(edge.from, edge.to, intruders);
     }
     for (const SelectedVertex& v : intruders) vertex_at(v.position(), &v);
     insert_segments(fresh);
@@ -378,7 +395,7 @@ class RegionTriangulation {
   void look_beyond_hull(std::uint32_t t, std::vector<SelectedVertex>& intruders) {
     const auto& v = mesh_.triangles[t];
     for (int i = 0; i < 3; ++i) {
-      if (mesh_.neighbours[t][i] == kNoTriangle && !constrained(t, i))
+      if (mesh_.neighbours[t][i] == kNoTriangle && !on_outline(t, i))
         look_left_of(v[(i + 2) % 3], v[(i + 1) % 3], intruders);
     }
   }
@@ -423,6 +440,12 @@ class RegionTriangulation {
       result.mesh.neighbours.push_back(neighbours);
       result.mesh.constrained.push_back(mesh_.constrained[t]);
     }
+    for (const SegmentEdge& edge : segment_edges_) {
+      const auto kept_side = [&](std::uint32_t t) { return t != kNoTriangle && triangle_number[t] != kNoTriangle; };
+      if (edge.theme == kCoverage || (!kept_side(edge.left) && !kept_side(edge.right))) continue;
+      const auto [from, to] = std::minmax({vertex_number[edge.from], vertex_number[edge.to]});
+      result.lines.push_back({from, to, edge.theme});
+    }
     return result;
   }
 
@@ -456,7 +479,11 @@ class RegionTriangulation {
   void read_late(std::uint32_t v) {
     if (!unread_.contains(v)) return;
     const auto found = search_.at(position(v));
-    if (!found) throw Error("an end of a constraint line is not among the vertices; run itin check on the store");
+    if (!found) {
+      throw Error(fmt::format(
+          "an end of a constraint line at grid position {}, {} is not among the vertices; run itin check on the store",
+          position(v).x, position(v).y));
+    }
     vertices_[v] = *found;
   }
 
@@ -475,7 +502,8 @@ class RegionTriangulation {
   std::set<std::uint32_t> unread_;                           ///< of these, those known by position only
   std::set<Segment> segments_;
   std::vector<Delaunay::Constraint> constraints_;
-  bool constrain_ = false;  ///< whether delaunay_ knows the constraints
+  std::vector<std::uint16_t> themes_;  ///< of the constraints
+  bool constrain_ = false;             ///< whether delaunay_ knows the constraints
   std::vector<SegmentEdge> segment_edges_;
   Delaunay delaunay_;
   PlaneMesh mesh_;

@@ -1,0 +1,236 @@
+#include "features/planar.hpp"
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+#include "features/hot_pixel.hpp"
+#include "store/edge_quadtree.hpp"
+#include "triangulate/apex.hpp"
+
+namespace itin {
+
+namespace {
+
+Position position(const GridPoint& p) {
+  return {p.x, p.y};
+}
+std::uint64_t code_of(Position p) {
+  return morton(p.x, p.y);
+}
+
+/// What a vertex may take its height from; the least counts.
+struct Height {
+  std::uint64_t code;
+  std::uint32_t owner;
+  bool interpolated;
+  std::int64_t depth;  ///< the height's negative
+  friend auto operator<=>(const Height&, const Height&) = default;
+};
+
+/// Positions sorted along the Morton curve, to be found along a segment.
+class SortedPositions {
+ public:
+  explicit SortedPositions(std::vector<std::uint64_t> codes) : codes_(std::move(codes)) {
+    std::sort(codes_.begin(), codes_.end());
+    codes_.erase(std::unique(codes_.begin(), codes_.end()), codes_.end());
+  }
+
+  /// Calls visit(position) for every position whose pixel the segment may meet.
+  template <class Visit>
+  void along(Position a, Position b, const Visit& visit) const {
+    descend({a.x, a.y, b.x, b.y}, Cell{}, codes_.begin(), codes_.end(), visit);
+  }
+
+ private:
+  using At = std::vector<std::uint64_t>::const_iterator;
+  static constexpr std::ptrdiff_t kFew = 4;
+
+  template <class Visit>
+  void descend(const Segment& s, Cell cell, At first, At last, const Visit& visit) const {
+    if (first == last) return;
+    if (last - first <= kFew || cell.log2_side == 0) {
+      for (; first != last; ++first) visit(Position{morton_x(*first), morton_y(*first)});
+      return;
+    }
+    for (int i = 0; i < 4; ++i) {
+      const Cell child = cell.child(i);
+      const At end = i == 3 ? last : std::lower_bound(first, last, child.end());
+      if (first != end && near(s, child)) descend(s, child, first, end, visit);
+      first = end;
+    }
+  }
+
+  /// Whether the segment comes within a step of the cell: the cell's pixels reach half a step beyond its positions.
+  static bool near(const Segment& s, const Cell& cell) {
+    const GridBox box = cell.box();
+    if (std::max(s.ax, s.bx) < box.xmin - 1 || std::min(s.ax, s.bx) > box.xmax + 1) return false;
+    if (std::max(s.ay, s.by) < box.ymin - 1 || std::min(s.ay, s.by) > box.ymax + 1) return false;
+    bool left = false, right = false;
+    for (const Position c : {Position{box.xmin - 1, box.ymin - 1}, Position{box.xmax + 1, box.ymin - 1},
+                             Position{box.xmin - 1, box.ymax + 1}, Position{box.xmax + 1, box.ymax + 1}}) {
+      const int side = orientation(Position{s.ax, s.ay}, Position{s.bx, s.by}, c);
+      left |= side >= 0;
+      right |= side <= 0;
+    }
+    return left && right;
+  }
+
+  std::vector<std::uint64_t> codes_;
+};
+
+class SnapRounding {
+ public:
+  explicit SnapRounding(std::vector<OwnedSegment> segments) : segments_(std::move(segments)) {
+    for (OwnedSegment& s : segments_) {
+      if (s.b < s.a) std::swap(s.a, s.b);
+    }
+    std::sort(segments_.begin(), segments_.end());
+    segments_.erase(std::unique(segments_.begin(), segments_.end()), segments_.end());
+  }
+
+  PlanarLines run() && {
+    find_hot_pixels();
+    const SortedPositions hot(std::move(hot_));
+    for (const OwnedSegment& s : segments_) round(s, hot);
+    settle_heights();
+    split_at_vertices();
+    return number();
+  }
+
+ private:
+  struct Piece {
+    Position from, to;
+    std::uint32_t owner;
+    friend auto operator<=>(const Piece&, const Piece&) = default;
+  };
+
+  void find_hot_pixels() {
+    std::vector<Segment> plain;
+    for (const OwnedSegment& s : segments_) {
+      hot_.push_back(code_of(position(s.a)));
+      hot_.push_back(code_of(position(s.b)));
+      if (position(s.a) != position(s.b)) plain.push_back({s.a.x, s.a.y, s.b.x, s.b.y});
+    }
+    std::set<std::pair<Segment, Segment>> crossing;
+    for_each_edge_leaf(std::move(plain), [&](const Cell&, const std::vector<Segment>& near) {
+      // Ascending by ax, and ax <= bx: what begins right of s's end does not meet it.
+      for (std::size_t i = 0; i < near.size(); ++i) {
+        for (std::size_t j = i + 1; j < near.size() && near[j].ax <= near[i].bx; ++j) {
+          const Segment &s = near[i], &t = near[j];
+          if (std::min(t.ay, t.by) > std::max(s.ay, s.by) || std::max(t.ay, t.by) < std::min(s.ay, s.by)) continue;
+          if (crosses(s, {t.ax, t.ay}, {t.bx, t.by})) crossing.insert({s, t});
+        }
+      }
+    });
+    crossings_ = crossing.size();
+    for (const auto& [s, t] : crossing)
+      hot_.push_back(code_of(crossing_pixel({s.ax, s.ay}, {s.bx, s.by}, {t.ax, t.ay}, {t.bx, t.by})));
+  }
+
+  /// Leads a segment through the centres of the hot pixels it meets. It visits pixels in steps that never turn back
+  /// in x or y, so their order is that of the way made in both.
+  void round(const OwnedSegment& s, const SortedPositions& hot) {
+    const Position a = position(s.a), b = position(s.b);
+    std::vector<std::pair<std::int64_t, Position>> way;
+    const std::int64_t x_sign = (b.x > a.x) - (b.x < a.x), y_sign = (b.y > a.y) - (b.y < a.y);
+    hot.along(a, b, [&](Position p) {
+      if (meets_pixel(a, b, p)) way.emplace_back(x_sign * p.x + y_sign * p.y, p);
+    });
+    std::sort(way.begin(), way.end());
+    for (const auto& [order, p] : way) heights_.push_back(height_at(s, p));
+    for (std::size_t i = 1; i < way.size(); ++i) add_piece(way[i - 1].second, way[i].second, s.owner);
+  }
+
+  static Height height_at(const OwnedSegment& s, Position p) {
+    if (p == position(s.a) || p == position(s.b)) {
+      const std::int64_t z = p != position(s.b) ? s.a.z : p != position(s.a) ? s.b.z : std::max(s.a.z, s.b.z);
+      return {code_of(p), s.owner, false, -z};
+    }
+    const std::int64_t dx = std::int64_t{s.b.x} - s.a.x, dy = std::int64_t{s.b.y} - s.a.y;
+    const std::int64_t along = dx * (std::int64_t{p.x} - s.a.x) + dy * (std::int64_t{p.y} - s.a.y);
+    const std::int64_t rise = rounded_quotient(Int128{along} * (std::int64_t{s.b.z} - s.a.z), dx * dx + dy * dy);
+    // A hot pixel's centre may lie a little beyond the segment's end.
+    const auto [low, high] = std::minmax(s.a.z, s.b.z);
+    return {code_of(p), s.owner, true, -std::clamp<std::int64_t>(s.a.z + rise, low, high)};
+  }
+
+  void add_piece(Position p, Position q, std::uint32_t owner) {
+    if (q < p) std::swap(p, q);
+    pieces_.push_back({p, q, owner});
+  }
+
+  /// The heights that count, one a position.
+  void settle_heights() {
+    std::sort(heights_.begin(), heights_.end());
+    heights_.erase(std::unique(heights_.begin(), heights_.end(),
+                               [](const Height& a, const Height& b) { return a.code == b.code; }),
+                   heights_.end());
+    sort_pieces();
+  }
+
+  void sort_pieces() {
+    std::sort(pieces_.begin(), pieces_.end());
+    pieces_.erase(std::unique(pieces_.begin(), pieces_.end()), pieces_.end());
+  }
+
+  /// Rounding may lay a piece exactly through a vertex that its segment missed.
+  void split_at_vertices() {
+    std::vector<std::uint64_t> ends;
+    for (const Piece& piece : pieces_) {
+      ends.push_back(code_of(piece.from));
+      ends.push_back(code_of(piece.to));
+    }
+    const SortedPositions vertices(std::move(ends));
+    const std::vector<Piece> whole = std::exchange(pieces_, {});
+    for (const Piece& piece : whole) {
+      std::vector<Position> way{piece.from, piece.to};
+      vertices.along(piece.from, piece.to, [&](Position p) {
+        if (p != piece.from && p != piece.to && on_segment(piece.from, piece.to, p)) way.push_back(p);
+      });
+      std::sort(way.begin(), way.end());  // by x, then y: in order along a straight line
+      for (std::size_t i = 1; i < way.size(); ++i) add_piece(way[i - 1], way[i], piece.owner);
+    }
+    sort_pieces();
+  }
+
+  PlanarLines number() const {
+    PlanarLines lines;
+    lines.crossings = crossings_;
+    std::vector<std::uint64_t> codes;
+    for (const Piece& piece : pieces_) {
+      codes.push_back(code_of(piece.from));
+      codes.push_back(code_of(piece.to));
+    }
+    std::sort(codes.begin(), codes.end());
+    codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
+    for (const std::uint64_t code : codes) {
+      const auto height = std::lower_bound(heights_.begin(), heights_.end(), code,
+                                           [](const Height& h, std::uint64_t c) { return h.code < c; });
+      lines.vertices.push_back({morton_x(code), morton_y(code), static_cast<std::int32_t>(-height->depth)});
+    }
+    const auto number_of = [&](Position p) {
+      return static_cast<std::uint32_t>(std::lower_bound(codes.begin(), codes.end(), code_of(p)) - codes.begin());
+    };
+    for (const Piece& piece : pieces_) {
+      const auto [from, to] = std::minmax({number_of(piece.from), number_of(piece.to)});
+      lines.edges.push_back({from, to, piece.owner});
+    }
+    std::sort(lines.edges.begin(), lines.edges.end());
+    return lines;
+  }
+
+  std::vector<OwnedSegment> segments_;
+  std::vector<std::uint64_t> hot_;
+  std::vector<Height> heights_;
+  std::vector<Piece> pieces_;
+  std::uint64_t crossings_ = 0;
+};
+
+}  // namespace
+
+PlanarLines make_planar(std::vector<OwnedSegment> segments) {
+  return SnapRounding(std::move(segments)).run();
+}
+
+}  // namespace itin

@@ -1,0 +1,47 @@
+// Makes lines planar: what comes out meets only at vertices, whatever went in.
+//
+//   std::vector<OwnedSegment> pieces = ...;            // of all lines of all owners, in any order
+//   PlanarLines lines = make_planar(pieces);
+//   for (const PlanarEdge& e : lines.edges) ...        // e.from, e.to: numbers in lines.vertices
+//
+// Snap rounding on the grid (J. D. Hobby, Practical segment intersection with finite precision output, 1999): every
+// pixel that holds an end or a crossing is hot, and a segment is led through the centres of all hot pixels it meets. So
+// no segment moves by more than half a grid step in x or y, crossings get one vertex, T-junctions, collinear overlaps,
+// duplicates and segments without length need no case of their own, and the result depends on the set of segments
+// alone. Everything is decided in integers. Lines that are planar already may be moved again, for a segment may have
+// been led past a vertex at less than half a step.
+//
+// Heights. A vertex takes the height of the owner that comes first in order; of one owner's, the height of an end
+// rather than one interpolated along a segment; of several such, the greatest.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <itin/geometry.hpp>
+
+namespace itin {
+
+/// A piece of a line. Owners are themes, say, in the order in which they decide about heights.
+struct OwnedSegment {
+  GridPoint a, b;
+  std::uint32_t owner = 0;
+  friend auto operator<=>(const OwnedSegment&, const OwnedSegment&) = default;
+};
+
+struct PlanarEdge {
+  std::uint32_t from, to;  ///< from < to
+  std::uint32_t owner;
+  friend auto operator<=>(const PlanarEdge&, const PlanarEdge&) = default;
+};
+
+struct PlanarLines {
+  std::vector<GridPoint> vertices;  ///< in Morton order, distinct, each an end of an edge
+  std::vector<PlanarEdge> edges;    ///< ascending; one that several owners share is listed for each
+  std::uint64_t crossings = 0;      ///< pairs of segments that crossed between their ends
+};
+
+/// O((n + k) log n) for n segments and k crossings, as long as segments are not much denser than 64 in 256 grid steps.
+PlanarLines make_planar(std::vector<OwnedSegment> segments);
+
+}  // namespace itin

@@ -1,0 +1,107 @@
+#include "import/vector_layer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <cpl_conv.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <itin/error.hpp>
+
+#include "import/crs.hpp"
+#include "import/quiet_gdal.hpp"
+
+namespace itin {
+
+namespace {
+
+OGRLayer& choose_layer(GDALDataset& dataset, const std::string& path, const std::string& name) {
+  std::vector<std::string> names;
+  for (OGRLayer* layer : dataset.GetLayers()) names.emplace_back(layer->GetName());
+  if (names.empty()) throw FileError(path, "has no layers");
+  if (name.empty()) {
+    if (names.size() == 1) return *dataset.GetLayer(0);
+    throw FileError(path, fmt::format("has several layers; choose one with --layer: {}", names));
+  }
+  if (OGRLayer* layer = dataset.GetLayerByName(name.c_str())) return *layer;
+  throw FileError(path, fmt::format("has no layer '{}'; it has {}", name, names));
+}
+
+int height_field(OGRLayer& layer, const std::string& path, const std::string& name) {
+  const OGRFeatureDefn& definition = *layer.GetLayerDefn();
+  const int index = definition.GetFieldIndex(name.c_str());
+  if (index >= 0) return index;
+  std::vector<std::string> names;
+  for (int i = 0; i < definition.GetFieldCount(); ++i) names.emplace_back(definition.GetFieldDefn(i)->GetNameRef());
+  throw FileError(path, fmt::format("layer '{}' has no field '{}'; it has {}", layer.GetName(), name, names));
+}
+
+}  // namespace
+
+VectorLayer::VectorLayer(std::string path, const ImportOptions& options, const std::string& what)
+    : path_(std::move(path)) {
+  const QuietGdal quiet;
+  dataset_.reset(GDALDataset::Open(path_.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
+  if (!dataset_) throw FileError(path_, "cannot be read as " + what + ": " + QuietGdal::message("unknown error"));
+  layer_ = &choose_layer(*dataset_, path_, options.layer);
+}
+
+void VectorLayer::select(const ImportOptions& options) {
+  const QuietGdal quiet;
+  if (!options.z_field.empty()) height_field_ = height_field(*layer_, path_, options.z_field);
+  const GIntBig all = layer_->GetFeatureCount();
+  if (!options.where.empty()) filter(options.where);
+  const GIntBig matching = layer_->GetFeatureCount();
+  matching_ = static_cast<std::uint64_t>(std::max<GIntBig>(0, matching));
+  filtered_ = static_cast<std::uint64_t>(std::max<GIntBig>(0, all - matching));
+}
+
+void VectorLayer::filter(const std::string& where) {
+  // Databases look at the clause only when they count or read.
+  const bool understood = layer_->SetAttributeFilter(where.c_str()) == OGRERR_NONE && layer_->GetFeatureCount() >= 0 &&
+                          CPLGetLastErrorType() < CE_Failure;
+  if (understood) return;
+  const std::string reason = QuietGdal::message("unknown error");
+  // OGR's own SQL, then SQLite's: the contract tells an unknown field from a clause that makes no sense.
+  if (reason.find("not recognised as an available field") != std::string::npos ||
+      reason.find("no such column") != std::string::npos)
+    throw FileError(
+        path_, fmt::format("--where {} names a field that layer '{}' has not: {}", where, layer_->GetName(), reason));
+  throw InputError(fmt::format("{}: --where {} is not understood: {}", path_, where, reason));
+}
+
+std::string VectorLayer::crs() const {
+  const OGRSpatialReference* reference = layer_->GetSpatialRef();
+  return reference ? wkt_of(*reference) : std::string();
+}
+
+/// The next feature; null at the end. GDAL tells an end from a failure only by its error state, which others may leave
+/// set between two calls.
+OGRFeatureUniquePtr VectorLayer::next() {
+  const QuietGdal quiet;
+  OGRFeatureUniquePtr feature(layer_->GetNextFeature());
+  if (!feature && QuietGdal::failed()) throw FileError(path_, QuietGdal::message("unknown error"));
+  return feature;
+}
+
+double VectorLayer::height(const OGRFeature& feature) const {
+  if (!feature.IsFieldSetAndNotNull(height_field_)) return std::numeric_limits<double>::quiet_NaN();
+  const OGRFieldDefn& field = *feature.GetFieldDefnRef(height_field_);
+  const double value = feature.GetFieldAsDouble(height_field_);
+  const bool numeric =
+      field.GetType() != OFTString || CPLGetValueType(feature.GetFieldAsString(height_field_)) != CPL_VALUE_STRING;
+  if (!numeric || !std::isfinite(value))
+    throw InputError(fmt::format("{}: {} '{}' is not a finite number", place(feature), field.GetNameRef(),
+                                 feature.GetFieldAsString(height_field_)));
+  return value;
+}
+
+std::string VectorLayer::place(const OGRFeature& feature) const {
+  return fmt::format("{}: layer '{}': feature {}", path_, layer_->GetName(), feature.GetFID());
+}
+
+}  // namespace itin
