@@ -238,7 +238,7 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
   count_lines(placed, lines.terrain.size(), report);
   std::vector<Segment> segments = index.all_segments();
   segments.insert(segments.end(), placed.features.begin(), placed.features.end());
-  writer.add_segments(std::move(segments));
+  writer.add_segments(segments);
   return report;
 }
 

@@ -28,7 +28,7 @@ class StoreWriter::Impl {
                       std::span<const std::uint16_t> sources, std::int32_t lo, std::int32_t hi);
   void add_theme_vertices(std::uint16_t theme, std::span<const GridPoint> points,
                           std::span<const std::uint16_t> sources);
-  void add_segments(std::vector<Segment> segments);
+  void add_segments(const std::vector<Segment>& segments);
   void commit(std::vector<SourceInfo> sources, std::vector<ThemeInfo> themes);
 
  private:
@@ -143,7 +143,7 @@ void StoreWriter::Impl::add_theme_vertices(std::uint16_t theme, std::span<const 
   cutter.finish();
 }
 
-void StoreWriter::Impl::add_segments(std::vector<Segment> segments) {
+void StoreWriter::Impl::add_segments(const std::vector<Segment>& segments) {
   std::map<std::uint16_t, std::vector<Segment>> by_theme;
   for (const Segment& s : segments) by_theme[s.theme].push_back(s);
   for (auto& [theme, of_theme] : by_theme) add_edges(theme, std::move(of_theme));
@@ -186,8 +186,8 @@ void StoreWriter::add_leaf(int level, const Cell& cell, std::span<const GridPoin
                            std::span<const std::uint16_t> sources, std::int32_t lo, std::int32_t hi) {
   impl_->add_point_leaf(level, cell, points, sources, lo, hi);
 }
-void StoreWriter::add_segments(std::vector<Segment> segments) {
-  impl_->add_segments(std::move(segments));
+void StoreWriter::add_segments(const std::vector<Segment>& segments) {
+  impl_->add_segments(segments);
 }
 void StoreWriter::add_theme_vertices(std::uint16_t theme, std::span<const GridPoint> points,
                                      std::span<const std::uint16_t> sources) {

@@ -40,7 +40,7 @@ class StoreWriter {
   void add_theme_vertices(std::uint16_t theme, std::span<const GridPoint> points,
                           std::span<const std::uint16_t> sources);
   /// The coverage outline and the lines of all themes, all at once, in any order; kept in an edge quadtree a theme.
-  void add_segments(std::vector<Segment> segments);
+  void add_segments(const std::vector<Segment>& segments);
   /// Certified error of each level = the union of its leaves'. Syncs and renames. Throws FileError (disk full, ...).
   void commit(std::vector<SourceInfo> sources, std::vector<ThemeInfo> themes = {});
 
