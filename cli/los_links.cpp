@@ -80,7 +80,7 @@ Result LosLinks::run(const Store& store, const LosStoreOptions& surface, const p
   write_file(output_, table(links, results, query.radio.has_value(), failed > 0), overwrite);
   Result result;
   result.document["crs"] = crs_identifier(metadata.crs_wkt);
-  result.document["surface"] = surface_document(metadata, surface.detail());
+  result.document["surface"] = surface_document(metadata, surface.detail(), ThemeChoice::none());
   result.document["links"] = {{"visible", visible}, {"hidden", results.size() - visible - failed}, {"error", failed}};
   result.document["outputs"] = Document::array({output_});
   result.text = fmt::format("{}: {} links, {} visible\n", output_, grouped(links.size()), grouped(visible));

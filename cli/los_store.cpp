@@ -113,7 +113,7 @@ void LosStoreOptions::validate(std::optional<double> object_tip_m) {
   parse_choice("--target-on", to_on_, {"ground", "surface"});
   if (!nodata_text_.empty()) parse_choice("--nodata", nodata_text_, {"unknown", "block", "clear"});
   detail_.validate();
-  themes_.validate();
+  themes_.validate_none("los");
   if (!absolute_heights_ && (from_height_ < 0 || to_height_ < 0)) {
     throw InputError("--from, --to: a height must not be negative; for an elevation give --absolute-heights");
   }
@@ -122,7 +122,7 @@ void LosStoreOptions::validate(std::optional<double> object_tip_m) {
 void LosStoreOptions::validate_surface() {
   if (!nodata_text_.empty()) parse_choice("--nodata", nodata_text_, {"unknown", "block", "clear"});
   detail_.validate();
-  themes_.validate();
+  themes_.validate_none("los");
   if (detail_.has_rings()) throw InputError("--rings have no one centre for many links; give --tolerance");
   if (absolute_heights_) throw InputError("--absolute-heights is not for --links, whose heights are above the ground");
 }
@@ -174,7 +174,7 @@ LosStoreOptions::Result LosStoreOptions::run(const Store& store, profile::LosQue
   query.gaps_block = nodata_text_ == "block";
 
   Result result;
-  result.surface = surface_document(metadata, detail);
+  result.surface = surface_document(metadata, detail, ThemeChoice::none());
   if (!line.gaps.empty() && nodata_text_ != "clear") {
     result.warnings.push_back(fmt::format("the line crosses {} stretch{} without data, which {}; see gaps, --nodata",
                                           line.gaps.size(), line.gaps.size() == 1 ? "" : "es",

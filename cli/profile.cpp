@@ -90,7 +90,7 @@ class ProfileVerb final : public Verb {
     if (!rings_text_.empty()) rings_ = parse_rings("--rings", rings_text_);
     if (tolerances_.empty()) tolerances_.push_back(0);
     for (const std::string& output : outputs_) require_profile_format(output);
-    themes_.validate();
+    themes_.validate_none("profile");
   }
 
   Document parameters() const override {
@@ -132,10 +132,10 @@ class ProfileVerb final : public Verb {
       profiles.push_back(std::move(surface));
     }
     if (profiles.front().profile.points.empty()) {
-      result.warnings.push_back("the line lies wholly outside the data; the profile is empty");
+      result.warnings.emplace_back("the line lies wholly outside the data; the profile is empty");
     }
     result.document["crs"] = crs_identifier(store.metadata().crs_wkt);
-    result.document["surface"] = surface_document(store.metadata(), profiles.front().detail);
+    result.document["surface"] = surface_document(store.metadata(), profiles.front().detail, ThemeChoice::none());
     result.document.update(profile_document(profiles, store.metadata()));
     if (!outputs_.empty()) result.document["outputs"] = outputs_;
     result.document["statistics"] = {

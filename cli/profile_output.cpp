@@ -119,7 +119,7 @@ Document profile_document(const std::vector<SurfaceProfile>& profiles, const Sto
   document["gaps"] = gaps_document(profiles.front().profile);
   document["profiles"] = Document::array();
   for (const SurfaceProfile& surface : profiles) {
-    const Document about = surface_document(metadata, surface.detail);
+    const Document about = surface_document(metadata, surface.detail, ThemeChoice::none());
     Document entry{{"tolerance_m", surface.detail.coarsest()}, {"certified_error_m", about["certified_error_m"]}};
     if (about.contains("rings")) entry["rings"] = about["rings"];
     entry["gaps"] = gaps_document(surface.profile);

@@ -5,6 +5,7 @@
 #include <cairo-svg.h>
 #include <cairo.h>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <numbers>
 
@@ -42,8 +43,8 @@ cairo_surface_t* make_surface(Drawing::Format format, double width, double heigh
     case Drawing::Format::kPng:
       break;
   }
-  return cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(width * kPixelsPerPoint + 0.5),
-                                    static_cast<int>(height * kPixelsPerPoint + 0.5));
+  return cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::lround(width * kPixelsPerPoint)),
+                                    static_cast<int>(std::lround(height * kPixelsPerPoint)));
 }
 
 void select_font(cairo_t* cairo, const Lettering& lettering) {

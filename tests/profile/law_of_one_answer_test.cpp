@@ -1,6 +1,5 @@
 // Law 4 on real terrain: a profile from the store and SightLines on a window's triangles, to the last bit.
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -16,15 +15,12 @@
 #include <profile/profile.hpp>
 
 #include "line_clearance.hpp"
+#include "support/same_bits.hpp"
 #include "support/slow_section.hpp"
 #include "support/temporary_directory.hpp"
 
 namespace itin::profile {
 namespace {
-
-bool same_bits(double a, double b) {
-  return std::memcmp(&a, &b, sizeof a) == 0;
-}
 
 /// Two tiles of the Welsh coast that touch at a corner, and nothing beside them.
 class CoastalStore : public ::testing::Test {
@@ -92,12 +88,12 @@ TEST_F(CoastalStore, GivesOneAnswer) {
       const auto found = line_clearance(from_section(section), antennas, earth);
       ASSERT_EQ(truth.clearance.has_value(), found.has_value());
       if (!found) continue;
-      ASSERT_TRUE(same_bits(*truth.clearance, found->clearance_m))
+      ASSERT_TRUE(test::same_bits(*truth.clearance, found->clearance_m))
           << *truth.clearance << " " << found->clearance_m << " from " << a.x << " " << a.y << " to " << b.x << " "
           << b.y;
       const auto back =
           line_clearance(from_section(cross_section(*store_, b, a, detail)), {antennas.to_m, antennas.from_m}, earth);
-      ASSERT_TRUE(same_bits(back->clearance_m, found->clearance_m));
+      ASSERT_TRUE(test::same_bits(back->clearance_m, found->clearance_m));
       ASSERT_EQ(found->obstructions.empty(), truth.visible());
     }
   }

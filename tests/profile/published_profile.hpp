@@ -1,6 +1,7 @@
 // Published profiles, kept as their heights (tests/profile/data/*.heights).
 #pragma once
 
+#include <cmath>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -36,7 +37,7 @@ inline profile::Profile published_profile(const std::string& name) {
   }
   profile.points.back().distance_m = profile.length_m = last * 1000;
   for (const auto& [at, height] : clutter) {
-    profile.points[static_cast<std::size_t>(at / step + 0.5)].clutter_m = height;
+    profile.points[static_cast<std::size_t>(std::lround(at / step))].clutter_m = height;
   }
   return profile;
 }

@@ -72,14 +72,9 @@ CrossSection retrieve_section(const PointIndex& index, const Selection& selectio
   return section;
 }
 
-Selection selection_of(const Store& store, const Detail& detail) {
-  std::vector<double> tolerances;
-  for (const LevelInfo& level : store.metadata().levels) tolerances.push_back(level.tolerance);
-  return Selection(detail, tolerances, store.metadata().grid);
-}
-
 CrossSection cross_section(const Store& store, Point2 from, Point2 to, const Detail& detail) {
-  return retrieve_section(store.points(), selection_of(store, detail), SectionLine(store.metadata().grid, from, to));
+  return retrieve_section(store.points(), selection_of(store.metadata(), detail, ThemeChoice::none()),
+                          SectionLine(store.metadata().grid, from, to));
 }
 
 }  // namespace itin

@@ -55,6 +55,7 @@ class Collection {
     const GridBox box = line_.box(t0, t1);
     std::vector<Segment> found;
     index_.segments(box, found);
+    std::erase_if(found, [](const Segment& s) { return s.theme != kCoverage; });
     if (found.size() > kManySegments && halvings > 0) {
       const double middle = (t0 + t1) / 2;
       collect(t0, middle, halvings - 1);

@@ -45,10 +45,11 @@ void NearbyApex::move_to(Position a, Position b, double lambda) {
   const double ahead = std::clamp(half_side_ - 4 * lambda, 0.0, kAhead * half_side_);
   box_ = square(mx + heading_.x * ahead, my + heading_.y * ahead, half_side_);
   leaves_.clear();
-  index_.leaves(selection_.finest_in(box_), box_, leaves_);
+  selected_leaves(index_, selection_, box_, leaves_);
   std::erase_if(leaves_, [&](const Leaf& leaf) { return leaf.level < selection_.finest_in(leaf.cell.box()); });
   segments_.clear();
   index_.segments(box_, segments_);
+  std::erase_if(segments_, [&](const Segment& s) { return !selection_.selects(s); });
 
   bin_shift_ = std::bit_width(static_cast<std::uint32_t>(std::max(length, half_side_ / 64)));
   columns_ = (static_cast<std::uint32_t>(box_.xmax - box_.xmin) >> bin_shift_) + 1;

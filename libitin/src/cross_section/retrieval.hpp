@@ -11,7 +11,4 @@ namespace itin {
 
 CrossSection retrieve_section(const PointIndex& index, const Selection& selection, const SectionLine& line);
 
-/// What a Detail selects of a store.
-Selection selection_of(const Store& store, const Detail& detail);
-
 }  // namespace itin

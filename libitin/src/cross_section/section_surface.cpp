@@ -75,7 +75,7 @@ class TileCache {
     }
     const GridBox box = cell.box();
     std::vector<Leaf> leaves;
-    index_.leaves(selection_.finest_in(box), box, leaves);
+    selected_leaves(index_, selection_, box, leaves);
     double points = 0;
     for (const Leaf& leaf : leaves) {
       points += leaf.points * std::min(1.0, std::ldexp(1.0, 2 * (cell.log2_side - leaf.cell.log2_side)));
@@ -158,7 +158,7 @@ class SectionSurface::Impl {
  public:
   Impl(const Store& store, const Detail& detail, const Options& options)
       : grid_(store.metadata().grid),
-        selection_(selection_of(store, detail)),
+        selection_(selection_of(store.metadata(), detail, ThemeChoice::none())),
         tiles_(store.points(), selection_, options.cache_bytes) {}
 
   CrossSection between(Point2 from, Point2 to) {

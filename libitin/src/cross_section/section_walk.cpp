@@ -220,7 +220,7 @@ class NeighboursOnSegment {
 double spacing_at(const PointIndex& index, const Selection& selection, const Grid& grid, const Point3& place) {
   const GridBox box = grid.enclosing({place.x, place.y, place.x, place.y});
   std::vector<Leaf> leaves;
-  index.leaves(selection.finest_in(box), box, leaves);
+  selected_leaves(index, selection, box, leaves);
   double density = 0;
   for (const Leaf& leaf : leaves) density += leaf.points * std::ldexp(1.0, -2 * leaf.cell.log2_side);
   return grid.resolution * (density > 0 ? std::max(1 / std::sqrt(density), 1.0) : 64);
@@ -237,7 +237,7 @@ CrossedEdge find_edge_on(const PointIndex& index, const Selection& selection, co
   for (double reach = spacing_at(index, selection, line.grid(), place);; reach *= 4) {
     const GridBox box = line.grid().enclosing({place.x - reach, place.y - reach, place.x + reach, place.y + reach});
     leaves.clear();
-    index.leaves(selection.finest_in(box), box, leaves);
+    selected_leaves(index, selection, box, leaves);
     NeighboursOnSegment neighbours(segment, line, on_line);
     for (const Leaf& leaf : leaves) {
       const auto block = index.block(leaf);

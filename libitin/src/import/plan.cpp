@@ -131,6 +131,7 @@ Grid settle_grid(const ImportOptions& options, const StoreMetadata* existing, co
 
 ImportPlan::ImportPlan() = default;
 ImportPlan::ImportPlan(ImportPlan&&) noexcept = default;
+ImportPlan& ImportPlan::operator=(ImportPlan&&) noexcept = default;
 ImportPlan::~ImportPlan() = default;
 
 ImportPlan plan_import(const ImportOptions& options, const StoreMetadata* existing) {

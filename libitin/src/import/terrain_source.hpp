@@ -43,6 +43,7 @@ struct ImportPlan {
   Grid grid;
   ImportPlan();
   ImportPlan(ImportPlan&&) noexcept;
+  ImportPlan& operator=(ImportPlan&&) noexcept;
   ~ImportPlan();
   std::vector<std::unique_ptr<TerrainSource>> sources;
   std::vector<std::unique_ptr<LineLayer>> lines;  ///< where the call names a kind of theme

@@ -65,6 +65,17 @@ bool Selection::selects(const Segment& s) const {
   return s.finest <= nearest && farthest <= s.coarsest;
 }
 
+Selection selection_of(const StoreMetadata& metadata, const Detail& detail, const ThemeChoice& themes) {
+  themes.check(metadata.themes);
+  std::vector<double> tolerances;
+  for (const LevelInfo& level : metadata.levels) tolerances.push_back(level.tolerance);
+  Selection selection(detail, tolerances, metadata.grid);
+  for (std::size_t t = 0; t < metadata.themes.size(); ++t) {
+    if (!themes.includes(metadata.themes[t])) selection.leave_out(static_cast<std::uint16_t>(t + 1));
+  }
+  return selection;
+}
+
 void selected_leaves(const PointIndex& index, const Selection& selection, const GridBox& box, std::vector<Leaf>& out) {
   const auto first = static_cast<std::ptrdiff_t>(out.size());
   index.leaves(selection.finest_in(box), box, out);

@@ -7,6 +7,8 @@
 
 #include <itin/detail.hpp>
 #include <itin/geometry.hpp>
+#include <itin/store.hpp>
+#include <itin/theme.hpp>
 
 #include "store/point_index.hpp"
 
@@ -53,6 +55,9 @@ class Selection {
   std::vector<Disc> discs_;     ///< all rings but the last, which has no end
   std::vector<bool> left_out_;  ///< by theme
 };
+
+/// What a query of a store selects. Throws InputError for a theme that the store does not have.
+Selection selection_of(const StoreMetadata& metadata, const Detail& detail, const ThemeChoice& themes);
 
 /// The leaves of an index that may hold something selected in `box`.
 void selected_leaves(const PointIndex& index, const Selection& selection, const GridBox& box, std::vector<Leaf>& out);

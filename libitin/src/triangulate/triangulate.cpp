@@ -143,13 +143,7 @@ class Assembly {
 Tin triangulate(const Store& store, const Window& window, const Detail& detail, Progress& progress,
                 const ThemeChoice& themes) {
   const StoreMetadata& metadata = store.metadata();
-  themes.check(metadata.themes);
-  std::vector<double> tolerances;
-  for (const LevelInfo& level : metadata.levels) tolerances.push_back(level.tolerance);
-  Selection selection(detail, tolerances, metadata.grid);
-  for (std::size_t t = 0; t < metadata.themes.size(); ++t) {
-    if (!themes.includes(metadata.themes[t])) selection.leave_out(static_cast<std::uint16_t>(t + 1));
-  }
+  const Selection selection = selection_of(metadata, detail, themes);
   const GridWindow grid_window(window, metadata.grid, metadata.bounds);
   const TilePlan plan(store.points(), selection, grid_window);
 
