@@ -15,7 +15,15 @@ void EarthOptions::declare(CLI::App& app) {
       ->type_name("RATIO");
 }
 
+void EarthOptions::declare_radius(CLI::App& app) {
+  app.add_option("--effective-earth-km", effective_km_text_, "The effective Earth's radius instead of its factor K")
+      ->type_name("KM");
+}
+
 void EarthOptions::validate() {
+  if (!effective_km_text_.empty() && !(refraction_text_.empty() && effective_text_.empty())) {
+    throw InputError("--effective-earth-km excludes --effective-earth and --refraction: they state the same");
+  }
   if (!refraction_text_.empty() && !effective_text_.empty()) {
     throw InputError("--refraction and --effective-earth exclude each other: they state the same in two conventions");
   }
@@ -23,6 +31,10 @@ void EarthOptions::validate() {
   if (!refraction_text_.empty()) earth_.refraction = parse_number("--refraction", refraction_text_);
   if (!radius_text_.empty()) earth_.radius = parse_number("--earth-radius", radius_text_, Range::kPositive);
   if (!effective_text_.empty()) earth_.effective_factor = parse_ratio("--effective-earth", effective_text_);
+  if (!effective_km_text_.empty()) {
+    earth_.effective_factor =
+        parse_number("--effective-earth-km", effective_km_text_, Range::kPositive) * 1000 / earth_.radius;
+  }
   earth_.validate();
 }
 

@@ -1,4 +1,4 @@
-// itin import: terrain into a store.
+// itin import: terrain and lines into a store.
 
 #include <algorithm>
 #include <functional>
@@ -19,16 +19,18 @@ namespace {
 class ImportVerb final : public Verb {
  public:
   std::string name() const override { return "import"; }
-  std::string summary() const override { return "Create a store from terrain, or add terrain to it"; }
+  std::string summary() const override { return "Create a store from terrain, or add terrain and lines to it"; }
 
   void declare(CLI::App& app) override {
     app.add_option("STORE", store_, "The store, created if there is none")->required();
-    app.add_option("SOURCE", options_.sources, "Rasters, point files or LAS, as many as wanted")->required();
-    app.add_option("--kind", kind_, "What the sources are (this version: terrain)")->type_name("KIND");
-    app.add_option("--theme", theme_, "Name of the theme (this version: terrain only, which has none)")
-        ->type_name("NAME");
-    app.add_option("--height-field", height_field_, "Heights of features (this version: terrain only)")
-        ->type_name("FIELD");
+    app.add_option("SOURCE", options_.sources, "Rasters, point files, LAS, or layers of lines and polygons")
+        ->required();
+    app.add_option(
+           "--kind", kind_,
+           "What the sources are: terrain (default); contours, breaklines or water, which are lines with heights "
+           "and become part of the terrain; roads, walls, buildings or vegetation, which are lines on it")
+        ->type_name("KIND");
+    app.add_option("--theme", options_.theme, "Name of the lines' theme (default: the kind)")->type_name("NAME");
     app.add_option("--crs", options_.crs, "CRS of the sources, whatever they say themselves")->type_name("CRS");
     app.add_option("--to-crs", options_.to_crs,
                    "CRS of a new store: projected, in metres (default: the sources' own, else their UTM zone)")
@@ -39,7 +41,7 @@ class ImportVerb final : public Verb {
     app.add_option("--class", classes_, "Only these LAS classes (default: all but noise, 7 and 18)")
         ->type_name("C,C...");
     app.add_option("--max-gap", max_gap_,
-                   "Scattered points: no ground across wider gaps (default: 100 times their mean spacing)")
+                   "Scattered points and contours: no ground across wider gaps (default: 100 times their mean spacing)")
         ->type_name("METRES");
     app.add_flag("--allow-mixed-vertical", options_.allow_mixed_vertical,
                  "Take heights as they are, though sources refer to different vertical datums");
@@ -53,13 +55,15 @@ class ImportVerb final : public Verb {
   }
 
   void validate() override {
+    parse_choice("--kind", kind_,
+                 {"terrain", "contours", "breaklines", "buildings", "vegetation", "walls", "roads", "water"});
     if (kind_ != "terrain") {
-      parse_choice("--kind", kind_,
-                   {"terrain", "contours", "breaklines", "buildings", "vegetation", "walls", "roads", "water"});
-      throw InputError(fmt::format("--kind {}: this version imports terrain only", kind_));
+      options_.kind = theme_kind(kind_);
+      if (options_.theme.empty()) options_.theme = kind_;
+      validate_lines();
+    } else if (!options_.theme.empty()) {
+      throw InputError("--theme: terrain has no theme; leave it out");
     }
-    if (!theme_.empty()) throw InputError("--theme: terrain has no theme; leave it out");
-    if (!height_field_.empty()) throw InputError("--height-field: terrain takes its heights from --z-field");
     if (!classes_.empty()) options_.classes = parse_wholes("--class", classes_, 0, 255);
     if (!max_gap_.empty()) options_.max_gap = parse_number("--max-gap", max_gap_, Range::kPositive);
     if (!levels_.empty()) options_.tolerances = growing_levels();
@@ -72,6 +76,7 @@ class ImportVerb final : public Verb {
     const auto given = [&](const char* name, const std::string& value) {
       if (!value.empty()) parameters[name] = value;
     };
+    given("theme", options_.theme);
     given("crs", options_.crs);
     given("to_crs", options_.to_crs);
     given("z_field", options_.z_field);
@@ -86,12 +91,18 @@ class ImportVerb final : public Verb {
   }
 
   Result execute(Progress& progress) override {
-    const ImportReport report = import_terrain(store_, options_, progress);
+    const ImportReport report =
+        options_.kind ? import_lines(store_, options_, progress) : import_terrain(store_, options_, progress);
     const Store store(store_);
     return {document(report, store.metadata()), text(report, store.metadata()), report.warnings, {}};
   }
 
  private:
+  void validate_lines() const {
+    if (!classes_.empty()) throw InputError("--class: is for LAS, which holds no lines");
+    if (options_.replace) throw InputError("--replace: is for terrain; lines replace nothing");
+  }
+
   std::vector<double> growing_levels() const {
     std::vector<double> tolerances = parse_numbers("--levels", levels_, Range::kPositive);
     if (!std::is_sorted(tolerances.begin(), tolerances.end(), std::less_equal<>())) {
@@ -110,10 +121,14 @@ class ImportVerb final : public Verb {
     document["duplicates"] = report.duplicates;
     document["replaced"] = report.replaced;
     document["isolated"] = report.isolated;
+    document["features"] = report.features;
+    document["crossings"] = report.crossings;
+    document["segments_left_out"] = report.left_out;
     document["vertices"] = report.vertices;
     document["bytes"] = report.store_bytes;
     document["bytes_per_vertex"] = bytes_per_vertex(report);
     document["levels"] = levels_document(metadata);
+    document["themes"] = themes_document(metadata);
     document["statistics"] = {{"points_read", report.read}};
     return document;
   }
@@ -132,7 +147,10 @@ class ImportVerb final : public Verb {
     mention(report.duplicates, "duplicate positions");
     mention(report.replaced, "coarser points replaced");
     mention(report.isolated, "isolated points left out");
-    return text + "\n\n" + levels_table(metadata);
+    mention(report.crossings, "crossings resolved");
+    mention(report.left_out, "segments of lines left out beyond the ground");
+    text += metadata.themes.empty() ? "\n\n" : "\n" + themes_table(metadata) + "\n";
+    return text + levels_table(metadata);
   }
 
   static double bytes_per_vertex(const ImportReport& report) {
@@ -141,7 +159,7 @@ class ImportVerb final : public Verb {
 
   std::string store_;
   std::string kind_ = "terrain";
-  std::string theme_, height_field_, classes_, max_gap_, levels_, resolution_, memory_;
+  std::string classes_, max_gap_, levels_, resolution_, memory_;
   ImportOptions options_;
 };
 

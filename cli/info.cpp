@@ -22,6 +22,7 @@ Document sources_document(const StoreMetadata& metadata) {
   for (const SourceInfo& source : metadata.sources) {
     sources.push_back({{"path", source.path},
                        {"kind", source.kind},
+                       {"theme", source.theme},
                        {"imported", source.imported},
                        {"sha256", source.sha256},
                        {"crs", source.source_crs},
@@ -44,7 +45,7 @@ Document info_document(const Store& store) {
   document["bytes"] = store.file_bytes();
   document["bytes_per_vertex"] = bytes_per_vertex(store);
   document["levels"] = levels_document(metadata);
-  document["themes"] = Document::array();
+  document["themes"] = themes_document(metadata);
   document["sources"] = sources_document(metadata);
   return document;
 }
@@ -59,12 +60,14 @@ std::string info_text(const Store& store) {
   text += fmt::format("{:<12}{:g} m\n", "resolution", metadata.grid.resolution);
   text += fmt::format("{:<12}{} in {}, {:.2f} bytes a vertex\n", "vertices", grouped(metadata.vertices),
                       readable_bytes(store.file_bytes()), bytes_per_vertex(store));
-  text += fmt::format("{:<12}none\n\n", "themes");
+  text += themes_table(metadata) + "\n";
   text += levels_table(metadata);
   text += "\nimported\n";
   for (const SourceInfo& source : metadata.sources) {
-    text += fmt::format("  {}  {}{}  {:>13} vertices, every {:.4g} m  {}\n", source.imported, source.kind,
-                        source.replaces ? " (replacing)" : "", grouped(source.vertices), source.spacing, source.path);
+    const std::string spacing =
+        source.theme.empty() ? fmt::format("every {:.4g} m", source.spacing) : fmt::format("in theme {}", source.theme);
+    text += fmt::format("  {}  {}{}  {:>13} vertices, {}  {}\n", source.imported, source.kind,
+                        source.replaces ? " (replacing)" : "", grouped(source.vertices), spacing, source.path);
   }
   return text;
 }

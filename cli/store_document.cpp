@@ -28,7 +28,7 @@ Document error_interval(const CertifiedError& error) {
   return Document::array({error.lo, error.hi});
 }
 
-Document surface_document(const StoreMetadata& metadata, const Detail& detail) {
+Document surface_document(const StoreMetadata& metadata, const Detail& detail, const ThemeChoice& themes) {
   CertifiedError error;
   for (const Ring& ring : detail.rings()) {
     const CertifiedError& of_level = level_for(metadata, ring.tolerance).certified_error;
@@ -42,8 +42,31 @@ Document surface_document(const StoreMetadata& metadata, const Detail& detail) {
       surface["rings"].push_back({{"radius_m", ring.radius}, {"tolerance_m", ring.tolerance}});
     }
   }
-  surface["themes"] = Document::array();
+  surface["themes"] = themes.names(metadata.themes);
   return surface;
+}
+
+Document themes_document(const StoreMetadata& metadata) {
+  Document themes = Document::array();
+  for (const ThemeInfo& theme : metadata.themes) {
+    themes.push_back({{"name", theme.name},
+                      {"kind", name_of(theme.kind)},
+                      {"features", theme.features},
+                      {"vertices", theme.vertices},
+                      {"segments", theme.segments}});
+  }
+  return themes;
+}
+
+std::string themes_table(const StoreMetadata& metadata) {
+  if (metadata.themes.empty()) return fmt::format("{:<12}none\n", "themes");
+  std::string table;
+  for (const ThemeInfo& theme : metadata.themes) {
+    table += fmt::format("{:<12}{} ({}{}): {} features, {} vertices, {} segments\n", table.empty() ? "themes" : "",
+                         theme.name, name_of(theme.kind), is_terrain(theme.kind) ? ", part of the terrain" : "",
+                         grouped(theme.features), grouped(theme.vertices), grouped(theme.segments));
+  }
+  return table;
 }
 
 Document levels_document(const StoreMetadata& metadata) {

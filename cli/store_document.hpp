@@ -15,7 +15,11 @@ Document error_interval(const CertifiedError& error);
 
 /// `surface`: tolerance, certified error and themes of the surface that a query at this detail sees. With rings the
 /// tolerance is the coarsest, the error covers all, and the rings are listed.
-Document surface_document(const StoreMetadata& metadata, const Detail& detail);
+Document surface_document(const StoreMetadata& metadata, const Detail& detail, const ThemeChoice& themes);
+
+/// `themes`, in the store's order; and the same as text.
+Document themes_document(const StoreMetadata& metadata);
+std::string themes_table(const StoreMetadata& metadata);
 
 /// `levels`, finest first. A level's `vertices` are those stored in it, so that they sum up to the store's;
 /// `query_vertices` are those that a query at its tolerance reads: its own and all coarser ones.

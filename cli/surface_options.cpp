@@ -7,14 +7,25 @@
 namespace itin::cli {
 
 void ThemeOptions::declare(CLI::App& app) {
-  app.add_option("--themes", themes_, "Surface features to include (this version: none)")->type_name("none");
+  app.add_option("--themes", themes_,
+                 "Surface features to include: all, none, or their names (default: none). Lines of the terrain are "
+                 "always there")
+      ->type_name("NAME,NAME...");
 }
 
-void ThemeOptions::validate() const {
-  // `all` of no themes is none.
-  if (themes_ == "none" || themes_ == "all") return;
-  throw InputError(
-      fmt::format("--themes '{}': this version's stores hold no themes; leave it out or give none", themes_));
+void ThemeOptions::validate() {
+  if (!themes_.empty()) choice_ = ThemeChoice::parse(themes_);
+}
+
+void ThemeOptions::validate_none(const std::string& verb) {
+  validate();
+  if (!themes_.empty() && themes_ != "none")
+    throw InputError(
+        fmt::format("--themes {}: itin {} sees the terrain alone so far; leave it out, or say none", themes_, verb));
+}
+
+Document ThemeOptions::parameters() const {
+  return themes_.empty() ? Document::object() : Document{{"themes", themes_}};
 }
 
 }  // namespace itin::cli

@@ -1,21 +1,31 @@
-// Options about features on the surface and gaps in it, as far as this version knows any.
+// Options about features on the surface.
 #pragma once
 
 #include <string>
 
 #include <CLI/CLI.hpp>
 
+#include <itin/theme.hpp>
+
+#include "verb.hpp"
+
 namespace itin::cli {
 
-/// `--themes`: this version's stores hold terrain only, so `none` is all there is to choose.
+/// `--themes all|none|name,name`.
 class ThemeOptions {
  public:
   void declare(CLI::App& app);
   /// Throws InputError.
-  void validate() const;
+  void validate();
+  const ThemeChoice& choice() const { return choice_; }
+  /// For verbs that see the terrain alone, so far. Throws InputError where features are asked for.
+  void validate_none(const std::string& verb);
+  /// What was asked for, where it was.
+  Document parameters() const;
 
  private:
-  std::string themes_ = "none";
+  std::string themes_;
+  ThemeChoice choice_ = ThemeChoice::none();
 };
 
 }  // namespace itin::cli

@@ -61,8 +61,9 @@ class TinVerb final : public Verb {
     const Store store(store_);
     const auto [window, centre] = window_.region(store.metadata());
     const Detail detail = detail_.detail(centre);
-    const Tin tin = triangulate(store, window, detail, progress);
-    const Document surface = surface_document(store.metadata(), detail);
+    themes_.choice().check(store.metadata().themes);
+    const Tin tin = triangulate(store, window, detail, progress, themes_.choice());
+    const Document surface = surface_document(store.metadata(), detail, themes_.choice());
     write(tin, store.metadata(), surface, progress);
     return {document(tin, store.metadata(), surface), text(tin), {}, {}};
   }
@@ -72,6 +73,7 @@ class TinVerb final : public Verb {
   Document query() const {
     Document query = window_.parameters();
     query.update(detail_.parameters());
+    query.update(themes_.parameters());
     if (kind_) query["topology"] = topology_;
     return query;
   }
@@ -80,6 +82,7 @@ class TinVerb final : public Verb {
     TinExportOptions options;
     options.crs_wkt = metadata.crs_wkt;
     options.overwrite = policy_.overwrite;
+    for (const ThemeInfo& theme : metadata.themes) options.theme_names.push_back(theme.name);
     options.metadata_json = Document{{"itin", ITIN_VERSION}, {"command", query()}, {"surface", surface}}.dump();
     if (kind_) {
       export_topology(tin, *kind_, output_, options, progress);
@@ -95,6 +98,7 @@ class TinVerb final : public Verb {
     if (!tin.vertices.empty()) document["bounds"] = box_document(tin.bounds());
     document["vertices"] = tin.vertices.size();
     document["triangles"] = tin.triangles.size();
+    document["line_edges"] = tin.lines.size();
     document["outputs"] = Document::array({output_});
     document["statistics"] = {{"points_read", tin.statistics.points_read},
                               {"blocks_read", tin.statistics.blocks_read},

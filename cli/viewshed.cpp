@@ -63,6 +63,7 @@ class ViewshedVerb final : public Verb {
     validate_targets();
     detail_.validate();
     themes_.validate();
+    request_.themes = themes_.choice();
     earth_.validate();
     request_.earth = earth_.earth();
     if (!mode_text_.empty()) request_.mode = parse_mode();
@@ -89,6 +90,7 @@ class ViewshedVerb final : public Verb {
     if (request_.cell_size) parameters["cell_m"] = *request_.cell_size;
     if (!like_.empty()) parameters["like"] = like_;
     parameters.update(detail_.parameters());
+    parameters.update(themes_.parameters());
     parameters["nodata"] = nodata_text_.empty() ? "unknown" : nodata_text_;
     return parameters;
   }
@@ -98,8 +100,9 @@ class ViewshedVerb final : public Verb {
     const Store store(store_);
     const StoreMetadata& metadata = store.metadata();
     complete_request(metadata);
+    request_.themes.check(metadata.themes);
     const viewshed::Surveyed surveyed = viewshed::compute_with_surface(store, request_, progress);
-    const Document surface = surface_document(metadata, request_.detail);
+    const Document surface = surface_document(metadata, request_.detail, request_.themes);
     Result result;
     result.warnings = surveyed.result.warnings;
     write(surveyed, metadata, surface, result.warnings);

@@ -11,7 +11,8 @@ measure() {
     echo "$name failed: $*" >&2
     exit 1
   fi
-  read -r seconds[$name] megabytes[$name] < <(awk '{ printf "%s %.0f\n", $1, $2 / 1024 }' "$figures")
+  seconds["$name"]=$(awk '{ print $1 }' "$figures")
+  megabytes["$name"]=$(awk '{ printf "%.0f", $2 / 1024 }' "$figures")
   rm -f "$figures" "$figures.log"
   printf '  %-34s %9.2f s %9d MB\n' "$name" "${seconds[$name]}" "${megabytes[$name]}"
 }

@@ -19,7 +19,10 @@ namespace itin::test {
 /// Puts vertices in the order of their ids and triangles in canonical order, and drops vertices that none uses.
 inline Tin canonical_tin(const Grid& grid, const std::vector<GridPoint>& points,
                          const std::vector<std::uint16_t>& sources, std::vector<Triangle> triangles) {
-  Tin whole{grid, points, sources, {}, {}};
+  Tin whole;
+  whole.grid = grid;
+  whole.vertices = points;
+  whole.sources = sources;
   std::set<std::uint32_t> used;
   for (const Triangle& t : triangles) used.insert(t.begin(), t.end());
   std::vector<std::uint32_t> order(used.begin(), used.end());

@@ -12,7 +12,7 @@ Surveyed compute_with_surface(const Store& store, const Request& request, Progre
   validate(request);
   const auto start = std::chrono::steady_clock::now();
   Surveyed surveyed;
-  surveyed.tin = triangulate(store, window_of(request), request.detail, progress);
+  surveyed.tin = triangulate(store, window_of(request), request.detail, progress, request.themes);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   surveyed.result = compute(surveyed.tin, request, progress);
   surveyed.result.statistics.retrieval_seconds = elapsed.count();

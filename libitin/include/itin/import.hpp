@@ -1,4 +1,4 @@
-// Import of terrain: from rasters, point files and LAS to a store with its Delaunay pyramid.
+// Import of terrain: from rasters, point files and LAS to a store with its Delaunay pyramid; and of lines.
 //
 //   ImportOptions options;
 //   options.sources = {"ST17.asc", "ST18.asc"};
@@ -24,8 +24,10 @@ struct ImportOptions {
   std::vector<std::string> sources;  ///< anything GDAL opens as a raster or a point layer, .las, .csv, .xyz, .txt
 
   // Changes the answer.
-  std::string crs;     ///< of sources that do not say; overrides those that do
-  std::string to_crs;  ///< of the store; default: the source's own if metric and projected, else a UTM zone
+  std::optional<ThemeKind> kind;  ///< of lines, for import_lines(); nothing: terrain points
+  std::string theme;              ///< of lines: its name
+  std::string crs;                ///< of sources that do not say; overrides those that do
+  std::string to_crs;             ///< of the store; default: the source's own if metric and projected, else a UTM zone
   std::string
       z_field;  ///< the height attribute of point layers and CSV; default: Z of the geometry, or the third column
   std::string layer;
@@ -51,6 +53,9 @@ struct ImportReport {
   std::uint64_t duplicates = 0;  ///< positions that were there already
   std::uint64_t replaced = 0;    ///< coarser points that made room
   std::uint64_t isolated = 0;    ///< points left out because no ground could be triangulated about them
+  std::uint64_t features = 0;    ///< of lines read
+  std::uint64_t crossings = 0;   ///< pairs of segments that crossed, of any themes, and were given a vertex
+  std::uint64_t left_out = 0;    ///< segments, of any theme, that do not lie wholly on the ground
   std::uint64_t vertices = 0;    ///< of the store now
   std::uint64_t store_bytes = 0;
   double seconds = 0;
@@ -61,5 +66,12 @@ struct ImportReport {
 /// Throws InputError, FileError, StoreFormatError, CorruptStore, Cancelled. Whatever is thrown, the store stays as it
 /// was.
 ImportReport import_terrain(const std::string& store_path, const ImportOptions& options, Progress& progress);
+
+/// Adds lines and polygons (as their rings) to a theme, which is made if there is none of that name. Contours may make
+/// a new store; other lines need ground to lie on. All lines of the store are made planar together: crossings get a
+/// vertex, and no line moves by more than half a grid step. Heights of lines of the terrain win over those of points;
+/// of lines that meet, those of the terrain and then the first name in order decide. Lines of other kinds take the
+/// heights of the full surface at their vertices. Throws as above.
+ImportReport import_lines(const std::string& store_path, const ImportOptions& options, Progress& progress);
 
 }  // namespace itin

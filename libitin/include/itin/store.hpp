@@ -16,6 +16,7 @@
 
 #include <itin/geometry.hpp>
 #include <itin/progress.hpp>
+#include <itin/theme.hpp>
 
 namespace itin {
 
@@ -38,7 +39,8 @@ struct LevelInfo {
 /// One imported file.
 struct SourceInfo {
   std::string path;            ///< as given to the import
-  std::string kind;            ///< "terrain"
+  std::string kind;            ///< "terrain", or a theme's kind (theme.hpp)
+  std::string theme;           ///< name of the theme; empty for terrain
   std::string imported;        ///< UTC, ISO 8601
   std::string sha256;          ///< of the file's bytes; empty where the source is not a plain file
   std::string source_crs;      ///< as found or given, authority:code or WKT
@@ -58,6 +60,7 @@ struct StoreMetadata {
   GridBox bounds;                   ///< of all vertices
   std::vector<LevelInfo> levels;    ///< level 0 (tolerance 0) first, then coarser and coarser
   std::vector<SourceInfo> sources;  ///< also the import history, in order
+  std::vector<ThemeInfo> themes;    ///< those of the terrain first, then by name
   std::uint64_t vertices = 0;
 };
 

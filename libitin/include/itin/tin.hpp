@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <vector>
 
@@ -14,6 +15,14 @@ using VertexId = std::uint64_t;
 
 /// Indices into Tin::vertices, counterclockwise seen from above, the smallest first.
 using Triangle = std::array<std::uint32_t, 3>;
+
+/// An edge that is part of a line. Ends are indices into Tin::vertices, the smaller first.
+struct LineEdge {
+  std::uint32_t from = 0;
+  std::uint32_t to = 0;
+  std::uint16_t theme = 0;  ///< StoreMetadata::themes[theme - 1]
+  friend auto operator<=>(const LineEdge&, const LineEdge&) = default;
+};
 
 /// What retrieving a window cost.
 struct RetrievalStatistics {
@@ -35,6 +44,7 @@ struct Tin {
   std::vector<std::uint16_t> sources;  ///< per vertex: index into StoreMetadata::sources
   std::vector<Triangle> triangles;
   RetrievalStatistics statistics;
+  std::vector<LineEdge> lines;  ///< of every theme present, ascending; an edge that themes share comes for each
 
   Point3 point(std::uint32_t vertex) const { return grid.point(vertices[vertex]); }
   VertexId id(std::uint32_t vertex) const;

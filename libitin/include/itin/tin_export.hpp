@@ -7,15 +7,17 @@
 // The file name's ending chooses the format. Vertices keep their order, and triangles theirs, in every format.
 //
 // .ply      binary, little-endian. Vertex properties: double x y z; uint id_high id_low, where the VertexId is
-//           id_high * 2^32 + id_low; ushort source. Faces: vertex_indices. The CRS is a comment.
+//           id_high * 2^32 + id_low; ushort source. Faces: vertex_indices. Where there are lines, edges: int vertex1
+//           vertex2; ushort theme, whose name is in a comment `theme NUMBER NAME`. The CRS is a comment.
 // .obj      text; positions as the shortest decimals that read back as the same doubles. No ids: it has no place for
 //           them. The CRS is a comment.
 // .glb      glTF 2.0, for viewing: y up, x east, z south. Single-precision positions about a local origin, wrong by at
 //           most 2^-23 of the extent; the origin (easting, northing, up, exact) and the CRS are in the scene's extras.
 //           Normals, colours by height; _VERTEX_ID as four 16-bit words, least first; _SOURCE.
-// .gpkg     layers `triangles` (polygons with z; vertex_a/b/c, source_a/b/c) and `vertices` (points with z; id and
-//           source). Only the former has a spatial index, which is what takes the time: 12 s a million triangles.
-//           Timestamps are fixed, so that equal Tins give equal files.
+// .gpkg     layers `triangles` (polygons with z; vertex_a/b/c, source_a/b/c), `vertices` (points with z; id and
+//           source) and, where there are lines, `lines` (edges with z; vertex_a/b, theme by name). Only the former has
+//           a spatial index, which is what takes the time: 12 s a million triangles. Timestamps are fixed, so that
+//           equal Tins give equal files.
 // .geojson  polygons with z in the store's CRS, named in the `crs` member of GeoJSON 2008, which GDAL and QGIS follow;
 //           the same properties. Ids are integers beyond 2^53: read them with 64 bits.
 //
@@ -24,6 +26,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <itin/progress.hpp>
 #include <itin/tin.hpp>
@@ -31,8 +34,9 @@
 namespace itin {
 
 struct TinExportOptions {
-  std::string crs_wkt;        ///< of the coordinates; empty: unknown
-  bool overwrite = false;     ///< replace an existing file
+  std::vector<std::string> theme_names;  ///< of Tin::lines: theme t is theme_names[t - 1]
+  std::string crs_wkt;                   ///< of the coordinates; empty: unknown
+  bool overwrite = false;                ///< replace an existing file
   std::string metadata_json;  ///< a JSON object that says where the Tin comes from, or nothing. Kept by .glb (extras),
                               ///< .gpkg (metadata item METADATA_JSON), .geojson (`metadata`); its members open a
                               ///< topology document.

@@ -3,6 +3,7 @@
 
 #include <itin/detail.hpp>
 #include <itin/progress.hpp>
+#include <itin/theme.hpp>
 #include <itin/tin.hpp>
 #include <itin/window.hpp>
 
@@ -10,12 +11,15 @@ namespace itin {
 
 class Store;
 
-/// Exactly those ground triangles of the triangulation of the whole store, at this detail, that meet the window,
-/// whatever the window, the tiling or the number of threads.
+/// Exactly those ground triangles of the triangulation of the whole store, at this detail and with these themes, that
+/// meet the window, whatever the window, the tiling or the number of threads. Lines of the terrain are always part of
+/// it.
 ///
 /// Cost: reads the leaves that meet the window and a few around it; O(n log n) in the points read. Memory follows the
 /// window: about 300 bytes a point while running, 28 bytes a point for the result.
-/// Throws CorruptStore, FileError, Cancelled. An answer without triangles is not an error.
-Tin triangulate(const Store& store, const Window& window, const Detail& detail, Progress& progress);
+/// Throws InputError (a theme the store does not have), CorruptStore, FileError, Cancelled. An answer without triangles
+/// is not an error.
+Tin triangulate(const Store& store, const Window& window, const Detail& detail, Progress& progress,
+                const ThemeChoice& themes = ThemeChoice::none());
 
 }  // namespace itin

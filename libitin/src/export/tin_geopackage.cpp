@@ -51,6 +51,7 @@ class GeoPackage {
     for (const char* field : sources) add_field(*layer, field, OFTInteger);
     return *layer;
   }
+  void add_text_field(OGRLayer& layer, const char* name) { add_field(layer, name, OFTString); }
   void add(OGRLayer& layer, OGRFeature& feature) {
     feature.SetFID(OGRNullFID);
     require(layer.CreateFeature(&feature) == OGRERR_NONE, "cannot be written");
@@ -114,15 +115,36 @@ void write_vertices(const Tin& tin, GeoPackage& package, StepProgress& steps) {
   }
 }
 
+void write_lines(const Tin& tin, const std::vector<std::string>& theme_names, GeoPackage& package,
+                 StepProgress& steps) {
+  OGRLayer& layer = package.add_layer("lines", wkbLineString25D, "NO", {"vertex_a", "vertex_b"}, {});
+  package.add_text_field(layer, "theme");
+  OGRFeature feature(layer.GetLayerDefn());
+  for (const LineEdge& e : tin.lines) {
+    auto line = std::make_unique<OGRLineString>();
+    for (const std::uint32_t v : {e.from, e.to}) {
+      const Point3 p = tin.point(v);
+      line->addPoint(p.x, p.y, p.z);
+    }
+    feature.SetField(0, static_cast<GIntBig>(tin.id(e.from)));
+    feature.SetField(1, static_cast<GIntBig>(tin.id(e.to)));
+    feature.SetField(2, e.theme <= theme_names.size() ? theme_names[e.theme - std::size_t{1}].c_str() : "");
+    feature.SetGeometryDirectly(line.release());
+    package.add(layer, feature);
+    steps.step();
+  }
+}
+
 }  // namespace
 
 void write_geopackage(const Tin& tin, const PendingFile& output, const TinExportOptions& options, Progress& progress) {
   const QuietGdal quiet;
   const FixedTimestamps fixed;
   GeoPackage package(output, options);
-  StepProgress steps(progress, tin.triangles.size() + tin.vertices.size());
+  StepProgress steps(progress, tin.triangles.size() + tin.vertices.size() + tin.lines.size());
   write_triangles(tin, package, steps);
   write_vertices(tin, package, steps);
+  if (!tin.lines.empty()) write_lines(tin, options.theme_names, package, steps);
   package.close();
 }
 

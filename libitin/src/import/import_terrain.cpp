@@ -3,9 +3,14 @@
 #include <filesystem>
 #include <optional>
 
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
 #include <itin/import.hpp>
 #include <itin/store.hpp>
 
+#include "import/line_collection.hpp"
+#include "import/line_layer.hpp"
 #include "import/sorted_points.hpp"
 #include "import/terrain_source.hpp"
 #include "pyramid/pyramid.hpp"
@@ -50,8 +55,9 @@ void check_resolution(const ImportOptions& options, const Store* existing) {
   }
 }
 
-/// Adds the points that a store holds already.
-std::uint64_t add_stored(const Store& store, PointSorter& sorter, Progress& progress) {
+/// Adds the points that a store holds already, and takes its lines over.
+std::uint64_t add_stored(const Store& store, PointSorter& sorter, LineCollection& lines, Progress& progress) {
+  lines.take_themes(store.metadata());
   std::vector<Leaf> leaves;
   store.points().leaves(0, store.points().bounds(), leaves);
   std::uint64_t count = 0;
@@ -62,12 +68,14 @@ std::uint64_t add_stored(const Store& store, PointSorter& sorter, Progress& prog
     points.clear();
     for (std::size_t k = 0; k < block->points.size(); ++k) {
       const GridPoint& p = block->points[k];
+      if (lines.take_vertex(p, block->sources[k])) continue;
       points.push_back({morton(p.x, p.y), p.z, block->sources[k], 0});
     }
     sorter.add(points);
     count += points.size();
     progress.report("reading the store", static_cast<double>(i + 1) / static_cast<double>(leaves.size()));
   }
+  lines.take_segments(store.points());
   return count;
 }
 
@@ -87,14 +95,43 @@ void add_source(TerrainSource& source, std::uint16_t number, PointSorter& sorter
   report.warnings.insert(report.warnings.end(), counts.warnings.begin(), counts.warnings.end());
 }
 
+void add_lines(LineLayer& layer, std::uint16_t number, const ImportPlan& plan, const ImportOptions& options,
+               LineCollection& lines, ImportReport& report, Progress& progress) {
+  const std::uint32_t theme = lines.theme(options.theme, *options.kind);
+  const ReadCounts counts = layer.read(
+      {plan.grid, plan.crs_wkt}, [&](std::span<const GridPoint> line) { lines.add(theme, number, line); }, progress);
+  lines.add_features(theme, layer.features());
+  report.read += counts.read;
+  report.voids += counts.voids;
+  report.filtered += counts.filtered;
+  report.features += layer.features();
+  report.warnings.insert(report.warnings.end(), counts.warnings.begin(), counts.warnings.end());
+}
+
+/// The vertices of the terrain's lines are points of the full surface.
+void add_line_vertices(const ThemeLines& lines, PointSorter& sorter) {
+  std::vector<bool> terrain(lines.lines.vertices.size());
+  for (const PlanarEdge& e : lines.lines.edges) {
+    if (lines.terrain[e.owner]) terrain[e.from] = terrain[e.to] = true;
+  }
+  for (std::size_t v = 0; v < terrain.size(); ++v) {
+    const GridPoint& p = lines.lines.vertices[v];
+    if (terrain[v]) sorter.add({morton(p.x, p.y), p.z, lines.sources[v], 0});
+  }
+}
+
+/// Names stand in lists with commas, beside `all` and `none`.
+void require_theme_name(const std::string& name) {
+  if (name == "all" || name == "none" || name.find(',') != std::string::npos)
+    throw InputError(fmt::format("theme '{}': choose a name without commas, other than all and none", name));
+}
+
 std::string directory_of(const std::string& path) {
   const std::string parent = std::filesystem::path(path).parent_path().string();
   return parent.empty() ? "." : parent;
 }
 
-}  // namespace
-
-ImportReport import_terrain(const std::string& store_path, const ImportOptions& options, Progress& progress) {
+ImportReport import_sources(const std::string& store_path, const ImportOptions& options, Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
   if (options.sources.empty()) throw InputError("no source given: name at least one file to import");
   std::optional<Store> existing;
@@ -110,40 +147,75 @@ ImportReport import_terrain(const std::string& store_path, const ImportOptions& 
   report.warnings = plan.warnings;
   std::vector<SourceInfo> sources;
   if (store != nullptr) sources = store->metadata().sources;
-  if (sources.size() + plan.sources.size() > 65535)
+  if (sources.size() + plan.sources.size() + plan.lines.size() > 65535)
     throw InputError("a store holds at most 65,535 sources; merge some of them first");
 
   // The writer comes first: it holds the lock, and a place that cannot be written is known before hours of work.
   StoreWriter writer(store_path, plan.crs_wkt, plan.grid, tolerances);
   PointSorter sorter(directory_of(store_path), options.memory_bytes / 2);
-  std::uint64_t offered = store != nullptr ? add_stored(*store, sorter, progress) : 0;
+  LineCollection collection;
+  std::uint64_t offered = store != nullptr ? add_stored(*store, sorter, collection, progress) : 0;
   for (const auto& source : plan.sources) {
     add_source(*source, static_cast<std::uint16_t>(sources.size()), sorter, report, progress);
     sources.push_back(source->info());
     sources.back().replaces = options.replace;
   }
+  for (const auto& layer : plan.lines) {
+    add_lines(*layer, static_cast<std::uint16_t>(sources.size()), plan, options, collection, report, progress);
+    sources.push_back(layer->info());
+  }
   offered += report.read;
   if (offered == 0) throw InputError("nothing to import: the sources hold no point with a height");
+
+  const ThemeLines lines = collection.finish();
+  report.crossings = lines.lines.crossings;
+  add_line_vertices(lines, sorter);
 
   std::vector<double> spacings;
   for (const SourceInfo& source : sources) spacings.push_back(source.spacing);
   SortedPoints points = sorter.finish(spacings, progress, &report.duplicates);
-  const PyramidReport pyramid = build_pyramid(points, sources, plan.grid, tolerances, writer, progress);
+  const PyramidReport pyramid = build_pyramid(points, sources, plan.grid, tolerances, lines, writer, progress);
   report.replaced = pyramid.replaced;
   report.isolated = pyramid.isolated;
+  report.left_out = pyramid.left_out;
   for (std::size_t s = 0; s < sources.size(); ++s) {
     sources[s].vertices = pyramid.vertices_of_source[s];
     report.vertices += sources[s].vertices;
   }
   if (report.vertices == 0)
     throw InputError("nothing to import: no three points are near enough to each other to be ground (see --max-gap)");
-  writer.commit(std::move(sources));
+  std::vector<ThemeInfo> themes = collection.themes();
+  for (std::size_t t = 0; t < themes.size(); ++t) {
+    themes[t].segments = pyramid.segments[t];
+    themes[t].vertices = pyramid.line_vertices[t];
+  }
+  writer.commit(std::move(sources), std::move(themes));
 
   const Store written(store_path);
   report.store_bytes = written.file_bytes();
   report.levels = written.metadata().levels;
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
+}
+
+}  // namespace
+
+ImportReport import_terrain(const std::string& store_path, const ImportOptions& options, Progress& progress) {
+  ImportOptions terrain = options;
+  terrain.kind.reset();
+  return import_sources(store_path, terrain, progress);
+}
+
+ImportReport import_lines(const std::string& store_path, const ImportOptions& options, Progress& progress) {
+  if (!options.kind) throw InputError("lines: say of which kind they are");
+  ImportOptions lines = options;
+  if (lines.theme.empty()) lines.theme = name_of(*options.kind);
+  require_theme_name(lines.theme);
+  if (options.kind != ThemeKind::Contours && !std::filesystem::exists(store_path)) {
+    throw InputError(fmt::format("{}: there is no such store; {} need ground to lie on, so import terrain first",
+                                 store_path, name_of(*options.kind)));
+  }
+  return import_sources(store_path, lines, progress);
 }
 
 }  // namespace itin

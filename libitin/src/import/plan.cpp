@@ -11,6 +11,7 @@
 
 #include <itin/error.hpp>
 
+#include "import/line_layer.hpp"
 #include "import/point_source.hpp"
 #include "import/raster_source.hpp"
 #include "import/source_context.hpp"
@@ -21,6 +22,7 @@ namespace itin {
 namespace {
 
 using SourceFiles = std::vector<std::unique_ptr<SourceFile>>;
+using OpenedFiles = std::vector<const OpenedFile*>;
 
 // Finer, and heights of 20 km would not fit; coarser, and the posts of detailed models would fall together.
 constexpr double kFinestResolution = 0.0001, kCoarsestResolution = 10;
@@ -66,7 +68,7 @@ struct StoreCrs {
   bool chosen = false;
 };
 
-StoreCrs settle_crs(const ImportOptions& options, const StoreMetadata* existing, const SourceFile& first) {
+StoreCrs settle_crs(const ImportOptions& options, const StoreMetadata* existing, const OpenedFile& first) {
   if (existing) {
     const StoreCrs settled{parse_crs(existing->crs_wkt, "the store's CRS")};
     if (!options.to_crs.empty() &&
@@ -100,16 +102,16 @@ class VerticalDatums {
   std::string datum_, place_;
 };
 
-void check_vertical_datums(const SourceFiles& opened, const ImportOptions& options, const StoreMetadata* existing) {
+void check_vertical_datums(const OpenedFiles& opened, const ImportOptions& options, const StoreMetadata* existing) {
   VerticalDatums datums;
   if (existing)
     for (const SourceInfo& source : existing->sources)
       if (!source.source_crs.empty()) datums.add(parse_crs(source.source_crs, source.path).vertical_datum, source.path);
   if (!options.to_crs.empty()) datums.add(parse_crs(options.to_crs, "--to-crs").vertical_datum, "--to-crs");
-  for (const std::unique_ptr<SourceFile>& file : opened) datums.add(file->crs().vertical_datum, file->path());
+  for (const OpenedFile* file : opened) datums.add(file->crs().vertical_datum, file->path());
 }
 
-Grid settle_grid(const ImportOptions& options, const StoreMetadata* existing, const SourceFile& first, const Crs& crs) {
+Grid settle_grid(const ImportOptions& options, const StoreMetadata* existing, const OpenedFile& first, const Crs& crs) {
   if (existing) return existing->grid;
   if (!(options.resolution >= kFinestResolution && options.resolution <= kCoarsestResolution))
     throw InputError(fmt::format("--resolution {}: give {} to {} metres", options.resolution, kFinestResolution,
@@ -127,18 +129,37 @@ Grid settle_grid(const ImportOptions& options, const StoreMetadata* existing, co
 
 }  // namespace
 
+ImportPlan::ImportPlan() = default;
+ImportPlan::ImportPlan(ImportPlan&&) noexcept = default;
+ImportPlan& ImportPlan::operator=(ImportPlan&&) noexcept = default;
+ImportPlan::~ImportPlan() = default;
+
 ImportPlan plan_import(const ImportOptions& options, const StoreMetadata* existing) {
   if (options.sources.empty()) throw InputError("import: name at least one source");
-  SourceFiles opened;
-  for (const std::string& path : options.sources) open_sources(path, options, opened);
+  ImportPlan plan;
+  SourceFiles points;
+  for (const std::string& path : options.sources) {
+    if (options.kind) {
+      if (!path.starts_with("/vsi")) require_readable(path);
+      plan.lines.push_back(std::make_unique<LineLayer>(path, options));
+    } else {
+      open_sources(path, options, points);
+    }
+  }
+  OpenedFiles opened;
+  for (const auto& file : points) opened.push_back(file.get());
+  for (const auto& file : plan.lines) opened.push_back(file.get());
   if (!options.allow_mixed_vertical) check_vertical_datums(opened, options, existing);
   const auto [crs, chosen] = settle_crs(options, existing, *opened.front());
-  ImportPlan plan{crs.wkt, crs.name, chosen, settle_grid(options, existing, *opened.front(), crs), {}, {}};
-  for (const std::unique_ptr<SourceFile>& file : opened) {
-    plan.sources.push_back(file->bind({plan.grid, plan.crs_wkt}));
+  plan.crs_wkt = crs.wkt;
+  plan.crs_name = crs.name;
+  plan.crs_chosen = chosen;
+  plan.grid = settle_grid(options, existing, *opened.front(), crs);
+  for (const OpenedFile* file : opened) {
     std::vector<std::string> warnings = file->warnings();
     std::move(warnings.begin(), warnings.end(), std::back_inserter(plan.warnings));
   }
+  for (const auto& file : points) plan.sources.push_back(file->bind({plan.grid, plan.crs_wkt}));
   return plan;
 }
 

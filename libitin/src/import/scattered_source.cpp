@@ -20,6 +20,14 @@ double mean_spacing(const Box& bounds, std::uint64_t points) {
   return std::max(std::sqrt(bounds.width() * bounds.height() / n), std::max(bounds.width(), bounds.height()) / n);
 }
 
+}  // namespace
+
+double default_gap(const Box& bounds, std::uint64_t points) {
+  return kGapSpacings * mean_spacing(bounds, points);
+}
+
+namespace {
+
 class ScatteredTerrain final : public TerrainSource {
  public:
   ScatteredTerrain(std::unique_ptr<PointReader> reader, const Crs& crs, double metres_per_height, double max_gap,

@@ -17,4 +17,7 @@ namespace itin {
 /// Throws InputError for a CRS that is missing or not understood.
 std::unique_ptr<SourceFile> scattered_source(std::unique_ptr<PointReader> reader, const ImportOptions& options);
 
+/// The widest gap in which ground is triangulated, metres, where the call gives none.
+double default_gap(const Box& bounds, std::uint64_t points);
+
 }  // namespace itin

@@ -28,10 +28,9 @@ struct SourceContext {
 };
 
 /// A file that was opened and understood. The constructor's work is bounded: headers, not points.
-class SourceFile {
+class OpenedFile {
  public:
-  virtual ~SourceFile() = default;
-  /// Before bind() only.
+  virtual ~OpenedFile() = default;
   virtual const std::string& path() const = 0;
   /// --crs, else as found in the file. Throws InputError where there is neither: see missing_crs().
   virtual Crs crs() const = 0;
@@ -39,6 +38,11 @@ class SourceFile {
   virtual Point2 centre() const = 0;
   /// One line each: assumptions made on opening.
   virtual std::vector<std::string> warnings() const { return {}; }
+};
+
+/// One of terrain points. What it says of itself holds before bind() only.
+class SourceFile : public OpenedFile {
+ public:
   /// Called once. Throws InputError where coordinates cannot be transformed.
   virtual std::unique_ptr<TerrainSource> bind(const SourceContext& context) = 0;
 };

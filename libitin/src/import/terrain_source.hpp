@@ -34,12 +34,19 @@ class TerrainSource {
   virtual double size_hint() const = 0;
 };
 
+class LineLayer;  // line_layer.hpp
+
 struct ImportPlan {
   std::string crs_wkt;  ///< of the store: projected, metres
   std::string crs_name;
   bool crs_chosen = false;  ///< a UTM zone was chosen
   Grid grid;
+  ImportPlan();
+  ImportPlan(ImportPlan&&) noexcept;
+  ImportPlan& operator=(ImportPlan&&) noexcept;
+  ~ImportPlan();
   std::vector<std::unique_ptr<TerrainSource>> sources;
+  std::vector<std::unique_ptr<LineLayer>> lines;  ///< where the call names a kind of theme
   std::vector<std::string> warnings;
 };
 

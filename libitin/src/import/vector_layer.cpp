@@ -1,14 +1,18 @@
 #include "import/vector_layer.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
 #include <vector>
 
+#include <cpl_conv.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <gdal_priv.h>
-#include <ogrsf_frmts.h>
 
 #include <itin/error.hpp>
 
+#include "import/crs.hpp"
 #include "import/quiet_gdal.hpp"
 
 namespace itin {
@@ -46,6 +50,54 @@ void select_features(OGRLayer& layer, const std::string& path, const std::string
     throw FileError(
         path, fmt::format("--where {} names a field that layer '{}' has not: {}", where, layer.GetName(), reason));
   throw InputError(fmt::format("{}: --where {} is not understood: {}", path, where, reason));
+}
+
+VectorLayer::VectorLayer(std::string path, const ImportOptions& options, const std::string& what)
+    : path_(std::move(path)) {
+  const QuietGdal quiet;
+  dataset_.reset(GDALDataset::Open(path_.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
+  if (!dataset_) throw FileError(path_, "cannot be read as " + what + ": " + QuietGdal::message("unknown error"));
+  layer_ = &choose_layer(*dataset_, path_, options.layer);
+}
+
+void VectorLayer::select(const ImportOptions& options) {
+  const QuietGdal quiet;
+  if (!options.z_field.empty()) height_field_ = field_of_layer(*layer_, path_, options.z_field);
+  const GIntBig all = layer_->GetFeatureCount();
+  if (!options.where.empty()) select_features(*layer_, path_, options.where);
+  const GIntBig matching = layer_->GetFeatureCount();
+  matching_ = static_cast<std::uint64_t>(std::max<GIntBig>(0, matching));
+  filtered_ = static_cast<std::uint64_t>(std::max<GIntBig>(0, all - matching));
+}
+
+std::string VectorLayer::crs() const {
+  const OGRSpatialReference* reference = layer_->GetSpatialRef();
+  return reference ? wkt_of(*reference) : std::string();
+}
+
+/// The next feature; null at the end. GDAL tells an end from a failure only by its error state, which others may leave
+/// set between two calls.
+OGRFeatureUniquePtr VectorLayer::next() {
+  const QuietGdal quiet;
+  OGRFeatureUniquePtr feature(layer_->GetNextFeature());
+  if (!feature && QuietGdal::failed()) throw FileError(path_, QuietGdal::message("unknown error"));
+  return feature;
+}
+
+double VectorLayer::height(const OGRFeature& feature) const {
+  if (!feature.IsFieldSetAndNotNull(height_field_)) return std::numeric_limits<double>::quiet_NaN();
+  const OGRFieldDefn& field = *feature.GetFieldDefnRef(height_field_);
+  const double value = feature.GetFieldAsDouble(height_field_);
+  const bool numeric =
+      field.GetType() != OFTString || CPLGetValueType(feature.GetFieldAsString(height_field_)) != CPL_VALUE_STRING;
+  if (!numeric || !std::isfinite(value))
+    throw InputError(fmt::format("{}: {} '{}' is not a finite number", place(feature), field.GetNameRef(),
+                                 feature.GetFieldAsString(height_field_)));
+  return value;
+}
+
+std::string VectorLayer::place(const OGRFeature& feature) const {
+  return fmt::format("{}: layer '{}': feature {}", path_, layer_->GetName(), feature.GetFID());
 }
 
 }  // namespace itin

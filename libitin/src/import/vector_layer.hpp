@@ -1,11 +1,13 @@
-// What every reader of a vector layer asks first: which layer, which field, which features. Messages name what there
-// is.
+// A layer of features in any vector format GDAL reads, opened and filtered, whatever its geometry.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
-class GDALDataset;
-class OGRLayer;
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include <itin/import.hpp>
 
 namespace itin {
 
@@ -18,5 +20,41 @@ int field_of_layer(OGRLayer& layer, const std::string& path, const std::string& 
 /// Restricts what is read to `where`, in OGR's SQL or the database's own. Throws FileError for a field that the layer
 /// has not, InputError for a clause that makes no sense. Within the life of a QuietGdal.
 void select_features(OGRLayer& layer, const std::string& path, const std::string& where);
+
+class VectorLayer {
+ public:
+  /// Opens the layer that options.layer names, otherwise the file's only one. `what` says in messages what it should
+  /// hold: "a point layer". Throws FileError.
+  VectorLayer(std::string path, const ImportOptions& options, const std::string& what);
+
+  /// Takes options.z_field as the field of heights and options.where as the filter. Throws FileError (no such field),
+  /// InputError (a where clause that is not understood).
+  void select(const ImportOptions& options);
+
+  const std::string& path() const { return path_; }
+  std::string name() const { return layer_->GetName(); }
+  /// What the layer says of its CRS, as WKT; empty if it says nothing.
+  std::string crs() const;
+  OGRwkbGeometryType geometry_type() const { return layer_->GetGeomType(); }
+  bool has_height_field() const { return height_field_ >= 0; }
+  /// Features that the filter lets pass, and those it does not.
+  std::uint64_t matching() const { return matching_; }
+  std::uint64_t filtered() const { return filtered_; }
+
+  void rewind() { layer_->ResetReading(); }
+  /// The next feature; null at the end. Throws FileError.
+  OGRFeatureUniquePtr next();
+  /// Of the height field; NaN for null. Throws InputError.
+  double height(const OGRFeature& feature) const;
+  /// For messages: file, layer and feature.
+  std::string place(const OGRFeature& feature) const;
+
+ private:
+  std::string path_;
+  GDALDatasetUniquePtr dataset_;
+  OGRLayer* layer_ = nullptr;
+  int height_field_ = -1;
+  std::uint64_t matching_ = 0, filtered_ = 0;
+};
 
 }  // namespace itin

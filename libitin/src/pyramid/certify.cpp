@@ -14,9 +14,12 @@ namespace itin {
 
 namespace {
 
-/// Points a cell of the first round, which only looks, and of the later ones, which mend where it does not hold.
+/// Points a cell of the first round, which only looks.
 constexpr std::uint32_t kFirstCell = 1 << 15;
-constexpr std::uint32_t kLaterCell = 1 << 11;
+/// A cell of the later rounds, which mend where a level does not hold, has about so many of the level's points. The
+/// full surface under it has to be made anew, so it is no larger than it must be.
+constexpr double kLevelPoints = 128;
+constexpr std::uint32_t kLeastCell = 1 << 11, kGreatestCell = 1 << 15;
 
 using Levels = std::unordered_map<std::uint64_t, int>;  ///< by Morton code
 
@@ -24,26 +27,29 @@ using Levels = std::unordered_map<std::uint64_t, int>;  ///< by Morton code
 class RaisedIndex final : public PointIndex {
  public:
   RaisedIndex(const PointIndex& base, const Levels& raised) : base_(base), raised_(raised) {
-    for (const auto& [code, level] : raised) codes_.push_back(code);
-    std::sort(codes_.begin(), codes_.end());
+    for (const auto& [code, level] : raised) {
+      const std::int32_t x = morton_x(code), y = morton_y(code);
+      base.leaves(0, {x, y, x, y}, leaves_);
+    }
+    std::sort(leaves_.begin(), leaves_.end(), before);
+    const auto same = [](const Leaf& a, const Leaf& b) { return a.cell == b.cell; };
+    leaves_.erase(std::unique(leaves_.begin(), leaves_.end(), same), leaves_.end());
   }
 
   int level_count() const override { return base_.level_count(); }
   GridBox bounds() const override { return base_.bounds(); }
   void leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const override {
-    if (codes_.empty()) return base_.leaves(finest, box, out);
-    const std::size_t before = out.size();
-    base_.leaves(0, box, out);
-    const auto none_raised = [&](const Leaf& leaf) { return !any_raised(leaf.cell); };
-    out.erase(std::remove_if(out.begin() + static_cast<std::ptrdiff_t>(before), out.end(), none_raised), out.end());
-    std::vector<Leaf> selected;
-    base_.leaves(finest, box, selected);
-    std::erase_if(selected, [&](const Leaf& leaf) { return any_raised(leaf.cell); });
-    out.insert(out.end(), selected.begin(), selected.end());
+    const auto first = static_cast<std::ptrdiff_t>(out.size());
+    base_.leaves(finest, box, out);
+    out.erase(std::remove_if(out.begin() + first, out.end(), [&](const Leaf& leaf) { return any_raised(leaf); }),
+              out.end());
+    // They may hold points of this level only now.
+    std::copy_if(leaves_.begin(), leaves_.end(), std::back_inserter(out),
+                 [&](const Leaf& leaf) { return leaf.cell.box().meets(box); });
   }
   std::shared_ptr<const Block> block(const Leaf& leaf) const override {
     auto block = base_.block(leaf);
-    if (!any_raised(leaf.cell)) return block;
+    if (!any_raised(leaf)) return block;
     auto copy = std::make_shared<Block>(*block);
     for (std::size_t i = 0; i < copy->points.size(); ++i) {
       const auto found = raised_.find(morton(copy->points[i].x, copy->points[i].y));
@@ -54,14 +60,12 @@ class RaisedIndex final : public PointIndex {
   void segments(const GridBox& box, std::vector<Segment>& out) const override { base_.segments(box, out); }
 
  private:
-  bool any_raised(const Cell& cell) const {
-    const auto at = std::lower_bound(codes_.begin(), codes_.end(), cell.code);
-    return at != codes_.end() && *at < cell.end();
-  }
+  static bool before(const Leaf& a, const Leaf& b) { return a.cell < b.cell; }
+  bool any_raised(const Leaf& leaf) const { return std::binary_search(leaves_.begin(), leaves_.end(), leaf, before); }
 
   const PointIndex& base_;
   const Levels& raised_;
-  std::vector<std::uint64_t> codes_;
+  std::vector<Leaf> leaves_;  ///< with raised points, along the curve
 };
 
 /// Selects level k and coarser.
@@ -76,26 +80,34 @@ GridBox box_of(const RegionMesh& mesh) {
   return box;
 }
 
+/// What to verify: those leaves of the cell that lie in the box, for these levels.
+struct Task {
+  CurveRange cell;
+  GridBox box;
+  unsigned levels;
+
+  bool covers(const Cell& leaf) const { return cell.cell.contains(leaf) && box.contains(square_of(leaf)); }
+};
+
 struct CellOutcome {
   Levels raised;
   /// Points of other cells, with levels, that would mend what still fails here. Their cells see the same failure.
   std::vector<std::pair<std::uint64_t, int>> left_to_others;
 };
 
-/// Verifies one cell.
+/// Verifies leaves of one cell.
 class CellVerification {
  public:
-  CellVerification(const WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const CurveRange& cell)
-      : index_(index), tolerances_(tolerances), cell_(cell) {}
+  CellVerification(const WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const Task& task)
+      : index_(index), tolerances_(tolerances), task_(task) {}
 
-  /// Levels with their bit set in `levels` are verified, and the cell's points raised, if `mend`, until they hold;
-  /// bounds of the cell's leaves are replaced for these levels.
-  CellOutcome run(unsigned levels, bool mend, LeafBounds& bounds) {
-    fine_ = triangulate_region(index_, levels_from(0, tolerances_), square_of(cell_.cell));
+  /// Replaces the leaves' bounds. If `mend`, points of the cell are raised until the levels hold in the box.
+  CellOutcome run(bool mend, LeafBounds& bounds) {
+    fine_ = triangulate_region(index_, levels_from(0, tolerances_), task_.box);
     if (!fine_.mesh.triangles.empty()) edges_ = std::make_unique<FineEdges>(fine_);
     find_leaves();
     for (int k = static_cast<int>(tolerances_.size()) - 1; k >= 1; --k) {
-      if (!(levels >> k & 1)) continue;
+      if (!(task_.levels >> k & 1)) continue;
       clear(k, bounds);
       if (edges_ == nullptr) continue;
       Difference d = compare(k);
@@ -120,7 +132,7 @@ class CellVerification {
     bool any = false;
     std::erase_if(left_to_others_, [&](const auto& p) { return p.second == k; });
     const auto raise_own = [&](std::uint32_t v) {
-      if (!cell_.cell.contains(code(v))) {
+      if (!task_.cell.cell.contains(code(v))) {
         left_to_others_.emplace_back(code(v), k);
         return;
       }
@@ -128,7 +140,9 @@ class CellVerification {
       any = true;
     };
     for (const std::uint32_t v : worst_by_face(d, tolerances_[static_cast<std::size_t>(k)])) raise_own(v);
-    for (const Difference::Crossing& c : worst_by_edge(d)) raise_own(remedy(c, d));
+    for (const Difference::Crossing& c : worst_by_edge(d)) {
+      if (const auto v = remedy(c, d)) raise_own(*v);
+    }
     return any;
   }
 
@@ -160,8 +174,8 @@ class CellVerification {
   }
 
   /// The fine edge's nearer end, or the other one, or a corner opposite: the first that is not in the coarse surface
-  /// yet. There is one, or both fine triangles would be coarse ones as well.
-  std::uint32_t remedy(const Difference::Crossing& c, const Difference& d) const {
+  /// yet. There is one, or both fine triangles would be coarse ones as well, unless lines differ.
+  std::optional<std::uint32_t> remedy(const Difference::Crossing& c, const Difference& d) const {
     const FineEdges::Edge& edge = edges_->edges()[c.fine_edge];
     for (const std::uint32_t v : {c.nearer_u ? edge.u : edge.v, c.nearer_u ? edge.v : edge.u}) {
       if (!d.is_coarse_vertex[v]) return v;
@@ -172,20 +186,15 @@ class CellVerification {
         if (!d.is_coarse_vertex[v]) return v;
       }
     }
-    throw Error("a coarse edge cannot be mended");
-  }
-
-  template <class Visit>
-  void visit_leaves(const Visit& visit) const {
-    const auto& ranges = index_.ranges();
-    for (std::uint32_t leaf = index_.leaf_of(cell_.cell.code);
-         leaf < ranges.size() && ranges[leaf].cell.code < cell_.cell.end(); ++leaf) {
-      visit(leaf);
-    }
+    return std::nullopt;
   }
 
   void clear(int k, LeafBounds& bounds) const {
-    visit_leaves([&](std::uint32_t leaf) { bounds.at(leaf, k) = {}; });
+    const auto& ranges = index_.ranges();
+    for (std::uint32_t leaf = index_.leaf_of(task_.cell.cell.code);
+         leaf < ranges.size() && ranges[leaf].cell.code < task_.cell.cell.end(); ++leaf) {
+      if (task_.covers(ranges[leaf].cell)) bounds.at(leaf, k) = {};
+    }
   }
 
   /// Every leaf that a fine triangle may meet takes the triangle's range.
@@ -199,7 +208,7 @@ class CellVerification {
     for (const auto& [t, leaf] : triangles_of_leaves_) bounds.at(leaf, k).add(of_triangle[t]);
   }
 
-  /// Which of the cell's leaves each fine triangle may meet.
+  /// Which of the leaves each fine triangle may meet.
   void find_leaves() {
     std::vector<std::uint32_t> leaves;
     for (std::uint32_t t = 0; t < fine_.mesh.triangles.size(); ++t) {
@@ -209,14 +218,14 @@ class CellVerification {
       leaves.clear();
       index_.leaves_at(box, leaves);
       for (const std::uint32_t leaf : leaves) {
-        if (cell_.cell.contains(index_.ranges()[leaf].cell)) triangles_of_leaves_.emplace_back(t, leaf);
+        if (task_.covers(index_.ranges()[leaf].cell)) triangles_of_leaves_.emplace_back(t, leaf);
       }
     }
   }
 
   const WorkingIndex& index_;
   const std::vector<std::int32_t>& tolerances_;
-  CurveRange cell_;
+  Task task_;
   RegionMesh fine_;
   std::unique_ptr<FineEdges> edges_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> triangles_of_leaves_;
@@ -230,13 +239,19 @@ class Disturbed {
   explicit Disturbed(std::size_t leaves) : levels_(leaves) {}
 
   void mark(std::uint32_t leaf, unsigned levels) { levels_[leaf].fetch_or(levels, std::memory_order_relaxed); }
-  unsigned in(const WorkingIndex& index, const CurveRange& cell) const {
-    unsigned levels = 0;
+  /// What of these levels must be verified in the cell: the least box around it, perhaps empty.
+  Task in(const WorkingIndex& index, const CurveRange& cell, unsigned levels) const {
+    Task task{cell, {}, 0};
     for (std::uint32_t leaf = index.leaf_of(cell.cell.code);
          leaf < levels_.size() && index.ranges()[leaf].cell.code < cell.cell.end(); ++leaf) {
-      levels |= levels_[leaf].load(std::memory_order_relaxed);
+      const unsigned todo = levels_[leaf].load(std::memory_order_relaxed) & levels;
+      if (todo == 0) continue;
+      task.levels |= todo;
+      const GridBox square = square_of(index.ranges()[leaf].cell);
+      task.box.extend(square.xmin, square.ymin);
+      task.box.extend(square.xmax, square.ymax);
     }
-    return levels;
+    return task;
   }
   void clear() {
     for (auto& l : levels_) l.store(0, std::memory_order_relaxed);
@@ -246,10 +261,43 @@ class Disturbed {
   std::vector<std::atomic<unsigned>> levels_;
 };
 
+/// Cells of this size for these levels.
+struct Tiling {
+  std::uint32_t capacity;
+  unsigned levels;
+};
+
+std::vector<Tiling> tilings(const WorkingIndex& index) {
+  std::vector<Tiling> result;
+  const auto all = static_cast<double>(index.selected_points(0));
+  for (int k = 1; k < index.level_count(); ++k) {
+    const double wanted =
+        kLevelPoints * all / static_cast<double>(std::max<std::uint64_t>(1, index.selected_points(k)));
+    std::uint32_t capacity = kLeastCell;
+    while (capacity < wanted && capacity < kGreatestCell) capacity *= 4;
+    capacity = std::min(capacity, kGreatestCell);
+    if (result.empty() || result.back().capacity != capacity) result.push_back({capacity, 0});
+    result.back().levels |= 1u << k;
+  }
+  return result;
+}
+
+std::vector<Task> disturbed_cells(const WorkingIndex& index, const std::vector<Tiling>& tilings,
+                                  const Disturbed& disturbed) {
+  std::vector<Task> tasks;
+  for (const Tiling& tiling : tilings) {
+    for (const CurveRange& cell : index.tiles(tiling.capacity)) {
+      const Task task = disturbed.in(index, cell, tiling.levels);
+      if (task.levels != 0) tasks.push_back(task);
+    }
+  }
+  return tasks;
+}
+
 struct Raise {
   std::uint64_t code;
   int from, to;
-  Cell cell;  ///< the cell that raised it, whose own bounds know of it
+  Task by;  ///< whose bounds know of it
 };
 
 /// A raised vertex changes the surface within its star, for every level it newly belongs to.
@@ -261,9 +309,23 @@ void mark_star(const WorkingIndex& index, const std::vector<std::int32_t>& toler
     leaves.clear();
     index.leaves_at(box_of(triangulate_region(index, levels_from(k, tolerances), {p.x, p.y, p.x, p.y})), leaves);
     for (const std::uint32_t leaf : leaves) {
-      if (!raise.cell.contains(index.ranges()[leaf].cell)) disturbed.mark(leaf, 1u << k);
+      const bool known = (raise.by.levels >> k & 1) && raise.by.covers(index.ranges()[leaf].cell);
+      if (!known) disturbed.mark(leaf, 1u << k);
     }
   }
+}
+
+/// Writes a cell's raised levels to the index, and notes what is new.
+void apply(const Levels& raised, const Task& task, WorkingIndex& index, std::vector<Raise>& raises) {
+  if (raised.empty()) return;
+  std::vector<RawPoint> points = index.read(task.cell);
+  for (RawPoint& p : points) {
+    const auto found = raised.find(p.code);
+    if (found == raised.end() || found->second <= p.level) continue;
+    raises.push_back({p.code, p.level, found->second, task});
+    p.level = static_cast<std::uint16_t>(found->second);
+  }
+  index.write(task.cell, points);
 }
 
 void mark_failures(const LeafBounds& bounds, const std::vector<std::int32_t>& tolerances, std::size_t leaves,
@@ -275,61 +337,61 @@ void mark_failures(const LeafBounds& bounds, const std::vector<std::int32_t>& to
   }
 }
 
-/// No store is written that promises what does not hold.
-void require_within(const LeafBounds& bounds, const std::vector<std::int32_t>& tolerances, std::size_t leaves) {
-  for (std::uint32_t leaf = 0; leaf < leaves; ++leaf) {
+std::vector<FailedPlace> failures(const LeafBounds& bounds, const std::vector<std::int32_t>& tolerances,
+                                  const WorkingIndex& index) {
+  std::vector<FailedPlace> places;
+  for (std::uint32_t leaf = 0; leaf < index.ranges().size(); ++leaf) {
     for (std::size_t k = 1; k < tolerances.size(); ++k) {
       if (bounds.at(leaf, static_cast<int>(k)).size() > tolerances[k])
-        throw Error("a level could not be brought within its tolerance; nothing was written; please report this");
+        places.push_back({square_of(index.ranges()[leaf].cell), static_cast<int>(k)});
     }
   }
+  return places;
 }
 
-}  // namespace
-
-LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& tolerances, Progress& progress) {
+/// Mends what more vertices can mend.
+LeafBounds mend(WorkingIndex& index, const std::vector<std::int32_t>& tolerances, Progress& progress) {
   const int levels = static_cast<int>(tolerances.size());
   LeafBounds bounds(index.ranges().size(), levels);
   Disturbed disturbed(index.ranges().size());
   for (std::uint32_t leaf = 0; leaf < index.ranges().size(); ++leaf) disturbed.mark(leaf, (1u << levels) - 2);
 
   for (int round = 0;; ++round) {
-    std::vector<std::pair<CurveRange, unsigned>> cells;
-    for (const CurveRange& cell : index.tiles(round == 0 ? kFirstCell : kLaterCell)) {
-      if (const unsigned todo = disturbed.in(index, cell); todo != 0) cells.emplace_back(cell, todo);
-    }
-    if (cells.empty()) {
-      require_within(bounds, tolerances, index.ranges().size());
-      return bounds;
-    }
+    const std::vector<Task> tasks =
+        disturbed_cells(index, round == 0 ? std::vector<Tiling>{{kFirstCell, ~0u}} : tilings(index), disturbed);
+    if (tasks.empty()) return bounds;
     disturbed.clear();
 
-    std::vector<CellOutcome> outcomes(cells.size());
+    std::vector<CellOutcome> outcomes(tasks.size());
     std::atomic<std::size_t> done = 0;
-    parallel_for(cells.size(), [&](std::size_t i) {
+    parallel_for(tasks.size(), [&](std::size_t i) {
       progress.throw_if_cancelled();
-      outcomes[i] = CellVerification(index, tolerances, cells[i].first).run(cells[i].second, round > 0, bounds);
-      const double share = static_cast<double>(++done) / static_cast<double>(cells.size());
+      outcomes[i] = CellVerification(index, tolerances, tasks[i]).run(round > 0, bounds);
+      const double share = static_cast<double>(++done) / static_cast<double>(tasks.size());
       progress.report(round == 0 ? "verifying the levels" : "mending the levels", share);
     });
 
     std::vector<Raise> raises;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      const Levels& raised = outcomes[i].raised;
-      std::vector<RawPoint> points = raised.empty() ? std::vector<RawPoint>{} : index.read(cells[i].first);
-      for (RawPoint& p : points) {
-        const auto found = raised.find(p.code);
-        if (found == raised.end() || found->second <= p.level) continue;
-        raises.push_back({p.code, p.level, found->second, cells[i].first.cell});
-        p.level = static_cast<std::uint16_t>(found->second);
-      }
-      if (!points.empty()) index.write(cells[i].first, points);
-    }
+    for (std::size_t i = 0; i < tasks.size(); ++i) apply(outcomes[i].raised, tasks[i], index, raises);
     parallel_for(raises.size(), [&](std::size_t i) { mark_star(index, tolerances, raises[i], disturbed); });
     for (const CellOutcome& outcome : outcomes) {
       for (const auto& [code, level] : outcome.left_to_others) disturbed.mark(index.leaf_of(code), 1u << level);
     }
     if (round == 0) mark_failures(bounds, tolerances, index.ranges().size(), disturbed);
+  }
+}
+
+}  // namespace
+
+LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const RestoreLines& restore,
+                   Progress& progress) {
+  while (true) {
+    LeafBounds bounds = mend(index, tolerances, progress);
+    const std::vector<FailedPlace> failed = failures(bounds, tolerances, index);
+    if (failed.empty()) return bounds;
+    // No store is written that promises what does not hold.
+    if (!restore(failed))
+      throw Error("a level could not be brought within its tolerance; nothing was written; please report this");
   }
 }
 

@@ -13,7 +13,7 @@ namespace itin {
 namespace {
 
 /// Mean spacings. A wider fringe leaves less to mend along the tiles' borders, and costs more here.
-constexpr double kFringe = 8;
+constexpr double kFringe = 16;
 
 /// Decides whether an edge may be ground, by the gap bases of its ends' sources.
 class GapRule {
@@ -62,20 +62,25 @@ std::vector<std::uint64_t> corners_of(const std::vector<Segment>& edges) {
   return corners;
 }
 
-/// The points' box and a fringe of some mean spacings, in which neighbouring tiles see the same surface and choose
-/// alike.
-GridBox with_fringe(const std::vector<RawPoint>& points) {
-  GridBox box = box_of(points);
-  if (box.empty()) return box;
-  const double area = (1.0 + box.xmax - box.xmin) * (1.0 + box.ymax - box.ymin);
-  const double margin = std::ceil(kFringe * std::sqrt(area / static_cast<double>(points.size())));
+GridBox widened(const GridBox& box, double margin) {
   const auto inside = [](double v) {
     return static_cast<std::int32_t>(std::clamp(v, -1.0 * kGridHalfSide, kGridHalfSide - 1.0));
   };
   return {inside(box.xmin - margin), inside(box.ymin - margin), inside(box.xmax + margin), inside(box.ymax + margin)};
 }
 
+/// Some mean spacings, by which neighbouring tiles see the same surface and choose alike.
+double fringe(const GridBox& box, std::size_t points) {
+  const double area = (1.0 + box.xmax - box.xmin) * (1.0 + box.ymax - box.ymin);
+  return std::ceil(kFringe * std::sqrt(area / static_cast<double>(points)));
+}
+
 }  // namespace
+
+GridBox reach_of(const CurveRange& tile) {
+  const GridBox square = square_of(tile.cell);
+  return tile.count == 0 ? square : widened(square, fringe(square, tile.count));
+}
 
 std::vector<std::uint8_t> ground_triangles(const RegionMesh& region,
                                            const std::vector<std::array<double, 4>>& gap_bases) {
@@ -89,13 +94,20 @@ std::vector<std::uint8_t> ground_triangles(const RegionMesh& region,
 }
 
 TileSurvey survey_tile(const WorkingIndex& index, const CurveRange& tile,
-                       const std::vector<std::array<double, 4>>& gap_bases) {
+                       const std::vector<std::array<double, 4>>& gap_bases, const Sources* ground_sources) {
   TileSurvey survey;
   std::vector<RawPoint> own = index.read(tile);
-  std::erase_if(own, [](const RawPoint& p) { return p.level == kDropped; });
+  std::erase_if(own, [&](const RawPoint& p) {
+    return p.level == kDropped || (ground_sources != nullptr && !ground_sources->contains(p.source));
+  });
   const Selection everything(Detail::tolerance(0), {0.0}, Grid{});
-  const GridBox box = with_fringe(own);
-  survey.surface = triangulate_region(index, everything, box);
+  const GridBox points = box_of(own);
+  if (points.empty()) return survey;
+  const double margin = fringe(points, tile.count);
+  const GridBox box = widened(points, margin);
+  survey.verge = widened(points, margin / 2);
+  survey.surface = ground_sources == nullptr ? triangulate_region(index, everything, box)
+                                             : triangulate_region(SourceIndex(index, *ground_sources), everything, box);
   const RegionMesh& region = survey.surface;
   const std::vector<std::uint8_t> ground = ground_triangles(region, gap_bases);
 
@@ -133,6 +145,23 @@ TileSurvey survey_tile(const WorkingIndex& index, const CurveRange& tile,
   for (const RawPoint& p : own) {
     if (!std::binary_search(grounded.begin(), grounded.end(), p.code)) survey.isolated.push_back(p.code);
   }
+  return survey;
+}
+
+TileSurvey survey_surface(const WorkingIndex& index, const CurveRange& tile) {
+  TileSurvey survey;
+  std::vector<RawPoint> own = index.read(tile);
+  std::erase_if(own, [](const RawPoint& p) { return p.level == kDropped; });
+  const GridBox points = box_of(own);
+  if (points.empty()) return survey;
+  const double margin = fringe(points, tile.count);
+  const GridBox box = widened(points, margin);
+  survey.verge = widened(points, margin / 2);
+  Selection selection(Detail::tolerance(0), {0.0}, Grid{});
+  selection.leave_out(kCoverage);
+  survey.surface = triangulate_region(index, selection, box);
+  for (const SelectedVertex& v : survey.surface.vertices)
+    survey.candidacy.push_back(box.contains(v.point.x, v.point.y) ? Candidacy::kFree : Candidacy::kNone);
   return survey;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pyramid/greedy.hpp"
+#include "pyramid/source_index.hpp"
 #include "pyramid/working_index.hpp"
 #include "triangulate/region.hpp"
 
@@ -16,18 +17,27 @@ namespace itin {
 /// The full surface about one tile, and what its own points have of the coverage.
 struct TileSurvey {
   RegionMesh surface;                   ///< every triangle about the tile's points, ground or not
+  GridBox verge;                        ///< the tile's points and half the fringe seen around them
   std::vector<Candidacy> candidacy;     ///< per vertex: corners of the outline are kCorner, isolated points kNone
   std::vector<Segment> outline;         ///< edges with ground to the left, each in one tile only
   std::vector<std::uint64_t> isolated;  ///< the tile's points of no ground triangle, as Morton codes
 };
 
+/// A box that holds all that the survey of a tile depends on, but for the positions of far away points.
+GridBox reach_of(const CurveRange& tile);
+
 /// Which triangles of a plain Delaunay triangulation are ground. `gap_bases` per source, grid units.
 std::vector<std::uint8_t> ground_triangles(const RegionMesh& region,
                                            const std::vector<std::array<double, 4>>& gap_bases);
 
-/// `gap_bases` per source, grid units. The index must have no segments yet, and nothing dropped meanwhile.
+/// `gap_bases` per source, grid units. Points of other sources than `ground`, if given, are passed over: they are
+/// neither ground nor isolated. The index must have no segments yet, and nothing dropped meanwhile.
 TileSurvey survey_tile(const WorkingIndex& index, const CurveRange& tile,
-                       const std::vector<std::array<double, 4>>& gap_bases);
+                       const std::vector<std::array<double, 4>>& gap_bases, const Sources* ground = nullptr);
+
+/// The full surface about one tile where lines are part of it, and its points are known to be ground: without outline.
+/// There are triangles across voids, for greedy insertion walks straight.
+TileSurvey survey_surface(const WorkingIndex& index, const CurveRange& tile);
 
 /// One segment for each maximal straight run of directed edges, in a canonical order. Their ends are the corners.
 std::vector<Segment> join_collinear(std::vector<Segment> edges);

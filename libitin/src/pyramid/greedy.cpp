@@ -78,6 +78,16 @@ class GreedyInsertion {
     return true;
   }
 
+  /// Inserts these vertices, if they are not yet in.
+  void insert_given(const std::vector<std::uint32_t>& vertices) {
+    Face hint;
+    for (const std::uint32_t v : vertices) {
+      if (inserted_[v]) continue;
+      hint = locate(v, hint);
+      hint = insert(v, hint);
+    }
+  }
+
   /// Inserts what is worst until nothing is more than `tolerance` off; calls on_insert(point) for each.
   template <class OnInsert>
   void refine(double tolerance, const OnInsert& on_insert) {
@@ -112,7 +122,8 @@ class GreedyInsertion {
     return triangulation_.is_infinite(f) ? f->neighbor(f->index(triangulation_.infinite_vertex())) : f;
   }
 
-  void insert(std::uint32_t p, Face start) {
+  /// Returns a face at p.
+  Face insert(std::uint32_t p, Face start) {
     inserted_[p] = 1;
     conflicts_.clear();
     boundary_.clear();
@@ -125,8 +136,10 @@ class GreedyInsertion {
       }
       f->info().first = kNone;
     }
-    resettle(triangulation_.star_hole(position(p), boundary_.begin(), boundary_.end(), conflicts_.begin(),
-                                      conflicts_.end()));
+    const Vertex v =
+        triangulation_.star_hole(position(p), boundary_.begin(), boundary_.end(), conflicts_.begin(), conflicts_.end());
+    resettle(v);
+    return v->face();
   }
 
   /// Gives every homeless point to the face of v's star that holds it, and looks at the star's faces and edges.
@@ -267,17 +280,22 @@ std::vector<std::uint8_t> greedy_levels(const RegionMesh& fine, std::span<const 
                                         std::span<const double> tolerances) {
   const int coarsest = static_cast<int>(tolerances.size()) - 1;
   std::vector<std::uint8_t> levels(candidacy.size(), 0);
-  std::vector<std::uint32_t> candidates, corners;
+  std::vector<std::uint32_t> candidates;
+  std::vector<std::vector<std::uint32_t>> given(tolerances.size());
   for (std::uint32_t v = 0; v < candidacy.size(); ++v) {
-    if (candidacy[v] != Candidacy::kNone) candidates.push_back(v);
-    if (candidacy[v] == Candidacy::kCorner) corners.push_back(v);
+    if (candidacy[v] == Candidacy::kNone) continue;
+    candidates.push_back(v);
+    levels[v] = candidacy[v] == Candidacy::kCorner ? static_cast<std::uint8_t>(coarsest) : fine.vertices[v].level;
+    if (levels[v] > 0) given[levels[v]].push_back(v);
   }
   std::vector<std::uint32_t> first = convex_hull(fine, candidates);
-  first.insert(first.end(), corners.begin(), corners.end());
+  first.insert(first.end(), given[static_cast<std::size_t>(coarsest)].begin(),
+               given[static_cast<std::size_t>(coarsest)].end());
   for (const std::uint32_t p : first) levels[p] = static_cast<std::uint8_t>(coarsest);
   GreedyInsertion greedy(fine, candidacy);
   if (!greedy.start(first)) return levels;
   for (int k = coarsest; k >= 1; --k) {
+    greedy.insert_given(given[static_cast<std::size_t>(k)]);
     greedy.refine(tolerances[static_cast<std::size_t>(k)],
                   [&](std::uint32_t p) { levels[p] = static_cast<std::uint8_t>(k); });
   }

@@ -21,6 +21,8 @@ enum class Candidacy : std::uint8_t {
 /// every candidate and along every coarse edge, for each k >= 1. (Along an edge the difference is greatest where it
 /// crosses fine edges.) A proposal: it does not know the neighbouring tiles' choice; certify.hpp has the last word.
 ///
+/// Vertices that have a level in `fine` keep it, or get a coarser one.
+///
 /// `tolerances` in grid units, ascending, the first one 0. Ties go to the first vertex in order. O(n log n) expected.
 std::vector<std::uint8_t> greedy_levels(const RegionMesh& fine, std::span<const Candidacy> candidacy,
                                         std::span<const double> tolerances);

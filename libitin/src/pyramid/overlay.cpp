@@ -54,72 +54,85 @@ class CoarseWalk {
 
   bool contains(std::uint32_t t, Position p) const {
     for (int i = 0; i < 3; ++i) {
-      if (orientation(corner(t, i), corner(t, i + 1), p) < 0) return false;
+      if (outside(t, i, p)) return false;
     }
     return true;
   }
 
-  /// Calls on_crossing(p, q) for every coarse edge pq that uv crosses, where `face` holds u, and returns a face that
-  /// holds v. No coarse vertex lies strictly between u and v, for uv is an edge of a finer triangulation.
+  /// Calls on_crossing(p, q) for every coarse edge pq that uv crosses properly, where `face` holds u, and returns a
+  /// face that holds v. No coarse vertex lies strictly between u and v, for uv is an edge of a finer triangulation.
   template <class OnCrossing>
-  std::uint32_t walk(Position u, std::uint32_t face, Position v, const OnCrossing& on_crossing) const {
-    Exit exit = leave_start(u, face, v);
-    while (exit.edge >= 0) {
-      on_crossing(mesh_.triangles[exit.face][(exit.edge + 1) % 3], mesh_.triangles[exit.face][(exit.edge + 2) % 3]);
-      const std::uint32_t next = mesh_.neighbours[exit.face][exit.edge];
-      if (next == kNoTriangle) throw Error("the coarse surface does not cover the full one");
-      exit = leave(u, next, v);
+  std::uint32_t walk(Position u, bool from_coarse_vertex, std::uint32_t face, Position v,
+                     const OnCrossing& on_crossing) const {
+    Exit exit = from_coarse_vertex ? leave_vertex(u, face, v) : leave_start(u, face, v);
+    while (exit.edge != kStays) {
+      const std::uint32_t p = mesh_.triangles[exit.face][next(exit.edge)],
+                          q = mesh_.triangles[exit.face][previous(exit.edge)];
+      on_crossing(p, q);
+      exit = leave_entered(u, beyond(exit), q, v);
     }
     return exit.face;
   }
 
  private:
-  /// Edge through which uv leaves the face, or -1 where v lies in it.
+  /// Edge through which uv leaves the face, or kStays where v lies in it.
   struct Exit {
     std::uint32_t face;
     int edge;
   };
-  static constexpr int kStays = -1, kElsewhere = -2;
+  static constexpr int kStays = -1, kBoth = 3;
 
-  Position corner(std::uint32_t t, int i) const { return coarse_.vertices[mesh_.triangles[t][i % 3]].position(); }
-
-  /// Out of a face that uv enters or starts in: an edge with u strictly inside of it and v strictly outside.
-  int exit_edge(Position u, std::uint32_t t, Position v) const {
-    if (contains(t, v)) return kStays;
-    for (int i = 0; i < 3; ++i) {
-      const Position p = corner(t, i + 1), q = corner(t, i + 2);
-      if (orientation(p, q, v) < 0 && orientation(p, q, u) > 0 && orientation(u, v, p) <= 0 &&
-          orientation(u, v, q) >= 0)
-        return i;
-    }
-    return kElsewhere;
+  static int next(int i) { return i == 2 ? 0 : i + 1; }
+  static int previous(int i) { return i == 0 ? 2 : i - 1; }
+  Position corner(std::uint32_t t, int i) const { return coarse_.vertices[mesh_.triangles[t][i]].position(); }
+  bool outside(std::uint32_t t, int edge, Position p) const {
+    return orientation(corner(t, next(edge)), corner(t, previous(edge)), p) < 0;
   }
 
-  Exit leave(Position u, std::uint32_t t, Position v) const {
-    const int edge = exit_edge(u, t, v);
-    if (edge == kElsewhere) throw Error("lost the way through the coarse surface");
-    return {t, edge};
+  std::uint32_t beyond(Exit exit) const {
+    const std::uint32_t neighbour = mesh_.neighbours[exit.face][exit.edge];
+    if (neighbour == kNoTriangle) throw Error("the coarse surface does not cover the full one");
+    return neighbour;
   }
 
-  /// u may lie on an edge or corner of its face, and then uv may start into any face around it.
-  Exit leave_start(Position u, std::uint32_t face, Position v) const {
-    if (const int edge = exit_edge(u, face, v); edge != kElsewhere) return {face, edge};
-    for (int i = 0; i < 3; ++i) {
-      if (corner(face, i) == u) return leave_vertex(u, face, v);
-    }
-    for (int i = 0; i < 3; ++i) {
-      const std::uint32_t n = mesh_.neighbours[face][i];
-      if (n != kNoTriangle && orientation(corner(face, i + 1), corner(face, i + 2), u) == 0) return leave(u, n, v);
-    }
-    throw Error("lost the way through the coarse surface");
+  /// v lies beyond both edges at corner i: uv leaves by the one on the side of the corner where it passes.
+  Exit leave_around(Position u, std::uint32_t t, int i, Position v) const {
+    return {t, orientation(u, v, corner(t, i)) > 0 ? next(i) : previous(i)};
   }
 
+  /// uv enters face t through its edge that starts at vertex `first`.
+  Exit leave_entered(Position u, std::uint32_t t, std::uint32_t first, Position v) const {
+    const auto& [a, b, c] = mesh_.triangles[t];
+    const int entered = first == b ? 0 : first == c ? 1 : 2;
+    const bool right = outside(t, next(entered), v), left = outside(t, previous(entered), v);
+    if (right && left) return leave_around(u, t, entered, v);
+    return {t, right ? next(entered) : left ? previous(entered) : kStays};
+  }
+
+  /// u lies in face t, perhaps on an edge, and is no corner.
+  Exit leave_start(Position u, std::uint32_t t, Position v) const {
+    int inside = 0, last = kStays;
+    for (int i = 0; i < 3; ++i) {
+      if (!outside(t, i, v)) {
+        inside = i;
+        continue;
+      }
+      if (orientation(corner(t, next(i)), corner(t, previous(i)), u) == 0)  // on the very edge: nothing is crossed
+        return leave_entered(u, beyond({t, i}), mesh_.triangles[t][previous(i)], v);
+      last = last == kStays ? i : kBoth;
+    }
+    // Beyond all edges but one is beyond both at the corner opposite to it.
+    return last == kBoth ? leave_around(u, t, inside, v) : Exit{t, last};
+  }
+
+  /// u is a corner of face `start`.
   Exit leave_vertex(Position u, std::uint32_t start, Position v) const {
-    for (const int turn : {1, 2}) {
+    for (const int turn : {1, 2}) {  // counterclockwise, and clockwise from where a border stopped that
       std::uint32_t t = start;
       do {
-        if (const int edge = exit_edge(u, t, v); edge != kElsewhere) return {t, edge};
         const int i = corner(t, 0) == u ? 0 : corner(t, 1) == u ? 1 : 2;
+        const Position p = corner(t, next(i)), q = corner(t, previous(i));
+        if (orientation(u, p, v) >= 0 && orientation(u, v, q) >= 0) return {t, orientation(p, q, v) >= 0 ? kStays : i};
         t = mesh_.neighbours[t][(i + turn) % 3];
       } while (t != kNoTriangle && t != start);
     }
@@ -211,16 +224,17 @@ class DifferenceSweep {
       return;
     }
     const std::uint32_t end =
-        walk_.walk(Position{pu.x, pu.y}, result_.face[u], Position{pv.x, pv.y}, [&](std::uint32_t p, std::uint32_t q) {
-          const GridPoint &pp = coarse_.vertices[p].point, &pq = coarse_.vertices[q].point;
-          const DifferenceRange d = above_crossing(pu, pv, pp, pq);
-          range.add(d);
-          if (d.size() > allowed_) {
-            const bool nearer_u = std::abs(doubled_area(pp, pq, pu)) <= std::abs(doubled_area(pp, pq, pv));
-            result_.too_large.push_back(
-                {std::min(p, q), std::max(p, q), d.size(), e, edges_.edges()[e].u == u ? nearer_u : !nearer_u});
-          }
-        });
+        walk_.walk(Position{pu.x, pu.y}, result_.is_coarse_vertex[u] != 0, result_.face[u], Position{pv.x, pv.y},
+                   [&](std::uint32_t p, std::uint32_t q) {
+                     const GridPoint &pp = coarse_.vertices[p].point, &pq = coarse_.vertices[q].point;
+                     const DifferenceRange d = above_crossing(pu, pv, pp, pq);
+                     range.add(d);
+                     if (d.size() > allowed_) {
+                       const bool nearer_u = std::abs(doubled_area(pp, pq, pu)) <= std::abs(doubled_area(pp, pq, pv));
+                       result_.too_large.push_back({std::min(p, q), std::max(p, q), d.size(), e,
+                                                    edges_.edges()[e].u == u ? nearer_u : !nearer_u});
+                     }
+                   });
     if (result_.face[v] == kNoTriangle) settle(v, end);
     range.add(result_.at_vertex[u]);
     range.add(result_.at_vertex[v]);

@@ -1,25 +1,29 @@
 #include "pyramid/pyramid.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <deque>
+#include <optional>
 
+#include <itin/detail.hpp>
 #include <itin/parallel.hpp>
 
+#include "features/line_hierarchy.hpp"
 #include "pyramid/certify.hpp"
 #include "pyramid/coverage.hpp"
-#include "pyramid/greedy.hpp"
-#include "pyramid/leaf_cutter.hpp"
+#include "pyramid/proposal.hpp"
 #include "pyramid/replacement.hpp"
 #include "pyramid/working_index.hpp"
+#include "store/leaf_cutter.hpp"
 
 namespace itin {
 
 namespace {
 
-/// Points a tile of greedy insertion.
-constexpr std::uint32_t kTilePoints = 1 << 16;
+/// Points a tile of greedy insertion: few borders, but still enough tiles for all threads.
+std::uint32_t tile_points(std::uint64_t points) {
+  return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(points / 32, 1 << 15, 1 << 18));
+}
 
 std::vector<std::array<double, 4>> gap_bases(const std::vector<SourceInfo>& sources, const Grid& grid) {
   std::vector<std::array<double, 4>> bases;
@@ -30,26 +34,78 @@ std::vector<std::array<double, 4>> gap_bases(const std::vector<SourceInfo>& sour
   return bases;
 }
 
-struct Proposals {
-  std::vector<Segment> outline;
-  std::vector<std::uint64_t> isolated;
-};
-
-/// Finds the tile's part of the coverage and writes the levels that its points should have.
-Proposals propose_levels(WorkingIndex& index, const CurveRange& tile, const std::vector<std::array<double, 4>>& bases,
-                         std::span<const double> tolerances) {
-  TileSurvey survey = survey_tile(index, tile, bases);
-  const std::vector<std::uint8_t> levels = greedy_levels(survey.surface, survey.candidacy, tolerances);
-  std::vector<RawPoint> points = index.read(tile);
-  std::size_t v = 0;
-  for (RawPoint& p : points) {
-    while (v < levels.size() && morton(survey.surface.vertices[v].point.x, survey.surface.vertices[v].point.y) < p.code)
-      ++v;
-    if (v == levels.size()) break;
-    if (morton(survey.surface.vertices[v].point.x, survey.surface.vertices[v].point.y) == p.code) p.level = levels[v];
+/// Sources whose points are ground by themselves: all but lines that add to it.
+Sources ground_sources(const std::vector<SourceInfo>& sources) {
+  Sources ground;
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    if (sources[s].theme.empty() || sources[s].kind == name_of(ThemeKind::Contours))
+      ground.insert(static_cast<std::uint16_t>(s));
   }
-  index.write(tile, points);
-  return {std::move(survey.outline), std::move(survey.isolated)};
+  return ground;
+}
+
+/// The lines of the terrain at all levels; nothing where there are none.
+std::optional<LineHierarchy> generalised(const PlacedLines& placed, const std::vector<Segment>& outline,
+                                         const ThemeLines& lines, const std::vector<double>& tolerances) {
+  if (placed.terrain.empty()) return std::nullopt;
+  std::vector<LineTolerance> by_level;
+  for (const double t : tolerances) by_level.push_back({t, lateral_tolerance(t)});
+  std::vector<std::uint64_t> nodes = placed.on_outline;
+  for (const Segment& s : outline) {
+    nodes.push_back(morton(s.ax, s.ay));
+    nodes.push_back(morton(s.bx, s.by));
+  }
+  const auto height = [&](Position p) {
+    const auto at = std::lower_bound(lines.lines.vertices.begin(), lines.lines.vertices.end(), morton(p.x, p.y),
+                                     [](const GridPoint& v, std::uint64_t code) { return morton(v.x, v.y) < code; });
+    return at->z;
+  };
+  return LineHierarchy(placed.terrain, placed.features, nodes, height, by_level);
+}
+
+/// The vertices that each theme has besides those of the full surface, with the themes they belong to.
+void write_features(const PlacedLines& placed, const ThemeLines& lines, const std::vector<GridPoint>& draped,
+                    StoreWriter& writer, PyramidReport& report) {
+  std::vector<std::pair<std::uint16_t, std::uint64_t>> ends;  // theme, code
+  for (const Segment& s : placed.features) {
+    ends.emplace_back(s.theme, morton(s.ax, s.ay));
+    ends.emplace_back(s.theme, morton(s.bx, s.by));
+  }
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  const auto by_code = [](const GridPoint& p, std::uint64_t code) { return morton(p.x, p.y) < code; };
+  for (auto at = ends.begin(); at != ends.end();) {
+    const std::uint16_t theme = at->first;
+    std::vector<GridPoint> points;
+    std::vector<std::uint16_t> sources;
+    for (; at != ends.end() && at->first == theme; ++at) {
+      const auto point = std::lower_bound(draped.begin(), draped.end(), at->second, by_code);
+      if (point == draped.end() || morton(point->x, point->y) != at->second) continue;
+      const auto vertex =
+          std::lower_bound(lines.lines.vertices.begin(), lines.lines.vertices.end(), at->second, by_code);
+      points.push_back(*point);
+      sources.push_back(lines.sources[static_cast<std::size_t>(vertex - lines.lines.vertices.begin())]);
+      report.vertices_of_source[sources.back()] += 1;
+    }
+    writer.add_theme_vertices(theme, points, sources);
+  }
+}
+
+void count_lines(const PlacedLines& placed, std::size_t themes, PyramidReport& report) {
+  std::vector<std::vector<std::uint64_t>> ends(themes);
+  report.segments.assign(themes, 0);
+  report.left_out = placed.left_out;
+  for (const std::vector<Segment>* segments : {&placed.terrain, &placed.features}) {
+    for (const Segment& s : *segments) {
+      report.segments[s.theme - std::size_t{1}] += 1;
+      ends[s.theme - std::size_t{1}].push_back(morton(s.ax, s.ay));
+      ends[s.theme - std::size_t{1}].push_back(morton(s.bx, s.by));
+    }
+  }
+  for (std::vector<std::uint64_t>& codes : ends) {
+    std::sort(codes.begin(), codes.end());
+    report.line_vertices.push_back(static_cast<std::uint64_t>(std::unique(codes.begin(), codes.end()) - codes.begin()));
+  }
 }
 
 /// Writes one level's quadtree; its leaves take the bounds of the working leaves in them.
@@ -120,10 +176,11 @@ void write_levels(const WorkingIndex& index, LeafBounds& bounds, const std::vect
 }  // namespace
 
 PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>& sources, const Grid& grid,
-                            const std::vector<double>& tolerances, StoreWriter& writer, Progress& progress) {
+                            const std::vector<double>& tolerances, const ThemeLines& lines, StoreWriter& writer,
+                            Progress& progress) {
   const int levels = static_cast<int>(tolerances.size());
   WorkingIndex index(points, levels, kLeafCapacity);
-  const std::vector<CurveRange> tiles = index.tiles(kTilePoints);
+  const std::vector<CurveRange> tiles = index.tiles(tile_points(points.size()));
   PyramidReport report;
   report.vertices_of_source.assign(sources.size(), 0);
 
@@ -134,26 +191,54 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
     in_units.push_back(in_whole_units.back());
   }
   const std::vector<std::array<double, 4>> bases = gap_bases(sources, grid);
+  const Sources ground = ground_sources(sources);
+  const Sources* const only = ground.size() < sources.size() ? &ground : nullptr;
   report.replaced = drop_replaced(index, tiles, sources, bases, progress);
-  std::vector<Proposals> proposals(tiles.size());
-  std::atomic<std::size_t> done = 0;
-  parallel_for(tiles.size(), [&](std::size_t i) {
-    progress.throw_if_cancelled();
-    proposals[i] = propose_levels(index, tiles[i], bases, in_units);
-    progress.report("choosing the levels", static_cast<double>(++done) / static_cast<double>(tiles.size()));
-  });
-  std::vector<Segment> outline;
-  std::vector<std::uint64_t> isolated;
-  for (const Proposals& p : proposals) {
-    outline.insert(outline.end(), p.outline.begin(), p.outline.end());
-    isolated.insert(isolated.end(), p.isolated.begin(), p.isolated.end());
+  Proposal proposal = lines.empty() ? propose_levels(index, tiles, bases, in_units, progress)
+                                    : find_ground(index, tiles, bases, only, progress);
+  report.isolated = index.drop(std::move(proposal.isolated));
+  const std::vector<Segment> outline = join_collinear(std::move(proposal.outline));
+  PlacedLines placed;
+  if (!lines.empty()) {
+    placed = place_lines(lines, index, tiles, ground, bases, outline, progress);
+    index.drop(placed.strays);
   }
-  report.isolated = index.drop(std::move(isolated));
-  index.set_segments(join_collinear(std::move(outline)));
+  std::optional<LineHierarchy> hierarchy = generalised(placed, outline, lines, in_units);
+  const auto set_lines = [&] {
+    std::vector<Segment> segments = outline;
+    if (hierarchy) {
+      for (const auto& [code, level] : hierarchy->levels()) index.promote(code, level);
+      const std::vector<Segment> of_lines = hierarchy->segments();
+      segments.insert(segments.end(), of_lines.begin(), of_lines.end());
+    }
+    index.set_segments(std::move(segments));
+  };
+  set_lines();
+  if (!lines.empty()) {
+    std::vector<Segment> whole = outline;
+    whole.insert(whole.end(), placed.features.begin(), placed.features.end());
+    for (const Segment& s : whole) {
+      index.promote(morton(s.ax, s.ay), levels - 1);
+      index.promote(morton(s.bx, s.by), levels - 1);
+    }
+    propose_levels_with_lines(index, tiles, in_units, progress);
+  }
 
-  LeafBounds bounds = certify(index, in_whole_units, progress);
+  const auto restore = [&](const std::vector<FailedPlace>& failed) {
+    bool any = false;
+    for (const FailedPlace& place : failed) any |= hierarchy && hierarchy->restore(place.box, place.level);
+    if (!any) return false;
+    set_lines();
+    return true;
+  };
+  LeafBounds bounds = certify(index, in_whole_units, restore, progress);
   write_levels(index, bounds, tiles, levels, writer, report, progress);
-  writer.add_segments(index.all_segments());
+  if (!placed.features.empty())
+    write_features(placed, lines, drape(placed.ends, index, tiles, progress), writer, report);
+  count_lines(placed, lines.terrain.size(), report);
+  std::vector<Segment> segments = index.all_segments();
+  segments.insert(segments.end(), placed.features.begin(), placed.features.end());
+  writer.add_segments(segments);
   return report;
 }
 

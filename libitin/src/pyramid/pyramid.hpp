@@ -8,6 +8,7 @@
 #include <itin/store.hpp>
 
 #include "import/sorted_points.hpp"
+#include "pyramid/theme_lines.hpp"
 #include "store/store_writer.hpp"
 
 namespace itin {
@@ -16,12 +17,17 @@ struct PyramidReport {
   std::uint64_t replaced = 0;  ///< coarser points that made room
   std::uint64_t isolated = 0;  ///< points left out: no ground about them
   std::vector<std::uint64_t> vertices_of_source;
+  std::uint64_t left_out = 0;                ///< segments of lines that are not wholly on the ground
+  std::vector<std::uint64_t> segments;       ///< by theme, of the full surface
+  std::vector<std::uint64_t> line_vertices;  ///< by theme
 };
 
 /// Finds the coverage, gives every point its level, certifies the levels and writes it all. `sources` gives the gap
 /// bases. Out of core: memory follows the leaves (about 100 bytes for 512 points) and the tiles in work, not the
-/// points. The result depends on the set of points and the gap bases alone. Throws FileError, Cancelled.
+/// points. The result depends on the set of points, the lines and the gap bases alone. The vertices of terrain lines
+/// must be among the points. Throws FileError, Cancelled.
 PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>& sources, const Grid& grid,
-                            const std::vector<double>& tolerances, StoreWriter& writer, Progress& progress);
+                            const std::vector<double>& tolerances, const ThemeLines& lines, StoreWriter& writer,
+                            Progress& progress);
 
 }  // namespace itin

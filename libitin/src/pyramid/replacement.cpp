@@ -3,43 +3,16 @@
 #include <algorithm>
 #include <atomic>
 #include <map>
-#include <set>
 
 #include <itin/detail.hpp>
 #include <itin/parallel.hpp>
 
 #include "pyramid/coverage.hpp"
+#include "pyramid/source_index.hpp"
 
 namespace itin {
 
 namespace {
-
-using Sources = std::set<std::uint16_t>;
-
-/// The points of some sources only.
-class SourceIndex final : public PointIndex {
- public:
-  SourceIndex(const WorkingIndex& base, const Sources& sources) : base_(base), sources_(sources) {}
-  int level_count() const override { return base_.level_count(); }
-  GridBox bounds() const override { return base_.bounds(); }
-  void leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const override { base_.leaves(finest, box, out); }
-  void segments(const GridBox&, std::vector<Segment>&) const override {}
-  std::shared_ptr<const Block> block(const Leaf& leaf) const override {
-    const auto all = base_.block(leaf);
-    auto block = std::make_shared<Block>();
-    for (std::size_t i = 0; i < all->points.size(); ++i) {
-      if (!sources_.contains(all->sources[i])) continue;
-      block->points.push_back(all->points[i]);
-      block->sources.push_back(all->sources[i]);
-      block->levels.push_back(all->levels[i]);
-    }
-    return block;
-  }
-
- private:
-  const WorkingIndex& base_;
-  const Sources& sources_;
-};
 
 /// For each source, those that take its place. Empty sets are left out.
 std::map<std::uint16_t, Sources> replacing(const std::vector<SourceInfo>& sources) {

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "pyramid/leaf_cutter.hpp"
+#include "store/leaf_cutter.hpp"
+#include "store/morton_range.hpp"
 
 namespace itin {
 
@@ -75,9 +76,46 @@ void WorkingIndex::leaves_at(const GridBox& box, std::vector<std::uint32_t>& out
   visit(cell, first, leaf_of(cell.end() - 1) + 1, box, out);
 }
 
+const std::vector<std::uint32_t>& WorkingIndex::occupied(int level) const {
+  if (!occupied_known_.load(std::memory_order_acquire)) {
+    const std::scoped_lock lock(occupied_mutex_);
+    if (!occupied_known_.load(std::memory_order_relaxed)) {
+      occupied_.assign(static_cast<std::size_t>(level_count_), {});
+      for (int k = 1; k < level_count_; ++k) {
+        for (std::uint32_t leaf = 0; leaf < ranges_.size(); ++leaf) {
+          if (selected(leaf, k) > 0) occupied_[static_cast<std::size_t>(k)].push_back(leaf);
+        }
+      }
+      occupied_known_.store(true, std::memory_order_release);
+    }
+  }
+  return occupied_[static_cast<std::size_t>(level)];
+}
+
+template <class Visit>
+void WorkingIndex::visit_those_at(const std::vector<std::uint32_t>& leaves, const GridBox& box,
+                                  const Visit& visit) const {
+  if (!MortonRange::exists(box)) return;
+  const MortonRange range(box);
+  std::optional<std::uint64_t> code = range.next(0);
+  for (auto leaf = leaves.begin(); code;) {
+    // Invariant: *code is in the box, and no leaf below it is left to visit.
+    leaf = std::partition_point(leaf, leaves.end(), [&](std::uint32_t i) { return ranges_[i].cell.end() <= *code; });
+    if (leaf == leaves.end()) return;
+    const Cell& cell = ranges_[*leaf].cell;
+    const bool meets = cell.contains(*code);
+    if (meets) visit(*leaf++);
+    code = range.next(meets ? cell.end() : cell.code);
+  }
+}
+
 void WorkingIndex::leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const {
   std::vector<std::uint32_t> found;
-  leaves_at(box, found);
+  if (finest == 0) {
+    leaves_at(box, found);
+  } else {
+    visit_those_at(occupied(finest), box, [&](std::uint32_t leaf) { found.push_back(leaf); });
+  }
   for (const std::uint32_t i : found) {
     const CurveRange& range = ranges_[i];
     Leaf leaf;
@@ -106,13 +144,16 @@ std::shared_ptr<const Block> WorkingIndex::block(const Leaf& leaf) const {
 }
 
 void WorkingIndex::segments(const GridBox& box, std::vector<Segment>& out) const {
-  if (segments_.empty()) return;
-  std::vector<std::uint32_t> found;
-  leaves_at(box, found);
-  for (const std::uint32_t i : found) {
-    for (std::uint32_t k = segment_start_[i]; k < segment_start_[i + 1]; ++k)
+  visit_those_at(segment_leaves_, box, [&](std::uint32_t leaf) {
+    for (std::uint32_t k = segment_start_[leaf]; k < segment_start_[leaf + 1]; ++k)
       out.push_back(segments_[segment_list_[k]]);
-  }
+  });
+}
+
+std::uint64_t WorkingIndex::selected_points(int level) const {
+  std::uint64_t points = 0;
+  for (std::uint32_t leaf = 0; leaf < ranges_.size(); ++leaf) points += selected(leaf, level);
+  return points;
 }
 
 std::vector<CurveRange> WorkingIndex::tiles(std::uint32_t capacity) const {
@@ -146,6 +187,7 @@ std::vector<RawPoint> WorkingIndex::read(const CurveRange& range) const {
 
 void WorkingIndex::write(const CurveRange& range, std::span<const RawPoint> points) {
   points_.write(range.first, points);
+  occupied_known_.store(false, std::memory_order_relaxed);
   for (std::uint32_t leaf = leaf_of(range.cell.code);
        leaf < ranges_.size() && ranges_[leaf].cell.code < range.cell.end(); ++leaf) {
     const CurveRange& r = ranges_[leaf];
@@ -221,7 +263,9 @@ void WorkingIndex::set_segments(std::vector<Segment> segments) {
   std::sort(crossings.begin(), crossings.end());
   segment_start_.assign(ranges_.size() + 1, 0);
   segment_list_.clear();
+  segment_leaves_.clear();
   for (const auto& [leaf, s] : crossings) {
+    if (segment_leaves_.empty() || segment_leaves_.back() != leaf) segment_leaves_.push_back(leaf);
     segment_start_[leaf + 1] += 1;
     segment_list_.push_back(s);
   }

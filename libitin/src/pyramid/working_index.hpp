@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -23,7 +24,7 @@ struct CurveRange {
 };
 
 /// Reading is safe from any thread. Levels may be changed, through write(), for disjoint ranges at the same time, but
-/// not while others read those ranges.
+/// not while others read those ranges, or levels other than 0 of any.
 class WorkingIndex final : public PointIndex {
  public:
   WorkingIndex(SortedPoints& points, int level_count, std::uint32_t leaf_capacity);
@@ -40,6 +41,8 @@ class WorkingIndex final : public PointIndex {
   void leaves_at(const GridBox& box, std::vector<std::uint32_t>& out) const;
   /// The number of the leaf that holds this code.
   std::uint32_t leaf_of(std::uint64_t code) const;
+  /// How many points have this level or a coarser one.
+  std::uint64_t selected_points(int level) const;
   /// Coarser cells with at most `capacity` points each, perhaps none, that together cover bounds().
   std::vector<CurveRange> tiles(std::uint32_t capacity) const;
 
@@ -61,6 +64,11 @@ class WorkingIndex final : public PointIndex {
     return selected_[std::size_t{leaf} * static_cast<std::size_t>(level_count_) + static_cast<std::size_t>(level)].load(
         std::memory_order_relaxed);
   }
+  /// The leaves with points of this level (not 0) or a coarser one: few, for the coarse levels.
+  const std::vector<std::uint32_t>& occupied(int level) const;
+  /// Calls visit(leaf) for each of these leaves, in ascending order, that holds a position of the box.
+  template <class Visit>
+  void visit_those_at(const std::vector<std::uint32_t>& leaves, const GridBox& box, const Visit& visit) const;
   void count_levels(std::uint32_t leaf, std::span<const RawPoint> points);
   void visit(Cell cell, std::uint32_t first, std::uint32_t last, const GridBox& box,
              std::vector<std::uint32_t>& out) const;
@@ -71,9 +79,13 @@ class WorkingIndex final : public PointIndex {
   std::vector<CurveRange> ranges_;
   /// Per range and level: how many of its points have that level or a coarser one.
   std::vector<std::atomic<std::uint32_t>> selected_;
+  mutable std::vector<std::vector<std::uint32_t>> occupied_;  ///< by level, made when first asked for after a write
+  mutable std::atomic<bool> occupied_known_ = false;
+  mutable std::mutex occupied_mutex_;
   std::vector<Segment> segments_;
-  std::vector<std::uint32_t> segment_start_;  ///< per range, into segment_list_
-  std::vector<std::uint32_t> segment_list_;   ///< numbers of the segments that meet the range's cell
+  std::vector<std::uint32_t> segment_start_;   ///< per range, into segment_list_
+  std::vector<std::uint32_t> segment_leaves_;  ///< the ranges that segments meet, ascending
+  std::vector<std::uint32_t> segment_list_;    ///< numbers of the segments that meet the range's cell
 };
 
 }  // namespace itin

@@ -44,7 +44,8 @@ class Inspection {
   }
 
   void inspect_tree(int tree, const std::vector<ChunkEntry>& chunks) {
-    const bool known = tree == format::kCoverageTree || tree < file_.level_count();
+    const bool known = tree < file_.level_count() ||
+                       (tree >= format::kMaxLevels && format::theme_of(tree) <= file_.metadata().themes.size());
     if (!known) damage_.push_back({format::place("directory", format::kChunkListKey), "lists an unknown tree"});
     for (const ChunkEntry& entry : chunks) {
       progress_.throw_if_cancelled();
@@ -59,8 +60,8 @@ class Inspection {
   void inspect_leaves(int tree, const DirectoryChunk& chunk) {
     for (const Leaf& leaf : chunk) {
       if (leaf.points > 0) block_keys_.push_back(leaf.key);
-      if (tree == format::kCoverageTree) {
-        guarded([&] { file_.read_edges(leaf); });
+      if (format::is_edge_tree(tree)) {
+        guarded([&] { inspect_edges(leaf); });
         continue;
       }
       if (leaf.lo > 0 || leaf.hi < 0) damage_.push_back({format::place("directory", leaf.key), "has no certificate"});
@@ -75,6 +76,13 @@ class Inspection {
     const std::uint16_t last = *std::max_element(block.sources.begin(), block.sources.end());
     if (last >= file_.metadata().sources.size()) {
       damage_.push_back({format::place("block", leaf.key), "names a source that the store does not have"});
+    }
+  }
+
+  void inspect_edges(const Leaf& leaf) {
+    for (const Segment& s : file_.read_edges(leaf)) {
+      // A segment is listed in every leaf it meets: it counts where it starts, as part of the full surface.
+      if (s.finest == 0 && leaf.cell.contains(morton(s.ax, s.ay))) segments_[s.theme] += 1;
     }
   }
 
@@ -100,6 +108,11 @@ class Inspection {
       if (vertices_[level] == metadata.levels[level].vertices) continue;
       damage_.push_back({"metadata", "level " + std::to_string(level) + " has another number of vertices"});
     }
+    for (std::size_t theme = 1; theme <= metadata.themes.size(); ++theme) {
+      sum += vertices_[static_cast<std::size_t>(format::vertex_tree(static_cast<int>(theme)))];
+      if (segments_[theme] == metadata.themes[theme - 1].segments) continue;
+      damage_.push_back({"metadata", "theme '" + metadata.themes[theme - 1].name + "' has another number of segments"});
+    }
     if (sum != metadata.vertices) damage_.push_back({"metadata", "the number of vertices is another"});
     if (bounds_ != metadata.bounds) damage_.push_back({"metadata", "the bounds are not those of the vertices"});
   }
@@ -109,7 +122,8 @@ class Inspection {
   std::vector<Damage> damage_;
   std::uint64_t total_ = 0, done_ = 0;
   std::vector<std::uint64_t> chunk_keys_, block_keys_;
-  std::vector<std::uint64_t> vertices_ = std::vector<std::uint64_t>(format::kMaxLevels);
+  std::vector<std::uint64_t> vertices_ = std::vector<std::uint64_t>(format::kFirstEdgeTree);  ///< by tree
+  std::vector<std::uint64_t> segments_ = std::vector<std::uint64_t>(format::kLastTree);       ///< by theme
   GridBox bounds_;
 };
 

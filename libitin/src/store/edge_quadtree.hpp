@@ -24,9 +24,10 @@ bool crosses(const Segment& segment, const Cell& cell);
 void for_each_edge_leaf(std::vector<Segment> segments,
                         const std::function<void(const Cell&, const std::vector<Segment>&)>& visit);
 
-/// Precondition: in ascending order.
+/// Precondition: in ascending order, all of one theme.
 std::vector<std::uint8_t> encode_edges(const Cell& cell, const std::vector<Segment>& segments);
 /// Throws DecodeError unless the bytes are `count` segments in ascending order, each crossing the cell.
-std::vector<Segment> decode_edges(const Cell& cell, std::size_t count, std::span<const std::uint8_t> bytes);
+std::vector<Segment> decode_edges(const Cell& cell, std::uint16_t theme, std::size_t count,
+                                  std::span<const std::uint8_t> bytes);
 
 }  // namespace itin

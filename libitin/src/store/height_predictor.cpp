@@ -12,7 +12,10 @@ constexpr std::int64_t kHeightLimit = std::int64_t{1} << 20;  // keeps every sum
 
 constexpr auto kWeights = [] {
   std::array<double, 2 * kMaxOffset * kMaxOffset + 1> weights{};
-  for (std::uint32_t d2 = 0; d2 < weights.size(); ++d2) weights[d2] = static_cast<double>(65536 / (d2 + 1));
+  for (std::uint32_t d2 = 0; d2 < weights.size(); ++d2) {
+    const std::uint32_t weight = 65536 / (d2 + 1);
+    weights[d2] = weight;
+  }
   return weights;
 }();
 

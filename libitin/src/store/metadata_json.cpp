@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <itin/error.hpp>
+
 #include "store/byte_stream.hpp"
 #include "store/store_format.hpp"
 
@@ -34,21 +36,18 @@ LevelInfo level_from_json(const json& j, double resolution) {
 }
 
 ordered_json source_to_json(const SourceInfo& source) {
-  return {{"path", source.path},
-          {"kind", source.kind},
-          {"imported", source.imported},
-          {"sha256", source.sha256},
-          {"source_crs", source.source_crs},
-          {"vertices", source.vertices},
-          {"gap_basis_m", source.gap_basis},
-          {"spacing_m", source.spacing},
-          {"replaces", source.replaces}};
+  return {{"path", source.path},         {"kind", source.kind},
+          {"theme", source.theme},       {"imported", source.imported},
+          {"sha256", source.sha256},     {"source_crs", source.source_crs},
+          {"vertices", source.vertices}, {"gap_basis_m", source.gap_basis},
+          {"spacing_m", source.spacing}, {"replaces", source.replaces}};
 }
 
 SourceInfo source_from_json(const json& j) {
   SourceInfo source;
   source.path = j.at("path").get<std::string>();
   source.kind = j.at("kind").get<std::string>();
+  source.theme = j.value("theme", "");
   source.imported = j.at("imported").get<std::string>();
   source.sha256 = j.at("sha256").get<std::string>();
   source.source_crs = j.at("source_crs").get<std::string>();
@@ -59,9 +58,26 @@ SourceInfo source_from_json(const json& j) {
   return source;
 }
 
+ordered_json theme_to_json(const ThemeInfo& theme) {
+  return {{"name", theme.name},
+          {"kind", name_of(theme.kind)},
+          {"features", theme.features},
+          {"vertices", theme.vertices},
+          {"segments", theme.segments}};
+}
+
+ThemeInfo theme_from_json(const json& j) {
+  try {
+    return {j.at("name").get<std::string>(), theme_kind(j.at("kind").get<std::string>()),
+            j.at("features").get<std::uint64_t>(), j.at("vertices").get<std::uint64_t>(),
+            j.at("segments").get<std::uint64_t>()};
+  } catch (const InputError& e) {
+    throw DecodeError(e.what());
+  }
+}
+
 StoreMetadata read_document(const json& j) {
   StoreMetadata metadata;
-  metadata.format_version = static_cast<int>(format::kVersion);
   metadata.crs_wkt = j.at("crs_wkt").get<std::string>();
   metadata.grid.origin = {j.at("grid").at("origin_x").get<double>(), j.at("grid").at("origin_y").get<double>()};
   metadata.grid.resolution = j.at("grid").at("resolution_m").get<double>();
@@ -71,6 +87,10 @@ StoreMetadata read_document(const json& j) {
     metadata.levels.push_back(level_from_json(level, metadata.grid.resolution));
   }
   for (const json& source : j.at("sources")) metadata.sources.push_back(source_from_json(source));
+  // Version 1 had no themes.
+  if (j.contains("themes")) {
+    for (const json& theme : j.at("themes")) metadata.themes.push_back(theme_from_json(theme));
+  }
   metadata.vertices = j.at("vertices").get<std::uint64_t>();
   return metadata;
 }
@@ -90,6 +110,8 @@ std::string metadata_to_json(const StoreMetadata& metadata) {
   }
   j["sources"] = ordered_json::array();
   for (const SourceInfo& source : metadata.sources) j["sources"].push_back(source_to_json(source));
+  j["themes"] = ordered_json::array();
+  for (const ThemeInfo& theme : metadata.themes) j["themes"].push_back(theme_to_json(theme));
   j["vertices"] = metadata.vertices;
   // File names may hold bytes that are no UTF-8.
   return j.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
@@ -98,7 +120,8 @@ std::string metadata_to_json(const StoreMetadata& metadata) {
 StoreMetadata metadata_from_json(const std::string& text) {
   try {
     const StoreMetadata metadata = read_document(json::parse(text));
-    if (metadata.levels.empty() || metadata.levels.size() > format::kMaxLevels || !(metadata.grid.resolution > 0)) {
+    if (metadata.levels.empty() || metadata.levels.size() > format::kMaxLevels || !(metadata.grid.resolution > 0) ||
+        metadata.themes.size() > format::kMaxThemes) {
       throw DecodeError("describes no store");
     }
     return metadata;

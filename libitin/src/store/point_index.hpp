@@ -25,7 +25,8 @@ struct Leaf {
   std::int32_t zmax = 0;
   std::int32_t lo = 0;  ///< T_level + lo <= T_0 <= T_level + hi over the cell, grid units
   std::int32_t hi = 0;
-  std::uint64_t key = 0;  ///< private to the index
+  std::uint64_t key = 0;    ///< private to the index
+  std::uint16_t theme = 0;  ///< whose vertices, 0 for terrain; a theme's vertices are there at every level
 };
 
 /// A leaf's points, in ascending Morton order.
@@ -35,11 +36,18 @@ struct Block {
   std::vector<std::uint8_t> levels;    ///< per point, or empty when all have the leaf's level
 };
 
-/// A piece of a constraint line, ends on vertices of the coarsest level. A coverage segment has ground to its left.
-/// Vertices of any level may lie on it, and split it where they are selected; no other segment crosses it.
+/// The built-in theme of the coverage outline; other themes are numbered from 1.
+inline constexpr std::uint16_t kCoverage = 0;
+
+/// A piece of a constraint line, ends on vertices that are there at all of its levels. A coverage segment has ground to
+/// its left. Vertices of any level may lie on it, and split it where they are selected; no segment that may be selected
+/// together with it crosses it.
 struct Segment {
   std::int32_t ax = 0, ay = 0;
   std::int32_t bx = 0, by = 0;
+  std::uint16_t theme = kCoverage;
+  std::uint8_t finest = 0, coarsest = 0xff;  ///< it is part of its line at these levels
+  std::int32_t reach = 0;  ///< what it stands for at finer levels lies within its box, widened by this on all sides
   friend auto operator<=>(const Segment&, const Segment&) = default;
 };
 
@@ -52,11 +60,13 @@ class PointIndex {
   /// The box of all points.
   virtual GridBox bounds() const = 0;
 
-  /// Appends every non-empty leaf that meets `box` and may hold a point of level `finest` or coarser, each once.
+  /// Appends every non-empty leaf that meets `box` and may hold a point of level `finest` or coarser, each once; those
+  /// of all themes included.
   virtual void leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const = 0;
   virtual std::shared_ptr<const Block> block(const Leaf& leaf) const = 0;
 
-  /// Appends every coverage segment that meets `box`, and perhaps others nearby; the same one may come twice.
+  /// Appends every segment that meets `box`, of the coverage and of all themes, at all levels, and perhaps others
+  /// nearby; the same one may come twice.
   virtual void segments(const GridBox& box, std::vector<Segment>& out) const = 0;
 };
 

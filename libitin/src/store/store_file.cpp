@@ -37,6 +37,7 @@ std::size_t bytes_of(const Block& block) {
 
 StoreFile::StoreFile(const std::string& path, const StoreOptions& options) : rows_(path), cache_(options.cache_bytes) {
   metadata_ = at_place(path, "metadata", [&] { return metadata_from_json(rows_.read_metadata()); });
+  metadata_.format_version = rows_.version();
   const std::uint64_t key = format::kChunkListKey;
   chunks_ = at_place(path, format::place("directory", key),
                      [&] { return decode_chunk_list(rows_.read(BlobKind::Directory, key)); });
@@ -61,8 +62,9 @@ Block StoreFile::read_block(const Leaf& leaf) const {
 }
 
 std::vector<Segment> StoreFile::read_edges(const Leaf& leaf) const {
-  return at_place(rows_.path(), format::place("block", leaf.key),
-                  [&] { return decode_edges(leaf.cell, leaf.points, rows_.read(BlobKind::Block, leaf.key)); });
+  return at_place(rows_.path(), format::place("block", leaf.key), [&] {
+    return decode_edges(leaf.cell, format::theme_of(leaf.level), leaf.points, rows_.read(BlobKind::Block, leaf.key));
+  });
 }
 
 std::shared_ptr<const DirectoryChunk> StoreFile::chunk(int tree, const ChunkEntry& entry) const {
@@ -105,6 +107,14 @@ void StoreFile::leaves(int finest, const GridBox& box, std::vector<Leaf>& out) c
       if (leaf.points > 0) out.push_back(leaf);
     });
   }
+  for (auto tree = chunks_.upper_bound(format::kMaxLevels); tree != chunks_.end(); ++tree) {
+    if (format::is_edge_tree(tree->first)) break;
+    for_each_leaf(tree->first, box, [&](Leaf leaf) {
+      leaf.level = level_count() - 1;
+      leaf.theme = format::theme_of(tree->first);
+      out.push_back(leaf);
+    });
+  }
 }
 
 std::shared_ptr<const Block> StoreFile::block(const Leaf& leaf) const {
@@ -116,7 +126,12 @@ std::shared_ptr<const Block> StoreFile::block(const Leaf& leaf) const {
 }
 
 void StoreFile::segments(const GridBox& box, std::vector<Segment>& out) const {
-  for_each_leaf(format::kCoverageTree, box, [&](const Leaf& leaf) {
+  for (auto tree = chunks_.lower_bound(format::kFirstEdgeTree); tree != chunks_.end(); ++tree)
+    segments(tree->first, box, out);
+}
+
+void StoreFile::segments(int tree, const GridBox& box, std::vector<Segment>& out) const {
+  for_each_leaf(tree, box, [&](const Leaf& leaf) {
     const std::uint64_t key = cache_key(BlobKind::Block, leaf.key);
     auto edges = std::static_pointer_cast<const std::vector<Segment>>(cache_.find(key));
     if (!edges) {

@@ -42,6 +42,7 @@ class StoreFile final : public PointIndex {
   template <typename Visit>
   void for_each_leaf(int tree, const GridBox& box, const Visit& visit) const;
   std::shared_ptr<const DirectoryChunk> chunk(int tree, const ChunkEntry& entry) const;
+  void segments(int tree, const GridBox& box, std::vector<Segment>& out) const;
 
   StoreRows rows_;
   StoreMetadata metadata_;

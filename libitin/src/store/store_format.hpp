@@ -11,7 +11,7 @@
 namespace itin::format {
 
 inline constexpr std::uint32_t kApplicationId = 0x4954494e;  // "ITIN"
-inline constexpr std::uint32_t kVersion = 1;
+inline constexpr std::uint32_t kVersion = 2;
 inline constexpr int kPageSize = 16384;
 
 inline constexpr const char* kSchema =
@@ -19,11 +19,28 @@ inline constexpr const char* kSchema =
     "CREATE TABLE directory(key INTEGER PRIMARY KEY, data BLOB NOT NULL);"
     "CREATE TABLE block(key INTEGER PRIMARY KEY, data BLOB NOT NULL);";
 
-/// Quadtrees are numbered: a level's points by the level, a theme's edges from kFirstEdgeTree.
+/// Quadtrees are numbered: a level's points by the level, a theme's own vertices from kMaxLevels, its edges from
+/// kFirstEdgeTree; theme 0 is the coverage outline, which has no vertices of its own.
 inline constexpr int kMaxLevels = 64;
 inline constexpr int kFirstEdgeTree = 1024;
 inline constexpr int kCoverageTree = kFirstEdgeTree;
 inline constexpr int kLastTree = 2046;
+inline constexpr int kMaxThemes = 900;
+constexpr int vertex_tree(int theme) {
+  return kMaxLevels + theme;
+}
+constexpr int edge_tree(int theme) {
+  return kFirstEdgeTree + theme;
+}
+constexpr bool is_edge_tree(int tree) {
+  return tree >= kFirstEdgeTree;
+}
+/// 0 for the trees of levels.
+constexpr std::uint16_t theme_of(int tree) {
+  return static_cast<std::uint16_t>(is_edge_tree(tree)   ? tree - kFirstEdgeTree
+                                    : tree >= kMaxLevels ? tree - kMaxLevels
+                                                         : 0);
+}
 
 /// A leaf is never smaller, so that its code's low 8 bits are zero and tree and code fit into 63 bits.
 inline constexpr int kMinLeafLog2Side = 4;

@@ -33,8 +33,8 @@ std::uint32_t big_endian(const Header& header, std::size_t offset) {
 }
 
 // SQLite's own header, read without it: most files that are no store are told apart here, and a file that is shorter
-// or longer than it should be.
-void check_header(const std::string& path, std::uint64_t file_bytes) {
+// or longer than it should be. Returns the format version.
+int checked_version(const std::string& path, std::uint64_t file_bytes) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw FileError(path, std::string("cannot be read: ") + std::strerror(errno));
   Header header{};
@@ -63,6 +63,7 @@ void check_header(const std::string& path, std::uint64_t file_bytes) {
                                    "import again",
                                    file_bytes, expected));
   }
+  return static_cast<int>(version);
 }
 
 }  // namespace
@@ -112,7 +113,7 @@ StoreRows::StoreRows(const std::string& path) : path_(path) {
   if (!S_ISREG(status.st_mode)) throw FileError(path, "is not a regular file");
   file_bytes_ = static_cast<std::uint64_t>(status.st_size);
   device_ = status.st_dev, inode_ = status.st_ino;
-  check_header(path, file_bytes_);
+  version_ = checked_version(path, file_bytes_);
   idle_.push_back(connect());
 }
 

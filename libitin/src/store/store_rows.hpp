@@ -21,6 +21,7 @@ class StoreRows {
 
   const std::string& path() const { return path_; }
   std::uint64_t file_bytes() const { return file_bytes_; }
+  int version() const { return version_; }
 
   /// The unsealed bytes of a row. Throws CorruptStore where it is missing or damaged.
   std::vector<std::uint8_t> read(BlobKind kind, std::uint64_t key) const;
@@ -37,6 +38,7 @@ class StoreRows {
 
   std::string path_;
   std::uint64_t file_bytes_ = 0;
+  int version_ = 0;
   std::uint64_t device_ = 0, inode_ = 0;
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<Connection>> idle_;

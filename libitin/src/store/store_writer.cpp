@@ -1,13 +1,16 @@
 #include "store/store_writer.hpp"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <stdexcept>
 
+#include "features/line_hierarchy.hpp"
 #include "store/block_codec.hpp"
 #include "store/database.hpp"
 #include "store/directory.hpp"
 #include "store/edge_quadtree.hpp"
+#include "store/leaf_cutter.hpp"
 #include "store/metadata_json.hpp"
 #include "store/replacement_file.hpp"
 #include "store/seal.hpp"
@@ -23,10 +26,15 @@ class StoreWriter::Impl {
 
   void add_point_leaf(int level, const Cell& cell, std::span<const GridPoint> points,
                       std::span<const std::uint16_t> sources, std::int32_t lo, std::int32_t hi);
-  void add_segments(std::vector<Segment> segments);
-  void commit(std::vector<SourceInfo> sources);
+  void add_theme_vertices(std::uint16_t theme, std::span<const GridPoint> points,
+                          std::span<const std::uint16_t> sources);
+  void add_segments(const std::vector<Segment>& segments);
+  void commit(std::vector<SourceInfo> sources, std::vector<ThemeInfo> themes);
 
  private:
+  void add_points(int tree, const Cell& cell, std::span<const GridPoint> points, std::span<const std::uint16_t> sources,
+                  std::int32_t lo, std::int32_t hi);
+  void add_edges(std::uint16_t theme, std::vector<Segment> segments);
   void add_leaf(const Leaf& leaf, std::span<const std::uint8_t> block);
   void flush_chunk();
   void insert(Statement& statement, BlobKind kind, std::uint64_t key, std::span<const std::uint8_t> bytes);
@@ -51,7 +59,7 @@ StoreWriter::Impl::Impl(const std::string& path, const std::string& crs_wkt, con
   }
   metadata_.crs_wkt = crs_wkt;
   metadata_.grid = grid;
-  for (const double t : tolerances) metadata_.levels.push_back({t, 0, 0, {}});
+  for (const double t : tolerances) metadata_.levels.push_back({t, lateral_tolerance(t), 0, {}});
   database_.execute("PRAGMA page_size=" + std::to_string(format::kPageSize) + ";PRAGMA encoding='UTF-8';");
   database_.execute("PRAGMA application_id=" + std::to_string(format::kApplicationId) +
                     ";PRAGMA user_version=" + std::to_string(format::kVersion) + ";");
@@ -98,7 +106,15 @@ void StoreWriter::Impl::add_point_leaf(int level, const Cell& cell, std::span<co
       points.size() != sources.size()) {
     throw std::invalid_argument("not a leaf of this store");
   }
-  Leaf leaf{cell, level, static_cast<std::uint32_t>(points.size()), 0, 0, lo, hi, format::key(level, cell.code)};
+  LevelInfo& info = metadata_.levels[static_cast<std::size_t>(level)];
+  info.vertices += points.size();
+  widen(info, lo, hi);
+  add_points(level, cell, points, sources, lo, hi);
+}
+
+void StoreWriter::Impl::add_points(int tree, const Cell& cell, std::span<const GridPoint> points,
+                                   std::span<const std::uint16_t> sources, std::int32_t lo, std::int32_t hi) {
+  Leaf leaf{cell, tree, static_cast<std::uint32_t>(points.size()), 0, 0, lo, hi, format::key(tree, cell.code)};
   std::vector<std::uint8_t> block;
   if (!points.empty()) {
     const auto [low, high] = std::minmax_element(points.begin(), points.end(),
@@ -107,25 +123,46 @@ void StoreWriter::Impl::add_point_leaf(int level, const Cell& cell, std::span<co
     block = encode_block(cell, points, sources);
   }
   for (const GridPoint& p : points) metadata_.bounds.extend(p.x, p.y);
-  LevelInfo& info = metadata_.levels[static_cast<std::size_t>(level)];
-  info.vertices += points.size();
   metadata_.vertices += points.size();
-  widen(info, lo, hi);
   add_leaf(leaf, block);
 }
 
-void StoreWriter::Impl::add_segments(std::vector<Segment> segments) {
+void StoreWriter::Impl::add_theme_vertices(std::uint16_t theme, std::span<const GridPoint> points,
+                                           std::span<const std::uint16_t> sources) {
+  if (theme == kCoverage || theme > format::kMaxThemes || points.size() != sources.size()) {
+    throw std::invalid_argument("not a theme's vertices");
+  }
+  std::size_t first = 0;
+  LeafCutter cutter(kLeafCapacity, [&](const Cell& cell, std::uint32_t count) {
+    if (count > 0) {
+      add_points(format::vertex_tree(theme), cell, points.subspan(first, count), sources.subspan(first, count), 0, 0);
+    }
+    first += count;
+  });
+  for (const GridPoint& p : points) cutter.add(morton(p.x, p.y));
+  cutter.finish();
+}
+
+void StoreWriter::Impl::add_segments(const std::vector<Segment>& segments) {
+  std::map<std::uint16_t, std::vector<Segment>> by_theme;
+  for (const Segment& s : segments) by_theme[s.theme].push_back(s);
+  for (auto& [theme, of_theme] : by_theme) add_edges(theme, std::move(of_theme));
+}
+
+void StoreWriter::Impl::add_edges(std::uint16_t theme, std::vector<Segment> segments) {
+  if (theme > format::kMaxThemes) throw std::invalid_argument("too many themes");
   for_each_edge_leaf(std::move(segments), [&](const Cell& cell, const std::vector<Segment>& in_cell) {
-    const std::uint64_t key = format::key(format::kCoverageTree, cell.code);
-    add_leaf({cell, format::kCoverageTree, static_cast<std::uint32_t>(in_cell.size()), 0, 0, 0, 0, key},
+    const int tree = format::edge_tree(theme);
+    add_leaf({cell, tree, static_cast<std::uint32_t>(in_cell.size()), 0, 0, 0, 0, format::key(tree, cell.code)},
              encode_edges(cell, in_cell));
   });
 }
 
-void StoreWriter::Impl::commit(std::vector<SourceInfo> sources) {
+void StoreWriter::Impl::commit(std::vector<SourceInfo> sources, std::vector<ThemeInfo> themes) {
   if (!chunk_.empty()) flush_chunk();
   insert(*insert_chunk_, BlobKind::Directory, format::kChunkListKey, encode_chunk_list(chunks_));
   metadata_.sources = std::move(sources);
+  metadata_.themes = std::move(themes);
   const std::string json = metadata_to_json(metadata_);
   {
     Statement statement = database_.prepare("INSERT INTO metadata(name, value, checksum) VALUES('store', ?, ?)");
@@ -149,11 +186,15 @@ void StoreWriter::add_leaf(int level, const Cell& cell, std::span<const GridPoin
                            std::span<const std::uint16_t> sources, std::int32_t lo, std::int32_t hi) {
   impl_->add_point_leaf(level, cell, points, sources, lo, hi);
 }
-void StoreWriter::add_segments(std::vector<Segment> segments) {
-  impl_->add_segments(std::move(segments));
+void StoreWriter::add_segments(const std::vector<Segment>& segments) {
+  impl_->add_segments(segments);
 }
-void StoreWriter::commit(std::vector<SourceInfo> sources) {
-  impl_->commit(std::move(sources));
+void StoreWriter::add_theme_vertices(std::uint16_t theme, std::span<const GridPoint> points,
+                                     std::span<const std::uint16_t> sources) {
+  impl_->add_theme_vertices(theme, points, sources);
+}
+void StoreWriter::commit(std::vector<SourceInfo> sources, std::vector<ThemeInfo> themes) {
+  impl_->commit(std::move(sources), std::move(themes));
 }
 
 }  // namespace itin

@@ -2,8 +2,9 @@
 //
 //   StoreWriter writer(path, crs_wkt, grid, tolerances);
 //   for each level, finest first: for each leaf in Morton order: writer.add_leaf(...);
+//   for each theme with vertices of its own, ascending: writer.add_theme_vertices(...);
 //   writer.add_segments(segments);
-//   writer.commit(sources);
+//   writer.commit(sources, themes);
 //
 // Until commit() returns, and whatever happens before, the file at `path` is what it was. Destroying an uncommitted
 // writer removes the temporary file. A file left behind by a killed process is removed by the next writer.
@@ -35,10 +36,13 @@ class StoreWriter {
   /// derived from the points.
   void add_leaf(int level, const Cell& cell, std::span<const GridPoint> points, std::span<const std::uint16_t> sources,
                 std::int32_t lo, std::int32_t hi);
-  /// The coverage outline, all at once, in any order; kept in an edge quadtree.
-  void add_segments(std::vector<Segment> segments);
+  /// The vertices that are not part of the full surface, but of this theme's lines on it; in Morton order.
+  void add_theme_vertices(std::uint16_t theme, std::span<const GridPoint> points,
+                          std::span<const std::uint16_t> sources);
+  /// The coverage outline and the lines of all themes, all at once, in any order; kept in an edge quadtree a theme.
+  void add_segments(const std::vector<Segment>& segments);
   /// Certified error of each level = the union of its leaves'. Syncs and renames. Throws FileError (disk full, ...).
-  void commit(std::vector<SourceInfo> sources);
+  void commit(std::vector<SourceInfo> sources, std::vector<ThemeInfo> themes = {});
 
  private:
   class Impl;

@@ -26,6 +26,8 @@
 
 namespace itin {
 
+struct ApexFrame;
+
 /// A vertex as read from an index.
 struct SelectedVertex {
   GridPoint point;
@@ -57,10 +59,9 @@ class ApexSearch {
   const RetrievalStatistics& statistics() const { return statistics_; }
 
  private:
-  struct Frame;
   std::uint8_t level_of(const Leaf& leaf, const Block& block, std::size_t k) const;
   std::shared_ptr<const Block> read(const Leaf& leaf);
-  std::optional<SelectedVertex> nearest_circle(const Frame& frame, double lambda, const Position* beyond);
+  std::optional<SelectedVertex> nearest_circle(const ApexFrame& frame, double lambda, const Position* beyond);
 
   const PointIndex& index_;
   const Selection& selection_;

@@ -28,6 +28,7 @@ struct PlaneMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;   ///< vertex numbers, counterclockwise
   std::vector<std::array<std::uint32_t, 3>> neighbours;  ///< kNoTriangle beyond the hull
   std::vector<std::uint8_t> constrained;                 ///< bit i: edge i is part of a constraint (region.hpp)
+  static constexpr int kOutline = 3;                     ///< bit i + kOutline: of the coverage outline
 };
 
 class Delaunay {

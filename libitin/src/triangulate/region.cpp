@@ -5,6 +5,8 @@
 #include <set>
 #include <unordered_map>
 
+#include <fmt/format.h>
+
 #include <itin/error.hpp>
 
 namespace itin {
@@ -13,6 +15,9 @@ namespace {
 
 /// The box is this many mean point spacings wider than the region: most circumdiscs of the region's triangles fit in.
 constexpr double kMargin = 3;
+/// After so many rounds of mending the box may grow, if that reads no more than so many times the points.
+constexpr int kPatience = 3;
+constexpr std::uint64_t kGrowth = 8;
 
 GridBox intersection(const GridBox& a, const GridBox& b) {
   return {std::max(a.xmin, b.xmin), std::max(a.ymin, b.ymin), std::min(a.xmax, b.xmax), std::min(a.ymax, b.ymax)};
@@ -69,11 +74,16 @@ class RegionTriangulation {
 
   RegionMesh run() {
     RegionMesh result;
-    if (!tile_.empty() && triangulate_box()) {
-      while (true) {
+    if (!tile_.empty() && triangulate_box(first_margin())) {
+      for (int mended = 0;; ++mended) {
         mark_ground();
         if (!mend()) break;
-        make_mesh();
+        if (mended == kPatience && worth_growing()) {
+          triangulate_box(4 * margin_);
+          mended = 0;
+        } else {
+          make_mesh();
+        }
       }
       result = extract();
     }
@@ -85,9 +95,10 @@ class RegionTriangulation {
  private:
   /// Reads and triangulates a box around the region, at least so large that there is a triangle. False when there is
   /// none anywhere.
-  bool triangulate_box() {
-    for (double margin = first_margin();; margin *= 4) {
-      box_ = intersection(expanded(tile_, margin), expanded(index_.bounds(), 1));
+  bool triangulate_box(double margin) {
+    for (margin_ = margin;; margin_ *= 4) {
+      box_ = box_with(margin_);
+      proven_.clear();
       read_points();
       segments_.clear();
       const std::vector<Segment> segments = read_segments(box_);
@@ -97,6 +108,7 @@ class RegionTriangulation {
       delaunay_ = Delaunay();
       delaunay_.insert(positions);
       constraints_.clear();
+      themes_.clear();
       constrain_ = false;
       insert_segments(segments);
       make_mesh();
@@ -106,9 +118,22 @@ class RegionTriangulation {
     }
   }
 
+  GridBox box_with(double margin) const { return intersection(expanded(tile_, margin), expanded(index_.bounds(), 1)); }
+
+  /// Where triangles reach far, as across the sea, one vertex after another turns up. A larger box has them at once.
+  bool worth_growing() const {
+    if (box_.contains(index_.bounds())) return false;
+    const GridBox box = box_with(4 * margin_);
+    std::vector<Leaf> leaves;
+    index_.leaves(selection_.finest_in(box), box, leaves);
+    std::uint64_t points = 0;
+    for (const Leaf& leaf : leaves) points += leaf.points;
+    return points < kGrowth * (vertices_.size() + 512);
+  }
+
   double first_margin() const {
     std::vector<Leaf> leaves;
-    index_.leaves(selection_.finest_in(tile_), tile_, leaves);
+    selected_leaves(index_, selection_, tile_, leaves);
     double points = 0;
     for (const Leaf& leaf : leaves)
       points += leaf.points * area(intersection(leaf.cell.box(), tile_)) / area(leaf.cell.box());
@@ -118,7 +143,7 @@ class RegionTriangulation {
 
   void read_points() {
     std::vector<Leaf> leaves;
-    index_.leaves(selection_.finest_in(box_), box_, leaves);
+    selected_leaves(index_, selection_, box_, leaves);
     std::vector<std::pair<std::uint64_t, SelectedVertex>> found;
     for (const Leaf& leaf : leaves) {
       if (leaf.level < selection_.finest_in(intersection(leaf.cell.box(), box_))) continue;
@@ -133,6 +158,10 @@ class RegionTriangulation {
       }
     }
     std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    // Themes may share a vertex.
+    found.erase(
+        std::unique(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first == b.first; }),
+        found.end());
     vertices_.clear();
     extras_.clear();
     unread_.clear();
@@ -146,7 +175,8 @@ class RegionTriangulation {
     std::vector<Segment> found, fresh;
     index_.segments(box, found);
     for (const Segment& s : found) {
-      if (meets({s.ax, s.ay}, {s.bx, s.by}, box) && segments_.insert(s).second) fresh.push_back(s);
+      if (meets({s.ax, s.ay}, {s.bx, s.by}, box) && selection_.selects(s) && segments_.insert(s).second)
+        fresh.push_back(s);
     }
     return fresh;
   }
@@ -176,6 +206,7 @@ class RegionTriangulation {
     std::vector<Delaunay::Constraint> constraints;
     for (const Segment& s : segments) {
       constraints.emplace_back(vertex_at({s.ax, s.ay}, nullptr), vertex_at({s.bx, s.by}, nullptr));
+      themes_.push_back(s.theme);
     }
     if (constrain_) delaunay_.constrain(constraints);
     constraints_.insert(constraints_.end(), constraints.begin(), constraints.end());
@@ -184,10 +215,13 @@ class RegionTriangulation {
   Position position(std::uint32_t vertex) const { return vertices_[vertex].position(); }
   Position corner(std::uint32_t triangle, int i) const { return position(mesh_.triangles[triangle][i % 3]); }
   bool constrained(std::uint32_t triangle, int i) const { return mesh_.constrained[triangle] >> i & 1; }
+  bool on_outline(std::uint32_t triangle, int i) const {
+    return mesh_.constrained[triangle] >> (i + PlaneMesh::kOutline) & 1;
+  }
 
   /// ground_[t] is right for every triangle that meets the box: no segment crosses the box unseen, so a triangle's part
   /// in the box is ground or not as a whole, and so are neighbours whose common edge meets the box unless it is
-  /// constrained. A box without segments holds a vertex, hence is ground.
+  /// part of the outline. A box that no outline meets has a vertex or a line in it, hence is ground.
   void mark_ground() {
     ground_.assign(mesh_.triangles.size(), Ground::kUnknown);
     std::vector<std::uint32_t> stack;
@@ -197,7 +231,7 @@ class RegionTriangulation {
       stack.push_back(t);
     };
     for (const SegmentEdge& edge : segment_edges_) {
-      if (!meets(position(edge.from), position(edge.to), box_)) continue;
+      if (edge.theme != kCoverage || !meets(position(edge.from), position(edge.to), box_)) continue;
       settle(edge.left, Ground::kYes);
       settle(edge.right, Ground::kNo);
     }
@@ -206,7 +240,7 @@ class RegionTriangulation {
       const std::uint32_t t = stack.back();
       stack.pop_back();
       for (int i = 0; i < 3; ++i) {
-        if (!constrained(t, i) && meets(corner(t, i + 1), corner(t, i + 2), box_))
+        if (!on_outline(t, i) && meets(corner(t, i + 1), corner(t, i + 2), box_))
           settle(mesh_.neighbours[t][i], ground_[t]);
       }
     }
@@ -227,6 +261,7 @@ class RegionTriangulation {
   struct SegmentEdge {
     std::uint32_t from, to;
     std::uint32_t left, right;
+    std::uint16_t theme = kCoverage;
   };
 
   /// Finds every segment's edges and marks them as constrained. False when some segment is not made of edges.
@@ -238,11 +273,13 @@ class RegionTriangulation {
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
       for (const std::uint32_t v : mesh_.triangles[t]) some_triangle[v] = t;
     }
-    for (const auto& [from, to] : constraints_) {
+    for (std::size_t k = 0; k < constraints_.size(); ++k) {
+      const auto [from, to] = constraints_[k];
       for (std::uint32_t at = from; at != to;) {
         if (some_triangle[at] == kNoTriangle) return false;
-        const std::optional<SegmentEdge> edge = edge_towards(at, to, some_triangle[at]);
+        std::optional<SegmentEdge> edge = edge_towards(at, to, some_triangle[at]);
         if (!edge) return false;
+        edge->theme = themes_[k];
         mark_constrained(*edge);
         segment_edges_.push_back(*edge);
         at = edge->to;
@@ -257,6 +294,8 @@ class RegionTriangulation {
       for (int i = 0; i < 3; ++i) {
         if (mesh_.triangles[t][i] != edge.from && mesh_.triangles[t][i] != edge.to) {
           mesh_.constrained[t] |= static_cast<std::uint8_t>(1 << i);
+          if (edge.theme == kCoverage)
+            mesh_.constrained[t] |= static_cast<std::uint8_t>(1 << (i + PlaneMesh::kOutline));
         }
       }
     }
@@ -324,6 +363,9 @@ class RegionTriangulation {
       if (!circumdisc_in(corner(t, 0), corner(t, 1), corner(t, 2), box_) && in_region(t)) prove(t, intruders, fresh);
       look_beyond_hull(t, intruders);
     }
+    for (const SegmentEdge& edge : segment_edges_) {
+      if (edge.theme == kCoverage && edge.left == kNoTriangle) look_left_of(edge.from, edge.to, intruders);
+    }
     for (const SelectedVertex& v : intruders) vertex_at(v.position(), &v);
     insert_segments(fresh);
     return !intruders.empty() || !fresh.empty();
@@ -350,20 +392,24 @@ class RegionTriangulation {
     if (sound) proven_.insert(key);
   }
 
-  /// Where the region reaches beyond a hull edge, or just to it, with ground on this side, the next triangle's vertex
-  /// is missing, unless the edge is on the hull of the whole surface.
   void look_beyond_hull(std::uint32_t t, std::vector<SelectedVertex>& intruders) {
+    const auto& v = mesh_.triangles[t];
     for (int i = 0; i < 3; ++i) {
-      if (mesh_.neighbours[t][i] != kNoTriangle || constrained(t, i)) continue;
-      const Position p = corner(t, i + 2), q = corner(t, i + 1);
-      if (!tile_reaches_left_of(p, q, 0)) continue;
-      const Triangle key{mesh_.triangles[t][(i + 1) % 3], mesh_.triangles[t][(i + 2) % 3], kNoTriangle};
-      if (proven_.contains(key)) continue;
-      if (const auto found = search_.apex(p, q)) {
-        intruders.push_back(*found);
-      } else {
-        proven_.insert(key);
-      }
+      if (mesh_.neighbours[t][i] == kNoTriangle && !on_outline(t, i))
+        look_left_of(v[(i + 2) % 3], v[(i + 1) % 3], intruders);
+    }
+  }
+
+  /// Where the region reaches beyond a hull edge, or just to it, and there is ground, the next triangle's vertex is
+  /// missing, unless the edge is on the hull of the whole surface.
+  void look_left_of(std::uint32_t from, std::uint32_t to, std::vector<SelectedVertex>& intruders) {
+    const Position p = position(from), q = position(to);
+    const Triangle key{from, to, kNoTriangle};
+    if (!tile_reaches_left_of(p, q, 0) || proven_.contains(key)) return;
+    if (const auto found = search_.apex(p, q)) {
+      intruders.push_back(*found);
+    } else {
+      proven_.insert(key);
     }
   }
 
@@ -393,6 +439,12 @@ class RegionTriangulation {
       result.mesh.triangles.push_back(triangle);
       result.mesh.neighbours.push_back(neighbours);
       result.mesh.constrained.push_back(mesh_.constrained[t]);
+    }
+    for (const SegmentEdge& edge : segment_edges_) {
+      const auto kept_side = [&](std::uint32_t t) { return t != kNoTriangle && triangle_number[t] != kNoTriangle; };
+      if (edge.theme == kCoverage || (!kept_side(edge.left) && !kept_side(edge.right))) continue;
+      const auto [from, to] = std::minmax({vertex_number[edge.from], vertex_number[edge.to]});
+      result.lines.push_back({from, to, edge.theme});
     }
     return result;
   }
@@ -427,7 +479,11 @@ class RegionTriangulation {
   void read_late(std::uint32_t v) {
     if (!unread_.contains(v)) return;
     const auto found = search_.at(position(v));
-    if (!found) throw Error("an end of a constraint line is not among the vertices; run itin check on the store");
+    if (!found) {
+      throw Error(fmt::format(
+          "an end of a constraint line at grid position {}, {} is not among the vertices; run itin check on the store",
+          position(v).x, position(v).y));
+    }
     vertices_[v] = *found;
   }
 
@@ -438,14 +494,16 @@ class RegionTriangulation {
   const GridWindow* window_;
   ApexSearch search_;
   GridBox tile_;  ///< the region's box
-  GridBox box_;   ///< everything selected in it has been read
+  double margin_ = 0;
+  GridBox box_;  ///< everything selected in it has been read
   std::vector<SelectedVertex> vertices_;
   std::size_t sorted_ = 0;                                   ///< the first so many vertices are in Morton order
   std::unordered_map<std::uint64_t, std::uint32_t> extras_;  ///< the others by Morton code
   std::set<std::uint32_t> unread_;                           ///< of these, those known by position only
   std::set<Segment> segments_;
   std::vector<Delaunay::Constraint> constraints_;
-  bool constrain_ = false;  ///< whether delaunay_ knows the constraints
+  std::vector<std::uint16_t> themes_;  ///< of the constraints
+  bool constrain_ = false;             ///< whether delaunay_ knows the constraints
   std::vector<SegmentEdge> segment_edges_;
   Delaunay delaunay_;
   PlaneMesh mesh_;

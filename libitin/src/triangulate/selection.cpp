@@ -48,4 +48,40 @@ int Selection::finest_in(const GridBox& box) const {
   return level_at(std::clamp<std::int64_t>(x_, box.xmin, box.xmax), std::clamp<std::int64_t>(y_, box.ymin, box.ymax));
 }
 
+void Selection::leave_out(std::uint16_t theme) {
+  if (theme >= left_out_.size()) left_out_.resize(theme + std::size_t{1});
+  left_out_[theme] = true;
+}
+
+bool Selection::selects(const Segment& s) const {
+  if (!includes(s.theme)) return false;
+  if (s.finest <= finest_ && coarsest_ <= s.coarsest) return true;
+  const std::int64_t xmin = std::int64_t{std::min(s.ax, s.bx)} - s.reach,
+                     xmax = std::int64_t{std::max(s.ax, s.bx)} + s.reach;
+  const std::int64_t ymin = std::int64_t{std::min(s.ay, s.by)} - s.reach,
+                     ymax = std::int64_t{std::max(s.ay, s.by)} + s.reach;
+  const int nearest = level_at(std::clamp(x_, xmin, xmax), std::clamp(y_, ymin, ymax));
+  const int farthest = level_at(x_ - xmin > xmax - x_ ? xmin : xmax, y_ - ymin > ymax - y_ ? ymin : ymax);
+  return s.finest <= nearest && farthest <= s.coarsest;
+}
+
+Selection selection_of(const StoreMetadata& metadata, const Detail& detail, const ThemeChoice& themes) {
+  themes.check(metadata.themes);
+  std::vector<double> tolerances;
+  for (const LevelInfo& level : metadata.levels) tolerances.push_back(level.tolerance);
+  Selection selection(detail, tolerances, metadata.grid);
+  for (std::size_t t = 0; t < metadata.themes.size(); ++t) {
+    if (!themes.includes(metadata.themes[t])) selection.leave_out(static_cast<std::uint16_t>(t + 1));
+  }
+  return selection;
+}
+
+void selected_leaves(const PointIndex& index, const Selection& selection, const GridBox& box, std::vector<Leaf>& out) {
+  const auto first = static_cast<std::ptrdiff_t>(out.size());
+  index.leaves(selection.finest_in(box), box, out);
+  out.erase(std::remove_if(out.begin() + first, out.end(),
+                           [&](const Leaf& leaf) { return leaf.theme != 0 && !selection.includes(leaf.theme); }),
+            out.end());
+}
+
 }  // namespace itin

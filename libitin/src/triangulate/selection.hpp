@@ -1,5 +1,5 @@
-// Which stored vertices a Detail selects: a predicate of the vertex alone, never of the window, so that the
-// triangulation of the selected vertices is one and the same whatever part of it is asked for.
+// Which stored vertices and segments a Detail and a choice of themes select: a predicate of the item alone, never of
+// the window, so that the triangulation of what is selected is one and the same whatever part of it is asked for.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,10 @@
 
 #include <itin/detail.hpp>
 #include <itin/geometry.hpp>
+#include <itin/store.hpp>
+#include <itin/theme.hpp>
+
+#include "store/point_index.hpp"
 
 namespace itin {
 
@@ -18,6 +22,10 @@ class Selection {
   /// `tolerances` of the levels in metres, ascending, level 0 (tolerance 0) first.
   Selection(const Detail& detail, const std::vector<double>& tolerances, const Grid& grid);
 
+  /// Leaves out a theme, by its number, or the coverage outline. At first all are selected.
+  void leave_out(std::uint16_t theme);
+  bool includes(std::uint16_t theme) const { return theme >= left_out_.size() || !left_out_[theme]; }
+
   /// The levels asked for at the centre and beyond the last ring.
   int finest() const { return finest_; }
   int coarsest() const { return coarsest_; }
@@ -28,6 +36,9 @@ class Selection {
     if (level >= coarsest_) return true;
     return level >= finest_ && level >= level_at(x, y);
   }
+  /// Whether a segment is a constraint: its theme is chosen, and it is part of its line at every level asked for about
+  /// it. Where a line leaves one ring for the next no segment may be; what it consists of elsewhere is the same.
+  bool selects(const Segment& segment) const;
 
  private:
   struct Disc {
@@ -41,7 +52,14 @@ class Selection {
   int coarsest_ = 0;
   std::int64_t x_ = 0;
   std::int64_t y_ = 0;
-  std::vector<Disc> discs_;  ///< all rings but the last, which has no end
+  std::vector<Disc> discs_;     ///< all rings but the last, which has no end
+  std::vector<bool> left_out_;  ///< by theme
 };
+
+/// What a query of a store selects. Throws InputError for a theme that the store does not have.
+Selection selection_of(const StoreMetadata& metadata, const Detail& detail, const ThemeChoice& themes);
+
+/// The leaves of an index that may hold something selected in `box`.
+void selected_leaves(const PointIndex& index, const Selection& selection, const GridBox& box, std::vector<Leaf>& out);
 
 }  // namespace itin

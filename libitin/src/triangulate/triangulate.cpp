@@ -21,7 +21,7 @@ class TilePlan {
  public:
   TilePlan(const PointIndex& index, const Selection& selection, const GridWindow& window)
       : index_(index), selection_(selection), window_(window) {
-    index_.leaves(selection_.finest_in(window_.bounds()), window_.bounds(), leaves_);
+    selected_leaves(index_, selection_, window_.bounds(), leaves_);
     std::erase_if(leaves_, [&](const Leaf& leaf) { return leaf.level < selection_.finest_in(leaf.cell.box()); });
     std::vector<std::uint32_t> all(leaves_.size());
     for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
@@ -64,6 +64,7 @@ class Assembly {
   Tin run() && {
     number_vertices();
     gather_triangles();
+    gather_lines();
     for (const RegionMesh& region : regions_) tin_.statistics += region.statistics;
     return std::move(tin_);
   }
@@ -123,6 +124,15 @@ class Assembly {
     tin_.triangles.erase(std::unique(tin_.triangles.begin(), tin_.triangles.end()), tin_.triangles.end());
   }
 
+  void gather_lines() {
+    for (std::size_t r = 0; r < regions_.size(); ++r) {
+      for (const LineEdge& e : regions_[r].lines)
+        tin_.lines.push_back({numbers_[r][e.from], numbers_[r][e.to], e.theme});
+    }
+    std::sort(tin_.lines.begin(), tin_.lines.end());
+    tin_.lines.erase(std::unique(tin_.lines.begin(), tin_.lines.end()), tin_.lines.end());
+  }
+
   std::vector<RegionMesh> regions_;
   std::vector<std::vector<std::uint32_t>> numbers_;  ///< per region and vertex: its number in the result
   Tin tin_;
@@ -130,11 +140,10 @@ class Assembly {
 
 }  // namespace
 
-Tin triangulate(const Store& store, const Window& window, const Detail& detail, Progress& progress) {
+Tin triangulate(const Store& store, const Window& window, const Detail& detail, Progress& progress,
+                const ThemeChoice& themes) {
   const StoreMetadata& metadata = store.metadata();
-  std::vector<double> tolerances;
-  for (const LevelInfo& level : metadata.levels) tolerances.push_back(level.tolerance);
-  const Selection selection(detail, tolerances, metadata.grid);
+  const Selection selection = selection_of(metadata, detail, themes);
   const GridWindow grid_window(window, metadata.grid, metadata.bounds);
   const TilePlan plan(store.points(), selection, grid_window);
 

@@ -2,9 +2,9 @@
 #include "import/sorted_points.hpp"
 
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <random>
-#include <signal.h>
 #include <sys/resource.h>
 #include <vector>
 

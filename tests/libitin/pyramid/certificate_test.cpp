@@ -13,6 +13,7 @@
 
 #include "support/raster_file.hpp"
 #include "support/temporary_directory.hpp"
+#include "support/vector_file.hpp"
 
 namespace itin {
 namespace {
@@ -119,6 +120,48 @@ TEST(Certificate, HoldsOnRealTerrainWithAndWithoutVoids) {
     options.sources = {raster};
     NoProgress progress;
     import_terrain(path, options, progress);
+    expect_certified(Store(path), seed);
+  }
+}
+
+TEST(Certificate, HoldsWithLinesOfTheTerrain) {
+  const auto seed = static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed());
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed);
+  const auto in = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(random() % 100000) / 100000;
+  };
+  const test::TemporaryDirectory directory;
+  const test::CardiffTerrain terrain;
+  for (const bool cliffs : {false, true}) {
+    const std::string raster = directory.file("t.tif"), lines = directory.file("l.geojson"),
+                      path = directory.file("t.itin");
+    std::filesystem::remove(path);
+    test::write_raster(raster, {300000, 200000, 50, 36, 34, 27700},
+                       [&](int c, int r) { return terrain(c + 150, r + 250); });
+    // Winding lines on the terrain, and some that are far above it and below.
+    std::vector<test::LineFeature> features;
+    for (int i = 0; i < 8; ++i) {
+      test::LineFeature f;
+      Point3 p{in(300300, 301500), in(198500, 199700), 0};
+      double heading = in(0, 6.28);
+      for (int k = 0; k < 40; ++k) {
+        const double ground =
+            terrain(static_cast<int>((p.x - 300000) / 50) + 150, static_cast<int>((200000 - p.y) / 50) + 250);
+        f.vertices.push_back({p.x, p.y, ground + (cliffs ? in(-20, 20) : 0)});
+        heading += in(-0.7, 0.7);
+        p = {p.x + 12 * std::cos(heading), p.y + 12 * std::sin(heading), 0};
+      }
+      features.push_back(f);
+    }
+    test::write_lines(lines, features);
+    ImportOptions options;
+    options.sources = {raster};
+    NoProgress progress;
+    import_terrain(path, options, progress);
+    options.sources = {lines};
+    options.kind = ThemeKind::Breaklines;
+    import_lines(path, options, progress);
     expect_certified(Store(path), seed);
   }
 }

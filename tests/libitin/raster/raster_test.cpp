@@ -60,7 +60,8 @@ class RasterFile : public ::testing::Test {
     fs::create_directories(directory_);
     GDALAllRegister();
     for (std::size_t i = 0; i < values_.size(); ++i) {
-      const auto c = static_cast<double>(i % 1500), r = static_cast<double>(i / 1500);
+      const std::size_t row = i / 1500;
+      const auto c = static_cast<double>(i % 1500), r = static_cast<double>(row);
       values_[i] = c + r < 400 ? 255 : static_cast<std::uint8_t>(std::sin(c / 90) * std::cos(r / 70) > 0.2);
     }
     description_.crs_wkt = "EPSG:27700";

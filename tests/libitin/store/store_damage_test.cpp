@@ -39,7 +39,7 @@ Contents read_all(const std::string& path) {
     const auto block = store.points().block(leaf);
     all.points.insert(all.points.end(), block->points.begin(), block->points.end());
     all.sources.insert(all.sources.end(), block->sources.begin(), block->sources.end());
-    all.certificates.push_back({leaf.lo, leaf.hi});
+    all.certificates.emplace_back(leaf.lo, leaf.hi);
   }
   store.points().segments(store.points().bounds(), all.segments);
   return all;

@@ -9,6 +9,7 @@
 #include <itin/detail.hpp>
 #include <itin/window.hpp>
 
+#include "features/planar.hpp"
 #include "pyramid/coverage.hpp"
 #include "support/points.hpp"
 
@@ -173,13 +174,12 @@ std::vector<Segment> outline_of(const Whole& whole, const std::vector<std::array
 
 class RegionCoverage : public testing::TestWithParam<Pattern> {};
 
-TEST_P(RegionCoverage, WindowEqualsWholeAtEveryLevelAcrossVoids) {
-  const auto seed = static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed());
+void expect_windows_equal_the_whole_across_voids(Pattern pattern, unsigned seed) {
   SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937 random(seed + static_cast<unsigned>(GetParam()));
+  std::mt19937 random(seed + static_cast<unsigned>(pattern));
   constexpr int kLevels = 4;
   for (int run = 0; run < 8; ++run) {
-    std::vector<GridPoint> points = test::make_points(GetParam(), 200 + static_cast<int>(random() % 1000), random);
+    std::vector<GridPoint> points = test::make_points(pattern, 200 + static_cast<int>(random() % 1000), random);
     const GridBox box = box_of(points);
     const double gap =
         2.0 * std::sqrt(1.0 * (box.xmax - box.xmin) * (box.ymax - box.ymin) / static_cast<double>(points.size()));
@@ -189,6 +189,7 @@ TEST_P(RegionCoverage, WindowEqualsWholeAtEveryLevelAcrossVoids) {
       std::erase_if(points,
                     [&](const GridPoint& p) { return (p.x - x) * (p.x - x) + (p.y - y) * (p.y - y) < 6 * gap * gap; });
     }
+    if (whole(points, {}).mesh.triangles.empty()) continue;  // the voids took it all
     std::vector<LevelPoint> with_levels;
     for (const GridPoint& p : points) {
       const unsigned dice = static_cast<unsigned>(random() % 16);
@@ -261,8 +262,86 @@ TEST_P(RegionCoverage, WindowEqualsWholeAtEveryLevelAcrossVoids) {
   }
 }
 
+TEST_P(RegionCoverage, WindowEqualsWholeAtEveryLevelAcrossVoids) {
+  expect_windows_equal_the_whole_across_voids(GetParam(),
+                                              static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed()));
+}
+
+// A small window within one large triangle, behind an outline that is all that was read at first.
+TEST_P(RegionCoverage, WindowBehindAnOutlineEqualsTheWhole) {
+  expect_windows_equal_the_whole_across_voids(GetParam(), 102);
+}
+
 INSTANTIATE_TEST_SUITE_P(Region, RegionCoverage,
                          testing::Values(Pattern::kRandom, Pattern::kLattice, Pattern::kClusters, Pattern::kContours));
+
+class RegionLines : public testing::TestWithParam<Pattern> {};
+
+/// Segments between random positions, of which many are points: through others, along each other, crossing.
+std::vector<OwnedSegment> random_segments(const std::vector<GridPoint>& points, int count, std::mt19937& random) {
+  const GridBox box = box_of(points);
+  const auto end = [&] {
+    if (random() % 2 == 0) return points[random() % points.size()];
+    const auto in = [&](std::int32_t low, std::int32_t high) {
+      return low + static_cast<std::int32_t>(random() % static_cast<unsigned>(high - low + 1));
+    };
+    return GridPoint{in(box.xmin, box.xmax), in(box.ymin, box.ymax), in(0, 2000)};
+  };
+  std::vector<OwnedSegment> segments;
+  for (int i = 0; i < count; ++i) segments.push_back({end(), end(), static_cast<std::uint32_t>(random() % 2)});
+  return segments;
+}
+
+TEST_P(RegionLines, WindowEqualsWholeAtEveryLevelWithAndWithoutATheme) {
+  const auto seed = static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed());
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed + static_cast<unsigned>(GetParam()));
+  constexpr int kLevels = 4;
+  for (int run = 0; run < 3; ++run) {
+    std::map<Position, LevelPoint> by_position;
+    const std::vector<GridPoint> points = test::make_points(GetParam(), 20 + static_cast<int>(random() % 1000), random);
+    for (const GridPoint& p : points) by_position[{p.x, p.y}] = {p, static_cast<int>(random() % kLevels)};
+    const PlanarLines lines = make_planar(random_segments(points, 1 + static_cast<int>(random() % 40), random));
+    for (const GridPoint& p : lines.vertices) by_position[{p.x, p.y}] = {p, kLevels - 1};
+    std::vector<LevelPoint> all;
+    for (const auto& [position, point] : by_position) all.push_back(point);
+    std::vector<Segment> segments;
+    for (const PlanarEdge& e : lines.edges) {
+      const GridPoint &a = lines.vertices[e.from], &b = lines.vertices[e.to];
+      segments.push_back({a.x, a.y, b.x, b.y, static_cast<std::uint16_t>(e.owner + 1)});
+    }
+    test::TestIndex index(all, kLevels, 1 + random() % 40);
+    index->set_segments(segments);
+
+    for (int k = 0; k < kLevels; ++k) {
+      for (const bool both : {true, false}) {
+        std::vector<GridPoint> selected;
+        for (const LevelPoint& p : all) {
+          if (p.level >= k) selected.push_back(p.point);
+        }
+        std::vector<Segment> chosen = segments;
+        Selection selection(Detail::tolerance(k), {0, 1, 2, 3}, Grid{{0, 0}, 1.0});
+        if (!both) {
+          selection.leave_out(2);
+          std::erase_if(chosen, [](const Segment& s) { return s.theme == 2; });
+        }
+        const Whole truth = whole(selected, chosen);
+        for (const Window& window : windows_about(box_of(points), random)) {
+          const GridWindow grid_window(window, Grid{{0, 0}, 1.0}, index->bounds());
+          const RegionMesh region = triangulate_region(*index, selection, grid_window.bounds(), &grid_window);
+          ASSERT_EQ(differences(keys(region), meeting(truth, grid_window)), "")
+              << "run " << run << ", level " << k << ", " << points.size() << " points, " << chosen.size()
+              << " segments, window " << grid_window.bounds().xmin << " " << grid_window.bounds().ymin << " "
+              << grid_window.bounds().xmax << " " << grid_window.bounds().ymax;
+        }
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Region, RegionLines,
+                         testing::Values(Pattern::kRandom, Pattern::kLattice, Pattern::kClusters, Pattern::kContours,
+                                         Pattern::kCollinear, Pattern::kCocircular));
 
 }  // namespace
 }  // namespace itin

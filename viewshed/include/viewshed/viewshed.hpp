@@ -28,6 +28,7 @@
 #include <itin/progress.hpp>
 #include <itin/raster.hpp>
 #include <itin/store.hpp>
+#include <itin/theme.hpp>
 #include <itin/tin.hpp>
 
 namespace itin::viewshed {
@@ -69,7 +70,8 @@ struct Request {
   std::optional<double> cell_size;
   std::optional<RasterGrid> grid;
   Earth earth;
-  Detail detail = Detail::tolerance(0);  ///< of the surface; not used with a Tin
+  Detail detail = Detail::tolerance(0);      ///< of the surface; not used with a Tin
+  ThemeChoice themes = ThemeChoice::none();  ///< likewise
   NoData nodata = NoData::kUnknown;
   Mode mode = Mode::kVisible;
 };

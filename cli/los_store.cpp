@@ -1,0 +1,199 @@
+#include "los_store.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include <itin/coordinates.hpp>
+#include <itin/cross_section.hpp>
+#include <itin/error.hpp>
+#include <itin/geodesic.hpp>
+
+#include "store_document.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+double grid_azimuth_deg(Point2 from, Point2 to) {
+  const double degrees = std::atan2(to.x - from.x, to.y - from.y) * 180 / std::numbers::pi;
+  return degrees < 0 ? degrees + 360 : degrees;
+}
+
+/// Both sites, each with its direction to the other.
+std::pair<LosEnd::Site, LosEnd::Site> sites(Point2 from, Point2 to, const std::string& crs_wkt) {
+  const CoordinateTransform to_geographic(crs_wkt, "EPSG:4326");
+  const Point2 a = to_geographic(from), b = to_geographic(to);
+  const Geodesic direction = geodesic(a, b);
+  return {{from, a, grid_azimuth_deg(from, to), direction.azimuth_deg},
+          {to, b, grid_azimuth_deg(to, from), direction.back_azimuth_deg}};
+}
+
+/// How much the surface's clearances may differ from the full surface's: with both ends standing on it, by as much as
+/// the certified error is wide.
+double clearance_error(const Store& store, const Detail& detail, Point2 from, Point2 to) {
+  const std::vector<LevelInfo>& levels = store.metadata().levels;
+  Box box;
+  box.extend(from);
+  box.extend(to);
+  CertifiedError widest;
+  for (std::size_t i = 0; i < levels.size() && levels[i].tolerance <= detail.coarsest(); ++i) {
+    const auto error = store.certified_error(static_cast<int>(i), box);
+    if (!error) continue;
+    widest.lo = std::min(widest.lo, error->lo), widest.hi = std::max(widest.hi, error->hi);
+  }
+  return widest.hi - widest.lo;
+}
+
+std::string angle(double degrees) {
+  return fmt::format("{:.3f}\xC2\xB0", degrees);
+}
+
+std::vector<std::string> lines_about(const LosEnd& end, const std::string& crs) {
+  const LosEnd::Site& site = *end.site;
+  return {fmt::format("{:.2f}, {:.2f} ({})", site.position.x, site.position.y, crs),
+          fmt::format("{:.6f}\xC2\xB0 {}, {:.6f}\xC2\xB0 {} (WGS 84)", std::abs(site.lon_lat.y),
+                      site.lon_lat.y < 0 ? "S" : "N", std::abs(site.lon_lat.x), site.lon_lat.x < 0 ? "W" : "E"),
+          fmt::format("ground {:.2f} m, height {:.2f} m, elevation {:.2f} m", end.ground_m, end.height_m,
+                      end.ground_m + end.height_m),
+          fmt::format("azimuth {} grid, {} true; elevation angle {}", angle(site.azimuth_grid_deg),
+                      angle(site.azimuth_true_deg), angle(end.elevation_angle_deg))};
+}
+
+std::vector<std::pair<std::string, std::string>> facts_about(const Store& store, const Document& surface) {
+  const StoreMetadata& metadata = store.metadata();
+  std::string sources;
+  for (const SourceInfo& source : metadata.sources) {
+    if (sources.size() > 160) {
+      sources += ", ...";
+      break;
+    }
+    sources +=
+        fmt::format("{}{}{}", sources.empty() ? "" : ", ", std::filesystem::path(source.path).filename().string(),
+                    source.sha256.empty() ? "" : " (SHA-256 " + source.sha256.substr(0, 12) + ")");
+  }
+  return {{"Store", std::filesystem::path(store.path()).filename().string()},
+          {"Sources", sources},
+          {"CRS", fmt::format("{} ({})", crs_title(metadata.crs_wkt), crs_identifier(metadata.crs_wkt))},
+          {"Surface",
+           fmt::format("tolerance {:g} m, certified error {:+.2f} to {:+.2f} m; themes: none",
+                       surface.at("tolerance_m").get<double>(), surface.at("certified_error_m").at(0).get<double>(),
+                       surface.at("certified_error_m").at(1).get<double>())}};
+}
+
+}  // namespace
+
+void LosStoreOptions::declare(CLI::App& app) {
+  app.add_option("--from", from_text_, "The first end; h is 2 where not given")->type_name("x,y[,h]");
+  app.add_option("--to", to_text_, "The second end; h is 2 where not given")->type_name("x,y[,h]");
+  app.add_flag("--absolute-heights", absolute_heights_, "Every h is an elevation, not a height above the surface");
+  app.add_option("--observer-on", from_on_, "What the first end stands on (without themes both are the same)")
+      ->type_name("ground|surface");
+  app.add_option("--target-on", to_on_, "What the second end stands on (without themes both are the same)")
+      ->type_name("ground|surface");
+  in_crs_.declare(app);
+  detail_.declare(app);
+  themes_.declare(app);
+  app.add_option("--nodata", nodata_text_, "What ground without data does to the sight line (default: unknown)")
+      ->type_name("unknown|block|clear");
+}
+
+void LosStoreOptions::validate(std::optional<double> object_tip_m) {
+  if (from_text_.empty() || to_text_.empty()) throw InputError("give both ends: --from x,y,h --to x,y,h");
+  from_ = parse_place("--from", from_text_);
+  to_ = parse_place("--to", to_text_);
+  if (absolute_heights_ && !(from_.height && to_.height)) {
+    throw InputError("--absolute-heights: give both ends' elevations, x,y,h");
+  }
+  from_height_ = from_.height.value_or(2);
+  to_height_ = to_.height.value_or(object_tip_m.value_or(2));
+  parse_choice("--observer-on", from_on_, {"ground", "surface"});
+  parse_choice("--target-on", to_on_, {"ground", "surface"});
+  if (!nodata_text_.empty()) parse_choice("--nodata", nodata_text_, {"unknown", "block", "clear"});
+  detail_.validate();
+  themes_.validate_none("los");
+  if (!absolute_heights_ && (from_height_ < 0 || to_height_ < 0)) {
+    throw InputError("--from, --to: a height must not be negative; for an elevation give --absolute-heights");
+  }
+}
+
+void LosStoreOptions::validate_surface() {
+  if (!nodata_text_.empty()) parse_choice("--nodata", nodata_text_, {"unknown", "block", "clear"});
+  detail_.validate();
+  themes_.validate_none("los");
+  if (detail_.has_rings()) throw InputError("--rings have no one centre for many links; give --tolerance");
+  if (absolute_heights_) throw InputError("--absolute-heights is not for --links, whose heights are above the ground");
+}
+
+Document LosStoreOptions::surface_parameters() const {
+  Document parameters = detail_.parameters();
+  if (!in_crs_.crs.empty()) parameters["in_crs"] = in_crs_.crs;
+  parameters["nodata"] = nodata_text_.empty() ? "unknown" : nodata_text_;
+  return parameters;
+}
+
+Document LosStoreOptions::parameters() const {
+  const auto end = [&](const Place& place, double height) {
+    return Document{
+        {"x", place.position.x}, {"y", place.position.y}, {absolute_heights_ ? "elevation_m" : "height_m", height}};
+  };
+  Document parameters{{"from", end(from_, from_height_)}, {"to", end(to_, to_height_)}};
+  if (!in_crs_.crs.empty()) parameters["in_crs"] = in_crs_.crs;
+  parameters.update(detail_.parameters());
+  parameters["nodata"] = nodata_text_.empty() ? "unknown" : nodata_text_;
+  return parameters;
+}
+
+double LosStoreOptions::height_at(const char* option, double ground_m, double given_m) const {
+  if (!absolute_heights_) return given_m;
+  if (given_m < ground_m) {
+    throw InputError(
+        fmt::format("{}: elevation {:g} m is below the ground there, {:.2f} m", option, given_m, ground_m));
+  }
+  return given_m - ground_m;
+}
+
+LosStoreOptions::Result LosStoreOptions::run(const Store& store, profile::LosQuery query) const {
+  const StoreMetadata& metadata = store.metadata();
+  const auto transform = in_crs_.transform_to(metadata.crs_wkt);
+  const Point2 from = transform(from_.position), to = transform(to_.position);
+  const Detail detail = detail_.detail(from);
+  const CrossSection section = cross_section(store, from, to, detail);
+  profile::Profile line = profile::from_section(section);
+  const auto require_ground = [&](const char* option, Point2 p, bool present) {
+    if (!present) throw InputError(fmt::format("{}: there is no ground at {:.2f},{:.2f}", option, p.x, p.y));
+  };
+  const bool empty = line.points.empty();
+  require_ground("--from", from, !empty && line.points.front().distance_m == 0);
+  require_ground("--to", to, !empty && line.points.back().distance_m == line.length_m);
+  query.from_height_m = height_at("--from", line.points.front().ground_m, from_height_);
+  query.to_height_m = height_at("--to", line.points.back().ground_m, to_height_);
+  query.clearance_error_m = clearance_error(store, detail, from, to);
+  query.gaps_block = nodata_text_ == "block";
+
+  Result result;
+  result.surface = surface_document(metadata, detail, ThemeChoice::none());
+  if (!line.gaps.empty() && nodata_text_ != "clear") {
+    result.warnings.push_back(fmt::format("the line crosses {} stretch{} without data, which {}; see gaps, --nodata",
+                                          line.gaps.size(), line.gaps.size() == 1 ? "" : "es",
+                                          query.gaps_block ? "block it" : "count as clear"));
+  }
+  result.report = profile::analyse(std::move(line), query);
+  profile::LosReport& report = result.report;
+  report.crs_wkt = metadata.crs_wkt;
+  auto [from_site, to_site] = sites(from, to, metadata.crs_wkt);
+  result.from = {report.profile.points.front().ground_m, query.from_height_m, report.elevation_angle_from_deg,
+                 from_site};
+  result.to = {report.profile.points.back().ground_m, query.to_height_m, report.elevation_angle_to_deg, to_site};
+  report.facts = facts_about(store, result.surface);
+  const std::string crs = crs_identifier(metadata.crs_wkt);
+  report.from_lines = lines_about(result.from, crs);
+  report.to_lines = lines_about(result.to, crs);
+  result.statistics = section.statistics;
+  result.triangles = section.triangles;
+  return result;
+}
+
+}  // namespace itin::cli

@@ -1,0 +1,78 @@
+// Cross-sections: where a straight line crosses the edges of the surface's triangles.
+//
+//   const CrossSection section = cross_section(store, {305000, 210000}, {315000, 213000}, Detail::tolerance(0));
+//   for (const Breakpoint& p : section.breakpoints) plot(p.distance, p.position.z);
+//
+// The breakpoints are the crossings that a window query's triangles would give, neither more nor fewer, and nothing is
+// sampled: between two of them the surface is straight. cross_section() reads the fewest points (R. Smith and others,
+// "Implicit triangulations", 1992): it locates the start and crosses each edge into the one triangle behind it. Many
+// lines over one area are faster on a SectionSurface, which gives the same breakpoints to the last bit.
+//
+// Ends are rounded to 2^-20 grid units (10 nm on a grid of 1 cm), so that every decision is exact; distances to
+// multiples of 2^-30 m, so that length - distance is exact and a line from b to a is the mirror of one from a to b.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <itin/detail.hpp>
+#include <itin/geometry.hpp>
+#include <itin/tin.hpp>
+
+namespace itin {
+
+class Store;
+
+struct Breakpoint {
+  double distance = 0;  ///< metres along the line
+  Point3 position;      ///< on the surface
+};
+
+/// A part of the line without ground, metres along it. Its ends belong to the ground beside it, if there is any.
+struct SectionGap {
+  double from = 0;
+  double to = 0;
+  friend bool operator==(const SectionGap&, const SectionGap&) = default;
+};
+
+struct CrossSection {
+  double length = 0;  ///< metres
+  /// In order of distance. Over ground the first and last are the line's ends; two breakpoints with no gap between them
+  /// are joined by a straight piece of the surface. A line of length 0 has one. Where the line merely touches the
+  /// ground there is one breakpoint between two gaps.
+  std::vector<Breakpoint> breakpoints;
+  std::vector<SectionGap> gaps;  ///< in order
+  RetrievalStatistics statistics;
+  std::uint64_t triangles = 0;  ///< crossed by the line
+};
+
+/// Cost: 0.5 microseconds a triangle crossed when warm. Memory follows the line.
+/// Throws InputError for ends that are not finite or farther than 2^31 grid units from the grid's origin, CorruptStore,
+/// FileError.
+CrossSection cross_section(const Store& store, Point2 from, Point2 to, const Detail& detail);
+
+/// For many lines over one area: triangulates tiles once, keeps those used last, and walks lines through them. Safe for
+/// concurrent use. Refers to the Store, which must outlive it.
+class SectionSurface {
+ public:
+  // Changes the speed, never the answer.
+  struct Options {
+    std::uint64_t cache_bytes = std::uint64_t{256} << 20;
+  };
+
+  SectionSurface(const Store& store, const Detail& detail);
+  SectionSurface(const Store& store, const Detail& detail, const Options& options);
+  SectionSurface(SectionSurface&&) noexcept;
+  SectionSurface& operator=(SectionSurface&&) noexcept;
+  ~SectionSurface();
+
+  /// Statistics count what this call read and triangulated. Throws as cross_section() does.
+  CrossSection between(Point2 from, Point2 to) const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace itin

@@ -1,0 +1,38 @@
+// Small sets of points and lines as GeoPackage layers.
+//
+//   VectorLayer ends{"ends", VectorLayer::Shape::kPoints, {{"name", VectorLayer::Type::kText}}, {}};
+//   ends.features.push_back({{{x, y, z}}, {std::string("A")}});
+//   write_geopackage(path, store.metadata().crs_wkt, {ends}, false);
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <itin/geometry.hpp>
+
+namespace itin {
+
+struct VectorLayer {
+  enum class Shape { kPoints, kLines };
+  enum class Type { kNumber, kWhole, kText };
+  /// Nothing, where a feature has no value for a field.
+  using Value = std::variant<std::monostate, double, std::int64_t, std::string>;
+  struct Feature {
+    std::vector<Point3> points;  ///< one for a point, at least two for a line
+    std::vector<Value> values;   ///< as many as fields, of their types
+  };
+
+  std::string name;
+  Shape shape = Shape::kPoints;
+  std::vector<std::pair<std::string, Type>> fields;
+  std::vector<Feature> features;
+};
+
+/// Equal calls write equal bytes. Throws FileError if the file exists and may not be replaced, or cannot be written.
+void write_geopackage(const std::string& path, const std::string& crs_wkt, const std::vector<VectorLayer>& layers,
+                      bool overwrite);
+
+}  // namespace itin

@@ -1,0 +1,80 @@
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include <itin/cross_section.hpp>
+#include <itin/error.hpp>
+#include <itin/store.hpp>
+
+#include "cross_section/nearby_apex.hpp"
+#include "cross_section/retrieval.hpp"
+#include "cross_section/section_walk.hpp"
+#include "triangulate/region.hpp"
+
+namespace itin {
+
+namespace {
+
+Point2 heading_of(const SectionLine& line) {
+  const double dx = line.end().x - line.start().x, dy = line.end().y - line.start().y, length = std::hypot(dx, dy);
+  return length > 0 ? Point2{dx / length, dy / length} : Point2{1, 0};
+}
+
+/// Smith's retrieval: one triangle after another.
+class RetrievedTriangles final : public TriangleFinder {
+ public:
+  RetrievedTriangles(const PointIndex& index, const Selection& selection, const SectionLine& line)
+      : index_(index), selection_(selection), apex_(index, selection, heading_of(line)) {}
+
+  GridPoint beyond(const CrossedEdge& edge) override {
+    const auto found = apex_.apex({edge.left.x, edge.left.y}, {edge.right.x, edge.right.y});
+    if (!found) throw Error("the ground ends without an outline; run itin check on the store");
+    return *found;
+  }
+
+  std::vector<std::array<GridPoint, 3>> around(const GridBox& box) override {
+    if (box == box_) return around_;
+    box_ = box;
+    around_.clear();
+    const RegionMesh region = triangulate_region(index_, selection_, box);
+    statistics_ += region.statistics;
+    for (const auto& [a, b, c] : region.mesh.triangles) {
+      around_.push_back({region.vertices[a].point, region.vertices[b].point, region.vertices[c].point});
+    }
+    return around_;
+  }
+
+  CrossedEdge edge_on(const OutlineCrossing& segment, const SectionLine& line, OnLine on_line) override {
+    return find_edge_on(index_, selection_, segment, line, on_line, statistics_);
+  }
+
+  RetrievalStatistics statistics() const {
+    RetrievalStatistics all = statistics_;
+    all += apex_.statistics();
+    return all;
+  }
+
+ private:
+  const PointIndex& index_;
+  const Selection& selection_;
+  NearbyApex apex_;
+  GridBox box_;
+  std::vector<std::array<GridPoint, 3>> around_;
+  RetrievalStatistics statistics_;
+};
+
+}  // namespace
+
+CrossSection retrieve_section(const PointIndex& index, const Selection& selection, const SectionLine& line) {
+  RetrievedTriangles triangles(index, selection, line);
+  CrossSection section = walk_section(index, line, triangles);
+  section.statistics = triangles.statistics();
+  return section;
+}
+
+CrossSection cross_section(const Store& store, Point2 from, Point2 to, const Detail& detail) {
+  return retrieve_section(store.points(), selection_of(store.metadata(), detail, ThemeChoice::none()),
+                          SectionLine(store.metadata().grid, from, to));
+}
+
+}  // namespace itin

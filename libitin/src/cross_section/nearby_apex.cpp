@@ -1,0 +1,160 @@
+#include "cross_section/nearby_apex.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "triangulate/apex_frame.hpp"
+
+namespace itin {
+
+namespace {
+
+/// The neighbourhood's half side in lengths of the edge it is made for: a trade between making many and filling large.
+constexpr double kReach = 14;
+/// A short edge among long ones must not make the neighbourhood small at once.
+constexpr double kShrink = 0.5;
+/// How far ahead of the edge its centre lies, in half sides.
+constexpr double kAhead = 0.7;
+/// Larger circles are left to ApexSearch.
+constexpr double kMostGrowth = 64;
+
+GridBox square(double x, double y, double half_side) {
+  const auto cut = [](double v) {
+    return static_cast<std::int32_t>(std::clamp(v, -1.0 * kGridHalfSide, kGridHalfSide - 1.0));
+  };
+  return {cut(std::floor(x - half_side)), cut(std::floor(y - half_side)), cut(std::ceil(x + half_side)),
+          cut(std::ceil(y + half_side))};
+}
+
+}  // namespace
+
+NearbyApex::NearbyApex(const PointIndex& index, const Selection& selection, Point2 heading)
+    : index_(index), selection_(selection), heading_(heading), fallback_(index, selection) {}
+
+RetrievalStatistics NearbyApex::statistics() const {
+  RetrievalStatistics all = statistics_;
+  all += fallback_.statistics();
+  return all;
+}
+
+void NearbyApex::move_to(Position a, Position b, double lambda) {
+  const double mx = (static_cast<double>(a.x) + b.x) / 2, my = (static_cast<double>(a.y) + b.y) / 2;
+  const double length = std::max(1.0, std::hypot(static_cast<double>(b.x) - a.x, static_cast<double>(b.y) - a.y));
+  half_side_ = std::max({kReach * length, 6 * lambda, kShrink * half_side_});
+  const double ahead = std::clamp(half_side_ - 4 * lambda, 0.0, kAhead * half_side_);
+  box_ = square(mx + heading_.x * ahead, my + heading_.y * ahead, half_side_);
+  leaves_.clear();
+  selected_leaves(index_, selection_, box_, leaves_);
+  std::erase_if(leaves_, [&](const Leaf& leaf) { return leaf.level < selection_.finest_in(leaf.cell.box()); });
+  segments_.clear();
+  index_.segments(box_, segments_);
+  std::erase_if(segments_, [&](const Segment& s) { return !selection_.selects(s); });
+
+  bin_shift_ = std::bit_width(static_cast<std::uint32_t>(std::max(length, half_side_ / 64)));
+  columns_ = (static_cast<std::uint32_t>(box_.xmax - box_.xmin) >> bin_shift_) + 1;
+  const std::uint32_t rows = (static_cast<std::uint32_t>(box_.ymax - box_.ymin) >> bin_shift_) + 1;
+  first_.assign(std::size_t{columns_} * rows, kNone);
+  next_.clear();
+  points_.clear();
+  // What was read before comes for free.
+  std::erase_if(leaves_, [&](const Leaf& leaf) {
+    if (!blocks_.contains(leaf.key)) return false;
+    load(leaf);
+    return true;
+  });
+}
+
+std::size_t NearbyApex::bin(std::int32_t x, std::int32_t y) const {
+  return std::size_t{static_cast<std::uint32_t>(y - box_.ymin) >> bin_shift_} * columns_ +
+         (static_cast<std::uint32_t>(x - box_.xmin) >> bin_shift_);
+}
+
+std::shared_ptr<const Block> NearbyApex::read(const Leaf& leaf) {
+  std::shared_ptr<const Block>& block = blocks_[leaf.key];
+  if (block == nullptr) {
+    block = index_.block(leaf);
+    statistics_.points_read += block->points.size();
+    statistics_.blocks_read += 1;
+  }
+  return block;
+}
+
+void NearbyApex::load(const Leaf& leaf) {
+  const auto block = read(leaf);
+  for (std::size_t k = 0; k < block->points.size(); ++k) {
+    const GridPoint& p = block->points[k];
+    if (!box_.contains(p.x, p.y)) continue;
+    if (!selection_.selects(block->levels.empty() ? leaf.level : block->levels[k], p.x, p.y)) continue;
+    std::uint32_t& first = first_[bin(p.x, p.y)];
+    next_.push_back(first);
+    first = static_cast<std::uint32_t>(points_.size());
+    points_.push_back(p);
+  }
+}
+
+void NearbyApex::consider(const ApexFrame& frame, const GridPoint& point, Candidate& candidate) const {
+  const Position c{point.x, point.y};
+  if (!frame.inside(candidate.reach, c.x, c.y) || orientation(frame.a, frame.b, c) <= 0) return;
+  if (candidate.best) {
+    const Position best{candidate.best->x, candidate.best->y};
+    if (best == c || in_circle_perturbed(frame.a, frame.b, best, c) < 0) return;
+  }
+  const bool hidden = std::any_of(segments_.begin(), segments_.end(),
+                                  [&](const Segment& s) { return crosses(s, frame.a, c) || crosses(s, frame.b, c); });
+  if (hidden) return;
+  candidate.best = point;
+  candidate.reach = std::min(candidate.reach, frame.lambda(c));
+}
+
+void NearbyApex::search_bins(const ApexFrame& frame, const GridBox& box, Candidate& candidate) const {
+  for (std::size_t row = bin(box_.xmin, box.ymin), last = bin(box_.xmin, box.ymax); row <= last; row += columns_) {
+    const std::size_t end = row + (static_cast<std::uint32_t>(box.xmax - box_.xmin) >> bin_shift_);
+    for (std::size_t i = row + (static_cast<std::uint32_t>(box.xmin - box_.xmin) >> bin_shift_); i <= end; ++i) {
+      for (std::uint32_t p = first_[i]; p != kNone; p = next_[p]) consider(frame, points_[p], candidate);
+    }
+  }
+}
+
+/// The vertex of the least circle up to lambda, which must fit into the neighbourhood.
+std::optional<GridPoint> NearbyApex::search(const ApexFrame& frame, double lambda) {
+  Candidate candidate{std::nullopt, lambda};
+  search_bins(frame, frame.cap_box(lambda, box_), candidate);
+  for (std::size_t i = 0; i < leaves_.size();) {
+    if (!frame.cap_meets(candidate.reach, leaves_[i].cell.box())) {
+      ++i;
+      continue;
+    }
+    const std::size_t before = points_.size();
+    load(leaves_[i]);
+    leaves_[i] = leaves_.back();
+    leaves_.pop_back();
+    for (std::size_t p = before; p < points_.size(); ++p) consider(frame, points_[p], candidate);
+    i = 0;  // nearer leaves may have been passed over, but never one that a smaller circle meets
+  }
+  // What lies on the searched circle itself may have rivals that rounding left out.
+  if (candidate.best && candidate.reach < 0.999 * lambda) return candidate.best;
+  return std::nullopt;
+}
+
+std::optional<GridPoint> NearbyApex::apex(Position a, Position b) {
+  const ApexFrame frame(a, b);
+  const GridBox all = index_.bounds();
+  const auto fits = [&](double lambda) {
+    const GridBox reached =
+        frame.cap_box(lambda, {-kGridHalfSide, -kGridHalfSide, kGridHalfSide - 1, kGridHalfSide - 1});
+    const GridBox data{std::max(reached.xmin, all.xmin), std::max(reached.ymin, all.ymin),
+                       std::min(reached.xmax, all.xmax), std::min(reached.ymax, all.ymax)};
+    return !box_.empty() && box_.contains(a.x, a.y) && box_.contains(b.x, b.y) && box_.contains(data);
+  };
+  for (double lambda = 1.5 * frame.r; lambda < kMostGrowth * frame.r; lambda *= 2) {
+    if (!fits(lambda)) move_to(a, b, lambda);
+    if (!fits(lambda)) break;
+    if (const auto found = search(frame, lambda)) return found;
+  }
+  const auto found = fallback_.apex(a, b);
+  if (!found) return std::nullopt;
+  return found->point;
+}
+
+}  // namespace itin

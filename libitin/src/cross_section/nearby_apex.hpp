@@ -1,0 +1,70 @@
+// The third vertices of triangles along a line, from as few blocks as can be.
+//
+// What ApexSearch (triangulate/apex.hpp) asks the index for every edge is kept here for a whole neighbourhood: the list
+// of its leaves, the points of those read so far in a lattice of bins, the segments. A leaf is read when the circle at
+// hand reaches it, not before. Where a circle outgrows the neighbourhood, ApexSearch takes over.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "store/point_index.hpp"
+#include "triangulate/apex.hpp"
+#include "triangulate/selection.hpp"
+
+namespace itin {
+
+struct ApexFrame;
+
+/// Serves one thread and one line.
+class NearbyApex {
+ public:
+  /// Edges will come one after another in about the direction `heading`.
+  NearbyApex(const PointIndex& index, const Selection& selection, Point2 heading);
+
+  /// As ApexSearch::apex.
+  std::optional<GridPoint> apex(Position a, Position b);
+
+  /// Every block counts once.
+  RetrievalStatistics statistics() const;
+
+ private:
+  struct Candidate {
+    std::optional<GridPoint> best;
+    double reach = 0;  ///< its lambda, or the one searched
+  };
+
+  /// Makes a neighbourhood of edge ab that circles up to lambda fit into.
+  void move_to(Position a, Position b, double lambda);
+  std::optional<GridPoint> search(const ApexFrame& frame, double lambda);
+  void search_bins(const ApexFrame& frame, const GridBox& box, Candidate& candidate) const;
+  void consider(const ApexFrame& frame, const GridPoint& point, Candidate& candidate) const;
+  void load(const Leaf& leaf);
+  std::shared_ptr<const Block> read(const Leaf& leaf);
+  std::size_t bin(std::int32_t x, std::int32_t y) const;
+
+  const PointIndex& index_;
+  const Selection& selection_;
+  Point2 heading_;
+  ApexSearch fallback_;
+  RetrievalStatistics statistics_;
+  std::unordered_map<std::uint64_t, std::shared_ptr<const Block>> blocks_;
+
+  GridBox box_;               ///< the neighbourhood
+  double half_side_ = 0;      ///< of the last one, grid units
+  std::vector<Leaf> leaves_;  ///< of the neighbourhood, not yet loaded
+  std::vector<Segment> segments_;
+
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  int bin_shift_ = 0;
+  std::uint32_t columns_ = 0;
+  std::vector<std::uint32_t> first_;  ///< per bin, into points_
+  std::vector<std::uint32_t> next_;   ///< per point
+  std::vector<GridPoint> points_;
+};
+
+}  // namespace itin

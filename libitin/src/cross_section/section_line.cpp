@@ -1,0 +1,113 @@
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+#include <itin/section_line.hpp>
+
+namespace itin {
+
+namespace {
+
+double rounded_distance(double metres) {
+  return std::nearbyint(metres / kDistanceUnit) * kDistanceUnit;
+}
+
+}  // namespace
+
+SectionLine::SectionLine(const Grid& grid, Point2 a, Point2 b) : grid_(grid) {
+  const auto rounded = [&](double v, double origin) {
+    const double units = (v - origin) / grid.resolution;
+    if (!(std::abs(units) <= 0x1p31)) throw InputError(fmt::format("the coordinate {} is too far from the store", v));
+    return std::llround(units * kSubgrid);
+  };
+  std::int64_t bx = rounded(b.x, grid.origin.x), by = rounded(b.y, grid.origin.y);
+  ax_ = rounded(a.x, grid.origin.x), ay_ = rounded(a.y, grid.origin.y);
+  mirrored_ = std::tie(bx, by) < std::tie(ax_, ay_);
+  if (mirrored_) std::swap(ax_, bx), std::swap(ay_, by), std::swap(a, b);
+  start_point_ = a, end_point_ = b;
+  dx_ = bx - ax_, dy_ = by - ay_;
+  length_ = rounded_distance(std::hypot(static_cast<double>(dx_), static_cast<double>(dy_)) * grid.resolution /
+                             static_cast<double>(kSubgrid));
+  is_point_ = dx_ == 0 && dy_ == 0;
+  if (is_point_) dx_ = kSubgrid;
+}
+
+GridBox SectionLine::start_box() const {
+  const auto low = [](std::int64_t v) {
+    return static_cast<std::int32_t>(std::clamp<std::int64_t>(v >> 20, -kGridHalfSide, kGridHalfSide - 1));
+  };
+  return {low(ax_), low(ay_), low(ax_ + kSubgrid - 1), low(ay_ + kSubgrid - 1)};
+}
+
+GridBox SectionLine::box(double t0, double t1) const {
+  const auto at = [](std::int64_t origin, std::int64_t d, double t) {
+    return (static_cast<double>(origin) + t * static_cast<double>(d)) / static_cast<double>(kSubgrid);
+  };
+  const auto cut = [](double v) {
+    return static_cast<std::int32_t>(std::clamp(v, -1.0 * kGridHalfSide, kGridHalfSide - 1.0));
+  };
+  const double end = is_point_ ? 0 : 1;
+  const auto [xmin, xmax] = std::minmax({at(ax_, dx_, t0 * end), at(ax_, dx_, t1 * end)});
+  const auto [ymin, ymax] = std::minmax({at(ay_, dy_, t0 * end), at(ay_, dy_, t1 * end)});
+  return {cut(std::floor(xmin) - 1), cut(std::floor(ymin) - 1), cut(std::ceil(xmax) + 1), cut(std::ceil(ymax) + 1)};
+}
+
+SectionCrossing SectionLine::at(double t, Point3 position, SectionCrossing::Place place) const {
+  return {t, rounded_distance(t * length_), position, place};
+}
+
+SectionCrossing SectionLine::crossing(const GridPoint& p) const {
+  using Place = SectionCrossing::Place;
+  const std::int64_t px = subgrid(p.x) - ax_, py = subgrid(p.y) - ay_;
+  const Wide along = static_cast<Wide>(dx_) * px + static_cast<Wide>(dy_) * py;
+  const Wide whole = static_cast<Wide>(dx_) * dx_ + static_cast<Wide>(dy_) * dy_;
+  const Place place = along < 0                              ? Place::kBefore
+                      : along > (is_point_ ? Wide{} : whole) ? Place::kBeyond
+                                                             : Place::kWithin;
+  return at(static_cast<double>(along) / static_cast<double>(whole), grid_.point(p), place);
+}
+
+SectionCrossing SectionLine::crossing(const GridPoint& p, const GridPoint& q) const {
+  using Place = SectionCrossing::Place;
+  // One order for both triangles beside the edge.
+  if (q < p) return crossing(q, p);
+  const Wide sp = side(p), sq = side(q);
+  if (sp == 0) return crossing(p);
+  if (sq == 0) return crossing(q);
+  const double s = static_cast<double>(sp) / static_cast<double>(sp - sq);
+  const std::int64_t qx = subgrid(q.x) - subgrid(p.x), qy = subgrid(q.y) - subgrid(p.y);
+  const std::int64_t px = ax_ - subgrid(p.x), py = ay_ - subgrid(p.y);
+  Wide before = cross(qx, qy, px, py), all = before - cross(qx, qy, px + dx_, py + dy_);
+  if (all < 0) before = -before, all = -all;
+  const Place place = before < 0                            ? Place::kBefore
+                      : before > (is_point_ ? Wide{} : all) ? Place::kBeyond
+                                                            : Place::kWithin;
+  const auto mean = [s](std::int32_t from, std::int32_t to) { return from + s * (static_cast<double>(to) - from); };
+  const Point3 position{grid_.origin.x + mean(p.x, q.x) * grid_.resolution,
+                        grid_.origin.y + mean(p.y, q.y) * grid_.resolution, mean(p.z, q.z) * grid_.resolution};
+  return at(static_cast<double>(before) / static_cast<double>(all), position, place);
+}
+
+SectionCrossing SectionLine::between(const SectionCrossing& from, const SectionCrossing& to, double t, Point2 p) const {
+  const double width = to.t - from.t;
+  const double share = width > 0 ? (t - from.t) / width : 0;
+  const double z = from.position.z + share * (to.position.z - from.position.z);
+  return at(t, {p.x, p.y, z}, SectionCrossing::Place::kWithin);
+}
+
+std::optional<SectionPiece> SectionLine::clip(const SectionCrossing& from, const SectionCrossing& to) const {
+  using Place = SectionCrossing::Place;
+  if (to.place == Place::kBefore || from.place == Place::kBeyond) return std::nullopt;
+  const double end = is_point_ ? 0 : 1;
+  SectionPiece piece{from, to};
+  if (from.place == Place::kBefore) piece.from = to.t == 0 ? to : between(from, to, 0, start_point_);
+  if (to.place == Place::kBeyond) {
+    piece.to = from.t == end ? from : is_point_ ? piece.from : between(from, to, 1, end_point_);
+  }
+  return piece;
+}
+
+}  // namespace itin

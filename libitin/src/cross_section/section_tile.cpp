@@ -1,0 +1,107 @@
+#include "cross_section/section_tile.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+namespace itin {
+
+namespace {
+
+bool same_place(const GridPoint& a, const GridPoint& b) {
+  return a.x == b.x && a.y == b.y;
+}
+
+}  // namespace
+
+SectionTile::SectionTile(const GridBox& square, const RegionMesh& region) : square_(square) {
+  const auto count = static_cast<std::uint32_t>(region.mesh.triangles.size());
+  for (const SelectedVertex& v : region.vertices) vertices_.push_back(v.point);
+  std::vector<std::uint32_t> order(count), place(count);
+  std::iota(order.begin(), order.end(), 0u);
+  const auto least_corner = [&](std::uint32_t t) {
+    return *std::min_element(region.mesh.triangles[t].begin(), region.mesh.triangles[t].end());
+  };
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return least_corner(a) < least_corner(b); });
+  for (std::uint32_t i = 0; i < count; ++i) place[order[i]] = i;
+  for (const std::uint32_t t : order) {
+    Face face{region.mesh.triangles[t], region.mesh.neighbours[t]};
+    for (std::uint32_t& n : face.neighbours) n = n == kNoTriangle ? kNoTriangle : place[n];
+    faces_.push_back(face);
+  }
+  // Bins of about one triangle.
+  const double side = static_cast<double>(square.xmax) - square.xmin;
+  bin_shift_ = std::bit_width(static_cast<std::uint32_t>(side / std::sqrt(count + 1.0)));
+  columns_ = column(square.xmax) + 1, rows_ = row(square.ymax) + 1;
+  first_.assign(std::size_t{columns_} * rows_ + 1, 0);
+  for (std::uint32_t t = 0; t < count; ++t) for_each_bin(box_of(t), [&](std::size_t bin) { ++first_[bin + 1]; });
+  for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+  triangles_.resize(first_.back());
+  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+  for (std::uint32_t t = 0; t < count; ++t) {
+    for_each_bin(box_of(t), [&](std::size_t bin) { triangles_[next[bin]++] = t; });
+  }
+}
+
+std::size_t SectionTile::bytes() const {
+  return sizeof(*this) + vertices_.capacity() * sizeof(GridPoint) + faces_.capacity() * sizeof(Face) +
+         (first_.size() + triangles_.size()) * sizeof(std::uint32_t);
+}
+
+std::uint32_t SectionTile::column(std::int32_t x) const {
+  return static_cast<std::uint32_t>(std::clamp(x, square_.xmin, square_.xmax) - square_.xmin) >> bin_shift_;
+}
+
+std::uint32_t SectionTile::row(std::int32_t y) const {
+  return static_cast<std::uint32_t>(std::clamp(y, square_.ymin, square_.ymax) - square_.ymin) >> bin_shift_;
+}
+
+GridBox SectionTile::box_of(std::uint32_t triangle) const {
+  GridBox box;
+  for (std::size_t i = 0; i < 3; ++i) box.extend(corner(triangle, i).x, corner(triangle, i).y);
+  return box;
+}
+
+template <typename Visit>
+void SectionTile::for_each_bin(const GridBox& box, const Visit& visit) const {
+  for (std::uint32_t r = row(box.ymin), last = row(box.ymax); r <= last; ++r) {
+    for (std::uint32_t c = column(box.xmin), end = column(box.xmax); c <= end; ++c)
+      visit(std::size_t{r} * columns_ + c);
+  }
+}
+
+std::span<const std::uint32_t> SectionTile::in_bin(std::size_t bin) const {
+  return {triangles_.data() + first_[bin], first_[bin + 1] - first_[bin]};
+}
+
+SectionTile::Stop SectionTile::ahead(const CrossedEdge& edge, Position place) const {
+  for (const std::uint32_t t : in_bin(std::size_t{row(place.y)} * columns_ + column(place.x))) {
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      if (same_place(corner(t, i), edge.left) && same_place(corner(t, (i + 1) % 3), edge.right))
+        return {t, (i + 2) % 3};
+    }
+  }
+  return {};
+}
+
+SectionTile::Stop SectionTile::onwards(const Stop& from, bool keeps_left) const {
+  // Counterclockwise: apex, left, right.
+  const std::uint32_t next = faces_[from.triangle].neighbours[(from.apex + (keeps_left ? 2 : 1)) % 3];
+  if (next == kNoTriangle) return {};
+  const auto& back = faces_[next].neighbours;
+  return {next, back[0] == from.triangle ? 0u : back[1] == from.triangle ? 1u : 2u};
+}
+
+std::vector<std::array<GridPoint, 3>> SectionTile::around(const GridBox& box) const {
+  std::vector<std::array<GridPoint, 3>> result;
+  for_each_bin(box, [&](std::size_t bin) {
+    for (const std::uint32_t t : in_bin(bin)) {
+      if (box_of(t).meets(box)) result.push_back({corner(t, 0), corner(t, 1), corner(t, 2)});
+    }
+  });
+  return result;
+}
+
+}  // namespace itin

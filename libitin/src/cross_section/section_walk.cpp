@@ -1,0 +1,258 @@
+#include "cross_section/section_walk.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <itin/error.hpp>
+
+namespace itin {
+
+namespace {
+
+using Place = SectionCrossing::Place;
+
+/// Breakpoints over ground without gap, in order.
+struct Stretch {
+  std::vector<SectionCrossing> crossings;
+  std::uint64_t triangles = 0;
+
+  double from() const { return crossings.front().distance; }
+  double to() const { return crossings.back().distance; }
+
+  /// A vertex on the line is crossed with several edges at once.
+  void add(const SectionCrossing& c) {
+    if (!crossings.empty()) {
+      const SectionCrossing& last = crossings.back();
+      if (c.t <= last.t && c.position == last.position) return;
+    }
+    crossings.push_back(c);
+  }
+};
+
+class SectionWalk {
+ public:
+  SectionWalk(const PointIndex& index, const SectionLine& line, TriangleFinder& triangles, OnLine on_line)
+      : line_(line), triangles_(triangles), on_line_(on_line), ground_(ground_runs(index, line, on_line)) {}
+
+  bool touches_outline() const { return ground_.touches; }
+
+  std::vector<Stretch> run() {
+    std::vector<Stretch> stretches;
+    for (const GroundRun& run : ground_.runs) {
+      const std::optional<CrossedEdge> entry =
+          run.entry ? triangles_.edge_on(*run.entry, line_, on_line_) : edge_before_start();
+      if (entry) stretches.push_back(walk(*entry, run.exit));
+      if (!entry && run.exit) throw Error("there is no ground before the outline; run itin check on the store");
+    }
+    return stretches;
+  }
+
+ private:
+  bool left(const GridPoint& p) const { return counts_as_left(line_, on_line_, p); }
+
+  /// The edge by which the line, prolonged backwards, enters the triangle about its start: the first one, where several
+  /// triangles have the start in common. Nothing where there is no ground.
+  std::optional<CrossedEdge> edge_before_start() {
+    const GridBox box = line_.start_box();
+    std::optional<CrossedEdge> first;
+    for (const auto& triangle : triangles_.around(box)) {
+      const std::optional<CrossedEdge> entry = entry_into(triangle);
+      if (!entry || (first && !SectionLine::crossed_before(entry->left, entry->right, first->left, first->right))) {
+        continue;
+      }
+      first = entry;
+    }
+    return first;
+  }
+
+  /// Where the line enters a triangle that contains its start.
+  std::optional<CrossedEdge> entry_into(const std::array<GridPoint, 3>& triangle) const {
+    std::optional<CrossedEdge> entry, exit;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const GridPoint &p = triangle[i], &q = triangle[(i + 1) % 3];
+      if (left(p) && !left(q)) entry = CrossedEdge{p, q};
+      if (!left(p) && left(q)) exit = CrossedEdge{q, p};
+    }
+    if (!entry || !exit) return std::nullopt;
+    const SectionCrossing in = line_.crossing(entry->left, entry->right);
+    const SectionCrossing out = line_.crossing(exit->left, exit->right);
+    if (in.place != Place::kBefore && in.t != 0) return std::nullopt;
+    if (out.place == Place::kBefore) return std::nullopt;
+    return entry;
+  }
+
+  Stretch walk(CrossedEdge edge, const std::optional<OutlineCrossing>& exit) {
+    Stretch stretch;
+    SectionCrossing in = line_.crossing(edge.left, edge.right);
+    if (in.place == Place::kWithin) stretch.add(in);
+    while (!(exit && lies_on(edge, *exit)) && !at_end(in)) {
+      const GridPoint c = triangles_.beyond(edge);
+      (left(c) ? edge.left : edge.right) = c;
+      const SectionCrossing out = line_.crossing(edge.left, edge.right);
+      add_piece(in, out, stretch);
+      in = out;
+    }
+    if (stretch.crossings.empty()) throw Error("a cross-section lost its way; run itin check on the store");
+    return stretch;
+  }
+
+  bool at_end(const SectionCrossing& c) const {
+    return c.place == Place::kBeyond || (c.place == Place::kWithin && c.t == (line_.is_point() ? 0 : 1));
+  }
+
+  void add_piece(const SectionCrossing& in, const SectionCrossing& out, Stretch& stretch) const {
+    const std::optional<SectionPiece> piece = line_.clip(in, out);
+    if (!piece) return;
+    ++stretch.triangles;
+    stretch.add(piece->from);
+    stretch.add(piece->to);
+  }
+
+  static bool lies_on(const CrossedEdge& edge, const OutlineCrossing& segment) {
+    return orientation(segment.left, segment.right, edge.left) == 0 &&
+           orientation(segment.left, segment.right, edge.right) == 0;
+  }
+
+  const SectionLine& line_;
+  TriangleFinder& triangles_;
+  OnLine on_line_;
+  GroundRuns ground_;
+};
+
+/// Joins stretches that overlap or touch: beside the outline one side of the line has ground where the other has none.
+std::vector<Stretch> united(std::vector<Stretch> stretches) {
+  const auto by_place = [](const Stretch& a, const Stretch& b) { return a.from() < b.from(); };
+  std::stable_sort(stretches.begin(), stretches.end(), by_place);
+  std::vector<Stretch> result;
+  for (Stretch& s : stretches) {
+    if (result.empty() || s.from() > result.back().to()) {
+      result.push_back(std::move(s));
+      continue;
+    }
+    Stretch& last = result.back();
+    if (s.to() > last.to()) last.triangles += s.triangles;
+    std::vector<SectionCrossing> all = std::move(last.crossings);
+    all.insert(all.end(), s.crossings.begin(), s.crossings.end());
+    std::stable_sort(all.begin(), all.end(),
+                     [](const SectionCrossing& a, const SectionCrossing& b) { return a.t < b.t; });
+    last.crossings.clear();
+    for (const SectionCrossing& c : all) last.add(c);
+  }
+  return result;
+}
+
+CrossSection section_of(const SectionLine& line, const std::vector<Stretch>& stretches) {
+  CrossSection section;
+  section.length = line.length();
+  double covered = 0;
+  bool started = false;
+  for (const Stretch& s : stretches) {
+    if (s.from() > covered) section.gaps.push_back({covered, s.from()});
+    double distance = s.from();
+    for (const SectionCrossing& c : s.crossings) {
+      // Crossings a rounding error apart may come in the wrong order.
+      distance = std::max(distance, c.distance);
+      section.breakpoints.push_back({distance, c.position});
+    }
+    covered = distance, started = true;
+    section.triangles += s.triangles;
+  }
+  if (!started || covered < line.length()) section.gaps.push_back({covered, line.length()});
+  return section;
+}
+
+void mirror(CrossSection& section) {
+  std::reverse(section.breakpoints.begin(), section.breakpoints.end());
+  for (Breakpoint& b : section.breakpoints) b.distance = section.length - b.distance;
+  std::reverse(section.gaps.begin(), section.gaps.end());
+  for (SectionGap& g : section.gaps) g = {section.length - g.to, section.length - g.from};
+}
+
+}  // namespace
+
+CrossSection walk_section(const PointIndex& index, const SectionLine& line, TriangleFinder& triangles) {
+  SectionWalk walk(index, line, triangles, OnLine::kLeft);
+  std::vector<Stretch> stretches = walk.run();
+  if (walk.touches_outline()) {
+    const std::vector<Stretch> others = SectionWalk(index, line, triangles, OnLine::kRight).run();
+    stretches.insert(stretches.end(), others.begin(), others.end());
+  }
+  CrossSection section = section_of(line, united(std::move(stretches)));
+  if (line.is_mirrored()) mirror(section);
+  return section;
+}
+
+namespace {
+
+/// The selected vertices of a segment next to its crossing, among those in a box about it.
+class NeighboursOnSegment {
+ public:
+  NeighboursOnSegment(const OutlineCrossing& segment, const SectionLine& line, OnLine on_line)
+      : segment_(segment), line_(line), on_line_(on_line) {}
+
+  void consider(const GridPoint& p) {
+    const GridBox box{std::min(segment_.left.x, segment_.right.x), std::min(segment_.left.y, segment_.right.y),
+                      std::max(segment_.left.x, segment_.right.x), std::max(segment_.left.y, segment_.right.y)};
+    if (!box.contains(p.x, p.y) || orientation(segment_.left, segment_.right, p) != 0) return;
+    const bool on_left = counts_as_left(line_, on_line_, p);
+    std::optional<GridPoint>& nearest = on_left ? left_ : right_;
+    const auto distance = [this](const GridPoint& q) {
+      const SectionLine::Wide side = line_.side(q);
+      return side < 0 ? -side : side;
+    };
+    if (!nearest || distance(p) < distance(*nearest)) nearest = p;
+  }
+
+  std::optional<CrossedEdge> edge() const {
+    if (!left_ || !right_) return std::nullopt;
+    return CrossedEdge{*left_, *right_};
+  }
+
+ private:
+  OutlineCrossing segment_;
+  const SectionLine& line_;
+  OnLine on_line_;
+  std::optional<GridPoint> left_, right_;
+};
+
+/// About the distance from a vertex to the next, metres.
+double spacing_at(const PointIndex& index, const Selection& selection, const Grid& grid, const Point3& place) {
+  const GridBox box = grid.enclosing({place.x, place.y, place.x, place.y});
+  std::vector<Leaf> leaves;
+  selected_leaves(index, selection, box, leaves);
+  double density = 0;
+  for (const Leaf& leaf : leaves) density += leaf.points * std::ldexp(1.0, -2 * leaf.cell.log2_side);
+  return grid.resolution * (density > 0 ? std::max(1 / std::sqrt(density), 1.0) : 64);
+}
+
+}  // namespace
+
+CrossedEdge find_edge_on(const PointIndex& index, const Selection& selection, const OutlineCrossing& segment,
+                         const SectionLine& line, OnLine on_line, RetrievalStatistics& statistics) {
+  const auto point = [](Position p) { return GridPoint{p.x, p.y, 0}; };
+  const Point3 place = line.crossing(point(segment.left), point(segment.right)).position;
+  const GridBox all = index.bounds();
+  std::vector<Leaf> leaves;
+  for (double reach = spacing_at(index, selection, line.grid(), place);; reach *= 4) {
+    const GridBox box = line.grid().enclosing({place.x - reach, place.y - reach, place.x + reach, place.y + reach});
+    leaves.clear();
+    selected_leaves(index, selection, box, leaves);
+    NeighboursOnSegment neighbours(segment, line, on_line);
+    for (const Leaf& leaf : leaves) {
+      const auto block = index.block(leaf);
+      statistics.points_read += block->points.size();
+      statistics.blocks_read += 1;
+      for (std::size_t k = 0; k < block->points.size(); ++k) {
+        const GridPoint& p = block->points[k];
+        const int level = block->levels.empty() ? leaf.level : block->levels[k];
+        if (box.contains(p.x, p.y) && selection.selects(level, p.x, p.y)) neighbours.consider(p);
+      }
+    }
+    // The box is centred on the crossing, so what lies outside it is farther away along the segment.
+    if (const auto edge = neighbours.edge()) return *edge;
+    if (box.contains(all)) throw Error("an end of a constraint line is not among the vertices; run itin check");
+  }
+}
+
+}  // namespace itin

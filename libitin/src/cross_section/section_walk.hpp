@@ -1,0 +1,41 @@
+// The walk along a line from triangle to triangle, over whatever finds the triangles.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <itin/cross_section.hpp>
+#include <itin/section_line.hpp>
+
+#include "cross_section/ground_runs.hpp"
+#include "store/point_index.hpp"
+#include "triangulate/selection.hpp"
+
+namespace itin {
+
+/// An edge that the line crosses, by its ends left and right of it.
+struct CrossedEdge {
+  GridPoint left;
+  GridPoint right;
+};
+
+/// Finds the ground's triangles, one after another. Serves one line.
+class TriangleFinder {
+ public:
+  virtual ~TriangleFinder() = default;
+  /// The third vertex of the ground triangle ahead of an edge, which is known to be there.
+  virtual GridPoint beyond(const CrossedEdge& edge) = 0;
+  /// Ground triangles, among them all that meet the box, which is at most one grid step wide; counterclockwise.
+  virtual std::vector<std::array<GridPoint, 3>> around(const GridBox& box) = 0;
+  /// The edge of the triangulation at which the line crosses a segment of the outline.
+  virtual CrossedEdge edge_on(const OutlineCrossing& segment, const SectionLine& line, OnLine on_line) = 0;
+};
+
+/// The cross-section, but for its retrieval statistics. The line's own direction is undone where it was mirrored.
+CrossSection walk_section(const PointIndex& index, const SectionLine& line, TriangleFinder& triangles);
+
+/// CrossedEdge of a segment by reading the vertices around the crossing. Counts what it reads.
+CrossedEdge find_edge_on(const PointIndex& index, const Selection& selection, const OutlineCrossing& segment,
+                         const SectionLine& line, OnLine on_line, RetrievalStatistics& statistics);
+
+}  // namespace itin

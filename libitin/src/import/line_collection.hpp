@@ -1,0 +1,50 @@
+// All lines of a store, old and new, on their way to being made planar.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include <itin/store.hpp>
+
+#include "pyramid/theme_lines.hpp"
+#include "store/point_index.hpp"
+
+namespace itin {
+
+class LineCollection {
+ public:
+  /// Takes a store's themes over, then its vertices, then its lines: in this order.
+  void take_themes(const StoreMetadata& metadata);
+  /// Whether the vertex comes from a line, and so is taken over with its lines, not with the points.
+  bool take_vertex(const GridPoint& p, std::uint16_t source);
+  void take_segments(const PointIndex& index);
+
+  /// The number of a theme, which is made if there is none of the name. Throws InputError where one has another kind.
+  std::uint32_t theme(const std::string& name, ThemeKind kind);
+  void add(std::uint32_t theme, std::uint16_t source, std::span<const GridPoint> line);
+  void add_features(std::uint32_t theme, std::uint64_t count) { themes_[theme].features += count; }
+
+  bool empty() const { return segments_.empty(); }
+  /// Puts the themes in order and the lines of all of them into one plane.
+  ThemeLines finish();
+  /// After finish(): in order, features counted.
+  const std::vector<ThemeInfo>& themes() const { return themes_; }
+
+ private:
+  struct Vertex {
+    std::int32_t z;
+    std::uint16_t source;
+  };
+  std::uint16_t source_of(const GridPoint& p, std::uint32_t owner) const;
+
+  std::vector<ThemeInfo> themes_;
+  std::vector<std::uint16_t> first_source_;  ///< by theme
+  std::vector<bool> from_line_;              ///< by the store's source
+  std::vector<OwnedSegment> segments_;
+  std::unordered_map<std::uint64_t, Vertex> vertices_;  ///< by Morton code: what lines brought along
+};
+
+}  // namespace itin

@@ -1,0 +1,218 @@
+#include "pyramid/theme_lines.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+
+#include <itin/detail.hpp>
+#include <itin/error.hpp>
+#include <itin/parallel.hpp>
+
+#include "features/hot_pixel.hpp"
+#include "pyramid/coverage.hpp"
+#include "store/edge_quadtree.hpp"
+#include "triangulate/region.hpp"
+
+namespace itin {
+
+namespace {
+
+std::uint64_t code_of(const GridPoint& p) {
+  return morton(p.x, p.y);
+}
+
+Selection everything() {
+  return Selection(Detail::tolerance(0), {0.0}, Grid{});
+}
+
+using Codes = std::vector<std::uint64_t>;
+
+/// The part of ascending codes that lies in a cell.
+std::span<const std::uint64_t> in_cell(const Codes& codes, const Cell& cell) {
+  const auto first = std::lower_bound(codes.begin(), codes.end(), cell.code);
+  return {first, std::lower_bound(first, codes.end(), cell.end())};
+}
+
+/// Calls visit(triangle, position) for every triangle of the region and every position in it, borders included.
+template <class Visit>
+void for_each_inside(const RegionMesh& region, std::span<const std::uint64_t> codes, const Visit& visit) {
+  std::vector<Position> by_x;
+  for (const std::uint64_t code : codes) by_x.push_back({morton_x(code), morton_y(code)});
+  std::sort(by_x.begin(), by_x.end());
+  for (std::size_t t = 0; t < region.mesh.triangles.size(); ++t) {
+    const auto& corners = region.mesh.triangles[t];
+    const Position a = region.vertices[corners[0]].position(), b = region.vertices[corners[1]].position();
+    const Position c = region.vertices[corners[2]].position();
+    const std::int32_t last = std::max({a.x, b.x, c.x});
+    auto p = std::lower_bound(by_x.begin(), by_x.end(), std::min({a.x, b.x, c.x}),
+                              [](Position q, std::int32_t x) { return q.x < x; });
+    for (; p != by_x.end() && p->x <= last; ++p) {
+      if (orientation(a, b, *p) >= 0 && orientation(b, c, *p) >= 0 && orientation(c, a, *p) >= 0) visit(t, *p);
+    }
+  }
+}
+
+GridBox box_of(std::span<const std::uint64_t> codes) {
+  GridBox box;
+  for (const std::uint64_t code : codes) box.extend(morton_x(code), morton_y(code));
+  return box;
+}
+
+/// Runs of codes, one a tile, put together again in ascending order.
+template <class T, class OfTile>
+std::vector<T> by_tile(const Codes& codes, const std::vector<CurveRange>& tiles, const char* stage, Progress& progress,
+                       const OfTile& of_tile) {
+  std::vector<std::vector<T>> found(tiles.size());
+  std::atomic<std::size_t> done = 0;
+  parallel_for(tiles.size(), [&](std::size_t i) {
+    progress.throw_if_cancelled();
+    const auto own = in_cell(codes, tiles[i].cell);
+    if (!own.empty()) found[i] = of_tile(own);
+    progress.report(stage, static_cast<double>(++done) / static_cast<double>(tiles.size()));
+  });
+  std::vector<T> all;
+  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+/// Those of the codes, ascending, that lie in a ground triangle.
+Codes grounded(std::span<const std::uint64_t> codes, const PointIndex& ground,
+               const std::vector<std::array<double, 4>>& gap_bases) {
+  const RegionMesh region = triangulate_region(ground, everything(), box_of(codes));
+  const std::vector<std::uint8_t> is_ground = ground_triangles(region, gap_bases);
+  Codes result;
+  for_each_inside(region, codes, [&](std::size_t t, Position p) {
+    if (is_ground[t]) result.push_back(morton(p.x, p.y));
+  });
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+/// How segments whose ends lie on the ground stand to its outline.
+class OutlineTest {
+ public:
+  OutlineTest(const std::vector<Segment>& outline, const std::vector<Segment>& segments) : outline_(outline) {
+    std::vector<Segment> all = outline;
+    all.insert(all.end(), segments.begin(), segments.end());
+    for_each_edge_leaf(std::move(all), [&](const Cell&, const std::vector<Segment>& near) {
+      for (const Segment& border : near) {
+        if (border.theme != kCoverage) continue;
+        for (const Segment& s : near) {
+          if (s.theme != kCoverage) compare(s, border);
+        }
+      }
+    });
+  }
+
+  /// Whether the segment lies in the closed coverage. One that leaves it through a corner does not, nor does one that
+  /// passes through a corner inside.
+  bool inside(const Segment& s) const {
+    const auto found = contacts_.find(s);
+    if (found == contacts_.end()) return true;
+    if (found->second & kCrosses) return false;
+    return found->second != (kTouchesA | kTouchesB) || middle_inside(s);
+  }
+
+  void ends_on_outline(const Segment& s, Codes& out) const {
+    const auto found = contacts_.find(s);
+    if (found == contacts_.end()) return;
+    if (found->second & kTouchesA) out.push_back(morton(s.ax, s.ay));
+    if (found->second & kTouchesB) out.push_back(morton(s.bx, s.by));
+  }
+
+ private:
+  static constexpr unsigned kCrosses = 1, kTouchesA = 2, kTouchesB = 4;
+
+  void compare(const Segment& s, const Segment& border) {
+    const Position a{s.ax, s.ay}, b{s.bx, s.by}, p{border.ax, border.ay}, q{border.bx, border.by};
+    unsigned contact = 0;
+    if (on_segment(p, q, a)) contact |= kTouchesA;
+    if (on_segment(p, q, b)) contact |= kTouchesB;
+    const auto within = [&](Position corner) { return corner != a && corner != b && on_segment(a, b, corner); };
+    if (crosses(s, p, q) || within(p) || within(q)) contact |= kCrosses;
+    if (contact != 0) contacts_[s] |= contact;
+  }
+
+  /// By the winding number of the outline about the segment's middle, in doubled coordinates.
+  bool middle_inside(const Segment& s) const {
+    const std::int64_t x = std::int64_t{s.ax} + s.bx, y = std::int64_t{s.ay} + s.by;
+    int winding = 0;
+    for (const Segment& border : outline_) {
+      const std::int64_t ay = 2 * std::int64_t{border.ay}, by = 2 * std::int64_t{border.by};
+      if (std::max(ay, by) < y || std::min(ay, by) > y) continue;
+      const std::int64_t ax = 2 * std::int64_t{border.ax}, bx = 2 * std::int64_t{border.bx};
+      const Int128 side = Int128{bx - ax} * (y - ay) - Int128{by - ay} * (x - ax);
+      if (side == 0 && std::min(ax, bx) <= x && x <= std::max(ax, bx)) return true;
+      if (ay <= y && by > y && side > 0) ++winding;
+      if (ay > y && by <= y && side < 0) --winding;
+    }
+    return winding > 0;
+  }
+
+  const std::vector<Segment>& outline_;
+  std::map<Segment, unsigned> contacts_;
+};
+
+}  // namespace
+
+PlacedLines place_lines(const ThemeLines& lines, const WorkingIndex& index, const std::vector<CurveRange>& tiles,
+                        const Sources& ground, const std::vector<std::array<double, 4>>& gap_bases,
+                        const std::vector<Segment>& outline, Progress& progress) {
+  const std::vector<GridPoint>& vertices = lines.lines.vertices;
+  Codes codes;
+  for (const GridPoint& p : vertices) codes.push_back(code_of(p));
+  const SourceIndex ground_index(index, ground);
+  const Codes on_ground = by_tile<std::uint64_t>(
+      codes, tiles, "laying lines on the ground", progress,
+      [&](std::span<const std::uint64_t> own) { return grounded(own, ground_index, gap_bases); });
+  const auto lies = [&](std::uint32_t v) { return std::binary_search(on_ground.begin(), on_ground.end(), codes[v]); };
+
+  std::vector<Segment> candidates;
+  for (const PlanarEdge& e : lines.lines.edges) {
+    if (!lies(e.from) || !lies(e.to)) continue;
+    const GridPoint &a = vertices[e.from], &b = vertices[e.to];
+    candidates.push_back({a.x, a.y, b.x, b.y, static_cast<std::uint16_t>(e.owner + 1)});
+  }
+  const OutlineTest test(outline, candidates);
+  PlacedLines placed;
+  for (const Segment& s : candidates) {
+    if (!test.inside(s)) continue;
+    const bool terrain = lines.terrain[s.theme - std::size_t{1}];
+    (terrain ? placed.terrain : placed.features).push_back(s);
+    for (const std::uint64_t end : {morton(s.ax, s.ay), morton(s.bx, s.by)}) placed.ends.push_back(end);
+    test.ends_on_outline(s, placed.on_outline);
+  }
+  placed.left_out = lines.lines.edges.size() - placed.terrain.size() - placed.features.size();
+  std::sort(placed.ends.begin(), placed.ends.end());
+  placed.ends.erase(std::unique(placed.ends.begin(), placed.ends.end()), placed.ends.end());
+  for (const PlanarEdge& e : lines.lines.edges) {
+    if (!lines.terrain[e.owner]) continue;
+    for (const std::uint32_t v : {e.from, e.to}) {
+      if (!lies(v)) placed.strays.push_back(codes[v]);
+    }
+  }
+  return placed;
+}
+
+std::vector<GridPoint> drape(const std::vector<std::uint64_t>& codes, const WorkingIndex& index,
+                             const std::vector<CurveRange>& tiles, Progress& progress) {
+  return by_tile<GridPoint>(codes, tiles, "draping lines", progress, [&](std::span<const std::uint64_t> own) {
+    const RegionMesh region = triangulate_region(index, everything(), box_of(own));
+    std::map<std::uint64_t, GridPoint> draped;
+    for_each_inside(region, own, [&](std::size_t t, Position p) {
+      const auto& [a, b, c] = region.mesh.triangles[t];
+      const GridPoint &pa = region.vertices[a].point, &pb = region.vertices[b].point, &pc = region.vertices[c].point;
+      const std::int64_t wa = doubled_area(p, pb, pc), wb = doubled_area(pa, p, pc), wc = doubled_area(pa, pb, p);
+      const std::int64_t z =
+          rounded_quotient(Int128{wa} * pa.z + Int128{wb} * pb.z + Int128{wc} * pc.z, Int128{wa} + wb + wc);
+      draped.try_emplace(morton(p.x, p.y), GridPoint{p.x, p.y, static_cast<std::int32_t>(z)});
+    });
+    for (const SelectedVertex& v : region.vertices) draped.erase(code_of(v.point));
+    std::vector<GridPoint> result;
+    for (const auto& [code, point] : draped) result.push_back(point);
+    return result;
+  });
+}
+
+}  // namespace itin

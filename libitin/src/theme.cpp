@@ -1,0 +1,66 @@
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <itin/error.hpp>
+#include <itin/theme.hpp>
+
+namespace itin {
+
+namespace {
+
+constexpr std::array<std::string_view, 7> kKinds{"contours", "breaklines", "water",     "roads",
+                                                 "walls",    "buildings",  "vegetation"};
+
+}  // namespace
+
+std::string_view name_of(ThemeKind kind) {
+  return kKinds.at(static_cast<std::size_t>(kind));
+}
+
+ThemeKind theme_kind(std::string_view name) {
+  const auto* found = std::find(kKinds.begin(), kKinds.end(), name);
+  if (found == kKinds.end())
+    throw InputError(fmt::format("kind of theme '{}': give one of {}", name, fmt::join(kKinds, ", ")));
+  return static_cast<ThemeKind>(found - kKinds.begin());
+}
+
+ThemeChoice ThemeChoice::parse(std::string_view text) {
+  if (text == "all") return all();
+  if (text == "none") return none();
+  std::vector<std::string> names;
+  while (true) {
+    const std::size_t comma = text.find(',');
+    names.emplace_back(text.substr(0, comma));
+    if (names.back().empty()) throw InputError("themes: expected all, none, or names with commas between");
+    if (comma == std::string_view::npos) return ThemeChoice(false, std::move(names));
+    text.remove_prefix(comma + 1);
+  }
+}
+
+bool ThemeChoice::includes(const ThemeInfo& theme) const {
+  return all_ || is_terrain(theme.kind) || std::find(names_.begin(), names_.end(), theme.name) != names_.end();
+}
+
+void ThemeChoice::check(const std::vector<ThemeInfo>& themes) const {
+  for (const std::string& name : names_) {
+    if (std::any_of(themes.begin(), themes.end(), [&](const ThemeInfo& t) { return t.name == name; })) continue;
+    std::vector<std::string> known;
+    for (const ThemeInfo& theme : themes) known.push_back(theme.name);
+    throw InputError(fmt::format("theme '{}': the store has none of this name; it has {}", name,
+                                 known.empty() ? "no themes" : fmt::format("{}", fmt::join(known, ", "))));
+  }
+}
+
+std::vector<std::string> ThemeChoice::names(const std::vector<ThemeInfo>& themes) const {
+  check(themes);
+  std::vector<std::string> included;
+  for (const ThemeInfo& theme : themes) {
+    if (includes(theme)) included.push_back(theme.name);
+  }
+  return included;
+}
+
+}  // namespace itin

@@ -1,0 +1,92 @@
+// Losses of a radio path over a profile: free space, knife edges, and delta-Bullington with its smooth and spherical
+// parts, every intermediate value included.
+//
+//   const RadioPath path{.frequency_ghz = 2.5, .effective_earth_km = 8500, .polarisation = Polarisation::kHorizontal};
+//   const PathLosses losses = path_losses(profile, {619, 538}, path);   // elevations of the antennas
+//   losses.ld_db;
+//
+// Sources: ITU-R P.525-4 (free space), P.526-15 section 4.1 (knife edge), P.452-17 section 4.2 and attachment 2, which
+// P.1812-6 section 4.3 and its attachment 1 repeat word for word (delta-Bullington), P.526-12 section 4.4.2 (cascaded
+// edges after Deygout). Distances of formulas are km, heights m, frequencies GHz, as there. The wavelength is
+// 0.299792458 / f throughout, where some published examples have 0.3 / f: that moves losses by less than 0.01 dB.
+//
+// Clutter is added to the ground for the losses, except nearer than kClutterFreeM to an end (P.452-18); horizons and
+// smooth heights use bare ground. A profile's points are taken as they are: see with_spacing().
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <profile/fresnel.hpp>
+#include <profile/profile.hpp>
+
+namespace itin::profile {
+
+enum class Polarisation { kHorizontal, kVertical };
+
+struct RadioPath {
+  double frequency_ghz = 0;          ///< > 0
+  double effective_earth_km = 8500;  ///< effective radius ae; > 0, infinity for a flat Earth
+  Polarisation polarisation = Polarisation::kHorizontal;
+  double over_sea = 0;  ///< share of the path, 0 to 1
+};
+
+inline constexpr double kClutterFreeM = 50;
+
+/// P.525-4 section 2.3: 20 log10(4 pi d / lambda), dB.
+double free_space_loss_db(double distance_m, double wavelength);
+
+/// P.526-15 section 4.1, equation (31): J(v) for v > -0.78, 0 otherwise; dB.
+double knife_edge_loss_db(double v);
+
+/// Bullington's loss, P.452-17 section 4.2.1 (P.1812-6 section 4.3.1): `smooth` takes all heights as 0, as section
+/// 4.2.3 has it. Elevations of the antennas in metres.
+double bullington_loss_db(const Profile& profile, const Antennas& antennas, const RadioPath& path, bool smooth = false);
+
+/// First-term spherical-Earth loss with its interpolation within the horizon, P.452-17 sections 4.2.2 and 4.2.2.1
+/// (P.526-15 section 3.2, P.1812-6 sections 4.3.2 and 4.3.3). Heights above the smooth surface, metres.
+double spherical_earth_loss_db(double distance_km, double from_height_m, double to_height_m, const RadioPath& path);
+
+/// Three edges at most: J(vp) + T (J(vt) + J(vr) + C), P.526-12 section 4.4.2 with its empirical (Causebrook-like)
+/// correction T = 1 - exp(-J(vp) / 6), C = 10 + 0.04 D. A value to compare with.
+double deygout_loss_db(const Profile& profile, const Antennas& antennas, const RadioPath& path);
+
+/// The surface that fits the path best, P.452-17 attachment 2 section 5.1.6 (P.1812-6 attachment 1 section 5.6).
+struct SmoothHeights {
+  double hst_m = 0, hsr_m = 0;    ///< elevations at the ends, equations (163), (164)
+  double hstd_m = 0, hsrd_m = 0;  ///< for diffraction, equations (166), (167)
+};
+SmoothHeights smooth_heights(const Profile& profile, const Antennas& antennas);
+
+/// What each antenna sees as its horizon, P.452-17 attachment 2 sections 4 and 5.1 to 5.3.
+struct Horizons {
+  bool trans_horizon = false;
+  double theta_t_mrad = 0, theta_r_mrad = 0;  ///< elevation angles; within sight towards the other antenna
+  /// Distances of the horizons from their own ends; within sight those of the point of largest v. Nothing where the
+  /// profile has no point between its ends.
+  std::optional<double> dlt_km, dlr_km;
+};
+Horizons horizons(const Profile& profile, const Antennas& antennas, const RadioPath& path);
+
+struct PathLosses {
+  Horizons horizons;
+  SmoothHeights smooth;
+  std::optional<double> largest_v;  ///< of all points as single knife edges; nothing without a point between the ends
+  double free_space_db = 0;         ///< along the slant line between the antennas
+  double knife_edge_db = 0;         ///< of the point with the largest v, alone
+  double lba_db = 0, lbs_db = 0;    ///< Bullington over the ground and over the smooth surface
+  double ldsph_db = 0;              ///< spherical Earth
+  double ld_db = 0;                 ///< delta-Bullington: lba + max(ldsph - lbs, 0)
+  double deygout_db = 0;
+};
+
+/// P.452-17 section 4.2.3, P.1812-6 section 4.3.4. Throws InputError unless the path's length is positive, the
+/// frequency and the radius are, the share over sea is within [0, 1], no antenna is below its ground, and the profile
+/// has ground at both ends.
+PathLosses path_losses(const Profile& profile, const Antennas& antennas, const RadioPath& path);
+
+/// The same ground with no two points farther apart than this, metres: a triangulated surface is straight between
+/// breakpoints, but the Earth below it is not, and the formulas look at points only.
+Profile with_spacing(const Profile& profile, double most_m);
+
+}  // namespace itin::profile

@@ -1,0 +1,61 @@
+// Many lines of sight over one surface, in parallel.
+//
+//   const std::vector<Link> links = read_links("links.csv", store.metadata().crs_wkt);
+//   const std::vector<LinkResult> rows = survey_links(store, detail, links, {.earth = earth}, progress);
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <itin/detail.hpp>
+#include <itin/earth.hpp>
+#include <itin/geometry.hpp>
+#include <itin/progress.hpp>
+#include <profile/los.hpp>
+
+namespace itin {
+class Store;
+}
+
+namespace itin::profile {
+
+/// Heights are metres above the surface at the ends.
+struct Link {
+  std::string id;
+  Point2 from;
+  double from_height = 0;
+  Point2 to;
+  double to_height = 0;
+};
+
+/// A CSV table `id,x1,y1,h1,x2,y2,h2` with a header line (its columns in this order), or a file of lines, whose ends
+/// are the links' ends `height` metres above the surface. In the CRS `to_crs` (WKT); CSV tables are taken to be in
+/// `csv_crs`, or in `to_crs` if that is empty. Throws FileError naming the line or feature, InputError for an unknown
+/// CRS.
+std::vector<Link> read_links(const std::string& path, const std::string& to_crs, double height,
+                             const std::string& csv_crs = {});
+
+struct LinkQuery {
+  Earth earth;
+  std::optional<RadioPath> radio;  ///< gives fresnel_fraction and ld_db
+  bool gaps_block = false;         ///< ground without data stops the ray
+};
+
+struct LinkResult {
+  double distance_m = 0;
+  std::optional<SightVerdict> verdict;  ///< nothing: an error
+  std::optional<double> clearance_m;
+  std::optional<double> critical_m;  ///< where that is, from the first end
+  std::optional<double> fresnel_fraction;
+  std::optional<double> ld_db;
+  std::string message;  ///< of an error
+};
+
+/// One result a link, in order, whatever the number of threads. Links over one area share the tiles that are read and
+/// triangulated for them. A link that cannot be computed (no ground under an end) is an error row. Throws CorruptStore,
+/// FileError, Cancelled.
+std::vector<LinkResult> survey_links(const Store& store, const Detail& detail, const std::vector<Link>& links,
+                                     const LinkQuery& query, Progress& progress);
+
+}  // namespace itin::profile

@@ -1,0 +1,113 @@
+// Everything a report says about one line of sight, worked out on its profile.
+//
+//   LosQuery query;
+//   query.from_height_m = 12, query.to_height_m = 15, query.earth = Earth::effective_earth(4.0 / 3);
+//   query.radio = RadioPath{.frequency_ghz = 7.5, .effective_earth_km = 6371 * 4.0 / 3};
+//   query.criteria = {{4.0 / 3, 1.0}, {2.0 / 3, 0.3}};
+//   const LosReport report = analyse(profile, query);
+//   write_report(report, json, "link.pdf", false);    // profile/report.hpp
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <itin/earth.hpp>
+#include <profile/diffraction.hpp>
+#include <profile/fresnel.hpp>
+#include <profile/profile.hpp>
+#include <profile/required_heights.hpp>
+
+namespace itin::profile {
+
+enum class SightVerdict { kVisible, kHidden, kUndecided };
+/// Of a criterion: the fraction is met; the ray is free but not the fraction; the ray is cut; the surface's certified
+/// error leaves it open.
+enum class CriterionVerdict { kClear, kMarginal, kObstructed, kUndecided };
+const char* name_of(SightVerdict verdict);
+const char* name_of(CriterionVerdict verdict);
+
+/// Ground above the ray, from where it enters to where it leaves.
+struct Obstruction {
+  double from_m = 0, to_m = 0;  ///< distances
+  double peak_at_m = 0;         ///< where it is deepest
+  double peak_m = 0;            ///< elevation of the ground there
+  double depth_m = 0;           ///< of the ray below it, > 0
+  std::uint16_t theme = 0;
+  std::int64_t feature = -1;
+};
+
+/// Of two-criterion planning: on an Earth of factor k, this fraction of F1 must be clear.
+struct Criterion {
+  double k = 4.0 / 3;
+  double fraction = 1;
+};
+struct CriterionResult {
+  Criterion criterion;
+  CriterionVerdict verdict = CriterionVerdict::kClear;
+  std::optional<double> clearance_m;   ///< least
+  std::optional<double> clearance_f1;  ///< least ratio to F1; nothing without a frequency
+};
+struct NamedHeights {
+  std::string name;  ///< "line of sight", "0.6 F1", "4/3:1"
+  double k = 0;      ///< effective Earth factor; infinity without curvature
+  double fraction = 0;
+  RequiredHeights heights;
+};
+
+/// What the tall object at the second end is.
+struct TallObject {
+  double hub_m = 0, tip_m = 0;  ///< above its ground
+};
+
+struct LosQuery {
+  double from_height_m = 0, to_height_m = 0;  ///< above the ground at the ends
+  Earth earth;
+  std::optional<RadioPath> radio;
+  std::vector<Criterion> criteria;  ///< with fraction > 0 only if there is a frequency
+  std::optional<TallObject> object;
+  /// How far the clearance over the full surface may lie from the one on this profile, metres: the width of the
+  /// surface's certified error. A clearance nearer to 0 leaves the verdict undecided.
+  double clearance_error_m = 0;
+  bool gaps_block = false;  ///< ground without data stops the ray
+  /// The losses take the profile's points alone, as published cases have them; otherwise points are added on the
+  /// straight ground between them, at most 100 m and a 50th of the length apart.
+  bool points_as_given = false;
+};
+
+struct LosReport {
+  LosQuery query;
+  Profile profile;
+  Antennas antennas;  ///< elevations
+  SightVerdict verdict = SightVerdict::kVisible;
+  std::optional<double> clearance_m;
+  std::optional<ProfilePoint> critical;
+  std::vector<Obstruction> obstructions;
+  double elevation_angle_from_deg = 0, elevation_angle_to_deg = 0;  ///< of the other antenna, as it appears
+  std::vector<CriterionResult> criteria;
+  std::vector<NamedHeights> required;
+  std::optional<FresnelClearance> fresnel;
+  std::optional<PathLosses> losses;
+  std::optional<VisibleHeight> visible;
+
+  // What the caller knows besides, for the report's header and maps.
+  std::string title;
+  std::vector<std::pair<std::string, std::string>> facts;  ///< what was asked of what: name, value
+  std::vector<std::string> from_lines, to_lines;           ///< about the ends
+  std::string crs_wkt;                                     ///< empty: the profile has no positions
+  std::vector<std::string> themes;                         ///< names by ProfilePoint::theme; 0 is the terrain
+};
+
+/// Throws InputError where the profile has no ground at an end, a height is negative, or a criterion asks for a part of
+/// the Fresnel zone without a frequency. O(n) but for logarithmic factors.
+LosReport analyse(Profile profile, const LosQuery& query);
+
+/// Elevation and distance of the ray at a distance, metres; a straight line in the drawing's effective Earth.
+double ray_elevation_m(const LosReport& report, double distance_m);
+
+/// "terrain", or the theme's name.
+std::string cause_of(const LosReport& report, std::uint16_t theme);
+
+}  // namespace itin::profile

@@ -1,0 +1,41 @@
+// A profile: the ground along a line, as everything about lines of sight takes it.
+//
+//   const Profile profile = from_section(cross_section(store, a, b, detail));
+//   const Sight sight = line_of_sight(profile, {h1, h2}, earth);   // profile/sight.hpp
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <itin/cross_section.hpp>
+
+namespace itin::profile {
+
+struct ProfilePoint {
+  double distance_m = 0;
+  double x = 0;
+  double y = 0;
+  double ground_m = 0;        ///< elevation of the surface
+  double clutter_m = 0;       ///< on top of it, for diffraction only
+  std::uint16_t theme = 0;    ///< 0: terrain
+  std::int64_t feature = -1;  ///< none
+};
+
+/// In order of distance; two points at one distance are a vertical face. Between points the ground is straight, except
+/// in the gaps, where there is none. Not every profile has positions: one read from a file has x = y = 0.
+struct Profile {
+  std::vector<ProfilePoint> points;
+  std::vector<std::pair<double, double>> gaps;  ///< metres from, to; in order
+  double length_m = 0;
+
+  /// Whether the ground is continuous from point i to point i + 1.
+  bool joined(std::size_t i) const;
+};
+
+Profile from_section(const CrossSection& section);
+
+/// The same seen from the other end. Exact for distances that are multiples of 2^-30 m, as a CrossSection's are.
+Profile reversed(const Profile& profile);
+
+}  // namespace itin::profile

@@ -1,0 +1,60 @@
+// How high antennas must stand: one end alone, both equally, and one height against the other.
+//
+//   const Requirement los{earth}, six_tenths{earth, 0.6, wavelength_m(7.5)};
+//   const RequiredHeights heights = required_heights(profile, {10, 15}, six_tenths);
+//   if (heights.from_alone_m) ...        // the first end's height, the second one's staying at 15 m
+//
+// A requirement asks that everywhere between the ends the ray stand `fraction` first Fresnel radii above the ground, on
+// an Earth of its own: two-criterion planning after ITU-R P.530-18 section 2.2 is two of them, the greater height
+// rules. Heights are metres above the ground at each end and least ones: at exactly this height the requirement is met.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <itin/earth.hpp>
+#include <profile/profile.hpp>
+
+namespace itin::profile {
+
+struct Requirement {
+  Earth earth;
+  double fraction = 0;    ///< of the first Fresnel radius; 0: mere line of sight
+  double wavelength = 0;  ///< metres; not used when the fraction is 0
+};
+
+struct HeightPair {
+  double from_m = 0;
+  std::optional<double> to_m;  ///< nothing: no height at the second end makes up for this one at the first
+};
+
+struct RequiredHeights {
+  std::optional<double> from_alone_m;  ///< nothing: no height is enough while the other end stands where it does
+  std::optional<double> to_alone_m;    ///< likewise
+  std::optional<double> both_equal_m;  ///< nothing: ground in the way at an end itself
+  std::vector<HeightPair> curve;       ///< ascending in from_m, descending in to_m
+};
+
+/// `from_m`, `to_m`: heights of the two ends as planned, above their ground. Precondition: the profile has ground at
+/// both ends and length_m > 0. Every height is good to 1e-9 relative to the profile's range of elevations; nothing is
+/// sampled but the curve, at kCurvePoints heights. O(n) for each height.
+inline constexpr int kCurvePoints = 25;
+struct PlannedHeights {
+  double from_m = 0;
+  double to_m = 0;
+};
+RequiredHeights required_heights(const Profile& profile, const PlannedHeights& planned, const Requirement& requirement);
+
+/// What is seen of an upright object at the second end from an antenna or eye at the first.
+struct VisibleHeight {
+  double from_m = 0;         ///< above the object's ground: below this it is hidden
+  double hub_visible_m = 0;  ///< seen of the part up to the hub
+  double tip_visible_m = 0;  ///< seen of the part up to the tip
+  double hub_fraction = 0;   ///< of the hub's height
+  double tip_fraction = 0;   ///< of the tip's height
+};
+
+/// `eye_m` above the ground at the first end; hub <= tip above the ground at the second.
+VisibleHeight visible_height(const Profile& profile, double eye_m, double hub_m, double tip_m, const Earth& earth);
+
+}  // namespace itin::profile

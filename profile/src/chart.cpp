@@ -1,0 +1,163 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+#include <profile/chart.hpp>
+
+#include "axis.hpp"
+#include "drawing.hpp"
+
+namespace itin::profile {
+
+namespace {
+
+constexpr double kWidth = 780, kHeight = 360;
+constexpr Colour kInk{0.12, 0.12, 0.12}, kFaint{0.37, 0.37, 0.37}, kGrid{0.87, 0.87, 0.87};
+constexpr Colour kGround{0.86, 0.83, 0.76}, kVoid{0.95, 0.95, 0.95};
+// From the palette of Okabe and Ito, told apart with every kind of colour blindness.
+constexpr std::array<Colour, 6> kLines{{{0.30, 0.24, 0.15},
+                                        {0.00, 0.45, 0.70},
+                                        {0.84, 0.37, 0.00},
+                                        {0.00, 0.62, 0.45},
+                                        {0.80, 0.47, 0.65},
+                                        {0.90, 0.62, 0.00}}};
+
+class ChartPage {
+ public:
+  ChartPage(const Chart& chart, Drawing::Format format)
+      : chart_(chart), drawing_(format, kWidth, kHeight), frame_{58, 54, kWidth - 18, kHeight - 42} {
+    place_axes();
+  }
+
+  std::string run() {
+    drawing_.rectangle({0, 0, kWidth, kHeight}, {1, 1, 1});
+    drawing_.text({frame_.xmin, 20}, chart_.title, {.size = 12, .colour = kInk, .bold = true});
+    drawing_.text({frame_.xmin, 34}, chart_.note, {.size = 8, .colour = kFaint});
+    if (!empty_) draw_gaps();
+    draw_grid();
+    if (!empty_) draw_series();
+    draw_axes();
+    draw_legend();
+    return drawing_.finish();
+  }
+
+ private:
+  void place_axes() {
+    double low = 0, high = 0, length = 0;
+    for (const ChartSeries& s : chart_.series) {
+      length = std::max(length, s.profile.length_m);
+      for (const ProfilePoint& p : s.profile.points) {
+        low = empty_ ? p.ground_m : std::min(low, p.ground_m);
+        high = empty_ ? p.ground_m : std::max(high, p.ground_m);
+        empty_ = false;
+      }
+    }
+    // Not less than a metre, lest rounding errors look like hills.
+    const double margin = std::max(0.06 * (high - low), 0.5);
+    in_km_ = length >= 2000;
+    x_ = {0, length > 0 ? length / unit() : 1, frame_.xmin, frame_.xmax};
+    y_ = {low - margin, high + margin, frame_.ymax, frame_.ymin};
+  }
+
+  double unit() const { return in_km_ ? 1000 : 1; }
+  Point2 at(const ProfilePoint& p) const { return {x_.at(p.distance_m / unit()), y_.at(p.ground_m)}; }
+
+  /// Points of ground without gap.
+  static std::vector<std::vector<ProfilePoint>> stretches(const Profile& profile) {
+    std::vector<std::vector<ProfilePoint>> result;
+    for (std::size_t i = 0; i < profile.points.size(); ++i) {
+      if (i == 0 || !profile.joined(i - 1)) result.emplace_back();
+      result.back().push_back(profile.points[i]);
+    }
+    return result;
+  }
+
+  void draw_gaps() {
+    for (const auto& [from, to] : chart_.series.front().profile.gaps) {
+      drawing_.rectangle({x_.at(from / unit()), frame_.ymin, x_.at(to / unit()), frame_.ymax}, kVoid);
+    }
+  }
+
+  void draw_grid() {
+    for (const double v : x_.ticks(10)) line({x_.at(v), frame_.ymin}, {x_.at(v), frame_.ymax}, {kGrid, 0.6, {}});
+    for (const double v : y_.ticks(7)) line({frame_.xmin, y_.at(v)}, {frame_.xmax, y_.at(v)}, {kGrid, 0.6, {}});
+  }
+
+  void draw_series() {
+    drawing_.clip(frame_);
+    for (std::size_t i = 0; i < chart_.series.size(); ++i) {
+      for (const auto& stretch : stretches(chart_.series[i].profile)) {
+        std::vector<Point2> points;
+        for (const ProfilePoint& p : stretch) points.push_back(at(p));
+        if (i == 0) fill_below(points);
+        drawing_.polyline(points, stroke(i));
+      }
+    }
+    drawing_.unclip();
+  }
+
+  void fill_below(std::vector<Point2> points) {
+    points.push_back({points.back().x, frame_.ymax});
+    points.push_back({points.front().x, frame_.ymax});
+    drawing_.polygon(points, kGround);
+  }
+
+  static Stroke stroke(std::size_t i) { return {kLines[i % kLines.size()], i == 0 ? 1.2 : 1.0, {}}; }
+
+  void draw_axes() {
+    const Point2 corners[] = {{frame_.xmin, frame_.ymin}, {frame_.xmin, frame_.ymax}, {frame_.xmax, frame_.ymax}};
+    drawing_.polyline(corners, {kInk, 0.8, {}});
+    for (const double v : x_.ticks(10)) {
+      line({x_.at(v), frame_.ymax}, {x_.at(v), frame_.ymax + 4}, {kInk, 0.8, {}});
+      drawing_.text({x_.at(v), frame_.ymax + 14}, tick_label(v, x_.step(10)),
+                    {.colour = kInk, .align = Align::kCentre});
+    }
+    for (const double v : y_.ticks(7)) {
+      line({frame_.xmin - 4, y_.at(v)}, {frame_.xmin, y_.at(v)}, {kInk, 0.8, {}});
+      drawing_.text({frame_.xmin - 7, y_.at(v) + 3}, tick_label(v, y_.step(7)),
+                    {.colour = kInk, .align = Align::kRight});
+    }
+    drawing_.text({(frame_.xmin + frame_.xmax) / 2, frame_.ymax + 30}, in_km_ ? "distance, km" : "distance, m",
+                  {.colour = kInk, .align = Align::kCentre});
+    drawing_.text({16, (frame_.ymin + frame_.ymax) / 2}, "elevation, m",
+                  {.colour = kInk, .align = Align::kCentre, .turn_deg = 90});
+    const double across = (x_.high - x_.low) * unit() / (x_.to - x_.from), up = (y_.high - y_.low) / (y_.from - y_.to);
+    drawing_.text({frame_.xmax, frame_.ymax + 30}, fmt::format("vertical exaggeration {:.3g}", across / up),
+                  {.size = 8, .colour = kFaint, .align = Align::kRight});
+  }
+
+  void draw_legend() {
+    double x = frame_.xmin;
+    for (std::size_t i = 0; i < chart_.series.size(); ++i) {
+      const Lettering lettering{.size = 8, .colour = kInk};
+      line({x, 44}, {x + 16, 44}, stroke(i));
+      drawing_.text({x + 20, 47}, chart_.series[i].name, lettering);
+      x += 34 + drawing_.text_width(chart_.series[i].name, lettering);
+    }
+  }
+
+  void line(Point2 a, Point2 b, const Stroke& stroke) { drawing_.polyline(std::array{a, b}, stroke); }
+
+  const Chart& chart_;
+  Drawing drawing_;
+  Box frame_;
+  Axis x_, y_;
+  bool in_km_ = false;
+  bool empty_ = true;
+};
+
+}  // namespace
+
+void require_chart_format(const std::string& path) {
+  if (!Drawing::format_of(path)) throw InputError(fmt::format("{}: a chart ends in .svg, .pdf or .png", path));
+}
+
+std::string draw_chart(const Chart& chart, const std::string& path) {
+  require_chart_format(path);
+  return ChartPage(chart, *Drawing::format_of(path)).run();
+}
+
+}  // namespace itin::profile

@@ -1,0 +1,78 @@
+// Line drawings as SVG, PDF or PNG: the only face Cairo shows to the rest of the library.
+//
+//   Drawing drawing(Drawing::format_of("chart.pdf"), 800, 400);
+//   drawing.polyline({{10, 10}, {100, 50}}, {kBlack, 1.5});
+//   drawing.text({100, 60}, "Caerphilly", {.size = 10, .align = Align::kCentre});
+//   write(drawing.finish());
+//
+// Lengths are points, 1/72 inch, y downwards. PNG has 2 pixels a point. The bytes depend on the calls alone.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <itin/geometry.hpp>
+
+namespace itin::profile {
+
+struct Colour {
+  double red = 0, green = 0, blue = 0, alpha = 1;
+};
+
+struct Stroke {
+  Colour colour;
+  double width = 1;
+  std::vector<double> dashes;  ///< lengths on, off, ...; empty: solid
+};
+
+enum class Align { kLeft, kCentre, kRight };
+
+struct Lettering {
+  double size = 9;
+  Colour colour;
+  Align align = Align::kLeft;
+  bool bold = false;
+  double turn_deg = 0;  ///< counterclockwise about the anchor
+};
+
+class Drawing {
+ public:
+  enum class Format { kSvg, kPdf, kPng };
+  /// By the ending of a file's name, whatever its case; nothing for another ending.
+  static std::optional<Format> format_of(const std::string& path);
+
+  Drawing(Format format, double width, double height);
+  ~Drawing();
+  Drawing(const Drawing&) = delete;
+  Drawing& operator=(const Drawing&) = delete;
+
+  double width() const { return width_; }
+  double height() const { return height_; }
+
+  void polyline(std::span<const Point2> points, const Stroke& stroke);
+  void polygon(std::span<const Point2> points, const Colour& fill);
+  void rectangle(const Box& box, const Colour& fill);
+  void circle(Point2 centre, double radius, const Colour& fill);
+  /// The anchor is on the baseline, at the text's left end, centre or right end.
+  void text(Point2 anchor, const std::string& text, const Lettering& lettering);
+  double text_width(const std::string& text, const Lettering& lettering) const;
+
+  /// Until unclip(), nothing is drawn outside the box.
+  void clip(const Box& box);
+  void unclip();
+  /// What follows goes on another page. Only for PDF.
+  void new_page();
+
+  /// The file's bytes. Nothing can be drawn afterwards. Throws Error when Cairo fails.
+  std::string finish();
+
+ private:
+  struct Surface;
+  double width_, height_;
+  std::unique_ptr<Surface> surface_;
+};
+
+}  // namespace itin::profile

@@ -1,0 +1,130 @@
+#include <algorithm>
+#include <atomic>
+#include <charconv>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include <itin/coordinates.hpp>
+#include <itin/cross_section.hpp>
+#include <itin/error.hpp>
+#include <itin/parallel.hpp>
+#include <itin/paths.hpp>
+#include <itin/store.hpp>
+#include <profile/links.hpp>
+#include <profile/profile.hpp>
+
+#include "line_clearance.hpp"
+
+namespace itin::profile {
+
+namespace {
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells(1);
+  for (const char c : line) {
+    if (c == ',') {
+      cells.emplace_back();
+    } else if (c != '\r' && c != '"') {
+      cells.back() += c;
+    }
+  }
+  return cells;
+}
+
+double number(const std::string& text, const std::string& path, std::size_t row) {
+  const char* first = text.c_str() + std::min(text.find_first_not_of(' '), text.size());
+  const char* last = text.c_str() + text.size();
+  double value = 0;
+  const auto [end, error] = std::from_chars(first, last, value);
+  if (error != std::errc() || end != last) {
+    throw FileError(path, fmt::format("line {}: '{}' is no number; the columns are id,x1,y1,h1,x2,y2,h2", row, text));
+  }
+  return value;
+}
+
+std::vector<Link> read_table(const std::string& path, const std::string& to_crs, const std::string& csv_crs) {
+  std::ifstream file(path);
+  if (!file) throw FileError(path, "cannot be opened");
+  std::optional<CoordinateTransform> transform;
+  if (!csv_crs.empty()) transform.emplace(csv_crs, to_crs);
+  std::vector<Link> links;
+  std::string line;
+  for (std::size_t row = 1; std::getline(file, line); ++row) {
+    if (row == 1 || line.find_first_not_of(" \r") == std::string::npos) continue;
+    const std::vector<std::string> cells = cells_of(line);
+    if (cells.size() != 7)
+      throw FileError(path, fmt::format("line {}: has {} columns instead of 7", row, cells.size()));
+    std::array<double, 6> v{};
+    for (std::size_t i = 0; i < 6; ++i) v[i] = number(cells[i + 1], path, row);
+    Link link{cells[0], {v[0], v[1]}, v[2], {v[3], v[4]}, v[5]};
+    if (transform) link.from = (*transform)(link.from), link.to = (*transform)(link.to);
+    links.push_back(std::move(link));
+  }
+  return links;
+}
+
+bool has_ground_at_ends(const Profile& profile) {
+  return !profile.points.empty() && profile.points.front().distance_m == 0 &&
+         profile.points.back().distance_m == profile.length_m;
+}
+
+LinkResult survey(const Profile& profile, const Link& link, const LinkQuery& query) {
+  LinkResult result;
+  result.distance_m = profile.length_m;
+  if (!has_ground_at_ends(profile)) {
+    result.message = "no ground under an end";
+    return result;
+  }
+  const Antennas antennas{profile.points.front().ground_m + link.from_height,
+                          profile.points.back().ground_m + link.to_height};
+  const auto line = line_clearance(profile, antennas, query.earth);
+  const bool blocked = query.gaps_block && !profile.gaps.empty();
+  result.verdict = line->clearance_m < 0 || blocked ? SightVerdict::kHidden : SightVerdict::kVisible;
+  result.clearance_m = line->clearance_m;
+  result.critical_m = line->critical.distance_m;
+  if (!query.radio || profile.length_m == 0) return result;
+  const auto fresnel = fresnel_clearance(profile, antennas, query.earth, wavelength_m(query.radio->frequency_ghz));
+  if (fresnel) result.fresnel_fraction = fresnel->fraction;
+  // The same points as in a report (los.cpp).
+  result.ld_db =
+      path_losses(with_spacing(profile, std::min(100.0, profile.length_m / 50)), antennas, *query.radio).ld_db;
+  return result;
+}
+
+}  // namespace
+
+std::vector<Link> read_links(const std::string& path, const std::string& to_crs, double height,
+                             const std::string& csv_crs) {
+  if (path.size() > 4 && path.ends_with(".csv")) return read_table(path, to_crs, csv_crs);
+  std::vector<Link> links;
+  for (const Path& line : read_paths(path, to_crs)) {
+    links.push_back({line.name, line.corners.front(), height, line.corners.back(), height});
+  }
+  return links;
+}
+
+std::vector<LinkResult> survey_links(const Store& store, const Detail& detail, const std::vector<Link>& links,
+                                     const LinkQuery& query, Progress& progress) {
+  const SectionSurface surface(store, detail);
+  std::vector<LinkResult> results(links.size());
+  std::atomic<std::size_t> done = 0;
+  constexpr std::size_t kBatch = 64;
+  parallel_for((links.size() + kBatch - 1) / kBatch, [&](std::size_t batch) {
+    progress.throw_if_cancelled();
+    const std::size_t end = std::min(links.size(), (batch + 1) * kBatch);
+    for (std::size_t i = batch * kBatch; i < end; ++i) {
+      try {
+        results[i] = survey(from_section(surface.between(links[i].from, links[i].to)), links[i], query);
+      } catch (const InputError& error) {
+        results[i] = {};
+        results[i].message = error.what();
+      }
+    }
+    done += end - batch * kBatch;
+    progress.report("links", static_cast<double>(done) / static_cast<double>(links.size()));
+  });
+  return results;
+}
+
+}  // namespace itin::profile

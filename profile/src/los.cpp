@@ -1,0 +1,176 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+#include <profile/los.hpp>
+
+#include "line_clearance.hpp"
+
+namespace itin::profile {
+
+namespace {
+
+/// Formulas that look at points only see the profile at least this finely.
+constexpr double kMostSpacingM = 100;
+constexpr int kLeastPoints = 50;
+
+double degrees(double radians) {
+  return radians * 180 / std::numbers::pi;
+}
+
+double factor_of(const Earth& earth) {
+  const double drop = earth.drop_coefficient();
+  return drop == 0 ? std::numeric_limits<double>::infinity() : 1 / (2 * drop * earth.radius);
+}
+
+Earth earth_of(const Criterion& criterion, const Earth& earth) {
+  Earth result = Earth::effective_earth(criterion.k);
+  result.radius = earth.radius;
+  return result;
+}
+
+double wavelength_of(const LosQuery& query) {
+  return query.radio ? wavelength_m(query.radio->frequency_ghz) : 0;
+}
+
+void require_valid(const Profile& profile, const LosQuery& query) {
+  if (profile.points.empty() || profile.points.front().distance_m != 0 ||
+      profile.points.back().distance_m != profile.length_m) {
+    throw InputError("there is no ground at an end of the line; move it onto the data");
+  }
+  if (!(query.from_height_m >= 0) || !(query.to_height_m >= 0)) throw InputError("a height above ground is negative");
+  for (const Criterion& c : query.criteria) {
+    if (c.fraction > 0 && !query.radio) {
+      throw InputError("a criterion with a fraction of the Fresnel zone takes a frequency");
+    }
+  }
+}
+
+SightVerdict sight_verdict(const LosReport& report) {
+  if (report.query.gaps_block && !report.profile.gaps.empty()) return SightVerdict::kHidden;
+  if (!report.clearance_m || report.profile.length_m == 0) return SightVerdict::kVisible;
+  if (report.query.clearance_error_m > 0 && std::abs(*report.clearance_m) < report.query.clearance_error_m) {
+    return SightVerdict::kUndecided;
+  }
+  return *report.clearance_m >= 0 ? SightVerdict::kVisible : SightVerdict::kHidden;
+}
+
+/// The least of the fractions of F1, or without a wavelength a sign, with both antennas `shift` metres higher: lifting
+/// the ray is lowering the surface.
+struct Margin {
+  std::optional<double> clearance_m, fraction;
+  bool cut() const { return clearance_m && *clearance_m < 0; }
+  bool meets(const Criterion& c) const { return !cut() && (c.fraction == 0 || !fraction || *fraction >= c.fraction); }
+};
+Margin margin(const LosReport& report, const Earth& earth, double shift) {
+  const Antennas antennas{report.antennas.from_m + shift, report.antennas.to_m + shift};
+  Margin result;
+  if (const auto line = line_clearance(report.profile, antennas, earth)) result.clearance_m = line->clearance_m;
+  if (!report.query.radio) return result;
+  const auto fresnel = fresnel_clearance(report.profile, antennas, earth, wavelength_of(report.query));
+  if (fresnel) result.fraction = fresnel->fraction;
+  return result;
+}
+
+/// Certain verdicts hold whatever the surface's certified error hides.
+CriterionVerdict criterion_verdict(const LosReport& report, const Criterion& criterion, const Earth& earth) {
+  const double error = report.query.clearance_error_m;
+  const Margin least = margin(report, earth, -error), most = margin(report, earth, error);
+  if (most.cut()) return CriterionVerdict::kObstructed;
+  if (least.meets(criterion)) return CriterionVerdict::kClear;
+  return !least.cut() && !most.meets(criterion) ? CriterionVerdict::kMarginal : CriterionVerdict::kUndecided;
+}
+
+CriterionResult judge(const LosReport& report, const Criterion& criterion) {
+  const Earth earth = earth_of(criterion, report.query.earth);
+  const Margin as_is = margin(report, earth, 0);
+  return {criterion, criterion_verdict(report, criterion, earth), as_is.clearance_m, as_is.fraction};
+}
+
+std::string criterion_name(const Criterion& c) {
+  return fmt::format("K = {:.4g}, {:.3g} F1", c.k, c.fraction);
+}
+
+void add_required(LosReport& report) {
+  if (report.profile.length_m == 0) return;
+  const PlannedHeights planned{report.query.from_height_m, report.query.to_height_m};
+  const auto add = [&](std::string name, const Earth& earth, double fraction) {
+    const Requirement requirement{earth, fraction, wavelength_of(report.query)};
+    report.required.push_back(
+        {std::move(name), factor_of(earth), fraction, required_heights(report.profile, planned, requirement)});
+  };
+  add("line of sight", report.query.earth, 0);
+  if (report.query.radio) add("0.6 F1", report.query.earth, 0.6);
+  for (const Criterion& c : report.query.criteria) {
+    add(criterion_name(c), earth_of(c, report.query.earth), c.fraction);
+  }
+}
+
+/// The elevation angle at which something `rise` higher appears at `distance`.
+double elevation_deg(double rise, double distance, const Earth& earth) {
+  if (distance == 0) return rise == 0 ? 0 : std::copysign(90.0, rise);
+  return degrees(std::atan((rise - earth.drop(distance)) / distance));
+}
+
+void add_radio(LosReport& report) {
+  const LosQuery& query = report.query;
+  if (!query.radio || report.profile.length_m == 0) return;
+  report.fresnel = fresnel_clearance(report.profile, report.antennas, query.earth, wavelength_of(query));
+  const double spacing = std::min(kMostSpacingM, report.profile.length_m / kLeastPoints);
+  report.losses = path_losses(query.points_as_given ? report.profile : with_spacing(report.profile, spacing),
+                              report.antennas, *query.radio);
+}
+
+}  // namespace
+
+const char* name_of(SightVerdict verdict) {
+  constexpr const char* kNames[] = {"visible", "hidden", "undecided"};
+  return kNames[static_cast<int>(verdict)];
+}
+
+const char* name_of(CriterionVerdict verdict) {
+  constexpr const char* kNames[] = {"clear", "marginal", "obstructed", "undecided"};
+  return kNames[static_cast<int>(verdict)];
+}
+
+LosReport analyse(Profile profile, const LosQuery& query) {
+  require_valid(profile, query);
+  LosReport report;
+  report.query = query;
+  report.profile = std::move(profile);
+  report.antennas = {report.profile.points.front().ground_m + query.from_height_m,
+                     report.profile.points.back().ground_m + query.to_height_m};
+  if (auto line = line_clearance(report.profile, report.antennas, query.earth)) {
+    report.clearance_m = line->clearance_m;
+    report.critical = line->critical;
+    report.obstructions = std::move(line->obstructions);
+  }
+  report.verdict = sight_verdict(report);
+  const double rise = report.antennas.to_m - report.antennas.from_m;
+  report.elevation_angle_from_deg = elevation_deg(rise, report.profile.length_m, query.earth);
+  report.elevation_angle_to_deg = elevation_deg(-rise, report.profile.length_m, query.earth);
+  for (const Criterion& c : query.criteria) report.criteria.push_back(judge(report, c));
+  add_required(report);
+  add_radio(report);
+  if (query.object) {
+    report.visible =
+        visible_height(report.profile, query.from_height_m, query.object->hub_m, query.object->tip_m, query.earth);
+  }
+  return report;
+}
+
+double ray_elevation_m(const LosReport& report, double distance_m) {
+  const double t = report.profile.length_m > 0 ? distance_m / report.profile.length_m : 0;
+  return report.antennas.from_m * (1 - t) + report.antennas.to_m * t;
+}
+
+std::string cause_of(const LosReport& report, std::uint16_t theme) {
+  if (theme == 0) return "terrain";
+  return theme < report.themes.size() ? report.themes[theme] : fmt::format("theme {}", theme);
+}
+
+}  // namespace itin::profile

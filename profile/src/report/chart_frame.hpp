@@ -1,0 +1,39 @@
+// The frame of a chart: box, ticks, labels and titles of two axes.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "axis.hpp"
+#include "drawing.hpp"
+
+namespace itin::profile {
+
+inline constexpr Colour kInk{0.13, 0.13, 0.13, 1}, kGrey{0.45, 0.45, 0.45, 1}, kFaint{0.84, 0.84, 0.84, 1};
+
+struct ChartFrame {
+  Box box;  ///< in the drawing, y downwards
+  Axis x, y;
+  std::string x_title, y_title;
+  int x_ticks = 10, y_ticks = 8;
+
+  Point2 at(double x_value, double y_value) const { return {x.at(x_value), y.at(y_value)}; }
+};
+
+/// A frame whose axes fill the box; low and high are data.
+ChartFrame make_frame(const Box& box, double x_low, double x_high, double y_low, double y_high);
+
+/// Ticks, their labels and the titles outside the box. `x_label` sets a tick's text from its value and the step.
+void draw_frame(Drawing& drawing, const ChartFrame& frame,
+                const std::function<std::string(double, double)>& x_label = tick_label);
+
+/// Samples of colour with their names, from left to right, starting anew where a line is full.
+struct LegendItem {
+  std::string name;
+  Stroke stroke;
+  bool area = false;
+};
+void draw_legend(Drawing& drawing, Point2 at, double width, const std::vector<LegendItem>& items);
+
+}  // namespace itin::profile

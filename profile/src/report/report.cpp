@@ -1,0 +1,51 @@
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+#include <itin/output_file.hpp>
+#include <profile/report.hpp>
+
+#include "report/formats.hpp"
+
+namespace itin::profile {
+
+namespace {
+
+std::string ending_of(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending;
+}
+
+std::string bytes_of(const LosReport& report, const std::string& json, const std::string& path) {
+  const std::string ending = ending_of(path);
+  if (ending == ".json") return json;
+  if (ending == ".csv") return report_csv(report);
+  if (ending == ".html") return report_html(report);
+  if (ending == ".kml") return report_kml(report);
+  return report_drawing(report, *Drawing::format_of(path));
+}
+
+}  // namespace
+
+void require_report_format(const std::string& path, bool has_positions) {
+  constexpr std::string_view kEndings[] = {".json", ".csv", ".svg", ".pdf", ".png", ".html", ".kml", ".gpkg"};
+  const std::string ending = ending_of(path);
+  if (std::find(std::begin(kEndings), std::end(kEndings), ending) == std::end(kEndings)) {
+    throw InputError(fmt::format("--report '{}': expected .json, .csv, .svg, .pdf, .png, .html, .kml or .gpkg", path));
+  }
+  if (!has_positions && (ending == ".kml" || ending == ".gpkg")) {
+    throw InputError(fmt::format("--report '{}': a profile from a file has no positions to map", path));
+  }
+}
+
+void write_report(const LosReport& report, const std::string& json, const std::string& path, bool overwrite) {
+  require_report_format(path, !report.crs_wkt.empty());
+  if (ending_of(path) == ".gpkg") return write_geopackage(path, report.crs_wkt, report_layers(report), overwrite);
+  write_file(path, bytes_of(report, json, path), overwrite);
+}
+
+}  // namespace itin::profile

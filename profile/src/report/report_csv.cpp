@@ -1,0 +1,57 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include <itin/coordinates.hpp>
+
+#include "report/formats.hpp"
+
+namespace itin::profile {
+
+namespace {
+
+std::string number(double value, int decimals) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "";
+}
+
+}  // namespace
+
+std::string report_csv(const LosReport& report) {
+  std::optional<CoordinateTransform> to_geographic;
+  if (!report.crs_wkt.empty()) to_geographic.emplace(report.crs_wkt, "EPSG:4326");
+  const double length = report.profile.length_m, drop = report.query.earth.drop_coefficient();
+  const double wavelength = report.query.radio ? wavelength_m(report.query.radio->frequency_ghz) : 0;
+  std::string csv =
+      "distance_m,x,y,lon,lat,ground_m,feature_top_m,bulge_m,ray_m,f1_m,clearance_m,clearance_f1,v,visible\n";
+  double steepest = -std::numeric_limits<double>::infinity();
+  for (const ProfilePoint& p : report.profile.points) {
+    const double d = p.distance_m, bulge = drop * d * (length - d), ray = ray_elevation_m(report, d);
+    const double clearance = ray - p.ground_m - bulge, radius = fresnel_radius_m(d, length - d, wavelength);
+    // Seen from the first end: no ground before it rises higher.
+    const double slope = d > 0 ? (p.ground_m - report.antennas.from_m) / d - drop * d : steepest;
+    const bool visible = slope >= steepest;
+    steepest = std::max(steepest, slope);
+    csv += number(d, 3) + ",";
+    if (to_geographic) {
+      const Point2 lon_lat = (*to_geographic)({p.x, p.y});
+      csv += fmt::format("{:.3f},{:.3f},{:.8f},{:.8f},", p.x, p.y, lon_lat.x, lon_lat.y);
+    } else {
+      csv += ",,,,";
+    }
+    csv += number(p.ground_m, 3) + "," + number(p.ground_m + p.clutter_m, 3) + "," + number(bulge, 3) + "," +
+           number(ray, 3) + ",";
+    csv += wavelength > 0 ? number(radius, 3) : "";
+    csv += "," + number(clearance, 3) + ",";
+    if (radius > 0)
+      csv += number(clearance / radius, 4) + "," + number(-std::sqrt(2.0) * clearance / radius, 4);
+    else
+      csv += ",";
+    csv += visible ? ",1\n" : ",0\n";
+  }
+  return csv;
+}
+
+}  // namespace itin::profile

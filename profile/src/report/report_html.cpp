@@ -1,0 +1,94 @@
+// One self-contained page: drawings are embedded as images, nothing is fetched.
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "report/formats.hpp"
+#include "report/sight_chart.hpp"
+#include "report/tables.hpp"
+#include "report/trade_off_chart.hpp"
+
+namespace itin::profile {
+
+namespace {
+
+constexpr const char* kStyle =
+    "body{font:15px/1.45 system-ui,sans-serif;color:#222;max-width:64rem;margin:2rem auto;padding:0 1rem}"
+    "h1{font-size:1.6rem;margin:0 0 .3rem}h2{font-size:1.1rem;margin:1.6rem 0 .3rem}"
+    "table{border-collapse:collapse}td,th{padding:.18rem .9rem .18rem 0;text-align:left;vertical-align:top;"
+    "border-bottom:1px solid #ddd}img{width:100%;height:auto}.note{color:#666;font-size:.9em}"
+    ".verdict{font-size:1.1rem;font-weight:600}@media print{body{margin:0;max-width:none}h2{break-after:avoid}}";
+
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '<')
+      result += "&lt;";
+    else if (c == '>')
+      result += "&gt;";
+    else if (c == '"')
+      result += "&quot;";
+    else
+      result += c;
+  }
+  return result;
+}
+
+std::string base64(std::string_view bytes) {
+  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string result;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t group = 0;
+    for (std::size_t j = 0; j < 3; ++j) {
+      group = group << 8 | (i + j < bytes.size() ? static_cast<unsigned char>(bytes[i + j]) : 0U);
+    }
+    for (std::size_t j = 0; j < 4; ++j) {
+      result += i + j <= bytes.size() ? kDigits[group >> (18 - 6 * j) & 63U] : '=';
+    }
+  }
+  return result;
+}
+
+template <class Draw>
+std::string image(double width, double height, const char* what, Draw draw) {
+  Drawing drawing(Drawing::Format::kSvg, width, height);
+  draw(drawing, Box{0, 0, width, height});
+  return fmt::format("<img alt=\"{}\" src=\"data:image/svg+xml;base64,{}\">\n", what, base64(drawing.finish()));
+}
+
+std::string html_table(const Table& table) {
+  std::string html = fmt::format("<h2>{}</h2>\n<table>\n", escaped(table.title));
+  const auto row = [&](const std::vector<std::string>& cells, std::string_view tag) {
+    html += "<tr>";
+    for (const std::string& cell : cells) html += fmt::format("<{0}>{1}</{0}>", tag, escaped(cell));
+    html += "</tr>\n";
+  };
+  if (!table.header.empty()) row(table.header, "th");
+  for (const auto& cells : table.rows) row(cells, "td");
+  html += "</table>\n";
+  if (!table.note.empty()) html += fmt::format("<p class=\"note\">{}</p>\n", escaped(table.note));
+  return html;
+}
+
+}  // namespace
+
+std::string report_html(const LosReport& report) {
+  std::string html = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\">\n<meta name=\"viewport\" "
+      "content=\"width=device-width\">\n<title>{0}</title>\n<style>{1}</style></head>\n<body>\n<h1>{0}</h1>\n"
+      "<p class=\"verdict\">{2}</p>\n",
+      escaped(report.title), kStyle, escaped(verdict_line(report)));
+  html += image(842, 420, "Sight line over the terrain",
+                [&](Drawing& drawing, const Box& box) { draw_sight_chart(drawing, box, report); });
+  html += html_table(ends_table(report));
+  for (const Table& table : result_tables(report)) html += html_table(table);
+  if (has_trade_off(report)) {
+    html += image(620, 380, "Heights at A against B",
+                  [&](Drawing& drawing, const Box& box) { draw_trade_off_chart(drawing, box, report); });
+  }
+  return html + html_table(facts_table(report)) + "</body>\n</html>\n";
+}
+
+}  // namespace itin::profile

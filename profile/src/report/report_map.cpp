@@ -1,0 +1,203 @@
+// The report on the map: KML for globes, layers for GeoPackage.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include <itin/coordinates.hpp>
+
+#include "report/formats.hpp"
+#include "report/tables.hpp"
+
+namespace itin::profile {
+
+namespace {
+
+constexpr int kRayParts = 64, kZoneLines = 12;
+
+/// The line's geometry in the store's CRS.
+class Path {
+ public:
+  explicit Path(const LosReport& report) : report_(report) {
+    const ProfilePoint &a = report.profile.points.front(), &b = report.profile.points.back();
+    from_ = {a.x, a.y}, to_ = {b.x, b.y};
+  }
+
+  Point2 position(double d, double aside = 0) const {
+    const double length = report_.profile.length_m, t = length > 0 ? d / length : 0;
+    const double dx = to_.x - from_.x, dy = to_.y - from_.y;
+    const double scale = length > 0 ? aside / length : 0;
+    return {from_.x + dx * t + dy * scale, from_.y + dy * t - dx * scale};
+  }
+  /// Elevation above the datum: the ray is straight over the effective Earth, whose bulge it has below it.
+  double elevation(double d) const {
+    return ray_elevation_m(report_, d) - report_.query.earth.drop_coefficient() * d * (report_.profile.length_m - d);
+  }
+  Point3 ray(double d, double aside = 0, double up = 0) const {
+    const Point2 p = position(d, aside);
+    return {p.x, p.y, elevation(d) + up};
+  }
+  std::vector<Point3> ray_line() const {
+    std::vector<Point3> line;
+    for (int i = 0; i <= kRayParts; ++i) line.push_back(ray(report_.profile.length_m * i / kRayParts));
+    return line;
+  }
+  std::vector<Point3> ground_line() const {
+    std::vector<Point3> line;
+    for (const ProfilePoint& p : report_.profile.points) line.push_back({p.x, p.y, p.ground_m});
+    return line;
+  }
+  std::vector<Point3> obstruction_line(const Obstruction& o) const {
+    std::vector<Point3> line = {ray(o.from_m)};
+    for (const ProfilePoint& p : report_.profile.points) {
+      if (p.distance_m > o.from_m && p.distance_m < o.to_m) line.push_back({p.x, p.y, p.ground_m});
+    }
+    line.push_back(ray(o.to_m));
+    return line;
+  }
+  /// A line along the surface of the first Fresnel zone, `turn` radians about the ray from the right.
+  std::vector<Point3> zone_line(double turn) const {
+    const double wavelength = wavelength_m(report_.query.radio->frequency_ghz), length = report_.profile.length_m;
+    std::vector<Point3> line;
+    for (int i = 0; i <= kRayParts; ++i) {
+      const double d = length * (1 - std::cos(std::numbers::pi * i / kRayParts)) / 2;
+      const double radius = fresnel_radius_m(d, length - d, wavelength);
+      line.push_back(ray(d, radius * std::cos(turn), radius * std::sin(turn)));
+    }
+    return line;
+  }
+
+ private:
+  const LosReport& report_;
+  Point2 from_, to_;
+};
+
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) result += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+  return result;
+}
+
+class Kml {
+ public:
+  explicit Kml(const LosReport& report) : to_geographic_(report.crs_wkt, "EPSG:4326") {
+    text_ = fmt::format(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<kml xmlns=\"http://www.opengis.net/kml/2.2\">\n<Document>\n"
+        "<name>{}</name>\n<description>{}</description>\n",
+        escaped(report.title), escaped(verdict_line(report)));
+    style("ray", report.verdict == SightVerdict::kHidden ? "ff2020d0" : "ff20a020", 3);
+    style("ground", "ff335577", 2);
+    style("cut", "ff0000ff", 5);
+    style("zone", "66e08040", 1);
+  }
+  void point(const std::string& name, const Point3& p) {
+    open(name, "");
+    text_ += "<Point><altitudeMode>absolute</altitudeMode><coordinates>" + coordinates({p}) +
+             "</coordinates></Point></Placemark>\n";
+  }
+  void line(const std::string& name, const std::string& style_id, const std::vector<Point3>& points) {
+    open(name, style_id);
+    text_ += "<LineString><altitudeMode>absolute</altitudeMode><coordinates>" + coordinates(points) +
+             "</coordinates></LineString></Placemark>\n";
+  }
+  void open_folder(const std::string& name) { text_ += "<Folder><name>" + escaped(name) + "</name>\n"; }
+  void close_folder() { text_ += "</Folder>\n"; }
+  std::string finish() { return text_ + "</Document>\n</kml>\n"; }
+
+ private:
+  void style(const char* id, const char* colour, int width) {
+    text_ += fmt::format("<Style id=\"{}\"><LineStyle><color>{}</color><width>{}</width></LineStyle></Style>\n", id,
+                         colour, width);
+  }
+  void open(const std::string& name, const std::string& style_id) {
+    text_ += "<Placemark><name>" + escaped(name) + "</name>";
+    if (!style_id.empty()) text_ += "<styleUrl>#" + style_id + "</styleUrl>";
+  }
+  std::string coordinates(const std::vector<Point3>& points) {
+    std::string text;
+    for (const Point3& p : points) {
+      const Point2 lon_lat = to_geographic_({p.x, p.y});
+      text += fmt::format("{}{:.8f},{:.8f},{:.2f}", text.empty() ? "" : " ", lon_lat.x, lon_lat.y, p.z);
+    }
+    return text;
+  }
+
+  CoordinateTransform to_geographic_;
+  std::string text_;
+};
+
+std::string obstruction_name(const LosReport& report, const Obstruction& o) {
+  return fmt::format("{}, {:.2f} m above the ray", cause_of(report, o.theme), o.depth_m);
+}
+
+}  // namespace
+
+std::string report_kml(const LosReport& report) {
+  const Path path(report);
+  const double length = report.profile.length_m;
+  Kml kml(report);
+  kml.point(fmt::format("A, {:g} m", report.query.from_height_m), path.ray(0));
+  kml.point(fmt::format("B, {:g} m", report.query.to_height_m), path.ray(length));
+  if (const auto tightest = tightest_point(report)) {
+    const Point2 p = path.position(tightest->distance_m);
+    kml.point("Critical point, " + critical_line(report), {p.x, p.y, tightest->ground_m});
+  }
+  kml.line("Ray", "ray", path.ray_line());
+  kml.line("Ground", "ground", path.ground_line());
+  for (const Obstruction& o : report.obstructions) {
+    kml.line(obstruction_name(report, o), "cut", path.obstruction_line(o));
+  }
+  if (report.query.radio && length > 0) {
+    kml.open_folder("First Fresnel zone");
+    for (int i = 0; i < kZoneLines; ++i) {
+      kml.line("F1", "zone", path.zone_line(2 * std::numbers::pi * i / kZoneLines));
+    }
+    kml.close_folder();
+  }
+  return kml.finish();
+}
+
+std::vector<VectorLayer> report_layers(const LosReport& report) {
+  using enum VectorLayer::Type;
+  using Shape = VectorLayer::Shape;
+  const Path path(report);
+  const auto metres = [](const std::optional<double>& v) { return v ? VectorLayer::Value(*v) : VectorLayer::Value(); };
+  VectorLayer line{"sight_line",
+                   Shape::kLines,
+                   {{"verdict", kText},
+                    {"distance_m", kNumber},
+                    {"clearance_m", kNumber},
+                    {"fresnel_fraction", kNumber},
+                    {"ld_db", kNumber}},
+                   {}};
+  line.features.push_back({path.ray_line(),
+                           {std::string(name_of(report.verdict)), report.profile.length_m, metres(report.clearance_m),
+                            metres(report.fresnel ? std::optional(report.fresnel->fraction) : std::nullopt),
+                            metres(report.losses ? std::optional(report.losses->ld_db) : std::nullopt)}});
+  VectorLayer ends{"points", Shape::kPoints, {{"what", kText}, {"distance_m", kNumber}, {"height_m", kNumber}}, {}};
+  ends.features.push_back({{path.ray(0)}, {std::string("from"), 0.0, report.query.from_height_m}});
+  ends.features.push_back(
+      {{path.ray(report.profile.length_m)}, {std::string("to"), report.profile.length_m, report.query.to_height_m}});
+  if (report.critical) {
+    const ProfilePoint& p = *report.critical;
+    ends.features.push_back({{{p.x, p.y, p.ground_m}}, {std::string("critical"), p.distance_m, {}}});
+  }
+  VectorLayer ground{"ground", Shape::kLines, {{"points", kWhole}}, {}};
+  if (report.profile.points.size() > 1) {
+    ground.features.push_back({path.ground_line(), {static_cast<std::int64_t>(report.profile.points.size())}});
+  }
+  VectorLayer cuts{
+      "obstructions",
+      Shape::kLines,
+      {{"from_m", kNumber}, {"to_m", kNumber}, {"peak_at_m", kNumber}, {"depth_m", kNumber}, {"cause", kText}},
+      {}};
+  for (const Obstruction& o : report.obstructions) {
+    cuts.features.push_back(
+        {path.obstruction_line(o), {o.from_m, o.to_m, o.peak_at_m, o.depth_m, cause_of(report, o.theme)}});
+  }
+  return {line, ends, ground, cuts};
+}
+
+}  // namespace itin::profile

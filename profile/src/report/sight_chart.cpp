@@ -1,0 +1,294 @@
+#include "report/sight_chart.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "report/tables.hpp"
+
+namespace itin::profile {
+
+namespace {
+
+constexpr int kArcParts = 240;
+constexpr Colour kGround{0.80, 0.74, 0.62, 1}, kGroundLine{0.42, 0.33, 0.20, 1}, kRay{0.05, 0.25, 0.60, 1},
+    kZone{0.20, 0.45, 0.85, 0.13}, kInnerZone{0.20, 0.45, 0.85, 0.16}, kZoneLine{0.20, 0.45, 0.85, 1},
+    kWorst{0.75, 0.35, 0.05, 1}, kCut{0.80, 0.10, 0.10, 0.75}, kMarker{0.75, 0.05, 0.05, 1},
+    kClutter{0.45, 0.65, 0.35, 0.8}, kNoData{0.9, 0.9, 0.9, 1}, kWhite{1, 1, 1, 0.85};
+/// By theme number, going round.
+constexpr Colour kThemes[] = {
+    {0.62, 0.20, 0.20, 1}, {0.20, 0.50, 0.22, 1}, {0.40, 0.30, 0.60, 1}, {0.80, 0.55, 0.10, 1}};
+
+const Colour& colour_of(std::uint16_t theme) {
+  return kThemes[(theme - 1U) % std::size(kThemes)];
+}
+
+/// Everything drawn, in metres over the chord between the ends' verticals.
+class SightChart {
+ public:
+  SightChart(Drawing& drawing, const Box& area, const LosReport& report)
+      : drawing_(drawing),
+        report_(report),
+        length_(std::max(report.profile.length_m, 1e-3)),
+        drop_(report.query.earth.drop_coefficient()),
+        wavelength_(report.query.radio ? wavelength_m(report.query.radio->frequency_ghz) : 0),
+        dense_(with_spacing(report.profile, length_ / kArcParts)) {
+    find_worst();
+    const auto [low, high] = range();
+    frame_ = make_frame({area.xmin + 52, area.ymin, area.xmax - 12, area.ymax - 66}, 0, length_, low, high);
+  }
+
+  void draw() {
+    drawing_.clip(frame_.box);
+    draw_arcs();
+    draw_gaps();
+    draw_ground();
+    draw_zones();
+    draw_cuts();
+    draw_features();
+    draw_lines();
+    drawing_.unclip();
+    draw_axes();
+    draw_masts();
+    draw_critical();
+    draw_key();
+  }
+
+ private:
+  double bulge(double d) const { return drop_ * d * (length_ - d); }
+  double ray(double d) const { return ray_elevation_m(report_, d); }
+  double radius(double d) const { return fresnel_radius_m(d, length_ - d, wavelength_); }
+  Point2 at(double d, double height) const { return frame_.at(d, height); }
+  Point2 at(const ProfilePoint& p) const { return at(p.distance_m, p.ground_m + bulge(p.distance_m)); }
+
+  /// The criterion with the largest bulge, if its Earth is more curved than the drawing's.
+  void find_worst() {
+    for (const Criterion& c : report_.query.criteria) {
+      const double drop = 1 / (2 * c.k * report_.query.earth.radius);
+      if (drop > std::max(drop_, worst_drop_)) worst_drop_ = drop, worst_k_ = c.k;
+    }
+  }
+
+  std::pair<double, double> range() const {
+    double low = std::min(report_.antennas.from_m, report_.antennas.to_m);
+    double high = std::max(report_.antennas.from_m, report_.antennas.to_m);
+    for (const ProfilePoint& p : dense_.points) {
+      const double d = p.distance_m, curve = std::max(drop_, worst_drop_) * d * (length_ - d);
+      low = std::min(low, p.ground_m + bulge(d));
+      high = std::max({high, p.ground_m + p.clutter_m + curve, ray(d) + radius(d)});
+    }
+    const double span = std::max({high - low, length_ / 200, 1.0});
+    return {low - 0.10 * span, high + 0.22 * span};
+  }
+
+  std::vector<Point2> sampled(double from, double to, double (SightChart::*height)(double) const) const {
+    std::vector<Point2> line;
+    for (int i = 0; i <= kArcParts; ++i) {
+      const double d = from + (to - from) * (1 - std::cos(std::numbers::pi * i / kArcParts)) / 2;
+      line.push_back(at(d, (this->*height)(d)));
+    }
+    return line;
+  }
+
+  void draw_arcs() {
+    for (const double tick : frame_.y.ticks(frame_.y_ticks)) {
+      std::vector<Point2> arc = sampled(0, length_, &SightChart::bulge);
+      for (Point2& p : arc) p.y += frame_.y.at(tick) - frame_.y.at(0);
+      drawing_.polyline(arc, {kFaint, 0.6, {}});
+    }
+  }
+
+  void draw_gaps() {
+    for (const auto& [from, to] : report_.profile.gaps) {
+      const Box& box = frame_.box;
+      drawing_.rectangle({frame_.x.at(from), box.ymin, frame_.x.at(to), box.ymax}, kNoData);
+      drawing_.text({frame_.x.at((from + to) / 2), box.ymax - 6}, "no data", {7, kGrey, Align::kCentre, false, 0});
+    }
+  }
+
+  /// Calls visit(first, last) for each run of joined points.
+  template <class Visit>
+  void for_each_run(Visit visit) const {
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < dense_.points.size(); ++i) {
+      if (i + 1 < dense_.points.size() && dense_.joined(i)) continue;
+      visit(first, i);
+      first = i + 1;
+    }
+  }
+
+  void fill_below(std::vector<Point2> top, const Colour& colour) {
+    if (top.size() < 2) return;
+    top.push_back({top.back().x, frame_.box.ymax});
+    top.push_back({top.front().x, frame_.box.ymax});
+    drawing_.polygon(top, colour);
+  }
+
+  void draw_ground() {
+    for_each_run([&](std::size_t first, std::size_t last) {
+      std::vector<Point2> ground, canopy;
+      bool clutter = false;
+      for (std::size_t i = first; i <= last; ++i) {
+        const ProfilePoint& p = dense_.points[i];
+        ground.push_back(at(p));
+        canopy.push_back(at(p.distance_m, p.ground_m + p.clutter_m + bulge(p.distance_m)));
+        clutter = clutter || p.clutter_m > 0;
+      }
+      if (clutter) fill_below(canopy, kClutter), has_clutter_ = true;
+      fill_below(ground, kGround);
+      drawing_.polyline(ground, {kGroundLine, 0.9, {}});
+    });
+  }
+
+  std::vector<Point2> zone(double fraction) const {
+    std::vector<Point2> line;
+    for (const double side : {1.0, -1.0}) {
+      for (int i = 0; i <= kArcParts; ++i) {
+        const double angle = std::numbers::pi * (side > 0 ? i : kArcParts - i) / kArcParts;
+        const double d = length_ * (1 - std::cos(angle)) / 2;
+        line.push_back(at(d, ray(d) + side * fraction * radius(d)));
+      }
+    }
+    return line;
+  }
+  void draw_zones() {
+    if (wavelength_ == 0) return;
+    drawing_.polygon(zone(1), kZone);
+    drawing_.polygon(zone(0.6), kInnerZone);
+    drawing_.polyline(zone(1), {kZoneLine, 0.7, {}});
+    drawing_.polyline(zone(0.6), {kZoneLine, 0.6, {3, 2}});
+  }
+
+  /// The ground above the ray.
+  void draw_cuts() {
+    for (const Obstruction& o : report_.obstructions) {
+      std::vector<Point2> outline = {at(o.from_m, ray(o.from_m))};
+      for (const ProfilePoint& p : dense_.points) {
+        if (p.distance_m >= o.from_m && p.distance_m <= o.to_m) outline.push_back(at(p));
+      }
+      outline.push_back(at(o.to_m, ray(o.to_m)));
+      drawing_.polygon(outline, kCut);
+    }
+  }
+
+  void draw_features() {
+    for (std::size_t i = 0; i + 1 < dense_.points.size(); ++i) {
+      const ProfilePoint &a = dense_.points[i], &b = dense_.points[i + 1];
+      const std::uint16_t theme = a.ground_m >= b.ground_m ? a.theme : b.theme;
+      if (theme == 0 || !dense_.joined(i)) continue;
+      const Point2 piece[] = {at(a), at(b)};
+      fill_below({piece[0], piece[1]}, colour_of(theme));
+      themes_.insert(theme);
+    }
+  }
+
+  double worst_ground(const ProfilePoint& p) const {
+    return p.ground_m + worst_drop_ * p.distance_m * (length_ - p.distance_m);
+  }
+  void draw_lines() {
+    if (worst_k_ > 0) {
+      for_each_run([&](std::size_t first, std::size_t last) {
+        std::vector<Point2> line;
+        for (std::size_t i = first; i <= last; ++i) {
+          line.push_back(at(dense_.points[i].distance_m, worst_ground(dense_.points[i])));
+        }
+        drawing_.polyline(line, {kWorst, 0.9, {4, 2}});
+      });
+    }
+    const Point2 sight[] = {at(0, report_.antennas.from_m), at(length_, report_.antennas.to_m)};
+    drawing_.polyline(sight, {kRay, 1.3, {}});
+  }
+
+  void draw_axes() {
+    const bool km = length_ >= 2000;
+    frame_.x_title = km ? "Distance from A, km" : "Distance from A, m";
+    frame_.y_title = "Elevation, m";
+    draw_frame(drawing_, frame_, [km](double value, double step) {
+      return km ? tick_label(value / 1000, step / 1000) : tick_label(value, step);
+    });
+    const double per_metre_up = std::abs(frame_.y.to - frame_.y.from) / (frame_.y.high - frame_.y.low);
+    const double per_metre_along = (frame_.x.to - frame_.x.from) / length_;
+    drawing_.text({frame_.box.xmax, frame_.box.ymax + 26},
+                  fmt::format("Vertical exaggeration {:.3g} : 1", per_metre_up / per_metre_along),
+                  {8, kInk, Align::kRight, false, 0});
+  }
+
+  void draw_mast(double d, double ground, double antenna, const std::string& name, double height) {
+    const bool first = d == 0;
+    const Point2 foot = at(d, ground), top = at(d, antenna);
+    const Point2 mast[] = {foot, top};
+    drawing_.polyline(mast, {kInk, 2.2, {}});
+    drawing_.circle(top, 2.6, kRay);
+    const std::string text = fmt::format("{}, {:g} m", name, std::round(height * 100) / 100);
+    const Lettering lettering{8.5, kInk, Align::kLeft, true, 0};
+    const double width = drawing_.text_width(text, lettering);
+    const double x = first ? top.x + 5 : top.x - 5 - width;
+    // Clear of the ray and its zone, which may rise away from the mast.
+    const double end = std::clamp((width + 10) / (frame_.x.to - frame_.x.from), 0.0, 1.0) * length_;
+    const double beside = first ? end : length_ - end;
+    const double y = std::max(std::min(top.y, frame_.y.at(ray(beside) + radius(beside))) - 8, frame_.box.ymin + 24);
+    drawing_.rectangle({x - 2, y - 8.5, x + width + 2, y + 3}, kWhite);
+    drawing_.text({x, y}, text, lettering);
+  }
+  void draw_masts() {
+    const auto& points = report_.profile.points;
+    draw_mast(0, points.front().ground_m, report_.antennas.from_m, "A", report_.query.from_height_m);
+    draw_mast(length_, points.back().ground_m, report_.antennas.to_m, "B", report_.query.to_height_m);
+  }
+
+  /// Its label hangs from the top of the chart, clear of the ray, on a line down to the point.
+  void draw_critical() {
+    const auto tightest = tightest_point(report_);
+    if (!tightest) return;
+    const Point2 point = at(tightest->distance_m, tightest->ground_m + bulge(tightest->distance_m));
+    const Lettering lettering{8.5, kMarker, Align::kLeft, false, 0};
+    const std::string text = "Critical point, " + critical_line(report_);
+    const double width = drawing_.text_width(text, lettering), y = frame_.box.ymin + 12;
+    const double x = std::clamp(point.x - width / 2, frame_.box.xmin + 6, frame_.box.xmax - width - 6);
+    const Point2 leader[] = {{std::clamp(point.x, x, x + width), y + 4}, point};
+    drawing_.polyline(leader, {kMarker, 0.6, {2, 1.5}});
+    drawing_.rectangle({x - 3, y - 9, x + width + 3, y + 4}, kWhite);
+    drawing_.text({x, y}, text, lettering);
+    drawing_.circle(point, 3.2, {1, 1, 1, 1});
+    drawing_.circle(point, 2.4, kMarker);
+  }
+
+  void draw_key() {
+    const double k = drop_ > 0 ? 1 / (2 * drop_ * report_.query.earth.radius) : 0;
+    const std::string earth = drop_ > 0 ? fmt::format("Terrain over the effective Earth, K = {:.4g}", k)
+                                        : std::string("Terrain over a flat Earth");
+    std::vector<LegendItem> items = {{earth, {kGround, 1, {}}, true}, {"Ray", {kRay, 1.3, {}}, false}};
+    if (wavelength_ > 0) {
+      items.push_back({"First Fresnel zone, F1", {kZoneLine, 0.7, {}}, false});
+      items.push_back({"0.6 F1", {kZoneLine, 0.6, {3, 2}}, false});
+    }
+    if (worst_k_ > 0) items.push_back({fmt::format("Terrain at K = {:.4g}", worst_k_), {kWorst, 0.9, {4, 2}}, false});
+    if (has_clutter_) items.push_back({"Clutter", {kClutter, 1, {}}, true});
+    for (const std::uint16_t theme : themes_)
+      items.push_back({cause_of(report_, theme), {colour_of(theme), 1, {}}, true});
+    if (!report_.obstructions.empty()) items.push_back({"Ground above the ray", {kCut, 1, {}}, true});
+    items.push_back({"Equal elevation", {kFaint, 0.8, {}}, false});
+    draw_legend(drawing_, {frame_.box.xmin, frame_.box.ymax + 43}, frame_.box.width(), items);
+  }
+
+  Drawing& drawing_;
+  const LosReport& report_;
+  double length_, drop_, wavelength_;
+  double worst_drop_ = 0, worst_k_ = 0;
+  Profile dense_;
+  ChartFrame frame_;
+  bool has_clutter_ = false;
+  std::set<std::uint16_t> themes_;
+};
+
+}  // namespace
+
+void draw_sight_chart(Drawing& drawing, const Box& area, const LosReport& report) {
+  SightChart(drawing, area, report).draw();
+}
+
+}  // namespace itin::profile

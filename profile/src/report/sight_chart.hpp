@@ -1,0 +1,16 @@
+// The drawing of a sight line: terrain over the effective Earth, the ray and its Fresnel zones.
+#pragma once
+
+#include <vector>
+
+#include <profile/los.hpp>
+
+#include "report/chart_frame.hpp"
+
+namespace itin::profile {
+
+/// Elevations are drawn over the curved Earth, so that the ray is straight: lines of equal elevation are arcs, and the
+/// vertical axis holds at the ends. Axes, legend and the stated exaggeration included.
+void draw_sight_chart(Drawing& drawing, const Box& area, const LosReport& report);
+
+}  // namespace itin::profile

@@ -1,0 +1,160 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <profile/fresnel.hpp>
+#include <profile/required_heights.hpp>
+
+namespace itin::profile {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// A linear function of t = distance / length by its values at 0 and 1.
+struct Line {
+  double start = 0, end = 0;
+  double at(double t) const { return start * (1 - t) + end * t; }
+  double slope() const { return end - start; }
+};
+
+/// What the ray must reach: the ground, the bulge of the Earth and a share of the Fresnel zone. Between two points of
+/// the profile it is concave, so that (demand - base) / weight, both linear and weight > 0, rises, then falls.
+class Demand {
+ public:
+  Demand(const Profile& profile, const Requirement& requirement)
+      : profile_(profile),
+        bulge_(requirement.earth.drop_coefficient() * profile.length_m * profile.length_m),
+        radius_(requirement.fraction == 0
+                    ? 0
+                    : requirement.fraction * std::sqrt(requirement.wavelength * profile.length_m)) {}
+
+  /// The least factor such that base + factor * weight meets the demand everywhere; infinity where none does, and
+  /// minus infinity where every one does.
+  double peak(const Line& base, const Line& weight) const {
+    double best = -kInfinity;
+    for (std::size_t i = 0; i < profile_.points.size(); ++i) {
+      const double t = profile_.points[i].distance_m / profile_.length_m;
+      best = std::max(best, ratio_at(i, t, base, weight));
+      if (i + 1 == profile_.points.size()) break;
+      const double next = profile_.points[i + 1].distance_m / profile_.length_m;
+      if (next > t && profile_.joined(i)) best = std::max(best, ratio_inside(piece(i, t, next), base, weight));
+    }
+    return best;
+  }
+
+ private:
+  struct Piece {
+    double from, to;
+    double height, slope;  ///< of the ground at `from`
+  };
+
+  Piece piece(std::size_t i, double from, double to) const {
+    const double rise = profile_.points[i + 1].ground_m - profile_.points[i].ground_m;
+    return {from, to, profile_.points[i].ground_m, rise / (to - from)};
+  }
+  double above_ground(double t) const { return bulge_ * t * (1 - t) + radius_ * std::sqrt(t * (1 - t)); }
+  double above_ground_slope(double t) const {
+    const double bulge = bulge_ * (1 - 2 * t);
+    if (radius_ == 0) return bulge;
+    const double root = std::sqrt(t * (1 - t));
+    if (root == 0) return t < 0.5 ? kInfinity : -kInfinity;
+    return bulge + radius_ * (1 - 2 * t) / (2 * root);
+  }
+
+  /// At an end where the weight is 0 no factor helps: what is missing there makes the demand impossible, and where
+  /// ray and ground just meet, the ratio has a limit (L'Hopital), which the piece beside it determines.
+  double ratio_at(std::size_t i, double t, const Line& base, const Line& weight) const {
+    const double missing = profile_.points[i].ground_m + above_ground(t) - base.at(t);
+    if (weight.at(t) > 0) return missing / weight.at(t);
+    if (missing != 0) return missing > 0 ? kInfinity : -kInfinity;
+    return limit_at_end(i, t, base, weight);
+  }
+  double limit_at_end(std::size_t i, double t, const Line& base, const Line& weight) const {
+    const std::size_t first = t < 0.5 ? i : i - 1;
+    if (first + 1 >= profile_.points.size() || !profile_.joined(first)) return -kInfinity;
+    const double from = profile_.points[first].distance_m / profile_.length_m;
+    const double to = profile_.points[first + 1].distance_m / profile_.length_m;
+    if (to <= from) return -kInfinity;
+    return (piece(first, from, to).slope + above_ground_slope(t) - base.slope()) / weight.slope();
+  }
+
+  /// The derivative's numerator falls along the piece: a maximum lies inside only if it changes sign.
+  double ratio_inside(const Piece& p, const Line& base, const Line& weight) const {
+    const auto missing = [&](double t) { return p.height + p.slope * (t - p.from) + above_ground(t) - base.at(t); };
+    const auto rising = [&](double t) {
+      const double slope = p.slope + above_ground_slope(t) - base.slope();
+      if (std::isinf(slope)) return slope > 0;
+      return slope * weight.at(t) > missing(t) * weight.slope();
+    };
+    double low = p.from, high = p.to;
+    if (!rising(low) || rising(high)) return -kInfinity;
+    while (true) {
+      const double middle = low + (high - low) / 2;
+      if (middle <= low || middle >= high) break;
+      (rising(middle) ? low : high) = middle;
+    }
+    return weight.at(low) > 0 ? missing(low) / weight.at(low) : -kInfinity;
+  }
+
+  const Profile& profile_;
+  double bulge_, radius_;
+};
+
+/// Demands on heights above the grounds of the two ends.
+class HeightDemand {
+ public:
+  HeightDemand(const Profile& profile, const Requirement& requirement)
+      : demand_(profile, requirement), ground_{profile.points.front().ground_m, profile.points.back().ground_m} {}
+
+  std::optional<double> from_alone(double to) const { return least({ground_.start, ground_.end + to}, {1, 0}); }
+  std::optional<double> to_alone(double from) const { return least({ground_.start + from, ground_.end}, {0, 1}); }
+  std::optional<double> both() const { return least(ground_, {1, 1}); }
+
+ private:
+  std::optional<double> least(const Line& base, const Line& weight) const {
+    const double height = demand_.peak(base, weight);
+    if (height == kInfinity) return std::nullopt;
+    return std::max(height, 0.0);
+  }
+
+  Demand demand_;
+  Line ground_;
+};
+
+/// From nothing up to where the second end needs next to no height, but not beyond three times the equal heights.
+double curve_end(const HeightDemand& demand, const PlannedHeights& planned, double both) {
+  const double alone = demand.from_alone(0).value_or(3 * both);
+  return std::max({std::min(alone, 3 * both), 1.5 * both, planned.from_m, 1.0});
+}
+
+}  // namespace
+
+RequiredHeights required_heights(const Profile& profile, const PlannedHeights& planned,
+                                 const Requirement& requirement) {
+  const HeightDemand demand(profile, requirement);
+  RequiredHeights heights{demand.from_alone(planned.to_m), demand.to_alone(planned.from_m), demand.both(), {}};
+  if (!heights.both_equal_m) return heights;
+  const double end = curve_end(demand, planned, *heights.both_equal_m);
+  for (int i = 0; i < kCurvePoints; ++i) {
+    const double from = end * i / (kCurvePoints - 1);
+    heights.curve.push_back({from, demand.to_alone(from)});
+  }
+  return heights;
+}
+
+VisibleHeight visible_height(const Profile& profile, double eye_m, double hub_m, double tip_m, const Earth& earth) {
+  VisibleHeight seen;
+  if (profile.length_m > 0) {
+    const auto least = HeightDemand(profile, Requirement{earth}).to_alone(eye_m);
+    seen.from_m = least ? *least : tip_m;
+  }
+  seen.from_m = std::min(seen.from_m, tip_m);
+  seen.hub_visible_m = std::max(hub_m - seen.from_m, 0.0);
+  seen.tip_visible_m = std::max(tip_m - seen.from_m, 0.0);
+  seen.hub_fraction = hub_m > 0 ? seen.hub_visible_m / hub_m : 0;
+  seen.tip_fraction = tip_m > 0 ? seen.tip_visible_m / tip_m : 0;
+  return seen;
+}
+
+}  // namespace itin::profile

@@ -1,0 +1,97 @@
+// P.452-17 sections 4.2.2 and 4.2.2.1; equation numbers are those of that recommendation.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <profile/diffraction.hpp>
+
+namespace itin::profile {
+
+namespace {
+
+struct Terrain {
+  double permittivity;  ///< relative
+  double conductivity;  ///< S/m
+};
+constexpr Terrain kLand{22, 0.003}, kSea{80, 5};
+
+/// Normalised surface admittance, equations (30a, 30b).
+double admittance(const Terrain& terrain, double radius_km, const RadioPath& path) {
+  const double loss = 18 * terrain.conductivity / path.frequency_ghz;
+  const double horizontal = 0.036 * std::pow(radius_km * path.frequency_ghz, -1.0 / 3) *
+                            std::pow(std::pow(terrain.permittivity - 1, 2) + loss * loss, -0.25);
+  if (path.polarisation == Polarisation::kHorizontal) return horizontal;
+  return horizontal * std::sqrt(terrain.permittivity * terrain.permittivity + loss * loss);
+}
+
+/// Equation (31).
+double surface_parameter(double k) {
+  const double k2 = k * k, k4 = k2 * k2;
+  return (1 + 1.6 * k2 + 0.67 * k4) / (1 + 4.5 * k2 + 1.53 * k4);
+}
+
+/// Equation (34).
+double distance_term(double x) {
+  if (x >= 1.6) return 11 + 10 * std::log10(x) - 17.6 * x;
+  return -20 * std::log10(x) - 5.6488 * std::pow(x, 1.425);
+}
+
+/// Equations (35) and (36) with the limit below them.
+double height_gain(double y, double beta, double k) {
+  const double b = beta * y;
+  const double gain =
+      b > 2 ? 17.6 * std::sqrt(b - 1.1) - 5 * std::log10(b - 1.1) - 8 : 20 * std::log10(b + 0.1 * b * b * b);
+  return std::max(gain, 2 + 20 * std::log10(k));
+}
+
+struct SmoothPath {
+  double distance_km, from_m, to_m;
+};
+
+/// Equation (37) over one kind of terrain.
+double first_term(const Terrain& terrain, const SmoothPath& smooth, double radius_km, const RadioPath& path) {
+  const double k = admittance(terrain, radius_km, path), beta = surface_parameter(k);
+  const double x = 21.88 * beta * std::cbrt(path.frequency_ghz / (radius_km * radius_km)) * smooth.distance_km;
+  const double y_unit = 0.9575 * beta * std::cbrt(path.frequency_ghz * path.frequency_ghz / radius_km);
+  return -distance_term(x) - height_gain(y_unit * smooth.from_m, beta, k) - height_gain(y_unit * smooth.to_m, beta, k);
+}
+
+/// Equation (29).
+double first_term(const SmoothPath& smooth, double radius_km, const RadioPath& path) {
+  double loss = 0;
+  if (path.over_sea > 0) loss += path.over_sea * first_term(kSea, smooth, radius_km, path);
+  if (path.over_sea < 1) loss += (1 - path.over_sea) * first_term(kLand, smooth, radius_km, path);
+  return loss;
+}
+
+struct SmoothClearance {
+  double least_m, required_m;
+};
+
+/// Equations (24) to (26): the least clearance of a path within the horizon over a smooth Earth.
+SmoothClearance smooth_clearance(const SmoothPath& s, const RadioPath& path) {
+  const double sum = s.from_m + s.to_m, radius = path.effective_earth_km, d = s.distance_km;
+  const double c = (s.from_m - s.to_m) / sum, m = 250 * d * d / (radius * sum);
+  const double cosine = std::clamp(1.5 * c * std::sqrt(3 * m / std::pow(m + 1, 3)), -1.0, 1.0);
+  const double b =
+      m == 0 ? c : 2 * std::sqrt((m + 1) / (3 * m)) * std::cos(std::numbers::pi / 3 + std::acos(cosine) / 3);
+  const double d1 = d / 2 * (1 + b), d2 = d - d1;
+  const double least = ((s.from_m - 500 * d1 * d1 / radius) * d2 + (s.to_m - 500 * d2 * d2 / radius) * d1) / d;
+  return {least, 17.456 * std::sqrt(d1 * d2 * wavelength_m(path.frequency_ghz) / d)};
+}
+
+}  // namespace
+
+double spherical_earth_loss_db(double distance_km, double from_height_m, double to_height_m, const RadioPath& path) {
+  const SmoothPath smooth{distance_km, from_height_m, to_height_m};
+  const double roots = std::sqrt(from_height_m) + std::sqrt(to_height_m);
+  const double horizon_km = std::sqrt(2 * path.effective_earth_km) * std::sqrt(0.001) * roots;  // equation (23)
+  if (distance_km >= horizon_km) return first_term(smooth, path.effective_earth_km, path);
+  const SmoothClearance clearance = smooth_clearance(smooth, path);
+  if (clearance.least_m > clearance.required_m) return 0;
+  const double grazing_radius_km = 500 * std::pow(distance_km / roots, 2);  // equation (27)
+  const double loss = first_term(smooth, grazing_radius_km, path);
+  return loss < 0 ? 0 : (1 - clearance.least_m / clearance.required_m) * loss;  // equation (28)
+}
+
+}  // namespace itin::profile

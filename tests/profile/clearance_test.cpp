@@ -1,0 +1,241 @@
+// Fresnel clearance, required heights and verdicts against dense sampling and values worked by hand.
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <itin/error.hpp>
+#include <profile/fresnel.hpp>
+#include <profile/los.hpp>
+#include <profile/required_heights.hpp>
+
+#include "published_profile.hpp"
+
+namespace itin::profile {
+
+namespace {
+
+using test::even_profile;
+
+constexpr int kSamples = 400;
+
+/// Height of the ground and of the ray over it by interpolation, at `kSamples` places of every piece.
+template <class Visit>
+void sample(const Profile& profile, const Antennas& antennas, const Earth& earth, Visit visit) {
+  for (std::size_t i = 0; i + 1 < profile.points.size(); ++i) {
+    const ProfilePoint &a = profile.points[i], &b = profile.points[i + 1];
+    for (int k = 0; k <= kSamples; ++k) {
+      const double s = static_cast<double>(k) / kSamples;
+      const double d = a.distance_m + (b.distance_m - a.distance_m) * s, t = d / profile.length_m;
+      const double ground = a.ground_m + (b.ground_m - a.ground_m) * s;
+      const double ray = antennas.from_m * (1 - t) + antennas.to_m * t;
+      visit(d, ray - ground - earth.drop_coefficient() * d * (profile.length_m - d));
+    }
+  }
+}
+
+Profile random_profile(std::mt19937& random) {
+  std::uniform_real_distribution<double> step(20, 1500), height(0, 120);
+  Profile profile;
+  double d = 0;
+  for (int i = 0; i < 12; ++i, d += step(random)) {
+    ProfilePoint p;
+    p.distance_m = d, p.ground_m = height(random);
+    profile.points.push_back(p);
+  }
+  profile.length_m = profile.points.back().distance_m;
+  return profile;
+}
+
+Antennas antennas(const Profile& profile, double from, double to) {
+  return {profile.points.front().ground_m + from, profile.points.back().ground_m + to};
+}
+
+TEST(FresnelRadius, UsesTheExactSpeedOfLight) {
+  // 17.314 sqrt(d1 d2 / (f d)) in km and GHz; 20.7 m would be the second zone at 7 GHz of a 20 km path (Bacon 2002).
+  EXPECT_NEAR(fresnel_radius_m(1000, 1000, wavelength_m(1)), 17.3145 * std::sqrt(0.5), 1e-3);
+  EXPECT_NEAR(std::sqrt(2.0) * fresnel_radius_m(10000, 10000, wavelength_m(7)), 20.7, 0.05);
+  EXPECT_NEAR(std::sqrt(2.0) * fresnel_radius_m(10000, 10000, wavelength_m(2)), 38.7, 0.05);
+}
+
+TEST(FresnelClearance, AgreesWithDenseSampling) {
+  std::mt19937 random(4101);
+  const Earth earth = Earth::effective_earth(4.0 / 3);
+  for (int round = 0; round < 200; ++round) {
+    const Profile profile = random_profile(random);
+    const Antennas ends = antennas(profile, 5 + round % 60, 100);
+    const double wavelength = wavelength_m(round % 2 ? 7.5 : 0.4);
+    const auto least = fresnel_clearance(profile, ends, earth, wavelength);
+    double sampled = std::numeric_limits<double>::infinity();
+    sample(profile, ends, earth, [&](double d, double clearance) {
+      const double radius = fresnel_radius_m(d, profile.length_m - d, wavelength);
+      if (radius > 0) sampled = std::min(sampled, clearance / radius);
+    });
+    ASSERT_TRUE(least);
+    EXPECT_LE(least->fraction, sampled + 1e-9) << round;
+    EXPECT_NEAR(least->fraction, sampled, 0.02 * std::max(1.0, std::abs(sampled))) << round;
+  }
+}
+
+TEST(FresnelClearance, HasNoneWithoutLength) {
+  EXPECT_FALSE(fresnel_clearance(even_profile(0, {1}), {2, 2}, Earth(), 0.1));
+}
+
+TEST(RequiredHeights, AreJustEnough) {
+  std::mt19937 random(4102);
+  for (int round = 0; round < 120; ++round) {
+    const Profile profile = random_profile(random);
+    const Requirement requirement{Earth::effective_earth(round % 2 ? 4.0 / 3 : 2.0 / 3), round % 3 * 0.3,
+                                  wavelength_m(6)};
+    const PlannedHeights planned{20, 15};
+    const RequiredHeights heights = required_heights(profile, planned, requirement);
+    const auto shortfall = [&](double from, double to) {
+      double worst = -std::numeric_limits<double>::infinity();
+      sample(profile, antennas(profile, from, to), requirement.earth, [&](double d, double clearance) {
+        const double radius = fresnel_radius_m(d, profile.length_m - d, requirement.wavelength);
+        worst = std::max(worst, requirement.fraction * radius - clearance);
+      });
+      return worst;
+    };
+    const auto expect_just = [&](double from, double to, double height) {
+      EXPECT_LE(shortfall(from, to), 1e-6) << round;
+      if (height <= 0.01) return;
+      // 2 cm less is too little; near an end that is a hair, which sampling may step over.
+      EXPECT_GT(shortfall(from - (from == height ? 0.02 : 0), to - (to == height ? 0.02 : 0)), -1e-4);
+    };
+    ASSERT_TRUE(heights.from_alone_m && heights.to_alone_m && heights.both_equal_m);
+    expect_just(*heights.from_alone_m, planned.to_m, *heights.from_alone_m);
+    expect_just(planned.from_m, *heights.to_alone_m, *heights.to_alone_m);
+    expect_just(*heights.both_equal_m, *heights.both_equal_m, *heights.both_equal_m);
+    ASSERT_EQ(heights.curve.size(), static_cast<std::size_t>(kCurvePoints));
+    for (std::size_t i = 0; i < heights.curve.size(); ++i) {
+      const HeightPair& pair = heights.curve[i];
+      if (!pair.to_m) continue;
+      EXPECT_LE(shortfall(pair.from_m, *pair.to_m), 1e-6);
+      if (i > 0 && heights.curve[i - 1].to_m) {
+        EXPECT_LE(*pair.to_m, *heights.curve[i - 1].to_m + 1e-9);
+      }
+    }
+  }
+}
+
+TEST(RequiredHeights, WorkedByHand) {
+  // A ridge of 30 m at 2 of 5 km on a flat Earth; the far end stands at 10 m: 30 = h 3/5 + 10 2/5.
+  const Profile profile = even_profile(1000, {0, 0, 30, 0, 0, 0});
+  const RequiredHeights heights = required_heights(profile, {10, 10}, {Earth::flat(), 0, 0});
+  EXPECT_NEAR(*heights.from_alone_m, 26 / 0.6, 1e-9);
+  EXPECT_NEAR(*heights.to_alone_m, 24 / 0.4, 1e-9);
+  EXPECT_NEAR(*heights.both_equal_m, 30, 1e-9);
+}
+
+TEST(RequiredHeights, AreNoneWhereNoHeightHelps) {
+  // An antenna on the ground has no Fresnel clearance near itself, whatever stands at the other end.
+  const Profile profile = even_profile(1000, {0, 0, 0});
+  const RequiredHeights heights = required_heights(profile, {10, 0}, {Earth::flat(), 0.6, wavelength_m(1)});
+  EXPECT_FALSE(heights.from_alone_m);
+  EXPECT_TRUE(heights.to_alone_m);
+  EXPECT_TRUE(heights.both_equal_m);
+  // Sight alone needs no height over a flat Earth, and the limit at the bare end is that of the ground's slope.
+  EXPECT_NEAR(*required_heights(profile, {0, 0}, {Earth::flat(), 0, 0}).from_alone_m, 0, 1e-9);
+  EXPECT_NEAR(*required_heights(even_profile(1000, {0, 0, -50}), {0, 0}, {Earth::flat(), 0, 0}).from_alone_m, 50, 1e-9);
+}
+
+TEST(VisibleHeight, OfATurbineBehindARidge) {
+  // From 2 m the line over the ridge (30 m at 2 km) rises 14 m a km: 72 m at 5 km.
+  const Profile profile = even_profile(1000, {0, 0, 30, 0, 0, 0});
+  const VisibleHeight seen = visible_height(profile, 2, 80, 125, Earth::flat());
+  EXPECT_NEAR(seen.from_m, 72, 1e-9);
+  EXPECT_NEAR(seen.hub_visible_m, 8, 1e-9);
+  EXPECT_NEAR(seen.hub_fraction, 0.1, 1e-9);
+  EXPECT_NEAR(seen.tip_visible_m, 53, 1e-9);
+  EXPECT_NEAR(seen.tip_fraction, 53.0 / 125, 1e-9);
+  const VisibleHeight hidden = visible_height(profile, 2, 40, 60, Earth::flat());
+  EXPECT_EQ(hidden.tip_visible_m, 0);
+  EXPECT_EQ(hidden.from_m, 60);
+}
+
+LosQuery query(double from, double to, const Earth& earth) {
+  LosQuery q;
+  q.from_height_m = from, q.to_height_m = to, q.earth = earth;
+  return q;
+}
+
+TEST(Analyse, FindsObstructionsAsIntervals) {
+  const Profile profile = even_profile(1000, {0, 40, 0, 0, 60, 0});
+  const LosReport report = analyse(profile, query(20, 20, Earth::flat()));
+  EXPECT_EQ(report.verdict, SightVerdict::kHidden);
+  ASSERT_EQ(report.obstructions.size(), 2U);
+  EXPECT_NEAR(report.obstructions[0].from_m, 500, 1e-6);
+  EXPECT_NEAR(report.obstructions[0].to_m, 1500, 1e-6);
+  EXPECT_NEAR(report.obstructions[0].depth_m, 20, 1e-9);
+  EXPECT_NEAR(report.obstructions[1].from_m, 3000 + 1000.0 / 3, 1e-6);
+  EXPECT_NEAR(report.obstructions[1].peak_at_m, 4000, 1e-9);
+  EXPECT_NEAR(report.obstructions[1].peak_m, 60, 1e-9);
+  EXPECT_NEAR(*report.clearance_m, -40, 1e-9);
+  EXPECT_NEAR(report.critical->distance_m, 4000, 1e-9);
+}
+
+TEST(Analyse, AgreesWithDenseSamplingAndWithItsMirrorImage) {
+  std::mt19937 random(4103);
+  const Earth earth;
+  for (int round = 0; round < 200; ++round) {
+    const Profile profile = random_profile(random);
+    const double from = 1 + round % 50, to = 2 + round % 90;
+    const LosReport report = analyse(profile, query(from, to, earth));
+    double sampled = std::numeric_limits<double>::infinity(), cut = 0;
+    sample(profile, report.antennas, earth, [&](double, double clearance) { sampled = std::min(sampled, clearance); });
+    for (const Obstruction& o : report.obstructions) cut = std::max(cut, o.depth_m);
+    EXPECT_LE(*report.clearance_m, sampled + 1e-9);
+    EXPECT_NEAR(*report.clearance_m, sampled, 0.05);
+    EXPECT_NEAR(cut, std::max(0.0, -*report.clearance_m), 1e-9);
+    const LosReport back = analyse(reversed(profile), query(to, from, earth));
+    EXPECT_EQ(report.verdict, back.verdict);
+    EXPECT_EQ(report.obstructions.size(), back.obstructions.size());
+    EXPECT_NEAR(*report.clearance_m, *back.clearance_m, 1e-9);
+  }
+}
+
+TEST(Analyse, JudgesCriteriaOnTheirOwnEarth) {
+  // 20 km over flat ground: the bulge is 11.8 m at K = 1/2 x 4/3 ... worked from d^2 / (2 K R) at the middle.
+  const Profile profile = even_profile(10000, {0, 0, 0});
+  LosQuery q = query(15, 15, Earth::effective_earth(4.0 / 3));
+  q.radio = RadioPath{.frequency_ghz = 20, .effective_earth_km = 6371 * 4.0 / 3};
+  q.criteria = {{4.0 / 3, 0.6}, {4.0 / 3, 1.0}, {0.5, 0.0}};
+  const LosReport report = analyse(profile, q);
+  ASSERT_EQ(report.criteria.size(), 3U);
+  const double clearance = 15 - 1e8 / (2 * 4.0 / 3 * 6371000), f1 = fresnel_radius_m(1e4, 1e4, wavelength_m(20));
+  EXPECT_NEAR(*report.criteria[0].clearance_f1, clearance / f1, 1e-6);
+  EXPECT_EQ(report.criteria[0].verdict, CriterionVerdict::kClear);
+  EXPECT_EQ(report.criteria[1].verdict, clearance / f1 >= 1 ? CriterionVerdict::kClear : CriterionVerdict::kMarginal);
+  EXPECT_NEAR(*report.criteria[2].clearance_m, 15 - 1e8 / (2 * 0.5 * 6371000), 1e-6);
+  EXPECT_EQ(report.criteria[2].verdict, CriterionVerdict::kObstructed);
+}
+
+TEST(Analyse, LeavesOpenWhatTheCertificateCannotDecide) {
+  LosQuery q = query(20, 20, Earth::flat());
+  const Profile profile = even_profile(1000, {0, 15, 0});
+  q.clearance_error_m = 4;
+  EXPECT_EQ(analyse(profile, q).verdict, SightVerdict::kVisible);
+  q.clearance_error_m = 6;
+  EXPECT_EQ(analyse(profile, q).verdict, SightVerdict::kUndecided);
+}
+
+TEST(Analyse, TakesALineWithoutLength) {
+  Profile point = even_profile(0, {100});
+  const LosReport report = analyse(point, query(2, 5, Earth()));
+  EXPECT_EQ(report.verdict, SightVerdict::kVisible);
+  EXPECT_EQ(*report.clearance_m, 2);
+}
+
+TEST(Analyse, RefusesWhatHasNoMeaning) {
+  const Profile profile = even_profile(1000, {0, 0});
+  EXPECT_THROW(analyse(profile, query(-1, 0, Earth())), InputError);
+  LosQuery q = query(1, 1, Earth());
+  q.criteria = {{4.0 / 3, 0.6}};
+  EXPECT_THROW(analyse(profile, q), InputError);
+}
+
+}  // namespace
+
+}  // namespace itin::profile

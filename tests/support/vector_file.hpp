@@ -1,0 +1,37 @@
+// GeoJSON files of lines and polygons for tests, in EPSG:27700.
+#pragma once
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <itin/geometry.hpp>
+
+namespace itin::test {
+
+struct LineFeature {
+  std::vector<Point3> vertices;
+  bool polygon = false;
+  std::string properties = "{}";  ///< JSON
+};
+
+/// Writes 3D coordinates, or 2D ones where `flat`.
+inline void write_lines(const std::string& path, const std::vector<LineFeature>& features, bool flat = false) {
+  std::string text =
+      R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::27700"}},"features":[)";
+  for (std::size_t f = 0; f < features.size(); ++f) {
+    std::string coordinates;
+    for (const Point3& p : features[f].vertices) {
+      coordinates += fmt::format("{}[{:.4f},{:.4f}{}]", coordinates.empty() ? "" : ",", p.x, p.y,
+                                 flat ? "" : fmt::format(",{:.4f}", p.z));
+    }
+    text += fmt::format(R"({}{{"type":"Feature","properties":{},"geometry":{{"type":"{}","coordinates":{}{}{}}}}})",
+                        f == 0 ? "" : ",", features[f].properties, features[f].polygon ? "Polygon" : "LineString",
+                        features[f].polygon ? "[[" : "[", coordinates, features[f].polygon ? "]]" : "]");
+  }
+  std::ofstream(path) << text << "]}";
+}
+
+}  // namespace itin::test
