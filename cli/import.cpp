@@ -28,7 +28,8 @@ class ImportVerb final : public Verb {
     app.add_option(
            "--kind", kind_,
            "What the sources are: terrain (default); contours, breaklines or water, which are lines with heights "
-           "and become part of the terrain; roads, walls, buildings or vegetation, which are lines on it")
+           "and become part of the terrain; roads, which are lines on it; buildings, walls or vegetation, which "
+           "stand on it where they have heights (--height-field, --height, CityJSON), and else are lines on it")
         ->type_name("KIND");
     app.add_option("--theme", options_.theme, "Name of the lines' theme (default: the kind)")->type_name("NAME");
     app.add_option("--crs", options_.crs, "CRS of the sources, whatever they say themselves")->type_name("CRS");
@@ -36,6 +37,24 @@ class ImportVerb final : public Verb {
                    "CRS of a new store: projected, in metres (default: the sources' own, else their UTM zone)")
         ->type_name("CRS");
     app.add_option("--z-field", options_.z_field, "The field or column that holds heights")->type_name("FIELD");
+    app.add_option("--height-field", options_.height_field,
+                   "Buildings, walls, vegetation: the field of their height above the base, in the unit of the CRS's "
+                   "heights (metres or feet)")
+        ->type_name("FIELD");
+    app.add_option("--height", height_, "Of those without a height in the fields")->type_name("METRES");
+    app.add_option("--eaves-field", options_.eaves_field, "Buildings: the field of the eaves' height above the base")
+        ->type_name("FIELD");
+    app.add_option("--base-field", options_.base_field, "Buildings: the field of the base's elevation")
+        ->type_name("FIELD");
+    app.add_option("--base", base_,
+                   "Buildings: minimum (default), mean or maximum of the terrain under the footprint, or "
+                   "terrain-following; CityJSON's own floors count unless this is given")
+        ->type_name("RULE");
+    app.add_option("--roof", roof_, "Buildings: flat (default), gabled, hipped or skeleton")->type_name("KIND");
+    app.add_option("--thickness", thickness_, "Of walls and hedges that are given as lines (default: 0.3)")
+        ->type_name("METRES");
+    app.add_option("--name-field", options_.name_field, "What messages call a building, wall or wood")
+        ->type_name("FIELD");
     app.add_option("--layer", options_.layer, "The layer to read")->type_name("NAME");
     app.add_option("--where", options_.where, "Only features that this SQL condition holds for")->type_name("SQL");
     app.add_option("--class", classes_, "Only these LAS classes (default: all but noise, 7 and 18)")
@@ -64,6 +83,7 @@ class ImportVerb final : public Verb {
     } else if (!options_.theme.empty()) {
       throw InputError("--theme: terrain has no theme; leave it out");
     }
+    validate_standing();
     if (!classes_.empty()) options_.classes = parse_wholes("--class", classes_, 0, 255);
     if (!max_gap_.empty()) options_.max_gap = parse_number("--max-gap", max_gap_, Range::kPositive);
     if (!levels_.empty()) options_.tolerances = growing_levels();
@@ -80,6 +100,14 @@ class ImportVerb final : public Verb {
     given("crs", options_.crs);
     given("to_crs", options_.to_crs);
     given("z_field", options_.z_field);
+    given("height_field", options_.height_field);
+    if (options_.height) parameters["height_m"] = *options_.height;
+    given("eaves_field", options_.eaves_field);
+    given("base_field", options_.base_field);
+    given("base", base_);
+    given("roof", roof_);
+    if (!thickness_.empty()) parameters["thickness_m"] = options_.thickness;
+    given("name_field", options_.name_field);
     given("layer", options_.layer);
     given("where", options_.where);
     if (!options_.classes.empty()) parameters["classes"] = options_.classes;
@@ -103,6 +131,24 @@ class ImportVerb final : public Verb {
     if (options_.replace) throw InputError("--replace: is for terrain; lines replace nothing");
   }
 
+  void validate_standing() {
+    const bool may_stand = kind_ == "buildings" || kind_ == "walls" || kind_ == "vegetation";
+    for (const auto& [option, value] :
+         {std::pair("--height-field", options_.height_field), std::pair("--height", height_),
+          std::pair("--eaves-field", options_.eaves_field), std::pair("--base-field", options_.base_field),
+          std::pair("--base", base_), std::pair("--roof", roof_), std::pair("--thickness", thickness_),
+          std::pair("--name-field", options_.name_field)}) {
+      if (!value.empty() && !may_stand)
+        throw InputError(fmt::format("{}: is for buildings, walls and vegetation; {} have none", option, kind_));
+    }
+    if (!height_.empty()) options_.height = parse_number("--height", height_, Range::kPositive);
+    if (!thickness_.empty()) options_.thickness = parse_number("--thickness", thickness_, Range::kPositive);
+    parse_choice("--roof", roof_.empty() ? "flat" : roof_, {"flat", "gabled", "hipped", "skeleton"});
+    if (!roof_.empty()) options_.roof = roof_kind(roof_);
+    parse_choice("--base", base_.empty() ? "minimum" : base_, {"minimum", "mean", "maximum", "terrain-following"});
+    if (!base_.empty()) options_.base = base_rule(base_);
+  }
+
   std::vector<double> growing_levels() const {
     std::vector<double> tolerances = parse_numbers("--levels", levels_, Range::kPositive);
     if (!std::is_sorted(tolerances.begin(), tolerances.end(), std::less_equal<>())) {
@@ -122,6 +168,7 @@ class ImportVerb final : public Verb {
     document["replaced"] = report.replaced;
     document["isolated"] = report.isolated;
     document["features"] = report.features;
+    document["refused"] = report.refused;
     document["crossings"] = report.crossings;
     document["segments_left_out"] = report.left_out;
     document["vertices"] = report.vertices;
@@ -147,6 +194,7 @@ class ImportVerb final : public Verb {
     mention(report.duplicates, "duplicate positions");
     mention(report.replaced, "coarser points replaced");
     mention(report.isolated, "isolated points left out");
+    mention(report.refused, "features that cannot stand");
     mention(report.crossings, "crossings resolved");
     mention(report.left_out, "segments of lines left out beyond the ground");
     text += metadata.themes.empty() ? "\n\n" : "\n" + themes_table(metadata) + "\n";
@@ -160,6 +208,7 @@ class ImportVerb final : public Verb {
   std::string store_;
   std::string kind_ = "terrain";
   std::string classes_, max_gap_, levels_, resolution_, memory_;
+  std::string height_, base_, roof_, thickness_;
   ImportOptions options_;
 };
 

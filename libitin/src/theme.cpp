@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -25,6 +26,13 @@ ThemeKind theme_kind(std::string_view name) {
   if (found == kKinds.end())
     throw InputError(fmt::format("kind of theme '{}': give one of {}", name, fmt::join(kKinds, ", ")));
   return static_cast<ThemeKind>(found - kKinds.begin());
+}
+
+bool comes_before(const ThemeInfo& a, const ThemeInfo& b) {
+  const auto rank = [](const ThemeInfo& theme) {
+    return theme.kind == ThemeKind::Buildings ? 0 : theme.kind == ThemeKind::Walls ? 1 : 2;
+  };
+  return std::pair(rank(a), std::string_view(a.name)) < std::pair(rank(b), std::string_view(b.name));
 }
 
 ThemeChoice ThemeChoice::parse(std::string_view text) {

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include <itin/feature_rules.hpp>
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
 
@@ -32,6 +33,17 @@ struct ImportOptions {
       z_field;  ///< the height attribute of point layers and CSV; default: Z of the geometry, or the third column
   std::string layer;
   std::string where;
+
+  // Of buildings, vegetation and walls that stand on the ground: those with one of the first three, and CityJSON.
+  std::string height_field;      ///< of the highest point above the base
+  std::string eaves_field;       ///< of the eaves above the base
+  std::optional<double> height;  ///< metres; of features that have none in the fields
+  std::string base_field;        ///< elevation of the base
+  std::string name_field;        ///< what messages call a feature
+  std::optional<BaseRule> base;  ///< of buildings without base_field; default: minimum, or the floors of CityJSON
+  RoofKind roof = RoofKind::flat;
+  double thickness = 0.3;  ///< metres; of what stands on lines
+
   std::vector<int> classes;           ///< LAS classes to keep; empty: all but noise (7, 18)
   double max_gap = 0;                 ///< metres, scattered points: ground is not triangulated over longer edges;
                                       ///< 0: 100 times the mean spacing of the source
@@ -53,7 +65,8 @@ struct ImportReport {
   std::uint64_t duplicates = 0;  ///< positions that were there already
   std::uint64_t replaced = 0;    ///< coarser points that made room
   std::uint64_t isolated = 0;    ///< points left out because no ground could be triangulated about them
-  std::uint64_t features = 0;    ///< of lines read
+  std::uint64_t features = 0;    ///< of lines read, or of those that stand now
+  std::uint64_t refused = 0;     ///< features that could not stand, of all imports so far; warnings say why
   std::uint64_t crossings = 0;   ///< pairs of segments that crossed, of any themes, and were given a vertex
   std::uint64_t left_out = 0;    ///< segments, of any theme, that do not lie wholly on the ground
   std::uint64_t vertices = 0;    ///< of the store now
@@ -72,6 +85,11 @@ ImportReport import_terrain(const std::string& store_path, const ImportOptions& 
 /// vertex, and no line moves by more than half a grid step. Heights of lines of the terrain win over those of points;
 /// of lines that meet, those of the terrain and then the first name in order decide. Lines of other kinds take the
 /// heights of the full surface at their vertices. Throws as above.
+///
+/// Buildings, vegetation and walls with heights stand on the ground (stands()): queries that choose their theme see
+/// roofs and tops, in place of what lies under them. They need ground all under them, others are refused, with a
+/// warning. The store keeps their footprints, and stands them up again whenever its terrain changes.
+bool stands(const ImportOptions& options);
 ImportReport import_lines(const std::string& store_path, const ImportOptions& options, Progress& progress);
 
 }  // namespace itin

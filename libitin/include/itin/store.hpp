@@ -22,6 +22,7 @@ namespace itin {
 
 class PointIndex;  // src/store/point_index.hpp
 class StoreFile;   // src/store/store_file.hpp
+struct StoredFootprint;  // src/store/footprint_codec.hpp
 
 /// T_k + lo <= T_0 <= T_k + hi, metres.
 struct CertifiedError {
@@ -61,6 +62,7 @@ struct StoreMetadata {
   std::vector<LevelInfo> levels;    ///< level 0 (tolerance 0) first, then coarser and coarser
   std::vector<SourceInfo> sources;  ///< also the import history, in order
   std::vector<ThemeInfo> themes;    ///< those of the terrain first, then by name
+  std::vector<ThemePart> parts;     ///< of standing themes, in their order, then the finest first
   std::uint64_t vertices = 0;
 };
 
@@ -91,9 +93,13 @@ class Store {
   /// The widest bounds of the level's cells that meet the box: T_level + lo <= T_0 <= T_level + hi all over it.
   /// Nullopt where there is no ground. Throws InputError for a level the store does not have, CorruptStore.
   std::optional<CertifiedError> certified_error(int level, const Box& box) const;
+  /// The most by which features of the chosen themes, in the cells that meet the box, rise above T_0 under them,
+  /// metres; 0 where there are none. Throws CorruptStore.
+  double greatest_feature_height(const ThemeChoice& themes, const Box& box) const;
 
  private:
   friend std::vector<Damage> check(const Store& store, Progress& progress);
+  friend std::vector<StoredFootprint> stored_footprints(const Store& store, std::uint16_t theme);
   std::unique_ptr<StoreFile> file_;
 };
 

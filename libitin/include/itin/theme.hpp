@@ -4,6 +4,8 @@
 //
 // Lines of terrain themes (contours, breaklines, water) have heights and are part of the full surface, whatever a query
 // chooses. Those of the other kinds lie on it, and are part of a query's triangulation only where it names their theme.
+// A theme of buildings, walls or vegetation may stand on it instead, with roofs and tops: what of the terrain and of
+// other themes lies under them then makes way.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +32,22 @@ struct ThemeInfo {
   std::uint64_t features = 0;  ///< imported, with at least one line
   std::uint64_t vertices = 0;  ///< distinct ends of its segments
   std::uint64_t segments = 0;  ///< of the full surface, after crossings were resolved
+  /// Blocks of a store that keep its footprints as they were imported; none for lines on the ground.
+  std::uint32_t footprint_blocks = 0;
+
+  bool stands() const { return footprint_blocks > 0; }
 };
+
+/// Those features of a standing theme that are there at the same tolerances: whole buildings, or none of them.
+struct ThemePart {
+  std::uint16_t theme = 0;  ///< its number, from 1
+  int coarsest = 0;         ///< it is there at this level and finer ones
+  friend bool operator==(const ThemePart&, const ThemePart&) = default;
+};
+
+/// Whether the standing theme a takes the ground of b where both are chosen: buildings come before walls, and those
+/// before vegetation; among equals the name decides.
+bool comes_before(const ThemeInfo& a, const ThemeInfo& b);
 
 /// Which themes a query wants besides those of the terrain.
 class ThemeChoice {

@@ -59,7 +59,6 @@ struct FeatureOptions {
   Grid grid;
   double wall_offset = 0.05;  ///< metres; at least 2 grid units
   double pitch_degrees = 35;  ///< of roofs that do not say
-  BaseRule base = BaseRule::minimum;
 };
 
 /// Without terrain only buildings with a base of their own stand. Throws InputError for an offset or pitch out of range

@@ -8,15 +8,12 @@
 #include <string>
 #include <vector>
 
+#include <itin/feature_rules.hpp>
 #include <itin/geometry.hpp>
 
 namespace itin {
 
 enum class FeatureKind { building, vegetation, wall, terrace };
-enum class RoofKind { flat, gabled, hipped, skeleton };
-/// Where a building meets the ground. The first three are one elevation taken from the terrain under the footprint;
-/// with the last its foot lies on the terrain everywhere, and its heights are above the mean.
-enum class BaseRule { minimum, mean, maximum, terrain_following };
 
 using PlanRing = std::vector<Point2>;
 
@@ -29,6 +26,7 @@ struct FootprintFeature {
   std::string name;  ///< what messages call it
   FeatureKind kind = FeatureKind::building;
   std::vector<PlanRing> rings;
+  BaseRule base_rule = BaseRule::minimum;
   std::optional<double> base;    ///< elevation; default: from the terrain. Of buildings only: all else drapes
   std::optional<double> height;  ///< of the highest point above the base (above the terrain, where it drapes)
   std::optional<double> eaves;   ///< of the eaves above the base; default: from height and pitch

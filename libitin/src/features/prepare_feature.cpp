@@ -93,10 +93,10 @@ class Preparing {
 
   bool found() {
     if (!out_.feature.measured && !check_heights()) return false;
-    const bool follows = !source_.base && options_.base == BaseRule::terrain_following;
+    const bool follows = !source_.base && source_.base_rule == BaseRule::terrain_following;
     std::optional<double> base = source_.base;
     if (!base && !terrain_) return refuse("has no base height, and there is no terrain to take it from");
-    if (!base) base = terrain_->base_height(plan_.empty() ? outline_of_surfaces() : plan_, options_.base);
+    if (!base) base = terrain_->base_height(plan_.empty() ? outline_of_surfaces() : plan_, source_.base_rule);
     if (!base) return refuse("has no base height and lies outside the terrain");
     out_.feature.foot_on_terrain = follows;
     RoofHeights& heights = out_.feature.heights;

@@ -89,6 +89,7 @@ class CityModel {
       shift = model_.at("transform").at("translate");
     }
     const Crs crs = source_crs(query_.path, query_.crs, reference_system());
+    source_.crs = crs.whole;
     const double metres = height_unit(query_.path, std::nullopt, crs).metres;
     std::vector<double> x, y;
     for (const Json& vertex : model_.at("vertices")) {

@@ -32,9 +32,12 @@ class FootprintLayer {
       : query_(query), grid_(grid), dataset_(open(query.path)) {
     layer_ = &choose_layer(*dataset_, query.path, query.layer);
     fields_ = {field(query.height_field), field(query.eaves_field), field(query.base_field), field(query.name_field)};
+    const GIntBig all = layer_->GetFeatureCount();
     if (!query.where.empty()) select_features(*layer_, query.path, query.where);
+    source_.filtered = static_cast<std::uint64_t>(std::max<GIntBig>(0, all - layer_->GetFeatureCount()));
     const OGRSpatialReference* own = layer_->GetSpatialRef();
     const Crs crs = source_crs(query.path, query.crs, own ? wkt_of(*own) : std::string());
+    source_.crs = crs.whole;
     transform_.emplace(crs.wkt, to_crs, query.path);
     const HeightUnit unit = height_unit(query.path, std::nullopt, crs);
     metres_ = unit.metres;

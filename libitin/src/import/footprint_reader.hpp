@@ -6,6 +6,7 @@
 //   FootprintSource source = read_footprints(query, store_crs_wkt, grid);
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,6 +42,8 @@ struct FootprintQuery {
 
 struct FootprintSource {
   std::vector<FootprintFeature> features;  ///< in the file's order
+  std::string crs;                         ///< as found or given
+  std::uint64_t filtered = 0;              ///< left out by where
   std::vector<std::string> warnings;       ///< one line each: features that were passed over, units assumed
 };
 

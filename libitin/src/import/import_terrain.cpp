@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 
 #include <fmt/format.h>
@@ -9,12 +11,14 @@
 #include <itin/import.hpp>
 #include <itin/store.hpp>
 
+#include "import/footprint_file.hpp"
 #include "import/line_collection.hpp"
 #include "import/line_layer.hpp"
 #include "import/sorted_points.hpp"
 #include "import/terrain_source.hpp"
 #include "pyramid/pyramid.hpp"
 #include "store/point_index.hpp"
+#include "store/store_format.hpp"
 #include "store/store_writer.hpp"
 
 namespace itin {
@@ -64,6 +68,7 @@ std::uint64_t add_stored(const Store& store, PointSorter& sorter, LineCollection
   std::vector<RawPoint> points;
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     progress.throw_if_cancelled();
+    if (leaves[i].theme > store.metadata().themes.size()) continue;  // of a part, which is made again
     const auto block = store.points().block(leaves[i]);
     points.clear();
     for (std::size_t k = 0; k < block->points.size(); ++k) {
@@ -76,6 +81,7 @@ std::uint64_t add_stored(const Store& store, PointSorter& sorter, LineCollection
     progress.report("reading the store", static_cast<double>(i + 1) / static_cast<double>(leaves.size()));
   }
   lines.take_segments(store.points());
+  lines.take_footprints(store);
   return count;
 }
 
@@ -97,7 +103,7 @@ void add_source(TerrainSource& source, std::uint16_t number, PointSorter& sorter
 
 void add_lines(LineLayer& layer, std::uint16_t number, const ImportPlan& plan, const ImportOptions& options,
                LineCollection& lines, ImportReport& report, Progress& progress) {
-  const std::uint32_t theme = lines.theme(options.theme, *options.kind);
+  const std::uint32_t theme = lines.theme(options.theme, *options.kind, false);
   const ReadCounts counts = layer.read(
       {plan.grid, plan.crs_wkt}, [&](std::span<const GridPoint> line) { lines.add(theme, number, line); }, progress);
   lines.add_features(theme, layer.features());
@@ -112,12 +118,20 @@ void add_lines(LineLayer& layer, std::uint16_t number, const ImportPlan& plan, c
 void add_line_vertices(const ThemeLines& lines, PointSorter& sorter) {
   std::vector<bool> terrain(lines.lines.vertices.size());
   for (const PlanarEdge& e : lines.lines.edges) {
-    if (lines.terrain[e.owner]) terrain[e.from] = terrain[e.to] = true;
+    if (!lines.stands(e) && lines.terrain[e.owner]) terrain[e.from] = terrain[e.to] = true;
   }
   for (std::size_t v = 0; v < terrain.size(); ++v) {
     const GridPoint& p = lines.lines.vertices[v];
     if (terrain[v]) sorter.add({morton(p.x, p.y), p.z, lines.sources[v], 0});
   }
+}
+
+/// Heights of what does not stand are a mistake.
+void refuse_heights(const ImportOptions& options) {
+  if (options.height || !options.height_field.empty() || !options.eaves_field.empty())
+    throw InputError(fmt::format("{}: --height, --height-field and --eaves-field are for buildings, vegetation and "
+                                 "walls; name the field of elevations with --z-field",
+                                 name_of(*options.kind)));
 }
 
 /// Names stand in lists with commas, beside `all` and `none`.
@@ -131,30 +145,55 @@ std::string directory_of(const std::string& path) {
   return parent.empty() ? "." : parent;
 }
 
-ImportReport import_sources(const std::string& store_path, const ImportOptions& options, Progress& progress) {
-  const auto start = std::chrono::steady_clock::now();
-  if (options.sources.empty()) throw InputError("no source given: name at least one file to import");
-  std::optional<Store> existing;
-  if (std::filesystem::exists(store_path)) existing.emplace(store_path);
-  const Store* const store = existing ? &*existing : nullptr;
-  check_resolution(options, store);
-  const std::vector<double> tolerances = tolerances_of(options, store);
-  const ImportPlan plan = plan_import(options, store != nullptr ? &store->metadata() : nullptr);
+/// What one import adds to a store.
+struct Additions {
+  ImportPlan plan;
+  std::vector<FootprintFile> footprints;
 
-  ImportReport report;
-  report.crs_name = plan.crs_name;
-  report.crs_chosen = plan.crs_chosen;
-  report.warnings = plan.warnings;
+  /// Whether the full surface will be another.
+  bool change_terrain(const ImportOptions& options) const {
+    return !plan.sources.empty() || (!plan.lines.empty() && is_terrain(*options.kind));
+  }
+};
+
+void add_footprints(FootprintFile& file, std::uint16_t number, const ImportOptions& options, LineCollection& lines,
+                    ImportReport& report) {
+  const std::uint32_t theme = lines.theme(options.theme, *options.kind, true);
+  report.read += file.footprints.features.size();
+  report.filtered += file.footprints.filtered;
+  for (FootprintFeature& feature : file.footprints.features)
+    lines.add_footprint(theme, {std::move(feature), number});
+}
+
+/// Sums over the parts of each theme.
+std::vector<ThemeInfo> counted_themes(const LineCollection& collection, const ThemeLines& lines,
+                                      const PyramidReport& pyramid) {
+  std::vector<ThemeInfo> themes = collection.themes();
+  for (std::size_t t = 0; t < themes.size(); ++t) {
+    themes[t].segments = pyramid.segments[t];
+    themes[t].vertices = pyramid.line_vertices[t];
+  }
+  for (std::size_t p = 0; p < lines.parts.size(); ++p) {
+    ThemeInfo& theme = themes[lines.parts[p].part.theme - std::size_t{1}];
+    theme.segments += pyramid.segments[themes.size() + p];
+    theme.vertices += pyramid.line_vertices[themes.size() + p];
+  }
+  return themes;
+}
+
+/// Writes a store of all that `base` (may be null) holds and the additions. Standing features are raised on the ground
+/// of `ground`; without, only their footprints are kept.
+void write_store(StoreWriter& writer, const std::string& directory, const Store* base, Additions& additions,
+                 const Store* ground, const std::vector<double>& tolerances, const ImportOptions& options,
+                 ImportReport& report, Progress& progress) {
+  const ImportPlan& plan = additions.plan;
   std::vector<SourceInfo> sources;
-  if (store != nullptr) sources = store->metadata().sources;
-  if (sources.size() + plan.sources.size() + plan.lines.size() > 65535)
-    throw InputError("a store holds at most 65,535 sources; merge some of them first");
-
-  // The writer comes first: it holds the lock, and a place that cannot be written is known before hours of work.
-  StoreWriter writer(store_path, plan.crs_wkt, plan.grid, tolerances);
-  PointSorter sorter(directory_of(store_path), options.memory_bytes / 2);
+  if (base != nullptr) sources = base->metadata().sources;
+  if (sources.size() + plan.sources.size() + plan.lines.size() + additions.footprints.size() >= format::kMask)
+    throw InputError("a store holds at most 65,534 sources; merge some of them first");
+  PointSorter sorter(directory, options.memory_bytes / 2);
   LineCollection collection;
-  std::uint64_t offered = store != nullptr ? add_stored(*store, sorter, collection, progress) : 0;
+  std::uint64_t offered = base != nullptr ? add_stored(*base, sorter, collection, progress) : 0;
   for (const auto& source : plan.sources) {
     add_source(*source, static_cast<std::uint16_t>(sources.size()), sorter, report, progress);
     sources.push_back(source->info());
@@ -164,8 +203,13 @@ ImportReport import_sources(const std::string& store_path, const ImportOptions& 
     add_lines(*layer, static_cast<std::uint16_t>(sources.size()), plan, options, collection, report, progress);
     sources.push_back(layer->info());
   }
+  for (FootprintFile& file : additions.footprints) {
+    add_footprints(file, static_cast<std::uint16_t>(sources.size()), options, collection, report);
+    sources.push_back(file.info);
+  }
   offered += report.read;
   if (offered == 0) throw InputError("nothing to import: the sources hold no point with a height");
+  if (ground != nullptr) collection.raise(*ground, report, progress);
 
   const ThemeLines lines = collection.finish();
   report.crossings = lines.lines.crossings;
@@ -175,21 +219,93 @@ ImportReport import_sources(const std::string& store_path, const ImportOptions& 
   for (const SourceInfo& source : sources) spacings.push_back(source.spacing);
   SortedPoints points = sorter.finish(spacings, progress, &report.duplicates);
   const PyramidReport pyramid = build_pyramid(points, sources, plan.grid, tolerances, lines, writer, progress);
-  report.replaced = pyramid.replaced;
-  report.isolated = pyramid.isolated;
+  report.replaced += pyramid.replaced;
+  report.isolated += pyramid.isolated;
   report.left_out = pyramid.left_out;
+  report.vertices = 0;
   for (std::size_t s = 0; s < sources.size(); ++s) {
     sources[s].vertices = pyramid.vertices_of_source[s];
     report.vertices += sources[s].vertices;
   }
   if (report.vertices == 0)
     throw InputError("nothing to import: no three points are near enough to each other to be ground (see --max-gap)");
-  std::vector<ThemeInfo> themes = collection.themes();
-  for (std::size_t t = 0; t < themes.size(); ++t) {
-    themes[t].segments = pyramid.segments[t];
-    themes[t].vertices = pyramid.line_vertices[t];
+  std::vector<ThemeInfo> themes = counted_themes(collection, lines, pyramid);
+  writer.add_footprints(themes, collection.footprints());
+  std::vector<ThemePart> parts;
+  for (const PlacedPart& part : lines.parts) parts.push_back(part.part);
+  writer.commit(std::move(sources), std::move(themes), std::move(parts));
+}
+
+/// A store for the time of an import only.
+class PassingStore {
+ public:
+  explicit PassingStore(std::string path) : path_(std::move(path)) {}
+  PassingStore(const PassingStore&) = delete;
+  PassingStore& operator=(const PassingStore&) = delete;
+  ~PassingStore() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
   }
-  writer.commit(std::move(sources), std::move(themes));
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+bool has_standing_themes(const Store* store) {
+  if (store == nullptr) return false;
+  const auto& themes = store->metadata().themes;
+  return std::any_of(themes.begin(), themes.end(), [](const ThemeInfo& theme) { return theme.stands(); });
+}
+
+Additions plan_additions(const ImportOptions& options, const Store* store) {
+  Additions additions;
+  if (stands(options)) {
+    additions.footprints = read_footprint_files(options, store->metadata());
+    additions.plan = plan_nothing(store->metadata());
+    for (FootprintFile& file : additions.footprints) {
+      std::vector<std::string>& warnings = file.footprints.warnings;
+      std::move(warnings.begin(), warnings.end(), std::back_inserter(additions.plan.warnings));
+    }
+  } else {
+    additions.plan = plan_import(options, store != nullptr ? &store->metadata() : nullptr);
+  }
+  return additions;
+}
+
+ImportReport import_sources(const std::string& store_path, const ImportOptions& options, Progress& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  if (options.sources.empty()) throw InputError("no source given: name at least one file to import");
+  std::optional<Store> existing;
+  if (std::filesystem::exists(store_path)) existing.emplace(store_path);
+  const Store* const store = existing ? &*existing : nullptr;
+  check_resolution(options, store);
+  const std::vector<double> tolerances = tolerances_of(options, store);
+  Additions additions = plan_additions(options, store);
+
+  ImportReport report;
+  report.crs_name = additions.plan.crs_name;
+  report.crs_chosen = additions.plan.crs_chosen;
+  report.warnings = additions.plan.warnings;
+
+  // The writer comes first: it holds the lock, and a place that cannot be written is known before hours of work.
+  const ImportPlan& plan = additions.plan;
+  StoreWriter writer(store_path, plan.crs_wkt, plan.grid, tolerances);
+  const std::string directory = directory_of(store_path);
+  if (has_standing_themes(store) && additions.change_terrain(options)) {
+    // What stands needs the new ground finished first.
+    const PassingStore passing(store_path + ".ground");
+    {
+      StoreWriter first(passing.path(), plan.crs_wkt, plan.grid, tolerances);
+      write_store(first, directory, store, additions, nullptr, tolerances, options, report, progress);
+    }
+    const Store ground(passing.path());
+    Additions nothing;
+    nothing.plan = plan_nothing(ground.metadata());
+    write_store(writer, directory, &ground, nothing, &ground, tolerances, options, report, progress);
+  } else {
+    write_store(writer, directory, store, additions, store, tolerances, options, report, progress);
+  }
 
   const Store written(store_path);
   report.store_bytes = written.file_bytes();
@@ -211,6 +327,7 @@ ImportReport import_lines(const std::string& store_path, const ImportOptions& op
   ImportOptions lines = options;
   if (lines.theme.empty()) lines.theme = name_of(*options.kind);
   require_theme_name(lines.theme);
+  if (!stands(options)) refuse_heights(options);
   if (options.kind != ThemeKind::Contours && !std::filesystem::exists(store_path)) {
     throw InputError(fmt::format("{}: there is no such store; {} need ground to lie on, so import terrain first",
                                  store_path, name_of(*options.kind)));

@@ -1,19 +1,38 @@
 #include "import/line_collection.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
 
+#include "features/part_vertices.hpp"
 #include "store/store_format.hpp"
 
 namespace itin {
 
+namespace {
+
+/// A city has thousands of odd footprints; the first ones tell what is the matter.
+constexpr std::size_t kMostFindings = 20;
+
+void add_findings(const std::string& theme, const std::vector<std::string>& findings,
+                  std::vector<std::string>& warnings) {
+  for (std::size_t i = 0; i < std::min(findings.size(), kMostFindings); ++i)
+    warnings.push_back(fmt::format("theme '{}': {}", theme, findings[i]));
+  if (findings.size() > kMostFindings)
+    warnings.push_back(fmt::format("theme '{}': {} more like these", theme, findings.size() - kMostFindings));
+}
+
+}  // namespace
+
 void LineCollection::take_themes(const StoreMetadata& metadata) {
   themes_ = metadata.themes;
   first_source_.assign(themes_.size(), 0);
+  footprints_.resize(themes_.size());
+  for (const ThemeInfo& theme : themes_) stands_.push_back(theme.stands());
   for (std::size_t s = metadata.sources.size(); s-- > 0;) {
     from_line_.insert(from_line_.begin(), !metadata.sources[s].theme.empty());
     for (std::size_t t = 0; t < themes_.size(); ++t) {
@@ -39,24 +58,36 @@ void LineCollection::take_segments(const PointIndex& index) {
     return GridPoint{x, y, found == vertices_.end() ? 0 : found->second.z};
   };
   for (const Segment& s : stored) {
-    if (s.theme == kCoverage || s.finest > 0) continue;
+    if (s.theme == kCoverage || s.finest > 0 || s.theme > themes_.size()) continue;
     segments_.push_back({vertex(s.ax, s.ay), vertex(s.bx, s.by), static_cast<std::uint32_t>(s.theme - 1)});
   }
 }
 
-std::uint32_t LineCollection::theme(const std::string& name, ThemeKind kind) {
+void LineCollection::take_footprints(const Store& store) {
+  for (std::size_t t = 0; t < store.metadata().themes.size(); ++t)
+    footprints_[t] = stored_footprints(store, static_cast<std::uint16_t>(t + 1));
+}
+
+std::uint32_t LineCollection::theme(const std::string& name, ThemeKind kind, bool stands) {
   const auto found = std::find_if(themes_.begin(), themes_.end(), [&](const ThemeInfo& t) { return t.name == name; });
   if (found == themes_.end()) {
     if (themes_.size() == format::kMaxThemes)
       throw InputError(fmt::format("a store holds at most {} themes", format::kMaxThemes));
     themes_.push_back({name, kind, 0, 0, 0});
     first_source_.push_back(0);
+    stands_.push_back(stands);
+    footprints_.emplace_back();
     return static_cast<std::uint32_t>(themes_.size() - 1);
   }
   if (found->kind != kind)
     throw InputError(fmt::format("theme '{}': holds {} already, not {}; choose another name with --theme", name,
                                  name_of(found->kind), name_of(kind)));
-  return static_cast<std::uint32_t>(found - themes_.begin());
+  const auto number = static_cast<std::uint32_t>(found - themes_.begin());
+  if (stands_[number] != stands)
+    throw InputError(fmt::format("theme '{}': holds {}; choose another name with --theme", name,
+                                 stands ? "outlines on the ground, not features with heights"
+                                        : "features with heights, not outlines on the ground"));
+  return number;
 }
 
 void LineCollection::add(std::uint32_t theme, std::uint16_t source, std::span<const GridPoint> line) {
@@ -67,6 +98,45 @@ void LineCollection::add(std::uint32_t theme, std::uint16_t source, std::span<co
     if (!fresh) at->second.source = std::min(at->second.source, source);
   }
   for (std::size_t i = 1; i < line.size(); ++i) segments_.push_back({line[i - 1], line[i], theme});
+}
+
+void LineCollection::add_footprint(std::uint32_t theme, StoredFootprint footprint) {
+  footprints_[theme].push_back(std::move(footprint));
+}
+
+void LineCollection::raise(const Store& ground, ImportReport& report, Progress& progress) {
+  for (std::uint32_t t = 0; t < themes_.size(); ++t) {
+    if (footprints_[t].empty()) continue;
+    StandingTheme standing = stand(ground, footprints_[t], progress);
+    themes_[t].features = standing.built;
+    report.features += standing.built;
+    report.refused += standing.refused;
+    add_findings(themes_[t].name, standing.reports, report.warnings);
+    for (StandingPart& part : standing.parts) parts_.push_back({t, std::move(part)});
+  }
+}
+
+/// Gives their lines to make_planar()'s segments, under the numbers that follow the themes'.
+void LineCollection::place_parts(ThemeLines& result) {
+  std::stable_sort(parts_.begin(), parts_.end(),
+                   [](const OwnPart& a, const OwnPart& b) { return a.theme < b.theme; });
+  std::vector<std::uint32_t> by_rank(themes_.size());
+  std::iota(by_rank.begin(), by_rank.end(), 0U);
+  std::sort(by_rank.begin(), by_rank.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return comes_before(themes_[a], themes_[b]); });
+  for (OwnPart& own : parts_) {
+    const auto owner = static_cast<std::uint32_t>(themes_.size() + result.parts.size());
+    if (owner >= format::kMaxThemes)
+      throw InputError(fmt::format("a store holds at most {} themes and parts of themes", format::kMaxThemes));
+    for (const auto& [a, b] : own.part.segments) segments_.push_back({a, b, owner});
+    PlacedPart& placed = result.parts.emplace_back();
+    placed.part = {static_cast<std::uint16_t>(own.theme + 1), own.part.coarsest};
+    placed.rank = static_cast<int>(std::find(by_rank.begin(), by_rank.end(), own.theme) - by_rank.begin());
+    placed.source = own.part.source;
+    placed.masks = std::move(own.part.masks);
+    placed.reaches = std::move(own.part.reaches);
+    first_source_.push_back(own.part.source);
+  }
 }
 
 std::uint16_t LineCollection::source_of(const GridPoint& p, std::uint32_t owner) const {
@@ -84,21 +154,35 @@ ThemeLines LineCollection::finish() {
   std::vector<std::uint32_t> number(order.size());
   std::vector<ThemeInfo> themes;
   std::vector<std::uint16_t> first_source;
+  std::vector<bool> stands;
+  std::vector<std::vector<StoredFootprint>> footprints;
   ThemeLines result;
   for (std::uint32_t i = 0; i < order.size(); ++i) {
     number[order[i]] = i;
     themes.push_back(themes_[order[i]]);
     first_source.push_back(first_source_[order[i]]);
+    stands.push_back(stands_[order[i]]);
+    footprints.push_back(std::move(footprints_[order[i]]));
     result.terrain.push_back(is_terrain(themes.back().kind));
   }
   themes_ = std::move(themes);
   first_source_ = std::move(first_source);
+  stands_ = std::move(stands);
+  footprints_ = std::move(footprints);
   for (OwnedSegment& s : segments_) s.owner = number[s.owner];
+  for (OwnPart& own : parts_) own.theme = number[own.theme];
+  place_parts(result);
   result.lines = make_planar(std::move(segments_));
-  std::vector<std::uint32_t> owner(result.lines.vertices.size(), static_cast<std::uint32_t>(themes_.size()));
+  std::vector<std::uint32_t> owner(result.lines.vertices.size(), std::numeric_limits<std::uint32_t>::max());
+  std::vector<std::vector<Position>> ends(parts_.size());
   for (const PlanarEdge& e : result.lines.edges) {
-    for (const std::uint32_t v : {e.from, e.to}) owner[v] = std::min(owner[v], e.owner);
+    for (const std::uint32_t v : {e.from, e.to}) {
+      owner[v] = std::min(owner[v], e.owner);
+      const GridPoint& p = result.lines.vertices[v];
+      if (result.stands(e)) ends[e.owner - themes_.size()].push_back({p.x, p.y});
+    }
   }
+  for (std::size_t p = 0; p < parts_.size(); ++p) result.parts[p].vertices = part_vertices(parts_[p].part, ends[p]);
   for (std::size_t v = 0; v < owner.size(); ++v)
     result.sources.push_back(source_of(result.lines.vertices[v], owner[v]));
   return result;

@@ -7,8 +7,10 @@
 #include <unordered_map>
 #include <vector>
 
+#include <itin/import.hpp>
 #include <itin/store.hpp>
 
+#include "features/standing_theme.hpp"
 #include "pyramid/theme_lines.hpp"
 #include "store/point_index.hpp"
 
@@ -22,26 +24,42 @@ class LineCollection {
   bool take_vertex(const GridPoint& p, std::uint16_t source);
   void take_segments(const PointIndex& index);
 
-  /// The number of a theme, which is made if there is none of the name. Throws InputError where one has another kind.
-  std::uint32_t theme(const std::string& name, ThemeKind kind);
+  /// Standing themes' footprints; their lines are not taken over, but made again.
+  void take_footprints(const Store& store);
+
+  /// The number of a theme, which is made if there is none of the name. Throws InputError where one has another kind,
+  /// or stands where the other does not.
+  std::uint32_t theme(const std::string& name, ThemeKind kind, bool stands);
   void add(std::uint32_t theme, std::uint16_t source, std::span<const GridPoint> line);
   void add_features(std::uint32_t theme, std::uint64_t count) { themes_[theme].features += count; }
 
-  bool empty() const { return segments_.empty(); }
+  void add_footprint(std::uint32_t theme, StoredFootprint footprint);
+  /// Builds all standing themes on a store's ground.
+  void raise(const Store& ground, ImportReport& report, Progress& progress);
+
   /// Puts the themes in order and the lines of all of them into one plane.
   ThemeLines finish();
   /// After finish(): in order, features counted.
   const std::vector<ThemeInfo>& themes() const { return themes_; }
+  const std::vector<std::vector<StoredFootprint>>& footprints() const { return footprints_; }
 
  private:
   struct Vertex {
     std::int32_t z;
     std::uint16_t source;
   };
+  struct OwnPart {
+    std::uint32_t theme;
+    StandingPart part;
+  };
+  void place_parts(ThemeLines& result);
   std::uint16_t source_of(const GridPoint& p, std::uint32_t owner) const;
 
   std::vector<ThemeInfo> themes_;
   std::vector<std::uint16_t> first_source_;  ///< by theme
+  std::vector<bool> stands_;                 ///< by theme
+  std::vector<std::vector<StoredFootprint>> footprints_;  ///< by theme
+  std::vector<OwnPart> parts_;
   std::vector<bool> from_line_;              ///< by the store's source
   std::vector<OwnedSegment> segments_;
   std::unordered_map<std::uint64_t, Vertex> vertices_;  ///< by Morton code: what lines brought along

@@ -163,4 +163,13 @@ ImportPlan plan_import(const ImportOptions& options, const StoreMetadata* existi
   return plan;
 }
 
+ImportPlan plan_nothing(const StoreMetadata& existing) {
+  ImportPlan plan;
+  const Crs crs = parse_crs(existing.crs_wkt, "the store's CRS");
+  plan.crs_wkt = crs.wkt;
+  plan.crs_name = crs.name;
+  plan.grid = existing.grid;
+  return plan;
+}
+
 }  // namespace itin

@@ -11,6 +11,7 @@
 #include "features/line_hierarchy.hpp"
 #include "pyramid/certify.hpp"
 #include "pyramid/coverage.hpp"
+#include "pyramid/part_masks.hpp"
 #include "pyramid/proposal.hpp"
 #include "pyramid/replacement.hpp"
 #include "pyramid/working_index.hpp"
@@ -60,7 +61,9 @@ std::optional<LineHierarchy> generalised(const PlacedLines& placed, const std::v
                                      [](const GridPoint& v, std::uint64_t code) { return morton(v.x, v.y) < code; });
     return at->z;
   };
-  return LineHierarchy(placed.terrain, placed.features, nodes, height, by_level);
+  std::vector<Segment> whole = placed.features;
+  whole.insert(whole.end(), placed.standing.begin(), placed.standing.end());
+  return LineHierarchy(placed.terrain, whole, nodes, height, by_level);
 }
 
 /// The vertices that each theme has besides those of the full surface, with the themes they belong to.
@@ -95,7 +98,7 @@ void count_lines(const PlacedLines& placed, std::size_t themes, PyramidReport& r
   std::vector<std::vector<std::uint64_t>> ends(themes);
   report.segments.assign(themes, 0);
   report.left_out = placed.left_out;
-  for (const std::vector<Segment>* segments : {&placed.terrain, &placed.features}) {
+  for (const std::vector<Segment>* segments : {&placed.terrain, &placed.features, &placed.standing}) {
     for (const Segment& s : *segments) {
       report.segments[s.theme - std::size_t{1}] += 1;
       ends[s.theme - std::size_t{1}].push_back(morton(s.ax, s.ay));
@@ -203,6 +206,7 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
     placed = place_lines(lines, index, tiles, ground, bases, outline, progress);
     index.drop(placed.strays);
   }
+  placed.standing = standing_segments(lines);
   std::optional<LineHierarchy> hierarchy = generalised(placed, outline, lines, in_units);
   const auto set_lines = [&] {
     std::vector<Segment> segments = outline;
@@ -233,11 +237,21 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
   };
   LeafBounds bounds = certify(index, in_whole_units, restore, progress);
   write_levels(index, bounds, tiles, levels, writer, report, progress);
-  if (!placed.features.empty())
-    write_features(placed, lines, drape(placed.ends, index, tiles, progress), writer, report);
-  count_lines(placed, lines.terrain.size(), report);
+  std::vector<GridPoint> draped;
+  if (!placed.features.empty()) {
+    draped = drape(placed.ends, index, tiles, progress);
+    write_features(placed, lines, draped, writer, report);
+  }
+  count_lines(placed, lines.themes() + lines.parts.size(), report);
   std::vector<Segment> segments = index.all_segments();
   segments.insert(segments.end(), placed.features.begin(), placed.features.end());
+  segments.insert(segments.end(), placed.standing.begin(), placed.standing.end());
+  const std::vector<Segment> masked = write_parts(lines, index, tiles, draped, segments, writer, progress);
+  for (std::size_t p = 0; p < lines.parts.size(); ++p) {
+    report.line_vertices[lines.themes() + p] = lines.parts[p].vertices.size();
+    report.vertices_of_source[lines.parts[p].source] += lines.parts[p].vertices.size();
+  }
+  segments.insert(segments.end(), masked.begin(), masked.end());
   writer.add_segments(segments);
   return report;
 }

@@ -18,8 +18,8 @@ struct PyramidReport {
   std::uint64_t isolated = 0;  ///< points left out: no ground about them
   std::vector<std::uint64_t> vertices_of_source;
   std::uint64_t left_out = 0;                ///< segments of lines that are not wholly on the ground
-  std::vector<std::uint64_t> segments;       ///< by theme, of the full surface
-  std::vector<std::uint64_t> line_vertices;  ///< by theme
+  std::vector<std::uint64_t> segments;       ///< by theme and then by part, of the full surface
+  std::vector<std::uint64_t> line_vertices;  ///< likewise
 };
 
 /// Finds the coverage, gives every point its level, certifies the levels and writes it all. `sources` gives the gap

@@ -156,21 +156,36 @@ class OutlineTest {
 
 }  // namespace
 
+std::vector<Segment> standing_segments(const ThemeLines& lines) {
+  std::vector<Segment> segments;
+  for (const PlanarEdge& e : lines.lines.edges) {
+    if (!lines.stands(e)) continue;
+    const GridPoint &a = lines.lines.vertices[e.from], &b = lines.lines.vertices[e.to];
+    segments.push_back({a.x, a.y, b.x, b.y, static_cast<std::uint16_t>(e.owner + 1)});
+  }
+  return segments;
+}
+
 PlacedLines place_lines(const ThemeLines& lines, const WorkingIndex& index, const std::vector<CurveRange>& tiles,
                         const Sources& ground, const std::vector<std::array<double, 4>>& gap_bases,
                         const std::vector<Segment>& outline, Progress& progress) {
   const std::vector<GridPoint>& vertices = lines.lines.vertices;
-  Codes codes;
+  Codes codes, wanted;
   for (const GridPoint& p : vertices) codes.push_back(code_of(p));
+  for (const PlanarEdge& e : lines.lines.edges) {
+    if (!lines.stands(e)) wanted.insert(wanted.end(), {codes[e.from], codes[e.to]});
+  }
+  std::sort(wanted.begin(), wanted.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
   const SourceIndex ground_index(index, ground);
   const Codes on_ground = by_tile<std::uint64_t>(
-      codes, tiles, "laying lines on the ground", progress,
+      wanted, tiles, "laying lines on the ground", progress,
       [&](std::span<const std::uint64_t> own) { return grounded(own, ground_index, gap_bases); });
   const auto lies = [&](std::uint32_t v) { return std::binary_search(on_ground.begin(), on_ground.end(), codes[v]); };
 
   std::vector<Segment> candidates;
   for (const PlanarEdge& e : lines.lines.edges) {
-    if (!lies(e.from) || !lies(e.to)) continue;
+    if (lines.stands(e) || !lies(e.from) || !lies(e.to)) continue;
     const GridPoint &a = vertices[e.from], &b = vertices[e.to];
     candidates.push_back({a.x, a.y, b.x, b.y, static_cast<std::uint16_t>(e.owner + 1)});
   }
@@ -183,11 +198,13 @@ PlacedLines place_lines(const ThemeLines& lines, const WorkingIndex& index, cons
     for (const std::uint64_t end : {morton(s.ax, s.ay), morton(s.bx, s.by)}) placed.ends.push_back(end);
     test.ends_on_outline(s, placed.on_outline);
   }
-  placed.left_out = lines.lines.edges.size() - placed.terrain.size() - placed.features.size();
+  const auto on_the_ground = std::count_if(lines.lines.edges.begin(), lines.lines.edges.end(),
+                                           [&](const PlanarEdge& e) { return !lines.stands(e); });
+  placed.left_out = static_cast<std::uint64_t>(on_the_ground) - placed.terrain.size() - placed.features.size();
   std::sort(placed.ends.begin(), placed.ends.end());
   placed.ends.erase(std::unique(placed.ends.begin(), placed.ends.end()), placed.ends.end());
   for (const PlanarEdge& e : lines.lines.edges) {
-    if (!lines.terrain[e.owner]) continue;
+    if (lines.stands(e) || !lines.terrain[e.owner]) continue;
     for (const std::uint32_t v : {e.from, e.to}) {
       if (!lies(v)) placed.strays.push_back(codes[v]);
     }

@@ -1,35 +1,57 @@
 // Lines on their way into a store: planar already, and to be laid on the ground.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
 #include <itin/progress.hpp>
 
 #include "features/planar.hpp"
+#include "features/standing_theme.hpp"
 #include "pyramid/source_index.hpp"
 #include "pyramid/working_index.hpp"
 
 namespace itin {
 
-/// The lines of all themes; owner i is theme i + 1.
+/// A part of a standing theme, its lines in one plane with all others.
+struct PlacedPart {
+  ThemePart part;
+  int rank = 0;  ///< it takes the ground of those with a greater one
+  std::uint16_t source = 0;
+  std::vector<GridPoint> vertices;  ///< with its own heights, in Morton order
+  std::vector<GridPolygon> masks;
+  std::vector<FeatureReach> reaches;
+};
+
+/// The lines of all themes; owner i is theme i + 1. The parts of standing themes are numbered after the themes.
 struct ThemeLines {
   PlanarLines lines;
-  std::vector<bool> terrain;           ///< by owner: whether they are part of the full surface
+  std::vector<bool> terrain;           ///< by theme: whether they are part of the full surface
   std::vector<std::uint16_t> sources;  ///< by vertex: where it comes from
+  std::vector<PlacedPart> parts;
 
-  bool empty() const { return lines.edges.empty(); }
+  std::size_t themes() const { return terrain.size(); }
+  bool stands(const PlanarEdge& e) const { return e.owner >= themes(); }
+  /// Whether no line lies on the ground.
+  bool empty() const {
+    return std::all_of(lines.edges.begin(), lines.edges.end(), [&](const PlanarEdge& e) { return stands(e); });
+  }
 };
 
 /// What of them lies on the ground.
 struct PlacedLines {
   std::vector<Segment> terrain;           ///< part of the full surface; their ends are points of the index
   std::vector<Segment> features;          ///< on it
+  std::vector<Segment> standing;          ///< of parts
   std::vector<std::uint64_t> ends;        ///< of both, ascending Morton codes
   std::vector<std::uint64_t> on_outline;  ///< of these, those on it
   std::vector<std::uint64_t> strays;      ///< vertices of terrain lines beyond the ground
   std::uint64_t left_out = 0;             ///< segments beyond the ground, or that leave it
 };
+
+/// The segments of the parts of standing themes, which lie on the ground already.
+std::vector<Segment> standing_segments(const ThemeLines& lines);
 
 /// Leaves out every segment that is not wholly on the ground of the given sources, whose outline is `outline`.
 /// `gap_bases` in grid units. The index must have no segments yet.

@@ -23,6 +23,7 @@ class Inspection {
       for (const ChunkEntry& entry : chunks) total_ += entry.leaves;
     }
     for (const auto& [tree, chunks] : file_.chunks()) inspect_tree(tree, chunks);
+    inspect_footprints();
     compare_keys(BlobKind::Directory, chunk_keys_);
     compare_keys(BlobKind::Block, block_keys_);
     compare_totals();
@@ -45,7 +46,7 @@ class Inspection {
 
   void inspect_tree(int tree, const std::vector<ChunkEntry>& chunks) {
     const bool known = tree < file_.level_count() ||
-                       (tree >= format::kMaxLevels && format::theme_of(tree) <= file_.metadata().themes.size());
+                       (tree >= format::kMaxLevels && format::theme_of(tree) <= file_.metadata().themes.size() + file_.metadata().parts.size());
     if (!known) damage_.push_back({format::place("directory", format::kChunkListKey), "lists an unknown tree"});
     for (const ChunkEntry& entry : chunks) {
       progress_.throw_if_cancelled();
@@ -72,9 +73,17 @@ class Inspection {
   void inspect_block(const Leaf& leaf) {
     const Block block = file_.read_block(leaf);
     for (const GridPoint& p : block.points) bounds_.extend(p.x, p.y);
-    vertices_[static_cast<std::size_t>(leaf.level)] += block.points.size();
-    const std::uint16_t last = *std::max_element(block.sources.begin(), block.sources.end());
-    if (last >= file_.metadata().sources.size()) {
+    const bool of_part = format::theme_of(leaf.level) > file_.metadata().themes.size();
+    const std::size_t sources = file_.metadata().sources.size();
+    std::uint64_t vertices = 0;
+    bool foreign = false;
+    for (const std::uint16_t source : block.sources) {
+      const bool mask = of_part && source == format::kMask;
+      vertices += mask ? 0 : 1;
+      foreign |= !mask && source >= sources;
+    }
+    vertices_[static_cast<std::size_t>(leaf.level)] += vertices;
+    if (foreign) {
       damage_.push_back({format::place("block", leaf.key), "names a source that the store does not have"});
     }
   }
@@ -83,6 +92,22 @@ class Inspection {
     for (const Segment& s : file_.read_edges(leaf)) {
       // A segment is listed in every leaf it meets: it counts where it starts, as part of the full surface.
       if (s.finest == 0 && leaf.cell.contains(morton(s.ax, s.ay))) segments_[s.theme] += 1;
+    }
+  }
+
+  void inspect_footprints() {
+    const std::vector<ThemeInfo>& themes = file_.metadata().themes;
+    for (std::size_t t = 1; t <= themes.size(); ++t) {
+      for (std::uint32_t i = 0; i < themes[t - 1].footprint_blocks; ++i) {
+        block_keys_.push_back(format::footprint_key(t, i));
+        guarded([&] {
+          for (const StoredFootprint& f : file_.read_footprints(static_cast<std::uint16_t>(t), i)) {
+            if (f.source < file_.metadata().sources.size()) continue;
+            damage_.push_back({format::place("block", format::footprint_key(t, i)), "names a source that the store "
+                                                                                   "does not have"});
+          }
+        });
+      }
     }
   }
 
@@ -110,6 +135,12 @@ class Inspection {
     }
     for (std::size_t theme = 1; theme <= metadata.themes.size(); ++theme) {
       sum += vertices_[static_cast<std::size_t>(format::vertex_tree(static_cast<int>(theme)))];
+      for (std::size_t p = 0; p < metadata.parts.size(); ++p) {
+        if (metadata.parts[p].theme != theme) continue;
+        const std::size_t number = metadata.themes.size() + p + 1;
+        sum += vertices_[static_cast<std::size_t>(format::vertex_tree(static_cast<int>(number)))];
+        segments_[theme] += segments_[number];
+      }
       if (segments_[theme] == metadata.themes[theme - 1].segments) continue;
       damage_.push_back({"metadata", "theme '" + metadata.themes[theme - 1].name + "' has another number of segments"});
     }

@@ -1,5 +1,6 @@
 #include "store/metadata_json.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
@@ -63,14 +64,15 @@ ordered_json theme_to_json(const ThemeInfo& theme) {
           {"kind", name_of(theme.kind)},
           {"features", theme.features},
           {"vertices", theme.vertices},
-          {"segments", theme.segments}};
+          {"segments", theme.segments},
+          {"footprint_blocks", theme.footprint_blocks}};
 }
 
 ThemeInfo theme_from_json(const json& j) {
   try {
     return {j.at("name").get<std::string>(), theme_kind(j.at("kind").get<std::string>()),
             j.at("features").get<std::uint64_t>(), j.at("vertices").get<std::uint64_t>(),
-            j.at("segments").get<std::uint64_t>()};
+            j.at("segments").get<std::uint64_t>(), j.value("footprint_blocks", std::uint32_t{0})};
   } catch (const InputError& e) {
     throw DecodeError(e.what());
   }
@@ -90,6 +92,11 @@ StoreMetadata read_document(const json& j) {
   // Version 1 had no themes.
   if (j.contains("themes")) {
     for (const json& theme : j.at("themes")) metadata.themes.push_back(theme_from_json(theme));
+  }
+  // Version 2 had no themes that stand.
+  if (j.contains("parts")) {
+    for (const json& part : j.at("parts"))
+      metadata.parts.push_back({part.at("theme").get<std::uint16_t>(), part.at("coarsest").get<int>()});
   }
   metadata.vertices = j.at("vertices").get<std::uint64_t>();
   return metadata;
@@ -112,6 +119,8 @@ std::string metadata_to_json(const StoreMetadata& metadata) {
   for (const SourceInfo& source : metadata.sources) j["sources"].push_back(source_to_json(source));
   j["themes"] = ordered_json::array();
   for (const ThemeInfo& theme : metadata.themes) j["themes"].push_back(theme_to_json(theme));
+  j["parts"] = ordered_json::array();
+  for (const ThemePart& part : metadata.parts) j["parts"].push_back({{"theme", part.theme}, {"coarsest", part.coarsest}});
   j["vertices"] = metadata.vertices;
   // File names may hold bytes that are no UTF-8.
   return j.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
@@ -121,7 +130,11 @@ StoreMetadata metadata_from_json(const std::string& text) {
   try {
     const StoreMetadata metadata = read_document(json::parse(text));
     if (metadata.levels.empty() || metadata.levels.size() > format::kMaxLevels || !(metadata.grid.resolution > 0) ||
-        metadata.themes.size() > format::kMaxThemes) {
+        metadata.themes.size() + metadata.parts.size() > format::kMaxThemes ||
+        !std::all_of(metadata.parts.begin(), metadata.parts.end(), [&](const ThemePart& part) {
+          return part.theme >= 1 && part.theme <= metadata.themes.size() && part.coarsest >= 0 &&
+                 static_cast<std::size_t>(part.coarsest) < metadata.levels.size();
+        })) {
       throw DecodeError("describes no store");
     }
     return metadata;

@@ -112,7 +112,7 @@ void StoreFile::leaves(int finest, const GridBox& box, std::vector<Leaf>& out) c
     for_each_leaf(tree->first, box, [&](Leaf leaf) {
       leaf.level = level_count() - 1;
       leaf.theme = format::theme_of(tree->first);
-      out.push_back(leaf);
+      if (leaf.points > 0) out.push_back(leaf);
     });
   }
 }
@@ -143,6 +143,19 @@ void StoreFile::segments(int tree, const GridBox& box, std::vector<Segment>& out
       if (extent.meets(box)) out.push_back(s);
     }
   });
+}
+
+std::vector<StoredFootprint> StoreFile::read_footprints(std::uint16_t theme, std::uint32_t number) const {
+  const std::uint64_t key = format::footprint_key(theme, number);
+  return at_place(rows_.path(), format::place("block", key), [&] {
+    return decode_footprints(rows_.read(BlobKind::Block, key));
+  });
+}
+
+std::int32_t StoreFile::greatest_height(std::uint16_t part, const GridBox& box) const {
+  std::int32_t greatest = 0;
+  for_each_leaf(format::vertex_tree(part), box, [&](const Leaf& leaf) { greatest = std::max(greatest, leaf.hi); });
+  return greatest;
 }
 
 std::optional<CertifiedError> StoreFile::certified_error(int level, const Box& box) const {

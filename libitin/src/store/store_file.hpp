@@ -10,6 +10,7 @@
 
 #include "store/block_cache.hpp"
 #include "store/directory.hpp"
+#include "store/footprint_codec.hpp"
 #include "store/morton_range.hpp"
 #include "store/point_index.hpp"
 #include "store/store_rows.hpp"
@@ -26,6 +27,10 @@ class StoreFile final : public PointIndex {
   std::shared_ptr<const Block> block(const Leaf& leaf) const override;
   void segments(const GridBox& box, std::vector<Segment>& out) const override;
 
+  /// One of the theme's footprint blocks.
+  std::vector<StoredFootprint> read_footprints(std::uint16_t theme, std::uint32_t number) const;
+  /// Of the part's features about the box above the full surface, grid units; 0 where there are none.
+  std::int32_t greatest_height(std::uint16_t part, const GridBox& box) const;
   std::optional<CertifiedError> certified_error(int level, const Box& box) const;
 
   const StoreMetadata& metadata() const { return metadata_; }

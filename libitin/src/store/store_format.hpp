@@ -11,7 +11,7 @@
 namespace itin::format {
 
 inline constexpr std::uint32_t kApplicationId = 0x4954494e;  // "ITIN"
-inline constexpr std::uint32_t kVersion = 2;
+inline constexpr std::uint32_t kVersion = 3;
 inline constexpr int kPageSize = 16384;
 
 inline constexpr const char* kSchema =
@@ -25,7 +25,13 @@ inline constexpr int kMaxLevels = 64;
 inline constexpr int kFirstEdgeTree = 1024;
 inline constexpr int kCoverageTree = kFirstEdgeTree;
 inline constexpr int kLastTree = 2046;
-inline constexpr int kMaxThemes = 900;
+inline constexpr int kMaxThemes = 900;  ///< and parts of themes, which are numbered after them
+/// The footprints of standing themes as they were imported; blocks without a directory.
+inline constexpr int kFootprintTree = 2046;
+/// In place of the source of a point: no vertex, but a position where others make way.
+inline constexpr std::uint16_t kMask = 0xffff;
+/// The finest level of a segment that is none, but one of another theme (its reach) that makes way.
+inline constexpr std::uint8_t kMaskedSegment = 0xff;
 constexpr int vertex_tree(int theme) {
   return kMaxLevels + theme;
 }
@@ -50,6 +56,9 @@ inline constexpr std::size_t kChunkLeaves = 1024;
 /// The key of a leaf's block, or of the directory chunk that begins with the leaf. Ascending along the curve.
 constexpr std::uint64_t key(int tree, std::uint64_t code) {
   return static_cast<std::uint64_t>(tree) << 52 | code >> 8;
+}
+constexpr std::uint64_t footprint_key(std::uint64_t theme, std::uint64_t number) {
+  return static_cast<std::uint64_t>(kFootprintTree) << 52 | theme << 32 | number;
 }
 constexpr int tree_of(std::uint64_t key) {
   return static_cast<int>(key >> 52);

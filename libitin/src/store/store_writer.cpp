@@ -12,6 +12,7 @@
 #include "store/edge_quadtree.hpp"
 #include "store/leaf_cutter.hpp"
 #include "store/metadata_json.hpp"
+#include "store/morton_range.hpp"
 #include "store/replacement_file.hpp"
 #include "store/seal.hpp"
 #include "store/store_format.hpp"
@@ -19,6 +20,22 @@
 namespace itin {
 
 static_assert(kLeafCapacity <= kMaxBlockPoints);
+
+namespace {
+
+/// To the leaves, which tile the root along the curve, that the reach's box meets.
+void raise(std::vector<Leaf>& leaves, const FeatureReach& reach) {
+  const MortonRange range(reach.box);
+  for (std::optional<std::uint64_t> code = range.next(0); code;) {
+    const auto leaf = std::upper_bound(leaves.begin(), leaves.end(), *code,
+                                       [](std::uint64_t c, const Leaf& l) { return c < l.cell.end(); });
+    if (leaf == leaves.end()) return;
+    leaf->hi = std::max(leaf->hi, reach.height);
+    code = range.next(leaf->cell.end());
+  }
+}
+
+}  // namespace
 
 class StoreWriter::Impl {
  public:
@@ -28,8 +45,11 @@ class StoreWriter::Impl {
                       std::span<const std::uint16_t> sources, std::int32_t lo, std::int32_t hi);
   void add_theme_vertices(std::uint16_t theme, std::span<const GridPoint> points,
                           std::span<const std::uint16_t> sources);
+  void add_part_vertices(std::uint16_t part, std::span<const GridPoint> points, std::span<const std::uint16_t> sources,
+                         std::span<const FeatureReach> reaches);
   void add_segments(const std::vector<Segment>& segments);
-  void commit(std::vector<SourceInfo> sources, std::vector<ThemeInfo> themes);
+  std::uint32_t add_footprints(std::uint16_t theme, std::span<const StoredFootprint> footprints);
+  void commit(std::vector<SourceInfo> sources, std::vector<ThemeInfo> themes, std::vector<ThemePart> parts);
 
  private:
   void add_points(int tree, const Cell& cell, std::span<const GridPoint> points, std::span<const std::uint16_t> sources,
@@ -123,7 +143,7 @@ void StoreWriter::Impl::add_points(int tree, const Cell& cell, std::span<const G
     block = encode_block(cell, points, sources);
   }
   for (const GridPoint& p : points) metadata_.bounds.extend(p.x, p.y);
-  metadata_.vertices += points.size();
+  metadata_.vertices += points.size() - static_cast<std::size_t>(std::count(sources.begin(), sources.end(), format::kMask));
   add_leaf(leaf, block);
 }
 
@@ -149,6 +169,39 @@ void StoreWriter::Impl::add_segments(const std::vector<Segment>& segments) {
   for (auto& [theme, of_theme] : by_theme) add_edges(theme, std::move(of_theme));
 }
 
+void StoreWriter::Impl::add_part_vertices(std::uint16_t part, std::span<const GridPoint> points,
+                                          std::span<const std::uint16_t> sources, std::span<const FeatureReach> reaches) {
+  if (part == kCoverage || part > format::kMaxThemes || points.size() != sources.size()) {
+    throw std::invalid_argument("not a part of a theme");
+  }
+  std::vector<Leaf> leaves;
+  LeafCutter cutter(kLeafCapacity, [&](const Cell& cell, std::uint32_t count) {
+    Leaf& leaf = leaves.emplace_back();
+    leaf.cell = cell, leaf.points = count;
+  });
+  for (const GridPoint& p : points) cutter.add(morton(p.x, p.y));
+  cutter.finish();
+  for (const FeatureReach& reach : reaches) raise(leaves, reach);
+  std::size_t first = 0;
+  for (const Leaf& leaf : leaves) {
+    if (leaf.points > 0 || leaf.hi > 0) {
+      add_points(format::vertex_tree(part), leaf.cell, points.subspan(first, leaf.points),
+                 sources.subspan(first, leaf.points), 0, leaf.hi);
+    }
+    first += leaf.points;
+  }
+}
+
+std::uint32_t StoreWriter::Impl::add_footprints(std::uint16_t theme, std::span<const StoredFootprint> footprints) {
+  std::uint32_t blocks = 0;
+  for (; !footprints.empty(); ++blocks) {
+    const auto some = footprints.first(std::min(footprints.size(), kFootprintsInBlock));
+    insert(*insert_block_, BlobKind::Block, format::footprint_key(theme, blocks), encode_footprints(some));
+    footprints = footprints.subspan(some.size());
+  }
+  return blocks;
+}
+
 void StoreWriter::Impl::add_edges(std::uint16_t theme, std::vector<Segment> segments) {
   if (theme > format::kMaxThemes) throw std::invalid_argument("too many themes");
   for_each_edge_leaf(std::move(segments), [&](const Cell& cell, const std::vector<Segment>& in_cell) {
@@ -158,11 +211,13 @@ void StoreWriter::Impl::add_edges(std::uint16_t theme, std::vector<Segment> segm
   });
 }
 
-void StoreWriter::Impl::commit(std::vector<SourceInfo> sources, std::vector<ThemeInfo> themes) {
+void StoreWriter::Impl::commit(std::vector<SourceInfo> sources, std::vector<ThemeInfo> themes,
+                               std::vector<ThemePart> parts) {
   if (!chunk_.empty()) flush_chunk();
   insert(*insert_chunk_, BlobKind::Directory, format::kChunkListKey, encode_chunk_list(chunks_));
   metadata_.sources = std::move(sources);
   metadata_.themes = std::move(themes);
+  metadata_.parts = std::move(parts);
   const std::string json = metadata_to_json(metadata_);
   {
     Statement statement = database_.prepare("INSERT INTO metadata(name, value, checksum) VALUES('store', ?, ?)");
@@ -193,8 +248,17 @@ void StoreWriter::add_theme_vertices(std::uint16_t theme, std::span<const GridPo
                                      std::span<const std::uint16_t> sources) {
   impl_->add_theme_vertices(theme, points, sources);
 }
-void StoreWriter::commit(std::vector<SourceInfo> sources, std::vector<ThemeInfo> themes) {
-  impl_->commit(std::move(sources), std::move(themes));
+void StoreWriter::add_part_vertices(std::uint16_t part, std::span<const GridPoint> points,
+                                    std::span<const std::uint16_t> sources, std::span<const FeatureReach> reaches) {
+  impl_->add_part_vertices(part, points, sources, reaches);
+}
+void StoreWriter::add_footprints(std::vector<ThemeInfo>& themes,
+                                 const std::vector<std::vector<StoredFootprint>>& footprints) {
+  for (std::size_t t = 0; t < footprints.size(); ++t)
+    themes[t].footprint_blocks = impl_->add_footprints(static_cast<std::uint16_t>(t + 1), footprints[t]);
+}
+void StoreWriter::commit(std::vector<SourceInfo> sources, std::vector<ThemeInfo> themes, std::vector<ThemePart> parts) {
+  impl_->commit(std::move(sources), std::move(themes), std::move(parts));
 }
 
 }  // namespace itin

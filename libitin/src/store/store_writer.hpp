@@ -3,7 +3,9 @@
 //   StoreWriter writer(path, crs_wkt, grid, tolerances);
 //   for each level, finest first: for each leaf in Morton order: writer.add_leaf(...);
 //   for each theme with vertices of its own, ascending: writer.add_theme_vertices(...);
+//   for each part of a standing theme, ascending: writer.add_part_vertices(...);
 //   writer.add_segments(segments);
+//   writer.add_footprints(themes, footprints);
 //   writer.commit(sources, themes);
 //
 // Until commit() returns, and whatever happens before, the file at `path` is what it was. Destroying an uncommitted
@@ -18,9 +20,16 @@
 
 #include <itin/store.hpp>
 
+#include "store/footprint_codec.hpp"
 #include "store/point_index.hpp"
 
 namespace itin {
+
+/// How far a feature reaches above the full surface under it, grid units.
+struct FeatureReach {
+  GridBox box;
+  std::int32_t height = 0;
+};
 
 class StoreWriter {
  public:
@@ -39,10 +48,17 @@ class StoreWriter {
   /// The vertices that are not part of the full surface, but of this theme's lines on it; in Morton order.
   void add_theme_vertices(std::uint16_t theme, std::span<const GridPoint> points,
                           std::span<const std::uint16_t> sources);
+  /// The same of a part of a standing theme, which is numbered after the themes. Points with format::kMask as their
+  /// source are no vertices. Each cell takes the greatest of the reaches that it meets; cells without points are
+  /// written too where it is above 0.
+  void add_part_vertices(std::uint16_t part, std::span<const GridPoint> points, std::span<const std::uint16_t> sources,
+                         std::span<const FeatureReach> reaches);
   /// The coverage outline and the lines of all themes, all at once, in any order; kept in an edge quadtree a theme.
   void add_segments(const std::vector<Segment>& segments);
   /// Certified error of each level = the union of its leaves'. Syncs and renames. Throws FileError (disk full, ...).
-  void commit(std::vector<SourceInfo> sources, std::vector<ThemeInfo> themes = {});
+  /// `themes` gets the number of blocks of its footprints, which may be none.
+  void add_footprints(std::vector<ThemeInfo>& themes, const std::vector<std::vector<StoredFootprint>>& footprints);
+  void commit(std::vector<SourceInfo> sources, std::vector<ThemeInfo> themes = {}, std::vector<ThemePart> parts = {});
 
  private:
   class Impl;

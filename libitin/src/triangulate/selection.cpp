@@ -73,6 +73,12 @@ Selection selection_of(const StoreMetadata& metadata, const Detail& detail, cons
   for (std::size_t t = 0; t < metadata.themes.size(); ++t) {
     if (!themes.includes(metadata.themes[t])) selection.leave_out(static_cast<std::uint16_t>(t + 1));
   }
+  for (std::size_t p = 0; p < metadata.parts.size(); ++p) {
+    const ThemePart& part = metadata.parts[p];
+    // The finest tolerance of all decides: what is there must not depend on where one looks.
+    if (!selection.includes(part.theme) || part.coarsest < selection.finest())
+      selection.leave_out(static_cast<std::uint16_t>(metadata.themes.size() + p + 1));
+  }
   return selection;
 }
 

@@ -7,6 +7,7 @@
 #include <itin/triangulate.hpp>
 
 #include "triangulate/region.hpp"
+#include "triangulate/standing_index.hpp"
 
 namespace itin {
 
@@ -138,6 +139,16 @@ class Assembly {
   Tin tin_;
 };
 
+/// Lines of a part are its theme's.
+void name_themes(Tin& tin, const StoreMetadata& metadata) {
+  if (metadata.parts.empty()) return;
+  for (LineEdge& e : tin.lines) {
+    if (e.theme > metadata.themes.size()) e.theme = metadata.parts[e.theme - metadata.themes.size() - 1].theme;
+  }
+  std::sort(tin.lines.begin(), tin.lines.end());
+  tin.lines.erase(std::unique(tin.lines.begin(), tin.lines.end()), tin.lines.end());
+}
+
 }  // namespace
 
 Tin triangulate(const Store& store, const Window& window, const Detail& detail, Progress& progress,
@@ -145,7 +156,8 @@ Tin triangulate(const Store& store, const Window& window, const Detail& detail, 
   const StoreMetadata& metadata = store.metadata();
   const Selection selection = selection_of(metadata, detail, themes);
   const GridWindow grid_window(window, metadata.grid, metadata.bounds);
-  const TilePlan plan(store.points(), selection, grid_window);
+  const StandingIndex index(store, selection);
+  const TilePlan plan(index, selection, grid_window);
 
   std::vector<RegionMesh> regions(plan.cells().size());
   std::atomic<std::size_t> done = 0;
@@ -153,10 +165,12 @@ Tin triangulate(const Store& store, const Window& window, const Detail& detail, 
     progress.throw_if_cancelled();
     const Cell& cell = plan.cells()[i];
     regions[i] =
-        triangulate_region(store.points(), selection, square_of(cell), window.is_all() ? nullptr : &grid_window);
+        triangulate_region(index, selection, square_of(cell), window.is_all() ? nullptr : &grid_window);
     progress.report("triangulating", static_cast<double>(++done) / static_cast<double>(regions.size()));
   });
-  return Assembly(std::move(regions), metadata.grid).run();
+  Tin tin = Assembly(std::move(regions), metadata.grid).run();
+  name_themes(tin, metadata);
+  return tin;
 }
 
 }  // namespace itin

@@ -231,9 +231,8 @@ TEST(Building, TakesItsBaseByTheRule) {
   FootprintFeature house = test::house("house", {test::box_ring(20, 20, 40, 30)}, 0, 8);
   house.base.reset();
   const auto foot_and_eaves = [&](BaseRule rule) {
-    FeatureOptions options;
-    options.base = rule;
-    const FeatureMesh mesh = meshed({house}, &terrain, options);
+    house.base_rule = rule;
+    const FeatureMesh mesh = meshed({house}, &terrain);
     return std::array{test::heights(mesh, 0, SegmentClass::foot).first,
                       test::heights(mesh, 0, SegmentClass::foot).second,
                       test::heights(mesh, 0, SegmentClass::eaves).first};

@@ -1,0 +1,70 @@
+#include "features/part_vertices.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "store/cell.hpp"
+
+namespace itin {
+
+namespace {
+
+std::uint64_t code_of(const GridPoint& p) {
+  return morton(p.x, p.y);
+}
+bool before(const GridPoint& a, const GridPoint& b) {
+  return code_of(a) < code_of(b);
+}
+
+struct Footing {
+  double distance, z;
+};
+
+/// Of a position on a segment: how far off it lies, grid units, and the segment's height next to it.
+Footing footing(const std::pair<GridPoint, GridPoint>& segment, const GridPoint& p) {
+  const auto& [a, b] = segment;
+  const double dx = 1.0 * b.x - a.x, dy = 1.0 * b.y - a.y, px = 1.0 * p.x - a.x, py = 1.0 * p.y - a.y;
+  const double squared = dx * dx + dy * dy;
+  const double t = squared > 0 ? std::clamp((px * dx + py * dy) / squared, 0.0, 1.0) : 0;
+  return {std::hypot(px - t * dx, py - t * dy), a.z + t * (1.0 * b.z - a.z)};
+}
+
+}  // namespace
+
+std::vector<GridPoint> part_vertices(const StandingPart& part, const std::vector<Position>& ends) {
+  constexpr std::int32_t kUnknown = std::numeric_limits<std::int32_t>::min();
+  std::vector<GridPoint> fresh;
+  for (const Position& p : ends) {
+    const GridPoint point{p.x, p.y, kUnknown};
+    if (!std::binary_search(part.vertices.begin(), part.vertices.end(), point, before)) fresh.push_back(point);
+  }
+  // By x, so that a segment finds those beside it.
+  std::sort(fresh.begin(), fresh.end());
+  fresh.erase(std::unique(fresh.begin(), fresh.end()), fresh.end());
+  std::vector<double> nearest(fresh.size(), std::numeric_limits<double>::infinity());
+  for (const auto& segment : part.segments) {
+    const auto [left, right] = std::minmax(segment.first.x, segment.second.x);
+    const auto [low, high] = std::minmax(segment.first.y, segment.second.y);
+    auto p = std::lower_bound(fresh.begin(), fresh.end(), left - 1,
+                              [](const GridPoint& q, std::int32_t x) { return q.x < x; });
+    for (; p != fresh.end() && p->x <= right + 1; ++p) {
+      if (p->y < low - 1 || p->y > high + 1) continue;
+      const auto [distance, z] = footing(segment, *p);
+      double& least = nearest[static_cast<std::size_t>(p - fresh.begin())];
+      // Snap rounding leads a segment through pixels that it meets: within half the diagonal of one.
+      const bool on_it = distance <= 0.75;
+      if (!on_it && distance >= least) continue;
+      const auto height = static_cast<std::int32_t>(std::llround(z));
+      p->z = on_it && least <= 0.75 ? std::max(p->z, height) : height;
+      least = std::min(least, distance);
+    }
+  }
+  std::vector<GridPoint> all = part.vertices;
+  all.insert(all.end(), fresh.begin(), fresh.end());
+  std::sort(all.begin(), all.end(), before);
+  std::erase_if(all, [](const GridPoint& p) { return p.z == kUnknown; });
+  return all;
+}
+
+}  // namespace itin

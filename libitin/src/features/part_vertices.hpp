@@ -1,0 +1,15 @@
+// The heights of a standing part's vertices after its lines were made planar with all others: crossings have given it
+// new ones.
+#pragma once
+
+#include <vector>
+
+#include "features/standing_theme.hpp"
+
+namespace itin {
+
+/// The part's own vertices and those at `ends` (any order, repetitions allowed), each once, in Morton order. A new one
+/// lies within a grid step of some of the part's segments and has the greatest height of these there.
+std::vector<GridPoint> part_vertices(const StandingPart& part, const std::vector<Position>& ends);
+
+}  // namespace itin

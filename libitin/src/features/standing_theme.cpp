@@ -1,0 +1,279 @@
+#include "features/standing_theme.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <set>
+
+#include <itin/parallel.hpp>
+#include <itin/triangulate.hpp>
+
+#include "features/feature_mesh.hpp"
+#include "features/footprint_arrangement.hpp"
+#include "features/hot_pixel.hpp"
+#include "features/mask_index.hpp"
+#include "features/terrain_heights.hpp"
+#include "store/cell.hpp"
+#include "store/point_index.hpp"
+#include "triangulate/apex.hpp"
+
+namespace itin {
+
+namespace {
+
+/// Metres: the side of the pieces of ground that are triangulated at once.
+constexpr double kPiece = 1000;
+/// Metres, or two grid steps where those are more.
+constexpr double kWallOffset = 0.05;
+
+GridBox box_of(const FootprintFeature& feature, const Grid& grid) {
+  GridBox box;
+  const auto extend = [&](double x, double y) {
+    if (!std::isfinite(x) || !std::isfinite(y) || !grid.covers({x, y})) return;
+    const GridPoint p = grid.quantise({x, y, 0});
+    box.extend(p.x, p.y);
+  };
+  for (const PlanRing& ring : feature.rings)
+    for (const Point2& p : ring) extend(p.x, p.y);
+  for (const RoofSurface& surface : feature.surfaces)
+    for (const auto& ring : surface.rings)
+      for (const Point3& p : ring) extend(p.x, p.y);
+  return box;
+}
+
+GridBox widened(const GridBox& box, std::int32_t by) {
+  const auto cut = [](std::int64_t v) {
+    return static_cast<std::int32_t>(
+        std::clamp<std::int64_t>(v, -std::int64_t{kGridHalfSide}, std::int64_t{kGridHalfSide} - 1));
+  };
+  return {cut(std::int64_t{box.xmin} - by), cut(std::int64_t{box.ymin} - by), cut(std::int64_t{box.xmax} + by),
+          cut(std::int64_t{box.ymax} + by)};
+}
+
+std::vector<Segment> outline_near(const Store& ground, const GridBox& box) {
+  std::vector<Segment> segments;
+  ground.points().segments(box, segments);
+  std::erase_if(segments, [](const Segment& s) { return s.theme != kCoverage; });
+  return segments;
+}
+
+/// Closed segments.
+bool touch(const Segment& s, Position p, Position q) {
+  const Position a{s.ax, s.ay}, b{s.bx, s.by};
+  return crosses(s, p, q) || on_segment(a, b, p) || on_segment(a, b, q) || on_segment(p, q, a) || on_segment(p, q, b);
+}
+
+/// Whether all of a polygon is ground: it touches no outline, and one of its positions is ground.
+bool lies_on_ground(const GridPolygon& polygon, const std::vector<Segment>& outline, const TerrainHeights& terrain) {
+  const GridBox box = box_about(polygon);
+  for (const Segment& s : outline) {
+    const GridBox of_segment{std::min(s.ax, s.bx), std::min(s.ay, s.by), std::max(s.ax, s.bx), std::max(s.ay, s.by)};
+    if (!of_segment.meets(box)) continue;
+    bool meets = side_of(polygon, {s.ax, s.ay}) != Side::outside;
+    for_each_edge(polygon, [&](Position a, Position b) { meets = meets || touch(s, a, b); });
+    if (meets) return false;
+  }
+  return terrain.height_at(polygon.outline.front()).has_value();
+}
+
+/// Sets of features, by union-find.
+class Blocks {
+ public:
+  explicit Blocks(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
+  std::uint32_t of(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = of(a), b = of(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+class Standing {
+ public:
+  Standing(const Store& ground, std::span<const StoredFootprint> footprints)
+      : ground_(ground), footprints_(footprints), grid_(ground.metadata().grid) {
+    options_.grid = grid_;
+    options_.wall_offset = std::max(kWallOffset, 2 * grid_.resolution);
+    for (const LevelInfo& level : ground.metadata().levels)
+      lateral_.push_back(level.lateral_tolerance / grid_.resolution);
+  }
+
+  StandingTheme run(Progress& progress) {
+    const auto pieces = cut_into_pieces();
+    std::size_t done = 0;
+    for (const auto& [place, numbers] : pieces) {
+      progress.throw_if_cancelled();
+      progress.report("raising features", static_cast<double>(done++) / static_cast<double>(pieces.size()));
+      build(numbers);
+    }
+    for (auto& [level, part] : parts_) {
+      const auto code = [](const GridPoint& p) { return morton(p.x, p.y); };
+      std::sort(part.vertices.begin(), part.vertices.end(),
+                [&](const GridPoint& a, const GridPoint& b) { return code(a) < code(b); });
+      theme_.parts.push_back(std::move(part));
+    }
+    return std::move(theme_);
+  }
+
+ private:
+  using Numbers = std::vector<std::uint32_t>;
+
+  /// By place: features whose boxes hang together stay together.
+  std::map<std::pair<std::int64_t, std::int64_t>, Numbers> cut_into_pieces() const {
+    std::vector<GridBox> boxes;
+    for (const StoredFootprint& f : footprints_) {
+      const GridBox box = box_of(f.feature, grid_);
+      boxes.push_back(box.empty() ? GridBox{0, 0, 0, 0} : widened(box, 2));
+    }
+    const double side = kPiece / grid_.resolution;
+    std::map<std::pair<std::int64_t, std::int64_t>, Numbers> pieces;
+    for (const auto& group : groups_of(boxes)) {
+      const GridBox& box = boxes[group.front()];
+      Numbers& piece = pieces[{static_cast<std::int64_t>(std::floor(box.xmin / side)),
+                               static_cast<std::int64_t>(std::floor(box.ymin / side))}];
+      piece.insert(piece.end(), group.begin(), group.end());
+    }
+    for (auto& [place, numbers] : pieces) std::sort(numbers.begin(), numbers.end());
+    return pieces;
+  }
+
+  void build(const Numbers& numbers) {
+    std::vector<FootprintFeature> features;
+    GridBox box;
+    for (const std::uint32_t i : numbers) {
+      features.push_back(footprints_[i].feature);
+      const GridBox own = box_of(features.back(), grid_);
+      if (!own.empty()) box.extend(own);
+    }
+    if (box.empty()) box = {0, 0, 0, 0};
+    NoProgress quiet;
+    const Box window = grid_.box(widened(box, 2));
+    const Tin tin = triangulate(ground_, Window::box(window), Detail::tolerance(0), quiet, ThemeChoice::none());
+    const TerrainHeights terrain(tin);
+    const std::vector<Segment> outline = outline_near(ground_, box);
+    FeatureMesh mesh = build_feature_mesh(features, options_, &terrain, quiet);
+    const std::set<std::uint32_t> beyond = beyond_ground(mesh, outline, terrain);
+    if (!beyond.empty()) {
+      for (const std::uint32_t f : beyond) {
+        theme_.reports.push_back(features[f].name + ": left out: reaches beyond the ground");
+        features[f].rings.clear();
+        features[f].surfaces.clear();
+      }
+      mesh = build_feature_mesh(features, options_, &terrain, quiet);
+      std::erase_if(mesh.reports, [&](const std::string& report) {
+        return std::any_of(beyond.begin(), beyond.end(),
+                           [&](std::uint32_t f) { return report.starts_with(features[f].name + ": "); });
+      });
+    }
+    theme_.reports.insert(theme_.reports.end(), mesh.reports.begin(), mesh.reports.end());
+    theme_.built += mesh.built;
+    theme_.refused += mesh.refused;
+    add(mesh, terrain, numbers);
+  }
+
+  static std::set<std::uint32_t> beyond_ground(const FeatureMesh& mesh, const std::vector<Segment>& outline,
+                                               const TerrainHeights& terrain) {
+    std::set<std::uint32_t> beyond;
+    for (const FeatureMask& mask : mesh.masks) {
+      if (!lies_on_ground(mask.polygon, outline, terrain)) beyond.insert(mask.feature);
+    }
+    return beyond;
+  }
+
+  void add(const FeatureMesh& mesh, const TerrainHeights& terrain, const Numbers& numbers) {
+    const std::vector<int> levels = levels_of(mesh, numbers.size());
+    std::vector<std::int32_t> top(numbers.size(), std::numeric_limits<std::int32_t>::min());
+    std::vector<int> level_of_vertex(mesh.vertices.size(), -1);
+    for (const FeatureSegment& s : mesh.segments) {
+      const GridPoint &a = mesh.vertices[s.from], &b = mesh.vertices[s.to];
+      top[s.feature] = std::max({top[s.feature], a.z, b.z});
+      StandingPart& part = part_of(levels[s.feature], footprints_[numbers[s.feature]].source);
+      part.segments.emplace_back(a, b);
+      level_of_vertex[s.from] = level_of_vertex[s.to] = levels[s.feature];
+    }
+    std::vector<GridPolygon> masks;
+    for (const FeatureMask& mask : mesh.masks) masks.push_back(mask.polygon);
+    const MaskIndex index(masks);
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+      const GridPoint& p = mesh.vertices[v];
+      if (level_of_vertex[v] < 0) {
+        // It has no segments: the feature is the one on whose ground it stands.
+        const auto mask = index.at({p.x, p.y});
+        if (!mask) continue;
+        const std::uint32_t feature = mesh.masks[*mask].feature;
+        top[feature] = std::max(top[feature], p.z);
+        level_of_vertex[v] = levels[feature];
+      }
+      parts_.at(level_of_vertex[v]).vertices.push_back(p);
+    }
+    std::vector<std::int32_t> heights(mesh.masks.size());
+    parallel_for(mesh.masks.size(), [&](std::size_t m) {
+      const auto low = terrain.base_height({mesh.masks[m].polygon}, BaseRule::minimum);
+      const std::int32_t ground = low ? static_cast<std::int32_t>(std::floor(*low / grid_.resolution)) : 0;
+      heights[m] = std::max(0, top[mesh.masks[m].feature] - ground);
+    });
+    for (std::size_t m = 0; m < mesh.masks.size(); ++m) {
+      const auto found = parts_.find(levels[mesh.masks[m].feature]);
+      if (found == parts_.end()) continue;
+      found->second.reaches.push_back({box_about(mesh.masks[m].polygon), heights[m]});
+      found->second.masks.push_back(mesh.masks[m].polygon);
+    }
+  }
+
+  StandingPart& part_of(int level, std::uint16_t source) {
+    const auto [at, fresh] = parts_.try_emplace(level);
+    if (fresh) at->second.coarsest = level, at->second.source = source;
+    at->second.source = std::min(at->second.source, source);
+    return at->second;
+  }
+
+  /// The coarsest level of each feature.
+  std::vector<int> levels_of(const FeatureMesh& mesh, std::size_t count) const {
+    Blocks blocks(count);
+    std::vector<std::uint32_t> first(mesh.vertices.size(), static_cast<std::uint32_t>(count));
+    for (const FeatureSegment& s : mesh.segments) {
+      for (const std::uint32_t v : {s.from, s.to}) {
+        if (first[v] == count) first[v] = s.feature;
+        blocks.join(first[v], s.feature);
+      }
+    }
+    std::vector<GridBox> boxes(count);
+    for (const FeatureSegment& s : mesh.segments) {
+      GridBox& box = boxes[blocks.of(s.feature)];
+      for (const std::uint32_t v : {s.from, s.to}) box.extend(mesh.vertices[v].x, mesh.vertices[v].y);
+    }
+    std::vector<int> levels(count, 0);
+    for (std::uint32_t f = 0; f < count; ++f) {
+      const GridBox& box = boxes[blocks.of(f)];
+      if (box.empty()) continue;
+      const std::int32_t side = std::max(box.xmax - box.xmin, box.ymax - box.ymin);
+      for (int k = 0; k < static_cast<int>(lateral_.size()) && lateral_[static_cast<std::size_t>(k)] <= side; ++k)
+        levels[f] = k;
+    }
+    return levels;
+  }
+
+  const Store& ground_;
+  std::span<const StoredFootprint> footprints_;
+  Grid grid_;
+  FeatureOptions options_;
+  std::vector<double> lateral_;
+  std::map<int, StandingPart> parts_;
+  StandingTheme theme_;
+};
+
+}  // namespace
+
+StandingTheme stand(const Store& ground, std::span<const StoredFootprint> footprints, Progress& progress) {
+  return Standing(ground, footprints).run(progress);
+}
+
+}  // namespace itin

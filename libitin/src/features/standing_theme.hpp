@@ -1,0 +1,42 @@
+// Standing features on a store's ground: from footprints to what a store keeps of them, part by part.
+//
+// Features that touch are there together or not at all, so that no query sees half a block of houses: they are kept as
+// long as the longer side of the box about them all is at least the lateral tolerance. A part holds those that are kept
+// up to the same level.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <itin/progress.hpp>
+#include <itin/store.hpp>
+
+#include "features/plan_overlay.hpp"
+#include "store/footprint_codec.hpp"
+#include "store/store_writer.hpp"
+
+namespace itin {
+
+struct StandingPart {
+  int coarsest = 0;
+  std::uint16_t source = 0;  ///< the first of its features'
+  std::vector<std::pair<GridPoint, GridPoint>> segments;
+  std::vector<GridPoint> vertices;  ///< in Morton order: the ends of segments, and others
+  std::vector<GridPolygon> masks;   ///< where others make way
+  std::vector<FeatureReach> reaches;
+};
+
+struct StandingTheme {
+  std::vector<StandingPart> parts;  ///< the finest first, none without features
+  std::vector<std::string> reports;  ///< one line a feature and finding
+  std::uint64_t built = 0, refused = 0;
+};
+
+/// Footprints that reach beyond the ground are refused. Reads the ground in pieces of about a square kilometre; memory
+/// follows these and the features. Throws Cancelled, and what triangulate() throws.
+StandingTheme stand(const Store& ground, std::span<const StoredFootprint> footprints, Progress& progress);
+
+}  // namespace itin

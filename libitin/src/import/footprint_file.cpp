@@ -1,0 +1,92 @@
+#include "import/footprint_file.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+
+#include "import/city_json.hpp"
+#include "import/file_digest.hpp"
+#include "import/scattered_source.hpp"
+
+namespace itin {
+
+namespace {
+
+/// By its name, and the word that the format asks for near the beginning.
+bool is_city_json(const std::string& path) {
+  if (!path.ends_with(".json") && !path.ends_with(".cityjson")) return false;
+  std::ifstream file(path, std::ios::binary);
+  std::string beginning(std::size_t{1} << 16, '\0');
+  file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+  beginning.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
+  return beginning.find("\"CityJSON\"") != std::string::npos;
+}
+
+FeatureKind feature_kind(ThemeKind kind) {
+  if (kind == ThemeKind::Walls) return FeatureKind::wall;
+  return kind == ThemeKind::Vegetation ? FeatureKind::vegetation : FeatureKind::building;
+}
+
+FootprintSource read_model(const std::string& path, const ImportOptions& options, const StoreMetadata& store) {
+  if (options.kind != ThemeKind::Buildings)
+    throw InputError(path + ": CityJSON holds buildings; import it with --kind buildings");
+  CityJsonQuery query;
+  query.path = path;
+  query.crs = options.crs;
+  query.ground_as_base = !options.base;
+  return read_city_json(query, store.crs_wkt);
+}
+
+FootprintSource read_layer(const std::string& path, const ImportOptions& options, const StoreMetadata& store) {
+  FootprintQuery query;
+  query.path = path;
+  query.layer = options.layer;
+  query.where = options.where;
+  query.height_field = options.height_field;
+  query.eaves_field = options.eaves_field;
+  query.base_field = options.base_field;
+  query.name_field = options.name_field;
+  query.crs = options.crs;
+  query.height = options.height;
+  query.kind = feature_kind(*options.kind);
+  query.roof = options.roof;
+  query.thickness = options.thickness;
+  return read_footprints(query, store.crs_wkt, store.grid);
+}
+
+}  // namespace
+
+bool stands(const ImportOptions& options) {
+  if (options.kind != ThemeKind::Buildings && options.kind != ThemeKind::Vegetation &&
+      options.kind != ThemeKind::Walls)
+    return false;
+  return options.height || !options.height_field.empty() || !options.eaves_field.empty() ||
+         std::any_of(options.sources.begin(), options.sources.end(), is_city_json);
+}
+
+std::vector<FootprintFile> read_footprint_files(const ImportOptions& options, const StoreMetadata& store) {
+  std::vector<FootprintFile> files;
+  NoProgress quiet;
+  for (const std::string& path : options.sources) {
+    FootprintFile& file = files.emplace_back();
+    file.footprints =
+        is_city_json(path) ? read_model(path, options, store) : read_layer(path, options, store);
+    if (file.footprints.features.empty())
+      throw FileError(path, file.footprints.filtered > 0 ? "holds no features that match --where" : "holds no features");
+    for (FootprintFeature& feature : file.footprints.features)
+      feature.base_rule = options.base.value_or(BaseRule::minimum);
+    file.info.path = path;
+    file.info.kind = name_of(*options.kind);
+    file.info.theme = options.theme;
+    file.info.source_crs = file.footprints.crs;
+    file.info.sha256 = path.starts_with("/vsi") ? std::string() : file_sha256(path, quiet);
+    file.info.imported = utc_now();
+  }
+  return files;
+}
+
+}  // namespace itin

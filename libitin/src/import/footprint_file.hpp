@@ -1,0 +1,20 @@
+// The files of an import whose features stand on the ground.
+#pragma once
+
+#include <vector>
+
+#include <itin/import.hpp>
+
+#include "import/footprint_reader.hpp"
+
+namespace itin {
+
+struct FootprintFile {
+  FootprintSource footprints;
+  SourceInfo info;
+};
+
+/// Reads options.sources: CityJSON, or vector layers. Throws FileError, InputError.
+std::vector<FootprintFile> read_footprint_files(const ImportOptions& options, const StoreMetadata& store);
+
+}  // namespace itin

@@ -1,0 +1,120 @@
+#include "pyramid/part_masks.hpp"
+
+#include <algorithm>
+#include <span>
+
+#include <itin/parallel.hpp>
+
+#include "features/mask_index.hpp"
+#include "store/store_format.hpp"
+
+namespace itin {
+
+namespace {
+
+using Codes = std::vector<std::uint64_t>;
+
+std::uint64_t code_of(const GridPoint& p) {
+  return morton(p.x, p.y);
+}
+
+bool among(const Codes& ascending, std::uint64_t code) {
+  return std::binary_search(ascending.begin(), ascending.end(), code);
+}
+
+/// One part on its way to the store.
+class PartMask {
+ public:
+  explicit PartMask(const PlacedPart& part) : part_(part), index_(part.masks) {
+    for (const GridPoint& p : part.vertices) own_.push_back(code_of(p));
+  }
+
+  int rank() const { return part_.rank; }
+  bool covers(std::uint64_t code) const {
+    return index_.at({morton_x(code), morton_y(code)}).has_value() && !among(own_, code);
+  }
+  /// In any order, also twice.
+  void add(std::span<const std::uint64_t> codes) { masked_.insert(masked_.end(), codes.begin(), codes.end()); }
+  void finish() {
+    std::sort(masked_.begin(), masked_.end());
+    masked_.erase(std::unique(masked_.begin(), masked_.end()), masked_.end());
+  }
+  /// Lines end at feet, so a segment lies inside or outside as a whole.
+  bool covers(const Segment& s) const {
+    return among(masked_, morton(s.ax, s.ay)) || among(masked_, morton(s.bx, s.by)) ||
+           index_.middle_inside({s.ax, s.ay}, {s.bx, s.by});
+  }
+
+  void write(std::uint16_t number, StoreWriter& writer) const {
+    std::vector<std::pair<GridPoint, std::uint16_t>> entries;
+    for (const GridPoint& p : part_.vertices) entries.emplace_back(p, part_.source);
+    // Masks have no height; any near those of vertices takes the least room.
+    const std::int32_t z = part_.vertices.front().z;
+    for (const std::uint64_t code : masked_)
+      entries.emplace_back(GridPoint{morton_x(code), morton_y(code), z}, format::kMask);
+    std::sort(entries.begin(), entries.end(),
+              [](const auto& a, const auto& b) { return code_of(a.first) < code_of(b.first); });
+    std::vector<GridPoint> points;
+    std::vector<std::uint16_t> sources;
+    for (const auto& [point, source] : entries) {
+      points.push_back(point);
+      sources.push_back(source);
+    }
+    writer.add_part_vertices(number, points, sources, part_.reaches);
+  }
+
+ private:
+  const PlacedPart& part_;
+  MaskIndex index_;
+  Codes own_, masked_;
+};
+
+void mask_terrain(std::vector<PartMask>& parts, const WorkingIndex& index, const std::vector<CurveRange>& tiles,
+                  Progress& progress) {
+  std::vector<std::vector<Codes>> found(tiles.size(), std::vector<Codes>(parts.size()));
+  parallel_for(tiles.size(), [&](std::size_t t) {
+    progress.throw_if_cancelled();
+    for (const RawPoint& p : index.read(tiles[t])) {
+      if (p.level == kDropped) continue;
+      for (std::size_t i = 0; i < parts.size(); ++i)
+        if (parts[i].covers(p.code)) found[t][i].push_back(p.code);
+    }
+  });
+  for (const auto& of_tile : found)
+    for (std::size_t i = 0; i < parts.size(); ++i) parts[i].add(of_tile[i]);
+}
+
+void mask_vertices(PartMask& part, const std::vector<GridPoint>& vertices) {
+  Codes codes;
+  for (const GridPoint& p : vertices)
+    if (part.covers(code_of(p))) codes.push_back(code_of(p));
+  part.add(codes);
+}
+
+}  // namespace
+
+std::vector<Segment> write_parts(const ThemeLines& lines, const WorkingIndex& index,
+                                 const std::vector<CurveRange>& tiles, const std::vector<GridPoint>& draped,
+                                 const std::vector<Segment>& segments, StoreWriter& writer, Progress& progress) {
+  std::vector<Segment> masked;
+  if (lines.parts.empty()) return masked;
+  std::vector<PartMask> parts;
+  for (const PlacedPart& part : lines.parts) parts.emplace_back(part);
+  mask_terrain(parts, index, tiles, progress);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    mask_vertices(parts[i], draped);
+    for (const PlacedPart& other : lines.parts)
+      if (other.rank > parts[i].rank()) mask_vertices(parts[i], other.vertices);
+    parts[i].finish();
+    const auto number = static_cast<std::uint16_t>(lines.themes() + i + 1);
+    parts[i].write(number, writer);
+    for (const Segment& s : segments) {
+      const bool lower = s.theme <= lines.themes() || parts[s.theme - lines.themes() - 1].rank() > parts[i].rank();
+      if (s.theme == kCoverage || !lower || !parts[i].covers(s)) continue;
+      masked.push_back({s.ax, s.ay, s.bx, s.by, number, format::kMaskedSegment, format::kMaskedSegment, s.theme});
+    }
+  }
+  return masked;
+}
+
+}  // namespace itin

@@ -1,0 +1,19 @@
+// What makes way for standing features: the vertices and lines under them.
+#pragma once
+
+#include <vector>
+
+#include "pyramid/theme_lines.hpp"
+#include "pyramid/working_index.hpp"
+#include "store/store_writer.hpp"
+
+namespace itin {
+
+/// Writes the vertices of all parts, with the positions where vertices of the terrain, of lines on the ground
+/// (`draped`) and of parts of greater rank make way for them. Returns the segments, of all that are given, that do: as
+/// FORMAT.md has them in the parts' edge trees.
+std::vector<Segment> write_parts(const ThemeLines& lines, const WorkingIndex& index,
+                                 const std::vector<CurveRange>& tiles, const std::vector<GridPoint>& draped,
+                                 const std::vector<Segment>& segments, StoreWriter& writer, Progress& progress);
+
+}  // namespace itin

@@ -1,0 +1,29 @@
+// Footprints as they were imported, kept so that standing features can be built again when the terrain under them
+// changes. See libitin/FORMAT.md, "Footprint block".
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <itin/store.hpp>
+
+#include "features/footprint.hpp"
+
+namespace itin {
+
+struct StoredFootprint {
+  FootprintFeature feature;
+  std::uint16_t source = 0;
+};
+
+/// Of a theme, by its number, in the order of import. Throws CorruptStore.
+std::vector<StoredFootprint> stored_footprints(const Store& store, std::uint16_t theme);
+
+inline constexpr std::size_t kFootprintsInBlock = 256;
+
+std::vector<std::uint8_t> encode_footprints(std::span<const StoredFootprint> footprints);
+/// Throws DecodeError.
+std::vector<StoredFootprint> decode_footprints(std::span<const std::uint8_t> bytes);
+
+}  // namespace itin

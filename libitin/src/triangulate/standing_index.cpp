@@ -1,0 +1,82 @@
+#include "triangulate/standing_index.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include "store/store_format.hpp"
+
+namespace itin {
+
+namespace {
+
+constexpr std::size_t kCacheBytes = std::size_t{64} << 20;
+
+}  // namespace
+
+StandingIndex::StandingIndex(const Store& store, const Selection& selection)
+    : base_(store.points()), themes_(store.metadata().themes.size()), cache_(kCacheBytes) {
+  const StoreMetadata& metadata = store.metadata();
+  const auto last = static_cast<int>(themes_);
+  ranks_.assign(themes_ + 1, last);
+  for (std::size_t p = 0; p < metadata.parts.size(); ++p) {
+    const ThemeInfo& own = metadata.themes[metadata.parts[p].theme - std::size_t{1}];
+    const bool chosen = selection.includes(static_cast<std::uint16_t>(themes_ + p + 1));
+    const auto rank = std::count_if(metadata.themes.begin(), metadata.themes.end(),
+                                    [&](const ThemeInfo& theme) { return theme.stands() && comes_before(theme, own); });
+    ranks_.push_back(chosen ? static_cast<int>(rank) : kNotThere);
+    any_ = any_ || chosen;
+  }
+}
+
+/// Ascending codes of where what has rank `below` makes way.
+std::vector<std::uint64_t> StandingIndex::masks(const GridBox& box, int below) const {
+  std::vector<Leaf> leaves;
+  base_.leaves(base_.level_count(), box, leaves);
+  std::vector<std::uint64_t> codes;
+  for (const Leaf& leaf : leaves) {
+    if (!is_part(leaf.theme) || rank(leaf.theme) == kNotThere || rank(leaf.theme) >= below) continue;
+    for (const GridPoint& p : base_.block(leaf)->points)
+      if (box.contains(p.x, p.y)) codes.push_back(morton(p.x, p.y));
+  }
+  std::sort(codes.begin(), codes.end());
+  return codes;
+}
+
+std::shared_ptr<const Block> StandingIndex::block(const Leaf& leaf) const {
+  if (!any_) return base_.block(leaf);
+  if (auto cached = cache_.find(leaf.key)) return std::static_pointer_cast<const Block>(std::move(cached));
+  std::shared_ptr<const Block> whole = base_.block(leaf);
+  const std::vector<std::uint64_t> masked = masks(leaf.cell.box(), rank(leaf.theme));
+  if (masked.empty() && !is_part(leaf.theme)) return whole;
+  auto rest = std::make_shared<Block>();
+  for (std::size_t k = 0; k < whole->points.size(); ++k) {
+    const GridPoint& p = whole->points[k];
+    if (is_part(leaf.theme) && whole->sources[k] == format::kMask) continue;
+    if (std::binary_search(masked.begin(), masked.end(), morton(p.x, p.y))) continue;
+    rest->points.push_back(p);
+    rest->sources.push_back(whole->sources[k]);
+    if (!whole->levels.empty()) rest->levels.push_back(whole->levels[k]);
+  }
+  cache_.insert(leaf.key, rest,
+                sizeof(Block) + rest->points.size() * (sizeof(GridPoint) + sizeof(std::uint16_t) + sizeof(std::uint8_t)));
+  return rest;
+}
+
+void StandingIndex::segments(const GridBox& box, std::vector<Segment>& out) const {
+  if (!any_) return base_.segments(box, out);
+  std::vector<Segment> found;
+  base_.segments(box, found);
+  using Name = std::tuple<std::int32_t, std::int32_t, std::int32_t, std::int32_t, std::int32_t>;
+  const auto name = [](const Segment& s, std::int32_t theme) { return Name{s.ax, s.ay, s.bx, s.by, theme}; };
+  std::vector<Name> masked;
+  for (const Segment& s : found) {
+    if (s.finest == format::kMaskedSegment && rank(s.theme) != kNotThere) masked.push_back(name(s, s.reach));
+  }
+  std::sort(masked.begin(), masked.end());
+  for (const Segment& s : found) {
+    if (s.finest == format::kMaskedSegment || rank(s.theme) == kNotThere) continue;
+    if (!std::binary_search(masked.begin(), masked.end(), name(s, s.theme))) out.push_back(s);
+  }
+}
+
+}  // namespace itin

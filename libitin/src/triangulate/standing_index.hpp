@@ -1,0 +1,46 @@
+// A store's vertices and lines with the chosen standing features among them, and without what makes way for these.
+//
+//   const StandingIndex index(store, selection);     // then as any PointIndex, with the same selection
+//
+// What is there depends on the selection alone, never on the window, so all that holds of a store's triangulations
+// holds of these.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <itin/store.hpp>
+
+#include "store/block_cache.hpp"
+#include "store/point_index.hpp"
+#include "triangulate/selection.hpp"
+
+namespace itin {
+
+/// Safe for concurrent use. Refers to the store, which must outlive it.
+class StandingIndex final : public PointIndex {
+ public:
+  StandingIndex(const Store& store, const Selection& selection);
+
+  int level_count() const override { return base_.level_count(); }
+  GridBox bounds() const override { return base_.bounds(); }
+  void leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const override { base_.leaves(finest, box, out); }
+  std::shared_ptr<const Block> block(const Leaf& leaf) const override;
+  void segments(const GridBox& box, std::vector<Segment>& out) const override;
+
+ private:
+  static constexpr int kNotThere = -1;
+  /// Of what a theme number names: kNotThere for parts that are not chosen; themes on the ground and the terrain come
+  /// after all parts.
+  int rank(std::uint16_t theme) const { return ranks_[theme]; }
+  bool is_part(std::uint16_t theme) const { return theme > themes_; }
+  std::vector<std::uint64_t> masks(const GridBox& box, int below) const;
+
+  const PointIndex& base_;
+  std::size_t themes_;
+  std::vector<int> ranks_;
+  bool any_ = false;  ///< whether some part is chosen
+  mutable BlockCache cache_;
+};
+
+}  // namespace itin
