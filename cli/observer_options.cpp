@@ -19,7 +19,7 @@ void ObserverOptions::declare(CLI::App& app) {
   app.add_option("--name-field", sites_.name_field, "The field of that file that holds names")->type_name("FIELD");
   app.add_option("--observer-height", height_text_, "h of observers that do not say (default: 2)")->type_name("METRES");
   app.add_flag("--absolute-heights", absolute_heights_, "Every h is an elevation, not a height above the surface");
-  app.add_option("--observer-on", observer_on_, "What observers stand on (without themes both are the same)")
+  app.add_option("--observer-on", observer_on_, "ground (default), or the surface with the roofs and tops of --themes")
       ->type_name("ground|surface");
   in_crs_.declare(app);
 }

@@ -29,6 +29,7 @@ class ObserverOptions {
   /// Throws InputError.
   void validate();
   bool absolute_heights() const { return absolute_heights_; }
+  bool on_surface() const { return observer_on_ == "surface"; }
   /// At least one. Throws InputError, FileError.
   std::vector<ObserverPlace> places(const StoreMetadata& metadata) const;
 

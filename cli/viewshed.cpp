@@ -89,6 +89,8 @@ class ViewshedVerb final : public Verb {
     angles("elevation_deg", request_.elevation);
     if (request_.cell_size) parameters["cell_m"] = *request_.cell_size;
     if (!like_.empty()) parameters["like"] = like_;
+    parameters["observer_on"] = request_.observers_on_surface ? "surface" : "ground";
+    parameters["target_on"] = target_on_;
     parameters.update(detail_.parameters());
     parameters.update(themes_.parameters());
     parameters["nodata"] = nodata_text_.empty() ? "unknown" : nodata_text_;
@@ -115,7 +117,7 @@ class ViewshedVerb final : public Verb {
   void declare_targets(CLI::App& app) {
     app.add_option("--target-height", target_height_text_, "h of the targets, one in every cell (default: 0)")
         ->type_name("METRES");
-    app.add_option("--target-on", target_on_, "What targets stand on (without themes both are the same)")
+    app.add_option("--target-on", target_on_, "ground (default), or the surface with the roofs and tops of --themes")
         ->type_name("ground|surface");
     app.add_option("--radius", radius_text_, "How far to look (default: as far as there is ground)")
         ->type_name("METRES");
@@ -146,6 +148,8 @@ class ViewshedVerb final : public Verb {
       throw InputError("--target-height: a height must not be negative; for an elevation give --absolute-heights");
     }
     parse_choice("--target-on", target_on_, {"ground", "surface"});
+    request_.targets_on_surface = target_on_ == "surface";
+    request_.observers_on_surface = observers_.on_surface();
     if (!radius_text_.empty()) request_.radius = parse_number("--radius", radius_text_, Range::kPositive);
     if (!min_radius_text_.empty()) {
       request_.min_radius = parse_number("--min-radius", min_radius_text_, Range::kNotNegative);

@@ -14,7 +14,12 @@ Surveyed compute_with_surface(const Store& store, const Request& request, Progre
   Surveyed surveyed;
   surveyed.tin = triangulate(store, window_of(request), request.detail, progress, request.themes);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  surveyed.result = compute(surveyed.tin, request, progress);
+  if (surveyed.tin.standing.empty() || (request.observers_on_surface && request.targets_on_surface)) {
+    surveyed.result = compute(surveyed.tin, request, progress);
+  } else {
+    const Tin ground = triangulate(store, window_of(request), request.detail, progress, ThemeChoice::none());
+    surveyed.result = compute(surveyed.tin, ground, request, progress);
+  }
   surveyed.result.statistics.retrieval_seconds = elapsed.count();
   return surveyed;
 }

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -47,8 +48,17 @@ struct Eye {
 
 constexpr const char* kNoGround = "there is no data there; move it onto the data";
 
-double ground_of(const Scene& scene, const Observer& observer) {
-  const std::optional<double> ground = scene.ground(observer.position);
+/// The height under an observer on a surface that is not the scene's.
+std::optional<double> height_on(const Tin& tin, Point2 position) {
+  std::vector<std::uint32_t> all(tin.triangles.size());
+  std::iota(all.begin(), all.end(), 0U);
+  const std::optional<double> units = surface_height(tin, all, position);
+  return units ? std::optional(*units * tin.grid.resolution) : std::nullopt;
+}
+
+double ground_of(const Scene& scene, const Tin* ground_tin, const Observer& observer) {
+  const std::optional<double> ground =
+      ground_tin != nullptr ? height_on(*ground_tin, observer.position) : scene.ground(observer.position);
   if (!ground) refuse(observer, kNoGround);
   if (observer.absolute && observer.height < *ground)
     refuse(observer, fmt::format("its elevation {:g} m is below the ground, {:.2f} m", observer.height, *ground));
@@ -226,7 +236,10 @@ void look_for_voids(const Tin& tin, const std::vector<BoundaryEdge>& boundary, R
 
 }  // namespace
 
-Result compute(const Tin& tin, const Request& request, Progress& progress) {
+namespace {
+
+/// `ground` is null where it is the surface itself.
+Result compute_on(const Tin& tin, const Tin* ground, const Request& request, Progress& progress) {
   validate(request);
   if (tin.triangles.empty()) refuse(request.observers.front(), kNoGround);
   Result result;
@@ -234,7 +247,9 @@ Result compute(const Tin& tin, const Request& request, Progress& progress) {
   Stopwatch watch;
   progress.report("scene", 0);
   const Scene scene(tin, request.earth, request.nodata, ceiling_of(tin, request));
-  for (const Observer& observer : request.observers) result.ground_m.push_back(ground_of(scene, observer));
+  for (const Observer& observer : request.observers) {
+    result.ground_m.push_back(ground_of(scene, request.observers_on_surface ? nullptr : ground, observer));
+  }
   result.grid = cells_of(request, tin.bounds());
   look_for_voids(tin, scene.boundary(), result);
   result.statistics.triangles = tin.triangles.size();
@@ -242,15 +257,26 @@ Result compute(const Tin& tin, const Request& request, Progress& progress) {
   result.statistics.scene_seconds = watch.lap();
 
   const RasterGrid tiles = grid_of_tiles(result.grid);
-  const TriangleBins bins(tin, tiles);
+  const Tin& targets = ground != nullptr && !request.targets_on_surface ? *ground : tin;
+  const TriangleBins bins(targets, tiles);
   if (request.mode == Mode::kCount) {
     result.count.resize(result.grid.cell_count());
   } else {
     result.visible.resize(result.grid.cell_count());
   }
-  Caster(tin, scene, eyes_of(tin.grid, request, result.ground_m), bins, tiles, result).run(progress);
+  Caster(targets, scene, eyes_of(tin.grid, request, result.ground_m), bins, tiles, result).run(progress);
   result.statistics.rays_seconds = watch.lap();
   return result;
+}
+
+}  // namespace
+
+Result compute(const Tin& tin, const Request& request, Progress& progress) {
+  return compute_on(tin, nullptr, request, progress);
+}
+
+Result compute(const Tin& tin, const Tin& ground, const Request& request, Progress& progress) {
+  return compute_on(tin, &ground, request, progress);
 }
 
 }  // namespace itin::viewshed

@@ -4,7 +4,10 @@
 //   options.crs_wkt = store.metadata().crs_wkt;
 //   export_tin(tin, "hills.ply", options, progress);
 //
-// The file name's ending chooses the format. Vertices keep their order, and triangles theirs, in every format.
+// The file name's ending chooses the format. Vertices keep their order, and triangles theirs, in every format but .glb,
+// where those of the ground come first and then those of each theme that stands on it. Where there are such, triangles
+// say which theme they are part of: `ushort theme` in .ply (0 is ground), groups in .obj, a material and a colour a
+// theme in .glb, a property `theme` in .gpkg and .geojson, null on the ground.
 //
 // .ply      binary, little-endian. Vertex properties: double x y z; uint id_high id_low, where the VertexId is
 //           id_high * 2^32 + id_low; ushort source. Faces: vertex_indices. Where there are lines, edges: int vertex1

@@ -28,6 +28,11 @@ std::string on_one_line(std::string text) {
   return text;
 }
 
+std::string theme_name(const TinExportOptions& options, std::uint16_t theme) {
+  return theme >= 1 && theme <= options.theme_names.size() ? options.theme_names[theme - std::size_t{1}]
+                                                           : std::string();
+}
+
 std::string crs_urn(const std::string& crs_wkt) {
   if (crs_wkt.empty()) return {};
   const QuietGdal quiet;

@@ -1,9 +1,12 @@
 // What an export says about itself besides its triangles.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include <nlohmann/json.hpp>
+
+#include <itin/tin_export.hpp>
 
 namespace itin {
 
@@ -15,6 +18,9 @@ std::string dumped(const nlohmann::ordered_json& json);
 
 /// For comments: line ends become spaces.
 std::string on_one_line(std::string text);
+
+/// Of a theme by its number, from 1; empty where the options do not say.
+std::string theme_name(const TinExportOptions& options, std::uint16_t theme);
 
 /// For GeoJSON, "urn:ogc:def:crs:EPSG::27700"; empty for an unknown CRS. Throws InputError for one without EPSG code.
 std::string crs_urn(const std::string& crs_wkt);

@@ -1,3 +1,6 @@
+#include <string>
+#include <vector>
+
 #include "export/buffered_file.hpp"
 #include "export/export_metadata.hpp"
 #include "export/step_progress.hpp"
@@ -7,11 +10,14 @@ namespace itin {
 
 namespace {
 
-void write_feature(const Tin& tin, std::size_t triangle, BufferedFile& file) {
+/// `themes`: their names as JSON strings.
+void write_feature(const Tin& tin, std::size_t triangle, const std::vector<std::string>& themes, BufferedFile& file) {
   const auto [a, b, c] = tin.triangles[triangle];
   file.print(R"({{"type":"Feature","id":{},"properties":{{"vertex_a":{},"vertex_b":{},"vertex_c":{},)", triangle,
              tin.id(a), tin.id(b), tin.id(c));
-  file.print(R"("source_a":{},"source_b":{},"source_c":{}}},)", tin.sources[a], tin.sources[b], tin.sources[c]);
+  file.print(R"("source_a":{},"source_b":{},"source_c":{})", tin.sources[a], tin.sources[b], tin.sources[c]);
+  if (!tin.standing.empty()) file.print(R"(,"theme":{})", themes[tin.theme(tin.triangles[triangle])]);
+  file.write("},");
   file.write(R"("geometry":{"type":"Polygon","coordinates":[[)");
   const char* separator = "";
   for (const std::uint32_t v : {a, b, c, a}) {
@@ -33,9 +39,11 @@ void write_geojson(const Tin& tin, const PendingFile& output, const TinExportOpt
   if (!metadata.empty()) file.print(R"("metadata":{},)", dumped(metadata));
   file.write("\"features\":[");
   StepProgress steps(progress, tin.triangles.size());
+  std::vector<std::string> themes{"null"};
+  for (const std::string& name : options.theme_names) themes.push_back(dumped(name));
   for (std::size_t t = 0; t < tin.triangles.size(); ++t) {
     file.write(t == 0 ? "\n" : ",\n");
-    write_feature(tin, t, file);
+    write_feature(tin, t, themes, file);
     steps.step();
   }
   file.write("\n]}\n");

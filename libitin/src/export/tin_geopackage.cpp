@@ -77,11 +77,17 @@ class GeoPackage {
   GDALDatasetUniquePtr dataset_;
 };
 
-void write_triangles(const Tin& tin, GeoPackage& package, StepProgress& steps) {
+void write_triangles(const Tin& tin, const TinExportOptions& options, GeoPackage& package, StepProgress& steps) {
   OGRLayer& layer = package.add_layer("triangles", wkbPolygon25D, "YES", {"vertex_a", "vertex_b", "vertex_c"},
                                       {"source_a", "source_b", "source_c"});
+  if (!tin.standing.empty()) package.add_text_field(layer, "theme");
   OGRFeature feature(layer.GetLayerDefn());
   for (const Triangle& t : tin.triangles) {
+    if (const std::uint16_t theme = tin.theme(t); theme != 0) {
+      feature.SetField(6, theme_name(options, theme).c_str());
+    } else if (!tin.standing.empty()) {
+      feature.SetFieldNull(6);
+    }
     auto ring = std::make_unique<OGRLinearRing>();
     ring->setNumPoints(4);
     for (int i = 0; i < 4; ++i) {
@@ -142,7 +148,7 @@ void write_geopackage(const Tin& tin, const PendingFile& output, const TinExport
   const FixedTimestamps fixed;
   GeoPackage package(output, options);
   StepProgress steps(progress, tin.triangles.size() + tin.vertices.size() + tin.lines.size());
-  write_triangles(tin, package, steps);
+  write_triangles(tin, options, package, steps);
   write_vertices(tin, package, steps);
   if (!tin.lines.empty()) write_lines(tin, options.theme_names, package, steps);
   package.close();

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <vector>
 
 #include <itin/error.hpp>
@@ -49,6 +50,7 @@ class Layout {
 class GlbWriter {
  public:
   GlbWriter(const Tin& tin, const TinExportOptions& options) : tin_(tin), options_(options) {
+    for (const Triangle& t : tin.triangles) by_theme_[tin.theme(t)].push_back(t);
     box_ = {};
     for (const GridPoint& p : tin.vertices) {
       box_.extend(p.x, p.y);
@@ -131,20 +133,50 @@ class GlbWriter {
         {{"bufferView", layout.add(n, 4, kArrayBuffer)},
          {"componentType", kUnsignedShort},
          {"count", n},
-         {"type", "SCALAR"}},
-        {{"bufferView", layout.add(m, 4, kElementArrayBuffer)},
-         {"componentType", kUnsignedInt},
-         {"count", m},
          {"type", "SCALAR"}}};
+    const std::size_t indices = layout.add(m, 4, kElementArrayBuffer);
+    document["materials"] = Json::array();
+    Json primitives = Json::array();
+    std::size_t first = 0;
+    for (const auto& [theme, triangles] : by_theme_) {
+      document["accessors"].push_back({{"bufferView", indices},
+                                       {"byteOffset", 4 * first},
+                                       {"componentType", kUnsignedInt},
+                                       {"count", 3 * triangles.size()},
+                                       {"type", "SCALAR"}});
+      first += 3 * triangles.size();
+      primitives.push_back({{"attributes", attributes_of(theme)},
+                            {"indices", document["accessors"].size() - 1},
+                            {"material", document["materials"].size()},
+                            {"mode", 4}});
+      document["materials"].push_back(material_of(theme));
+    }
     document["bufferViews"] = layout.views();
     document["buffers"] = Json::array({{{"byteLength", layout.bytes()}}});
-    document["materials"] = Json::array({{{"name", "terrain"},
-                                          {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 1}}},
-                                          {"doubleSided", true}}});
-    const Json attributes = {{"POSITION", 0}, {"NORMAL", 1}, {"COLOR_0", 2}, {"_VERTEX_ID", 3}, {"_SOURCE", 4}};
-    document["meshes"] = Json::array(
-        {{{"name", "surface"},
-          {"primitives", Json::array({{{"attributes", attributes}, {"indices", 5}, {"material", 0}, {"mode", 4}}})}}});
+    document["meshes"] = Json::array({{{"name", "surface"}, {"primitives", primitives}}});
+  }
+
+  /// The terrain has its colours by height; what stands on it has its theme's.
+  static Json attributes_of(std::uint16_t theme) {
+    Json attributes = {{"POSITION", 0}, {"NORMAL", 1}};
+    if (theme == 0) attributes["COLOR_0"] = 2;
+    attributes["_VERTEX_ID"] = 3;
+    attributes["_SOURCE"] = 4;
+    return attributes;
+  }
+
+  Json material_of(std::uint16_t theme) const {
+    static constexpr std::array<std::array<double, 4>, 6> kColours{{{0.55, 0.17, 0.10, 1},
+                                                                    {0.09, 0.28, 0.08, 1},
+                                                                    {0.30, 0.30, 0.32, 1},
+                                                                    {0.13, 0.25, 0.50, 1},
+                                                                    {0.52, 0.40, 0.10, 1},
+                                                                    {0.35, 0.13, 0.40, 1}}};
+    Json look = {{"metallicFactor", 0}, {"roughnessFactor", 1}};
+    if (theme != 0) look["baseColorFactor"] = kColours[(theme - 1U) % kColours.size()];
+    return {{"name", theme == 0 ? "terrain" : theme_name(options_, theme)},
+            {"pbrMetallicRoughness", look},
+            {"doubleSided", true}};
   }
 
   /// Sums of the triangles' normals weighted by area; upward, as every triangle's is.
@@ -199,14 +231,17 @@ class GlbWriter {
     });
     each_vertex([&](std::uint32_t v) { file.little_endian(tin_.id(v)); });
     each_vertex([&](std::uint32_t v) { file.little_endian(std::uint32_t{tin_.sources[v]}); });
-    for (const Triangle& t : tin_.triangles) {
-      for (const std::uint32_t v : t) file.little_endian(v);
-      steps.step();
+    for (const auto& [theme, triangles] : by_theme_) {
+      for (const Triangle& t : triangles) {
+        for (const std::uint32_t v : t) file.little_endian(v);
+        steps.step();
+      }
     }
   }
 
   const Tin& tin_;
   const TinExportOptions& options_;
+  std::map<std::uint16_t, std::vector<Triangle>> by_theme_;
   GridBox box_;
   std::int32_t zmin_ = std::numeric_limits<std::int32_t>::max();
   std::int32_t zmax_ = std::numeric_limits<std::int32_t>::min();

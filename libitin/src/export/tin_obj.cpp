@@ -15,7 +15,12 @@ void write_obj(const Tin& tin, const PendingFile& output, const TinExportOptions
     file.print("v {} {} {}\n", p.x, p.y, p.z);
     steps.step();
   }
+  std::uint16_t group = 0;
   for (const Triangle& t : tin.triangles) {
+    if (const std::uint16_t theme = tin.theme(t); theme != group) {
+      file.print("g {}\n", theme == 0 ? "terrain" : on_one_line(theme_name(options, theme)));
+      group = theme;
+    }
     file.print("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
     steps.step();
   }

@@ -22,8 +22,8 @@ struct Footing {
 };
 
 /// Of a position on a segment: how far off it lies, grid units, and the segment's height next to it.
-Footing footing(const std::pair<GridPoint, GridPoint>& segment, const GridPoint& p) {
-  const auto& [a, b] = segment;
+Footing footing(const StandingSegment& segment, const GridPoint& p) {
+  const GridPoint &a = segment.a, &b = segment.b;
   const double dx = 1.0 * b.x - a.x, dy = 1.0 * b.y - a.y, px = 1.0 * p.x - a.x, py = 1.0 * p.y - a.y;
   const double squared = dx * dx + dy * dy;
   const double t = squared > 0 ? std::clamp((px * dx + py * dy) / squared, 0.0, 1.0) : 0;
@@ -32,7 +32,7 @@ Footing footing(const std::pair<GridPoint, GridPoint>& segment, const GridPoint&
 
 }  // namespace
 
-std::vector<GridPoint> part_vertices(const StandingPart& part, const std::vector<Position>& ends) {
+std::vector<PartVertex> part_vertices(const StandingPart& part, const std::vector<Position>& ends) {
   constexpr std::int32_t kUnknown = std::numeric_limits<std::int32_t>::min();
   std::vector<GridPoint> fresh;
   for (const Position& p : ends) {
@@ -43,9 +43,11 @@ std::vector<GridPoint> part_vertices(const StandingPart& part, const std::vector
   std::sort(fresh.begin(), fresh.end());
   fresh.erase(std::unique(fresh.begin(), fresh.end()), fresh.end());
   std::vector<double> nearest(fresh.size(), std::numeric_limits<double>::infinity());
+  std::vector<std::uint64_t> outline;
   for (const auto& segment : part.segments) {
-    const auto [left, right] = std::minmax(segment.first.x, segment.second.x);
-    const auto [low, high] = std::minmax(segment.first.y, segment.second.y);
+    const auto [left, right] = std::minmax(segment.a.x, segment.b.x);
+    const auto [low, high] = std::minmax(segment.a.y, segment.b.y);
+    if (segment.outline) outline.insert(outline.end(), {code_of(segment.a), code_of(segment.b)});
     auto p = std::lower_bound(fresh.begin(), fresh.end(), left - 1,
                               [](const GridPoint& q, std::int32_t x) { return q.x < x; });
     for (; p != fresh.end() && p->x <= right + 1; ++p) {
@@ -58,13 +60,17 @@ std::vector<GridPoint> part_vertices(const StandingPart& part, const std::vector
       const auto height = static_cast<std::int32_t>(std::llround(z));
       p->z = on_it && least <= 0.75 ? std::max(p->z, height) : height;
       least = std::min(least, distance);
+      if (on_it && segment.outline) outline.push_back(code_of(*p));
     }
   }
   std::vector<GridPoint> all = part.vertices;
   all.insert(all.end(), fresh.begin(), fresh.end());
   std::sort(all.begin(), all.end(), before);
   std::erase_if(all, [](const GridPoint& p) { return p.z == kUnknown; });
-  return all;
+  std::sort(outline.begin(), outline.end());
+  std::vector<PartVertex> result;
+  for (const GridPoint& p : all) result.push_back({p, std::binary_search(outline.begin(), outline.end(), code_of(p))});
+  return result;
 }
 
 }  // namespace itin

@@ -8,8 +8,13 @@
 
 namespace itin {
 
+struct PartVertex {
+  GridPoint point;
+  bool outline = false;  ///< between a feature and the ground
+};
+
 /// The part's own vertices and those at `ends` (any order, repetitions allowed), each once, in Morton order. A new one
 /// lies within a grid step of some of the part's segments and has the greatest height of these there.
-std::vector<GridPoint> part_vertices(const StandingPart& part, const std::vector<Position>& ends);
+std::vector<PartVertex> part_vertices(const StandingPart& part, const std::vector<Position>& ends);
 
 }  // namespace itin

@@ -196,7 +196,7 @@ class Standing {
       const GridPoint &a = mesh.vertices[s.from], &b = mesh.vertices[s.to];
       top[s.feature] = std::max({top[s.feature], a.z, b.z});
       StandingPart& part = part_of(levels[s.feature], footprints_[numbers[s.feature]].source);
-      part.segments.emplace_back(a, b);
+      part.segments.push_back({a, b, s.kind == SegmentClass::foot});
       level_of_vertex[s.from] = level_of_vertex[s.to] = levels[s.feature];
     }
     std::vector<GridPolygon> masks;

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <itin/progress.hpp>
@@ -20,17 +19,22 @@
 
 namespace itin {
 
+struct StandingSegment {
+  GridPoint a, b;
+  bool outline = false;  ///< between a feature and the ground
+};
+
 struct StandingPart {
   int coarsest = 0;
   std::uint16_t source = 0;  ///< the first of its features'
-  std::vector<std::pair<GridPoint, GridPoint>> segments;
+  std::vector<StandingSegment> segments;
   std::vector<GridPoint> vertices;  ///< in Morton order: the ends of segments, and others
   std::vector<GridPolygon> masks;   ///< where others make way
   std::vector<FeatureReach> reaches;
 };
 
 struct StandingTheme {
-  std::vector<StandingPart> parts;  ///< the finest first, none without features
+  std::vector<StandingPart> parts;   ///< the finest first, none without features
   std::vector<std::string> reports;  ///< one line a feature and finding
   std::uint64_t built = 0, refused = 0;
 };

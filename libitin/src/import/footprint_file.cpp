@@ -16,14 +16,14 @@ namespace itin {
 
 namespace {
 
-/// By its name, and the word that the format asks for near the beginning.
+/// By its name, and a word that the format asks for near the beginning: members come in any order.
 bool is_city_json(const std::string& path) {
   if (!path.ends_with(".json") && !path.ends_with(".cityjson")) return false;
   std::ifstream file(path, std::ios::binary);
   std::string beginning(std::size_t{1} << 16, '\0');
   file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
   beginning.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
-  return beginning.find("\"CityJSON\"") != std::string::npos;
+  return beginning.find("\"CityJSON\"") != std::string::npos || beginning.find("\"CityObjects\"") != std::string::npos;
 }
 
 FeatureKind feature_kind(ThemeKind kind) {
@@ -61,8 +61,7 @@ FootprintSource read_layer(const std::string& path, const ImportOptions& options
 }  // namespace
 
 bool stands(const ImportOptions& options) {
-  if (options.kind != ThemeKind::Buildings && options.kind != ThemeKind::Vegetation &&
-      options.kind != ThemeKind::Walls)
+  if (options.kind != ThemeKind::Buildings && options.kind != ThemeKind::Vegetation && options.kind != ThemeKind::Walls)
     return false;
   return options.height || !options.height_field.empty() || !options.eaves_field.empty() ||
          std::any_of(options.sources.begin(), options.sources.end(), is_city_json);
@@ -73,10 +72,10 @@ std::vector<FootprintFile> read_footprint_files(const ImportOptions& options, co
   NoProgress quiet;
   for (const std::string& path : options.sources) {
     FootprintFile& file = files.emplace_back();
-    file.footprints =
-        is_city_json(path) ? read_model(path, options, store) : read_layer(path, options, store);
+    file.footprints = is_city_json(path) ? read_model(path, options, store) : read_layer(path, options, store);
     if (file.footprints.features.empty())
-      throw FileError(path, file.footprints.filtered > 0 ? "holds no features that match --where" : "holds no features");
+      throw FileError(path,
+                      file.footprints.filtered > 0 ? "holds no features that match --where" : "holds no features");
     for (FootprintFeature& feature : file.footprints.features)
       feature.base_rule = options.base.value_or(BaseRule::minimum);
     file.info.path = path;

@@ -126,12 +126,17 @@ void add_line_vertices(const ThemeLines& lines, PointSorter& sorter) {
   }
 }
 
+bool may_stand(ThemeKind kind) {
+  return kind == ThemeKind::Buildings || kind == ThemeKind::Vegetation || kind == ThemeKind::Walls;
+}
+
 /// Heights of what does not stand are a mistake.
 void refuse_heights(const ImportOptions& options) {
   if (options.height || !options.height_field.empty() || !options.eaves_field.empty())
-    throw InputError(fmt::format("{}: --height, --height-field and --eaves-field are for buildings, vegetation and "
-                                 "walls; name the field of elevations with --z-field",
-                                 name_of(*options.kind)));
+    throw InputError(
+        fmt::format("{}: --height, --height-field and --eaves-field are for buildings, vegetation and "
+                    "walls; name the field of elevations with --z-field",
+                    name_of(*options.kind)));
 }
 
 /// Names stand in lists with commas, beside `all` and `none`.
@@ -161,8 +166,7 @@ void add_footprints(FootprintFile& file, std::uint16_t number, const ImportOptio
   const std::uint32_t theme = lines.theme(options.theme, *options.kind, true);
   report.read += file.footprints.features.size();
   report.filtered += file.footprints.filtered;
-  for (FootprintFeature& feature : file.footprints.features)
-    lines.add_footprint(theme, {std::move(feature), number});
+  for (FootprintFeature& feature : file.footprints.features) lines.add_footprint(theme, {std::move(feature), number});
 }
 
 /// Sums over the parts of each theme.
@@ -189,8 +193,8 @@ void write_store(StoreWriter& writer, const std::string& directory, const Store*
   const ImportPlan& plan = additions.plan;
   std::vector<SourceInfo> sources;
   if (base != nullptr) sources = base->metadata().sources;
-  if (sources.size() + plan.sources.size() + plan.lines.size() + additions.footprints.size() >= format::kMask)
-    throw InputError("a store holds at most 65,534 sources; merge some of them first");
+  if (sources.size() + plan.sources.size() + plan.lines.size() + additions.footprints.size() > format::kMaxSources)
+    throw InputError("a store holds at most 32,767 sources; merge some of them first");
   PointSorter sorter(directory, options.memory_bytes / 2);
   LineCollection collection;
   std::uint64_t offered = base != nullptr ? add_stored(*base, sorter, collection, progress) : 0;
@@ -332,7 +336,13 @@ ImportReport import_lines(const std::string& store_path, const ImportOptions& op
     throw InputError(fmt::format("{}: there is no such store; {} need ground to lie on, so import terrain first",
                                  store_path, name_of(*options.kind)));
   }
-  return import_sources(store_path, lines, progress);
+  ImportReport report = import_sources(store_path, lines, progress);
+  if (may_stand(*options.kind) && !stands(options)) {
+    report.warnings.push_back(fmt::format("{} without heights are outlines on the ground; to make them stand, give "
+                                          "--height-field or --height, and another --theme",
+                                          name_of(*options.kind)));
+  }
+  return report;
 }
 
 }  // namespace itin

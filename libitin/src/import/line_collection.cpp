@@ -118,8 +118,7 @@ void LineCollection::raise(const Store& ground, ImportReport& report, Progress& 
 
 /// Gives their lines to make_planar()'s segments, under the numbers that follow the themes'.
 void LineCollection::place_parts(ThemeLines& result) {
-  std::stable_sort(parts_.begin(), parts_.end(),
-                   [](const OwnPart& a, const OwnPart& b) { return a.theme < b.theme; });
+  std::stable_sort(parts_.begin(), parts_.end(), [](const OwnPart& a, const OwnPart& b) { return a.theme < b.theme; });
   std::vector<std::uint32_t> by_rank(themes_.size());
   std::iota(by_rank.begin(), by_rank.end(), 0U);
   std::sort(by_rank.begin(), by_rank.end(),
@@ -128,7 +127,7 @@ void LineCollection::place_parts(ThemeLines& result) {
     const auto owner = static_cast<std::uint32_t>(themes_.size() + result.parts.size());
     if (owner >= format::kMaxThemes)
       throw InputError(fmt::format("a store holds at most {} themes and parts of themes", format::kMaxThemes));
-    for (const auto& [a, b] : own.part.segments) segments_.push_back({a, b, owner});
+    for (const StandingSegment& s : own.part.segments) segments_.push_back({s.a, s.b, owner});
     PlacedPart& placed = result.parts.emplace_back();
     placed.part = {static_cast<std::uint16_t>(own.theme + 1), own.part.coarsest};
     placed.rank = static_cast<int>(std::find(by_rank.begin(), by_rank.end(), own.theme) - by_rank.begin());

@@ -26,7 +26,7 @@ bool among(const Codes& ascending, std::uint64_t code) {
 class PartMask {
  public:
   explicit PartMask(const PlacedPart& part) : part_(part), index_(part.masks) {
-    for (const GridPoint& p : part.vertices) own_.push_back(code_of(p));
+    for (const PartVertex& v : part.vertices) own_.push_back(code_of(v.point));
   }
 
   int rank() const { return part_.rank; }
@@ -47,9 +47,12 @@ class PartMask {
 
   void write(std::uint16_t number, StoreWriter& writer) const {
     std::vector<std::pair<GridPoint, std::uint16_t>> entries;
-    for (const GridPoint& p : part_.vertices) entries.emplace_back(p, part_.source);
+    for (const PartVertex& v : part_.vertices) {
+      const auto mark = static_cast<std::uint16_t>(v.outline ? format::kOnOutline : 0);
+      entries.emplace_back(v.point, static_cast<std::uint16_t>(part_.source | mark));
+    }
     // Masks have no height; any near those of vertices takes the least room.
-    const std::int32_t z = part_.vertices.front().z;
+    const std::int32_t z = part_.vertices.front().point.z;
     for (const std::uint64_t code : masked_)
       entries.emplace_back(GridPoint{morton_x(code), morton_y(code), z}, format::kMask);
     std::sort(entries.begin(), entries.end(),
@@ -91,6 +94,12 @@ void mask_vertices(PartMask& part, const std::vector<GridPoint>& vertices) {
   part.add(codes);
 }
 
+std::vector<GridPoint> points_of(const PlacedPart& part) {
+  std::vector<GridPoint> points;
+  for (const PartVertex& v : part.vertices) points.push_back(v.point);
+  return points;
+}
+
 }  // namespace
 
 std::vector<Segment> write_parts(const ThemeLines& lines, const WorkingIndex& index,
@@ -104,7 +113,7 @@ std::vector<Segment> write_parts(const ThemeLines& lines, const WorkingIndex& in
   for (std::size_t i = 0; i < parts.size(); ++i) {
     mask_vertices(parts[i], draped);
     for (const PlacedPart& other : lines.parts)
-      if (other.rank > parts[i].rank()) mask_vertices(parts[i], other.vertices);
+      if (other.rank > parts[i].rank()) mask_vertices(parts[i], points_of(other));
     parts[i].finish();
     const auto number = static_cast<std::uint16_t>(lines.themes() + i + 1);
     parts[i].write(number, writer);

@@ -7,6 +7,7 @@
 
 #include <itin/progress.hpp>
 
+#include "features/part_vertices.hpp"
 #include "features/planar.hpp"
 #include "features/standing_theme.hpp"
 #include "pyramid/source_index.hpp"
@@ -19,7 +20,7 @@ struct PlacedPart {
   ThemePart part;
   int rank = 0;  ///< it takes the ground of those with a greater one
   std::uint16_t source = 0;
-  std::vector<GridPoint> vertices;  ///< with its own heights, in Morton order
+  std::vector<PartVertex> vertices;  ///< with its own heights, in Morton order
   std::vector<GridPolygon> masks;
   std::vector<FeatureReach> reaches;
 };

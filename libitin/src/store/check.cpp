@@ -46,7 +46,8 @@ class Inspection {
 
   void inspect_tree(int tree, const std::vector<ChunkEntry>& chunks) {
     const bool known = tree < file_.level_count() ||
-                       (tree >= format::kMaxLevels && format::theme_of(tree) <= file_.metadata().themes.size() + file_.metadata().parts.size());
+                       (tree >= format::kMaxLevels &&
+                        format::theme_of(tree) <= file_.metadata().themes.size() + file_.metadata().parts.size());
     if (!known) damage_.push_back({format::place("directory", format::kChunkListKey), "lists an unknown tree"});
     for (const ChunkEntry& entry : chunks) {
       progress_.throw_if_cancelled();
@@ -80,7 +81,7 @@ class Inspection {
     for (const std::uint16_t source : block.sources) {
       const bool mask = of_part && source == format::kMask;
       vertices += mask ? 0 : 1;
-      foreign |= !mask && source >= sources;
+      foreign |= !mask && (of_part ? source & ~format::kOnOutline : source) >= sources;
     }
     vertices_[static_cast<std::size_t>(leaf.level)] += vertices;
     if (foreign) {
@@ -103,8 +104,9 @@ class Inspection {
         guarded([&] {
           for (const StoredFootprint& f : file_.read_footprints(static_cast<std::uint16_t>(t), i)) {
             if (f.source < file_.metadata().sources.size()) continue;
-            damage_.push_back({format::place("block", format::footprint_key(t, i)), "names a source that the store "
-                                                                                   "does not have"});
+            damage_.push_back({format::place("block", format::footprint_key(t, i)),
+                               "names a source that the store "
+                               "does not have"});
           }
         });
       }

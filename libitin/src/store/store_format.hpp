@@ -28,6 +28,9 @@ inline constexpr int kLastTree = 2046;
 inline constexpr int kMaxThemes = 900;  ///< and parts of themes, which are numbered after them
 /// The footprints of standing themes as they were imported; blocks without a directory.
 inline constexpr int kFootprintTree = 2046;
+/// Added to the source of a part's vertex that lies between a feature and the ground.
+inline constexpr std::uint16_t kOnOutline = 0x8000;
+inline constexpr std::size_t kMaxSources = 0x7fff;
 /// In place of the source of a point: no vertex, but a position where others make way.
 inline constexpr std::uint16_t kMask = 0xffff;
 /// The finest level of a segment that is none, but one of another theme (its reach) that makes way.

@@ -63,7 +63,7 @@ std::optional<SelectedVertex> ApexSearch::nearest_circle(const ApexFrame& frame,
         continue;
       }
       if (hidden(c)) continue;
-      best = SelectedVertex{point, block->sources[k], level};
+      best = SelectedVertex{point, block->sources[k], level, block->theme(k)};
       reach = std::min(reach, frame.lambda(c));
     }
   }
@@ -104,7 +104,8 @@ std::optional<SelectedVertex> ApexSearch::inside(Position a, Position b, Positio
       if (!box.contains(p.x, p.y) || p == a || p == b || p == c) continue;
       if (orientation(a, b, p) < 0 || orientation(b, c, p) < 0 || orientation(c, a, p) < 0) continue;
       const std::uint8_t level = level_of(leaf, *block, k);
-      if (selection_.selects(level, p.x, p.y)) return SelectedVertex{block->points[k], block->sources[k], level};
+      if (selection_.selects(level, p.x, p.y))
+        return SelectedVertex{block->points[k], block->sources[k], level, block->theme(k)};
     }
   }
   return std::nullopt;
@@ -121,7 +122,7 @@ std::optional<SelectedVertex> ApexSearch::at(Position p) {
     if (found == block->points.end() || found->x != p.x || found->y != p.y) continue;
     const auto k = static_cast<std::size_t>(found - block->points.begin());
     const std::uint8_t level = level_of(leaf, *block, k);
-    if (selection_.selects(level, p.x, p.y)) return SelectedVertex{*found, block->sources[k], level};
+    if (selection_.selects(level, p.x, p.y)) return SelectedVertex{*found, block->sources[k], level, block->theme(k)};
   }
   return std::nullopt;
 }

@@ -154,7 +154,8 @@ class RegionTriangulation {
         const GridPoint& p = block->points[k];
         if (!box_.contains(p.x, p.y)) continue;
         const auto level = block->levels.empty() ? static_cast<std::uint8_t>(leaf.level) : block->levels[k];
-        if (selection_.selects(level, p.x, p.y)) found.push_back({morton(p.x, p.y), {p, block->sources[k], level}});
+        if (selection_.selects(level, p.x, p.y))
+          found.push_back({morton(p.x, p.y), {p, block->sources[k], level, block->theme(k)}});
       }
     }
     std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -190,7 +191,7 @@ class RegionTriangulation {
     if (at != last && at->position() == p) return static_cast<std::uint32_t>(at - first);
     const auto [extra, fresh] = extras_.try_emplace(code, static_cast<std::uint32_t>(vertices_.size()));
     if (fresh) {
-      vertices_.push_back(known ? *known : SelectedVertex{{p.x, p.y, 0}, 0, 0});
+      vertices_.push_back(known ? *known : SelectedVertex{{p.x, p.y, 0}, 0, 0, 0});
       delaunay_.insert(std::array{p});
     }
     if (known) {

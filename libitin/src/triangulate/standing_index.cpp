@@ -23,6 +23,7 @@ StandingIndex::StandingIndex(const Store& store, const Selection& selection)
     const bool chosen = selection.includes(static_cast<std::uint16_t>(themes_ + p + 1));
     const auto rank = std::count_if(metadata.themes.begin(), metadata.themes.end(),
                                     [&](const ThemeInfo& theme) { return theme.stands() && comes_before(theme, own); });
+    themes_of_parts_.push_back(metadata.parts[p].theme);
     ranks_.push_back(chosen ? static_cast<int>(rank) : kNotThere);
     any_ = any_ || chosen;
   }
@@ -49,16 +50,20 @@ std::shared_ptr<const Block> StandingIndex::block(const Leaf& leaf) const {
   const std::vector<std::uint64_t> masked = masks(leaf.cell.box(), rank(leaf.theme));
   if (masked.empty() && !is_part(leaf.theme)) return whole;
   auto rest = std::make_shared<Block>();
+  rest->standing = is_part(leaf.theme) ? themes_of_parts_[leaf.theme - themes_ - 1] : std::uint16_t{0};
   for (std::size_t k = 0; k < whole->points.size(); ++k) {
     const GridPoint& p = whole->points[k];
     if (is_part(leaf.theme) && whole->sources[k] == format::kMask) continue;
     if (std::binary_search(masked.begin(), masked.end(), morton(p.x, p.y))) continue;
     rest->points.push_back(p);
-    rest->sources.push_back(whole->sources[k]);
+    rest->sources.push_back(is_part(leaf.theme) ? static_cast<std::uint16_t>(whole->sources[k] & ~format::kOnOutline)
+                                                : whole->sources[k]);
+    if (is_part(leaf.theme)) rest->outline.push_back((whole->sources[k] & format::kOnOutline) != 0 ? 1 : 0);
     if (!whole->levels.empty()) rest->levels.push_back(whole->levels[k]);
   }
-  cache_.insert(leaf.key, rest,
-                sizeof(Block) + rest->points.size() * (sizeof(GridPoint) + sizeof(std::uint16_t) + sizeof(std::uint8_t)));
+  cache_.insert(
+      leaf.key, rest,
+      sizeof(Block) + rest->points.size() * (sizeof(GridPoint) + sizeof(std::uint16_t) + sizeof(std::uint8_t)));
   return rest;
 }
 

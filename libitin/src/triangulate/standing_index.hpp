@@ -38,7 +38,8 @@ class StandingIndex final : public PointIndex {
 
   const PointIndex& base_;
   std::size_t themes_;
-  std::vector<int> ranks_;
+  std::vector<int> ranks_;  ///< by number of theme or part
+  std::vector<std::uint16_t> themes_of_parts_;
   bool any_ = false;  ///< whether some part is chosen
   mutable BlockCache cache_;
 };

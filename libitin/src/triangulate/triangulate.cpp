@@ -86,6 +86,10 @@ class Assembly {
     all.erase(std::unique(all.begin(), all.end()), all.end());
     tin_.vertices.resize(all.size());
     tin_.sources.resize(all.size());
+    const bool any = std::any_of(regions_.begin(), regions_.end(), [](const RegionMesh& region) {
+      return std::any_of(region.vertices.begin(), region.vertices.end(), [](const auto& v) { return v.theme != 0; });
+    });
+    if (any) tin_.standing.resize(all.size());
     numbers_.resize(regions_.size());
     parallel_for(regions_.size(), [&](std::size_t r) {
       numbers_[r].resize(codes[r].size());
@@ -99,6 +103,7 @@ class Assembly {
       for (std::size_t v = 0; v < numbers_[r].size(); ++v) {
         tin_.vertices[numbers_[r][v]] = regions_[r].vertices[v].point;
         tin_.sources[numbers_[r][v]] = regions_[r].vertices[v].source;
+        if (any) tin_.standing[numbers_[r][v]] = regions_[r].vertices[v].theme;
       }
     }
   }
@@ -164,8 +169,7 @@ Tin triangulate(const Store& store, const Window& window, const Detail& detail, 
   parallel_for(regions.size(), [&](std::size_t i) {
     progress.throw_if_cancelled();
     const Cell& cell = plan.cells()[i];
-    regions[i] =
-        triangulate_region(index, selection, square_of(cell), window.is_all() ? nullptr : &grid_window);
+    regions[i] = triangulate_region(index, selection, square_of(cell), window.is_all() ? nullptr : &grid_window);
     progress.report("triangulating", static_cast<double>(++done) / static_cast<double>(regions.size()));
   });
   Tin tin = Assembly(std::move(regions), metadata.grid).run();

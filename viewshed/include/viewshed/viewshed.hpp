@@ -8,8 +8,10 @@
 //   viewshed::Result result = viewshed::compute(store, request, progress);
 //   viewshed::write_geotiff("out.tif", result, {.crs_wkt = store.metadata().crs_wkt});
 //
-// Both ends of a sight line stand on the surface queried. A cell is decided by its centre (cx, cy): the target is at
-// T(cx, cy) + target_height. A sight line that grazes the surface sees (law 4).
+// Both ends of a sight line stand on the surface queried: on its ground, that is, without the standing features of the
+// chosen themes, unless the request says on top of these. A cell is decided by its centre (cx, cy): the target is at
+// T(cx, cy) + target_height, so one on the ground within a building is hidden. A sight line that grazes the surface
+// sees (law 4).
 //
 // Accuracy. A cell reported hidden is hidden, decided in double precision: ground that rises less than a micrometre
 // above a sight line grazes it. A cell reported visible is so or would be if its sight line were raised by 2e, where e
@@ -72,6 +74,10 @@ struct Request {
   Earth earth;
   Detail detail = Detail::tolerance(0);      ///< of the surface; not used with a Tin
   ThemeChoice themes = ThemeChoice::none();  ///< likewise
+  // What both ends stand on: the ground without standing features, or the surface with them. Without a ground of its
+  // own, compute() takes the surface for both.
+  bool observers_on_surface = false;
+  bool targets_on_surface = false;
   NoData nodata = NoData::kUnknown;
   Mode mode = Mode::kVisible;
 };
@@ -117,6 +123,9 @@ struct Result {
 /// Throws InputError (an observer outside the data, by name; an unusable radius, cell size or angle; more than 65534
 /// observers to count), Cancelled.
 Result compute(const Tin& tin, const Request& request, Progress& progress);
+
+/// The same, with the ground on which ends stand that are not on the surface. It must cover what the surface covers.
+Result compute(const Tin& tin, const Tin& ground, const Request& request, Progress& progress);
 
 /// On the surface of a store at `request.detail`: retrieves what the fields of view need. Throws also what
 /// triangulate() throws.
