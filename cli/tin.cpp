@@ -9,11 +9,13 @@
 #include <itin/store.hpp>
 #include <itin/tin_export.hpp>
 #include <itin/triangulate.hpp>
+#include <viewshed/oblique_view.hpp>
 
 #include "detail_options.hpp"
 #include "output_path.hpp"
 #include "store_document.hpp"
 #include "surface_options.hpp"
+#include "values.hpp"
 #include "verb.hpp"
 #include "window_options.hpp"
 
@@ -30,8 +32,10 @@ class TinVerb final : public Verb {
     app.add_option("STORE", store_, "The store")->required();
     window_.declare(app);
     app.add_option("-o,--output", output_, "What to write: .ply, .obj, .glb, .gpkg or .geojson; a topology: .json")
-        ->type_name("FILE")
-        ->required();
+        ->type_name("FILE");
+    app.add_option("--image", image_, "A picture of the surface, seen obliquely (.png, .jpg, ...)")->type_name("FILE");
+    app.add_option("--look", look_, "Where the picture's viewer looks, and from how high, degrees (default: 340,40)")
+        ->type_name("AZIMUTH,ELEVATION");
     app.add_option("--topology", topology_, "Write this structure of the triangulation: triangle, vertex or edge")
         ->type_name("KIND");
     detail_.declare(app);
@@ -43,19 +47,29 @@ class TinVerb final : public Verb {
     window_.validate();
     detail_.validate();
     themes_.validate();
+    if (output_.empty() && image_.empty()) throw InputError("give an output: --output FILE, or --image FILE.png");
+    if (output_.empty() && !topology_.empty()) throw InputError("--topology: give --output FILE.json with it");
+    if (!output_.empty() && output_ == image_) throw InputError("--output and --image name the same file");
+    if (!look_.empty()) {
+      const std::vector<double> look = parse_tuple("--look", look_, 2, "azimuth,elevation");
+      view_.azimuth = look[0], view_.elevation = look[1];
+    }
     if (!topology_.empty()) kind_ = topology_kind(topology_);
   }
 
   Document parameters() const override {
-    Document parameters{{"store", store_}, {"output", output_}};
+    Document parameters{{"store", store_}};
+    if (!output_.empty()) parameters["output"] = output_;
+    if (!image_.empty()) parameters["image"] = image_;
     parameters.update(query());
     return parameters;
   }
 
   Result execute(Progress& progress) override {
+    if (!image_.empty()) policy_.require_writable(image_);
     if (kind_) {
       require_topology_output(output_, policy_.overwrite);
-    } else {
+    } else if (!output_.empty()) {
       require_tin_output(output_, policy_.overwrite);
     }
     const Store store(store_);
@@ -64,7 +78,8 @@ class TinVerb final : public Verb {
     themes_.choice().check(store.metadata().themes);
     const Tin tin = triangulate(store, window, detail, progress, themes_.choice());
     const Document surface = surface_document(store.metadata(), detail, themes_.choice());
-    write(tin, store.metadata(), surface, progress);
+    if (!output_.empty()) write(tin, store.metadata(), surface, progress);
+    if (!image_.empty()) viewshed::write_image(image_, viewshed::draw_oblique(tin, view_), policy_.overwrite);
     return {document(tin, store.metadata(), surface), text(tin), {}, {}};
   }
 
@@ -99,7 +114,7 @@ class TinVerb final : public Verb {
     document["vertices"] = tin.vertices.size();
     document["triangles"] = tin.triangles.size();
     document["line_edges"] = tin.lines.size();
-    document["outputs"] = Document::array({output_});
+    document["outputs"] = outputs();
     document["statistics"] = {{"points_read", tin.statistics.points_read},
                               {"blocks_read", tin.statistics.blocks_read},
                               {"triangles", tin.triangles.size()}};
@@ -107,13 +122,24 @@ class TinVerb final : public Verb {
   }
 
   std::string text(const Tin& tin) const {
-    return fmt::format("{}: {} vertices, {} triangles, {}\nread {} points in {} blocks\n", output_,
-                       grouped(tin.vertices.size()), grouped(tin.triangles.size()),
-                       readable_bytes(std::filesystem::file_size(output_)), grouped(tin.statistics.points_read),
-                       grouped(tin.statistics.blocks_read));
+    std::string text;
+    for (const std::string& path : outputs()) {
+      text += fmt::format("{}: {} vertices, {} triangles, {}\n", path, grouped(tin.vertices.size()),
+                          grouped(tin.triangles.size()), readable_bytes(std::filesystem::file_size(path)));
+    }
+    return text + fmt::format("read {} points in {} blocks\n", grouped(tin.statistics.points_read),
+                              grouped(tin.statistics.blocks_read));
   }
 
-  std::string store_, output_, topology_;
+  std::vector<std::string> outputs() const {
+    std::vector<std::string> paths;
+    for (const std::string& path : {output_, image_})
+      if (!path.empty()) paths.push_back(path);
+    return paths;
+  }
+
+  std::string store_, output_, topology_, image_, look_;
+  viewshed::ObliqueOptions view_;
   std::optional<TopologyKind> kind_;
   WindowOptions window_;
   DetailOptions detail_;
