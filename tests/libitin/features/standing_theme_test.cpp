@@ -11,6 +11,7 @@
 #include <random>
 #include <set>
 
+#include <gdal_priv.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -375,7 +376,89 @@ TEST_F(StandingThemes, WhatCannotStandIsNamed) {
   EXPECT_THROW(raise(ThemeKind::Walls, "houses", {box(300302, 199702, 300342, 199732, 9)}), InputError);
 }
 
-/// Mean heights of the Delft buildings against those that the city's own model was made with.
+/// In every cell, what stands is at most as much above the ground as the store says.
+TEST_F(StandingThemes, NothingRisesAboveTheGreatestHeight) {
+  ground(10, rolling);
+  std::vector<LineFeature> houses, woods;
+  for (int i = 0; i < 12; ++i)
+    houses.push_back(box(300020 + 41 * i, 199450 + 31 * i, 300040 + 43 * i, 199465 + 32 * i, 4 + i));
+  raise(ThemeKind::Buildings, "houses", houses);
+  raise(ThemeKind::Vegetation, "woods", {box(300103, 199803, 300297, 199897, 15)});
+  const Store store(path("s.itin"));
+  for (const char* theme : {"houses", "woods"}) {
+    const ThemeChoice choice = ThemeChoice::parse(theme);
+    const Tin bare = whole(ThemeChoice::none()), tin = whole(choice);
+    const TerrainHeights low(bare), high(tin);
+    double greatest = 0;
+    for (const Triangle& t : tin.triangles) {
+      if (tin.theme(t) == 0) continue;
+      const Point3 a = tin.point(t[0]), b = tin.point(t[1]), c = tin.point(t[2]);
+      const Point2 p{(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3};
+      const GridPoint at = tin.grid.quantise({p.x, p.y, 0});
+      const double rise = *high.height_at({at.x, at.y}) - *low.height_at({at.x, at.y});
+      EXPECT_LE(rise, store.greatest_feature_height(choice, {p.x, p.y, p.x, p.y}) + 1e-9);
+      greatest = std::max(greatest, rise);
+    }
+    EXPECT_GT(greatest, 3);
+  }
+}
+
+/// A surface model made by others: what stands brings the terrain closer to it within the footprints, and leaves it
+/// alone outside.
+TEST_F(StandingThemes, AlexandriaComesCloserToItsSurfaceModel) {
+  const std::string data = std::string(ITIN_DATA_DIR) + "/alexandria-va-2m/";
+  if (!std::filesystem::exists(data + "dsm.tif")) GTEST_SKIP() << data << " is not there";
+  NoProgress progress;
+  ImportOptions options;
+  options.sources = {data + "dtm.tif"};
+  import_terrain(path("s.itin"), options, progress);
+  options.sources = {data + "buildings.geojson"};
+  options.kind = ThemeKind::Buildings;
+  options.height_field = "HEIGHT";
+  EXPECT_GT(import_lines(path("s.itin"), options, progress).features, 75u);
+  const Tin bare = whole(ThemeChoice::none()), tin = whole(ThemeChoice::all());
+  const TerrainHeights low(bare), high(tin);
+  GDALAllRegister();
+  const GDALDatasetUniquePtr dataset(GDALDataset::Open((data + "dsm.tif").c_str(), GDAL_OF_RASTER));
+  ASSERT_TRUE(dataset);
+  std::array<double, 6> affine{};
+  dataset->GetGeoTransform(affine.data());
+  const int columns = dataset->GetRasterXSize(), rows = dataset->GetRasterYSize();
+  std::vector<double> dsm(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+  ASSERT_EQ(dataset->GetRasterBand(1)->RasterIO(GF_Read, 0, 0, columns, rows, dsm.data(), columns, rows, GDT_Float64, 0,
+                                                0, nullptr),
+            CE_None);
+  std::array<std::vector<double>, 4> errors;  // inside: with, without; outside: with, without
+  for (int r = 0; r < rows; ++r) {
+    for (int c = 0; c < columns; ++c) {
+      const double z =
+          dsm[static_cast<std::size_t>(r) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(c)];
+      const GridPoint p = tin.grid.quantise({affine[0] + (c + 0.5) * affine[1], affine[3] + (r + 0.5) * affine[5], 0});
+      const auto with = high.height_at({p.x, p.y}), without = low.height_at({p.x, p.y});
+      if (!with || !without || z < -100) continue;
+      const std::size_t inside = *with > *without + 2 ? 0 : 2;
+      errors[inside].push_back(std::abs(*with - z));
+      errors[inside + 1].push_back(std::abs(*without - z));
+    }
+  }
+  const std::array names{"inside footprints, with buildings", "inside footprints, bare terrain",
+                         "outside, with buildings", "outside, bare terrain"};
+  std::array<double, 4> medians{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    std::sort(errors[i].begin(), errors[i].end());
+    ASSERT_FALSE(errors[i].empty());
+    const auto at = [&](double share) {
+      return errors[i][static_cast<std::size_t>(share * (double(errors[i].size()) - 1))];
+    };
+    medians[i] = at(0.5);
+    std::cout << names[i] << ": " << errors[i].size() << " cells, |error| 50 % " << at(0.5) << " m, 75 % " << at(0.75)
+              << " m, 90 % " << at(0.9) << " m\n";
+  }
+  EXPECT_LT(medians[0], medians[1] / 2);
+  EXPECT_NEAR(medians[2], medians[3], 0.05);
+}
+
+/// The heights of the Delft buildings against those of the city's own model.
 TEST_F(StandingThemes, DelftHasItsRoofs) {
   const std::string model = std::string(ITIN_DATA_DIR) + "/ahn3-bgt-delft/output/testarea.json";
   const std::string points = std::string(ITIN_DATA_DIR) + "/derived-las/ahn3_cropped_2.las";
