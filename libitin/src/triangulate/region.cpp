@@ -176,24 +176,9 @@ class RegionTriangulation {
 
   void read_points(const Leaf* seed) {
     std::vector<std::pair<std::uint64_t, SelectedVertex>> found;
-<<<<<<< HEAD
-    for (const Leaf& leaf : leaves) {
-      if (leaf.level < selection_.finest_in(intersection(leaf.cell.box(), box_))) continue;
-      const auto block = index_.block(leaf);
-      statistics_.points_read += block->points.size();
-      statistics_.blocks_read += 1;
-      for (std::size_t k = 0; k < block->points.size(); ++k) {
-        const GridPoint& p = block->points[k];
-        if (!box_.contains(p.x, p.y)) continue;
-        const auto level = block->levels.empty() ? static_cast<std::uint8_t>(leaf.level) : block->levels[k];
-        if (selection_.selects(level, p.x, p.y))
-          found.push_back({morton(p.x, p.y), {p, block->sources[k], level, block->theme(k)}});
-      }
-=======
     for (const Leaf& leaf : leaves_in(read_box_)) {
       if (leaf.level >= selection_.finest_in(intersection(leaf.cell.box(), read_box_)))
         read_block(leaf, read_box_, found);
->>>>>>> main
     }
     if (seed != nullptr) read_block(*seed, box_, found);
     std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -217,7 +202,8 @@ class RegionTriangulation {
       const GridPoint& p = block->points[k];
       if (!box.contains(p.x, p.y)) continue;
       const auto level = block->levels.empty() ? static_cast<std::uint8_t>(leaf.level) : block->levels[k];
-      if (selection_.selects(level, p.x, p.y)) found.push_back({morton(p.x, p.y), {p, block->sources[k], level}});
+      if (selection_.selects(level, p.x, p.y))
+        found.push_back({morton(p.x, p.y), {p, block->sources[k], level, block->theme(k)}});
     }
   }
 
