@@ -7,6 +7,13 @@
 
 namespace itin {
 
+namespace {
+
+/// So many of the nearest are tried before the others.
+constexpr std::ptrdiff_t kNearSegments = 16;
+
+}  // namespace
+
 bool crosses(const Segment& s, Position p, Position q) {
   const Position a{s.ax, s.ay}, b{s.bx, s.by};
   return orientation(p, q, a) * orientation(p, q, b) < 0 && orientation(a, b, p) * orientation(a, b, q) < 0;
@@ -26,6 +33,25 @@ std::shared_ptr<const Block> ApexSearch::read(const Leaf& leaf) {
   return block;
 }
 
+/// The segments in the box that may come between ab and what lies left of it. Those near by, which hide most, are first.
+void ApexSearch::read_segments(const ApexFrame& frame, const GridBox& box) {
+  segments_.clear();
+  index_.segments(box, segments_);
+  std::erase_if(segments_, [&](const Segment& s) {
+    const bool beside = orientation(frame.a, frame.b, Position{s.ax, s.ay}) <= 0 &&
+                        orientation(frame.a, frame.b, Position{s.bx, s.by}) <= 0;
+    return beside || !selection_.selects(s);
+  });
+  if (std::ssize(segments_) <= kNearSegments) return;
+  const auto distance = [&](const Segment& s) {
+    const double x = s.ax - frame.mx, y = s.ay - frame.my;
+    return x * x + y * y;
+  };
+  const auto nearest = segments_.begin() + kNearSegments;
+  std::nth_element(segments_.begin(), nearest, segments_.end(),
+                   [&](const Segment& s, const Segment& t) { return distance(s) < distance(t); });
+}
+
 std::optional<SelectedVertex> ApexSearch::nearest_circle(const ApexFrame& frame, double lambda,
                                                          const Position* beyond) {
   const GridBox box = frame.cap_box(lambda, index_.bounds());
@@ -33,17 +59,22 @@ std::optional<SelectedVertex> ApexSearch::nearest_circle(const ApexFrame& frame,
   selected_leaves(index_, selection_, box, leaves_);
   std::erase_if(leaves_, [&](const Leaf& leaf) { return !frame.cap_meets(lambda, leaf.cell.box()); });
   if (leaves_.empty()) return std::nullopt;
-  segments_.clear();
-  index_.segments(box, segments_);
-  std::erase_if(segments_, [&](const Segment& s) { return !selection_.selects(s); });
+  read_segments(frame, box);
   std::vector<std::pair<double, std::uint32_t>> order(leaves_.size());
   for (std::uint32_t i = 0; i < leaves_.size(); ++i) order[i] = {frame.key(leaves_[i].cell.box()), i};
   std::sort(order.begin(), order.end());
 
   const Position a = frame.a, b = frame.b;
+  const auto hides = [&](const Segment& s, Position c) { return crosses(s, a, c) || crosses(s, b, c); };
+  std::size_t latest = 0;
   const auto hidden = [&](Position c) {
-    return std::any_of(segments_.begin(), segments_.end(),
-                       [&](const Segment& s) { return crosses(s, a, c) || crosses(s, b, c); });
+    // Points come along the curve: what hid the last one often hides the next.
+    if (latest < segments_.size() && hides(segments_[latest], c)) return true;
+    const auto found =
+        std::find_if(segments_.begin(), segments_.end(), [&](const Segment& s) { return hides(s, c); });
+    if (found == segments_.end()) return false;
+    latest = static_cast<std::size_t>(found - segments_.begin());
+    return true;
   };
   std::optional<SelectedVertex> best;
   double reach = lambda;

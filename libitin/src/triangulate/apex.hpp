@@ -61,6 +61,7 @@ class ApexSearch {
  private:
   std::uint8_t level_of(const Leaf& leaf, const Block& block, std::size_t k) const;
   std::shared_ptr<const Block> read(const Leaf& leaf);
+  void read_segments(const ApexFrame& frame, const GridBox& box);
   std::optional<SelectedVertex> nearest_circle(const ApexFrame& frame, double lambda, const Position* beyond);
 
   const PointIndex& index_;
