@@ -46,7 +46,6 @@ bool strictly_inside(const GridPoint& a, const GridPoint& b, const GridPoint& c,
 struct Node {
   Point2 place;
   double height = kUnknown;
-  double clearance = kFar;           ///< from the contour
   std::optional<Position> position;  ///< of the point to infer; none for vertices that are there, or where none fits
   bool tip = false;
   std::vector<std::pair<std::uint32_t, double>> links;  ///< neighbours and distances
@@ -57,6 +56,32 @@ struct Surroundings {
   double slope = kUnknown;     ///< mean, along the region's contours
   double interval = kUnknown;  ///< the least difference from a neighbouring contour
   double outside = 0;          ///< > 0 where the ground beyond the contours rises
+};
+
+/// The distance to the nearest of many sides.
+class NearestSide {
+ public:
+  void add(const GridPoint& a, const GridPoint& b) { sides_.push_back(a.x < b.x ? Ends{a, b} : Ends{b, a}); }
+  void sort() {
+    std::sort(sides_.begin(), sides_.end(), [](const Ends& s, const Ends& t) { return s.first.x < t.first.x; });
+    for (const Ends& s : sides_) widest_ = std::max(widest_, static_cast<double>(s.second.x) - s.first.x);
+  }
+
+  double distance_from(Point2 p) const {
+    const auto right =
+        std::partition_point(sides_.begin(), sides_.end(), [&](const Ends& s) { return s.first.x < p.x; });
+    double least = kFar;
+    for (auto s = right; s != sides_.end() && s->first.x - p.x < least; ++s)
+      least = std::min(least, distance_to_segment(p, s->first, s->second));
+    for (auto s = right; s != sides_.begin() && p.x - std::prev(s)->first.x - widest_ < least; --s)
+      least = std::min(least, distance_to_segment(p, std::prev(s)->first, std::prev(s)->second));
+    return least;
+  }
+
+ private:
+  using Ends = std::pair<GridPoint, GridPoint>;
+  std::vector<Ends> sides_;  ///< each from left to right; by their left end
+  double widest_ = 0;
 };
 
 class Skeleton {
@@ -118,7 +143,7 @@ class Skeleton {
   }
 
   std::uint32_t tip(const GridPoint& p) {
-    Node node{.place = flat_point(p), .height = 0, .clearance = 0, .position = {}, .tip = true, .links = {}};
+    Node node{.place = flat_point(p), .height = 0, .position = {}, .tip = true, .links = {}};
     return add_node(std::move(node));
   }
 
@@ -129,19 +154,7 @@ class Skeleton {
     const Position p{static_cast<std::int32_t>(std::lround(node.place.x)),
                      static_cast<std::int32_t>(std::lround(node.place.y))};
     if (strictly_inside(a, b, c, p)) node.position = p;
-    node.clearance = clearance(node.place, t);
     return add_node(std::move(node));
-  }
-
-  /// From the triangle's contours and corners.
-  static double clearance(Point2 p, const Triangle& t) {
-    double least = kFar;
-    for (std::size_t i = 0; i < 3; ++i) {
-      least = std::min(least, distance(p, flat_point(t.corners[i])));
-      if (t.sides[i].passage == Passage::kClosed)
-        least = std::min(least, distance_to_segment(p, t.corners[(i + 1) % 3], t.corners[(i + 2) % 3]));
-    }
-    return least;
   }
 
   /// The middle of a side, which both triangles at it share; beyond an exit the way leads on to the vertex there.
@@ -155,14 +168,11 @@ class Skeleton {
     if (side.passage == Passage::kExit) {
       Node beyond{.place = flat_point(side.beyond),
                   .height = static_cast<double>(side.beyond.z) - base_,
-                  .clearance = kFar,
                   .position = {},
                   .tip = false,
                   .links = {}};
       exits_.push_back(add_node(std::move(beyond)));
       link(node, exits_.back());
-    } else {
-      nodes_[node].clearance = std::min(nodes_[node].clearance, clearance(nodes_[node].place, own));
     }
     return node;
   }
@@ -170,7 +180,6 @@ class Skeleton {
   static Node middle_node(const Triangle& own, std::size_t i, const GridPoint& a, const GridPoint& b) {
     Node node;
     node.place = {(static_cast<double>(a.x) + b.x) / 2, (static_cast<double>(a.y) + b.y) / 2};
-    node.clearance = clearance(node.place, own);
     const Position p{static_cast<std::int32_t>((std::int64_t{a.x} + b.x) >> 1),
                      static_cast<std::int32_t>((std::int64_t{a.y} + b.y) >> 1)};
     const bool is_end = p == Position{a.x, a.y} || p == Position{b.x, b.y};
@@ -186,13 +195,14 @@ class Skeleton {
     for (const std::uint32_t t : region) {
       for (std::size_t i = 0; i < 3; ++i) {
         const Side& side = triangle(t).sides[i];
+        const GridPoint &a = triangle(t).corners[(i + 1) % 3], &b = triangle(t).corners[(i + 2) % 3];
+        if (side.passage == Passage::kClosed) contours_.add(a, b);
         const double rise = static_cast<double>(side.beyond.z) - base_;
         if (!side.ground_beyond || side.passage == Passage::kFlat || rise == 0) continue;
         if (side.contour_beyond) {
           around_.interval = std::isnan(around_.interval) ? std::abs(rise) : std::min(around_.interval, std::abs(rise));
         }
         if (side.passage == Passage::kExit) continue;
-        const GridPoint &a = triangle(t).corners[(i + 1) % 3], &b = triangle(t).corners[(i + 2) % 3];
         const double weight = distance(flat_point(a), flat_point(b));
         length += weight;
         slope += weight * std::abs(rise) / distance_to_segment(flat_point(side.beyond), a, b);
@@ -200,18 +210,19 @@ class Skeleton {
       }
     }
     if (length > 0) around_.slope = slope / length;
+    contours_.sort();
   }
 
-  /// How far the ground strays from the contour's height so far from it: within `most`.
-  double extrapolated(double clearance, double most) const {
-    return std::isnan(around_.slope) ? most : std::min(around_.slope * clearance, most);
+  /// How far the ground strays from the contour's height at a place away from it: within `most`.
+  double extrapolated(Point2 place, double most) const {
+    return std::isnan(around_.slope) ? most : std::min(around_.slope * contours_.distance_from(place), most);
   }
 
   void raise_roof() {
     if (std::isnan(around_.slope) || std::isnan(around_.interval) || around_.outside == 0) return;
     const double sign = around_.outside < 0 ? 1 : -1;
     for (Node& node : nodes_) {
-      if (!node.tip) node.height = sign * extrapolated(node.clearance, around_.interval / 2);
+      if (!node.tip) node.height = sign * extrapolated(node.place, around_.interval / 2);
     }
   }
 
@@ -264,7 +275,7 @@ class Skeleton {
     if (here * there <= 0) return 0;
     double most = std::min(std::abs(here), std::abs(there)) / 2;
     if (!std::isnan(around_.interval)) most = std::min(most, around_.interval / 2);
-    return std::copysign(extrapolated(nodes_[n].clearance, most), here);
+    return std::copysign(extrapolated(nodes_[n].place, most), here);
   }
 
   /// Even heights from a terminal by way of `next` to the first node on the way to the exit that has a height.
@@ -297,6 +308,7 @@ class Skeleton {
   std::vector<Node> nodes_;
   std::map<std::pair<std::uint64_t, std::uint64_t>, std::uint32_t> middles_;  ///< by the ends of the side
   std::vector<std::uint32_t> exits_;                                          ///< the vertices beyond
+  NearestSide contours_;  ///< of the region
   Surroundings around_;
   std::vector<Way> ways_;
 };

@@ -31,6 +31,16 @@ LineFeature ellipse(Point2 centre, double rx, double ry, double z, int count = 4
   return f;
 }
 
+/// Down to both sides of its tip, as a valley's contour that is open towards the south.
+LineFeature horseshoe(Point2 tip, double width, double z) {
+  LineFeature f;
+  for (int i = -40; i <= 40; ++i) {
+    const double t = i / 40.0;
+    f.vertices.push_back({tip.x + t * width / 2, tip.y * (1 - t * t), z});
+  }
+  return f;
+}
+
 /// Straight pieces with a vertex every 25 m or so.
 LineFeature polyline(const std::vector<Point2>& corners, double z) {
   LineFeature f;
@@ -158,9 +168,9 @@ TEST_F(ContourRepair, LaysASaddleBetweenTwoHills) {
 
 TEST_F(ContourRepair, LetsAValleyFallEvenlyFromTipToTip) {
   // Open lines, which end at the border of the ground.
-  const ImportReport report = add({polyline({{0, 0}, {500, 2000}, {1000, 0}}, 110),
-                                   polyline({{250, 0}, {500, 1000}, {750, 0}}, 100),
-                                   polyline({{-250, 0}, {500, 3000}, {1250, 0}}, 120)});
+  const ImportReport report = add({horseshoe({500, 2000}, 1000, 110),
+                                   horseshoe({500, 1000}, 500, 100),
+                                   horseshoe({500, 3000}, 1500, 120)});
   EXPECT_GT(report.flat_before, 0u);
   EXPECT_LT(report.flat_after, report.flat_before / 20 + 1);
   const Tin tin = surface();
@@ -220,8 +230,8 @@ TEST_F(ContourRepair, LeavesNestedRingsAloneBetweenEachOther) {
 }
 
 TEST_F(ContourRepair, DependsOnWhatWasImportedAlone) {
-  const std::vector<LineFeature> one{polyline({{0, 0}, {500, 2000}, {1000, 0}}, 110)},
-      two{polyline({{250, 0}, {500, 1000}, {750, 0}}, 100), polyline({{-250, 0}, {500, 3000}, {1250, 0}}, 120)};
+  const std::vector<LineFeature> one{horseshoe({500, 2000}, 1000, 110)},
+      two{horseshoe({500, 1000}, 500, 100), horseshoe({500, 3000}, 1500, 120)};
   add(one, ThemeKind::Contours, true, "a.itin");
   add(two, ThemeKind::Contours, true, "a.itin");
   {
@@ -243,8 +253,8 @@ TEST_F(ContourRepair, DependsOnWhatWasImportedAlone) {
 }
 
 TEST_F(ContourRepair, IsAsTheLastImportOfContoursSays) {
-  const std::vector<LineFeature> one{polyline({{0, 0}, {500, 2000}, {1000, 0}}, 110)},
-      two{polyline({{250, 0}, {500, 1000}, {750, 0}}, 100)}, road{polyline({{450, 100}, {550, 300}}, 0)};
+  const std::vector<LineFeature> one{horseshoe({500, 2000}, 1000, 110)},
+      two{horseshoe({500, 1000}, 500, 100)}, road{polyline({{450, 100}, {550, 300}}, 0)};
   ImportReport report = add(one, ThemeKind::Contours, false);
   EXPECT_EQ(Store(path("s.itin")).metadata().sources.size(), 1u);
   report = add(two, ThemeKind::Contours, false);
@@ -339,7 +349,7 @@ TEST_F(ContourRepair, BringsRealContoursCloserToTheGridOfTheSameGround) {
     std::printf("%s repair: rms %.3f m, mean %.3f m, greatest %.2f m at %zu posts; %llu flat triangles, %llu inferred\n",
                 repair ? "with" : "without", e.rms, e.mean, e.worst, e.posts,
                 static_cast<unsigned long long>(report.flat_after), static_cast<unsigned long long>(report.inferred));
-    if (repair) EXPECT_LT(report.flat_after, report.flat_before / 20);
+    EXPECT_LE(report.flat_after, repair ? report.flat_before / 20 : report.flat_before);
   }
   EXPECT_LT(found[1].rms, 0.9 * found[0].rms);
   EXPECT_LT(found[1].mean, 0.95 * found[0].mean);
