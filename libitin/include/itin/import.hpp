@@ -46,21 +46,21 @@ struct ImportOptions {
 };
 
 struct ImportReport {
-  std::string crs_name;          ///< of the store
-  bool crs_chosen = false;       ///< a UTM zone was chosen, because the source is not metric
-  std::uint64_t read = 0;        ///< posts and points read with a height
-  std::uint64_t voids = 0;       ///< posts without data
-  std::uint64_t filtered = 0;    ///< points left out by class or where
-  std::uint64_t duplicates = 0;  ///< positions that were there already
-  std::uint64_t replaced = 0;    ///< coarser points that made room
-  std::uint64_t isolated = 0;    ///< points left out because no ground could be triangulated about them
-  std::uint64_t features = 0;    ///< of lines read
-  std::uint64_t crossings = 0;   ///< pairs of segments that crossed, of any themes, and were given a vertex
-  std::uint64_t left_out = 0;    ///< segments, of any theme, that do not lie wholly on the ground
+  std::string crs_name;           ///< of the store
+  bool crs_chosen = false;        ///< a UTM zone was chosen, because the source is not metric
+  std::uint64_t read = 0;         ///< posts and points read with a height
+  std::uint64_t voids = 0;        ///< posts without data
+  std::uint64_t filtered = 0;     ///< points left out by class or where
+  std::uint64_t duplicates = 0;   ///< positions that were there already
+  std::uint64_t replaced = 0;     ///< coarser points that made room
+  std::uint64_t isolated = 0;     ///< points left out because no ground could be triangulated about them
+  std::uint64_t features = 0;     ///< of lines read
+  std::uint64_t crossings = 0;    ///< pairs of segments that crossed, of any themes, and were given a vertex
+  std::uint64_t left_out = 0;     ///< segments, of any theme, that do not lie wholly on the ground
   std::uint64_t flat_before = 0;  ///< triangles that are level because their corners lie on contours
   std::uint64_t flat_after = 0;   ///< of them, those that are left
   std::uint64_t inferred = 0;     ///< points of the store inferred from contours
-  std::uint64_t vertices = 0;    ///< of the store now
+  std::uint64_t vertices = 0;     ///< of the store now
   std::uint64_t store_bytes = 0;
   double seconds = 0;
   std::vector<LevelInfo> levels;

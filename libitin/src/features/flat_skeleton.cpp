@@ -308,7 +308,7 @@ class Skeleton {
   std::vector<Node> nodes_;
   std::map<std::pair<std::uint64_t, std::uint64_t>, std::uint32_t> middles_;  ///< by the ends of the side
   std::vector<std::uint32_t> exits_;                                          ///< the vertices beyond
-  NearestSide contours_;  ///< of the region
+  NearestSide contours_;                                                      ///< of the region
   Surroundings around_;
   std::vector<Way> ways_;
 };

@@ -6,12 +6,13 @@
 // at a vertex beyond, whose height is known as well: the next contour in the valley, or a spot height on the top.
 // - Along the way from the exit to the farthest tip the height changes evenly; other branches run evenly from there to
 //   their tips.
-// - Where the ways from two exits meet is a pass, or a saddle of a ridge: its height is extrapolated by the slope of the
+// - Where the ways from two exits meet is a pass, or a saddle of a ridge: its height is extrapolated by the slope of
+// the
 //   contour interval beside the region.
 // - A region without exits is a hilltop, or a pit where the ground outside is higher: it rises with the slope of the
 //   contour interval outside, away from the contour.
-// What is extrapolated stays within half of the contour interval. Where nothing outside tells the slope, as about a lone
-// contour, nothing is inferred.
+// What is extrapolated stays within half of the contour interval. Where nothing outside tells the slope, as about a
+// lone contour, nothing is inferred.
 #pragma once
 
 #include <vector>

@@ -36,7 +36,7 @@ class FlatTriangles {
   struct Side {
     Passage passage = Passage::kClosed;
     bool ground_beyond = false;
-    bool contour_beyond = false;  ///< whether vertex `beyond` is on a contour
+    bool contour_beyond = false;           ///< whether vertex `beyond` is on a contour
     std::uint32_t triangle = kNoTriangle;  ///< beyond, if that is flat as well and there is no line between
     GridPoint beyond;                      ///< the opposite vertex there
   };

@@ -40,8 +40,7 @@ Sources ground_sources(const std::vector<SourceInfo>& sources) {
   Sources ground;
   for (std::size_t s = 0; s < sources.size(); ++s) {
     const bool scattered = sources[s].theme.empty() && sources[s].kind != kInferred;
-    if (scattered || sources[s].kind == name_of(ThemeKind::Contours))
-      ground.insert(static_cast<std::uint16_t>(s));
+    if (scattered || sources[s].kind == name_of(ThemeKind::Contours)) ground.insert(static_cast<std::uint16_t>(s));
   }
   return ground;
 }

@@ -28,7 +28,6 @@ struct Lattice {
   int row_bits;  ///< of the greatest row
 };
 
-
 std::vector<Vertex> ends_of(const std::vector<Segment>& segments) {
   std::vector<Vertex> ends;
   for (const Segment& s : segments) {
@@ -58,8 +57,9 @@ Lattice lattice_of(const std::vector<Vertex>& ends) {
 
 /// Most lines go from left to right, and then need no sign.
 bool ascending(const std::vector<Segment>& segments) {
-  return std::all_of(segments.begin(), segments.end(),
-                     [](const Segment& s) { return Vertex{s.ax, s.ay} < Vertex{s.bx, s.by}; });
+  return std::all_of(segments.begin(), segments.end(), [](const Segment& s) {
+    return Vertex{s.ax, s.ay} < Vertex{s.bx, s.by};
+  });
 }
 
 std::uint64_t bits_of(const std::vector<std::uint64_t>& values, int k) {

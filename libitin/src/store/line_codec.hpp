@@ -10,8 +10,8 @@
 
 namespace itin {
 
-/// Precondition: in ascending order, different, all of one theme, at least one, none without length; those whose finest level is 0 have
-/// no reach.
+/// Precondition: in ascending order, different, all of one theme, at least one, none without length; those whose finest
+/// level is 0 have no reach.
 std::vector<std::uint8_t> encode_lines(const Cell& cell, const std::vector<Segment>& segments);
 /// Throws DecodeError unless the bytes are `count` segments in ascending order, each crossing the cell.
 std::vector<Segment> decode_lines(const Cell& cell, std::uint16_t theme, std::size_t count,

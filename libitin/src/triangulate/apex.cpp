@@ -4,13 +4,16 @@
 #include <cmath>
 
 #include "triangulate/apex_frame.hpp"
+#include "triangulate/sight_fan.hpp"
 
 namespace itin {
 
 namespace {
 
-/// So many of the nearest are tried before the others.
+/// So many of the nearest segments are tried before the others.
 constexpr std::ptrdiff_t kNearSegments = 16;
+/// For less it is not worth sorting segments by direction.
+constexpr std::size_t kFewSegments = 64, kFewQuestions = 4;
 
 }  // namespace
 
@@ -33,7 +36,8 @@ std::shared_ptr<const Block> ApexSearch::read(const Leaf& leaf) {
   return block;
 }
 
-/// The segments in the box that may come between ab and what lies left of it. Those near by, which hide most, are first.
+/// The segments in the box that may come between ab and what lies left of it. Those near by, which hide most, are
+/// first.
 void ApexSearch::read_segments(const ApexFrame& frame, const GridBox& box) {
   segments_.clear();
   index_.segments(box, segments_);
@@ -65,16 +69,18 @@ std::optional<SelectedVertex> ApexSearch::nearest_circle(const ApexFrame& frame,
   std::sort(order.begin(), order.end());
 
   const Position a = frame.a, b = frame.b;
-  const auto hides = [&](const Segment& s, Position c) { return crosses(s, a, c) || crosses(s, b, c); };
-  std::size_t latest = 0;
+  std::optional<SightFan> from_a, from_b;
+  std::size_t asked = 0;
   const auto hidden = [&](Position c) {
-    // Points come along the curve: what hid the last one often hides the next.
-    if (latest < segments_.size() && hides(segments_[latest], c)) return true;
-    const auto found =
-        std::find_if(segments_.begin(), segments_.end(), [&](const Segment& s) { return hides(s, c); });
-    if (found == segments_.end()) return false;
-    latest = static_cast<std::size_t>(found - segments_.begin());
-    return true;
+    if (segments_.size() < kFewSegments || ++asked < kFewQuestions) {
+      return std::any_of(segments_.begin(), segments_.end(),
+                         [&](const Segment& s) { return crosses(s, a, c) || crosses(s, b, c); });
+    }
+    if (!from_a) {
+      from_a.emplace(a, b, a, segments_);
+      from_b.emplace(a, b, b, segments_);
+    }
+    return from_a->blocked(c) || from_b->blocked(c);
   };
   std::optional<SelectedVertex> best;
   double reach = lambda;

@@ -146,9 +146,8 @@ TEST_F(ContourRepair, LeavesALoneContourAsItIs) {
 }
 
 TEST_F(ContourRepair, LaysASaddleBetweenTwoHills) {
-  add({ellipse({1500, 1000}, 1400, 900, 100), ellipse({950, 1000}, 450, 400, 110),
-       ellipse({2050, 1000}, 450, 400, 110), ellipse({950, 1000}, 200, 150, 120),
-       ellipse({2050, 1000}, 200, 150, 120)});
+  add({ellipse({1500, 1000}, 1400, 900, 100), ellipse({950, 1000}, 450, 400, 110), ellipse({2050, 1000}, 450, 400, 110),
+       ellipse({950, 1000}, 200, 150, 120), ellipse({2050, 1000}, 200, 150, 120)});
   const Tin tin = surface();
   const double pass = height_at(tin, {1500, 1000});
   EXPECT_LT(pass, 109.5);
@@ -168,9 +167,8 @@ TEST_F(ContourRepair, LaysASaddleBetweenTwoHills) {
 
 TEST_F(ContourRepair, LetsAValleyFallEvenlyFromTipToTip) {
   // Open lines, which end at the border of the ground.
-  const ImportReport report = add({horseshoe({500, 2000}, 1000, 110),
-                                   horseshoe({500, 1000}, 500, 100),
-                                   horseshoe({500, 3000}, 1500, 120)});
+  const ImportReport report =
+      add({horseshoe({500, 2000}, 1000, 110), horseshoe({500, 1000}, 500, 100), horseshoe({500, 3000}, 1500, 120)});
   EXPECT_GT(report.flat_before, 0u);
   EXPECT_LT(report.flat_after, report.flat_before / 20 + 1);
   const Tin tin = surface();
@@ -253,8 +251,8 @@ TEST_F(ContourRepair, DependsOnWhatWasImportedAlone) {
 }
 
 TEST_F(ContourRepair, IsAsTheLastImportOfContoursSays) {
-  const std::vector<LineFeature> one{horseshoe({500, 2000}, 1000, 110)},
-      two{horseshoe({500, 1000}, 500, 100)}, road{polyline({{450, 100}, {550, 300}}, 0)};
+  const std::vector<LineFeature> one{horseshoe({500, 2000}, 1000, 110)}, two{horseshoe({500, 1000}, 500, 100)},
+      road{polyline({{450, 100}, {550, 300}}, 0)};
   ImportReport report = add(one, ThemeKind::Contours, false);
   EXPECT_EQ(Store(path("s.itin")).metadata().sources.size(), 1u);
   report = add(two, ThemeKind::Contours, false);
@@ -298,7 +296,9 @@ Errors errors(const Tin& tin, const std::string& grid) {
   std::vector<double> difference(heights.size(), std::nan(""));
   for (const Triangle& t : tin.triangles) {
     const Point3 a = tin.point(t[0]), b = tin.point(t[1]), c = tin.point(t[2]);
-    const auto index = [&](double v, int axis) { return (v - transform[axis == 0 ? 0 : 3]) / transform[axis == 0 ? 1 : 5] - 0.5; };
+    const auto index = [&](double v, int axis) {
+      return (v - transform[axis == 0 ? 0 : 3]) / transform[axis == 0 ? 1 : 5] - 0.5;
+    };
     const auto [west, east] = std::minmax({index(a.x, 0), index(b.x, 0), index(c.x, 0)});
     const auto [north, south] = std::minmax({index(a.y, 1), index(b.y, 1), index(c.y, 1)});
     for (int r = std::max(0, int(std::ceil(north))); r <= std::min(rows - 1, int(std::floor(south))); ++r) {
@@ -344,11 +344,13 @@ TEST_F(ContourRepair, BringsRealContoursCloserToTheGridOfTheSameGround) {
     options.kind = ThemeKind::Contours;
     options.repair = repair;
     const ImportReport report = import_lines(store, options, progress);
-    found[repair] = errors(surface(repair ? "with.itin" : "without.itin"), "/vsizip/" + folder + "sk00_grid.zip/SK00.asc");
+    found[repair] =
+        errors(surface(repair ? "with.itin" : "without.itin"), "/vsizip/" + folder + "sk00_grid.zip/SK00.asc");
     const Errors& e = found[repair];
-    std::printf("%s repair: rms %.3f m, mean %.3f m, greatest %.2f m at %zu posts; %llu flat triangles, %llu inferred\n",
-                repair ? "with" : "without", e.rms, e.mean, e.worst, e.posts,
-                static_cast<unsigned long long>(report.flat_after), static_cast<unsigned long long>(report.inferred));
+    std::printf(
+        "%s repair: rms %.3f m, mean %.3f m, greatest %.2f m at %zu posts; %llu flat triangles, %llu inferred\n",
+        repair ? "with" : "without", e.rms, e.mean, e.worst, e.posts,
+        static_cast<unsigned long long>(report.flat_after), static_cast<unsigned long long>(report.inferred));
     EXPECT_LE(report.flat_after, repair ? report.flat_before / 20 : report.flat_before);
   }
   EXPECT_LT(found[1].rms, 0.9 * found[0].rms);
