@@ -12,6 +12,7 @@
 #include "import/line_collection.hpp"
 #include "import/line_layer.hpp"
 #include "import/sorted_points.hpp"
+#include "import/source_context.hpp"
 #include "import/terrain_source.hpp"
 #include "pyramid/pyramid.hpp"
 #include "store/point_index.hpp"
@@ -55,9 +56,31 @@ void check_resolution(const ImportOptions& options, const Store* existing) {
   }
 }
 
-/// Adds the points that a store holds already, and takes its lines over.
+/// Whether a store's contours are repaired.
+bool repairs(const Store* store) {
+  return store != nullptr && !store->metadata().sources.empty() && store->metadata().sources.back().kind == kInferred;
+}
+
+SourceInfo inferred_source() {
+  SourceInfo source;
+  source.path = "inferred from contours";
+  source.kind = kInferred;
+  source.imported = utc_now();
+  return source;
+}
+
+/// All but the last one if that stands for inferred points.
+std::vector<SourceInfo> imported_sources(const Store* store) {
+  if (store == nullptr) return {};
+  std::vector<SourceInfo> sources = store->metadata().sources;
+  if (repairs(store)) sources.pop_back();
+  return sources;
+}
+
+/// Adds the points that a store holds already, but for those inferred from others, and takes its lines over.
 std::uint64_t add_stored(const Store& store, PointSorter& sorter, LineCollection& lines, Progress& progress) {
   lines.take_themes(store.metadata());
+  const std::size_t inferred = imported_sources(&store).size();
   std::vector<Leaf> leaves;
   store.points().leaves(0, store.points().bounds(), leaves);
   std::uint64_t count = 0;
@@ -68,7 +91,7 @@ std::uint64_t add_stored(const Store& store, PointSorter& sorter, LineCollection
     points.clear();
     for (std::size_t k = 0; k < block->points.size(); ++k) {
       const GridPoint& p = block->points[k];
-      if (lines.take_vertex(p, block->sources[k])) continue;
+      if (block->sources[k] == inferred || lines.take_vertex(p, block->sources[k])) continue;
       points.push_back({morton(p.x, p.y), p.z, block->sources[k], 0});
     }
     sorter.add(points);
@@ -145,10 +168,9 @@ ImportReport import_sources(const std::string& store_path, const ImportOptions& 
   report.crs_name = plan.crs_name;
   report.crs_chosen = plan.crs_chosen;
   report.warnings = plan.warnings;
-  std::vector<SourceInfo> sources;
-  if (store != nullptr) sources = store->metadata().sources;
-  if (sources.size() + plan.sources.size() + plan.lines.size() > 65535)
-    throw InputError("a store holds at most 65,535 sources; merge some of them first");
+  std::vector<SourceInfo> sources = imported_sources(store);
+  if (sources.size() + plan.sources.size() + plan.lines.size() >= 65535)
+    throw InputError("a store holds at most 65,534 sources; merge some of them first");
 
   // The writer comes first: it holds the lock, and a place that cannot be written is known before hours of work.
   StoreWriter writer(store_path, plan.crs_wkt, plan.grid, tolerances);
@@ -164,6 +186,8 @@ ImportReport import_sources(const std::string& store_path, const ImportOptions& 
     add_lines(*layer, static_cast<std::uint16_t>(sources.size()), plan, options, collection, report, progress);
     sources.push_back(layer->info());
   }
+  const bool repair = options.kind == ThemeKind::Contours ? options.repair : repairs(store);
+  if (repair) sources.push_back(inferred_source());
   offered += report.read;
   if (offered == 0) throw InputError("nothing to import: the sources hold no point with a height");
 
@@ -178,6 +202,9 @@ ImportReport import_sources(const std::string& store_path, const ImportOptions& 
   report.replaced = pyramid.replaced;
   report.isolated = pyramid.isolated;
   report.left_out = pyramid.left_out;
+  report.flat_before = pyramid.flat_before;
+  report.flat_after = pyramid.flat_after;
+  if (repair) report.inferred = pyramid.vertices_of_source.back();
   for (std::size_t s = 0; s < sources.size(); ++s) {
     sources[s].vertices = pyramid.vertices_of_source[s];
     report.vertices += sources[s].vertices;

@@ -90,6 +90,7 @@ ThemeLines LineCollection::finish() {
     themes.push_back(themes_[order[i]]);
     first_source.push_back(first_source_[order[i]]);
     result.terrain.push_back(is_terrain(themes.back().kind));
+    result.kinds.push_back(themes.back().kind);
   }
   themes_ = std::move(themes);
   first_source_ = std::move(first_source);

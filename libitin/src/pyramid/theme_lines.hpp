@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <itin/progress.hpp>
+#include <itin/theme.hpp>
 
 #include "features/planar.hpp"
 #include "pyramid/source_index.hpp"
@@ -16,6 +17,7 @@ namespace itin {
 struct ThemeLines {
   PlanarLines lines;
   std::vector<bool> terrain;           ///< by owner: whether they are part of the full surface
+  std::vector<ThemeKind> kinds;        ///< by owner
   std::vector<std::uint16_t> sources;  ///< by vertex: where it comes from
 
   bool empty() const { return lines.edges.empty(); }

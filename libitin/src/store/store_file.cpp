@@ -7,6 +7,7 @@
 #include "store/block_codec.hpp"
 #include "store/byte_stream.hpp"
 #include "store/edge_quadtree.hpp"
+#include "store/line_codec.hpp"
 #include "store/metadata_json.hpp"
 #include "store/store_format.hpp"
 
@@ -63,7 +64,10 @@ Block StoreFile::read_block(const Leaf& leaf) const {
 
 std::vector<Segment> StoreFile::read_edges(const Leaf& leaf) const {
   return at_place(rows_.path(), format::place("block", leaf.key), [&] {
-    return decode_edges(leaf.cell, format::theme_of(leaf.level), leaf.points, rows_.read(BlobKind::Block, leaf.key));
+    const std::uint16_t theme = format::theme_of(leaf.level);
+    const auto bytes = rows_.read(BlobKind::Block, leaf.key);
+    return theme == kCoverage ? decode_outline(leaf.cell, leaf.points, bytes)
+                              : decode_lines(leaf.cell, theme, leaf.points, bytes);
   });
 }
 
