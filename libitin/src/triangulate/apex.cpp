@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <queue>
+#include <tuple>
 
 #include "triangulate/apex_frame.hpp"
 #include "triangulate/sight_fan.hpp"
@@ -14,6 +17,26 @@ namespace {
 constexpr std::ptrdiff_t kNearSegments = 16;
 /// For less it is not worth sorting segments by direction.
 constexpr std::size_t kFewSegments = 64, kFewQuestions = 4;
+/// A circle is wide when its centre is so many times half the edge's length away; and so is a box.
+constexpr double kWide = 4;
+constexpr int kHalvings = 12;
+
+double width(const GridBox& b) {
+  return static_cast<double>(b.xmax) - b.xmin;
+}
+double height(const GridBox& b) {
+  return static_cast<double>(b.ymax) - b.ymin;
+}
+
+/// Both have the positions of the cut, so that no leaf can fall between.
+std::pair<GridBox, GridBox> halves(const GridBox& b) {
+  if (width(b) >= height(b)) {
+    const std::int32_t x = std::midpoint(b.xmin, b.xmax);
+    return {{b.xmin, b.ymin, x, b.ymax}, {x, b.ymin, b.xmax, b.ymax}};
+  }
+  const std::int32_t y = std::midpoint(b.ymin, b.ymax);
+  return {{b.xmin, b.ymin, b.xmax, y}, {b.xmin, y, b.xmax, b.ymax}};
+}
 
 }  // namespace
 
@@ -35,6 +58,17 @@ std::shared_ptr<const Block> ApexSearch::read(const Leaf& leaf) {
   }
   return block;
 }
+
+/// What is known while one circle is searched.
+struct ApexSearch::Search {
+  const ApexFrame& frame;
+  GridBox box;             ///< all that the search looks at; all its segments are known
+  const Position* beyond;  ///< on the circle that the search must improve on, or null
+  double reach;            ///< no circle larger than this matters any more
+  std::optional<SelectedVertex> best = std::nullopt;
+  std::size_t questions = 0;
+  std::optional<SightFan> from_a = std::nullopt, from_b = std::nullopt;  ///< made when there are many questions
+};
 
 /// The segments in the box that may come between ab and what lies left of it. Those near by, which hide most, are
 /// first.
@@ -58,53 +92,83 @@ void ApexSearch::read_segments(const ApexFrame& frame, const GridBox& box) {
 
 std::optional<SelectedVertex> ApexSearch::nearest_circle(const ApexFrame& frame, double lambda,
                                                          const Position* beyond) {
-  const GridBox box = frame.cap_box(lambda, index_.bounds());
+  Search search{frame, frame.cap_box(lambda, index_.bounds()), beyond, lambda};
+  if (search.box.empty()) return std::nullopt;
+  segments_known_ = false;
+  // Best first, by halves of a wide box's longer side: what is near has the answer, and may have none of the points.
+  using Piece = std::tuple<double, int, GridBox>;
+  const auto later = [](const Piece& p, const Piece& q) { return std::get<0>(p) > std::get<0>(q); };
+  std::priority_queue<Piece, std::vector<Piece>, decltype(later)> pieces(later);
+  const int halvings = lambda > kWide * frame.r ? kHalvings : 0;
+  const auto push = [&](const GridBox& box, int depth) {
+    if (frame.cap_meets(search.reach, box)) pieces.emplace(frame.key(box), depth, box);
+  };
+  for (push(search.box, 0); !pieces.empty();) {
+    const auto [key, depth, box] = pieces.top();
+    pieces.pop();
+    if (!frame.cap_meets(search.reach, box)) continue;
+    if (depth == halvings || std::max(width(box), height(box)) <= kWide * frame.r) {
+      look_in(box, search);
+      continue;
+    }
+    const auto [first, second] = halves(box);
+    push(first, depth + 1);
+    push(second, depth + 1);
+  }
+  return search.best;
+}
+
+void ApexSearch::look_in(const GridBox& piece, Search& search) {
+  const ApexFrame& frame = search.frame;
   leaves_.clear();
-  selected_leaves(index_, selection_, box, leaves_);
-  std::erase_if(leaves_, [&](const Leaf& leaf) { return !frame.cap_meets(lambda, leaf.cell.box()); });
-  if (leaves_.empty()) return std::nullopt;
-  read_segments(frame, box);
+  selected_leaves(index_, selection_, piece, leaves_);
+  std::erase_if(leaves_, [&](const Leaf& leaf) { return !frame.cap_meets(search.reach, leaf.cell.box()); });
+  if (leaves_.empty()) return;
+  if (!segments_known_) {
+    read_segments(frame, search.box);
+    segments_known_ = true;
+  }
   std::vector<std::pair<double, std::uint32_t>> order(leaves_.size());
   for (std::uint32_t i = 0; i < leaves_.size(); ++i) order[i] = {frame.key(leaves_[i].cell.box()), i};
   std::sort(order.begin(), order.end());
-
-  const Position a = frame.a, b = frame.b;
-  std::optional<SightFan> from_a, from_b;
-  std::size_t asked = 0;
-  const auto hidden = [&](Position c) {
-    if (segments_.size() < kFewSegments || ++asked < kFewQuestions) {
-      return std::any_of(segments_.begin(), segments_.end(),
-                         [&](const Segment& s) { return crosses(s, a, c) || crosses(s, b, c); });
-    }
-    if (!from_a) {
-      from_a.emplace(a, b, a, segments_);
-      from_b.emplace(a, b, b, segments_);
-    }
-    return from_a->blocked(c) || from_b->blocked(c);
-  };
-  std::optional<SelectedVertex> best;
-  double reach = lambda;
   for (const auto& [key, i] : order) {
-    const Leaf& leaf = leaves_[i];
-    if (!frame.cap_meets(reach, leaf.cell.box())) continue;
-    const auto block = read(leaf);
-    for (std::size_t k = 0; k < block->points.size(); ++k) {
-      const GridPoint& point = block->points[k];
-      const Position c{point.x, point.y};
-      // Segments are known only for this box; what lies outside comes with a larger one.
-      if (!box.contains(c.x, c.y) || !frame.inside(reach, c.x, c.y) || orientation(a, b, c) <= 0) continue;
-      const std::uint8_t level = level_of(leaf, *block, k);
-      if (!selection_.selects(level, c.x, c.y)) continue;
-      if (best ? in_circle_perturbed(a, b, best->position(), c) < 0
-               : beyond != nullptr && in_circle_perturbed(b, a, *beyond, c) < 0) {
-        continue;
-      }
-      if (hidden(c)) continue;
-      best = SelectedVertex{point, block->sources[k], level};
-      reach = std::min(reach, frame.lambda(c));
-    }
+    if (frame.cap_meets(search.reach, leaves_[i].cell.box())) look_in(leaves_[i], search);
   }
-  return best;
+}
+
+/// Whether c cannot be seen from one of the edge's ends.
+bool ApexSearch::hidden(Position c, Search& search) const {
+  const Position a = search.frame.a, b = search.frame.b;
+  if (segments_.size() < kFewSegments || ++search.questions < kFewQuestions) {
+    return std::any_of(segments_.begin(), segments_.end(),
+                       [&](const Segment& s) { return crosses(s, a, c) || crosses(s, b, c); });
+  }
+  if (!search.from_a) {
+    search.from_a.emplace(a, b, a, segments_);
+    search.from_b.emplace(a, b, b, segments_);
+  }
+  return search.from_a->blocked(c) || search.from_b->blocked(c);
+}
+
+void ApexSearch::look_in(const Leaf& leaf, Search& search) {
+  const Position a = search.frame.a, b = search.frame.b;
+  const auto block = read(leaf);
+  for (std::size_t k = 0; k < block->points.size(); ++k) {
+    const GridPoint& point = block->points[k];
+    const Position c{point.x, point.y};
+    // Segments are known only for the search's box; what lies outside comes with a larger one.
+    if (!search.box.contains(c.x, c.y) || !search.frame.inside(search.reach, c.x, c.y) || orientation(a, b, c) <= 0)
+      continue;
+    const std::uint8_t level = level_of(leaf, *block, k);
+    if (!selection_.selects(level, c.x, c.y)) continue;
+    if (search.best ? in_circle_perturbed(a, b, search.best->position(), c) < 0
+                    : search.beyond != nullptr && in_circle_perturbed(b, a, *search.beyond, c) < 0) {
+      continue;
+    }
+    if (hidden(c, search)) continue;
+    search.best = SelectedVertex{point, block->sources[k], level};
+    search.reach = std::min(search.reach, search.frame.lambda(c));
+  }
 }
 
 std::optional<SelectedVertex> ApexSearch::intruder(Position a, Position b, Position c) {
