@@ -273,6 +273,39 @@ TEST(Certified, RingsAndSeveralObservers) {
   }
 }
 
+TEST(Precise, TheMemoryChangesNothingOnTheWholeSample) {
+  // Large enough for pieces of several levels about the observer, that overlap.
+  const test::CardiffTerrain heights;
+  const Terrain terrain(600, [&](int c, int r) { return heights(c + 200, r + 200); });
+  NoProgress progress;
+  for (const double target : {0.0, 2.0}) {
+    const Request request = look(terrain.at(381.3, 7002.4), 2, target, 60);
+    const Result result = compute_precise(terrain.store(), request, {}, progress).result;
+    const Scene whole(terrain.full(), request.earth, request.nodata, 10000);
+    for (const std::uint64_t memory : {std::uint64_t{100000000}, std::uint64_t{8000000}}) {
+      const Result other = compute_precise(terrain.store(), request, {.memory_bytes = memory}, progress).result;
+      EXPECT_TRUE(result.visible == other.visible) << "memory " << memory;
+    }
+    // And the walk over all triangles beneath the line.
+    const Eye eye = eye_of(terrain.full().grid, request.observers[0], whole.ground(request.observers[0].position));
+    const double resolution = terrain.full().grid.resolution;
+    std::uint64_t different = 0;
+    for (std::size_t i = 0; i < result.visible.size(); i += 61) {
+      if (result.visible[i] == kOutside) continue;
+      const auto columns = result.grid.columns();
+      const Point2 c =
+          result.grid.centre(static_cast<std::int64_t>(i) % columns, static_cast<std::int64_t>(i) / columns);
+      SightLines lines;
+      lines.from_x[0] = eye.units.x, lines.from_y[0] = eye.units.y, lines.from_z[0] = eye.units.z;
+      lines.to_x[0] = easting_in_units(terrain.full().grid, c.x);
+      lines.to_y[0] = northing_in_units(terrain.full().grid, c.y);
+      lines.to_z[0] = (*whole.ground(c) + target) / resolution;
+      different += (result.visible[i] == kHidden) != whole.hidden_between(lines, 0, 0, 1);
+    }
+    EXPECT_EQ(different, 0U);
+  }
+}
+
 TEST(Precise, TheBruteForceAgreesWithALineOfSightThatSharesNoCode) {
   const Terrain terrain = cardiff(40);
   const Request request = look(terrain.at(1004.2, 811.9), 10, 2, 97);

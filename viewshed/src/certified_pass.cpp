@@ -24,7 +24,7 @@ EnvelopeScene::EnvelopeScene(Envelope e, const Request& request, const RasterGri
     : envelope(std::move(e)),
       lower(envelope.lower, request.earth, voids == Voids::kBlock ? NoData::kBlock : NoData::kClear,
             ceiling_of(envelope.upper, request), envelope.outline),
-      upper(envelope.upper, request.earth, curtains(envelope, request, voids)),
+      upper(envelope.upper, envelope.pieces, request.earth, curtains(envelope, request, voids)),
       bins(envelope.lower, tiles),
       exact(envelope.exact) {}
 

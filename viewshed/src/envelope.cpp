@@ -93,6 +93,7 @@ class Builder {
     const std::vector<HeightBounds> bounds = vertex_bounds(store_, level, piece);
     const auto first = static_cast<std::uint32_t>(lower_.vertices.size());
     lower_.grid = piece.grid;
+    firsts_.push_back(static_cast<std::uint32_t>(lower_.triangles.size()));
     lower_.statistics += piece.statistics;
     for (std::size_t v = 0; v < piece.vertices.size(); ++v) {
       const GridPoint& p = piece.vertices[v];
@@ -118,6 +119,7 @@ class Builder {
       number[t] = kept;
       if (!drop[t]) lower_.triangles[kept++] = lower_.triangles[t];
     }
+    for (std::uint32_t& first : firsts_) first = first < number.size() ? number[first] : kept;
     lower_.triangles.resize(kept);
     for (BoundaryEdge& edge : outline_) edge.triangle = number[edge.triangle];
   }
@@ -130,6 +132,7 @@ class Builder {
     raise_against_drift(observers, envelope.upper);
     envelope.lower = std::move(lower_);
     envelope.outline = std::move(outline_);
+    envelope.pieces.assign(firsts_.begin() + 1, firsts_.end());
     return envelope;
   }
 
@@ -139,6 +142,7 @@ class Builder {
   Tin lower_;
   std::vector<std::int32_t> upper_;  ///< heights
   std::vector<BoundaryEdge> outline_;
+  std::vector<std::uint32_t> firsts_;  ///< triangles, of each piece
 };
 
 }  // namespace

@@ -39,6 +39,7 @@ struct Envelope {
   Tin lower;
   Tin upper;
   std::vector<BoundaryEdge> outline;  ///< the edges of the coverage, of vertices and triangles of either
+  std::vector<std::uint32_t> pieces;  ///< the first triangle of each piece but the first
   bool exact = false;                 ///< of level 0 throughout: `lower` is the full surface
 };
 

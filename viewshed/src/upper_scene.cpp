@@ -1,6 +1,7 @@
 #include "upper_scene.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 #include "embree.hpp"
 #include "walls.hpp"
@@ -13,6 +14,7 @@ namespace {
 struct Event {
   double along;
   bool enters;
+  std::uint32_t piece;  ///< of the surface
 };
 using Events = std::array<std::vector<Event>, SightLines::kSize>;
 
@@ -34,34 +36,43 @@ void filter(const RTCFilterFunctionNArguments* arguments, const Take& take) {
   }
 }
 
-/// Whatever is missed on one side of a crossing is made up for: an end without a start begins at the crossing before.
+/// Piece by piece: each is one sheet, so that lines go beneath it and come out by turns. Whatever is missed on one side
+/// of a crossing is made up for: an end without a start begins at the crossing before.
 void join(std::vector<Event>& events, bool starts_under, bool ends_under, std::vector<Stretch>& stretches) {
   std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) {
-    return a.along != b.along ? a.along < b.along : a.enters && !b.enters;
+    return std::tuple(a.piece, a.along, !a.enters) < std::tuple(b.piece, b.along, !b.enters);
   });
   stretches.clear();
-  bool under = starts_under;
-  double since = 0;
-  for (const Event& event : events) {
-    if (!event.enters) stretches.push_back({since, event.along});
-    if (!event.enters || !under) since = event.along;
-    under = event.enters;
+  // Beneath some piece from end to end, perhaps, without a crossing.
+  if (starts_under && ends_under) stretches.push_back({0, 1});
+  if (starts_under) stretches.push_back({0, 0});
+  if (ends_under) stretches.push_back({1, 1});
+  for (auto event = events.begin(); event != events.end();) {
+    const std::uint32_t piece = event->piece;
+    bool under = false;
+    double since = 0;
+    for (; event != events.end() && event->piece == piece; ++event) {
+      if (!event->enters) stretches.push_back({since, event->along});
+      if (!event->enters || !under) since = event->along;
+      under = event->enters;
+    }
+    if (under) stretches.push_back({since, 1});
   }
-  if (under || ends_under) stretches.push_back({since, 1});
 }
 
 }  // namespace
 
 class UpperScene::Impl {
  public:
-  Impl(const Tin& tin, const Earth& earth, std::optional<Curtains> curtains)
-      : tin_(tin), boundary_(boundary_edges(tin)), curtains_(std::move(curtains)) {
+  Impl(const Tin& tin, std::vector<std::uint32_t> pieces, const Earth& earth, std::optional<Curtains> curtains)
+      : tin_(tin), pieces_(std::move(pieces)), boundary_(boundary_edges(tin)), curtains_(std::move(curtains)) {
     const double drop = earth.drop_coefficient() * tin.grid.resolution;
     Tessellation tessellation = tessellate(tin, drop);
     const double sag = drop == 0 ? 0 : kSag;
     frame_ = {tessellation.centre, drop, -(sag / tin.grid.resolution + rounding_error(tessellation.half_height, 0)),
               -kRounding * kRoundings};
     attach_surface(tessellation);
+    parents_ = std::move(tessellation.parents);
     attach_walls(walls_under(tin, boundary_, tessellation, drop, std::nullopt));
     if (curtains_) attach_curtains(walls_under(tin, curtains_->edges, tessellation, drop, curtains_->ceiling));
     embree_.commit();
@@ -98,16 +109,20 @@ class UpperScene::Impl {
     return result;
   }
 
-  static bool collect(const RTCFilterFunctionNArguments* arguments, PacketContext& packet, unsigned line, unsigned i,
-                      bool enters) {
+  /// `triangle` of the Tin.
+  bool collect(const RTCFilterFunctionNArguments* arguments, PacketContext& packet, unsigned line, unsigned i,
+               std::uint32_t triangle, bool enters) const {
     if (packet.events == nullptr) return true;
-    (*packet.events)[line].push_back({RTCRayN_tfar(arguments->ray, arguments->N, i), enters});
+    const auto piece = std::upper_bound(pieces_.begin(), pieces_.end(), triangle) - pieces_.begin();
+    (*packet.events)[line].push_back(
+        {RTCRayN_tfar(arguments->ray, arguments->N, i), enters, static_cast<std::uint32_t>(piece)});
     return false;
   }
 
   void attach_surface(const Tessellation& tessellation) {
     const Geometry geometry = embree_.triangles(tessellation.vertices, tessellation.indices, this);
     rtcSetGeometryOccludedFilterFunction(geometry.get(), [](const RTCFilterFunctionNArguments* arguments) {
+      const auto& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
       filter(arguments, [&](PacketContext& packet, unsigned line, unsigned i) {
         RTCRayN* const ray = arguments->ray;
         RTCHitN* const hit = arguments->hit;
@@ -116,7 +131,9 @@ class UpperScene::Impl {
         const float along = RTCRayN_dir_x(ray, n, i) * RTCHitN_Ng_x(hit, n, i) +
                             RTCRayN_dir_y(ray, n, i) * RTCHitN_Ng_y(hit, n, i) + RTCRayN_dir_z(ray, n, i) * nz;
         // The surface's upper side is the outer one, whichever way Embree's normals point.
-        return collect(arguments, packet, line, i, nz >= 0 ? along <= 0 : along >= 0);
+        const std::uint32_t part = RTCHitN_primID(hit, n, i);
+        const std::uint32_t triangle = self.parents_.empty() ? part : self.parents_[part];
+        return self.collect(arguments, packet, line, i, triangle, nz >= 0 ? along <= 0 : along >= 0);
       });
     });
     embree_.attach(geometry);
@@ -133,7 +150,7 @@ class UpperScene::Impl {
         const SightLines& l = *packet.lines;
         const double outwards = (l.to_x[line] - l.from_x[line]) * (static_cast<double>(b.y) - a.y) -
                                 (l.to_y[line] - l.from_y[line]) * (static_cast<double>(b.x) - a.x);
-        return collect(arguments, packet, line, i, outwards <= 0);
+        return self.collect(arguments, packet, line, i, edge.triangle, outwards <= 0);
       });
     });
     embree_.attach(geometry);
@@ -153,14 +170,17 @@ class UpperScene::Impl {
   }
 
   const Tin& tin_;
+  std::vector<std::uint32_t> pieces_;
+  std::vector<std::uint32_t> parents_;  ///< of the pieces of cut triangles
   std::vector<BoundaryEdge> boundary_;
   std::optional<Curtains> curtains_;
   RayFrame frame_;
   EmbreeScene embree_;
 };
 
-UpperScene::UpperScene(const Tin& tin, const Earth& earth, std::optional<Curtains> curtains)
-    : impl_(std::make_unique<Impl>(tin, earth, std::move(curtains))) {}
+UpperScene::UpperScene(const Tin& tin, std::vector<std::uint32_t> pieces, const Earth& earth,
+                       std::optional<Curtains> curtains)
+    : impl_(std::make_unique<Impl>(tin, std::move(pieces), earth, std::move(curtains))) {}
 UpperScene::UpperScene(UpperScene&&) noexcept = default;
 UpperScene& UpperScene::operator=(UpperScene&&) noexcept = default;
 UpperScene::~UpperScene() = default;

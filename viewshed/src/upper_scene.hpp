@@ -1,6 +1,6 @@
 // Which sight lines certainly clear a surface, and where those that do not come near it.
 //
-//   UpperScene scene(upper, earth, std::nullopt);
+//   UpperScene scene(upper, {}, earth, std::nullopt);
 //   unsigned doubtful = scene.touched(lines);      // a line whose bit is 0 clears the surface
 //
 // Accuracy. Rays are cast in single precision with both ends lowered by e(l) of scene.hpp, so that heights need no
@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -37,15 +38,16 @@ struct Curtains {
 /// Safe for concurrent use.
 class UpperScene {
  public:
-  /// The Tin must outlive the scene, and may consist of overlapping pieces. Throws std::bad_alloc.
-  UpperScene(const Tin& tin, const Earth& earth, std::optional<Curtains> curtains);
+  /// The Tin must outlive the scene, and may consist of overlapping pieces: `pieces` has the first triangle of each but
+  /// the first. Throws std::bad_alloc.
+  UpperScene(const Tin& tin, std::vector<std::uint32_t> pieces, const Earth& earth, std::optional<Curtains> curtains);
   UpperScene(UpperScene&&) noexcept;
   UpperScene& operator=(UpperScene&&) noexcept;
   ~UpperScene();
 
   /// One bit a line: 0 clears the surface, 1 may not.
   unsigned touched(const SightLines& lines) const;
-  /// For each active line, in ascending order, what holds every part that does not clear the surface, but for a
+  /// For each active line what holds every part that does not clear the surface, but for a
   /// millimetre at its ends. `starts_under` and `ends_under`: lines whose end is not above the surface. Curtains do not
   /// count.
   using Stretches = std::array<std::vector<Stretch>, SightLines::kSize>;
