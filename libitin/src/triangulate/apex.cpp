@@ -2,10 +2,38 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <queue>
+#include <tuple>
 
 #include "triangulate/apex_frame.hpp"
 
 namespace itin {
+
+namespace {
+
+/// A circle is wide when its centre is so many times half the edge's length away; and so is a box.
+constexpr double kWide = 4;
+constexpr int kHalvings = 12;
+
+double width(const GridBox& b) {
+  return static_cast<double>(b.xmax) - b.xmin;
+}
+double height(const GridBox& b) {
+  return static_cast<double>(b.ymax) - b.ymin;
+}
+
+/// Both have the positions of the cut, so that no leaf can fall between.
+std::pair<GridBox, GridBox> halves(const GridBox& b) {
+  if (width(b) >= height(b)) {
+    const std::int32_t x = std::midpoint(b.xmin, b.xmax);
+    return {{b.xmin, b.ymin, x, b.ymax}, {x, b.ymin, b.xmax, b.ymax}};
+  }
+  const std::int32_t y = std::midpoint(b.ymin, b.ymax);
+  return {{b.xmin, b.ymin, b.xmax, y}, {b.xmin, y, b.xmax, b.ymax}};
+}
+
+}  // namespace
 
 bool crosses(const Segment& s, Position p, Position q) {
   const Position a{s.ax, s.ay}, b{s.bx, s.by};
@@ -26,48 +54,86 @@ std::shared_ptr<const Block> ApexSearch::read(const Leaf& leaf) {
   return block;
 }
 
+/// What is known while one circle is searched.
+struct ApexSearch::Search {
+  const ApexFrame& frame;
+  GridBox box;             ///< all that the search looks at; all its segments are known
+  const Position* beyond;  ///< on the circle that the search must improve on, or null
+  double reach;            ///< no circle larger than this matters any more
+  std::optional<SelectedVertex> best = std::nullopt;
+};
+
 std::optional<SelectedVertex> ApexSearch::nearest_circle(const ApexFrame& frame, double lambda,
                                                          const Position* beyond) {
-  const GridBox box = frame.cap_box(lambda, index_.bounds());
+  Search search{frame, frame.cap_box(lambda, index_.bounds()), beyond, lambda};
+  if (search.box.empty()) return std::nullopt;
+  segments_known_ = false;
+  // Best first, by halves of a wide box's longer side: what is near has the answer, and may have none of the points.
+  using Piece = std::tuple<double, int, GridBox>;
+  const auto later = [](const Piece& p, const Piece& q) { return std::get<0>(p) > std::get<0>(q); };
+  std::priority_queue<Piece, std::vector<Piece>, decltype(later)> pieces(later);
+  const int halvings = lambda > kWide * frame.r ? kHalvings : 0;
+  const auto push = [&](const GridBox& box, int depth) {
+    if (frame.cap_meets(search.reach, box)) pieces.emplace(frame.key(box), depth, box);
+  };
+  for (push(search.box, 0); !pieces.empty();) {
+    const auto [key, depth, box] = pieces.top();
+    pieces.pop();
+    if (!frame.cap_meets(search.reach, box)) continue;
+    if (depth == halvings || std::max(width(box), height(box)) <= kWide * frame.r) {
+      look_in(box, search);
+      continue;
+    }
+    const auto [first, second] = halves(box);
+    push(first, depth + 1);
+    push(second, depth + 1);
+  }
+  return search.best;
+}
+
+void ApexSearch::look_in(const GridBox& piece, Search& search) {
+  const ApexFrame& frame = search.frame;
   leaves_.clear();
-  selected_leaves(index_, selection_, box, leaves_);
-  std::erase_if(leaves_, [&](const Leaf& leaf) { return !frame.cap_meets(lambda, leaf.cell.box()); });
-  if (leaves_.empty()) return std::nullopt;
-  segments_.clear();
-  index_.segments(box, segments_);
-  std::erase_if(segments_, [&](const Segment& s) { return !selection_.selects(s); });
+  selected_leaves(index_, selection_, piece, leaves_);
+  std::erase_if(leaves_, [&](const Leaf& leaf) { return !frame.cap_meets(search.reach, leaf.cell.box()); });
+  if (leaves_.empty()) return;
+  if (!segments_known_) {
+    segments_.clear();
+    index_.segments(search.box, segments_);
+    std::erase_if(segments_, [&](const Segment& s) { return !selection_.selects(s); });
+    segments_known_ = true;
+  }
   std::vector<std::pair<double, std::uint32_t>> order(leaves_.size());
   for (std::uint32_t i = 0; i < leaves_.size(); ++i) order[i] = {frame.key(leaves_[i].cell.box()), i};
   std::sort(order.begin(), order.end());
+  for (const auto& [key, i] : order) {
+    if (frame.cap_meets(search.reach, leaves_[i].cell.box())) look_in(leaves_[i], search);
+  }
+}
 
-  const Position a = frame.a, b = frame.b;
+void ApexSearch::look_in(const Leaf& leaf, Search& search) {
+  const Position a = search.frame.a, b = search.frame.b;
   const auto hidden = [&](Position c) {
     return std::any_of(segments_.begin(), segments_.end(),
                        [&](const Segment& s) { return crosses(s, a, c) || crosses(s, b, c); });
   };
-  std::optional<SelectedVertex> best;
-  double reach = lambda;
-  for (const auto& [key, i] : order) {
-    const Leaf& leaf = leaves_[i];
-    if (!frame.cap_meets(reach, leaf.cell.box())) continue;
-    const auto block = read(leaf);
-    for (std::size_t k = 0; k < block->points.size(); ++k) {
-      const GridPoint& point = block->points[k];
-      const Position c{point.x, point.y};
-      // Segments are known only for this box; what lies outside comes with a larger one.
-      if (!box.contains(c.x, c.y) || !frame.inside(reach, c.x, c.y) || orientation(a, b, c) <= 0) continue;
-      const std::uint8_t level = level_of(leaf, *block, k);
-      if (!selection_.selects(level, c.x, c.y)) continue;
-      if (best ? in_circle_perturbed(a, b, best->position(), c) < 0
-               : beyond != nullptr && in_circle_perturbed(b, a, *beyond, c) < 0) {
-        continue;
-      }
-      if (hidden(c)) continue;
-      best = SelectedVertex{point, block->sources[k], level};
-      reach = std::min(reach, frame.lambda(c));
+  const auto block = read(leaf);
+  for (std::size_t k = 0; k < block->points.size(); ++k) {
+    const GridPoint& point = block->points[k];
+    const Position c{point.x, point.y};
+    // Segments are known only for the search's box; what lies outside comes with a larger one.
+    if (!search.box.contains(c.x, c.y) || !search.frame.inside(search.reach, c.x, c.y) || orientation(a, b, c) <= 0)
+      continue;
+    const std::uint8_t level = level_of(leaf, *block, k);
+    if (!selection_.selects(level, c.x, c.y)) continue;
+    if (search.best ? in_circle_perturbed(a, b, search.best->position(), c) < 0
+                    : search.beyond != nullptr && in_circle_perturbed(b, a, *search.beyond, c) < 0) {
+      continue;
     }
+    if (hidden(c)) continue;
+    search.best = SelectedVertex{point, block->sources[k], level};
+    search.reach = std::min(search.reach, search.frame.lambda(c));
   }
-  return best;
 }
 
 std::optional<SelectedVertex> ApexSearch::intruder(Position a, Position b, Position c) {

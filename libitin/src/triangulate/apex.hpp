@@ -61,7 +61,10 @@ class ApexSearch {
  private:
   std::uint8_t level_of(const Leaf& leaf, const Block& block, std::size_t k) const;
   std::shared_ptr<const Block> read(const Leaf& leaf);
+  struct Search;
   std::optional<SelectedVertex> nearest_circle(const ApexFrame& frame, double lambda, const Position* beyond);
+  void look_in(const GridBox& piece, Search& search);
+  void look_in(const Leaf& leaf, Search& search);
 
   const PointIndex& index_;
   const Selection& selection_;
@@ -71,6 +74,7 @@ class ApexSearch {
   // Kept between calls for their memory.
   std::vector<Leaf> leaves_;
   std::vector<Segment> segments_;
+  bool segments_known_ = false;  ///< of the circle that is searched
 };
 
 /// Whether segment s properly crosses the line of sight pq: touching does not block it.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <unordered_map>
 
@@ -15,9 +16,11 @@ namespace {
 
 /// The box is this many mean point spacings wider than the region: most circumdiscs of the region's triangles fit in.
 constexpr double kMargin = 3;
-/// After so many rounds of mending the box may grow, if that reads no more than so many times the points.
+/// After so many rounds of mending the box may grow.
 constexpr int kPatience = 3;
+/// No box is read whole that has so many times the points it is wanted for.
 constexpr std::uint64_t kGrowth = 8;
+constexpr std::uint64_t kFewPoints = 512;
 
 GridBox intersection(const GridBox& a, const GridBox& b) {
   return {std::max(a.xmin, b.xmin), std::max(a.ymin, b.ymin), std::min(a.xmax, b.xmax), std::min(a.ymax, b.ymax)};
@@ -96,26 +99,49 @@ class RegionTriangulation {
   /// Reads and triangulates a box around the region, at least so large that there is a triangle. False when there is
   /// none anywhere.
   bool triangulate_box(double margin) {
-    for (margin_ = margin;; margin_ *= 4) {
-      box_ = box_with(margin_);
-      proven_.clear();
-      read_points();
-      segments_.clear();
-      const std::vector<Segment> segments = read_segments(box_);
-      std::vector<Position> positions(vertices_.size());
-      std::transform(vertices_.begin(), vertices_.end(), positions.begin(),
-                     [](const SelectedVertex& v) { return v.position(); });
-      delaunay_ = Delaunay();
-      delaunay_.insert(positions);
-      constraints_.clear();
-      themes_.clear();
-      constrain_ = false;
-      insert_segments(segments);
-      make_mesh();
-      // A triangle needs a vertex or a segment in the box, and those tell ground from its absence.
-      if (!mesh_.triangles.empty()) return true;
+    margin_ = margin;
+    box_ = read_box_ = box_with(margin_);
+    for (triangulate(nullptr); mesh_.triangles.empty(); triangulate(nullptr)) {
       if (box_.contains(index_.bounds())) return false;
+      box_ = box_with(margin_ *= 4);
+      if (triangulate_seed()) return true;
+      read_box_ = box_;
     }
+    // A triangle needs a vertex or a segment in the box, and those tell ground from its absence.
+    return true;
+  }
+
+  /// The first land beyond open water: where reading the whole box is much, one leaf of it and the lines will do to
+  /// start from.
+  bool triangulate_seed() {
+    const std::vector<Leaf> leaves = leaves_in(box_);
+    if (points_of(leaves) <= kGrowth * kFewPoints) return false;
+    const auto distance = [&](const Leaf& leaf) {
+      const GridBox b = leaf.cell.box();
+      return std::max({0.0, 0.0 + b.xmin - tile_.xmax, 0.0 + tile_.xmin - b.xmax, 0.0 + b.ymin - tile_.ymax,
+                       0.0 + tile_.ymin - b.ymax});
+    };
+    triangulate(&*std::min_element(leaves.begin(), leaves.end(),
+                                   [&](const Leaf& a, const Leaf& b) { return distance(a) < distance(b); }));
+    return !mesh_.triangles.empty();
+  }
+
+  /// Of all points in read_box_ and in the seed, if given, and of all segments in box_.
+  void triangulate(const Leaf* seed) {
+    proven_.clear();
+    read_points(seed);
+    segments_.clear();
+    const std::vector<Segment> segments = read_segments(box_);
+    std::vector<Position> positions(vertices_.size());
+    std::transform(vertices_.begin(), vertices_.end(), positions.begin(),
+                   [](const SelectedVertex& v) { return v.position(); });
+    delaunay_ = Delaunay();
+    delaunay_.insert(positions);
+    constraints_.clear();
+    themes_.clear();
+    constrain_ = false;
+    insert_segments(segments);
+    make_mesh();
   }
 
   GridBox box_with(double margin) const { return intersection(expanded(tile_, margin), expanded(index_.bounds(), 1)); }
@@ -123,42 +149,40 @@ class RegionTriangulation {
   /// Where triangles reach far, as across the sea, one vertex after another turns up. A larger box has them at once.
   bool worth_growing() const {
     if (box_.contains(index_.bounds())) return false;
-    const GridBox box = box_with(4 * margin_);
+    return points_of(leaves_in(box_with(4 * margin_))) < kGrowth * (vertices_.size() + kFewPoints);
+  }
+
+  std::vector<Leaf> leaves_in(const GridBox& box) const {
     std::vector<Leaf> leaves;
-    index_.leaves(selection_.finest_in(box), box, leaves);
-    std::uint64_t points = 0;
-    for (const Leaf& leaf : leaves) points += leaf.points;
-    return points < kGrowth * (vertices_.size() + 512);
+    selected_leaves(index_, selection_, box, leaves);
+    return leaves;
+  }
+
+  static std::uint64_t points_of(const std::vector<Leaf>& leaves) {
+    return std::accumulate(leaves.begin(), leaves.end(), std::uint64_t{0},
+                           [](std::uint64_t sum, const Leaf& leaf) { return sum + leaf.points; });
   }
 
   double first_margin() const {
-    std::vector<Leaf> leaves;
-    selected_leaves(index_, selection_, tile_, leaves);
     double points = 0;
-    for (const Leaf& leaf : leaves)
+    for (const Leaf& leaf : leaves_in(tile_))
       points += leaf.points * area(intersection(leaf.cell.box(), tile_)) / area(leaf.cell.box());
     const double spacing = points > 0 ? std::sqrt(area(tile_) / points) : std::sqrt(area(tile_));
-    return kMargin * spacing + 1;
+    const std::uint64_t most = kGrowth * (static_cast<std::uint64_t>(points) + kFewPoints);
+    double margin = kMargin * spacing;
+    while (margin > 1 && points_of(leaves_in(box_with(margin))) > most) margin /= 2;
+    return margin + 1;
   }
 
-  void read_points() {
-    std::vector<Leaf> leaves;
-    selected_leaves(index_, selection_, box_, leaves);
+  void read_points(const Leaf* seed) {
     std::vector<std::pair<std::uint64_t, SelectedVertex>> found;
-    for (const Leaf& leaf : leaves) {
-      if (leaf.level < selection_.finest_in(intersection(leaf.cell.box(), box_))) continue;
-      const auto block = index_.block(leaf);
-      statistics_.points_read += block->points.size();
-      statistics_.blocks_read += 1;
-      for (std::size_t k = 0; k < block->points.size(); ++k) {
-        const GridPoint& p = block->points[k];
-        if (!box_.contains(p.x, p.y)) continue;
-        const auto level = block->levels.empty() ? static_cast<std::uint8_t>(leaf.level) : block->levels[k];
-        if (selection_.selects(level, p.x, p.y)) found.push_back({morton(p.x, p.y), {p, block->sources[k], level}});
-      }
+    for (const Leaf& leaf : leaves_in(read_box_)) {
+      if (leaf.level >= selection_.finest_in(intersection(leaf.cell.box(), read_box_)))
+        read_block(leaf, read_box_, found);
     }
+    if (seed != nullptr) read_block(*seed, box_, found);
     std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    // Themes may share a vertex.
+    // Themes may share a vertex, and the seed's may be read twice.
     found.erase(
         std::unique(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first == b.first; }),
         found.end());
@@ -168,6 +192,18 @@ class RegionTriangulation {
     vertices_.reserve(found.size());
     for (const auto& [code, vertex] : found) vertices_.push_back(vertex);
     sorted_ = vertices_.size();
+  }
+
+  void read_block(const Leaf& leaf, const GridBox& box, std::vector<std::pair<std::uint64_t, SelectedVertex>>& found) {
+    const auto block = index_.block(leaf);
+    statistics_.points_read += block->points.size();
+    statistics_.blocks_read += 1;
+    for (std::size_t k = 0; k < block->points.size(); ++k) {
+      const GridPoint& p = block->points[k];
+      if (!box.contains(p.x, p.y)) continue;
+      const auto level = block->levels.empty() ? static_cast<std::uint8_t>(leaf.level) : block->levels[k];
+      if (selection_.selects(level, p.x, p.y)) found.push_back({morton(p.x, p.y), {p, block->sources[k], level}});
+    }
   }
 
   /// Adds the segments of a box to segments_ and returns those that are new.
@@ -360,7 +396,8 @@ class RegionTriangulation {
     std::vector<Segment> fresh;
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
       if (ground_[t] != Ground::kYes) continue;
-      if (!circumdisc_in(corner(t, 0), corner(t, 1), corner(t, 2), box_) && in_region(t)) prove(t, intruders, fresh);
+      if (!circumdisc_in(corner(t, 0), corner(t, 1), corner(t, 2), read_box_) && in_region(t))
+        prove(t, intruders, fresh);
       look_beyond_hull(t, intruders);
     }
     for (const SegmentEdge& edge : segment_edges_) {
@@ -495,7 +532,8 @@ class RegionTriangulation {
   ApexSearch search_;
   GridBox tile_;  ///< the region's box
   double margin_ = 0;
-  GridBox box_;  ///< everything selected in it has been read
+  GridBox box_;       ///< all selected segments in it have been read
+  GridBox read_box_;  ///< within box_: all selected points in it have been read, too
   std::vector<SelectedVertex> vertices_;
   std::size_t sorted_ = 0;                                   ///< the first so many vertices are in Morton order
   std::unordered_map<std::uint64_t, std::uint32_t> extras_;  ///< the others by Morton code
