@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include <itin/certificate.hpp>
 #include <itin/geometry.hpp>
 #include <itin/progress.hpp>
 #include <itin/theme.hpp>
@@ -91,6 +92,10 @@ class Store {
   /// The widest bounds of the level's cells that meet the box: T_level + lo <= T_0 <= T_level + hi all over it.
   /// Nullopt where there is no ground. Throws InputError for a level the store does not have, CorruptStore.
   std::optional<CertifiedError> certified_error(int level, const Box& box) const;
+  /// About how many points of this level and coarser ones lie in the box; reads the directory, no points.
+  std::uint64_t points_about(int level, const Box& box) const;
+  /// The bounds of the level's cells that meet the box, to ask about many places. Throws likewise.
+  Certificate certificate(int level, const Box& box) const;
 
  private:
   friend std::vector<Damage> check(const Store& store, Progress& progress);

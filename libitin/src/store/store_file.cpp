@@ -1,6 +1,7 @@
 #include "store/store_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <itin/error.hpp>
 
@@ -149,8 +150,41 @@ void StoreFile::segments(int tree, const GridBox& box, std::vector<Segment>& out
   });
 }
 
+namespace {
+
+void require_level(int level, int count) {
+  if (level < 0 || level >= count) throw InputError("level " + std::to_string(level) + ": the store has none");
+}
+
+}  // namespace
+
+std::uint64_t StoreFile::points_about(int level, const Box& box) const {
+  require_level(level, level_count());
+  const GridBox units = metadata_.grid.enclosing(box);
+  double points = 0;
+  for (int k = level; k < level_count(); ++k) {
+    for_each_leaf(k, units, [&](const Leaf& leaf) {
+      const GridBox square = square_of(leaf.cell);
+      const double width = double{1} * std::min(square.xmax, units.xmax) - std::max(square.xmin, units.xmin);
+      const double height = double{1} * std::min(square.ymax, units.ymax) - std::max(square.ymin, units.ymin);
+      const double share = std::max(width, 0.0) * std::max(height, 0.0) / std::ldexp(1.0, 2 * leaf.cell.log2_side);
+      points += leaf.points * share;
+    });
+  }
+  return static_cast<std::uint64_t>(points);
+}
+
+Certificate StoreFile::certificate(int level, const Box& box) const {
+  require_level(level, level_count());
+  std::vector<Certificate::Cell> cells;
+  for_each_leaf(level, metadata_.grid.enclosing(box), [&](const Leaf& leaf) {
+    cells.push_back({leaf.cell.code, leaf.cell.end(), {leaf.lo, leaf.hi}});
+  });
+  return Certificate(std::move(cells));
+}
+
 std::optional<CertifiedError> StoreFile::certified_error(int level, const Box& box) const {
-  if (level < 0 || level >= level_count()) throw InputError("level " + std::to_string(level) + ": the store has none");
+  require_level(level, level_count());
   std::optional<CertifiedError> widest;
   const double unit = metadata_.grid.resolution;
   for_each_leaf(level, metadata_.grid.enclosing(box), [&](const Leaf& leaf) {

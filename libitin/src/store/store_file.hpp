@@ -27,6 +27,8 @@ class StoreFile final : public PointIndex {
   void segments(const GridBox& box, std::vector<Segment>& out) const override;
 
   std::optional<CertifiedError> certified_error(int level, const Box& box) const;
+  std::uint64_t points_about(int level, const Box& box) const;
+  Certificate certificate(int level, const Box& box) const;
 
   const StoreMetadata& metadata() const { return metadata_; }
   const StoreRows& rows() const { return rows_; }
