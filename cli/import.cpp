@@ -64,6 +64,8 @@ class ImportVerb final : public Verb {
         ->type_name("METRES");
     app.add_flag("--allow-mixed-vertical", options_.allow_mixed_vertical,
                  "Take heights as they are, though sources refer to different vertical datums");
+    app.add_flag("--no-repair", no_repair_,
+                 "Contours: infer no points where the triangles of a contour would be flat, in the whole store");
     app.add_flag("--replace", options_.replace, "Take the place of coarser terrain within the sources' coverage");
     app.add_option("--levels", levels_, "Tolerances of a new store's levels (default: 0.5,1,2,4,8,16,32)")
         ->type_name("T,T...");
@@ -84,6 +86,8 @@ class ImportVerb final : public Verb {
       throw InputError("--theme: terrain has no theme; leave it out");
     }
     validate_standing();
+    if (no_repair_ && kind_ != "contours") throw InputError("--no-repair: is for contours; leave it out");
+    options_.repair = !no_repair_;
     if (!classes_.empty()) options_.classes = parse_wholes("--class", classes_, 0, 255);
     if (!max_gap_.empty()) options_.max_gap = parse_number("--max-gap", max_gap_, Range::kPositive);
     if (!levels_.empty()) options_.tolerances = growing_levels();
@@ -113,6 +117,7 @@ class ImportVerb final : public Verb {
     if (!options_.classes.empty()) parameters["classes"] = options_.classes;
     if (options_.max_gap > 0) parameters["max_gap_m"] = options_.max_gap;
     parameters["replace"] = options_.replace;
+    if (options_.kind == ThemeKind::Contours) parameters["repair"] = options_.repair;
     if (!options_.tolerances.empty()) parameters["tolerances_m"] = options_.tolerances;
     parameters["resolution_m"] = options_.resolution;
     return parameters;
@@ -171,6 +176,8 @@ class ImportVerb final : public Verb {
     document["refused"] = report.refused;
     document["crossings"] = report.crossings;
     document["segments_left_out"] = report.left_out;
+    document["flat_triangles"] = {{"before", report.flat_before}, {"after", report.flat_after}};
+    document["inferred"] = report.inferred;
     document["vertices"] = report.vertices;
     document["bytes"] = report.store_bytes;
     document["bytes_per_vertex"] = bytes_per_vertex(report);
@@ -197,8 +204,16 @@ class ImportVerb final : public Verb {
     mention(report.refused, "features that cannot stand");
     mention(report.crossings, "crossings resolved");
     mention(report.left_out, "segments of lines left out beyond the ground");
+    text += flat_text(report);
     text += metadata.themes.empty() ? "\n\n" : "\n" + themes_table(metadata) + "\n";
     return text + levels_table(metadata);
+  }
+
+  static std::string flat_text(const ImportReport& report) {
+    if (report.flat_before == 0) return "";
+    if (report.inferred == 0) return fmt::format("\n{} flat triangles of contours", grouped(report.flat_before));
+    return fmt::format("\n{} flat triangles of contours, {} after repair with {} inferred points",
+                       grouped(report.flat_before), grouped(report.flat_after), grouped(report.inferred));
   }
 
   static double bytes_per_vertex(const ImportReport& report) {
@@ -207,6 +222,7 @@ class ImportVerb final : public Verb {
 
   std::string store_;
   std::string kind_ = "terrain";
+  bool no_repair_ = false;
   std::string classes_, max_gap_, levels_, resolution_, memory_;
   std::string height_, base_, roof_, thickness_;
   ImportOptions options_;

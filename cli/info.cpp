@@ -64,8 +64,9 @@ std::string info_text(const Store& store) {
   text += levels_table(metadata);
   text += "\nimported\n";
   for (const SourceInfo& source : metadata.sources) {
-    const std::string spacing =
-        source.theme.empty() ? fmt::format("every {:.4g} m", source.spacing) : fmt::format("in theme {}", source.theme);
+    const std::string spacing = !source.theme.empty() ? fmt::format("in theme {}", source.theme)
+                                : source.spacing > 0  ? fmt::format("every {:.4g} m", source.spacing)
+                                                      : "by need";
     text += fmt::format("  {}  {}{}  {:>13} vertices, {}  {}\n", source.imported, source.kind,
                         source.replaces ? " (replacing)" : "", grouped(source.vertices), spacing, source.path);
   }

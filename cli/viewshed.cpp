@@ -8,6 +8,7 @@
 #include <itin/coordinates.hpp>
 #include <itin/error.hpp>
 #include <itin/store.hpp>
+#include <viewshed/certified.hpp>
 #include <viewshed/map_image.hpp>
 #include <viewshed/viewshed.hpp>
 
@@ -44,7 +45,9 @@ class ViewshedVerb final : public Verb {
     app.add_option("STORE", store_, "The store")->required();
     app.add_option("-o,--output", output_, "The raster to write, a GeoTIFF (.tif)")->type_name("FILE");
     app.add_option("--image", image_, "A map to write (.png, .jpg)")->type_name("FILE");
-    app.add_option("--mode", mode_text_, "visible (to any observer) or count (how many see it) (default: visible)")
+    app.add_option("--mode", mode_text_,
+                   "visible (to any observer), count (how many see it), or certified (certainly visible, certainly "
+                   "hidden, or undecided at this tolerance) (default: visible)")
         ->type_name("MODE");
     observers_.declare(app);
     declare_targets(app);
@@ -53,7 +56,9 @@ class ViewshedVerb final : public Verb {
     earth_.declare(app);
     app.add_option("--nodata", nodata_text_, "What ground without data does to sight lines (default: unknown)")
         ->type_name("unknown|block|clear");
-    app.add_flag("--precise", precise_, "Not in this version");
+    app.add_flag("--precise", precise_, "Exact for the full surface, which is read only where it decides");
+    app.add_option("--memory", memory_text_, "Memory for --precise to work in; it changes the speed only (default: 1G)")
+        ->type_name("SIZE");
     policy_.declare(app);
   }
 
@@ -72,13 +77,13 @@ class ViewshedVerb final : public Verb {
       constexpr viewshed::NoData kChoices[] = {kUnknown, kBlock, kClear};
       request_.nodata = kChoices[parse_choice("--nodata", nodata_text_, {"unknown", "block", "clear"})];
     }
-    if (precise_)
-      throw InputError("--precise: not in this version; without it every sight line is cast at --tolerance");
+    validate_precise();
   }
 
   Document parameters() const override {
     Document parameters{{"store", store_}, {"observers", observers_document(places_, observers_.absolute_heights())}};
-    parameters["mode"] = request_.mode == viewshed::Mode::kCount ? "count" : "visible";
+    parameters["mode"] = kModes[static_cast<std::size_t>(request_.mode)];
+    parameters["precise"] = precise_;
     parameters[request_.target_absolute ? "target_elevation_m" : "target_height_m"] = request_.target_height;
     if (request_.radius) parameters["radius_m"] = *request_.radius;
     if (request_.min_radius > 0) parameters["min_radius_m"] = request_.min_radius;
@@ -103,7 +108,7 @@ class ViewshedVerb final : public Verb {
     const StoreMetadata& metadata = store.metadata();
     complete_request(metadata);
     request_.themes.check(metadata.themes);
-    const viewshed::Surveyed surveyed = viewshed::compute_with_surface(store, request_, progress);
+    const viewshed::Surveyed surveyed = survey(store, progress);
     const Document surface = surface_document(metadata, request_.detail, request_.themes);
     Result result;
     result.warnings = surveyed.result.warnings;
@@ -166,12 +171,35 @@ class ViewshedVerb final : public Verb {
     }
   }
 
+  static constexpr const char* kModes[] = {"visible", "count", "certified"};
+
   viewshed::Mode parse_mode() const {
     const std::size_t mode =
         parse_choice("--mode", mode_text_, {"visible", "count", "certified", "height", "angle", "which"});
-    if (mode > 1)
-      throw InputError(fmt::format("--mode {}: not in this version; it knows visible and count", mode_text_));
-    return mode == 0 ? viewshed::Mode::kVisible : viewshed::Mode::kCount;
+    if (mode > 2)
+      throw InputError(
+          fmt::format("--mode {}: not in this version; it knows visible, count and certified", mode_text_));
+    return static_cast<viewshed::Mode>(mode);
+  }
+
+  void validate_precise() {
+    if (!precise_) {
+      if (!memory_text_.empty()) throw InputError("--memory is of use with --precise only");
+      return;
+    }
+    if (certified())
+      throw InputError("--precise leaves nothing undecided: give --mode visible or count, or leave --precise out");
+    if (detail_.has_rings() || request_detail_given())
+      throw InputError("--precise is exact for the full surface: leave out --tolerance and --rings");
+    if (!memory_text_.empty()) precise_options_.memory_bytes = parse_bytes("--memory", memory_text_);
+  }
+  bool request_detail_given() const { return detail_.detail({}).coarsest() > 0; }
+  bool certified() const { return request_.mode == viewshed::Mode::kCertified; }
+
+  viewshed::Surveyed survey(const Store& store, Progress& progress) const {
+    if (precise_) return viewshed::compute_precise(store, request_, precise_options_, progress);
+    if (certified()) return viewshed::compute_certified(store, request_, progress);
+    return viewshed::compute_with_surface(store, request_, progress);
   }
 
   /// What takes the store's CRS to understand.
@@ -223,12 +251,15 @@ class ViewshedVerb final : public Verb {
                         {"columns", result.grid.columns()},
                         {"rows", result.grid.rows()},
                         {"cell_m", {result.grid.cell_width(), result.grid.cell_height()}}};
-    document["cells"] = {
-        {"visible", cells.visible}, {"hidden", cells.hidden}, {"undecided", 0}, {"outside", cells.outside}};
+    document["cells"] = {{"visible", cells.visible},
+                         {"hidden", cells.hidden},
+                         {"undecided", cells.undecided},
+                         {"outside", cells.outside}};
     document["area_m2"] = {{"visible", static_cast<double>(cells.visible) * area},
                            {"hidden", static_cast<double>(cells.hidden) * area},
-                           {"undecided", 0.0},
+                           {"undecided", static_cast<double>(cells.undecided) * area},
                            {"outside", static_cast<double>(cells.outside) * area}};
+    if (certified()) document["decided_percent"] = decided_percent(cells);
     document["ray_error_bound_m"] = result.error_bound_m;
     document["outputs"] = outputs();
     const viewshed::Statistics& statistics = result.statistics;
@@ -239,6 +270,11 @@ class ViewshedVerb final : public Verb {
     return document;
   }
 
+  static double decided_percent(const viewshed::CellCounts& cells) {
+    const std::uint64_t decided = cells.visible + cells.hidden, all = decided + cells.undecided;
+    return all == 0 ? 100 : 100.0 * static_cast<double>(decided) / static_cast<double>(all);
+  }
+
   std::string text(const viewshed::Result& result) const {
     const viewshed::CellCounts& cells = result.cells;
     const std::uint64_t decided = cells.visible + cells.hidden;
@@ -247,17 +283,24 @@ class ViewshedVerb final : public Verb {
     for (const std::string& path : outputs()) {
       text += fmt::format("{}: {}\n", path, readable_bytes(std::filesystem::file_size(path)));
     }
-    text += fmt::format("visible: {} of {} cells ({:.1f} %), {:.2f} km2\n", grouped(cells.visible), grouped(decided),
-                        share, static_cast<double>(cells.visible) * result.grid.cell_area() / 1e6);
+    if (certified()) {
+      text +=
+          fmt::format("certainly visible: {} cells; certainly hidden: {}; undecided: {} ({:.1f} % decided)\n",
+                      grouped(cells.visible), grouped(cells.hidden), grouped(cells.undecided), decided_percent(cells));
+    } else {
+      text += fmt::format("visible: {} of {} cells ({:.1f} %), {:.2f} km2\n", grouped(cells.visible), grouped(decided),
+                          share, static_cast<double>(cells.visible) * result.grid.cell_area() / 1e6);
+    }
     text += fmt::format("{} triangles, {} rays; {}\n", grouped(result.statistics.triangles),
                         grouped(result.statistics.rays), earth_.earth().convention());
     return text;
   }
 
-  std::string store_, output_, image_, mode_text_, nodata_text_, like_;
+  std::string store_, output_, image_, mode_text_, nodata_text_, like_, memory_text_;
   std::string target_height_text_, radius_text_, min_radius_text_, azimuth_text_, elevation_text_, cell_text_;
   std::string target_on_ = "ground";
   bool precise_ = false;
+  viewshed::PreciseOptions precise_options_;
   ObserverOptions observers_;
   DetailOptions detail_;
   ThemeOptions themes_;

@@ -48,9 +48,9 @@ make_terrain() {
       name=$(basename "$zip" .zip)
       echo "/vsizip/$zip/${name^^}.asc"
     done >"$work/wales.txt"
-    # The sea has no tiles; it is at height 0.
-    gdalbuildvrt -q -a_srs EPSG:27700 -input_file_list "$work/wales.txt" "$work/wales.vrt" 2>/dev/null
-    gdal_translate -q -a_nodata none -co TILED=YES -co COMPRESS=DEFLATE -co PREDICTOR=3 "$work/wales.vrt" "$work/wales.part.tif"
+    # The open sea has no tiles; tiles of the coast have their sea at about 0.
+    gdalbuildvrt -q -a_srs EPSG:27700 -vrtnodata -9999 -input_file_list "$work/wales.txt" "$work/wales.vrt" 2>/dev/null
+    gdal_translate -q -co TILED=YES -co COMPRESS=DEFLATE -co PREDICTOR=3 "$work/wales.vrt" "$work/wales.part.tif"
     mv "$work/wales.part.tif" "$work/wales.tif"
   fi
 }

@@ -6,6 +6,8 @@
 
 #include <itin/tin.hpp>
 
+#include "sight_lines.hpp"
+
 namespace itin::viewshed {
 
 /// The surface is to the left of from -> to.
@@ -21,5 +23,12 @@ std::vector<BoundaryEdge> boundary_edges(const Tin& tin);
 /// Whether a sight line within `reach` metres of a position on the surface can cross ground without data: whether the
 /// surface begins anew across some boundary edge, seen from there.
 bool surface_resumes(const Tin& tin, const std::vector<BoundaryEdge>& boundary, Point2 position, double reach);
+
+enum class Crossing : std::uint8_t { kNone, kBack, kDoubtful };
+
+/// Whether line `i` that left the surface returns to it across the edge. Leaving alone hides nothing: a target on the
+/// edge of the data, or a line along that edge, is not behind a curtain. Doubtful: the line returns somewhere on the
+/// edge's straight, but not between its ends.
+Crossing crossing_back(const Tin& tin, const BoundaryEdge& edge, const SightLines& lines, unsigned i);
 
 }  // namespace itin::viewshed

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <optional>
 
 #include <viewshed/viewshed.hpp>
 
@@ -17,11 +19,18 @@ class FieldOfView {
   }
 
   /// Metres from the observer to the target. An observer's own position has every azimuth.
-  bool contains(double dx, double dy, double dz) const {
+  bool contains(double dx, double dy, double dz) const { return contains(dx, dy, dz, dz).value(); }
+  /// A target somewhere from `low` to `high` above the observer; nothing where that decides.
+  std::optional<bool> contains(double dx, double dy, double low, double high) const {
     const double squared = dx * dx + dy * dy;
     if (squared > farthest_ || squared < nearest_) return false;
     if (squared == 0) return true;
-    return (!azimuth_ || azimuth_within(dx, dy)) && (!elevation_ || elevation_within(squared, dz));
+    if (azimuth_ && !azimuth_within(dx, dy)) return false;
+    if (!elevation_) return true;
+    const double lowest = elevation_at(squared, low), highest = elevation_at(squared, high);
+    if (lowest >= elevation_->from && highest <= elevation_->to) return true;
+    if (highest < elevation_->from || lowest > elevation_->to) return false;
+    return std::nullopt;
   }
 
  private:
@@ -33,9 +42,8 @@ class FieldOfView {
     if (width == 0 && azimuth_->to != azimuth_->from) return true;
     return turn(std::atan2(dx, dy) * kDegrees - azimuth_->from) <= width;
   }
-  bool elevation_within(double squared, double dz) const {
-    const double angle = std::atan2(dz - drop_ * squared, std::sqrt(squared)) * kDegrees;
-    return angle >= elevation_->from && angle <= elevation_->to;
+  double elevation_at(double squared, double dz) const {
+    return std::atan2(dz - drop_ * squared, std::sqrt(squared)) * kDegrees;
   }
   static double turn(double degrees) {
     const double rest = std::fmod(degrees, 360);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <viewshed/certified.hpp>
 #include <viewshed/viewshed.hpp>
 
 namespace itin::viewshed {
@@ -55,6 +56,14 @@ void write_geotiff(const std::string& path, const Result& result, const GeotiffO
     description.band_name = "observers that see the cell";
     description.nodata = kCountOutside;
     write_raster(path, result.grid, std::span<const std::uint16_t>(result.count), description);
+  } else if (result.request.mode == Mode::kCertified) {
+    description.band_name = "certified";
+    description.nodata = kOutside;
+    description.classes = {{kUndecided, "undecided at this tolerance", 230, 159, 0, 255},
+                           {kCertainlyHidden, "certainly hidden", 225, 225, 225, 255},
+                           {kCertainlyVisible, "certainly visible", 0, 114, 178, 255},
+                           {kOutside, "outside or no data", 0, 0, 0, 0}};
+    write_raster(path, result.grid, std::span<const std::uint8_t>(result.visible), description);
   } else {
     description.band_name = "visible";
     description.nodata = kOutside;

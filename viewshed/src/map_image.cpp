@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <viewshed/certified.hpp>
 #include <viewshed/map_image.hpp>
 
 #include "canvas.hpp"
@@ -141,12 +142,19 @@ class MapDrawing {
       const std::uint8_t value = result_.visible[cell];
       return value == kOutside ? std::nullopt : std::optional(value == kVisible ? kOverlay : 0.0);
     }
+    if (certified()) {
+      const std::uint8_t value = result_.visible[cell];
+      if (value == kOutside) return std::nullopt;
+      return value == kCertainlyVisible ? kOverlay : value == kUndecided ? kOverlay / 3 : 0.0;
+    }
     const std::uint16_t count = result_.count[cell];
     if (count == kCountOutside) return std::nullopt;
     if (count == 0) return 0.0;
     return std::find_if(classes_.begin(), classes_.end(), [&](const CountClass& c) { return count <= c.most; })
         ->opacity;
   }
+
+  bool certified() const { return result_.request.mode == Mode::kCertified; }
 
   void draw_ground() {
     const std::vector<float> shades = hillshade(tin_, pixels_);
@@ -262,7 +270,8 @@ class MapDrawing {
   }
 
   std::string share_text(const std::string& what, std::uint64_t cells) const {
-    const std::uint64_t decided = std::max<std::uint64_t>(1, result_.cells.visible + result_.cells.hidden);
+    const std::uint64_t decided =
+        std::max<std::uint64_t>(1, result_.cells.visible + result_.cells.hidden + result_.cells.undecided);
     return fmt::format("{}: {} ({:.1f} %)", what, area_text(static_cast<double>(cells) * result_.grid.cell_area()),
                        100.0 * static_cast<double>(cells) / static_cast<double>(decided));
   }
@@ -270,9 +279,13 @@ class MapDrawing {
   void draw_legend() {
     std::vector<double> overlays;
     for (const CountClass& c : classes_) overlays.push_back(c.opacity);
-    draw_key(0, overlays, 0, share_text("Visible", result_.cells.visible));
-    draw_key(1, {}, 0, share_text("Hidden", result_.cells.hidden));
-    if (result_.cells.outside > 0) draw_key(2, {}, kOutsideFade, "Outside the field of view, or no data");
+    draw_key(0, overlays, 0, share_text(certified() ? "Certainly visible" : "Visible", result_.cells.visible));
+    draw_key(1, {}, 0, share_text(certified() ? "Certainly hidden" : "Hidden", result_.cells.hidden));
+    if (certified()) {
+      draw_key(2, {kOverlay / 3}, 0, share_text("Undecided", result_.cells.undecided));
+    } else if (result_.cells.outside > 0) {
+      draw_key(2, {}, kOutsideFade, "Outside the field of view, or no data");
+    }
     const double y = top_ + height_ + 6.9 * unit_;
     draw_mark({left_ + 1.0 * unit_, y});
     letters_.draw(canvas_, result_.request.observers.size() == 1 ? "Observer" : "Observers",

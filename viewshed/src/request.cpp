@@ -111,4 +111,12 @@ Window window_of(const Request& request) {
   return Window::polygons(std::move(parts));
 }
 
+double ceiling_of(const Tin& tin, const Request& request) {
+  double highest = 0;
+  for (const GridPoint& v : tin.vertices) highest = std::max(highest, v.z * tin.grid.resolution);
+  double above = std::max(request.target_height, 0.0);
+  for (const Observer& observer : request.observers) above = std::max(above, observer.height);
+  return highest + above;
+}
+
 }  // namespace itin::viewshed

@@ -6,6 +6,9 @@
 
 namespace itin::viewshed {
 
+inline constexpr const char* kVoidsWarning =
+    "sight lines may cross ground without data, which counts as clear; give nodata block or clear to choose";
+
 /// Throws InputError for everything that is wrong whatever the surface.
 void validate(const Request& request);
 
@@ -15,5 +18,8 @@ RasterGrid cells_of(const Request& request, const Box& coverage);
 
 /// The region that holds every sight line of the request.
 Window window_of(const Request& request);
+
+/// Above every end of every sight line over this surface, metres.
+double ceiling_of(const Tin& tin, const Request& request);
 
 }  // namespace itin::viewshed

@@ -3,44 +3,17 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <new>
-
-#if ITIN_EMBREE_MAJOR >= 4
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
 
 #include "boundary.hpp"
+#include "embree.hpp"
 #include "surface_heights.hpp"
 #include "tessellation.hpp"
 #include "triangle_bins.hpp"
+#include "walls.hpp"
 
 namespace itin::viewshed {
 
 namespace {
-
-constexpr double kRounding = 0x1p-24;
-constexpr double kRoundings = 16;  ///< of Embree's edge functions; see the header
-
-#if ITIN_EMBREE_MAJOR >= 4
-using RayContext = RTCRayQueryContext;
-#else
-using RayContext = RTCIntersectContext;
-#endif
-
-struct DeviceRelease {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct SceneRelease {
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-struct GeometryRelease {
-  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
-};
-using Device = std::unique_ptr<std::remove_pointer_t<RTCDevice>, DeviceRelease>;
-using EmbreeScene = std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneRelease>;
-using Geometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, GeometryRelease>;
 
 /// What the filters below see of a packet; Embree hands back the pointer to the first member.
 struct PacketContext {
@@ -82,23 +55,19 @@ RasterGrid location_grid(const Tin& tin) {
 
 class Scene::Impl {
  public:
-  Impl(const Tin& tin, const Earth& earth, NoData nodata, double ceiling)
+  Impl(const Tin& tin, const Earth& earth, NoData nodata, double ceiling,
+       std::optional<std::vector<BoundaryEdge>> outline)
       : tin_(tin),
         drop_(earth.drop_coefficient() * tin.grid.resolution),
         sag_(drop_ == 0 ? 0 : kSag),
         tessellation_(tessellate(tin, drop_)),
         location_(location_grid(tin)),
         bins_(tin, location_),
-        boundary_(boundary_edges(tin)),
-        curtains_(nodata == NoData::kBlock),
-        device_(rtcNewDevice(nullptr)) {
-    if (!device_) throw std::bad_alloc();
-    scene_.reset(rtcNewScene(device_.get()));
-    rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+        boundary_(boundary_edges(tin)) {
     attach_surface();
-    attach_walls(ceiling);
-    rtcCommitScene(scene_.get());
-    if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) throw std::bad_alloc();
+    attach_walls();
+    if (nodata == NoData::kBlock) attach_curtains(outline ? std::move(*outline) : boundary_, ceiling);
+    embree_.commit();
     // Fewer, larger arrays for the ray casting that follows; Embree has its own copy of what it needs.
     tessellation_.indices = {};
   }
@@ -110,31 +79,27 @@ class Scene::Impl {
     if (known == lines.active) return known;
     alignas(64) RTCRay16 rays;
     alignas(64) std::array<int, SightLines::kSize> valid;
-    cast_from(lines, lines.active & ~known, rays, valid);
+    const RayFrame frame{tessellation_.centre, drop_, error_bound(0) / tin_.grid.resolution, kRounding * kRoundings};
+    frame.cast(lines, lines.active & ~known, rays, valid);
     PacketContext packet;
     packet.lines = &lines;
     packet.exact = exact.data();
     packet.occluder = &occluder;
-#if ITIN_EMBREE_MAJOR >= 4
-    rtcInitRayQueryContext(&packet.context);
-    RTCOccludedArguments arguments;
-    rtcInitOccludedArguments(&arguments);
-    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
-    arguments.context = &packet.context;
-    rtcOccluded16(valid.data(), scene_.get(), &rays, &arguments);
-#else
-    rtcInitIntersectContext(&packet.context);
-    packet.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    rtcOccluded16(valid.data(), scene_.get(), &packet.context, &rays);
-#endif
+    occluded(embree_.scene(), valid, packet.context, rays);
     unsigned result = known;
     for (unsigned i = 0; i < SightLines::kSize; ++i)
       result |= static_cast<unsigned>(valid[i] != 0 && rays.tfar[i] < 0) << i;
     for (unsigned doubtful = packet.doubtful & ~result; doubtful != 0; doubtful &= doubtful - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(doubtful));
-      if (hidden_by_any(lines, i, exact[i])) result |= 1U << i;
+      if (hidden_by_any(lines, i, exact[i], 0, 1) || behind_curtain(lines, i)) result |= 1U << i;
     }
     return result;
+  }
+
+  bool hidden_between(const SightLines& lines, unsigned i, double from, double to) const {
+    const SightLine exact({lines.from_x[i], lines.from_y[i], lines.from_z[i]},
+                          {lines.to_x[i], lines.to_y[i], lines.to_z[i]}, drop_, kGrazing / tin_.grid.resolution);
+    return hidden_by_any(lines, i, exact, from, to);
   }
 
   std::optional<double> ground(Point2 position) const {
@@ -144,14 +109,12 @@ class Scene::Impl {
     return height ? std::optional(*height * tin_.grid.resolution) : std::nullopt;
   }
 
-  const std::vector<BoundaryEdge>& boundary() const {
-    return boundary_;
-  }
+  const std::vector<BoundaryEdge>& boundary() const { return boundary_; }
   double error_bound(double length) const {
-    return sag_ + kRounding * (4 * tessellation_.half_height * tin_.grid.resolution + kRoundings * length);
+    return sag_ + rounding_error(tessellation_.half_height * tin_.grid.resolution, length);
   }
   double lateral_error_bound(double length) const {
-    return kRounding * (4 * tessellation_.half_width * tin_.grid.resolution + kRoundings * length);
+    return rounding_error(tessellation_.half_width * tin_.grid.resolution, length);
   }
 
  private:
@@ -161,55 +124,8 @@ class Scene::Impl {
                       kGrazing / tin_.grid.resolution)...};
   }
 
-  /// Single precision, lowered by the Earth's curvature, raised by the error bound.
-  void cast_from(const SightLines& lines, unsigned active, RTCRay16& rays,
-                 std::array<int, SightLines::kSize>& valid) const {
-    const double cx = tessellation_.centre.x, cy = tessellation_.centre.y, cz = tessellation_.centre.z;
-    const double constant = error_bound(0) / tin_.grid.resolution;
-    for (unsigned i = 0; i < SightLines::kSize; ++i) {
-      const double fx = lines.from_x[i] - cx, fy = lines.from_y[i] - cy;
-      const double tx = lines.to_x[i] - cx, ty = lines.to_y[i] - cy;
-      const double fz = lines.from_z[i] - cz - drop_ * (fx * fx + fy * fy);
-      const double tz = lines.to_z[i] - cz - drop_ * (tx * tx + ty * ty);
-      const double length = std::sqrt((tx - fx) * (tx - fx) + (ty - fy) * (ty - fy) + (tz - fz) * (tz - fz));
-      const double raise = constant + kRounding * kRoundings * length;
-      rays.org_x[i] = static_cast<float>(fx);
-      rays.org_y[i] = static_cast<float>(fy);
-      rays.org_z[i] = static_cast<float>(fz + raise);
-      // From the rounded origin, so that the other end is where it should be.
-      rays.dir_x[i] = static_cast<float>(tx - static_cast<double>(rays.org_x[i]));
-      rays.dir_y[i] = static_cast<float>(ty - static_cast<double>(rays.org_y[i]));
-      rays.dir_z[i] = static_cast<float>(tz + raise - static_cast<double>(rays.org_z[i]));
-      rays.tnear[i] = 0;
-      rays.tfar[i] = 1;
-      rays.time[i] = 0;
-      rays.mask[i] = 0xffffffff;
-      rays.id[i] = i;
-      rays.flags[i] = 0;
-      valid[i] = (active >> i & 1) != 0 ? -1 : 0;
-    }
-  }
-
-  Geometry triangles(const std::vector<float>& vertices, const std::vector<std::uint32_t>& indices) {
-    Geometry geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
-    auto* const v = static_cast<float*>(rtcSetNewGeometryBuffer(
-        geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertices.size() / 3));
-    auto* const t = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-        geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), indices.size() / 3));
-    if (!v || !t) throw std::bad_alloc();
-    std::copy(vertices.begin(), vertices.end(), v);
-    std::copy(indices.begin(), indices.end(), t);
-    rtcSetGeometryUserData(geometry.get(), this);
-    return geometry;
-  }
-
-  void attach(const Geometry& geometry) {
-    rtcCommitGeometry(geometry.get());
-    rtcAttachGeometry(scene_.get(), geometry.get());
-  }
-
   void attach_surface() {
-    const Geometry geometry = triangles(tessellation_.vertices, tessellation_.indices);
+    const Geometry geometry = embree_.triangles(tessellation_.vertices, tessellation_.indices, this);
     rtcSetGeometryOccludedFilterFunction(geometry.get(), [](const RTCFilterFunctionNArguments* arguments) {
       const auto& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
       filter(arguments, [&](const PacketContext& packet, unsigned line, std::uint32_t piece) {
@@ -220,7 +136,7 @@ class Scene::Impl {
         return Hit::kHides;
       });
     });
-    attach(geometry);
+    embree_.attach(geometry);
   }
 
   /// Those of the lines that the occluder hides.
@@ -240,83 +156,80 @@ class Scene::Impl {
     return line.hidden_by(tin_.vertices[t[0]], tin_.vertices[t[1]], tin_.vertices[t[2]]);
   }
 
-  /// The slow way, for the few lines that run along an edge: every triangle in the bins under the line, and every
-  /// curtain.
-  bool hidden_by_any(const SightLines& lines, unsigned i, const SightLine& line) const {
+  /// The slow way, for the few lines that run along an edge: every triangle in the bins under a part of the line.
+  bool hidden_by_any(const SightLines& lines, unsigned i, const SightLine& line, double start, double end) const {
     const auto bin_at = [&](double s) {
       const double x = lines.from_x[i] + s * (lines.to_x[i] - lines.from_x[i]);
       const double y = lines.from_y[i] + s * (lines.to_y[i] - lines.from_y[i]);
       return Point2{location_.column_at(tin_.grid.origin.x + x * tin_.grid.resolution),
                     location_.row_at(tin_.grid.origin.y + y * tin_.grid.resolution)};
     };
-    const Point2 from = bin_at(0), to = bin_at(1);
+    const Point2 from = bin_at(start), to = bin_at(end);
     // Steps of half a bin and the bins about each: more than needed, none left out.
     const double steps = std::ceil(2 * std::max(std::abs(to.x - from.x), std::abs(to.y - from.y))) + 1;
+    std::array<std::size_t, 4> before{kNoBin, kNoBin, kNoBin, kNoBin};
     for (double step = 0; step <= steps; ++step) {
-      const Point2 at = bin_at(step / steps);
-      for (const double dy : {-0.5, 0.5}) {
-        for (const double dx : {-0.5, 0.5}) {
-          const double column = std::floor(at.x + dx), row = std::floor(at.y + dy);
-          if (column < 0 || row < 0 || column >= location_.columns() || row >= location_.rows()) continue;
-          const std::size_t bin = location_.index({static_cast<std::int64_t>(column), static_cast<std::int64_t>(row)});
-          for (const std::uint32_t triangle : bins_.triangles(bin))
-            if (hides(line, triangle)) return true;
-        }
+      const Point2 at = bin_at(start + (end - start) * (step / steps));
+      std::array<std::size_t, 4> bins = before;
+      for (std::size_t corner = 0; corner < 4; ++corner)
+        bins[corner] = bin_about(at.x + (corner % 2 == 0 ? -0.5 : 0.5), at.y + (corner < 2 ? -0.5 : 0.5));
+      for (const std::size_t bin : bins) {
+        if (bin == kNoBin || std::find(before.begin(), before.end(), bin) != before.end()) continue;
+        for (const std::uint32_t triangle : bins_.triangles(bin))
+          if (hides(line, triangle)) return true;
       }
+      before = bins;
     }
-    return curtains_ && std::any_of(boundary_.begin(), boundary_.end(), [&](const BoundaryEdge& edge) {
-             return comes_back(lines, i, edge) == Hit::kHides;
-           });
+    return false;
   }
 
-  /// Two triangles along each boundary edge, from below everything: up to the edge, so that no line passes under the
-  /// surface from one void to another; with curtains up to the ceiling.
-  void attach_walls(double ceiling) {
+  static constexpr std::size_t kNoBin = ~std::size_t{0};
+  std::size_t bin_about(double x, double y) const {
+    const double column = std::floor(x), row = std::floor(y);
+    const bool outside = column < 0 || row < 0 || column >= static_cast<double>(location_.columns()) ||
+                         row >= static_cast<double>(location_.rows());
+    return outside ? kNoBin : location_.index({static_cast<std::int64_t>(column), static_cast<std::int64_t>(row)});
+  }
+
+  bool behind_curtain(const SightLines& lines, unsigned i) const {
+    return std::any_of(curtains_.begin(), curtains_.end(), [&](const BoundaryEdge& edge) {
+      return crossing_back(tin_, edge, lines, i) == Crossing::kBack;
+    });
+  }
+
+  void attach_walls() {
     if (boundary_.empty()) return;
-    const double metre = 1 / tin_.grid.resolution;
-    const auto bottom = static_cast<float>(-(2 * tessellation_.half_height + metre));
-    const auto sky = static_cast<float>(ceiling * metre - tessellation_.centre.z + tessellation_.half_height + metre);
-    std::vector<float> vertices;
-    std::vector<std::uint32_t> indices;
-    for (const BoundaryEdge& edge : boundary_) {
-      const auto first = static_cast<std::uint32_t>(vertices.size() / 3);
-      const GridPoint &a = tin_.vertices[edge.from], &b = tin_.vertices[edge.to];
-      const double length = std::hypot(static_cast<double>(b.x) - a.x, static_cast<double>(b.y) - a.y);
-      // The edge may have been cut, and then bulges above the straight wall.
-      const auto bulge = static_cast<float>(std::max(drop_, 0.0) * length * length / 4);
-      for (const std::uint32_t end : {edge.from, edge.to}) {
-        const float* const v = tessellation_.vertices.data() + 3 * std::size_t{end};
-        vertices.insert(vertices.end(), {v[0], v[1], bottom, v[0], v[1], curtains_ ? sky : v[2] + bulge});
-      }
-      indices.insert(indices.end(), {first, first + 2, first + 3, first, first + 3, first + 1});
-    }
-    const Geometry geometry = triangles(vertices, indices);
+    const Walls walls = walls_under(tin_, boundary_, tessellation_, drop_, std::nullopt);
+    const Geometry geometry = embree_.triangles(walls.vertices, walls.indices, this);
     rtcSetGeometryOccludedFilterFunction(geometry.get(), [](const RTCFilterFunctionNArguments* arguments) {
       const auto& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
       filter(arguments, [&](const PacketContext& packet, unsigned line, std::uint32_t side) {
-        const BoundaryEdge& edge = self.boundary_[side / 2];
-        if (self.hides(packet.exact[line], edge.triangle)) return Hit::kHides;
-        return self.curtains_ ? self.comes_back(*packet.lines, line, edge) : Hit::kDoubtful;
+        return self.hides(packet.exact[line], self.boundary_[side / 2].triangle) ? Hit::kHides : Hit::kDoubtful;
       });
     });
-    attach(geometry);
+    embree_.attach(geometry);
   }
 
-  /// Whether a line that left the surface returns to it across the edge. Leaving alone hides nothing: a target on the
-  /// edge of the data, or a line along that edge, is not behind a curtain.
-  Hit comes_back(const SightLines& lines, unsigned i, const BoundaryEdge& edge) const {
-    const GridPoint &a = tin_.vertices[edge.from], &b = tin_.vertices[edge.to];
-    const auto side_of_edge = [&](double x, double y) {
-      return (static_cast<double>(b.x) - a.x) * (y - a.y) - (static_cast<double>(b.y) - a.y) * (x - a.x);
-    };
-    const auto side_of_line = [&](const GridPoint& p) {
-      return (lines.to_x[i] - lines.from_x[i]) * (p.y - lines.from_y[i]) -
-             (lines.to_y[i] - lines.from_y[i]) * (p.x - lines.from_x[i]);
-    };
-    const bool back =
-        side_of_edge(lines.from_x[i], lines.from_y[i]) < 0 && side_of_edge(lines.to_x[i], lines.to_y[i]) > 0;
-    if (!back) return Hit::kPasses;
-    return (side_of_line(a) < 0) != (side_of_line(b) < 0) ? Hit::kHides : Hit::kDoubtful;
+  void attach_curtains(std::vector<BoundaryEdge> edges, double ceiling) {
+    curtains_ = std::move(edges);
+    if (curtains_.empty()) return;
+    const Walls walls = walls_under(tin_, curtains_, tessellation_, drop_, ceiling);
+    const Geometry geometry = embree_.triangles(walls.vertices, walls.indices, this);
+    rtcSetGeometryOccludedFilterFunction(geometry.get(), [](const RTCFilterFunctionNArguments* arguments) {
+      const auto& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
+      filter(arguments, [&](const PacketContext& packet, unsigned line, std::uint32_t side) {
+        switch (crossing_back(self.tin_, self.curtains_[side / 2], *packet.lines, line)) {
+          case Crossing::kBack:
+            return Hit::kHides;
+          case Crossing::kDoubtful:
+            return Hit::kDoubtful;
+          case Crossing::kNone:
+            break;
+        }
+        return Hit::kPasses;
+      });
+    });
+    embree_.attach(geometry);
   }
 
   const Tin& tin_;
@@ -326,19 +239,22 @@ class Scene::Impl {
   RasterGrid location_;
   TriangleBins bins_;
   std::vector<BoundaryEdge> boundary_;
-  bool curtains_;
-  Device device_;
-  EmbreeScene scene_;
+  std::vector<BoundaryEdge> curtains_;
+  EmbreeScene embree_;
 };
 
-Scene::Scene(const Tin& tin, const Earth& earth, NoData nodata, double ceiling)
-    : impl_(std::make_unique<Impl>(tin, earth, nodata, ceiling)) {}
+Scene::Scene(const Tin& tin, const Earth& earth, NoData nodata, double ceiling,
+             std::optional<std::vector<BoundaryEdge>> outline)
+    : impl_(std::make_unique<Impl>(tin, earth, nodata, ceiling, std::move(outline))) {}
 Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 Scene::~Scene() = default;
 
 unsigned Scene::hidden(const SightLines& lines, Occluder& occluder) const {
   return impl_->hidden(lines, occluder);
+}
+bool Scene::hidden_between(const SightLines& lines, unsigned line, double from, double to) const {
+  return impl_->hidden_between(lines, line, from, to);
 }
 std::optional<double> Scene::ground(Point2 position) const {
   return impl_->ground(position);

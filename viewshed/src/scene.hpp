@@ -23,6 +23,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <itin/earth.hpp>
 #include <itin/tin.hpp>
@@ -30,16 +31,9 @@
 
 #include "boundary.hpp"
 #include "sight_line.hpp"
+#include "sight_lines.hpp"
 
 namespace itin::viewshed {
-
-/// A packet of sight lines, in grid units (heights too).
-struct SightLines {
-  static constexpr unsigned kSize = 16;
-  alignas(64) std::array<double, kSize> from_x{}, from_y{}, from_z{};
-  alignas(64) std::array<double, kSize> to_x{}, to_y{}, to_z{};
-  unsigned active = 0;  ///< one bit a line; ends of active lines differ horizontally
-};
 
 /// The triangle that hid the last line: it most often hides the next ones too.
 struct Occluder {
@@ -48,9 +42,10 @@ struct Occluder {
 
 class Scene {
  public:
-  /// The Tin must outlive the scene. With NoData::kBlock curtains stand along the Tin's boundary, `ceiling` metres
-  /// high: no end may lie higher. Throws FileError... never; std::bad_alloc when Embree runs out of memory.
-  Scene(const Tin& tin, const Earth& earth, NoData nodata, double ceiling);
+  /// The Tin must outlive the scene. With NoData::kBlock curtains stand along the Tin's boundary, or along `outline`
+  /// where that is given, `ceiling` metres high: no end may lie higher. Throws std::bad_alloc.
+  Scene(const Tin& tin, const Earth& earth, NoData nodata, double ceiling,
+        std::optional<std::vector<BoundaryEdge>> outline = std::nullopt);
   Scene(Scene&&) noexcept;
   Scene& operator=(Scene&&) noexcept;
   ~Scene();
@@ -58,6 +53,9 @@ class Scene {
   /// One bit a line: 1 hidden. Only bits of active lines are set. From any number of threads, each with its own
   /// occluder.
   unsigned hidden(const SightLines& lines, Occluder& occluder) const;
+  /// Whether the part of a line between two fractions of its length is hidden, decided in double precision by every
+  /// triangle thereabouts. Cost: the triangles under it.
+  bool hidden_between(const SightLines& lines, unsigned line, double from, double to) const;
   /// Height of the surface in metres, if there is any at that position.
   std::optional<double> ground(Point2 position) const;
   /// Where the surface ends.

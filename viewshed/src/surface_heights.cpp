@@ -87,9 +87,12 @@ TileCentres::TileCentres(const Grid& units, const RasterGrid& grid, const Tile& 
     y[static_cast<std::size_t>(r)] = northing_in_units(units, grid.centre_y(tile.row + r));
 }
 
-void scan_convert(const Tin& tin, std::span<const std::uint32_t> triangles, const Tile& tile,
-                  const TileCentres& centres, TileValues<double>& heights) {
-  heights.fill(kNoSurface);
+namespace {
+
+/// Calls visit(cell, height function) for every cell centre in every triangle.
+template <class Visit>
+void for_each_centre(const Tin& tin, std::span<const std::uint32_t> triangles, const Tile& tile,
+                     const TileCentres& centres, const Visit& visit) {
   const auto& [x, y] = centres;
   const auto spacing = [](double first, double last, std::int64_t count) {
     return count > 1 ? std::abs(last - first) / static_cast<double>(count - 1) : 1.0;
@@ -107,15 +110,33 @@ void scan_convert(const Tin& tin, std::span<const std::uint32_t> triangles, cons
       if (row_y > sections.highest()) continue;
       if (row_y < sections.lowest()) break;
       const auto [west, east] = sections.at(row_y);
-      double* const out = heights.data() + r * Tile::kSide;
       for (std::int64_t c = first_at((west.x - x[0]) / per_column, tile.columns); c < tile.columns; ++c) {
         const double cell_x = x[static_cast<std::size_t>(c)];
         if (cell_x < west.x) continue;
         if (cell_x > east.x) break;
-        if (std::isnan(out[c])) out[c] = RowSections::height(west, east, cell_x);
+        visit(static_cast<std::size_t>(r * Tile::kSide + c), [&] { return RowSections::height(west, east, cell_x); });
       }
     }
   }
+}
+
+}  // namespace
+
+void scan_convert(const Tin& tin, std::span<const std::uint32_t> triangles, const Tile& tile,
+                  const TileCentres& centres, TileValues<double>& heights) {
+  heights.fill(kNoSurface);
+  for_each_centre(tin, triangles, tile, centres, [&](std::size_t cell, const auto& height) {
+    if (std::isnan(heights[cell])) heights[cell] = height();
+  });
+}
+
+void scan_convert_highest(const Tin& tin, std::span<const std::uint32_t> triangles, const Tile& tile,
+                          const TileCentres& centres, TileValues<double>& heights) {
+  heights.fill(kNoSurface);
+  for_each_centre(tin, triangles, tile, centres, [&](std::size_t cell, const auto& height) {
+    const double h = height();
+    if (!(heights[cell] >= h)) heights[cell] = h;
+  });
 }
 
 std::optional<double> surface_height(const Tin& tin, std::span<const std::uint32_t> triangles, Point2 position) {

@@ -49,6 +49,10 @@ inline constexpr double kNoSurface = std::numeric_limits<double>::quiet_NaN();
 void scan_convert(const Tin& tin, std::span<const std::uint32_t> triangles, const Tile& tile,
                   const TileCentres& centres, TileValues<double>& heights);
 
+/// The same for triangles that overlap: the greatest height.
+void scan_convert_highest(const Tin& tin, std::span<const std::uint32_t> triangles, const Tile& tile,
+                          const TileCentres& centres, TileValues<double>& heights);
+
 /// Height in grid units at a position in metres, if one of `triangles` holds it.
 std::optional<double> surface_height(const Tin& tin, std::span<const std::uint32_t> triangles, Point2 position);
 

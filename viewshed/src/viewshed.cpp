@@ -1,20 +1,20 @@
 #include <atomic>
 #include <bit>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
 #include <fmt/format.h>
 
-#include <itin/error.hpp>
 #include <itin/parallel.hpp>
 #include <viewshed/viewshed.hpp>
 
 #include "boundary.hpp"
+#include "eye.hpp"
 #include "field_of_view.hpp"
 #include "request.hpp"
 #include "scene.hpp"
+#include "stopwatch.hpp"
 #include "surface_heights.hpp"
 #include "triangle_bins.hpp"
 
@@ -22,47 +22,12 @@ namespace itin::viewshed {
 
 namespace {
 
-class Stopwatch {
- public:
-  /// Seconds since the last call.
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-/// The upper end of an observer, in metres and in grid units.
-struct Eye {
-  Point2 position;
-  double elevation = 0;
-  Point3 units;
-};
-
-[[noreturn]] void refuse(const Observer& observer, const std::string& why) {
-  throw InputError(
-      fmt::format("observer {} at {:.10g},{:.10g}: {}", observer.name, observer.position.x, observer.position.y, why));
-}
-
-constexpr const char* kNoGround = "there is no data there; move it onto the data";
-
-/// The height under an observer on a surface that is not the scene's.
+/// The elevation under an observer on a surface that is not the scene's.
 std::optional<double> height_on(const Tin& tin, Point2 position) {
   std::vector<std::uint32_t> all(tin.triangles.size());
   std::iota(all.begin(), all.end(), 0U);
   const std::optional<double> units = surface_height(tin, all, position);
   return units ? std::optional(*units * tin.grid.resolution) : std::nullopt;
-}
-
-double ground_of(const Scene& scene, const Tin* ground_tin, const Observer& observer) {
-  const std::optional<double> ground =
-      ground_tin != nullptr ? height_on(*ground_tin, observer.position) : scene.ground(observer.position);
-  if (!ground) refuse(observer, kNoGround);
-  if (observer.absolute && observer.height < *ground)
-    refuse(observer, fmt::format("its elevation {:g} m is below the ground, {:.2f} m", observer.height, *ground));
-  return *ground;
 }
 
 /// Decides tiles of cells. Tiles are independent of each other.
@@ -115,10 +80,6 @@ class Caster {
     Occluder occluder;
     Tally tally;
   };
-
-  /// Packets are four by four cells: the closer together, the fewer boxes of the scene they meet.
-  static constexpr std::int64_t kPacketSide = 4;
-  static_assert(kPacketSide * kPacketSide == SightLines::kSize && Tile::kSide % kPacketSide == 0);
 
   Tally decide(std::size_t index) const {
     const auto state = std::make_unique<TileState>(tin_.grid, result_.grid, tile_at(result_.grid, tiles_, index));
@@ -202,36 +163,12 @@ class Caster {
   double grazing_;
 };
 
-std::vector<Eye> eyes_of(const Grid& grid, const Request& request, const std::vector<double>& grounds) {
-  std::vector<Eye> eyes;
-  for (std::size_t i = 0; i < grounds.size(); ++i) {
-    const Observer& observer = request.observers[i];
-    const double elevation = observer.absolute ? observer.height : grounds[i] + observer.height;
-    eyes.push_back({observer.position,
-                    elevation,
-                    {easting_in_units(grid, observer.position.x), northing_in_units(grid, observer.position.y),
-                     elevation / grid.resolution}});
-  }
-  return eyes;
-}
-
-/// Above every end of every sight line, metres.
-double ceiling_of(const Tin& tin, const Request& request) {
-  double highest = 0;
-  for (const GridPoint& v : tin.vertices) highest = std::max(highest, v.z * tin.grid.resolution);
-  double above = std::max(request.target_height, 0.0);
-  for (const Observer& observer : request.observers) above = std::max(above, observer.height);
-  return highest + above;
-}
-
 void look_for_voids(const Tin& tin, const std::vector<BoundaryEdge>& boundary, Result& result) {
   const double reach = result.request.radius.value_or(std::numeric_limits<double>::infinity());
   for (const Observer& observer : result.request.observers) {
     result.crosses_voids = result.crosses_voids || surface_resumes(tin, boundary, observer.position, reach);
   }
-  if (result.crosses_voids && result.request.nodata == NoData::kUnknown)
-    result.warnings.emplace_back(
-        "sight lines may cross ground without data, which counts as clear; give nodata block or clear to choose");
+  if (result.crosses_voids && result.request.nodata == NoData::kUnknown) result.warnings.emplace_back(kVoidsWarning);
 }
 
 }  // namespace
@@ -241,14 +178,18 @@ namespace {
 /// `ground` is null where it is the surface itself.
 Result compute_on(const Tin& tin, const Tin* ground, const Request& request, Progress& progress) {
   validate(request);
-  if (tin.triangles.empty()) refuse(request.observers.front(), kNoGround);
+  if (tin.triangles.empty()) eye_of(tin.grid, request.observers.front(), std::nullopt);
   Result result;
   result.request = request;
   Stopwatch watch;
   progress.report("scene", 0);
   const Scene scene(tin, request.earth, request.nodata, ceiling_of(tin, request));
+  const Tin* const base = request.observers_on_surface ? nullptr : ground;
+  std::vector<Eye> eyes;
   for (const Observer& observer : request.observers) {
-    result.ground_m.push_back(ground_of(scene, request.observers_on_surface ? nullptr : ground, observer));
+    const auto height = base != nullptr ? height_on(*base, observer.position) : scene.ground(observer.position);
+    eyes.push_back(eye_of(tin.grid, observer, height));
+    result.ground_m.push_back(*height);
   }
   result.grid = cells_of(request, tin.bounds());
   look_for_voids(tin, scene.boundary(), result);
@@ -264,7 +205,7 @@ Result compute_on(const Tin& tin, const Tin* ground, const Request& request, Pro
   } else {
     result.visible.resize(result.grid.cell_count());
   }
-  Caster(targets, scene, eyes_of(tin.grid, request, result.ground_m), bins, tiles, result).run(progress);
+  Caster(targets, scene, std::move(eyes), bins, tiles, result).run(progress);
   result.statistics.rays_seconds = watch.lap();
   return result;
 }

@@ -48,6 +48,7 @@ struct ImportOptions {
   double max_gap = 0;                 ///< metres, scattered points: ground is not triangulated over longer edges;
                                       ///< 0: 100 times the mean spacing of the source
   bool allow_mixed_vertical = false;  ///< take heights as they are, though they refer to different vertical datums
+  bool repair = true;                 ///< import_lines() of contours: infer points where their triangles are flat
   bool replace = false;               ///< these sources take the place of coarser ones within their coverage
   std::vector<double> tolerances;     ///< metres; default 0.5,1,2,4,8,16,32. An existing store keeps its own.
   double resolution = 0.01;           ///< metres; an existing store keeps its own
@@ -57,19 +58,22 @@ struct ImportOptions {
 };
 
 struct ImportReport {
-  std::string crs_name;          ///< of the store
-  bool crs_chosen = false;       ///< a UTM zone was chosen, because the source is not metric
-  std::uint64_t read = 0;        ///< posts and points read with a height
-  std::uint64_t voids = 0;       ///< posts without data
-  std::uint64_t filtered = 0;    ///< points left out by class or where
-  std::uint64_t duplicates = 0;  ///< positions that were there already
-  std::uint64_t replaced = 0;    ///< coarser points that made room
-  std::uint64_t isolated = 0;    ///< points left out because no ground could be triangulated about them
-  std::uint64_t features = 0;    ///< of lines read, or of those that stand now
-  std::uint64_t refused = 0;     ///< features that could not stand, of all imports so far; warnings say why
-  std::uint64_t crossings = 0;   ///< pairs of segments that crossed, of any themes, and were given a vertex
-  std::uint64_t left_out = 0;    ///< segments, of any theme, that do not lie wholly on the ground
-  std::uint64_t vertices = 0;    ///< of the store now
+  std::string crs_name;           ///< of the store
+  bool crs_chosen = false;        ///< a UTM zone was chosen, because the source is not metric
+  std::uint64_t read = 0;         ///< posts and points read with a height
+  std::uint64_t voids = 0;        ///< posts without data
+  std::uint64_t filtered = 0;     ///< points left out by class or where
+  std::uint64_t duplicates = 0;   ///< positions that were there already
+  std::uint64_t replaced = 0;     ///< coarser points that made room
+  std::uint64_t isolated = 0;     ///< points left out because no ground could be triangulated about them
+  std::uint64_t features = 0;     ///< of lines read, or of those that stand now
+  std::uint64_t refused = 0;      ///< features that could not stand, of all imports so far; warnings say why
+  std::uint64_t crossings = 0;    ///< pairs of segments that crossed, of any themes, and were given a vertex
+  std::uint64_t left_out = 0;     ///< segments, of any theme, that do not lie wholly on the ground
+  std::uint64_t flat_before = 0;  ///< triangles that are level because their corners lie on contours
+  std::uint64_t flat_after = 0;   ///< of them, those that are left
+  std::uint64_t inferred = 0;     ///< points of the store inferred from contours
+  std::uint64_t vertices = 0;     ///< of the store now
   std::uint64_t store_bytes = 0;
   double seconds = 0;
   std::vector<LevelInfo> levels;
@@ -80,6 +84,11 @@ struct ImportReport {
 /// was.
 ImportReport import_terrain(const std::string& store_path, const ImportOptions& options, Progress& progress);
 
+/// Where contours are imported, options.repair decides for all contours of the store, also when something is added
+/// later: points are inferred along ridges, valleys, passes, hilltops and pits (features/flat_skeleton.hpp) and have a
+/// source of their own, of kind "inferred", the last one. They depend on what was imported alone, and are inferred anew
+/// whenever anything is added.
+///
 /// Adds lines and polygons (as their rings) to a theme, which is made if there is none of that name. Contours may make
 /// a new store; other lines need ground to lie on. All lines of the store are made planar together: crossings get a
 /// vertex, and no line moves by more than half a grid step. Heights of lines of the terrain win over those of points;

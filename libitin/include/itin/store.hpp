@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include <itin/certificate.hpp>
 #include <itin/geometry.hpp>
 #include <itin/progress.hpp>
 #include <itin/theme.hpp>
@@ -96,6 +97,10 @@ class Store {
   /// The most by which features of the chosen themes, in the cells that meet the box, rise above T_0 under them,
   /// metres; 0 where there are none. Throws CorruptStore.
   double greatest_feature_height(const ThemeChoice& themes, const Box& box) const;
+  /// About how many points of this level and coarser ones lie in the box; reads the directory, no points.
+  std::uint64_t points_about(int level, const Box& box) const;
+  /// The bounds of the level's cells that meet the box, to ask about many places. Throws likewise.
+  Certificate certificate(int level, const Box& box) const;
 
  private:
   friend std::vector<Damage> check(const Store& store, Progress& progress);

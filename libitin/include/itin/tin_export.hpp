@@ -22,7 +22,8 @@
 //           a spatial index, which is what takes the time: 12 s a million triangles. Timestamps are fixed, so that
 //           equal Tins give equal files.
 // .geojson  polygons with z in the store's CRS, named in the `crs` member of GeoJSON 2008, which GDAL and QGIS follow;
-//           the same properties. Ids are integers beyond 2^53: read them with 64 bits.
+//           the same properties; then, where there are lines, their edges with those of .gpkg. Ids are integers beyond
+//           2^53: read them with 64 bits.
 //
 // Coordinates are exact but for .glb: they quantise to the same grid positions.
 #pragma once
@@ -62,7 +63,8 @@ void require_topology_output(const std::string& path, bool overwrite);
 void export_tin(const Tin& tin, const std::string& path, const TinExportOptions& options, Progress& progress);
 
 /// A JSON document (path ends in .json): `topology` (the kind), `crs` (WKT), `vertex_ids` (decimal strings, for many
-/// readers lose digits beyond 2^53), `sources`, `vertices` [[x, y, z]], and
+/// readers lose digits beyond 2^53), `sources`, `vertices` [[x, y, z]], where there are lines `lines` [[a, b, theme by
+/// name]], and
 ///   triangle: `triangles` [[a, b, c]], `adjacent_triangles` [[across ab, across bc, across ca]], null at the boundary
 ///   vertex:   `neighbours` [[...]] counterclockwise, a boundary vertex's from the boundary on; `boundary` [bool]
 ///   edge:     `half_edges` [[origin, twin, next, face]], twin null at the boundary

@@ -28,6 +28,17 @@ void write_feature(const Tin& tin, std::size_t triangle, const std::vector<std::
   file.write("]]}}");
 }
 
+void write_line(const Tin& tin, std::size_t line, const TinExportOptions& options, BufferedFile& file) {
+  const LineEdge& e = tin.lines[line];
+  const nlohmann::ordered_json theme =
+      e.theme <= options.theme_names.size() ? options.theme_names[e.theme - std::size_t{1}] : "";
+  const Point3 a = tin.point(e.from), b = tin.point(e.to);
+  file.print(R"({{"type":"Feature","id":{},"properties":{{"vertex_a":{},"vertex_b":{},"theme":{}}},)",
+             tin.triangles.size() + line, tin.id(e.from), tin.id(e.to), dumped(theme));
+  file.print(R"("geometry":{{"type":"LineString","coordinates":[[{},{},{}],[{},{},{}]]}}}})", a.x, a.y, a.z, b.x, b.y,
+             b.z);
+}
+
 }  // namespace
 
 void write_geojson(const Tin& tin, const PendingFile& output, const TinExportOptions& options, Progress& progress) {
@@ -38,12 +49,17 @@ void write_geojson(const Tin& tin, const PendingFile& output, const TinExportOpt
   if (!urn.empty()) file.print(R"("crs":{{"type":"name","properties":{{"name":"{}"}}}},)", urn);
   if (!metadata.empty()) file.print(R"("metadata":{},)", dumped(metadata));
   file.write("\"features\":[");
-  StepProgress steps(progress, tin.triangles.size());
+  StepProgress steps(progress, tin.triangles.size() + tin.lines.size());
   std::vector<std::string> themes{"null"};
   for (const std::string& name : options.theme_names) themes.push_back(dumped(name));
   for (std::size_t t = 0; t < tin.triangles.size(); ++t) {
     file.write(t == 0 ? "\n" : ",\n");
     write_feature(tin, t, themes, file);
+    steps.step();
+  }
+  for (std::size_t e = 0; e < tin.lines.size(); ++e) {
+    file.write(tin.triangles.empty() && e == 0 ? "\n" : ",\n");
+    write_line(tin, e, options, file);
     steps.step();
   }
   file.write("\n]}\n");

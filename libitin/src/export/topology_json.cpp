@@ -35,6 +35,16 @@ void write_vertices(const Tin& tin, BufferedFile& file, StepProgress& steps) {
   });
 }
 
+/// Where there are any.
+void write_lines(const Tin& tin, const std::vector<std::string>& theme_names, BufferedFile& file, StepProgress& steps) {
+  if (tin.lines.empty()) return;
+  write_array(file, "lines", tin.lines.size(), steps, [&](std::uint32_t i) {
+    const LineEdge& e = tin.lines[i];
+    const nlohmann::ordered_json theme = e.theme <= theme_names.size() ? theme_names[e.theme - std::size_t{1}] : "";
+    file.print("[{},{},{}]", e.from, e.to, dumped(theme));
+  });
+}
+
 void write_triangle_based(const Tin& tin, BufferedFile& file, StepProgress& steps) {
   write_array(file, "triangles", tin.triangles.size(), steps, [&](std::uint32_t t) {
     const auto [a, b, c] = tin.triangles[t];
@@ -88,6 +98,7 @@ void write_topology_json(const Tin& tin, TopologyKind kind, const PendingFile& o
   file.write(opening);
   StepProgress steps(progress, 5 * tin.vertices.size() + 3 * tin.triangles.size());
   write_vertices(tin, file, steps);
+  write_lines(tin, options.theme_names, file, steps);
   switch (kind) {
     case TopologyKind::TriangleBased:
       write_triangle_based(tin, file, steps);

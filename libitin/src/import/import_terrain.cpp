@@ -15,6 +15,7 @@
 #include "import/line_collection.hpp"
 #include "import/line_layer.hpp"
 #include "import/sorted_points.hpp"
+#include "import/source_context.hpp"
 #include "import/terrain_source.hpp"
 #include "pyramid/pyramid.hpp"
 #include "store/point_index.hpp"
@@ -59,9 +60,31 @@ void check_resolution(const ImportOptions& options, const Store* existing) {
   }
 }
 
-/// Adds the points that a store holds already, and takes its lines over.
+/// Whether a store's contours are repaired.
+bool repairs(const Store* store) {
+  return store != nullptr && !store->metadata().sources.empty() && store->metadata().sources.back().kind == kInferred;
+}
+
+SourceInfo inferred_source() {
+  SourceInfo source;
+  source.path = "inferred from contours";
+  source.kind = kInferred;
+  source.imported = utc_now();
+  return source;
+}
+
+/// All but the last one if that stands for inferred points.
+std::vector<SourceInfo> imported_sources(const Store* store) {
+  if (store == nullptr) return {};
+  std::vector<SourceInfo> sources = store->metadata().sources;
+  if (repairs(store)) sources.pop_back();
+  return sources;
+}
+
+/// Adds the points that a store holds already, but for those inferred from others, and takes its lines over.
 std::uint64_t add_stored(const Store& store, PointSorter& sorter, LineCollection& lines, Progress& progress) {
   lines.take_themes(store.metadata());
+  const std::size_t inferred = imported_sources(&store).size();
   std::vector<Leaf> leaves;
   store.points().leaves(0, store.points().bounds(), leaves);
   std::uint64_t count = 0;
@@ -73,7 +96,7 @@ std::uint64_t add_stored(const Store& store, PointSorter& sorter, LineCollection
     points.clear();
     for (std::size_t k = 0; k < block->points.size(); ++k) {
       const GridPoint& p = block->points[k];
-      if (lines.take_vertex(p, block->sources[k])) continue;
+      if (block->sources[k] == inferred || lines.take_vertex(p, block->sources[k])) continue;
       points.push_back({morton(p.x, p.y), p.z, block->sources[k], 0});
     }
     sorter.add(points);
@@ -191,10 +214,10 @@ void write_store(StoreWriter& writer, const std::string& directory, const Store*
                  const Store* ground, const std::vector<double>& tolerances, const ImportOptions& options,
                  ImportReport& report, Progress& progress) {
   const ImportPlan& plan = additions.plan;
-  std::vector<SourceInfo> sources;
-  if (base != nullptr) sources = base->metadata().sources;
-  if (sources.size() + plan.sources.size() + plan.lines.size() + additions.footprints.size() > format::kMaxSources)
-    throw InputError("a store holds at most 32,767 sources; merge some of them first");
+  std::vector<SourceInfo> sources = imported_sources(base);
+  // One more may stand for inferred points.
+  if (sources.size() + plan.sources.size() + plan.lines.size() + additions.footprints.size() >= format::kMaxSources)
+    throw InputError("a store holds at most 32,766 sources; merge some of them first");
   PointSorter sorter(directory, options.memory_bytes / 2);
   LineCollection collection;
   std::uint64_t offered = base != nullptr ? add_stored(*base, sorter, collection, progress) : 0;
@@ -211,6 +234,8 @@ void write_store(StoreWriter& writer, const std::string& directory, const Store*
     add_footprints(file, static_cast<std::uint16_t>(sources.size()), options, collection, report);
     sources.push_back(file.info);
   }
+  const bool repair = options.kind == ThemeKind::Contours ? options.repair : repairs(base);
+  if (repair) sources.push_back(inferred_source());
   offered += report.read;
   if (offered == 0) throw InputError("nothing to import: the sources hold no point with a height");
   if (ground != nullptr) collection.raise(*ground, report, progress);
@@ -226,6 +251,9 @@ void write_store(StoreWriter& writer, const std::string& directory, const Store*
   report.replaced += pyramid.replaced;
   report.isolated += pyramid.isolated;
   report.left_out = pyramid.left_out;
+  report.flat_before = pyramid.flat_before;
+  report.flat_after = pyramid.flat_after;
+  if (repair) report.inferred = pyramid.vertices_of_source.back();
   report.vertices = 0;
   for (std::size_t s = 0; s < sources.size(); ++s) {
     sources[s].vertices = pyramid.vertices_of_source[s];
@@ -338,9 +366,10 @@ ImportReport import_lines(const std::string& store_path, const ImportOptions& op
   }
   ImportReport report = import_sources(store_path, lines, progress);
   if (may_stand(*options.kind) && !stands(options)) {
-    report.warnings.push_back(fmt::format("{} without heights are outlines on the ground; to make them stand, give "
-                                          "--height-field or --height, and another --theme",
-                                          name_of(*options.kind)));
+    report.warnings.push_back(
+        fmt::format("{} without heights are outlines on the ground; to make them stand, give "
+                    "--height-field or --height, and another --theme",
+                    name_of(*options.kind)));
   }
   return report;
 }

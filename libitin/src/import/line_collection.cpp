@@ -163,6 +163,7 @@ ThemeLines LineCollection::finish() {
     stands.push_back(stands_[order[i]]);
     footprints.push_back(std::move(footprints_[order[i]]));
     result.terrain.push_back(is_terrain(themes.back().kind));
+    result.kinds.push_back(themes.back().kind);
   }
   themes_ = std::move(themes);
   first_source_ = std::move(first_source);

@@ -56,11 +56,11 @@ class LineCollection {
   std::uint16_t source_of(const GridPoint& p, std::uint32_t owner) const;
 
   std::vector<ThemeInfo> themes_;
-  std::vector<std::uint16_t> first_source_;  ///< by theme
-  std::vector<bool> stands_;                 ///< by theme
+  std::vector<std::uint16_t> first_source_;               ///< by theme
+  std::vector<bool> stands_;                              ///< by theme
   std::vector<std::vector<StoredFootprint>> footprints_;  ///< by theme
   std::vector<OwnPart> parts_;
-  std::vector<bool> from_line_;              ///< by the store's source
+  std::vector<bool> from_line_;  ///< by the store's source
   std::vector<OwnedSegment> segments_;
   std::unordered_map<std::uint64_t, Vertex> vertices_;  ///< by Morton code: what lines brought along
 };

@@ -139,8 +139,15 @@ std::uint64_t total(std::span<const Run> runs) {
 
 class SortedPoints::Impl {
  public:
-  explicit Impl(TemporaryFile sorted) : file(std::move(sorted)) {}
+  explicit Impl(const std::string& temporary_directory) : directory(temporary_directory), file(directory) {}
 
+  /// Through a writer on the file, from its beginning.
+  void append(const RawPoint& point, RunWriter& writer) {
+    if (size++ % kIndexStep == 0) index.push_back(point.code);
+    writer.append(point);
+  }
+
+  std::string directory;
   TemporaryFile file;
   std::uint64_t size = 0;
   std::vector<std::uint64_t> index;  // the codes of points 0, kIndexStep, 2 kIndexStep...
@@ -176,6 +183,28 @@ std::uint64_t SortedPoints::lower_bound(std::uint64_t code) const {
   return first + static_cast<std::uint64_t>(found - between.begin());
 }
 
+SortedPoints SortedPoints::with(std::span<const RawPoint> more, std::uint16_t dropped) const {
+  auto result = std::make_unique<Impl>(impl_->directory);
+  RunWriter writer(result->file, 0, kLargestMergeBuffer);
+  auto next = more.begin();
+  const auto append_below = [&](std::uint64_t code) {
+    for (; next != more.end() && next->code < code; ++next) result->append(*next, writer);
+  };
+  if (size() > 0) {
+    RunReader reader(impl_->file, {0, size()}, kLargestMergeBuffer);
+    do {
+      const RawPoint& point = reader.point();
+      if (point.level == dropped) continue;
+      append_below(point.code);
+      if (next != more.end() && next->code == point.code) ++next;
+      result->append(point, writer);
+    } while (reader.next());
+  }
+  append_below(~std::uint64_t{0});
+  writer.flush();
+  return SortedPoints(std::move(result));
+}
+
 class PointSorter::Impl {
  public:
   Impl(std::string directory, std::uint64_t memory_bytes)
@@ -199,7 +228,7 @@ class PointSorter::Impl {
     write_chunks();
     spare_ = {};  // the merge has its own buffers
     while (runs_.size() > fan_in()) merge_groups(progress);
-    auto sorted = std::make_unique<SortedPoints::Impl>(TemporaryFile(directory_));
+    auto sorted = std::make_unique<SortedPoints::Impl>(directory_);
     merge_distinct(spacing, progress, *sorted);
     duplicates = total(runs_) - sorted->size;
     return sorted;
@@ -267,9 +296,7 @@ class PointSorter::Impl {
     std::optional<RawPoint> best;
     std::uint64_t visited = 0;
     const auto append_best = [&] {
-      if (!best) return;
-      if (sorted.size++ % kIndexStep == 0) sorted.index.push_back(best->code);
-      writer.append(*best);
+      if (best) sorted.append(*best, writer);
     };
     merge(file_, runs_, buffer, [&](const RawPoint& point) {
       if (visited++ % kProgressStep == 0) {

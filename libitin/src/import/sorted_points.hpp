@@ -38,6 +38,9 @@ class SortedPoints {
   void write(std::uint64_t first, std::span<const RawPoint> points);
   /// The number of points whose code is below `code`. One small read, thanks to a sparse index in memory.
   std::uint64_t lower_bound(std::uint64_t code) const;
+  /// A new file of these points without those whose level is `dropped`, and with `more`, ascending by code, where there
+  /// is no point yet. Throws FileError.
+  SortedPoints with(std::span<const RawPoint> more, std::uint16_t dropped) const;
 
  private:
   friend class PointSorter;

@@ -10,6 +10,7 @@
 
 #include "features/line_hierarchy.hpp"
 #include "pyramid/certify.hpp"
+#include "pyramid/contour_repair.hpp"
 #include "pyramid/coverage.hpp"
 #include "pyramid/part_masks.hpp"
 #include "pyramid/proposal.hpp"
@@ -35,12 +36,12 @@ std::vector<std::array<double, 4>> gap_bases(const std::vector<SourceInfo>& sour
   return bases;
 }
 
-/// Sources whose points are ground by themselves: all but lines that add to it.
+/// Sources whose points are ground by themselves: all but lines that add to it, and what is inferred in it.
 Sources ground_sources(const std::vector<SourceInfo>& sources) {
   Sources ground;
   for (std::size_t s = 0; s < sources.size(); ++s) {
-    if (sources[s].theme.empty() || sources[s].kind == name_of(ThemeKind::Contours))
-      ground.insert(static_cast<std::uint16_t>(s));
+    const bool scattered = sources[s].theme.empty() && sources[s].kind != kInferred;
+    if (scattered || sources[s].kind == name_of(ThemeKind::Contours)) ground.insert(static_cast<std::uint16_t>(s));
   }
   return ground;
 }
@@ -64,6 +65,29 @@ std::optional<LineHierarchy> generalised(const PlacedLines& placed, const std::v
   std::vector<Segment> whole = placed.features;
   whole.insert(whole.end(), placed.standing.begin(), placed.standing.end());
   return LineHierarchy(placed.terrain, whole, nodes, height, by_level);
+}
+
+std::vector<Segment> of_kind(const std::vector<Segment>& segments, ThemeKind kind, const ThemeLines& lines) {
+  std::vector<Segment> result;
+  std::copy_if(segments.begin(), segments.end(), std::back_inserter(result),
+               [&](const Segment& s) { return lines.kinds[s.theme - std::size_t{1}] == kind; });
+  return result;
+}
+
+/// The flat triangles of the surface that all points, the outline and the terrain's lines make.
+FlatSurvey survey_flat(WorkingIndex& index, const std::vector<CurveRange>& tiles, const PlacedLines& placed,
+                       const std::vector<Segment>& outline, const ThemeLines& lines, Progress& progress) {
+  std::vector<Segment> segments = outline;
+  segments.insert(segments.end(), placed.terrain.begin(), placed.terrain.end());
+  index.set_segments(std::move(segments));
+  return FlatSurvey(index, tiles, of_kind(placed.terrain, ThemeKind::Contours, lines),
+                    of_kind(placed.terrain, ThemeKind::Water, lines), progress);
+}
+
+std::vector<RawPoint> raw_points(const std::vector<GridPoint>& points, std::size_t source) {
+  std::vector<RawPoint> result;
+  for (const GridPoint& p : points) result.push_back({morton(p.x, p.y), p.z, static_cast<std::uint16_t>(source), 0});
+  return result;
 }
 
 /// The vertices that each theme has besides those of the full surface, with the themes they belong to.
@@ -182,8 +206,8 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
                             const std::vector<double>& tolerances, const ThemeLines& lines, StoreWriter& writer,
                             Progress& progress) {
   const int levels = static_cast<int>(tolerances.size());
-  WorkingIndex index(points, levels, kLeafCapacity);
-  const std::vector<CurveRange> tiles = index.tiles(tile_points(points.size()));
+  std::optional<WorkingIndex> working(std::in_place, points, levels, kLeafCapacity);
+  std::vector<CurveRange> tiles = working->tiles(tile_points(points.size()));
   PyramidReport report;
   report.vertices_of_source.assign(sources.size(), 0);
 
@@ -196,16 +220,28 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
   const std::vector<std::array<double, 4>> bases = gap_bases(sources, grid);
   const Sources ground = ground_sources(sources);
   const Sources* const only = ground.size() < sources.size() ? &ground : nullptr;
-  report.replaced = drop_replaced(index, tiles, sources, bases, progress);
-  Proposal proposal = lines.empty() ? propose_levels(index, tiles, bases, in_units, progress)
-                                    : find_ground(index, tiles, bases, only, progress);
-  report.isolated = index.drop(std::move(proposal.isolated));
+  report.replaced = drop_replaced(*working, tiles, sources, bases, progress);
+  Proposal proposal = lines.empty() ? propose_levels(*working, tiles, bases, in_units, progress)
+                                    : find_ground(*working, tiles, bases, only, progress);
+  report.isolated = working->drop(std::move(proposal.isolated));
   const std::vector<Segment> outline = join_collinear(std::move(proposal.outline));
   PlacedLines placed;
   if (!lines.empty()) {
-    placed = place_lines(lines, index, tiles, ground, bases, outline, progress);
-    index.drop(placed.strays);
+    placed = place_lines(lines, *working, tiles, ground, bases, outline, progress);
+    working->drop(placed.strays);
   }
+  if (!of_kind(placed.terrain, ThemeKind::Contours, lines).empty()) {
+    const FlatSurvey flat = survey_flat(*working, tiles, placed, outline, lines, progress);
+    report.flat_before = report.flat_after = flat.triangles();
+    const auto source = std::find_if(sources.begin(), sources.end(), [](const auto& s) { return s.kind == kInferred; });
+    if (source != sources.end()) {
+      points = points.with(raw_points(flat.inferred(), static_cast<std::size_t>(source - sources.begin())), kDropped);
+      working.emplace(points, levels, kLeafCapacity);
+      tiles = working->tiles(tile_points(points.size()));
+      report.flat_after = survey_flat(*working, tiles, placed, outline, lines, progress).triangles();
+    }
+  }
+  WorkingIndex& index = *working;
   placed.standing = standing_segments(lines);
   std::optional<LineHierarchy> hierarchy = generalised(placed, outline, lines, in_units);
   const auto set_lines = [&] {

@@ -13,6 +13,9 @@
 
 namespace itin {
 
+/// The kind of a source of points that are inferred from contours. No file stands for it.
+inline constexpr const char* kInferred = "inferred";
+
 struct PyramidReport {
   std::uint64_t replaced = 0;  ///< coarser points that made room
   std::uint64_t isolated = 0;  ///< points left out: no ground about them
@@ -20,12 +23,15 @@ struct PyramidReport {
   std::uint64_t left_out = 0;                ///< segments of lines that are not wholly on the ground
   std::vector<std::uint64_t> segments;       ///< by theme and then by part, of the full surface
   std::vector<std::uint64_t> line_vertices;  ///< likewise
+  std::uint64_t flat_before = 0;             ///< flat triangles of contours (features/flat_triangles.hpp)
+  std::uint64_t flat_after = 0;              ///< of them, those that the repair could not mend, or did not
 };
 
 /// Finds the coverage, gives every point its level, certifies the levels and writes it all. `sources` gives the gap
 /// bases. Out of core: memory follows the leaves (about 100 bytes for 512 points) and the tiles in work, not the
 /// points. The result depends on the set of points, the lines and the gap bases alone. The vertices of terrain lines
-/// must be among the points. Throws FileError, Cancelled.
+/// must be among the points. Contours are repaired (contour_repair.hpp) where one of the sources is kInferred: it gets
+/// the points. Throws FileError, Cancelled.
 PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>& sources, const Grid& grid,
                             const std::vector<double>& tolerances, const ThemeLines& lines, StoreWriter& writer,
                             Progress& progress);

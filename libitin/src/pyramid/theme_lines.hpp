@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <itin/progress.hpp>
+#include <itin/theme.hpp>
 
 #include "features/part_vertices.hpp"
 #include "features/planar.hpp"
@@ -29,6 +30,7 @@ struct PlacedPart {
 struct ThemeLines {
   PlanarLines lines;
   std::vector<bool> terrain;           ///< by theme: whether they are part of the full surface
+  std::vector<ThemeKind> kinds;        ///< by theme
   std::vector<std::uint16_t> sources;  ///< by vertex: where it comes from
   std::vector<PlacedPart> parts;
 

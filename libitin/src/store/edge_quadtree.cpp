@@ -52,7 +52,7 @@ void for_each_edge_leaf(std::vector<Segment> segments, const Visit& visit) {
   split(Cell{}, segments, visit);
 }
 
-std::vector<std::uint8_t> encode_edges(const Cell& cell, const std::vector<Segment>& segments) {
+std::vector<std::uint8_t> encode_outline(const Cell& cell, const std::vector<Segment>& segments) {
   std::vector<std::uint8_t> out;
   std::int64_t x = morton_x(cell.code), y = morton_y(cell.code);
   for (const Segment& s : segments) {
@@ -60,19 +60,13 @@ std::vector<std::uint8_t> encode_edges(const Cell& cell, const std::vector<Segme
     put_varint(out, zigzag(s.ay - y));
     put_varint(out, zigzag(std::int64_t{s.bx} - s.ax));
     put_varint(out, zigzag(std::int64_t{s.by} - s.ay));
-    if (s.theme != kCoverage) {
-      put_varint(out, s.finest);
-      put_varint(out, s.coarsest);
-      put_varint(out, static_cast<std::uint64_t>(s.reach));
-    }
     x = s.ax, y = s.ay;
   }
   return compress(out);
 }
 
-std::vector<Segment> decode_edges(const Cell& cell, std::uint16_t theme, std::size_t count,
-                                  std::span<const std::uint8_t> bytes) {
-  constexpr std::size_t most_bytes_a_segment = 7 * 9;
+std::vector<Segment> decode_outline(const Cell& cell, std::size_t count, std::span<const std::uint8_t> bytes) {
+  constexpr std::size_t most_bytes_a_segment = 4 * 9;
   const std::vector<std::uint8_t> content = decompress(bytes, count * most_bytes_a_segment);
   ByteReader in(content);
   std::vector<Segment> segments;
@@ -83,12 +77,6 @@ std::vector<Segment> decode_edges(const Cell& cell, std::uint16_t theme, std::si
     s.ay = checked_coordinate(y + in.signed_varint());
     s.bx = checked_coordinate(s.ax + in.signed_varint());
     s.by = checked_coordinate(s.ay + in.signed_varint());
-    s.theme = theme;
-    if (theme != kCoverage) {
-      s.finest = static_cast<std::uint8_t>(in.varint(0, 0xff));
-      s.coarsest = static_cast<std::uint8_t>(in.varint(s.finest, 0xff));
-      s.reach = static_cast<std::int32_t>(in.varint(0, 2 * static_cast<std::uint64_t>(kGridHalfSide)));
-    }
     if (!crosses(s, cell)) throw DecodeError("a segment lies outside its cell");
     if (!segments.empty() && segments.back() >= s) throw DecodeError("segments are out of order");
     segments.push_back(s);

@@ -12,7 +12,7 @@
 namespace itin {
 
 /// A leaf with more segments is split, unless its side is 2^kMinEdgeLeafLog2Side.
-inline constexpr std::size_t kEdgeLeafCapacity = 64;
+inline constexpr std::size_t kEdgeLeafCapacity = 256;
 inline constexpr int kMinEdgeLeafLog2Side = 8;
 
 /// Whether the segment meets the cell, its border included. A cell reaches up to its neighbours' first positions, so
@@ -24,10 +24,9 @@ bool crosses(const Segment& segment, const Cell& cell);
 void for_each_edge_leaf(std::vector<Segment> segments,
                         const std::function<void(const Cell&, const std::vector<Segment>&)>& visit);
 
-/// Precondition: in ascending order, all of one theme.
-std::vector<std::uint8_t> encode_edges(const Cell& cell, const std::vector<Segment>& segments);
+/// Blocks of the coverage outline; those of themes are in line_codec.hpp. Precondition: in ascending order.
+std::vector<std::uint8_t> encode_outline(const Cell& cell, const std::vector<Segment>& segments);
 /// Throws DecodeError unless the bytes are `count` segments in ascending order, each crossing the cell.
-std::vector<Segment> decode_edges(const Cell& cell, std::uint16_t theme, std::size_t count,
-                                  std::span<const std::uint8_t> bytes);
+std::vector<Segment> decode_outline(const Cell& cell, std::size_t count, std::span<const std::uint8_t> bytes);
 
 }  // namespace itin

@@ -29,6 +29,12 @@ const PointIndex& Store::points() const {
 std::optional<CertifiedError> Store::certified_error(int level, const Box& box) const {
   return file_->certified_error(level, box);
 }
+std::uint64_t Store::points_about(int level, const Box& box) const {
+  return file_->points_about(level, box);
+}
+Certificate Store::certificate(int level, const Box& box) const {
+  return file_->certificate(level, box);
+}
 
 double Store::greatest_feature_height(const ThemeChoice& themes, const Box& box) const {
   const StoreMetadata& store = metadata();

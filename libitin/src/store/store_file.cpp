@@ -1,12 +1,14 @@
 #include "store/store_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <itin/error.hpp>
 
 #include "store/block_codec.hpp"
 #include "store/byte_stream.hpp"
 #include "store/edge_quadtree.hpp"
+#include "store/line_codec.hpp"
 #include "store/metadata_json.hpp"
 #include "store/store_format.hpp"
 
@@ -63,7 +65,10 @@ Block StoreFile::read_block(const Leaf& leaf) const {
 
 std::vector<Segment> StoreFile::read_edges(const Leaf& leaf) const {
   return at_place(rows_.path(), format::place("block", leaf.key), [&] {
-    return decode_edges(leaf.cell, format::theme_of(leaf.level), leaf.points, rows_.read(BlobKind::Block, leaf.key));
+    const std::uint16_t theme = format::theme_of(leaf.level);
+    const auto bytes = rows_.read(BlobKind::Block, leaf.key);
+    return theme == kCoverage ? decode_outline(leaf.cell, leaf.points, bytes)
+                              : decode_lines(leaf.cell, theme, leaf.points, bytes);
   });
 }
 
@@ -158,8 +163,41 @@ std::int32_t StoreFile::greatest_height(std::uint16_t part, const GridBox& box) 
   return greatest;
 }
 
+namespace {
+
+void require_level(int level, int count) {
+  if (level < 0 || level >= count) throw InputError("level " + std::to_string(level) + ": the store has none");
+}
+
+}  // namespace
+
+std::uint64_t StoreFile::points_about(int level, const Box& box) const {
+  require_level(level, level_count());
+  const GridBox units = metadata_.grid.enclosing(box);
+  double points = 0;
+  for (int k = level; k < level_count(); ++k) {
+    for_each_leaf(k, units, [&](const Leaf& leaf) {
+      const GridBox square = square_of(leaf.cell);
+      const double width = double{1} * std::min(square.xmax, units.xmax) - std::max(square.xmin, units.xmin);
+      const double height = double{1} * std::min(square.ymax, units.ymax) - std::max(square.ymin, units.ymin);
+      const double share = std::max(width, 0.0) * std::max(height, 0.0) / std::ldexp(1.0, 2 * leaf.cell.log2_side);
+      points += leaf.points * share;
+    });
+  }
+  return static_cast<std::uint64_t>(points);
+}
+
+Certificate StoreFile::certificate(int level, const Box& box) const {
+  require_level(level, level_count());
+  std::vector<Certificate::Cell> cells;
+  for_each_leaf(level, metadata_.grid.enclosing(box), [&](const Leaf& leaf) {
+    cells.push_back({leaf.cell.code, leaf.cell.end(), {leaf.lo, leaf.hi}});
+  });
+  return Certificate(std::move(cells));
+}
+
 std::optional<CertifiedError> StoreFile::certified_error(int level, const Box& box) const {
-  if (level < 0 || level >= level_count()) throw InputError("level " + std::to_string(level) + ": the store has none");
+  require_level(level, level_count());
   std::optional<CertifiedError> widest;
   const double unit = metadata_.grid.resolution;
   for_each_leaf(level, metadata_.grid.enclosing(box), [&](const Leaf& leaf) {

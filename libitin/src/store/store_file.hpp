@@ -32,6 +32,8 @@ class StoreFile final : public PointIndex {
   /// Of the part's features about the box above the full surface, grid units; 0 where there are none.
   std::int32_t greatest_height(std::uint16_t part, const GridBox& box) const;
   std::optional<CertifiedError> certified_error(int level, const Box& box) const;
+  std::uint64_t points_about(int level, const Box& box) const;
+  Certificate certificate(int level, const Box& box) const;
 
   const StoreMetadata& metadata() const { return metadata_; }
   const StoreRows& rows() const { return rows_; }

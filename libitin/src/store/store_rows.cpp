@@ -53,6 +53,9 @@ int checked_version(const std::string& path, std::uint64_t file_bytes) {
     throw StoreFormatError(path, fmt::format("has store format {}, this itin reads up to {}; use a newer itin", version,
                                              format::kVersion));
   }
+  if (version == 2) {
+    throw StoreFormatError(path, "has store format 2, which no release of itin wrote; import its sources again");
+  }
   if (version == 0) throw CorruptStore(path, "header", "has no format version; restore a copy or import again");
   const std::uint32_t raw_page = std::uint32_t{header[16]} << 8 | header[17];
   const std::uint64_t page_bytes = raw_page == 1 ? 65536 : raw_page;

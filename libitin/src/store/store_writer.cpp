@@ -11,6 +11,7 @@
 #include "store/directory.hpp"
 #include "store/edge_quadtree.hpp"
 #include "store/leaf_cutter.hpp"
+#include "store/line_codec.hpp"
 #include "store/metadata_json.hpp"
 #include "store/morton_range.hpp"
 #include "store/replacement_file.hpp"
@@ -207,7 +208,7 @@ void StoreWriter::Impl::add_edges(std::uint16_t theme, std::vector<Segment> segm
   for_each_edge_leaf(std::move(segments), [&](const Cell& cell, const std::vector<Segment>& in_cell) {
     const int tree = format::edge_tree(theme);
     add_leaf({cell, tree, static_cast<std::uint32_t>(in_cell.size()), 0, 0, 0, 0, format::key(tree, cell.code)},
-             encode_edges(cell, in_cell));
+             theme == kCoverage ? encode_outline(cell, in_cell) : encode_lines(cell, in_cell));
   });
 }
 

@@ -7,11 +7,16 @@
 #include <tuple>
 
 #include "triangulate/apex_frame.hpp"
+#include "triangulate/sight_fan.hpp"
 
 namespace itin {
 
 namespace {
 
+/// So many of the nearest segments are tried before the others.
+constexpr std::ptrdiff_t kNearSegments = 16;
+/// For less it is not worth sorting segments by direction.
+constexpr std::size_t kFewSegments = 64, kFewQuestions = 4;
 /// A circle is wide when its centre is so many times half the edge's length away; and so is a box.
 constexpr double kWide = 4;
 constexpr int kHalvings = 12;
@@ -57,17 +62,53 @@ std::shared_ptr<const Block> ApexSearch::read(const Leaf& leaf) {
 /// What is known while one circle is searched.
 struct ApexSearch::Search {
   const ApexFrame& frame;
-  GridBox box;             ///< all that the search looks at; all its segments are known
+  GridBox box;             ///< all that the search looks at
   const Position* beyond;  ///< on the circle that the search must improve on, or null
   double reach;            ///< no circle larger than this matters any more
   std::optional<SelectedVertex> best = std::nullopt;
+  bool segments_known = false;  ///< whether segments_ are those of box
+  std::size_t asked = 0;        ///< how often it was asked what segments hide
+  std::optional<SightFan> from_a = std::nullopt, from_b = std::nullopt;
 };
+
+/// The segments in the box that may come between ab and what lies left of it. Those near by, which hide most, are
+/// first.
+void ApexSearch::read_segments(const ApexFrame& frame, const GridBox& box) {
+  segments_.clear();
+  index_.segments(box, segments_);
+  std::erase_if(segments_, [&](const Segment& s) {
+    const bool beside = orientation(frame.a, frame.b, Position{s.ax, s.ay}) <= 0 &&
+                        orientation(frame.a, frame.b, Position{s.bx, s.by}) <= 0;
+    return beside || !selection_.selects(s);
+  });
+  if (std::ssize(segments_) <= kNearSegments) return;
+  const auto distance = [&](const Segment& s) {
+    const double x = s.ax - frame.mx, y = s.ay - frame.my;
+    return x * x + y * y;
+  };
+  const auto nearest = segments_.begin() + kNearSegments;
+  std::nth_element(segments_.begin(), nearest, segments_.end(),
+                   [&](const Segment& s, const Segment& t) { return distance(s) < distance(t); });
+}
+
+/// Whether a segment hides c from an end of the edge.
+bool ApexSearch::hidden(Position c, Search& search) const {
+  const Position a = search.frame.a, b = search.frame.b;
+  if (segments_.size() < kFewSegments || ++search.asked < kFewQuestions) {
+    return std::any_of(segments_.begin(), segments_.end(),
+                       [&](const Segment& s) { return crosses(s, a, c) || crosses(s, b, c); });
+  }
+  if (!search.from_a) {
+    search.from_a.emplace(a, b, a, segments_);
+    search.from_b.emplace(a, b, b, segments_);
+  }
+  return search.from_a->blocked(c) || search.from_b->blocked(c);
+}
 
 std::optional<SelectedVertex> ApexSearch::nearest_circle(const ApexFrame& frame, double lambda,
                                                          const Position* beyond) {
   Search search{frame, frame.cap_box(lambda, index_.bounds()), beyond, lambda};
   if (search.box.empty()) return std::nullopt;
-  segments_known_ = false;
   // Best first, by halves of a wide box's longer side: what is near has the answer, and may have none of the points.
   using Piece = std::tuple<double, int, GridBox>;
   const auto later = [](const Piece& p, const Piece& q) { return std::get<0>(p) > std::get<0>(q); };
@@ -97,12 +138,8 @@ void ApexSearch::look_in(const GridBox& piece, Search& search) {
   selected_leaves(index_, selection_, piece, leaves_);
   std::erase_if(leaves_, [&](const Leaf& leaf) { return !frame.cap_meets(search.reach, leaf.cell.box()); });
   if (leaves_.empty()) return;
-  if (!segments_known_) {
-    segments_.clear();
-    index_.segments(search.box, segments_);
-    std::erase_if(segments_, [&](const Segment& s) { return !selection_.selects(s); });
-    segments_known_ = true;
-  }
+  if (!search.segments_known) read_segments(frame, search.box);
+  search.segments_known = true;
   std::vector<std::pair<double, std::uint32_t>> order(leaves_.size());
   for (std::uint32_t i = 0; i < leaves_.size(); ++i) order[i] = {frame.key(leaves_[i].cell.box()), i};
   std::sort(order.begin(), order.end());
@@ -113,10 +150,6 @@ void ApexSearch::look_in(const GridBox& piece, Search& search) {
 
 void ApexSearch::look_in(const Leaf& leaf, Search& search) {
   const Position a = search.frame.a, b = search.frame.b;
-  const auto hidden = [&](Position c) {
-    return std::any_of(segments_.begin(), segments_.end(),
-                       [&](const Segment& s) { return crosses(s, a, c) || crosses(s, b, c); });
-  };
   const auto block = read(leaf);
   for (std::size_t k = 0; k < block->points.size(); ++k) {
     const GridPoint& point = block->points[k];
@@ -130,7 +163,7 @@ void ApexSearch::look_in(const Leaf& leaf, Search& search) {
                     : search.beyond != nullptr && in_circle_perturbed(b, a, *search.beyond, c) < 0) {
       continue;
     }
-    if (hidden(c)) continue;
+    if (hidden(c, search)) continue;
     search.best = SelectedVertex{point, block->sources[k], level, block->theme(k)};
     search.reach = std::min(search.reach, search.frame.lambda(c));
   }

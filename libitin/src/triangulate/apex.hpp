@@ -63,6 +63,8 @@ class ApexSearch {
   std::uint8_t level_of(const Leaf& leaf, const Block& block, std::size_t k) const;
   std::shared_ptr<const Block> read(const Leaf& leaf);
   struct Search;
+  void read_segments(const ApexFrame& frame, const GridBox& box);
+  bool hidden(Position c, Search& search) const;
   std::optional<SelectedVertex> nearest_circle(const ApexFrame& frame, double lambda, const Position* beyond);
   void look_in(const GridBox& piece, Search& search);
   void look_in(const Leaf& leaf, Search& search);
@@ -75,7 +77,6 @@ class ApexSearch {
   // Kept between calls for their memory.
   std::vector<Leaf> leaves_;
   std::vector<Segment> segments_;
-  bool segments_known_ = false;  ///< of the circle that is searched
 };
 
 /// Whether segment s properly crosses the line of sight pq: touching does not block it.

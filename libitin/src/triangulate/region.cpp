@@ -40,6 +40,7 @@ double area(const GridBox& b) {
 
 /// Closed segment against closed box, exactly.
 bool meets(Position p, Position q, const GridBox& box) {
+  if (box.contains(p.x, p.y) || box.contains(q.x, q.y)) return true;
   if (!box.meets({std::min(p.x, q.x), std::min(p.y, q.y), std::max(p.x, q.x), std::max(p.y, q.y)})) return false;
   bool left = false, right = false;
   for (const Position c : {Position{box.xmin, box.ymin}, Position{box.xmax, box.ymin}, Position{box.xmin, box.ymax},

@@ -67,6 +67,26 @@ TEST_F(GeoVectorTest, GeoJsonReadsBackExactly) {
   check_triangles(*dataset->GetLayer(0));
 }
 
+TEST_F(GeoVectorTest, GeoJsonHasTheEdgesOfLinesBehindTheTriangles) {
+  const auto [a, b, c] = tin_.triangles[0];
+  tin_.lines = {{std::min(a, b), std::max(a, b), 2}, {std::min(a, c), std::max(a, c), 1}};
+  options_.theme_names = {"contours", "the \"old\" road"};
+  const auto dataset = open(exported("a.geojson"));
+  std::size_t line = 0;
+  for (const auto& feature : *dataset->GetLayer(0)) {
+    const OGRGeometry& geometry = *feature->GetGeometryRef();
+    if (wkbFlatten(geometry.getGeometryType()) != wkbLineString) continue;
+    ASSERT_LT(line, tin_.lines.size());
+    const LineEdge& e = tin_.lines[line++];
+    const OGRLineString& ends = *geometry.toLineString();
+    EXPECT_EQ((Point3{ends.getX(0), ends.getY(0), ends.getZ(0)}), tin_.point(e.from));
+    EXPECT_EQ((Point3{ends.getX(1), ends.getY(1), ends.getZ(1)}), tin_.point(e.to));
+    EXPECT_EQ(static_cast<VertexId>(feature->GetFieldAsInteger64("vertex_b")), tin_.id(e.to));
+    EXPECT_EQ(feature->GetFieldAsString("theme"), options_.theme_names[e.theme - std::size_t{1}]);
+  }
+  EXPECT_EQ(line, 2u);
+}
+
 TEST_F(GeoVectorTest, EqualTinsGiveEqualFiles) {
   const std::string once = bytes_of(exported("a.gpkg")), again = bytes_of(exported("b.gpkg"));
   EXPECT_FALSE(once.empty());

@@ -74,6 +74,19 @@ TEST_F(TopologyJsonTest, EdgeBased) {
   }
 }
 
+TEST_F(TopologyJsonTest, NamesTheThemesOfLines) {
+  EXPECT_FALSE(document(TopologyKind::TriangleBased).contains("lines"));
+  const auto [a, b, c] = tin_.triangles[0];
+  tin_.lines = {{std::min(a, b), std::max(a, b), 2}, {std::min(a, c), std::max(a, c), 1}};
+  options_.theme_names = {"contours", "the \"old\" road"};
+  for (const auto kind : {TopologyKind::TriangleBased, TopologyKind::VertexBased, TopologyKind::EdgeBased}) {
+    const Json json = document(kind);
+    ASSERT_EQ(json.at("lines").size(), 2u);
+    EXPECT_EQ(json.at("lines")[0], (Json{tin_.lines[0].from, tin_.lines[0].to, "the \"old\" road"}));
+    EXPECT_EQ(json.at("lines")[1], (Json{tin_.lines[1].from, tin_.lines[1].to, "contours"}));
+  }
+}
+
 TEST_F(TopologyJsonTest, RefusesOtherKindsAndEndings) {
   EXPECT_THROW(topology_kind("face"), InputError);
   EXPECT_THROW(export_topology(tin_, TopologyKind::EdgeBased, directory_.file("a.ply"), options_, progress_),

@@ -42,8 +42,8 @@ TEST(EdgeQuadtree, EveryCellListsEverySegmentThatCrossesIt) {
     expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
     EXPECT_EQ(segments, expected);
     EXPECT_TRUE(segments.size() <= kEdgeLeafCapacity || cell.log2_side == kMinEdgeLeafLog2Side);
-    EXPECT_EQ(decode_edges(cell, kCoverage, segments.size(), encode_edges(cell, segments)), segments);
-    EXPECT_THROW(decode_edges(cell, kCoverage, segments.size() + 1, encode_edges(cell, segments)), DecodeError);
+    EXPECT_EQ(decode_outline(cell, segments.size(), encode_outline(cell, segments)), segments);
+    EXPECT_THROW(decode_outline(cell, segments.size() + 1, encode_outline(cell, segments)), DecodeError);
     seen.insert(segments.begin(), segments.end());
   });
   EXPECT_GT(leaves, 4u);

@@ -49,7 +49,8 @@ enum class NoData {
   kClear     ///< they pass
 };
 
-enum class Mode { kVisible, kCount };
+/// kCertified is for compute_certified() (certified.hpp) alone.
+enum class Mode { kVisible, kCount, kCertified };
 
 /// Degrees. Azimuths are clockwise from grid north and may pass through it (350 to 10); elevations are those of the
 /// straight line after curvature and refraction, -90 to 90, upwards positive.
@@ -92,6 +93,7 @@ inline constexpr std::uint16_t kCountOutside = 65535;
 struct CellCounts {
   std::uint64_t visible = 0;  ///< to at least one observer
   std::uint64_t hidden = 0;
+  std::uint64_t undecided = 0;  ///< Mode::kCertified
   std::uint64_t outside = 0;
 };
 
@@ -107,7 +109,7 @@ struct Statistics {
 struct Result {
   Request request;  ///< as understood
   RasterGrid grid;
-  std::vector<std::uint8_t> visible;  ///< Mode::kVisible: one of the three values above a cell
+  std::vector<std::uint8_t> visible;  ///< kVisible: one of the three values above a cell; kCertified: of certified.hpp
   std::vector<std::uint16_t> count;   ///< Mode::kCount: how many observers see the cell, or kCountOutside
   CellCounts cells;                   ///< areas are these times grid.cell_area()
   std::vector<double> ground_m;       ///< of each observer

@@ -1,0 +1,20 @@
+// Blocks of a theme's segments: their ends once each, and which are joined. FORMAT.md writes the bytes down.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "store/cell.hpp"
+#include "store/point_index.hpp"
+
+namespace itin {
+
+/// Precondition: in ascending order, different, all of one theme, at least one, none without length; those whose finest
+/// level is 0 have no reach.
+std::vector<std::uint8_t> encode_lines(const Cell& cell, const std::vector<Segment>& segments);
+/// Throws DecodeError unless the bytes are `count` segments in ascending order, each crossing the cell.
+std::vector<Segment> decode_lines(const Cell& cell, std::uint16_t theme, std::size_t count,
+                                  std::span<const std::uint8_t> bytes);
+
+}  // namespace itin

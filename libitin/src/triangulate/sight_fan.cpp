@@ -1,0 +1,73 @@
+#include "triangulate/sight_fan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "triangulate/apex.hpp"
+
+namespace itin {
+
+namespace {
+
+constexpr std::size_t kSegmentsASector = 4;
+constexpr std::size_t kMostSectors = 512;
+/// Far above the rounding of directions, far below the width of a sector.
+constexpr double kSlack = 1e-9;
+
+}  // namespace
+
+SightFan::SightFan(Position a, Position b, Position eye, std::span<const Segment> segments)
+    : eye_(eye), segments_(segments) {
+  along_x_ = static_cast<double>(b.x) - a.x, along_y_ = static_cast<double>(b.y) - a.y;
+  const double length = std::hypot(along_x_, along_y_);
+  along_x_ /= length, along_y_ /= length;
+  count_ = static_cast<std::uint32_t>(std::clamp<std::size_t>(segments.size() / kSegmentsASector, 1, kMostSectors));
+  std::vector<Sectors> sectors;
+  for (const Segment& s : segments) sectors.push_back(sectors_of(s));
+  start_.assign(std::size_t{count_} + 1, 0);
+  for (const Sectors& s : sectors) {
+    for (std::uint32_t k = s.first; k < s.last; ++k) start_[k + 1] += 1;
+  }
+  for (std::size_t k = 1; k < start_.size(); ++k) start_[k] += start_[k - 1];
+  list_.resize(start_.back());
+  std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
+  for (std::uint32_t i = 0; i < sectors.size(); ++i) {
+    for (std::uint32_t k = sectors[i].first; k < sectors[i].last; ++k) list_[next[k]++] = i;
+  }
+}
+
+/// Grows from 0 along ab to 2 against it, over directions to the left.
+double SightFan::turn(double x, double y) const {
+  const double along = x * along_x_ + y * along_y_, aside = std::max(0.0, y * along_x_ - x * along_y_);
+  const double sum = std::abs(along) + aside;
+  return sum > 0 ? 1 - along / sum : 1;
+}
+
+std::uint32_t SightFan::sector(double turn) const {
+  return static_cast<std::uint32_t>(std::clamp(turn / 2 * count_, 0.0, count_ - 1.0));
+}
+
+/// From `first` up to, not including, `last`; none where the segment begins at the eye and so blocks nothing.
+SightFan::Sectors SightFan::sectors_of(const Segment& s) const {
+  const double px = static_cast<double>(s.ax) - eye_.x, py = static_cast<double>(s.ay) - eye_.y;
+  const double qx = static_cast<double>(s.bx) - eye_.x, qy = static_cast<double>(s.by) - eye_.y;
+  if ((px == 0 && py == 0) || (qx == 0 && qy == 0)) return {0, 0};
+  const double p_aside = py * along_x_ - px * along_y_, q_aside = qy * along_x_ - qx * along_y_;
+  double low = std::min(turn(px, py), turn(qx, qy)), high = std::max(turn(px, py), turn(qx, qy));
+  // Cut off where it comes from the right of ab: by what side of the eye it passes.
+  if (p_aside < 1 || q_aside < 1) {
+    const double side = (px * qy - py * qx) * (p_aside < q_aside ? 1 : -1);
+    const double doubt = kSlack * (std::abs(px * qy) + std::abs(py * qx));
+    if (side > -doubt) low = 0;
+    if (side < doubt) high = 2;
+  }
+  return {sector(low - kSlack), sector(high + kSlack) + 1};
+}
+
+bool SightFan::blocked(Position c) const {
+  const std::uint32_t k = sector(turn(static_cast<double>(c.x) - eye_.x, static_cast<double>(c.y) - eye_.y));
+  return std::any_of(list_.begin() + start_[k], list_.begin() + start_[k + 1],
+                     [&](std::uint32_t i) { return crosses(segments_[i], eye_, c); });
+}
+
+}  // namespace itin

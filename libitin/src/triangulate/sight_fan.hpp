@@ -1,0 +1,38 @@
+// Which segments cross a line of sight from one eye, where many lines are asked about: those whose directions, seen
+// from the eye, are in the same narrow sector. Every answer is exact.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "store/point_index.hpp"
+#include "triangulate/predicates.hpp"
+
+namespace itin {
+
+class SightFan {
+ public:
+  /// The eye is a or b; all lines of sight lead to the left of ab. The segments must outlive it. O(n) for n segments
+  /// that are short as seen from the eye.
+  SightFan(Position a, Position b, Position eye, std::span<const Segment> segments);
+
+  /// Whether some segment properly crosses the line of sight to c.
+  bool blocked(Position c) const;
+
+ private:
+  struct Sectors {
+    std::uint32_t first, last;
+  };
+  double turn(double x, double y) const;
+  Sectors sectors_of(const Segment& s) const;
+  std::uint32_t sector(double turn) const;
+
+  Position eye_;
+  double along_x_, along_y_;  ///< the unit vector from a to b
+  std::span<const Segment> segments_;
+  std::uint32_t count_;
+  std::vector<std::uint32_t> start_, list_;  ///< numbers of segments by sector, ascending
+};
+
+}  // namespace itin

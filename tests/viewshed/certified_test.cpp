@@ -1,0 +1,330 @@
+// Certified and precise viewsheds against the exact walk over every triangle of the full surface.
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <itin/import.hpp>
+#include <itin/triangulate.hpp>
+#include <viewshed/certified.hpp>
+
+#include "eye.hpp"
+#include "field_of_view.hpp"
+#include "scene.hpp"
+#include "sight_line.hpp"
+#include "support/exact_line_of_sight.hpp"
+#include "support/raster_file.hpp"
+#include "support/temporary_directory.hpp"
+#include "support/terrain_tin.hpp"
+#include "surface_heights.hpp"
+
+namespace itin::viewshed {
+namespace {
+
+constexpr Point2 kNorthWest{300000, 200000};
+constexpr double kStep = 50;
+
+std::uint32_t logged_seed() {
+  const std::uint32_t seed = std::random_device{}();
+  std::cout << "seed " << seed << '\n';
+  return seed;
+}
+
+/// A store of a few thousand posts, with all of its triangles at hand.
+class Terrain {
+ public:
+  explicit Terrain(int side, const std::function<double(int, int)>& height) : side_(side) {
+    const std::string raster = directory_.file("t.tif"), path = directory_.file("t.itin");
+    test::write_raster(raster, {kNorthWest.x, kNorthWest.y, kStep, side, side, 27700}, height);
+    ImportOptions options;
+    options.sources = {raster};
+    NoProgress progress;
+    import_terrain(path, options, progress);
+    store_.emplace(path);
+    full_ = triangulate(*store_, Window::all(), Detail::tolerance(0), progress);
+  }
+
+  const Store& store() const { return *store_; }
+  const Tin& full() const { return full_; }
+  /// In metres east and south of the north-west corner; posts lie at kStep / 2 + n kStep.
+  Point2 at(double east, double south) const { return {kNorthWest.x + east, kNorthWest.y - south}; }
+  double width() const { return side_ * kStep; }
+
+ private:
+  test::TemporaryDirectory directory_;
+  int side_;
+  std::optional<Store> store_;
+  Tin full_;
+};
+
+Terrain fractal(int side, double relief, std::uint32_t seed, double void_radius = 0) {
+  const std::vector<double> z = test::fractal_heights(65, relief, 0.55, seed);
+  return Terrain(side, [&](int c, int r) {
+    if (std::hypot(c - 0.35 * side, r - 0.6 * side) < void_radius) return std::nan("");
+    return z[static_cast<std::size_t>(r) * 65 + static_cast<std::size_t>(c)];
+  });
+}
+
+Terrain cardiff(int side, double void_radius = 0) {
+  const test::CardiffTerrain heights;
+  return Terrain(side, [&](int c, int r) {
+    return std::hypot(c - 0.35 * side, r - 0.6 * side) < void_radius ? std::nan("") : heights(c + 150, r + 250);
+  });
+}
+
+/// The slow way: every triangle for every cell. Values of plain viewsheds, of one observer.
+std::vector<std::uint8_t> brute_force(const Terrain& terrain, const Request& request, const RasterGrid& cells) {
+  const Tin& tin = terrain.full();
+  const Scene whole(tin, request.earth, request.nodata, 100000);
+  const Observer& observer = request.observers.front();
+  const Eye eye = eye_of(tin.grid, observer, whole.ground(observer.position));
+  const double resolution = tin.grid.resolution;
+  const FieldOfView view(request);
+  std::vector<std::uint8_t> values(cells.cell_count(), kOutside);
+  for (std::int64_t row = 0; row < cells.rows(); ++row) {
+    for (std::int64_t column = 0; column < cells.columns(); ++column) {
+      const Point2 centre = cells.centre(column, row);
+      const auto ground = whole.ground(centre);
+      if (!ground) continue;
+      const double target = *ground + request.target_height;
+      const double dx = centre.x - eye.position.x, dy = centre.y - eye.position.y;
+      if (!view.contains(dx, dy, target - eye.elevation)) continue;
+      const Point3 to{easting_in_units(tin.grid, centre.x), northing_in_units(tin.grid, centre.y), target / resolution};
+      std::uint8_t& value = values[cells.index({column, row})];
+      value = kVisible;
+      if (to.x == eye.units.x && to.y == eye.units.y) continue;
+      const SightLine line(eye.units, to, request.earth.drop_coefficient() * resolution, kGrazing / resolution);
+      const bool hidden = std::any_of(tin.triangles.begin(), tin.triangles.end(), [&](const Triangle& t) {
+        return line.hidden_by(tin.vertices[t[0]], tin.vertices[t[1]], tin.vertices[t[2]]);
+      });
+      if (hidden) value = kHidden;
+    }
+  }
+  return values;
+}
+
+Request look(Point2 position, double height, double target_height, double cell) {
+  Request request;
+  request.observers = {{"o", position, height}};
+  request.target_height = target_height;
+  request.cell_size = cell;
+  request.nodata = NoData::kClear;
+  return request;
+}
+
+/// No certain cell may be wrong. Returns the share decided, of the cells in view.
+double expect_certain(const Terrain& terrain, Request request, double tolerance,
+                      const std::vector<std::uint8_t>& truth) {
+  request.mode = Mode::kCertified;
+  request.detail = Detail::tolerance(tolerance);
+  NoProgress progress;
+  const Result result = compute_certified(terrain.store(), request, progress).result;
+  EXPECT_EQ(result.visible.size(), truth.size());
+  std::uint64_t decided = 0, in_view = 0, wrong = 0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const std::uint8_t value = result.visible[i];
+    wrong += (value == kCertainlyVisible && truth[i] != kVisible) ||
+             (value == kCertainlyHidden && truth[i] != kHidden) || (value == kOutside && truth[i] != kOutside);
+    in_view += value != kOutside;
+    decided += value == kCertainlyVisible || value == kCertainlyHidden;
+  }
+  EXPECT_EQ(wrong, 0U) << "tolerance " << tolerance;
+  EXPECT_EQ(result.cells.visible + result.cells.hidden, decided);
+  EXPECT_EQ(result.cells.undecided, in_view - decided);
+  return in_view == 0 ? 1 : static_cast<double>(decided) / static_cast<double>(in_view);
+}
+
+void expect_precise(const Terrain& terrain, const Request& request, const std::vector<std::uint8_t>& truth) {
+  NoProgress progress;
+  // The whole at once; a coarse pass and a few segments; many segments.
+  for (const std::uint64_t memory : {std::uint64_t{1} << 30, std::uint64_t{3000000}, std::uint64_t{1000000}}) {
+    const Result result = compute_precise(terrain.store(), request, {.memory_bytes = memory}, progress).result;
+    ASSERT_EQ(result.visible.size(), truth.size());
+    std::uint64_t different = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i) different += result.visible[i] != truth[i];
+    EXPECT_EQ(different, 0U) << "memory " << memory;
+  }
+}
+
+void expect_both(const Terrain& terrain, const Request& request) {
+  NoProgress progress;
+  const RasterGrid cells = compute(terrain.store(), request, progress).grid;
+  const std::vector<std::uint8_t> truth = brute_force(terrain, request, cells);
+  for (const double tolerance : {0.0, 0.5, 2.0, 8.0}) expect_certain(terrain, request, tolerance, truth);
+  expect_precise(terrain, request, truth);
+}
+
+TEST(Certified, NeverWrongOnRandomTerrain) {
+  const std::uint32_t seed = logged_seed();
+  const Terrain terrain = fractal(49, 150, seed);
+  for (const double target : {0.0, 2.0}) {
+    for (const bool curved : {true, false}) {
+      Request request = look(terrain.at(25 + 20 * kStep, 25 + 26 * kStep), 3, target, 37);  // on a post
+      if (!curved) request.earth = Earth::flat();
+      expect_both(terrain, request);
+    }
+  }
+  expect_both(terrain, look(terrain.at(711.3, 1502.7), 30, 5, 40));
+}
+
+TEST(Certified, NeverWrongOnRealTerrain) {
+  const Terrain terrain = cardiff(60);
+  for (const double target : {0.0, 2.0}) {
+    expect_both(terrain, look(terrain.at(25 + 30 * kStep, 25 + 31 * kStep), 2, target, 50));  // cells on posts
+    expect_both(terrain, look(terrain.at(1404.2, 811.9), 10, target, 43));
+  }
+}
+
+TEST(Certified, NeverWrongAtTheEdgeAndAcrossVoids) {
+  const Terrain terrain = cardiff(50, 6);
+  for (const double target : {0.0, 2.0}) {
+    expect_both(terrain, look(terrain.at(25 + 10 * kStep, 25), 5, target, 41));  // on the store's edge
+    expect_both(terrain, look(terrain.at(1700, 1400), 5, target, 41));
+  }
+}
+
+TEST(Certified, FieldsOfView) {
+  const Terrain terrain = fractal(40, 120, logged_seed());
+  Request request = look(terrain.at(980, 1015), 4, 2, 31);
+  request.radius = 700;
+  request.min_radius = 120;
+  request.azimuth = AngleRange{300, 110};
+  request.elevation = AngleRange{-6, 1.5};
+  expect_both(terrain, request);
+}
+
+TEST(Certified, DecidesMoreAtFinerTolerances) {
+  const Terrain terrain = cardiff(60);
+  const Request request = look(terrain.at(1404.2, 811.9), 10, 2, 43);
+  NoProgress progress;
+  const std::vector<std::uint8_t> truth =
+      brute_force(terrain, request, compute(terrain.store(), request, progress).grid);
+  const double fine = expect_certain(terrain, request, 0, truth), middle = expect_certain(terrain, request, 1, truth),
+               coarse = expect_certain(terrain, request, 16, truth);
+  EXPECT_GT(fine, 0.995);
+  EXPECT_GT(middle, 0.5);
+  EXPECT_GE(fine, middle);
+  EXPECT_GE(middle, coarse);
+}
+
+TEST(Certified, UnknownVoidsLeaveLinesUndecided) {
+  const Terrain terrain = cardiff(50, 6);
+  Request request = look(terrain.at(1700, 1400), 200, 2, 41);
+  request.mode = Mode::kCertified;
+  NoProgress progress;
+  const Result clear = compute_certified(terrain.store(), request, progress).result;
+  request.nodata = NoData::kUnknown;
+  const Result unknown = compute_certified(terrain.store(), request, progress).result;
+  request.nodata = NoData::kBlock;
+  const Result block = compute_certified(terrain.store(), request, progress).result;
+  EXPECT_GT(unknown.cells.undecided, clear.cells.undecided);
+  EXPECT_GT(block.cells.hidden, clear.cells.hidden);
+  for (std::size_t i = 0; i < clear.visible.size(); ++i) {
+    if (unknown.visible[i] == kCertainlyVisible) {
+      EXPECT_EQ(block.visible[i], kCertainlyVisible);
+    }
+    if (unknown.visible[i] == kCertainlyVisible) {
+      EXPECT_EQ(clear.visible[i], kCertainlyVisible);
+    }
+  }
+}
+
+TEST(Certified, RingsAndSeveralObservers) {
+  const Terrain terrain = cardiff(60);
+  const Request first = look(terrain.at(1404.2, 811.9), 10, 2, 43), second = look(terrain.at(700, 2200), 5, 2, 43);
+  NoProgress progress;
+  Request request = first;
+  request.mode = Mode::kCertified;
+  request.detail = Detail::rings(first.observers[0].position, {{600, 0}, {1500, 0.5}, {9000, 4}});
+  const Result rings = compute_certified(terrain.store(), request, progress).result;
+  const auto truth = brute_force(terrain, first, rings.grid), other = brute_force(terrain, second, rings.grid);
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (rings.visible[i] == kCertainlyVisible) {
+      ASSERT_EQ(truth[i], kVisible);
+    }
+    if (rings.visible[i] == kCertainlyHidden) {
+      ASSERT_EQ(truth[i], kHidden);
+    }
+  }
+  request = first;
+  request.observers.push_back(second.observers[0]);
+  request.mode = Mode::kCertified;
+  request.detail = Detail::tolerance(1);
+  const Result both = compute_certified(terrain.store(), request, progress).result;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const bool seen = truth[i] == kVisible || other[i] == kVisible;
+    if (both.visible[i] == kCertainlyVisible) {
+      ASSERT_TRUE(seen);
+    }
+    if (both.visible[i] == kCertainlyHidden) {
+      ASSERT_FALSE(seen);
+    }
+  }
+  request.mode = Mode::kCount;
+  const Result count = compute_precise(terrain.store(), request, {.memory_bytes = 3000000}, progress).result;
+  request.mode = Mode::kVisible;
+  const Result any = compute_precise(terrain.store(), request, {.memory_bytes = 3000000}, progress).result;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (truth[i] == kOutside) continue;
+    ASSERT_EQ(count.count[i], (truth[i] == kVisible) + (other[i] == kVisible));
+    ASSERT_EQ(any.visible[i] == kVisible, count.count[i] > 0);
+  }
+}
+
+TEST(Precise, TheMemoryChangesNothingOnTheWholeSample) {
+  // Large enough for pieces of several levels about the observer, that overlap.
+  const test::CardiffTerrain heights;
+  const Terrain terrain(600, [&](int c, int r) { return heights(c + 200, r + 200); });
+  NoProgress progress;
+  for (const double target : {0.0, 2.0}) {
+    const Request request = look(terrain.at(381.3, 7002.4), 2, target, 60);
+    const Result result = compute_precise(terrain.store(), request, {}, progress).result;
+    const Scene whole(terrain.full(), request.earth, request.nodata, 10000);
+    for (const std::uint64_t memory : {std::uint64_t{100000000}, std::uint64_t{8000000}}) {
+      const Result other = compute_precise(terrain.store(), request, {.memory_bytes = memory}, progress).result;
+      EXPECT_TRUE(result.visible == other.visible) << "memory " << memory;
+    }
+    // And the walk over all triangles beneath the line.
+    const Eye eye = eye_of(terrain.full().grid, request.observers[0], whole.ground(request.observers[0].position));
+    const double resolution = terrain.full().grid.resolution;
+    std::uint64_t different = 0;
+    for (std::size_t i = 0; i < result.visible.size(); i += 61) {
+      if (result.visible[i] == kOutside) continue;
+      const auto columns = result.grid.columns();
+      const Point2 c =
+          result.grid.centre(static_cast<std::int64_t>(i) % columns, static_cast<std::int64_t>(i) / columns);
+      SightLines lines;
+      lines.from_x[0] = eye.units.x, lines.from_y[0] = eye.units.y, lines.from_z[0] = eye.units.z;
+      lines.to_x[0] = easting_in_units(terrain.full().grid, c.x);
+      lines.to_y[0] = northing_in_units(terrain.full().grid, c.y);
+      lines.to_z[0] = (*whole.ground(c) + target) / resolution;
+      different += (result.visible[i] == kHidden) != whole.hidden_between(lines, 0, 0, 1);
+    }
+    EXPECT_EQ(different, 0U);
+  }
+}
+
+TEST(Precise, TheBruteForceAgreesWithALineOfSightThatSharesNoCode) {
+  const Terrain terrain = cardiff(40);
+  const Request request = look(terrain.at(1004.2, 811.9), 10, 2, 97);
+  NoProgress progress;
+  const RasterGrid cells = compute(terrain.store(), request, progress).grid;
+  const std::vector<std::uint8_t> values = brute_force(terrain, request, cells);
+  const test::ExactLineOfSight exact(terrain.full(), request.earth);
+  const Point2 o = request.observers[0].position;
+  const Point3 from{o.x, o.y, *exact.height(o) + 10};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto column = static_cast<std::int64_t>(i) % cells.columns(),
+               row = static_cast<std::int64_t>(i) / cells.columns();
+    const Point2 c = cells.centre(column, row);
+    if (values[i] == kOutside) continue;
+    const double clearance = exact.clearance(from, {c.x, c.y, *exact.height(c) + 2});
+    if (std::abs(clearance) < 2e-6) continue;
+    ASSERT_EQ(values[i], clearance < 0 ? kHidden : kVisible);
+  }
+}
+
+}  // namespace
+}  // namespace itin::viewshed

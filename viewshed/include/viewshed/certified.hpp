@@ -1,0 +1,43 @@
+// Viewsheds that are certain of what they say about the full surface, without reading all of it.
+//
+//   viewshed::Surveyed s = viewshed::compute_certified(store, request, progress);   // request.detail: a few metres
+//   viewshed::Surveyed p = viewshed::compute_precise(store, request, {.memory_bytes = 1 << 30}, progress);
+//
+// Both ends of a sight line stand on the full surface (level 0 of the terrain), whatever the tolerance. "Certainly" is
+// what it says: no cell called certain differs from the full surface's exact answer, single precision included.
+// Lines of themes that are no terrain lie on the surface and change nothing. Themes that stand on it are refused where
+// Request::themes includes them.
+#pragma once
+
+#include <cstdint>
+
+#include <viewshed/viewshed.hpp>
+
+namespace itin::viewshed {
+
+/// Values of certified rasters, with kOutside.
+inline constexpr std::uint8_t kUndecided = 0;
+inline constexpr std::uint8_t kCertainlyHidden = 1;
+inline constexpr std::uint8_t kCertainlyVisible = 2;
+
+/// At request.detail, in request.mode kCertified. By the certificates of the store's index cells (law 2): the full
+/// surface lies between two envelopes of the level asked for. Finer levels, as small as they are, stand in about every
+/// observer, for coarse ground there would hide everything. With several observers a cell is certainly visible when it
+/// is to one of them, and certainly hidden when it is to all. Under NoData::kUnknown a line across a void and back is
+/// never certainly visible. Cost: as a plain viewshed twice over.
+/// Throws as compute() does.
+Surveyed compute_certified(const Store& store, const Request& request, Progress& progress);
+
+struct PreciseOptions {
+  std::uint64_t memory_bytes = std::uint64_t{1} << 30;  ///< changes the speed, never the answer
+};
+
+/// Exact for the full surface, in modes kVisible and kCount: each cell has the value that the exact walk in double
+/// precision over every triangle would give it. A certified pass at a coarse level decides most cells; for the others
+/// the places where their lines come near the ground, and no more, are read at full detail, as many at a time as the
+/// memory allows, and the few lines that graze are walked. Request::detail is not used. NoData::kUnknown counts as
+/// clear, with a warning.
+/// Throws as compute() does.
+Surveyed compute_precise(const Store& store, const Request& request, const PreciseOptions& options, Progress& progress);
+
+}  // namespace itin::viewshed

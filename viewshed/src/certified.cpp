@@ -1,0 +1,141 @@
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include <itin/parallel.hpp>
+#include <itin/triangulate.hpp>
+#include <viewshed/certified.hpp>
+
+#include "certified_pass.hpp"
+#include "near_ground.hpp"
+#include "request.hpp"
+#include "stopwatch.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// Every observer's verdict on a cell, made one.
+class Verdicts {
+ public:
+  Verdicts() { values.fill(kOutside); }
+
+  void add(const TileValues<std::uint8_t>& of_observer) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const std::uint8_t v = of_observer[i];
+      if (v == kOutside || values[i] == kCertainlyVisible) continue;
+      if (values[i] == kOutside || v == kCertainlyVisible) {
+        values[i] = v;
+      } else if (v == kUndecided) {
+        values[i] = kUndecided;
+      }
+    }
+  }
+
+  TileValues<std::uint8_t> values;
+};
+
+void count(std::uint8_t value, CellCounts& cells) {
+  switch (value) {
+    case kCertainlyVisible:
+      ++cells.visible;
+      break;
+    case kCertainlyHidden:
+      ++cells.hidden;
+      break;
+    case kUndecided:
+      ++cells.undecided;
+      break;
+    default:
+      ++cells.outside;
+  }
+}
+
+struct Tally {
+  CellCounts cells;
+  std::uint64_t rays = 0;
+};
+
+Tally decide(const CertifiedPass& pass, std::size_t tile, const std::vector<EnvelopeScene::Look>& looks,
+             Result& result) {
+  const auto work = pass.begin(tile);
+  Verdicts verdicts;
+  for (const EnvelopeScene::Look& look : looks) {
+    TileValues<std::uint8_t> values;
+    // What one observer certainly sees need not be asked of the others.
+    std::transform(verdicts.values.begin(), verdicts.values.end(), values.begin(),
+                   [](std::uint8_t v) { return v == kCertainlyVisible ? kOutside : kUndecided; });
+    pass.judge(look, values, *work, nullptr);
+    verdicts.add(values);
+  }
+  Tally tally;
+  tally.rays = work->rays;
+  for (std::int64_t r = 0; r < work->tile.rows; ++r) {
+    const std::size_t first = result.grid.index({work->tile.column, work->tile.row + r});
+    for (std::int64_t c = 0; c < work->tile.columns; ++c) {
+      const std::uint8_t value = verdicts.values[static_cast<std::size_t>(r * Tile::kSide + c)];
+      result.visible[first + static_cast<std::size_t>(c)] = value;
+      count(value, tally.cells);
+    }
+  }
+  return tally;
+}
+
+void decide_all(const CertifiedPass& pass, const RasterGrid& tiles, const std::vector<EnvelopeScene::Look>& looks,
+                Result& result, Progress& progress) {
+  std::vector<Tally> tallies(tiles.cell_count());
+  std::atomic<std::size_t> done = 0;
+  parallel_for(tallies.size(), [&](std::size_t i) {
+    progress.throw_if_cancelled();
+    tallies[i] = decide(pass, i, looks, result);
+    const std::size_t now = ++done;
+    if (now % 64 == 0 || now == tallies.size())
+      progress.report("sight lines", static_cast<double>(now) / static_cast<double>(tallies.size()));
+  });
+  for (const Tally& tally : tallies) {
+    result.cells.visible += tally.cells.visible;
+    result.cells.hidden += tally.cells.hidden;
+    result.cells.undecided += tally.cells.undecided;
+    result.cells.outside += tally.cells.outside;
+    result.statistics.rays += tally.rays;
+  }
+}
+
+Voids voids_of(NoData rule) {
+  return rule == NoData::kUnknown ? Voids::kDoubt : rule == NoData::kBlock ? Voids::kBlock : Voids::kPass;
+}
+
+}  // namespace
+
+Surveyed compute_certified(const Store& store, const Request& request, Progress& progress) {
+  validate(request);
+  require_bare_terrain(store, request);
+  Surveyed surveyed;
+  Result& result = surveyed.result;
+  result.request = request;
+  Stopwatch watch;
+  const std::vector<Eye> eyes = eyes_on_full_surface(store, request, result.ground_m, progress);
+  Envelope envelope = envelop(store, certified_request(store, request), progress);
+  result.statistics.retrieval = envelope.lower.statistics;
+  result.statistics.triangles = envelope.lower.triangles.size();
+  result.statistics.retrieval_seconds = watch.lap();
+
+  progress.report("scene", 0);
+  result.grid = cells_of(request, envelope.lower.bounds());
+  const RasterGrid tiles = grid_of_tiles(result.grid);
+  const EnvelopeScene scene(std::move(envelope), request, tiles, voids_of(request.nodata));
+  std::vector<EnvelopeScene::Look> looks;
+  for (const Eye& eye : eyes) {
+    looks.push_back(scene.look_from(eye));
+    result.error_bound_m = std::max(result.error_bound_m, scene.lower.error_bound(0));
+  }
+  result.statistics.scene_seconds = watch.lap();
+
+  result.visible.resize(result.grid.cell_count());
+  decide_all(CertifiedPass(scene, result.grid, tiles, request), tiles, looks, result, progress);
+  result.statistics.rays_seconds = watch.lap();
+  surveyed.tin = scene.envelope.lower;
+  return surveyed;
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,94 @@
+// Judges sight lines by an envelope: certainly visible, certainly hidden, or undecided.
+//
+//   const EnvelopeScene scene(envelop(...), request, tiles, Voids::kDoubt);
+//   const CertifiedPass pass(scene, grid, tiles, request);
+//   CertifiedPass::TileWork work = pass.begin(tile_index);
+//   pass.judge(scene.look_from(eye), values, work, [](const Doubtful& d) { ... });
+//
+// The target stands between the lower and the upper surface at its cell's centre. A line to the lowest target that
+// clears the upper surface sees whatever the full surface is; one to the highest target that the lower surface hides
+// does not. Over an envelope of level 0 both surfaces are the full one (but for what the upper one is raised against
+// rounding), and the target's height is exact.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include <viewshed/viewshed.hpp>
+
+#include "envelope.hpp"
+#include "eye.hpp"
+#include "field_of_view.hpp"
+#include "scene.hpp"
+#include "surface_heights.hpp"
+#include "triangle_bins.hpp"
+#include "upper_scene.hpp"
+
+namespace itin::viewshed {
+
+/// What becomes of lines that cross ground without data and come back.
+enum class Voids { kPass, kBlock, kDoubt };
+
+class EnvelopeScene {
+ public:
+  EnvelopeScene(Envelope envelope, const Request& request, const RasterGrid& tiles, Voids voids);
+  EnvelopeScene(const EnvelopeScene&) = delete;
+  EnvelopeScene& operator=(const EnvelopeScene&) = delete;
+
+  /// An eye that looks at this scene.
+  struct Look {
+    Eye eye;
+    double upper = 0;  ///< grid units: the upper surface there, or -infinity where there is none
+  };
+  Look look_from(const Eye& eye) const;
+
+  Envelope envelope;
+  Scene lower;
+  UpperScene upper;
+  TriangleBins bins;
+  bool exact;  ///< the envelope is of level 0
+};
+
+/// Lines of a packet that are not decided, to their lowest targets.
+struct Doubtful {
+  const SightLines& lines;    ///< active: the undecided
+  unsigned starts_under = 0;  ///< of these, where the eye is not above the upper surface
+  unsigned ends_under = 0;    ///< or the target is not
+  std::size_t row, column;    ///< of the packet in its tile
+};
+
+class CertifiedPass {
+ public:
+  CertifiedPass(const EnvelopeScene& scene, const RasterGrid& grid, const RasterGrid& tiles, const Request& request);
+
+  /// What a tile's cells share between observers.
+  struct TileWork {
+    TileWork(const Grid& units, const RasterGrid& grid, const Tile& t) : tile(t), centres(units, grid, t) {}
+    Tile tile;
+    TileCentres centres;
+    TileValues<double> low, high;  ///< the ground's bounds, grid units
+    Occluder occluder;
+    std::uint64_t rays = 0;
+  };
+  std::unique_ptr<TileWork> begin(std::size_t tile) const;
+
+  /// kUndecided cells of `values` become kCertainlyVisible, kCertainlyHidden or kOutside, or stay. `doubtful` is called
+  /// with those that stay, and may decide them in `values`.
+  using OnDoubtful = std::function<void(const Doubtful&)>;
+  void judge(const EnvelopeScene::Look& look, TileValues<std::uint8_t>& values, TileWork& work,
+             const OnDoubtful& doubtful) const;
+
+ private:
+  struct Packet;
+  void fill(const EnvelopeScene::Look& look, TileValues<std::uint8_t>& values, const TileWork& work,
+            Packet& packet) const;
+
+  const EnvelopeScene& scene_;
+  const RasterGrid& grid_;
+  const RasterGrid& tiles_;
+  const Request& request_;
+  FieldOfView view_;
+};
+
+}  // namespace itin::viewshed

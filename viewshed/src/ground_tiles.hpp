@@ -1,0 +1,52 @@
+// The ground cut into square tiles, and sets of them: what lines pass over.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <itin/raster.hpp>
+#include <itin/store.hpp>
+#include <itin/window.hpp>
+
+namespace itin::viewshed {
+
+class TileSet {
+ public:
+  explicit TileSet(std::size_t count = 0) : words_((count + 63) / 64) {}
+  void add(std::size_t tile) { words_[tile / 64] |= std::uint64_t{1} << (tile % 64); }
+  bool contains(std::size_t tile) const { return (words_[tile / 64] >> (tile % 64) & 1) != 0; }
+  bool empty() const;
+  TileSet& operator|=(const TileSet& other);
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (std::size_t w = 0; w < words_.size(); ++w) {
+      for (std::uint64_t rest = words_[w]; rest != 0; rest &= rest - 1)
+        visit(64 * w + static_cast<std::size_t>(__builtin_ctzll(rest)));
+    }
+  }
+
+ private:
+  std::vector<std::uint64_t> words_;
+};
+
+class GroundTiles {
+ public:
+  /// Over the box, with about so many points of the full surface a tile.
+  GroundTiles(const Store& store, const Box& box);
+
+  std::size_t count() const { return grid_.cell_count(); }
+  /// Points of the full surface, about.
+  std::uint64_t points(std::size_t tile) const { return points_[tile]; }
+  std::uint64_t points(const TileSet& tiles) const;
+  /// Every tile that the line between two positions meets, or passes within a metre and the grid's resolution.
+  void add_line(Point2 from, Point2 to, TileSet& tiles) const;
+  /// Their union.
+  Window window(const TileSet& tiles) const;
+
+ private:
+  RasterGrid grid_;
+  double margin_;
+  std::vector<std::uint32_t> points_;
+};
+
+}  // namespace itin::viewshed

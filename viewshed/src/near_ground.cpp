@@ -1,0 +1,93 @@
+#include "near_ground.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+#include <itin/triangulate.hpp>
+
+#include "request.hpp"
+#include "surface_heights.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// Points of one level about one observer, and about all of them; never more than this share of the full surface.
+constexpr double kNearPoints = 16000, kAllNearPoints = 400000, kNearShare = 1.0 / 64;
+
+Box around(Point2 p, double radius) {
+  return {p.x - radius, p.y - radius, p.x + radius, p.y + radius};
+}
+
+/// The greatest radius, in steps of a square root of 2, within which a level has no more points than that.
+double radius_of(const Store& store, int level, Point2 centre, double points) {
+  const Box all = store.metadata().grid.box(store.metadata().bounds);
+  const double greatest = std::max(all.width(), all.height());
+  double radius = store.metadata().grid.resolution;
+  while (radius < greatest &&
+         static_cast<double>(store.points_about(level, around(centre, std::sqrt(2) * radius))) <= points)
+    radius *= std::sqrt(2);
+  return radius;
+}
+
+}  // namespace
+
+std::vector<Eye> eyes_on_full_surface(const Store& store, const Request& request, std::vector<double>& ground,
+                                      Progress& progress) {
+  const Grid& grid = store.metadata().grid;
+  std::vector<Eye> eyes;
+  for (const Observer& observer : request.observers) {
+    const Tin tin =
+        triangulate(store, Window::box(around(observer.position, 2 * grid.resolution)), Detail::tolerance(0), progress);
+    std::optional<double> height;
+    for (std::uint32_t t = 0; t < tin.triangles.size() && !height; ++t)
+      height = surface_height(tin, {&t, 1}, observer.position);
+    if (height) height = *height * grid.resolution;
+    eyes.push_back(eye_of(grid, observer, height));
+    ground.push_back(*height);
+  }
+  return eyes;
+}
+
+void require_bare_terrain(const Store& store, const Request& request) {
+  for (const ThemeInfo& theme : store.metadata().themes) {
+    if (theme.stands() && request.themes.includes(theme))
+      throw InputError(fmt::format(
+          "theme '{}': stands on the ground, and certified and precise viewsheds judge the bare terrain; leave it out "
+          "of --themes",
+          theme.name));
+  }
+}
+
+EnvelopeRequest certified_request(const Store& store, const Request& request, int level) {
+  EnvelopeRequest result;
+  result.window = window_of(request);
+  result.level = level;
+  const Box box = result.window.is_all() ? store.metadata().grid.box(store.metadata().bounds) : result.window.bounds();
+  const double points = std::min({kNearPoints, kAllNearPoints / static_cast<double>(request.observers.size()),
+                                  kNearShare * static_cast<double>(store.points_about(0, box))});
+  for (const Observer& observer : request.observers) {
+    result.observers.push_back(observer.position);
+    for (int finer = 0; finer < level; ++finer) {
+      double radius = radius_of(store, finer, observer.position, points);
+      if (request.radius) radius = std::min(radius, *request.radius);
+      result.discs.push_back({observer.position, radius, finer});
+    }
+  }
+  return result;
+}
+
+EnvelopeRequest certified_request(const Store& store, const Request& request) {
+  EnvelopeRequest result = certified_request(store, request, level_within(store.metadata(), request.detail.coarsest()));
+  const std::vector<Ring>& rings = request.detail.rings();
+  for (std::size_t i = 0; i + 1 < rings.size(); ++i) {
+    const int level = level_within(store.metadata(), rings[i].tolerance);
+    if (level < result.level) result.discs.push_back({request.detail.centre(), rings[i].radius, level});
+  }
+  return result;
+}
+
+}  // namespace itin::viewshed

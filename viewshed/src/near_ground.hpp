@@ -1,0 +1,29 @@
+// What a certified viewshed reads: the level asked for, and finer ones about the observers.
+#pragma once
+
+#include <vector>
+
+#include <itin/progress.hpp>
+#include <itin/store.hpp>
+#include <viewshed/viewshed.hpp>
+
+#include "envelope.hpp"
+#include "eye.hpp"
+
+namespace itin::viewshed {
+
+/// The observers, on the full surface under them; `ground` gets its heights, metres. Throws InputError for an observer
+/// outside the data.
+std::vector<Eye> eyes_on_full_surface(const Store& store, const Request& request, std::vector<double>& ground,
+                                      Progress& progress);
+
+/// Throws InputError if a theme that stands on the ground is chosen: certificates know nothing of it.
+void require_bare_terrain(const Store& store, const Request& request);
+
+/// For request.detail.
+EnvelopeRequest certified_request(const Store& store, const Request& request);
+
+/// The same with another level than request.detail's.
+EnvelopeRequest certified_request(const Store& store, const Request& request, int level);
+
+}  // namespace itin::viewshed

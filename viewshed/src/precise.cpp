@@ -1,0 +1,306 @@
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <optional>
+
+#include <itin/parallel.hpp>
+#include <viewshed/certified.hpp>
+
+#include "certified_pass.hpp"
+#include "ground_tiles.hpp"
+#include "near_ground.hpp"
+#include "request.hpp"
+#include "stopwatch.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// Peak memory a point of an envelope: triangulation, two surfaces, two scenes.
+constexpr std::uint64_t kBytesAPoint = 1200;
+/// No coarse pass over so few points: the full surface is as fast.
+constexpr std::uint64_t kFewPoints = 40000;
+/// The coarse pass reads so much less than the full surface.
+constexpr std::uint64_t kCoarseShare = 12;
+
+bool decided(std::uint8_t value) {
+  return value != kUndecided;
+}
+
+/// One observer's raster on its way.
+class Refinement {
+ public:
+  Refinement(const Request& request, const RasterGrid& grid, const RasterGrid& tiles, Progress& progress)
+      : request_(request), grid_(grid), tiles_(tiles), progress_(progress), values_(grid.cell_count(), kUndecided) {}
+
+  std::vector<std::uint8_t>& values() { return values_; }
+  std::uint64_t rays() const { return rays_; }
+
+  /// Judges the tiles of cells by a scene. `doubtful(tile, work, values, lines)` gets what stays undecided.
+  template <class OnDoubtful>
+  void judge(const EnvelopeScene& scene, const Eye& eye, const std::vector<std::size_t>& cells,
+             const OnDoubtful& doubtful) {
+    const CertifiedPass pass(scene, grid_, tiles_, request_);
+    const EnvelopeScene::Look look = scene.look_from(eye);
+    parallel_for(cells.size(), [&](std::size_t i) {
+      progress_.throw_if_cancelled();
+      const auto work = pass.begin(cells[i]);
+      TileValues<std::uint8_t> values;
+      values.fill(kOutside);
+      for_each_row(work->tile, [&](std::size_t in_tile, std::size_t in_grid, std::size_t n) {
+        std::copy_n(values_.data() + in_grid, n, values.data() + in_tile);
+      });
+      pass.judge(look, values, *work, [&](const Doubtful& d) { doubtful(i, *work, values, d); });
+      for_each_row(work->tile, [&](std::size_t in_tile, std::size_t in_grid, std::size_t n) {
+        std::copy_n(values.data() + in_tile, n, values_.data() + in_grid);
+      });
+      rays_ += work->rays;
+      report(work->tile);
+    });
+  }
+
+ private:
+  template <class Visit>
+  void for_each_row(const Tile& tile, const Visit& visit) const {
+    for (std::int64_t r = 0; r < tile.rows; ++r)
+      visit(static_cast<std::size_t>(r * Tile::kSide), grid_.index({tile.column, tile.row + r}),
+            static_cast<std::size_t>(tile.columns));
+  }
+
+  void report(const Tile& tile) {
+    std::uint64_t now = 0;
+    for_each_row(tile, [&](std::size_t, std::size_t in_grid, std::size_t n) {
+      now += static_cast<std::uint64_t>(std::count_if(values_.data() + in_grid, values_.data() + in_grid + n, decided));
+    });
+    const std::lock_guard lock(mutex_);
+    std::uint64_t& before = decided_[grid_.index({tile.column, tile.row})];
+    done_ += now - before;
+    before = now;
+    progress_.report("cells decided", static_cast<double>(done_) / static_cast<double>(values_.size()));
+  }
+
+  const Request& request_;
+  const RasterGrid& grid_;
+  const RasterGrid& tiles_;
+  Progress& progress_;
+  std::vector<std::uint8_t> values_;
+  std::atomic<std::uint64_t> rays_ = 0;
+  std::mutex mutex_;
+  std::map<std::size_t, std::uint64_t> decided_;
+  std::uint64_t done_ = 0;
+};
+
+Point2 along(const Grid& grid, const SightLines& lines, unsigned i, double s) {
+  return {grid.origin.x + (lines.from_x[i] + s * (lines.to_x[i] - lines.from_x[i])) * grid.resolution,
+          grid.origin.y + (lines.from_y[i] + s * (lines.to_y[i] - lines.from_y[i])) * grid.resolution};
+}
+
+std::size_t cell_of(const Doubtful& d, unsigned i) {
+  return (d.row + i / kPacketSide) * Tile::kSide + d.column + i % kPacketSide;
+}
+
+template <class Visit>
+void for_each_line(unsigned active, const Visit& visit) {
+  for (; active != 0; active &= active - 1) visit(static_cast<unsigned>(std::countr_zero(active)));
+}
+
+/// The exact answer for lines over the full surface, which only has to be there where the upper surface comes near.
+void walk(const EnvelopeScene& scene, const Doubtful& d, TileValues<std::uint8_t>& values) {
+  UpperScene::Stretches stretches;
+  scene.upper.find_stretches(d.lines, d.starts_under, d.ends_under, stretches);
+  for_each_line(d.lines.active, [&](unsigned i) {
+    const bool hidden = std::any_of(stretches[i].begin(), stretches[i].end(), [&](const Stretch& s) {
+      return scene.lower.hidden_between(d.lines, i, s.from, s.to);
+    });
+    values[cell_of(d, i)] = hidden ? kCertainlyHidden : kCertainlyVisible;
+  });
+}
+
+Voids voids_of(NoData rule) {
+  return rule == NoData::kBlock ? Voids::kBlock : Voids::kPass;
+}
+
+class Precise {
+ public:
+  Precise(const Store& store, const Request& request, const PreciseOptions& options, Progress& progress)
+      : store_(store), request_(request), budget_(options.memory_bytes / 2 / kBytesAPoint), progress_(progress) {}
+
+  Surveyed run() {
+    validate(request_);
+    require_bare_terrain(store_, request_);
+    Result& result = surveyed_.result;
+    result.request = request_;
+    Stopwatch watch;
+    const std::vector<Eye> eyes = eyes_on_full_surface(store_, request_, result.ground_m, progress_);
+    const int level = first_level();
+    Envelope envelope = envelop(store_, certified_request(store_, request_, level), progress_);
+    result.grid = cells_of(request_, envelope.lower.bounds());
+    tiles_ = grid_of_tiles(result.grid);
+    surveyed_.tin = envelope.lower;
+    count(envelope);
+    look_for_voids(envelope);
+    ground_.emplace(store_, envelope.lower.bounds());
+    result.statistics.retrieval_seconds = watch.lap();
+    first_.emplace(std::move(envelope), request_, tiles_, voids_of(request_.nodata));
+    result.statistics.scene_seconds = watch.lap();
+    seen_.assign(result.grid.cell_count(), kCountOutside);
+    for (std::size_t i = 0; i < eyes.size(); ++i) look(eyes[i], i + 1 == eyes.size());
+    finish();
+    result.statistics.rays_seconds = watch.lap();
+    return std::move(surveyed_);
+  }
+
+ private:
+  int first_level() const {
+    const Window window = window_of(request_);
+    const Box box = window.is_all() ? store_.metadata().grid.box(store_.metadata().bounds) : window.bounds();
+    const std::uint64_t all = store_.points_about(0, box);
+    if (all <= std::min(budget_, kFewPoints)) return 0;
+    int level = 1;
+    while (level + 1 < static_cast<int>(store_.metadata().levels.size()) &&
+           store_.points_about(level, box) > std::min(budget_, all / kCoarseShare))
+      ++level;
+    return level;
+  }
+
+  void count(const Envelope& envelope) {
+    Statistics& statistics = surveyed_.result.statistics;
+    statistics.retrieval += envelope.lower.statistics;
+    statistics.triangles += envelope.lower.triangles.size();
+  }
+
+  void look_for_voids(const Envelope& envelope) {
+    Result& result = surveyed_.result;
+    const double reach = request_.radius.value_or(std::numeric_limits<double>::infinity());
+    for (const Observer& observer : request_.observers) {
+      result.crosses_voids =
+          result.crosses_voids || surface_resumes(envelope.lower, envelope.outline, observer.position, reach);
+    }
+    if (result.crosses_voids && request_.nodata == NoData::kUnknown) result.warnings.emplace_back(kVoidsWarning);
+  }
+
+  void look(const Eye& eye, bool last) {
+    const RasterGrid& grid = surveyed_.result.grid;
+    Refinement refinement(request_, grid, tiles_, progress_);
+    if (request_.mode == Mode::kVisible) {
+      for (std::size_t i = 0; i < seen_.size(); ++i)
+        if (seen_[i] != kCountOutside && seen_[i] > 0) refinement.values()[i] = kOutside;
+    }
+    std::vector<std::size_t> all(tiles_.cell_count());
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+    if (first_->exact) {
+      refinement.judge(*first_, eye, all,
+                       [&](std::size_t, const auto&, auto& values, const Doubtful& d) { walk(*first_, d, values); });
+    } else {
+      std::vector<TileSet> needed = coarse_pass(eye, all, refinement);
+      // The scene's memory is free for the segments, when no other observer needs it.
+      if (last) first_.reset();
+      for (const std::vector<std::size_t>& segment : segments(eye, needed)) refine(eye, segment, needed, refinement);
+    }
+    surveyed_.result.statistics.rays += refinement.rays();
+    add(refinement.values());
+  }
+
+  /// The ground that each tile's undecided lines need at full detail.
+  std::vector<TileSet> coarse_pass(const Eye& eye, const std::vector<std::size_t>& all, Refinement& refinement) {
+    std::vector<TileSet> needed(all.size());
+    const Grid& units = store_.metadata().grid;
+    refinement.judge(*first_, eye, all, [&](std::size_t tile, const auto&, const auto&, const Doubtful& d) {
+      if (needed[tile].empty()) needed[tile] = TileSet(ground_->count());
+      UpperScene::Stretches stretches;
+      first_->upper.find_stretches(d.lines, d.starts_under, d.ends_under, stretches);
+      for_each_line(d.lines.active, [&](unsigned i) {
+        const Point2 target = along(units, d.lines, i, 1);
+        ground_->add_line(target, target, needed[tile]);
+        for (const Stretch& s : stretches[i])
+          ground_->add_line(along(units, d.lines, i, s.from), along(units, d.lines, i, s.to), needed[tile]);
+      });
+    });
+    return needed;
+  }
+
+  /// Tiles of cells in order of their azimuth, so that they share the ground on the way, as many together as the
+  /// memory holds.
+  std::vector<std::vector<std::size_t>> segments(const Eye& eye, const std::vector<TileSet>& needed) const {
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t tile = 0; tile < needed.size(); ++tile) {
+      if (needed[tile].empty()) continue;
+      const RasterGrid::Cell cell{static_cast<std::int64_t>(tile) % tiles_.columns(),
+                                  static_cast<std::int64_t>(tile) / tiles_.columns()};
+      const Point2 centre = tiles_.centre(cell.column, cell.row);
+      order.emplace_back(std::atan2(centre.x - eye.position.x, centre.y - eye.position.y), tile);
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<std::vector<std::size_t>> result;
+    TileSet together(ground_->count());
+    for (const auto& [azimuth, tile] : order) {
+      TileSet wider = together;
+      wider |= needed[tile];
+      if (result.empty() || ground_->points(wider) > budget_) {
+        result.emplace_back();
+        wider = needed[tile];
+      }
+      result.back().push_back(tile);
+      together = std::move(wider);
+    }
+    return result;
+  }
+
+  void refine(const Eye& eye, const std::vector<std::size_t>& cells, const std::vector<TileSet>& needed,
+              Refinement& refinement) {
+    TileSet ground(ground_->count());
+    for (const std::size_t tile : cells) ground |= needed[tile];
+    Envelope envelope = envelop(
+        store_, {.window = ground_->window(ground), .level = 0, .discs = {}, .observers = {eye.position}}, progress_);
+    count(envelope);
+    // The edges of the window are no voids; lines behind voids were hidden in the coarse pass.
+    const EnvelopeScene scene(std::move(envelope), request_, tiles_, Voids::kPass);
+    refinement.judge(scene, eye, cells,
+                     [&](std::size_t, const auto&, auto& values, const Doubtful& d) { walk(scene, d, values); });
+  }
+
+  void add(const std::vector<std::uint8_t>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (values[i] == kOutside) continue;
+      if (seen_[i] == kCountOutside) seen_[i] = 0;
+      if (values[i] == kCertainlyVisible) ++seen_[i];
+    }
+  }
+
+  void finish() {
+    Result& result = surveyed_.result;
+    for (const std::uint16_t seen : seen_)
+      ++(seen == kCountOutside ? result.cells.outside : seen > 0 ? result.cells.visible : result.cells.hidden);
+    if (request_.mode == Mode::kCount) {
+      result.count = std::move(seen_);
+      return;
+    }
+    result.visible.resize(seen_.size());
+    std::transform(seen_.begin(), seen_.end(), result.visible.begin(), [](std::uint16_t seen) {
+      return seen == kCountOutside ? kOutside : seen > 0 ? kVisible : kHidden;
+    });
+  }
+
+  const Store& store_;
+  const Request& request_;
+  std::uint64_t budget_;  ///< points
+  Progress& progress_;
+  Surveyed surveyed_;
+  RasterGrid tiles_;
+  std::optional<GroundTiles> ground_;
+  std::optional<EnvelopeScene> first_;
+  std::vector<std::uint16_t> seen_;
+};
+
+}  // namespace
+
+Surveyed compute_precise(const Store& store, const Request& request, const PreciseOptions& options,
+                         Progress& progress) {
+  return Precise(store, request, options, progress).run();
+}
+
+}  // namespace itin::viewshed

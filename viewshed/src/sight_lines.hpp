@@ -1,0 +1,20 @@
+// A packet of sight lines: what scenes decide at a time.
+#pragma once
+
+#include <array>
+
+namespace itin::viewshed {
+
+/// In grid units (heights too).
+struct SightLines {
+  static constexpr unsigned kSize = 16;
+  alignas(64) std::array<double, kSize> from_x{}, from_y{}, from_z{};
+  alignas(64) std::array<double, kSize> to_x{}, to_y{}, to_z{};
+  unsigned active = 0;  ///< one bit a line; ends of active lines differ horizontally
+};
+
+/// Packets are four by four cells: the closer together, the fewer boxes of a scene they meet.
+inline constexpr unsigned kPacketSide = 4;
+static_assert(kPacketSide * kPacketSide == SightLines::kSize);
+
+}  // namespace itin::viewshed
