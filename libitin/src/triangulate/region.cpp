@@ -18,9 +18,9 @@ namespace {
 constexpr double kMargin = 3;
 /// After so many rounds of mending the box may grow.
 constexpr int kPatience = 3;
-/// No box is read whole that has so many times the points it is wanted for.
-constexpr std::uint64_t kGrowth = 8;
-constexpr std::uint64_t kFewPoints = 512;
+/// A box is not made to have more points than so many times those of the region, and a few.
+constexpr std::uint64_t kGrowth = 2;
+constexpr std::uint64_t kFewPoints = 4096;
 
 GridBox intersection(const GridBox& a, const GridBox& b) {
   return {std::max(a.xmin, b.xmin), std::max(a.ymin, b.ymin), std::min(a.xmax, b.xmax), std::min(a.ymax, b.ymax)};
@@ -116,7 +116,7 @@ class RegionTriangulation {
   /// start from.
   bool triangulate_seed() {
     const std::vector<Leaf> leaves = leaves_in(box_);
-    if (points_of(leaves) <= kGrowth * kFewPoints) return false;
+    if (points_of(leaves) <= kFewPoints) return false;
     const auto distance = [&](const Leaf& leaf) {
       const GridBox b = leaf.cell.box();
       return std::max({0.0, 0.0 + b.xmin - tile_.xmax, 0.0 + tile_.xmin - b.xmax, 0.0 + b.ymin - tile_.ymax,
@@ -150,7 +150,7 @@ class RegionTriangulation {
   /// Where triangles reach far, as across the sea, one vertex after another turns up. A larger box has them at once.
   bool worth_growing() const {
     if (box_.contains(index_.bounds())) return false;
-    return points_of(leaves_in(box_with(4 * margin_))) < kGrowth * (vertices_.size() + kFewPoints);
+    return points_of(leaves_in(box_with(4 * margin_))) <= most_points_;
   }
 
   std::vector<Leaf> leaves_in(const GridBox& box) const {
@@ -164,14 +164,14 @@ class RegionTriangulation {
                            [](std::uint64_t sum, const Leaf& leaf) { return sum + leaf.points; });
   }
 
-  double first_margin() const {
+  double first_margin() {
     double points = 0;
     for (const Leaf& leaf : leaves_in(tile_))
       points += leaf.points * area(intersection(leaf.cell.box(), tile_)) / area(leaf.cell.box());
     const double spacing = points > 0 ? std::sqrt(area(tile_) / points) : std::sqrt(area(tile_));
-    const std::uint64_t most = kGrowth * (static_cast<std::uint64_t>(points) + kFewPoints);
+    most_points_ = kGrowth * static_cast<std::uint64_t>(points) + kFewPoints;
     double margin = kMargin * spacing;
-    while (margin > 1 && points_of(leaves_in(box_with(margin))) > most) margin /= 2;
+    while (margin > 1 && points_of(leaves_in(box_with(margin))) > most_points_) margin /= 2;
     return margin + 1;
   }
 
@@ -533,8 +533,9 @@ class RegionTriangulation {
   ApexSearch search_;
   GridBox tile_;  ///< the region's box
   double margin_ = 0;
-  GridBox box_;       ///< all selected segments in it have been read
-  GridBox read_box_;  ///< within box_: all selected points in it have been read, too
+  std::uint64_t most_points_ = 0;  ///< that a box is worth
+  GridBox box_;                    ///< all selected segments in it have been read
+  GridBox read_box_;               ///< within box_: all selected points in it have been read, too
   std::vector<SelectedVertex> vertices_;
   std::size_t sorted_ = 0;                                   ///< the first so many vertices are in Morton order
   std::unordered_map<std::uint64_t, std::uint32_t> extras_;  ///< the others by Morton code
