@@ -18,9 +18,10 @@ namespace {
 constexpr double kMargin = 3;
 /// After so many rounds of mending the box may grow.
 constexpr int kPatience = 3;
-/// A box is not made to have more points than so many times those of the region, and a few.
-constexpr std::uint64_t kGrowth = 2;
-constexpr std::uint64_t kFewPoints = 4096;
+/// A box is not made to have more points than so many times those of the region (large regions: kLargeGrowth times and
+/// kManyPoints), and a few.
+constexpr std::uint64_t kGrowth = 8, kLargeGrowth = 2;
+constexpr std::uint64_t kManyPoints = 1 << 16, kFewPoints = 4096;
 
 GridBox intersection(const GridBox& a, const GridBox& b) {
   return {std::max(a.xmin, b.xmin), std::max(a.ymin, b.ymin), std::min(a.xmax, b.xmax), std::min(a.ymax, b.ymax)};
@@ -169,7 +170,8 @@ class RegionTriangulation {
     for (const Leaf& leaf : leaves_in(tile_))
       points += leaf.points * area(intersection(leaf.cell.box(), tile_)) / area(leaf.cell.box());
     const double spacing = points > 0 ? std::sqrt(area(tile_) / points) : std::sqrt(area(tile_));
-    most_points_ = kGrowth * static_cast<std::uint64_t>(points) + kFewPoints;
+    const auto n = static_cast<std::uint64_t>(points);
+    most_points_ = std::min(kGrowth * n, kLargeGrowth * n + kManyPoints) + kFewPoints;
     double margin = kMargin * spacing;
     while (margin > 1 && points_of(leaves_in(box_with(margin))) > most_points_) margin /= 2;
     return margin + 1;
