@@ -23,16 +23,8 @@ constexpr int kPatience = 3;
 constexpr std::uint64_t kGrowth = 8, kLargeGrowth = 2;
 constexpr std::uint64_t kManyPoints = 1 << 16, kFewPoints = 4096;
 
-GridBox intersection(const GridBox& a, const GridBox& b) {
-  return {std::max(a.xmin, b.xmin), std::max(a.ymin, b.ymin), std::min(a.xmax, b.xmax), std::min(a.ymax, b.ymax)};
-}
-
 GridBox expanded(const GridBox& b, double margin) {
-  const auto cut = [](double v) {
-    return static_cast<std::int32_t>(std::clamp(v, -1.0 * kGridHalfSide, kGridHalfSide - 1.0));
-  };
-  return {cut(std::floor(b.xmin - margin)), cut(std::floor(b.ymin - margin)), cut(std::ceil(b.xmax + margin)),
-          cut(std::ceil(b.ymax + margin))};
+  return rounded_outwards({b.xmin - margin, b.ymin - margin, b.xmax + margin, b.ymax + margin});
 }
 
 double area(const GridBox& b) {
@@ -204,7 +196,7 @@ class RegionTriangulation {
     for (std::size_t k = 0; k < block->points.size(); ++k) {
       const GridPoint& p = block->points[k];
       if (!box.contains(p.x, p.y)) continue;
-      const auto level = block->levels.empty() ? static_cast<std::uint8_t>(leaf.level) : block->levels[k];
+      const std::uint8_t level = level_of(leaf, *block, k);
       if (selection_.selects(level, p.x, p.y)) found.push_back({morton(p.x, p.y), {p, block->sources[k], level}});
     }
   }
