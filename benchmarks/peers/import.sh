@@ -27,7 +27,7 @@ echo "import within --memory $memory"
 make_terrain
 import cardiff "$root/scripts/demo-data/cardiff.tif"
 import fractal "$work/fractal.tif"
-if [ -f "$work/wales.tif" ]; then import wales "$work/wales.tif"; fi
+if [ -z "${NO_WALES:-}" ] && [ -f "$work/wales.tif" ]; then import wales "$work/wales.tif"; fi
 readonly las=$data/derived-las
 if [ -d "$las" ]; then
   import lidar-ground "$las/ign_0299_6802.las" "$las/ign_0300_6802.las" --class 2

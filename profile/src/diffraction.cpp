@@ -71,21 +71,12 @@ const Edge* largest_v(const Span& span, const std::vector<Edge>& edges) {
   return best;
 }
 
-/// The largest slope from the span's first end to an edge over the curved Earth, m/km: equation (14), and (17) when
-/// asked from the other end.
-double steepest_from_a(const Span& span, const std::vector<Edge>& edges) {
+/// The largest slope from an end of the span to an edge over the curved Earth, m/km: equations (14) and (17).
+double steepest_from(const Edge& end, const Span& span, const std::vector<Edge>& edges) {
   double steepest = -std::numeric_limits<double>::infinity();
   for (const Edge& e : edges) {
-    const double d1 = e.km - span.a.km, d2 = span.b.km - e.km;
-    steepest = std::max(steepest, (e.height_m + span.bulge_m(d1, d2) - span.a.height_m) / d1);
-  }
-  return steepest;
-}
-double steepest_from_b(const Span& span, const std::vector<Edge>& edges) {
-  double steepest = -std::numeric_limits<double>::infinity();
-  for (const Edge& e : edges) {
-    const double d1 = e.km - span.a.km, d2 = span.b.km - e.km;
-    steepest = std::max(steepest, (e.height_m + span.bulge_m(d1, d2) - span.b.height_m) / d2);
+    const double bulge = span.bulge_m(e.km - span.a.km, span.b.km - e.km);
+    steepest = std::max(steepest, (e.height_m + bulge - end.height_m) / std::abs(e.km - end.km));
   }
   return steepest;
 }
@@ -93,9 +84,9 @@ double steepest_from_b(const Span& span, const std::vector<Edge>& edges) {
 /// The parameter of Bullington's single edge: equations (16), (18) to (20).
 double bullington_v(const Span& span, const std::vector<Edge>& edges) {
   const double d = span.length(), rise = span.b.height_m - span.a.height_m;
-  const double from_a = steepest_from_a(span, edges);
+  const double from_a = steepest_from(span.a, span, edges);
   if (from_a < rise / d) return span.v(*largest_v(span, edges));
-  const double from_b = steepest_from_b(span, edges);
+  const double from_b = steepest_from(span.b, span, edges);
   const double at = (rise + from_b * d) / (from_a + from_b);
   return span.v_of(span.a.height_m + from_a * at - span.line_m(at, d - at), at, d - at);
 }

@@ -114,7 +114,8 @@ void for_each_centre(const Tin& tin, std::span<const std::uint32_t> triangles, c
         const double cell_x = x[static_cast<std::size_t>(c)];
         if (cell_x < west.x) continue;
         if (cell_x > east.x) break;
-        visit(static_cast<std::size_t>(r * Tile::kSide + c), [&] { return RowSections::height(west, east, cell_x); });
+        visit(static_cast<std::size_t>(r * Tile::kSide + c),
+              [&, &west = west, &east = east] { return RowSections::height(west, east, cell_x); });
       }
     }
   }

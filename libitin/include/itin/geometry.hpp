@@ -90,6 +90,19 @@ struct GridBox {
 /// Grid coordinates lie in [-kGridHalfSide, kGridHalfSide).
 inline constexpr std::int32_t kGridHalfSide = std::int32_t{1} << 29;
 
+inline GridBox intersection(const GridBox& a, const GridBox& b) {
+  return {std::max(a.xmin, b.xmin), std::max(a.ymin, b.ymin), std::min(a.xmax, b.xmax), std::min(a.ymax, b.ymax)};
+}
+
+/// The smallest grid box that contains b, in grid units, cut off at the grid's limits.
+inline GridBox rounded_outwards(const Box& b) {
+  if (b.empty()) return {};
+  const auto cut = [](double v) {
+    return static_cast<std::int32_t>(std::clamp(v, -static_cast<double>(kGridHalfSide), kGridHalfSide - 1.0));
+  };
+  return {cut(std::floor(b.xmin)), cut(std::floor(b.ymin)), cut(std::ceil(b.xmax)), cut(std::ceil(b.ymax))};
+}
+
 /// The affine map between metres and grid coordinates. Heights have the same resolution and origin 0.
 struct Grid {
   Point2 origin;
@@ -119,12 +132,8 @@ struct Grid {
   }
   /// The smallest grid box that contains b, cut off at the grid's own limits.
   GridBox enclosing(const Box& b) const {
-    if (b.empty()) return {};
-    const auto clamp = [](double v) {
-      return static_cast<std::int32_t>(std::clamp(v, -static_cast<double>(kGridHalfSide), kGridHalfSide - 1.0));
-    };
-    return {clamp(std::floor((b.xmin - origin.x) / resolution)), clamp(std::floor((b.ymin - origin.y) / resolution)),
-            clamp(std::ceil((b.xmax - origin.x) / resolution)), clamp(std::ceil((b.ymax - origin.y) / resolution))};
+    return rounded_outwards({(b.xmin - origin.x) / resolution, (b.ymin - origin.y) / resolution,
+                             (b.xmax - origin.x) / resolution, (b.ymax - origin.y) / resolution});
   }
   friend bool operator==(const Grid&, const Grid&) = default;
 };

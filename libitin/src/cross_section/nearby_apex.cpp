@@ -19,21 +19,13 @@ constexpr double kAhead = 0.7;
 /// Larger circles are left to ApexSearch.
 constexpr double kMostGrowth = 64;
 
-GridBox square(double x, double y, double half_side) {
-  const auto cut = [](double v) {
-    return static_cast<std::int32_t>(std::clamp(v, -1.0 * kGridHalfSide, kGridHalfSide - 1.0));
-  };
-  return {cut(std::floor(x - half_side)), cut(std::floor(y - half_side)), cut(std::ceil(x + half_side)),
-          cut(std::ceil(y + half_side))};
-}
-
 }  // namespace
 
 NearbyApex::NearbyApex(const PointIndex& index, const Selection& selection, Point2 heading)
-    : index_(index), selection_(selection), heading_(heading), fallback_(index, selection) {}
+    : index_(index), selection_(selection), heading_(heading), fallback_(index, selection), blocks_(index) {}
 
 RetrievalStatistics NearbyApex::statistics() const {
-  RetrievalStatistics all = statistics_;
+  RetrievalStatistics all = blocks_.statistics();
   all += fallback_.statistics();
   return all;
 }
@@ -43,7 +35,8 @@ void NearbyApex::move_to(Position a, Position b, double lambda) {
   const double length = std::max(1.0, std::hypot(static_cast<double>(b.x) - a.x, static_cast<double>(b.y) - a.y));
   half_side_ = std::max({kReach * length, 6 * lambda, kShrink * half_side_});
   const double ahead = std::clamp(half_side_ - 4 * lambda, 0.0, kAhead * half_side_);
-  box_ = square(mx + heading_.x * ahead, my + heading_.y * ahead, half_side_);
+  const double x = mx + heading_.x * ahead, y = my + heading_.y * ahead;
+  box_ = rounded_outwards({x - half_side_, y - half_side_, x + half_side_, y + half_side_});
   leaves_.clear();
   selected_leaves(index_, selection_, box_, leaves_);
   std::erase_if(leaves_, [&](const Leaf& leaf) { return leaf.level < selection_.finest_in(leaf.cell.box()); });
@@ -59,7 +52,7 @@ void NearbyApex::move_to(Position a, Position b, double lambda) {
   points_.clear();
   // What was read before comes for free.
   std::erase_if(leaves_, [&](const Leaf& leaf) {
-    if (!blocks_.contains(leaf.key)) return false;
+    if (!blocks_.has_read(leaf)) return false;
     load(leaf);
     return true;
   });
@@ -70,22 +63,12 @@ std::size_t NearbyApex::bin(std::int32_t x, std::int32_t y) const {
          (static_cast<std::uint32_t>(x - box_.xmin) >> bin_shift_);
 }
 
-std::shared_ptr<const Block> NearbyApex::read(const Leaf& leaf) {
-  std::shared_ptr<const Block>& block = blocks_[leaf.key];
-  if (block == nullptr) {
-    block = index_.block(leaf);
-    statistics_.points_read += block->points.size();
-    statistics_.blocks_read += 1;
-  }
-  return block;
-}
-
 void NearbyApex::load(const Leaf& leaf) {
-  const auto block = read(leaf);
+  const auto block = blocks_.read(leaf);
   for (std::size_t k = 0; k < block->points.size(); ++k) {
     const GridPoint& p = block->points[k];
     if (!box_.contains(p.x, p.y)) continue;
-    if (!selection_.selects(block->levels.empty() ? leaf.level : block->levels[k], p.x, p.y)) continue;
+    if (!selection_.selects(level_of(leaf, *block, k), p.x, p.y)) continue;
     std::uint32_t& first = first_[bin(p.x, p.y)];
     next_.push_back(first);
     first = static_cast<std::uint32_t>(points_.size());
@@ -143,9 +126,8 @@ std::optional<GridPoint> NearbyApex::apex(Position a, Position b) {
   const auto fits = [&](double lambda) {
     const GridBox reached =
         frame.cap_box(lambda, {-kGridHalfSide, -kGridHalfSide, kGridHalfSide - 1, kGridHalfSide - 1});
-    const GridBox data{std::max(reached.xmin, all.xmin), std::max(reached.ymin, all.ymin),
-                       std::min(reached.xmax, all.xmax), std::min(reached.ymax, all.ymax)};
-    return !box_.empty() && box_.contains(a.x, a.y) && box_.contains(b.x, b.y) && box_.contains(data);
+    return !box_.empty() && box_.contains(a.x, a.y) && box_.contains(b.x, b.y) &&
+           box_.contains(intersection(reached, all));
   };
   for (double lambda = 1.5 * frame.r; lambda < kMostGrowth * frame.r; lambda *= 2) {
     if (!fits(lambda)) move_to(a, b, lambda);

@@ -44,15 +44,13 @@ class NearbyApex {
   void search_bins(const ApexFrame& frame, const GridBox& box, Candidate& candidate) const;
   void consider(const ApexFrame& frame, const GridPoint& point, Candidate& candidate) const;
   void load(const Leaf& leaf);
-  std::shared_ptr<const Block> read(const Leaf& leaf);
   std::size_t bin(std::int32_t x, std::int32_t y) const;
 
   const PointIndex& index_;
   const Selection& selection_;
   Point2 heading_;
   ApexSearch fallback_;
-  RetrievalStatistics statistics_;
-  std::unordered_map<std::uint64_t, std::shared_ptr<const Block>> blocks_;
+  BlockReader blocks_;
 
   GridBox box_;               ///< the neighbourhood
   double half_side_ = 0;      ///< of the last one, grid units

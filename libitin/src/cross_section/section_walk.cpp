@@ -245,8 +245,7 @@ CrossedEdge find_edge_on(const PointIndex& index, const Selection& selection, co
       statistics.blocks_read += 1;
       for (std::size_t k = 0; k < block->points.size(); ++k) {
         const GridPoint& p = block->points[k];
-        const int level = block->levels.empty() ? leaf.level : block->levels[k];
-        if (box.contains(p.x, p.y) && selection.selects(level, p.x, p.y)) neighbours.consider(p);
+        if (box.contains(p.x, p.y) && selection.selects(level_of(leaf, *block, k), p.x, p.y)) neighbours.consider(p);
       }
     }
     // The box is centred on the crossing, so what lies outside it is farther away along the segment.

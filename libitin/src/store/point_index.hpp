@@ -43,6 +43,11 @@ struct Block {
   }
 };
 
+/// The level of a leaf's point k.
+inline std::uint8_t level_of(const Leaf& leaf, const Block& block, std::size_t k) {
+  return block.levels.empty() ? static_cast<std::uint8_t>(leaf.level) : block.levels[k];
+}
+
 /// The built-in theme of the coverage outline; other themes are numbered from 1.
 inline constexpr std::uint16_t kCoverage = 0;
 

@@ -45,20 +45,6 @@ bool crosses(const Segment& s, Position p, Position q) {
   return orientation(p, q, a) * orientation(p, q, b) < 0 && orientation(a, b, p) * orientation(a, b, q) < 0;
 }
 
-std::uint8_t ApexSearch::level_of(const Leaf& leaf, const Block& block, std::size_t k) const {
-  return block.levels.empty() ? static_cast<std::uint8_t>(leaf.level) : block.levels[k];
-}
-
-std::shared_ptr<const Block> ApexSearch::read(const Leaf& leaf) {
-  std::shared_ptr<const Block>& block = blocks_[leaf.key];
-  if (block == nullptr) {
-    block = index_.block(leaf);
-    statistics_.points_read += block->points.size();
-    statistics_.blocks_read += 1;
-  }
-  return block;
-}
-
 /// What is known while one circle is searched.
 struct ApexSearch::Search {
   const ApexFrame& frame;
@@ -150,7 +136,7 @@ void ApexSearch::look_in(const GridBox& piece, Search& search) {
 
 void ApexSearch::look_in(const Leaf& leaf, Search& search) {
   const Position a = search.frame.a, b = search.frame.b;
-  const auto block = read(leaf);
+  const auto block = blocks_.read(leaf);
   for (std::size_t k = 0; k < block->points.size(); ++k) {
     const GridPoint& point = block->points[k];
     const Position c{point.x, point.y};
@@ -197,7 +183,7 @@ std::optional<SelectedVertex> ApexSearch::inside(Position a, Position b, Positio
   leaves_.clear();
   selected_leaves(index_, selection_, box, leaves_);
   for (const Leaf& leaf : leaves_) {
-    const auto block = read(leaf);
+    const auto block = blocks_.read(leaf);
     for (std::size_t k = 0; k < block->points.size(); ++k) {
       const Position p{block->points[k].x, block->points[k].y};
       if (!box.contains(p.x, p.y) || p == a || p == b || p == c) continue;
@@ -215,7 +201,7 @@ std::optional<SelectedVertex> ApexSearch::at(Position p) {
   leaves_.clear();
   selected_leaves(index_, selection_, box, leaves_);
   for (const Leaf& leaf : leaves_) {
-    const auto block = read(leaf);
+    const auto block = blocks_.read(leaf);
     const auto found = std::lower_bound(block->points.begin(), block->points.end(), morton(p.x, p.y),
                                         [](const GridPoint& q, std::uint64_t code) { return morton(q.x, q.y) < code; });
     if (found == block->points.end() || found->x != p.x || found->y != p.y) continue;

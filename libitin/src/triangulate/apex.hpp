@@ -12,15 +12,14 @@
 
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <optional>
-#include <unordered_map>
 #include <vector>
 
 #include <itin/geometry.hpp>
 #include <itin/tin.hpp>
 
 #include "store/point_index.hpp"
+#include "triangulate/block_reader.hpp"
 #include "triangulate/predicates.hpp"
 #include "triangulate/selection.hpp"
 
@@ -41,7 +40,8 @@ struct SelectedVertex {
 /// One search serves one thread and one region: it keeps the blocks it has read, and counts them.
 class ApexSearch {
  public:
-  ApexSearch(const PointIndex& index, const Selection& selection) : index_(index), selection_(selection) {}
+  ApexSearch(const PointIndex& index, const Selection& selection)
+      : index_(index), selection_(selection), blocks_(index) {}
 
   /// The third vertex of the triangle to the left of ab, an edge of the global triangulation that is no constraint;
   /// nullopt on the hull.
@@ -57,11 +57,9 @@ class ApexSearch {
   /// The selected vertex at this very position.
   std::optional<SelectedVertex> at(Position p);
 
-  const RetrievalStatistics& statistics() const { return statistics_; }
+  const RetrievalStatistics& statistics() const { return blocks_.statistics(); }
 
  private:
-  std::uint8_t level_of(const Leaf& leaf, const Block& block, std::size_t k) const;
-  std::shared_ptr<const Block> read(const Leaf& leaf);
   struct Search;
   void read_segments(const ApexFrame& frame, const GridBox& box);
   bool hidden(Position c, Search& search) const;
@@ -71,9 +69,7 @@ class ApexSearch {
 
   const PointIndex& index_;
   const Selection& selection_;
-  RetrievalStatistics statistics_;
-  /// Searches about one region come back to the same few leaves.
-  std::unordered_map<std::uint64_t, std::shared_ptr<const Block>> blocks_;
+  BlockReader blocks_;
   // Kept between calls for their memory.
   std::vector<Leaf> leaves_;
   std::vector<Segment> segments_;

@@ -14,10 +14,6 @@ namespace {
 constexpr std::int32_t kCut = kGridHalfSide + 1;
 constexpr GridBox kWholeGrid{-kGridHalfSide, -kGridHalfSide, kGridHalfSide - 1, kGridHalfSide - 1};
 
-GridBox intersection(const GridBox& a, const GridBox& b) {
-  return {std::max(a.xmin, b.xmin), std::max(a.ymin, b.ymin), std::min(a.xmax, b.xmax), std::min(a.ymax, b.ymax)};
-}
-
 /// The part of a ring where sign * coordinate <= kCut, in grid units (Sutherland and Hodgman). Winding numbers inside
 /// the half plane stay what they are.
 Window::Ring cut(const Window::Ring& ring, double Point2::*axis, double sign) {

@@ -18,20 +18,13 @@ namespace {
 constexpr double kMargin = 3;
 /// After so many rounds of mending the box may grow.
 constexpr int kPatience = 3;
-/// No box is read whole that has so many times the points it is wanted for.
-constexpr std::uint64_t kGrowth = 8;
-constexpr std::uint64_t kFewPoints = 512;
-
-GridBox intersection(const GridBox& a, const GridBox& b) {
-  return {std::max(a.xmin, b.xmin), std::max(a.ymin, b.ymin), std::min(a.xmax, b.xmax), std::min(a.ymax, b.ymax)};
-}
+/// A box is not made to have more points than so many times those of the region (large regions: kLargeGrowth times and
+/// kManyPoints), and a few.
+constexpr std::uint64_t kGrowth = 8, kLargeGrowth = 2;
+constexpr std::uint64_t kManyPoints = 1 << 16, kFewPoints = 4096;
 
 GridBox expanded(const GridBox& b, double margin) {
-  const auto cut = [](double v) {
-    return static_cast<std::int32_t>(std::clamp(v, -1.0 * kGridHalfSide, kGridHalfSide - 1.0));
-  };
-  return {cut(std::floor(b.xmin - margin)), cut(std::floor(b.ymin - margin)), cut(std::ceil(b.xmax + margin)),
-          cut(std::ceil(b.ymax + margin))};
+  return rounded_outwards({b.xmin - margin, b.ymin - margin, b.xmax + margin, b.ymax + margin});
 }
 
 double area(const GridBox& b) {
@@ -116,7 +109,7 @@ class RegionTriangulation {
   /// start from.
   bool triangulate_seed() {
     const std::vector<Leaf> leaves = leaves_in(box_);
-    if (points_of(leaves) <= kGrowth * kFewPoints) return false;
+    if (points_of(leaves) <= kFewPoints) return false;
     const auto distance = [&](const Leaf& leaf) {
       const GridBox b = leaf.cell.box();
       return std::max({0.0, 0.0 + b.xmin - tile_.xmax, 0.0 + tile_.xmin - b.xmax, 0.0 + b.ymin - tile_.ymax,
@@ -150,7 +143,7 @@ class RegionTriangulation {
   /// Where triangles reach far, as across the sea, one vertex after another turns up. A larger box has them at once.
   bool worth_growing() const {
     if (box_.contains(index_.bounds())) return false;
-    return points_of(leaves_in(box_with(4 * margin_))) < kGrowth * (vertices_.size() + kFewPoints);
+    return points_of(leaves_in(box_with(4 * margin_))) <= most_points_;
   }
 
   std::vector<Leaf> leaves_in(const GridBox& box) const {
@@ -164,14 +157,15 @@ class RegionTriangulation {
                            [](std::uint64_t sum, const Leaf& leaf) { return sum + leaf.points; });
   }
 
-  double first_margin() const {
+  double first_margin() {
     double points = 0;
     for (const Leaf& leaf : leaves_in(tile_))
       points += leaf.points * area(intersection(leaf.cell.box(), tile_)) / area(leaf.cell.box());
     const double spacing = points > 0 ? std::sqrt(area(tile_) / points) : std::sqrt(area(tile_));
-    const std::uint64_t most = kGrowth * (static_cast<std::uint64_t>(points) + kFewPoints);
+    const auto n = static_cast<std::uint64_t>(points);
+    most_points_ = std::min(kGrowth * n, kLargeGrowth * n + kManyPoints) + kFewPoints;
     double margin = kMargin * spacing;
-    while (margin > 1 && points_of(leaves_in(box_with(margin))) > most) margin /= 2;
+    while (margin > 1 && points_of(leaves_in(box_with(margin))) > most_points_) margin /= 2;
     return margin + 1;
   }
 
@@ -202,7 +196,7 @@ class RegionTriangulation {
     for (std::size_t k = 0; k < block->points.size(); ++k) {
       const GridPoint& p = block->points[k];
       if (!box.contains(p.x, p.y)) continue;
-      const auto level = block->levels.empty() ? static_cast<std::uint8_t>(leaf.level) : block->levels[k];
+      const std::uint8_t level = level_of(leaf, *block, k);
       if (selection_.selects(level, p.x, p.y))
         found.push_back({morton(p.x, p.y), {p, block->sources[k], level, block->theme(k)}});
     }
@@ -534,8 +528,9 @@ class RegionTriangulation {
   ApexSearch search_;
   GridBox tile_;  ///< the region's box
   double margin_ = 0;
-  GridBox box_;       ///< all selected segments in it have been read
-  GridBox read_box_;  ///< within box_: all selected points in it have been read, too
+  std::uint64_t most_points_ = 0;  ///< that a box is worth
+  GridBox box_;                    ///< all selected segments in it have been read
+  GridBox read_box_;               ///< within box_: all selected points in it have been read, too
   std::vector<SelectedVertex> vertices_;
   std::size_t sorted_ = 0;                                   ///< the first so many vertices are in Morton order
   std::unordered_map<std::uint64_t, std::uint32_t> extras_;  ///< the others by Morton code
