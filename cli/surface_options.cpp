@@ -1,9 +1,5 @@
 #include "surface_options.hpp"
 
-#include <fmt/format.h>
-
-#include <itin/error.hpp>
-
 namespace itin::cli {
 
 void ThemeOptions::declare(CLI::App& app) {
@@ -15,13 +11,6 @@ void ThemeOptions::declare(CLI::App& app) {
 
 void ThemeOptions::validate() {
   if (!themes_.empty()) choice_ = ThemeChoice::parse(themes_);
-}
-
-void ThemeOptions::validate_none(const std::string& verb) {
-  validate();
-  if (!themes_.empty() && themes_ != "none")
-    throw InputError(
-        fmt::format("--themes {}: itin {} sees the terrain alone so far; leave it out, or say none", themes_, verb));
 }
 
 Document ThemeOptions::parameters() const {

@@ -18,8 +18,6 @@ class ThemeOptions {
   /// Throws InputError.
   void validate();
   const ThemeChoice& choice() const { return choice_; }
-  /// For verbs that see the terrain alone, so far. Throws InputError where features are asked for.
-  void validate_none(const std::string& verb);
   /// What was asked for, where it was.
   Document parameters() const;
 

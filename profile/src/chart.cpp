@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 
 #include "axis.hpp"
 #include "drawing.hpp"
+#include "theme_colour.hpp"
 
 namespace itin::profile {
 
@@ -89,20 +91,36 @@ class ChartPage {
   void draw_series() {
     drawing_.clip(frame_);
     for (std::size_t i = 0; i < chart_.series.size(); ++i) {
-      for (const auto& stretch : stretches(chart_.series[i].profile)) {
-        std::vector<Point2> points;
-        for (const ProfilePoint& p : stretch) points.push_back(at(p));
-        if (i == 0) fill_below(points);
-        drawing_.polyline(points, stroke(i));
-      }
+      if (i == 0) fill_first();
+      for (const auto& stretch : stretches(chart_.series[i].profile)) drawing_.polyline(placed(stretch), stroke(i));
     }
     drawing_.unclip();
   }
 
-  void fill_below(std::vector<Point2> points) {
+  std::vector<Point2> placed(const std::vector<ProfilePoint>& stretch) const {
+    std::vector<Point2> points;
+    for (const ProfilePoint& p : stretch) points.push_back(at(p));
+    return points;
+  }
+
+  /// Features first: the ground covers what of them is in it.
+  void fill_first() {
+    const Profile& profile = chart_.series.front().profile;
+    for (std::size_t i = 0; i + 1 < profile.points.size(); ++i) {
+      const std::uint16_t theme = profile.theme_between(i);
+      if (theme == 0 || !profile.joined(i)) continue;
+      fill_below({at(profile.points[i]), at(profile.points[i + 1])}, theme_colour(theme));
+      themes_.insert(theme);
+    }
+    for (const auto& stretch : stretches(chart_.ground.points.empty() ? profile : chart_.ground)) {
+      fill_below(placed(stretch), kGround);
+    }
+  }
+
+  void fill_below(std::vector<Point2> points, const Colour& colour) {
     points.push_back({points.back().x, frame_.ymax});
     points.push_back({points.front().x, frame_.ymax});
-    drawing_.polygon(points, kGround);
+    drawing_.polygon(points, colour);
   }
 
   static Stroke stroke(std::size_t i) { return {kLines[i % kLines.size()], i == 0 ? 1.2 : 1.0, {}}; }
@@ -137,6 +155,13 @@ class ChartPage {
       drawing_.text({x + 20, 47}, chart_.series[i].name, lettering);
       x += 34 + drawing_.text_width(chart_.series[i].name, lettering);
     }
+    for (const std::uint16_t theme : themes_) {
+      const Lettering lettering{.size = 8, .colour = kInk};
+      const std::string name = theme < chart_.themes.size() ? chart_.themes[theme] : fmt::format("theme {}", theme);
+      drawing_.rectangle({x, 40, x + 16, 48}, theme_colour(theme));
+      drawing_.text({x + 20, 47}, name, lettering);
+      x += 34 + drawing_.text_width(name, lettering);
+    }
   }
 
   void line(Point2 a, Point2 b, const Stroke& stroke) { drawing_.polyline(std::array{a, b}, stroke); }
@@ -147,6 +172,7 @@ class ChartPage {
   Axis x_, y_;
   bool in_km_ = false;
   bool empty_ = true;
+  std::set<std::uint16_t> themes_;  ///< met
 };
 
 }  // namespace

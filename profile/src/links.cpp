@@ -8,6 +8,7 @@
 #include <itin/coordinates.hpp>
 #include <itin/cross_section.hpp>
 #include <itin/error.hpp>
+#include <itin/grazing.hpp>
 #include <itin/parallel.hpp>
 #include <itin/paths.hpp>
 #include <itin/store.hpp>
@@ -64,33 +65,62 @@ std::vector<Link> read_table(const std::string& path, const std::string& to_crs,
   return links;
 }
 
-bool has_ground_at_ends(const Profile& profile) {
-  return !profile.points.empty() && profile.points.front().distance_m == 0 &&
-         profile.points.back().distance_m == profile.length_m;
-}
+/// The surface, and where features stand on it the ground under them.
+class Surfaces {
+ public:
+  Surfaces(const Store& store, const LinkQuery& query) : query_(query), surface_(store, query.detail, query.themes) {
+    if (query.themes.includes_standing(store.metadata().themes)) ground_.emplace(store, query.detail);
+  }
 
-LinkResult survey(const Profile& profile, const Link& link, const LinkQuery& query) {
-  LinkResult result;
-  result.distance_m = profile.length_m;
-  if (!has_ground_at_ends(profile)) {
-    result.message = "no ground under an end";
+  LinkResult survey(const Link& link) const {
+    const Profile profile = from_section(surface_.between(link.from, link.to));
+    LinkResult result;
+    result.distance_m = profile.length_m;
+    if (!has_ground_at_ends(profile)) {
+      result.message = "no ground under an end";
+      return result;
+    }
+    const EndGrounds grounds = grounds_of(link, profile);
+    const Antennas antennas{grounds.from_m + link.from_height, grounds.to_m + link.to_height};
+    const auto line = line_clearance(profile, antennas, query_.earth);
+    const bool blocked = query_.gaps_block && !profile.gaps.empty();
+    const bool hidden = profile.length_m > 0 && line->clearance_m < -kGrazing;
+    result.verdict = hidden || blocked ? SightVerdict::kHidden : SightVerdict::kVisible;
+    result.clearance_m = line->clearance_m;
+    result.critical_m = line->critical.distance_m;
+    if (query_.radio && profile.length_m > 0) add_radio(link, profile, antennas, result);
     return result;
   }
-  const Antennas antennas{profile.points.front().ground_m + link.from_height,
-                          profile.points.back().ground_m + link.to_height};
-  const auto line = line_clearance(profile, antennas, query.earth);
-  const bool blocked = query.gaps_block && !profile.gaps.empty();
-  result.verdict = line->clearance_m < 0 || blocked ? SightVerdict::kHidden : SightVerdict::kVisible;
-  result.clearance_m = line->clearance_m;
-  result.critical_m = line->critical.distance_m;
-  if (!query.radio || profile.length_m == 0) return result;
-  const auto fresnel = fresnel_clearance(profile, antennas, query.earth, wavelength_m(query.radio->frequency_ghz));
-  if (fresnel) result.fresnel_fraction = fresnel->fraction;
-  // The same points as in a report (los.cpp).
-  result.ld_db =
-      path_losses(with_spacing(profile, std::min(100.0, profile.length_m / 50)), antennas, *query.radio).ld_db;
-  return result;
-}
+
+ private:
+  double ground_at(Point2 place, double otherwise) const {
+    const CrossSection here = ground_->between(place, place);
+    return here.breakpoints.empty() ? otherwise : here.breakpoints.front().position.z;
+  }
+
+  EndGrounds grounds_of(const Link& link, const Profile& profile) const {
+    EndGrounds grounds = ends_of(profile);
+    if (ground_ && !query_.from_on_surface) grounds.from_m = ground_at(link.from, grounds.from_m);
+    if (ground_ && !query_.to_on_surface) grounds.to_m = ground_at(link.to, grounds.to_m);
+    return grounds;
+  }
+
+  void add_radio(const Link& link, const Profile& profile, const Antennas& antennas, LinkResult& result) const {
+    const auto fresnel = fresnel_clearance(profile, antennas, query_.earth, wavelength_m(query_.radio->frequency_ghz));
+    if (fresnel) result.fresnel_fraction = fresnel->fraction;
+    const EndGrounds top = ends_of(profile);
+    if (antennas.from_m < top.from_m || antennas.to_m < top.to_m) return;
+    std::optional<Profile> bare;
+    if (ground_) bare = from_section(ground_->between(link.from, link.to));
+    // The same points as in a report (los.cpp).
+    const Profile dense = with_spacing(profile, std::min(100.0, profile.length_m / 50));
+    result.ld_db = path_losses(dense, antennas, *query_.radio, bare ? &*bare : nullptr).ld_db;
+  }
+
+  const LinkQuery& query_;
+  SectionSurface surface_;
+  std::optional<SectionSurface> ground_;
+};
 
 }  // namespace
 
@@ -104,9 +134,9 @@ std::vector<Link> read_links(const std::string& path, const std::string& to_crs,
   return links;
 }
 
-std::vector<LinkResult> survey_links(const Store& store, const Detail& detail, const std::vector<Link>& links,
-                                     const LinkQuery& query, Progress& progress) {
-  const SectionSurface surface(store, detail);
+std::vector<LinkResult> survey_links(const Store& store, const std::vector<Link>& links, const LinkQuery& query,
+                                     Progress& progress) {
+  const Surfaces surfaces(store, query);
   std::vector<LinkResult> results(links.size());
   std::atomic<std::size_t> done = 0;
   constexpr std::size_t kBatch = 64;
@@ -115,7 +145,7 @@ std::vector<LinkResult> survey_links(const Store& store, const Detail& detail, c
     const std::size_t end = std::min(links.size(), (batch + 1) * kBatch);
     for (std::size_t i = batch * kBatch; i < end; ++i) {
       try {
-        results[i] = survey(from_section(surface.between(links[i].from, links[i].to)), links[i], query);
+        results[i] = surfaces.survey(links[i]);
       } catch (const InputError& error) {
         results[i] = {};
         results[i].message = error.what();

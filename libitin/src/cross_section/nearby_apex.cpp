@@ -72,11 +72,11 @@ void NearbyApex::load(const Leaf& leaf) {
     std::uint32_t& first = first_[bin(p.x, p.y)];
     next_.push_back(first);
     first = static_cast<std::uint32_t>(points_.size());
-    points_.push_back(p);
+    points_.push_back({p, block->theme(k)});
   }
 }
 
-void NearbyApex::consider(const ApexFrame& frame, const GridPoint& point, Candidate& candidate) const {
+void NearbyApex::consider(const ApexFrame& frame, const SectionVertex& point, Candidate& candidate) const {
   const Position c{point.x, point.y};
   if (!frame.inside(candidate.reach, c.x, c.y) || orientation(frame.a, frame.b, c) <= 0) return;
   if (candidate.best) {
@@ -100,7 +100,7 @@ void NearbyApex::search_bins(const ApexFrame& frame, const GridBox& box, Candida
 }
 
 /// The vertex of the least circle up to lambda, which must fit into the neighbourhood.
-std::optional<GridPoint> NearbyApex::search(const ApexFrame& frame, double lambda) {
+std::optional<SectionVertex> NearbyApex::search(const ApexFrame& frame, double lambda) {
   Candidate candidate{std::nullopt, lambda};
   search_bins(frame, frame.cap_box(lambda, box_), candidate);
   for (std::size_t i = 0; i < leaves_.size();) {
@@ -120,7 +120,7 @@ std::optional<GridPoint> NearbyApex::search(const ApexFrame& frame, double lambd
   return std::nullopt;
 }
 
-std::optional<GridPoint> NearbyApex::apex(Position a, Position b) {
+std::optional<SectionVertex> NearbyApex::apex(Position a, Position b) {
   const ApexFrame frame(a, b);
   const GridBox all = index_.bounds();
   const auto fits = [&](double lambda) {
@@ -136,7 +136,7 @@ std::optional<GridPoint> NearbyApex::apex(Position a, Position b) {
   }
   const auto found = fallback_.apex(a, b);
   if (!found) return std::nullopt;
-  return found->point;
+  return SectionVertex{found->point, found->theme};
 }
 
 }  // namespace itin

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -18,7 +19,7 @@ struct ProfilePoint {
   double y = 0;
   double ground_m = 0;        ///< elevation of the surface
   double clutter_m = 0;       ///< on top of it, for diffraction only
-  std::uint16_t theme = 0;    ///< 0: terrain
+  std::uint16_t theme = 0;    ///< of the feature that it is within, as in Breakpoint; 0: terrain
   std::int64_t feature = -1;  ///< none
 };
 
@@ -31,7 +32,21 @@ struct Profile {
 
   /// Whether the ground is continuous from point i to point i + 1.
   bool joined(std::size_t i) const;
+  /// The theme of what is between point i and point i + 1.
+  std::uint16_t theme_between(std::size_t i) const;
 };
+
+/// Elevations of what the two ends of a line stand on.
+struct EndGrounds {
+  double from_m = 0;
+  double to_m = 0;
+};
+/// The profile's own ends. Precondition: it has points.
+EndGrounds ends_of(const Profile& profile);
+/// The profile's height at a distance, the greater one at a vertical face; nothing in a gap. O(log n).
+std::optional<double> height_at(const Profile& profile, double distance_m);
+/// Whether there is ground under both ends.
+bool has_ground_at_ends(const Profile& profile);
 
 Profile from_section(const CrossSection& section);
 

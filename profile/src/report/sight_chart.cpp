@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "report/tables.hpp"
+#include "theme_colour.hpp"
 
 namespace itin::profile {
 
@@ -17,15 +18,8 @@ namespace {
 constexpr int kArcParts = 240;
 constexpr Colour kGround{0.80, 0.74, 0.62, 1}, kGroundLine{0.42, 0.33, 0.20, 1}, kRay{0.05, 0.25, 0.60, 1},
     kZone{0.20, 0.45, 0.85, 0.13}, kInnerZone{0.20, 0.45, 0.85, 0.16}, kZoneLine{0.20, 0.45, 0.85, 1},
-    kWorst{0.75, 0.35, 0.05, 1}, kCut{0.80, 0.10, 0.10, 0.75}, kMarker{0.75, 0.05, 0.05, 1},
-    kClutter{0.45, 0.65, 0.35, 0.8}, kNoData{0.9, 0.9, 0.9, 1}, kWhite{1, 1, 1, 0.85};
-/// By theme number, going round.
-constexpr Colour kThemes[] = {
-    {0.62, 0.20, 0.20, 1}, {0.20, 0.50, 0.22, 1}, {0.40, 0.30, 0.60, 1}, {0.80, 0.55, 0.10, 1}};
-
-const Colour& colour_of(std::uint16_t theme) {
-  return kThemes[(theme - 1U) % std::size(kThemes)];
-}
+    kWorst{0.75, 0.35, 0.05, 1}, kCut{0.80, 0.10, 0.10, 0.45}, kMarker{0.75, 0.05, 0.05, 1},
+    kClutter{0.45, 0.65, 0.35, 0.8}, kNoData{0.9, 0.9, 0.9, 1}, kWhite{1, 1, 1, 0.85}, kFeatureLine{0.30, 0.20, 0.20, 1};
 
 /// Everything drawn, in metres over the chord between the ends' verticals.
 class SightChart {
@@ -36,7 +30,8 @@ class SightChart {
         length_(std::max(report.profile.length_m, 1e-3)),
         drop_(report.query.earth.drop_coefficient()),
         wavelength_(report.query.radio ? wavelength_m(report.query.radio->frequency_ghz) : 0),
-        dense_(with_spacing(report.profile, length_ / kArcParts)) {
+        dense_(with_spacing(report.profile, length_ / kArcParts)),
+        ground_(report.ground.points.empty() ? dense_ : with_spacing(report.ground, length_ / kArcParts)) {
     find_worst();
     const auto [low, high] = range();
     frame_ = make_frame({area.xmin + 52, area.ymin, area.xmax - 12, area.ymax - 66}, 0, length_, low, high);
@@ -46,10 +41,10 @@ class SightChart {
     drawing_.clip(frame_.box);
     draw_arcs();
     draw_gaps();
+    draw_features();
     draw_ground();
     draw_zones();
     draw_cuts();
-    draw_features();
     draw_lines();
     drawing_.unclip();
     draw_axes();
@@ -112,10 +107,10 @@ class SightChart {
 
   /// Calls visit(first, last) for each run of joined points.
   template <class Visit>
-  void for_each_run(Visit visit) const {
+  static void for_each_run(const Profile& profile, Visit visit) {
     std::size_t first = 0;
-    for (std::size_t i = 0; i < dense_.points.size(); ++i) {
-      if (i + 1 < dense_.points.size() && dense_.joined(i)) continue;
+    for (std::size_t i = 0; i < profile.points.size(); ++i) {
+      if (i + 1 < profile.points.size() && profile.joined(i)) continue;
       visit(first, i);
       first = i + 1;
     }
@@ -129,11 +124,11 @@ class SightChart {
   }
 
   void draw_ground() {
-    for_each_run([&](std::size_t first, std::size_t last) {
+    for_each_run(ground_, [&](std::size_t first, std::size_t last) {
       std::vector<Point2> ground, canopy;
       bool clutter = false;
       for (std::size_t i = first; i <= last; ++i) {
-        const ProfilePoint& p = dense_.points[i];
+        const ProfilePoint& p = ground_.points[i];
         ground.push_back(at(p));
         canopy.push_back(at(p.distance_m, p.ground_m + p.clutter_m + bulge(p.distance_m)));
         clutter = clutter || p.clutter_m > 0;
@@ -175,13 +170,14 @@ class SightChart {
     }
   }
 
+  /// Before the ground, which covers what of them is in it.
   void draw_features() {
     for (std::size_t i = 0; i + 1 < dense_.points.size(); ++i) {
-      const ProfilePoint &a = dense_.points[i], &b = dense_.points[i + 1];
-      const std::uint16_t theme = a.ground_m >= b.ground_m ? a.theme : b.theme;
+      const std::uint16_t theme = dense_.theme_between(i);
       if (theme == 0 || !dense_.joined(i)) continue;
-      const Point2 piece[] = {at(a), at(b)};
-      fill_below({piece[0], piece[1]}, colour_of(theme));
+      const Point2 top[] = {at(dense_.points[i]), at(dense_.points[i + 1])};
+      fill_below({top[0], top[1]}, theme_colour(theme));
+      drawing_.polyline(top, {kFeatureLine, 0.7, {}});
       themes_.insert(theme);
     }
   }
@@ -191,7 +187,7 @@ class SightChart {
   }
   void draw_lines() {
     if (worst_k_ > 0) {
-      for_each_run([&](std::size_t first, std::size_t last) {
+      for_each_run(dense_, [&](std::size_t first, std::size_t last) {
         std::vector<Point2> line;
         for (std::size_t i = first; i <= last; ++i) {
           line.push_back(at(dense_.points[i].distance_m, worst_ground(dense_.points[i])));
@@ -235,9 +231,8 @@ class SightChart {
     drawing_.text({x, y}, text, lettering);
   }
   void draw_masts() {
-    const auto& points = report_.profile.points;
-    draw_mast(0, points.front().ground_m, report_.antennas.from_m, "A", report_.query.from_height_m);
-    draw_mast(length_, points.back().ground_m, report_.antennas.to_m, "B", report_.query.to_height_m);
+    draw_mast(0, report_.stands_on.from_m, report_.antennas.from_m, "A", report_.query.from_height_m);
+    draw_mast(length_, report_.stands_on.to_m, report_.antennas.to_m, "B", report_.query.to_height_m);
   }
 
   /// Its label hangs from the top of the chart, clear of the ray, on a line down to the point.
@@ -269,8 +264,8 @@ class SightChart {
     if (worst_k_ > 0) items.push_back({fmt::format("Terrain at K = {:.4g}", worst_k_), {kWorst, 0.9, {4, 2}}, false});
     if (has_clutter_) items.push_back({"Clutter", {kClutter, 1, {}}, true});
     for (const std::uint16_t theme : themes_)
-      items.push_back({cause_of(report_, theme), {colour_of(theme), 1, {}}, true});
-    if (!report_.obstructions.empty()) items.push_back({"Ground above the ray", {kCut, 1, {}}, true});
+      items.push_back({cause_of(report_, theme), {theme_colour(theme), 1, {}}, true});
+    if (!report_.obstructions.empty()) items.push_back({"Above the ray", {kCut, 1, {}}, true});
     items.push_back({"Equal elevation", {kFaint, 0.8, {}}, false});
     draw_legend(drawing_, {frame_.box.xmin, frame_.box.ymax + 43}, frame_.box.width(), items);
   }
@@ -280,6 +275,7 @@ class SightChart {
   double length_, drop_, wavelength_;
   double worst_drop_ = 0, worst_k_ = 0;
   Profile dense_;
+  Profile ground_;  ///< likewise, without standing features
   ChartFrame frame_;
   bool has_clutter_ = false;
   std::set<std::uint16_t> themes_;
