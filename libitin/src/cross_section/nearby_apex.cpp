@@ -102,18 +102,24 @@ void NearbyApex::search_bins(const ApexFrame& frame, const GridBox& box, Candida
 /// The vertex of the least circle up to lambda, which must fit into the neighbourhood.
 std::optional<SectionVertex> NearbyApex::search(const ApexFrame& frame, double lambda) {
   Candidate candidate{std::nullopt, lambda};
-  search_bins(frame, frame.cap_box(lambda, box_), candidate);
-  for (std::size_t i = 0; i < leaves_.size();) {
-    if (!frame.cap_meets(candidate.reach, leaves_[i].cell.box())) {
-      ++i;
-      continue;
-    }
+  const GridBox cap = frame.cap_box(lambda, box_);
+  search_bins(frame, cap, candidate);
+  reached_.clear();
+  for (const Leaf& leaf : leaves_) {
+    const GridBox box = leaf.cell.box();
+    if (frame.cap_meets(candidate.reach, box)) reached_.emplace_back(frame.key(box), leaf.key);
+  }
+  // Those first that may hold the least circle: it may leave the others out.
+  std::sort(reached_.begin(), reached_.end());
+  for (const auto& [circle, key] : reached_) {
+    const auto leaf = std::find_if(leaves_.begin(), leaves_.end(), [key = key](const Leaf& l) { return l.key == key; });
+    const GridBox box = leaf->cell.box();
+    if (!frame.cap_meets(candidate.reach, box) || hide(segments_, frame.a, frame.b, intersection(box, cap))) continue;
     const std::size_t before = points_.size();
-    load(leaves_[i]);
-    leaves_[i] = leaves_.back();
+    load(*leaf);
+    *leaf = leaves_.back();
     leaves_.pop_back();
     for (std::size_t p = before; p < points_.size(); ++p) consider(frame, points_[p], candidate);
-    i = 0;  // nearer leaves may have been passed over, but never one that a smaller circle meets
   }
   // What lies on the searched circle itself may have rivals that rounding left out.
   if (candidate.best && candidate.reach < 0.999 * lambda) return candidate.best;

@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "cross_section/section_walk.hpp"
@@ -56,6 +57,7 @@ class NearbyApex {
   GridBox box_;               ///< the neighbourhood
   double half_side_ = 0;      ///< of the last one, grid units
   std::vector<Leaf> leaves_;  ///< of the neighbourhood, not yet loaded
+  std::vector<std::pair<double, std::uint64_t>> reached_;  ///< of these, what one search's circle meets: circle and key
   std::vector<Segment> segments_;
 
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
