@@ -36,8 +36,9 @@ class ChartPage {
 
   std::string run() {
     drawing_.rectangle({0, 0, kWidth, kHeight}, {1, 1, 1});
-    drawing_.text({frame_.xmin, 20}, chart_.title, {.size = 12, .colour = kInk, .bold = true});
-    drawing_.text({frame_.xmin, 34}, chart_.note, {.size = 8, .colour = kFaint});
+    const Lettering title{.size = 12, .colour = kInk, .bold = true}, note{.size = 8, .colour = kFaint};
+    drawing_.text({frame_.xmin, 20}, drawing_.fitted(chart_.title, frame_.width(), title), title);
+    drawing_.text({frame_.xmin, 34}, drawing_.fitted(chart_.note, frame_.width(), note), note);
     if (!empty_) draw_gaps();
     draw_grid();
     if (!empty_) draw_series();
@@ -106,11 +107,11 @@ class ChartPage {
   /// Features first: the ground covers what of them is in it.
   void fill_first() {
     const Profile& profile = chart_.series.front().profile;
-    for (std::size_t i = 0; i + 1 < profile.points.size(); ++i) {
-      const std::uint16_t theme = profile.theme_between(i);
-      if (theme == 0 || !profile.joined(i)) continue;
-      fill_below({at(profile.points[i]), at(profile.points[i + 1])}, theme_colour(theme));
-      themes_.insert(theme);
+    for (const FeatureRun& run : feature_runs(profile)) {
+      std::vector<Point2> top;
+      for (std::size_t i = run.first; i <= run.last; ++i) top.push_back(at(profile.points[i]));
+      fill_below(top, theme_colour(run.theme));
+      themes_.insert(run.theme);
     }
     for (const auto& stretch : stretches(chart_.ground.points.empty() ? profile : chart_.ground)) {
       fill_below(placed(stretch), kGround);

