@@ -86,7 +86,9 @@ class Surfaces {
       result.message = "no ground under an end";
       return result;
     }
-    const EndGrounds grounds = grounds_of(link, profile);
+    std::optional<Profile> bare;
+    if (ground_) bare = from_section(ground_->between(link.from, link.to));
+    const EndGrounds grounds = grounds_of(profile, bare);
     const Antennas antennas{grounds.from_m + link.from_height, grounds.to_m + link.to_height};
     const auto line = line_clearance(profile, antennas, query_.earth);
     const bool blocked = query_.gaps_block && !profile.gaps.empty();
@@ -94,33 +96,26 @@ class Surfaces {
     result.verdict = hidden || blocked ? SightVerdict::kHidden : SightVerdict::kVisible;
     result.clearance_m = line->clearance_m;
     result.critical_m = line->critical.distance_m;
-    if (query_.radio && profile.length_m > 0) add_radio(link, profile, antennas, result);
+    if (query_.radio && profile.length_m > 0) add_radio(profile, bare ? &*bare : nullptr, antennas, result);
     return result;
   }
 
  private:
-  double ground_at(Point2 place, double otherwise) const {
-    const CrossSection here = ground_->between(place, place);
-    return here.breakpoints.empty() ? otherwise : here.breakpoints.front().position.z;
-  }
-
-  EndGrounds grounds_of(const Link& link, const Profile& profile) const {
+  EndGrounds grounds_of(const Profile& profile, const std::optional<Profile>& bare) const {
     EndGrounds grounds = ends_of(profile);
-    if (ground_ && !query_.from_on_surface) grounds.from_m = ground_at(link.from, grounds.from_m);
-    if (ground_ && !query_.to_on_surface) grounds.to_m = ground_at(link.to, grounds.to_m);
+    if (bare && !query_.from_on_surface) grounds.from_m = ends_of(*bare).from_m;
+    if (bare && !query_.to_on_surface) grounds.to_m = ends_of(*bare).to_m;
     return grounds;
   }
 
-  void add_radio(const Link& link, const Profile& profile, const Antennas& antennas, LinkResult& result) const {
+  void add_radio(const Profile& profile, const Profile* bare, const Antennas& antennas, LinkResult& result) const {
     const auto fresnel = fresnel_clearance(profile, antennas, query_.earth, wavelength_m(query_.radio->frequency_ghz));
     if (fresnel) result.fresnel_fraction = fresnel->fraction;
     const EndGrounds top = ends_of(profile);
     if (antennas.from_m < top.from_m || antennas.to_m < top.to_m) return;
-    std::optional<Profile> bare;
-    if (ground_) bare = from_section(ground_->between(link.from, link.to));
     // The same points as in a report (los.cpp).
     const Profile dense = with_spacing(profile, std::min(100.0, profile.length_m / 50));
-    result.ld_db = path_losses(dense, antennas, *query_.radio, bare ? &*bare : nullptr).ld_db;
+    result.ld_db = path_losses(dense, antennas, *query_.radio, bare).ld_db;
   }
 
   const Store& store_;
