@@ -18,6 +18,7 @@ class ThemeOptions {
   /// Throws InputError.
   void validate();
   const ThemeChoice& choice() const { return choice_; }
+  bool given() const { return !themes_.empty(); }
   /// What was asked for, where it was.
   Document parameters() const;
 

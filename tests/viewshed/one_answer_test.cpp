@@ -194,6 +194,15 @@ TEST_F(InATown, WithFeaturesAtATolerance) {
   }
 }
 
+TEST_F(InATown, PreciseAgreesEntirelyWithFeatures) {
+  NoProgress progress;
+  request_.observers.front().height = 15;
+  for (const bool target : {false, true}) {
+    request_.targets_on_surface = target;
+    expect_exact(*store_, viewshed::compute_precise(*store_, request_, {}, progress).result, 800);
+  }
+}
+
 TEST_F(InATown, OverAFlatEarth) {
   request_.earth = Earth::flat();
   request_.target_height = 0;
