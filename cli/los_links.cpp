@@ -70,16 +70,15 @@ Result LosLinks::run(const Store& store, const LosStoreOptions& surface, const p
                      Progress& progress) const {
   const StoreMetadata& metadata = store.metadata();
   const std::vector<Link> links = profile::read_links(path_, metadata.crs_wkt, height_, surface.in_crs());
-  const std::vector<LinkResult> results =
-      profile::survey_links(store, links,
-                            {.earth = query.earth,
-                             .detail = surface.detail(),
-                             .themes = surface.themes(),
-                             .from_on_surface = surface.from_on_surface(),
-                             .to_on_surface = surface.to_on_surface(),
-                             .radio = query.radio,
-                             .gaps_block = surface.gaps_block()},
-                            progress);
+  const std::vector<LinkResult> results = profile::survey_links(store, links,
+                                                                {.earth = query.earth,
+                                                                 .detail = surface.detail(),
+                                                                 .themes = surface.themes(),
+                                                                 .from_on_surface = surface.from_on_surface(),
+                                                                 .to_on_surface = surface.to_on_surface(),
+                                                                 .radio = query.radio,
+                                                                 .gaps_block = surface.gaps_block()},
+                                                                progress);
   const auto failed = static_cast<std::size_t>(
       std::count_if(results.begin(), results.end(), [](const LinkResult& r) { return !r.verdict; }));
   const auto visible = static_cast<std::size_t>(std::count_if(results.begin(), results.end(), [](const LinkResult& r) {

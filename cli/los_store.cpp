@@ -34,8 +34,9 @@ std::pair<LosEnd::Site, LosEnd::Site> sites(Point2 from, Point2 to, const std::s
 }
 
 /// How much the surface's clearances may differ from the full surface's: with both ends standing on it, by as much as
-/// the certified error is wide, and by the features that are left out at this detail. (Where the ground between a feature
-/// and the next coarse vertices slopes otherwise than without the feature, the certificate does not say how much.)
+/// the certified error is wide, and by the features that are left out at this detail. (Where the ground between a
+/// feature and the next coarse vertices slopes otherwise than without the feature, the certificate does not say how
+/// much.)
 double clearance_error(const Store& store, const Detail& detail, const ThemeChoice& themes, Point2 from, Point2 to) {
   const std::vector<LevelInfo>& levels = store.metadata().levels;
   Box box;
@@ -127,10 +128,10 @@ void LosStoreOptions::declare(CLI::App& app) {
   app.add_option("--from", from_text_, "The first end; h is 2 where not given")->type_name("x,y[,h]");
   app.add_option("--to", to_text_, "The second end; h is 2 where not given")->type_name("x,y[,h]");
   app.add_flag("--absolute-heights", absolute_heights_, "Every h is an elevation, not a height above the surface");
-  app.add_option("--observer-on", from_on_, "What the first end stands on: ground (default), or the surface with the roofs and tops of --themes")
+  app.add_option("--observer-on", from_on_,
+                 "What the first end stands on: ground (default), or the surface with the roofs and tops of --themes")
       ->type_name("ground|surface");
-  app.add_option("--target-on", to_on_, "What the second end stands on, likewise")
-      ->type_name("ground|surface");
+  app.add_option("--target-on", to_on_, "What the second end stands on, likewise")->type_name("ground|surface");
   in_crs_.declare(app);
   detail_.declare(app);
   themes_.declare(app);
@@ -239,8 +240,8 @@ LosStoreOptions::Result LosStoreOptions::run(const Store& store, profile::LosQue
   auto [from_site, to_site] = sites(from, to, metadata.crs_wkt);
   const profile::EndGrounds bare = report.ground.points.empty() ? stands_on : profile::ends_of(report.ground);
   const profile::EndGrounds top = profile::ends_of(report.profile);
-  result.from = {bare.from_m, query.from_height_m, report.elevation_angle_from_deg, top.from_m, query.from_on_surface,
-                 from_site};
+  result.from = {bare.from_m, query.from_height_m,   report.elevation_angle_from_deg,
+                 top.from_m,  query.from_on_surface, from_site};
   result.to = {bare.to_m, query.to_height_m, report.elevation_angle_to_deg, top.to_m, query.to_on_surface, to_site};
   report.facts = facts_about(store, result.surface);
   const std::string crs = crs_identifier(metadata.crs_wkt);

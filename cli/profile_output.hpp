@@ -31,8 +31,8 @@ struct ProfileOutput {
   const StoreMetadata& metadata;
   const std::vector<SurfaceProfile>& profiles;
   const profile::Profile& ground;  ///< for charts: the first without standing features; empty where it has none
-  Document document;  ///< the whole, for .json
-  std::string title;  ///< of charts
+  Document document;               ///< the whole, for .json
+  std::string title;               ///< of charts
   bool overwrite = false;
 };
 

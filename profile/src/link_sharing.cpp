@@ -11,8 +11,8 @@ namespace itin::profile {
 
 namespace {
 
-// Measured (benchmarks/README.md): microseconds a point that is triangulated, and more a triangle that is retrieved than
-// one that is walked through.
+// Measured (benchmarks/README.md): microseconds a point that is triangulated, and more a triangle that is retrieved
+// than one that is walked through.
 constexpr double kPerPoint = 1.2, kPerTriangle = 0.7;
 /// A random line crosses so many edges of a Delaunay triangulation per mean spacing of its points (64 / (3 pi^2)).
 constexpr double kEdgesPerSpacing = 2.16;
@@ -22,7 +22,8 @@ constexpr double kSquare = 2000;
 int level_at(const Store& store, double tolerance) {
   const std::vector<LevelInfo>& levels = store.metadata().levels;
   int level = 0;
-  while (level + 1 < static_cast<int>(levels.size()) && levels[static_cast<std::size_t>(level) + 1].tolerance <= tolerance)
+  while (level + 1 < static_cast<int>(levels.size()) &&
+         levels[static_cast<std::size_t>(level) + 1].tolerance <= tolerance)
     ++level;
   return level;
 }

@@ -100,9 +100,8 @@ void add_required(LosReport& report) {
   const PlannedHeights planned{report.query.from_height_m, report.query.to_height_m};
   const auto add = [&](std::string name, const Earth& earth, double fraction) {
     const Requirement requirement{earth, fraction, wavelength_of(report.query)};
-    report.required.push_back(
-        {std::move(name), factor_of(earth), fraction,
-         required_heights(report.profile, planned, requirement, report.stands_on)});
+    report.required.push_back({std::move(name), factor_of(earth), fraction,
+                               required_heights(report.profile, planned, requirement, report.stands_on)});
   };
   add("line of sight", report.query.earth, 0);
   if (report.query.radio) add("0.6 F1", report.query.earth, 0.6);
@@ -172,9 +171,8 @@ LosReport analyse(Profile profile, const LosQuery& query, Profile ground) {
   add_required(report);
   add_radio(report);
   if (query.object) {
-    report.visible =
-        visible_height(report.profile, query.from_height_m, query.object->hub_m, query.object->tip_m, query.earth,
-                       report.stands_on);
+    report.visible = visible_height(report.profile, query.from_height_m, query.object->hub_m, query.object->tip_m,
+                                    query.earth, report.stands_on);
   }
   return report;
 }

@@ -130,8 +130,8 @@ double curve_end(const HeightDemand& demand, const PlannedHeights& planned, doub
 
 }  // namespace
 
-RequiredHeights required_heights(const Profile& profile, const PlannedHeights& planned,
-                                 const Requirement& requirement, const std::optional<EndGrounds>& grounds) {
+RequiredHeights required_heights(const Profile& profile, const PlannedHeights& planned, const Requirement& requirement,
+                                 const std::optional<EndGrounds>& grounds) {
   const HeightDemand demand(profile, requirement, grounds.value_or(ends_of(profile)));
   RequiredHeights heights{demand.from_alone(planned.to_m), demand.to_alone(planned.from_m), demand.both(), {}};
   if (!heights.both_equal_m) return heights;

@@ -26,8 +26,8 @@ inline std::vector<SectionCrossing> crossings_of(const SectionLine& line, const 
   return found;
 }
 
-/// `themes`: of each triangle's feature, if any triangle is part of one. A breakpoint has a theme where all triangles that
-/// hold it have one.
+/// `themes`: of each triangle's feature, if any triangle is part of one. A breakpoint has a theme where all triangles
+/// that hold it have one.
 inline CrossSection slow_section(const SectionLine& line, const std::vector<std::array<GridPoint, 3>>& triangles,
                                  const std::vector<std::uint16_t>& themes = {}) {
   std::vector<SectionPiece> pieces;

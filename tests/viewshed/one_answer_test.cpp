@@ -179,7 +179,8 @@ TEST_F(InATown, WithFeaturesAndEndsOnEither) {
   request_.observers.front().height = 15;  // above any roof or tree
   for (const bool observer : {false, true}) {
     for (const bool target : {false, true}) {
-      SCOPED_TRACE(fmt::format("observer {}, targets {}", observer ? "surface" : "ground", target ? "surface" : "ground"));
+      SCOPED_TRACE(
+          fmt::format("observer {}, targets {}", observer ? "surface" : "ground", target ? "surface" : "ground"));
       request_.observers_on_surface = observer, request_.targets_on_surface = target;
       expect_plain_agrees(*store_, request_, 800);
     }

@@ -54,9 +54,9 @@ class NearbyApex {
   ApexSearch fallback_;
   BlockReader blocks_;
 
-  GridBox box_;               ///< the neighbourhood
-  double half_side_ = 0;      ///< of the last one, grid units
-  std::vector<Leaf> leaves_;  ///< of the neighbourhood, not yet loaded
+  GridBox box_;                                            ///< the neighbourhood
+  double half_side_ = 0;                                   ///< of the last one, grid units
+  std::vector<Leaf> leaves_;                               ///< of the neighbourhood, not yet loaded
   std::vector<std::pair<double, std::uint64_t>> reached_;  ///< of these, what one search's circle meets: circle and key
   std::vector<Segment> segments_;
 

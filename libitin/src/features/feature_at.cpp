@@ -38,8 +38,7 @@ class Nearness {
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const Point2 a = plan_of(ring[i]), b = plan_of(ring[(i + 1) % ring.size()]);
       squared_ = std::min(squared_, squared_distance(place_, a, b));
-      if ((a.y > place_.y) != (b.y > place_.y) &&
-          place_.x < a.x + (place_.y - a.y) / (b.y - a.y) * (b.x - a.x)) {
+      if ((a.y > place_.y) != (b.y > place_.y) && place_.x < a.x + (place_.y - a.y) / (b.y - a.y) * (b.x - a.x)) {
         inside_ = !inside_;
       }
     }

@@ -54,12 +54,12 @@ struct LinkResult {
   std::optional<double> critical_m;  ///< where that is, from the first end
   std::optional<double> fresnel_fraction;
   std::optional<double> ld_db;  ///< nothing also where an antenna is within a feature
-  std::string message;  ///< of an error
+  std::string message;          ///< of an error
 };
 
 /// One result a link, in order, whatever the number of threads. Links over one area share the tiles that are read and
-/// triangulated for them, and answers are those of analyse() to the last bit. A link that cannot be computed (no ground under an end) is an error row. Throws CorruptStore,
-/// FileError, Cancelled.
+/// triangulated for them, and answers are those of analyse() to the last bit. A link that cannot be computed (no ground
+/// under an end) is an error row. Throws CorruptStore, FileError, Cancelled.
 std::vector<LinkResult> survey_links(const Store& store, const std::vector<Link>& links, const LinkQuery& query,
                                      Progress& progress);
 

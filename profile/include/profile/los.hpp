@@ -83,9 +83,9 @@ struct LosQuery {
 struct LosReport {
   LosQuery query;
   Profile profile;
-  Profile ground;         ///< without standing features; no points where the profile has none either
-  EndGrounds stands_on;   ///< elevations of what the ends stand on
-  Antennas antennas;      ///< elevations
+  Profile ground;        ///< without standing features; no points where the profile has none either
+  EndGrounds stands_on;  ///< elevations of what the ends stand on
+  Antennas antennas;     ///< elevations
   SightVerdict verdict = SightVerdict::kVisible;
   std::optional<double> clearance_m;
   std::optional<ProfilePoint> critical;

@@ -42,8 +42,8 @@ std::string report_csv(const LosReport& report) {
     } else {
       csv += ",,,,";
     }
-    csv += number(height_at(report.ground, d).value_or(p.ground_m), 3) + "," + number(p.ground_m + p.clutter_m, 3) + "," + number(bulge, 3) + "," +
-           number(ray, 3) + ",";
+    csv += number(height_at(report.ground, d).value_or(p.ground_m), 3) + "," + number(p.ground_m + p.clutter_m, 3) +
+           "," + number(bulge, 3) + "," + number(ray, 3) + ",";
     csv += wavelength > 0 ? number(radius, 3) : "";
     csv += "," + number(clearance, 3) + ",";
     if (radius > 0)

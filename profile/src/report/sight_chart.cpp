@@ -19,7 +19,8 @@ constexpr int kArcParts = 240;
 constexpr Colour kGround{0.80, 0.74, 0.62, 1}, kGroundLine{0.42, 0.33, 0.20, 1}, kRay{0.05, 0.25, 0.60, 1},
     kZone{0.20, 0.45, 0.85, 0.13}, kInnerZone{0.20, 0.45, 0.85, 0.16}, kZoneLine{0.20, 0.45, 0.85, 1},
     kWorst{0.75, 0.35, 0.05, 1}, kCut{0.80, 0.10, 0.10, 0.45}, kMarker{0.75, 0.05, 0.05, 1},
-    kClutter{0.45, 0.65, 0.35, 0.8}, kNoData{0.9, 0.9, 0.9, 1}, kWhite{1, 1, 1, 0.85}, kFeatureLine{0.30, 0.20, 0.20, 1};
+    kClutter{0.45, 0.65, 0.35, 0.8}, kNoData{0.9, 0.9, 0.9, 1}, kWhite{1, 1, 1, 0.85},
+    kFeatureLine{0.30, 0.20, 0.20, 1};
 
 /// Everything drawn, in metres over the chord between the ends' verticals.
 class SightChart {

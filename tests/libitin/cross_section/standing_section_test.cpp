@@ -105,7 +105,7 @@ struct Whole {
 
   std::vector<std::array<GridPoint, 3>> triangles;
   std::vector<std::uint16_t> themes;
-  std::vector<Point2> inner, other;  ///< vertices of features off their outlines, and the others
+  std::vector<Point2> inner, other;             ///< vertices of features off their outlines, and the others
   std::set<std::pair<double, double>> outside;  ///< those others
 };
 
@@ -144,8 +144,8 @@ TEST_F(StandingSections, EqualTheWindowsTrianglesCutByTheLine) {
   std::map<std::uint16_t, int> met;
   const std::vector<Detail> details{Detail::tolerance(0), Detail::tolerance(2), Detail::tolerance(32),
                                     Detail::rings({300290, 199700}, {{60, 0}, {150, 2}, {1000, 32}})};
-  for (const ThemeChoice& choice : {ThemeChoice::all(), ThemeChoice::parse("houses"), ThemeChoice::parse("woods,walls"),
-                                    ThemeChoice::none()}) {
+  for (const ThemeChoice& choice :
+       {ThemeChoice::all(), ThemeChoice::parse("houses"), ThemeChoice::parse("woods,walls"), ThemeChoice::none()}) {
     for (std::size_t d = 0; d < details.size(); ++d) {
       const Whole whole(store, details[d], choice);
       const SectionSurface surface(store, details[d], choice);
