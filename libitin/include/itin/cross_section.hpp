@@ -55,7 +55,7 @@ struct CrossSection {
   std::uint64_t triangles = 0;  ///< crossed by the line
 };
 
-/// Cost: 0.5 microseconds a triangle crossed when warm. Memory follows the line.
+/// Cost: about a microsecond a triangle crossed when warm. Memory follows the line.
 /// Throws InputError for ends that are not finite or farther than 2^31 grid units from the grid's origin and for themes
 /// that the store does not have, CorruptStore, FileError.
 CrossSection cross_section(const Store& store, Point2 from, Point2 to, const Detail& detail,
