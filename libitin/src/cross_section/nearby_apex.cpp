@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 
 #include "triangulate/apex_frame.hpp"
 
@@ -83,7 +84,7 @@ void NearbyApex::consider(const ApexFrame& frame, const SectionVertex& point, Ca
     const Position best{candidate.best->x, candidate.best->y};
     if (best == c || in_circle_perturbed(frame.a, frame.b, best, c) < 0) return;
   }
-  const bool hidden = std::any_of(segments_.begin(), segments_.end(),
+  const bool hidden = std::any_of(near_.begin(), near_.end(),
                                   [&](const Segment& s) { return crosses(s, frame.a, c) || crosses(s, frame.b, c); });
   if (hidden) return;
   candidate.best = point;
@@ -103,6 +104,11 @@ void NearbyApex::search_bins(const ApexFrame& frame, const GridBox& box, Candida
 std::optional<SectionVertex> NearbyApex::search(const ApexFrame& frame, double lambda) {
   Candidate candidate{std::nullopt, lambda};
   const GridBox cap = frame.cap_box(lambda, box_);
+  // No others come between the edge and what is in the circle.
+  near_.clear();
+  std::copy_if(segments_.begin(), segments_.end(), std::back_inserter(near_), [&](const Segment& s) {
+    return cap.meets({std::min(s.ax, s.bx), std::min(s.ay, s.by), std::max(s.ax, s.bx), std::max(s.ay, s.by)});
+  });
   search_bins(frame, cap, candidate);
   reached_.clear();
   for (const Leaf& leaf : leaves_) {
@@ -114,7 +120,7 @@ std::optional<SectionVertex> NearbyApex::search(const ApexFrame& frame, double l
   for (const auto& [circle, key] : reached_) {
     const auto leaf = std::find_if(leaves_.begin(), leaves_.end(), [key = key](const Leaf& l) { return l.key == key; });
     const GridBox box = leaf->cell.box();
-    if (!frame.cap_meets(candidate.reach, box) || hide(segments_, frame.a, frame.b, intersection(box, cap))) continue;
+    if (!frame.cap_meets(candidate.reach, box) || hide(near_, frame.a, frame.b, intersection(box, cap))) continue;
     const std::size_t before = points_.size();
     load(*leaf);
     *leaf = leaves_.back();

@@ -59,6 +59,7 @@ class NearbyApex {
   std::vector<Leaf> leaves_;                               ///< of the neighbourhood, not yet loaded
   std::vector<std::pair<double, std::uint64_t>> reached_;  ///< of these, what one search's circle meets: circle and key
   std::vector<Segment> segments_;
+  std::vector<Segment> near_;  ///< of these, those that meet the box of one search's circle
 
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   int bin_shift_ = 0;

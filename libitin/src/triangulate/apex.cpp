@@ -159,10 +159,11 @@ void ApexSearch::look_in(const GridBox& piece, Search& search) {
   std::vector<std::pair<double, std::uint32_t>> order(leaves_.size());
   for (std::uint32_t i = 0; i < leaves_.size(); ++i) order[i] = {frame.key(leaves_[i].cell.box()), i};
   std::sort(order.begin(), order.end());
+  const std::span nearest(segments_.data(), std::min(segments_.size(), std::size_t{kNearSegments}));
   for (const auto& [key, i] : order) {
     const GridBox box = intersection(leaves_[i].cell.box(), search.box);
     if (!frame.cap_meets(search.reach, leaves_[i].cell.box())) continue;
-    if (!blocks_.has_read(leaves_[i]) && hide(segments_, frame.a, frame.b, box)) continue;
+    if (!blocks_.has_read(leaves_[i]) && hide(nearest, frame.a, frame.b, box)) continue;
     look_in(leaves_[i], search);
   }
 }

@@ -68,7 +68,11 @@ Table obstructions_table(const LosReport& report) {
 }
 
 Table heights_table(const LosReport& report) {
-  Table table{"Required heights above ground", {"for", "first end alone", "second end alone", "both equal"}, {}, ""};
+  const LosQuery& query = report.query;
+  std::string above = base_name(query.from_on_surface);
+  if (query.from_on_surface != query.to_on_surface)
+    above += fmt::format(" (A) and {} (B)", base_name(query.to_on_surface));
+  Table table{"Required heights above " + above, {"for", "first end alone", "second end alone", "both equal"}, {}, ""};
   for (const NamedHeights& named : report.required) {
     table.rows.push_back({named.name, metres(named.heights.from_alone_m), metres(named.heights.to_alone_m),
                           metres(named.heights.both_equal_m)});
@@ -113,7 +117,7 @@ Table object_table(const LosReport& report) {
   const TallObject& object = *report.query.object;
   return {"Seen of the object at the second end",
           {},
-          {{"Hidden below", fmt::format("{:.2f} m above its ground", seen.from_m)},
+          {{"Hidden below", fmt::format("{:.2f} m above its {}", seen.from_m, base_name(report.query.to_on_surface))},
            {fmt::format("Up to the hub, {:g} m", object.hub_m),
             fmt::format("{:.2f} m, {:.0f} %", seen.hub_visible_m, 100 * seen.hub_fraction)},
            {fmt::format("Up to the tip, {:g} m", object.tip_m),
@@ -122,6 +126,10 @@ Table object_table(const LosReport& report) {
 }
 
 }  // namespace
+
+const char* base_name(bool on_surface) {
+  return on_surface ? "surface" : "ground";
+}
 
 std::string distance_text(double metres) {
   return metres < 2000 ? fmt::format("{:.1f} m", metres) : fmt::format("{:.3f} km", metres / 1000);

@@ -36,6 +36,9 @@ Table ends_table(const LosReport& report);
 /// Verdicts, obstructions, required heights, radio and losses, the tall object: those there are.
 std::vector<Table> result_tables(const LosReport& report);
 
+/// What an end's heights count from: "ground" or "surface".
+const char* base_name(bool on_surface);
+
 /// Metres up to 2 km, kilometres beyond.
 std::string distance_text(double metres);
 
