@@ -1,4 +1,4 @@
-// Which targets an observer looks at: ranges of distance, azimuth and elevation.
+// Which targets an observer looks at: ranges of distance, azimuth and elevation, its own or the request's.
 #pragma once
 
 #include <cmath>
@@ -12,14 +12,22 @@ namespace itin::viewshed {
 
 class FieldOfView {
  public:
-  explicit FieldOfView(const Request& request)
-      : azimuth_(request.azimuth), elevation_(request.elevation), drop_(request.earth.drop_coefficient()) {
-    if (request.radius) farthest_ = *request.radius * *request.radius;
-    nearest_ = request.min_radius * request.min_radius;
+  FieldOfView(const Request& request, const Observer& observer)
+      : azimuth_(observer.azimuth ? observer.azimuth : request.azimuth),
+        elevation_(observer.elevation ? observer.elevation : request.elevation),
+        drop_(request.earth.drop_coefficient()) {
+    if (const auto radius = observer.radius ? observer.radius : request.radius) farthest_ = *radius * *radius;
+    const double nearest = observer.min_radius.value_or(request.min_radius);
+    nearest_ = nearest * nearest;
   }
+
+  /// Whether anything at this squared distance or beyond it can be in view.
+  bool reaches(double squared) const { return squared <= farthest_; }
 
   /// Metres from the observer to the target. An observer's own position has every azimuth.
   bool contains(double dx, double dy, double dz) const { return contains(dx, dy, dz, dz).value(); }
+  /// Degrees.
+  double elevation(double dx, double dy, double dz) const { return elevation_at(dx * dx + dy * dy, dz); }
   /// A target somewhere from `low` to `high` above the observer; nothing where that decides.
   std::optional<bool> contains(double dx, double dy, double low, double high) const {
     const double squared = dx * dx + dy * dy;

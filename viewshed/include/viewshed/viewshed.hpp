@@ -35,11 +35,24 @@
 
 namespace itin::viewshed {
 
+/// Degrees. Azimuths are clockwise from grid north and may pass through it (350 to 10); elevations are those of the
+/// straight line after curvature and refraction, -90 to 90, upwards positive.
+struct AngleRange {
+  double from = 0;
+  double to = 0;
+};
+
 struct Observer {
   std::string name;  ///< for messages and maps; may be empty
   Point2 position;
   double height = 2;  ///< metres above the surface, or an elevation when `absolute`
   bool absolute = false;
+  // Its own field of view and targets, where they differ from the request's.
+  std::optional<double> target_height = std::nullopt;
+  std::optional<double> radius = std::nullopt;
+  std::optional<double> min_radius = std::nullopt;
+  std::optional<AngleRange> azimuth = std::nullopt;
+  std::optional<AngleRange> elevation = std::nullopt;
 };
 
 /// What ground without data does to sight lines.
@@ -49,21 +62,21 @@ enum class NoData {
   kClear     ///< they pass
 };
 
-/// kCertified is for compute_certified() (certified.hpp) alone.
-enum class Mode { kVisible, kCount, kCertified };
-
-/// Degrees. Azimuths are clockwise from grid north and may pass through it (350 to 10); elevations are those of the
-/// straight line after curvature and refraction, -90 to 90, upwards positive.
-struct AngleRange {
-  double from = 0;
-  double to = 0;
+/// What a cell is told about the observers that see it.
+enum class Mode {
+  kVisible,    ///< whether any does
+  kCount,      ///< how many do
+  kCertified,  ///< whether any certainly does: for compute_certified() (certified.hpp) alone
+  kWhich,      ///< which do
+  kAngle,      ///< the greatest elevation angle of their sight lines
+  kNearest     ///< the nearest of them, and its distance
 };
 
 struct Request {
   std::vector<Observer> observers;
   double target_height = 0;  ///< metres above the surface, or an elevation when `target_absolute`
   bool target_absolute = false;
-  // The field of view, the same for every observer.
+  // The field of view of observers that have none of their own.
   std::optional<double> radius;  ///< metres; none: the whole coverage
   double min_radius = 0;
   std::optional<AngleRange> azimuth;
@@ -109,8 +122,12 @@ struct Statistics {
 struct Result {
   Request request;  ///< as understood
   RasterGrid grid;
-  std::vector<std::uint8_t> visible;  ///< kVisible: one of the three values above a cell; kCertified: of certified.hpp
-  std::vector<std::uint16_t> count;   ///< Mode::kCount: how many observers see the cell, or kCountOutside
+  std::vector<std::uint8_t> visible;  ///< one of the three values above a cell; kCertified: of certified.hpp
+  std::vector<std::uint16_t> count;   ///< kCount: how many observers see the cell, or kCountOutside
+  std::vector<std::uint32_t> which;   ///< kWhich: see observer_bit()
+  std::vector<float> angle_deg;       ///< kAngle, of the line after curvature and refraction; NaN where none sees
+  std::vector<std::uint32_t> nearest;  ///< kNearest: the observer's number from 1 in their order; 0 where none sees
+  std::vector<float> distance_m;       ///< kNearest, horizontally; NaN where none sees
   CellCounts cells;                   ///< areas are these times grid.cell_area()
   std::vector<double> ground_m;       ///< of each observer
   double error_bound_m = 0;           ///< e
@@ -119,9 +136,22 @@ struct Result {
   Statistics statistics;
 };
 
+/// Where kWhich keeps whether observer `number` (from 0) sees a cell: grids of 32-bit words, one for every 32 observers,
+/// one grid after the other.
+struct ObserverBit {
+  std::size_t grid = 0;
+  std::uint32_t mask = 0;
+};
+constexpr ObserverBit observer_bit(std::size_t number) {
+  return {number / 32, std::uint32_t{1} << (number % 32)};
+}
+constexpr std::size_t which_grids(std::size_t observers) {
+  return (observers + 31) / 32;
+}
+
 /// On a given surface. The Tin must hold every triangle that sight lines cross; where it ends there is no data.
 /// Cost: O(n) for n triangles (about 0.3 microseconds each) and about 50 ns a cell and observer, on two cores; memory
-/// about 150 bytes a triangle and 5 to 9 bytes a cell. The result does not depend on the number of threads.
+/// about 150 bytes a triangle and, besides the result, 5 bytes a cell. The result does not depend on the number of threads.
 /// Throws InputError (an observer outside the data, by name; an unusable radius, cell size or angle; more than 65534
 /// observers to count), Cancelled.
 Result compute(const Tin& tin, const Request& request, Progress& progress);
@@ -146,8 +176,9 @@ struct GeotiffOptions {
   bool overwrite = false;
 };
 
-/// Byte classes (visible 1, hidden 0, nodata 255), or UInt16 counts (nodata 65535), as write_raster() writes them.
-/// Throws FileError.
+/// As write_raster() writes them: Byte classes (visible 1, hidden 0, nodata 255), UInt16 counts (nodata 65535), UInt32
+/// bits without nodata (0 where none sees, a band for every 32 observers), Float32 angles (nodata NaN), Float32 bands of
+/// distance and number of the nearest (nodata NaN). Throws FileError.
 void write_geotiff(const std::string& path, const Result& result, const GeotiffOptions& options);
 
 }  // namespace itin::viewshed
