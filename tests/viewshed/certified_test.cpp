@@ -301,7 +301,8 @@ TEST(Precise, TheMemoryChangesNothingOnTheWholeSample) {
       EXPECT_TRUE(result.visible == other.visible) << "memory " << memory;
     }
     // And the walk over all triangles beneath the line.
-    const Eye eye = eye_of(terrain.full().grid, request, request.observers[0], whole.ground(request.observers[0].position));
+    const Eye eye =
+        eye_of(terrain.full().grid, request, request.observers[0], whole.ground(request.observers[0].position));
     const double resolution = terrain.full().grid.resolution;
     std::uint64_t different = 0;
     for (std::size_t i = 0; i < result.visible.size(); i += 61) {

@@ -1,4 +1,5 @@
-// Which observers see a cell, at what angle, and the nearest of them: against the exact line of sight of every observer.
+// Which observers see a cell, at what angle, and the nearest of them: against the exact line of sight of every
+// observer.
 #include <cmath>
 #include <gmock/gmock.h>
 #include <limits>
@@ -30,7 +31,7 @@ Request strewn(std::size_t count, Mode mode) {
   Request request;
   request.mode = mode;
   request.target_height = 1;
-  request.cell_size = 100;
+  request.cell_size = count > 10 ? 160 : 100;
   for (std::size_t i = 0; i < count; ++i) {
     const double turn = 2.4 * static_cast<double>(i), out = 120 * std::sqrt(static_cast<double>(i));
     request.observers.push_back(
@@ -72,8 +73,10 @@ class SlowTwin {
     const double clearance = exact_.clearance(eye, target);
     const double drop = request_.earth.drop(distance);
     const double angle = std::atan2(target.z - drop - eye.z, distance) * 180 / std::numbers::pi;
-    return {std::abs(clearance) < kNearGrazing ? Sight::kEither : clearance < 0 ? Sight::kHides : Sight::kSees, distance,
-            angle};
+    return {std::abs(clearance) < kNearGrazing ? Sight::kEither
+            : clearance < 0                    ? Sight::kHides
+                                               : Sight::kSees,
+            distance, angle};
   }
 
   /// Calls check(cell, sights) for cells where no line is near to grazing; how many these are.
@@ -189,7 +192,8 @@ TEST(Modes, OfTwoAsNearTheFirstIsNearest) {
   Request request;
   request.mode = Mode::kNearest;
   request.cell_size = 10;
-  request.observers = {{"west", {kCorner.x + 105, kCorner.y + 205}, 5}, {"east", {kCorner.x + 305, kCorner.y + 205}, 5}};
+  request.observers = {{"west", {kCorner.x + 105, kCorner.y + 205}, 5},
+                       {"east", {kCorner.x + 305, kCorner.y + 205}, 5}};
   const Result result = run(tin, request);
   const auto at = [&](double dx, double dy) {
     return result.nearest[result.grid.index(result.grid.cell_at({kCorner.x + dx, kCorner.y + dy}).value())];

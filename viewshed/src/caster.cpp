@@ -12,8 +12,8 @@ namespace itin::viewshed {
 
 /// What is known of a tile's cells so far.
 struct Caster::TileWork {
-  TileWork(const Grid& units, const Result& result, const Tile& t)
-      : tile(t), centres(units, result.grid, t), observation(observation_for(result.request)) {}
+  TileWork(const Grid& units, const RasterGrid& grid, const Tile& t, std::unique_ptr<Observation> o)
+      : tile(t), centres(units, grid, t), observation(std::move(o)) {}
   Tile tile;
   TileCentres centres;
   TileValues<double> heights;  ///< of the ground, grid units
@@ -23,11 +23,12 @@ struct Caster::TileWork {
 };
 
 Caster::Caster(const Tin& targets, const TriangleBins& bins, const Scene& scene, const std::vector<Eye>& eyes,
-               Result& result)
+               const Observations& observations, Result& result)
     : targets_(targets),
       bins_(bins),
       scene_(scene),
       eyes_(eyes),
+      observations_(observations),
       result_(result),
       tiles_(grid_of_tiles(result.grid)),
       grazing_(kGrazing / targets.grid.resolution) {}
@@ -54,7 +55,8 @@ void Caster::run(Progress& progress) {
 }
 
 Caster::Tally Caster::decide(std::size_t tile) const {
-  const auto work = std::make_unique<TileWork>(targets_.grid, result_, tile_at(result_.grid, tiles_, tile));
+  const auto work = std::make_unique<TileWork>(targets_.grid, result_.grid, tile_at(result_.grid, tiles_, tile),
+                                               observations_.of_tile());
   scan_convert(targets_, bins_.triangles(tile), work->tile, work->centres, work->heights);
   for (const std::uint32_t observer : eyes_near(work->tile)) {
     for (std::int64_t r = 0; r < work->tile.rows; r += kPacketSide)
@@ -93,10 +95,10 @@ void Caster::look(std::uint32_t observer, std::int64_t row, std::int64_t column,
     const double ground = work.heights[cell];
     if (std::isnan(ground)) continue;
     const Point2 centre = result_.grid.centre(work.tile.column + c, work.tile.row + r);
-    const double target = eye.target(ground * resolution);
+    const double target = work.observation->target(eye, ground * resolution);
     Look& look = packet.looks[i];
     look = {cell, observer, centre.x - eye.position.x, centre.y - eye.position.y, target - eye.elevation};
-    if (!work.observation->open(look) || !eye.view.contains(look.dx, look.dy, look.dz)) continue;
+    if (!work.observation->open(look) || !work.observation->in_view(eye, look)) continue;
     work.observation->enter(cell);
     lines.to_x[i] = work.centres.x[static_cast<std::size_t>(c)];
     lines.to_y[i] = work.centres.y[static_cast<std::size_t>(r)];

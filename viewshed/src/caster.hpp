@@ -15,10 +15,10 @@ namespace itin::viewshed {
 
 class Caster {
  public:
-  /// `targets` is what targets stand on, `bins` its triangles by the tiles of the result's grid. Everything must outlive
-  /// the caster.
+  /// `targets` is what targets stand on, `bins` its triangles by the tiles of the result's grid. Everything must
+  /// outlive the caster.
   Caster(const Tin& targets, const TriangleBins& bins, const Scene& scene, const std::vector<Eye>& eyes,
-         Result& result);
+         const Observations& observations, Result& result);
 
   /// Fills the result's rasters, cells, rays and error bound. Throws Cancelled.
   void run(Progress& progress);
@@ -39,6 +39,7 @@ class Caster {
   const TriangleBins& bins_;
   const Scene& scene_;
   const std::vector<Eye>& eyes_;
+  const Observations& observations_;
   Result& result_;
   RasterGrid tiles_;
   double grazing_;  ///< grid units

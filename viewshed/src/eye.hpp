@@ -22,8 +22,8 @@ struct Eye {
   double target(double ground) const { return target_absolute ? target_height : ground + target_height; }
 };
 
-/// An observer of the request on ground of this elevation. Throws InputError, naming the observer, where there is none, or where an
-/// absolute height lies below it.
+/// An observer of the request on ground of this elevation. Throws InputError, naming the observer, where there is none,
+/// or where an absolute height lies below it.
 Eye eye_of(const Grid& grid, const Request& request, const Observer& observer, std::optional<double> ground);
 
 [[noreturn]] void refuse(const Observer& observer, const std::string& why);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include <viewshed/viewshed.hpp>
 
@@ -26,6 +27,15 @@ class FieldOfView {
 
   /// Metres from the observer to the target. An observer's own position has every azimuth.
   bool contains(double dx, double dy, double dz) const { return contains(dx, dy, dz, dz).value(); }
+  /// From how far to how far above the eye a target at this squared distance is in view, metres; nothing: any.
+  std::optional<std::pair<double, double>> heights_at(double squared) const {
+    if (!elevation_ || squared == 0) return std::nullopt;
+    const double distance = std::sqrt(squared), drop = drop_ * squared;
+    const auto height = [&](double degrees) { return std::tan(degrees / kDegrees) * distance + drop; };
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    return std::pair(elevation_->from <= -90 ? -kInfinity : height(elevation_->from),
+                     elevation_->to >= 90 ? kInfinity : height(elevation_->to));
+  }
   /// Degrees.
   double elevation(double dx, double dy, double dz) const { return elevation_at(dx * dx + dy * dy, dz); }
   /// A target somewhere from `low` to `high` above the observer; nothing where that decides.

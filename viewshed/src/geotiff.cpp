@@ -43,6 +43,10 @@ std::vector<std::pair<std::string, std::string>> metadata_of(const Result& resul
   if (r.azimuth) items.emplace_back("azimuth_deg", fmt::format("{:.12g},{:.12g}", r.azimuth->from, r.azimuth->to));
   if (r.elevation)
     items.emplace_back("elevation_deg", fmt::format("{:.12g},{:.12g}", r.elevation->from, r.elevation->to));
+  if (r.mode == Mode::kBlocker) {
+    for (std::size_t i = 0; i < result.theme_names.size(); ++i)
+      items.emplace_back(fmt::format("theme_{}", i + 1), result.theme_names[i]);
+  }
   return items;
 }
 
@@ -70,6 +74,17 @@ class Writer {
   void angles() {
     write<float>({"elevation angle of the sight line, degrees; of several observers the greatest"}, kNaN,
                  result_.angle_deg);
+  }
+
+  void heights() {
+    write<float>({"least height above the ground at which a target is seen, metres"}, kNaN, result_.least_height_m);
+  }
+  void blockers() {
+    std::vector<std::uint32_t> values = result_.blocker_theme;
+    values.insert(values.end(), result_.blocker_feature.begin(), result_.blocker_feature.end());
+    values.resize(2 * result_.blocker_theme.size(), kNoBlocker);
+    write<std::uint32_t>({"theme of what hides the cell, 0: terrain", "its feature, from 0 in the order of import"},
+                         kNoBlocker, values);
   }
 
   void bits() {
@@ -130,6 +145,10 @@ void write_geotiff(const std::string& path, const Result& result, const GeotiffO
       return writer.angles();
     case Mode::kNearest:
       return writer.nearest();
+    case Mode::kBlocker:
+      return writer.blockers();
+    case Mode::kHeight:
+      return writer.heights();
   }
 }
 

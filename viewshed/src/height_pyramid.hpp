@@ -28,9 +28,22 @@ class HeightPyramid {
   /// first, some more than once; a visit may raise `end`, which leaves out more of what follows. A block is left out as
   /// a whole where the line runs above its highest point.
   template <class Visit>
-  void search(const SightLine& line, const double& end, const Visit& visit) const;
+  void search(const SightLine& line, const double& end, const Visit& visit) const {
+    constexpr double kWhole = 1;
+    search(line, end, kWhole, visit);
+  }
+  /// The same for triangles that may rise above `line` as it is, as far along it as the fraction `reach` at least; a
+  /// visit may lower that.
+  template <class Visit>
+  void search_within(const SightLine& line, const double& reach, const Visit& visit) const {
+    const double end = line.to_z();
+    search(line, end, reach, visit);
+  }
 
  private:
+  template <class Visit>
+  void search(const SightLine& line, const double& end, const double& reach, const Visit& visit) const;
+
   struct Block {
     std::uint32_t level = 0;  ///< 2^level bins a side
     std::uint32_t column = 0, row = 0;
@@ -75,7 +88,7 @@ inline HeightPyramid::Stretch HeightPyramid::Track::within(const Block& b) const
 }
 
 template <class Visit>
-void HeightPyramid::search(const SightLine& line, const double& end, const Visit& visit) const {
+void HeightPyramid::search(const SightLine& line, const double& end, const double& reach, const Visit& visit) const {
   const Track track = track_of(line);
   // The child nearest to the line's start, and then across x, y and both.
   const std::uint32_t near = (track.per_dx < 0 ? 1U : 0U) | (track.per_dy < 0 ? 2U : 0U);
@@ -85,7 +98,7 @@ void HeightPyramid::search(const SightLine& line, const double& end, const Visit
   while (count > 0) {
     const Block block = pending[--count];
     const Stretch stretch = track.within(block);
-    if (stretch.empty()) continue;
+    if (stretch.empty() || stretch.first > reach) continue;
     const double lowest = line.lowest_over(stretch.first, stretch.last, end);
     if (highest(block) <= lowest) continue;
     if (block.level > 0) {

@@ -246,8 +246,7 @@ class MapDrawing {
   void draw_legend() {
     int row = 0;
     for (const MapOverlay::Key& key : overlay_.keys()) draw_key(row++, key.tints, 0, share_text(key.text, key.cells));
-    if (row < 3 && result_.cells.outside > 0)
-      draw_key(row, {}, kOutsideFade, "Outside the field of view, or no data");
+    if (row < 3 && result_.cells.outside > 0) draw_key(row, {}, kOutsideFade, "Outside the field of view, or no data");
     const double y = top_ + height_ + 6.9 * unit_;
     draw_mark({left_ + 1.0 * unit_, y});
     letters_.draw(canvas_, result_.request.observers.size() == 1 ? "Observer" : "Observers",

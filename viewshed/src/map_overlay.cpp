@@ -19,13 +19,8 @@ constexpr int kSteps = 5;
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 /// The rest of the palette, for observers.
-constexpr std::array<Colour, 7> kPalette{{{0, 114, 178},
-                                          {230, 159, 0},
-                                          {0, 158, 115},
-                                          {204, 121, 167},
-                                          {86, 180, 233},
-                                          {213, 94, 0},
-                                          {240, 228, 66}}};
+constexpr std::array<Colour, 7> kPalette{
+    {{0, 114, 178}, {230, 159, 0}, {0, 158, 115}, {204, 121, 167}, {86, 180, 233}, {213, 94, 0}, {240, 228, 66}}};
 
 /// Of step i of n, weak to strong.
 double opacity_of(int i, int n) {
@@ -74,6 +69,7 @@ std::optional<Tint> MapOverlay::at(std::size_t cell) const {
   const double v = value(cell);
   if (std::isnan(v)) return Tint{};
   const auto step = std::lower_bound(most_.begin(), most_.end(), v);
+  if (std::isinf(v)) return Tint{};
   const auto i = std::min(static_cast<std::size_t>(step - most_.begin()), steps_.size() - 1);
   return steps_[i].tint;
 }
@@ -94,11 +90,23 @@ double MapOverlay::value(std::size_t cell) const {
     case Mode::kNearest:
       return result_.request.observers.size() <= kPalette.size() ? positive(result_.nearest[cell])
                                                                  : result_.distance_m[cell];
+    case Mode::kBlocker:
+      return result_.visible[cell] == kVisible     ? 0
+             : result_.blocker[cell] == kNoBlocker ? kNoValue
+                                                   : blocker_value(result_.blocker_theme[cell]);
+    case Mode::kHeight:
+      return result_.least_height_m[cell];
     case Mode::kVisible:
     case Mode::kCertified:
       break;
   }
   return kNoValue;
+}
+
+/// Of the scale of blockers.
+double MapOverlay::blocker_value(std::uint32_t theme) const {
+  const auto known = std::find(blockers_.begin(), blockers_.end(), theme);
+  return known == blockers_.end() ? kNoValue : static_cast<double>(known - blockers_.begin() + 1);
 }
 
 void MapOverlay::add_step(double most, Tint tint, std::string text) {
@@ -115,6 +123,10 @@ void MapOverlay::make_scale() {
       return scale_angles();
     case Mode::kNearest:
       return result_.request.observers.size() <= kPalette.size() ? scale_observers() : scale_distances();
+    case Mode::kBlocker:
+      return scale_blockers();
+    case Mode::kHeight:
+      return scale_heights();
     case Mode::kVisible:
     case Mode::kCertified:
       return;
@@ -165,6 +177,39 @@ void MapOverlay::scale_distances() {
     add_step((i + 1) * width, {kSeenColour, opacity_of(steps - 1 - i, steps)}, fmt::format("{:.10g}", (i + 1) * width));
 }
 
+void MapOverlay::scale_blockers() {
+  title_ = "Hidden by";
+  blockers_ = result_.blocker_theme;
+  std::sort(blockers_.begin(), blockers_.end());
+  blockers_.erase(std::unique(blockers_.begin(), blockers_.end()), blockers_.end());
+  std::erase(blockers_, kNoBlocker);
+  add_step(0, {kSeenColour, kOpacity}, "visible");
+  for (std::size_t i = 0; i < blockers_.size(); ++i) {
+    const std::uint32_t theme = blockers_[i];
+    const std::string name = theme == 0                            ? "terrain"
+                             : theme == kMissingGround             ? "no data"
+                             : theme <= result_.theme_names.size() ? result_.theme_names[theme - 1]
+                                                                   : fmt::format("theme {}", theme);
+    // Blue is for what is seen.
+    add_step(static_cast<double>(i + 1), {kPalette[1 + i % (kPalette.size() - 1)], theme == 0 ? 0.2 : kOpacity}, name);
+  }
+}
+
+void MapOverlay::scale_heights() {
+  title_ = "Seen from this height up, metres";
+  const Extremes e = extremes_of(result_.least_height_m);
+  add_step(0, {kSeenColour, opacity_of(kSteps - 1, kSteps)}, "0");
+  if (e.empty() || e.most <= 0) return;
+  // Each step twice to two and a half times as high as the one before: what little more height shows is of interest.
+  double most = round_step(e.most);
+  std::vector<double> limits;
+  for (int i = 1; i < kSteps - 1; ++i, most = round_step(most / 2.5)) limits.push_back(most);
+  std::reverse(limits.begin(), limits.end());
+  for (int i = 0; i < static_cast<int>(limits.size()); ++i)
+    add_step(limits[static_cast<std::size_t>(i)], {kSeenColour, opacity_of(kSteps - 2 - i, kSteps)},
+             fmt::format("{:.10g}", limits[static_cast<std::size_t>(i)]));
+}
+
 void MapOverlay::make_keys() {
   const CellCounts& cells = result_.cells;
   if (result_.request.mode == Mode::kCertified) {
@@ -174,7 +219,9 @@ void MapOverlay::make_keys() {
     return;
   }
   std::vector<Tint> seen;
-  for (const Step& step : steps_) seen.push_back(step.tint);
+  const Mode mode = result_.request.mode;
+  if (mode != Mode::kBlocker && mode != Mode::kHeight)
+    for (const Step& step : steps_) seen.push_back(step.tint);
   if (seen.empty()) seen.push_back({kSeenColour, kOpacity});
   keys_ = {{std::move(seen), "Visible", cells.visible}, {{}, "Hidden", cells.hidden}};
 }

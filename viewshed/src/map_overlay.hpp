@@ -52,12 +52,16 @@ class MapOverlay {
   void scale_angles();
   void scale_observers();
   void scale_distances();
+  void scale_blockers();
+  void scale_heights();
+  double blocker_value(std::uint32_t theme) const;
   void add_step(double most, Tint tint, std::string text);
   void make_keys();
 
   const Result& result_;
   std::string title_;
-  std::vector<double> most_;  ///< the greatest value of each step, ascending
+  std::vector<double> most_;             ///< the greatest value of each step, ascending
+  std::vector<std::uint32_t> blockers_;  ///< themes that hide, ascending
   std::vector<Step> steps_;
   std::vector<Key> keys_;
 };

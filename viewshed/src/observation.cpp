@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "blocker_observation.hpp"
 #include "field_of_view.hpp"
+#include "least_height_observation.hpp"
 
 namespace itin::viewshed {
 
@@ -77,8 +79,7 @@ class NearestObserver final : public Observation {
   bool open(const Look& look) const override {
     // Of two as near, the first.
     const double squared = look.squared_distance();
-    return squared < squared_[look.cell] ||
-           (squared == squared_[look.cell] && look.observer + 1 < numbers_[look.cell]);
+    return squared < squared_[look.cell] || (squared == squared_[look.cell] && look.observer + 1 < numbers_[look.cell]);
   }
 
  private:
@@ -123,19 +124,31 @@ void Observation::prepare(Result& result) {
   if (mode == Mode::kCount) result.count.resize(cells);
   if (mode == Mode::kWhich) result.which.resize(cells * which_grids(result.request.observers.size()));
   if (mode == Mode::kAngle) result.angle_deg.resize(cells);
+  if (mode == Mode::kBlocker) result.blocker.resize(cells);
+  if (mode == Mode::kHeight) result.least_height_m.resize(cells);
   if (mode == Mode::kNearest) result.nearest.resize(cells), result.distance_m.resize(cells);
 }
 
-std::unique_ptr<Observation> observation_for(const Request& request) {
-  switch (request.mode) {
+Observations::Observations(const Request& request, const std::vector<Eye>& eyes, const Tin& tin, const Scene& scene)
+    : request_(request), eyes_(&eyes), resolution_(tin.grid.resolution) {
+  if (request.mode == Mode::kHeight) heights_.emplace(tin, request.earth, scene);
+  if (request.mode == Mode::kBlocker) blockers_.emplace(tin, request.earth);
+}
+
+std::unique_ptr<Observation> Observations::of_tile() const {
+  switch (request_.mode) {
     case Mode::kCount:
       return std::make_unique<ObserverCount>();
     case Mode::kWhich:
-      return std::make_unique<ObserverBits>(request.observers.size());
+      return std::make_unique<ObserverBits>(request_.observers.size());
     case Mode::kAngle:
-      return std::make_unique<GreatestAngle>(request);
+      return std::make_unique<GreatestAngle>(request_);
     case Mode::kNearest:
       return std::make_unique<NearestObserver>();
+    case Mode::kBlocker:
+      return std::make_unique<BlockerObservation>(*blockers_);
+    case Mode::kHeight:
+      return std::make_unique<LeastHeightObservation>(*heights_, *eyes_, resolution_);
     case Mode::kVisible:
     case Mode::kCertified:
       break;

@@ -1,9 +1,10 @@
 // What a mode keeps of the looks at a tile's cells.
 //
-//   const std::unique_ptr<Observation> observation = observation_for(request);     // of one tile
+//   const Observations observations(request, eyes, tin, scene);
+//   const std::unique_ptr<Observation> observation = observations.of_tile();
 //   observation->enter(cell);                                                      // in some field of view
 //   if (observation->open(look)) ... observation->see(look);                       // or nothing, where it is hidden
-//   observation->store(tile, result);
+//   observation->store(tile, result, cells);
 //
 // The result does not depend on the order of the looks.
 #pragma once
@@ -14,6 +15,9 @@
 
 #include <viewshed/viewshed.hpp>
 
+#include "eye.hpp"
+#include "first_blocker.hpp"
+#include "least_height.hpp"
 #include "scene.hpp"
 #include "sight_lines.hpp"
 #include "surface_heights.hpp"
@@ -22,9 +26,9 @@ namespace itin::viewshed {
 
 /// An observer's look at the target in a cell.
 struct Look {
-  std::size_t cell = 0;              ///< in the tile
-  std::uint32_t observer = 0;        ///< from 0
-  double dx = 0, dy = 0, dz = 0;     ///< metres from the eye to the target
+  std::size_t cell = 0;           ///< in the tile
+  std::uint32_t observer = 0;     ///< from 0
+  double dx = 0, dy = 0, dz = 0;  ///< metres from the eye to the target
   double squared_distance() const { return dx * dx + dy * dy; }
 };
 
@@ -45,15 +49,19 @@ class Observation {
   void enter(std::size_t cell) {
     if (values_[cell] == kOutside) values_[cell] = kHidden;
   }
+  /// The elevation of what is looked at, over ground of this one, metres.
+  virtual double target(const Eye& eye, double ground) const { return eye.target(ground); }
+  /// Whether the target is in the eye's field of view.
+  virtual bool in_view(const Eye& eye, const Look& look) const { return eye.view.contains(look.dx, look.dy, look.dz); }
   /// Whether it could matter that the target is seen.
   virtual bool open(const Look&) const { return true; }
   /// The target is seen.
   void see(const Look& look) {
-    values_[look.cell] = kVisible;
+    mark_visible(look.cell);
     keep(look);
   }
   /// Sees what the scene does not hide.
-  void judge(const LookPacket& packet, const Scene& scene, Occluder& occluder);
+  virtual void judge(const LookPacket& packet, const Scene& scene, Occluder& occluder);
   /// Counts the cells, and writes them to their places in the result.
   void store(const Tile& tile, Result& result, CellCounts& cells) const;
 
@@ -62,6 +70,7 @@ class Observation {
 
  protected:
   std::uint8_t value(std::size_t cell) const { return values_[cell]; }
+  void mark_visible(std::size_t cell) { values_[cell] = kVisible; }
 
  private:
   virtual void keep(const Look&) {}
@@ -71,7 +80,22 @@ class Observation {
   TileValues<std::uint8_t> values_;  ///< kOutside, kHidden, kVisible
 };
 
-/// For the request's mode, which is not kCertified.
-std::unique_ptr<Observation> observation_for(const Request& request);
+/// Makes the Observations of a request's mode, which is not kCertified. All that it is given must outlive it and them.
+class Observations {
+ public:
+  /// For modes that need no more than verdicts: kVisible, kCount, kWhich, kNearest.
+  explicit Observations(const Request& request) : request_(request) {}
+  /// For every mode; the scene is of that Tin.
+  Observations(const Request& request, const std::vector<Eye>& eyes, const Tin& tin, const Scene& scene);
+
+  std::unique_ptr<Observation> of_tile() const;
+
+ private:
+  const Request& request_;
+  const std::vector<Eye>* eyes_ = nullptr;
+  double resolution_ = 0;
+  std::optional<LeastHeights> heights_;
+  std::optional<FirstBlocker> blockers_;
+};
 
 }  // namespace itin::viewshed

@@ -150,7 +150,8 @@ class Precise {
     result.statistics.retrieval_seconds = watch.lap();
     first_.emplace(std::move(envelope), request_, tiles_, voids_of(request_.nodata));
     result.statistics.scene_seconds = watch.lap();
-    for (std::size_t tile = 0; tile < tiles_.cell_count(); ++tile) observations_.push_back(observation_for(request_));
+    for (std::size_t tile = 0; tile < tiles_.cell_count(); ++tile)
+      observations_.push_back(Observations(request_).of_tile());
     for (std::uint32_t i = 0; i < eyes.size(); ++i) look(eyes[i], i);
     finish();
     result.statistics.rays_seconds = watch.lap();

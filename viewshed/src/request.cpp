@@ -48,8 +48,8 @@ void validate_observer(const Request& request, const Observer& observer) {
     validate_view(request, observer);
   } catch (const InputError& error) {
     // What the request says is not the observer's fault.
-    const bool own = observer.target_height || observer.radius || observer.min_radius || observer.azimuth ||
-                     observer.elevation;
+    const bool own =
+        observer.target_height || observer.radius || observer.min_radius || observer.azimuth || observer.elevation;
     if (!own) throw;
     refuse(error.what());
   }
@@ -142,6 +142,7 @@ Window window_of(const Request& request) {
 }
 
 double ceiling_of(const Tin& tin, const Request& request) {
+  if (request.mode == Mode::kHeight) return 2 * kSky;
   double highest = 0;
   for (const GridPoint& v : tin.vertices) highest = std::max(highest, v.z * tin.grid.resolution);
   double above = std::max(request.target_height, 0.0);

@@ -9,6 +9,9 @@ namespace itin::viewshed {
 inline constexpr const char* kVoidsWarning =
     "sight lines may cross ground without data, which counts as clear; give nodata block or clear to choose";
 
+/// In height mode no target stands higher above the eye, metres; ground that hides it there hides everything.
+inline constexpr double kSky = 1e7;
+
 /// Throws InputError for everything that is wrong whatever the surface.
 void validate(const Request& request);
 

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <itin/geometry.hpp>
 
@@ -33,6 +34,19 @@ class SightLine {
   bool hidden_by(const GridPoint& a, const GridPoint& b, const GridPoint& c) const {
     const Section under = section(a, b, c);
     return under.meets_line() && highest(under) > grazing_;
+  }
+
+  /// Where the triangle first hides, as a fraction of the length; nothing where it does not hide.
+  std::optional<double> hidden_from(const GridPoint& a, const GridPoint& b, const GridPoint& c) const {
+    const Section under = section(a, b, c);
+    if (!under.meets_line() || highest(under) <= grazing_) return std::nullopt;
+    const double first = std::max(under.low, 0.0), last = std::min(under.high, 1.0);
+    if (rise(under, first) > grazing_) return first;
+    // The least root of p + q s + bulge s (1 - s) = grazing, which lies where the left side grows.
+    const double q = under.slope() + bulge_, missing = grazing_ - under.straight(0);
+    if (q <= 0) return last;
+    const double root = std::sqrt(std::max(0.0, q * q - 4 * bulge_ * missing));
+    return std::clamp(2 * missing / (q + root), first, last);
   }
 
   /// The least height of the end `to`, its position kept, at which the triangle does not hide it: -infinity where the

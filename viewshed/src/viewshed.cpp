@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 #include <numeric>
 
@@ -32,6 +33,13 @@ void look_for_voids(const Tin& tin, const std::vector<BoundaryEdge>& boundary, R
   if (result.crosses_voids && result.request.nodata == NoData::kUnknown) result.warnings.emplace_back(kVoidsWarning);
 }
 
+void name_blockers(const Tin& tin, Result& result) {
+  result.blocker_theme.resize(result.blocker.size());
+  std::transform(result.blocker.begin(), result.blocker.end(), result.blocker_theme.begin(), [&](std::uint32_t b) {
+    return b == kNoBlocker || b == kMissingGround ? b : std::uint32_t{tin.theme(tin.triangles[b])};
+  });
+}
+
 /// `ground` is null where it is the surface itself.
 Result compute_on(const Tin& tin, const Tin* ground, const Request& request, Progress& progress) {
   validate(request);
@@ -56,7 +64,9 @@ Result compute_on(const Tin& tin, const Tin* ground, const Request& request, Pro
 
   const Tin& targets = ground != nullptr && !request.targets_on_surface ? *ground : tin;
   const TriangleBins bins(targets, grid_of_tiles(result.grid));
-  Caster(targets, bins, scene, eyes, result).run(progress);
+  const Observations observations(result.request, eyes, tin, scene);
+  Caster(targets, bins, scene, eyes, observations, result).run(progress);
+  if (request.mode == Mode::kBlocker) name_blockers(tin, result);
   result.statistics.rays_seconds = watch.lap();
   return result;
 }
