@@ -1,0 +1,46 @@
+// The files a viewshed is written to: rasters and polygons by -o, a map, and rasters of single observers.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <viewshed/viewshed.hpp>
+
+#include "output_path.hpp"
+#include "verb.hpp"
+
+namespace itin::cli {
+
+class ViewshedOutputs {
+ public:
+  void declare(CLI::App& app);
+  /// Throws InputError.
+  void validate() const;
+  /// Throws FileError where something cannot be written. Makes the directory of single observers.
+  void prepare(const viewshed::Request& request);
+
+  struct Context {
+    std::string crs_wkt;
+    Document surface;
+  };
+  void write(const viewshed::Surveyed& surveyed, const Context& context, std::vector<std::string>& warnings) const;
+  /// Calls compute(observer) for every observer whose own raster is wanted.
+  using Compute = std::function<viewshed::Result(std::size_t)>;
+  void write_each(const Compute& compute, const Context& context) const;
+
+  /// In the order of the options.
+  std::vector<std::string> paths() const;
+
+ private:
+  void write_raster(const std::string& path, const viewshed::Result& result, const Context& context) const;
+
+  std::vector<std::string> outputs_;
+  std::string image_, each_;
+  std::vector<std::string> single_;  ///< a path an observer, with --each
+  OutputPolicy policy_;
+};
+
+}  // namespace itin::cli
