@@ -13,6 +13,7 @@
 
 #include "detail_options.hpp"
 #include "earth_options.hpp"
+#include "horizon_output.hpp"
 #include "observer_options.hpp"
 #include "store_document.hpp"
 #include "surface_options.hpp"
@@ -43,6 +44,7 @@ class ViewshedVerb final : public Verb {
   void declare(CLI::App& app) override {
     app.add_option("STORE", store_, "The store")->required();
     outputs_.declare(app);
+    horizon_.declare(app);
     app.add_option(
            "--mode", mode_text_,
            "visible (to any observer; the default); count (how many see it); certified (certainly visible, "
@@ -65,12 +67,13 @@ class ViewshedVerb final : public Verb {
   }
 
   void validate() override {
-    outputs_.validate();
+    horizon_.validate();
+    outputs_.validate(horizon_.paths());
     observers_.validate();
     validate_targets();
     detail_.validate();
     themes_.validate();
-    request_.themes = themes_.choice();
+    request_.themes = precise_ && !themes_.given() ? ThemeChoice::all() : themes_.choice();
     earth_.validate();
     request_.earth = earth_.earth();
     if (!mode_text_.empty()) request_.mode = parse_mode();
@@ -109,6 +112,8 @@ class ViewshedVerb final : public Verb {
     const StoreMetadata& metadata = store.metadata();
     complete_request(metadata);
     request_.themes.check(metadata.themes);
+    if (!horizon_.paths().empty() && places_.size() > 1)
+      throw InputError("--horizon is that of one observer; give one");
     outputs_.prepare(request_);
     const viewshed::Surveyed surveyed = survey(store, request_, progress);
     const ViewshedOutputs::Context context{metadata.crs_wkt,
@@ -117,7 +122,10 @@ class ViewshedVerb final : public Verb {
     result.warnings = surveyed.result.warnings;
     outputs_.write(surveyed, context, result.warnings);
     outputs_.write_each([&](std::size_t i) { return survey_alone(store, surveyed, i, progress); }, context);
+    const Document targets =
+        horizon_.write(surveyed, metadata, earth_.document(), outputs_.overwrite(), progress);
     result.document = document(surveyed.result, metadata, context.surface);
+    if (!targets.empty()) result.document["horizon_targets"] = targets;
     result.text = text(surveyed.result);
     return result;
   }
@@ -174,6 +182,8 @@ class ViewshedVerb final : public Verb {
   }
 
   void validate_precise() {
+    if (!horizon_.paths().empty() && (precise_ || certified()))
+      throw InputError("--horizon is that of the surface at --tolerance; leave out --precise and --mode certified");
     if (!precise_) {
       if (!memory_text_.empty()) throw InputError("--memory is of use with --precise only");
       return;
@@ -288,6 +298,7 @@ class ViewshedVerb final : public Verb {
   ThemeOptions themes_;
   EarthOptions earth_;
   ViewshedOutputs outputs_;
+  HorizonOutput horizon_;
 
   std::vector<ObserverPlace> places_;
   viewshed::Request request_;

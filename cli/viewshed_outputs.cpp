@@ -44,9 +44,11 @@ void ViewshedOutputs::declare(CLI::App& app) {
   policy_.declare(app);
 }
 
-void ViewshedOutputs::validate() const {
-  if (outputs_.empty() && image_.empty() && each_.empty())
-    throw InputError("give an output: --output FILE.tif or FILE.gpkg, --image FILE.png, or --each DIR");
+void ViewshedOutputs::validate(const std::vector<std::string>& others) {
+  others_ = others;
+  if (paths().empty() && each_.empty())
+    throw InputError(
+        "give an output: --output FILE.tif or FILE.gpkg, --image FILE.png, --each DIR, or --horizon FILE.csv");
   std::set<std::string> names;
   for (const std::string& path : outputs_) {
     const std::string ending = std::filesystem::path(path).extension().string();
@@ -55,6 +57,9 @@ void ViewshedOutputs::validate() const {
     if (!names.insert(path).second) throw InputError(fmt::format("--output '{}' is given twice", path));
   }
   if (names.contains(image_)) throw InputError("--output and --image name the same file");
+  names.insert(image_);
+  for (const std::string& path : others)
+    if (!names.insert(path).second) throw InputError(fmt::format("'{}' is named for two outputs", path));
 }
 
 void ViewshedOutputs::prepare(const viewshed::Request& request) {
@@ -109,6 +114,7 @@ std::vector<std::string> ViewshedOutputs::paths() const {
   std::vector<std::string> paths = outputs_;
   if (!image_.empty()) paths.push_back(image_);
   paths.insert(paths.end(), single_.begin(), single_.end());
+  paths.insert(paths.end(), others_.begin(), others_.end());
   return paths;
 }
 

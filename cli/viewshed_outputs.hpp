@@ -17,8 +17,8 @@ namespace itin::cli {
 class ViewshedOutputs {
  public:
   void declare(CLI::App& app);
-  /// Throws InputError.
-  void validate() const;
+  /// `others` are files that something else writes. Throws InputError.
+  void validate(const std::vector<std::string>& others);
   /// Throws FileError where something cannot be written. Makes the directory of single observers.
   void prepare(const viewshed::Request& request);
 
@@ -31,14 +31,16 @@ class ViewshedOutputs {
   using Compute = std::function<viewshed::Result(std::size_t)>;
   void write_each(const Compute& compute, const Context& context) const;
 
-  /// In the order of the options.
+  /// In the order of the options, the others last.
   std::vector<std::string> paths() const;
+  bool overwrite() const { return policy_.overwrite; }
 
  private:
   void write_raster(const std::string& path, const viewshed::Result& result, const Context& context) const;
 
   std::vector<std::string> outputs_;
   std::string image_, each_;
+  std::vector<std::string> others_;
   std::vector<std::string> single_;  ///< a path an observer, with --each
   OutputPolicy policy_;
 };

@@ -27,6 +27,7 @@ class FieldOfView {
 
   /// Metres from the observer to the target. An observer's own position has every azimuth.
   bool contains(double dx, double dy, double dz) const { return contains(dx, dy, dz, dz).value(); }
+  bool looks_towards(double azimuth_deg) const { return !azimuth_ || azimuth_within(azimuth_deg); }
   /// From how far to how far above the eye a target at this squared distance is in view, metres; nothing: any.
   std::optional<std::pair<double, double>> heights_at(double squared) const {
     if (!elevation_ || squared == 0) return std::nullopt;
@@ -43,7 +44,7 @@ class FieldOfView {
     const double squared = dx * dx + dy * dy;
     if (squared > farthest_ || squared < nearest_) return false;
     if (squared == 0) return true;
-    if (azimuth_ && !azimuth_within(dx, dy)) return false;
+    if (azimuth_ && !azimuth_within(std::atan2(dx, dy) * kDegrees)) return false;
     if (!elevation_) return true;
     const double lowest = elevation_at(squared, low), highest = elevation_at(squared, high);
     if (lowest >= elevation_->from && highest <= elevation_->to) return true;
@@ -54,11 +55,11 @@ class FieldOfView {
  private:
   static constexpr double kDegrees = 180 / std::numbers::pi;
 
-  bool azimuth_within(double dx, double dy) const {
+  bool azimuth_within(double degrees) const {
     const double width = turn(azimuth_->to - azimuth_->from);
     // A range of a whole turn is given as such, not as nothing.
     if (width == 0 && azimuth_->to != azimuth_->from) return true;
-    return turn(std::atan2(dx, dy) * kDegrees - azimuth_->from) <= width;
+    return turn(degrees - azimuth_->from) <= width;
   }
   double elevation_at(double squared, double dz) const {
     return std::atan2(dz - drop_ * squared, std::sqrt(squared)) * kDegrees;

@@ -80,11 +80,13 @@ class Writer {
     write<float>({"least height above the ground at which a target is seen, metres"}, kNaN, result_.least_height_m);
   }
   void blockers() {
+    std::vector<std::string> bands{"theme of what hides the cell, 0: terrain"};
     std::vector<std::uint32_t> values = result_.blocker_theme;
-    values.insert(values.end(), result_.blocker_feature.begin(), result_.blocker_feature.end());
-    values.resize(2 * result_.blocker_theme.size(), kNoBlocker);
-    write<std::uint32_t>({"theme of what hides the cell, 0: terrain", "its feature, from 0 in the order of import"},
-                         kNoBlocker, values);
+    if (!result_.blocker_feature.empty()) {
+      bands.emplace_back("its feature, from 0 in the order of import");
+      values.insert(values.end(), result_.blocker_feature.begin(), result_.blocker_feature.end());
+    }
+    write<std::uint32_t>(bands, kNoBlocker, values);
   }
 
   void bits() {

@@ -49,6 +49,20 @@ class SightLine {
     return std::clamp(2 * missing / (q + root), first, last);
   }
 
+  /// Where between the ends the triangle rises highest above the line, as a fraction of the length. Precondition: the
+  /// line passes over the triangle.
+  double highest_at(const GridPoint& a, const GridPoint& b, const GridPoint& c) const {
+    const Section under = section(a, b, c);
+    const double first = std::max(under.low, 0.0), last = std::min(under.high, 1.0);
+    double best = first;
+    const auto consider = [&](double s) {
+      if (rise(under, s) > rise(under, best)) best = s;
+    };
+    if (bulge_ > 0) consider(std::clamp(0.5 + under.slope() / (2 * bulge_), first, last));
+    consider(last);
+    return best;
+  }
+
   /// The least height of the end `to`, its position kept, at which the triangle does not hide it: -infinity where the
   /// line does not pass over the triangle, +infinity where the end `from` lies beneath it. At that height the triangle
   /// touches the line, to half a grazing, so that rounding cannot make it hide again.

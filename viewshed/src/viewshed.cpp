@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
 #include <viewshed/viewshed.hpp>
 
@@ -16,14 +15,6 @@
 namespace itin::viewshed {
 
 namespace {
-
-/// The elevation under an observer on a surface that is not the scene's.
-std::optional<double> height_on(const Tin& tin, Point2 position) {
-  std::vector<std::uint32_t> all(tin.triangles.size());
-  std::iota(all.begin(), all.end(), 0U);
-  const std::optional<double> units = surface_height(tin, all, position);
-  return units ? std::optional(*units * tin.grid.resolution) : std::nullopt;
-}
 
 void look_for_voids(const Tin& tin, const std::vector<BoundaryEdge>& boundary, Result& result) {
   for (const Observer& observer : result.request.observers) {
