@@ -82,8 +82,8 @@ profile::Panorama panorama(const viewshed::Horizon& horizon, const viewshed::Req
   const viewshed::Observer& observer = request.observers.front();
   profile::Panorama drawing;
   drawing.title = fmt::format("Horizon of {:.10g}, {:.10g}", observer.position.x, observer.position.y);
-  drawing.note = fmt::format("Eye at {:.1f} m; azimuths from grid north; {}", horizon.eye_elevation_m,
-                             request.earth.convention());
+  drawing.note =
+      fmt::format("Eye at {:.1f} m; azimuths from grid north; {}", horizon.eye_elevation_m, request.earth.convention());
   for (const viewshed::HorizonPoint& p : horizon.points)
     drawing.skyline.push_back({p.azimuth_deg, p.sky ? p.sky->elevation_deg : std::numeric_limits<double>::quiet_NaN(),
                                p.sky ? p.sky->distance_m : 0});
@@ -138,9 +138,8 @@ Document HorizonOutput::write(const viewshed::Surveyed& surveyed, const StoreMet
                               const Document& refraction, bool overwrite, Progress& progress) const {
   if (paths_.empty()) return nullptr;
   const viewshed::Request& request = surveyed.result.request;
-  const viewshed::Horizon horizon =
-      viewshed::horizon(surveyed.tin, surveyed.ground ? *surveyed.ground : surveyed.tin, request,
-                        {step_deg_, targets(request, metadata)}, progress);
+  const viewshed::Horizon horizon = viewshed::horizon(surveyed.tin, surveyed.ground ? *surveyed.ground : surveyed.tin,
+                                                      request, {step_deg_, targets(request, metadata)}, progress);
   for (const std::string& path : paths_) {
     const std::string ending = ending_of(path);
     const std::string bytes = ending == ".csv"    ? table(horizon, metadata)

@@ -52,10 +52,17 @@ class ViewshedVerb final : public Verb {
            "32); angle (elevation angle of the sight line, degrees, the greatest of several observers); "
            "nearest (two bands: distance and number of the nearest visible observer); blocker (two bands: theme and "
            "feature of what first hides the cell from the nearest observer); height (the least height above the "
-           "ground at which a target is seen, metres)")
+           "ground at which a target is seen, metres); probability (two bands: of being visible, with "
+           "--vertical-error, "
+           "and visible as the heights are)")
         ->type_name("MODE");
     observers_.declare(app);
     declare_targets(app);
+    app.add_option("--vertical-error", sigma_text_, "Standard deviation of heights, for --mode probability")
+        ->type_name("METRES");
+    app.add_option("--error-correlation", correlation_text_,
+                   "L: errors x apart are correlated as exp(-x / L) (default: 0, independent)")
+        ->type_name("METRES");
     detail_.declare(app);
     themes_.declare(app);
     earth_.declare(app);
@@ -82,6 +89,7 @@ class ViewshedVerb final : public Verb {
       constexpr viewshed::NoData kChoices[] = {kUnknown, kBlock, kClear};
       request_.nodata = kChoices[parse_choice("--nodata", nodata_text_, {"unknown", "block", "clear"})];
     }
+    validate_vertical_error();
     validate_precise();
   }
 
@@ -97,6 +105,10 @@ class ViewshedVerb final : public Verb {
     };
     angles("azimuth_deg", request_.azimuth);
     angles("elevation_deg", request_.elevation);
+    if (request_.mode == viewshed::Mode::kProbability) {
+      parameters["vertical_error_m"] = request_.vertical_error.sigma;
+      parameters["error_correlation_m"] = request_.vertical_error.correlation_length;
+    }
     if (request_.cell_size) parameters["cell_m"] = *request_.cell_size;
     if (!like_.empty()) parameters["like"] = like_;
     parameters["observer_on"] = request_.observers_on_surface ? "surface" : "ground";
@@ -122,8 +134,7 @@ class ViewshedVerb final : public Verb {
     result.warnings = surveyed.result.warnings;
     outputs_.write(surveyed, context, result.warnings);
     outputs_.write_each([&](std::size_t i) { return survey_alone(store, surveyed, i, progress); }, context);
-    const Document targets =
-        horizon_.write(surveyed, metadata, earth_.document(), outputs_.overwrite(), progress);
+    const Document targets = horizon_.write(surveyed, metadata, earth_.document(), outputs_.overwrite(), progress);
     result.document = document(surveyed.result, metadata, context.surface);
     if (!targets.empty()) result.document["horizon_targets"] = targets;
     result.text = text(surveyed.result);
@@ -173,12 +184,24 @@ class ViewshedVerb final : public Verb {
     }
   }
 
-  static constexpr const char* kModes[] = {"visible", "count",   "certified", "which",
-                                           "angle",   "nearest", "blocker",   "height"};
+  static constexpr const char* kModes[] = {"visible", "count",   "certified", "which",      "angle",
+                                           "nearest", "blocker", "height",    "probability"};
 
   viewshed::Mode parse_mode() const {
     return static_cast<viewshed::Mode>(
         parse_choice("--mode", mode_text_, std::vector<std::string_view>(std::begin(kModes), std::end(kModes))));
+  }
+
+  void validate_vertical_error() {
+    const bool wanted = request_.mode == viewshed::Mode::kProbability;
+    if (wanted != !sigma_text_.empty())
+      throw InputError("--mode probability and --vertical-error METRES need each other; give both");
+    if (!wanted && !correlation_text_.empty())
+      throw InputError("--error-correlation is of use with --vertical-error only");
+    viewshed::VerticalError& error = request_.vertical_error;
+    if (wanted) error.sigma = parse_number("--vertical-error", sigma_text_, Range::kPositive);
+    if (!correlation_text_.empty())
+      error.correlation_length = parse_number("--error-correlation", correlation_text_, Range::kNotNegative);
   }
 
   void validate_precise() {
@@ -289,6 +312,7 @@ class ViewshedVerb final : public Verb {
   }
 
   std::string store_, mode_text_, nodata_text_, like_, memory_text_;
+  std::string sigma_text_, correlation_text_;
   std::string target_height_text_, radius_text_, min_radius_text_, azimuth_text_, elevation_text_, cell_text_;
   std::string target_on_ = "ground";
   bool precise_ = false;

@@ -1,5 +1,3 @@
-#include <profile/panorama.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <profile/panorama.hpp>
 
 #include "axis.hpp"
 #include "drawing.hpp"
@@ -19,14 +18,11 @@ constexpr double kWidth = 1260, kHeight = 420;
 constexpr Colour kInk{0.12, 0.12, 0.12}, kFaint{0.37, 0.37, 0.37}, kGrid{0.87, 0.87, 0.87};
 // From the palette of Okabe and Ito, told apart with every kind of colour blindness.
 constexpr Colour kSky{0.93, 0.96, 0.98}, kSeen{0.00, 0.45, 0.70}, kHidden{0.84, 0.37, 0.00}, kPaper{1, 1, 1};
-constexpr std::array<Colour, 5> kNearToFar{{{0.36, 0.36, 0.33},
-                                            {0.47, 0.48, 0.46},
-                                            {0.57, 0.59, 0.60},
-                                            {0.67, 0.70, 0.72},
-                                            {0.77, 0.80, 0.83}}};
+constexpr std::array<Colour, 5> kNearToFar{
+    {{0.36, 0.36, 0.33}, {0.47, 0.48, 0.46}, {0.57, 0.59, 0.60}, {0.67, 0.70, 0.72}, {0.77, 0.80, 0.83}}};
 
 std::string distance_text(double metres) {
-  return metres >= 10000 ? fmt::format("{:.0f} km", metres / 1000)
+  return metres >= 10000  ? fmt::format("{:.0f} km", metres / 1000)
          : metres >= 1000 ? fmt::format("{:.1f} km", metres / 1000)
                           : fmt::format("{:.0f} m", metres);
 }
@@ -136,9 +132,11 @@ class PanoramaPage {
       drawing_.polyline(mark, {kInk, 0.7, {}});
       drawing_.text({x, frame_.ymax + 14}, azimuth_text(azimuth), {.size = 8, .colour = kInk, .align = Align::kCentre});
     }
-    const std::array<Point2, 5> outline{
-        Point2{frame_.xmin, frame_.ymin}, {frame_.xmax, frame_.ymin}, {frame_.xmax, frame_.ymax},
-        {frame_.xmin, frame_.ymax},       {frame_.xmin, frame_.ymin}};
+    const std::array<Point2, 5> outline{Point2{frame_.xmin, frame_.ymin},
+                                        {frame_.xmax, frame_.ymin},
+                                        {frame_.xmax, frame_.ymax},
+                                        {frame_.xmin, frame_.ymax},
+                                        {frame_.xmin, frame_.ymin}};
     drawing_.polyline(outline, {kInk, 0.8, {}});
   }
 

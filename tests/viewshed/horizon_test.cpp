@@ -88,7 +88,7 @@ TEST(Horizon, OfACurvedPlaneIsTheSea) {
 
 TEST(Horizon, TargetsAreInSightOrNot) {
   const Tin tin = test::fractal_tin(33, 50, 60, 0.55, 7);
-  const Request request = look({kCorner.x + 803, kCorner.y + 798});
+  const Request request = look({kCorner.x + 803, kCorner.y + 798}, 25);
   HorizonOptions options;
   for (int i = 0; i < 60; ++i)
     options.targets.push_back(
@@ -96,7 +96,7 @@ TEST(Horizon, TargetsAreInSightOrNot) {
   const Horizon result = run(tin, request, options);
   const test::ExactLineOfSight exact(tin, request.earth);
   const Point2 o = request.observers[0].position;
-  const Point3 eye{o.x, o.y, *exact.height(o) + 2};
+  const Point3 eye{o.x, o.y, *exact.height(o) + 25};
   int visible = 0;
   ASSERT_EQ(result.targets.size(), options.targets.size());
   for (const SightedTarget& t : result.targets) {

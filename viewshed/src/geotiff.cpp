@@ -43,6 +43,10 @@ std::vector<std::pair<std::string, std::string>> metadata_of(const Result& resul
   if (r.azimuth) items.emplace_back("azimuth_deg", fmt::format("{:.12g},{:.12g}", r.azimuth->from, r.azimuth->to));
   if (r.elevation)
     items.emplace_back("elevation_deg", fmt::format("{:.12g},{:.12g}", r.elevation->from, r.elevation->to));
+  if (r.mode == Mode::kProbability) {
+    items.emplace_back("vertical_error_m", fmt::format("{:.12g}", r.vertical_error.sigma));
+    items.emplace_back("error_correlation_m", fmt::format("{:.12g}", r.vertical_error.correlation_length));
+  }
   if (r.mode == Mode::kBlocker) {
     for (std::size_t i = 0; i < result.theme_names.size(); ++i)
       items.emplace_back(fmt::format("theme_{}", i + 1), result.theme_names[i]);
@@ -78,6 +82,13 @@ class Writer {
 
   void heights() {
     write<float>({"least height above the ground at which a target is seen, metres"}, kNaN, result_.least_height_m);
+  }
+  void probabilities() {
+    std::vector<float> values = result_.probability;
+    values.reserve(2 * values.size());
+    for (const std::uint8_t v : result_.visible)
+      values.push_back(v == kOutside ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(v));
+    write<float>({"probability of being visible", "visible as the heights are"}, kNaN, values);
   }
   void blockers() {
     std::vector<std::string> bands{"theme of what hides the cell, 0: terrain"};
@@ -151,6 +162,8 @@ void write_geotiff(const std::string& path, const Result& result, const GeotiffO
       return writer.blockers();
     case Mode::kHeight:
       return writer.heights();
+    case Mode::kProbability:
+      return writer.probabilities();
   }
 }
 

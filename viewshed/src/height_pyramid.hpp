@@ -29,20 +29,29 @@ class HeightPyramid {
   /// a whole where the line runs above its highest point.
   template <class Visit>
   void search(const SightLine& line, const double& end, const Visit& visit) const {
-    constexpr double kWhole = 1;
-    search(line, end, kWhole, visit);
+    constexpr double kWhole = 1, kNothing = 0;
+    search(line, end, kWhole, kNothing, visit);
   }
   /// The same for triangles that may rise above `line` as it is, as far along it as the fraction `reach` at least; a
   /// visit may lower that.
   template <class Visit>
   void search_within(const SightLine& line, const double& reach, const Visit& visit) const {
     const double end = line.to_z();
-    search(line, end, reach, visit);
+    constexpr double kNothing = 0;
+    search(line, end, reach, kNothing, visit);
+  }
+  /// The same for triangles that may rise above `line` lowered by `margin`; a visit may lessen that.
+  template <class Visit>
+  void search_near(const SightLine& line, const double& margin, const Visit& visit) const {
+    const double end = line.to_z();
+    constexpr double kWhole = 1;
+    search(line, end, kWhole, margin, visit);
   }
 
  private:
   template <class Visit>
-  void search(const SightLine& line, const double& end, const double& reach, const Visit& visit) const;
+  void search(const SightLine& line, const double& end, const double& reach, const double& margin,
+              const Visit& visit) const;
 
   struct Block {
     std::uint32_t level = 0;  ///< 2^level bins a side
@@ -88,7 +97,8 @@ inline HeightPyramid::Stretch HeightPyramid::Track::within(const Block& b) const
 }
 
 template <class Visit>
-void HeightPyramid::search(const SightLine& line, const double& end, const double& reach, const Visit& visit) const {
+void HeightPyramid::search(const SightLine& line, const double& end, const double& reach, const double& margin,
+                           const Visit& visit) const {
   const Track track = track_of(line);
   // The child nearest to the line's start, and then across x, y and both.
   const std::uint32_t near = (track.per_dx < 0 ? 1U : 0U) | (track.per_dy < 0 ? 2U : 0U);
@@ -100,7 +110,7 @@ void HeightPyramid::search(const SightLine& line, const double& end, const doubl
     const Stretch stretch = track.within(block);
     if (stretch.empty() || stretch.first > reach) continue;
     const double lowest = line.lowest_over(stretch.first, stretch.last, end);
-    if (highest(block) <= lowest) continue;
+    if (highest(block) + margin <= lowest) continue;
     if (block.level > 0) {
       for (const std::uint32_t across : {3U, 2U, 1U, 0U}) {
         const std::uint32_t child = near ^ across;
@@ -109,7 +119,7 @@ void HeightPyramid::search(const SightLine& line, const double& end, const doubl
       continue;
     }
     for (const std::uint32_t t : bins_.triangles(std::size_t{block.row} * side_ + block.column))
-      if (highest(tin_.triangles[t]) > lowest) visit(t);
+      if (highest(tin_.triangles[t]) + margin > lowest) visit(t);
   }
 }
 

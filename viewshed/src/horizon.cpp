@@ -1,5 +1,3 @@
-#include <viewshed/horizon.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +7,7 @@
 
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
+#include <viewshed/horizon.hpp>
 
 #include "eye.hpp"
 #include "first_blocker.hpp"
@@ -69,8 +68,7 @@ class Panorama {
 
   SkyPoint point(const SightLine& line, std::uint32_t triangle, double azimuth, double end) const {
     const Triangle& t = surface_.triangles[triangle];
-    const double s =
-        line.highest_at(surface_.vertices[t[0]], surface_.vertices[t[1]], surface_.vertices[t[2]]);
+    const double s = line.highest_at(surface_.vertices[t[0]], surface_.vertices[t[1]], surface_.vertices[t[2]]);
     const double unit = surface_.grid.resolution, bulge = drop_ * reach_ * reach_;
     const double rise = end - eye_.units.z, distance = s * reach_ * unit;
     return {std::atan2(rise - bulge, reach_) * kDegrees,

@@ -96,6 +96,8 @@ double MapOverlay::value(std::size_t cell) const {
                                                    : blocker_value(result_.blocker_theme[cell]);
     case Mode::kHeight:
       return result_.least_height_m[cell];
+    case Mode::kProbability:
+      return result_.probability[cell];
     case Mode::kVisible:
     case Mode::kCertified:
       break;
@@ -127,6 +129,8 @@ void MapOverlay::make_scale() {
       return scale_blockers();
     case Mode::kHeight:
       return scale_heights();
+    case Mode::kProbability:
+      return scale_probabilities();
     case Mode::kVisible:
     case Mode::kCertified:
       return;
@@ -197,17 +201,32 @@ void MapOverlay::scale_blockers() {
 
 void MapOverlay::scale_heights() {
   title_ = "Seen from this height up, metres";
-  const Extremes e = extremes_of(result_.least_height_m);
-  add_step(0, {kSeenColour, opacity_of(kSteps - 1, kSteps)}, "0");
-  if (e.empty() || e.most <= 0) return;
-  // Each step twice to two and a half times as high as the one before: what little more height shows is of interest.
-  double most = round_step(e.most);
+  std::vector<float> heights;
+  for (const float h : result_.least_height_m)
+    if (h > 0 && std::isfinite(h)) heights.push_back(h);
+  std::sort(heights.begin(), heights.end());
+  // Round heights that part the hidden cells into about as many each.
   std::vector<double> limits;
-  for (int i = 1; i < kSteps - 1; ++i, most = round_step(most / 2.5)) limits.push_back(most);
-  std::reverse(limits.begin(), limits.end());
-  for (int i = 0; i < static_cast<int>(limits.size()); ++i)
-    add_step(limits[static_cast<std::size_t>(i)], {kSeenColour, opacity_of(kSteps - 2 - i, kSteps)},
-             fmt::format("{:.10g}", limits[static_cast<std::size_t>(i)]));
+  for (const double share : {0.2, 0.45, 0.7}) {
+    if (heights.empty()) break;
+    const double limit = round_step(heights[static_cast<std::size_t>(share * static_cast<double>(heights.size() - 1))]);
+    if (limits.empty() || limit > limits.back()) limits.push_back(limit);
+  }
+  const int steps = static_cast<int>(limits.size()) + (limits.empty() ? 1 : 2);
+  int step = steps;
+  const auto add = [&](double most, std::string text) {
+    --step;
+    add_step(most, {kSeenColour, steps == 1 ? kOpacity : 0.08 + 0.77 * step / (steps - 1)}, std::move(text));
+  };
+  add(0, "0");
+  for (const double limit : limits) add(limit, fmt::format("{:.10g}", limit));
+  if (!limits.empty()) add(std::numeric_limits<double>::infinity(), fmt::format("> {:.10g}", limits.back()));
+}
+
+void MapOverlay::scale_probabilities() {
+  title_ = "Probability of being visible, up to percent";
+  for (const int percent : {5, 25, 50, 75, 95, 100})
+    add_step(percent / 100.0, {kSeenColour, percent == 5 ? 0 : 0.85 * (percent - 5) / 95}, fmt::format("{}", percent));
 }
 
 void MapOverlay::make_keys() {
@@ -220,7 +239,7 @@ void MapOverlay::make_keys() {
   }
   std::vector<Tint> seen;
   const Mode mode = result_.request.mode;
-  if (mode != Mode::kBlocker && mode != Mode::kHeight)
+  if (mode != Mode::kBlocker && mode != Mode::kHeight && mode != Mode::kProbability)
     for (const Step& step : steps_) seen.push_back(step.tint);
   if (seen.empty()) seen.push_back({kSeenColour, kOpacity});
   keys_ = {{std::move(seen), "Visible", cells.visible}, {{}, "Hidden", cells.hidden}};

@@ -54,6 +54,7 @@ class MapOverlay {
   void scale_distances();
   void scale_blockers();
   void scale_heights();
+  void scale_probabilities();
   double blocker_value(std::uint32_t theme) const;
   void add_step(double most, Tint tint, std::string text);
   void make_keys();

@@ -8,6 +8,7 @@
 #include "blocker_observation.hpp"
 #include "field_of_view.hpp"
 #include "least_height_observation.hpp"
+#include "probability_observation.hpp"
 
 namespace itin::viewshed {
 
@@ -125,6 +126,7 @@ void Observation::prepare(Result& result) {
   if (mode == Mode::kWhich) result.which.resize(cells * which_grids(result.request.observers.size()));
   if (mode == Mode::kAngle) result.angle_deg.resize(cells);
   if (mode == Mode::kBlocker) result.blocker.resize(cells);
+  if (mode == Mode::kProbability) result.probability.resize(cells);
   if (mode == Mode::kHeight) result.least_height_m.resize(cells);
   if (mode == Mode::kNearest) result.nearest.resize(cells), result.distance_m.resize(cells);
 }
@@ -133,6 +135,7 @@ Observations::Observations(const Request& request, const std::vector<Eye>& eyes,
     : request_(request), eyes_(&eyes), resolution_(tin.grid.resolution) {
   if (request.mode == Mode::kHeight) heights_.emplace(tin, request.earth, scene);
   if (request.mode == Mode::kBlocker) blockers_.emplace(tin, request.earth);
+  if (request.mode == Mode::kProbability) odds_.emplace(tin, request.earth, request.vertical_error);
 }
 
 std::unique_ptr<Observation> Observations::of_tile() const {
@@ -149,6 +152,8 @@ std::unique_ptr<Observation> Observations::of_tile() const {
       return std::make_unique<BlockerObservation>(*blockers_);
     case Mode::kHeight:
       return std::make_unique<LeastHeightObservation>(*heights_, *eyes_, resolution_);
+    case Mode::kProbability:
+      return std::make_unique<ProbabilityObservation>(*odds_, request_.nodata);
     case Mode::kVisible:
     case Mode::kCertified:
       break;

@@ -21,6 +21,7 @@
 #include "scene.hpp"
 #include "sight_lines.hpp"
 #include "surface_heights.hpp"
+#include "vertical_odds.hpp"
 
 namespace itin::viewshed {
 
@@ -96,6 +97,7 @@ class Observations {
   double resolution_ = 0;
   std::optional<LeastHeights> heights_;
   std::optional<FirstBlocker> blockers_;
+  std::optional<VerticalOdds> odds_;
 };
 
 }  // namespace itin::viewshed

@@ -69,6 +69,7 @@ void write_polygons(const std::string& path, const Result& result, const std::st
     case Mode::kWhich:
     case Mode::kAngle:
     case Mode::kHeight:
+    case Mode::kProbability:
       return write(result.visible, {{kVisible, "visible"}, {kHidden, "hidden"}});
   }
 }

@@ -276,7 +276,8 @@ class Precise {
           std::uint8_t& value = refinement.values()[grid.index({tile.column + c, tile.row + r})];
           if (value != kUndecided) continue;
           const Point2 centre = grid.centre(tile.column + c, tile.row + r);
-          if (eye.view.contains(centre.x - eye.position.x, centre.y - eye.position.y, -kAnyHeight, kAnyHeight) == false) {
+          if (eye.view.contains(centre.x - eye.position.x, centre.y - eye.position.y, -kAnyHeight, kAnyHeight) ==
+              false) {
             value = kOutside;
             continue;
           }

@@ -108,6 +108,14 @@ void validate(const Request& request) {
                                  kCountOutside - 1));
   for (const Observer& observer : request.observers) validate_observer(request, observer);
   validate_cells(request);
+  if (request.mode == Mode::kProbability) {
+    const VerticalError& e = request.vertical_error;
+    if (!positive(e.sigma))
+      throw InputError(fmt::format("vertical error {:g}: give a positive number of metres", e.sigma));
+    if (!(std::isfinite(e.correlation_length) && e.correlation_length >= 0))
+      throw InputError(
+          fmt::format("correlation length {:g}: give 0 or a positive number of metres", e.correlation_length));
+  }
   request.earth.validate();
 }
 

@@ -49,6 +49,19 @@ class SightLine {
     return std::clamp(2 * missing / (q + root), first, last);
   }
 
+  /// Calls visit(fraction of the length, rise above the line) where the ground over the triangle, as far as it lies
+  /// between the ends, begins, ends and bulges most.
+  template <class Visit>
+  void for_each_crest(const GridPoint& a, const GridPoint& b, const GridPoint& c, const Visit& visit) const {
+    const Section under = section(a, b, c);
+    if (!under.meets_line()) return;
+    const double first = std::max(under.low, 0.0), last = std::min(under.high, 1.0);
+    const auto at = [&](double s) { visit(s, rise(under, s)); };
+    at(first);
+    at(last);
+    if (bulge_ > 0) at(std::clamp(0.5 + under.slope() / (2 * bulge_), first, last));
+  }
+
   /// Where between the ends the triangle rises highest above the line, as a fraction of the length. Precondition: the
   /// line passes over the triangle.
   double highest_at(const GridPoint& a, const GridPoint& b, const GridPoint& c) const {

@@ -24,9 +24,9 @@ struct PanoramaPlace {
 
 struct Panorama {
   std::string title;
-  std::string note;                    ///< below the title, smaller
-  std::vector<SkylinePoint> skyline;   ///< clockwise and evenly spaced; may pass through north
-  std::vector<PanoramaPlace> places;   ///< those beyond the sky line's azimuths are left out
+  std::string note;                   ///< below the title, smaller
+  std::vector<SkylinePoint> skyline;  ///< clockwise and evenly spaced; may pass through north
+  std::vector<PanoramaPlace> places;  ///< those beyond the sky line's azimuths are left out
 };
 
 /// Throws InputError unless the name ends in .svg, .pdf or .png.

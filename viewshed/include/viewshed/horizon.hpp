@@ -31,8 +31,8 @@ struct HorizonOptions {
 
 struct SkyPoint {
   double elevation_deg = 0;
-  double distance_m = 0;  ///< horizontal
-  Point3 position;        ///< on the surface; of several places the nearest
+  double distance_m = 0;    ///< horizontal
+  Point3 position;          ///< on the surface; of several places the nearest
   std::uint16_t theme = 0;  ///< of the standing feature there; 0: terrain
 };
 

@@ -64,14 +64,22 @@ enum class NoData {
 
 /// What a cell is told about the observers that see it.
 enum class Mode {
-  kVisible,    ///< whether any does
-  kCount,      ///< how many do
-  kCertified,  ///< whether any certainly does: for compute_certified() (certified.hpp) alone
-  kWhich,      ///< which do
-  kAngle,      ///< the greatest elevation angle of their sight lines
-  kNearest,    ///< the nearest of them, and its distance
-  kBlocker,    ///< where none does, what hides the cell from the nearest observer that looks there
-  kHeight      ///< the least height above the ground at which a target is seen by any of them
+  kVisible,     ///< whether any does
+  kCount,       ///< how many do
+  kCertified,   ///< whether any certainly does: for compute_certified() (certified.hpp) alone
+  kWhich,       ///< which do
+  kAngle,       ///< the greatest elevation angle of their sight lines
+  kNearest,     ///< the nearest of them, and its distance
+  kBlocker,     ///< where none does, what hides the cell from the nearest observer that looks there
+  kHeight,      ///< the least height above the ground at which a target is seen by any of them
+  kProbability  ///< how probably any of them does where heights are uncertain: the greatest of theirs
+};
+
+/// What is known of the errors of heights: normal, with this standard deviation; those of places x apart are correlated
+/// as exp(-x / correlation_length), or not at all where that is 0. See src/vertical_odds.hpp for what follows from it.
+struct VerticalError {
+  double sigma = 0;               ///< metres, positive
+  double correlation_length = 0;  ///< metres
 };
 
 struct Request {
@@ -96,6 +104,7 @@ struct Request {
   bool targets_on_surface = false;
   NoData nodata = NoData::kUnknown;
   Mode mode = Mode::kVisible;
+  VerticalError vertical_error;  ///< kProbability
 };
 
 inline constexpr int kDefaultCells = 2048;
@@ -143,6 +152,8 @@ struct Result {
   /// kHeight: 0 where the ground is seen, infinity where no height is (beyond the field of view, or behind missing
   /// ground that blocks), NaN outside. Exact: the sight line to it touches the surface within a micrometre.
   std::vector<float> least_height_m;
+  /// kProbability: of the line's critical place, an upper bound; NaN outside.
+  std::vector<float> probability;
   std::vector<std::string> theme_names;  ///< from a store: of theme 1 and so on
   CellCounts cells;                      ///< areas are these times grid.cell_area()
   std::vector<double> ground_m;          ///< of each observer
