@@ -22,7 +22,7 @@ void ProbabilityObservation::judge(const LookPacket& packet, const Scene& scene,
     const std::size_t cell = packet.looks[i].cell;
     const bool seen = (hidden >> i & 1) == 0;
     if (seen) mark_visible(cell);
-    const double margin = odds_.least_margin(packet.lines, i);
+    const double margin = odds_.least_margin(packet.lines, i, memory_);
     // What no ground hides is behind missing ground that blocks.
     if (!seen && margin > 0 && nodata_ == NoData::kBlock) continue;
     margins_[cell] = std::max(margins_[cell], margin);

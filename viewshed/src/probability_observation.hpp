@@ -19,6 +19,7 @@ class ProbabilityObservation final : public Observation {
 
   const VerticalOdds& odds_;
   NoData nodata_;
+  VerticalOdds::Memory memory_;
   TileValues<double> margins_;  ///< of several observers the greatest
 };
 

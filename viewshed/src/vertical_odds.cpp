@@ -1,6 +1,8 @@
 #include "vertical_odds.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "sight_line.hpp"
@@ -42,28 +44,33 @@ VerticalOdds::VerticalOdds(const Tin& tin, const Earth& earth, const VerticalErr
       correlation_(error.correlation_length / tin.grid.resolution),
       pyramid_(tin) {}
 
-double VerticalOdds::least_margin(const SightLines& lines, unsigned i) const {
+double VerticalOdds::least_margin(const SightLines& lines, unsigned i, Memory& memory) const {
   const SightLine line({lines.from_x[i], lines.from_y[i], lines.from_z[i]},
                        {lines.to_x[i], lines.to_y[i], lines.to_z[i]}, drop_, grazing_);
   const Deviation deviation(std::hypot(line.dx(), line.dy()), correlation_);
   double least = kSure;
   // Ground further below the line than this has more of a margin.
   double near = kSure * sigma_ * Deviation::kMost;
-  pyramid_.search_near(line, near, [&](std::uint32_t triangle) {
+  const auto consider = [&](std::uint32_t triangle) {
     const Triangle& t = tin_.triangles[triangle];
     line.for_each_crest(tin_.vertices[t[0]], tin_.vertices[t[1]], tin_.vertices[t[2]], [&](double s, double rise) {
       const double unit = sigma_ * deviation.at(s);
       // An end is as uncertain as the ground that it stands on: nothing is to be lost there.
       if (unit <= 1e-9 * sigma_ || -rise >= least * unit) return;
-      least = -rise / unit;
-      near = least * sigma_ * (least > 0 ? Deviation::kMost : deviation.least());
+      least = std::max(-rise / unit, -kSure);
+      memory = triangle;
+      near = least <= -kSure ? -std::numeric_limits<double>::infinity()
+                             : least * sigma_ * (least > 0 ? Deviation::kMost : deviation.least());
     });
-  });
+  };
+  if (const Memory last = memory) consider(*last);
+  pyramid_.search_near(line, near, consider);
   return least;
 }
 
 double VerticalOdds::probability(double margin) {
-  return margin >= kSure ? 1 : std::erfc(-margin / std::numbers::sqrt2) / 2;
+  if (std::abs(margin) >= kSure) return margin > 0 ? 1 : 0;
+  return std::erfc(-margin / std::numbers::sqrt2) / 2;
 }
 
 }  // namespace itin::viewshed

@@ -9,6 +9,9 @@
 // clear too; the nearer, the more the critical place stands out.
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
 #include <itin/earth.hpp>
 #include <itin/tin.hpp>
 #include <viewshed/viewshed.hpp>
@@ -24,10 +27,12 @@ class VerticalOdds {
   /// The Tin must outlive it. Cost and memory: HeightPyramid's.
   VerticalOdds(const Tin& tin, const Earth& earth, const VerticalError& error);
 
-  /// The least clearance of line i in standard deviations, at most kSure; negative where it is hidden.
-  double least_margin(const SightLines& lines, unsigned i) const;
+  /// The triangle of the last line's critical place: it most often is near the next one's too.
+  using Memory = std::optional<std::uint32_t>;
+  /// The least clearance of line i in standard deviations, from -kSure to kSure; negative where it is hidden.
+  double least_margin(const SightLines& lines, unsigned i, Memory& memory) const;
   static constexpr double kSure = 6;
-  /// Phi: that of a margin; 1 from kSure on.
+  /// Phi: that of a margin; 1 from kSure on, 0 from -kSure down.
   static double probability(double margin);
 
  private:
