@@ -34,9 +34,9 @@ inline std::vector<std::uint8_t> brute_force(const Tin& surface, const Tin& grou
       below(ground, request.earth, request.nodata, 100000);
   const Observer& observer = request.observers.front();
   const Eye eye =
-      eye_of(surface.grid, observer, (request.observers_on_surface ? above : below).ground(observer.position));
+      eye_of(surface.grid, request, observer, (request.observers_on_surface ? above : below).ground(observer.position));
   const double resolution = surface.grid.resolution;
-  const FieldOfView view(request);
+  const FieldOfView view(request, observer);
   std::vector<std::uint8_t> values(cells.cell_count(), kOutside);
   for (std::int64_t row = 0; row < cells.rows(); ++row) {
     for (std::int64_t column = 0; column < cells.columns(); ++column) {

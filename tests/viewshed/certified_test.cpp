@@ -231,10 +231,24 @@ TEST(Certified, RingsAndSeveralObservers) {
   const Result count = compute_precise(terrain.store(), request, {.memory_bytes = 3000000}, progress).result;
   request.mode = Mode::kVisible;
   const Result any = compute_precise(terrain.store(), request, {.memory_bytes = 3000000}, progress).result;
+  request.mode = Mode::kWhich;
+  const Result which = compute_precise(terrain.store(), request, {.memory_bytes = 3000000}, progress).result;
+  request.mode = Mode::kNearest;
+  const Result nearest = compute_precise(terrain.store(), request, {.memory_bytes = 3000000}, progress).result;
+  const auto distance = [&](std::size_t observer, std::size_t i) {
+    const auto columns = nearest.grid.columns();
+    const Point2 c =
+        nearest.grid.centre(static_cast<std::int64_t>(i) % columns, static_cast<std::int64_t>(i) / columns);
+    const Point2 o = request.observers[observer].position;
+    return std::hypot(c.x - o.x, c.y - o.y);
+  };
   for (std::size_t i = 0; i < truth.size(); ++i) {
     if (truth[i] == kOutside) continue;
     ASSERT_EQ(count.count[i], (truth[i] == kVisible) + (other[i] == kVisible));
     ASSERT_EQ(any.visible[i] == kVisible, count.count[i] > 0);
+    ASSERT_EQ(which.which[i], (truth[i] == kVisible ? 1U : 0U) + (other[i] == kVisible ? 2U : 0U));
+    const bool first_nearer = other[i] != kVisible || distance(0, i) <= distance(1, i);
+    ASSERT_EQ(nearest.nearest[i], count.count[i] == 0 ? 0 : truth[i] == kVisible && first_nearer ? 1 : 2);
   }
 }
 
@@ -252,7 +266,8 @@ TEST(Precise, TheMemoryChangesNothingOnTheWholeSample) {
       EXPECT_TRUE(result.visible == other.visible) << "memory " << memory;
     }
     // And the walk over all triangles beneath the line.
-    const Eye eye = eye_of(terrain.full().grid, request.observers[0], whole.ground(request.observers[0].position));
+    const Eye eye =
+        eye_of(terrain.full().grid, request, request.observers[0], whole.ground(request.observers[0].position));
     const double resolution = terrain.full().grid.resolution;
     std::uint64_t different = 0;
     for (std::size_t i = 0; i < result.visible.size(); i += 61) {

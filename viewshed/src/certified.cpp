@@ -157,7 +157,7 @@ Surveyed compute_certified(const Store& store, const Request& request, Progress&
   result.statistics.scene_seconds = watch.lap();
 
   result.visible.resize(result.grid.cell_count());
-  decide_all(CertifiedPass(scene, result.grid, tiles, request), tiles, looks, result, progress);
+  decide_all(CertifiedPass(scene, result.grid, tiles), tiles, looks, result, progress);
   result.statistics.rays_seconds = watch.lap();
   surveyed.tin = scene.envelope.lower;
   return surveyed;

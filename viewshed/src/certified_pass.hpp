@@ -1,7 +1,7 @@
 // Judges sight lines by an envelope: certainly visible, certainly hidden, or undecided.
 //
 //   const EnvelopeScene scene(envelop(...), request, tiles, Voids::kDoubt);
-//   const CertifiedPass pass(scene, grid, tiles, request);
+//   const CertifiedPass pass(scene, grid, tiles);
 //   CertifiedPass::TileWork work = pass.begin(tile_index);
 //   pass.judge(scene.look_from(eye), values, work, [](const Doubtful& d) { ... });
 //
@@ -20,7 +20,6 @@
 
 #include "envelope.hpp"
 #include "eye.hpp"
-#include "field_of_view.hpp"
 #include "scene.hpp"
 #include "surface_heights.hpp"
 #include "triangle_bins.hpp"
@@ -62,7 +61,7 @@ struct Doubtful {
 
 class CertifiedPass {
  public:
-  CertifiedPass(const EnvelopeScene& scene, const RasterGrid& grid, const RasterGrid& tiles, const Request& request);
+  CertifiedPass(const EnvelopeScene& scene, const RasterGrid& grid, const RasterGrid& tiles);
 
   /// What a tile's cells share between observers.
   struct TileWork {
@@ -90,8 +89,6 @@ class CertifiedPass {
   const EnvelopeScene& scene_;
   const RasterGrid& grid_;
   const RasterGrid& tiles_;
-  const Request& request_;
-  FieldOfView view_;
 };
 
 }  // namespace itin::viewshed

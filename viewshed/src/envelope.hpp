@@ -34,8 +34,8 @@ struct EnvelopeRequest {
   int level = 0;
   std::vector<FineDisc> discs;    ///< in any order
   std::vector<Point2> observers;  ///< rays start here: `upper` is raised for what single precision does sideways
-  ThemeChoice themes = ThemeChoice::none();  ///< what stands on the ground; at level 0 alone, without discs
-  std::optional<Window> bare_ground;         ///< where the ground without it is wanted too
+  ThemeChoice themes = ThemeChoice::none();          ///< what stands on the ground; at level 0 alone, without discs
+  std::optional<Window> bare_ground = std::nullopt;  ///< where the ground without it is wanted too
 };
 
 /// Both have the same triangles, in the same order.

@@ -20,7 +20,7 @@ Box around(Point2 p, double radius) {
 }
 
 /// The greatest radius, in steps of a square root of 2, within which a level has no more points than that.
-double radius_of(const Store& store, int level, Point2 centre, double points) {
+double radius_with(const Store& store, int level, Point2 centre, double points) {
   const Box all = store.metadata().grid.box(store.metadata().bounds);
   const double greatest = std::max(all.width(), all.height());
   double radius = store.metadata().grid.resolution;
@@ -44,7 +44,7 @@ std::vector<Eye> eyes_on_full_surface(const Store& store, const Request& request
     for (std::uint32_t t = 0; t < tin.triangles.size() && !height; ++t)
       height = surface_height(tin, {&t, 1}, observer.position);
     if (height) height = *height * grid.resolution;
-    eyes.push_back(eye_of(grid, observer, height));
+    eyes.push_back(eye_of(grid, request, observer, height));
     ground.push_back(*height);
   }
   return eyes;
@@ -70,8 +70,8 @@ EnvelopeRequest certified_request(const Store& store, const Request& request, in
   for (const Observer& observer : request.observers) {
     result.observers.push_back(observer.position);
     for (int finer = 0; finer < level; ++finer) {
-      double radius = radius_of(store, finer, observer.position, points);
-      if (request.radius) radius = std::min(radius, *request.radius);
+      double radius = radius_with(store, finer, observer.position, points);
+      if (const auto reach = radius_of(request, observer)) radius = std::min(radius, *reach);
       result.discs.push_back({observer.position, radius, finer});
     }
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 
@@ -14,6 +15,7 @@
 #include "certified_pass.hpp"
 #include "ground_tiles.hpp"
 #include "near_ground.hpp"
+#include "observation.hpp"
 #include "request.hpp"
 #include "stopwatch.hpp"
 
@@ -35,8 +37,8 @@ bool decided(std::uint8_t value) {
 /// One observer's raster on its way.
 class Refinement {
  public:
-  Refinement(const Request& request, const RasterGrid& grid, const RasterGrid& tiles, Progress& progress)
-      : request_(request), grid_(grid), tiles_(tiles), progress_(progress), values_(grid.cell_count(), kUndecided) {}
+  Refinement(const RasterGrid& grid, const RasterGrid& tiles, Progress& progress)
+      : grid_(grid), tiles_(tiles), progress_(progress), values_(grid.cell_count(), kUndecided) {}
 
   std::vector<std::uint8_t>& values() { return values_; }
   std::uint64_t rays() const { return rays_; }
@@ -45,7 +47,7 @@ class Refinement {
   template <class OnDoubtful>
   void judge(const EnvelopeScene& scene, const Eye& eye, const std::vector<std::size_t>& cells,
              const OnDoubtful& doubtful) {
-    const CertifiedPass pass(scene, grid_, tiles_, request_);
+    const CertifiedPass pass(scene, grid_, tiles_);
     const EnvelopeScene::Look look = scene.look_from(eye);
     parallel_for(cells.size(), [&](std::size_t i) {
       progress_.throw_if_cancelled();
@@ -84,7 +86,6 @@ class Refinement {
     progress_.report("cells decided", static_cast<double>(done_) / static_cast<double>(values_.size()));
   }
 
-  const Request& request_;
   const RasterGrid& grid_;
   const RasterGrid& tiles_;
   Progress& progress_;
@@ -136,6 +137,7 @@ class Precise {
 
   Surveyed run() {
     validate(request_);
+    require_mode();
     Result& result = surveyed_.result;
     result.request = request_;
     Stopwatch watch;
@@ -156,14 +158,23 @@ class Precise {
           "with --themes, --nodata block needs the whole window in memory: give more --memory or a smaller --radius");
     }
     result.statistics.scene_seconds = watch.lap();
-    seen_.assign(result.grid.cell_count(), kCountOutside);
-    for (std::size_t i = 0; i < eyes.size(); ++i) look(eyes[i], i + 1 == eyes.size());
+    for (std::size_t tile = 0; tile < tiles_.cell_count(); ++tile)
+      observations_.push_back(Observations(request_).of_tile());
+    for (std::uint32_t i = 0; i < eyes.size(); ++i) look(eyes[i], i);
     finish();
     result.statistics.rays_seconds = watch.lap();
     return std::move(surveyed_);
   }
 
  private:
+  /// Cells that a coarse level decides have no exact height of ground.
+  void require_mode() const {
+    using enum Mode;
+    for (const Mode mode : {kVisible, kCount, kWhich, kNearest})
+      if (request_.mode == mode) return;
+    throw InputError("precise viewsheds tell visible, count, which and nearest; choose one of these modes");
+  }
+
   int first_level() const {
     const Window window = window_of(request_);
     const Box box = window.is_all() ? store_.metadata().grid.box(store_.metadata().bounds) : window.bounds();
@@ -184,21 +195,19 @@ class Precise {
 
   void look_for_voids(const Envelope& envelope) {
     Result& result = surveyed_.result;
-    const double reach = request_.radius.value_or(std::numeric_limits<double>::infinity());
     for (const Observer& observer : request_.observers) {
+      const double reach = radius_of(request_, observer).value_or(std::numeric_limits<double>::infinity());
       result.crosses_voids =
           result.crosses_voids || surface_resumes(envelope.lower, envelope.outline, observer.position, reach);
     }
     if (result.crosses_voids && request_.nodata == NoData::kUnknown) result.warnings.emplace_back(kVoidsWarning);
   }
 
-  void look(const Eye& eye, bool last) {
-    const RasterGrid& grid = surveyed_.result.grid;
-    Refinement refinement(request_, grid, tiles_, progress_);
-    if (request_.mode == Mode::kVisible) {
-      for (std::size_t i = 0; i < seen_.size(); ++i)
-        if (seen_[i] != kCountOutside && seen_[i] > 0) refinement.values()[i] = kOutside;
-    }
+  void look(const Eye& eye, std::uint32_t observer) {
+    Refinement refinement(surveyed_.result.grid, tiles_, progress_);
+    for_each_look(eye, observer, [&](const Observation& observation, const Look& look, std::size_t place) {
+      if (!observation.open(look)) refinement.values()[place] = kOutside;
+    });
     std::vector<std::size_t> all(tiles_.cell_count());
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
     if (first_ && first_->exact) {
@@ -208,11 +217,33 @@ class Precise {
       // Certificates know nothing of what stands on the ground: then whole lines are needed.
       const std::vector<TileSet> needed = features_ ? under_lines(eye, refinement) : coarse_pass(eye, all, refinement);
       // The scene's memory is free for the segments, when no other observer needs it.
-      if (last) first_.reset();
+      if (observer + 1 == request_.observers.size()) first_.reset();
       for (const std::vector<std::size_t>& segment : segments(eye, needed)) refine(eye, segment, needed, refinement);
     }
     surveyed_.result.statistics.rays += refinement.rays();
-    add(refinement.values());
+    for_each_look(eye, observer, [&](Observation& observation, const Look& look, std::size_t place) {
+      const std::uint8_t value = refinement.values()[place];
+      if (value != kOutside) observation.enter(look.cell);
+      if (value == kCertainlyVisible) observation.see(look);
+    });
+  }
+
+  /// Calls visit(observation, look, place in the grid) for every cell; the looks know no heights.
+  template <class Visit>
+  void for_each_look(const Eye& eye, std::uint32_t observer, const Visit& visit) const {
+    const RasterGrid& grid = surveyed_.result.grid;
+    parallel_for(observations_.size(), [&](std::size_t i) {
+      const Tile tile = tile_at(grid, tiles_, i);
+      for (std::int64_t r = 0; r < tile.rows; ++r) {
+        for (std::int64_t c = 0; c < tile.columns; ++c) {
+          const Point2 centre = grid.centre(tile.column + c, tile.row + r);
+          visit(*observations_[i],
+                {static_cast<std::size_t>(r * Tile::kSide + c), observer, centre.x - eye.position.x,
+                 centre.y - eye.position.y, 0},
+                grid.index({tile.column + c, tile.row + r}));
+        }
+      }
+    });
   }
 
   /// The ground that each tile's undecided lines need at full detail.
@@ -236,7 +267,6 @@ class Precise {
   /// The ground under all lines in view to each tile's cells. Cells out of view become kOutside.
   std::vector<TileSet> under_lines(const Eye& eye, Refinement& refinement) {
     const RasterGrid& grid = surveyed_.result.grid;
-    const FieldOfView view(request_);
     constexpr double kAnyHeight = 1e9;
     std::vector<TileSet> needed(tiles_.cell_count());
     parallel_for(needed.size(), [&](std::size_t i) {
@@ -246,7 +276,8 @@ class Precise {
           std::uint8_t& value = refinement.values()[grid.index({tile.column + c, tile.row + r})];
           if (value != kUndecided) continue;
           const Point2 centre = grid.centre(tile.column + c, tile.row + r);
-          if (view.contains(centre.x - eye.position.x, centre.y - eye.position.y, -kAnyHeight, kAnyHeight) == false) {
+          if (eye.view.contains(centre.x - eye.position.x, centre.y - eye.position.y, -kAnyHeight, kAnyHeight) ==
+              false) {
             value = kOutside;
             continue;
           }
@@ -311,26 +342,11 @@ class Precise {
     return Window::polygons(std::move(parts));
   }
 
-  void add(const std::vector<std::uint8_t>& values) {
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (values[i] == kOutside) continue;
-      if (seen_[i] == kCountOutside) seen_[i] = 0;
-      if (values[i] == kCertainlyVisible) ++seen_[i];
-    }
-  }
-
   void finish() {
     Result& result = surveyed_.result;
-    for (const std::uint16_t seen : seen_)
-      ++(seen == kCountOutside ? result.cells.outside : seen > 0 ? result.cells.visible : result.cells.hidden);
-    if (request_.mode == Mode::kCount) {
-      result.count = std::move(seen_);
-      return;
-    }
-    result.visible.resize(seen_.size());
-    std::transform(seen_.begin(), seen_.end(), result.visible.begin(), [](std::uint16_t seen) {
-      return seen == kCountOutside ? kOutside : seen > 0 ? kVisible : kHidden;
-    });
+    Observation::prepare(result);
+    for (std::size_t i = 0; i < observations_.size(); ++i)
+      observations_[i]->store(tile_at(result.grid, tiles_, i), result, result.cells);
   }
 
   const Store& store_;
@@ -342,7 +358,7 @@ class Precise {
   RasterGrid tiles_;
   std::optional<GroundTiles> ground_;
   std::optional<EnvelopeScene> first_;
-  std::vector<std::uint16_t> seen_;
+  std::vector<std::unique_ptr<Observation>> observations_;  ///< a tile
 };
 
 }  // namespace

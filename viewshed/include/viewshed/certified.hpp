@@ -34,11 +34,11 @@ struct PreciseOptions {
   std::uint64_t memory_bytes = std::uint64_t{1} << 30;  ///< changes the speed, never the answer
 };
 
-/// Exact for the full surface, in modes kVisible and kCount: each cell has the value that the exact walk in double
-/// precision over every triangle would give it. A certified pass at a coarse level decides most cells; for the others
-/// the places where their lines come near the ground, and no more, are read at full detail, as many at a time as the
-/// memory allows, and the few lines that graze are walked. Request::detail is not used. NoData::kUnknown counts as
-/// clear, with a warning.
+/// Exact for the full surface, in modes kVisible, kCount, kWhich and kNearest: each cell has the value that the exact
+/// walk in double precision over every triangle would give it. A certified pass at a coarse level decides most cells;
+/// for the others the places where their lines come near the ground, and no more, are read at full detail, as many at a
+/// time as the memory allows, and the few lines that graze are walked. Request::detail is not used. NoData::kUnknown
+/// counts as clear, with a warning.
 /// Throws as compute() does, and InputError where themes that stand on the ground, NoData::kBlock and voids come
 /// together in a window too large for the memory.
 Surveyed compute_precise(const Store& store, const Request& request, const PreciseOptions& options, Progress& progress);
