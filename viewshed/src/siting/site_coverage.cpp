@@ -1,0 +1,287 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+#include <itin/parallel.hpp>
+#include <itin/triangulate.hpp>
+#include <viewshed/site_coverage.hpp>
+
+#include "../near_ground.hpp"
+#include "../request.hpp"
+#include "../stopwatch.hpp"
+#include "cell_blocks.hpp"
+#include "group_survey.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// Peak memory a point of an envelope, as for precise viewsheds.
+constexpr std::uint64_t kBytesAPoint = 1200;
+/// Of the full surface's points the first look reads so many at most, and the second.
+constexpr std::uint64_t kFirstShare = 12, kSecondShare = 3;
+/// No coarse look at so few points: the full surface is as fast.
+constexpr std::uint64_t kFewPoints = 40000;
+
+Box around(Point2 p, double radius) {
+  return {p.x - radius, p.y - radius, p.x + radius, p.y + radius};
+}
+
+bool standing(const Store& store, const ThemeChoice& themes) {
+  const auto& all = store.metadata().themes;
+  return std::any_of(all.begin(), all.end(), [&](const ThemeInfo& t) { return t.stands() && themes.includes(t); });
+}
+
+/// The finest level with at most so many points in the box.
+int level_of(const Store& store, const Box& box, std::uint64_t points) {
+  int level = 0;
+  while (level + 1 < static_cast<int>(store.metadata().levels.size()) && store.points_about(level, box) > points)
+    ++level;
+  return level;
+}
+
+}  // namespace
+
+std::vector<std::optional<double>> ground_under(const Store& store, const std::vector<Point2>& positions,
+                                                const ThemeChoice& themes, Progress& progress) {
+  const Grid& grid = store.metadata().grid;
+  std::vector<std::optional<double>> result;
+  for (const Point2& p : positions) {
+    progress.throw_if_cancelled();
+    std::optional<double>& height = result.emplace_back();
+    if (!std::isfinite(p.x) || !std::isfinite(p.y)) continue;
+    const Tin tin = triangulate(store, Window::box(around(p, 2 * grid.resolution)), Detail::tolerance(0), progress,
+                                themes);
+    for (std::uint32_t t = 0; t < tin.triangles.size() && !height; ++t) height = surface_height(tin, {&t, 1}, p);
+    if (height) *height *= grid.resolution;
+    if (result.size() % 64 == 0)
+      progress.report("ground under sites", static_cast<double>(result.size()) / static_cast<double>(positions.size()));
+  }
+  return result;
+}
+
+RasterGrid grid_of_reach(const Store& store, const std::vector<SiteStand>& stands, double radius, double cell_size) {
+  Request request;
+  for (const SiteStand& stand : stands) request.observers.push_back({stand.name, stand.position, stand.height});
+  request.radius = radius;
+  request.cell_size = cell_size;
+  return cells_of(request, store.metadata().grid.box(store.metadata().bounds));
+}
+
+std::size_t element_count(const RasterGrid& grid) {
+  return CellBlocks(grid).element_count();
+}
+std::size_t element_of(const RasterGrid& grid, RasterGrid::Cell cell) {
+  return CellBlocks(grid).element(cell);
+}
+
+Eye eye_at(const Grid& grid, const SiteStand& stand) {
+  return eye_of(grid, {stand.name, stand.position, stand.elevation(), true}, stand.ground);
+}
+
+Request request_of(const SiteSurvey& survey, std::span<const std::size_t> options) {
+  Request request;
+  for (const std::size_t option : options) {
+    const SiteStand& stand = survey.stands[option];
+    request.observers.push_back({stand.name, stand.position, stand.elevation(), true});
+  }
+  request.target_height = survey.targets.height;
+  request.radius = survey.radius;
+  request.earth = survey.earth;
+  request.nodata = survey.nodata;
+  return request;
+}
+
+class SiteCoverage::Impl {
+ public:
+  Impl(const Store& store, SiteSurvey survey, Progress& progress)
+      : store_(store), survey_(std::move(survey)), progress_(progress), themed_(standing(store, survey_.themes)) {
+    if (survey_.stands.empty()) throw InputError("no site to look from: give at least one on the data");
+    Box box;
+    for (const SiteStand& stand : survey_.stands) box.extend(around(stand.position, survey_.radius));
+    choose_levels(box);
+    // A target on a roof is seen from afar as one so high above the bare ground may be.
+    if (survey_.targets.on_surface && themed_) raise_ = store.greatest_feature_height(survey_.themes, box);
+    states_.resize(survey_.stands.size());
+    parallel_for(states_.size(), [&](std::size_t i) {
+      states_[i].bounds.possible = within_reach(survey_, survey_.stands[i]);
+      states_[i].first = states_[i].bounds;
+    });
+  }
+
+  void look_first() {
+    std::vector<std::size_t> all(states_.size());
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+    judge(all);
+    for (State& state : states_) state.first = state.bounds;
+  }
+
+  /// Each option's next stage.
+  void refine(std::span<const std::size_t> options) {
+    std::vector<std::vector<std::size_t>> at_stage(static_cast<std::size_t>(last_stage()) + 1);
+    for (const std::size_t option : options) {
+      if (!states_[option].bounds.exact) at_stage[static_cast<std::size_t>(states_[option].stage + 1)].push_back(option);
+    }
+    for (const auto& some : at_stage)
+      if (!some.empty()) judge(some);
+  }
+
+  struct State {
+    CoverageBounds bounds, first;
+    int stage = -1;  ///< of the last look
+  };
+  const State& state(std::size_t option) const { return states_[option]; }
+  int last_stage() const { return static_cast<int>(levels_.size()) - (themed_ ? 0 : 1); }
+
+  std::string stage_name(int stage) const {
+    if (stage < 0) return "radius alone";
+    if (stage >= static_cast<int>(levels_.size())) return "exact, with themes";
+    const int level = levels_[static_cast<std::size_t>(stage)];
+    if (level == 0) return themed_ ? "exact, bare terrain" : "exact";
+    return fmt::format("tolerance {:g} m", store_.metadata().levels[static_cast<std::size_t>(level)].tolerance);
+  }
+
+  void restore(std::size_t option, int stage, CoverageBounds bounds) {
+    if (stage == 0) states_[option].first = bounds;
+    states_[option].bounds = std::move(bounds);
+    states_[option].stage = stage;
+  }
+
+  const Statistics& statistics() const { return statistics_; }
+  std::function<void(std::size_t, int, const CoverageBounds&)>* on_refined = nullptr;
+
+ private:
+  void choose_levels(const Box& box) {
+    const std::uint64_t all = store_.points_about(0, box);
+    int first = survey_.tolerance ? level_within(store_.metadata(), *survey_.tolerance)
+                : all <= kFewPoints ? 0
+                                    : level_of(store_, box, all / kFirstShare);
+    levels_ = {first};
+    if (const int second = level_of(store_, box, all / kSecondShare); first > 0 && second > 0 && second < first)
+      levels_.push_back(second);
+    if (first > 0) levels_.push_back(0);
+  }
+
+  std::uint64_t points_of(const std::vector<std::size_t>& options, int level) const {
+    Box box;
+    for (const std::size_t option : options) box.extend(around(survey_.stands[option].position, survey_.radius));
+    return store_.points_about(level, box);
+  }
+
+  /// Neighbours together, as many as the memory holds.
+  std::vector<std::vector<std::size_t>> groups(std::vector<std::size_t> options, int level) const {
+    const std::uint64_t budget = survey_.memory_bytes / 2 / kBytesAPoint;
+    if (options.size() < 2 || points_of(options, level) <= budget) return {std::move(options)};
+    Box box;
+    for (const std::size_t option : options) box.extend(survey_.stands[option].position);
+    std::sort(options.begin(), options.end(), [&](std::size_t a, std::size_t b) {
+      const Point2 p = survey_.stands[a].position, q = survey_.stands[b].position;
+      const double pa = box.width() > box.height() ? p.x : p.y, pb = box.width() > box.height() ? q.x : q.y;
+      return pa != pb ? pa < pb : a < b;
+    });
+    const auto half = options.begin() + static_cast<std::ptrdiff_t>(options.size() / 2);
+    std::vector<std::vector<std::size_t>> result = groups({options.begin(), half}, level);
+    for (auto& group : groups({half, options.end()}, level)) result.push_back(std::move(group));
+    return result;
+  }
+
+  /// Takes the options, all at one stage, to the next.
+  void judge(const std::vector<std::size_t>& options) {
+    const int stage = states_[options.front()].stage + 1;
+    if (stage == static_cast<int>(levels_.size())) {
+      for (const std::size_t option : options) judge_with_standing(option);
+      return;
+    }
+    const int level = levels_[static_cast<std::size_t>(stage)];
+    for (const std::vector<std::size_t>& group : groups(options, level)) judge_group(group, stage, level);
+  }
+
+  void judge_group(const std::vector<std::size_t>& group, int stage, int level) {
+    Stopwatch watch;
+    Request request = request_of(survey_, group);
+    request.target_height += raise_;
+    Envelope envelope = envelop(store_, certified_request(store_, request, level), progress_);
+    statistics_.retrieval += envelope.lower.statistics;
+    statistics_.triangles += envelope.lower.triangles.size();
+    statistics_.retrieval_seconds += watch.lap();
+    const RasterGrid tiles =
+        survey_.targets.grid ? grid_of_tiles(*survey_.targets.grid) : bins_of_points(survey_.targets.points);
+    const EnvelopeScene scene(std::move(envelope), request, tiles,
+                              survey_.nodata == NoData::kBlock ? Voids::kBlock : Voids::kPass);
+    statistics_.scene_seconds += watch.lap();
+    std::vector<const CoverageBounds*> before;
+    for (const std::size_t option : group) before.push_back(&states_[option].bounds);
+    const auto look = survey_.targets.grid ? judge_cells : judge_points;
+    std::vector<CoverageBounds> after = look(scene, survey_, request, group, before, progress_, statistics_);
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      if (themed_) after[i].certain = {}, after[i].exact = false;  // features may hide it
+      settle(group[i], stage, std::move(after[i]));
+    }
+    statistics_.rays_seconds += watch.lap();
+  }
+
+  void judge_with_standing(std::size_t option) {
+    Stopwatch watch;
+    CoverageBounds bounds;
+    bounds.certain = judge_with_themes(store_, survey_, option, states_[option].bounds.possible, progress_, statistics_);
+    bounds.possible = bounds.certain;
+    bounds.exact = true;
+    statistics_.rays_seconds += watch.lap();
+    settle(option, static_cast<int>(levels_.size()), std::move(bounds));
+  }
+
+  void settle(std::size_t option, int stage, CoverageBounds bounds) {
+    states_[option].bounds = std::move(bounds);
+    states_[option].stage = stage;
+    if (on_refined != nullptr && *on_refined) (*on_refined)(option, stage, states_[option].bounds);
+  }
+
+  const Store& store_;
+  SiteSurvey survey_;
+  Progress& progress_;
+  bool themed_;
+  double raise_ = 0;
+  std::vector<int> levels_;  ///< of the looks at the bare terrain
+  std::vector<State> states_;
+  Statistics statistics_;
+};
+
+SiteCoverage::SiteCoverage(const Store& store, SiteSurvey survey, Progress& progress, Unlooked)
+    : impl_(std::make_unique<Impl>(store, std::move(survey), progress)) {
+  impl_->on_refined = &on_refined;
+}
+SiteCoverage::SiteCoverage(const Store& store, SiteSurvey survey, Progress& progress)
+    : SiteCoverage(store, std::move(survey), progress, Unlooked{}) {
+  impl_->look_first();
+}
+SiteCoverage::~SiteCoverage() = default;
+
+const CoverageBounds& SiteCoverage::bounds(std::size_t option) const {
+  return impl_->state(option).bounds;
+}
+void SiteCoverage::refine(std::span<const std::size_t> options) {
+  impl_->refine(options);
+}
+int SiteCoverage::stage(std::size_t option) const {
+  return impl_->state(option).stage;
+}
+int SiteCoverage::last_stage() const {
+  return impl_->last_stage();
+}
+const CoverageBounds& SiteCoverage::first_bounds(std::size_t option) const {
+  return impl_->state(option).first;
+}
+std::string SiteCoverage::stage_name(int stage) const {
+  return impl_->stage_name(stage);
+}
+void SiteCoverage::restore(std::size_t option, int stage, CoverageBounds bounds) {
+  impl_->restore(option, stage, std::move(bounds));
+}
+const Statistics& SiteCoverage::statistics() const {
+  return impl_->statistics();
+}
+
+}  // namespace itin::viewshed
