@@ -15,24 +15,36 @@
 
 namespace itin {
 
+/// A further field to read as numbers.
+struct NumberField {
+  std::string name;
+  bool required = true;  ///< an error if the layer has no such field; otherwise no site has a value
+};
+
 struct SiteQuery {
   std::string path;          ///< GeoPackage, GeoJSON, Shapefile, CSV with columns x,y; whatever GDAL reads
   std::string layer;         ///< default: the file's only layer
   std::string where;         ///< an attribute filter in OGR's SQL; default: all features
   std::string height_field;  ///< metres; default: no heights
   std::string name_field;    ///< default: the feature's number
+  std::vector<NumberField> numbers;
   std::string crs;           ///< of a file that does not say; default: the one asked for. Overrides nothing.
 };
 
 struct Site {
   std::int64_t feature = 0;  ///< the file's own number for it
+  std::int64_t row = 0;      ///< its place among the features asked for, from 0
   std::string name;
   Point2 position;  ///< in the CRS asked for
   std::optional<double> height;
+  std::vector<std::optional<double>> numbers;  ///< one for each SiteQuery::numbers; nothing where the field is empty
 };
 
 /// All sites in the file's order, in the CRS `to_crs` (WKT). Throws FileError for a file, layer, field, filter or
 /// feature that is missing or not understood (naming it), InputError for a CRS that is unknown.
 std::vector<Site> read_sites(const SiteQuery& query, const std::string& to_crs);
+
+/// The same, but features that are not understood are left out, each with a line in `rejected` that names it.
+std::vector<Site> read_sites(const SiteQuery& query, const std::string& to_crs, std::vector<std::string>& rejected);
 
 }  // namespace itin

@@ -5,6 +5,7 @@
 //   survey.stands = {...};                       // positions, heights, ground under them
 //   survey.targets.grid = grid_of_reach(...);
 //   SiteCoverage coverage(store, survey, progress);
+//   coverage.look_first();
 //   Choice choice = choose(demand, options, coverage, {.count = 10}, progress);
 //
 // Exact means: for the bare terrain, the walk over every triangle of the full surface in double precision, as
@@ -65,18 +66,25 @@ RasterGrid grid_of_reach(const Store& store, const std::vector<SiteStand>& stand
 /// A grid's cells as elements of a demand: `count` elements, of which the padding about the grid is never served.
 std::size_t element_count(const RasterGrid& grid);
 std::size_t element_of(const RasterGrid& grid, RasterGrid::Cell cell);
+RasterGrid::Cell cell_of(const RasterGrid& grid, std::size_t element);
+
+/// Those of the targets that have ground under them.
+DemandSet with_ground(const Store& store, const SiteTargets& targets, Progress& progress);
+
+/// Everything within the radius of a site, with or without ground.
+DemandSet within_reach(const SiteTargets& targets, Point2 position, double radius);
 
 class SiteCoverage final : public Coverage {
  public:
-  /// The store and the progress must outlive it. Takes the first look. Throws as compute_certified() does.
+  /// The store and the progress must outlive it. Before look_first() all that is known is the radius. Throws InputError.
   SiteCoverage(const Store& store, SiteSurvey survey, Progress& progress);
-  /// Without the first look, for saved results.
-  struct Unlooked {};
-  SiteCoverage(const Store& store, SiteSurvey survey, Progress& progress, Unlooked);
   ~SiteCoverage() override;
 
   const CoverageBounds& bounds(std::size_t option) const override;
+  /// Throws as compute_certified() does.
   void refine(std::span<const std::size_t> options) override;
+  /// At every option that was not looked at yet.
+  void look_first();
 
   /// How often an option was refined after the first look, and how often that can be at most.
   int stage(std::size_t option) const;

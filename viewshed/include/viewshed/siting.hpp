@@ -88,6 +88,9 @@ struct Choice {
 Choice choose(const Demand& demand, const std::vector<SiteOption>& options, Coverage& coverage, const ChoiceGoal& goal,
               Progress& progress);
 
+/// The weight of what at least `cover` of the sets hold.
+Weight served_by(const Demand& demand, const std::vector<DemandSet>& sets, int cover);
+
 /// 100 (upper_bound - value) / upper_bound; 0 where there is nothing to gain.
 double gap_percent(const Choice& choice);
 

@@ -82,6 +82,12 @@ Choice choose(const Demand& demand, const std::vector<SiteOption>& options, Cove
   return choice;
 }
 
+Weight served_by(const Demand& demand, const std::vector<DemandSet>& sets, int cover) {
+  Served served(demand, cover);
+  for (const DemandSet& set : sets) served.add(set);
+  return served.value();
+}
+
 double gap_percent(const Choice& choice) {
   return choice.upper_bound == 0 ? 0
                                  : 100 * static_cast<double>(choice.upper_bound - choice.value) /

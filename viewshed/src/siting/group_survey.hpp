@@ -28,9 +28,6 @@ std::vector<CoverageBounds> judge_points(const EnvelopeScene& scene, const SiteS
 /// Where points lie, for EnvelopeScene.
 RasterGrid bins_of_points(const std::vector<Point2>& points);
 
-/// Everything within the radius: what is known before any look.
-DemandSet within_reach(const SiteSurvey& survey, const SiteStand& stand);
-
 /// Exact with the survey's themes, for one option. What is not in `bare` is hidden.
 DemandSet judge_with_themes(const Store& store, const SiteSurvey& survey, std::size_t option, const DemandSet& bare,
                             Progress& progress, Statistics& statistics);

@@ -77,6 +77,9 @@ std::size_t element_count(const RasterGrid& grid) {
 std::size_t element_of(const RasterGrid& grid, RasterGrid::Cell cell) {
   return CellBlocks(grid).element(cell);
 }
+RasterGrid::Cell cell_of(const RasterGrid& grid, std::size_t element) {
+  return CellBlocks(grid).cell(element);
+}
 
 Eye eye_at(const Grid& grid, const SiteStand& stand) {
   return eye_of(grid, {stand.name, stand.position, stand.elevation(), true}, stand.ground);
@@ -107,7 +110,7 @@ class SiteCoverage::Impl {
     if (survey_.targets.on_surface && themed_) raise_ = store.greatest_feature_height(survey_.themes, box);
     states_.resize(survey_.stands.size());
     parallel_for(states_.size(), [&](std::size_t i) {
-      states_[i].bounds.possible = within_reach(survey_, survey_.stands[i]);
+      states_[i].bounds.possible = within_reach(survey_.targets, survey_.stands[i].position, survey_.radius);
       states_[i].first = states_[i].bounds;
     });
   }
@@ -115,8 +118,8 @@ class SiteCoverage::Impl {
   void look_first() {
     std::vector<std::size_t> all(states_.size());
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-    judge(all);
-    for (State& state : states_) state.first = state.bounds;
+    std::erase_if(all, [&](std::size_t option) { return states_[option].stage >= 0; });
+    if (!all.empty()) judge(all);
   }
 
   /// Each option's next stage.
@@ -236,6 +239,7 @@ class SiteCoverage::Impl {
   void settle(std::size_t option, int stage, CoverageBounds bounds) {
     states_[option].bounds = std::move(bounds);
     states_[option].stage = stage;
+    if (stage == 0) states_[option].first = states_[option].bounds;
     if (on_refined != nullptr && *on_refined) (*on_refined)(option, stage, states_[option].bounds);
   }
 
@@ -249,13 +253,9 @@ class SiteCoverage::Impl {
   Statistics statistics_;
 };
 
-SiteCoverage::SiteCoverage(const Store& store, SiteSurvey survey, Progress& progress, Unlooked)
+SiteCoverage::SiteCoverage(const Store& store, SiteSurvey survey, Progress& progress)
     : impl_(std::make_unique<Impl>(store, std::move(survey), progress)) {
   impl_->on_refined = &on_refined;
-}
-SiteCoverage::SiteCoverage(const Store& store, SiteSurvey survey, Progress& progress)
-    : SiteCoverage(store, std::move(survey), progress, Unlooked{}) {
-  impl_->look_first();
 }
 SiteCoverage::~SiteCoverage() = default;
 
@@ -264,6 +264,9 @@ const CoverageBounds& SiteCoverage::bounds(std::size_t option) const {
 }
 void SiteCoverage::refine(std::span<const std::size_t> options) {
   impl_->refine(options);
+}
+void SiteCoverage::look_first() {
+  impl_->look_first();
 }
 int SiteCoverage::stage(std::size_t option) const {
   return impl_->state(option).stage;
