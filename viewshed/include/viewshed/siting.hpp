@@ -59,7 +59,7 @@ struct ChoiceGoal {
   /// not given, everything may.
   std::function<bool(std::size_t option, std::span<const std::size_t> chosen)> may_join{};
   std::function<bool(std::span<const std::size_t> chosen)> holds_together{};
-  std::size_t batch = 8;  ///< options refined together, at most; changes the speed, never the answer
+  std::size_t batch = 2;  ///< options refined together, at most; changes the speed, never the answer
 };
 
 struct ChosenSite {

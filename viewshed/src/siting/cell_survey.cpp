@@ -105,7 +105,9 @@ std::vector<CoverageBounds> judge_cells(const EnvelopeScene& scene, const SiteSu
   const CertifiedPass pass(scene, grid, tiles, request);
   std::vector<EnvelopeScene::Look> looks(options.size());
   parallel_for(options.size(), [&](std::size_t i) {
-    looks[i] = scene.look_from(eye_at(scene.envelope.lower.grid, survey.stands[options[i]]));
+    const Eye eye = eye_at(scene.envelope.lower.grid, survey.stands[options[i]]);
+    const auto tile = tiles.cell_at(eye.position);
+    looks[i] = tile ? scene.look_from(eye, scene.bins.triangles(tiles.index(*tile))) : scene.look_from(eye);
   });
   std::vector<std::vector<TileSet>> of_tile(tiles.cell_count());
   std::atomic<std::uint64_t> rays = 0;

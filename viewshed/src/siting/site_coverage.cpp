@@ -9,7 +9,7 @@
 #include <itin/triangulate.hpp>
 #include <viewshed/site_coverage.hpp>
 
-#include "../near_ground.hpp"
+#include "../envelope.hpp"
 #include "../request.hpp"
 #include "../stopwatch.hpp"
 #include "cell_blocks.hpp"
@@ -21,8 +21,11 @@ namespace {
 
 /// Peak memory a point of an envelope, as for precise viewsheds.
 constexpr std::uint64_t kBytesAPoint = 1200;
-/// Of the full surface's points the first look reads so many at most, and the second.
-constexpr std::uint64_t kFirstShare = 12, kSecondShare = 3;
+/// Of the full surface's points the first look reads so many at most: with fewer it would leave more to look at again
+/// than it saves.
+constexpr std::uint64_t kFirstShare = 2;
+/// Points of the full surface about each site.
+constexpr double kNearPoints = 128;
 /// No coarse look at so few points: the full surface is as fast.
 constexpr std::uint64_t kFewPoints = 40000;
 
@@ -33,6 +36,39 @@ Box around(Point2 p, double radius) {
 bool standing(const Store& store, const ThemeChoice& themes) {
   const auto& all = store.metadata().themes;
   return std::any_of(all.begin(), all.end(), [&](const ThemeInfo& t) { return t.stands() && themes.includes(t); });
+}
+
+/// Few rectangles that hold the discs about all positions: a window of hundreds of discs takes long to classify.
+Window window_about(const std::vector<SiteStand>& stands, const std::vector<std::size_t>& options, double radius) {
+  Box box;
+  for (const std::size_t option : options) box.extend(around(stands[option].position, radius));
+  const RasterGrid cells = RasterGrid::aligned(box, radius / 4);
+  std::vector<bool> met(cells.cell_count());
+  for (const std::size_t option : options) {
+    const Box disc = around(stands[option].position, radius);
+    const auto last_of = [](double at, std::int64_t count) {
+      return std::min(count - 1, static_cast<std::int64_t>(std::floor(at)));
+    };
+    const std::int64_t east = last_of(cells.column_at(disc.xmax), cells.columns()),
+                       south = last_of(cells.row_at(disc.ymin), cells.rows());
+    for (auto row = static_cast<std::int64_t>(std::floor(cells.row_at(disc.ymax))); row <= south; ++row)
+      for (auto column = static_cast<std::int64_t>(std::floor(cells.column_at(disc.xmin))); column <= east; ++column)
+        met[cells.index({column, row})] = true;
+  }
+  std::vector<Window::Polygon> runs;
+  const Point2 corner = cells.north_west();
+  const double side = cells.cell_width();
+  for (std::int64_t row = 0; row < cells.rows(); ++row) {
+    for (std::int64_t column = 0; column < cells.columns(); ++column) {
+      const std::int64_t first = column;
+      while (column < cells.columns() && met[cells.index({column, row})]) ++column;
+      if (column == first) continue;
+      const double west = corner.x + static_cast<double>(first) * side, east = corner.x + static_cast<double>(column) * side,
+                   north = corner.y - static_cast<double>(row) * side, south = north - side;
+      runs.push_back({{{west, south}, {east, south}, {east, north}, {west, north}}, {}});
+    }
+  }
+  return Window::polygons(std::move(runs));
 }
 
 /// The finest level with at most so many points in the box.
@@ -163,8 +199,6 @@ class SiteCoverage::Impl {
                 : all <= kFewPoints ? 0
                                     : level_of(store_, box, all / kFirstShare);
     levels_ = {first};
-    if (const int second = level_of(store_, box, all / kSecondShare); first > 0 && second > 0 && second < first)
-      levels_.push_back(second);
     if (first > 0) levels_.push_back(0);
   }
 
@@ -206,7 +240,7 @@ class SiteCoverage::Impl {
     Stopwatch watch;
     Request request = request_of(survey_, group);
     request.target_height += raise_;
-    Envelope envelope = envelop(store_, certified_request(store_, request, level), progress_);
+    Envelope envelope = envelop(store_, what_to_read(group, request, level), progress_);
     statistics_.retrieval += envelope.lower.statistics;
     statistics_.triangles += envelope.lower.triangles.size();
     statistics_.retrieval_seconds += watch.lap();
@@ -224,6 +258,22 @@ class SiteCoverage::Impl {
       settle(group[i], stage, std::move(after[i]));
     }
     statistics_.rays_seconds += watch.lap();
+  }
+
+  /// Less about each site than a single viewshed reads: they are many.
+  EnvelopeRequest what_to_read(const std::vector<std::size_t>& group, const Request& request, int level) const {
+    EnvelopeRequest read;
+    read.level = level;
+    read.window = group.size() > 1 ? window_about(survey_.stands, group, survey_.radius) : window_of(request);
+    for (const Observer& observer : request.observers) {
+      read.observers.push_back(observer.position);
+      if (level == 0) continue;
+      const double points = static_cast<double>(store_.points_about(0, around(observer.position, survey_.radius)));
+      const double share = std::sqrt(kNearPoints / std::max(points, kNearPoints));
+      read.discs.push_back({observer.position, survey_.radius * share, 0});
+      if (level > 1) read.discs.push_back({observer.position, 2 * survey_.radius * share, 1});
+    }
+    return read;
   }
 
   void judge_with_standing(std::size_t option) {
