@@ -243,6 +243,21 @@ TEST_F(Choosing, NoChoiceIsBetterThanTheBound) {
   }
 }
 
+TEST_F(Choosing, OfSmallCasesTheOptimumIsFound) {
+  for (int trial = 0; trial < 40; ++trial) {
+    const Instance instance(9, 80, 1 + trial % 2, random_);
+    ChoiceGoal goal;
+    if (trial % 3 != 1) goal.count = 3;
+    if (trial % 3 != 0) goal.budget = 8;
+    const Choice choice = choose_on_bounds(instance, goal, 0);
+    std::vector<std::size_t> none;
+    // Equal weights apart, the bound is the optimum; the knapsack's fractions may round it up by one unit.
+    EXPECT_NEAR(static_cast<double>(choice.upper_bound) * 0x1p-30,
+                std::max(optimum(instance, goal, none, 0), static_cast<double>(choice.value) * 0x1p-30), 1e-6)
+        << "trial " << trial;
+  }
+}
+
 TEST_F(Choosing, ABudgetIsSpentAsOnExactCoverage) {
   for (int trial = 0; trial < 60; ++trial) {
     const Instance instance(20, 100, 2, random_);

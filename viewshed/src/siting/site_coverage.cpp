@@ -151,11 +151,13 @@ class SiteCoverage::Impl {
     });
   }
 
+  /// Group by group of all options, so that what is found does not depend on what was found before.
   void look_first() {
     std::vector<std::size_t> all(states_.size());
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-    std::erase_if(all, [&](std::size_t option) { return states_[option].stage >= 0; });
-    if (!all.empty()) judge(all);
+    const auto fresh = [&](std::size_t option) { return states_[option].stage < 0; };
+    for (const std::vector<std::size_t>& group : groups(all, levels_.front()))
+      if (std::any_of(group.begin(), group.end(), fresh)) judge_group(group, 0, levels_.front());
   }
 
   /// Each option's next stage.
