@@ -18,7 +18,7 @@ mkdir -p "$out/precise"
 "$root/benchmarks/peers/site_choice.py" candidates >"$out/candidates.csv"
 
 measure "itin site, 10 of 500" "$itin" site "$work/wales.itin" --quiet --candidates "$out/candidates.csv" \
-  --name-field name --mast-height 20 --count 10 --swap off "${looks[@]}" -o "$out/choice"
+  --name-field name --mast-height 20 --count 10 --swap off --memory 4G "${looks[@]}" -o "$out/choice"
 
 precise() {  # precise NAME X Y ...
   while [ $# -gt 0 ]; do

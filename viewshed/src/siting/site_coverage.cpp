@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -21,9 +23,9 @@ namespace {
 
 /// Peak memory a point of an envelope, as for precise viewsheds.
 constexpr std::uint64_t kBytesAPoint = 1200;
-/// Of the full surface's points the first look reads so many at most: with fewer it would leave more to look at again
-/// than it saves.
-constexpr std::uint64_t kFirstShare = 2;
+/// Of the full surface's points the first look reads so many at most: fewer where a second look is cheap, since the
+/// memory holds the full surface for all of them.
+constexpr std::uint64_t kFirstShare = 2, kFirstShareOfWhole = 8;
 /// Points of the full surface about each site.
 constexpr double kNearPoints = 128;
 /// No coarse look at so few points: the full surface is as fast.
@@ -197,12 +199,16 @@ class SiteCoverage::Impl {
  private:
   void choose_levels(const Box& box) {
     const std::uint64_t all = store_.points_about(0, box);
+    whole_fits_ = all <= budget();
     int first = survey_.tolerance ? level_within(store_.metadata(), *survey_.tolerance)
                 : all <= kFewPoints ? 0
-                                    : level_of(store_, box, all / kFirstShare);
+                                    : level_of(store_, box, all / (whole_fits_ ? kFirstShareOfWhole : kFirstShare));
     levels_ = {first};
     if (first > 0) levels_.push_back(0);
   }
+
+  /// Points of a scene; what is left is for the rest of the program.
+  std::uint64_t budget() const { return survey_.memory_bytes / 4 * 3 / kBytesAPoint; }
 
   std::uint64_t points_of(const std::vector<std::size_t>& options, int level) const {
     Box box;
@@ -212,8 +218,7 @@ class SiteCoverage::Impl {
 
   /// Neighbours together, as many as the memory holds.
   std::vector<std::vector<std::size_t>> groups(std::vector<std::size_t> options, int level) const {
-    const std::uint64_t budget = survey_.memory_bytes / 2 / kBytesAPoint;
-    if (options.size() < 2 || points_of(options, level) <= budget) return {std::move(options)};
+    if (options.size() < 2 || points_of(options, level) <= budget()) return {std::move(options)};
     Box box;
     for (const std::size_t option : options) box.extend(survey_.stands[option].position);
     std::sort(options.begin(), options.end(), [&](std::size_t a, std::size_t b) {
@@ -238,19 +243,39 @@ class SiteCoverage::Impl {
     for (const std::vector<std::size_t>& group : groups(options, level)) judge_group(group, stage, level);
   }
 
-  void judge_group(const std::vector<std::size_t>& group, int stage, int level) {
+  std::unique_ptr<EnvelopeScene> scene_of(const std::vector<std::size_t>& group, int level) {
     Stopwatch watch;
     Request request = request_of(survey_, group);
-    request.target_height += raise_;
     Envelope envelope = envelop(store_, what_to_read(group, request, level), progress_);
     statistics_.retrieval += envelope.lower.statistics;
     statistics_.triangles += envelope.lower.triangles.size();
     statistics_.retrieval_seconds += watch.lap();
+    request.target_height += raise_;
     const RasterGrid tiles =
         survey_.targets.grid ? grid_of_tiles(*survey_.targets.grid) : bins_of_points(survey_.targets.points);
-    const EnvelopeScene scene(std::move(envelope), request, tiles,
-                              survey_.nodata == NoData::kBlock ? Voids::kBlock : Voids::kPass);
+    auto scene = std::make_unique<EnvelopeScene>(std::move(envelope), request, tiles,
+                                                 survey_.nodata == NoData::kBlock ? Voids::kBlock : Voids::kPass);
     statistics_.scene_seconds += watch.lap();
+    return scene;
+  }
+
+  /// The full surface about all sites, once and for all, where the memory holds it.
+  const EnvelopeScene& whole_scene() {
+    if (!whole_) {
+      std::vector<std::size_t> all(states_.size());
+      std::iota(all.begin(), all.end(), std::size_t{0});
+      whole_ = scene_of(all, 0);
+    }
+    return *whole_;
+  }
+
+  void judge_group(const std::vector<std::size_t>& group, int stage, int level) {
+    std::unique_ptr<EnvelopeScene> own;
+    if (level > 0 || !whole_fits_) own = scene_of(group, level);
+    const EnvelopeScene& scene = own ? *own : whole_scene();
+    Stopwatch watch;
+    Request request = request_of(survey_, group);
+    request.target_height += raise_;
     std::vector<const CoverageBounds*> before;
     for (const std::size_t option : group) before.push_back(&states_[option].bounds);
     const auto look = survey_.targets.grid ? judge_cells : judge_points;
@@ -300,6 +325,8 @@ class SiteCoverage::Impl {
   Progress& progress_;
   bool themed_;
   double raise_ = 0;
+  bool whole_fits_ = false;
+  std::unique_ptr<EnvelopeScene> whole_;
   std::vector<int> levels_;  ///< of the looks at the bare terrain
   std::vector<State> states_;
   Statistics statistics_;
