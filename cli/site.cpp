@@ -41,7 +41,8 @@ class SiteVerb final : public Verb {
   }
 
   Result execute(Progress& progress) override {
-    policy_.overwrite = options_.overwrite;
+    // What a killed run has written already is its own.
+    policy_.overwrite = options_.overwrite || (options_.resume && std::filesystem::exists(place("site.work")));
     outputs_ = site_outputs(options_.directory, policy_);
     const Store store(options_.store);
     options_.themes.choice().check(store.metadata().themes);
@@ -113,8 +114,7 @@ class SiteVerb final : public Verb {
 
   /// The share is of all demand; what existing sites serve counts towards it.
   viewshed::Weight wanted(const SiteInputs& inputs, const viewshed::ChoiceGoal& goal) const {
-    const viewshed::Weight all =
-        inputs.demand.at_least(*options_.share * inputs.demand.in_metric(inputs.total));
+    const viewshed::Weight all = inputs.demand.at_least(*options_.share * inputs.demand.in_metric(inputs.total));
     return std::max<viewshed::Weight>(0, all - viewshed::served_by(inputs.demand, goal.existing, goal.cover));
   }
 
@@ -166,8 +166,8 @@ class SiteVerb final : public Verb {
     for (std::size_t i = 0; i < std::min(rejected.size(), kMostWarnings); ++i)
       warnings.push_back("left out: " + rejected[i]);
     if (rejected.size() > kMostWarnings)
-      warnings.push_back(fmt::format("left out: {} more; all are listed in {}", rejected.size() - kMostWarnings,
-                                     place("site.json")));
+      warnings.push_back(
+          fmt::format("left out: {} more; all are listed in {}", rejected.size() - kMostWarnings, place("site.json")));
     if (site.inputs.demand_without_ground > 0)
       warnings.push_back(fmt::format("{} points of the demand have no ground under them and cannot be served",
                                      site.inputs.demand_without_ground));
@@ -184,9 +184,9 @@ class SiteVerb final : public Verb {
     std::string text;
     for (const viewshed::ChosenSite& chosen : site.choice.chosen) {
       const viewshed::SiteStand& stand = site.stand(chosen);
-      text += fmt::format("{:<16} {:>12.2f} {:>12.2f}  {:>5g} m  +{:<10.10g} {:.10g}\n", stand.name, stand.position.x,
-                          stand.position.y, stand.height, site.in_metric(chosen.gain),
-                          site.in_metric(chosen.cumulative));
+      text +=
+          fmt::format("{:<16} {:>12.2f} {:>12.2f}  {:>5g} m  +{:<10.10g} {:.10g}\n", stand.name, stand.position.x,
+                      stand.position.y, stand.height, site.in_metric(chosen.gain), site.in_metric(chosen.cumulative));
     }
     text += fmt::format("served: {:.10g} of {:.10g} ({:.1f} %); no choice serves more than {:.10g} (gap {:.1f} %)\n",
                         site.in_metric(site.choice.value), total,

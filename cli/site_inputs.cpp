@@ -161,8 +161,8 @@ class Reader {
   }
 
   void read_cells() {
-    const std::vector<SiteStand> of_options(inputs_.stands.begin(),
-                                            inputs_.stands.begin() + static_cast<std::ptrdiff_t>(inputs_.options.size()));
+    const std::vector<SiteStand> of_options(
+        inputs_.stands.begin(), inputs_.stands.begin() + static_cast<std::ptrdiff_t>(inputs_.options.size()));
     const RasterGrid grid = viewshed::grid_of_reach(store_, of_options, options_.radius, options_.cell.value_or(50));
     inputs_.targets.grid = grid;
     inputs_.demand = viewshed::Demand(viewshed::element_count(grid));
@@ -227,7 +227,8 @@ class Reader {
   static void sort_by_place(std::vector<std::pair<Point2, double>>& points) {
     Box box;
     for (const auto& [p, weight] : points) box.extend(p);
-    const double strip = std::max(box.height() / std::max(1.0, std::sqrt(static_cast<double>(points.size()) / 8)), 1e-3);
+    const double strip =
+        std::max(box.height() / std::max(1.0, std::sqrt(static_cast<double>(points.size()) / 8)), 1e-3);
     std::stable_sort(points.begin(), points.end(), [&](const auto& a, const auto& b) {
       const double sa = std::floor((a.first.y - box.ymin) / strip), sb = std::floor((b.first.y - box.ymin) / strip);
       return sa != sb ? sa < sb : a.first.x != b.first.x ? a.first.x < b.first.x : a.first.y < b.first.y;

@@ -22,8 +22,8 @@ profile::SightLine SiteLinks::between(const SiteStand& a, const SiteStand& b) co
   if (length == 0) return {};
   const Window window = Window::corridor(a.position, b.position, 4 * store_.metadata().grid.resolution);
   const Tin tin = triangulate(store_, window, Detail::tolerance(0), progress_, themes_);
-  return profile::SightLines(tin, earth_).between({a.position.x, a.position.y, a.elevation()},
-                                                  {b.position.x, b.position.y, b.elevation()});
+  return profile::SightLines(tin, earth_)
+      .between({a.position.x, a.position.y, a.elevation()}, {b.position.x, b.position.y, b.elevation()});
 }
 
 bool SiteLinks::sees(const std::vector<SiteStand>& stands, std::size_t a, std::size_t b) const {
@@ -56,9 +56,8 @@ bool SiteRules::sees_another_candidate(std::size_t option) const {
     const double da = distance(stands_[option], stands_[a]), db = distance(stands_[option], stands_[b]);
     return da != db ? da < db : a < b;
   });
-  return sees_another_[option] = std::any_of(others.begin(), others.end(), [&](std::size_t other) {
-           return links_.sees(stands_, option, other);
-         });
+  return sees_another_[option] = std::any_of(others.begin(), others.end(),
+                                             [&](std::size_t other) { return links_.sees(stands_, option, other); });
 }
 
 bool SiteRules::may_join(std::size_t option, std::span<const std::size_t> chosen) const {

@@ -17,8 +17,7 @@ constexpr int kMapPixels = 1100;
 Tin hillshade_surface(const Store& store, const RasterGrid& grid, Progress& progress) {
   int level = 0;
   const auto& levels = store.metadata().levels;
-  while (level + 1 < static_cast<int>(levels.size()) &&
-         store.points_about(level, grid.bounds()) > kHillshadePoints)
+  while (level + 1 < static_cast<int>(levels.size()) && store.points_about(level, grid.bounds()) > kHillshadePoints)
     ++level;
   return triangulate(store, Window::box(grid.bounds()),
                      Detail::tolerance(levels[static_cast<std::size_t>(level)].tolerance), progress);

@@ -29,8 +29,7 @@ std::string place(const std::string& directory, const char* name) {
 }
 
 std::string sites_table(const SiteResult& r) {
-  std::string text =
-      "order,id,x,y,height_m,ground_m,cost,gain,cumulative,coverage,first_certain,first_possible\n";
+  std::string text = "order,id,x,y,height_m,ground_m,cost,gain,cumulative,coverage,first_certain,first_possible\n";
   const auto out = std::back_inserter(text);
   for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
     const viewshed::ChosenSite& site = r.choice.chosen[i];
@@ -59,7 +58,9 @@ std::string candidates_table(const SiteResult& r) {
   return text;
 }
 
-std::string link_end(const SiteResult& r, std::size_t chosen) { return r.stand(r.choice.chosen[chosen]).name; }
+std::string link_end(const SiteResult& r, std::size_t chosen) {
+  return r.stand(r.choice.chosen[chosen]).name;
+}
 
 std::string links_table(const SiteResult& r) {
   std::string text = "from,to,distance_m,verdict,clearance_m,critical_x,critical_y,critical_z\n";
@@ -93,10 +94,10 @@ VectorLayer sites_layer(const SiteResult& r) {
   for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
     const viewshed::ChosenSite& site = r.choice.chosen[i];
     const viewshed::SiteStand& stand = r.stand(site);
-    layer.features.push_back({{{stand.position.x, stand.position.y, stand.ground}},
-                              {static_cast<std::int64_t>(i + 1), stand.name, stand.height,
-                               r.inputs.options[site.option].cost, r.in_metric(site.gain),
-                               r.in_metric(site.cumulative)}});
+    layer.features.push_back(
+        {{{stand.position.x, stand.position.y, stand.ground}},
+         {static_cast<std::int64_t>(i + 1), stand.name, stand.height, r.inputs.options[site.option].cost,
+          r.in_metric(site.gain), r.in_metric(site.cumulative)}});
   }
   return layer;
 }
@@ -144,7 +145,9 @@ VectorLayer links_layer(const SiteResult& r) {
   return layer;
 }
 
-Document interval(const CoverageSummary& summary) { return Document::array({summary.certain, summary.possible}); }
+Document interval(const CoverageSummary& summary) {
+  return Document::array({summary.certain, summary.possible});
+}
 
 }  // namespace
 
@@ -252,9 +255,8 @@ void write_site_rasters(const SiteResult& r, const std::string& directory, const
   RasterDescription classes = description;
   classes.band_name = "served";
   classes.nodata = 255;
-  classes.classes = {{0, "not served", 225, 225, 225, 255},
-                     {1, "served", 0, 114, 178, 255},
-                     {255, "no data", 0, 0, 0, 0}};
+  classes.classes = {
+      {0, "not served", 225, 225, 225, 255}, {1, "served", 0, 114, 178, 255}, {255, "no data", 0, 0, 0, 0}};
   write_raster(place(directory, "coverage.tif"), rasters.grid, std::span<const std::uint8_t>(served), classes);
   description.nodata = SiteRasters::kNoDemand;
   description.band_name = "sites that serve the cell";

@@ -70,7 +70,9 @@ std::string curve(const SiteResult& r) {
   const std::size_t n = r.choice.chosen.size();
   const double total = std::max(1.0, static_cast<double>(r.inputs.total));
   const double most = std::max<double>(static_cast<double>(r.choice.upper_bound), 1) / total * 1.08;
-  const auto x = [&](double i) { return kLeft + (kWidth - kLeft - kRight) * i / static_cast<double>(std::max<std::size_t>(n, 1)); };
+  const auto x = [&](double i) {
+    return kLeft + (kWidth - kLeft - kRight) * i / static_cast<double>(std::max<std::size_t>(n, 1));
+  };
   const auto y = [&](double share) { return kHeight - kBottom - (kHeight - kTop - kBottom) * share / most; };
   std::string svg = fmt::format(
       "<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"coverage curve\" font-size=\"12\" fill=\"#333\">\n", kWidth,
@@ -177,7 +179,8 @@ std::string left_out(const SiteResult& r) {
 std::string summary(const SiteResult& r) {
   const double total = std::max(r.in_metric(r.inputs.total), 1e-300);
   return fmt::format(
-      "<p class=\"figure\">{} sites serve {} of a demand of {} ({:.1f} %). No choice within the same limits serves more "
+      "<p class=\"figure\">{} sites serve {} of a demand of {} ({:.1f} %). No choice within the same limits serves "
+      "more "
       "than {}: at most {:.1f} % were left on the table.</p>\n<p>{} candidates, {} options; {} of them were looked at "
       "again after the first look. The others could be left: what they serve at most never came first, so exact "
       "coverage of all would have led to the same choice.{}</p>\n",
@@ -204,9 +207,9 @@ void write_site_report(const SiteResult& r, const Document& parameters, const Do
   if (!r.links.empty()) html += "<h2>Lines of sight between sites</h2>\n" + links_table(r);
   html += "<h2>Redundancy</h2>\n" + image(directory, "redundancy.png", "map of how many sites serve a place");
   html += left_out(r);
-  html += fmt::format("<h2>Parameters and inputs</h2>\n<p class=\"note\">{}</p>\n<pre>{}</pre>\n<pre>{}</pre>\n",
-                      escaped(r.options.earth.earth().convention()), escaped(parameters.dump(2)),
-                      escaped(inputs.dump(2)));
+  html +=
+      fmt::format("<h2>Parameters and inputs</h2>\n<p class=\"note\">{}</p>\n<pre>{}</pre>\n<pre>{}</pre>\n",
+                  escaped(r.options.earth.earth().convention()), escaped(parameters.dump(2)), escaped(inputs.dump(2)));
   html += fmt::format("<p class=\"note\">itin {}</p>\n</body></html>\n", ITIN_VERSION);
   write_file((std::filesystem::path(directory) / "report.html").string(), html, overwrite);
 }

@@ -71,8 +71,7 @@ OnCells on_cells(const Store& store, const SiteOptions& options, const SiteInput
   survey.stands.clear();
   for (const std::size_t site : sites) survey.stands.push_back(inputs.stands[site]);
   survey.targets.points.clear();
-  survey.targets.grid =
-      viewshed::grid_of_reach(store, survey.stands, options.radius, options.cell.value_or(50));
+  survey.targets.grid = viewshed::grid_of_reach(store, survey.stands, options.radius, options.cell.value_or(50));
   survey.tolerance = 0;
   OnCells result{survey.targets, {}};
   viewshed::SiteCoverage coverage(store, survey, progress);
@@ -141,8 +140,8 @@ std::vector<SiteLink> site_links(const Store& store, const SiteOptions& options,
   const SiteLinks links(store, options.themes.choice(), options.earth.earth(), progress);
   std::vector<SiteLink> result;
   const auto add = [&](std::size_t from, std::optional<std::size_t> to, const SiteStand& a, const SiteStand& b) {
-    result.push_back({from, to, std::hypot(a.position.x - b.position.x, a.position.y - b.position.y),
-                      links.between(a, b)});
+    result.push_back(
+        {from, to, std::hypot(a.position.x - b.position.x, a.position.y - b.position.y), links.between(a, b)});
   };
   for (std::size_t i = 0; i < choice.chosen.size(); ++i) {
     const SiteStand& a = inputs.stands[choice.chosen[i].option];

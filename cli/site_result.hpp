@@ -42,9 +42,7 @@ struct SiteResult {
   SiteRasters rasters;
 
   const viewshed::SiteStand& stand(const viewshed::ChosenSite& site) const { return inputs.stands[site.option]; }
-  const Candidate& candidate(std::size_t option) const {
-    return inputs.candidates[inputs.options[option].place];
-  }
+  const Candidate& candidate(std::size_t option) const { return inputs.candidates[inputs.options[option].place]; }
   CoverageSummary summary(const viewshed::CoverageBounds& bounds) const {
     return {inputs.demand.in_metric(inputs.demand.weight(bounds.certain)),
             inputs.demand.in_metric(inputs.demand.weight(bounds.possible))};

@@ -15,7 +15,8 @@ class SiteWork {
  public:
   /// `key` tells runs apart. With `resume` what an earlier run of the same key found is put back into `coverage`;
   /// otherwise, and for other keys, the file begins anew. Throws FileError.
-  SiteWork(std::string path, const std::string& key, bool resume, std::size_t options, viewshed::SiteCoverage& coverage);
+  SiteWork(std::string path, const std::string& key, bool resume, std::size_t options,
+           viewshed::SiteCoverage& coverage);
 
   /// How many records were put back.
   std::size_t restored() const { return restored_; }

@@ -72,10 +72,10 @@ void raise_against_drift(const std::vector<Point2>& observers, Tin& tin) {
   const double half = std::max(box.width(), box.height()) / 2 / tin.grid.resolution;
   for_each_chunk(tin.vertices.size(), [&](std::size_t v) {
     const Point3 p = tin.point(static_cast<std::uint32_t>(v));
-    const double farthest =
-        observers.empty() ? 0
-                          : std::hypot(std::max(std::abs(p.x - eyes.xmin), std::abs(p.x - eyes.xmax)),
-                                       std::max(std::abs(p.y - eyes.ymin), std::abs(p.y - eyes.ymax)));
+    const double farthest = observers.empty()
+                                ? 0
+                                : std::hypot(std::max(std::abs(p.x - eyes.xmin), std::abs(p.x - eyes.xmax)),
+                                             std::max(std::abs(p.y - eyes.ymin), std::abs(p.y - eyes.ymax)));
     const double drift = rounding_error(half, farthest / tin.grid.resolution + 1);
     tin.vertices[v].z += static_cast<std::int32_t>(std::ceil(2 * drift * static_cast<double>(slope[v])));
   });
@@ -96,8 +96,8 @@ class DiscIndex {
     for (const FineDisc& disc : discs) all.extend(box_of(disc));
     const double side = std::ceil(2 * std::sqrt(static_cast<double>(discs.size())));
     const double size = std::max({all.width(), all.height(), 1.0}) * 1.001 / side;
-    bins_ = RasterGrid({all.xmin, all.ymax}, size, size, static_cast<std::int64_t>(side),
-                       static_cast<std::int64_t>(side));
+    bins_ =
+        RasterGrid({all.xmin, all.ymax}, size, size, static_cast<std::int64_t>(side), static_cast<std::int64_t>(side));
     of_bin_.resize(bins_.cell_count());
     for (std::uint32_t i = 0; i < discs.size(); ++i) {
       const Box box = box_of(discs[i]);

@@ -28,7 +28,7 @@ struct SiteQuery {
   std::string height_field;  ///< metres; default: no heights
   std::string name_field;    ///< default: the feature's number
   std::vector<NumberField> numbers;
-  std::string crs;           ///< of a file that does not say; default: the one asked for. Overrides nothing.
+  std::string crs;  ///< of a file that does not say; default: the one asked for. Overrides nothing.
 };
 
 struct Site {

@@ -121,9 +121,8 @@ std::vector<std::size_t> slow_greedy(const Instance& instance, const ChoiceGoal&
       std::vector<std::size_t> more = chosen;
       more.push_back(option);
       if (instance.same_place(option, chosen) || !within(instance, goal, more)) continue;
-      const double gain =
-          (instance.sum(more, goal.cover, true) - instance.sum(chosen, goal.cover, true)) /
-          (per_cost ? instance.options[option].cost : 1);
+      const double gain = (instance.sum(more, goal.cover, true) - instance.sum(chosen, goal.cover, true)) /
+                          (per_cost ? instance.options[option].cost : 1);
       if (gain > best) best = gain, taken = option;
     }
     if (!taken) return chosen;

@@ -45,7 +45,8 @@ class Sites : public ::testing::Test {
       positions.push_back({kNorthWest.x + anywhere(random_), kNorthWest.y - anywhere(random_)});
     const auto ground = ground_under(*store_, positions, ThemeChoice::none(), progress_);
     for (std::size_t i = 0; i < positions.size() && survey_.stands.size() < count; ++i)
-      if (ground[i]) survey_.stands.push_back({std::to_string(i), positions[i], std::round(height(random_)), *ground[i]});
+      if (ground[i])
+        survey_.stands.push_back({std::to_string(i), positions[i], std::round(height(random_)), *ground[i]});
     survey_.radius = kRadius;
     survey_.targets.height = 2;
     survey_.targets.grid = grid_of_reach(*store_, survey_.stands, kRadius, 60);

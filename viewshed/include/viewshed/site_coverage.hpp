@@ -76,7 +76,8 @@ DemandSet within_reach(const SiteTargets& targets, Point2 position, double radiu
 
 class SiteCoverage final : public Coverage {
  public:
-  /// The store and the progress must outlive it. Before look_first() all that is known is the radius. Throws InputError.
+  /// The store and the progress must outlive it. Before look_first() all that is known is the radius. Throws
+  /// InputError.
   SiteCoverage(const Store& store, SiteSurvey survey, Progress& progress);
   ~SiteCoverage() override;
 

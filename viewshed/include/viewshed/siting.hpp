@@ -51,7 +51,7 @@ struct ChoiceGoal {
   std::optional<std::size_t> count{};
   std::optional<double> budget{};  ///< of the sum of costs
   std::optional<Weight> wanted{};  ///< value, besides what existing sites serve
-  int cover = 1;                 ///< so many sites must serve an element, 1 to 255
+  int cover = 1;                   ///< so many sites must serve an element, 1 to 255
   std::vector<DemandSet> existing{};
   bool exact_chosen = true;  ///< false: bounds of chosen sites may stay open, and there are no swaps
   bool swaps = true;
@@ -64,7 +64,7 @@ struct ChoiceGoal {
 
 struct ChosenSite {
   std::size_t option = 0;
-  Weight gain = 0;        ///< of the value, in this order
+  Weight gain = 0;  ///< of the value, in this order
   Weight cumulative = 0;
 };
 
@@ -77,9 +77,9 @@ struct Margin {
 
 struct Choice {
   std::vector<ChosenSite> chosen;  ///< in greedy order
-  Weight value = 0;        ///< served by the choice and not by existing sites alone; a lower bound if not exact
-  Weight upper_bound = 0;  ///< no choice of as many sites, or of the budget, has a greater value
-  Weight existing = 0;     ///< served by existing sites alone
+  Weight value = 0;                ///< served by the choice and not by existing sites alone; a lower bound if not exact
+  Weight upper_bound = 0;          ///< no choice of as many sites, or of the budget, has a greater value
+  Weight existing = 0;             ///< served by existing sites alone
   std::size_t swaps = 0;
   std::vector<std::optional<Margin>> closest;  ///< of each option: the step at which it came nearest to being taken
 };

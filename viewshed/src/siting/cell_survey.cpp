@@ -86,7 +86,8 @@ DemandSet gather(std::vector<DemandSet::Block>& blocks) {
 }
 
 bool in_reach(const RasterGrid& tiles, std::size_t tile, Point2 p, double radius) {
-  const auto column = static_cast<std::int64_t>(tile) % tiles.columns(), row = static_cast<std::int64_t>(tile) / tiles.columns();
+  const auto column = static_cast<std::int64_t>(tile) % tiles.columns(),
+             row = static_cast<std::int64_t>(tile) / tiles.columns();
   const Point2 c = tiles.centre(column, row);
   const double dx = std::max(0.0, std::abs(p.x - c.x) - tiles.cell_width() / 2);
   const double dy = std::max(0.0, std::abs(p.y - c.y) - tiles.cell_height() / 2);

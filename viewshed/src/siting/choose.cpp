@@ -89,9 +89,9 @@ Weight served_by(const Demand& demand, const std::vector<DemandSet>& sets, int c
 }
 
 double gap_percent(const Choice& choice) {
-  return choice.upper_bound == 0 ? 0
-                                 : 100 * static_cast<double>(choice.upper_bound - choice.value) /
-                                       static_cast<double>(choice.upper_bound);
+  return choice.upper_bound == 0
+             ? 0
+             : 100 * static_cast<double>(choice.upper_bound - choice.value) / static_cast<double>(choice.upper_bound);
 }
 
 }  // namespace itin::viewshed

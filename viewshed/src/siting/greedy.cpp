@@ -65,8 +65,8 @@ class Greedy {
     const CoverageBounds& bounds = problem_.coverage.bounds(option);
     const double unit = per_cost_ ? site.cost : 1;
     result.upper = static_cast<double>(served_.least.gain(bounds.possible)) / unit;
-    result.lower = bounds.exact && all_exact_ ? result.upper
-                                              : static_cast<double>(served_.most.gain(bounds.certain)) / unit;
+    result.lower =
+        bounds.exact && all_exact_ ? result.upper : static_cast<double>(served_.most.gain(bounds.certain)) / unit;
     return result;
   }
 

@@ -120,7 +120,8 @@ class PointPass {
   const std::vector<GroundBounds>& grounds_;
 };
 
-std::uint64_t certain_of(const DemandSet& set, std::uint32_t number, std::vector<DemandSet::Block>::const_iterator& at) {
+std::uint64_t certain_of(const DemandSet& set, std::uint32_t number,
+                         std::vector<DemandSet::Block>::const_iterator& at) {
   while (at != set.blocks().end() && at->number < number) ++at;
   return at != set.blocks().end() && at->number == number ? at->members : 0;
 }
@@ -158,8 +159,7 @@ std::vector<CoverageBounds> judge_points(const EnvelopeScene& scene, const SiteS
   std::atomic<std::size_t> done = 0;
   parallel_for(options.size(), [&](std::size_t i) {
     progress.throw_if_cancelled();
-    const EnvelopeScene::Look look =
-        scene.look_from(eye_at(scene.envelope.lower.grid, survey.stands[options[i]]));
+    const EnvelopeScene::Look look = scene.look_from(eye_at(scene.envelope.lower.grid, survey.stands[options[i]]));
     Occluder occluder;
     auto certain = bounds[i]->certain.blocks().begin();
     result[i].exact = scene.exact;

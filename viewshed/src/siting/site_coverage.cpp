@@ -65,7 +65,8 @@ Window window_about(const std::vector<SiteStand>& stands, const std::vector<std:
       const std::int64_t first = column;
       while (column < cells.columns() && met[cells.index({column, row})]) ++column;
       if (column == first) continue;
-      const double west = corner.x + static_cast<double>(first) * side, east = corner.x + static_cast<double>(column) * side,
+      const double west = corner.x + static_cast<double>(first) * side,
+                   east = corner.x + static_cast<double>(column) * side,
                    north = corner.y - static_cast<double>(row) * side, south = north - side;
       runs.push_back({{{west, south}, {east, south}, {east, north}, {west, north}}, {}});
     }
@@ -91,8 +92,8 @@ std::vector<std::optional<double>> ground_under(const Store& store, const std::v
     progress.throw_if_cancelled();
     std::optional<double>& height = result.emplace_back();
     if (!std::isfinite(p.x) || !std::isfinite(p.y)) continue;
-    const Tin tin = triangulate(store, Window::box(around(p, 2 * grid.resolution)), Detail::tolerance(0), progress,
-                                themes);
+    const Tin tin =
+        triangulate(store, Window::box(around(p, 2 * grid.resolution)), Detail::tolerance(0), progress, themes);
     for (std::uint32_t t = 0; t < tin.triangles.size() && !height; ++t) height = surface_height(tin, {&t, 1}, p);
     if (height) *height *= grid.resolution;
     if (result.size() % 64 == 0)
@@ -166,7 +167,8 @@ class SiteCoverage::Impl {
   void refine(std::span<const std::size_t> options) {
     std::vector<std::vector<std::size_t>> at_stage(static_cast<std::size_t>(last_stage()) + 1);
     for (const std::size_t option : options) {
-      if (!states_[option].bounds.exact) at_stage[static_cast<std::size_t>(states_[option].stage + 1)].push_back(option);
+      if (!states_[option].bounds.exact)
+        at_stage[static_cast<std::size_t>(states_[option].stage + 1)].push_back(option);
     }
     for (const auto& some : at_stage)
       if (!some.empty()) judge(some);
@@ -200,7 +202,7 @@ class SiteCoverage::Impl {
   void choose_levels(const Box& box) {
     const std::uint64_t all = store_.points_about(0, box);
     whole_fits_ = all <= budget();
-    int first = survey_.tolerance ? level_within(store_.metadata(), *survey_.tolerance)
+    int first = survey_.tolerance   ? level_within(store_.metadata(), *survey_.tolerance)
                 : all <= kFewPoints ? 0
                                     : level_of(store_, box, all / (whole_fits_ ? kFirstShareOfWhole : kFirstShare));
     levels_ = {first};
@@ -306,7 +308,8 @@ class SiteCoverage::Impl {
   void judge_with_standing(std::size_t option) {
     Stopwatch watch;
     CoverageBounds bounds;
-    bounds.certain = judge_with_themes(store_, survey_, option, states_[option].bounds.possible, progress_, statistics_);
+    bounds.certain =
+        judge_with_themes(store_, survey_, option, states_[option].bounds.possible, progress_, statistics_);
     bounds.possible = bounds.certain;
     bounds.exact = true;
     statistics_.rays_seconds += watch.lap();
