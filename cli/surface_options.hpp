@@ -18,6 +18,7 @@ class ThemeOptions {
   /// Throws InputError.
   void validate();
   const ThemeChoice& choice() const { return choice_; }
+  bool given() const { return !themes_.empty(); }
   /// For verbs that see the terrain alone, so far. Throws InputError where features are asked for.
   void validate_none(const std::string& verb);
   /// What was asked for, where it was.

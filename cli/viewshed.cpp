@@ -68,7 +68,7 @@ class ViewshedVerb final : public Verb {
     validate_targets();
     detail_.validate();
     themes_.validate();
-    request_.themes = themes_.choice();
+    request_.themes = precise_ && !themes_.given() ? ThemeChoice::all() : themes_.choice();
     earth_.validate();
     request_.earth = earth_.earth();
     if (!mode_text_.empty()) request_.mode = parse_mode();

@@ -27,7 +27,9 @@ EnvelopeScene::EnvelopeScene(Envelope e, const Request& request, const RasterGri
             ceiling_of(envelope.upper, request), envelope.outline),
       upper(envelope.upper, envelope.pieces, request.earth, curtains(envelope, request, voids)),
       bins(envelope.lower, tiles),
-      exact(envelope.exact) {}
+      exact(envelope.exact) {
+  if (envelope.bare_ground) ground_bins.emplace(*envelope.bare_ground, tiles);
+}
 
 EnvelopeScene::Look EnvelopeScene::look_from(const Eye& eye) const {
   std::vector<std::uint32_t> all(envelope.upper.triangles.size());
@@ -57,7 +59,12 @@ CertifiedPass::CertifiedPass(const EnvelopeScene& scene, const RasterGrid& grid,
 std::unique_ptr<CertifiedPass::TileWork> CertifiedPass::begin(std::size_t tile) const {
   auto work = std::make_unique<TileWork>(scene_.envelope.lower.grid, grid_, tile_at(grid_, tiles_, tile));
   const auto triangles = scene_.bins.triangles(tile);
-  scan_convert(scene_.envelope.lower, triangles, work->tile, work->centres, work->low);
+  if (scene_.ground_bins) {
+    scan_convert(*scene_.envelope.bare_ground, scene_.ground_bins->triangles(tile), work->tile, work->centres,
+                 work->low);
+  } else {
+    scan_convert(scene_.envelope.lower, triangles, work->tile, work->centres, work->low);
+  }
   scan_convert_highest(scene_.envelope.upper, triangles, work->tile, work->centres, work->high);
   return work;
 }

@@ -8,7 +8,8 @@
 // The target stands between the lower and the upper surface at its cell's centre. A line to the lowest target that
 // clears the upper surface sees whatever the full surface is; one to the highest target that the lower surface hides
 // does not. Over an envelope of level 0 both surfaces are the full one (but for what the upper one is raised against
-// rounding), and the target's height is exact.
+// rounding), and the target's height is exact: also where targets stand on the bare ground beneath what the envelope
+// holds of features.
 #pragma once
 
 #include <cstdint>
@@ -50,7 +51,8 @@ class EnvelopeScene {
   Scene lower;
   UpperScene upper;
   TriangleBins bins;
-  bool exact;  ///< the envelope is of level 0
+  std::optional<TriangleBins> ground_bins;  ///< of the bare ground, where the envelope has it
+  bool exact;                               ///< the envelope is of level 0
 };
 
 /// Lines of a packet that are not decided, to their lowest targets.
@@ -70,7 +72,8 @@ class CertifiedPass {
     TileWork(const Grid& units, const RasterGrid& grid, const Tile& t) : tile(t), centres(units, grid, t) {}
     Tile tile;
     TileCentres centres;
-    TileValues<double> low, high;  ///< the ground's bounds, grid units
+    TileValues<double> low;   ///< the least height of what targets stand on, grid units
+    TileValues<double> high;  ///< the upper surface
     Occluder occluder;
     std::uint64_t rays = 0;
   };

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
-#include <itin/error.hpp>
 #include <itin/triangulate.hpp>
 
 #include "request.hpp"
@@ -41,7 +38,8 @@ std::vector<Eye> eyes_on_full_surface(const Store& store, const Request& request
   std::vector<Eye> eyes;
   for (const Observer& observer : request.observers) {
     const Tin tin =
-        triangulate(store, Window::box(around(observer.position, 2 * grid.resolution)), Detail::tolerance(0), progress);
+        triangulate(store, Window::box(around(observer.position, 2 * grid.resolution)), Detail::tolerance(0), progress,
+                    request.observers_on_surface ? request.themes : ThemeChoice::none());
     std::optional<double> height;
     for (std::uint32_t t = 0; t < tin.triangles.size() && !height; ++t)
       height = surface_height(tin, {&t, 1}, observer.position);
@@ -52,20 +50,20 @@ std::vector<Eye> eyes_on_full_surface(const Store& store, const Request& request
   return eyes;
 }
 
-void require_bare_terrain(const Store& store, const Request& request) {
-  for (const ThemeInfo& theme : store.metadata().themes) {
-    if (theme.stands() && request.themes.includes(theme))
-      throw InputError(fmt::format(
-          "theme '{}': stands on the ground, and certified and precise viewsheds judge the bare terrain; leave it out "
-          "of --themes",
-          theme.name));
-  }
+bool features_stand(const Store& store, const Request& request) {
+  const std::vector<ThemeInfo>& themes = store.metadata().themes;
+  return std::any_of(themes.begin(), themes.end(),
+                     [&](const ThemeInfo& theme) { return theme.stands() && request.themes.includes(theme); });
 }
 
 EnvelopeRequest certified_request(const Store& store, const Request& request, int level) {
   EnvelopeRequest result;
   result.window = window_of(request);
   result.level = level;
+  if (level == 0 && features_stand(store, request)) {
+    result.themes = request.themes;
+    if (!request.targets_on_surface) result.bare_ground = result.window;
+  }
   const Box box = result.window.is_all() ? store.metadata().grid.box(store.metadata().bounds) : result.window.bounds();
   const double points = std::min({kNearPoints, kAllNearPoints / static_cast<double>(request.observers.size()),
                                   kNearShare * static_cast<double>(store.points_about(0, box))});

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 
+#include <itin/error.hpp>
 #include <itin/parallel.hpp>
 #include <viewshed/certified.hpp>
 
@@ -112,11 +113,14 @@ Voids voids_of(NoData rule) {
 class Precise {
  public:
   Precise(const Store& store, const Request& request, const PreciseOptions& options, Progress& progress)
-      : store_(store), request_(request), budget_(options.memory_bytes / 2 / kBytesAPoint), progress_(progress) {}
+      : store_(store),
+        request_(request),
+        features_(features_stand(store, request)),
+        budget_(options.memory_bytes / 2 / kBytesAPoint),
+        progress_(progress) {}
 
   Surveyed run() {
     validate(request_);
-    require_bare_terrain(store_, request_);
     Result& result = surveyed_.result;
     result.request = request_;
     Stopwatch watch;
@@ -130,7 +134,12 @@ class Precise {
     look_for_voids(envelope);
     ground_.emplace(store_, envelope.lower.bounds());
     result.statistics.retrieval_seconds = watch.lap();
-    first_.emplace(std::move(envelope), request_, tiles_, voids_of(request_.nodata));
+    if (level == 0 || !features_) {
+      first_.emplace(std::move(envelope), request_, tiles_, voids_of(request_.nodata));
+    } else if (result.crosses_voids && request_.nodata == NoData::kBlock) {
+      throw InputError(
+          "with --themes, --nodata block needs the whole window in memory: give more --memory or a smaller --radius");
+    }
     result.statistics.scene_seconds = watch.lap();
     seen_.assign(result.grid.cell_count(), kCountOutside);
     for (std::size_t i = 0; i < eyes.size(); ++i) look(eyes[i], i + 1 == eyes.size());
@@ -144,7 +153,7 @@ class Precise {
     const Window window = window_of(request_);
     const Box box = window.is_all() ? store_.metadata().grid.box(store_.metadata().bounds) : window.bounds();
     const std::uint64_t all = store_.points_about(0, box);
-    if (all <= std::min(budget_, kFewPoints)) return 0;
+    if (all <= (features_ ? budget_ : std::min(budget_, kFewPoints))) return 0;
     int level = 1;
     while (level + 1 < static_cast<int>(store_.metadata().levels.size()) &&
            store_.points_about(level, box) > std::min(budget_, all / kCoarseShare))
@@ -177,11 +186,12 @@ class Precise {
     }
     std::vector<std::size_t> all(tiles_.cell_count());
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-    if (first_->exact) {
+    if (first_ && first_->exact) {
       refinement.judge(*first_, eye, all,
                        [&](std::size_t, const auto&, auto& values, const Doubtful& d) { walk(*first_, d, values); });
     } else {
-      std::vector<TileSet> needed = coarse_pass(eye, all, refinement);
+      // Certificates know nothing of what stands on the ground: then whole lines are needed.
+      const std::vector<TileSet> needed = features_ ? under_lines(eye, refinement) : coarse_pass(eye, all, refinement);
       // The scene's memory is free for the segments, when no other observer needs it.
       if (last) first_.reset();
       for (const std::vector<std::size_t>& segment : segments(eye, needed)) refine(eye, segment, needed, refinement);
@@ -204,6 +214,31 @@ class Precise {
         for (const Stretch& s : stretches[i])
           ground_->add_line(along(units, d.lines, i, s.from), along(units, d.lines, i, s.to), needed[tile]);
       });
+    });
+    return needed;
+  }
+
+  /// The ground under all lines in view to each tile's cells. Cells out of view become kOutside.
+  std::vector<TileSet> under_lines(const Eye& eye, Refinement& refinement) {
+    const RasterGrid& grid = surveyed_.result.grid;
+    const FieldOfView view(request_);
+    constexpr double kAnyHeight = 1e9;
+    std::vector<TileSet> needed(tiles_.cell_count());
+    parallel_for(needed.size(), [&](std::size_t i) {
+      const Tile tile = tile_at(grid, tiles_, i);
+      for (std::int64_t r = 0; r < tile.rows; ++r) {
+        for (std::int64_t c = 0; c < tile.columns; ++c) {
+          std::uint8_t& value = refinement.values()[grid.index({tile.column + c, tile.row + r})];
+          if (value != kUndecided) continue;
+          const Point2 centre = grid.centre(tile.column + c, tile.row + r);
+          if (view.contains(centre.x - eye.position.x, centre.y - eye.position.y, -kAnyHeight, kAnyHeight) == false) {
+            value = kOutside;
+            continue;
+          }
+          if (needed[i].empty()) needed[i] = TileSet(ground_->count());
+          ground_->add_line(eye.position, centre, needed[i]);
+        }
+      }
     });
     return needed;
   }
@@ -239,13 +274,26 @@ class Precise {
               Refinement& refinement) {
     TileSet ground(ground_->count());
     for (const std::size_t tile : cells) ground |= needed[tile];
-    Envelope envelope = envelop(
-        store_, {.window = ground_->window(ground), .level = 0, .discs = {}, .observers = {eye.position}}, progress_);
+    EnvelopeRequest wanted{.window = ground_->window(ground), .level = 0, .discs = {}, .observers = {eye.position}};
+    if (features_) wanted.themes = request_.themes;
+    if (features_ && !request_.targets_on_surface) wanted.bare_ground = window_over(cells);
+    Envelope envelope = envelop(store_, wanted, progress_);
     count(envelope);
     // The edges of the window are no voids; lines behind voids were hidden in the coarse pass.
     const EnvelopeScene scene(std::move(envelope), request_, tiles_, Voids::kPass);
     refinement.judge(scene, eye, cells,
                      [&](std::size_t, const auto&, auto& values, const Doubtful& d) { walk(scene, d, values); });
+  }
+
+  Window window_over(const std::vector<std::size_t>& cells) const {
+    std::vector<Window::Polygon> parts;
+    for (const std::size_t i : cells) {
+      const Point2 c = tiles_.centre(static_cast<std::int64_t>(i) % tiles_.columns(),
+                                     static_cast<std::int64_t>(i) / tiles_.columns());
+      const double w = tiles_.cell_width() / 2, h = tiles_.cell_height() / 2;
+      parts.push_back({{{c.x - w, c.y - h}, {c.x + w, c.y - h}, {c.x + w, c.y + h}, {c.x - w, c.y + h}}, {}});
+    }
+    return Window::polygons(std::move(parts));
   }
 
   void add(const std::vector<std::uint8_t>& values) {
@@ -272,6 +320,7 @@ class Precise {
 
   const Store& store_;
   const Request& request_;
+  bool features_;         ///< stand on the ground
   std::uint64_t budget_;  ///< points
   Progress& progress_;
   Surveyed surveyed_;
