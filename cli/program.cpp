@@ -54,6 +54,7 @@ std::vector<std::unique_ptr<Verb>> make_verbs() {
   verbs.push_back(make_viewshed_verb());
   verbs.push_back(make_profile_verb());
   verbs.push_back(make_los_verb());
+  verbs.push_back(make_site_verb());
   return verbs;
 }
 

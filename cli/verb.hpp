@@ -45,5 +45,6 @@ std::unique_ptr<Verb> make_tin_verb();
 std::unique_ptr<Verb> make_viewshed_verb();
 std::unique_ptr<Verb> make_profile_verb();
 std::unique_ptr<Verb> make_los_verb();
+std::unique_ptr<Verb> make_site_verb();
 
 }  // namespace itin::cli

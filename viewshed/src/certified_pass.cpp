@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <viewshed/certified.hpp>
 
@@ -31,12 +32,18 @@ EnvelopeScene::EnvelopeScene(Envelope e, const Request& request, const RasterGri
 }
 
 EnvelopeScene::Look EnvelopeScene::look_from(const Eye& eye) const {
+  std::vector<std::uint32_t> all(envelope.upper.triangles.size());
+  std::iota(all.begin(), all.end(), 0U);
+  return look_from(eye, all);
+}
+
+EnvelopeScene::Look EnvelopeScene::look_from(const Eye& eye, std::span<const std::uint32_t> triangles) const {
   const Tin& tin = envelope.upper;
   double highest = -std::numeric_limits<double>::infinity();
   const auto apart = [](double v, std::int32_t a, std::int32_t b, std::int32_t c) {
     return (v < a && v < b && v < c) || (v > a && v > b && v > c);
   };
-  for (std::uint32_t t = 0; t < tin.triangles.size(); ++t) {
+  for (const std::uint32_t t : triangles) {
     const auto& [i, j, k] = tin.triangles[t];
     const GridPoint &a = tin.vertices[i], &b = tin.vertices[j], &c = tin.vertices[k];
     if (apart(eye.units.x, a.x, b.x, c.x) || apart(eye.units.y, a.y, b.y, c.y)) continue;
@@ -133,11 +140,12 @@ void CertifiedPass::judge(const EnvelopeScene::Look& look, TileValues<std::uint8
       fill(look, values, work, packet);
       const unsigned all = packet.low.active, under = packet.starts_under | packet.ends_under | packet.ambiguous;
       if (all == 0) continue;
-      packet.low.active = all & ~under;
-      const unsigned visible = packet.low.active & ~scene_.upper.touched(packet.low);
-      packet.high.active = all & ~visible & ~packet.ambiguous;
+      // Most of what an observer on the ground looks at is hidden.
+      packet.high.active = all & ~packet.ambiguous;
       const unsigned hidden = packet.high.active == 0 ? 0 : scene_.lower.hidden(packet.high, work.occluder);
-      work.rays += static_cast<unsigned>(std::popcount(all & ~under) + std::popcount(packet.high.active));
+      packet.low.active = all & ~under & ~hidden;
+      const unsigned visible = packet.low.active & ~scene_.upper.touched(packet.low);
+      work.rays += static_cast<unsigned>(std::popcount(packet.low.active) + std::popcount(packet.high.active));
       for (unsigned rest = visible | hidden; rest != 0; rest &= rest - 1) {
         const auto i = static_cast<unsigned>(std::countr_zero(rest));
         values[packet.cell(i)] = (visible >> i & 1) != 0 ? kCertainlyVisible : kCertainlyHidden;

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 
 #include <viewshed/viewshed.hpp>
 
@@ -42,6 +43,8 @@ class EnvelopeScene {
     double upper = 0;  ///< grid units: the upper surface there, or -infinity where there is none
   };
   Look look_from(const Eye& eye) const;
+  /// The same, from those of the triangles that may lie under the eye.
+  Look look_from(const Eye& eye, std::span<const std::uint32_t> triangles) const;
 
   Envelope envelope;
   Scene lower;

@@ -6,6 +6,7 @@
 
 #include <itin/certificate.hpp>
 #include <itin/parallel.hpp>
+#include <itin/raster.hpp>
 #include <itin/triangulate.hpp>
 
 #include "embree.hpp"
@@ -66,11 +67,15 @@ void raise_against_drift(const std::vector<Point2>& observers, Tin& tin) {
     for (const std::uint32_t v : t) slope[v] = std::max(slope[v], s);
   }
   const Box box = tin.bounds();
+  Box eyes;
+  for (const Point2& o : observers) eyes.extend(o);
   const double half = std::max(box.width(), box.height()) / 2 / tin.grid.resolution;
   for_each_chunk(tin.vertices.size(), [&](std::size_t v) {
     const Point3 p = tin.point(static_cast<std::uint32_t>(v));
-    double farthest = 0;
-    for (const Point2& o : observers) farthest = std::max(farthest, std::hypot(p.x - o.x, p.y - o.y));
+    const double farthest = observers.empty()
+                                ? 0
+                                : std::hypot(std::max(std::abs(p.x - eyes.xmin), std::abs(p.x - eyes.xmax)),
+                                             std::max(std::abs(p.y - eyes.ymin), std::abs(p.y - eyes.ymax)));
     const double drift = rounding_error(half, farthest / tin.grid.resolution + 1);
     tin.vertices[v].z += static_cast<std::int32_t>(std::ceil(2 * drift * static_cast<double>(slope[v])));
   });
@@ -82,6 +87,45 @@ bool within(const Tin& tin, const Triangle& t, const FineDisc& disc) {
     return std::hypot(p.x - disc.centre.x, p.y - disc.centre.y) < disc.radius;
   });
 }
+
+/// Which of many discs may hold a triangle.
+class DiscIndex {
+ public:
+  explicit DiscIndex(const std::vector<FineDisc>& discs) : discs_(discs) {
+    Box all;
+    for (const FineDisc& disc : discs) all.extend(box_of(disc));
+    const double side = std::ceil(2 * std::sqrt(static_cast<double>(discs.size())));
+    const double size = std::max({all.width(), all.height(), 1.0}) * 1.001 / side;
+    bins_ =
+        RasterGrid({all.xmin, all.ymax}, size, size, static_cast<std::int64_t>(side), static_cast<std::int64_t>(side));
+    of_bin_.resize(bins_.cell_count());
+    for (std::uint32_t i = 0; i < discs.size(); ++i) {
+      const Box box = box_of(discs[i]);
+      const auto first = *bins_.cell_at({box.xmin, box.ymax}), last = *bins_.cell_at({box.xmax, box.ymin});
+      for (std::int64_t row = first.row; row <= last.row; ++row)
+        for (std::int64_t column = first.column; column <= last.column; ++column)
+          of_bin_[bins_.index({column, row})].push_back(i);
+    }
+  }
+
+  bool hold(const Tin& tin, const Triangle& t) const {
+    const Point3 p = tin.point(t[0]);
+    const auto bin = bins_.cell_at({p.x, p.y});
+    if (!bin) return false;
+    const std::vector<std::uint32_t>& near = of_bin_[bins_.index(*bin)];
+    return std::any_of(near.begin(), near.end(), [&](std::uint32_t i) { return within(tin, t, discs_[i]); });
+  }
+
+ private:
+  static Box box_of(const FineDisc& disc) {
+    return {disc.centre.x - disc.radius, disc.centre.y - disc.radius, disc.centre.x + disc.radius,
+            disc.centre.y + disc.radius};
+  }
+
+  const std::vector<FineDisc>& discs_;
+  RasterGrid bins_;
+  std::vector<std::vector<std::uint32_t>> of_bin_;
+};
 
 class Builder {
  public:
@@ -108,11 +152,9 @@ class Builder {
 
   /// Leaves out what lies within a disc, but for triangles at the outline.
   void clear(const std::vector<FineDisc>& discs) {
+    const DiscIndex index(discs);
     std::vector<std::uint8_t> drop(lower_.triangles.size());
-    for_each_chunk(drop.size(), [&](std::size_t t) {
-      drop[t] = std::any_of(discs.begin(), discs.end(),
-                            [&](const FineDisc& disc) { return within(lower_, lower_.triangles[t], disc); });
-    });
+    for_each_chunk(drop.size(), [&](std::size_t t) { drop[t] = index.hold(lower_, lower_.triangles[t]); });
     for (const BoundaryEdge& edge : outline_) drop[edge.triangle] = 0;
     std::vector<std::uint32_t> number(drop.size());
     std::uint32_t kept = 0;

@@ -13,6 +13,7 @@
 #include <viewshed/certified.hpp>
 
 #include "certified_pass.hpp"
+#include "exact_walk.hpp"
 #include "ground_tiles.hpp"
 #include "near_ground.hpp"
 #include "observation.hpp"
@@ -101,25 +102,9 @@ Point2 along(const Grid& grid, const SightLines& lines, unsigned i, double s) {
           grid.origin.y + (lines.from_y[i] + s * (lines.to_y[i] - lines.from_y[i])) * grid.resolution};
 }
 
-std::size_t cell_of(const Doubtful& d, unsigned i) {
-  return (d.row + i / kPacketSide) * Tile::kSide + d.column + i % kPacketSide;
-}
-
 template <class Visit>
 void for_each_line(unsigned active, const Visit& visit) {
   for (; active != 0; active &= active - 1) visit(static_cast<unsigned>(std::countr_zero(active)));
-}
-
-/// The exact answer for lines over the full surface, which only has to be there where the upper surface comes near.
-void walk(const EnvelopeScene& scene, const Doubtful& d, TileValues<std::uint8_t>& values) {
-  UpperScene::Stretches stretches;
-  scene.upper.find_stretches(d.lines, d.starts_under, d.ends_under, stretches);
-  for_each_line(d.lines.active, [&](unsigned i) {
-    const bool hidden = std::any_of(stretches[i].begin(), stretches[i].end(), [&](const Stretch& s) {
-      return scene.lower.hidden_between(d.lines, i, s.from, s.to);
-    });
-    values[cell_of(d, i)] = hidden ? kCertainlyHidden : kCertainlyVisible;
-  });
 }
 
 Voids voids_of(NoData rule) {

@@ -33,6 +33,7 @@ struct SiteQuery {
 
 struct Site {
   std::int64_t feature = 0;  ///< the file's own number for it
+  std::int64_t row = 0;      ///< its place among the features asked for, from 0
   std::string name;
   Point2 position;  ///< in the CRS asked for
   std::optional<double> height;
@@ -42,5 +43,8 @@ struct Site {
 /// All sites in the file's order, in the CRS `to_crs` (WKT). Throws FileError for a file, layer, field, filter or
 /// feature that is missing or not understood (naming it), InputError for a CRS that is unknown.
 std::vector<Site> read_sites(const SiteQuery& query, const std::string& to_crs);
+
+/// The same, but features that are not understood are left out, each with a line in `rejected` that names it.
+std::vector<Site> read_sites(const SiteQuery& query, const std::string& to_crs, std::vector<std::string>& rejected);
 
 }  // namespace itin

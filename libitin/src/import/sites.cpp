@@ -111,37 +111,64 @@ Point2 position_of(const OGRFeature& feature, const std::string& place) {
   return {point->getX(), point->getY()};
 }
 
-}  // namespace
+/// The fields of a layer that sites take their values from; -1: none is asked for.
+struct SiteFields {
+  int height, name;
+  std::vector<int> numbers;
+};
 
-std::vector<Site> read_sites(const SiteQuery& query, const std::string& to_crs) {
+Site site_of(const OGRFeature& feature, const SiteFields& fields, const std::string& place,
+             const std::optional<CoordinateTransform>& transform) {
+  Site site;
+  site.feature = feature.GetFID();
+  site.name = fields.name < 0 ? std::to_string(site.feature) : feature.GetFieldAsString(fields.name);
+  site.position = position_of(feature, place);
+  if (fields.height >= 0) site.height = height_of(feature, fields.height, place);
+  site.numbers = numbers_of(feature, fields.numbers, place);
+  try {
+    if (transform) site.position = (*transform)(site.position);
+  } catch (const InputError& error) {
+    throw FileError(place, error.what());
+  }
+  return site;
+}
+
+/// `rejected` is null where the first feature that is not understood ends it.
+std::vector<Site> read(const SiteQuery& query, const std::string& to_crs, std::vector<std::string>* rejected) {
   const QuietGdal quiet;
   const GDALDatasetUniquePtr dataset = opened(query.path);
   OGRLayer& layer = chosen_layer(*dataset, query);
-  const int height_field = field_index(layer, query.path, query.height_field);
-  const int name_field = field_index(layer, query.path, query.name_field);
-  const std::vector<int> further_fields = number_fields(layer, query);
+  const SiteFields fields{field_index(layer, query.path, query.height_field),
+                          field_index(layer, query.path, query.name_field), number_fields(layer, query)};
   if (!query.where.empty() && layer.SetAttributeFilter(query.where.c_str()) != OGRERR_NONE) {
     throw FileError(query.path, fmt::format("--where '{}': {}", query.where, QuietGdal::message("not understood")));
   }
   const std::optional<CoordinateTransform> transform = transform_from(layer, query, to_crs);
 
   std::vector<Site> sites;
+  std::int64_t row = 0;
   for (const OGRFeatureUniquePtr& feature : layer) {
     const std::string place = fmt::format("{}: feature {}", query.path, feature->GetFID());
-    Site site;
-    site.feature = feature->GetFID();
-    site.name = name_field < 0 ? std::to_string(site.feature) : feature->GetFieldAsString(name_field);
-    site.position = position_of(*feature, place);
-    if (height_field >= 0) site.height = height_of(*feature, height_field, place);
-    site.numbers = numbers_of(*feature, further_fields, place);
     try {
-      if (transform) site.position = (*transform)(site.position);
-    } catch (const InputError& error) {
-      throw FileError(place, error.what());
+      sites.push_back(site_of(*feature, fields, place, transform));
+      sites.back().row = row++;
+    } catch (const FileError& error) {
+      if (rejected == nullptr) throw;
+      rejected->push_back(error.what());
+      ++row;
     }
-    sites.push_back(std::move(site));
   }
   return sites;
+}
+
+}  // namespace
+
+std::vector<Site> read_sites(const SiteQuery& query, const std::string& to_crs) {
+  return read(query, to_crs, nullptr);
+}
+
+std::vector<Site> read_sites(const SiteQuery& query, const std::string& to_crs, std::vector<std::string>& rejected) {
+  return read(query, to_crs, &rejected);
 }
 
 }  // namespace itin

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <itin/base64.hpp>
+
 #include "report/formats.hpp"
 #include "report/sight_chart.hpp"
 #include "report/tables.hpp"
@@ -32,21 +34,6 @@ std::string escaped(std::string_view text) {
       result += "&quot;";
     else
       result += c;
-  }
-  return result;
-}
-
-std::string base64(std::string_view bytes) {
-  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string result;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t j = 0; j < 3; ++j) {
-      group = group << 8 | (i + j < bytes.size() ? static_cast<unsigned char>(bytes[i + j]) : 0U);
-    }
-    for (std::size_t j = 0; j < 4; ++j) {
-      result += i + j <= bytes.size() ? kDigits[group >> (18 - 6 * j) & 63U] : '=';
-    }
   }
   return result;
 }

@@ -1,0 +1,66 @@
+// Lines of sight between sites: who sees whom, and what that asks of a choice.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <itin/store.hpp>
+#include <profile/line_of_sight.hpp>
+#include <viewshed/site_coverage.hpp>
+
+namespace itin::cli {
+
+/// Remembers what it has looked at. Over the full surface with the themes.
+class SiteLinks {
+ public:
+  SiteLinks(const Store& store, const ThemeChoice& themes, const Earth& earth, Progress& progress)
+      : store_(store), themes_(themes), earth_(earth), progress_(progress) {}
+
+  profile::SightLine between(const viewshed::SiteStand& a, const viewshed::SiteStand& b) const;
+  /// The same, for options by their number; asked again it costs nothing.
+  bool sees(const std::vector<viewshed::SiteStand>& stands, std::size_t a, std::size_t b) const;
+
+ private:
+  const Store& store_;
+  ThemeChoice themes_;
+  Earth earth_;
+  Progress& progress_;
+  mutable std::map<std::pair<std::size_t, std::size_t>, bool> seen_;
+};
+
+/// Minimum spacing and intervisibility.
+class SiteRules {
+ public:
+  /// Refers to everything given.
+  SiteRules(const std::vector<viewshed::SiteStand>& stands, std::size_t options, std::optional<double> min_spacing,
+            bool intervisible, std::optional<viewshed::SiteStand> hub, const SiteLinks& links)
+      : stands_(stands),
+        options_(options),
+        min_spacing_(min_spacing),
+        intervisible_(intervisible),
+        hub_(std::move(hub)),
+        links_(links) {}
+
+  bool any() const { return min_spacing_ || intervisible_; }
+  bool may_join(std::size_t option, std::span<const std::size_t> chosen) const;
+  bool holds_together(std::span<const std::size_t> chosen) const;
+
+ private:
+  bool spaced(std::size_t a, std::size_t b) const;
+  bool sees_hub(std::size_t option) const;
+  /// A first site without a hub must see some other place that may follow it.
+  bool sees_another_candidate(std::size_t option) const;
+
+  const std::vector<viewshed::SiteStand>& stands_;
+  std::size_t options_;
+  std::optional<double> min_spacing_;
+  bool intervisible_;
+  std::optional<viewshed::SiteStand> hub_;
+  const SiteLinks& links_;
+  mutable std::map<std::size_t, bool> sees_hub_, sees_another_;
+};
+
+}  // namespace itin::cli

@@ -1,0 +1,21 @@
+// A siting run on one self-contained page.
+#pragma once
+
+#include <string>
+
+#include <itin/store.hpp>
+
+#include "site_result.hpp"
+#include "verb.hpp"
+
+namespace itin::cli {
+
+/// The two maps of the report, as PNG files beside it; `warnings` gets those of drawing them. Throws FileError.
+void write_site_maps(const Store& store, const SiteResult& result, const std::string& directory, bool overwrite,
+                     Progress& progress, std::vector<std::string>& warnings);
+
+/// `parameters` and `inputs` are shown as they are; the maps are read from the folder. Throws FileError.
+void write_site_report(const SiteResult& result, const Document& parameters, const Document& inputs,
+                       const std::string& directory, bool overwrite);
+
+}  // namespace itin::cli

@@ -1,0 +1,23 @@
+// The values of a raster file, for weights and costs of places.
+//
+//   RasterValues population = read_raster_values("population.tif", store.metadata().crs_wkt);
+//   population.values[population.grid.index({column, row})];
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <itin/raster.hpp>
+
+namespace itin {
+
+struct RasterValues {
+  RasterGrid grid;
+  std::vector<double> values;  ///< row by row from the north-west; NaN where the file has no data
+};
+
+/// The first band. Throws FileError if GDAL cannot read it, InputError as raster_grid_like() does, and for more than
+/// 2^31 cells.
+RasterValues read_raster_values(const std::string& path, const std::string& crs_wkt);
+
+}  // namespace itin

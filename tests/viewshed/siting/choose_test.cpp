@@ -1,0 +1,349 @@
+// The choice on bounds against greedy, swaps and the optimum of exact coverage, done the slow way.
+#include <algorithm>
+#include <iostream>
+#include <map>
+#include <random>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include <itin/error.hpp>
+#include <viewshed/siting.hpp>
+
+namespace itin::viewshed {
+namespace {
+
+using Truth = std::vector<std::vector<bool>>;  ///< options by elements
+
+DemandSet set_of(const std::vector<bool>& members) {
+  DemandSet set;
+  for (std::size_t first = 0; first < members.size(); first += 64) {
+    std::uint64_t word = 0;
+    for (std::size_t i = first; i < std::min(members.size(), first + 64); ++i)
+      if (members[i]) word |= std::uint64_t{1} << (i - first);
+    set.add(static_cast<std::uint32_t>(first / 64), word);
+  }
+  return set;
+}
+
+/// Bounds that close in three steps, at random.
+class Simulated final : public Coverage {
+ public:
+  Simulated(const Truth& truth, double doubt, std::mt19937& random) : truth_(truth), bounds_(truth.size()) {
+    std::bernoulli_distribution unsure(doubt);
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      std::vector<bool> certain = truth[i], possible = truth[i];
+      for (std::size_t e = 0; e < truth[i].size(); ++e)
+        if (unsure(random)) certain[e] = false, possible[e] = true;
+      bounds_[i] = {set_of(certain), set_of(possible), false};
+    }
+  }
+  const CoverageBounds& bounds(std::size_t option) const override { return bounds_[option]; }
+  void refine(std::span<const std::size_t> options) override {
+    for (const std::size_t option : options) {
+      EXPECT_FALSE(bounds_[option].exact);
+      const DemandSet exact = set_of(truth_[option]);
+      if (++steps_[option] == 2) {
+        bounds_[option] = {exact, exact, true};
+      } else {
+        // Half of the doubt goes.
+        const std::size_t half = truth_[option].size() / 2;
+        std::vector<bool> certain(truth_[option].size()), possible = certain;
+        for (std::size_t e = 0; e < certain.size(); ++e) {
+          certain[e] = e < half ? truth_[option][e] : bounds_[option].certain.contains(e);
+          possible[e] = e < half ? truth_[option][e] : bounds_[option].possible.contains(e);
+        }
+        bounds_[option] = {set_of(certain), set_of(possible), false};
+      }
+      refined_.insert(option);
+    }
+  }
+  std::size_t refined() const { return refined_.size(); }
+
+ private:
+  const Truth& truth_;
+  std::vector<CoverageBounds> bounds_;
+  std::map<std::size_t, int> steps_;
+  std::set<std::size_t> refined_;
+};
+
+struct Instance {
+  Truth truth;
+  std::vector<double> weights;
+  std::vector<SiteOption> options;
+
+  Instance(std::size_t sites, std::size_t elements, std::size_t heights, std::mt19937& random) {
+    std::uniform_real_distribution<double> share(0.02, 0.3);
+    std::uniform_int_distribution<int> weight(0, 4), cost(1, 6);
+    for (std::size_t e = 0; e < elements; ++e) weights.push_back(weight(random) * 0.25);
+    for (std::size_t s = 0; s < sites; ++s) {
+      std::vector<bool> sees(elements);
+      for (std::size_t h = 0; h < heights; ++h) {
+        std::bernoulli_distribution more(share(random));
+        for (std::size_t e = 0; e < elements; ++e) sees[e] = sees[e] || more(random);
+        truth.push_back(sees);
+        options.push_back({s, static_cast<double>(cost(random))});
+      }
+    }
+  }
+
+  double sum(const std::vector<std::size_t>& chosen, int cover, bool capped) const {
+    double result = 0;
+    for (std::size_t e = 0; e < weights.size(); ++e) {
+      int seen = 0;
+      for (const std::size_t option : chosen) seen += truth[option][e];
+      result += weights[e] * (capped ? std::min(seen, cover) : static_cast<int>(seen >= cover));
+    }
+    return result;
+  }
+  double cost(const std::vector<std::size_t>& chosen) const {
+    double result = 0;
+    for (const std::size_t option : chosen) result += options[option].cost;
+    return result;
+  }
+  bool same_place(std::size_t option, const std::vector<std::size_t>& chosen) const {
+    return std::any_of(chosen.begin(), chosen.end(),
+                       [&](std::size_t other) { return options[other].place == options[option].place; });
+  }
+};
+
+bool within(const Instance& instance, const ChoiceGoal& goal, const std::vector<std::size_t>& chosen) {
+  return (!goal.count || chosen.size() <= *goal.count) && (!goal.budget || instance.cost(chosen) <= *goal.budget) &&
+         (!goal.holds_together || goal.holds_together(chosen));
+}
+
+std::vector<std::size_t> slow_greedy(const Instance& instance, const ChoiceGoal& goal, bool per_cost) {
+  std::vector<std::size_t> chosen;
+  for (;;) {
+    double best = 0;
+    std::optional<std::size_t> taken;
+    for (std::size_t option = 0; option < instance.options.size(); ++option) {
+      std::vector<std::size_t> more = chosen;
+      more.push_back(option);
+      if (instance.same_place(option, chosen) || !within(instance, goal, more)) continue;
+      const double gain = (instance.sum(more, goal.cover, true) - instance.sum(chosen, goal.cover, true)) /
+                          (per_cost ? instance.options[option].cost : 1);
+      if (gain > best) best = gain, taken = option;
+    }
+    if (!taken) return chosen;
+    chosen.push_back(*taken);
+    if (goal.wanted && instance.sum(chosen, goal.cover, false) * 4 >= static_cast<double>(*goal.wanted)) return chosen;
+  }
+}
+
+void slow_swaps(const Instance& instance, const ChoiceGoal& goal, std::vector<std::size_t>& chosen) {
+  for (;;) {
+    double best = 0;
+    std::vector<std::size_t> taken;
+    for (std::size_t s = 0; s < chosen.size(); ++s) {
+      for (std::size_t option = 0; option < instance.options.size(); ++option) {
+        std::vector<std::size_t> other = chosen;
+        other.erase(other.begin() + static_cast<std::ptrdiff_t>(s));
+        if (option == chosen[s] || instance.same_place(option, other)) continue;
+        other.insert(other.begin() + static_cast<std::ptrdiff_t>(s), option);
+        if (!within(instance, goal, other)) continue;
+        const double gain = instance.sum(other, goal.cover, true) - instance.sum(chosen, goal.cover, true);
+        if (gain > best) best = gain, taken = other;
+      }
+    }
+    if (best == 0) return;
+    chosen = taken;
+  }
+}
+
+std::vector<std::size_t> sorted(std::vector<std::size_t> v) {
+  std::sort(v.begin(), v.end());
+  return v;
+}
+std::vector<std::size_t> options_of(const Choice& choice) {
+  std::vector<std::size_t> result;
+  for (const ChosenSite& site : choice.chosen) result.push_back(site.option);
+  return result;
+}
+
+/// By trying every set.
+double optimum(const Instance& instance, const ChoiceGoal& goal, std::vector<std::size_t>& chosen, std::size_t from) {
+  double best = instance.sum(chosen, goal.cover, false);
+  for (std::size_t option = from; option < instance.options.size(); ++option) {
+    chosen.push_back(option);
+    if (within(instance, goal, chosen)) best = std::max(best, optimum(instance, goal, chosen, option + 1));
+    chosen.pop_back();
+  }
+  return best;
+}
+
+class Choosing : public ::testing::Test {
+ protected:
+  Choosing() { std::cout << "seed " << seed_ << '\n'; }
+  Choice choose_on_bounds(const Instance& instance, const ChoiceGoal& goal, double doubt) {
+    Simulated coverage(instance.truth, doubt, random_);
+    NoProgress progress;
+    Choice choice = choose(Demand(instance.weights), instance.options, coverage, goal, progress);
+    refined_ = coverage.refined();
+    return choice;
+  }
+  std::uint32_t seed_ = std::random_device{}();
+  std::mt19937 random_{seed_};
+  std::size_t refined_ = 0;
+};
+
+TEST_F(Choosing, GreedyIsThatOfExactCoverage) {
+  for (int trial = 0; trial < 150; ++trial) {
+    const Instance instance(30, 150, 1 + trial % 2, random_);
+    ChoiceGoal goal{.count = 6};
+    goal.cover = 1 + trial % 3;
+    goal.swaps = false;
+    goal.batch = 1 + static_cast<std::size_t>(trial) % 5;
+    const Choice choice = choose_on_bounds(instance, goal, 0.1 * (trial % 5));
+    ASSERT_EQ(options_of(choice), slow_greedy(instance, goal, false)) << "trial " << trial;
+    ASSERT_DOUBLE_EQ(static_cast<double>(choice.value) * 0x1p-30, instance.sum(options_of(choice), goal.cover, false));
+  }
+}
+
+TEST_F(Choosing, OpenBoundsOfChosenSitesChangeNoChoice) {
+  for (int trial = 0; trial < 60; ++trial) {
+    const Instance instance(25, 120, 1, random_);
+    ChoiceGoal goal{.count = 5};
+    goal.exact_chosen = false;
+    const Choice choice = choose_on_bounds(instance, goal, 0.02 * (trial % 4));
+    ASSERT_EQ(options_of(choice), slow_greedy(instance, goal, false));
+    ASSERT_LE(static_cast<double>(choice.value) * 0x1p-30, instance.sum(options_of(choice), 1, false));
+  }
+}
+
+TEST_F(Choosing, SwapsAreThoseOfExactCoverage) {
+  int swapped = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    const Instance instance(25, 100, 1, random_);
+    const ChoiceGoal goal{.count = 5};
+    const Choice choice = choose_on_bounds(instance, goal, 0.1 * (trial % 4));
+    std::vector<std::size_t> slow = slow_greedy(instance, goal, false);
+    slow_swaps(instance, goal, slow);
+    ASSERT_EQ(sorted(options_of(choice)), sorted(slow)) << "trial " << trial;
+    swapped += choice.swaps > 0;
+  }
+  EXPECT_GT(swapped, 0);
+}
+
+TEST_F(Choosing, NoChoiceIsBetterThanTheBound) {
+  for (int trial = 0; trial < 60; ++trial) {
+    const Instance instance(8, 60, 1 + trial % 2, random_);
+    ChoiceGoal goal;
+    if (trial % 3 != 1) goal.count = 3;
+    if (trial % 3 != 0) goal.budget = 8;
+    goal.cover = 1 + trial % 2;
+    const Choice choice = choose_on_bounds(instance, goal, 0.2);
+    std::vector<std::size_t> none;
+    const double best = optimum(instance, goal, none, 0), bound = static_cast<double>(choice.upper_bound) * 0x1p-30;
+    EXPECT_LE(best, bound + 1e-9) << "trial " << trial;
+    EXPECT_LE(static_cast<double>(choice.value) * 0x1p-30, best + 1e-9);
+    EXPECT_LE(instance.cost(options_of(choice)), goal.budget.value_or(1e9));
+    EXPECT_LE(choice.chosen.size(), goal.count.value_or(100));
+  }
+}
+
+TEST_F(Choosing, OfSmallCasesTheOptimumIsFound) {
+  for (int trial = 0; trial < 40; ++trial) {
+    const Instance instance(9, 80, 1 + trial % 2, random_);
+    ChoiceGoal goal;
+    if (trial % 3 != 1) goal.count = 3;
+    if (trial % 3 != 0) goal.budget = 8;
+    const Choice choice = choose_on_bounds(instance, goal, 0);
+    std::vector<std::size_t> none;
+    // Equal weights apart, the bound is the optimum; the knapsack's fractions may round it up by one unit.
+    EXPECT_NEAR(static_cast<double>(choice.upper_bound) * 0x1p-30,
+                std::max(optimum(instance, goal, none, 0), static_cast<double>(choice.value) * 0x1p-30), 1e-6)
+        << "trial " << trial;
+  }
+}
+
+TEST_F(Choosing, ABudgetIsSpentAsOnExactCoverage) {
+  for (int trial = 0; trial < 60; ++trial) {
+    const Instance instance(20, 100, 2, random_);
+    ChoiceGoal goal{.budget = 11};
+    goal.swaps = false;
+    const Choice choice = choose_on_bounds(instance, goal, 0.1 * (trial % 4));
+    const auto by_cost = slow_greedy(instance, goal, true), by_gain = slow_greedy(instance, goal, false);
+    const double best = std::max(instance.sum(by_cost, 1, false), instance.sum(by_gain, 1, false));
+    ASSERT_DOUBLE_EQ(static_cast<double>(choice.value) * 0x1p-30, best);
+  }
+}
+
+TEST_F(Choosing, AWantedShareEndsTheChoiceAndLeavesNothingNeedless) {
+  for (int trial = 0; trial < 40; ++trial) {
+    const Instance instance(30, 100, 1, random_);
+    const Demand demand(instance.weights);
+    ChoiceGoal goal;
+    goal.wanted = demand.total() / 2;
+    const Choice choice = choose_on_bounds(instance, goal, 0.2);
+    ASSERT_GE(choice.value, *goal.wanted);
+    for (std::size_t s = 0; s < choice.chosen.size(); ++s) {
+      std::vector<std::size_t> rest = options_of(choice);
+      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(s));
+      EXPECT_LT(instance.sum(rest, 1, false), static_cast<double>(*goal.wanted) * 0x1p-30);
+    }
+  }
+}
+
+TEST_F(Choosing, RulesOnWhoMayJoinHold) {
+  for (int trial = 0; trial < 40; ++trial) {
+    const Instance instance(30, 100, 1, random_);
+    ChoiceGoal goal{.count = 5};
+    goal.swaps = false;
+    goal.may_join = [](std::size_t option, std::span<const std::size_t> chosen) {
+      return std::all_of(chosen.begin(), chosen.end(), [&](std::size_t c) { return (c ^ option) % 8 != 0; });
+    };
+    goal.holds_together = [&](std::span<const std::size_t> chosen) {
+      for (std::size_t i = 0; i < chosen.size(); ++i)
+        if (!goal.may_join(chosen[i], chosen.first(i))) return false;
+      return true;
+    };
+    const Choice choice = choose_on_bounds(instance, goal, 0.3);
+    ASSERT_EQ(options_of(choice), slow_greedy(instance, goal, false));
+    goal.swaps = true;
+    const std::vector<std::size_t> swapped = options_of(choose_on_bounds(instance, goal, 0.3));
+    EXPECT_TRUE(goal.holds_together(swapped));
+  }
+}
+
+TEST_F(Choosing, WhatExistingSitesServeIsNoGain) {
+  const Instance instance(10, 100, 1, random_);
+  ChoiceGoal goal{.count = 1};
+  goal.existing = {set_of(instance.truth[0]), set_of(instance.truth[1])};
+  const Choice choice = choose_on_bounds(instance, goal, 0.1);
+  ASSERT_EQ(choice.chosen.size(), 1U);
+  EXPECT_GT(choice.chosen[0].option, 1U);
+  const std::vector<std::size_t> all{0, 1, choice.chosen[0].option};
+  EXPECT_DOUBLE_EQ(static_cast<double>(choice.value) * 0x1p-30,
+                   instance.sum(all, 1, false) - instance.sum({0, 1}, 1, false));
+}
+
+TEST_F(Choosing, FewOptionsAreRefinedWhereBoundsAreTight) {
+  const Instance instance(200, 400, 1, random_);
+  ChoiceGoal goal{.count = 4};
+  goal.batch = 1;
+  goal.swaps = false;
+  choose_on_bounds(instance, goal, 0.01);
+  EXPECT_LT(refined_, 60U);
+}
+
+TEST(Choose, AGoalMustHaveAnEnd) {
+  const Truth truth{{true}};
+  std::mt19937 random(1);
+  Simulated coverage(truth, 0, random);
+  NoProgress progress;
+  EXPECT_THROW(choose(Demand(1), {{0, 1}}, coverage, {}, progress), InputError);
+}
+
+TEST(Demand, WeightsAreWholeNumbersOfAUnit) {
+  EXPECT_EQ(Demand(std::vector<double>{1, 2, 3}).total(), 6);
+  EXPECT_EQ(Demand(70).total(), 70);
+  const Demand halves(std::vector<double>{0.5, 0.25, 1e6});
+  EXPECT_DOUBLE_EQ(halves.in_metric(halves.total()), 1000000.75);
+  EXPECT_EQ(halves.at_least(0.5), halves.weight(0, 1));
+  EXPECT_THROW(Demand(std::vector<double>{-1}), InputError);
+  EXPECT_THROW(Demand(std::vector<double>{std::nan("")}), InputError);
+}
+
+}  // namespace
+}  // namespace itin::viewshed

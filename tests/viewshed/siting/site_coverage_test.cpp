@@ -1,0 +1,307 @@
+// Bounds of what sites serve, against precise viewsheds; and the choice made on them, against brute force.
+#include <iostream>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <itin/import.hpp>
+#include <viewshed/certified.hpp>
+#include <viewshed/site_coverage.hpp>
+#include <viewshed/site_proposal.hpp>
+
+#include "support/raster_file.hpp"
+#include "support/temporary_directory.hpp"
+#include "support/terrain_tin.hpp"
+
+namespace itin::viewshed {
+namespace {
+
+constexpr Point2 kNorthWest{300000, 200000};
+constexpr double kStep = 50, kRadius = 1500;
+
+class Sites : public ::testing::Test {
+ protected:
+  void make_terrain(int side, double relief, bool with_void) {
+    const std::uint32_t seed = std::random_device{}();
+    std::cout << "seed " << seed << '\n';
+    random_.seed(seed);
+    const std::vector<double> z = test::fractal_heights(129, relief, 0.55, seed);
+    const std::string raster = directory_.file("t.tif"), path = directory_.file("t.itin");
+    test::write_raster(raster, {kNorthWest.x, kNorthWest.y, kStep, side, side, 27700}, [&](int c, int r) {
+      if (with_void && std::hypot(c - 0.35 * side, r - 0.6 * side) < 6) return std::nan("");
+      return z[static_cast<std::size_t>(r) * 129 + static_cast<std::size_t>(c)];
+    });
+    ImportOptions options;
+    options.sources = {raster};
+    import_terrain(path, options, progress_);
+    store_.emplace(path);
+    side_ = side;
+  }
+
+  void make_survey(std::size_t count) {
+    std::uniform_real_distribution<double> anywhere(0, side_ * kStep), height(2, 40);
+    std::vector<Point2> positions;
+    for (std::size_t i = 0; i < 2 * count; ++i)
+      positions.push_back({kNorthWest.x + anywhere(random_), kNorthWest.y - anywhere(random_)});
+    const auto ground = ground_under(*store_, positions, ThemeChoice::none(), progress_);
+    for (std::size_t i = 0; i < positions.size() && survey_.stands.size() < count; ++i)
+      if (ground[i])
+        survey_.stands.push_back({std::to_string(i), positions[i], std::round(height(random_)), *ground[i]});
+    survey_.radius = kRadius;
+    survey_.targets.height = 2;
+    survey_.targets.grid = grid_of_reach(*store_, survey_.stands, kRadius, 60);
+    survey_.tolerance = 4;
+  }
+
+  /// What compute_precise() says of one site.
+  DemandSet precise(std::size_t option) {
+    const SiteStand& stand = survey_.stands[option];
+    Request request;
+    request.observers = {{stand.name, stand.position, stand.height}};
+    request.target_height = survey_.targets.height;
+    request.radius = kRadius;
+    request.grid = survey_.targets.grid;
+    const Result result = compute_precise(*store_, request, {}, progress_).result;
+    DemandSet set;
+    const RasterGrid& grid = *survey_.targets.grid;
+    for (std::size_t block = 0; block < element_count(grid) / 64; ++block) {
+      std::uint64_t members = 0;
+      for (std::size_t bit = 0; bit < 64; ++bit) {
+        const RasterGrid::Cell cell = cell_of(grid, 64 * block + bit);
+        if (cell.column < grid.columns() && cell.row < grid.rows() && result.visible[grid.index(cell)] == kVisible)
+          members |= std::uint64_t{1} << bit;
+      }
+      set.add(static_cast<std::uint32_t>(block), members);
+    }
+    return set;
+  }
+
+  std::vector<DemandSet> all_precise() {
+    std::vector<DemandSet> sets;
+    for (std::size_t i = 0; i < survey_.stands.size(); ++i) sets.push_back(precise(i));
+    return sets;
+  }
+
+  static void expect_bounds(const CoverageBounds& bounds, const DemandSet& truth) {
+    EXPECT_TRUE(is_subset(bounds.certain, truth));
+    EXPECT_TRUE(is_subset(truth, bounds.possible));
+    if (bounds.exact) {
+      EXPECT_TRUE(bounds.certain == truth);
+      EXPECT_TRUE(bounds.possible == truth);
+    }
+  }
+
+  void expect_bounds_at_every_stage(SiteCoverage& coverage, const std::vector<DemandSet>& truth) {
+    std::vector<std::size_t> all;
+    for (std::size_t i = 0; i < truth.size(); ++i) all.push_back(i);
+    coverage.look_first();
+    for (int stage = 0;; ++stage) {
+      for (const std::size_t i : all) {
+        EXPECT_EQ(coverage.stage(i), stage);
+        expect_bounds(coverage.bounds(i), truth[i]);
+      }
+      if (stage == coverage.last_stage()) break;
+      coverage.refine(all);
+    }
+    for (const std::size_t i : all) EXPECT_TRUE(coverage.bounds(i).exact);
+  }
+
+  test::TemporaryDirectory directory_;
+  std::optional<Store> store_;
+  int side_ = 0;
+  SiteSurvey survey_;
+  std::mt19937 random_;
+  NoProgress progress_;
+};
+
+TEST_F(Sites, BoundsHoldAndTheLastLookIsPrecise) {
+  make_terrain(100, 200, true);
+  make_survey(8);
+  const std::vector<DemandSet> truth = all_precise();
+  SiteCoverage coverage(*store_, survey_, progress_);
+  expect_bounds_at_every_stage(coverage, truth);
+  EXPECT_FALSE(truth[0].empty());
+}
+
+TEST_F(Sites, TheMemoryChangesNothingExact) {
+  make_terrain(100, 200, false);
+  make_survey(8);
+  survey_.memory_bytes = 4000000;
+  SiteCoverage coverage(*store_, survey_, progress_);
+  expect_bounds_at_every_stage(coverage, all_precise());
+}
+
+TEST_F(Sites, PointsAreServedAsCellsAtTheSamePlaces) {
+  make_terrain(80, 200, true);
+  make_survey(5);
+  const std::vector<DemandSet> truth = all_precise();
+  SiteSurvey of_points = survey_;
+  of_points.targets.grid.reset();
+  const RasterGrid& grid = *survey_.targets.grid;
+  for (std::size_t element = 0; element < element_count(grid); ++element) {
+    const RasterGrid::Cell cell = cell_of(grid, element);
+    of_points.targets.points.push_back(grid.centre(cell.column, cell.row));  // beyond the grid there is no ground
+  }
+  SiteCoverage coverage(*store_, of_points, progress_);
+  std::vector<std::size_t> all{0, 1, 2, 3, 4};
+  coverage.look_first();
+  const auto inside = [&](const DemandSet& set) {  // of the padding nothing is asked
+    DemandSet result;
+    for (const DemandSet::Block& block : set.blocks()) {
+      std::uint64_t members = 0;
+      for (unsigned bit = 0; bit < 64; ++bit) {
+        const RasterGrid::Cell cell = cell_of(grid, std::size_t{64} * block.number + bit);
+        if (cell.column < grid.columns() && cell.row < grid.rows()) members |= block.members & std::uint64_t{1} << bit;
+      }
+      result.add(block.number, members);
+    }
+    return result;
+  };
+  for (;;) {
+    for (const std::size_t i : all) {
+      CoverageBounds bounds = coverage.bounds(i);
+      bounds = {inside(bounds.certain), inside(bounds.possible), bounds.exact};
+      expect_bounds(bounds, truth[i]);
+    }
+    if (coverage.bounds(0).exact) break;
+    coverage.refine(all);
+  }
+}
+
+TEST_F(Sites, TheChoiceIsThatOfBruteForce) {
+  make_terrain(129, 250, false);
+  make_survey(40);
+  survey_.tolerance = 2;
+  const std::vector<DemandSet> truth = all_precise();
+  const Demand demand(element_count(*survey_.targets.grid));
+  std::vector<SiteOption> options;
+  for (std::size_t i = 0; i < truth.size(); ++i) options.push_back({i, 1});
+
+  std::vector<std::size_t> slow;
+  std::vector<DemandSet> served;
+  while (slow.size() < 6) {
+    Weight best = 0;
+    std::size_t taken = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      served.push_back(truth[i]);
+      const Weight value = served_by(demand, served, 1);
+      served.pop_back();
+      if (value > best) best = value, taken = i;
+    }
+    slow.push_back(taken);
+    served.push_back(truth[taken]);
+  }
+
+  SiteCoverage coverage(*store_, survey_, progress_);
+  coverage.look_first();
+  ChoiceGoal goal{.count = 6};
+  goal.swaps = false;
+  goal.batch = 2;
+  const Choice choice = choose(demand, options, coverage, goal, progress_);
+  std::vector<std::size_t> chosen;
+  for (const ChosenSite& site : choice.chosen) chosen.push_back(site.option);
+  EXPECT_EQ(chosen, slow);
+  EXPECT_EQ(choice.value, served_by(demand, served, 1));
+  std::size_t refined = 0;
+  for (std::size_t i = 0; i < truth.size(); ++i) refined += coverage.stage(i) > 0;
+  EXPECT_LT(refined, truth.size());
+}
+
+TEST_F(Sites, WhatWasFoundCanBePutBack) {
+  make_terrain(80, 200, false);
+  make_survey(6);
+  SiteCoverage coverage(*store_, survey_, progress_);
+  coverage.look_first();
+  SiteCoverage other(*store_, survey_, progress_);
+  std::size_t told = 0;
+  other.on_refined = [&](std::size_t, int, const CoverageBounds&) { ++told; };
+  for (std::size_t i = 0; i < 3; ++i) other.restore(i, coverage.stage(i), coverage.bounds(i));
+  other.look_first();
+  EXPECT_GE(told, 3U);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(other.stage(i), 0);
+    EXPECT_TRUE(other.bounds(i).possible == coverage.bounds(i).possible);
+    EXPECT_TRUE(other.bounds(i).certain == coverage.bounds(i).certain);
+    EXPECT_TRUE(other.first_bounds(i).possible == coverage.first_bounds(i).possible);
+  }
+  told = 0;
+  other.look_first();
+  EXPECT_EQ(told, 0U);
+}
+
+TEST_F(Sites, SitesAreProposedOnSummitsAndSpaced) {
+  make_terrain(129, 250, false);
+  const Window area = Window::box({kNorthWest.x + 1000, kNorthWest.y - 5000, kNorthWest.x + 5000, kNorthWest.y - 1000});
+  const ProposalRequest request{.spacing = 1000, .radius = 2000, .mast_height = 20, .target_height = 2, .earth = {}};
+  const std::vector<Proposal> proposals = propose_sites(*store_, area, request, progress_);
+  EXPECT_GE(proposals.size(), 16U);
+  EXPECT_LE(proposals.size(), 50U);
+  double chosen = 0;
+  for (const Proposal& p : proposals) {
+    EXPECT_TRUE(lies_in(area, p.position));
+    chosen += p.visibility_index;
+  }
+  // They see more than places at random.
+  survey_.stands.clear();
+  make_survey(30);
+  EXPECT_TRUE(std::any_of(proposals.begin(), proposals.end(), [](const Proposal& p) { return p.summit; }));
+  EXPECT_EQ(propose_sites(*store_, area, request, progress_).size(), proposals.size());
+  EXPECT_GT(chosen / static_cast<double>(proposals.size()), 0);
+}
+
+TEST(LiesIn, PolygonsWithHoles) {
+  const Window window = Window::polygons({{{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {{{4, 4}, {6, 4}, {6, 6}, {4, 6}}}}});
+  EXPECT_TRUE(lies_in(window, {1, 1}));
+  EXPECT_FALSE(lies_in(window, {5, 5}));
+  EXPECT_FALSE(lies_in(window, {11, 5}));
+}
+
+TEST(SitesInTown, FeaturesOnlyHide) {
+  const test::TemporaryDirectory directory;
+  NoProgress progress;
+  const std::string path = directory.file("town.itin"), data = std::string(ITIN_SOURCE_DIR) + "/scripts/demo-data/";
+  ImportOptions terrain;
+  terrain.sources = {data + "alexandria-dtm.tif"};
+  import_terrain(path, terrain, progress);
+  ImportOptions buildings;
+  buildings.sources = {data + "alexandria-buildings.geojson"};
+  buildings.kind = ThemeKind::Buildings;
+  buildings.theme = "buildings";
+  buildings.height_field = "HEIGHT";
+  import_lines(path, buildings, progress);
+  const Store store(path);
+  SiteSurvey survey;
+  const std::vector<Point2> positions{{321800, 4297750}, {321700, 4297700}};
+  const auto ground = ground_under(store, positions, ThemeChoice::none(), progress);
+  for (std::size_t i = 0; i < positions.size(); ++i) survey.stands.push_back({"s", positions[i], 10, *ground[i]});
+  survey.radius = 200;
+  survey.targets.height = 1.5;
+  survey.targets.grid = grid_of_reach(store, survey.stands, survey.radius, 4);
+  SiteCoverage bare(store, survey, progress);
+  survey.themes = ThemeChoice::all();
+  SiteCoverage themed(store, survey, progress);
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    while (!bare.bounds(i).exact) bare.refine({&i, 1});
+    DemandSet before = themed.bounds(i).possible;
+    while (!themed.bounds(i).exact) {
+      themed.refine({&i, 1});
+      EXPECT_TRUE(is_subset(themed.bounds(i).possible, before));
+      before = themed.bounds(i).possible;
+    }
+    EXPECT_TRUE(is_subset(themed.bounds(i).certain, bare.bounds(i).certain));
+    EXPECT_LT(themed.bounds(i).certain.size(), bare.bounds(i).certain.size());
+    EXPECT_GT(themed.bounds(i).certain.size(), 0U);
+    Request request;
+    request.observers = {{"s", positions[i], 10}};
+    request.target_height = 1.5;
+    request.radius = survey.radius;
+    request.grid = survey.targets.grid;
+    request.themes = ThemeChoice::all();
+    const Result plain = compute(store, request, progress);
+    EXPECT_NEAR(static_cast<double>(themed.bounds(i).certain.size()), static_cast<double>(plain.cells.visible),
+                0.002 * static_cast<double>(plain.cells.visible));
+  }
+}
+
+}  // namespace
+}  // namespace itin::viewshed

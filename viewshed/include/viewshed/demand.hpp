@@ -1,0 +1,72 @@
+// What sites are to serve: cells or points with weights, and sets of them.
+//
+//   Demand demand({3.0, 1.0, 2.5});          // three households
+//   DemandSet served;
+//   served.add(0, 0b101);                     // the first and the third
+//   double people = demand.in_metric(demand.weight(served));
+//
+// Weights are kept as whole numbers of a unit (1 where all are whole, else a power of two small enough), so that sums
+// do not depend on their order and comparisons of bounds with exact values are exact.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace itin::viewshed {
+
+using Weight = std::int64_t;
+
+/// Elements of a demand, 64 to a block; only blocks with a member are kept, in ascending order.
+class DemandSet {
+ public:
+  struct Block {
+    std::uint32_t number = 0;
+    std::uint64_t members = 0;
+    friend bool operator==(const Block&, const Block&) = default;
+  };
+
+  /// Block numbers must ascend; a block without members is left out.
+  void add(std::uint32_t block, std::uint64_t members) {
+    if (members != 0) blocks_.push_back({block, members});
+  }
+  const std::vector<Block>& blocks() const { return blocks_; }
+  bool empty() const { return blocks_.empty(); }
+  std::size_t size() const;
+  bool contains(std::size_t element) const;
+  friend bool operator==(const DemandSet&, const DemandSet&) = default;
+
+ private:
+  std::vector<Block> blocks_;
+};
+
+/// What is in both. O(blocks).
+DemandSet intersection(const DemandSet& a, const DemandSet& b);
+/// Whether every member of `a` is one of `b`.
+bool is_subset(const DemandSet& a, const DemandSet& b);
+
+/// Every element the same, 1, or weights of their own.
+class Demand {
+ public:
+  Demand() = default;
+  explicit Demand(std::size_t count) : count_(count) {}
+  /// Throws InputError for a weight that is negative or not finite, and where their sum is too great to be exact.
+  explicit Demand(const std::vector<double>& weights);
+
+  std::size_t size() const { return count_; }
+  std::size_t block_count() const { return (count_ + 63) / 64; }
+  Weight weight(std::uint32_t block, std::uint64_t members) const;
+  Weight weight(const DemandSet& set) const;
+  Weight total() const;
+  /// In the units of the weights given.
+  double in_metric(Weight weight) const { return static_cast<double>(weight) * unit_; }
+  /// The least weight that is not below the value.
+  Weight at_least(double value) const;
+
+ private:
+  std::size_t count_ = 0;
+  std::vector<Weight> weights_;  ///< empty: 1 each
+  double unit_ = 1;
+};
+
+}  // namespace itin::viewshed

@@ -1,0 +1,109 @@
+// What each of many sites serves, better and better: first all of them over one coarse envelope of the surface, then,
+// for those that are asked about again, over finer ones, in the end exactly.
+//
+//   SiteSurvey survey;
+//   survey.stands = {...};                       // positions, heights, ground under them
+//   survey.targets.grid = grid_of_reach(...);
+//   SiteCoverage coverage(store, survey, progress);
+//   coverage.look_first();
+//   Choice choice = choose(demand, options, coverage, {.count = 10}, progress);
+//
+// Exact means: for the bare terrain, the walk over every triangle of the full surface in double precision, as
+// compute_precise(); with standing themes, compute() on the full surface with them, within what the bare terrain lets
+// be seen (features only raise).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <itin/store.hpp>
+#include <viewshed/siting.hpp>
+#include <viewshed/viewshed.hpp>
+
+namespace itin::viewshed {
+
+/// A site on its ground.
+struct SiteStand {
+  std::string name;
+  Point2 position;
+  double height = 0;  ///< metres above the ground
+  double ground = 0;  ///< metres; the surface's elevation there, with features if it stands on these
+
+  double elevation() const { return ground + height; }
+};
+
+/// The elevation under each position on the full surface with the themes; nothing where there is no data.
+std::vector<std::optional<double>> ground_under(const Store& store, const std::vector<Point2>& positions,
+                                                const ThemeChoice& themes, Progress& progress);
+
+/// One of the two: the centres of a raster's cells, or points. Element numbers: see element_of() and SiteCoverage.
+struct SiteTargets {
+  std::optional<RasterGrid> grid;
+  std::vector<Point2> points;
+  double height = 0;        ///< metres above the ground
+  bool on_surface = false;  ///< above the surface with the themes instead
+};
+
+struct SiteSurvey {
+  std::vector<SiteStand> stands;  ///< one an option
+  SiteTargets targets;
+  double radius = 10000;  ///< metres: no site serves farther
+  Earth earth;
+  NoData nodata = NoData::kUnknown;
+  ThemeChoice themes = ThemeChoice::none();
+  // Changes the speed, never what is exact.
+  std::optional<double> tolerance;  ///< of the first look; none: chosen by the number of points
+  std::uint64_t memory_bytes = std::uint64_t{1} << 30;
+};
+
+/// The grid of the contract: over what lies within the radius of a site, and the data. Throws InputError if there is
+/// none.
+RasterGrid grid_of_reach(const Store& store, const std::vector<SiteStand>& stands, double radius, double cell_size);
+
+/// A grid's cells as elements of a demand: `count` elements, of which the padding about the grid is never served.
+std::size_t element_count(const RasterGrid& grid);
+std::size_t element_of(const RasterGrid& grid, RasterGrid::Cell cell);
+RasterGrid::Cell cell_of(const RasterGrid& grid, std::size_t element);
+
+/// Those of the targets that have ground under them.
+DemandSet with_ground(const Store& store, const SiteTargets& targets, Progress& progress);
+
+/// Everything within the radius of a site, with or without ground.
+DemandSet within_reach(const SiteTargets& targets, Point2 position, double radius);
+
+class SiteCoverage final : public Coverage {
+ public:
+  /// The store and the progress must outlive it. Before look_first() all that is known is the radius. Throws
+  /// InputError.
+  SiteCoverage(const Store& store, SiteSurvey survey, Progress& progress);
+  ~SiteCoverage() override;
+
+  const CoverageBounds& bounds(std::size_t option) const override;
+  /// Throws as compute_certified() does.
+  void refine(std::span<const std::size_t> options) override;
+  /// At every option that was not looked at yet.
+  void look_first();
+
+  /// How often an option was refined after the first look, and how often that can be at most.
+  int stage(std::size_t option) const;
+  int last_stage() const;
+  /// What was known of an option after the first look.
+  const CoverageBounds& first_bounds(std::size_t option) const;
+  /// In words: "tolerance 4 m", "exact", ...
+  std::string stage_name(int stage) const;
+  /// Puts back what an earlier run had found. Precondition: it is of the same survey.
+  void restore(std::size_t option, int stage, CoverageBounds bounds);
+  /// Is told of every option looked at again, after each look.
+  std::function<void(std::size_t option, int stage, const CoverageBounds& bounds)> on_refined;
+
+  const Statistics& statistics() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace itin::viewshed

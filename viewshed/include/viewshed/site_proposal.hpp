@@ -1,0 +1,41 @@
+// Candidates for sites, proposed from the terrain after Franklin and Vogt (2006): the most visible places, spaced.
+//
+//   for (const Proposal& p : propose_sites(store, area, {.spacing = 1000}, progress)) ...
+//
+// The area is cut into squares of the spacing. Each proposes its highest post, if that is a summit (no neighbour nearby
+// is higher), and the post of the greatest visibility index: the share that it sees of a few targets at random
+// distances and azimuths.
+#pragma once
+
+#include <vector>
+
+#include <itin/earth.hpp>
+#include <itin/progress.hpp>
+#include <itin/store.hpp>
+#include <itin/window.hpp>
+
+namespace itin::viewshed {
+
+struct ProposalRequest {
+  double spacing = 1000;  ///< metres
+  double radius = 10000;
+  double mast_height = 20;
+  double target_height = 2;
+  Earth earth;
+};
+
+struct Proposal {
+  Point2 position;
+  bool summit = false;
+  double visibility_index = 0;  ///< 0 to 1
+};
+
+/// In order of their squares, from the north-west. The same store and request propose the same sites. Throws InputError
+/// if no ground lies in the area, or it has too many squares.
+std::vector<Proposal> propose_sites(const Store& store, const Window& area, const ProposalRequest& request,
+                                    Progress& progress);
+
+/// Whether a position lies within the window, its edges included up to rounding.
+bool lies_in(const Window& window, Point2 position);
+
+}  // namespace itin::viewshed

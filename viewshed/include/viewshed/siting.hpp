@@ -1,0 +1,97 @@
+// Which few of many sites serve the most, chosen on bounds of what each serves, as if everything were known exactly.
+//
+//   Choice choice = choose(demand, options, coverage, {.count = 10}, progress);
+//   choice.chosen[0].option, choice.chosen[0].gain, choice.value, choice.upper_bound
+//
+// Coverage comes with two sets for each option: what it certainly serves, and what it may serve. Lazy greedy (Minoux
+// 1978) takes the option of the greatest upper bound; where its bounds leave open whether it is the best, it is refined
+// and looked at again. An option whose upper bound never comes first need not be refined, ever: the choice is what
+// greedy makes of exact coverage, ties falling to the option that comes first. Swaps of one chosen site for another
+// follow, under the same rule, until none gains.
+//
+// An element served by fewer than `cover` sites counts for nothing in the value; greedy and swaps work on the sum of
+// min(served, cover), of which it is a bound, and which is submodular.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <itin/progress.hpp>
+#include <viewshed/demand.hpp>
+
+namespace itin::viewshed {
+
+/// A site that may be chosen. Of the options of one place (mast heights) at most one is.
+struct SiteOption {
+  std::size_t place = 0;
+  double cost = 1;
+};
+
+struct CoverageBounds {
+  DemandSet certain;
+  DemandSet possible;  ///< holds `certain`
+  bool exact = false;  ///< then both are the same
+};
+
+/// What each option serves, known better and better.
+class Coverage {
+ public:
+  virtual ~Coverage() = default;
+  virtual const CoverageBounds& bounds(std::size_t option) const = 0;
+  /// Makes the bounds of each option tighter; in finitely many calls an option's become exact. Not called for those
+  /// that are. May refine others at the same time.
+  virtual void refine(std::span<const std::size_t> options) = 0;
+};
+
+struct ChoiceGoal {
+  // At least one; the choice ends at the first that is reached.
+  std::optional<std::size_t> count{};
+  std::optional<double> budget{};  ///< of the sum of costs
+  std::optional<Weight> wanted{};  ///< value, besides what existing sites serve
+  int cover = 1;                   ///< so many sites must serve an element, 1 to 255
+  std::vector<DemandSet> existing{};
+  bool exact_chosen = true;  ///< false: bounds of chosen sites may stay open, and there are no swaps
+  bool swaps = true;
+  /// Whether an option may join those chosen so far; and whether a whole choice holds together (after a swap). Where
+  /// not given, everything may.
+  std::function<bool(std::size_t option, std::span<const std::size_t> chosen)> may_join{};
+  std::function<bool(std::span<const std::size_t> chosen)> holds_together{};
+  std::size_t batch = 2;  ///< options refined together, at most; changes the speed, never the answer
+};
+
+struct ChosenSite {
+  std::size_t option = 0;
+  Weight gain = 0;  ///< of the value, in this order
+  Weight cumulative = 0;
+};
+
+/// Why an option needed no more than its bounds.
+struct Margin {
+  double upper = 0;   ///< the gain that its bounds allowed it, a unit of cost under a budget
+  double chosen = 0;  ///< that of the one taken instead
+  std::size_t step = 0;
+};
+
+struct Choice {
+  std::vector<ChosenSite> chosen;  ///< in greedy order
+  Weight value = 0;                ///< served by the choice and not by existing sites alone; a lower bound if not exact
+  Weight upper_bound = 0;          ///< no choice of as many sites, or of the budget, has a greater value
+  Weight existing = 0;             ///< served by existing sites alone
+  std::size_t swaps = 0;
+  std::vector<std::optional<Margin>> closest;  ///< of each option: the step at which it came nearest to being taken
+};
+
+/// Throws InputError for a goal without an end, Cancelled, and whatever refine() throws.
+Choice choose(const Demand& demand, const std::vector<SiteOption>& options, Coverage& coverage, const ChoiceGoal& goal,
+              Progress& progress);
+
+/// The weight of what at least `cover` of the sets hold.
+Weight served_by(const Demand& demand, const std::vector<DemandSet>& sets, int cover);
+
+/// 100 (upper_bound - value) / upper_bound; 0 where there is nothing to gain.
+double gap_percent(const Choice& choice);
+
+}  // namespace itin::viewshed

@@ -1,0 +1,180 @@
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include <itin/parallel.hpp>
+
+#include "../exact_walk.hpp"
+#include "../sight_line.hpp"
+#include "group_survey.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// Between these the ground under a point lies, grid units; NaN where there is none.
+struct GroundBounds {
+  double low = kNoSurface;
+  double high = kNoSurface;
+};
+
+GroundBounds ground_at(const EnvelopeScene& scene, const RasterGrid& tiles, Point2 p) {
+  GroundBounds ground;
+  const auto bin = tiles.cell_at(p);
+  if (!bin) return ground;
+  for (const std::uint32_t t : scene.bins.triangles(tiles.index(*bin))) {
+    if (const auto low = surface_height(scene.envelope.lower, {&t, 1}, p); low && std::isnan(ground.low))
+      ground.low = *low;
+    if (const auto high = surface_height(scene.envelope.upper, {&t, 1}, p); high && !(ground.high >= *high))
+      ground.high = *high;
+  }
+  return ground;
+}
+
+/// Judges packets of points as CertifiedPass does those of cells.
+class PointPass {
+ public:
+  PointPass(const EnvelopeScene& scene, const SiteSurvey& survey, const Request& request,
+            const std::vector<GroundBounds>& grounds)
+      : scene_(scene), survey_(survey), request_(request), grounds_(grounds) {}
+
+  /// The bits of `open` that are certainly visible, and those that are certainly hidden. Of points `first` and on.
+  struct Verdict {
+    std::uint64_t visible = 0, hidden = 0;
+  };
+  Verdict judge(const EnvelopeScene::Look& look, std::size_t first, std::uint64_t open, Occluder& occluder) const {
+    Verdict verdict;
+    for (unsigned packet = 0; packet < 64; packet += SightLines::kSize)
+      judge_packet(look, first, packet, static_cast<unsigned>(open >> packet & 0xffff), occluder, verdict);
+    return verdict;
+  }
+
+ private:
+  struct Packet {
+    SightLines low, high;
+    unsigned starts_under = 0, ends_under = 0;
+  };
+
+  void judge_packet(const EnvelopeScene::Look& look, std::size_t first, unsigned at, unsigned open, Occluder& occluder,
+                    Verdict& verdict) const {
+    if (open == 0) return;
+    Packet packet;
+    for (SightLines* const lines : {&packet.low, &packet.high}) {
+      lines->from_x.fill(look.eye.units.x);
+      lines->from_y.fill(look.eye.units.y);
+      lines->from_z.fill(look.eye.units.z);
+    }
+    for (; open != 0; open &= open - 1) {
+      const auto i = static_cast<unsigned>(std::countr_zero(open));
+      fill(look, first + at + i, i, std::uint64_t{1} << (at + i), packet, verdict);
+    }
+    const unsigned all = packet.low.active;
+    if (all == 0) return;
+    packet.low.active = all & ~(packet.starts_under | packet.ends_under);
+    const unsigned visible = packet.low.active & ~scene_.upper.touched(packet.low);
+    packet.high.active = all & ~visible;
+    const unsigned hidden = packet.high.active == 0 ? 0 : scene_.lower.hidden(packet.high, occluder);
+    verdict.visible |= std::uint64_t{visible} << at;
+    verdict.hidden |= std::uint64_t{hidden} << at;
+    packet.low.active = all & ~visible & ~hidden;
+    if (!scene_.exact || packet.low.active == 0) return;
+    const unsigned walked = hidden_exactly(scene_, packet.low, packet.starts_under, packet.ends_under);
+    verdict.hidden |= std::uint64_t{walked} << at;
+    verdict.visible |= std::uint64_t{packet.low.active & ~walked} << at;
+  }
+
+  void fill(const EnvelopeScene::Look& look, std::size_t point, unsigned i, std::uint64_t bit, Packet& packet,
+            Verdict& verdict) const {
+    const Grid& grid = scene_.envelope.lower.grid;
+    const GroundBounds& ground = grounds_[point];
+    const Point2 p = survey_.targets.points[point];
+    const double dx = p.x - look.eye.position.x, dy = p.y - look.eye.position.y;
+    if (std::isnan(ground.low) || dx * dx + dy * dy > survey_.radius * survey_.radius) {
+      verdict.hidden |= bit;
+      return;
+    }
+    const double x = easting_in_units(grid, p.x), y = northing_in_units(grid, p.y);
+    if (x == look.eye.units.x && y == look.eye.units.y) {
+      verdict.visible |= bit;
+      return;
+    }
+    const double metre = 1 / grid.resolution;
+    const auto target = [&](double units) { return (units * grid.resolution + request_.target_height) * metre; };
+    const double low = target(ground.low), high = target(scene_.exact ? ground.low : ground.high);
+    packet.low.to_x[i] = packet.high.to_x[i] = x;
+    packet.low.to_y[i] = packet.high.to_y[i] = y;
+    packet.low.to_z[i] = low;
+    packet.high.to_z[i] = high;
+    packet.low.active |= 1U << i;
+    const double dz = low - look.eye.units.z;
+    const double clear = 2 * scene_.upper.error_bound(std::sqrt((dx * dx + dy * dy) * metre * metre + dz * dz));
+    if (look.eye.units.z < look.upper + clear) packet.starts_under |= 1U << i;
+    if (low < ground.high + clear) packet.ends_under |= 1U << i;
+  }
+
+  const EnvelopeScene& scene_;
+  const SiteSurvey& survey_;
+  const Request& request_;
+  const std::vector<GroundBounds>& grounds_;
+};
+
+std::uint64_t certain_of(const DemandSet& set, std::uint32_t number,
+                         std::vector<DemandSet::Block>::const_iterator& at) {
+  while (at != set.blocks().end() && at->number < number) ++at;
+  return at != set.blocks().end() && at->number == number ? at->members : 0;
+}
+
+}  // namespace
+
+RasterGrid bins_of_points(const std::vector<Point2>& points) {
+  Box box;
+  for (const Point2& p : points) box.extend(p);
+  const double side = std::clamp(std::sqrt(static_cast<double>(points.size())), 1.0, 512.0);
+  const double size = std::max({box.width(), box.height(), 1.0}) * 1.001 / std::floor(side);
+  // Half a bin about them, so that no point lies on an edge.
+  return {{box.xmin - size / 2, box.ymax + size / 2},
+          size,
+          size,
+          static_cast<std::int64_t>(std::floor(side)) + 1,
+          static_cast<std::int64_t>(std::floor(side)) + 1};
+}
+
+std::vector<CoverageBounds> judge_points(const EnvelopeScene& scene, const SiteSurvey& survey, const Request& request,
+                                         std::span<const std::size_t> options,
+                                         std::span<const CoverageBounds* const> bounds, Progress& progress,
+                                         Statistics& statistics) {
+  const std::vector<Point2>& points = survey.targets.points;
+  const RasterGrid tiles = bins_of_points(points);
+  std::vector<GroundBounds> grounds(points.size());
+  constexpr std::size_t kChunk = 256;
+  parallel_for((points.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+    for (std::size_t i = chunk * kChunk; i < std::min(points.size(), (chunk + 1) * kChunk); ++i)
+      grounds[i] = ground_at(scene, tiles, points[i]);
+  });
+  const PointPass pass(scene, survey, request, grounds);
+  std::vector<CoverageBounds> result(options.size());
+  std::atomic<std::uint64_t> rays = 0;
+  std::atomic<std::size_t> done = 0;
+  parallel_for(options.size(), [&](std::size_t i) {
+    progress.throw_if_cancelled();
+    const EnvelopeScene::Look look = scene.look_from(eye_at(scene.envelope.lower.grid, survey.stands[options[i]]));
+    Occluder occluder;
+    auto certain = bounds[i]->certain.blocks().begin();
+    result[i].exact = scene.exact;
+    for (const DemandSet::Block& block : bounds[i]->possible.blocks()) {
+      const std::uint64_t known = certain_of(bounds[i]->certain, block.number, certain);
+      const std::uint64_t open = block.members & ~known;
+      const PointPass::Verdict verdict = pass.judge(look, std::size_t{64} * block.number, open, occluder);
+      result[i].certain.add(block.number, known | verdict.visible);
+      result[i].possible.add(block.number, block.members & ~verdict.hidden);
+      rays += static_cast<std::uint64_t>(std::popcount(open));
+    }
+    progress.report("sight lines of candidates", static_cast<double>(++done) / static_cast<double>(options.size()));
+  });
+  statistics.rays += rays;
+  return result;
+}
+
+}  // namespace itin::viewshed

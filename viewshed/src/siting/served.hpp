@@ -1,0 +1,62 @@
+// How many of some sites serve each element of a demand.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <viewshed/demand.hpp>
+
+namespace itin::viewshed {
+
+class Served {
+ public:
+  /// An element is served once `cover` sites serve it.
+  Served(const Demand& demand, int cover)
+      : demand_(&demand), cover_(cover), counts_(64 * demand.block_count()), enough_(demand.block_count()) {}
+
+  void add(const DemandSet& set) {
+    for_each_element(set, [&](std::size_t element) {
+      if (++counts_[element] == cover_) enough_[element / 64] |= std::uint64_t{1} << (element % 64);
+    });
+  }
+  /// What was added before.
+  void remove(const DemandSet& set) {
+    for_each_element(set, [&](std::size_t element) {
+      if (counts_[element]-- == cover_) enough_[element / 64] &= ~(std::uint64_t{1} << (element % 64));
+    });
+  }
+
+  /// Of the set's elements those that one more site still helps.
+  Weight gain(const DemandSet& set) const {
+    Weight sum = 0;
+    for (const DemandSet::Block& block : set.blocks()) {
+      const std::uint64_t open = block.members & ~enough_[block.number];
+      if (open != 0) sum += demand_->weight(block.number, open);
+    }
+    return sum;
+  }
+  /// Served by enough sites.
+  Weight value() const {
+    Weight sum = 0;
+    for (std::size_t b = 0; b < enough_.size(); ++b)
+      if (enough_[b] != 0) sum += demand_->weight(static_cast<std::uint32_t>(b), enough_[b]);
+    return sum;
+  }
+  bool enough(std::size_t element) const { return (enough_[element / 64] >> (element % 64) & 1) != 0; }
+
+ private:
+  template <class Visit>
+  static void for_each_element(const DemandSet& set, const Visit& visit) {
+    for (const DemandSet::Block& block : set.blocks()) {
+      for (std::uint64_t rest = block.members; rest != 0; rest &= rest - 1)
+        visit(std::size_t{64} * block.number + static_cast<std::size_t>(__builtin_ctzll(rest)));
+    }
+  }
+
+  const Demand* demand_;
+  int cover_;
+  std::vector<std::uint16_t> counts_;
+  std::vector<std::uint64_t> enough_;
+};
+
+}  // namespace itin::viewshed

@@ -1,0 +1,372 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+#include <itin/parallel.hpp>
+#include <itin/triangulate.hpp>
+#include <viewshed/site_coverage.hpp>
+
+#include "../envelope.hpp"
+#include "../request.hpp"
+#include "../stopwatch.hpp"
+#include "cell_blocks.hpp"
+#include "group_survey.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// Peak memory a point of an envelope, as for precise viewsheds.
+constexpr std::uint64_t kBytesAPoint = 1200;
+/// Of the full surface's points the first look reads so many at most: fewer where a second look is cheap, since the
+/// memory holds the full surface for all of them.
+constexpr std::uint64_t kFirstShare = 2, kFirstShareOfWhole = 8;
+/// Points of the full surface about each site.
+constexpr double kNearPoints = 128;
+/// No coarse look at so few points: the full surface is as fast.
+constexpr std::uint64_t kFewPoints = 40000;
+
+Box around(Point2 p, double radius) {
+  return {p.x - radius, p.y - radius, p.x + radius, p.y + radius};
+}
+
+bool standing(const Store& store, const ThemeChoice& themes) {
+  const auto& all = store.metadata().themes;
+  return std::any_of(all.begin(), all.end(), [&](const ThemeInfo& t) { return t.stands() && themes.includes(t); });
+}
+
+/// Few rectangles that hold the discs about all positions: a window of hundreds of discs takes long to classify.
+Window window_about(const std::vector<SiteStand>& stands, const std::vector<std::size_t>& options, double radius) {
+  Box box;
+  for (const std::size_t option : options) box.extend(around(stands[option].position, radius));
+  const RasterGrid cells = RasterGrid::aligned(box, radius / 4);
+  std::vector<bool> met(cells.cell_count());
+  for (const std::size_t option : options) {
+    const Box disc = around(stands[option].position, radius);
+    const auto last_of = [](double at, std::int64_t count) {
+      return std::min(count - 1, static_cast<std::int64_t>(std::floor(at)));
+    };
+    const std::int64_t east = last_of(cells.column_at(disc.xmax), cells.columns()),
+                       south = last_of(cells.row_at(disc.ymin), cells.rows());
+    for (auto row = static_cast<std::int64_t>(std::floor(cells.row_at(disc.ymax))); row <= south; ++row)
+      for (auto column = static_cast<std::int64_t>(std::floor(cells.column_at(disc.xmin))); column <= east; ++column)
+        met[cells.index({column, row})] = true;
+  }
+  std::vector<Window::Polygon> runs;
+  const Point2 corner = cells.north_west();
+  const double side = cells.cell_width();
+  for (std::int64_t row = 0; row < cells.rows(); ++row) {
+    for (std::int64_t column = 0; column < cells.columns(); ++column) {
+      const std::int64_t first = column;
+      while (column < cells.columns() && met[cells.index({column, row})]) ++column;
+      if (column == first) continue;
+      const double west = corner.x + static_cast<double>(first) * side,
+                   east = corner.x + static_cast<double>(column) * side,
+                   north = corner.y - static_cast<double>(row) * side, south = north - side;
+      runs.push_back({{{west, south}, {east, south}, {east, north}, {west, north}}, {}});
+    }
+  }
+  return Window::polygons(std::move(runs));
+}
+
+/// The finest level with at most so many points in the box.
+int level_of(const Store& store, const Box& box, std::uint64_t points) {
+  int level = 0;
+  while (level + 1 < static_cast<int>(store.metadata().levels.size()) && store.points_about(level, box) > points)
+    ++level;
+  return level;
+}
+
+}  // namespace
+
+std::vector<std::optional<double>> ground_under(const Store& store, const std::vector<Point2>& positions,
+                                                const ThemeChoice& themes, Progress& progress) {
+  const Grid& grid = store.metadata().grid;
+  std::vector<std::optional<double>> result;
+  for (const Point2& p : positions) {
+    progress.throw_if_cancelled();
+    std::optional<double>& height = result.emplace_back();
+    if (!std::isfinite(p.x) || !std::isfinite(p.y)) continue;
+    const Tin tin =
+        triangulate(store, Window::box(around(p, 2 * grid.resolution)), Detail::tolerance(0), progress, themes);
+    for (std::uint32_t t = 0; t < tin.triangles.size() && !height; ++t) height = surface_height(tin, {&t, 1}, p);
+    if (height) *height *= grid.resolution;
+    if (result.size() % 64 == 0)
+      progress.report("ground under sites", static_cast<double>(result.size()) / static_cast<double>(positions.size()));
+  }
+  return result;
+}
+
+RasterGrid grid_of_reach(const Store& store, const std::vector<SiteStand>& stands, double radius, double cell_size) {
+  Request request;
+  for (const SiteStand& stand : stands) request.observers.push_back({stand.name, stand.position, stand.height});
+  request.radius = radius;
+  request.cell_size = cell_size;
+  return cells_of(request, store.metadata().grid.box(store.metadata().bounds));
+}
+
+std::size_t element_count(const RasterGrid& grid) {
+  return CellBlocks(grid).element_count();
+}
+std::size_t element_of(const RasterGrid& grid, RasterGrid::Cell cell) {
+  return CellBlocks(grid).element(cell);
+}
+RasterGrid::Cell cell_of(const RasterGrid& grid, std::size_t element) {
+  return CellBlocks(grid).cell(element);
+}
+
+Eye eye_at(const Grid& grid, const SiteStand& stand) {
+  return eye_of(grid, {stand.name, stand.position, stand.elevation(), true}, stand.ground);
+}
+
+Request request_of(const SiteSurvey& survey, std::span<const std::size_t> options) {
+  Request request;
+  for (const std::size_t option : options) {
+    const SiteStand& stand = survey.stands[option];
+    request.observers.push_back({stand.name, stand.position, stand.elevation(), true});
+  }
+  request.target_height = survey.targets.height;
+  request.radius = survey.radius;
+  request.earth = survey.earth;
+  request.nodata = survey.nodata;
+  return request;
+}
+
+class SiteCoverage::Impl {
+ public:
+  Impl(const Store& store, SiteSurvey survey, Progress& progress)
+      : store_(store), survey_(std::move(survey)), progress_(progress), themed_(standing(store, survey_.themes)) {
+    if (survey_.stands.empty()) throw InputError("no site to look from: give at least one on the data");
+    Box box;
+    for (const SiteStand& stand : survey_.stands) box.extend(around(stand.position, survey_.radius));
+    choose_levels(box);
+    // A target on a roof is seen from afar as one so high above the bare ground may be.
+    if (survey_.targets.on_surface && themed_) raise_ = store.greatest_feature_height(survey_.themes, box);
+    states_.resize(survey_.stands.size());
+    parallel_for(states_.size(), [&](std::size_t i) {
+      states_[i].bounds.possible = within_reach(survey_.targets, survey_.stands[i].position, survey_.radius);
+      states_[i].first = states_[i].bounds;
+    });
+  }
+
+  /// Group by group of all options, so that what is found does not depend on what was found before.
+  void look_first() {
+    std::vector<std::size_t> all(states_.size());
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+    const auto fresh = [&](std::size_t option) { return states_[option].stage < 0; };
+    for (const std::vector<std::size_t>& group : groups(all, levels_.front()))
+      if (std::any_of(group.begin(), group.end(), fresh)) judge_group(group, 0, levels_.front());
+  }
+
+  /// Each option's next stage.
+  void refine(std::span<const std::size_t> options) {
+    std::vector<std::vector<std::size_t>> at_stage(static_cast<std::size_t>(last_stage()) + 1);
+    for (const std::size_t option : options) {
+      if (!states_[option].bounds.exact)
+        at_stage[static_cast<std::size_t>(states_[option].stage + 1)].push_back(option);
+    }
+    for (const auto& some : at_stage)
+      if (!some.empty()) judge(some);
+  }
+
+  struct State {
+    CoverageBounds bounds, first;
+    int stage = -1;  ///< of the last look
+  };
+  const State& state(std::size_t option) const { return states_[option]; }
+  int last_stage() const { return static_cast<int>(levels_.size()) - (themed_ ? 0 : 1); }
+
+  std::string stage_name(int stage) const {
+    if (stage < 0) return "radius alone";
+    if (stage >= static_cast<int>(levels_.size())) return "exact, with themes";
+    const int level = levels_[static_cast<std::size_t>(stage)];
+    if (level == 0) return themed_ ? "exact, bare terrain" : "exact";
+    return fmt::format("tolerance {:g} m", store_.metadata().levels[static_cast<std::size_t>(level)].tolerance);
+  }
+
+  void restore(std::size_t option, int stage, CoverageBounds bounds) {
+    if (stage == 0) states_[option].first = bounds;
+    states_[option].bounds = std::move(bounds);
+    states_[option].stage = stage;
+  }
+
+  const Statistics& statistics() const { return statistics_; }
+  std::function<void(std::size_t, int, const CoverageBounds&)>* on_refined = nullptr;
+
+ private:
+  void choose_levels(const Box& box) {
+    const std::uint64_t all = store_.points_about(0, box);
+    whole_fits_ = all <= budget();
+    int first = survey_.tolerance   ? level_within(store_.metadata(), *survey_.tolerance)
+                : all <= kFewPoints ? 0
+                                    : level_of(store_, box, all / (whole_fits_ ? kFirstShareOfWhole : kFirstShare));
+    levels_ = {first};
+    if (first > 0) levels_.push_back(0);
+  }
+
+  /// Points of a scene; what is left is for the rest of the program.
+  std::uint64_t budget() const { return survey_.memory_bytes / 4 * 3 / kBytesAPoint; }
+
+  std::uint64_t points_of(const std::vector<std::size_t>& options, int level) const {
+    Box box;
+    for (const std::size_t option : options) box.extend(around(survey_.stands[option].position, survey_.radius));
+    return store_.points_about(level, box);
+  }
+
+  /// Neighbours together, as many as the memory holds.
+  std::vector<std::vector<std::size_t>> groups(std::vector<std::size_t> options, int level) const {
+    if (options.size() < 2 || points_of(options, level) <= budget()) return {std::move(options)};
+    Box box;
+    for (const std::size_t option : options) box.extend(survey_.stands[option].position);
+    std::sort(options.begin(), options.end(), [&](std::size_t a, std::size_t b) {
+      const Point2 p = survey_.stands[a].position, q = survey_.stands[b].position;
+      const double pa = box.width() > box.height() ? p.x : p.y, pb = box.width() > box.height() ? q.x : q.y;
+      return pa != pb ? pa < pb : a < b;
+    });
+    const auto half = options.begin() + static_cast<std::ptrdiff_t>(options.size() / 2);
+    std::vector<std::vector<std::size_t>> result = groups({options.begin(), half}, level);
+    for (auto& group : groups({half, options.end()}, level)) result.push_back(std::move(group));
+    return result;
+  }
+
+  /// Takes the options, all at one stage, to the next.
+  void judge(const std::vector<std::size_t>& options) {
+    const int stage = states_[options.front()].stage + 1;
+    if (stage == static_cast<int>(levels_.size())) {
+      for (const std::size_t option : options) judge_with_standing(option);
+      return;
+    }
+    const int level = levels_[static_cast<std::size_t>(stage)];
+    for (const std::vector<std::size_t>& group : groups(options, level)) judge_group(group, stage, level);
+  }
+
+  std::unique_ptr<EnvelopeScene> scene_of(const std::vector<std::size_t>& group, int level) {
+    Stopwatch watch;
+    Request request = request_of(survey_, group);
+    Envelope envelope = envelop(store_, what_to_read(group, request, level), progress_);
+    statistics_.retrieval += envelope.lower.statistics;
+    statistics_.triangles += envelope.lower.triangles.size();
+    statistics_.retrieval_seconds += watch.lap();
+    request.target_height += raise_;
+    const RasterGrid tiles =
+        survey_.targets.grid ? grid_of_tiles(*survey_.targets.grid) : bins_of_points(survey_.targets.points);
+    auto scene = std::make_unique<EnvelopeScene>(std::move(envelope), request, tiles,
+                                                 survey_.nodata == NoData::kBlock ? Voids::kBlock : Voids::kPass);
+    statistics_.scene_seconds += watch.lap();
+    return scene;
+  }
+
+  /// The full surface about all sites, once and for all, where the memory holds it.
+  const EnvelopeScene& whole_scene() {
+    if (!whole_) {
+      std::vector<std::size_t> all(states_.size());
+      std::iota(all.begin(), all.end(), std::size_t{0});
+      whole_ = scene_of(all, 0);
+    }
+    return *whole_;
+  }
+
+  void judge_group(const std::vector<std::size_t>& group, int stage, int level) {
+    std::unique_ptr<EnvelopeScene> own;
+    if (level > 0 || !whole_fits_) own = scene_of(group, level);
+    const EnvelopeScene& scene = own ? *own : whole_scene();
+    Stopwatch watch;
+    Request request = request_of(survey_, group);
+    request.target_height += raise_;
+    std::vector<const CoverageBounds*> before;
+    for (const std::size_t option : group) before.push_back(&states_[option].bounds);
+    const auto look = survey_.targets.grid ? judge_cells : judge_points;
+    std::vector<CoverageBounds> after = look(scene, survey_, request, group, before, progress_, statistics_);
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      if (themed_) after[i].certain = {}, after[i].exact = false;  // features may hide it
+      settle(group[i], stage, std::move(after[i]));
+    }
+    statistics_.rays_seconds += watch.lap();
+  }
+
+  /// Less about each site than a single viewshed reads: they are many.
+  EnvelopeRequest what_to_read(const std::vector<std::size_t>& group, const Request& request, int level) const {
+    EnvelopeRequest read;
+    read.level = level;
+    read.window = group.size() > 1 ? window_about(survey_.stands, group, survey_.radius) : window_of(request);
+    for (const Observer& observer : request.observers) {
+      read.observers.push_back(observer.position);
+      if (level == 0) continue;
+      const double points = static_cast<double>(store_.points_about(0, around(observer.position, survey_.radius)));
+      const double share = std::sqrt(kNearPoints / std::max(points, kNearPoints));
+      read.discs.push_back({observer.position, survey_.radius * share, 0});
+      if (level > 1) read.discs.push_back({observer.position, 2 * survey_.radius * share, 1});
+    }
+    return read;
+  }
+
+  void judge_with_standing(std::size_t option) {
+    Stopwatch watch;
+    CoverageBounds bounds;
+    bounds.certain =
+        judge_with_themes(store_, survey_, option, states_[option].bounds.possible, progress_, statistics_);
+    bounds.possible = bounds.certain;
+    bounds.exact = true;
+    statistics_.rays_seconds += watch.lap();
+    settle(option, static_cast<int>(levels_.size()), std::move(bounds));
+  }
+
+  void settle(std::size_t option, int stage, CoverageBounds bounds) {
+    states_[option].bounds = std::move(bounds);
+    states_[option].stage = stage;
+    if (stage == 0) states_[option].first = states_[option].bounds;
+    if (on_refined != nullptr && *on_refined) (*on_refined)(option, stage, states_[option].bounds);
+  }
+
+  const Store& store_;
+  SiteSurvey survey_;
+  Progress& progress_;
+  bool themed_;
+  double raise_ = 0;
+  bool whole_fits_ = false;
+  std::unique_ptr<EnvelopeScene> whole_;
+  std::vector<int> levels_;  ///< of the looks at the bare terrain
+  std::vector<State> states_;
+  Statistics statistics_;
+};
+
+SiteCoverage::SiteCoverage(const Store& store, SiteSurvey survey, Progress& progress)
+    : impl_(std::make_unique<Impl>(store, std::move(survey), progress)) {
+  impl_->on_refined = &on_refined;
+}
+SiteCoverage::~SiteCoverage() = default;
+
+const CoverageBounds& SiteCoverage::bounds(std::size_t option) const {
+  return impl_->state(option).bounds;
+}
+void SiteCoverage::refine(std::span<const std::size_t> options) {
+  impl_->refine(options);
+}
+void SiteCoverage::look_first() {
+  impl_->look_first();
+}
+int SiteCoverage::stage(std::size_t option) const {
+  return impl_->state(option).stage;
+}
+int SiteCoverage::last_stage() const {
+  return impl_->last_stage();
+}
+const CoverageBounds& SiteCoverage::first_bounds(std::size_t option) const {
+  return impl_->state(option).first;
+}
+std::string SiteCoverage::stage_name(int stage) const {
+  return impl_->stage_name(stage);
+}
+void SiteCoverage::restore(std::size_t option, int stage, CoverageBounds bounds) {
+  impl_->restore(option, stage, std::move(bounds));
+}
+const Statistics& SiteCoverage::statistics() const {
+  return impl_->statistics();
+}
+
+}  // namespace itin::viewshed
