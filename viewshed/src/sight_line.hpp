@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <itin/geometry.hpp>
 
@@ -30,23 +31,49 @@ class SightLine {
 
   /// Whether the triangle hides the one end from the other. Precondition: the ends differ horizontally.
   bool hidden_by(const GridPoint& a, const GridPoint& b, const GridPoint& c) const {
-    const std::array<Corner, 3> corners{corner(a), corner(b), corner(c)};
-    double low = 2, high = -1, low_rise = 0, high_rise = 0;
-    const auto section = [&](double along, double rise) {
-      if (along < low) low = along, low_rise = rise;
-      if (along > high) high = along, high_rise = rise;
-    };
-    // Triangles are closed: an edge or a corner that only touches the line belongs to the section.
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Corner &p = corners[i], &q = corners[i == 2 ? 0 : i + 1];
-      if (p.side == 0) section(p.along, p.rise);
-      if ((p.side < 0) == (q.side < 0) || p.side == 0 || q.side == 0) continue;
-      const double w = p.side / (p.side - q.side);
-      section(p.along + w * (q.along - p.along), p.rise + w * (q.rise - p.rise));
-    }
-    if (low > 1 || high < 0) return false;
-    return highest(low, low_rise, high, high_rise) > grazing_;
+    const Section under = section(a, b, c);
+    return under.meets_line() && highest(under) > grazing_;
   }
+
+  /// The least height of the end `to`, its position kept, at which the triangle does not hide it: -infinity where the
+  /// line does not pass over the triangle, +infinity where the end `from` lies beneath it. At that height the triangle
+  /// touches the line, to half a grazing, so that rounding cannot make it hide again.
+  double clearing_end(const GridPoint& a, const GridPoint& b, const GridPoint& c) const {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const Section under = section(a, b, c);
+    if (!under.meets_line()) return -kInfinity;
+    const double first = std::max(under.low, 0.0), last = std::min(under.high, 1.0);
+    // The ground's rise is p + q s + bulge s (1 - s); the end must rise by the greatest (rise - slack) / s.
+    const double q = under.slope(), p = under.straight(0);
+    double slack = grazing_ / 2;
+    if (first == 0) {
+      if (p > grazing_) return kInfinity;
+      slack = std::max(slack, p);
+    }
+    const auto needed = [&](double s) {
+      if (s > 0) return (rise(under, s) - slack) / s;
+      return p < slack ? -kInfinity : q + bulge_;
+    };
+    double result = std::max(needed(first), needed(last));
+    if (bulge_ > 0 && p < slack)
+      result = std::max(result, needed(std::clamp(std::sqrt((slack - p) / bulge_), first, last)));
+    return to_z() + result;
+  }
+
+  /// Height of the straight line at the fraction s above a flat Earth whose ground is not raised by curvature, for the
+  /// end `to` at the height `end`: lowest over [first, last].
+  double lowest_over(double first, double last, double end) const {
+    const double dz = end - from_.z;
+    const auto height = [&](double s) { return from_.z + s * (dz - bulge_ * (1 - s)); };
+    double result = std::min(height(first), height(last));
+    if (bulge_ > 0) result = std::min(result, height(std::clamp(0.5 - dz / (2 * bulge_), first, last)));
+    return result;
+  }
+
+  const Point3& from() const { return from_; }
+  double dx() const { return dx_; }
+  double dy() const { return dy_; }
+  double to_z() const { return from_.z + dz_; }
 
  private:
   struct Corner {
@@ -55,23 +82,51 @@ class SightLine {
     double rise;   ///< above the straight line
   };
 
+  /// A triangle's cut by the line's vertical plane: from `low` to `high` along the line.
+  struct Section {
+    double low = 2, high = -1;
+    double low_rise = 0, high_rise = 0;  ///< above the straight line
+
+    void add(double along, double rise) {
+      if (along < low) low = along, low_rise = rise;
+      if (along > high) high = along, high_rise = rise;
+    }
+    bool meets_line() const { return low <= 1 && high >= 0 && low <= high; }
+    double slope() const { return high > low ? (high_rise - low_rise) / (high - low) : 0; }
+    /// From the nearer end, so that a steep piece's rise is exact at both.
+    double straight(double s) const {
+      return s - low < high - s ? low_rise + slope() * (s - low) : high_rise - slope() * (high - s);
+    }
+  };
+
+  Section section(const GridPoint& a, const GridPoint& b, const GridPoint& c) const {
+    const std::array<Corner, 3> corners{corner(a), corner(b), corner(c)};
+    Section result;
+    // Triangles are closed: an edge or a corner that only touches the line belongs to the section.
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Corner &p = corners[i], &q = corners[i == 2 ? 0 : i + 1];
+      if (p.side == 0) result.add(p.along, p.rise);
+      if ((p.side < 0) == (q.side < 0) || p.side == 0 || q.side == 0) continue;
+      const double w = p.side / (p.side - q.side);
+      result.add(p.along + w * (q.along - p.along), p.rise + w * (q.rise - p.rise));
+    }
+    return result;
+  }
+
   Corner corner(const GridPoint& p) const {
     const double x = p.x - from_.x, y = p.y - from_.y;
     const double along = (x * dx_ + y * dy_) * per_squared_length_;
     return {dx_ * y - dy_ * x, along, p.z - from_.z - along * dz_};
   }
 
+  /// Of the curved ground above the straight line.
+  double rise(const Section& under, double s) const { return under.straight(s) + bulge_ * s * (1 - s); }
+
   /// Of the ground above the line over the part of [low, high] between the ends.
-  double highest(double low, double low_rise, double high, double high_rise) const {
-    const double slope = high > low ? (high_rise - low_rise) / (high - low) : 0;
-    const auto rise = [&](double s) {
-      // From the nearer end, so that a steep piece's rise is exact at both.
-      const double straight = s - low < high - s ? low_rise + slope * (s - low) : high_rise - slope * (high - s);
-      return straight + bulge_ * s * (1 - s);
-    };
-    const double first = std::max(low, 0.0), last = std::min(high, 1.0);
-    double result = std::max(rise(first), rise(last));
-    if (bulge_ > 0) result = std::max(result, rise(std::clamp(0.5 + slope / (2 * bulge_), first, last)));
+  double highest(const Section& under) const {
+    const double first = std::max(under.low, 0.0), last = std::min(under.high, 1.0);
+    double result = std::max(rise(under, first), rise(under, last));
+    if (bulge_ > 0) result = std::max(result, rise(under, std::clamp(0.5 + under.slope() / (2 * bulge_), first, last)));
     return result;
   }
 
