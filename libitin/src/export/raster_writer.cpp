@@ -121,30 +121,39 @@ std::vector<Level<T>> overviews(std::span<const T> values, const RasterGrid& gri
 
 /// A dataset over the caller's values, without copying them; GDAL only reads from it.
 template <class T>
-GDALDatasetUniquePtr wrap(const T* values, const RasterGrid& grid, GDALDataType type) {
+GDALDatasetUniquePtr wrap(std::span<const T> values, const RasterGrid& grid, GDALDataType type) {
   GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("MEM");
   GDALDatasetUniquePtr dataset(
       driver->Create("", static_cast<int>(grid.columns()), static_cast<int>(grid.rows()), 0, type, nullptr));
-  CPLStringList options;
-  std::array<char, 32> pointer{};
-  CPLPrintPointer(pointer.data(), const_cast<T*>(values), static_cast<int>(pointer.size()) - 1);
-  options.SetNameValue("DATAPOINTER", pointer.data());
-  dataset->AddBand(type, options.List());
+  for (std::size_t first = 0; first < values.size(); first += grid.cell_count()) {
+    CPLStringList options;
+    std::array<char, 32> pointer{};
+    CPLPrintPointer(pointer.data(), const_cast<T*>(values.data() + first), static_cast<int>(pointer.size()) - 1);
+    options.SetNameValue("DATAPOINTER", pointer.data());
+    dataset->AddBand(type, options.List());
+  }
   return dataset;
 }
 
+/// Overviews of every band.
 template <class T>
-void attach(GDALDataset& dataset, std::vector<Level<T>>& levels, GDALDataType type) {
-  if (levels.empty()) return;
-  std::vector<int> factors;
-  for (std::size_t i = 0; i < levels.size(); ++i) factors.push_back(2 << i);
-  dataset.BuildOverviews("NONE", static_cast<int>(factors.size()), factors.data(), 0, nullptr, nullptr, nullptr);
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    const int columns = static_cast<int>(levels[i].columns), rows = static_cast<int>(levels[i].rows);
-    GDALRasterBand* const overview = dataset.GetRasterBand(1)->GetOverview(static_cast<int>(i));
-    // A failure reaches the caller through GdalCall.
-    std::ignore =
-        overview->RasterIO(GF_Write, 0, 0, columns, rows, levels[i].values.data(), columns, rows, type, 0, 0, nullptr);
+void attach_overviews(GDALDataset& dataset, std::span<const T> values, const RasterGrid& grid, bool classes,
+                      GDALDataType type) {
+  for (int band = 1; band <= dataset.GetRasterCount(); ++band) {
+    const std::size_t first = static_cast<std::size_t>(band - 1) * grid.cell_count();
+    std::vector<Level<T>> levels = overviews(values.subspan(first, grid.cell_count()), grid, classes);
+    if (levels.empty()) return;
+    std::vector<int> factors;
+    for (std::size_t i = 0; i < levels.size(); ++i) factors.push_back(2 << i);
+    if (band == 1)
+      dataset.BuildOverviews("NONE", static_cast<int>(factors.size()), factors.data(), 0, nullptr, nullptr, nullptr);
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+      const int columns = static_cast<int>(levels[i].columns), rows = static_cast<int>(levels[i].rows);
+      GDALRasterBand* const overview = dataset.GetRasterBand(band)->GetOverview(static_cast<int>(i));
+      // A failure reaches the caller through GdalCall.
+      std::ignore = overview->RasterIO(GF_Write, 0, 0, columns, rows, levels[i].values.data(), columns, rows, type, 0,
+                                       0, nullptr);
+    }
   }
 }
 
@@ -153,10 +162,14 @@ void describe(GDALDataset& dataset, const RasterGrid& grid, const RasterDescript
   dataset.SetGeoTransform(affine.data());
   if (!description.crs_wkt.empty()) dataset.SetProjection(description.crs_wkt.c_str());
   for (const auto& [name, value] : description.metadata) dataset.SetMetadataItem(name.c_str(), value.c_str());
-  GDALRasterBand& band = *dataset.GetRasterBand(1);
-  if (description.nodata) band.SetNoDataValue(*description.nodata);
-  band.SetDescription(description.band_name.c_str());
+  for (int b = 1; b <= dataset.GetRasterCount(); ++b) {
+    const std::string& name =
+        b == 1 ? description.band_name : description.further_bands[static_cast<std::size_t>(b - 2)];
+    dataset.GetRasterBand(b)->SetDescription(name.c_str());
+    if (description.nodata) dataset.GetRasterBand(b)->SetNoDataValue(*description.nodata);
+  }
   if (description.classes.empty()) return;
+  GDALRasterBand& band = *dataset.GetRasterBand(1);
   GDALColorTable colours;
   for (int value = 0; value < 256; ++value) {
     const GDALColorEntry unused{0, 0, 0, 0};
@@ -197,12 +210,11 @@ void write(const std::string& path, const RasterGrid& grid, std::span<const T> v
   GDALAllRegister();
   GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("COG");
   if (!driver) throw FileError(path, "GDAL here cannot write cloud-optimised GeoTIFFs; install GDAL 3.1 or later");
-  std::vector<Level<T>> levels = overviews(values, grid, !description.classes.empty());
   TemporaryFile file(path);
   {
     const GdalCall call;
-    const GDALDatasetUniquePtr source = wrap(values.data(), grid, type);
-    attach(*source, levels, type);
+    const GDALDatasetUniquePtr source = wrap(values, grid, type);
+    attach_overviews(*source, values, grid, !description.classes.empty(), type);
     describe(*source, grid, description);
     GDALDatasetUniquePtr written(driver->CreateCopy(file.name().c_str(), source.get(), false,
                                                     creation_options(std::is_floating_point_v<T>).List(), nullptr,
@@ -225,6 +237,11 @@ void write_raster(const std::string& path, const RasterGrid& grid, std::span<con
 void write_raster(const std::string& path, const RasterGrid& grid, std::span<const std::uint16_t> values,
                   const RasterDescription& description) {
   write(path, grid, values, GDT_UInt16, description);
+}
+
+void write_raster(const std::string& path, const RasterGrid& grid, std::span<const std::uint32_t> values,
+                  const RasterDescription& description) {
+  write(path, grid, values, GDT_UInt32, description);
 }
 
 void write_raster(const std::string& path, const RasterGrid& grid, std::span<const float> values,

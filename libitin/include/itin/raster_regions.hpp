@@ -1,0 +1,42 @@
+// Regions of a raster as polygons: what cells of equal value cover, dissolved.
+//
+//   RegionDescription description;
+//   description.crs_wkt = store.metadata().crs_wkt;
+//   description.layer = "viewshed";
+//   description.classes = {{1, "visible"}};                  // cells of other values belong to no region
+//   write_regions("visible.gpkg", grid, std::span<const std::uint8_t>(values), description);
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <itin/raster.hpp>
+
+namespace itin {
+
+struct RegionClass {
+  std::uint32_t value = 0;
+  std::string name;
+};
+
+struct RegionDescription {
+  std::string crs_wkt;
+  std::string layer = "regions";
+  std::vector<RegionClass> classes;
+  bool overwrite = false;
+};
+
+/// Writes a GeoPackage with one multipolygon a class that has cells, in the order of the classes: fields `value`,
+/// `class` (its name) and `area_m2` (that of its cells). Outlines follow the cells' edges; cells that meet at a corner
+/// alone are apart. Precondition: values.size() == grid.cell_count(). Equal calls write equal bytes. Throws FileError if
+/// the file exists and may not be replaced, or cannot be written.
+void write_regions(const std::string& path, const RasterGrid& grid, std::span<const std::uint8_t> values,
+                   const RegionDescription& description);
+void write_regions(const std::string& path, const RasterGrid& grid, std::span<const std::uint16_t> values,
+                   const RegionDescription& description);
+void write_regions(const std::string& path, const RasterGrid& grid, std::span<const std::uint32_t> values,
+                   const RegionDescription& description);
+
+}  // namespace itin

@@ -1,0 +1,150 @@
+#include <algorithm>
+#include <array>
+#include <map>
+#include <memory>
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <gdal_alg.h>
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include <itin/error.hpp>
+#include <itin/raster_regions.hpp>
+
+#include "export/pending_file.hpp"
+#include "import/quiet_gdal.hpp"
+
+namespace itin {
+
+namespace {
+
+void require(bool condition, const std::string& path, const char* otherwise) {
+  if (!condition) throw FileError(path, QuietGdal::message(otherwise));
+}
+
+/// Adds a band over values that are only read.
+template <class T>
+void add_band(GDALDataset& dataset, std::span<const T> values, GDALDataType type) {
+  CPLStringList options;
+  std::array<char, 32> pointer{};
+  CPLPrintPointer(pointer.data(), const_cast<T*>(values.data()), static_cast<int>(pointer.size()) - 1);
+  options.SetNameValue("DATAPOINTER", pointer.data());
+  dataset.AddBand(type, options.List());
+}
+
+struct Region {
+  std::unique_ptr<OGRMultiPolygon> shape = std::make_unique<OGRMultiPolygon>();
+  std::uint64_t cells = 0;
+
+  void add(const OGRGeometry& polygon) {
+    // Outlines that touch themselves at a cell's corner are none that the standard knows.
+    const std::unique_ptr<OGRGeometry> valid(polygon.IsValid() ? polygon.clone() : polygon.MakeValid());
+    if (!valid) return;
+    if (wkbFlatten(valid->getGeometryType()) == wkbPolygon) {
+      shape->addGeometry(valid.get());
+    } else if (OGR_GT_IsSubClassOf(wkbFlatten(valid->getGeometryType()), wkbGeometryCollection)) {
+      for (const OGRGeometry* part : *valid->toGeometryCollection())
+        if (wkbFlatten(part->getGeometryType()) == wkbPolygon) shape->addGeometry(part);
+    }
+  }
+};
+
+using Regions = std::map<std::uint32_t, Region>;
+
+template <class T>
+void trace(const std::string& path, const RasterGrid& grid, std::span<const T> values, GDALDataType type,
+           Regions& regions) {
+  std::vector<std::uint8_t> mask(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto region = regions.find(values[i]);
+    if (region == regions.end()) continue;
+    mask[i] = 1;
+    ++region->second.cells;
+  }
+  GDALDatasetUniquePtr raster(GetGDALDriverManager()->GetDriverByName("MEM")->Create(
+      "", static_cast<int>(grid.columns()), static_cast<int>(grid.rows()), 0, type, nullptr));
+  add_band(*raster, values, type);
+  add_band(*raster, std::span<const std::uint8_t>(mask), GDT_Byte);
+  std::array<double, 6> affine{grid.north_west().x, grid.cell_width(), 0, grid.north_west().y, 0, -grid.cell_height()};
+  raster->SetGeoTransform(affine.data());
+
+  GDALDatasetUniquePtr polygons(
+      GetGDALDriverManager()->GetDriverByName("Memory")->Create("", 0, 0, 0, GDT_Unknown, nullptr));
+  OGRLayer* const layer = polygons->CreateLayer("polygons", nullptr, wkbPolygon, nullptr);
+  OGRFieldDefn field("value", OFTInteger64);
+  require(layer != nullptr && layer->CreateField(&field) == OGRERR_NONE, path, "its regions cannot be traced");
+  require(GDALPolygonize(raster->GetRasterBand(1), raster->GetRasterBand(2), OGRLayer::ToHandle(layer), 0, nullptr,
+                         nullptr, nullptr) == CE_None,
+          path, "its regions cannot be traced");
+  for (const OGRFeatureUniquePtr& feature : *layer)
+    regions.at(static_cast<std::uint32_t>(feature->GetFieldAsInteger64(0))).add(*feature->GetGeometryRef());
+}
+
+void write_layer(const PendingFile& output, const RasterGrid& grid, Regions& regions,
+                 const RegionDescription& description) {
+  const std::string& path = output.path();
+  OGRSpatialReference crs;
+  const bool known = !description.crs_wkt.empty();
+  require(!known || crs.SetFromUserInput(description.crs_wkt.c_str()) == OGRERR_NONE, path,
+          "the store's CRS is not understood");
+  crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GPKG");
+  require(driver != nullptr, path, "this GDAL has no GeoPackage driver; choose another ending");
+  GDALDatasetUniquePtr dataset(driver->Create(output.temporary_path().c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+  require(dataset != nullptr, path, "cannot be created");
+  OGRLayer* const layer =
+      dataset->CreateLayer(description.layer.c_str(), known ? &crs : nullptr, wkbMultiPolygon, nullptr);
+  require(layer != nullptr, path, "cannot be written");
+  for (const auto& [name, type] :
+       {std::pair{"value", OFTInteger64}, std::pair{"class", OFTString}, std::pair{"area_m2", OFTReal}}) {
+    OGRFieldDefn field(name, type);
+    require(layer->CreateField(&field) == OGRERR_NONE, path, "cannot be written");
+  }
+  for (const RegionClass& c : description.classes) {
+    Region& region = regions.at(c.value);
+    if (region.cells == 0) continue;
+    OGRFeature row(layer->GetLayerDefn());
+    row.SetField(0, static_cast<GIntBig>(c.value));
+    row.SetField(1, c.name.c_str());
+    row.SetField(2, static_cast<double>(region.cells) * grid.cell_area());
+    row.SetGeometryDirectly(region.shape.release());
+    require(layer->CreateFeature(&row) == OGRERR_NONE, path, "cannot be written");
+  }
+  CPLErrorReset();
+  dataset.reset();
+  require(!QuietGdal::failed(), path, "cannot be written");
+}
+
+template <class T>
+void write(const std::string& path, const RasterGrid& grid, std::span<const T> values, GDALDataType type,
+           const RegionDescription& description) {
+  const QuietGdal quiet;
+  // Equal calls give equal bytes only if the file does not say when it was written.
+  const CPLConfigOptionSetter fixed("OGR_CURRENT_DATE", "1970-01-01T00:00:00.000Z", false);
+  PendingFile output(path, description.overwrite);
+  Regions regions;
+  for (const RegionClass& c : description.classes) regions[c.value];
+  trace(path, grid, values, type, regions);
+  write_layer(output, grid, regions, description);
+  output.commit();
+}
+
+}  // namespace
+
+void write_regions(const std::string& path, const RasterGrid& grid, std::span<const std::uint8_t> values,
+                   const RegionDescription& description) {
+  write(path, grid, values, GDT_Byte, description);
+}
+
+void write_regions(const std::string& path, const RasterGrid& grid, std::span<const std::uint16_t> values,
+                   const RegionDescription& description) {
+  write(path, grid, values, GDT_UInt16, description);
+}
+
+void write_regions(const std::string& path, const RasterGrid& grid, std::span<const std::uint32_t> values,
+                   const RegionDescription& description) {
+  write(path, grid, values, GDT_UInt32, description);
+}
+
+}  // namespace itin
