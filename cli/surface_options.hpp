@@ -18,6 +18,8 @@ class ThemeOptions {
   /// Throws InputError.
   void validate();
   const ThemeChoice& choice() const { return choice_; }
+  /// Whether any features were asked for.
+  bool given() const { return !themes_.empty() && themes_ != "none"; }
   /// For verbs that see the terrain alone, so far. Throws InputError where features are asked for.
   void validate_none(const std::string& verb);
   /// What was asked for, where it was.

@@ -1,4 +1,4 @@
-#include "import/file_digest.hpp"
+#include <itin/file_digest.hpp>
 
 #include <array>
 #include <cerrno>

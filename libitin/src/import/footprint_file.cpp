@@ -9,7 +9,7 @@
 #include <itin/error.hpp>
 
 #include "import/city_json.hpp"
-#include "import/file_digest.hpp"
+#include <itin/file_digest.hpp>
 #include "import/scattered_source.hpp"
 
 namespace itin {

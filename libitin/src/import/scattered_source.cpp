@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "import/file_digest.hpp"
+#include <itin/file_digest.hpp>
 
 namespace itin {
 

@@ -16,7 +16,7 @@
 #include <itin/geometry.hpp>
 
 #include "import/crs.hpp"
-#include "import/file_digest.hpp"
+#include <itin/file_digest.hpp>
 #include "import/terrain_source.hpp"
 
 namespace itin {
