@@ -1,5 +1,6 @@
 // itin ztv: what is seen of wind turbines from where, as an application for planning needs it.
 
+#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -22,7 +23,9 @@
 #include "values.hpp"
 #include "verb.hpp"
 #include "ztv_methods.hpp"
+#include "ztv_radio.hpp"
 #include "ztv_turbines.hpp"
+#include "ztv_viewpoints.hpp"
 
 namespace itin::cli {
 
@@ -48,6 +51,8 @@ class ZtvVerb final : public Verb {
     app.add_option("--observer-height", observer_text_, "Of the eyes above the bare ground (default: 2)")
         ->type_name("METRES");
     radius_.declare(app);
+    viewpoints_.declare(app);
+    radio_.declare(app);
     detail_.declare(app);
     themes_.declare(app);
     earth_.declare(app);
@@ -58,6 +63,8 @@ class ZtvVerb final : public Verb {
 
   void validate() override {
     turbines_.validate();
+    viewpoints_.validate(turbines_.in_crs());
+    radio_.validate();
     radius_.validate();
     detail_.validate();
     if (detail_.has_rings()) throw InputError("--rings lie about one observer; a ztv takes --tolerance");
@@ -83,6 +90,8 @@ class ZtvVerb final : public Verb {
     if (request_.cell_size) parameters["cell_m"] = *request_.cell_size;
     if (!like_.empty()) parameters["like"] = like_;
     parameters["radius_preset"] = radius_.document();
+    parameters.update(viewpoints_.parameters());
+    parameters.update(radio_.parameters());
     parameters.update(detail_.parameters());
     parameters.update(themes_.parameters());
     parameters["nodata"] = nodata_text_.empty() ? "unknown" : nodata_text_;
@@ -101,7 +110,7 @@ class ZtvVerb final : public Verb {
     OutputFolder folder(output_, policy_);
     cli::Result result;
     result.document = document(zone, metadata);
-    write(zone, metadata, folder.working(), result.document, progress);
+    write(store, zone, folder.working(), result.document, progress);
     result.warnings = warnings(zone);
     write_manifest(folder.working(), result);
     folder.publish();
@@ -113,7 +122,9 @@ class ZtvVerb final : public Verb {
   /// What takes the store to understand.
   void complete_request(const StoreMetadata& metadata) {
     list_ = turbines_.read(metadata, [&](double tip) { return radius_.radius(tip); });
+    radio_.load(turbines_.in_crs(), metadata);
     request_.turbines = list_.turbines;
+    request_.radar = radio_.radar();
     request_.detail = detail_.detail({});
     if (themes_.given()) {
       request_.themes = themes_.choice();
@@ -126,8 +137,8 @@ class ZtvVerb final : public Verb {
     return surface_document(metadata, request_.detail, request_.themes.value_or(ThemeChoice::none()));
   }
 
-  void write(const Zone& zone, const StoreMetadata& metadata, const std::string& folder, Document& document,
-             Progress& progress) {
+  void write(const Store& store, const Zone& zone, const std::string& folder, Document& document, Progress& progress) {
+    const StoreMetadata& metadata = store.metadata();
     std::vector<ZoneFile> files;
     const auto add = [&](std::vector<ZoneFile> more) { files.insert(files.end(), more.begin(), more.end()); };
     const auto add_text = [&](const std::string& name, const std::string& what, const std::string& bytes) {
@@ -142,8 +153,14 @@ class ZtvVerb final : public Verb {
                         {"surface", surface(metadata).dump()}};
     progress.report("rasters", 0);
     add(viewshed::write_zone_rasters(folder, zone, options));
+    add(radio_.write(folder, zone, options));
     progress.report("polygons", 0);
     add(viewshed::write_zone_polygons(folder, zone, options));
+    if (viewpoints_.given()) {
+      seen_ = viewpoints_.write(folder, store, zone, progress);
+      add(seen_.files);
+      document["viewpoints"] = bad_rows(seen_.path, seen_.rows, seen_.rows - seen_.bad.size(), seen_.bad);
+    }
     add_text("areas.csv", "km2 by band of turbines seen and by ring of distance to the nearest turbine",
              viewshed::area_table(zone));
     add_text("turbines.csv", "the turbines as understood, row by row, and what is wrong with those not used",
@@ -159,16 +176,18 @@ class ZtvVerb final : public Verb {
     std::vector<std::string> rows(list_.rows);
     for (std::size_t k = 0; k < zone.request.turbines.size(); ++k) {
       const Turbine& t = zone.request.turbines[k];
-      rows[t.number - 1] = fmt::format("{},{},{},{},{:.3f},{:.3f},{:.2f},{},{},{:g},{:g},used,\n", t.number,
+      rows[t.number - 1] = fmt::format("{},{},{},{},{:.3f},{:.3f},{:.2f},{},{},{:g},{:g},used,{}\n", t.number,
                                        list_.features[t.number - 1], csv_cell(t.name), csv_cell(t.farm), t.position.x,
                                        t.position.y, zone.ground_m[k], csv_cell(t.hub_height, 2),
-                                       csv_cell(t.rotor_diameter, 2), t.tip_height, t.radius / 1000);
+                                       csv_cell(t.rotor_diameter, 2), t.tip_height, t.radius / 1000,
+                                       radio_.cells(zone, k));
     }
+    const std::string names = radio_.columns(), none(static_cast<std::size_t>(std::count(names.begin(), names.end(), ',')), ',');
     for (const BadRow& bad : list_.bad)
       rows[bad.number - 1] =
-          fmt::format("{},{},,,,,,,,,,not used,{}\n", bad.number, bad.feature, csv_cell(bad.message));
-    return "number,feature,name,farm,x,y,ground_m,hub_height_m,rotor_diameter_m,tip_height_m,radius_km,status,message\n" +
-           fmt::format("{}", fmt::join(rows, ""));
+          fmt::format("{},{},,,,,,,,,,not used,{}{}\n", bad.number, bad.feature, csv_cell(bad.message), none);
+    return "number,feature,name,farm,x,y,ground_m,hub_height_m,rotor_diameter_m,tip_height_m,radius_km,status,message" +
+           radio_.columns() + "\n" + fmt::format("{}", fmt::join(rows, ""));
   }
 
   std::string methods(const Zone& zone, const StoreMetadata& metadata) const {
@@ -186,6 +205,7 @@ class ZtvVerb final : public Verb {
                         : "Every stored point is used.";
     if (request_.themes) facts.themes = request_.themes->names(metadata.themes);
     facts.radius = radius_.text();
+    facts.further = radio_.methods(zone);
     facts.rows = list_.rows, facts.bad = list_.bad.size();
     return methods_text(zone, facts);
   }
@@ -199,10 +219,12 @@ class ZtvVerb final : public Verb {
                         {"columns", zone.grid.columns()},
                         {"rows", zone.grid.rows()},
                         {"cell_m", {zone.grid.cell_width(), zone.grid.cell_height()}}};
-    document["turbines"] = turbines_document(zone);
+    document["turbines"] = bad_rows(turbines_.path(), list_.rows, zone.request.turbines.size(), list_.bad);
+    document["turbines"]["sha256"] = list_.sha256;
     document["farms"] = viewshed::farms_of(zone);
     document["area_km2"]["bare"] = areas(zone, zone.bare);
     if (zone.screened) document["area_km2"]["screened"] = areas(zone, *zone.screened);
+    document.update(radio_.document(zone));
     const viewshed::ZoneStatistics& statistics = zone.statistics;
     document["statistics"] = {{"points_read", statistics.retrieval.points_read},
                               {"blocks_read", statistics.retrieval.blocks_read},
@@ -214,13 +236,11 @@ class ZtvVerb final : public Verb {
     return document;
   }
 
-  Document turbines_document(const Zone& zone) const {
-    Document turbines{{"file", turbines_.path()}, {"sha256", list_.sha256}, {"rows", list_.rows},
-                      {"used", zone.request.turbines.size()}};
-    turbines["bad"] = Document::array();
-    for (const BadRow& bad : list_.bad)
-      turbines["bad"].push_back({{"row", bad.number}, {"feature", bad.feature}, {"message", bad.message}});
-    return turbines;
+  static Document bad_rows(const std::string& file, std::size_t rows, std::size_t used, const std::vector<BadRow>& bad) {
+    Document document{{"file", file}, {"rows", rows}, {"used", used}, {"bad", Document::array()}};
+    for (const BadRow& row : bad)
+      document["bad"].push_back({{"row", row.number}, {"feature", row.feature}, {"message", row.message}});
+    return document;
   }
 
   static Document areas(const Zone& zone, const viewshed::Visibility& v) {
@@ -238,6 +258,11 @@ class ZtvVerb final : public Verb {
     for (const BadRow& bad : list_.bad)
       warnings.push_back(
           fmt::format("{}: row {} (feature {}) is not used: {}", turbines_.path(), bad.number, bad.feature, bad.message));
+    const auto of_radio = radio_.warnings(zone);
+    warnings.insert(warnings.end(), of_radio.begin(), of_radio.end());
+    for (const BadRow& bad : seen_.bad)
+      warnings.push_back(
+          fmt::format("{}: row {} (feature {}) is not used: {}", seen_.path, bad.number, bad.feature, bad.message));
     return warnings;
   }
 
@@ -269,6 +294,8 @@ class ZtvVerb final : public Verb {
   std::string store_, output_, cell_text_, like_, observer_text_, nodata_text_;
   TurbineOptions turbines_;
   RadiusOptions radius_;
+  ViewpointOptions viewpoints_;
+  ZtvRadioOptions radio_;
   DetailOptions detail_;
   ThemeOptions themes_;
   EarthOptions earth_;
@@ -276,6 +303,7 @@ class ZtvVerb final : public Verb {
 
   TurbineList list_;
   viewshed::ZoneRequest request_;
+  ViewpointOptions::Written seen_;
 };
 
 }  // namespace

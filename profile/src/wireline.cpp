@@ -64,9 +64,12 @@ class LineOfBands {
     return std::isfinite(greatest_[band]) ? static_cast<float>(std::atan(greatest_[band]) * kDegrees)
                                           : std::numeric_limits<float>::quiet_NaN();
   }
-  /// Not at the band's limits, where it would go on in the next one.
+  /// Whether the ground falls behind its greatest angle. At the band's far limit that is so if it does in the next band;
+  /// at the near one it belongs to the band before.
   bool crest(std::size_t band) const {
-    return std::isfinite(greatest_[band]) && at_[band] > limits_[band] && at_[band] < limits_[band + 1];
+    if (!std::isfinite(greatest_[band]) || at_[band] == limits_[band]) return false;
+    if (at_[band] < limits_[band + 1]) return true;
+    return band + 1 < at_.size() && std::isfinite(greatest_[band + 1]) && at_[band + 1] == limits_[band + 1];
   }
 
  private:

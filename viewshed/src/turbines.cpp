@@ -9,7 +9,9 @@
 #include <viewshed/turbines.hpp>
 
 #include "boundary.hpp"
+#include "eye.hpp"
 #include "least_height.hpp"
+#include "radar_survey.hpp"
 #include "request.hpp"
 #include "scene.hpp"
 #include "stopwatch.hpp"
@@ -97,6 +99,19 @@ void warn_of_voids(const Tin& tin, const std::vector<BoundaryEdge>& boundary, Zo
   if (crossed) zone.warnings.emplace_back(kVoidsWarning);
 }
 
+RadarView radar_view(const Tin& ground, const Scene& scene, const TriangleBins& bins, const RasterGrid& tiles,
+                     const LeastHeights& heights, const Zone& zone, Progress& progress) {
+  const Observer& radar = *zone.request.radar;
+  const auto height = scene.ground(radar.position);
+  const Eye eye = eye_of(ground.grid, radar, height);
+  RadarView view;
+  view.ground_m = *height;
+  view.height_m = radar_heights(eye, ground, bins, tiles, zone.grid, heights, progress);
+  for (std::size_t k = 0; k < zone.request.turbines.size(); ++k)
+    view.turbine_m.push_back(radar_sees(eye, ground, zone.request.turbines[k], zone.ground_m[k], heights));
+  return view;
+}
+
 /// Of one farm: a disc about its middle that holds every turbine's reach.
 Window::Polygon farm_disc(const std::vector<const Turbine*>& farm) {
   Box box;
@@ -108,11 +123,22 @@ Window::Polygon farm_disc(const std::vector<const Turbine*>& farm) {
   return Window::disc(middle, radius).parts().front();
 }
 
+/// Convex about the radar and all the rest, so that it holds the radar's sight lines.
+Window::Polygon box_about(const std::vector<Window::Polygon>& parts, Point2 radar) {
+  Box box;
+  box.extend(Point2{radar.x - 1, radar.y - 1});
+  box.extend(Point2{radar.x + 1, radar.y + 1});
+  for (const Window::Polygon& part : parts)
+    for (const Point2& p : part.outer) box.extend(p);
+  return {{{box.xmin, box.ymin}, {box.xmax, box.ymin}, {box.xmax, box.ymax}, {box.xmin, box.ymax}}, {}};
+}
+
 Window window_of(const ZoneRequest& request) {
   std::map<std::string, std::vector<const Turbine*>> farms;
   for (const Turbine& t : request.turbines) farms[t.farm].push_back(&t);
   std::vector<Window::Polygon> parts;
   for (const auto& [name, farm] : farms) parts.push_back(farm_disc(farm));
+  if (request.radar) parts.push_back(box_about(parts, request.radar->position));
   return Window::polygons(std::move(parts));
 }
 
@@ -130,13 +156,6 @@ Zone survey_turbines(const Tin& ground, const Tin* screened, const ZoneRequest& 
   zone.request = request;
   Stopwatch watch;
   progress.report("scene", 0);
-  const auto survey = [&](const Tin& surface, const ZoneSurvey& lines, const Scene& scene, const char* stage) {
-    const LeastHeights heights(surface, request.earth, scene);
-    zone.statistics.scene_seconds += watch.lap();
-    Visibility result = lines.run(heights, stage, zone.statistics.lines, progress);
-    zone.statistics.lines_seconds += watch.lap();
-    return result;
-  };
   std::optional<Scene> scene(std::in_place, ground, request.earth, request.nodata, ceiling(ground, request));
   place_turbines(*scene, zone);
   zone.grid = grid_of(zone.request, ground.bounds());
@@ -149,12 +168,21 @@ Zone survey_turbines(const Tin& ground, const Tin* screened, const ZoneRequest& 
   const RasterGrid tiles = grid_of_tiles(zone.grid);
   const TriangleBins bins(ground, tiles);
   const ZoneSurvey lines(ground, bins, tiles, zone);
-  zone.bare = survey(ground, lines, *scene, "sight lines");
+  {
+    const LeastHeights heights(ground, request.earth, *scene);
+    zone.statistics.scene_seconds = watch.lap();
+    zone.bare = lines.run(heights, "sight lines", zone.statistics.lines, progress);
+    if (request.radar) zone.radar = radar_view(ground, *scene, bins, tiles, heights, zone, progress);
+    zone.statistics.lines_seconds = watch.lap();
+  }
   if (screened != nullptr) {
     // One scene at a time, for they are what takes memory.
     scene.reset();
     scene.emplace(*screened, request.earth, request.nodata, ceiling(*screened, request));
-    zone.screened = survey(*screened, lines, *scene, "sight lines, screened");
+    const LeastHeights heights(*screened, request.earth, *scene);
+    zone.statistics.scene_seconds += watch.lap();
+    zone.screened = lines.run(heights, "sight lines, screened", zone.statistics.lines, progress);
+    zone.statistics.lines_seconds += watch.lap();
     zone.statistics.retrieval += screened->statistics;
     zone.statistics.triangles += screened->triangles.size();
   }

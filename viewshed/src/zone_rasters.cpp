@@ -4,19 +4,16 @@
 
 #include <fmt/format.h>
 
-#include <itin/output_file.hpp>
 #include <itin/parallel.hpp>
 #include <viewshed/zone_files.hpp>
 
 #include "farm_combinations.hpp"
+#include "raster_folder.hpp"
 #include "value_bands.hpp"
 
 namespace itin::viewshed {
 
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr const char* kNoValue = "no value outside every turbine's radius and where there is no ground";
 
 /// A quantity that is a raster of floats.
 struct Quantity {
@@ -52,39 +49,6 @@ const std::vector<Quantity>& quantities() {
        {1000, 2500, 5000, 10000, 20000, 30000, 40000}},
   };
   return kQuantities;
-}
-
-class RasterFolder {
- public:
-  RasterFolder(std::string folder, const Zone& zone, const ZoneFileOptions& options)
-      : folder_(std::move(folder)), zone_(zone), options_(options) {}
-
-  template <class T>
-  void write(const std::string& name, const std::string& what, const std::vector<T>& values,
-             RasterDescription description, const std::string& style) {
-    description.crs_wkt = options_.crs_wkt;
-    description.overwrite = true;
-    if (description.band_name.empty()) description.band_name = name;
-    description.metadata = options_.metadata;
-    description.metadata.emplace_back("what", what);
-    write_raster(path(name + ".tif"), zone_.grid, std::span<const T>(values), description);
-    if (!style.empty()) write_file(path(name + ".qml"), style, true);
-    files_.push_back({name + ".tif", what});
-  }
-  std::string path(const std::string& name) const { return folder_ + "/" + name; }
-  std::vector<ZoneFile> files() && { return std::move(files_); }
-
- private:
-  std::string folder_;
-  const Zone& zone_;
-  const ZoneFileOptions& options_;
-  std::vector<ZoneFile> files_;
-};
-
-RasterDescription with_nodata(double value) {
-  RasterDescription description;
-  description.nodata = value;
-  return description;
 }
 
 void write_counts(const Zone& zone, const Visibility& v, const std::string& suffix, RasterFolder& folder) {

@@ -39,7 +39,8 @@ std::string wrong_coordinate(const OGRFeature& feature) {
     char* end = nullptr;
     const double value = CPLStrtod(text.c_str(), &end);
     if (text.empty() || *end != '\0' || !std::isfinite(value))
-      return fmt::format("its {} '{}' is not a number", name, text);
+      return text.empty() ? fmt::format("its {} is empty or not a number", name)
+                          : fmt::format("its {} '{}' is not a number", name, text);
   }
   return {};
 }

@@ -50,6 +50,7 @@ struct ZoneRequest {
   Detail detail = Detail::tolerance(0);  ///< of the surface; not used with a Tin
   std::optional<ThemeChoice> themes;     ///< of the screened surface, likewise; nothing: bare ground alone
   NoData nodata = NoData::kUnknown;
+  std::optional<Observer> radar;  ///< whose horizon is looked for besides, over bare ground
 };
 
 /// One value a cell; see `Zone::grid`. Floats are NaN, counts kCountOutside outside.
@@ -82,6 +83,13 @@ struct Misplaced {
   std::string message;
 };
 
+/// Above a radar's horizon over bare ground.
+struct RadarView {
+  double ground_m = 0;          ///< under the radar
+  std::vector<float> height_m;  ///< a cell: the least height above its ground that is seen; NaN above 1000 m or no ground
+  std::vector<double> turbine_m;  ///< what is seen of each turbine of the request, from its tip down; 0: hidden
+};
+
 struct ZoneStatistics {
   RetrievalStatistics retrieval;
   std::uint64_t triangles = 0;
@@ -97,6 +105,7 @@ struct Zone {
   std::size_t words = 1;  ///< grids in Visibility::turbines
   Visibility bare;
   std::optional<Visibility> screened;  ///< with the themes' features standing on the ground, where asked for
+  std::optional<RadarView> radar;
   std::vector<std::string> warnings;
   ZoneStatistics statistics;
 };

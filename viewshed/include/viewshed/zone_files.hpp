@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <viewshed/link_exclusion.hpp>
 #include <viewshed/turbines.hpp>
 
 namespace itin::viewshed {
@@ -24,11 +25,24 @@ struct ZoneFileOptions {
   std::vector<std::pair<std::string, std::string>> metadata;  ///< into every raster
 };
 
+/// Radio links that rotors must stay away from.
+struct LinkStudy {
+  std::vector<RadioLink> links;
+  double frequency_ghz = 0;
+  double rotor_radius_m = 0;  ///< the greatest of the turbines
+};
+
 /// The farms of a zone in the order of their first turbines.
 std::vector<std::string> farms_of(const Zone& zone);
 
 /// Throws FileError. Existing files are replaced.
 std::vector<ZoneFile> write_zone_rasters(const std::string& folder, const Zone& zone, const ZoneFileOptions& options);
+
+/// radar-height.tif, where the zone has a radar; and link-exclusion.tif, of rotors of that radius, where links are given.
+/// Throws FileError.
+std::vector<ZoneFile> write_radar_raster(const std::string& folder, const Zone& zone, const ZoneFileOptions& options);
+std::vector<ZoneFile> write_link_raster(const std::string& folder, const Zone& zone, const ZoneFileOptions& options,
+                                        const LinkStudy& study);
 
 /// The banded counts of tips, and the combinations of farms where there are several, as GeoPackages. Throws FileError.
 std::vector<ZoneFile> write_zone_polygons(const std::string& folder, const Zone& zone, const ZoneFileOptions& options);
