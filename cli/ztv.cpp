@@ -165,24 +165,26 @@ class ZtvVerb final : public Verb {
              viewshed::area_table(zone));
     add_text("turbines.csv", "the turbines as understood, row by row, and what is wrong with those not used",
              turbine_table(zone));
-    add_text("radius-preset.json", "the radii used, to edit and give by --radius-preset", radius_.document().dump(2) + "\n");
+    add_text("radius-preset.json", "the radii used, to edit and give by --radius-preset",
+             radius_.document().dump(2) + "\n");
     add_text("methods.md", "how all this was worked out, for the application", methods(zone, metadata));
     document["outputs"] = Document::array();
     for (const ZoneFile& file : files)
-      document["outputs"].push_back({{"path", (std::filesystem::path(output_) / file.name).string()}, {"what", file.what}});
+      document["outputs"].push_back(
+          {{"path", (std::filesystem::path(output_) / file.name).string()}, {"what", file.what}});
   }
 
   std::string turbine_table(const Zone& zone) const {
     std::vector<std::string> rows(list_.rows);
     for (std::size_t k = 0; k < zone.request.turbines.size(); ++k) {
       const Turbine& t = zone.request.turbines[k];
-      rows[t.number - 1] = fmt::format("{},{},{},{},{:.3f},{:.3f},{:.2f},{},{},{:g},{:g},used,{}\n", t.number,
-                                       list_.features[t.number - 1], csv_cell(t.name), csv_cell(t.farm), t.position.x,
-                                       t.position.y, zone.ground_m[k], csv_cell(t.hub_height, 2),
-                                       csv_cell(t.rotor_diameter, 2), t.tip_height, t.radius / 1000,
-                                       radio_.cells(zone, k));
+      rows[t.number - 1] = fmt::format(
+          "{},{},{},{},{:.3f},{:.3f},{:.2f},{},{},{:g},{:g},used,{}\n", t.number, list_.features[t.number - 1],
+          csv_cell(t.name), csv_cell(t.farm), t.position.x, t.position.y, zone.ground_m[k], csv_cell(t.hub_height, 2),
+          csv_cell(t.rotor_diameter, 2), t.tip_height, t.radius / 1000, radio_.cells(zone, k));
     }
-    const std::string names = radio_.columns(), none(static_cast<std::size_t>(std::count(names.begin(), names.end(), ',')), ',');
+    const std::string names = radio_.columns(),
+                      none(static_cast<std::size_t>(std::count(names.begin(), names.end(), ',')), ',');
     for (const BadRow& bad : list_.bad)
       rows[bad.number - 1] =
           fmt::format("{},{},,,,,,,,,,not used,{}{}\n", bad.number, bad.feature, csv_cell(bad.message), none);
@@ -198,10 +200,11 @@ class ZtvVerb final : public Verb {
     facts.crs = crs_title(metadata.crs_wkt);
     const Document of_surface = surface(metadata);
     facts.surface = request_.detail.coarsest() > 0
-                        ? fmt::format("It is generalised to a tolerance of {:g} m, with a certified error of {:.2f} to "
-                                      "{:.2f} m against the full terrain.",
-                                      request_.detail.coarsest(), of_surface["certified_error_m"][0].get<double>(),
-                                      of_surface["certified_error_m"][1].get<double>())
+                        ? fmt::format(
+                              "It is generalised to a tolerance of {:g} m, with a certified error of {:.2f} to "
+                              "{:.2f} m against the full terrain.",
+                              request_.detail.coarsest(), of_surface["certified_error_m"][0].get<double>(),
+                              of_surface["certified_error_m"][1].get<double>())
                         : "Every stored point is used.";
     if (request_.themes) facts.themes = request_.themes->names(metadata.themes);
     facts.radius = radius_.text();
@@ -236,7 +239,8 @@ class ZtvVerb final : public Verb {
     return document;
   }
 
-  static Document bad_rows(const std::string& file, std::size_t rows, std::size_t used, const std::vector<BadRow>& bad) {
+  static Document bad_rows(const std::string& file, std::size_t rows, std::size_t used,
+                           const std::vector<BadRow>& bad) {
     Document document{{"file", file}, {"rows", rows}, {"used", used}, {"bad", Document::array()}};
     for (const BadRow& row : bad)
       document["bad"].push_back({{"row", row.number}, {"feature", row.feature}, {"message", row.message}});
@@ -256,8 +260,8 @@ class ZtvVerb final : public Verb {
   std::vector<std::string> warnings(const Zone& zone) const {
     std::vector<std::string> warnings = zone.warnings;
     for (const BadRow& bad : list_.bad)
-      warnings.push_back(
-          fmt::format("{}: row {} (feature {}) is not used: {}", turbines_.path(), bad.number, bad.feature, bad.message));
+      warnings.push_back(fmt::format("{}: row {} (feature {}) is not used: {}", turbines_.path(), bad.number,
+                                     bad.feature, bad.message));
     const auto of_radio = radio_.warnings(zone);
     warnings.insert(warnings.end(), of_radio.begin(), of_radio.end());
     for (const BadRow& bad : seen_.bad)
@@ -278,9 +282,10 @@ class ZtvVerb final : public Verb {
 
   std::string text(const Zone& zone) const {
     const Document bare = areas(zone, zone.bare);
-    std::string text = fmt::format("{}: {} of {} turbines; a tip is seen from {:.1f} km2, a hub from {:.1f}, of {:.1f}\n",
-                                   output_, zone.request.turbines.size(), list_.rows, bare["any_tip_seen"].get<double>(),
-                                   bare["any_hub_seen"].get<double>(), bare["studied"].get<double>());
+    std::string text =
+        fmt::format("{}: {} of {} turbines; a tip is seen from {:.1f} km2, a hub from {:.1f}, of {:.1f}\n", output_,
+                    zone.request.turbines.size(), list_.rows, bare["any_tip_seen"].get<double>(),
+                    bare["any_hub_seen"].get<double>(), bare["studied"].get<double>());
     if (zone.screened) {
       const Document screened = areas(zone, *zone.screened);
       text += fmt::format("screened: a tip from {:.1f} km2, a hub from {:.1f}\n",

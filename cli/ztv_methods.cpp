@@ -17,13 +17,13 @@ std::string range(double low, double high, const char* unit) {
 
 std::string turbines_in_words(const viewshed::Zone& zone, const ZtvMethods& facts) {
   const auto& turbines = zone.request.turbines;
-  const auto [least, most] = std::minmax_element(turbines.begin(), turbines.end(), [](const auto& a, const auto& b) {
-    return a.tip_height < b.tip_height;
-  });
-  const auto hubs = std::count_if(turbines.begin(), turbines.end(), [](const auto& t) { return t.hub_height.has_value(); });
-  std::string text = fmt::format("{} turbines of {} rows in `{}` (SHA-256 {}); tips {} above the ground.",
-                                 turbines.size(), facts.rows, facts.turbines_file, facts.turbines_sha256,
-                                 range(least->tip_height, most->tip_height, "m"));
+  const auto [least, most] = std::minmax_element(
+      turbines.begin(), turbines.end(), [](const auto& a, const auto& b) { return a.tip_height < b.tip_height; });
+  const auto hubs =
+      std::count_if(turbines.begin(), turbines.end(), [](const auto& t) { return t.hub_height.has_value(); });
+  std::string text =
+      fmt::format("{} turbines of {} rows in `{}` (SHA-256 {}); tips {} above the ground.", turbines.size(), facts.rows,
+                  facts.turbines_file, facts.turbines_sha256, range(least->tip_height, most->tip_height, "m"));
   if (static_cast<std::size_t>(hubs) < turbines.size())
     text += fmt::format(" The hub's height is known of {} of them; the others are not counted among hubs.", hubs);
   if (facts.bad > 0) text += fmt::format(" {} rows could not be used and are named in `turbines.csv`.", facts.bad);
@@ -60,8 +60,9 @@ std::string methods_text(const viewshed::Zone& zone, const ZtvMethods& facts) {
   paragraph("Terrain", fmt::format("`{}`, {}. {} The surface is a triangulation of the terrain's own points; heights "
                                    "between them are those of its triangles, nothing is resampled.",
                                    facts.store, facts.crs, facts.surface));
-  paragraph("Viewer", fmt::format("An eye {:g} m above the bare ground at the centre of every cell of {:g} m by {:g} m.",
-                                  request.observer_height, zone.grid.cell_width(), zone.grid.cell_height()));
+  paragraph("Viewer",
+            fmt::format("An eye {:g} m above the bare ground at the centre of every cell of {:g} m by {:g} m.",
+                        request.observer_height, zone.grid.cell_width(), zone.grid.cell_height()));
   paragraph("Radius", facts.radius + " A turbine counts only in cells within its own radius, measured horizontally.");
   paragraph("Curvature and refraction", refraction_in_words(request.earth));
   paragraph("Visibility",

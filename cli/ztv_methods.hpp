@@ -12,10 +12,10 @@ namespace itin::cli {
 struct ZtvMethods {
   std::string turbines_file, turbines_sha256;
   std::string store;
-  std::string crs;             ///< title
-  std::string surface;         ///< detail and certified error
+  std::string crs;      ///< title
+  std::string surface;  ///< detail and certified error
   std::vector<std::string> themes;
-  std::string radius;          ///< sentence
+  std::string radius;  ///< sentence
   std::size_t rows = 0, bad = 0;
   std::vector<std::string> further;  ///< paragraphs about what else was asked for
 };

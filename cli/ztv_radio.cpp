@@ -89,8 +89,8 @@ std::string ZtvRadioOptions::cells(const Zone& zone, std::size_t k) const {
   if (zone.radar) text += fmt::format(",{:.2f}", zone.radar->turbine_m[k]);
   if (links_.empty()) return text;
   const Nearest nearest = nearest_link(zone.request.turbines[k]);
-  return text + fmt::format(",{},{:.2f},{}", csv_cell(nearest.link), nearest.clearance,
-                            nearest.clearance < 0 ? "yes" : "no");
+  return text +
+         fmt::format(",{},{:.2f},{}", csv_cell(nearest.link), nearest.clearance, nearest.clearance < 0 ? "yes" : "no");
 }
 
 Document ZtvRadioOptions::document(const Zone& zone) const {
@@ -104,9 +104,8 @@ Document ZtvRadioOptions::document(const Zone& zone) const {
     const auto& turbines = zone.request.turbines;
     const auto excluded = std::count_if(turbines.begin(), turbines.end(),
                                         [&](const Turbine& t) { return nearest_link(t).clearance < 0; });
-    document["links"] = {{"links", links_.size()},
-                         {"wavelength_m", 0.299792458 / frequency_ghz_},
-                         {"turbines_excluded", excluded}};
+    document["links"] = {
+        {"links", links_.size()}, {"wavelength_m", 0.299792458 / frequency_ghz_}, {"turbines_excluded", excluded}};
   }
   return document;
 }
@@ -115,14 +114,16 @@ std::vector<std::string> ZtvRadioOptions::methods(const Zone& zone) const {
   std::vector<std::string> paragraphs;
   if (zone.radar)
     paragraphs.push_back(fmt::format(
-        "## Radar\n\nA radar at {:.0f}, {:.0f}, {:g} m above its ground of {:.1f} m. `radar-height.tif` is the least height "
+        "## Radar\n\nA radar at {:.0f}, {:.0f}, {:g} m above its ground of {:.1f} m. `radar-height.tif` is the least "
+        "height "
         "above the ground that it sees over bare ground, with the curvature and refraction above; `turbines.csv` says "
         "how many metres of each turbine rise above its horizon. The heights are exact for the surface; between the "
         "terrain's points they depend on its triangles.",
         radar_->position.x, radar_->position.y, radar_->height, zone.radar->ground_m));
   if (!links_.empty())
     paragraphs.push_back(fmt::format(
-        "## Radio links\n\n{} links of `{}` at {:g} GHz (wavelength 0.299792458 / f). After Bacon (2002) a rotor must stay "
+        "## Radio links\n\n{} links of `{}` at {:g} GHz (wavelength 0.299792458 / f). After Bacon (2002) a rotor must "
+        "stay "
         "out of the second Fresnel zone, of radius sqrt(2 lambda d1 d2 / d), in plan: `link-exclusion.tif` for the "
         "greatest rotor, {:g} m in radius; `turbines.csv` for each turbine's own. Heights do not count.",
         links_.size(), links_path_, frequency_ghz_, study(zone).rotor_radius_m));

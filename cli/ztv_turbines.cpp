@@ -33,10 +33,12 @@ void complete(std::optional<double>& hub, std::optional<double>& rotor, std::opt
   } else if (!hub && rotor) {
     hub = *tip - *rotor / 2;
   }
-  if (hub && *hub <= 0) throw InputError("its rotor_diameter is more than twice its tip_height: the hub is underground");
+  if (hub && *hub <= 0)
+    throw InputError("its rotor_diameter is more than twice its tip_height: the hub is underground");
   if (hub && rotor && std::abs(*hub + *rotor / 2 - *tip) > 1)
-    throw InputError(fmt::format("its heights contradict each other: hub {:g} and half the rotor {:g} are not the tip {:g}",
-                                 *hub, *rotor / 2, *tip));
+    throw InputError(
+        fmt::format("its heights contradict each other: hub {:g} and half the rotor {:g} are not the tip {:g}", *hub,
+                    *rotor / 2, *tip));
 }
 
 }  // namespace

@@ -125,11 +125,11 @@ profile::WirelineQuery wireline_of(const Viewpoint& v, const Zone& zone, const s
   const auto hubs = std::count_if(sights.begin(), sights.end(), [](const Sight& s) { return s.hub.value_or(false); });
   const auto nearest = std::min_element(sights.begin(), sights.end(),
                                         [](const Sight& a, const Sight& b) { return a.distance < b.distance; });
-  query.notes = {fmt::format("{:.0f}, {:.0f}; ground {:.1f} m, eye {:g} m above it. Of {} turbines {} have their tip seen "
-                             "and {} their hub; the nearest stands {:.2f} km away.",
-                             v.position.x, v.position.y, v.ground, v.height, sights.size(), tips, hubs,
-                             nearest->distance / 1000),
-                 "Bare ground; " + zone.request.earth.convention()};
+  query.notes = {
+      fmt::format("{:.0f}, {:.0f}; ground {:.1f} m, eye {:g} m above it. Of {} turbines {} have their tip seen "
+                  "and {} their hub; the nearest stands {:.2f} km away.",
+                  v.position.x, v.position.y, v.ground, v.height, sights.size(), tips, hubs, nearest->distance / 1000),
+      "Bare ground; " + zone.request.earth.convention()};
   double reach = 20000;
   for (std::size_t k = 0; k < sights.size(); ++k) {
     const Turbine& t = zone.request.turbines[k];
@@ -201,8 +201,9 @@ ViewpointOptions::Written ViewpointOptions::write(const std::string& folder, con
     }
   }
   write_file(folder + "/viewpoints.csv", table, true);
-  written.files.insert(written.files.begin(),
-                       {"viewpoints.csv", "viewpoint by turbine: hub and tip visible, metres and degrees seen, azimuth"});
+  written.files.insert(
+      written.files.begin(),
+      {"viewpoints.csv", "viewpoint by turbine: hub and tip visible, metres and degrees seen, azimuth"});
   return written;
 }
 

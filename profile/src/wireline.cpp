@@ -46,8 +46,8 @@ class LineOfBands {
   void add(const Breakpoint& a, const Breakpoint& b) {
     if (b.distance <= limits_.front() || b.distance <= a.distance) return;
     const double slope = (b.position.z - a.position.z) / (b.distance - a.distance);
-    auto band = static_cast<std::size_t>(
-        std::max<std::ptrdiff_t>(0, std::upper_bound(limits_.begin(), limits_.end(), a.distance) - limits_.begin() - 1));
+    auto band = static_cast<std::size_t>(std::max<std::ptrdiff_t>(
+        0, std::upper_bound(limits_.begin(), limits_.end(), a.distance) - limits_.begin() - 1));
     for (; band + 1 < limits_.size() && limits_[band] < b.distance; ++band) {
       const double first = std::max(a.distance, limits_[band]), last = std::min(b.distance, limits_[band + 1]);
       const double base = a.position.z - slope * a.distance - eye_;
@@ -64,8 +64,8 @@ class LineOfBands {
     return std::isfinite(greatest_[band]) ? static_cast<float>(std::atan(greatest_[band]) * kDegrees)
                                           : std::numeric_limits<float>::quiet_NaN();
   }
-  /// Whether the ground falls behind its greatest angle. At the band's far limit that is so if it does in the next band;
-  /// at the near one it belongs to the band before.
+  /// Whether the ground falls behind its greatest angle. At the band's far limit that is so if it does in the next
+  /// band; at the near one it belongs to the band before.
   bool crest(std::size_t band) const {
     if (!std::isfinite(greatest_[band]) || at_[band] == limits_[band]) return false;
     if (at_[band] < limits_[band + 1]) return true;
@@ -86,8 +86,9 @@ bool gap_between(const CrossSection& section, const Breakpoint& a, const Breakpo
 
 void validate(const WirelineQuery& query) {
   if (!(query.width_deg > 0 && query.width_deg <= 360 && query.step_deg > 0 && query.step_deg <= query.width_deg))
-    throw InputError(fmt::format("a wireline of {:g} degrees in steps of {:g}: give a width up to 360 and smaller steps",
-                                 query.width_deg, query.step_deg));
+    throw InputError(
+        fmt::format("a wireline of {:g} degrees in steps of {:g}: give a width up to 360 and smaller steps",
+                    query.width_deg, query.step_deg));
   if (!(query.reach_m > kNearest)) throw InputError("a wireline must reach farther than 20 m");
 }
 
@@ -112,7 +113,8 @@ Wireline survey_wireline(const SectionSurface& surface, const WirelineQuery& que
     for (std::size_t p = 0; p + 1 < points.size(); ++p)
       if (!gap_between(section, points[p], points[p + 1])) seen[i].add(points[p], points[p + 1]);
     const std::size_t now = ++done;
-    if (now % 32 == 0 || now == lines) progress.report("wireline", static_cast<double>(now) / static_cast<double>(lines));
+    if (now % 32 == 0 || now == lines)
+      progress.report("wireline", static_cast<double>(now) / static_cast<double>(lines));
   });
   Wireline view;
   view.query = query;

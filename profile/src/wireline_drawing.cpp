@@ -158,7 +158,9 @@ class WirelinePage {
     const WirelineTurbine& t = *placed.turbine;
     const Stroke stroke{kTurbine, 0.8, {}};
     const double x = x_at(placed.across), foot = t.ground_m - query_.eye_elevation_m;
-    const auto y = [&](double height) { return y_at(apparent_angle_deg(query_.earth, placed.distance, foot + height)); };
+    const auto y = [&](double height) {
+      return y_at(apparent_angle_deg(query_.earth, placed.distance, foot + height));
+    };
     if (!t.hub_m || *t.hub_m >= t.tip_m) {
       drawing_->polyline(std::array{Point2{x, y(0)}, Point2{x, y(t.tip_m)}}, stroke);
       return;

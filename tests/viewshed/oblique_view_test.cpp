@@ -35,8 +35,7 @@ TEST(ObliqueView, HidesWhatIsBehindAWall) {
   Tin tin = test::lattice_tin(21, 21, 10, ridge);
   tin.standing.assign(tin.vertices.size(), 0);
   // Ground just north of the ridge is painted as a theme's.
-  for (std::size_t v = 0; v < tin.vertices.size(); ++v)
-    tin.standing[v] = tin.vertices[v].y / 1000 == 12 ? 3 : 0;
+  for (std::size_t v = 0; v < tin.vertices.size(); ++v) tin.standing[v] = tin.vertices[v].y / 1000 == 12 ? 3 : 0;
   const auto colours = [](const viewshed::MapImage& image) {
     std::set<std::array<int, 3>> found;
     for (int y = 0; y < 200; ++y)

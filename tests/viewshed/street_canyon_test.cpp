@@ -1,5 +1,5 @@
-// A street between two rows of houses, worked out by hand: flat ground at 50 m; a row 10 m high from x = 100 to 120, the
-// street from 120 to 140, and a row 20 m high from 140 to 160; all from y = 40 to 240, seen along y = 140.
+// A street between two rows of houses, worked out by hand: flat ground at 50 m; a row 10 m high from x = 100 to 120,
+// the street from 120 to 140, and a row 20 m high from 140 to 160; all from y = 40 to 240, seen along y = 140.
 #include <gtest/gtest.h>
 
 #include <itin/import.hpp>
@@ -29,8 +29,7 @@ class StreetCanyon : public testing::Test {
       f.properties = height;
       return f;
     };
-    test::write_lines(directory_.file("b.geojson"),
-                      {row(100, 120, R"({"h":10})"), row(140, 160, R"({"h":20})")}, true);
+    test::write_lines(directory_.file("b.geojson"), {row(100, 120, R"({"h":10})"), row(140, 160, R"({"h":20})")}, true);
     options.sources = {directory_.file("b.geojson")};
     options.kind = ThemeKind::Buildings;
     options.height_field = "h";
@@ -59,9 +58,9 @@ class StreetCanyon : public testing::Test {
 
 TEST_F(StreetCanyon, FromTheGroundBeforeIt) {
   EXPECT_TRUE(sees(80.5, 90.5, 0));
-  EXPECT_FALSE(sees(80.5, 130.5, 0));   // the street
-  EXPECT_FALSE(sees(80.5, 110.5, 0));   // the ground within the low row
-  EXPECT_FALSE(sees(80.5, 110.5, 9));   // still within it
+  EXPECT_FALSE(sees(80.5, 130.5, 0));  // the street
+  EXPECT_FALSE(sees(80.5, 110.5, 0));  // the ground within the low row
+  EXPECT_FALSE(sees(80.5, 110.5, 9));  // still within it
   // The low row's eaves rise 8 m in 19.55 m; 130.5 lies 50 m away: a mast must reach 52 + 20.46 - 50 m.
   EXPECT_FALSE(sees(80.5, 130.5, 22.2));
   EXPECT_TRUE(sees(80.5, 130.5, 22.7));

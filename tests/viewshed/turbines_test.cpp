@@ -1,11 +1,11 @@
 // Zones of theoretical visibility against single exact lines of sight, and on hand-made ground.
 #include <cmath>
+#include <gmock/gmock.h>
 #include <iostream>
 #include <numbers>
 #include <random>
 #include <sstream>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <itin/error.hpp>
@@ -115,7 +115,9 @@ TEST(Turbines, EveryValueFollowsFromSingleLinesOfSight) {
       EXPECT_NEAR(zone.bare.vertical_angle_deg[i], e.angle, 1e-3);
       EXPECT_NEAR(zone.bare.vertical_angle_sum_deg[i], e.sum, 1e-3);
       EXPECT_FLOAT_EQ(zone.bare.share[i], static_cast<float>(e.tips / 3.0));
-      if (e.tips > 0) EXPECT_NEAR(zone.bare.nearest_m[i], e.nearest, 1e-2);
+      if (e.tips > 0) {
+        EXPECT_NEAR(zone.bare.nearest_m[i], e.nearest, 1e-2);
+      }
       seen += e.tips > 0 ? 1 : 0;
     }
   }
@@ -133,7 +135,8 @@ TEST(Turbines, BehindAWallSimilarTrianglesTell) {
   const std::size_t i = cell_at(zone, 105, 105);
   const double least = 2 + 8 * 800.0 / 395;
   EXPECT_NEAR(zone.bare.visible_height_m[i], 120 - least, 1e-3);
-  EXPECT_NEAR(zone.bare.vertical_angle_deg[i], (std::atan(118 / 800.0) - std::atan((least - 2) / 800)) * kDegrees, 1e-4);
+  EXPECT_NEAR(zone.bare.vertical_angle_deg[i], (std::atan(118 / 800.0) - std::atan((least - 2) / 800)) * kDegrees,
+              1e-4);
   EXPECT_EQ(zone.bare.hub_count[i], 1);
   EXPECT_FLOAT_EQ(zone.bare.nearest_m[i], 800);
   EXPECT_NEAR(zone.bare.horizontal_angle_deg[i], 2 * std::atan(50 / 800.0) * kDegrees, 1e-4);
@@ -149,7 +152,8 @@ TEST(Turbines, TheScreenedSurfaceHidesWhereFeaturesStandAndEyesStayOnTheGround) 
   request.turbines = {turbine(1, 905, 105)};
   const Zone zone = survey(ground, request, &screen);
   ASSERT_TRUE(zone.screened);
-  const std::size_t behind = cell_at(zone, 105, 105), before = cell_at(zone, 705, 105), within = cell_at(zone, 495, 105);
+  const std::size_t behind = cell_at(zone, 105, 105), before = cell_at(zone, 705, 105),
+                    within = cell_at(zone, 495, 105);
   EXPECT_EQ(zone.bare.tip_count[behind], 1);
   EXPECT_EQ(zone.screened->tip_count[behind], 0);
   EXPECT_EQ(zone.screened->visible_height_m[behind], 0);
@@ -255,7 +259,8 @@ TEST(Horizon, AgreesWithCountingDegrees) {
       for (unsigned i = 0; i < width; ++i) covered[(from + i) % 360] = true;
     }
     int widest = 0, gap = 0;
-    for (int i = 0; i < 720; ++i) widest = std::max(widest, gap = covered[static_cast<std::size_t>(i % 360)] ? 0 : gap + 1);
+    for (int i = 0; i < 720; ++i)
+      widest = std::max(widest, gap = covered[static_cast<std::size_t>(i % 360)] ? 0 : gap + 1);
     const Horizon horizon = horizon_of(arcs);
     EXPECT_NEAR(horizon.held.width, 360 - std::min(widest, 360), 1e-9);
     EXPECT_NEAR(horizon.occupied, static_cast<double>(std::count(covered.begin(), covered.end(), true)), 1e-9);

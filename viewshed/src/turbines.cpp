@@ -48,7 +48,8 @@ void validate(const ZoneRequest& request) {
                                    t.number, t.radius));
   }
   if (!std::isfinite(request.observer_height) || request.observer_height < 0)
-    throw InputError(fmt::format("observer height {:g}: give 0 or a positive number of metres", request.observer_height));
+    throw InputError(
+        fmt::format("observer height {:g}: give 0 or a positive number of metres", request.observer_height));
   if (request.cell_size.has_value() == request.grid.has_value())
     throw InputError("give a cell size or a grid, and not both");
   if (request.cell_size && !positive(*request.cell_size))
@@ -64,7 +65,8 @@ void place_turbines(const Scene& ground, Zone& zone) {
       zone.ground_m.push_back(*height);
       placed.push_back(std::move(t));
     } else {
-      zone.misplaced.push_back({t.number, fmt::format("there is no data at {:.10g},{:.10g}", t.position.x, t.position.y)});
+      zone.misplaced.push_back(
+          {t.number, fmt::format("there is no data at {:.10g},{:.10g}", t.position.x, t.position.y)});
     }
   }
   if (placed.empty()) throw InputError("no turbine stands on any data; see the CRS of the turbines and of the store");
@@ -93,9 +95,9 @@ double ceiling(const Tin& tin, const ZoneRequest& request) {
 
 void warn_of_voids(const Tin& tin, const std::vector<BoundaryEdge>& boundary, Zone& zone) {
   if (zone.request.nodata != NoData::kUnknown) return;
-  const bool crossed = std::any_of(
-      zone.request.turbines.begin(), zone.request.turbines.end(),
-      [&](const Turbine& t) { return surface_resumes(tin, boundary, t.position, t.radius); });
+  const bool crossed = std::any_of(zone.request.turbines.begin(), zone.request.turbines.end(), [&](const Turbine& t) {
+    return surface_resumes(tin, boundary, t.position, t.radius);
+  });
   if (crossed) zone.warnings.emplace_back(kVoidsWarning);
 }
 
@@ -151,7 +153,8 @@ bool any_stands(const std::vector<ThemeInfo>& themes, const ThemeChoice& choice)
 
 Zone survey_turbines(const Tin& ground, const Tin* screened, const ZoneRequest& request, Progress& progress) {
   validate(request);
-  if (ground.triangles.empty()) throw InputError("no turbine stands on any data; see the CRS of the turbines and of the store");
+  if (ground.triangles.empty())
+    throw InputError("no turbine stands on any data; see the CRS of the turbines and of the store");
   Zone zone;
   zone.request = request;
   Stopwatch watch;

@@ -124,9 +124,9 @@ std::string class_style(const std::vector<StyleClass>& classes) {
       "    <rasterrenderer type=\"paletted\" band=\"1\" opacity=\"0.7\" alphaBand=\"-1\" nodataColor=\"\">\n"
       "      <rasterTransparency/>\n      <colorPalette>\n";
   for (const StyleClass& c : classes)
-    text += fmt::format(
-        "        <paletteEntry value=\"{}\" label=\"{}\" color=\"#{:02x}{:02x}{:02x}\" alpha=\"{}\"/>\n", c.value,
-        escaped(c.label), c.red, c.green, c.blue, c.alpha);
+    text +=
+        fmt::format("        <paletteEntry value=\"{}\" label=\"{}\" color=\"#{:02x}{:02x}{:02x}\" alpha=\"{}\"/>\n",
+                    c.value, escaped(c.label), c.red, c.green, c.blue, c.alpha);
   return style(text + "      </colorPalette>\n    </rasterrenderer>\n");
 }
 

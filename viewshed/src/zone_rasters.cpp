@@ -26,26 +26,45 @@ struct Quantity {
 
 const std::vector<Quantity>& quantities() {
   static const std::vector<Quantity> kQuantities{
-      {"visible-height", &Visibility::visible_height_m,
-       "tip height less the least visible height, metres, of the turbine with the greatest; 0 where none is seen", "m",
+      {"visible-height",
+       &Visibility::visible_height_m,
+       "tip height less the least visible height, metres, of the turbine with the greatest; 0 where none is seen",
+       "m",
        {10, 25, 50, 75, 100, 150}},
-      {"vertical-angle", &Visibility::vertical_angle_deg,
-       "vertical angle that the visible part of a turbine takes up, degrees, the greatest of the turbines", "deg",
+      {"vertical-angle",
+       &Visibility::vertical_angle_deg,
+       "vertical angle that the visible part of a turbine takes up, degrees, the greatest of the turbines",
+       "deg",
        {0.1, 0.25, 0.5, 1, 2, 5}},
-      {"vertical-angle-sum", &Visibility::vertical_angle_sum_deg,
-       "vertical angles of all turbines' visible parts, degrees, summed", "deg", {0.5, 1, 2.5, 5, 10, 25}},
-      {"horizontal-angle", &Visibility::horizontal_angle_deg,
-       "smallest horizontal angle that holds every visible turbine's rotor, degrees; 0 where none is seen", "deg",
+      {"vertical-angle-sum",
+       &Visibility::vertical_angle_sum_deg,
+       "vertical angles of all turbines' visible parts, degrees, summed",
+       "deg",
+       {0.5, 1, 2.5, 5, 10, 25}},
+      {"horizontal-angle",
+       &Visibility::horizontal_angle_deg,
+       "smallest horizontal angle that holds every visible turbine's rotor, degrees; 0 where none is seen",
+       "deg",
        {1, 2.5, 5, 10, 20, 45}},
-      {"horizontal-from", &Visibility::horizontal_from_deg,
-       "azimuth from grid north, degrees, at which that angle begins, clockwise; no value where none is seen", "deg",
+      {"horizontal-from",
+       &Visibility::horizontal_from_deg,
+       "azimuth from grid north, degrees, at which that angle begins, clockwise; no value where none is seen",
+       "deg",
        {45, 90, 135, 180, 225, 270, 315}},
-      {"horizontal-occupied", &Visibility::horizontal_occupied_deg,
-       "the part of that angle that rotors themselves take up, degrees", "deg", {0.5, 1, 2.5, 5, 10, 20}},
-      {"share", &Visibility::share, "turbines with their tip seen, as a share of all turbines, 0 to 1", "of all",
+      {"horizontal-occupied",
+       &Visibility::horizontal_occupied_deg,
+       "the part of that angle that rotors themselves take up, degrees",
+       "deg",
+       {0.5, 1, 2.5, 5, 10, 20}},
+      {"share",
+       &Visibility::share,
+       "turbines with their tip seen, as a share of all turbines, 0 to 1",
+       "of all",
        {0.1, 0.25, 0.5, 0.75, 0.9}},
-      {"nearest", &Visibility::nearest_m,
-       "horizontal distance to the nearest turbine with its tip seen, metres; no value where none is seen", "m",
+      {"nearest",
+       &Visibility::nearest_m,
+       "horizontal distance to the nearest turbine with its tip seen, metres; no value where none is seen",
+       "m",
        {1000, 2500, 5000, 10000, 20000, 30000, 40000}},
   };
   return kQuantities;
@@ -89,7 +108,9 @@ std::vector<float> difference(const std::vector<T>& bare, const std::vector<T>& 
 
 void write_differences(const Zone& zone, RasterFolder& folder) {
   const auto bands = count_bands(zone.request.turbines.size());
-  const auto what = [](const std::string& of) { return fmt::format("{}: bare ground less screened; NaN: {}", of, kNoValue); };
+  const auto what = [](const std::string& of) {
+    return fmt::format("{}: bare ground less screened; NaN: {}", of, kNoValue);
+  };
   const Visibility &bare = zone.bare, &screened = *zone.screened;
   folder.write("hub-count-difference", what("hubs seen"), difference(bare.hub_count, screened.hub_count, kCountOutside),
                with_nodata(kNaN), banded_style(bands));
@@ -126,8 +147,8 @@ void write_farm_raster(const std::vector<std::uint32_t>& farms, const std::vecto
   std::vector<std::uint8_t> classes(farms.size());
   std::transform(farms.begin(), farms.end(), classes.begin(),
                  [](std::uint32_t f) { return f == kOutsideFarms ? kOutsideClass : static_cast<std::uint8_t>(f); });
-  folder.write(name, fmt::format("which farms have a tip seen, by combination; 255: {}", kNoValue), classes, description,
-               class_style(style));
+  folder.write(name, fmt::format("which farms have a tip seen, by combination; 255: {}", kNoValue), classes,
+               description, class_style(style));
 }
 
 void write_farms(const Zone& zone, RasterFolder& folder) {

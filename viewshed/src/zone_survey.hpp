@@ -25,9 +25,9 @@ class ZoneSurvey {
 
  private:
   struct Axis {
-    double x = 0, y = 0;                             ///< grid units
-    double base = 0, tip = 0;                        ///< elevation, grid units
-    double hub = 0;                                  ///< -infinity where it is not known
+    double x = 0, y = 0;                                        ///< grid units
+    double base = 0, tip = 0;                                   ///< elevation, grid units
+    double hub = 0;                                             ///< -infinity where it is not known
     double position_x = 0, position_y = 0, radius_squared = 0;  ///< metres
   };
   struct TileWork;

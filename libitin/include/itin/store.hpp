@@ -21,8 +21,8 @@
 
 namespace itin {
 
-class PointIndex;  // src/store/point_index.hpp
-class StoreFile;   // src/store/store_file.hpp
+class PointIndex;        // src/store/point_index.hpp
+class StoreFile;         // src/store/store_file.hpp
 struct StoredFootprint;  // src/store/footprint_codec.hpp
 
 /// T_k + lo <= T_0 <= T_k + hi, metres.

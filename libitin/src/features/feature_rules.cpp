@@ -16,7 +16,8 @@ constexpr std::array<std::string_view, 4> kBases{"minimum", "mean", "maximum", "
 
 std::size_t index_of(std::string_view what, const std::array<std::string_view, 4>& names, std::string_view name) {
   const auto* found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) throw InputError(fmt::format("{} '{}': give one of {}", what, name, fmt::join(names, ", ")));
+  if (found == names.end())
+    throw InputError(fmt::format("{} '{}': give one of {}", what, name, fmt::join(names, ", ")));
   return static_cast<std::size_t>(found - names.begin());
 }
 

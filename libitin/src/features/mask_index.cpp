@@ -16,8 +16,8 @@ bool encloses(const GridPolygon& polygon, std::int64_t x, std::int64_t y) {
     const std::int64_t ax = 2 * std::int64_t{a.x}, ay = 2 * std::int64_t{a.y}, bx = 2 * std::int64_t{b.x},
                        by = 2 * std::int64_t{b.y};
     if ((ay > y) == (by > y)) return;
-    const double at = static_cast<double>(ax) + static_cast<double>(y - ay) * static_cast<double>(bx - ax) /
-                                                    static_cast<double>(by - ay);
+    const double at = static_cast<double>(ax) +
+                      static_cast<double>(y - ay) * static_cast<double>(bx - ax) / static_cast<double>(by - ay);
     if (static_cast<double>(x) < at) inside = !inside;
   });
   return inside;

@@ -1,5 +1,3 @@
-#include <itin/file_digest.hpp>
-
 #include <array>
 #include <cerrno>
 #include <cstdio>
@@ -12,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/file_digest.hpp>
 
 namespace itin {
 

@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/file_digest.hpp>
 
 #include "import/city_json.hpp"
-#include <itin/file_digest.hpp>
 #include "import/scattered_source.hpp"
 
 namespace itin {

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
-
 #include <itin/file_digest.hpp>
+
 #include "import/quiet_gdal.hpp"
 #include "import/scattered_source.hpp"
 

@@ -60,7 +60,8 @@ class RowReader {
     SiteRow row;
     row.feature = feature.GetFID();
     for (const int field : fields_) {
-      const bool present = field >= 0 && feature.IsFieldSetAndNotNull(field) && *feature.GetFieldAsString(field) != '\0';
+      const bool present =
+          field >= 0 && feature.IsFieldSetAndNotNull(field) && *feature.GetFieldAsString(field) != '\0';
       row.values.push_back(present ? std::optional<std::string>(feature.GetFieldAsString(field)) : std::nullopt);
     }
     row.error = place(feature, row.position);

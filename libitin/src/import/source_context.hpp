@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
+#include <itin/file_digest.hpp>
 #include <itin/geometry.hpp>
 
 #include "import/crs.hpp"
-#include <itin/file_digest.hpp>
 #include "import/terrain_source.hpp"
 
 namespace itin {

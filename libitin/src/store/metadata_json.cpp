@@ -60,17 +60,13 @@ SourceInfo source_from_json(const json& j) {
 }
 
 ordered_json theme_to_json(const ThemeInfo& theme) {
-  return {{"name", theme.name},
-          {"kind", name_of(theme.kind)},
-          {"features", theme.features},
-          {"vertices", theme.vertices},
-          {"segments", theme.segments},
-          {"footprint_blocks", theme.footprint_blocks}};
+  return {{"name", theme.name},         {"kind", name_of(theme.kind)}, {"features", theme.features},
+          {"vertices", theme.vertices}, {"segments", theme.segments},  {"footprint_blocks", theme.footprint_blocks}};
 }
 
 ThemeInfo theme_from_json(const json& j) {
   try {
-    return {j.at("name").get<std::string>(), theme_kind(j.at("kind").get<std::string>()),
+    return {j.at("name").get<std::string>(),       theme_kind(j.at("kind").get<std::string>()),
             j.at("features").get<std::uint64_t>(), j.at("vertices").get<std::uint64_t>(),
             j.at("segments").get<std::uint64_t>(), j.value("footprint_blocks", std::uint32_t{0})};
   } catch (const InputError& e) {
@@ -120,7 +116,8 @@ std::string metadata_to_json(const StoreMetadata& metadata) {
   j["themes"] = ordered_json::array();
   for (const ThemeInfo& theme : metadata.themes) j["themes"].push_back(theme_to_json(theme));
   j["parts"] = ordered_json::array();
-  for (const ThemePart& part : metadata.parts) j["parts"].push_back({{"theme", part.theme}, {"coarsest", part.coarsest}});
+  for (const ThemePart& part : metadata.parts)
+    j["parts"].push_back({{"theme", part.theme}, {"coarsest", part.coarsest}});
   j["vertices"] = metadata.vertices;
   // File names may hold bytes that are no UTF-8.
   return j.dump(-1, ' ', false, ordered_json::error_handler_t::replace);

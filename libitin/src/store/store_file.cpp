@@ -152,9 +152,8 @@ void StoreFile::segments(int tree, const GridBox& box, std::vector<Segment>& out
 
 std::vector<StoredFootprint> StoreFile::read_footprints(std::uint16_t theme, std::uint32_t number) const {
   const std::uint64_t key = format::footprint_key(theme, number);
-  return at_place(rows_.path(), format::place("block", key), [&] {
-    return decode_footprints(rows_.read(BlobKind::Block, key));
-  });
+  return at_place(rows_.path(), format::place("block", key),
+                  [&] { return decode_footprints(rows_.read(BlobKind::Block, key)); });
 }
 
 std::int32_t StoreFile::greatest_height(std::uint16_t part, const GridBox& box) const {

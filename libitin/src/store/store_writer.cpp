@@ -144,7 +144,8 @@ void StoreWriter::Impl::add_points(int tree, const Cell& cell, std::span<const G
     block = encode_block(cell, points, sources);
   }
   for (const GridPoint& p : points) metadata_.bounds.extend(p.x, p.y);
-  metadata_.vertices += points.size() - static_cast<std::size_t>(std::count(sources.begin(), sources.end(), format::kMask));
+  metadata_.vertices +=
+      points.size() - static_cast<std::size_t>(std::count(sources.begin(), sources.end(), format::kMask));
   add_leaf(leaf, block);
 }
 
@@ -171,7 +172,8 @@ void StoreWriter::Impl::add_segments(const std::vector<Segment>& segments) {
 }
 
 void StoreWriter::Impl::add_part_vertices(std::uint16_t part, std::span<const GridPoint> points,
-                                          std::span<const std::uint16_t> sources, std::span<const FeatureReach> reaches) {
+                                          std::span<const std::uint16_t> sources,
+                                          std::span<const FeatureReach> reaches) {
   if (part == kCoverage || part > format::kMaxThemes || points.size() != sources.size()) {
     throw std::invalid_argument("not a part of a theme");
   }

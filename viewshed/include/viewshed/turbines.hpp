@@ -57,15 +57,15 @@ struct ZoneRequest {
 struct Visibility {
   std::vector<std::uint16_t> hub_count;
   std::vector<std::uint16_t> tip_count;
-  std::vector<std::uint32_t> turbines;          ///< tips seen: grids of 32-bit words, see turbine_bit()
-  std::vector<float> visible_height_m;          ///< tip less least visible height, the greatest over the turbines; or 0
-  std::vector<float> vertical_angle_deg;        ///< that the visible part of a turbine takes up, the greatest; or 0
-  std::vector<float> vertical_angle_sum_deg;    ///< over all turbines
-  std::vector<float> horizontal_angle_deg;      ///< of the smallest arc that holds all visible rotors; or 0
-  std::vector<float> horizontal_from_deg;       ///< that arc's anticlockwise end, from grid north; NaN where none is seen
-  std::vector<float> horizontal_occupied_deg;   ///< of the arc, the part that rotors take up
-  std::vector<float> share;                     ///< tips seen, of all turbines of the request
-  std::vector<float> nearest_m;                 ///< horizontal distance to the nearest turbine seen; NaN where none is
+  std::vector<std::uint32_t> turbines;        ///< tips seen: grids of 32-bit words, see turbine_bit()
+  std::vector<float> visible_height_m;        ///< tip less least visible height, the greatest over the turbines; or 0
+  std::vector<float> vertical_angle_deg;      ///< that the visible part of a turbine takes up, the greatest; or 0
+  std::vector<float> vertical_angle_sum_deg;  ///< over all turbines
+  std::vector<float> horizontal_angle_deg;    ///< of the smallest arc that holds all visible rotors; or 0
+  std::vector<float> horizontal_from_deg;     ///< that arc's anticlockwise end, from grid north; NaN where none is seen
+  std::vector<float> horizontal_occupied_deg;  ///< of the arc, the part that rotors take up
+  std::vector<float> share;                    ///< tips seen, of all turbines of the request
+  std::vector<float> nearest_m;                ///< horizontal distance to the nearest turbine seen; NaN where none is
 };
 
 /// Where Visibility::turbines keeps turbine `number` (from 1).
@@ -85,8 +85,9 @@ struct Misplaced {
 
 /// Above a radar's horizon over bare ground.
 struct RadarView {
-  double ground_m = 0;          ///< under the radar
-  std::vector<float> height_m;  ///< a cell: the least height above its ground that is seen; NaN above 1000 m or no ground
+  double ground_m = 0;  ///< under the radar
+  std::vector<float>
+      height_m;  ///< a cell: the least height above its ground that is seen; NaN above 1000 m or no ground
   std::vector<double> turbine_m;  ///< what is seen of each turbine of the request, from its tip down; 0: hidden
 };
 

@@ -2,8 +2,8 @@
 //
 //   for (const ZoneFile& file : write_zone_rasters("out", zone, options)) list(file.name, file.what);
 //
-// Names are as in the command line's contract: tip-count.tif, tip-count-screened.tif, tip-count-difference.tif (bare less
-// screened), and so on. Beside every raster lies NAME.qml.
+// Names are as in the command line's contract: tip-count.tif, tip-count-screened.tif, tip-count-difference.tif (bare
+// less screened), and so on. Beside every raster lies NAME.qml.
 #pragma once
 
 #include <string>
@@ -38,8 +38,8 @@ std::vector<std::string> farms_of(const Zone& zone);
 /// Throws FileError. Existing files are replaced.
 std::vector<ZoneFile> write_zone_rasters(const std::string& folder, const Zone& zone, const ZoneFileOptions& options);
 
-/// radar-height.tif, where the zone has a radar; and link-exclusion.tif, of rotors of that radius, where links are given.
-/// Throws FileError.
+/// radar-height.tif, where the zone has a radar; and link-exclusion.tif, of rotors of that radius, where links are
+/// given. Throws FileError.
 std::vector<ZoneFile> write_radar_raster(const std::string& folder, const Zone& zone, const ZoneFileOptions& options);
 std::vector<ZoneFile> write_link_raster(const std::string& folder, const Zone& zone, const ZoneFileOptions& options,
                                         const LinkStudy& study);
