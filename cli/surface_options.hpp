@@ -18,7 +18,10 @@ class ThemeOptions {
   /// Throws InputError.
   void validate();
   const ThemeChoice& choice() const { return choice_; }
+  /// Whether the option was.
   bool given() const { return !themes_.empty(); }
+  /// Whether any features were asked for.
+  bool any() const { return given() && themes_ != "none"; }
   /// What was asked for, where it was.
   Document parameters() const;
 

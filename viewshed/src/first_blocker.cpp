@@ -14,13 +14,13 @@ std::optional<FirstBlocker::Blocker> FirstBlocker::find(const SightLines& lines,
   const SightLine line({lines.from_x[i], lines.from_y[i], lines.from_z[i]},
                        {lines.to_x[i], lines.to_y[i], lines.to_z[i]}, drop_, grazing_);
   std::optional<Blocker> first;
-  double reach = 1;
-  pyramid_.search_within(line, reach, [&](std::uint32_t triangle) {
+  Sheaf sheaf(line);
+  pyramid_.search(sheaf, [&](std::uint32_t triangle) {
     const Triangle& t = tin_.triangles[triangle];
     const std::optional<double> at = line.hidden_from(tin_.vertices[t[0]], tin_.vertices[t[1]], tin_.vertices[t[2]]);
     if (!at || (first && (*at > first->at || (*at == first->at && triangle >= first->triangle)))) return;
     first = {triangle, *at};
-    reach = *at;
+    sheaf.reach = *at;
   });
   return first;
 }

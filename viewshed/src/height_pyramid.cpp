@@ -29,12 +29,19 @@ double reciprocal(double d) {
 }  // namespace
 
 HeightPyramid::HeightPyramid(const Tin& tin)
-    : tin_(tin), bin_grid_(bin_grid(tin)), bins_(tin, bin_grid_), side_(static_cast<std::uint32_t>(bin_grid_.rows())) {
+    : bin_grid_(bin_grid(tin)),
+      bins_(tin, bin_grid_),
+      side_(static_cast<std::uint32_t>(bin_grid_.rows())),
+      tops_(tin.triangles.size()),
+      grid_(tin.grid) {
+  std::transform(tin.triangles.begin(), tin.triangles.end(), tops_.begin(), [&](const Triangle& t) {
+    return std::max({tin.vertices[t[0]].z, tin.vertices[t[1]].z, tin.vertices[t[2]].z});
+  });
   constexpr std::int32_t kNothing = std::numeric_limits<std::int32_t>::min();
   std::vector<std::int32_t>& bins = highest_.emplace_back(std::size_t{side_} * side_, kNothing);
   parallel_for(side_, [&](std::size_t row) {
     for (std::size_t b = row * side_; b < (row + 1) * side_; ++b)
-      for (const std::uint32_t t : bins_.triangles(b)) bins[b] = std::max(bins[b], highest(tin.triangles[t]));
+      for (const std::uint32_t t : bins_.triangles(b)) bins[b] = std::max(bins[b], tops_[t]);
   });
   for (std::size_t n = side_ / 2; n > 0; n /= 2) {
     std::vector<std::int32_t> coarser(n * n);
@@ -47,12 +54,13 @@ HeightPyramid::HeightPyramid(const Tin& tin)
   }
 }
 
-HeightPyramid::Track HeightPyramid::track_of(const SightLine& line) const {
-  const Grid& grid = tin_.grid;
-  const double bins_per_unit = grid.resolution / bin_grid_.cell_width();
-  return {bin_grid_.column_at(grid.origin.x + line.from().x * grid.resolution),
-          bin_grid_.row_at(grid.origin.y + line.from().y * grid.resolution), reciprocal(line.dx() * bins_per_unit),
-          reciprocal(-line.dy() * bins_per_unit)};
+HeightPyramid::Track HeightPyramid::track_of(const Sheaf& sheaf) const {
+  const auto column = [&](double x) { return bin_grid_.column_at(grid_.origin.x + x * grid_.resolution); };
+  const auto row = [&](double y) { return bin_grid_.row_at(grid_.origin.y + y * grid_.resolution); };
+  const auto side = [](double from, double to) { return Side{from, reciprocal(to - from)}; };
+  // Rows count southwards.
+  return {side(column(sheaf.from_west), column(sheaf.to_west)), side(column(sheaf.from_east), column(sheaf.to_east)),
+          side(row(sheaf.from_north), row(sheaf.to_north)), side(row(sheaf.from_south), row(sheaf.to_south))};
 }
 
 }  // namespace itin::viewshed

@@ -46,17 +46,18 @@ class Panorama {
       return SightLine(eye_.units, {eye_.units.x + x * reach_, eye_.units.y + y * reach_, end}, drop_, grazing_);
     };
     // Far below all ground in sight.
-    double end = eye_.units.z - 1e4 * reach_;
-    std::optional<std::uint32_t> highest;
     const SightLine line = line_to(eye_.units.z);
-    pyramid_.search(line, end, [&](std::uint32_t triangle) {
+    Sheaf sheaf(line);
+    sheaf.end = eye_.units.z - 1e4 * reach_;
+    std::optional<std::uint32_t> highest;
+    pyramid_.search(sheaf, [&](std::uint32_t triangle) {
       const Triangle& t = surface_.triangles[triangle];
       const double clear = line.clearing_end(surface_.vertices[t[0]], surface_.vertices[t[1]], surface_.vertices[t[2]]);
-      if (clear > end) end = clear, highest = triangle;
+      if (clear > sheaf.end) sheaf.end = clear, highest = triangle;
     });
     if (!highest) return std::nullopt;
-    if (std::isinf(end)) throw InputError("the observer stands beneath a roof or top: it has no horizon");
-    return point(line_to(end), *highest, azimuth, end);
+    if (std::isinf(sheaf.end)) throw InputError("the observer stands beneath a roof or top: it has no horizon");
+    return point(line_to(sheaf.end), *highest, azimuth, sheaf.end);
   }
 
  private:

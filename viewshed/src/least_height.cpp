@@ -3,8 +3,58 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <utility>
 
 namespace itin::viewshed {
+
+/// Lines of a packet whose upper height no ray found hidden.
+struct LeastHeights::Search {
+  const Tin& tin;
+  std::array<SightLine, SightLines::kSize> exact;
+  Memory& memory;
+  Heights least{};
+  std::array<unsigned, SightLines::kSize> open{};  ///< numbers of lines
+  std::size_t count = 0;
+
+  template <std::size_t... i>
+  Search(const Tin& surface, const SightLines& l, Memory& remembered, double drop, double grazing,
+         std::index_sequence<i...>)
+      : tin(surface),
+        exact{SightLine({l.from_x[i], l.from_y[i], l.from_z[i]}, {l.to_x[i], l.to_y[i], l.to_z[i]}, drop, grazing)...},
+        memory(remembered) {}
+
+  void add(unsigned line, double lower) {
+    open[count++] = line;
+    least[line] = lower;
+    if (memory.silhouettes[line] < tin.triangles.size()) clear(line, memory.silhouettes[line]);
+  }
+
+  void clear(unsigned line, std::uint32_t triangle) {
+    const Triangle& t = tin.triangles[triangle];
+    const double end = exact[line].clearing_end(tin.vertices[t[0]], tin.vertices[t[1]], tin.vertices[t[2]]);
+    if (end > least[line]) least[line] = end, memory.silhouettes[line] = triangle;
+  }
+
+  double lowest() const {
+    double result = std::numeric_limits<double>::infinity();
+    for (std::size_t n = 0; n < count; ++n) result = std::min(result, least[open[n]]);
+    return result;
+  }
+
+  void run(const HeightPyramid& pyramid) {
+    Sheaf sheaf;
+    for (std::size_t n = 0; n < count; ++n) sheaf.add(exact[open[n]]);
+    sheaf.end = lowest();
+    // A triangle is listed in several bins, and met in them one after the other.
+    std::array<std::uint32_t, 64> recent;
+    recent.fill(kNone);
+    pyramid.search(sheaf, [&](std::uint32_t triangle) {
+      if (std::exchange(recent[triangle % recent.size()], triangle) == triangle) return;
+      for (std::size_t n = 0; n < count; ++n) clear(open[n], triangle);
+      sheaf.end = lowest();
+    });
+  }
+};
 
 LeastHeights::LeastHeights(const Tin& tin, const Earth& earth, const Scene& scene)
     : tin_(tin),
@@ -14,32 +64,25 @@ LeastHeights::LeastHeights(const Tin& tin, const Earth& earth, const Scene& scen
       pyramid_(tin) {}
 
 LeastHeights::Heights LeastHeights::find(const SightLines& lines, const Heights& lower, Memory& memory) const {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   Heights result;
-  result.fill(std::numeric_limits<double>::quiet_NaN());
-  unsigned open = lines.active & ~scene_.hidden(lines, memory.occluder);
-  for (; open != 0; open &= open - 1) {
-    const auto i = static_cast<unsigned>(std::countr_zero(open));
-    result[i] = find_one(lines, i, std::min(lower[i], lines.to_z[i]), memory);
+  result.fill(kNaN);
+  const unsigned open = lines.active & ~scene_.hidden(lines, memory.occluder);
+  if (open == 0) return result;
+  Search search(tin_, lines, memory, drop_, grazing_, std::make_index_sequence<SightLines::kSize>());
+  for (unsigned rest = open; rest != 0; rest &= rest - 1) {
+    const auto i = static_cast<unsigned>(std::countr_zero(rest));
+    search.add(i, std::min(lower[i], lines.to_z[i]));
+  }
+  search.run(pyramid_);
+  for (std::size_t n = 0; n < search.count; ++n) {
+    const unsigned i = search.open[n];
+    result[i] = search.least[i];
+    // Rays pass what rises above the line by less than their error bound. And what rises by less than a grazing is only
+    // touched, though clearing it takes a hair more than the upper height.
+    if (result[i] > lines.to_z[i]) result[i] = scene_.hidden_between(lines, i, 0, 1) ? kNaN : lines.to_z[i];
   }
   return result;
-}
-
-double LeastHeights::find_one(const SightLines& lines, unsigned i, double lower, Memory& memory) const {
-  const SightLine line({lines.from_x[i], lines.from_y[i], lines.from_z[i]},
-                       {lines.to_x[i], lines.to_y[i], lines.to_z[i]}, drop_, grazing_);
-  double least = lower;
-  const auto clear = [&](std::uint32_t triangle) {
-    const Triangle& t = tin_.triangles[triangle];
-    const double end = line.clearing_end(tin_.vertices[t[0]], tin_.vertices[t[1]], tin_.vertices[t[2]]);
-    if (end > least) least = end, memory.silhouette = triangle;
-  };
-  if (memory.silhouette) clear(*memory.silhouette);
-  pyramid_.search(line, least, clear);
-  if (least <= lines.to_z[i]) return least;
-  // Rays pass what rises above the line by less than their error bound. And what rises by less than a grazing is only
-  // touched, though clearing it takes a hair more than the upper height.
-  const bool hidden = scene_.hidden_between(lines, i, 0, 1);
-  return hidden ? std::numeric_limits<double>::quiet_NaN() : lines.to_z[i];
 }
 
 }  // namespace itin::viewshed

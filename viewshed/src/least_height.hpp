@@ -6,8 +6,9 @@
 //
 // Method. An occluding triangle says exactly at which height of the end the line clears it (SightLine::clearing_end),
 // and the least height is the greatest of these over all triangles under the line. Rays decide quickly where even the
-// upper height is hidden; elsewhere a branch and bound over a pyramid of greatest heights finds that maximum, pruned by
-// what hid the neighbouring line. There is no step size: the result touches one triangle and clears all.
+// upper height is hidden; elsewhere a branch and bound over a pyramid of greatest heights finds that maximum, for all
+// lines of a packet at once, pruned by what hid the neighbouring packet. There is no step size: the result touches one
+// triangle and clears all.
 //
 // Accuracy. Double precision throughout: the line at the height found has a clearance between -kGrazing and 0, up to
 // rounding, or the height is the lower bound. So it agrees with Scene::hidden_between and with single lines of sight.
@@ -15,7 +16,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 
 #include <itin/earth.hpp>
 #include <itin/tin.hpp>
@@ -34,10 +34,12 @@ class LeastHeights {
   LeastHeights(const Tin& tin, const Earth& earth, const Scene& scene);
 
   using Heights = std::array<double, SightLines::kSize>;
+  static constexpr std::uint32_t kNone = 0xffffffff;
   /// What hid the last lines.
   struct Memory {
-    Occluder occluder;                        ///< at the upper height
-    std::optional<std::uint32_t> silhouette;  ///< at the least height
+    Memory() { silhouettes.fill(kNone); }
+    Occluder occluder;                                         ///< at the upper height
+    std::array<std::uint32_t, SightLines::kSize> silhouettes;  ///< of each line at the least height
   };
 
   /// For each active line the least height of its end `to` in grid units, from `lower` up to lines.to_z, at which it is
@@ -47,7 +49,7 @@ class LeastHeights {
   Heights find(const SightLines& lines, const Heights& lower, Memory& memory) const;
 
  private:
-  double find_one(const SightLines& lines, unsigned i, double lower, Memory& memory) const;
+  struct Search;
 
   const Tin& tin_;
   const Scene& scene_;

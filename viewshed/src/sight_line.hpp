@@ -78,6 +78,7 @@ class SightLine {
   /// touches the line, to half a grazing, so that rounding cannot make it hide again.
   double clearing_end(const GridPoint& a, const GridPoint& b, const GridPoint& c) const {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    if (beside(a, b, c)) return -kInfinity;
     const Section under = section(a, b, c);
     if (!under.meets_line()) return -kInfinity;
     const double first = std::max(under.low, 0.0), last = std::min(under.high, 1.0);
@@ -98,19 +99,11 @@ class SightLine {
     return to_z() + result;
   }
 
-  /// Height of the straight line at the fraction s above a flat Earth whose ground is not raised by curvature, for the
-  /// end `to` at the height `end`: lowest over [first, last].
-  double lowest_over(double first, double last, double end) const {
-    const double dz = end - from_.z;
-    const auto height = [&](double s) { return from_.z + s * (dz - bulge_ * (1 - s)); };
-    double result = std::min(height(first), height(last));
-    if (bulge_ > 0) result = std::min(result, height(std::clamp(0.5 - dz / (2 * bulge_), first, last)));
-    return result;
-  }
-
   const Point3& from() const { return from_; }
   double dx() const { return dx_; }
   double dy() const { return dy_; }
+  /// Of the ground above the straight line, by curvature: bulge() s (1 - s).
+  double bulge() const { return bulge_; }
   double to_z() const { return from_.z + dz_; }
 
  private:
@@ -119,6 +112,13 @@ class SightLine {
     double along;  ///< fraction of the line's length
     double rise;   ///< above the straight line
   };
+
+  /// Whether the triangle lies to one side of the line.
+  bool beside(const GridPoint& a, const GridPoint& b, const GridPoint& c) const {
+    const auto side = [&](const GridPoint& p) { return dx_ * (p.y - from_.y) - dy_ * (p.x - from_.x); };
+    const double sa = side(a), sb = side(b), sc = side(c);
+    return (sa > 0 && sb > 0 && sc > 0) || (sa < 0 && sb < 0 && sc < 0);
+  }
 
   /// A triangle's cut by the line's vertical plane: from `low` to `high` along the line.
   struct Section {

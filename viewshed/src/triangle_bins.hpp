@@ -12,7 +12,8 @@ namespace itin::viewshed {
 
 class TriangleBins {
  public:
-  /// A triangle is listed in every cell of `grid` that its box meets, by ascending number. O(n) plus the entries.
+  /// A triangle is listed in every cell of `grid` that it meets, or nearly meets, by ascending number. O(n) plus the
+  /// entries.
   TriangleBins(const Tin& tin, const RasterGrid& grid);
 
   std::span<const std::uint32_t> triangles(std::size_t bin) const {

@@ -50,7 +50,8 @@ double VerticalOdds::least_margin(const SightLines& lines, unsigned i, Memory& m
   const Deviation deviation(std::hypot(line.dx(), line.dy()), correlation_);
   double least = kSure;
   // Ground further below the line than this has more of a margin.
-  double near = kSure * sigma_ * Deviation::kMost;
+  Sheaf sheaf(line);
+  sheaf.margin = kSure * sigma_ * Deviation::kMost;
   const auto consider = [&](std::uint32_t triangle) {
     const Triangle& t = tin_.triangles[triangle];
     line.for_each_crest(tin_.vertices[t[0]], tin_.vertices[t[1]], tin_.vertices[t[2]], [&](double s, double rise) {
@@ -59,12 +60,12 @@ double VerticalOdds::least_margin(const SightLines& lines, unsigned i, Memory& m
       if (unit <= 1e-9 * sigma_ || -rise >= least * unit) return;
       least = std::max(-rise / unit, -kSure);
       memory = triangle;
-      near = least <= -kSure ? -std::numeric_limits<double>::infinity()
+      sheaf.margin = least <= -kSure ? -std::numeric_limits<double>::infinity()
                              : least * sigma_ * (least > 0 ? Deviation::kMost : deviation.least());
     });
   };
   if (const Memory last = memory) consider(*last);
-  pyramid_.search_near(line, near, consider);
+  pyramid_.search(sheaf, consider);
   return least;
 }
 

@@ -1,0 +1,24 @@
+// Cells of CSV tables.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+
+namespace itin::cli {
+
+/// Quoted where it has to be.
+inline std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+/// Empty for nothing.
+inline std::string csv_cell(const std::optional<double>& value, int decimals) {
+  return value ? fmt::format("{:.{}f}", *value, decimals) : "";
+}
+
+}  // namespace itin::cli

@@ -1,0 +1,29 @@
+// The methods text of a wind farm's visibility study, from the parameters of the run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <itin/earth.hpp>
+#include <viewshed/turbines.hpp>
+
+namespace itin::cli {
+
+struct ZtvMethods {
+  std::string turbines_file, turbines_sha256;
+  std::string store;
+  std::string crs;      ///< title
+  std::string surface;  ///< detail and certified error
+  std::vector<std::string> themes;
+  std::string radius;  ///< sentence
+  std::size_t rows = 0, bad = 0;
+  std::vector<std::string> further;  ///< paragraphs about what else was asked for
+};
+
+/// Curvature and refraction in words, with the drop at 10 and 40 km.
+std::string refraction_in_words(const Earth& earth);
+
+/// Markdown.
+std::string methods_text(const viewshed::Zone& zone, const ZtvMethods& facts);
+
+}  // namespace itin::cli

@@ -1,0 +1,210 @@
+#include "ztv_viewpoints.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <set>
+
+#include <fmt/format.h>
+
+#include <itin/coordinates.hpp>
+#include <itin/cross_section.hpp>
+#include <itin/error.hpp>
+#include <itin/output_file.hpp>
+#include <itin/parallel.hpp>
+#include <itin/site_table.hpp>
+#include <profile/profile.hpp>
+#include <profile/required_heights.hpp>
+#include <profile/wireline.hpp>
+
+#include "csv_cell.hpp"
+#include "values.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+using viewshed::Turbine;
+using viewshed::Zone;
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+struct Viewpoint {
+  std::size_t number = 0;
+  std::string name;
+  Point2 position;
+  double height = 0;
+  double ground = 0;
+};
+
+/// What is seen of one turbine from one viewpoint.
+struct Sight {
+  double distance = 0, azimuth = 0;
+  double least = 0;  ///< metres above the turbine's ground, from which on it is seen
+  bool tip = false;
+  std::optional<bool> hub;
+  double visible = 0, vertical_deg = 0, tip_deg = 0;
+  bool gaps = false;
+};
+
+Sight look(const SectionSurface& surface, const Viewpoint& from, const Turbine& turbine, double ground,
+           const Earth& earth) {
+  Sight sight;
+  const double dx = turbine.position.x - from.position.x, dy = turbine.position.y - from.position.y;
+  sight.distance = std::hypot(dx, dy);
+  sight.azimuth = std::fmod(std::atan2(dx, dy) * kDegrees + 360, 360);
+  const CrossSection section = surface.between(from.position, turbine.position);
+  sight.gaps = !section.gaps.empty();
+  const profile::Profile profile = profile::from_section(section);
+  const double hub = turbine.hub_height.value_or(turbine.tip_height);
+  const auto seen = profile::visible_height(profile, from.height, hub, turbine.tip_height, earth);
+  sight.least = std::max(0.0, seen.from_m);
+  sight.visible = turbine.tip_height - sight.least;
+  sight.tip = seen.tip_visible_m > 0;
+  if (turbine.hub_height) sight.hub = sight.tip && sight.least <= *turbine.hub_height;
+  const double eye = from.ground + from.height;
+  const auto angle = [&](double height) {
+    return profile::apparent_angle_deg(earth, sight.distance, ground + height - eye);
+  };
+  sight.tip_deg = angle(turbine.tip_height);
+  if (sight.tip) sight.vertical_deg = sight.tip_deg - angle(sight.least);
+  return sight;
+}
+
+const char* yes_or_no(bool value) {
+  return value ? "yes" : "no";
+}
+
+std::string row_of(const Viewpoint& v, const Turbine& t, const Sight& s) {
+  return fmt::format("{},{},{:.3f},{:.3f},{:.2f},{},{},{},{:.2f},{:.4f},{},{},{:.3f},{:.5f},{:.5f},{},{}\n", v.number,
+                     csv_cell(v.name), v.position.x, v.position.y, v.ground, t.number, csv_cell(t.name),
+                     csv_cell(t.farm), s.distance, s.azimuth, s.hub ? yes_or_no(*s.hub) : "", yes_or_no(s.tip),
+                     s.visible, s.vertical_deg, s.tip_deg, yes_or_no(s.distance <= t.radius),
+                     s.gaps ? "crosses ground without data" : "");
+}
+
+constexpr const char* kHeader =
+    "viewpoint,viewpoint_name,x,y,ground_m,turbine,turbine_name,farm,distance_m,azimuth_grid_deg,hub_visible,"
+    "tip_visible,visible_height_m,vertical_angle_deg,tip_elevation_deg,within_radius,note\n";
+
+/// A name that every file system takes.
+std::string file_name(const Viewpoint& v) {
+  std::string name;
+  for (const char c : v.name)
+    name += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' ? c : '_';
+  return fmt::format("wireline-{}-{}", v.number, name);
+}
+
+/// The widest gap between azimuths lies behind the viewer.
+profile::WirelineQuery field_of_view(const Viewpoint& v, const std::vector<Sight>& sights, double least_width) {
+  std::vector<double> azimuths;
+  for (const Sight& s : sights) azimuths.push_back(s.azimuth);
+  std::sort(azimuths.begin(), azimuths.end());
+  double widest = 360 - (azimuths.back() - azimuths.front()), from = azimuths.front();
+  for (std::size_t i = 0; i + 1 < azimuths.size(); ++i) {
+    const double gap = azimuths[i + 1] - azimuths[i];
+    if (gap > widest) widest = gap, from = azimuths[i + 1];
+  }
+  const double span = 360 - widest;
+  profile::WirelineQuery query;
+  query.eye = v.position;
+  query.width_deg = std::min(360.0, std::max(least_width, std::ceil(span + 10)));
+  query.from_deg = std::fmod(from + span / 2 - query.width_deg / 2 + 720, 360);
+  return query;
+}
+
+profile::WirelineQuery wireline_of(const Viewpoint& v, const Zone& zone, const std::vector<Sight>& sights,
+                                   double least_width) {
+  profile::WirelineQuery query = field_of_view(v, sights, least_width);
+  query.title = fmt::format("Wireline from viewpoint {}: {}", v.number, v.name);
+  query.eye_elevation_m = v.ground + v.height;
+  query.earth = zone.request.earth;
+  const auto tips = std::count_if(sights.begin(), sights.end(), [](const Sight& s) { return s.tip; });
+  const auto hubs = std::count_if(sights.begin(), sights.end(), [](const Sight& s) { return s.hub.value_or(false); });
+  const auto nearest = std::min_element(sights.begin(), sights.end(),
+                                        [](const Sight& a, const Sight& b) { return a.distance < b.distance; });
+  query.notes = {
+      fmt::format("{:.0f}, {:.0f}; ground {:.1f} m, eye {:g} m above it. Of {} turbines {} have their tip seen "
+                  "and {} their hub; the nearest stands {:.2f} km away.",
+                  v.position.x, v.position.y, v.ground, v.height, sights.size(), tips, hubs, nearest->distance / 1000),
+      "Bare ground; " + zone.request.earth.convention()};
+  double reach = 20000;
+  for (std::size_t k = 0; k < sights.size(); ++k) {
+    const Turbine& t = zone.request.turbines[k];
+    query.turbines.push_back(
+        {fmt::format("{}", t.number), t.position, zone.ground_m[k], t.hub_height, t.tip_height, sights[k].tip});
+    reach = std::max(reach, sights[k].distance + 5000);
+  }
+  query.reach_m = std::min(reach, 60000.0);
+  return query;
+}
+
+}  // namespace
+
+void ViewpointOptions::declare(CLI::App& app) {
+  app.add_option("--viewpoints", query_.path,
+                 "Viewpoints for a table and wirelines, from a vector file of points, or CSV with columns x,y; fields "
+                 "name, and height for eyes that stand higher or lower than --observer-height")
+      ->type_name("FILE");
+  app.add_option("--wireline-field", field_text_, "Least width of a wireline (default: 53.5)")->type_name("DEGREES");
+}
+
+void ViewpointOptions::validate(const InCrs& in_crs) {
+  query_.crs = in_crs.crs;
+  if (field_text_.empty()) return;
+  if (!given()) throw InputError("--wireline-field is of use with --viewpoints only");
+  field_deg_ = parse_number("--wireline-field", field_text_, Range::kPositive);
+  if (field_deg_ > 360) throw InputError("--wireline-field: give at most 360 degrees");
+}
+
+Document ViewpointOptions::parameters() const {
+  if (!given()) return Document::object();
+  return {{"viewpoints", query_.path}, {"wireline_field_deg", field_deg_}};
+}
+
+ViewpointOptions::Written ViewpointOptions::write(const std::string& folder, const Store& store, const Zone& zone,
+                                                  Progress& progress) const {
+  Written written;
+  written.path = query_.path;
+  const SectionSurface surface(store, zone.request.detail);
+  std::string table = kHeader;
+  for (const SiteRow& row : read_site_rows(query_, {"name", "height"}, store.metadata().crs_wkt)) {
+    Viewpoint v;
+    v.number = ++written.rows;
+    try {
+      if (!row.position) throw InputError(row.error);
+      v.position = *row.position;
+      v.name = row.values[0].value_or(fmt::format("{}", v.number));
+      v.height = row.values[1] ? parse_number("its height", *row.values[1], Range::kNotNegative)
+                               : zone.request.observer_height;
+      const CrossSection here = surface.between(v.position, v.position);
+      if (here.breakpoints.empty())
+        throw InputError(fmt::format("there is no data at {:.10g},{:.10g}", v.position.x, v.position.y));
+      v.ground = here.breakpoints.front().position.z;
+    } catch (const InputError& error) {
+      written.bad.push_back({v.number, row.feature, error.what()});
+      continue;
+    }
+    const auto& turbines = zone.request.turbines;
+    std::vector<Sight> sights(turbines.size());
+    parallel_for(turbines.size(), [&](std::size_t k) {
+      sights[k] = look(surface, v, turbines[k], zone.ground_m[k], zone.request.earth);
+    });
+    for (std::size_t k = 0; k < turbines.size(); ++k) table += row_of(v, turbines[k], sights[k]);
+    const auto view = profile::survey_wireline(surface, wireline_of(v, zone, sights, field_deg_), progress);
+    for (const char* ending : {".svg", ".pdf", ".png"}) {
+      const std::string name = file_name(v) + ending;
+      write_file(folder + "/" + name, profile::draw_wireline(view, name), true);
+      written.files.push_back({name, fmt::format("wireline from viewpoint {}, {}, to scale", v.number, v.name)});
+    }
+  }
+  write_file(folder + "/viewpoints.csv", table, true);
+  written.files.insert(
+      written.files.begin(),
+      {"viewpoints.csv", "viewpoint by turbine: hub and tip visible, metres and degrees seen, azimuth"});
+  return written;
+}
+
+}  // namespace itin::cli

@@ -1,0 +1,31 @@
+// Points with fields, one a row, from any vector file, bad rows and all: for lists that one bad row must not stop.
+//
+//   SiteQuery query;
+//   query.path = "turbines.csv";
+//   for (const SiteRow& row : read_site_rows(query, {"hub_height", "farm"}, store.metadata().crs_wkt))
+//     if (!row.error.empty()) report(row.feature, row.error);
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <itin/sites.hpp>
+
+namespace itin {
+
+struct SiteRow {
+  std::int64_t feature = 0;                        ///< the file's own number for it
+  std::optional<Point2> position;                  ///< in the CRS asked for; nothing: see `error`
+  std::vector<std::optional<std::string>> values;  ///< one a field asked for; nothing where it is empty or not there
+  std::string error;                               ///< why there is no position; one line
+};
+
+/// All rows that query.where lets pass, in the file's order; fields that the layer does not have are empty in every
+/// row. query.height_field and name_field are not used. Throws FileError for a file, layer or filter that is missing or
+/// not understood, InputError for a CRS that is unknown.
+std::vector<SiteRow> read_site_rows(const SiteQuery& query, const std::vector<std::string>& fields,
+                                    const std::string& to_crs);
+
+}  // namespace itin

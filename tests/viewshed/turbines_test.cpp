@@ -1,0 +1,321 @@
+// Zones of theoretical visibility against single exact lines of sight, and on hand-made ground.
+#include <cmath>
+#include <gmock/gmock.h>
+#include <iostream>
+#include <numbers>
+#include <random>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include <itin/error.hpp>
+#include <itin/parallel.hpp>
+#include <viewshed/link_exclusion.hpp>
+#include <viewshed/turbines.hpp>
+#include <viewshed/zone_files.hpp>
+
+#include "support/exact_line_of_sight.hpp"
+#include "support/terrain_tin.hpp"
+#include "turbine_view.hpp"
+#include "value_bands.hpp"
+
+namespace itin::viewshed {
+namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr Point2 kCorner{300000, 200000};
+
+Turbine turbine(std::size_t number, double dx, double dy, const std::string& farm = "") {
+  Turbine t;
+  t.number = number, t.name = std::to_string(number), t.farm = farm;
+  t.position = {kCorner.x + dx, kCorner.y + dy};
+  t.tip_height = 120, t.hub_height = 70, t.rotor_diameter = 100, t.radius = 1500;
+  return t;
+}
+
+Zone survey(const Tin& tin, const ZoneRequest& request, const Tin* screened = nullptr) {
+  NoProgress progress;
+  return survey_turbines(tin, screened, request, progress);
+}
+
+std::size_t cell_at(const Zone& zone, double dx, double dy) {
+  return zone.grid.index(zone.grid.cell_at({kCorner.x + dx, kCorner.y + dy}).value());
+}
+
+bool sees(const Zone& zone, std::size_t cell, std::size_t number) {
+  const TurbineBit bit = turbine_bit(number);
+  return (zone.bare.turbines[bit.grid * zone.grid.cell_count() + cell] & bit.mask) != 0;
+}
+
+/// A cell's values from single lines of sight, with the slow twin.
+struct Expected {
+  unsigned hubs = 0, tips = 0;
+  double height = 0, angle = 0, sum = 0, nearest = INFINITY;
+  bool grazes = false;  ///< a tip or hub so close to a silhouette that rounding decides
+};
+
+Expected expected(const test::ExactLineOfSight& exact, const Zone& zone, Point2 eye, double ground, std::size_t cell) {
+  Expected e;
+  const Point3 from{eye.x, eye.y, ground + zone.request.observer_height};
+  for (std::size_t k = 0; k < zone.request.turbines.size(); ++k) {
+    const Turbine& t = zone.request.turbines[k];
+    const double d = std::hypot(t.position.x - eye.x, t.position.y - eye.y), base = zone.ground_m[k];
+    if (d > t.radius) {
+      EXPECT_FALSE(sees(zone, cell, t.number));
+      continue;
+    }
+    const auto clearance = [&](double h) { return exact.clearance(from, {t.position.x, t.position.y, base + h}); };
+    const auto visible = [&](double h) {
+      if (std::abs(clearance(h)) < 2e-6 && h < t.tip_height) e.grazes = true;
+      return clearance(h) >= -1e-6;
+    };
+    EXPECT_EQ(sees(zone, cell, t.number), visible(t.tip_height));
+    if (!visible(t.tip_height)) continue;
+    ++e.tips;
+    if (visible(*t.hub_height)) ++e.hubs;
+    double low = 0, high = t.tip_height;
+    for (int i = 0; i < 60 && !(clearance(low) >= 0); ++i) {
+      const double middle = (low + high) / 2;
+      (clearance(middle) >= 0 ? high : low) = middle;
+      if (high - low < 1e-7) low = high;
+    }
+    const double drop = zone.request.earth.drop(d);
+    const auto above = [&](double h) { return std::atan((base + h - drop - from.z) / d) * kDegrees; };
+    const double angle = above(t.tip_height) - above(low);
+    e.height = std::max(e.height, t.tip_height - low), e.angle = std::max(e.angle, angle), e.sum += angle;
+    e.nearest = std::min(e.nearest, d);
+  }
+  return e;
+}
+
+TEST(Turbines, EveryValueFollowsFromSingleLinesOfSight) {
+  const std::uint32_t seed = std::random_device{}();
+  std::cout << "seed " << seed << '\n';
+  const Tin tin = test::fractal_tin(33, 50, 150, 0.5, seed);
+  ZoneRequest request;
+  request.cell_size = 50;
+  request.turbines = {turbine(1, 400, 500), turbine(2, 1210, 333), turbine(40, 800, 1400)};
+  request.turbines[1].radius = 700;
+  const Zone zone = survey(tin, request);
+  ASSERT_EQ(zone.words, 2U);
+  const test::ExactLineOfSight exact(tin, request.earth);
+  int seen = 0;
+  for (std::int64_t row = 0; row < zone.grid.rows(); row += 2) {
+    for (std::int64_t column = 0; column < zone.grid.columns(); column += 2) {
+      const Point2 eye = zone.grid.centre(column, row);
+      const std::size_t i = zone.grid.index({column, row});
+      const auto ground = exact.height(eye);
+      if (zone.bare.tip_count[i] == kCountOutside) continue;
+      ASSERT_TRUE(ground);
+      const Expected e = expected(exact, zone, eye, *ground, i);
+      if (e.grazes) continue;
+      EXPECT_EQ(zone.bare.tip_count[i], e.tips);
+      EXPECT_EQ(zone.bare.hub_count[i], e.hubs);
+      EXPECT_NEAR(zone.bare.visible_height_m[i], e.height, 1e-3);
+      EXPECT_NEAR(zone.bare.vertical_angle_deg[i], e.angle, 1e-3);
+      EXPECT_NEAR(zone.bare.vertical_angle_sum_deg[i], e.sum, 1e-3);
+      EXPECT_FLOAT_EQ(zone.bare.share[i], static_cast<float>(e.tips / 3.0));
+      if (e.tips > 0) {
+        EXPECT_NEAR(zone.bare.nearest_m[i], e.nearest, 1e-2);
+      }
+      seen += e.tips > 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(seen, 20);
+}
+
+TEST(Turbines, BehindAWallSimilarTrianglesTell) {
+  // A wall 10 m high at 500 m; the eye 2 m up at 105 m, the turbine at 905 m.
+  const Tin tin = test::lattice_tin(101, 21, 10, [](std::int32_t c, auto) { return c == 50 ? 10.0 : 0.0; });
+  ZoneRequest request;
+  request.cell_size = 10;
+  request.earth = Earth::flat();
+  request.turbines = {turbine(1, 905, 105)};
+  const Zone zone = survey(tin, request);
+  const std::size_t i = cell_at(zone, 105, 105);
+  const double least = 2 + 8 * 800.0 / 395;
+  EXPECT_NEAR(zone.bare.visible_height_m[i], 120 - least, 1e-3);
+  EXPECT_NEAR(zone.bare.vertical_angle_deg[i], (std::atan(118 / 800.0) - std::atan((least - 2) / 800)) * kDegrees,
+              1e-4);
+  EXPECT_EQ(zone.bare.hub_count[i], 1);
+  EXPECT_FLOAT_EQ(zone.bare.nearest_m[i], 800);
+  EXPECT_NEAR(zone.bare.horizontal_angle_deg[i], 2 * std::atan(50 / 800.0) * kDegrees, 1e-4);
+  EXPECT_NEAR(zone.bare.horizontal_from_deg[i], 90 - std::atan(50 / 800.0) * kDegrees, 1e-4);
+  EXPECT_FLOAT_EQ(zone.bare.visible_height_m[cell_at(zone, 705, 105)], 120);
+}
+
+TEST(Turbines, TheScreenedSurfaceHidesWhereFeaturesStandAndEyesStayOnTheGround) {
+  const auto ground = test::lattice_tin(101, 21, 10, [](auto, auto) { return 0.0; });
+  const auto screen = test::lattice_tin(101, 21, 10, [](std::int32_t c, auto) { return c == 50 ? 200.0 : 0.0; });
+  ZoneRequest request;
+  request.cell_size = 10;
+  request.turbines = {turbine(1, 905, 105)};
+  const Zone zone = survey(ground, request, &screen);
+  ASSERT_TRUE(zone.screened);
+  const std::size_t behind = cell_at(zone, 105, 105), before = cell_at(zone, 705, 105),
+                    within = cell_at(zone, 495, 105);
+  EXPECT_EQ(zone.bare.tip_count[behind], 1);
+  EXPECT_EQ(zone.screened->tip_count[behind], 0);
+  EXPECT_EQ(zone.screened->visible_height_m[behind], 0);
+  EXPECT_TRUE(std::isnan(zone.screened->nearest_m[behind]));
+  EXPECT_EQ(zone.screened->tip_count[before], 1);
+  EXPECT_EQ(zone.screened->tip_count[within], 0) << "an eye under the feature's top";
+}
+
+TEST(Turbines, WithoutGroundAreMisplacedAndKeepTheirBits) {
+  const Tin tin = test::lattice_tin(21, 21, 50, [](auto, auto) { return 0.0; });
+  ZoneRequest request;
+  request.cell_size = 50;
+  request.turbines = {turbine(1, -900, 500), turbine(2, 500, 500)};
+  const Zone zone = survey(tin, request);
+  ASSERT_EQ(zone.misplaced.size(), 1U);
+  EXPECT_EQ(zone.misplaced.front().number, 1U);
+  EXPECT_THAT(zone.misplaced.front().message, ::testing::HasSubstr("no data"));
+  const std::size_t i = cell_at(zone, 225, 225);
+  EXPECT_FALSE(sees(zone, i, 1));
+  EXPECT_TRUE(sees(zone, i, 2));
+  request.turbines.pop_back();
+  EXPECT_THROW(survey(tin, request), InputError);
+}
+
+TEST(Turbines, DoNotDependOnTheNumberOfThreads) {
+  const Tin tin = test::fractal_tin(33, 50, 150, 0.5, 7);
+  ZoneRequest request;
+  request.cell_size = 20;
+  for (std::size_t k = 1; k <= 12; ++k) request.turbines.push_back(turbine(k, 100.0 * static_cast<double>(k), 700));
+  set_thread_count(1);
+  const Zone one = survey(tin, request);
+  set_thread_count(0);
+  const Zone many = survey(tin, request);
+  EXPECT_EQ(one.bare.turbines, many.bare.turbines);
+  EXPECT_EQ(one.bare.vertical_angle_sum_deg.size(), many.bare.vertical_angle_sum_deg.size());
+  for (std::size_t i = 0; i < one.bare.visible_height_m.size(); ++i) {
+    const float a = one.bare.visible_height_m[i], b = many.bare.visible_height_m[i];
+    ASSERT_TRUE(a == b || (std::isnan(a) && std::isnan(b)));
+  }
+}
+
+TEST(Turbines, UnusableNumbersAreNamed) {
+  const Tin tin = test::lattice_tin(5, 5, 50, [](auto, auto) { return 0.0; });
+  ZoneRequest request;
+  request.cell_size = 50;
+  request.turbines = {turbine(3, 100, 100)};
+  request.turbines[0].hub_height = 130;
+  try {
+    survey(tin, request);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("turbine 3"));
+  }
+  request.turbines[0].hub_height = 70;
+  request.cell_size = 5000;
+  EXPECT_THROW(survey(tin, request), InputError);
+}
+
+TEST(Turbines, RadarSeesWhatRisesAboveItsHorizon) {
+  const Tin tin = test::lattice_tin(101, 21, 10, [](std::int32_t c, auto) { return c == 50 ? 10.0 : 0.0; });
+  ZoneRequest request;
+  request.cell_size = 10;
+  request.earth = Earth::flat();
+  request.turbines = {turbine(1, 905, 105), turbine(2, 305, 105)};
+  request.radar = Observer{"radar", {kCorner.x + 105, kCorner.y + 105}, 2};
+  const Zone zone = survey(tin, request);
+  ASSERT_TRUE(zone.radar);
+  const double least = 2 + 8 * 800.0 / 395;
+  EXPECT_NEAR(zone.radar->height_m[cell_at(zone, 905, 105)], least, 1e-3);
+  EXPECT_NEAR(zone.radar->height_m[cell_at(zone, 305, 105)], 0, 1e-3);
+  EXPECT_NEAR(zone.radar->turbine_m[0], 120 - least, 1e-3);
+  EXPECT_NEAR(zone.radar->turbine_m[1], 120, 1e-3);
+}
+
+TEST(Horizon, HoldsAllArcsInTheSmallestOne) {
+  const auto of = [](std::vector<Arc> arcs) { return horizon_of(arcs); };
+  EXPECT_DOUBLE_EQ(of({{10, 5}}).held.width, 5);
+  EXPECT_DOUBLE_EQ(of({{10, 5}}).held.from, 10);
+  const Horizon across = of({{5, 4}, {350, 4}});  // through north
+  EXPECT_DOUBLE_EQ(across.held.from, 350);
+  EXPECT_DOUBLE_EQ(across.held.width, 19);
+  EXPECT_DOUBLE_EQ(across.occupied, 8);
+  const Horizon over = of({{358, 6}, {2, 6}});  // overlapping across north
+  EXPECT_DOUBLE_EQ(over.held.from, 358);
+  EXPECT_DOUBLE_EQ(over.held.width, 10);
+  EXPECT_DOUBLE_EQ(over.occupied, 10);
+  const Horizon within = of({{100, 50}, {110, 5}});
+  EXPECT_DOUBLE_EQ(within.held.width, 50);
+  EXPECT_DOUBLE_EQ(within.occupied, 50);
+  const Horizon around = of({{0, 90}, {90, 90}, {180, 90}, {270, 90}});
+  EXPECT_DOUBLE_EQ(around.held.width, 360);
+  EXPECT_DOUBLE_EQ(around.occupied, 360);
+}
+
+TEST(Horizon, AgreesWithCountingDegrees) {
+  std::mt19937 random(11);
+  for (int round = 0; round < 200; ++round) {
+    std::vector<Arc> arcs;
+    std::vector<bool> covered(360);
+    for (unsigned n = 1 + random() % 6; n > 0; --n) {
+      const unsigned from = random() % 360, width = 1 + random() % 40;
+      arcs.push_back({static_cast<double>(from), static_cast<double>(width)});
+      for (unsigned i = 0; i < width; ++i) covered[(from + i) % 360] = true;
+    }
+    int widest = 0, gap = 0;
+    for (int i = 0; i < 720; ++i)
+      widest = std::max(widest, gap = covered[static_cast<std::size_t>(i % 360)] ? 0 : gap + 1);
+    const Horizon horizon = horizon_of(arcs);
+    EXPECT_NEAR(horizon.held.width, 360 - std::min(widest, 360), 1e-9);
+    EXPECT_NEAR(horizon.occupied, static_cast<double>(std::count(covered.begin(), covered.end(), true)), 1e-9);
+  }
+}
+
+TEST(Bands, HoldEveryValueOnce) {
+  for (const std::size_t most : {1U, 5U, 7U, 8U, 75U, 500U}) {
+    const auto bands = count_bands(most);
+    EXPECT_LE(bands.size(), 8U);
+    EXPECT_EQ(band_of(bands, 0), 0U);
+    EXPECT_EQ(band_of(bands, 1), 1U);
+    EXPECT_EQ(band_of(bands, static_cast<double>(most)), bands.size() - 1);
+  }
+  EXPECT_EQ(count_bands(75)[1].label, "1 - 11");
+  EXPECT_EQ(band_of(limit_bands({10, 25}, "m"), 1000), 3U);
+}
+
+TEST(Areas, SumUpToTheCellsWithAValue) {
+  const Tin tin = test::fractal_tin(33, 50, 150, 0.5, 3);
+  ZoneRequest request;
+  request.cell_size = 50;
+  request.turbines = {turbine(1, 400, 500, "A"), turbine(2, 1200, 900, "B")};
+  const Zone zone = survey(tin, request);
+  std::istringstream table(area_table(zone));
+  std::string line;
+  std::getline(table, line);
+  EXPECT_EQ(line, "surface,seen,band,ring_from_km,ring_to_km,area_km2,share_of_ring_percent");
+  double hub = 0, tip = 0;
+  while (std::getline(table, line)) {
+    std::vector<std::string> cells;
+    std::istringstream row(line);
+    for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+    ASSERT_EQ(cells.size(), 7U);
+    (cells[1] == "hub" ? hub : tip) += std::stod(cells[5]);
+  }
+  const auto cells = std::count_if(zone.bare.tip_count.begin(), zone.bare.tip_count.end(),
+                                   [](std::uint16_t n) { return n != kCountOutside; });
+  EXPECT_NEAR(hub, static_cast<double>(cells) * 0.0025, 1e-4);
+  EXPECT_NEAR(tip, hub, 1e-9);
+  EXPECT_THAT(farms_of(zone), ::testing::ElementsAre("A", "B"));
+}
+
+TEST(LinkExclusion, FollowsBaconsRadius) {
+  // ../shared/radio-and-wind.md: 20.7 m at 7 GHz and 38.7 m at 2 GHz in the middle of 20 km.
+  EXPECT_NEAR(second_fresnel_radius_m(10000, 10000, 7), 20.7, 0.05);
+  EXPECT_NEAR(second_fresnel_radius_m(10000, 10000, 2), 38.7, 0.05);
+  const RadioLink link{"l", {0, 0}, {20000, 0}};
+  EXPECT_NEAR(link_clearance_m(link, {10000, 100}, 7, 50), 100 - 20.69 - 50, 0.02);
+  EXPECT_NEAR(link_clearance_m(link, {-30, 40}, 7, 10), 40, 1e-9);
+  const RasterGrid grid({0, 500}, 10, 10, 2000, 100);
+  const auto excluded = link_exclusion(grid, {link}, 7, 50);
+  EXPECT_EQ(excluded[grid.index(*grid.cell_at({10000, 65}))], kLinkExcluded);
+  EXPECT_EQ(excluded[grid.index(*grid.cell_at({10000, 85}))], kLinkClear);
+}
+
+}  // namespace
+}  // namespace itin::viewshed

@@ -1,0 +1,123 @@
+// The zone of theoretical visibility of wind turbines: what of them is seen from every cell of a raster.
+//
+//   viewshed::ZoneRequest request;
+//   request.turbines = {{.number = 1, .farm = "Pen y Cymoedd", .position = {290500, 202300}, .tip_height = 145,
+//                        .hub_height = 90, .rotor_diameter = 110, .radius = 40000}};
+//   request.cell_size = 50;
+//   const viewshed::Zone zone = viewshed::survey_turbines(store, request, progress);
+//
+// A turbine is an upright axis from the ground to its tip. An eye stands `observer_height` metres above the bare ground
+// at a cell's centre. The least height of the axis at which nothing hides it says all: the tip is seen if that is no
+// higher than the tip, the hub likewise, and what lies above it is the visible height. It is exact for the surface (see
+// src/least_height.hpp): it is where the line from the eye touches a triangle. A cell within no turbine's radius, or
+// without ground, has no value; a turbine counts only in cells within its own radius.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <itin/detail.hpp>
+#include <itin/earth.hpp>
+#include <itin/progress.hpp>
+#include <itin/raster.hpp>
+#include <itin/store.hpp>
+#include <itin/theme.hpp>
+#include <itin/tin.hpp>
+#include <viewshed/viewshed.hpp>
+
+namespace itin::viewshed {
+
+/// Heights are metres above the ground at its foot.
+struct Turbine {
+  std::size_t number = 1;  ///< from 1; it has bit number - 1
+  std::string name;
+  std::string farm;  ///< may be empty
+  Point2 position;
+  double tip_height = 0;
+  std::optional<double> hub_height;      ///< nothing: not known, and not counted among the hubs
+  std::optional<double> rotor_diameter;  ///< nothing: not known, taken as 0
+  double radius = 0;                     ///< how far it is looked for, metres
+};
+
+struct ZoneRequest {
+  std::vector<Turbine> turbines;  ///< at least one; numbers differ
+  double observer_height = 2;
+  std::optional<double> cell_size;  ///< the cells: one of the two
+  std::optional<RasterGrid> grid;
+  Earth earth;
+  Detail detail = Detail::tolerance(0);  ///< of the surface; not used with a Tin
+  std::optional<ThemeChoice> themes;     ///< of the screened surface, likewise; nothing: bare ground alone
+  NoData nodata = NoData::kUnknown;
+  std::optional<Observer> radar;  ///< whose horizon is looked for besides, over bare ground
+};
+
+/// One value a cell; see `Zone::grid`. Floats are NaN, counts kCountOutside outside.
+struct Visibility {
+  std::vector<std::uint16_t> hub_count;
+  std::vector<std::uint16_t> tip_count;
+  std::vector<std::uint32_t> turbines;        ///< tips seen: grids of 32-bit words, see turbine_bit()
+  std::vector<float> visible_height_m;        ///< tip less least visible height, the greatest over the turbines; or 0
+  std::vector<float> vertical_angle_deg;      ///< that the visible part of a turbine takes up, the greatest; or 0
+  std::vector<float> vertical_angle_sum_deg;  ///< over all turbines
+  std::vector<float> horizontal_angle_deg;    ///< of the smallest arc that holds all visible rotors; or 0
+  std::vector<float> horizontal_from_deg;     ///< that arc's anticlockwise end, from grid north; NaN where none is seen
+  std::vector<float> horizontal_occupied_deg;  ///< of the arc, the part that rotors take up
+  std::vector<float> share;                    ///< tips seen, of all turbines of the request
+  std::vector<float> nearest_m;                ///< horizontal distance to the nearest turbine seen; NaN where none is
+};
+
+/// Where Visibility::turbines keeps turbine `number` (from 1).
+struct TurbineBit {
+  std::size_t grid = 0;
+  std::uint32_t mask = 0;
+};
+constexpr TurbineBit turbine_bit(std::size_t number) {
+  return {(number - 1) / 32, std::uint32_t{1} << ((number - 1) % 32)};
+}
+
+/// A turbine that could not be placed.
+struct Misplaced {
+  std::size_t number = 0;
+  std::string message;
+};
+
+/// Above a radar's horizon over bare ground.
+struct RadarView {
+  double ground_m = 0;  ///< under the radar
+  std::vector<float>
+      height_m;  ///< a cell: the least height above its ground that is seen; NaN above 1000 m or no ground
+  std::vector<double> turbine_m;  ///< what is seen of each turbine of the request, from its tip down; 0: hidden
+};
+
+struct ZoneStatistics {
+  RetrievalStatistics retrieval;
+  std::uint64_t triangles = 0;
+  std::uint64_t lines = 0;  ///< of sight: pairs of eye and turbine
+  double retrieval_seconds = 0, scene_seconds = 0, lines_seconds = 0;
+};
+
+struct Zone {
+  ZoneRequest request;           ///< without the misplaced turbines
+  std::vector<double> ground_m;  ///< under each turbine of it
+  std::vector<Misplaced> misplaced;
+  RasterGrid grid;
+  std::size_t words = 1;  ///< grids in Visibility::turbines
+  Visibility bare;
+  std::optional<Visibility> screened;  ///< with the themes' features standing on the ground, where asked for
+  std::optional<RadarView> radar;
+  std::vector<std::string> warnings;
+  ZoneStatistics statistics;
+};
+
+/// On given surfaces; `screened` may be null, and must cover what `ground` does. Turbines without ground become
+/// misplaced. Cost: 0.3 microseconds a triangle; a tenth of a microsecond a line whose tip is hidden and about one for
+/// others, on two cores. Memory: 170 bytes a triangle and 40 bytes a cell, twice with a screened surface. The result
+/// does not depend on the number of threads. Throws InputError (nothing to see, unusable numbers), Cancelled.
+Zone survey_turbines(const Tin& ground, const Tin* screened, const ZoneRequest& request, Progress& progress);
+
+/// On the surface of a store: one retrieval within the turbines' radii. Throws also what triangulate() throws.
+Zone survey_turbines(const Store& store, const ZoneRequest& request, Progress& progress);
+
+}  // namespace itin::viewshed

@@ -1,0 +1,54 @@
+// A Zone as files: rasters with QGIS styles, polygons, tables.
+//
+//   for (const ZoneFile& file : write_zone_rasters("out", zone, options)) list(file.name, file.what);
+//
+// Names are as in the command line's contract: tip-count.tif, tip-count-screened.tif, tip-count-difference.tif (bare
+// less screened), and so on. Beside every raster lies NAME.qml.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <viewshed/link_exclusion.hpp>
+#include <viewshed/turbines.hpp>
+
+namespace itin::viewshed {
+
+struct ZoneFile {
+  std::string name;
+  std::string what;  ///< one line: quantity, unit, meaning of nodata
+};
+
+struct ZoneFileOptions {
+  std::string crs_wkt;
+  std::vector<std::pair<std::string, std::string>> metadata;  ///< into every raster
+};
+
+/// Radio links that rotors must stay away from.
+struct LinkStudy {
+  std::vector<RadioLink> links;
+  double frequency_ghz = 0;
+  double rotor_radius_m = 0;  ///< the greatest of the turbines
+};
+
+/// The farms of a zone in the order of their first turbines.
+std::vector<std::string> farms_of(const Zone& zone);
+
+/// Throws FileError. Existing files are replaced.
+std::vector<ZoneFile> write_zone_rasters(const std::string& folder, const Zone& zone, const ZoneFileOptions& options);
+
+/// radar-height.tif, where the zone has a radar; and link-exclusion.tif, of rotors of that radius, where links are
+/// given. Throws FileError.
+std::vector<ZoneFile> write_radar_raster(const std::string& folder, const Zone& zone, const ZoneFileOptions& options);
+std::vector<ZoneFile> write_link_raster(const std::string& folder, const Zone& zone, const ZoneFileOptions& options,
+                                        const LinkStudy& study);
+
+/// The banded counts of tips, and the combinations of farms where there are several, as GeoPackages. Throws FileError.
+std::vector<ZoneFile> write_zone_polygons(const std::string& folder, const Zone& zone, const ZoneFileOptions& options);
+
+/// km2 by band of counts and by ring of distance to the nearest turbine, as CSV. Every cell with a value is in one band
+/// and one ring.
+std::string area_table(const Zone& zone);
+
+}  // namespace itin::viewshed

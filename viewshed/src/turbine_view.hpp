@@ -1,0 +1,31 @@
+// What an eye sees of one turbine, and of several together.
+#pragma once
+
+#include <vector>
+
+#include <viewshed/turbines.hpp>
+
+namespace itin::viewshed {
+
+/// Of an upright axis at horizontal distance `distance` between two heights, as seen from `eye`: degrees. All
+/// elevations, the drop by curvature not yet taken off.
+double vertical_angle_deg(const Earth& earth, double distance, double eye, double low, double high);
+
+/// A part of the horizon, degrees clockwise from grid north.
+struct Arc {
+  double from = 0;
+  double width = 0;
+};
+
+/// Of a rotor that faces the eye.
+Arc rotor_arc(Point2 eye, Point2 turbine, double rotor_diameter);
+
+struct Horizon {
+  Arc held;             ///< the smallest arc that holds all
+  double occupied = 0;  ///< degrees that their union covers
+};
+
+/// Of at least one arc; `arcs` is left in another order.
+Horizon horizon_of(std::vector<Arc>& arcs);
+
+}  // namespace itin::viewshed

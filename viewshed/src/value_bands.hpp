@@ -1,0 +1,36 @@
+// Bands of values, as maps and tables show them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace itin::viewshed {
+
+/// Values above the last band's limit up to this one.
+struct ValueBand {
+  double to = 0;  ///< may be infinite
+  std::string label;
+  std::uint8_t red = 0, green = 0, blue = 0, alpha = 255;
+};
+
+/// 0 (clear of colour), then 1 to `most` in at most seven bands of equal width.
+std::vector<ValueBand> count_bands(std::size_t most);
+/// 0 (clear of colour), then between the limits, the last open. `unit` as in "10 - 25 m".
+std::vector<ValueBand> limit_bands(const std::vector<double>& limits, const std::string& unit);
+/// The band that holds a value: the first whose limit it does not exceed.
+std::size_t band_of(const std::vector<ValueBand>& bands, double value);
+
+/// Hues that are told apart, for classes without an order.
+void set_distinct_colour(std::size_t index, std::uint8_t& red, std::uint8_t& green, std::uint8_t& blue);
+
+/// A QGIS layer style that draws a raster of values in these bands, or of classes.
+std::string banded_style(const std::vector<ValueBand>& bands);
+struct StyleClass {
+  int value = 0;
+  std::string label;
+  std::uint8_t red = 0, green = 0, blue = 0, alpha = 255;
+};
+std::string class_style(const std::vector<StyleClass>& classes);
+
+}  // namespace itin::viewshed

@@ -1,0 +1,205 @@
+#include "zone_survey.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include <itin/parallel.hpp>
+
+namespace itin::viewshed {
+
+namespace {
+
+constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+
+std::size_t cell_of(std::int64_t row, std::int64_t column) {
+  return static_cast<std::size_t>(row * Tile::kSide + column);
+}
+
+Visibility empty_visibility(const Zone& zone) {
+  const std::size_t cells = zone.grid.cell_count();
+  Visibility v;
+  v.hub_count.assign(cells, kCountOutside);
+  v.tip_count.assign(cells, kCountOutside);
+  v.turbines.assign(cells * zone.words, 0);
+  for (std::vector<float>* floats :
+       {&v.visible_height_m, &v.vertical_angle_deg, &v.vertical_angle_sum_deg, &v.horizontal_angle_deg,
+        &v.horizontal_from_deg, &v.horizontal_occupied_deg, &v.share, &v.nearest_m})
+    floats->assign(cells, kNone);
+  return v;
+}
+
+}  // namespace
+
+/// What is known of a tile's cells so far.
+struct ZoneSurvey::TileWork {
+  TileWork(const Grid& units, const RasterGrid& grid, const Tile& t, std::size_t words)
+      : tile(t), centres(units, grid, t), seen(words) {
+    hubs.fill(kCountOutside), tips.fill(kCountOutside);
+    height.fill(0), angle.fill(0), angle_sum.fill(0);
+    nearest.fill(std::numeric_limits<double>::infinity());
+    for (auto& word : seen) word.fill(0);
+  }
+  Tile tile;
+  TileCentres centres;
+  TileValues<double> ground;
+  TileValues<std::uint16_t> hubs, tips;
+  TileValues<double> height, angle, angle_sum, nearest;
+  std::vector<TileValues<std::uint32_t>> seen;
+  std::uint64_t lines = 0;
+};
+
+ZoneSurvey::ZoneSurvey(const Tin& ground, const TriangleBins& bins, const RasterGrid& tiles, const Zone& zone)
+    : ground_(ground), bins_(bins), tiles_(tiles), zone_(zone) {
+  const double per_metre = 1 / ground.grid.resolution;
+  for (std::size_t k = 0; k < zone.request.turbines.size(); ++k) {
+    const Turbine& t = zone.request.turbines[k];
+    Axis& axis = axes_.emplace_back();
+    axis.x = easting_in_units(ground.grid, t.position.x), axis.y = northing_in_units(ground.grid, t.position.y);
+    axis.base = zone.ground_m[k] * per_metre;
+    axis.tip = (zone.ground_m[k] + t.tip_height) * per_metre;
+    axis.hub = t.hub_height ? (zone.ground_m[k] + *t.hub_height) * per_metre : -std::numeric_limits<double>::infinity();
+    axis.position_x = t.position.x, axis.position_y = t.position.y;
+    axis.radius_squared = t.radius * t.radius;
+  }
+}
+
+Visibility ZoneSurvey::run(const LeastHeights& heights, const std::string& stage, std::uint64_t& lines,
+                           Progress& progress) const {
+  Visibility result = empty_visibility(zone_);
+  const std::size_t count = tiles_.cell_count();
+  std::atomic<std::size_t> done = 0;
+  std::vector<std::uint64_t> cast(count);
+  parallel_for(count, [&](std::size_t tile) {
+    progress.throw_if_cancelled();
+    decide(tile, heights, result, cast[tile]);
+    const std::size_t now = ++done;
+    if (now % 16 == 0 || now == count) progress.report(stage, static_cast<double>(now) / static_cast<double>(count));
+  });
+  for (const std::uint64_t n : cast) lines += n;
+  return result;
+}
+
+void ZoneSurvey::decide(std::size_t tile, const LeastHeights& heights, Visibility& result, std::uint64_t& lines) const {
+  const Tile place = tile_at(zone_.grid, tiles_, tile);
+  std::vector<std::size_t> near;
+  for (std::size_t k = 0; k < axes_.size(); ++k)
+    if (in_reach(axes_[k], place)) near.push_back(k);
+  if (near.empty()) return;
+  const auto work = std::make_unique<TileWork>(ground_.grid, zone_.grid, place, zone_.words);
+  scan_convert(ground_, bins_.triangles(tile), place, work->centres, work->ground);
+  for (const std::size_t k : near) look_at(k, heights, *work);
+  store(*work, result);
+  lines = work->lines;
+}
+
+/// Whether a cell's centre may lie within the radius.
+bool ZoneSurvey::in_reach(const Axis& axis, const Tile& tile) const {
+  const Point2 north_west = zone_.grid.centre(tile.column, tile.row);
+  const Point2 south_east = zone_.grid.centre(tile.column + tile.columns - 1, tile.row + tile.rows - 1);
+  const double dx = axis.position_x - std::clamp(axis.position_x, north_west.x, south_east.x);
+  const double dy = axis.position_y - std::clamp(axis.position_y, south_east.y, north_west.y);
+  return dx * dx + dy * dy <= axis.radius_squared;
+}
+
+void ZoneSurvey::look_at(std::size_t turbine, const LeastHeights& heights, TileWork& work) const {
+  LeastHeights::Memory memory;
+  for (std::int64_t r = 0; r < work.tile.rows; r += kPacketSide)
+    for (std::int64_t c = 0; c < work.tile.columns; c += kPacketSide)
+      look_from_packet(turbine, r, c, heights, memory, work);
+}
+
+void ZoneSurvey::look_from_packet(std::size_t turbine, std::int64_t row, std::int64_t column,
+                                  const LeastHeights& heights, LeastHeights::Memory& memory, TileWork& work) const {
+  const Axis& axis = axes_[turbine];
+  const double resolution = ground_.grid.resolution, eye_height = zone_.request.observer_height / resolution;
+  SightLines lines;
+  lines.to_x.fill(axis.x), lines.to_y.fill(axis.y), lines.to_z.fill(axis.tip);
+  std::array<double, SightLines::kSize> squared{};
+  for (unsigned i = 0; i < SightLines::kSize; ++i) {
+    const std::int64_t r = row + i / kPacketSide, c = column + i % kPacketSide;
+    const std::size_t cell = cell_of(r, c);
+    if (r >= work.tile.rows || c >= work.tile.columns || std::isnan(work.ground[cell])) continue;
+    const double dx = zone_.grid.centre_x(work.tile.column + c) - axis.position_x;
+    const double dy = zone_.grid.centre_y(work.tile.row + r) - axis.position_y;
+    squared[i] = dx * dx + dy * dy;
+    if (squared[i] > axis.radius_squared) continue;
+    if (work.tips[cell] == kCountOutside) work.tips[cell] = work.hubs[cell] = 0;
+    lines.from_x[i] = work.centres.x[static_cast<std::size_t>(c)];
+    lines.from_y[i] = work.centres.y[static_cast<std::size_t>(r)];
+    lines.from_z[i] = work.ground[cell] + eye_height;
+    if (lines.from_x[i] == axis.x && lines.from_y[i] == axis.y) {
+      record(turbine, cell, 0, axis.base, work);
+    } else {
+      lines.active |= 1U << i;
+    }
+  }
+  if (lines.active == 0) return;
+  work.lines += static_cast<unsigned>(std::popcount(lines.active));
+  LeastHeights::Heights lower;
+  lower.fill(axis.base);
+  const LeastHeights::Heights least = heights.find(lines, lower, memory);
+  for (unsigned i = 0; i < SightLines::kSize; ++i)
+    if (!std::isnan(least[i]))
+      record(turbine, cell_of(row + i / kPacketSide, column + i % kPacketSide), std::sqrt(squared[i]), least[i], work);
+}
+
+/// The turbine is seen from the cell, down to `least` grid units of elevation.
+void ZoneSurvey::record(std::size_t turbine, std::size_t cell, double distance, double least, TileWork& work) const {
+  const Axis& axis = axes_[turbine];
+  const double resolution = ground_.grid.resolution;
+  ++work.tips[cell];
+  if (least <= axis.hub) ++work.hubs[cell];
+  const TurbineBit bit = turbine_bit(zone_.request.turbines[turbine].number);
+  work.seen[bit.grid][cell] |= bit.mask;
+  const double eye = work.ground[cell] * resolution + zone_.request.observer_height;
+  const double angle =
+      vertical_angle_deg(zone_.request.earth, distance, eye, least * resolution, axis.tip * resolution);
+  work.height[cell] = std::max(work.height[cell], (axis.tip - least) * resolution);
+  work.angle[cell] = std::max(work.angle[cell], angle);
+  work.angle_sum[cell] += angle;
+  work.nearest[cell] = std::min(work.nearest[cell], distance);
+}
+
+void ZoneSurvey::store(const TileWork& work, Visibility& result) const {
+  const double all = static_cast<double>(zone_.request.turbines.size());
+  std::vector<Arc> arcs;
+  for (std::int64_t r = 0; r < work.tile.rows; ++r) {
+    for (std::int64_t c = 0; c < work.tile.columns; ++c) {
+      const std::size_t from = cell_of(r, c);
+      if (work.tips[from] == kCountOutside) continue;
+      const std::size_t to = zone_.grid.index({work.tile.column + c, work.tile.row + r});
+      result.hub_count[to] = work.hubs[from];
+      result.tip_count[to] = work.tips[from];
+      for (std::size_t w = 0; w < zone_.words; ++w)
+        result.turbines[w * zone_.grid.cell_count() + to] = work.seen[w][from];
+      result.visible_height_m[to] = static_cast<float>(work.height[from]);
+      result.vertical_angle_deg[to] = static_cast<float>(work.angle[from]);
+      result.vertical_angle_sum_deg[to] = static_cast<float>(work.angle_sum[from]);
+      result.share[to] = static_cast<float>(work.tips[from] / all);
+      result.horizontal_angle_deg[to] = result.horizontal_occupied_deg[to] = 0;
+      if (work.tips[from] == 0) continue;
+      result.nearest_m[to] = static_cast<float>(work.nearest[from]);
+      store_horizon(work, from, to, zone_.grid.centre(work.tile.column + c, work.tile.row + r), result, arcs);
+    }
+  }
+}
+
+void ZoneSurvey::store_horizon(const TileWork& work, std::size_t from_cell, std::size_t to_cell, Point2 eye,
+                               Visibility& result, std::vector<Arc>& arcs) const {
+  arcs.clear();
+  for (const Turbine& t : zone_.request.turbines) {
+    const TurbineBit bit = turbine_bit(t.number);
+    if ((work.seen[bit.grid][from_cell] & bit.mask) != 0)
+      arcs.push_back(rotor_arc(eye, t.position, t.rotor_diameter.value_or(0)));
+  }
+  const Horizon horizon = horizon_of(arcs);
+  result.horizontal_angle_deg[to_cell] = static_cast<float>(horizon.held.width);
+  result.horizontal_from_deg[to_cell] = static_cast<float>(horizon.held.from);
+  result.horizontal_occupied_deg[to_cell] = static_cast<float>(horizon.occupied);
+}
+
+}  // namespace itin::viewshed

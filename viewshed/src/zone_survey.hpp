@@ -1,0 +1,52 @@
+// Casts the sight lines of a zone of theoretical visibility: every eye of a raster to every turbine in its reach.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <itin/tin.hpp>
+#include <viewshed/turbines.hpp>
+
+#include "least_height.hpp"
+#include "surface_heights.hpp"
+#include "triangle_bins.hpp"
+#include "turbine_view.hpp"
+
+namespace itin::viewshed {
+
+class ZoneSurvey {
+ public:
+  /// `zone` has its request, grid and ground; eyes stand on `ground`, whose triangles are in `bins` by tiles of the
+  /// grid. All must outlive it.
+  ZoneSurvey(const Tin& ground, const TriangleBins& bins, const RasterGrid& tiles, const Zone& zone);
+
+  /// What is seen over the surface of `heights`. Adds the lines to `lines`.
+  Visibility run(const LeastHeights& heights, const std::string& stage, std::uint64_t& lines, Progress& progress) const;
+
+ private:
+  struct Axis {
+    double x = 0, y = 0;                                        ///< grid units
+    double base = 0, tip = 0;                                   ///< elevation, grid units
+    double hub = 0;                                             ///< -infinity where it is not known
+    double position_x = 0, position_y = 0, radius_squared = 0;  ///< metres
+  };
+  struct TileWork;
+
+  void decide(std::size_t tile, const LeastHeights& heights, Visibility& result, std::uint64_t& lines) const;
+  bool in_reach(const Axis& axis, const Tile& tile) const;
+  void look_at(std::size_t turbine, const LeastHeights& heights, TileWork& work) const;
+  void look_from_packet(std::size_t turbine, std::int64_t row, std::int64_t column, const LeastHeights& heights,
+                        LeastHeights::Memory& memory, TileWork& work) const;
+  void record(std::size_t turbine, std::size_t cell, double distance, double least, TileWork& work) const;
+  void store(const TileWork& work, Visibility& result) const;
+  void store_horizon(const TileWork& work, std::size_t from_cell, std::size_t to_cell, Point2 eye, Visibility& result,
+                     std::vector<Arc>& arcs) const;
+
+  const Tin& ground_;
+  const TriangleBins& bins_;
+  RasterGrid tiles_;
+  const Zone& zone_;
+  std::vector<Axis> axes_;
+};
+
+}  // namespace itin::viewshed
