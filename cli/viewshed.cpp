@@ -52,7 +52,7 @@ class ViewshedVerb final : public Verb {
     observers_.declare(app);
     declare_targets(app);
     detail_.declare(app);
-    themes_.declare(app);
+    themes_.declare(app, "default: none; all with --precise");
     earth_.declare(app);
     app.add_option("--nodata", nodata_text_, "What ground without data does to sight lines (default: unknown)")
         ->type_name("unknown|block|clear");
