@@ -2,11 +2,10 @@
 
 namespace itin::cli {
 
-void ThemeOptions::declare(CLI::App& app) {
+void ThemeOptions::declare(CLI::App& app, const std::string& otherwise) {
   app.add_option("--themes", themes_,
-                 "Surface features to include: all, none, or their names (default: none; all with --precise). Lines of "
-                 "the terrain are "
-                 "always there")
+                 "Surface features to include: all, none, or their names (" + otherwise +
+                     "). Lines of the terrain are always there")
       ->type_name("NAME,NAME...");
 }
 

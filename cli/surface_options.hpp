@@ -14,7 +14,8 @@ namespace itin::cli {
 /// `--themes all|none|name,name`.
 class ThemeOptions {
  public:
-  void declare(CLI::App& app);
+  /// `otherwise`: what the help says of the default.
+  void declare(CLI::App& app, const std::string& otherwise = "default: none");
   /// Throws InputError.
   void validate();
   const ThemeChoice& choice() const { return choice_; }
