@@ -103,6 +103,11 @@ inline GridBox rounded_outwards(const Box& b) {
   return {cut(std::floor(b.xmin)), cut(std::floor(b.ymin)), cut(std::ceil(b.xmax)), cut(std::ceil(b.ymax))};
 }
 
+/// The box with this margin all around, in grid units.
+inline GridBox expanded(const GridBox& b, double margin) {
+  return rounded_outwards({b.xmin - margin, b.ymin - margin, b.xmax + margin, b.ymax + margin});
+}
+
 /// The affine map between metres and grid coordinates. Heights have the same resolution and origin 0.
 struct Grid {
   Point2 origin;

@@ -10,6 +10,8 @@
 
 #include <itin/error.hpp>
 
+#include "triangulate/enclosure.hpp"
+
 namespace itin {
 
 namespace {
@@ -22,10 +24,8 @@ constexpr int kPatience = 3;
 /// kManyPoints), and a few.
 constexpr std::uint64_t kGrowth = 8, kLargeGrowth = 2;
 constexpr std::uint64_t kManyPoints = 1 << 16, kFewPoints = 4096;
-
-GridBox expanded(const GridBox& b, double margin) {
-  return rounded_outwards({b.xmin - margin, b.ymin - margin, b.xmax + margin, b.ymax + margin});
-}
+/// Mean point spacings: cells of about 256 points.
+constexpr double kCellSide = 16;
 
 double area(const GridBox& b) {
   return b.empty() ? 0 : (1.0 + b.xmax - b.xmin) * (1.0 + b.ymax - b.ymin);
@@ -74,6 +74,10 @@ class RegionTriangulation {
     if (!tile_.empty() && triangulate_box(first_margin())) {
       for (int mended = 0;; ++mended) {
         mark_ground();
+        while (look_farther()) {
+          make_mesh();
+          mark_ground();
+        }
         if (!mend()) break;
         if (mended == kPatience && worth_growing()) {
           triangulate_box(4 * margin_);
@@ -124,6 +128,8 @@ class RegionTriangulation {
   void triangulate(const Leaf* seed) {
     proven_.clear();
     read_points(seed);
+    known_ = KnownGround(read_box_, log2_cell_side_);
+    most_known_ = most_points_;
     segments_.clear();
     const std::vector<Segment> segments = read_segments(box_);
     std::vector<Position> positions(vertices_.size());
@@ -164,6 +170,7 @@ class RegionTriangulation {
     const double spacing = points > 0 ? std::sqrt(area(tile_) / points) : std::sqrt(area(tile_));
     const auto n = static_cast<std::uint64_t>(points);
     most_points_ = std::min(kGrowth * n, kLargeGrowth * n + kManyPoints) + kFewPoints;
+    log2_cell_side_ = std::clamp(static_cast<int>(std::log2(spacing * kCellSide + 1)), 0, kRootLog2Side - 1);
     double margin = kMargin * spacing;
     while (margin > 1 && points_of(leaves_in(box_with(margin))) > most_points_) margin /= 2;
     return margin + 1;
@@ -386,14 +393,44 @@ class RegionTriangulation {
     return orientation(p, q, c) >= least;
   }
 
+  /// Reads the ground that thin triangles see past the lines beside them, beyond what is known. True when there was
+  /// some.
+  bool look_farther() {
+    enclosed_.assign(mesh_.triangles.size(), 0);
+    std::vector<Cell> missing;
+    Enclosure enclosure(mesh_, vertices_, known_, index_.bounds());
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      if (ground_[t] != Ground::kYes) continue;
+      enclosed_[t] =
+          circumdisc_in(corner(t, 0), corner(t, 1), corner(t, 2), read_box_) || !in_region(t) || enclosure.holds(t);
+      if (!enclosed_[t]) enclosure.add_missing(missing);
+    }
+    std::sort(missing.begin(), missing.end());
+    missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
+    bool fresh = false;
+    for (const Cell& cell : missing) fresh = read_cell(cell) || fresh;
+    return fresh;
+  }
+
+  /// False when all that there may be read has been.
+  bool read_cell(const Cell& cell) {
+    std::vector<std::pair<std::uint64_t, SelectedVertex>> found;
+    if (most_known_ == 0) return false;
+    for (const Leaf& leaf : leaves_in(cell.box())) read_block(leaf, cell.box(), found);
+    most_known_ -= std::min<std::uint64_t>(most_known_, found.size() + 1);
+    for (const auto& [code, vertex] : found) vertex_at(vertex.position(), &vertex);
+    insert_segments(read_segments(square_of(cell)));
+    known_.add(cell);
+    return true;
+  }
+
   /// Proves every ground triangle of the region, or inserts what disproves it. True when something was inserted.
   bool mend() {
     std::vector<SelectedVertex> intruders;
     std::vector<Segment> fresh;
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
       if (ground_[t] != Ground::kYes) continue;
-      if (!circumdisc_in(corner(t, 0), corner(t, 1), corner(t, 2), read_box_) && in_region(t))
-        prove(t, intruders, fresh);
+      if (!enclosed_[t]) prove(t, intruders, fresh);
       look_beyond_hull(t, intruders);
     }
     for (const SegmentEdge& edge : segment_edges_) {
@@ -531,6 +568,9 @@ class RegionTriangulation {
   std::uint64_t most_points_ = 0;  ///< that a box is worth
   GridBox box_;                    ///< all selected segments in it have been read
   GridBox read_box_;               ///< within box_: all selected points in it have been read, too
+  KnownGround known_;              ///< read_box_ and more
+  int log2_cell_side_ = 0;
+  std::uint64_t most_known_ = 0;  ///< points that may still be read into known_
   std::vector<SelectedVertex> vertices_;
   std::size_t sorted_ = 0;                                   ///< the first so many vertices are in Morton order
   std::unordered_map<std::uint64_t, std::uint32_t> extras_;  ///< the others by Morton code
@@ -543,6 +583,7 @@ class RegionTriangulation {
   Delaunay delaunay_;
   PlaneMesh mesh_;
   std::vector<Ground> ground_;
+  std::vector<std::uint8_t> enclosed_;  ///< per triangle: it needs no proof
   std::set<Triangle> proven_;
   RetrievalStatistics statistics_;
 };

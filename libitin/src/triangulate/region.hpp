@@ -2,7 +2,8 @@
 //
 // This is the kernel under every window query and under the import's verification. It triangulates what lies in a box
 // around the region, then proves each ground triangle that meets the region to be global, or mends it:
-//   1. a triangle whose circumdisc lies in the box is global, for all that could disturb it has been read;
+//   1. a triangle whose circumdisc lies in the box, or as much of it as the triangle sees past the lines there
+//      (enclosure.hpp), is global, for all that could disturb it has been read;
 //   2. otherwise no segment may cross it, no vertex lie in it, and beyond none of its unconstrained edges may a vertex,
 //      visible from both ends of the edge, lie in its circumcircle (apex.hpp looks that up). What is found is inserted,
 //      and so on.
