@@ -176,7 +176,7 @@ class SiteVerb final : public Verb {
                                      site.choice.chosen.size(), *options_.count));
     if (options_.share && site.inputs.demand.in_metric(site.choice.value + site.choice.existing) <
                               *options_.share * site.inputs.demand.in_metric(site.inputs.total))
-      warnings.push_back("the wanted share is not reached: no further site that may be taken gains anything");
+      warnings.emplace_back("the wanted share is not reached: no further site that may be taken gains anything");
   }
 
   std::string text(const SiteResult& site) const {

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Candidates for benchmarks/peers/site.sh, and the greedy choice by brute force on exact viewsheds.
 
     site_choice.py candidates                          500 of them, as CSV

@@ -297,9 +297,14 @@ TEST(SitesInTown, FeaturesOnlyHide) {
     request.radius = survey.radius;
     request.grid = survey.targets.grid;
     request.themes = ThemeChoice::all();
-    const Result plain = compute(store, request, progress);
-    EXPECT_NEAR(static_cast<double>(themed.bounds(i).certain.size()), static_cast<double>(plain.cells.visible),
-                0.002 * static_cast<double>(plain.cells.visible));
+    const Result precise = compute_precise(store, request, {}, progress).result;
+    std::uint64_t different = 0;
+    const RasterGrid& grid = *survey.targets.grid;
+    for (std::int64_t row = 0; row < grid.rows(); ++row)
+      for (std::int64_t column = 0; column < grid.columns(); ++column)
+        different += (precise.visible[grid.index({column, row})] == kVisible) !=
+                     themed.bounds(i).certain.contains(element_of(grid, {column, row}));
+    EXPECT_EQ(different, 0U);
   }
 }
 

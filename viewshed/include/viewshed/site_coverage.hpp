@@ -8,9 +8,9 @@
 //   coverage.look_first();
 //   Choice choice = choose(demand, options, coverage, {.count = 10}, progress);
 //
-// Exact means: for the bare terrain, the walk over every triangle of the full surface in double precision, as
-// compute_precise(); with standing themes, compute() on the full surface with them, within what the bare terrain lets
-// be seen (features only raise).
+// Exact means the walk over every triangle of the full surface in double precision, as compute_precise(). Where themes
+// that stand on the ground are chosen, the bare terrain comes first: features only raise it, so that what it hides for
+// a target on the ground needs no further look; only then are they read.
 #pragma once
 
 #include <cstdint>

@@ -28,10 +28,6 @@ std::vector<CoverageBounds> judge_points(const EnvelopeScene& scene, const SiteS
 /// Where points lie, for EnvelopeScene.
 RasterGrid bins_of_points(const std::vector<Point2>& points);
 
-/// Exact with the survey's themes, for one option. What is not in `bare` is hidden.
-DemandSet judge_with_themes(const Store& store, const SiteSurvey& survey, std::size_t option, const DemandSet& bare,
-                            Progress& progress, Statistics& statistics);
-
 Eye eye_at(const Grid& grid, const SiteStand& stand);
 
 }  // namespace itin::viewshed

@@ -11,7 +11,7 @@ namespace {
 
 /// Words of coverage looked at, over the whole search: a second or so.
 constexpr double kWork = 3e8;
-constexpr std::size_t kMostNodes = 50000;
+constexpr std::size_t kMostNodes = 5000;
 
 /// Choices that hold some options and none of some others.
 struct Node {

@@ -24,7 +24,12 @@ GroundBounds ground_at(const EnvelopeScene& scene, const RasterGrid& tiles, Poin
   GroundBounds ground;
   const auto bin = tiles.cell_at(p);
   if (!bin) return ground;
-  for (const std::uint32_t t : scene.bins.triangles(tiles.index(*bin))) {
+  const std::size_t index = tiles.index(*bin);
+  if (scene.ground_bins) {
+    const auto low = surface_height(*scene.envelope.bare_ground, scene.ground_bins->triangles(index), p);
+    if (low) ground.low = *low;
+  }
+  for (const std::uint32_t t : scene.bins.triangles(index)) {
     if (const auto low = surface_height(scene.envelope.lower, {&t, 1}, p); low && std::isnan(ground.low))
       ground.low = *low;
     if (const auto high = surface_height(scene.envelope.upper, {&t, 1}, p); high && !(ground.high >= *high))

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -160,7 +161,7 @@ class SiteCoverage::Impl {
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
     const auto fresh = [&](std::size_t option) { return states_[option].stage < 0; };
     for (const std::vector<std::size_t>& group : groups(all, levels_.front()))
-      if (std::any_of(group.begin(), group.end(), fresh)) judge_group(group, 0, levels_.front());
+      if (std::any_of(group.begin(), group.end(), fresh)) judge_group(group, 0, levels_.front(), false);
   }
 
   /// Each option's next stage.
@@ -201,7 +202,7 @@ class SiteCoverage::Impl {
  private:
   void choose_levels(const Box& box) {
     const std::uint64_t all = store_.points_about(0, box);
-    whole_fits_ = all <= budget();
+    whole_fits_ = all * (themed_ ? 3 : 1) <= budget();
     int first = survey_.tolerance   ? level_within(store_.metadata(), *survey_.tolerance)
                 : all <= kFewPoints ? 0
                                     : level_of(store_, box, all / (whole_fits_ ? kFirstShareOfWhole : kFirstShare));
@@ -237,22 +238,24 @@ class SiteCoverage::Impl {
   /// Takes the options, all at one stage, to the next.
   void judge(const std::vector<std::size_t>& options) {
     const int stage = states_[options.front()].stage + 1;
-    if (stage == static_cast<int>(levels_.size())) {
-      for (const std::size_t option : options) judge_with_standing(option);
-      return;
-    }
-    const int level = levels_[static_cast<std::size_t>(stage)];
-    for (const std::vector<std::size_t>& group : groups(options, level)) judge_group(group, stage, level);
+    const bool themed = stage == static_cast<int>(levels_.size());
+    const int level = themed ? 0 : levels_[static_cast<std::size_t>(stage)];
+    for (const std::vector<std::size_t>& group : groups(options, level)) judge_group(group, stage, level, themed);
   }
 
-  std::unique_ptr<EnvelopeScene> scene_of(const std::vector<std::size_t>& group, int level) {
+  std::unique_ptr<EnvelopeScene> scene_of(const std::vector<std::size_t>& group, int level, bool themed) {
     Stopwatch watch;
     Request request = request_of(survey_, group);
-    Envelope envelope = envelop(store_, what_to_read(group, request, level), progress_);
+    EnvelopeRequest read = what_to_read(group, request, level);
+    if (themed) {
+      read.themes = survey_.themes;
+      if (!survey_.targets.on_surface) read.bare_ground = read.window;
+    }
+    Envelope envelope = envelop(store_, read, progress_);
     statistics_.retrieval += envelope.lower.statistics;
     statistics_.triangles += envelope.lower.triangles.size();
     statistics_.retrieval_seconds += watch.lap();
-    request.target_height += raise_;
+    if (!themed) request.target_height += raise_;
     const RasterGrid tiles =
         survey_.targets.grid ? grid_of_tiles(*survey_.targets.grid) : bins_of_points(survey_.targets.points);
     auto scene = std::make_unique<EnvelopeScene>(std::move(envelope), request, tiles,
@@ -261,29 +264,30 @@ class SiteCoverage::Impl {
     return scene;
   }
 
-  /// The full surface about all sites, once and for all, where the memory holds it.
-  const EnvelopeScene& whole_scene() {
-    if (!whole_) {
+  /// The full surface about all sites, once and for all, where the memory holds it: bare, and then with the themes.
+  const EnvelopeScene& whole_scene(bool themed) {
+    std::unique_ptr<EnvelopeScene>& whole = whole_[themed ? 1 : 0];
+    if (!whole) {
       std::vector<std::size_t> all(states_.size());
       std::iota(all.begin(), all.end(), std::size_t{0});
-      whole_ = scene_of(all, 0);
+      whole = scene_of(all, 0, themed);
     }
-    return *whole_;
+    return *whole;
   }
 
-  void judge_group(const std::vector<std::size_t>& group, int stage, int level) {
+  void judge_group(const std::vector<std::size_t>& group, int stage, int level, bool themed) {
     std::unique_ptr<EnvelopeScene> own;
-    if (level > 0 || !whole_fits_) own = scene_of(group, level);
-    const EnvelopeScene& scene = own ? *own : whole_scene();
+    if (level > 0 || !whole_fits_) own = scene_of(group, level, themed);
+    const EnvelopeScene& scene = own ? *own : whole_scene(themed);
     Stopwatch watch;
     Request request = request_of(survey_, group);
-    request.target_height += raise_;
+    if (!themed) request.target_height += raise_;
     std::vector<const CoverageBounds*> before;
     for (const std::size_t option : group) before.push_back(&states_[option].bounds);
     const auto look = survey_.targets.grid ? judge_cells : judge_points;
     std::vector<CoverageBounds> after = look(scene, survey_, request, group, before, progress_, statistics_);
     for (std::size_t i = 0; i < group.size(); ++i) {
-      if (themed_) after[i].certain = {}, after[i].exact = false;  // features may hide it
+      if (themed_ && !themed) after[i].certain = {}, after[i].exact = false;  // features may hide it
       settle(group[i], stage, std::move(after[i]));
     }
     statistics_.rays_seconds += watch.lap();
@@ -305,17 +309,6 @@ class SiteCoverage::Impl {
     return read;
   }
 
-  void judge_with_standing(std::size_t option) {
-    Stopwatch watch;
-    CoverageBounds bounds;
-    bounds.certain =
-        judge_with_themes(store_, survey_, option, states_[option].bounds.possible, progress_, statistics_);
-    bounds.possible = bounds.certain;
-    bounds.exact = true;
-    statistics_.rays_seconds += watch.lap();
-    settle(option, static_cast<int>(levels_.size()), std::move(bounds));
-  }
-
   void settle(std::size_t option, int stage, CoverageBounds bounds) {
     states_[option].bounds = std::move(bounds);
     states_[option].stage = stage;
@@ -329,7 +322,7 @@ class SiteCoverage::Impl {
   bool themed_;
   double raise_ = 0;
   bool whole_fits_ = false;
-  std::unique_ptr<EnvelopeScene> whole_;
+  std::array<std::unique_ptr<EnvelopeScene>, 2> whole_;
   std::vector<int> levels_;  ///< of the looks at the bare terrain
   std::vector<State> states_;
   Statistics statistics_;
