@@ -34,6 +34,11 @@ void LeastHeightObservation::keep(const Look& look) {
   least_[look.cell] = 0;
 }
 
+/// Of the line to the target that counts as visible. One on the ground ends exactly there.
+double LeastHeightObservation::wanted_end(const Eye& eye, double ground) const {
+  return ground + (eye.target(ground * resolution_) - ground * resolution_) / resolution_;
+}
+
 LeastHeightObservation::Bounds LeastHeightObservation::bounds(const Look& look, double ground) const {
   const Eye& eye = eyes_[look.observer];
   Bounds b{ground, kSky / resolution_};
@@ -42,7 +47,7 @@ LeastHeightObservation::Bounds LeastHeightObservation::bounds(const Look& look, 
     b.upper = std::min(b.upper, (eye.elevation + range->second) / resolution_);
   }
   // What is known to be seen by another observer, unless the target that counts as visible is higher.
-  const double wanted = eye.target(ground * resolution_) / resolution_;
+  const double wanted = wanted_end(eye, ground);
   return {b.lower, std::min(b.upper, std::max(ground + least_[look.cell] / resolution_, wanted))};
 }
 
@@ -65,7 +70,7 @@ void LeastHeightObservation::judge(const LookPacket& packet, const Scene& scene,
 
 void LeastHeightObservation::settle(const Look& look, const SightLines& lines, unsigned i, double least,
                                     const Scene& scene) {
-  const double ground = lines.to_z[i], wanted = eyes_[look.observer].target(ground * resolution_) / resolution_;
+  const double ground = lines.to_z[i], wanted = wanted_end(eyes_[look.observer], ground);
   const Bounds allowed = bounds(look, ground);
   const auto seen_at = [&](double end) {
     if (end < allowed.lower || end > allowed.upper) return false;

@@ -30,6 +30,7 @@ class LeastHeightObservation final : public Observation {
     double upper = 0;
   };
   Bounds bounds(const Look& look, double ground) const;
+  double wanted_end(const Eye& eye, double ground) const;
   void settle(const Look& look, const SightLines& lines, unsigned i, double least, const Scene& scene);
 
   const LeastHeights& heights_;
