@@ -22,6 +22,7 @@ void ObserverOptions::declare(CLI::App& app) {
   app.add_option("--observer-on", observer_on_, "ground (default), or the surface with the roofs and tops of --themes")
       ->type_name("ground|surface");
   in_crs_.declare(app);
+  views_.declare(app);
 }
 
 void ObserverOptions::validate() {
@@ -36,7 +37,11 @@ void ObserverOptions::validate() {
     refuse(sites_.where, "--where");
     refuse(sites_.height_field, "--height-field");
     refuse(sites_.name_field, "--name-field");
+    if (views_.given()) throw InputError("fields of observers are of use with --observers only");
   }
+  views_.validate();
+  if (views_.arcgis() && !sites_.height_field.empty())
+    throw InputError("--arcgis-fields takes heights from OFFSETA; leave out --height-field");
   parse_choice("--observer-on", observer_on_, {"ground", "surface"});
   if (!height_text_.empty()) height_ = parse_number("--observer-height", height_text_);
   require_above_ground("--observer-height", height_);
@@ -60,7 +65,11 @@ std::vector<ObserverPlace> ObserverOptions::places_given(const StoreMetadata& me
   const auto transform = in_crs_.transform_to(metadata.crs_wkt);
   std::vector<ObserverPlace> places;
   for (const Place& place : given_) {
-    places.push_back({fmt::format("{}", places.size() + 1), transform(place.position), place.height.value_or(height_)});
+    places.push_back({fmt::format("{}", places.size() + 1),
+                      transform(place.position),
+                      place.height.value_or(height_),
+                      absolute_heights_,
+                      {}});
   }
   return places;
 }
@@ -68,22 +77,30 @@ std::vector<ObserverPlace> ObserverOptions::places_given(const StoreMetadata& me
 std::vector<ObserverPlace> ObserverOptions::places_of_file(const StoreMetadata& metadata) const {
   SiteQuery query = sites_;
   query.crs = in_crs_.crs;
+  query.numbers = views_.numbers();
   std::vector<ObserverPlace> places;
   for (const Site& site : read_sites(query, metadata.crs_wkt)) {
-    places.push_back({site.name, site.position, site.height.value_or(height_)});
-    require_above_ground(fmt::format("{}: feature {}", query.path, site.feature), places.back().height);
+    const std::string where = fmt::format("{}: feature {}", query.path, site.feature);
+    ObserverPlace place{site.name, site.position, site.height.value_or(height_), absolute_heights_,
+                        views_.view(site.numbers, where)};
+    if (place.view.height) place.height = *place.view.height;
+    if (place.view.spot) place.height += *place.view.spot, place.absolute = true;
+    if (!place.absolute) require_above_ground(where, place.height);
+    places.push_back(std::move(place));
   }
   if (places.empty()) throw InputError(query.path + ": holds no observer that was asked for; see --layer and --where");
   return places;
 }
 
-Document observers_document(const std::vector<ObserverPlace>& places, bool absolute_heights) {
+Document observers_document(const std::vector<ObserverPlace>& places) {
   Document observers = Document::array();
   for (const ObserverPlace& place : places) {
-    observers.push_back({{"name", place.name},
-                         {"x", place.position.x},
-                         {"y", place.position.y},
-                         {absolute_heights ? "elevation_m" : "height_m", place.height}});
+    Document observer{{"name", place.name},
+                      {"x", place.position.x},
+                      {"y", place.position.y},
+                      {place.absolute ? "elevation_m" : "height_m", place.height}};
+    add_view(place.view, observer);
+    observers.push_back(std::move(observer));
   }
   return observers;
 }

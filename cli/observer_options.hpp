@@ -13,6 +13,7 @@
 #include "in_crs.hpp"
 #include "values.hpp"
 #include "verb.hpp"
+#include "view_fields.hpp"
 
 namespace itin::cli {
 
@@ -20,7 +21,9 @@ namespace itin::cli {
 struct ObserverPlace {
   std::string name;
   Point2 position;
-  double height = 0;  ///< metres above the surface, or an elevation with `--absolute-heights`
+  double height = 0;  ///< metres above the surface, or an elevation
+  bool absolute = false;
+  ViewFields::View view;
 };
 
 class ObserverOptions {
@@ -44,11 +47,12 @@ class ObserverOptions {
   std::string observer_on_ = "ground";
   bool absolute_heights_ = false;
   InCrs in_crs_;
+  ViewFields views_;
 
   double height_ = 2;  ///< of observers that do not say
   std::vector<Place> given_;
 };
 
-Document observers_document(const std::vector<ObserverPlace>& places, bool absolute_heights);
+Document observers_document(const std::vector<ObserverPlace>& places);
 
 }  // namespace itin::cli

@@ -8,7 +8,7 @@ namespace itin::cli {
 
 void ThemeOptions::declare(CLI::App& app) {
   app.add_option("--themes", themes_,
-                 "Surface features to include: all, none, or their names (default: none). Lines of the terrain are "
+                 "Surface features to include: all, none, or their names (default: none; all with --precise). Lines of the terrain are "
                  "always there")
       ->type_name("NAME,NAME...");
 }

@@ -18,8 +18,9 @@ class ThemeOptions {
   /// Throws InputError.
   void validate();
   const ThemeChoice& choice() const { return choice_; }
+  bool given() const { return !themes_.empty(); }
   /// Whether any features were asked for.
-  bool given() const { return !themes_.empty() && themes_ != "none"; }
+  bool any() const { return given() && themes_ != "none"; }
   /// For verbs that see the terrain alone, so far. Throws InputError where features are asked for.
   void validate_none(const std::string& verb);
   /// What was asked for, where it was.

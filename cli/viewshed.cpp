@@ -9,16 +9,16 @@
 #include <itin/error.hpp>
 #include <itin/store.hpp>
 #include <viewshed/certified.hpp>
-#include <viewshed/map_image.hpp>
 #include <viewshed/viewshed.hpp>
 
 #include "detail_options.hpp"
 #include "earth_options.hpp"
+#include "horizon_output.hpp"
 #include "observer_options.hpp"
-#include "output_path.hpp"
 #include "store_document.hpp"
 #include "surface_options.hpp"
 #include "verb.hpp"
+#include "viewshed_outputs.hpp"
 
 namespace itin::cli {
 
@@ -43,14 +43,26 @@ class ViewshedVerb final : public Verb {
 
   void declare(CLI::App& app) override {
     app.add_option("STORE", store_, "The store")->required();
-    app.add_option("-o,--output", output_, "The raster to write, a GeoTIFF (.tif)")->type_name("FILE");
-    app.add_option("--image", image_, "A map to write (.png, .jpg)")->type_name("FILE");
-    app.add_option("--mode", mode_text_,
-                   "visible (to any observer), count (how many see it), or certified (certainly visible, certainly "
-                   "hidden, or undecided at this tolerance) (default: visible)")
+    outputs_.declare(app);
+    horizon_.declare(app);
+    app.add_option(
+           "--mode", mode_text_,
+           "visible (to any observer; the default); count (how many see it); certified (certainly visible, "
+           "certainly hidden, or undecided at this tolerance); which (one bit an observer, in UInt32 bands of "
+           "32); angle (elevation angle of the sight line, degrees, the greatest of several observers); "
+           "nearest (two bands: distance and number of the nearest visible observer); blocker (two bands: theme and "
+           "feature of what first hides the cell from the nearest observer); height (the least height above the "
+           "ground at which a target is seen, metres); probability (two bands: of being visible, with "
+           "--vertical-error, "
+           "and visible as the heights are)")
         ->type_name("MODE");
     observers_.declare(app);
     declare_targets(app);
+    app.add_option("--vertical-error", sigma_text_, "Standard deviation of heights, for --mode probability")
+        ->type_name("METRES");
+    app.add_option("--error-correlation", correlation_text_,
+                   "L: errors x apart are correlated as exp(-x / L) (default: 0, independent)")
+        ->type_name("METRES");
     detail_.declare(app);
     themes_.declare(app);
     earth_.declare(app);
@@ -59,16 +71,16 @@ class ViewshedVerb final : public Verb {
     app.add_flag("--precise", precise_, "Exact for the full surface, which is read only where it decides");
     app.add_option("--memory", memory_text_, "Memory for --precise to work in; it changes the speed only (default: 1G)")
         ->type_name("SIZE");
-    policy_.declare(app);
   }
 
   void validate() override {
-    validate_outputs();
+    horizon_.validate();
+    outputs_.validate(horizon_.paths());
     observers_.validate();
     validate_targets();
     detail_.validate();
     themes_.validate();
-    request_.themes = themes_.choice();
+    request_.themes = precise_ && !themes_.given() ? ThemeChoice::all() : themes_.choice();
     earth_.validate();
     request_.earth = earth_.earth();
     if (!mode_text_.empty()) request_.mode = parse_mode();
@@ -77,11 +89,12 @@ class ViewshedVerb final : public Verb {
       constexpr viewshed::NoData kChoices[] = {kUnknown, kBlock, kClear};
       request_.nodata = kChoices[parse_choice("--nodata", nodata_text_, {"unknown", "block", "clear"})];
     }
+    validate_vertical_error();
     validate_precise();
   }
 
   Document parameters() const override {
-    Document parameters{{"store", store_}, {"observers", observers_document(places_, observers_.absolute_heights())}};
+    Document parameters{{"store", store_}, {"observers", observers_document(places_)}};
     parameters["mode"] = kModes[static_cast<std::size_t>(request_.mode)];
     parameters["precise"] = precise_;
     parameters[request_.target_absolute ? "target_elevation_m" : "target_height_m"] = request_.target_height;
@@ -92,6 +105,10 @@ class ViewshedVerb final : public Verb {
     };
     angles("azimuth_deg", request_.azimuth);
     angles("elevation_deg", request_.elevation);
+    if (request_.mode == viewshed::Mode::kProbability) {
+      parameters["vertical_error_m"] = request_.vertical_error.sigma;
+      parameters["error_correlation_m"] = request_.vertical_error.correlation_length;
+    }
     if (request_.cell_size) parameters["cell_m"] = *request_.cell_size;
     if (!like_.empty()) parameters["like"] = like_;
     parameters["observer_on"] = request_.observers_on_surface ? "surface" : "ground";
@@ -103,17 +120,23 @@ class ViewshedVerb final : public Verb {
   }
 
   Result execute(Progress& progress) override {
-    for (const std::string& path : outputs()) policy_.require_writable(path);
     const Store store(store_);
     const StoreMetadata& metadata = store.metadata();
     complete_request(metadata);
     request_.themes.check(metadata.themes);
-    const viewshed::Surveyed surveyed = survey(store, progress);
-    const Document surface = surface_document(metadata, request_.detail, request_.themes);
+    if (!horizon_.paths().empty() && places_.size() > 1)
+      throw InputError("--horizon is that of one observer; give one");
+    outputs_.prepare(request_);
+    const viewshed::Surveyed surveyed = survey(store, request_, progress);
+    const ViewshedOutputs::Context context{metadata.crs_wkt,
+                                           surface_document(metadata, request_.detail, request_.themes)};
     Result result;
     result.warnings = surveyed.result.warnings;
-    write(surveyed, metadata, surface, result.warnings);
-    result.document = document(surveyed.result, metadata, surface);
+    outputs_.write(surveyed, context, result.warnings);
+    outputs_.write_each([&](std::size_t i) { return survey_alone(store, surveyed, i, progress); }, context);
+    const Document targets = horizon_.write(surveyed, metadata, earth_.document(), outputs_.overwrite(), progress);
+    result.document = document(surveyed.result, metadata, context.surface);
+    if (!targets.empty()) result.document["horizon_targets"] = targets;
     result.text = text(surveyed.result);
     return result;
   }
@@ -134,16 +157,6 @@ class ViewshedVerb final : public Verb {
     app.add_option("--cell", cell_text_, "Size of the raster's cells (default: a round size for at most 2048 a side)")
         ->type_name("METRES");
     app.add_option("--like", like_, "Take the cells of this raster")->type_name("FILE");
-  }
-
-  void validate_outputs() const {
-    if (output_.empty() && image_.empty()) throw InputError("give an output: --output FILE.tif, or --image FILE.png");
-    if (output_.empty()) return;
-    const std::string ending = std::filesystem::path(output_).extension().string();
-    if (ending != ".tif" && ending != ".tiff") {
-      throw InputError(fmt::format("--output '{}': a viewshed is written as .tif", output_));
-    }
-    if (output_ == image_) throw InputError("--output and --image name the same file");
   }
 
   void validate_targets() {
@@ -171,22 +184,36 @@ class ViewshedVerb final : public Verb {
     }
   }
 
-  static constexpr const char* kModes[] = {"visible", "count", "certified"};
+  static constexpr const char* kModes[] = {"visible", "count",   "certified", "which",      "angle",
+                                           "nearest", "blocker", "height",    "probability"};
 
   viewshed::Mode parse_mode() const {
-    const std::size_t mode =
-        parse_choice("--mode", mode_text_, {"visible", "count", "certified", "height", "angle", "which"});
-    if (mode > 2)
-      throw InputError(
-          fmt::format("--mode {}: not in this version; it knows visible, count and certified", mode_text_));
-    return static_cast<viewshed::Mode>(mode);
+    return static_cast<viewshed::Mode>(
+        parse_choice("--mode", mode_text_, std::vector<std::string_view>(std::begin(kModes), std::end(kModes))));
+  }
+
+  void validate_vertical_error() {
+    const bool wanted = request_.mode == viewshed::Mode::kProbability;
+    if (wanted != !sigma_text_.empty())
+      throw InputError("--mode probability and --vertical-error METRES need each other; give both");
+    if (!wanted && !correlation_text_.empty())
+      throw InputError("--error-correlation is of use with --vertical-error only");
+    viewshed::VerticalError& error = request_.vertical_error;
+    if (wanted) error.sigma = parse_number("--vertical-error", sigma_text_, Range::kPositive);
+    if (!correlation_text_.empty())
+      error.correlation_length = parse_number("--error-correlation", correlation_text_, Range::kNotNegative);
   }
 
   void validate_precise() {
+    if (!horizon_.paths().empty() && (precise_ || certified()))
+      throw InputError("--horizon is that of the surface at --tolerance; leave out --precise and --mode certified");
     if (!precise_) {
       if (!memory_text_.empty()) throw InputError("--memory is of use with --precise only");
       return;
     }
+    if (request_.mode == viewshed::Mode::kAngle || request_.mode >= viewshed::Mode::kBlocker)
+      throw InputError(
+          fmt::format("--precise tells visible, count, which and nearest; leave it out for --mode {}", mode_text_));
     if (certified())
       throw InputError("--precise leaves nothing undecided: give --mode visible or count, or leave --precise out");
     if (detail_.has_rings() || request_detail_given())
@@ -196,10 +223,25 @@ class ViewshedVerb final : public Verb {
   bool request_detail_given() const { return detail_.detail({}).coarsest() > 0; }
   bool certified() const { return request_.mode == viewshed::Mode::kCertified; }
 
-  viewshed::Surveyed survey(const Store& store, Progress& progress) const {
-    if (precise_) return viewshed::compute_precise(store, request_, precise_options_, progress);
-    if (certified()) return viewshed::compute_certified(store, request_, progress);
-    return viewshed::compute_with_surface(store, request_, progress);
+  viewshed::Surveyed survey(const Store& store, const viewshed::Request& request, Progress& progress) const {
+    if (precise_) return viewshed::compute_precise(store, request, precise_options_, progress);
+    if (certified()) return viewshed::compute_certified(store, request, progress);
+    return viewshed::compute_with_surface(store, request, progress);
+  }
+  viewshed::Result survey_alone(const Store& store, const viewshed::Surveyed& all, std::size_t observer,
+                                Progress& progress) const {
+    const viewshed::Request request = viewshed::alone(all.result, observer);
+    return precise_ || certified() ? survey(store, request, progress).result
+                                   : viewshed::compute_on_surface(store, all, request, progress);
+  }
+
+  static viewshed::Observer observer_of(const ObserverPlace& place) {
+    const auto angles = [](const std::optional<ViewFields::Angles>& range) {
+      return range ? std::optional(viewshed::AngleRange{range->first, range->second}) : std::nullopt;
+    };
+    const ViewFields::View& view = place.view;
+    return {place.name,  place.position,  place.height,         place.absolute,        view.target_height,
+            view.radius, view.min_radius, angles(view.azimuth), angles(view.elevation)};
   }
 
   /// What takes the store's CRS to understand.
@@ -208,36 +250,9 @@ class ViewshedVerb final : public Verb {
     if (detail_.has_rings() && places_.size() > 1) {
       throw InputError("--rings lie about one observer; for several give --tolerance");
     }
-    for (const ObserverPlace& place : places_) {
-      request_.observers.push_back({place.name, place.position, place.height, observers_.absolute_heights()});
-    }
+    for (const ObserverPlace& place : places_) request_.observers.push_back(observer_of(place));
     request_.detail = detail_.detail(places_.front().position);
     if (!like_.empty()) request_.grid = raster_grid_like(like_, metadata.crs_wkt);
-  }
-
-  void write(const viewshed::Surveyed& surveyed, const StoreMetadata& metadata, const Document& surface,
-             std::vector<std::string>& warnings) const {
-    std::optional<viewshed::MapImage> map;
-    if (!image_.empty()) {
-      map = viewshed::draw_map(surveyed.tin, surveyed.result);
-      warnings.insert(warnings.end(), map->warnings.begin(), map->warnings.end());
-    }
-    if (!output_.empty()) {
-      viewshed::GeotiffOptions options;
-      options.crs_wkt = metadata.crs_wkt;
-      options.metadata = {{"itin", ITIN_VERSION}, {"surface", surface.dump()}};
-      options.overwrite = policy_.overwrite;
-      viewshed::write_geotiff(output_, surveyed.result, options);
-    }
-    if (map) viewshed::write_image(image_, *map, policy_.overwrite);
-  }
-
-  std::vector<std::string> outputs() const {
-    std::vector<std::string> paths;
-    for (const std::string& path : {output_, image_}) {
-      if (!path.empty()) paths.push_back(path);
-    }
-    return paths;
   }
 
   Document document(const viewshed::Result& result, const StoreMetadata& metadata, const Document& surface) const {
@@ -261,7 +276,7 @@ class ViewshedVerb final : public Verb {
                            {"outside", static_cast<double>(cells.outside) * area}};
     if (certified()) document["decided_percent"] = decided_percent(cells);
     document["ray_error_bound_m"] = result.error_bound_m;
-    document["outputs"] = outputs();
+    document["outputs"] = outputs_.paths();
     const viewshed::Statistics& statistics = result.statistics;
     document["statistics"] = {{"points_read", statistics.retrieval.points_read},
                               {"blocks_read", statistics.retrieval.blocks_read},
@@ -280,7 +295,7 @@ class ViewshedVerb final : public Verb {
     const std::uint64_t decided = cells.visible + cells.hidden;
     const double share = decided == 0 ? 0 : 100.0 * static_cast<double>(cells.visible) / static_cast<double>(decided);
     std::string text;
-    for (const std::string& path : outputs()) {
+    for (const std::string& path : outputs_.paths()) {
       text += fmt::format("{}: {}\n", path, readable_bytes(std::filesystem::file_size(path)));
     }
     if (certified()) {
@@ -296,7 +311,8 @@ class ViewshedVerb final : public Verb {
     return text;
   }
 
-  std::string store_, output_, image_, mode_text_, nodata_text_, like_, memory_text_;
+  std::string store_, mode_text_, nodata_text_, like_, memory_text_;
+  std::string sigma_text_, correlation_text_;
   std::string target_height_text_, radius_text_, min_radius_text_, azimuth_text_, elevation_text_, cell_text_;
   std::string target_on_ = "ground";
   bool precise_ = false;
@@ -305,7 +321,8 @@ class ViewshedVerb final : public Verb {
   DetailOptions detail_;
   ThemeOptions themes_;
   EarthOptions earth_;
-  OutputPolicy policy_;
+  ViewshedOutputs outputs_;
+  HorizonOutput horizon_;
 
   std::vector<ObserverPlace> places_;
   viewshed::Request request_;

@@ -11,9 +11,8 @@
 #include <viewshed/certified.hpp>
 
 #include "eye.hpp"
-#include "field_of_view.hpp"
 #include "scene.hpp"
-#include "sight_line.hpp"
+#include "support/brute_force_viewshed.hpp"
 #include "support/exact_line_of_sight.hpp"
 #include "support/raster_file.hpp"
 #include "support/temporary_directory.hpp"
@@ -22,6 +21,8 @@
 
 namespace itin::viewshed {
 namespace {
+
+using test::look;
 
 constexpr Point2 kNorthWest{300000, 200000};
 constexpr double kStep = 50;
@@ -74,44 +75,8 @@ Terrain cardiff(int side, double void_radius = 0) {
   });
 }
 
-/// The slow way: every triangle for every cell. Values of plain viewsheds, of one observer.
 std::vector<std::uint8_t> brute_force(const Terrain& terrain, const Request& request, const RasterGrid& cells) {
-  const Tin& tin = terrain.full();
-  const Scene whole(tin, request.earth, request.nodata, 100000);
-  const Observer& observer = request.observers.front();
-  const Eye eye = eye_of(tin.grid, observer, whole.ground(observer.position));
-  const double resolution = tin.grid.resolution;
-  const FieldOfView view(request);
-  std::vector<std::uint8_t> values(cells.cell_count(), kOutside);
-  for (std::int64_t row = 0; row < cells.rows(); ++row) {
-    for (std::int64_t column = 0; column < cells.columns(); ++column) {
-      const Point2 centre = cells.centre(column, row);
-      const auto ground = whole.ground(centre);
-      if (!ground) continue;
-      const double target = *ground + request.target_height;
-      const double dx = centre.x - eye.position.x, dy = centre.y - eye.position.y;
-      if (!view.contains(dx, dy, target - eye.elevation)) continue;
-      const Point3 to{easting_in_units(tin.grid, centre.x), northing_in_units(tin.grid, centre.y), target / resolution};
-      std::uint8_t& value = values[cells.index({column, row})];
-      value = kVisible;
-      if (to.x == eye.units.x && to.y == eye.units.y) continue;
-      const SightLine line(eye.units, to, request.earth.drop_coefficient() * resolution, kGrazing / resolution);
-      const bool hidden = std::any_of(tin.triangles.begin(), tin.triangles.end(), [&](const Triangle& t) {
-        return line.hidden_by(tin.vertices[t[0]], tin.vertices[t[1]], tin.vertices[t[2]]);
-      });
-      if (hidden) value = kHidden;
-    }
-  }
-  return values;
-}
-
-Request look(Point2 position, double height, double target_height, double cell) {
-  Request request;
-  request.observers = {{"o", position, height}};
-  request.target_height = target_height;
-  request.cell_size = cell;
-  request.nodata = NoData::kClear;
-  return request;
+  return test::brute_force(terrain.full(), terrain.full(), request, cells);
 }
 
 /// No certain cell may be wrong. Returns the share decided, of the cells in view.
@@ -266,10 +231,24 @@ TEST(Certified, RingsAndSeveralObservers) {
   const Result count = compute_precise(terrain.store(), request, {.memory_bytes = 3000000}, progress).result;
   request.mode = Mode::kVisible;
   const Result any = compute_precise(terrain.store(), request, {.memory_bytes = 3000000}, progress).result;
+  request.mode = Mode::kWhich;
+  const Result which = compute_precise(terrain.store(), request, {.memory_bytes = 3000000}, progress).result;
+  request.mode = Mode::kNearest;
+  const Result nearest = compute_precise(terrain.store(), request, {.memory_bytes = 3000000}, progress).result;
+  const auto distance = [&](std::size_t observer, std::size_t i) {
+    const auto columns = nearest.grid.columns();
+    const Point2 c =
+        nearest.grid.centre(static_cast<std::int64_t>(i) % columns, static_cast<std::int64_t>(i) / columns);
+    const Point2 o = request.observers[observer].position;
+    return std::hypot(c.x - o.x, c.y - o.y);
+  };
   for (std::size_t i = 0; i < truth.size(); ++i) {
     if (truth[i] == kOutside) continue;
     ASSERT_EQ(count.count[i], (truth[i] == kVisible) + (other[i] == kVisible));
     ASSERT_EQ(any.visible[i] == kVisible, count.count[i] > 0);
+    ASSERT_EQ(which.which[i], (truth[i] == kVisible ? 1U : 0U) + (other[i] == kVisible ? 2U : 0U));
+    const bool first_nearer = other[i] != kVisible || distance(0, i) <= distance(1, i);
+    ASSERT_EQ(nearest.nearest[i], count.count[i] == 0 ? 0 : truth[i] == kVisible && first_nearer ? 1 : 2);
   }
 }
 
@@ -287,7 +266,8 @@ TEST(Precise, TheMemoryChangesNothingOnTheWholeSample) {
       EXPECT_TRUE(result.visible == other.visible) << "memory " << memory;
     }
     // And the walk over all triangles beneath the line.
-    const Eye eye = eye_of(terrain.full().grid, request.observers[0], whole.ground(request.observers[0].position));
+    const Eye eye =
+        eye_of(terrain.full().grid, request, request.observers[0], whole.ground(request.observers[0].position));
     const double resolution = terrain.full().grid.resolution;
     std::uint64_t different = 0;
     for (std::size_t i = 0; i < result.visible.size(); i += 61) {

@@ -162,7 +162,8 @@ TEST(Viewshed, SeveralObserversSeeWhatAnySees) {
   EXPECT_EQ(seen_by(105, 205), 1);
   EXPECT_EQ(seen_by(225, 205), 1);
   EXPECT_EQ(seen_by(245, 345), kCountOutside);
-  EXPECT_TRUE(count.visible.empty());
+  for (std::size_t i = 0; i < count.count.size(); ++i)
+    EXPECT_EQ(count.visible[i], count.count[i] == kCountOutside ? kOutside : count.count[i] > 0 ? kVisible : kHidden);
   std::uint64_t counted = 0;
   for (const std::uint16_t n : count.count) counted += n != 0 && n != kCountOutside;
   EXPECT_EQ(counted, count.cells.visible);

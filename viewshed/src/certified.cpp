@@ -107,9 +107,34 @@ Voids voids_of(NoData rule) {
 
 }  // namespace
 
+namespace {
+
+/// With features on the ground: the exact answer, but where ground without data leaves it open.
+Surveyed decide_exactly(const Store& store, const Request& request, Progress& progress) {
+  Request open = request, closed = request;
+  open.mode = closed.mode = Mode::kVisible;
+  if (request.nodata == NoData::kUnknown) open.nodata = NoData::kClear, closed.nodata = NoData::kBlock;
+  Surveyed surveyed = compute_precise(store, open, {}, progress);
+  Result& result = surveyed.result;
+  const bool doubtful = request.nodata == NoData::kUnknown && result.crosses_voids;
+  const std::vector<std::uint8_t> blocked =
+      doubtful ? compute_precise(store, closed, {}, progress).result.visible : result.visible;
+  result.request = request;
+  result.cells = {};
+  for (std::size_t i = 0; i < blocked.size(); ++i) {
+    std::uint8_t& value = result.visible[i];
+    if (value != kOutside)
+      value = value == kHidden ? kCertainlyHidden : blocked[i] == kVisible ? kCertainlyVisible : kUndecided;
+    count(value, result.cells);
+  }
+  return surveyed;
+}
+
+}  // namespace
+
 Surveyed compute_certified(const Store& store, const Request& request, Progress& progress) {
   validate(request);
-  require_bare_terrain(store, request);
+  if (features_stand(store, request)) return decide_exactly(store, request, progress);
   Surveyed surveyed;
   Result& result = surveyed.result;
   result.request = request;
@@ -132,7 +157,7 @@ Surveyed compute_certified(const Store& store, const Request& request, Progress&
   result.statistics.scene_seconds = watch.lap();
 
   result.visible.resize(result.grid.cell_count());
-  decide_all(CertifiedPass(scene, result.grid, tiles, request), tiles, looks, result, progress);
+  decide_all(CertifiedPass(scene, result.grid, tiles), tiles, looks, result, progress);
   result.statistics.rays_seconds = watch.lap();
   surveyed.tin = scene.envelope.lower;
   return surveyed;

@@ -26,7 +26,9 @@ EnvelopeScene::EnvelopeScene(Envelope e, const Request& request, const RasterGri
             ceiling_of(envelope.upper, request), envelope.outline),
       upper(envelope.upper, envelope.pieces, request.earth, curtains(envelope, request, voids)),
       bins(envelope.lower, tiles),
-      exact(envelope.exact) {}
+      exact(envelope.exact) {
+  if (envelope.bare_ground) ground_bins.emplace(*envelope.bare_ground, tiles);
+}
 
 EnvelopeScene::Look EnvelopeScene::look_from(const Eye& eye) const {
   const Tin& tin = envelope.upper;
@@ -43,14 +45,18 @@ EnvelopeScene::Look EnvelopeScene::look_from(const Eye& eye) const {
   return {eye, highest};
 }
 
-CertifiedPass::CertifiedPass(const EnvelopeScene& scene, const RasterGrid& grid, const RasterGrid& tiles,
-                             const Request& request)
-    : scene_(scene), grid_(grid), tiles_(tiles), request_(request), view_(request) {}
+CertifiedPass::CertifiedPass(const EnvelopeScene& scene, const RasterGrid& grid, const RasterGrid& tiles)
+    : scene_(scene), grid_(grid), tiles_(tiles) {}
 
 std::unique_ptr<CertifiedPass::TileWork> CertifiedPass::begin(std::size_t tile) const {
   auto work = std::make_unique<TileWork>(scene_.envelope.lower.grid, grid_, tile_at(grid_, tiles_, tile));
   const auto triangles = scene_.bins.triangles(tile);
-  scan_convert(scene_.envelope.lower, triangles, work->tile, work->centres, work->low);
+  if (scene_.ground_bins) {
+    scan_convert(*scene_.envelope.bare_ground, scene_.ground_bins->triangles(tile), work->tile, work->centres,
+                 work->low);
+  } else {
+    scan_convert(scene_.envelope.lower, triangles, work->tile, work->centres, work->low);
+  }
   scan_convert_highest(scene_.envelope.upper, triangles, work->tile, work->centres, work->high);
   return work;
 }
@@ -80,15 +86,12 @@ void CertifiedPass::fill(const EnvelopeScene::Look& look, TileValues<std::uint8_
       continue;
     }
     const double ground_low = work.low[cell], ground_high = scene_.exact ? ground_low : work.high[cell];
-    const auto target = [&](double ground) {
-      return request_.target_absolute ? request_.target_height : ground * resolution + request_.target_height;
-    };
-    const double low_m = target(ground_low), high_m = target(ground_high);
+    const double low_m = eye.target(ground_low * resolution), high_m = eye.target(ground_high * resolution);
     const double low = low_m * metre, high = high_m * metre;
     const Point2 centre =
         grid_.centre(work.tile.column + static_cast<std::int64_t>(c), work.tile.row + static_cast<std::int64_t>(r));
     const double dx = centre.x - eye.position.x, dy = centre.y - eye.position.y;
-    const std::optional<bool> in_view = view_.contains(dx, dy, low_m - eye.elevation, high_m - eye.elevation);
+    const std::optional<bool> in_view = eye.view.contains(dx, dy, low_m - eye.elevation, high_m - eye.elevation);
     if (in_view == false) {
       value = kOutside;
       continue;

@@ -1,14 +1,15 @@
 // Judges sight lines by an envelope: certainly visible, certainly hidden, or undecided.
 //
 //   const EnvelopeScene scene(envelop(...), request, tiles, Voids::kDoubt);
-//   const CertifiedPass pass(scene, grid, tiles, request);
+//   const CertifiedPass pass(scene, grid, tiles);
 //   CertifiedPass::TileWork work = pass.begin(tile_index);
 //   pass.judge(scene.look_from(eye), values, work, [](const Doubtful& d) { ... });
 //
 // The target stands between the lower and the upper surface at its cell's centre. A line to the lowest target that
 // clears the upper surface sees whatever the full surface is; one to the highest target that the lower surface hides
 // does not. Over an envelope of level 0 both surfaces are the full one (but for what the upper one is raised against
-// rounding), and the target's height is exact.
+// rounding), and the target's height is exact: also where targets stand on the bare ground beneath what the envelope
+// holds of features.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +20,6 @@
 
 #include "envelope.hpp"
 #include "eye.hpp"
-#include "field_of_view.hpp"
 #include "scene.hpp"
 #include "surface_heights.hpp"
 #include "triangle_bins.hpp"
@@ -47,7 +47,8 @@ class EnvelopeScene {
   Scene lower;
   UpperScene upper;
   TriangleBins bins;
-  bool exact;  ///< the envelope is of level 0
+  std::optional<TriangleBins> ground_bins;  ///< of the bare ground, where the envelope has it
+  bool exact;                               ///< the envelope is of level 0
 };
 
 /// Lines of a packet that are not decided, to their lowest targets.
@@ -60,14 +61,15 @@ struct Doubtful {
 
 class CertifiedPass {
  public:
-  CertifiedPass(const EnvelopeScene& scene, const RasterGrid& grid, const RasterGrid& tiles, const Request& request);
+  CertifiedPass(const EnvelopeScene& scene, const RasterGrid& grid, const RasterGrid& tiles);
 
   /// What a tile's cells share between observers.
   struct TileWork {
     TileWork(const Grid& units, const RasterGrid& grid, const Tile& t) : tile(t), centres(units, grid, t) {}
     Tile tile;
     TileCentres centres;
-    TileValues<double> low, high;  ///< the ground's bounds, grid units
+    TileValues<double> low;   ///< the least height of what targets stand on, grid units
+    TileValues<double> high;  ///< the upper surface
     Occluder occluder;
     std::uint64_t rays = 0;
   };
@@ -87,8 +89,6 @@ class CertifiedPass {
   const EnvelopeScene& scene_;
   const RasterGrid& grid_;
   const RasterGrid& tiles_;
-  const Request& request_;
-  FieldOfView view_;
 };
 
 }  // namespace itin::viewshed

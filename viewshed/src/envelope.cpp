@@ -85,11 +85,12 @@ bool within(const Tin& tin, const Triangle& t, const FineDisc& disc) {
 
 class Builder {
  public:
-  Builder(const Store& store, Progress& progress) : store_(store), progress_(progress) {}
+  Builder(const Store& store, const ThemeChoice& themes, Progress& progress)
+      : store_(store), themes_(themes), progress_(progress) {}
 
   void add(const Window& window, int level) {
     const double tolerance = store_.metadata().levels[static_cast<std::size_t>(level)].tolerance;
-    const Tin piece = triangulate(store_, window, Detail::tolerance(tolerance), progress_);
+    const Tin piece = triangulate(store_, window, Detail::tolerance(tolerance), progress_, themes_);
     const std::vector<HeightBounds> bounds = vertex_bounds(store_, level, piece);
     const auto first = static_cast<std::uint32_t>(lower_.vertices.size());
     lower_.grid = piece.grid;
@@ -138,6 +139,7 @@ class Builder {
 
  private:
   const Store& store_;
+  const ThemeChoice& themes_;
   Progress& progress_;
   Tin lower_;
   std::vector<std::int32_t> upper_;  ///< heights
@@ -156,7 +158,7 @@ int level_within(const StoreMetadata& metadata, double tolerance) {
 }
 
 Envelope envelop(const Store& store, const EnvelopeRequest& request, Progress& progress) {
-  Builder builder(store, progress);
+  Builder builder(store, request.themes, progress);
   builder.add(request.window, request.level);
   builder.mark_outline();
   for (int level = request.level - 1; level >= 0; --level) {
@@ -173,6 +175,10 @@ Envelope envelop(const Store& store, const EnvelopeRequest& request, Progress& p
   }
   Envelope envelope = std::move(builder).finish(request.observers);
   envelope.exact = request.level == 0;
+  if (request.bare_ground) {
+    envelope.bare_ground = triangulate(store, *request.bare_ground, Detail::tolerance(0), progress);
+    envelope.lower.statistics += envelope.bare_ground->statistics;
+  }
   return envelope;
 }
 

@@ -9,10 +9,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
+#include <itin/theme.hpp>
 #include <itin/tin.hpp>
 #include <itin/window.hpp>
 
@@ -32,6 +34,8 @@ struct EnvelopeRequest {
   int level = 0;
   std::vector<FineDisc> discs;    ///< in any order
   std::vector<Point2> observers;  ///< rays start here: `upper` is raised for what single precision does sideways
+  ThemeChoice themes = ThemeChoice::none();          ///< what stands on the ground; at level 0 alone, without discs
+  std::optional<Window> bare_ground = std::nullopt;  ///< where the ground without it is wanted too
 };
 
 /// Both have the same triangles, in the same order.
@@ -41,6 +45,7 @@ struct Envelope {
   std::vector<BoundaryEdge> outline;  ///< the edges of the coverage, of vertices and triangles of either
   std::vector<std::uint32_t> pieces;  ///< the first triangle of each piece but the first
   bool exact = false;                 ///< of level 0 throughout: `lower` is the full surface
+  std::optional<Tin> bare_ground;     ///< the full surface without what stands on it
 };
 
 /// Cost: as triangulate(), and about a microsecond a triangle. Throws as triangulate() does.

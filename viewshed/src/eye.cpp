@@ -13,7 +13,7 @@ void refuse(const Observer& observer, const std::string& why) {
       fmt::format("observer {} at {:.10g},{:.10g}: {}", observer.name, observer.position.x, observer.position.y, why));
 }
 
-Eye eye_of(const Grid& grid, const Observer& observer, std::optional<double> ground) {
+Eye eye_of(const Grid& grid, const Request& request, const Observer& observer, std::optional<double> ground) {
   if (!ground) refuse(observer, "there is no data there; move it onto the data");
   if (observer.absolute && observer.height < *ground)
     refuse(observer, fmt::format("its elevation {:g} m is below the ground, {:.2f} m", observer.height, *ground));
@@ -21,7 +21,10 @@ Eye eye_of(const Grid& grid, const Observer& observer, std::optional<double> gro
   return {observer.position,
           elevation,
           {easting_in_units(grid, observer.position.x), northing_in_units(grid, observer.position.y),
-           elevation / grid.resolution}};
+           elevation / grid.resolution},
+          FieldOfView(request, observer),
+          observer.target_height.value_or(request.target_height),
+          request.target_absolute};
 }
 
 }  // namespace itin::viewshed

@@ -1,4 +1,4 @@
-// The upper end of an observer.
+// The upper end of an observer, and what it looks at.
 #pragma once
 
 #include <optional>
@@ -6,17 +6,25 @@
 
 #include <viewshed/viewshed.hpp>
 
+#include "field_of_view.hpp"
+
 namespace itin::viewshed {
 
 struct Eye {
   Point2 position;
   double elevation = 0;  ///< metres
   Point3 units;          ///< the same in grid units
+  FieldOfView view;
+  double target_height = 0;  ///< metres above the ground, or an elevation when `target_absolute`
+  bool target_absolute = false;
+
+  /// The elevation of the target on ground of this elevation, metres.
+  double target(double ground) const { return target_absolute ? target_height : ground + target_height; }
 };
 
-/// An observer on ground of this elevation. Throws InputError, naming the observer, where there is none, or where an
-/// absolute height lies below it.
-Eye eye_of(const Grid& grid, const Observer& observer, std::optional<double> ground);
+/// An observer of the request on ground of this elevation. Throws InputError, naming the observer, where there is none,
+/// or where an absolute height lies below it.
+Eye eye_of(const Grid& grid, const Request& request, const Observer& observer, std::optional<double> ground);
 
 [[noreturn]] void refuse(const Observer& observer, const std::string& why);
 

@@ -1,10 +1,11 @@
-// Which targets an observer looks at: ranges of distance, azimuth and elevation.
+// Which targets an observer looks at: ranges of distance, azimuth and elevation, its own or the request's.
 #pragma once
 
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include <viewshed/viewshed.hpp>
 
@@ -12,20 +13,38 @@ namespace itin::viewshed {
 
 class FieldOfView {
  public:
-  explicit FieldOfView(const Request& request)
-      : azimuth_(request.azimuth), elevation_(request.elevation), drop_(request.earth.drop_coefficient()) {
-    if (request.radius) farthest_ = *request.radius * *request.radius;
-    nearest_ = request.min_radius * request.min_radius;
+  FieldOfView(const Request& request, const Observer& observer)
+      : azimuth_(observer.azimuth ? observer.azimuth : request.azimuth),
+        elevation_(observer.elevation ? observer.elevation : request.elevation),
+        drop_(request.earth.drop_coefficient()) {
+    if (const auto radius = observer.radius ? observer.radius : request.radius) farthest_ = *radius * *radius;
+    const double nearest = observer.min_radius.value_or(request.min_radius);
+    nearest_ = nearest * nearest;
   }
+
+  /// Whether anything at this squared distance or beyond it can be in view.
+  bool reaches(double squared) const { return squared <= farthest_; }
 
   /// Metres from the observer to the target. An observer's own position has every azimuth.
   bool contains(double dx, double dy, double dz) const { return contains(dx, dy, dz, dz).value(); }
+  bool looks_towards(double azimuth_deg) const { return !azimuth_ || azimuth_within(azimuth_deg); }
+  /// From how far to how far above the eye a target at this squared distance is in view, metres; nothing: any.
+  std::optional<std::pair<double, double>> heights_at(double squared) const {
+    if (!elevation_ || squared == 0) return std::nullopt;
+    const double distance = std::sqrt(squared), drop = drop_ * squared;
+    const auto height = [&](double degrees) { return std::tan(degrees / kDegrees) * distance + drop; };
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    return std::pair(elevation_->from <= -90 ? -kInfinity : height(elevation_->from),
+                     elevation_->to >= 90 ? kInfinity : height(elevation_->to));
+  }
+  /// Degrees.
+  double elevation(double dx, double dy, double dz) const { return elevation_at(dx * dx + dy * dy, dz); }
   /// A target somewhere from `low` to `high` above the observer; nothing where that decides.
   std::optional<bool> contains(double dx, double dy, double low, double high) const {
     const double squared = dx * dx + dy * dy;
     if (squared > farthest_ || squared < nearest_) return false;
     if (squared == 0) return true;
-    if (azimuth_ && !azimuth_within(dx, dy)) return false;
+    if (azimuth_ && !azimuth_within(std::atan2(dx, dy) * kDegrees)) return false;
     if (!elevation_) return true;
     const double lowest = elevation_at(squared, low), highest = elevation_at(squared, high);
     if (lowest >= elevation_->from && highest <= elevation_->to) return true;
@@ -36,11 +55,11 @@ class FieldOfView {
  private:
   static constexpr double kDegrees = 180 / std::numbers::pi;
 
-  bool azimuth_within(double dx, double dy) const {
+  bool azimuth_within(double degrees) const {
     const double width = turn(azimuth_->to - azimuth_->from);
     // A range of a whole turn is given as such, not as nothing.
     if (width == 0 && azimuth_->to != azimuth_->from) return true;
-    return turn(std::atan2(dx, dy) * kDegrees - azimuth_->from) <= width;
+    return turn(degrees - azimuth_->from) <= width;
   }
   double elevation_at(double squared, double dz) const {
     return std::atan2(dz - drop_ * squared, std::sqrt(squared)) * kDegrees;

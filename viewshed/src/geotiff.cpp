@@ -1,3 +1,5 @@
+#include <limits>
+
 #include <fmt/format.h>
 
 #include <viewshed/certified.hpp>
@@ -41,8 +43,98 @@ std::vector<std::pair<std::string, std::string>> metadata_of(const Result& resul
   if (r.azimuth) items.emplace_back("azimuth_deg", fmt::format("{:.12g},{:.12g}", r.azimuth->from, r.azimuth->to));
   if (r.elevation)
     items.emplace_back("elevation_deg", fmt::format("{:.12g},{:.12g}", r.elevation->from, r.elevation->to));
+  if (r.mode == Mode::kProbability) {
+    items.emplace_back("vertical_error_m", fmt::format("{:.12g}", r.vertical_error.sigma));
+    items.emplace_back("error_correlation_m", fmt::format("{:.12g}", r.vertical_error.correlation_length));
+  }
+  if (r.mode == Mode::kBlocker) {
+    for (std::size_t i = 0; i < result.theme_names.size(); ++i)
+      items.emplace_back(fmt::format("theme_{}", i + 1), result.theme_names[i]);
+  }
   return items;
 }
+
+using Classes = std::vector<RasterClass>;
+
+const Classes kCertaintyClasses{{kUndecided, "undecided at this tolerance", 230, 159, 0, 255},
+                                {kCertainlyHidden, "certainly hidden", 225, 225, 225, 255},
+                                {kCertainlyVisible, "certainly visible", 0, 114, 178, 255},
+                                {kOutside, "outside or no data", 0, 0, 0, 0}};
+const Classes kVisibilityClasses{{kHidden, "hidden", 225, 225, 225, 255},
+                                 {kVisible, "visible", 0, 114, 178, 255},
+                                 {kOutside, "outside or no data", 0, 0, 0, 0}};
+
+/// A result's values under one description.
+class Writer {
+ public:
+  Writer(const std::string& path, const Result& result, RasterDescription description)
+      : path_(path), result_(result), description_(std::move(description)) {}
+
+  void classes(const std::string& name, const Classes& classes) {
+    description_.classes = classes;
+    write<std::uint8_t>({name}, kOutside, result_.visible);
+  }
+  void counts() { write<std::uint16_t>({"observers that see the cell"}, kCountOutside, result_.count); }
+  void angles() {
+    write<float>({"elevation angle of the sight line, degrees; of several observers the greatest"}, kNaN,
+                 result_.angle_deg);
+  }
+
+  void heights() {
+    write<float>({"least height above the ground at which a target is seen, metres"}, kNaN, result_.least_height_m);
+  }
+  void probabilities() {
+    std::vector<float> values = result_.probability;
+    values.reserve(2 * values.size());
+    for (const std::uint8_t v : result_.visible)
+      values.push_back(v == kOutside ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(v));
+    write<float>({"probability of being visible", "visible as the heights are"}, kNaN, values);
+  }
+  void blockers() {
+    std::vector<std::string> bands{"theme of what hides the cell, 0: terrain"};
+    std::vector<std::uint32_t> values = result_.blocker_theme;
+    if (!result_.blocker_feature.empty()) {
+      bands.emplace_back("its feature, from 0 in the order of import");
+      values.insert(values.end(), result_.blocker_feature.begin(), result_.blocker_feature.end());
+    }
+    write<std::uint32_t>(bands, kNoBlocker, values);
+  }
+
+  void bits() {
+    const std::vector<Observer>& observers = result_.request.observers;
+    std::vector<std::string> bands(which_grids(observers.size()));
+    for (std::size_t i = 0; i < observers.size(); ++i) {
+      std::string& band = bands[observer_bit(i).grid];
+      if (!band.empty()) band += ", ";
+      const std::string& name = observers[i].name;
+      band += fmt::format("bit {}: {}", i % 32, name.empty() ? std::to_string(i + 1) : name);
+    }
+    write<std::uint32_t>(bands, std::nullopt, result_.which);
+  }
+
+  void nearest() {
+    std::vector<float> values = result_.distance_m;
+    values.reserve(2 * values.size());
+    for (const std::uint32_t number : result_.nearest)
+      values.push_back(number == 0 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(number));
+    write<float>({"distance of the nearest visible observer, metres", "its number, from 1"}, kNaN, values);
+  }
+
+ private:
+  static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+  template <class T>
+  void write(const std::vector<std::string>& bands, std::optional<double> nodata, const std::vector<T>& values) {
+    description_.band_name = bands.front();
+    description_.further_bands.assign(bands.begin() + 1, bands.end());
+    description_.nodata = nodata;
+    write_raster(path_, result_.grid, std::span<const T>(values), description_);
+  }
+
+  const std::string& path_;
+  const Result& result_;
+  RasterDescription description_;
+};
 
 }  // namespace
 
@@ -52,25 +144,26 @@ void write_geotiff(const std::string& path, const Result& result, const GeotiffO
   description.overwrite = options.overwrite;
   description.metadata = metadata_of(result);
   description.metadata.insert(description.metadata.end(), options.metadata.begin(), options.metadata.end());
-  if (result.request.mode == Mode::kCount) {
-    description.band_name = "observers that see the cell";
-    description.nodata = kCountOutside;
-    write_raster(path, result.grid, std::span<const std::uint16_t>(result.count), description);
-  } else if (result.request.mode == Mode::kCertified) {
-    description.band_name = "certified";
-    description.nodata = kOutside;
-    description.classes = {{kUndecided, "undecided at this tolerance", 230, 159, 0, 255},
-                           {kCertainlyHidden, "certainly hidden", 225, 225, 225, 255},
-                           {kCertainlyVisible, "certainly visible", 0, 114, 178, 255},
-                           {kOutside, "outside or no data", 0, 0, 0, 0}};
-    write_raster(path, result.grid, std::span<const std::uint8_t>(result.visible), description);
-  } else {
-    description.band_name = "visible";
-    description.nodata = kOutside;
-    description.classes = {{kHidden, "hidden", 225, 225, 225, 255},
-                           {kVisible, "visible", 0, 114, 178, 255},
-                           {kOutside, "outside or no data", 0, 0, 0, 0}};
-    write_raster(path, result.grid, std::span<const std::uint8_t>(result.visible), description);
+  Writer writer(path, result, std::move(description));
+  switch (result.request.mode) {
+    case Mode::kVisible:
+      return writer.classes("visible", kVisibilityClasses);
+    case Mode::kCertified:
+      return writer.classes("certified", kCertaintyClasses);
+    case Mode::kCount:
+      return writer.counts();
+    case Mode::kWhich:
+      return writer.bits();
+    case Mode::kAngle:
+      return writer.angles();
+    case Mode::kNearest:
+      return writer.nearest();
+    case Mode::kBlocker:
+      return writer.blockers();
+    case Mode::kHeight:
+      return writer.heights();
+    case Mode::kProbability:
+      return writer.probabilities();
   }
 }
 

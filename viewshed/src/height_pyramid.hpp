@@ -64,9 +64,43 @@ class HeightPyramid {
   /// Calls visit(triangle) for every triangle that may rise above a line of the sheaf, nearest first, some more than
   /// once. A block is left out as a whole where the lines run above its highest point.
   template <class Visit>
-  void search(const Sheaf& sheaf, const Visit& visit) const;
+  void search(const Sheaf& sheaf, const Visit& visit) const {
+    constexpr double kWhole = 1, kNothing = 0;
+    search(sheaf, kWhole, kNothing, visit);
+  }
+  /// The same for one line with its far end at the height `end`, which a visit may raise.
+  template <class Visit>
+  void search(const SightLine& line, const double& end, const Visit& visit) const {
+    Sheaf sheaf = sheaf_of(line, end);
+    search(sheaf, [&](std::uint32_t triangle) {
+      visit(triangle);
+      sheaf.end = end;
+    });
+  }
+  /// The same for triangles that may rise above `line` as it is, as far along it as the fraction `reach` at least; a
+  /// visit may lower that.
+  template <class Visit>
+  void search_within(const SightLine& line, const double& reach, const Visit& visit) const {
+    constexpr double kNothing = 0;
+    search(sheaf_of(line, line.to_z()), reach, kNothing, visit);
+  }
+  /// The same for triangles that may rise above `line` lowered by `margin`; a visit may lessen that.
+  template <class Visit>
+  void search_near(const SightLine& line, const double& margin, const Visit& visit) const {
+    constexpr double kWhole = 1;
+    search(sheaf_of(line, line.to_z()), kWhole, margin, visit);
+  }
 
  private:
+  static Sheaf sheaf_of(const SightLine& line, double end) {
+    Sheaf sheaf;
+    sheaf.add(line);
+    sheaf.end = end;
+    return sheaf;
+  }
+  template <class Visit>
+  void search(const Sheaf& sheaf, const double& reach, const double& margin, const Visit& visit) const;
+
   struct Block {
     std::uint32_t level = 0;  ///< 2^level bins a side
     std::uint32_t column = 0, row = 0;
@@ -122,7 +156,7 @@ inline HeightPyramid::Stretch HeightPyramid::Track::within(const Block& b) const
 }
 
 template <class Visit>
-void HeightPyramid::search(const Sheaf& sheaf, const Visit& visit) const {
+void HeightPyramid::search(const Sheaf& sheaf, const double& reach, const double& margin, const Visit& visit) const {
   const Track track = track_of(sheaf);
   // The child nearest to the lines' start, and then across x, y and both.
   const std::uint32_t near = (track.west.per < 0 ? 1U : 0U) | (track.north.per < 0 ? 2U : 0U);
@@ -132,9 +166,9 @@ void HeightPyramid::search(const Sheaf& sheaf, const Visit& visit) const {
   while (count > 0) {
     const Block block = pending[--count];
     const Stretch stretch = track.within(block);
-    if (stretch.empty()) continue;
+    if (stretch.empty() || stretch.first > reach) continue;
     const double lowest = sheaf.lowest_over(stretch.first, stretch.last);
-    if (highest(block) <= lowest) continue;
+    if (highest(block) + margin <= lowest) continue;
     if (block.level > 0) {
       for (const std::uint32_t across : {3U, 2U, 1U, 0U}) {
         const std::uint32_t child = near ^ across;
@@ -143,7 +177,7 @@ void HeightPyramid::search(const Sheaf& sheaf, const Visit& visit) const {
       continue;
     }
     for (const std::uint32_t t : bins_.triangles(std::size_t{block.row} * side_ + block.column))
-      if (tops_[t] > lowest) visit(t);
+      if (tops_[t] + margin > lowest) visit(t);
   }
 }
 

@@ -5,20 +5,17 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
-#include <viewshed/certified.hpp>
 #include <viewshed/map_image.hpp>
 
 #include "canvas.hpp"
 #include "hillshade.hpp"
 #include "lettering.hpp"
+#include "map_overlay.hpp"
 
 namespace itin::viewshed {
 
 namespace {
 
-// From the palette of Okabe and Ito, told apart with every kind of colour blindness; the overlay is also darker than
-// what is hidden, for grey print.
-constexpr Colour kSeen{0, 114, 178};
 constexpr Colour kMark{213, 94, 0};
 constexpr Colour kInk{30, 30, 30};
 constexpr Colour kFaint{95, 95, 95};
@@ -27,7 +24,6 @@ constexpr Colour kVoid{244, 244, 244};
 
 constexpr std::uint8_t kLevelGrey = 214;  ///< of level ground
 
-constexpr double kOverlay = 0.55;     ///< opacity of what is seen
 constexpr double kOutsideFade = 0.6;  ///< how far ground outside the field of view fades into the paper
 
 std::string length_text(double metres) {
@@ -47,28 +43,6 @@ double round_length(double v) {
   return decade;
 }
 
-/// A class of the legend, by how many observers see a cell.
-struct CountClass {
-  std::uint16_t least = 1;
-  std::uint16_t most = 1;
-  double opacity = kOverlay;
-};
-
-std::vector<CountClass> count_classes(const Result& result) {
-  std::uint16_t most = 1;
-  for (const std::uint16_t n : result.count)
-    if (n != kCountOutside) most = std::max(most, n);
-  constexpr int kClasses = 5;
-  const int classes = std::min<int>(most, kClasses);
-  std::vector<CountClass> all;
-  for (int i = 0; i < classes; ++i) {
-    all.push_back({static_cast<std::uint16_t>(most * i / classes + 1),
-                   static_cast<std::uint16_t>(most * (i + 1) / classes),
-                   classes == 1 ? kOverlay : 0.25 + 0.6 * i / (classes - 1)});
-  }
-  return all;
-}
-
 class MapDrawing {
  public:
   MapDrawing(const Tin& tin, const Result& result, const MapOptions& options)
@@ -82,7 +56,7 @@ class MapDrawing {
         canvas_(std::max(width_, 40 * unit_) + 4 * unit_, height_ + 14 * unit_, kPaper),
         left_((canvas_.width() - width_) / 2),
         top_(6 * unit_),
-        classes_(count_classes(result)) {}
+        overlay_(result) {}
 
   MapImage draw() {
     draw_ground();
@@ -111,10 +85,24 @@ class MapDrawing {
             rows};
   }
 
-  /// Of what a pixel's samples show: the mean opacity of the overlay, and the share outside the field of view.
+  /// The mean of what a pixel's samples show.
   struct Shown {
-    double seen = 0;
-    double outside = 0;
+    double red = 0, green = 0, blue = 0;  ///< times the opacity
+    double opacity = 0;
+    double outside = 0;  ///< share outside the field of view
+
+    void add(const std::optional<Tint>& tint) {
+      outside += tint ? 0 : 1;
+      if (!tint) return;
+      opacity += tint->opacity;
+      red += tint->opacity * tint->colour.red;
+      green += tint->opacity * tint->colour.green;
+      blue += tint->opacity * tint->colour.blue;
+    }
+    Colour colour() const {
+      const auto channel = [&](double sum) { return static_cast<std::uint8_t>(std::lround(sum / opacity)); };
+      return opacity > 0 ? Colour{channel(red), channel(green), channel(blue)} : Colour{};
+    }
   };
 
   Shown shown_at(std::int64_t column, std::int64_t row) const {
@@ -127,34 +115,12 @@ class MapDrawing {
         const Point2 centre = pixels_.centre(column, row);
         const auto cell = result_.grid.cell_at({centre.x + ((i + 0.5) / samples - 0.5) * pixels_.cell_width(),
                                                 centre.y + ((j + 0.5) / samples - 0.5) * pixels_.cell_height()});
-        const std::optional<double> opacity = cell ? overlay_of(result_.grid.index(*cell)) : std::nullopt;
-        shown.seen += opacity.value_or(0);
-        shown.outside += opacity ? 0 : 1;
+        shown.add(cell ? overlay_.at(result_.grid.index(*cell)) : std::nullopt);
       }
     }
-    shown.seen /= samples * samples, shown.outside /= samples * samples;
-    return shown;
+    const int count = samples * samples;
+    return {shown.red / count, shown.green / count, shown.blue / count, shown.opacity / count, shown.outside / count};
   }
-
-  /// Nothing outside the field of view.
-  std::optional<double> overlay_of(std::size_t cell) const {
-    if (result_.request.mode == Mode::kVisible) {
-      const std::uint8_t value = result_.visible[cell];
-      return value == kOutside ? std::nullopt : std::optional(value == kVisible ? kOverlay : 0.0);
-    }
-    if (certified()) {
-      const std::uint8_t value = result_.visible[cell];
-      if (value == kOutside) return std::nullopt;
-      return value == kCertainlyVisible ? kOverlay : value == kUndecided ? kOverlay / 3 : 0.0;
-    }
-    const std::uint16_t count = result_.count[cell];
-    if (count == kCountOutside) return std::nullopt;
-    if (count == 0) return 0.0;
-    return std::find_if(classes_.begin(), classes_.end(), [&](const CountClass& c) { return count <= c.most; })
-        ->opacity;
-  }
-
-  bool certified() const { return result_.request.mode == Mode::kCertified; }
 
   void draw_ground() {
     const std::vector<float> shades = hillshade(tin_, pixels_);
@@ -171,7 +137,7 @@ class MapDrawing {
         const Shown shown = shown_at(x, y);
         canvas_.blend(px, py, {grey, grey, grey}, 1);
         canvas_.blend(px, py, kPaper, kOutsideFade * shown.outside);
-        canvas_.blend(px, py, kSeen, shown.seen);
+        canvas_.blend(px, py, shown.colour(), shown.opacity);
       }
     }
   }
@@ -256,14 +222,15 @@ class MapDrawing {
   }
 
   /// A patch of the map's colours over level ground, and what it means.
-  void draw_key(int row, const std::vector<double>& overlays, double fade, const std::string& text) {
+  void draw_key(int row, const std::vector<Tint>& tints, double fade, const std::string& text) {
     const int x = left_, y = top_ + height_ + unit_ + row * 7 * unit_ / 4;
-    const int width = 2 * unit_, height = 5 * unit_ / 4, bands = static_cast<int>(overlays.size());
+    const int width = 2 * unit_, height = 5 * unit_ / 4, bands = static_cast<int>(tints.size());
     canvas_.fill_rectangle(x, y, width, height, {kLevelGrey, kLevelGrey, kLevelGrey});
     canvas_.fill_rectangle(x, y, width, height, kPaper, fade);
     for (int i = 0; i < bands; ++i) {
       const int from = width * i / bands, to = width * (i + 1) / bands;
-      canvas_.fill_rectangle(x + from, y, to - from, height, kSeen, overlays[static_cast<std::size_t>(i)]);
+      const Tint& tint = tints[static_cast<std::size_t>(i)];
+      canvas_.fill_rectangle(x + from, y, to - from, height, tint.colour, tint.opacity);
     }
     canvas_.frame(x, y, width, height, kFaint);
     letters_.draw(canvas_, text, {x + 2.6 * unit_, y + 1.05 * unit_}, unit_, kInk);
@@ -277,15 +244,9 @@ class MapDrawing {
   }
 
   void draw_legend() {
-    std::vector<double> overlays;
-    for (const CountClass& c : classes_) overlays.push_back(c.opacity);
-    draw_key(0, overlays, 0, share_text(certified() ? "Certainly visible" : "Visible", result_.cells.visible));
-    draw_key(1, {}, 0, share_text(certified() ? "Certainly hidden" : "Hidden", result_.cells.hidden));
-    if (certified()) {
-      draw_key(2, {kOverlay / 3}, 0, share_text("Undecided", result_.cells.undecided));
-    } else if (result_.cells.outside > 0) {
-      draw_key(2, {}, kOutsideFade, "Outside the field of view, or no data");
-    }
+    int row = 0;
+    for (const MapOverlay::Key& key : overlay_.keys()) draw_key(row++, key.tints, 0, share_text(key.text, key.cells));
+    if (row < 3 && result_.cells.outside > 0) draw_key(row, {}, kOutsideFade, "Outside the field of view, or no data");
     const double y = top_ + height_ + 6.9 * unit_;
     draw_mark({left_ + 1.0 * unit_, y});
     letters_.draw(canvas_, result_.request.observers.size() == 1 ? "Observer" : "Observers",
@@ -293,21 +254,21 @@ class MapDrawing {
     const std::string earth = result_.request.earth.convention();
     letters_.draw(canvas_, earth, {static_cast<double>(left_ + width_), y + 0.4 * unit_},
                   fitting_size(earth, width_ / 2, unit_ * 9 / 10), kFaint, Align::kRight);
-    if (result_.request.mode == Mode::kCount) draw_count_key();
+    if (!overlay_.scale().empty()) draw_scale();
   }
 
   /// The overlay's steps side by side, in the middle of the lower margin.
-  void draw_count_key() {
+  void draw_scale() {
+    const std::vector<MapOverlay::Step>& steps = overlay_.scale();
     const int x0 = left_ + width_ * 2 / 5, y = top_ + height_ + unit_, step = 3 * unit_;
-    letters_.draw(canvas_, "Seen by observers", {static_cast<double>(x0), y + 1.0 * unit_}, unit_, kInk);
-    for (std::size_t i = 0; i < classes_.size(); ++i) {
-      const CountClass& c = classes_[i];
+    letters_.draw(canvas_, overlay_.scale_title(), {static_cast<double>(x0), y + 1.0 * unit_}, unit_, kInk);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      const Tint& tint = steps[i].tint;
       const int x = x0 + static_cast<int>(i) * step;
       canvas_.fill_rectangle(x, y + 7 * unit_ / 4, step, 5 * unit_ / 4, {kLevelGrey, kLevelGrey, kLevelGrey});
-      canvas_.fill_rectangle(x, y + 7 * unit_ / 4, step, 5 * unit_ / 4, kSeen, c.opacity);
-      const std::string text = c.least == c.most ? fmt::format("{}", c.least) : fmt::format("{}–{}", c.least, c.most);
-      letters_.draw(canvas_, text, {x + 0.5 * step, y + 4.2 * unit_}, fitting_size(text, step - 4, unit_), kInk,
-                    Align::kCentre);
+      canvas_.fill_rectangle(x, y + 7 * unit_ / 4, step, 5 * unit_ / 4, tint.colour, tint.opacity);
+      letters_.draw(canvas_, steps[i].text, {x + 0.5 * step, y + 4.2 * unit_},
+                    fitting_size(steps[i].text, step - 4, unit_), kInk, Align::kCentre);
     }
   }
 
@@ -319,7 +280,7 @@ class MapDrawing {
   int unit_;            ///< everything else is measured in this, pixels
   Canvas canvas_;
   int left_, top_;  ///< of the map proper on the canvas
-  std::vector<CountClass> classes_;
+  MapOverlay overlay_;
   Lettering letters_;
 };
 

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
-#include <itin/error.hpp>
 #include <itin/triangulate.hpp>
 
 #include "request.hpp"
@@ -23,7 +20,7 @@ Box around(Point2 p, double radius) {
 }
 
 /// The greatest radius, in steps of a square root of 2, within which a level has no more points than that.
-double radius_of(const Store& store, int level, Point2 centre, double points) {
+double radius_with(const Store& store, int level, Point2 centre, double points) {
   const Box all = store.metadata().grid.box(store.metadata().bounds);
   const double greatest = std::max(all.width(), all.height());
   double radius = store.metadata().grid.resolution;
@@ -41,39 +38,40 @@ std::vector<Eye> eyes_on_full_surface(const Store& store, const Request& request
   std::vector<Eye> eyes;
   for (const Observer& observer : request.observers) {
     const Tin tin =
-        triangulate(store, Window::box(around(observer.position, 2 * grid.resolution)), Detail::tolerance(0), progress);
+        triangulate(store, Window::box(around(observer.position, 2 * grid.resolution)), Detail::tolerance(0), progress,
+                    request.observers_on_surface ? request.themes : ThemeChoice::none());
     std::optional<double> height;
     for (std::uint32_t t = 0; t < tin.triangles.size() && !height; ++t)
       height = surface_height(tin, {&t, 1}, observer.position);
     if (height) height = *height * grid.resolution;
-    eyes.push_back(eye_of(grid, observer, height));
+    eyes.push_back(eye_of(grid, request, observer, height));
     ground.push_back(*height);
   }
   return eyes;
 }
 
-void require_bare_terrain(const Store& store, const Request& request) {
-  for (const ThemeInfo& theme : store.metadata().themes) {
-    if (theme.stands() && request.themes.includes(theme))
-      throw InputError(fmt::format(
-          "theme '{}': stands on the ground, and certified and precise viewsheds judge the bare terrain; leave it out "
-          "of --themes",
-          theme.name));
-  }
+bool features_stand(const Store& store, const Request& request) {
+  const std::vector<ThemeInfo>& themes = store.metadata().themes;
+  return std::any_of(themes.begin(), themes.end(),
+                     [&](const ThemeInfo& theme) { return theme.stands() && request.themes.includes(theme); });
 }
 
 EnvelopeRequest certified_request(const Store& store, const Request& request, int level) {
   EnvelopeRequest result;
   result.window = window_of(request);
   result.level = level;
+  if (level == 0 && features_stand(store, request)) {
+    result.themes = request.themes;
+    if (!request.targets_on_surface) result.bare_ground = result.window;
+  }
   const Box box = result.window.is_all() ? store.metadata().grid.box(store.metadata().bounds) : result.window.bounds();
   const double points = std::min({kNearPoints, kAllNearPoints / static_cast<double>(request.observers.size()),
                                   kNearShare * static_cast<double>(store.points_about(0, box))});
   for (const Observer& observer : request.observers) {
     result.observers.push_back(observer.position);
     for (int finer = 0; finer < level; ++finer) {
-      double radius = radius_of(store, finer, observer.position, points);
-      if (request.radius) radius = std::min(radius, *request.radius);
+      double radius = radius_with(store, finer, observer.position, points);
+      if (const auto reach = radius_of(request, observer)) radius = std::min(radius, *reach);
       result.discs.push_back({observer.position, radius, finer});
     }
   }

@@ -12,18 +12,19 @@
 
 namespace itin::viewshed {
 
-/// The observers, on the full surface under them; `ground` gets its heights, metres. Throws InputError for an observer
-/// outside the data.
+/// The observers, on the full surface under them, or on what stands on it where the request says so; `ground` gets its
+/// heights, metres. Throws InputError for an observer outside the data.
 std::vector<Eye> eyes_on_full_surface(const Store& store, const Request& request, std::vector<double>& ground,
                                       Progress& progress);
 
-/// Throws InputError if a theme that stands on the ground is chosen: certificates know nothing of it.
-void require_bare_terrain(const Store& store, const Request& request);
+/// Whether a theme that stands on the ground is chosen. Certificates know nothing of it: where it does, only level 0
+/// says what is there.
+bool features_stand(const Store& store, const Request& request);
 
 /// For request.detail.
 EnvelopeRequest certified_request(const Store& store, const Request& request);
 
-/// The same with another level than request.detail's.
+/// The same with another level than request.detail's. Level 0 has the features that stand.
 EnvelopeRequest certified_request(const Store& store, const Request& request, int level);
 
 }  // namespace itin::viewshed

@@ -4,15 +4,18 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 
+#include <itin/error.hpp>
 #include <itin/parallel.hpp>
 #include <viewshed/certified.hpp>
 
 #include "certified_pass.hpp"
 #include "ground_tiles.hpp"
 #include "near_ground.hpp"
+#include "observation.hpp"
 #include "request.hpp"
 #include "stopwatch.hpp"
 
@@ -34,8 +37,8 @@ bool decided(std::uint8_t value) {
 /// One observer's raster on its way.
 class Refinement {
  public:
-  Refinement(const Request& request, const RasterGrid& grid, const RasterGrid& tiles, Progress& progress)
-      : request_(request), grid_(grid), tiles_(tiles), progress_(progress), values_(grid.cell_count(), kUndecided) {}
+  Refinement(const RasterGrid& grid, const RasterGrid& tiles, Progress& progress)
+      : grid_(grid), tiles_(tiles), progress_(progress), values_(grid.cell_count(), kUndecided) {}
 
   std::vector<std::uint8_t>& values() { return values_; }
   std::uint64_t rays() const { return rays_; }
@@ -44,7 +47,7 @@ class Refinement {
   template <class OnDoubtful>
   void judge(const EnvelopeScene& scene, const Eye& eye, const std::vector<std::size_t>& cells,
              const OnDoubtful& doubtful) {
-    const CertifiedPass pass(scene, grid_, tiles_, request_);
+    const CertifiedPass pass(scene, grid_, tiles_);
     const EnvelopeScene::Look look = scene.look_from(eye);
     parallel_for(cells.size(), [&](std::size_t i) {
       progress_.throw_if_cancelled();
@@ -83,7 +86,6 @@ class Refinement {
     progress_.report("cells decided", static_cast<double>(done_) / static_cast<double>(values_.size()));
   }
 
-  const Request& request_;
   const RasterGrid& grid_;
   const RasterGrid& tiles_;
   Progress& progress_;
@@ -127,11 +129,15 @@ Voids voids_of(NoData rule) {
 class Precise {
  public:
   Precise(const Store& store, const Request& request, const PreciseOptions& options, Progress& progress)
-      : store_(store), request_(request), budget_(options.memory_bytes / 2 / kBytesAPoint), progress_(progress) {}
+      : store_(store),
+        request_(request),
+        features_(features_stand(store, request)),
+        budget_(options.memory_bytes / 2 / kBytesAPoint),
+        progress_(progress) {}
 
   Surveyed run() {
     validate(request_);
-    require_bare_terrain(store_, request_);
+    require_mode();
     Result& result = surveyed_.result;
     result.request = request_;
     Stopwatch watch;
@@ -145,21 +151,35 @@ class Precise {
     look_for_voids(envelope);
     ground_.emplace(store_, envelope.lower.bounds());
     result.statistics.retrieval_seconds = watch.lap();
-    first_.emplace(std::move(envelope), request_, tiles_, voids_of(request_.nodata));
+    if (level == 0 || !features_) {
+      first_.emplace(std::move(envelope), request_, tiles_, voids_of(request_.nodata));
+    } else if (result.crosses_voids && request_.nodata == NoData::kBlock) {
+      throw InputError(
+          "with --themes, --nodata block needs the whole window in memory: give more --memory or a smaller --radius");
+    }
     result.statistics.scene_seconds = watch.lap();
-    seen_.assign(result.grid.cell_count(), kCountOutside);
-    for (std::size_t i = 0; i < eyes.size(); ++i) look(eyes[i], i + 1 == eyes.size());
+    for (std::size_t tile = 0; tile < tiles_.cell_count(); ++tile)
+      observations_.push_back(Observations(request_).of_tile());
+    for (std::uint32_t i = 0; i < eyes.size(); ++i) look(eyes[i], i);
     finish();
     result.statistics.rays_seconds = watch.lap();
     return std::move(surveyed_);
   }
 
  private:
+  /// Cells that a coarse level decides have no exact height of ground.
+  void require_mode() const {
+    using enum Mode;
+    for (const Mode mode : {kVisible, kCount, kWhich, kNearest})
+      if (request_.mode == mode) return;
+    throw InputError("precise viewsheds tell visible, count, which and nearest; choose one of these modes");
+  }
+
   int first_level() const {
     const Window window = window_of(request_);
     const Box box = window.is_all() ? store_.metadata().grid.box(store_.metadata().bounds) : window.bounds();
     const std::uint64_t all = store_.points_about(0, box);
-    if (all <= std::min(budget_, kFewPoints)) return 0;
+    if (all <= (features_ ? budget_ : std::min(budget_, kFewPoints))) return 0;
     int level = 1;
     while (level + 1 < static_cast<int>(store_.metadata().levels.size()) &&
            store_.points_about(level, box) > std::min(budget_, all / kCoarseShare))
@@ -175,34 +195,55 @@ class Precise {
 
   void look_for_voids(const Envelope& envelope) {
     Result& result = surveyed_.result;
-    const double reach = request_.radius.value_or(std::numeric_limits<double>::infinity());
     for (const Observer& observer : request_.observers) {
+      const double reach = radius_of(request_, observer).value_or(std::numeric_limits<double>::infinity());
       result.crosses_voids =
           result.crosses_voids || surface_resumes(envelope.lower, envelope.outline, observer.position, reach);
     }
     if (result.crosses_voids && request_.nodata == NoData::kUnknown) result.warnings.emplace_back(kVoidsWarning);
   }
 
-  void look(const Eye& eye, bool last) {
-    const RasterGrid& grid = surveyed_.result.grid;
-    Refinement refinement(request_, grid, tiles_, progress_);
-    if (request_.mode == Mode::kVisible) {
-      for (std::size_t i = 0; i < seen_.size(); ++i)
-        if (seen_[i] != kCountOutside && seen_[i] > 0) refinement.values()[i] = kOutside;
-    }
+  void look(const Eye& eye, std::uint32_t observer) {
+    Refinement refinement(surveyed_.result.grid, tiles_, progress_);
+    for_each_look(eye, observer, [&](const Observation& observation, const Look& look, std::size_t place) {
+      if (!observation.open(look)) refinement.values()[place] = kOutside;
+    });
     std::vector<std::size_t> all(tiles_.cell_count());
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-    if (first_->exact) {
+    if (first_ && first_->exact) {
       refinement.judge(*first_, eye, all,
                        [&](std::size_t, const auto&, auto& values, const Doubtful& d) { walk(*first_, d, values); });
     } else {
-      std::vector<TileSet> needed = coarse_pass(eye, all, refinement);
+      // Certificates know nothing of what stands on the ground: then whole lines are needed.
+      const std::vector<TileSet> needed = features_ ? under_lines(eye, refinement) : coarse_pass(eye, all, refinement);
       // The scene's memory is free for the segments, when no other observer needs it.
-      if (last) first_.reset();
+      if (observer + 1 == request_.observers.size()) first_.reset();
       for (const std::vector<std::size_t>& segment : segments(eye, needed)) refine(eye, segment, needed, refinement);
     }
     surveyed_.result.statistics.rays += refinement.rays();
-    add(refinement.values());
+    for_each_look(eye, observer, [&](Observation& observation, const Look& look, std::size_t place) {
+      const std::uint8_t value = refinement.values()[place];
+      if (value != kOutside) observation.enter(look.cell);
+      if (value == kCertainlyVisible) observation.see(look);
+    });
+  }
+
+  /// Calls visit(observation, look, place in the grid) for every cell; the looks know no heights.
+  template <class Visit>
+  void for_each_look(const Eye& eye, std::uint32_t observer, const Visit& visit) const {
+    const RasterGrid& grid = surveyed_.result.grid;
+    parallel_for(observations_.size(), [&](std::size_t i) {
+      const Tile tile = tile_at(grid, tiles_, i);
+      for (std::int64_t r = 0; r < tile.rows; ++r) {
+        for (std::int64_t c = 0; c < tile.columns; ++c) {
+          const Point2 centre = grid.centre(tile.column + c, tile.row + r);
+          visit(*observations_[i],
+                {static_cast<std::size_t>(r * Tile::kSide + c), observer, centre.x - eye.position.x,
+                 centre.y - eye.position.y, 0},
+                grid.index({tile.column + c, tile.row + r}));
+        }
+      }
+    });
   }
 
   /// The ground that each tile's undecided lines need at full detail.
@@ -219,6 +260,31 @@ class Precise {
         for (const Stretch& s : stretches[i])
           ground_->add_line(along(units, d.lines, i, s.from), along(units, d.lines, i, s.to), needed[tile]);
       });
+    });
+    return needed;
+  }
+
+  /// The ground under all lines in view to each tile's cells. Cells out of view become kOutside.
+  std::vector<TileSet> under_lines(const Eye& eye, Refinement& refinement) {
+    const RasterGrid& grid = surveyed_.result.grid;
+    constexpr double kAnyHeight = 1e9;
+    std::vector<TileSet> needed(tiles_.cell_count());
+    parallel_for(needed.size(), [&](std::size_t i) {
+      const Tile tile = tile_at(grid, tiles_, i);
+      for (std::int64_t r = 0; r < tile.rows; ++r) {
+        for (std::int64_t c = 0; c < tile.columns; ++c) {
+          std::uint8_t& value = refinement.values()[grid.index({tile.column + c, tile.row + r})];
+          if (value != kUndecided) continue;
+          const Point2 centre = grid.centre(tile.column + c, tile.row + r);
+          if (eye.view.contains(centre.x - eye.position.x, centre.y - eye.position.y, -kAnyHeight, kAnyHeight) ==
+              false) {
+            value = kOutside;
+            continue;
+          }
+          if (needed[i].empty()) needed[i] = TileSet(ground_->count());
+          ground_->add_line(eye.position, centre, needed[i]);
+        }
+      }
     });
     return needed;
   }
@@ -254,8 +320,10 @@ class Precise {
               Refinement& refinement) {
     TileSet ground(ground_->count());
     for (const std::size_t tile : cells) ground |= needed[tile];
-    Envelope envelope = envelop(
-        store_, {.window = ground_->window(ground), .level = 0, .discs = {}, .observers = {eye.position}}, progress_);
+    EnvelopeRequest wanted{.window = ground_->window(ground), .level = 0, .discs = {}, .observers = {eye.position}};
+    if (features_) wanted.themes = request_.themes;
+    if (features_ && !request_.targets_on_surface) wanted.bare_ground = window_over(cells);
+    Envelope envelope = envelop(store_, wanted, progress_);
     count(envelope);
     // The edges of the window are no voids; lines behind voids were hidden in the coarse pass.
     const EnvelopeScene scene(std::move(envelope), request_, tiles_, Voids::kPass);
@@ -263,37 +331,34 @@ class Precise {
                      [&](std::size_t, const auto&, auto& values, const Doubtful& d) { walk(scene, d, values); });
   }
 
-  void add(const std::vector<std::uint8_t>& values) {
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (values[i] == kOutside) continue;
-      if (seen_[i] == kCountOutside) seen_[i] = 0;
-      if (values[i] == kCertainlyVisible) ++seen_[i];
+  Window window_over(const std::vector<std::size_t>& cells) const {
+    std::vector<Window::Polygon> parts;
+    for (const std::size_t i : cells) {
+      const Point2 c = tiles_.centre(static_cast<std::int64_t>(i) % tiles_.columns(),
+                                     static_cast<std::int64_t>(i) / tiles_.columns());
+      const double w = tiles_.cell_width() / 2, h = tiles_.cell_height() / 2;
+      parts.push_back({{{c.x - w, c.y - h}, {c.x + w, c.y - h}, {c.x + w, c.y + h}, {c.x - w, c.y + h}}, {}});
     }
+    return Window::polygons(std::move(parts));
   }
 
   void finish() {
     Result& result = surveyed_.result;
-    for (const std::uint16_t seen : seen_)
-      ++(seen == kCountOutside ? result.cells.outside : seen > 0 ? result.cells.visible : result.cells.hidden);
-    if (request_.mode == Mode::kCount) {
-      result.count = std::move(seen_);
-      return;
-    }
-    result.visible.resize(seen_.size());
-    std::transform(seen_.begin(), seen_.end(), result.visible.begin(), [](std::uint16_t seen) {
-      return seen == kCountOutside ? kOutside : seen > 0 ? kVisible : kHidden;
-    });
+    Observation::prepare(result);
+    for (std::size_t i = 0; i < observations_.size(); ++i)
+      observations_[i]->store(tile_at(result.grid, tiles_, i), result, result.cells);
   }
 
   const Store& store_;
   const Request& request_;
+  bool features_;         ///< stand on the ground
   std::uint64_t budget_;  ///< points
   Progress& progress_;
   Surveyed surveyed_;
   RasterGrid tiles_;
   std::optional<GroundTiles> ground_;
   std::optional<EnvelopeScene> first_;
-  std::vector<std::uint16_t> seen_;
+  std::vector<std::unique_ptr<Observation>> observations_;  ///< a tile
 };
 
 }  // namespace

@@ -15,7 +15,28 @@ bool positive(double v) {
   return std::isfinite(v) && v > 0;
 }
 
-void validate_observer(const Observer& observer) {
+/// The observer's field of view and targets, its own or the request's.
+void validate_view(const Request& request, const Observer& observer) {
+  const double target = observer.target_height.value_or(request.target_height);
+  if (!std::isfinite(target) || (!request.target_absolute && target < 0))
+    throw InputError(fmt::format("target height {:g}: give 0 or a positive number of metres", target));
+  const std::optional<double> radius = radius_of(request, observer);
+  if (radius && !positive(*radius))
+    throw InputError(fmt::format("radius {:g}: give a positive number of metres, or none for all the data", *radius));
+  const double min_radius = observer.min_radius.value_or(request.min_radius);
+  if (!(std::isfinite(min_radius) && min_radius >= 0))
+    throw InputError(fmt::format("least radius {:g}: give 0 or a positive number of metres", min_radius));
+  if (radius && min_radius > *radius)
+    throw InputError(fmt::format("least radius {:g} exceeds the radius {:g}", min_radius, *radius));
+  const auto finite = [](const AngleRange& r) { return std::isfinite(r.from) && std::isfinite(r.to); };
+  const auto& azimuth = observer.azimuth ? observer.azimuth : request.azimuth;
+  if (azimuth && !finite(*azimuth)) throw InputError("azimuth: give two numbers of degrees");
+  const auto& e = observer.elevation ? observer.elevation : request.elevation;
+  if (e && !(finite(*e) && e->from >= -90 && e->to <= 90 && e->from <= e->to))
+    throw InputError("elevation: give two numbers of degrees from -90 to 90, the lower first");
+}
+
+void validate_observer(const Request& request, const Observer& observer) {
   const auto refuse = [&](const std::string& what) {
     throw InputError(fmt::format("observer {} at {:.10g},{:.10g}: {}", observer.name, observer.position.x,
                                  observer.position.y, what));
@@ -23,20 +44,29 @@ void validate_observer(const Observer& observer) {
   if (!std::isfinite(observer.position.x) || !std::isfinite(observer.position.y)) refuse("its position is not finite");
   if (!std::isfinite(observer.height)) refuse("its height is not a finite number");
   if (!observer.absolute && observer.height < 0) refuse("its height is below the ground; give 0 or more");
+  try {
+    validate_view(request, observer);
+  } catch (const InputError& error) {
+    // What the request says is not the observer's fault.
+    const bool own =
+        observer.target_height || observer.radius || observer.min_radius || observer.azimuth || observer.elevation;
+    if (!own) throw;
+    refuse(error.what());
+  }
 }
 
-void validate_field_of_view(const Request& request) {
-  if (request.radius && !positive(*request.radius))
-    throw InputError(
-        fmt::format("radius {:g}: give a positive number of metres, or none for all the data", *request.radius));
-  if (!(std::isfinite(request.min_radius) && request.min_radius >= 0))
-    throw InputError(fmt::format("least radius {:g}: give 0 or a positive number of metres", request.min_radius));
-  if (request.radius && request.min_radius > *request.radius)
-    throw InputError(fmt::format("least radius {:g} exceeds the radius {:g}", request.min_radius, *request.radius));
-  const auto finite = [](const AngleRange& r) { return std::isfinite(r.from) && std::isfinite(r.to); };
-  if (request.azimuth && !finite(*request.azimuth)) throw InputError("azimuth: give two numbers of degrees");
-  if (const auto& e = request.elevation; e && !(finite(*e) && e->from >= -90 && e->to <= 90 && e->from <= e->to))
-    throw InputError("elevation: give two numbers of degrees from -90 to 90, the lower first");
+void validate_cells(const Request& request) {
+  if (request.cell_size && request.grid) throw InputError("both a cell size and a grid are given: give one of them");
+  if (request.cell_size && !positive(*request.cell_size))
+    throw InputError(fmt::format("cell size {:g}: give a positive number of metres", *request.cell_size));
+  const double cell =
+      request.grid ? std::max(request.grid->cell_width(), request.grid->cell_height()) : request.cell_size.value_or(0);
+  for (const Observer& observer : request.observers) {
+    const std::optional<double> radius = radius_of(request, observer);
+    if (radius && cell > *radius)
+      throw InputError(
+          fmt::format("cells of {:g} m are larger than the radius of {:g} m: give smaller cells", cell, *radius));
+  }
 }
 
 /// The least of 1, 2, 5, 10, ... or their decimal fractions with at most kDefaultCells cells a side.
@@ -60,62 +90,72 @@ Window::Polygon rectangle(const Box& b) {
   return {{{b.xmin, b.ymin}, {b.xmax, b.ymin}, {b.xmax, b.ymax}, {b.xmin, b.ymax}}, {}};
 }
 
+bool all_bounded(const Request& request) {
+  return std::all_of(request.observers.begin(), request.observers.end(),
+                     [&](const Observer& o) { return radius_of(request, o).has_value(); });
+}
+
 }  // namespace
+
+std::optional<double> radius_of(const Request& request, const Observer& observer) {
+  return observer.radius ? observer.radius : request.radius;
+}
 
 void validate(const Request& request) {
   if (request.observers.empty()) throw InputError("no observer: give at least one");
   if (request.mode == Mode::kCount && request.observers.size() >= kCountOutside)
     throw InputError(fmt::format("{} observers are too many to count: give at most {}", request.observers.size(),
                                  kCountOutside - 1));
-  for (const Observer& observer : request.observers) validate_observer(observer);
-  if (!std::isfinite(request.target_height) || (!request.target_absolute && request.target_height < 0))
-    throw InputError(fmt::format("target height {:g}: give 0 or a positive number of metres", request.target_height));
-  validate_field_of_view(request);
-  if (request.cell_size && request.grid) throw InputError("both a cell size and a grid are given: give one of them");
-  if (request.cell_size && !positive(*request.cell_size))
-    throw InputError(fmt::format("cell size {:g}: give a positive number of metres", *request.cell_size));
-  const double cell =
-      request.grid ? std::max(request.grid->cell_width(), request.grid->cell_height()) : request.cell_size.value_or(0);
-  if (request.radius && cell > *request.radius)
-    throw InputError(
-        fmt::format("cells of {:g} m are larger than the radius of {:g} m: give smaller cells", cell, *request.radius));
+  for (const Observer& observer : request.observers) validate_observer(request, observer);
+  validate_cells(request);
+  if (request.mode == Mode::kProbability) {
+    const VerticalError& e = request.vertical_error;
+    if (!positive(e.sigma))
+      throw InputError(fmt::format("vertical error {:g}: give a positive number of metres", e.sigma));
+    if (!(std::isfinite(e.correlation_length) && e.correlation_length >= 0))
+      throw InputError(
+          fmt::format("correlation length {:g}: give 0 or a positive number of metres", e.correlation_length));
+  }
   request.earth.validate();
 }
 
 RasterGrid cells_of(const Request& request, const Box& coverage) {
   if (request.grid) return *request.grid;
   Box area = coverage;
-  if (request.radius) {
+  if (all_bounded(request)) {
     area = {};
     for (const Observer& observer : request.observers)
-      area.extend(intersection(disc_box(observer.position, *request.radius), coverage));
+      area.extend(intersection(disc_box(observer.position, *radius_of(request, observer)), coverage));
   }
   if (area.empty()) throw InputError("no observer's radius reaches any data");
   return RasterGrid::aligned(area, request.cell_size ? *request.cell_size : default_cell_size(area));
 }
 
 Window window_of(const Request& request) {
-  if (!request.radius && !request.grid) return Window::all();
+  if (!all_bounded(request) && !request.grid) return Window::all();
   // Each part is convex (or a wedge about the observer) and holds the observer, so that it holds the sight lines too.
   std::vector<Window::Polygon> parts;
   for (const Observer& observer : request.observers) {
+    const std::optional<double> radius = radius_of(request, observer);
     if (request.grid) {
       Box box = request.grid->bounds();
       box.extend(observer.position);
-      if (request.radius) box = intersection(box, disc_box(observer.position, *request.radius));
+      if (radius) box = intersection(box, disc_box(observer.position, *radius));
       parts.push_back(rectangle(box));
     } else {
-      parts.push_back(Window::disc(observer.position, *request.radius).parts().front());
+      parts.push_back(Window::disc(observer.position, *radius).parts().front());
     }
   }
   return Window::polygons(std::move(parts));
 }
 
 double ceiling_of(const Tin& tin, const Request& request) {
+  if (request.mode == Mode::kHeight) return 2 * kSky;
   double highest = 0;
   for (const GridPoint& v : tin.vertices) highest = std::max(highest, v.z * tin.grid.resolution);
   double above = std::max(request.target_height, 0.0);
-  for (const Observer& observer : request.observers) above = std::max(above, observer.height);
+  for (const Observer& observer : request.observers)
+    above = std::max({above, observer.height, observer.target_height.value_or(0)});
   return highest + above;
 }
 

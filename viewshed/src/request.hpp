@@ -9,11 +9,17 @@ namespace itin::viewshed {
 inline constexpr const char* kVoidsWarning =
     "sight lines may cross ground without data, which counts as clear; give nodata block or clear to choose";
 
+/// In height mode no target stands higher above the eye, metres; ground that hides it there hides everything.
+inline constexpr double kSky = 1e7;
+
 /// Throws InputError for everything that is wrong whatever the surface.
 void validate(const Request& request);
 
+/// How far the observer looks; nothing: as far as there is ground.
+std::optional<double> radius_of(const Request& request, const Observer& observer);
+
 /// The cells to decide, on a surface that covers `coverage`: as given; or aligned, over the part of the coverage within
-/// the radius of an observer. Throws InputError if there is none.
+/// the radius of an observer, where each has one. Throws InputError if there is none.
 RasterGrid cells_of(const Request& request, const Box& coverage);
 
 /// The region that holds every sight line of the request.

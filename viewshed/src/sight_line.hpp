@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <itin/geometry.hpp>
 
@@ -33,6 +34,46 @@ class SightLine {
   bool hidden_by(const GridPoint& a, const GridPoint& b, const GridPoint& c) const {
     const Section under = section(a, b, c);
     return under.meets_line() && highest(under) > grazing_;
+  }
+
+  /// Where the triangle first hides, as a fraction of the length; nothing where it does not hide.
+  std::optional<double> hidden_from(const GridPoint& a, const GridPoint& b, const GridPoint& c) const {
+    const Section under = section(a, b, c);
+    if (!under.meets_line() || highest(under) <= grazing_) return std::nullopt;
+    const double first = std::max(under.low, 0.0), last = std::min(under.high, 1.0);
+    if (rise(under, first) > grazing_) return first;
+    // The least root of p + q s + bulge s (1 - s) = grazing, which lies where the left side grows.
+    const double q = under.slope() + bulge_, missing = grazing_ - under.straight(0);
+    if (q <= 0) return last;
+    const double root = std::sqrt(std::max(0.0, q * q - 4 * bulge_ * missing));
+    return std::clamp(2 * missing / (q + root), first, last);
+  }
+
+  /// Calls visit(fraction of the length, rise above the line) where the ground over the triangle, as far as it lies
+  /// between the ends, begins, ends and bulges most.
+  template <class Visit>
+  void for_each_crest(const GridPoint& a, const GridPoint& b, const GridPoint& c, const Visit& visit) const {
+    const Section under = section(a, b, c);
+    if (!under.meets_line()) return;
+    const double first = std::max(under.low, 0.0), last = std::min(under.high, 1.0);
+    const auto at = [&](double s) { visit(s, rise(under, s)); };
+    at(first);
+    at(last);
+    if (bulge_ > 0) at(std::clamp(0.5 + under.slope() / (2 * bulge_), first, last));
+  }
+
+  /// Where between the ends the triangle rises highest above the line, as a fraction of the length. Precondition: the
+  /// line passes over the triangle.
+  double highest_at(const GridPoint& a, const GridPoint& b, const GridPoint& c) const {
+    const Section under = section(a, b, c);
+    const double first = std::max(under.low, 0.0), last = std::min(under.high, 1.0);
+    double best = first;
+    const auto consider = [&](double s) {
+      if (rise(under, s) > rise(under, best)) best = s;
+    };
+    if (bulge_ > 0) consider(std::clamp(0.5 + under.slope() / (2 * bulge_), first, last));
+    consider(last);
+    return best;
   }
 
   /// The least height of the end `to`, its position kept, at which the triangle does not hide it: -infinity where the

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace itin::viewshed {
@@ -150,6 +151,13 @@ std::optional<double> surface_height(const Tin& tin, std::span<const std::uint32
     if (x >= west.x && x <= east.x) return RowSections::height(west, east, x);
   }
   return std::nullopt;
+}
+
+std::optional<double> height_on(const Tin& tin, Point2 position) {
+  std::vector<std::uint32_t> all(tin.triangles.size());
+  std::iota(all.begin(), all.end(), 0U);
+  const std::optional<double> units = surface_height(tin, all, position);
+  return units ? std::optional(*units * tin.grid.resolution) : std::nullopt;
 }
 
 }  // namespace itin::viewshed

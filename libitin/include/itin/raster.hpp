@@ -84,17 +84,17 @@ struct RasterClass {
 struct RasterDescription {
   std::string crs_wkt;  ///< may be empty: unknown
   std::optional<double> nodata;
-  std::string band_name;             ///< may be empty
+  std::string band_name;                   ///< may be empty
   std::vector<std::string> further_bands;  ///< names of the second band and those after it
-  std::vector<RasterClass> classes;  ///< not empty: colour table and category names (Byte only)
+  std::vector<RasterClass> classes;        ///< not empty: colour table and category names (Byte only)
   std::vector<std::pair<std::string, std::string>> metadata;  ///< name, value
   bool overwrite = false;                                     ///< an existing file may be replaced
 };
 
 /// Writes a cloud-optimised GeoTIFF: tiled, compressed, with overviews (the value most frequent for classes, the
-/// nearest otherwise). Precondition: values.size() == grid.cell_count() * bands; they lie one band after the other. The file appears under its name only when it
-/// is complete; its bytes do not depend on the number of threads. Throws FileError if the place cannot be written or
-/// the file exists and may not be replaced.
+/// nearest otherwise). Precondition: values.size() == grid.cell_count() * bands; they lie one band after the other. The
+/// file appears under its name only when it is complete; its bytes do not depend on the number of threads. Throws
+/// FileError if the place cannot be written or the file exists and may not be replaced.
 void write_raster(const std::string& path, const RasterGrid& grid, std::span<const std::uint8_t> values,
                   const RasterDescription& description);
 void write_raster(const std::string& path, const RasterGrid& grid, std::span<const std::uint16_t> values,

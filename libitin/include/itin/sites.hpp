@@ -15,13 +15,20 @@
 
 namespace itin {
 
+/// A further field to read as numbers.
+struct NumberField {
+  std::string name;
+  bool required = true;  ///< an error if the layer has no such field; otherwise no site has a value
+};
+
 struct SiteQuery {
   std::string path;          ///< GeoPackage, GeoJSON, Shapefile, CSV with columns x,y; whatever GDAL reads
   std::string layer;         ///< default: the file's only layer
   std::string where;         ///< an attribute filter in OGR's SQL; default: all features
   std::string height_field;  ///< metres; default: no heights
   std::string name_field;    ///< default: the feature's number
-  std::string crs;           ///< of a file that does not say; default: the one asked for. Overrides nothing.
+  std::vector<NumberField> numbers;
+  std::string crs;  ///< of a file that does not say; default: the one asked for. Overrides nothing.
 };
 
 struct Site {
@@ -29,6 +36,7 @@ struct Site {
   std::string name;
   Point2 position;  ///< in the CRS asked for
   std::optional<double> height;
+  std::vector<std::optional<double>> numbers;  ///< one for each SiteQuery::numbers; nothing where the field is empty
 };
 
 /// All sites in the file's order, in the CRS `to_crs` (WKT). Throws FileError for a file, layer, field, filter or

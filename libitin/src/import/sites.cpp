@@ -56,24 +56,45 @@ std::optional<CoordinateTransform> transform_from(OGRLayer& layer, const SiteQue
   return CoordinateTransform(from_crs, to_crs);
 }
 
-double height_of(const OGRFeature& feature, int field, const std::string& place) {
-  double height = std::numeric_limits<double>::quiet_NaN();
+/// Nothing for an empty field; not a number for one that holds something else.
+std::optional<double> number_in(const OGRFeature& feature, int field) {
+  if (!feature.IsFieldSetAndNotNull(field)) return std::nullopt;
   const OGRFieldType type = feature.GetFieldDefnRef(field)->GetType();
-  if (feature.IsFieldSetAndNotNull(field)) {
-    if (type == OFTInteger || type == OFTInteger64 || type == OFTReal) {
-      height = feature.GetFieldAsDouble(field);
-    } else {
-      char* end = nullptr;
-      const char* text = feature.GetFieldAsString(field);
-      height = CPLStrtod(text, &end);
-      if (end == text || *end != '\0') height = std::numeric_limits<double>::quiet_NaN();
-    }
-  }
-  if (!std::isfinite(height)) {
+  if (type == OFTInteger || type == OFTInteger64 || type == OFTReal) return feature.GetFieldAsDouble(field);
+  char* end = nullptr;
+  const char* text = feature.GetFieldAsString(field);
+  if (*text == '\0') return std::nullopt;
+  const double value = CPLStrtod(text, &end);
+  return *end != '\0' ? std::numeric_limits<double>::quiet_NaN() : value;
+}
+
+double height_of(const OGRFeature& feature, int field, const std::string& place) {
+  const std::optional<double> height = number_in(feature, field);
+  if (!height || !std::isfinite(*height))
     throw FileError(place,
                     fmt::format("its height field '{}' holds no number", feature.GetFieldDefnRef(field)->GetNameRef()));
+  return *height;
+}
+
+std::vector<int> number_fields(OGRLayer& layer, const SiteQuery& query) {
+  std::vector<int> fields;
+  for (const NumberField& field : query.numbers) {
+    const bool absent = layer.GetLayerDefn()->GetFieldIndex(field.name.c_str()) < 0;
+    fields.push_back(absent && !field.required ? -1 : field_index(layer, query.path, field.name));
   }
-  return height;
+  return fields;
+}
+
+std::vector<std::optional<double>> numbers_of(const OGRFeature& feature, const std::vector<int>& fields,
+                                              const std::string& place) {
+  std::vector<std::optional<double>> numbers;
+  for (const int field : fields) {
+    numbers.push_back(field < 0 ? std::nullopt : number_in(feature, field));
+    if (numbers.back() && !std::isfinite(*numbers.back()))
+      throw FileError(place,
+                      fmt::format("its field '{}' holds no number", feature.GetFieldDefnRef(field)->GetNameRef()));
+  }
+  return numbers;
 }
 
 Point2 position_of(const OGRFeature& feature, const std::string& place) {
@@ -98,6 +119,7 @@ std::vector<Site> read_sites(const SiteQuery& query, const std::string& to_crs) 
   OGRLayer& layer = chosen_layer(*dataset, query);
   const int height_field = field_index(layer, query.path, query.height_field);
   const int name_field = field_index(layer, query.path, query.name_field);
+  const std::vector<int> further_fields = number_fields(layer, query);
   if (!query.where.empty() && layer.SetAttributeFilter(query.where.c_str()) != OGRERR_NONE) {
     throw FileError(query.path, fmt::format("--where '{}': {}", query.where, QuietGdal::message("not understood")));
   }
@@ -111,6 +133,7 @@ std::vector<Site> read_sites(const SiteQuery& query, const std::string& to_crs) 
     site.name = name_field < 0 ? std::to_string(site.feature) : feature->GetFieldAsString(name_field);
     site.position = position_of(*feature, place);
     if (height_field >= 0) site.height = height_of(*feature, height_field, place);
+    site.numbers = numbers_of(*feature, further_fields, place);
     try {
       if (transform) site.position = (*transform)(site.position);
     } catch (const InputError& error) {

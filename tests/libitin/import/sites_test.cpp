@@ -52,6 +52,21 @@ TEST_F(Sites, ComeFromCsvInTheFilesOrder) {
   EXPECT_EQ(sites[1].height, 30);
 }
 
+TEST_F(Sites, CarryFurtherNumbers) {
+  SiteQuery query = file("masts.csv", "x,y,reach,from,note\n1,2,500,350.5,a\n3,4,,10,b\n");
+  query.numbers = {{"reach"}, {"FROM"}, {"to", false}};
+  const std::vector<Site> sites = read_sites(query, "");
+  ASSERT_EQ(sites.size(), 2u);
+  using Numbers = std::vector<std::optional<double>>;
+  EXPECT_EQ(sites[0].numbers, (Numbers{500, 350.5, std::nullopt}));
+  EXPECT_EQ(sites[1].numbers, (Numbers{std::nullopt, 10, std::nullopt}));
+  query.numbers = {{"note"}};
+  EXPECT_THAT([&] { read_sites(query, ""); },
+              ThrowsMessage<FileError>(HasSubstr("feature 1: its field 'note' holds no number")));
+  query.numbers = {{"to"}};
+  EXPECT_THAT([&] { read_sites(query, ""); }, ThrowsMessage<FileError>(HasSubstr("no field 'to'")));
+}
+
 TEST_F(Sites, HaveNoHeightUnlessAsked) {
   const std::vector<Site> sites = read_sites(file("masts.csv", kMasts), "EPSG:27700");
   ASSERT_EQ(sites.size(), 2u);

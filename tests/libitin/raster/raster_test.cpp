@@ -165,6 +165,34 @@ TEST_F(RasterFile, HoldsCountsAndHeights) {
   }
 }
 
+TEST_F(RasterFile, HoldsSeveralBands) {
+  const std::size_t cells = grid_.cell_count();
+  std::vector<std::uint32_t> words(3 * cells);
+  for (std::size_t i = 0; i < words.size(); ++i) words[i] = static_cast<std::uint32_t>(i * 2654435761U);
+  RasterDescription description;
+  description.band_name = "one";
+  description.further_bands = {"two", "three"};
+  write_raster(path("w.tif"), grid_, std::span<const std::uint32_t>(words), description);
+  const GDALDatasetUniquePtr dataset(GDALDataset::Open(path("w.tif").c_str(), GDAL_OF_RASTER));
+  ASSERT_TRUE(dataset);
+  ASSERT_EQ(dataset->GetRasterCount(), 3);
+  const int columns = static_cast<int>(grid_.columns()), rows = static_cast<int>(grid_.rows());
+  for (int b = 1; b <= 3; ++b) {
+    GDALRasterBand& band = *dataset->GetRasterBand(b);
+    EXPECT_EQ(band.GetRasterDataType(), GDT_UInt32);
+    EXPECT_STREQ(band.GetDescription(), b == 1 ? "one" : b == 2 ? "two" : "three");
+    EXPECT_EQ(band.GetOverviewCount(), 2);
+    std::vector<std::uint32_t> read(cells);
+    ASSERT_EQ(band.RasterIO(GF_Read, 0, 0, columns, rows, read.data(), columns, rows, GDT_UInt32, 0, 0, nullptr),
+              CE_None);
+    const auto first = words.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(b - 1) * cells);
+    EXPECT_TRUE(std::equal(read.begin(), read.end(), first));
+    std::uint32_t corner = 0;
+    ASSERT_EQ(band.GetOverview(1)->RasterIO(GF_Read, 0, 0, 1, 1, &corner, 1, 1, GDT_UInt32, 0, 0, nullptr), CE_None);
+    EXPECT_EQ(corner, *first);
+  }
+}
+
 TEST_F(RasterFile, IsReplacedOnlyWhereAllowed) {
   std::ofstream(path("a.tif")) << "precious";
   EXPECT_THROW(write_raster(path("a.tif"), grid_, std::span<const std::uint8_t>(values_), description_), FileError);

@@ -5,8 +5,9 @@
 //
 // Both ends of a sight line stand on the full surface (level 0 of the terrain), whatever the tolerance. "Certainly" is
 // what it says: no cell called certain differs from the full surface's exact answer, single precision included.
-// Lines of themes that are no terrain lie on the surface and change nothing. Themes that stand on it are refused where
-// Request::themes includes them.
+// Lines of themes that are no terrain lie on the surface and change nothing. Where Request::themes includes themes that
+// stand on it, the full surface is the one with them; certificates do not cover these, so that all ground under the
+// sight lines is read at full detail.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +25,8 @@ inline constexpr std::uint8_t kCertainlyVisible = 2;
 /// surface lies between two envelopes of the level asked for. Finer levels, as small as they are, stand in about every
 /// observer, for coarse ground there would hide everything. With several observers a cell is certainly visible when it
 /// is to one of them, and certainly hidden when it is to all. Under NoData::kUnknown a line across a void and back is
-/// never certainly visible. Cost: as a plain viewshed twice over.
+/// never certainly visible. Cost: as a plain viewshed twice over. With themes that stand on the ground every cell is
+/// decided, but for such lines across voids, as by compute_precise() and at its cost.
 /// Throws as compute() does.
 Surveyed compute_certified(const Store& store, const Request& request, Progress& progress);
 
@@ -32,12 +34,13 @@ struct PreciseOptions {
   std::uint64_t memory_bytes = std::uint64_t{1} << 30;  ///< changes the speed, never the answer
 };
 
-/// Exact for the full surface, in modes kVisible and kCount: each cell has the value that the exact walk in double
-/// precision over every triangle would give it. A certified pass at a coarse level decides most cells; for the others
-/// the places where their lines come near the ground, and no more, are read at full detail, as many at a time as the
-/// memory allows, and the few lines that graze are walked. Request::detail is not used. NoData::kUnknown counts as
-/// clear, with a warning.
-/// Throws as compute() does.
+/// Exact for the full surface, in modes kVisible, kCount, kWhich and kNearest: each cell has the value that the exact
+/// walk in double precision over every triangle would give it. A certified pass at a coarse level decides most cells;
+/// for the others the places where their lines come near the ground, and no more, are read at full detail, as many at a
+/// time as the memory allows, and the few lines that graze are walked. Request::detail is not used. NoData::kUnknown
+/// counts as clear, with a warning.
+/// Throws as compute() does, and InputError where themes that stand on the ground, NoData::kBlock and voids come
+/// together in a window too large for the memory.
 Surveyed compute_precise(const Store& store, const Request& request, const PreciseOptions& options, Progress& progress);
 
 }  // namespace itin::viewshed

@@ -35,11 +35,24 @@
 
 namespace itin::viewshed {
 
+/// Degrees. Azimuths are clockwise from grid north and may pass through it (350 to 10); elevations are those of the
+/// straight line after curvature and refraction, -90 to 90, upwards positive.
+struct AngleRange {
+  double from = 0;
+  double to = 0;
+};
+
 struct Observer {
   std::string name;  ///< for messages and maps; may be empty
   Point2 position;
   double height = 2;  ///< metres above the surface, or an elevation when `absolute`
   bool absolute = false;
+  // Its own field of view and targets, where they differ from the request's.
+  std::optional<double> target_height = std::nullopt;
+  std::optional<double> radius = std::nullopt;
+  std::optional<double> min_radius = std::nullopt;
+  std::optional<AngleRange> azimuth = std::nullopt;
+  std::optional<AngleRange> elevation = std::nullopt;
 };
 
 /// What ground without data does to sight lines.
@@ -49,21 +62,31 @@ enum class NoData {
   kClear     ///< they pass
 };
 
-/// kCertified is for compute_certified() (certified.hpp) alone.
-enum class Mode { kVisible, kCount, kCertified };
+/// What a cell is told about the observers that see it.
+enum class Mode {
+  kVisible,     ///< whether any does
+  kCount,       ///< how many do
+  kCertified,   ///< whether any certainly does: for compute_certified() (certified.hpp) alone
+  kWhich,       ///< which do
+  kAngle,       ///< the greatest elevation angle of their sight lines
+  kNearest,     ///< the nearest of them, and its distance
+  kBlocker,     ///< where none does, what hides the cell from the nearest observer that looks there
+  kHeight,      ///< the least height above the ground at which a target is seen by any of them
+  kProbability  ///< how probably any of them does where heights are uncertain: the greatest of theirs
+};
 
-/// Degrees. Azimuths are clockwise from grid north and may pass through it (350 to 10); elevations are those of the
-/// straight line after curvature and refraction, -90 to 90, upwards positive.
-struct AngleRange {
-  double from = 0;
-  double to = 0;
+/// What is known of the errors of heights: normal, with this standard deviation; those of places x apart are correlated
+/// as exp(-x / correlation_length), or not at all where that is 0. See src/vertical_odds.hpp for what follows from it.
+struct VerticalError {
+  double sigma = 0;               ///< metres, positive
+  double correlation_length = 0;  ///< metres
 };
 
 struct Request {
   std::vector<Observer> observers;
   double target_height = 0;  ///< metres above the surface, or an elevation when `target_absolute`
   bool target_absolute = false;
-  // The field of view, the same for every observer.
+  // The field of view of observers that have none of their own.
   std::optional<double> radius;  ///< metres; none: the whole coverage
   double min_radius = 0;
   std::optional<AngleRange> azimuth;
@@ -81,6 +104,7 @@ struct Request {
   bool targets_on_surface = false;
   NoData nodata = NoData::kUnknown;
   Mode mode = Mode::kVisible;
+  VerticalError vertical_error;  ///< kProbability
 };
 
 inline constexpr int kDefaultCells = 2048;
@@ -89,6 +113,10 @@ inline constexpr std::uint8_t kHidden = 0;
 inline constexpr std::uint8_t kVisible = 1;
 inline constexpr std::uint8_t kOutside = 255;  ///< outside every field of view, or no data
 inline constexpr std::uint16_t kCountOutside = 65535;
+
+inline constexpr std::uint32_t kNoBlocker = 0xffffffff;
+/// Ground that is missing, under NoData::kBlock.
+inline constexpr std::uint32_t kMissingGround = 0xfffffffe;
 
 struct CellCounts {
   std::uint64_t visible = 0;  ///< to at least one observer
@@ -109,21 +137,50 @@ struct Statistics {
 struct Result {
   Request request;  ///< as understood
   RasterGrid grid;
-  std::vector<std::uint8_t> visible;  ///< kVisible: one of the three values above a cell; kCertified: of certified.hpp
-  std::vector<std::uint16_t> count;   ///< Mode::kCount: how many observers see the cell, or kCountOutside
-  CellCounts cells;                   ///< areas are these times grid.cell_area()
-  std::vector<double> ground_m;       ///< of each observer
-  double error_bound_m = 0;           ///< e
-  bool crosses_voids = false;         ///< some sight line may have passed over ground without data
-  std::vector<std::string> warnings;  ///< one line each
+  std::vector<std::uint8_t> visible;   ///< one of the three values above a cell; kCertified: of certified.hpp
+  std::vector<std::uint16_t> count;    ///< kCount: how many observers see the cell, or kCountOutside
+  std::vector<std::uint32_t> which;    ///< kWhich: see observer_bit()
+  std::vector<float> angle_deg;        ///< kAngle, of the line after curvature and refraction; NaN where none sees
+  std::vector<std::uint32_t> nearest;  ///< kNearest: the observer's number from 1 in their order; 0 where none sees
+  std::vector<float> distance_m;       ///< kNearest, horizontally; NaN where none sees
+  /// kBlocker, for hidden cells: the first triangle of the surface that rises above the sight line, or one of the two
+  /// values above; and its theme (from 1; 0: terrain), or the same.
+  std::vector<std::uint32_t> blocker;
+  std::vector<std::uint32_t> blocker_theme;
+  /// kBlocker, from a store: which feature of that theme it is part of, by features_at(); kNoBlocker: of none.
+  std::vector<std::uint32_t> blocker_feature;
+  /// kHeight: 0 where the ground is seen, infinity where no height is (beyond the field of view, or behind missing
+  /// ground that blocks), NaN outside. Exact: the sight line to it touches the surface within a micrometre.
+  std::vector<float> least_height_m;
+  /// kProbability: of the line's critical place, an upper bound; NaN outside.
+  std::vector<float> probability;
+  std::vector<std::string> theme_names;  ///< from a store: of theme 1 and so on
+  CellCounts cells;                      ///< areas are these times grid.cell_area()
+  std::vector<double> ground_m;          ///< of each observer
+  double error_bound_m = 0;              ///< e
+  bool crosses_voids = false;            ///< some sight line may have passed over ground without data
+  std::vector<std::string> warnings;     ///< one line each
   Statistics statistics;
 };
 
+/// Where kWhich keeps whether observer `number` (from 0) sees a cell: grids of 32-bit words, one for every 32
+/// observers, one grid after the other.
+struct ObserverBit {
+  std::size_t grid = 0;
+  std::uint32_t mask = 0;
+};
+constexpr ObserverBit observer_bit(std::size_t number) {
+  return {number / 32, std::uint32_t{1} << (number % 32)};
+}
+constexpr std::size_t which_grids(std::size_t observers) {
+  return (observers + 31) / 32;
+}
+
 /// On a given surface. The Tin must hold every triangle that sight lines cross; where it ends there is no data.
 /// Cost: O(n) for n triangles (about 0.3 microseconds each) and about 50 ns a cell and observer, on two cores; memory
-/// about 150 bytes a triangle and 5 to 9 bytes a cell. The result does not depend on the number of threads.
-/// Throws InputError (an observer outside the data, by name; an unusable radius, cell size or angle; more than 65534
-/// observers to count), Cancelled.
+/// about 150 bytes a triangle and, besides the result, 5 bytes a cell. The result does not depend on the number of
+/// threads. Throws InputError (an observer outside the data, by name; an unusable radius, cell size or angle; more than
+/// 65534 observers to count), Cancelled.
 Result compute(const Tin& tin, const Request& request, Progress& progress);
 
 /// The same, with the ground on which ends stand that are not on the surface. It must cover what the surface covers.
@@ -133,12 +190,20 @@ Result compute(const Tin& tin, const Tin& ground, const Request& request, Progre
 /// triangulate() throws.
 Result compute(const Store& store, const Request& request, Progress& progress);
 
-/// The same, keeping the surface for further use (maps).
+/// The same, keeping the surface for further use (maps, single observers).
 struct Surveyed {
   Tin tin;
+  std::optional<Tin> ground;  ///< what ends stand on, where that is not the surface
   Result result;
 };
 Surveyed compute_with_surface(const Store& store, const Request& request, Progress& progress);
+
+/// The request for one of its observers alone, on the cells of all.
+Request alone(const Result& result, std::size_t observer);
+
+/// The same for the request of one observer alone on a surface that was retrieved for all; `store` is where it came
+/// from.
+Result compute_on_surface(const Store& store, const Surveyed& surveyed, const Request& request, Progress& progress);
 
 struct GeotiffOptions {
   std::string crs_wkt;
@@ -146,8 +211,13 @@ struct GeotiffOptions {
   bool overwrite = false;
 };
 
-/// Byte classes (visible 1, hidden 0, nodata 255), or UInt16 counts (nodata 65535), as write_raster() writes them.
-/// Throws FileError.
+/// As write_raster() writes them: Byte classes (visible 1, hidden 0, nodata 255), UInt16 counts (nodata 65535), UInt32
+/// bits without nodata (0 where none sees, a band for every 32 observers), Float32 angles (nodata NaN), Float32 bands
+/// of distance and number of the nearest (nodata NaN). Throws FileError.
 void write_geotiff(const std::string& path, const Result& result, const GeotiffOptions& options);
+
+/// What is seen as polygons in a GeoPackage, one a class as write_regions() writes them: visible and hidden; the
+/// certainties of kCertified; a class for every count, nearest observer or theme that hides. Throws FileError.
+void write_polygons(const std::string& path, const Result& result, const std::string& crs_wkt, bool overwrite);
 
 }  // namespace itin::viewshed

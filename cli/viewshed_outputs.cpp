@@ -1,0 +1,121 @@
+#include "viewshed_outputs.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+#include <viewshed/map_image.hpp>
+
+namespace itin::cli {
+
+namespace {
+
+bool is_polygons(const std::string& path) {
+  return std::filesystem::path(path).extension() == ".gpkg";
+}
+
+/// What of a name can be part of every file system's names.
+std::string file_name(const std::string& name) {
+  std::string text;
+  for (const char c : name) {
+    const bool plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' ||
+                       c == '.' || (c & 0x80) != 0;
+    text += plain ? c : '_';
+  }
+  return text.empty() || text[0] == '.' ? "_" + text : text;
+}
+
+}  // namespace
+
+void ViewshedOutputs::declare(CLI::App& app) {
+  app.add_option(
+         "-o,--output", outputs_,
+         "A raster to write, a GeoTIFF (.tif), or the regions of its classes as polygons, a GeoPackage (.gpkg); "
+         "may be given again")
+      ->type_name("FILE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_option("--image", image_, "A map to write (.png, .jpg)")->type_name("FILE");
+  app.add_option("--each", each_, "Also write the raster of every observer alone, as DIR/NAME.tif")->type_name("DIR");
+  policy_.declare(app);
+}
+
+void ViewshedOutputs::validate(const std::vector<std::string>& others) {
+  others_ = others;
+  if (paths().empty() && each_.empty())
+    throw InputError(
+        "give an output: --output FILE.tif or FILE.gpkg, --image FILE.png, --each DIR, or --horizon FILE.csv");
+  std::set<std::string> names;
+  for (const std::string& path : outputs_) {
+    const std::string ending = std::filesystem::path(path).extension().string();
+    if (ending != ".tif" && ending != ".tiff" && ending != ".gpkg")
+      throw InputError(fmt::format("--output '{}': a viewshed is written as .tif or .gpkg", path));
+    if (!names.insert(path).second) throw InputError(fmt::format("--output '{}' is given twice", path));
+  }
+  if (names.contains(image_)) throw InputError("--output and --image name the same file");
+  names.insert(image_);
+  for (const std::string& path : others)
+    if (!names.insert(path).second) throw InputError(fmt::format("'{}' is named for two outputs", path));
+}
+
+void ViewshedOutputs::prepare(const viewshed::Request& request) {
+  namespace fs = std::filesystem;
+  if (!each_.empty()) {
+    std::error_code error;
+    fs::create_directory(each_, error);
+    if (!fs::is_directory(each_)) throw FileError(each_, "cannot be made a directory; name another place");
+    std::set<std::string> taken;
+    for (std::size_t i = 0; i < request.observers.size(); ++i) {
+      const std::string& given = request.observers[i].name;
+      std::string name = file_name(given.empty() ? std::to_string(i + 1) : given);
+      if (taken.contains(name)) name += fmt::format("-{}", i + 1);
+      taken.insert(name);
+      single_.push_back((fs::path(each_) / (name + ".tif")).string());
+    }
+  }
+  for (const std::string& path : paths()) policy_.require_writable(path);
+}
+
+void ViewshedOutputs::write_raster(const std::string& path, const viewshed::Result& result,
+                                   const Context& context) const {
+  viewshed::GeotiffOptions options;
+  options.crs_wkt = context.crs_wkt;
+  options.metadata = {{"itin", ITIN_VERSION}, {"surface", context.surface.dump()}};
+  options.overwrite = policy_.overwrite;
+  viewshed::write_geotiff(path, result, options);
+}
+
+void ViewshedOutputs::write(const viewshed::Surveyed& surveyed, const Context& context,
+                            std::vector<std::string>& warnings) const {
+  std::optional<viewshed::MapImage> map;
+  if (!image_.empty()) {
+    map = viewshed::draw_map(surveyed.tin, surveyed.result);
+    warnings.insert(warnings.end(), map->warnings.begin(), map->warnings.end());
+  }
+  for (const std::string& path : outputs_) {
+    if (is_polygons(path)) {
+      viewshed::write_polygons(path, surveyed.result, context.crs_wkt, policy_.overwrite);
+    } else {
+      write_raster(path, surveyed.result, context);
+    }
+  }
+  if (map) viewshed::write_image(image_, *map, policy_.overwrite);
+}
+
+void ViewshedOutputs::write_each(const Compute& compute, const Context& context) const {
+  for (std::size_t i = 0; i < single_.size(); ++i) write_raster(single_[i], compute(i), context);
+}
+
+std::vector<std::string> ViewshedOutputs::paths() const {
+  std::vector<std::string> paths = outputs_;
+  if (!image_.empty()) paths.push_back(image_);
+  paths.insert(paths.end(), single_.begin(), single_.end());
+  paths.insert(paths.end(), others_.begin(), others_.end());
+  return paths;
+}
+
+}  // namespace itin::cli

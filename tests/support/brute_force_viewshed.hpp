@@ -1,0 +1,64 @@
+// Viewsheds the slow way: every triangle for every cell, in double precision.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include <viewshed/viewshed.hpp>
+
+#include "eye.hpp"
+#include "field_of_view.hpp"
+#include "scene.hpp"
+#include "sight_line.hpp"
+#include "surface_heights.hpp"
+
+namespace itin::test {
+
+/// One observer and clear voids.
+inline viewshed::Request look(Point2 position, double height, double target_height, double cell) {
+  viewshed::Request request;
+  request.observers = {{"o", position, height}};
+  request.target_height = target_height;
+  request.cell_size = cell;
+  request.nodata = viewshed::NoData::kClear;
+  return request;
+}
+
+/// Values of plain viewsheds, of one observer, who stands on `ground` as the targets do, or on `surface` where the
+/// request says so.
+inline std::vector<std::uint8_t> brute_force(const Tin& surface, const Tin& ground, const viewshed::Request& request,
+                                             const RasterGrid& cells) {
+  using namespace viewshed;
+  const Scene above(surface, request.earth, request.nodata, 100000),
+      below(ground, request.earth, request.nodata, 100000);
+  const Observer& observer = request.observers.front();
+  const Eye eye =
+      eye_of(surface.grid, request, observer, (request.observers_on_surface ? above : below).ground(observer.position));
+  const double resolution = surface.grid.resolution;
+  const FieldOfView view(request, observer);
+  std::vector<std::uint8_t> values(cells.cell_count(), kOutside);
+  for (std::int64_t row = 0; row < cells.rows(); ++row) {
+    for (std::int64_t column = 0; column < cells.columns(); ++column) {
+      const Point2 centre = cells.centre(column, row);
+      const auto base = (request.targets_on_surface ? above : below).ground(centre);
+      if (!base) continue;
+      const double target = *base + request.target_height;
+      const double dx = centre.x - eye.position.x, dy = centre.y - eye.position.y;
+      if (!view.contains(dx, dy, target - eye.elevation)) continue;
+      const Point3 to{easting_in_units(surface.grid, centre.x), northing_in_units(surface.grid, centre.y),
+                      target / resolution};
+      std::uint8_t& value = values[cells.index({column, row})];
+      value = kVisible;
+      if (to.x == eye.units.x && to.y == eye.units.y) continue;
+      const SightLine line(eye.units, to, request.earth.drop_coefficient() * resolution, kGrazing / resolution);
+      const bool hidden = std::any_of(surface.triangles.begin(), surface.triangles.end(), [&](const Triangle& t) {
+        return line.hidden_by(surface.vertices[t[0]], surface.vertices[t[1]], surface.vertices[t[2]]);
+      });
+      if (hidden) value = kHidden;
+    }
+  }
+  return values;
+}
+
+}  // namespace itin::test

@@ -1,0 +1,170 @@
+// Precise and certified viewsheds over a surface with buildings and trees, against the walk over every triangle of it.
+#include <cmath>
+#include <iostream>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <itin/import.hpp>
+#include <itin/triangulate.hpp>
+#include <viewshed/certified.hpp>
+
+#include "support/brute_force_viewshed.hpp"
+#include "support/raster_file.hpp"
+#include "support/temporary_directory.hpp"
+#include "support/terrain_tin.hpp"
+#include "support/vector_file.hpp"
+
+namespace itin::viewshed {
+namespace {
+
+constexpr int kSide = 40;
+constexpr double kStep = 25;
+constexpr Point2 kNorthWest{300000, 200000}, kEye{300437.3, 199487.1};  // nothing stands on the eye
+
+/// Fractal hills with houses turned every way, and a wood.
+class StandingCertified : public testing::Test {
+ protected:
+  void make(double void_radius = 0) {
+    const std::uint32_t seed = std::random_device{}();
+    std::cout << "seed " << seed << '\n';
+    const std::vector<double> z = test::fractal_heights(65, 60, 0.5, seed);
+    test::write_raster(directory_.file("t.tif"), {kNorthWest.x, kNorthWest.y, kStep, kSide, kSide, 27700},
+                       [&](int c, int r) {
+                         if (std::hypot(c - 30, r - 30) < void_radius) return std::nan("");
+                         return z[static_cast<std::size_t>(r) * 65 + static_cast<std::size_t>(c)];
+                       });
+    ImportOptions options;
+    options.sources = {directory_.file("t.tif")};
+    NoProgress progress;
+    import_terrain(path(), options, progress);
+    std::mt19937 random(seed);
+    std::vector<test::LineFeature> houses;
+    for (int i = 0; i < 60; ++i) houses.push_back(box(random, 8, 30, 4, 25));
+    add(houses, ThemeKind::Buildings, "houses");
+    add({box(random, 100, 150, 12, 18), box(random, 60, 90, 8, 10)}, ThemeKind::Vegetation, "wood");
+    store_.emplace(path());
+    surface_ = triangulate(*store_, Window::all(), Detail::tolerance(0), progress, ThemeChoice::all());
+    ground_ = triangulate(*store_, Window::all(), Detail::tolerance(0), progress);
+    ASSERT_FALSE(surface_.standing.empty());
+  }
+
+  std::string path() { return directory_.file("s.itin"); }
+
+  static test::LineFeature box(std::mt19937& random, double least, double most, double low, double high) {
+    std::uniform_real_distribution<double> place(120, kSide * kStep - 120), size(least, most), height(low, high);
+    double x = kEye.x, y = kEye.y;
+    while (std::hypot(x - kEye.x, y - kEye.y) < most)
+      x = kNorthWest.x + place(random), y = kNorthWest.y - place(random);
+    const double w = size(random) / 2, d = size(random) / 2, turn = place(random);
+    test::LineFeature f;
+    f.polygon = true;
+    for (const auto& [u, v] : {std::pair{-w, -d}, {w, -d}, {w, d}, {-w, d}, {-w, -d}})
+      f.vertices.push_back(
+          {x + u * std::cos(turn) - v * std::sin(turn), y + u * std::sin(turn) + v * std::cos(turn), 0});
+    f.properties = fmt::format("{{\"h\":{:.2f}}}", height(random));
+    return f;
+  }
+
+  void add(const std::vector<test::LineFeature>& features, ThemeKind kind, const std::string& name) {
+    test::write_lines(directory_.file(name + ".geojson"), features, true);
+    ImportOptions options;
+    options.sources = {directory_.file(name + ".geojson")};
+    options.kind = kind;
+    options.theme = name;
+    options.height_field = "h";
+    NoProgress progress;
+    import_lines(path(), options, progress);
+  }
+
+  Request request(double height, double target, bool eye_on_surface, bool target_on_surface) const {
+    Request r = test::look(kEye, height, target, 17);
+    r.themes = ThemeChoice::all();
+    r.observers_on_surface = eye_on_surface;
+    r.targets_on_surface = target_on_surface;
+    return r;
+  }
+
+  /// Everything at once, and in segments.
+  void expect_exact(const Request& r) {
+    NoProgress progress;
+    const RasterGrid cells = compute(*store_, r, progress).grid;
+    const std::vector<std::uint8_t> truth = test::brute_force(surface_, ground_, r, cells);
+    for (const std::uint64_t memory : {std::uint64_t{1} << 30, std::uint64_t{1000000}}) {
+      const Result result = compute_precise(*store_, r, {.memory_bytes = memory}, progress).result;
+      ASSERT_EQ(result.visible.size(), truth.size());
+      std::uint64_t different = 0;
+      for (std::size_t i = 0; i < truth.size(); ++i) different += result.visible[i] != truth[i];
+      EXPECT_EQ(different, 0U) << "memory " << memory;
+      EXPECT_GT(result.cells.visible, 0U);
+      EXPECT_GT(result.cells.hidden, 0U);
+    }
+  }
+
+  test::TemporaryDirectory directory_;
+  std::optional<Store> store_;
+  Tin surface_, ground_;
+};
+
+TEST_F(StandingCertified, PreciseIsTheWalkOverEveryTriangle) {
+  make();
+  for (const double target : {0.0, 2.0}) {
+    expect_exact(request(3, target, false, false));
+    expect_exact(request(25, target, true, true));
+  }
+  Request part = request(3, 2, false, false);
+  part.radius = 300;
+  part.azimuth = AngleRange{300, 100};
+  expect_exact(part);
+  part.themes = ThemeChoice::parse("wood");
+  NoProgress progress;
+  surface_ = triangulate(*store_, Window::all(), Detail::tolerance(0), progress, part.themes);
+  expect_exact(part);
+}
+
+TEST_F(StandingCertified, PreciseAcrossVoids) {
+  make(6);
+  expect_exact(request(30, 2, false, false));
+}
+
+TEST_F(StandingCertified, EveryCellIsCertain) {
+  make();
+  Request r = request(3, 2, false, false);
+  NoProgress progress;
+  r.nodata = NoData::kUnknown;
+  const std::vector<std::uint8_t> truth = test::brute_force(surface_, ground_, r, compute(*store_, r, progress).grid);
+  r.mode = Mode::kCertified;
+  const Result result = compute_certified(*store_, r, progress).result;
+  EXPECT_EQ(result.cells.undecided, 0U);
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const std::uint8_t certain = truth[i] == kVisible  ? kCertainlyVisible
+                                 : truth[i] == kHidden ? kCertainlyHidden
+                                                       : kOutside;
+    ASSERT_EQ(result.visible[i], certain) << i;
+  }
+}
+
+TEST_F(StandingCertified, LinesAcrossVoidsStayOpen) {
+  make(6);
+  Request r = request(30, 2, false, false);
+  r.mode = Mode::kCertified;
+  NoProgress progress;
+  const auto decide = [&](NoData rule) {
+    r.nodata = rule;
+    return compute_certified(*store_, r, progress).result;
+  };
+  const Result clear = decide(NoData::kClear), block = decide(NoData::kBlock), unknown = decide(NoData::kUnknown);
+  EXPECT_GT(unknown.cells.undecided, 0U);
+  for (std::size_t i = 0; i < clear.visible.size(); ++i) {
+    if (unknown.visible[i] == kUndecided) {
+      ASSERT_EQ(clear.visible[i], kCertainlyVisible);
+      ASSERT_EQ(block.visible[i], kCertainlyHidden);
+    } else {
+      ASSERT_EQ(unknown.visible[i], clear.visible[i]);
+      ASSERT_EQ(unknown.visible[i], block.visible[i]);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace itin::viewshed

@@ -1,0 +1,164 @@
+#include "observation.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "blocker_observation.hpp"
+#include "field_of_view.hpp"
+#include "least_height_observation.hpp"
+#include "probability_observation.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+
+template <class T>
+void copy_row(const TileValues<T>& values, std::size_t cell, std::size_t columns, T* to) {
+  std::copy_n(values.data() + cell, columns, to);
+}
+
+class AnyObserver final : public Observation {
+ public:
+  bool open(const Look& look) const override { return value(look.cell) != kVisible; }
+};
+
+class ObserverCount final : public Observation {
+ public:
+  ObserverCount() { counts_.fill(0); }
+
+ private:
+  void keep(const Look& look) override { ++counts_[look.cell]; }
+  void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override {
+    for (std::size_t i = 0; i < columns; ++i)
+      result.count[place + i] = value(cell + i) == kOutside ? kCountOutside : counts_[cell + i];
+  }
+  TileValues<std::uint16_t> counts_;
+};
+
+class ObserverBits final : public Observation {
+ public:
+  explicit ObserverBits(std::size_t observers) : words_(which_grids(observers)) {}
+
+ private:
+  void keep(const Look& look) override {
+    const ObserverBit bit = observer_bit(look.observer);
+    words_[bit.grid][look.cell] |= bit.mask;
+  }
+  void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override {
+    for (std::size_t grid = 0; grid < words_.size(); ++grid)
+      copy_row(words_[grid], cell, columns, result.which.data() + grid * result.grid.cell_count() + place);
+  }
+  std::vector<TileValues<std::uint32_t>> words_;
+};
+
+class GreatestAngle final : public Observation {
+ public:
+  explicit GreatestAngle(const Request& request) : view_(request, {}) { angles_.fill(kNone); }
+
+ private:
+  void keep(const Look& look) override {
+    const auto angle = static_cast<float>(view_.elevation(look.dx, look.dy, look.dz));
+    if (!(angles_[look.cell] >= angle)) angles_[look.cell] = angle;
+  }
+  void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override {
+    copy_row(angles_, cell, columns, result.angle_deg.data() + place);
+  }
+  FieldOfView view_;
+  TileValues<float> angles_;
+};
+
+class NearestObserver final : public Observation {
+ public:
+  NearestObserver() {
+    squared_.fill(std::numeric_limits<double>::infinity());
+    numbers_.fill(0);
+  }
+  bool open(const Look& look) const override {
+    // Of two as near, the first.
+    const double squared = look.squared_distance();
+    return squared < squared_[look.cell] || (squared == squared_[look.cell] && look.observer + 1 < numbers_[look.cell]);
+  }
+
+ private:
+  void keep(const Look& look) override {
+    squared_[look.cell] = look.squared_distance();
+    numbers_[look.cell] = look.observer + 1;
+  }
+  void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override {
+    copy_row(numbers_, cell, columns, result.nearest.data() + place);
+    for (std::size_t i = 0; i < columns; ++i) {
+      const bool seen = numbers_[cell + i] != 0;
+      result.distance_m[place + i] = seen ? static_cast<float>(std::sqrt(squared_[cell + i])) : kNone;
+    }
+  }
+  TileValues<double> squared_;
+  TileValues<std::uint32_t> numbers_;
+};
+
+}  // namespace
+
+void Observation::judge(const LookPacket& packet, const Scene& scene, Occluder& occluder) {
+  unsigned visible = packet.lines.active & ~scene.hidden(packet.lines, occluder);
+  for (; visible != 0; visible &= visible - 1) see(packet.looks[static_cast<unsigned>(std::countr_zero(visible))]);
+}
+
+void Observation::store(const Tile& tile, Result& result, CellCounts& cells) const {
+  const auto columns = static_cast<std::size_t>(tile.columns);
+  for (std::int64_t r = 0; r < tile.rows; ++r) {
+    const auto cell = static_cast<std::size_t>(r * Tile::kSide);
+    const std::size_t place = result.grid.index({tile.column, tile.row + r});
+    copy_row(values_, cell, columns, result.visible.data() + place);
+    for (std::size_t i = cell; i < cell + columns; ++i)
+      ++(values_[i] == kOutside ? cells.outside : values_[i] == kVisible ? cells.visible : cells.hidden);
+    store_row(cell, columns, place, result);
+  }
+}
+
+void Observation::prepare(Result& result) {
+  const std::size_t cells = result.grid.cell_count();
+  result.visible.resize(cells);
+  const Mode mode = result.request.mode;
+  if (mode == Mode::kCount) result.count.resize(cells);
+  if (mode == Mode::kWhich) result.which.resize(cells * which_grids(result.request.observers.size()));
+  if (mode == Mode::kAngle) result.angle_deg.resize(cells);
+  if (mode == Mode::kBlocker) result.blocker.resize(cells);
+  if (mode == Mode::kProbability) result.probability.resize(cells);
+  if (mode == Mode::kHeight) result.least_height_m.resize(cells);
+  if (mode == Mode::kNearest) result.nearest.resize(cells), result.distance_m.resize(cells);
+}
+
+Observations::Observations(const Request& request, const std::vector<Eye>& eyes, const Tin& tin, const Scene& scene)
+    : request_(request), eyes_(&eyes), resolution_(tin.grid.resolution) {
+  if (request.mode == Mode::kHeight) heights_.emplace(tin, request.earth, scene);
+  if (request.mode == Mode::kBlocker) blockers_.emplace(tin, request.earth);
+  if (request.mode == Mode::kProbability) odds_.emplace(tin, request.earth, request.vertical_error);
+}
+
+std::unique_ptr<Observation> Observations::of_tile() const {
+  switch (request_.mode) {
+    case Mode::kCount:
+      return std::make_unique<ObserverCount>();
+    case Mode::kWhich:
+      return std::make_unique<ObserverBits>(request_.observers.size());
+    case Mode::kAngle:
+      return std::make_unique<GreatestAngle>(request_);
+    case Mode::kNearest:
+      return std::make_unique<NearestObserver>();
+    case Mode::kBlocker:
+      return std::make_unique<BlockerObservation>(*blockers_);
+    case Mode::kHeight:
+      return std::make_unique<LeastHeightObservation>(*heights_, *eyes_, resolution_);
+    case Mode::kProbability:
+      return std::make_unique<ProbabilityObservation>(*odds_, request_.nodata);
+    case Mode::kVisible:
+    case Mode::kCertified:
+      break;
+  }
+  return std::make_unique<AnyObserver>();
+}
+
+}  // namespace itin::viewshed
