@@ -58,6 +58,10 @@ class ZtvVerb final : public Verb {
     earth_.declare(app);
     app.add_option("--nodata", nodata_text_, "What ground without data does to sight lines (default: unknown)")
         ->type_name("unknown|block|clear");
+    app.add_option(
+           "--memory", memory_text_,
+           "Refuse, before any work, what would take more than this; the error says how much (default: no limit)")
+        ->type_name("SIZE");
     policy_.declare(app);
   }
 
@@ -76,6 +80,7 @@ class ZtvVerb final : public Verb {
     if (!cell_text_.empty() && !like_.empty()) throw InputError("--cell and --like exclude each other");
     if (like_.empty())
       request_.cell_size = cell_text_.empty() ? kDefaultCell : parse_number("--cell", cell_text_, Range::kPositive);
+    if (!memory_text_.empty()) request_.memory_bytes = parse_bytes("--memory", memory_text_);
     if (!nodata_text_.empty()) {
       using enum viewshed::NoData;
       constexpr viewshed::NoData kChoices[] = {kUnknown, kBlock, kClear};
@@ -296,7 +301,7 @@ class ZtvVerb final : public Verb {
     return text;
   }
 
-  std::string store_, output_, cell_text_, like_, observer_text_, nodata_text_;
+  std::string store_, output_, cell_text_, like_, observer_text_, nodata_text_, memory_text_;
   TurbineOptions turbines_;
   RadiusOptions radius_;
   ViewpointOptions viewpoints_;

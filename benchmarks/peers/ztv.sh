@@ -12,12 +12,12 @@ require_tools gdal_viewshed
 with_grass=true
 if [ "${1:-}" = NO_GRASS ] || ! command -v grass >/dev/null; then with_grass=false; fi
 
-readonly turbines=75 radius=40000 hub=90 rotor=110 tip=145 eye=2 refraction=0.13 sample=${SAMPLE:-5}
+readonly turbines=75 radius=40000 tip=145 eye=2 refraction=0.13 sample=${SAMPLE:-5}
 readonly out=$work/ztv
 make_terrain
 [ -f "$work/wales.tif" ] || { echo "$0: needs OS Terrain 50 of Wales in $data" >&2; exit 1; }
 mkdir -p "$out"
-rm -rf "$out"/*
+rm -rf "${out:?}"/*
 if [ ! -f "$work/wales.itin" ]; then measure "itin import" "$itin" import --quiet "$work/wales.itin" "$work/wales.tif"; fi
 
 # A lattice about the middle of Wales, 500 m apart: Pumlumon and what lies east of it.

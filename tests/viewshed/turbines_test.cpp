@@ -228,27 +228,27 @@ TEST(Turbines, RadarSeesWhatRisesAboveItsHorizon) {
   EXPECT_NEAR(zone.radar->turbine_m[1], 120, 1e-3);
 }
 
-TEST(Horizon, HoldsAllArcsInTheSmallestOne) {
-  const auto of = [](std::vector<Arc> arcs) { return horizon_of(arcs); };
+TEST(RotorHorizon, HoldsAllArcsInTheSmallestOne) {
+  const auto of = [](std::vector<Arc> arcs) { return rotor_horizon(arcs); };
   EXPECT_DOUBLE_EQ(of({{10, 5}}).held.width, 5);
   EXPECT_DOUBLE_EQ(of({{10, 5}}).held.from, 10);
-  const Horizon across = of({{5, 4}, {350, 4}});  // through north
+  const RotorHorizon across = of({{5, 4}, {350, 4}});  // through north
   EXPECT_DOUBLE_EQ(across.held.from, 350);
   EXPECT_DOUBLE_EQ(across.held.width, 19);
   EXPECT_DOUBLE_EQ(across.occupied, 8);
-  const Horizon over = of({{358, 6}, {2, 6}});  // overlapping across north
+  const RotorHorizon over = of({{358, 6}, {2, 6}});  // overlapping across north
   EXPECT_DOUBLE_EQ(over.held.from, 358);
   EXPECT_DOUBLE_EQ(over.held.width, 10);
   EXPECT_DOUBLE_EQ(over.occupied, 10);
-  const Horizon within = of({{100, 50}, {110, 5}});
+  const RotorHorizon within = of({{100, 50}, {110, 5}});
   EXPECT_DOUBLE_EQ(within.held.width, 50);
   EXPECT_DOUBLE_EQ(within.occupied, 50);
-  const Horizon around = of({{0, 90}, {90, 90}, {180, 90}, {270, 90}});
+  const RotorHorizon around = of({{0, 90}, {90, 90}, {180, 90}, {270, 90}});
   EXPECT_DOUBLE_EQ(around.held.width, 360);
   EXPECT_DOUBLE_EQ(around.occupied, 360);
 }
 
-TEST(Horizon, AgreesWithCountingDegrees) {
+TEST(RotorHorizon, AgreesWithCountingDegrees) {
   std::mt19937 random(11);
   for (int round = 0; round < 200; ++round) {
     std::vector<Arc> arcs;
@@ -261,7 +261,7 @@ TEST(Horizon, AgreesWithCountingDegrees) {
     int widest = 0, gap = 0;
     for (int i = 0; i < 720; ++i)
       widest = std::max(widest, gap = covered[static_cast<std::size_t>(i % 360)] ? 0 : gap + 1);
-    const Horizon horizon = horizon_of(arcs);
+    const RotorHorizon horizon = rotor_horizon(arcs);
     EXPECT_NEAR(horizon.held.width, 360 - std::min(widest, 360), 1e-9);
     EXPECT_NEAR(horizon.occupied, static_cast<double>(std::count(covered.begin(), covered.end(), true)), 1e-9);
   }

@@ -26,7 +26,16 @@ struct LeastHeights::Search {
   void add(unsigned line, double lower) {
     open[count++] = line;
     least[line] = lower;
-    if (memory.silhouettes[line] < tin.triangles.size()) clear(line, memory.silhouettes[line]);
+  }
+
+  /// What hid some line of the last packet may hide any of this one. One line that is left low spoils the pruning for
+  /// all, so every line tries them.
+  void clear_silhouettes() {
+    auto silhouettes = memory.silhouettes;
+    std::sort(silhouettes.begin(), silhouettes.end());
+    const auto end = std::unique(silhouettes.begin(), silhouettes.end());
+    for (auto triangle = silhouettes.begin(); triangle != end && *triangle != kNone; ++triangle)
+      for (std::size_t n = 0; n < count; ++n) clear(open[n], *triangle);
   }
 
   void clear(unsigned line, std::uint32_t triangle) {
@@ -42,6 +51,7 @@ struct LeastHeights::Search {
   }
 
   void run(const HeightPyramid& pyramid) {
+    clear_silhouettes();
     Sheaf sheaf;
     for (std::size_t n = 0; n < count; ++n) sheaf.add(exact[open[n]]);
     sheaf.end = lowest();

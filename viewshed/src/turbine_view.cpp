@@ -30,10 +30,10 @@ Arc rotor_arc(Point2 eye, Point2 turbine, double rotor_diameter) {
   return {turn(std::atan2(dx, dy) * kDegrees - half), 2 * half};
 }
 
-Horizon horizon_of(std::vector<Arc>& arcs) {
+RotorHorizon rotor_horizon(std::vector<Arc>& arcs) {
   std::sort(arcs.begin(), arcs.end(), [](const Arc& a, const Arc& b) { return a.from < b.from; });
   // The arc begins behind the widest gap; a second round finds gaps and overlaps across north.
-  Horizon result;
+  RotorHorizon result;
   double reached = 0;
   for (const Arc& a : arcs) reached = std::max(reached, a.from + a.width - 360);
   double covered = 0, widest = -1;

@@ -20,12 +20,12 @@ struct Arc {
 /// Of a rotor that faces the eye.
 Arc rotor_arc(Point2 eye, Point2 turbine, double rotor_diameter);
 
-struct Horizon {
+struct RotorHorizon {
   Arc held;             ///< the smallest arc that holds all
   double occupied = 0;  ///< degrees that their union covers
 };
 
 /// Of at least one arc; `arcs` is left in another order.
-Horizon horizon_of(std::vector<Arc>& arcs);
+RotorHorizon rotor_horizon(std::vector<Arc>& arcs);
 
 }  // namespace itin::viewshed

@@ -196,7 +196,7 @@ void ZoneSurvey::store_horizon(const TileWork& work, std::size_t from_cell, std:
     if ((work.seen[bit.grid][from_cell] & bit.mask) != 0)
       arcs.push_back(rotor_arc(eye, t.position, t.rotor_diameter.value_or(0)));
   }
-  const Horizon horizon = horizon_of(arcs);
+  const RotorHorizon horizon = rotor_horizon(arcs);
   result.horizontal_angle_deg[to_cell] = static_cast<float>(horizon.held.width);
   result.horizontal_from_deg[to_cell] = static_cast<float>(horizon.held.from);
   result.horizontal_occupied_deg[to_cell] = static_cast<float>(horizon.occupied);
