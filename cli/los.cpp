@@ -33,12 +33,12 @@ std::string text_of(const profile::LosReport& report) {
   std::string text = fmt::format("{}, {:.1f} m", name_of(report.verdict), report.profile.length_m);
   if (report.clearance_m && report.critical) {
     text += fmt::format("; least clearance {:.2f} m at {:.1f} m ({})", *report.clearance_m, report.critical->distance_m,
-                        cause_of(report, report.critical->theme));
+                        cause_of(report, report.critical->theme, report.critical->feature));
   }
   text += "\n";
   for (const profile::Obstruction& o : report.obstructions) {
     text += fmt::format("obstructed from {:.1f} to {:.1f} m, {:.2f} m deep at {:.1f} m ({})\n", o.from_m, o.to_m,
-                        o.depth_m, o.peak_at_m, cause_of(report, o.theme));
+                        o.depth_m, o.peak_at_m, cause_of(report, o.theme, o.feature));
   }
   for (const profile::CriterionResult& c : report.criteria) {
     text += fmt::format("K = {:.4g}, {:g} F1: {}", c.criterion.k, c.criterion.fraction, name_of(c.verdict));
@@ -155,8 +155,11 @@ class LosVerb final : public Verb {
     query_.from_height_m = heights_[0], query_.to_height_m = heights_[1];
     query_.points_as_given = true;
     report_ = profile::analyse(profile::read_profile_csv(profile_csv_), query_);
-    const LosEnd from{report_.profile.points.front().ground_m, heights_[0], report_.elevation_angle_from_deg, {}};
-    const LosEnd to{report_.profile.points.back().ground_m, heights_[1], report_.elevation_angle_to_deg, {}};
+    LosEnd from, to;
+    from.ground_m = report_.stands_on.from_m, to.ground_m = report_.stands_on.to_m;
+    from.height_m = heights_[0], to.height_m = heights_[1];
+    from.elevation_angle_deg = report_.elevation_angle_from_deg;
+    to.elevation_angle_deg = report_.elevation_angle_to_deg;
     report_.facts = {{"Profile", fmt::format("{}, {} points", std::filesystem::path(profile_csv_).filename().string(),
                                              report_.profile.points.size())}};
     for (const auto& [end, lines] : {std::pair(from, &report_.from_lines), std::pair(to, &report_.to_lines)}) {

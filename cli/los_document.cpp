@@ -18,8 +18,15 @@ Document cause(const LosReport& report, std::uint16_t theme) {
   return profile::cause_of(report, theme);
 }
 
-Document feature(std::int64_t id) {
-  return id < 0 ? Document(nullptr) : Document(id);
+/// What the source calls it.
+Document feature(const LosReport& report, std::uint16_t theme, std::int64_t number) {
+  const auto known = report.features.find({theme, number});
+  return known == report.features.end() ? Document(nullptr) : Document(known->second);
+}
+
+/// From 0, in the order of import.
+Document feature_number(std::int64_t number) {
+  return number < 0 ? Document(nullptr) : Document(number);
 }
 
 Document critical_document(const LosReport& report) {
@@ -31,7 +38,8 @@ Document critical_document(const LosReport& report) {
           {"y", placed ? Document(p.y) : Document(nullptr)},
           {"z", p.ground_m},
           {"theme", cause(report, p.theme)},
-          {"feature", feature(p.feature)}};
+          {"feature", feature(report, p.theme, p.feature)},
+          {"feature_number", feature_number(p.feature)}};
 }
 
 Document obstructions_document(const LosReport& report) {
@@ -43,7 +51,8 @@ Document obstructions_document(const LosReport& report) {
                     {"peak_m", o.peak_m},
                     {"depth_m", o.depth_m},
                     {"theme", cause(report, o.theme)},
-                    {"feature", feature(o.feature)}});
+                    {"feature", feature(report, o.theme, o.feature)},
+                    {"feature_number", feature_number(o.feature)}});
   }
   return list;
 }
@@ -130,8 +139,10 @@ Document end_document(const LosEnd& end) {
           {"lon", of_site([](const LosEnd::Site& s) { return s.lon_lat.x; })},
           {"lat", of_site([](const LosEnd::Site& s) { return s.lon_lat.y; })},
           {"ground_m", end.ground_m},
+          {"surface_m", number(end.surface_m)},
+          {"stands_on", end.on_surface ? "surface" : "ground"},
           {"height_m", end.height_m},
-          {"elevation_m", end.ground_m + end.height_m},
+          {"elevation_m", end.elevation_m()},
           {"azimuth_grid_deg", of_site([](const LosEnd::Site& s) { return s.azimuth_grid_deg; })},
           {"azimuth_true_deg", of_site([](const LosEnd::Site& s) { return s.azimuth_true_deg; })},
           {"elevation_angle_deg", end.elevation_angle_deg}};

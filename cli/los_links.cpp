@@ -70,8 +70,15 @@ Result LosLinks::run(const Store& store, const LosStoreOptions& surface, const p
                      Progress& progress) const {
   const StoreMetadata& metadata = store.metadata();
   const std::vector<Link> links = profile::read_links(path_, metadata.crs_wkt, height_, surface.in_crs());
-  const std::vector<LinkResult> results =
-      profile::survey_links(store, surface.detail(), links, {query.earth, query.radio, surface.gaps_block()}, progress);
+  const std::vector<LinkResult> results = profile::survey_links(store, links,
+                                                                {.earth = query.earth,
+                                                                 .detail = surface.detail(),
+                                                                 .themes = surface.themes(),
+                                                                 .from_on_surface = surface.from_on_surface(),
+                                                                 .to_on_surface = surface.to_on_surface(),
+                                                                 .radio = query.radio,
+                                                                 .gaps_block = surface.gaps_block()},
+                                                                progress);
   const auto failed = static_cast<std::size_t>(
       std::count_if(results.begin(), results.end(), [](const LinkResult& r) { return !r.verdict; }));
   const auto visible = static_cast<std::size_t>(std::count_if(results.begin(), results.end(), [](const LinkResult& r) {
@@ -80,7 +87,7 @@ Result LosLinks::run(const Store& store, const LosStoreOptions& surface, const p
   write_file(output_, table(links, results, query.radio.has_value(), failed > 0), overwrite);
   Result result;
   result.document["crs"] = crs_identifier(metadata.crs_wkt);
-  result.document["surface"] = surface_document(metadata, surface.detail(), ThemeChoice::none());
+  result.document["surface"] = surface_document(metadata, surface.detail(), surface.themes());
   result.document["links"] = {{"visible", visible}, {"hidden", results.size() - visible - failed}, {"error", failed}};
   result.document["outputs"] = Document::array({output_});
   result.text = fmt::format("{}: {} links, {} visible\n", output_, grouped(links.size()), grouped(visible));

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include <itin/coordinates.hpp>
 #include <itin/cross_section.hpp>
 #include <itin/error.hpp>
+#include <itin/feature_at.hpp>
 #include <itin/geodesic.hpp>
 
 #include "store_document.hpp"
@@ -32,19 +34,23 @@ std::pair<LosEnd::Site, LosEnd::Site> sites(Point2 from, Point2 to, const std::s
 }
 
 /// How much the surface's clearances may differ from the full surface's: with both ends standing on it, by as much as
-/// the certified error is wide.
-double clearance_error(const Store& store, const Detail& detail, Point2 from, Point2 to) {
+/// the certified error is wide, and by the features that are left out at this detail. (Where the ground between a
+/// feature and the next coarse vertices slopes otherwise than without the feature, the certificate does not say how
+/// much.)
+double clearance_error(const Store& store, const Detail& detail, const ThemeChoice& themes, Point2 from, Point2 to) {
   const std::vector<LevelInfo>& levels = store.metadata().levels;
   Box box;
   box.extend(from);
   box.extend(to);
   CertifiedError widest;
+  int finest = 0;
   for (std::size_t i = 0; i < levels.size() && levels[i].tolerance <= detail.coarsest(); ++i) {
+    if (levels[i].tolerance <= detail.finest()) finest = static_cast<int>(i);
     const auto error = store.certified_error(static_cast<int>(i), box);
     if (!error) continue;
     widest.lo = std::min(widest.lo, error->lo), widest.hi = std::max(widest.hi, error->hi);
   }
-  return widest.hi - widest.lo;
+  return widest.hi - widest.lo + store.greatest_height_left_out(themes, finest, box);
 }
 
 std::string angle(double degrees) {
@@ -53,13 +59,20 @@ std::string angle(double degrees) {
 
 std::vector<std::string> lines_about(const LosEnd& end, const std::string& crs) {
   const LosEnd::Site& site = *end.site;
+  const std::string surface = end.on_surface ? fmt::format(", surface {:.2f} m", *end.surface_m) : "";
   return {fmt::format("{:.2f}, {:.2f} ({})", site.position.x, site.position.y, crs),
           fmt::format("{:.6f}\xC2\xB0 {}, {:.6f}\xC2\xB0 {} (WGS 84)", std::abs(site.lon_lat.y),
                       site.lon_lat.y < 0 ? "S" : "N", std::abs(site.lon_lat.x), site.lon_lat.x < 0 ? "W" : "E"),
-          fmt::format("ground {:.2f} m, height {:.2f} m, elevation {:.2f} m", end.ground_m, end.height_m,
-                      end.ground_m + end.height_m),
+          fmt::format("ground {:.2f} m{}, height {:.2f} m, elevation {:.2f} m", end.ground_m, surface, end.height_m,
+                      end.elevation_m()),
           fmt::format("azimuth {} grid, {} true; elevation angle {}", angle(site.azimuth_grid_deg),
                       angle(site.azimuth_true_deg), angle(end.elevation_angle_deg))};
+}
+
+std::string names_in(const Document& themes) {
+  std::string names;
+  for (const Document& theme : themes) names += (names.empty() ? "" : ", ") + theme.get<std::string>();
+  return names.empty() ? "none" : names;
 }
 
 std::vector<std::pair<std::string, std::string>> facts_about(const Store& store, const Document& surface) {
@@ -78,9 +91,35 @@ std::vector<std::pair<std::string, std::string>> facts_about(const Store& store,
           {"Sources", sources},
           {"CRS", fmt::format("{} ({})", crs_title(metadata.crs_wkt), crs_identifier(metadata.crs_wkt))},
           {"Surface",
-           fmt::format("tolerance {:g} m, certified error {:+.2f} to {:+.2f} m; themes: none",
+           fmt::format("tolerance {:g} m, certified error {:+.2f} to {:+.2f} m; themes: {}",
                        surface.at("tolerance_m").get<double>(), surface.at("certified_error_m").at(0).get<double>(),
-                       surface.at("certified_error_m").at(1).get<double>())}};
+                       surface.at("certified_error_m").at(1).get<double>(), names_in(surface.at("themes")))}};
+}
+
+/// The themes by number, and the features where the sight line is cut or tightest.
+void name_features(const Store& store, profile::LosReport& report) {
+  report.themes = {"terrain"};
+  for (const ThemeInfo& theme : store.metadata().themes) report.themes.push_back(theme.name);
+  struct Wanted {
+    std::vector<Point2> places;
+    std::vector<std::int64_t*> features;
+  };
+  std::map<std::uint16_t, Wanted> wanted;
+  const auto want = [&](std::uint16_t theme, double distance_m, std::int64_t& feature) {
+    if (theme == 0) return;
+    wanted[theme].places.push_back(position_at(report, distance_m));
+    wanted[theme].features.push_back(&feature);
+  };
+  if (report.critical) want(report.critical->theme, report.critical->distance_m, report.critical->feature);
+  for (profile::Obstruction& o : report.obstructions) want(o.theme, o.peak_at_m, o.feature);
+  for (const auto& [theme, these] : wanted) {
+    const auto found = features_at(store, theme, these.places);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      if (!found[i]) continue;
+      *these.features[i] = found[i]->number;
+      report.features[{theme, found[i]->number}] = found[i]->name;
+    }
+  }
 }
 
 }  // namespace
@@ -89,10 +128,10 @@ void LosStoreOptions::declare(CLI::App& app) {
   app.add_option("--from", from_text_, "The first end; h is 2 where not given")->type_name("x,y[,h]");
   app.add_option("--to", to_text_, "The second end; h is 2 where not given")->type_name("x,y[,h]");
   app.add_flag("--absolute-heights", absolute_heights_, "Every h is an elevation, not a height above the surface");
-  app.add_option("--observer-on", from_on_, "What the first end stands on (without themes both are the same)")
+  app.add_option("--observer-on", from_on_,
+                 "What the first end stands on: ground (default), or the surface with the roofs and tops of --themes")
       ->type_name("ground|surface");
-  app.add_option("--target-on", to_on_, "What the second end stands on (without themes both are the same)")
-      ->type_name("ground|surface");
+  app.add_option("--target-on", to_on_, "What the second end stands on, likewise")->type_name("ground|surface");
   in_crs_.declare(app);
   detail_.declare(app);
   themes_.declare(app);
@@ -113,7 +152,7 @@ void LosStoreOptions::validate(std::optional<double> object_tip_m) {
   parse_choice("--target-on", to_on_, {"ground", "surface"});
   if (!nodata_text_.empty()) parse_choice("--nodata", nodata_text_, {"unknown", "block", "clear"});
   detail_.validate();
-  themes_.validate_none("los");
+  themes_.validate();
   if (!absolute_heights_ && (from_height_ < 0 || to_height_ < 0)) {
     throw InputError("--from, --to: a height must not be negative; for an elevation give --absolute-heights");
   }
@@ -122,13 +161,18 @@ void LosStoreOptions::validate(std::optional<double> object_tip_m) {
 void LosStoreOptions::validate_surface() {
   if (!nodata_text_.empty()) parse_choice("--nodata", nodata_text_, {"unknown", "block", "clear"});
   detail_.validate();
-  themes_.validate_none("los");
+  themes_.validate();
+  parse_choice("--observer-on", from_on_, {"ground", "surface"});
+  parse_choice("--target-on", to_on_, {"ground", "surface"});
   if (detail_.has_rings()) throw InputError("--rings have no one centre for many links; give --tolerance");
   if (absolute_heights_) throw InputError("--absolute-heights is not for --links, whose heights are above the ground");
 }
 
 Document LosStoreOptions::surface_parameters() const {
   Document parameters = detail_.parameters();
+  parameters.update(themes_.parameters());
+  parameters["observer_on"] = from_on_;
+  parameters["target_on"] = to_on_;
   if (!in_crs_.crs.empty()) parameters["in_crs"] = in_crs_.crs;
   parameters["nodata"] = nodata_text_.empty() ? "unknown" : nodata_text_;
   return parameters;
@@ -140,17 +184,15 @@ Document LosStoreOptions::parameters() const {
         {"x", place.position.x}, {"y", place.position.y}, {absolute_heights_ ? "elevation_m" : "height_m", height}};
   };
   Document parameters{{"from", end(from_, from_height_)}, {"to", end(to_, to_height_)}};
-  if (!in_crs_.crs.empty()) parameters["in_crs"] = in_crs_.crs;
-  parameters.update(detail_.parameters());
-  parameters["nodata"] = nodata_text_.empty() ? "unknown" : nodata_text_;
+  parameters.update(surface_parameters());
   return parameters;
 }
 
-double LosStoreOptions::height_at(const char* option, double ground_m, double given_m) const {
+double LosStoreOptions::height_above(const char* option, double ground_m, double given_m) const {
   if (!absolute_heights_) return given_m;
   if (given_m < ground_m) {
     throw InputError(
-        fmt::format("{}: elevation {:g} m is below the ground there, {:.2f} m", option, given_m, ground_m));
+        fmt::format("{}: elevation {:g} m is below what it stands on, {:.2f} m", option, given_m, ground_m));
   }
   return given_m - ground_m;
 }
@@ -160,33 +202,47 @@ LosStoreOptions::Result LosStoreOptions::run(const Store& store, profile::LosQue
   const auto transform = in_crs_.transform_to(metadata.crs_wkt);
   const Point2 from = transform(from_.position), to = transform(to_.position);
   const Detail detail = detail_.detail(from);
-  const CrossSection section = cross_section(store, from, to, detail);
-  profile::Profile line = profile::from_section(section);
+  const ThemeChoice& themes = themes_.choice();
+  CrossSection section = cross_section(store, from, to, detail, themes);
+  profile::Profile line = profile::from_section(section), ground;
+  if (themes.includes_standing(metadata.themes)) {
+    const CrossSection bare = cross_section(store, from, to, detail);
+    ground = profile::from_section(bare);
+    section.statistics += bare.statistics;
+  }
   const auto require_ground = [&](const char* option, Point2 p, bool present) {
     if (!present) throw InputError(fmt::format("{}: there is no ground at {:.2f},{:.2f}", option, p.x, p.y));
   };
   const bool empty = line.points.empty();
   require_ground("--from", from, !empty && line.points.front().distance_m == 0);
   require_ground("--to", to, !empty && line.points.back().distance_m == line.length_m);
-  query.from_height_m = height_at("--from", line.points.front().ground_m, from_height_);
-  query.to_height_m = height_at("--to", line.points.back().ground_m, to_height_);
-  query.clearance_error_m = clearance_error(store, detail, from, to);
+  query.from_on_surface = from_on_ == "surface", query.to_on_surface = to_on_ == "surface";
+  const profile::EndGrounds stands_on = profile::stands_on(line, ground, query);
+  query.from_height_m = height_above("--from", stands_on.from_m, from_height_);
+  query.to_height_m = height_above("--to", stands_on.to_m, to_height_);
+  query.clearance_error_m = clearance_error(store, detail, themes, from, to);
   query.gaps_block = nodata_text_ == "block";
 
   Result result;
-  result.surface = surface_document(metadata, detail, ThemeChoice::none());
+  result.surface = surface_document(metadata, detail, themes);
   if (!line.gaps.empty() && nodata_text_ != "clear") {
     result.warnings.push_back(fmt::format("the line crosses {} stretch{} without data, which {}; see gaps, --nodata",
                                           line.gaps.size(), line.gaps.size() == 1 ? "" : "es",
                                           query.gaps_block ? "block it" : "count as clear"));
   }
-  result.report = profile::analyse(std::move(line), query);
+  result.report = profile::analyse(std::move(line), query, std::move(ground));
   profile::LosReport& report = result.report;
   report.crs_wkt = metadata.crs_wkt;
+  name_features(store, report);
+  if (query.radio && !report.losses && report.profile.length_m > 0) {
+    result.warnings.emplace_back("an antenna is within a feature; no losses are given");
+  }
   auto [from_site, to_site] = sites(from, to, metadata.crs_wkt);
-  result.from = {report.profile.points.front().ground_m, query.from_height_m, report.elevation_angle_from_deg,
-                 from_site};
-  result.to = {report.profile.points.back().ground_m, query.to_height_m, report.elevation_angle_to_deg, to_site};
+  const profile::EndGrounds bare = report.ground.points.empty() ? stands_on : profile::ends_of(report.ground);
+  const profile::EndGrounds top = profile::ends_of(report.profile);
+  result.from = {bare.from_m, query.from_height_m,   report.elevation_angle_from_deg,
+                 top.from_m,  query.from_on_surface, from_site};
+  result.to = {bare.to_m, query.to_height_m, report.elevation_angle_to_deg, top.to_m, query.to_on_surface, to_site};
   report.facts = facts_about(store, result.surface);
   const std::string crs = crs_identifier(metadata.crs_wkt);
   report.from_lines = lines_about(result.from, crs);

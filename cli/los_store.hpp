@@ -31,6 +31,9 @@ class LosStoreOptions {
   void validate_surface();
   Document surface_parameters() const;
   Detail detail() const { return detail_.detail({}); }
+  const ThemeChoice& themes() const { return themes_.choice(); }
+  bool from_on_surface() const { return from_on_ == "surface"; }
+  bool to_on_surface() const { return to_on_ == "surface"; }
   bool gaps_block() const { return nodata_text_ == "block"; }
   const std::string& in_crs() const { return in_crs_.crs; }
   Document parameters() const;
@@ -48,7 +51,7 @@ class LosStoreOptions {
   Result run(const Store& store, profile::LosQuery query) const;
 
  private:
-  double height_at(const char* option, double ground_m, double given_m) const;
+  double height_above(const char* option, double ground_m, double given_m) const;
 
   std::string from_text_, to_text_, nodata_text_;
   std::string from_on_ = "ground", to_on_ = "ground";

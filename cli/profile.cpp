@@ -90,7 +90,7 @@ class ProfileVerb final : public Verb {
     if (!rings_text_.empty()) rings_ = parse_rings("--rings", rings_text_);
     if (tolerances_.empty()) tolerances_.push_back(0);
     for (const std::string& output : outputs_) require_profile_format(output);
-    themes_.validate_none("profile");
+    themes_.validate();
   }
 
   Document parameters() const override {
@@ -109,6 +109,7 @@ class ProfileVerb final : public Verb {
         parameters["rings"].push_back({{"radius_m", ring.radius}, {"tolerance_m", ring.tolerance}});
       }
     }
+    parameters.update(themes_.parameters());
     return parameters;
   }
 
@@ -118,34 +119,47 @@ class ProfileVerb final : public Verb {
     const std::vector<Point2> corners = corners_in(store.metadata());
     Result result;
     std::vector<SurfaceProfile> profiles;
-    RetrievalStatistics statistics;
-    std::uint64_t triangles = 0;
+    Cost cost;
     for (const auto& [detail, label] : details(corners.front())) {
-      SurfaceProfile surface{detail, label, {}};
-      for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
-        progress.throw_if_cancelled();
-        const CrossSection section = cross_section(store, corners[i], corners[i + 1], detail);
-        append(surface.profile, profile::from_section(section));
-        statistics += section.statistics;
-        triangles += section.triangles;
-      }
-      profiles.push_back(std::move(surface));
+      profiles.push_back({detail, label, along(store, corners, detail, themes_.choice(), cost, progress)});
+    }
+    profile::Profile ground;
+    if (std::any_of(outputs_.begin(), outputs_.end(), is_chart) &&
+        themes_.choice().includes_standing(store.metadata().themes)) {
+      ground = along(store, corners, profiles.front().detail, ThemeChoice::none(), cost, progress);
     }
     if (profiles.front().profile.points.empty()) {
       result.warnings.emplace_back("the line lies wholly outside the data; the profile is empty");
     }
     result.document["crs"] = crs_identifier(store.metadata().crs_wkt);
-    result.document["surface"] = surface_document(store.metadata(), profiles.front().detail, ThemeChoice::none());
+    result.document["surface"] = surface_document(store.metadata(), profiles.front().detail, themes_.choice());
     result.document.update(profile_document(profiles, store.metadata()));
     if (!outputs_.empty()) result.document["outputs"] = outputs_;
     result.document["statistics"] = {
-        {"points_read", statistics.points_read}, {"blocks_read", statistics.blocks_read}, {"triangles", triangles}};
-    write(store.metadata(), profiles, corners, result.document);
-    result.text = text(profiles, statistics);
+        {"points_read", cost.read.points_read}, {"blocks_read", cost.read.blocks_read}, {"triangles", cost.triangles}};
+    write(store.metadata(), profiles, ground, corners, result.document);
+    result.text = text(profiles, cost.read);
     return result;
   }
 
  private:
+  struct Cost {
+    RetrievalStatistics read;
+    std::uint64_t triangles = 0;
+  };
+  static profile::Profile along(const Store& store, const std::vector<Point2>& corners, const Detail& detail,
+                                const ThemeChoice& themes, Cost& cost, Progress& progress) {
+    profile::Profile whole;
+    for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+      progress.throw_if_cancelled();
+      const CrossSection section = cross_section(store, corners[i], corners[i + 1], detail, themes);
+      append(whole, profile::from_section(section));
+      cost.read += section.statistics;
+      cost.triangles += section.triangles;
+    }
+    return whole;
+  }
+
   std::vector<Point2> corners_in(const StoreMetadata& metadata) const {
     if (!path_.empty()) {
       const std::vector<Path> paths = read_paths(path_, metadata.crs_wkt);
@@ -169,7 +183,7 @@ class ProfileVerb final : public Verb {
     return result;
   }
 
-  void write(const StoreMetadata& metadata, const std::vector<SurfaceProfile>& profiles,
+  void write(const StoreMetadata& metadata, const std::vector<SurfaceProfile>& profiles, const profile::Profile& ground,
              const std::vector<Point2>& corners, const Document& found) const {
     Document document{{"itin", ITIN_VERSION}, {"command", {{"verb", name()}}}};
     document["command"].update(parameters());
@@ -178,7 +192,7 @@ class ProfileVerb final : public Verb {
     const Point2 a = corners.front(), b = corners.back();
     const std::string title = fmt::format("Profile from {:.10g}, {:.10g} to {:.10g}, {:.10g}", a.x, a.y, b.x, b.y);
     for (const std::string& output : outputs_) {
-      write_profile({metadata, profiles, document, title, policy_.overwrite}, output);
+      write_profile({metadata, profiles, ground, document, title, policy_.overwrite}, output);
     }
   }
 

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <filesystem>
 #include <iterator>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -21,8 +22,12 @@ namespace {
 using profile::Profile;
 using profile::ProfilePoint;
 
-/// This version's stores hold terrain only.
-constexpr const char* kTerrain = "terrain";
+/// By ProfilePoint::theme.
+std::vector<std::string> theme_names(const StoreMetadata& metadata) {
+  std::vector<std::string> names{"terrain"};
+  for (const ThemeInfo& theme : metadata.themes) names.push_back(theme.name);
+  return names;
+}
 
 std::string ending_of(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
@@ -36,31 +41,42 @@ Document gaps_document(const Profile& profile) {
   return gaps;
 }
 
-std::string csv(const std::vector<SurfaceProfile>& profiles) {
+std::string csv(const std::vector<SurfaceProfile>& profiles, const StoreMetadata& metadata) {
   const bool several = profiles.size() > 1;
+  const std::vector<std::string> themes = theme_names(metadata);
   std::string text = several ? "tolerance,distance,x,y,z,theme\n" : "distance,x,y,z,theme\n";
   const auto out = std::back_inserter(text);
   for (const SurfaceProfile& surface : profiles) {
     for (const ProfilePoint& p : surface.profile.points) {
       if (several) fmt::format_to(out, "{},", surface.detail.coarsest());
-      fmt::format_to(out, "{},{},{},{},{}\n", p.distance_m, p.x, p.y, p.ground_m, kTerrain);
+      fmt::format_to(out, "{},{},{},{},{}\n", p.distance_m, p.x, p.y, p.ground_m, themes[p.theme]);
     }
   }
   return text;
 }
 
-/// Lines over ground without gap; what is a single point is left out.
-Document lines_of(const Profile& profile) {
-  Document lines = Document::array();
-  Document line = Document::array();
-  for (std::size_t i = 0; i < profile.points.size(); ++i) {
+/// Lines over ground without gap, of one theme; what is a single point is left out.
+Document lines_of(const Profile& profile, std::uint16_t theme) {
+  const auto place = [&](std::size_t i) {
     const ProfilePoint& p = profile.points[i];
-    line.push_back({p.x, p.y, p.ground_m});
-    if (i + 1 < profile.points.size() && profile.joined(i)) continue;
-    if (line.size() > 1) lines.push_back(line);
-    line = Document::array();
+    return Document{p.x, p.y, p.ground_m};
+  };
+  Document lines = Document::array();
+  bool open = false;
+  for (std::size_t i = 0; i + 1 < profile.points.size(); ++i) {
+    const bool wanted = profile.joined(i) && profile.theme_between(i) == theme;
+    if (wanted && !open) lines.push_back(Document::array({place(i)}));
+    if (wanted) lines.back().push_back(place(i + 1));
+    open = wanted;
   }
   return lines;
+}
+
+/// The terrain, and those that the profile meets.
+std::set<std::uint16_t> themes_of(const Profile& profile) {
+  std::set<std::uint16_t> themes{0};
+  for (const ProfilePoint& p : profile.points) themes.insert(p.theme);
+  return themes;
 }
 
 std::string geojson(const ProfileOutput& output) {
@@ -73,14 +89,17 @@ std::string geojson(const ProfileOutput& output) {
   const std::string urn = fmt::format("urn:ogc:def:crs:{}::{}", crs.substr(0, colon), crs.substr(colon + 1));
   document["crs"] = {{"type", "name"}, {"properties", {{"name", urn}}}};
   document["features"] = Document::array();
+  const std::vector<std::string> names = theme_names(output.metadata);
   for (const SurfaceProfile& surface : output.profiles) {
-    Document feature{{"type", "Feature"}};
-    feature["properties"] = {{"tolerance_m", surface.detail.coarsest()},
-                             {"length_m", surface.profile.length_m},
-                             {"theme", kTerrain},
-                             {"gaps", gaps_document(surface.profile)}};
-    feature["geometry"] = {{"type", "MultiLineString"}, {"coordinates", lines_of(surface.profile)}};
-    document["features"].push_back(std::move(feature));
+    for (const std::uint16_t theme : themes_of(surface.profile)) {
+      Document feature{{"type", "Feature"}};
+      feature["properties"] = {{"tolerance_m", surface.detail.coarsest()},
+                               {"length_m", surface.profile.length_m},
+                               {"theme", names[theme]},
+                               {"gaps", gaps_document(surface.profile)}};
+      feature["geometry"] = {{"type", "MultiLineString"}, {"coordinates", lines_of(surface.profile, theme)}};
+      document["features"].push_back(std::move(feature));
+    }
   }
   return document.dump() + "\n";
 }
@@ -92,18 +111,25 @@ std::string chart(const ProfileOutput& output, const std::string& path) {
       fmt::format("{}; {}; itin {}", std::filesystem::path(output.document["command"]["store"]).filename().string(),
                   crs_title(output.metadata.crs_wkt), ITIN_VERSION);
   for (const SurfaceProfile& surface : output.profiles) chart.series.push_back({surface.name, surface.profile});
+  chart.ground = output.ground;
+  chart.themes = theme_names(output.metadata);
   return profile::draw_chart(chart, path);
 }
 
 std::string bytes_of(const ProfileOutput& output, const std::string& path) {
   const std::string ending = ending_of(path);
-  if (ending == ".csv") return csv(output.profiles);
+  if (ending == ".csv") return csv(output.profiles, output.metadata);
   if (ending == ".json") return output.document.dump(2) + "\n";
   if (ending == ".geojson") return geojson(output);
   return chart(output, path);
 }
 
 }  // namespace
+
+bool is_chart(const std::string& path) {
+  const std::string ending = ending_of(path);
+  return ending == ".svg" || ending == ".pdf" || ending == ".png";
+}
 
 void require_profile_format(const std::string& path) {
   const std::string ending = ending_of(path);
@@ -114,6 +140,7 @@ void require_profile_format(const std::string& path) {
 }
 
 Document profile_document(const std::vector<SurfaceProfile>& profiles, const StoreMetadata& metadata) {
+  const std::vector<std::string> themes = theme_names(metadata);
   Document document;
   document["length_m"] = profiles.front().profile.length_m;
   document["gaps"] = gaps_document(profiles.front().profile);
@@ -126,7 +153,7 @@ Document profile_document(const std::vector<SurfaceProfile>& profiles, const Sto
     entry["breakpoints"] = Document::array();
     for (const ProfilePoint& p : surface.profile.points) {
       entry["breakpoints"].push_back(
-          {{"distance_m", p.distance_m}, {"x", p.x}, {"y", p.y}, {"z", p.ground_m}, {"theme", kTerrain}});
+          {{"distance_m", p.distance_m}, {"x", p.x}, {"y", p.y}, {"z", p.ground_m}, {"theme", themes[p.theme]}});
     }
     document["profiles"].push_back(std::move(entry));
   }

@@ -22,6 +22,7 @@ struct SurfaceProfile {
 
 /// Throws InputError unless the ending is one of those below.
 void require_profile_format(const std::string& path);
+bool is_chart(const std::string& path);
 
 /// `length_m`, `gaps` of the first profile, and `profiles`.
 Document profile_document(const std::vector<SurfaceProfile>& profiles, const StoreMetadata& metadata);
@@ -29,8 +30,9 @@ Document profile_document(const std::vector<SurfaceProfile>& profiles, const Sto
 struct ProfileOutput {
   const StoreMetadata& metadata;
   const std::vector<SurfaceProfile>& profiles;
-  Document document;  ///< the whole, for .json
-  std::string title;  ///< of charts
+  const profile::Profile& ground;  ///< for charts: the first without standing features; empty where it has none
+  Document document;               ///< the whole, for .json
+  std::string title;               ///< of charts
   bool overwrite = false;
 };
 

@@ -14,13 +14,12 @@ namespace itin::cli {
 /// `--themes all|none|name,name`.
 class ThemeOptions {
  public:
-  void declare(CLI::App& app);
+  /// `otherwise`: what the help says of the default.
+  void declare(CLI::App& app, const std::string& otherwise = "default: none");
   /// Throws InputError.
   void validate();
   const ThemeChoice& choice() const { return choice_; }
   bool given() const { return !themes_.empty(); }
-  /// For verbs that see the terrain alone, so far. Throws InputError where features are asked for.
-  void validate_none(const std::string& verb);
   /// What was asked for, where it was.
   Document parameters() const;
 

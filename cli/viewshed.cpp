@@ -64,7 +64,7 @@ class ViewshedVerb final : public Verb {
                    "L: errors x apart are correlated as exp(-x / L) (default: 0, independent)")
         ->type_name("METRES");
     detail_.declare(app);
-    themes_.declare(app);
+    themes_.declare(app, "default: none; all with --precise");
     earth_.declare(app);
     app.add_option("--nodata", nodata_text_, "What ground without data does to sight lines (default: unknown)")
         ->type_name("unknown|block|clear");

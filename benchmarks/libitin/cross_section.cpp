@@ -5,6 +5,7 @@
 #include <memory>
 #include <numbers>
 #include <random>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,8 @@
 
 #include <itin/cross_section.hpp>
 #include <itin/store.hpp>
+
+#include "store/point_index.hpp"
 
 namespace itin {
 namespace {
@@ -43,6 +46,30 @@ void report(benchmark::State& state, const CrossSection& sum) {
   state.counters["triangles"] = static_cast<double>(sum.triangles) / lines;
   state.counters["points_read"] = static_cast<double>(sum.statistics.points_read) / lines;
   state.counters["blocks_read"] = static_cast<double>(sum.statistics.blocks_read) / lines;
+  // A strip of triangles has two vertices more.
+  state.counters["points_a_vertex"] =
+      static_cast<double>(sum.statistics.points_read) / (static_cast<double>(sum.triangles) + 2 * lines);
+}
+
+/// Non-empty leaves that the lines themselves meet, per line: what no retrieval can do without, but for a few.
+double leaves_on(const Store& store, const std::vector<Line>& lines) {
+  constexpr double kStep = 5;
+  const Grid& grid = store.metadata().grid;
+  std::size_t met = 0;
+  for (const auto& [a, b] : lines) {
+    std::set<std::uint64_t> keys;
+    std::vector<Leaf> leaves;
+    const int steps = static_cast<int>(std::hypot(b.x - a.x, b.y - a.y) / kStep);
+    for (int i = 0; i <= steps; ++i) {
+      const double t = static_cast<double>(i) / steps;
+      const GridPoint p = grid.quantise({a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), 0});
+      leaves.clear();
+      store.points().leaves(0, {p.x, p.y, p.x, p.y}, leaves);
+      for (const Leaf& leaf : leaves) keys.insert(leaf.key);
+    }
+    met += keys.size();
+  }
+  return static_cast<double>(met) / static_cast<double>(lines.size());
 }
 
 template <typename Section>
@@ -62,8 +89,9 @@ void run(benchmark::State& state, const std::vector<Line>& lines, const Section&
 void BM_Retrieval(benchmark::State& state) {
   if (store_path().empty()) return state.SkipWithError("set ITIN_BENCHMARK_STORE");
   const Store store(store_path());
-  run(state, lines_over(store, static_cast<double>(state.range(0))),
-      [&](Point2 a, Point2 b) { return cross_section(store, a, b, Detail::tolerance(0)); });
+  const std::vector<Line> lines = lines_over(store, static_cast<double>(state.range(0)));
+  run(state, lines, [&](Point2 a, Point2 b) { return cross_section(store, a, b, Detail::tolerance(0)); });
+  state.counters["leaves_on_line"] = leaves_on(store, lines);
 }
 BENCHMARK(BM_Retrieval)->Arg(1000)->Arg(10000)->Arg(40000)->Unit(benchmark::kMicrosecond);
 

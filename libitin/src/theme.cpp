@@ -52,6 +52,10 @@ bool ThemeChoice::includes(const ThemeInfo& theme) const {
   return all_ || is_terrain(theme.kind) || std::find(names_.begin(), names_.end(), theme.name) != names_.end();
 }
 
+bool ThemeChoice::includes_standing(const std::vector<ThemeInfo>& themes) const {
+  return std::any_of(themes.begin(), themes.end(), [&](const ThemeInfo& t) { return t.stands() && includes(t); });
+}
+
 void ThemeChoice::check(const std::vector<ThemeInfo>& themes) const {
   for (const std::string& name : names_) {
     if (std::any_of(themes.begin(), themes.end(), [&](const ThemeInfo& t) { return t.name == name; })) continue;

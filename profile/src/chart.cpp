@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 
 #include "axis.hpp"
 #include "drawing.hpp"
+#include "theme_colour.hpp"
 
 namespace itin::profile {
 
@@ -34,8 +36,9 @@ class ChartPage {
 
   std::string run() {
     drawing_.rectangle({0, 0, kWidth, kHeight}, {1, 1, 1});
-    drawing_.text({frame_.xmin, 20}, chart_.title, {.size = 12, .colour = kInk, .bold = true});
-    drawing_.text({frame_.xmin, 34}, chart_.note, {.size = 8, .colour = kFaint});
+    const Lettering title{.size = 12, .colour = kInk, .bold = true}, note{.size = 8, .colour = kFaint};
+    drawing_.text({frame_.xmin, 20}, drawing_.fitted(chart_.title, frame_.width(), title), title);
+    drawing_.text({frame_.xmin, 34}, drawing_.fitted(chart_.note, frame_.width(), note), note);
     if (!empty_) draw_gaps();
     draw_grid();
     if (!empty_) draw_series();
@@ -89,20 +92,36 @@ class ChartPage {
   void draw_series() {
     drawing_.clip(frame_);
     for (std::size_t i = 0; i < chart_.series.size(); ++i) {
-      for (const auto& stretch : stretches(chart_.series[i].profile)) {
-        std::vector<Point2> points;
-        for (const ProfilePoint& p : stretch) points.push_back(at(p));
-        if (i == 0) fill_below(points);
-        drawing_.polyline(points, stroke(i));
-      }
+      if (i == 0) fill_first();
+      for (const auto& stretch : stretches(chart_.series[i].profile)) drawing_.polyline(placed(stretch), stroke(i));
     }
     drawing_.unclip();
   }
 
-  void fill_below(std::vector<Point2> points) {
+  std::vector<Point2> placed(const std::vector<ProfilePoint>& stretch) const {
+    std::vector<Point2> points;
+    for (const ProfilePoint& p : stretch) points.push_back(at(p));
+    return points;
+  }
+
+  /// Features first: the ground covers what of them is in it.
+  void fill_first() {
+    const Profile& profile = chart_.series.front().profile;
+    for (const FeatureRun& run : feature_runs(profile)) {
+      std::vector<Point2> top;
+      for (std::size_t i = run.first; i <= run.last; ++i) top.push_back(at(profile.points[i]));
+      fill_below(top, theme_colour(run.theme));
+      themes_.insert(run.theme);
+    }
+    for (const auto& stretch : stretches(chart_.ground.points.empty() ? profile : chart_.ground)) {
+      fill_below(placed(stretch), kGround);
+    }
+  }
+
+  void fill_below(std::vector<Point2> points, const Colour& colour) {
     points.push_back({points.back().x, frame_.ymax});
     points.push_back({points.front().x, frame_.ymax});
-    drawing_.polygon(points, kGround);
+    drawing_.polygon(points, colour);
   }
 
   static Stroke stroke(std::size_t i) { return {kLines[i % kLines.size()], i == 0 ? 1.2 : 1.0, {}}; }
@@ -137,6 +156,13 @@ class ChartPage {
       drawing_.text({x + 20, 47}, chart_.series[i].name, lettering);
       x += 34 + drawing_.text_width(chart_.series[i].name, lettering);
     }
+    for (const std::uint16_t theme : themes_) {
+      const Lettering lettering{.size = 8, .colour = kInk};
+      const std::string name = theme < chart_.themes.size() ? chart_.themes[theme] : fmt::format("theme {}", theme);
+      drawing_.rectangle({x, 40, x + 16, 48}, theme_colour(theme));
+      drawing_.text({x + 20, 47}, name, lettering);
+      x += 34 + drawing_.text_width(name, lettering);
+    }
   }
 
   void line(Point2 a, Point2 b, const Stroke& stroke) { drawing_.polyline(std::array{a, b}, stroke); }
@@ -147,6 +173,7 @@ class ChartPage {
   Axis x_, y_;
   bool in_km_ = false;
   bool empty_ = true;
+  std::set<std::uint16_t> themes_;  ///< met
 };
 
 }  // namespace

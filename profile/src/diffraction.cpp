@@ -195,13 +195,13 @@ Horizons horizons(const Profile& profile, const Antennas& antennas, const RadioP
   return beyond.theta_t_mrad > result.theta_t_mrad ? beyond : result;  // equation (150)
 }
 
-PathLosses path_losses(const Profile& profile, const Antennas& antennas, const RadioPath& path) {
+PathLosses path_losses(const Profile& profile, const Antennas& antennas, const RadioPath& path, const Profile* bare) {
   require_valid(profile, antennas, path);
   const Span span = whole_span(profile, antennas, path);
   const std::vector<Edge> edges = edges_of(profile, Ground::kWithClutter);
   PathLosses losses;
   losses.horizons = horizons(profile, antennas, path);
-  losses.smooth = smooth_heights(profile, antennas);
+  losses.smooth = smooth_heights(bare != nullptr ? *bare : profile, antennas);
   losses.free_space_db =
       free_space_loss_db(std::hypot(profile.length_m, antennas.to_m - antennas.from_m), span.wavelength);
   if (const Edge* edge = largest_v(span, edges)) losses.largest_v = span.v(*edge);
@@ -228,6 +228,7 @@ Profile with_spacing(const Profile& profile, double most_m) {
       const double t = static_cast<double>(part) / parts;
       const auto between = [t](double p, double q) { return p + (q - p) * t; };
       ProfilePoint p = a;
+      p.theme = profile.theme_between(i);
       p.distance_m = between(a.distance_m, b.distance_m);
       p.x = between(a.x, b.x), p.y = between(a.y, b.y);
       p.ground_m = between(a.ground_m, b.ground_m), p.clutter_m = between(a.clutter_m, b.clutter_m);

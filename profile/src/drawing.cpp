@@ -136,6 +136,17 @@ double Drawing::text_width(const std::string& text, const Lettering& lettering) 
   return extents.x_advance;
 }
 
+std::string Drawing::fitted(std::string text, double width, const Lettering& lettering) const {
+  if (text_width(text, lettering) <= width) return text;
+  const std::string dots = "\xE2\x80\xA6";
+  while (!text.empty() && text_width(text + dots, lettering) > width) {
+    // Whole characters of UTF-8.
+    while (text.size() > 1 && (static_cast<unsigned char>(text.back()) & 0xC0) == 0x80) text.pop_back();
+    text.pop_back();
+  }
+  return text + dots;
+}
+
 void Drawing::text(Point2 anchor, const std::string& text, const Lettering& lettering) {
   cairo_t* cairo = surface_->cairo;
   double shift = 0;

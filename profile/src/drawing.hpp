@@ -59,6 +59,8 @@ class Drawing {
   /// The anchor is on the baseline, at the text's left end, centre or right end.
   void text(Point2 anchor, const std::string& text, const Lettering& lettering);
   double text_width(const std::string& text, const Lettering& lettering) const;
+  /// The text cut to a width, with an ellipsis.
+  std::string fitted(std::string text, double width, const Lettering& lettering) const;
 
   /// Until unclip(), nothing is drawn outside the box.
   void clip(const Box& box);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <tuple>
 
+#include <itin/grazing.hpp>
+
 #include "ray.hpp"
 #include "ray_piece.hpp"
 
@@ -59,8 +61,8 @@ class Walk {
 
   /// The verdict is the clearance's; obstructions thinner than its rounding error follow it.
   void settle() {
-    if (result_.clearance_m >= 0) result_.obstructions.clear();
-    if (result_.clearance_m >= 0 || !result_.obstructions.empty()) return;
+    std::erase_if(result_.obstructions, [](const Obstruction& o) { return o.depth_m <= kGrazing; });
+    if (result_.clearance_m >= -kGrazing || !result_.obstructions.empty()) return;
     const ProfilePoint& p = result_.critical;
     result_.obstructions.push_back(
         {p.distance_m, p.distance_m, p.distance_m, p.ground_m, -result_.clearance_m, p.theme, p.feature});
@@ -78,13 +80,14 @@ class Walk {
     result_.critical = p;
   }
 
-  /// Where the ground is between two points; what stands there is what the higher of them belongs to.
+  /// Where the ground is between two points.
   ProfilePoint between(std::size_t i, double distance) const {
     const ProfilePoint &a = profile_.points[i], &b = profile_.points[i + 1];
     if (distance == a.distance_m) return a;
     if (distance == b.distance_m) return b;
     const double s = (distance - a.distance_m) / (b.distance_m - a.distance_m);
     ProfilePoint p = a.ground_m >= b.ground_m ? a : b;
+    p.theme = profile_.theme_between(i);
     p.distance_m = distance;
     p.x = a.x + (b.x - a.x) * s, p.y = a.y + (b.y - a.y) * s;
     p.ground_m = a.ground_m + (b.ground_m - a.ground_m) * s;

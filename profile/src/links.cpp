@@ -1,13 +1,16 @@
 #include <algorithm>
 #include <atomic>
 #include <charconv>
+#include <cmath>
 #include <fstream>
+#include <tuple>
 
 #include <fmt/format.h>
 
 #include <itin/coordinates.hpp>
 #include <itin/cross_section.hpp>
 #include <itin/error.hpp>
+#include <itin/grazing.hpp>
 #include <itin/parallel.hpp>
 #include <itin/paths.hpp>
 #include <itin/store.hpp>
@@ -15,6 +18,7 @@
 #include <profile/profile.hpp>
 
 #include "line_clearance.hpp"
+#include "link_sharing.hpp"
 
 namespace itin::profile {
 
@@ -64,32 +68,77 @@ std::vector<Link> read_table(const std::string& path, const std::string& to_crs,
   return links;
 }
 
-bool has_ground_at_ends(const Profile& profile) {
-  return !profile.points.empty() && profile.points.front().distance_m == 0 &&
-         profile.points.back().distance_m == profile.length_m;
-}
+/// The surface, and where features stand on it the ground under them.
+class Surfaces {
+ public:
+  Surfaces(const Store& store, const LinkQuery& query, const std::vector<Link>& links)
+      : store_(store), query_(query), standing_(query.themes.includes_standing(store.metadata().themes)) {
+    if (standing_ || sharing_pays(store, query.detail, links)) surface_.emplace(store, query.detail, query.themes);
+    if (standing_) ground_.emplace(store, query.detail);
+  }
 
-LinkResult survey(const Profile& profile, const Link& link, const LinkQuery& query) {
-  LinkResult result;
-  result.distance_m = profile.length_m;
-  if (!has_ground_at_ends(profile)) {
-    result.message = "no ground under an end";
+  LinkResult survey(const Link& link) const {
+    const Profile profile = from_section(surface_ ? surface_->between(link.from, link.to)
+                                                  : cross_section(store_, link.from, link.to, query_.detail));
+    LinkResult result;
+    result.distance_m = profile.length_m;
+    if (!has_ground_at_ends(profile)) {
+      result.message = "no ground under an end";
+      return result;
+    }
+    std::optional<Profile> bare;
+    if (ground_) bare = from_section(ground_->between(link.from, link.to));
+    const EndGrounds grounds = grounds_of(profile, bare);
+    const Antennas antennas{grounds.from_m + link.from_height, grounds.to_m + link.to_height};
+    const auto line = line_clearance(profile, antennas, query_.earth);
+    const bool blocked = query_.gaps_block && !profile.gaps.empty();
+    const bool hidden = profile.length_m > 0 && line->clearance_m < -kGrazing;
+    result.verdict = hidden || blocked ? SightVerdict::kHidden : SightVerdict::kVisible;
+    result.clearance_m = line->clearance_m;
+    result.critical_m = line->critical.distance_m;
+    if (query_.radio && profile.length_m > 0) add_radio(profile, bare ? &*bare : nullptr, antennas, result);
     return result;
   }
-  const Antennas antennas{profile.points.front().ground_m + link.from_height,
-                          profile.points.back().ground_m + link.to_height};
-  const auto line = line_clearance(profile, antennas, query.earth);
-  const bool blocked = query.gaps_block && !profile.gaps.empty();
-  result.verdict = line->clearance_m < 0 || blocked ? SightVerdict::kHidden : SightVerdict::kVisible;
-  result.clearance_m = line->clearance_m;
-  result.critical_m = line->critical.distance_m;
-  if (!query.radio || profile.length_m == 0) return result;
-  const auto fresnel = fresnel_clearance(profile, antennas, query.earth, wavelength_m(query.radio->frequency_ghz));
-  if (fresnel) result.fresnel_fraction = fresnel->fraction;
-  // The same points as in a report (los.cpp).
-  result.ld_db =
-      path_losses(with_spacing(profile, std::min(100.0, profile.length_m / 50)), antennas, *query.radio).ld_db;
-  return result;
+
+ private:
+  EndGrounds grounds_of(const Profile& profile, const std::optional<Profile>& bare) const {
+    EndGrounds grounds = ends_of(profile);
+    if (bare && !query_.from_on_surface) grounds.from_m = ends_of(*bare).from_m;
+    if (bare && !query_.to_on_surface) grounds.to_m = ends_of(*bare).to_m;
+    return grounds;
+  }
+
+  void add_radio(const Profile& profile, const Profile* bare, const Antennas& antennas, LinkResult& result) const {
+    const auto fresnel = fresnel_clearance(profile, antennas, query_.earth, wavelength_m(query_.radio->frequency_ghz));
+    if (fresnel) result.fresnel_fraction = fresnel->fraction;
+    const EndGrounds top = ends_of(profile);
+    if (antennas.from_m < top.from_m || antennas.to_m < top.to_m) return;
+    // The same points as in a report (los.cpp).
+    const Profile dense = with_spacing(profile, std::min(100.0, profile.length_m / 50));
+    result.ld_db = path_losses(dense, antennas, *query_.radio, bare).ld_db;
+  }
+
+  const Store& store_;
+  const LinkQuery& query_;
+  bool standing_;
+  std::optional<SectionSurface> surface_;  ///< where none, every link is retrieved by itself
+  std::optional<SectionSurface> ground_;
+};
+
+/// Links that lie near each other come near each other, so that what one has read is at hand for the next.
+std::vector<std::size_t> by_place(const std::vector<Link>& links) {
+  constexpr double kSide = 5000;
+  const auto cell = [](double v) { return static_cast<std::int64_t>(std::floor(v / kSide)); };
+  std::vector<std::tuple<std::int64_t, std::int64_t, std::size_t>> order;
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const std::int64_t row = cell((links[i].from.y + links[i].to.y) / 2);
+    const std::int64_t column = cell((links[i].from.x + links[i].to.x) / 2);
+    order.emplace_back(row, row % 2 == 0 ? column : -column, i);  // there and back again
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<std::size_t> places;
+  for (const auto& [row, column, i] : order) places.push_back(i);
+  return places;
 }
 
 }  // namespace
@@ -104,18 +153,20 @@ std::vector<Link> read_links(const std::string& path, const std::string& to_crs,
   return links;
 }
 
-std::vector<LinkResult> survey_links(const Store& store, const Detail& detail, const std::vector<Link>& links,
-                                     const LinkQuery& query, Progress& progress) {
-  const SectionSurface surface(store, detail);
+std::vector<LinkResult> survey_links(const Store& store, const std::vector<Link>& links, const LinkQuery& query,
+                                     Progress& progress) {
+  const Surfaces surfaces(store, query, links);
+  const std::vector<std::size_t> order = by_place(links);
   std::vector<LinkResult> results(links.size());
   std::atomic<std::size_t> done = 0;
   constexpr std::size_t kBatch = 64;
   parallel_for((links.size() + kBatch - 1) / kBatch, [&](std::size_t batch) {
     progress.throw_if_cancelled();
     const std::size_t end = std::min(links.size(), (batch + 1) * kBatch);
-    for (std::size_t i = batch * kBatch; i < end; ++i) {
+    for (std::size_t k = batch * kBatch; k < end; ++k) {
+      const std::size_t i = order[k];
       try {
-        results[i] = survey(from_section(surface.between(links[i].from, links[i].to)), links[i], query);
+        results[i] = surfaces.survey(links[i]);
       } catch (const InputError& error) {
         results[i] = {};
         results[i].message = error.what();

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/grazing.hpp>
 #include <profile/los.hpp>
 
 #include "line_clearance.hpp"
@@ -37,9 +38,8 @@ double wavelength_of(const LosQuery& query) {
   return query.radio ? wavelength_m(query.radio->frequency_ghz) : 0;
 }
 
-void require_valid(const Profile& profile, const LosQuery& query) {
-  if (profile.points.empty() || profile.points.front().distance_m != 0 ||
-      profile.points.back().distance_m != profile.length_m) {
+void require_valid(const Profile& profile, const LosQuery& query, const Profile& ground) {
+  if (!has_ground_at_ends(profile) || (!ground.points.empty() && !has_ground_at_ends(ground))) {
     throw InputError("there is no ground at an end of the line; move it onto the data");
   }
   if (!(query.from_height_m >= 0) || !(query.to_height_m >= 0)) throw InputError("a height above ground is negative");
@@ -56,14 +56,14 @@ SightVerdict sight_verdict(const LosReport& report) {
   if (report.query.clearance_error_m > 0 && std::abs(*report.clearance_m) < report.query.clearance_error_m) {
     return SightVerdict::kUndecided;
   }
-  return *report.clearance_m >= 0 ? SightVerdict::kVisible : SightVerdict::kHidden;
+  return *report.clearance_m >= -kGrazing ? SightVerdict::kVisible : SightVerdict::kHidden;
 }
 
 /// The least of the fractions of F1, or without a wavelength a sign, with both antennas `shift` metres higher: lifting
 /// the ray is lowering the surface.
 struct Margin {
   std::optional<double> clearance_m, fraction;
-  bool cut() const { return clearance_m && *clearance_m < 0; }
+  bool cut() const { return clearance_m && *clearance_m < -kGrazing; }
   bool meets(const Criterion& c) const { return !cut() && (c.fraction == 0 || !fraction || *fraction >= c.fraction); }
 };
 Margin margin(const LosReport& report, const Earth& earth, double shift) {
@@ -100,14 +100,18 @@ void add_required(LosReport& report) {
   const PlannedHeights planned{report.query.from_height_m, report.query.to_height_m};
   const auto add = [&](std::string name, const Earth& earth, double fraction) {
     const Requirement requirement{earth, fraction, wavelength_of(report.query)};
-    report.required.push_back(
-        {std::move(name), factor_of(earth), fraction, required_heights(report.profile, planned, requirement)});
+    report.required.push_back({std::move(name), factor_of(earth), fraction,
+                               required_heights(report.profile, planned, requirement, report.stands_on)});
   };
   add("line of sight", report.query.earth, 0);
   if (report.query.radio) add("0.6 F1", report.query.earth, 0.6);
   for (const Criterion& c : report.query.criteria) {
     add(criterion_name(c), earth_of(c, report.query.earth), c.fraction);
   }
+}
+
+bool above_surface(const Profile& profile, const Antennas& antennas) {
+  return antennas.from_m >= profile.points.front().ground_m && antennas.to_m >= profile.points.back().ground_m;
 }
 
 /// The elevation angle at which something `rise` higher appears at `distance`.
@@ -120,9 +124,10 @@ void add_radio(LosReport& report) {
   const LosQuery& query = report.query;
   if (!query.radio || report.profile.length_m == 0) return;
   report.fresnel = fresnel_clearance(report.profile, report.antennas, query.earth, wavelength_of(query));
+  if (!above_surface(report.profile, report.antennas)) return;
   const double spacing = std::min(kMostSpacingM, report.profile.length_m / kLeastPoints);
   report.losses = path_losses(query.points_as_given ? report.profile : with_spacing(report.profile, spacing),
-                              report.antennas, *query.radio);
+                              report.antennas, *query.radio, report.ground.points.empty() ? nullptr : &report.ground);
 }
 
 }  // namespace
@@ -137,13 +142,22 @@ const char* name_of(CriterionVerdict verdict) {
   return kNames[static_cast<int>(verdict)];
 }
 
-LosReport analyse(Profile profile, const LosQuery& query) {
-  require_valid(profile, query);
+EndGrounds stands_on(const Profile& profile, const Profile& ground, const LosQuery& query) {
+  EndGrounds grounds = ends_of(profile);
+  if (ground.points.empty()) return grounds;
+  if (!query.from_on_surface) grounds.from_m = ends_of(ground).from_m;
+  if (!query.to_on_surface) grounds.to_m = ends_of(ground).to_m;
+  return grounds;
+}
+
+LosReport analyse(Profile profile, const LosQuery& query, Profile ground) {
+  require_valid(profile, query, ground);
   LosReport report;
   report.query = query;
+  report.stands_on = stands_on(profile, ground, query);
   report.profile = std::move(profile);
-  report.antennas = {report.profile.points.front().ground_m + query.from_height_m,
-                     report.profile.points.back().ground_m + query.to_height_m};
+  report.ground = std::move(ground);
+  report.antennas = {report.stands_on.from_m + query.from_height_m, report.stands_on.to_m + query.to_height_m};
   if (auto line = line_clearance(report.profile, report.antennas, query.earth)) {
     report.clearance_m = line->clearance_m;
     report.critical = line->critical;
@@ -157,10 +171,16 @@ LosReport analyse(Profile profile, const LosQuery& query) {
   add_required(report);
   add_radio(report);
   if (query.object) {
-    report.visible =
-        visible_height(report.profile, query.from_height_m, query.object->hub_m, query.object->tip_m, query.earth);
+    report.visible = visible_height(report.profile, query.from_height_m, query.object->hub_m, query.object->tip_m,
+                                    query.earth, report.stands_on);
   }
   return report;
+}
+
+Point2 position_at(const LosReport& report, double distance_m) {
+  const ProfilePoint &a = report.profile.points.front(), &b = report.profile.points.back();
+  const double t = report.profile.length_m > 0 ? distance_m / report.profile.length_m : 0;
+  return {a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t};
 }
 
 double ray_elevation_m(const LosReport& report, double distance_m) {
@@ -168,9 +188,11 @@ double ray_elevation_m(const LosReport& report, double distance_m) {
   return report.antennas.from_m * (1 - t) + report.antennas.to_m * t;
 }
 
-std::string cause_of(const LosReport& report, std::uint16_t theme) {
+std::string cause_of(const LosReport& report, std::uint16_t theme, std::int64_t feature) {
   if (theme == 0) return "terrain";
-  return theme < report.themes.size() ? report.themes[theme] : fmt::format("theme {}", theme);
+  const std::string name = theme < report.themes.size() ? report.themes[theme] : fmt::format("theme {}", theme);
+  const auto known = report.features.find({theme, feature});
+  return known == report.features.end() ? name : name + ", " + known->second;
 }
 
 }  // namespace itin::profile

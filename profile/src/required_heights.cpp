@@ -104,8 +104,8 @@ class Demand {
 /// Demands on heights above the grounds of the two ends.
 class HeightDemand {
  public:
-  HeightDemand(const Profile& profile, const Requirement& requirement)
-      : demand_(profile, requirement), ground_{profile.points.front().ground_m, profile.points.back().ground_m} {}
+  HeightDemand(const Profile& profile, const Requirement& requirement, const EndGrounds& grounds)
+      : demand_(profile, requirement), ground_{grounds.from_m, grounds.to_m} {}
 
   std::optional<double> from_alone(double to) const { return least({ground_.start, ground_.end + to}, {1, 0}); }
   std::optional<double> to_alone(double from) const { return least({ground_.start + from, ground_.end}, {0, 1}); }
@@ -130,9 +130,9 @@ double curve_end(const HeightDemand& demand, const PlannedHeights& planned, doub
 
 }  // namespace
 
-RequiredHeights required_heights(const Profile& profile, const PlannedHeights& planned,
-                                 const Requirement& requirement) {
-  const HeightDemand demand(profile, requirement);
+RequiredHeights required_heights(const Profile& profile, const PlannedHeights& planned, const Requirement& requirement,
+                                 const std::optional<EndGrounds>& grounds) {
+  const HeightDemand demand(profile, requirement, grounds.value_or(ends_of(profile)));
   RequiredHeights heights{demand.from_alone(planned.to_m), demand.to_alone(planned.from_m), demand.both(), {}};
   if (!heights.both_equal_m) return heights;
   const double end = curve_end(demand, planned, *heights.both_equal_m);
@@ -143,10 +143,11 @@ RequiredHeights required_heights(const Profile& profile, const PlannedHeights& p
   return heights;
 }
 
-VisibleHeight visible_height(const Profile& profile, double eye_m, double hub_m, double tip_m, const Earth& earth) {
+VisibleHeight visible_height(const Profile& profile, double eye_m, double hub_m, double tip_m, const Earth& earth,
+                             const std::optional<EndGrounds>& grounds) {
   VisibleHeight seen;
   if (profile.length_m > 0) {
-    const auto least = HeightDemand(profile, Requirement{earth}).to_alone(eye_m);
+    const auto least = HeightDemand(profile, Requirement{earth}, grounds.value_or(ends_of(profile))).to_alone(eye_m);
     seen.from_m = least ? *least : tip_m;
   }
   seen.from_m = std::min(seen.from_m, tip_m);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include <itin/cross_section.hpp>
@@ -24,25 +26,33 @@ inline std::vector<SectionCrossing> crossings_of(const SectionLine& line, const 
   return found;
 }
 
-inline CrossSection slow_section(const SectionLine& line, const std::vector<std::array<GridPoint, 3>>& triangles) {
+/// `themes`: of each triangle's feature, if any triangle is part of one. A breakpoint has a theme where all triangles
+/// that hold it have one.
+inline CrossSection slow_section(const SectionLine& line, const std::vector<std::array<GridPoint, 3>>& triangles,
+                                 const std::vector<std::uint16_t>& themes = {}) {
   std::vector<SectionPiece> pieces;
-  for (const auto& triangle : triangles) {
-    const std::vector<SectionCrossing> found = crossings_of(line, triangle);
-    if (found.empty()) continue;
-    if (const auto piece = line.clip(found.front(), found.back())) pieces.push_back(*piece);
-  }
   CrossSection section;
   section.length = line.length();
-  for (const SectionPiece& piece : pieces) {
-    section.breakpoints.push_back({piece.from.distance, piece.from.position});
-    section.breakpoints.push_back({piece.to.distance, piece.to.position});
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const std::vector<SectionCrossing> found = crossings_of(line, triangles[t]);
+    if (found.empty()) continue;
+    const auto piece = line.clip(found.front(), found.back());
+    if (!piece) continue;
+    pieces.push_back(*piece);
+    const std::uint16_t theme = themes.empty() ? std::uint16_t{0} : themes[t];
+    section.breakpoints.push_back({piece->from.distance, piece->from.position, theme});
+    section.breakpoints.push_back({piece->to.distance, piece->to.position, theme});
   }
-  const auto less = [](const Breakpoint& a, const Breakpoint& b) { return a.distance < b.distance; };
-  std::stable_sort(section.breakpoints.begin(), section.breakpoints.end(), less);
+  const auto less = [](const Breakpoint& a, const Breakpoint& b) {
+    return std::tie(a.distance, a.position.x, a.position.y, a.position.z, a.theme) <
+           std::tie(b.distance, b.position.x, b.position.y, b.position.z, b.theme);
+  };
+  std::sort(section.breakpoints.begin(), section.breakpoints.end(), less);
   const auto same = [](const Breakpoint& a, const Breakpoint& b) {
     return a.distance == b.distance && a.position == b.position;
   };
   auto& b = section.breakpoints;
+  // Of equal ones the first is left, with the least theme: none, if one triangle has none.
   b.erase(std::unique(b.begin(), b.end(), same), b.end());
   std::sort(pieces.begin(), pieces.end(),
             [](const SectionPiece& p, const SectionPiece& q) { return p.from.distance < q.from.distance; });

@@ -13,12 +13,9 @@
 #include <optional>
 
 #include <itin/geometry.hpp>
+#include <itin/grazing.hpp>
 
 namespace itin::viewshed {
-
-/// Ground that rises above the line by no more than this many metres grazes it: far above the rounding of doubles, far
-/// below anything measured.
-inline constexpr double kGrazing = 1e-6;
 
 class SightLine {
  public:

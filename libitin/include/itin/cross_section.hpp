@@ -2,11 +2,15 @@
 //
 //   const CrossSection section = cross_section(store, {305000, 210000}, {315000, 213000}, Detail::tolerance(0));
 //   for (const Breakpoint& p : section.breakpoints) plot(p.distance, p.position.z);
+//   const CrossSection street = cross_section(store, a, b, Detail::tolerance(0), ThemeChoice::parse("buildings"));
 //
 // The breakpoints are the crossings that a window query's triangles would give, neither more nor fewer, and nothing is
 // sampled: between two of them the surface is straight. cross_section() reads the fewest points (R. Smith and others,
 // "Implicit triangulations", 1992): it locates the start and crosses each edge into the one triangle behind it. Many
 // lines over one area are faster on a SectionSurface, which gives the same breakpoints to the last bit.
+//
+// A wall is as steep as the store has it: its foot and its eaves are two breakpoints a hand's breadth apart, or at one
+// distance where the line runs along it.
 //
 // Ends are rounded to 2^-20 grid units (10 nm on a grid of 1 cm), so that every decision is exact; distances to
 // multiples of 2^-30 m, so that length - distance is exact and a line from b to a is the mirror of one from a to b.
@@ -18,6 +22,7 @@
 
 #include <itin/detail.hpp>
 #include <itin/geometry.hpp>
+#include <itin/theme.hpp>
 #include <itin/tin.hpp>
 
 namespace itin {
@@ -27,6 +32,9 @@ class Store;
 struct Breakpoint {
   double distance = 0;  ///< metres along the line
   Point3 position;      ///< on the surface
+  /// Of the standing feature that the place lies within, its outline not included: StoreMetadata::themes[theme - 1]; 0:
+  /// ground. Between two breakpoints the surface is part of a feature if it is so at either.
+  std::uint16_t theme = 0;
 };
 
 /// A part of the line without ground, metres along it. Its ends belong to the ground beside it, if there is any.
@@ -47,10 +55,11 @@ struct CrossSection {
   std::uint64_t triangles = 0;  ///< crossed by the line
 };
 
-/// Cost: 0.5 microseconds a triangle crossed when warm. Memory follows the line.
-/// Throws InputError for ends that are not finite or farther than 2^31 grid units from the grid's origin, CorruptStore,
-/// FileError.
-CrossSection cross_section(const Store& store, Point2 from, Point2 to, const Detail& detail);
+/// Cost: about a microsecond a triangle crossed when warm. Memory follows the line.
+/// Throws InputError for ends that are not finite or farther than 2^31 grid units from the grid's origin and for themes
+/// that the store does not have, CorruptStore, FileError.
+CrossSection cross_section(const Store& store, Point2 from, Point2 to, const Detail& detail,
+                           const ThemeChoice& themes = ThemeChoice::none());
 
 /// For many lines over one area: triangulates tiles once, keeps those used last, and walks lines through them. Safe for
 /// concurrent use. Refers to the Store, which must outlive it.
@@ -61,8 +70,9 @@ class SectionSurface {
     std::uint64_t cache_bytes = std::uint64_t{256} << 20;
   };
 
-  SectionSurface(const Store& store, const Detail& detail);
-  SectionSurface(const Store& store, const Detail& detail, const Options& options);
+  /// Throws InputError for themes that the store does not have.
+  SectionSurface(const Store& store, const Detail& detail, const ThemeChoice& themes = ThemeChoice::none());
+  SectionSurface(const Store& store, const Detail& detail, const ThemeChoice& themes, const Options& options);
   SectionSurface(SectionSurface&&) noexcept;
   SectionSurface& operator=(SectionSurface&&) noexcept;
   ~SectionSurface();

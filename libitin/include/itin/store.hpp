@@ -97,6 +97,8 @@ class Store {
   /// The most by which features of the chosen themes, in the cells that meet the box, rise above T_0 under them,
   /// metres; 0 where there are none. Throws CorruptStore.
   double greatest_feature_height(const ThemeChoice& themes, const Box& box) const;
+  /// The same of those that a query at `level` leaves out.
+  double greatest_height_left_out(const ThemeChoice& themes, int level, const Box& box) const;
   /// About how many points of this level and coarser ones lie in the box; reads the directory, no points.
   std::uint64_t points_about(int level, const Box& box) const;
   /// The bounds of the level's cells that meet the box, to ask about many places. Throws likewise.
@@ -104,7 +106,7 @@ class Store {
 
  private:
   friend std::vector<Damage> check(const Store& store, Progress& progress);
-  friend std::vector<StoredFootprint> stored_footprints(const Store& store, std::uint16_t theme);
+  friend std::vector<StoredFootprint> stored_footprints(const Store& store, std::uint16_t theme, std::uint32_t block);
   std::unique_ptr<StoreFile> file_;
 };
 

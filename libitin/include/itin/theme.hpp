@@ -58,6 +58,8 @@ class ThemeChoice {
   static ThemeChoice parse(std::string_view text);
 
   bool includes(const ThemeInfo& theme) const;
+  /// Whether some theme that it includes stands on the ground.
+  bool includes_standing(const std::vector<ThemeInfo>& themes) const;
   /// Throws InputError for a name that the store does not have.
   void check(const std::vector<ThemeInfo>& themes) const;
   /// The names of the themes it includes, those of the terrain with them, in the store's order. Throws as check() does.

@@ -10,6 +10,7 @@
 #include "cross_section/retrieval.hpp"
 #include "cross_section/section_walk.hpp"
 #include "triangulate/region.hpp"
+#include "triangulate/standing_index.hpp"
 
 namespace itin {
 
@@ -26,21 +27,22 @@ class RetrievedTriangles final : public TriangleFinder {
   RetrievedTriangles(const PointIndex& index, const Selection& selection, const SectionLine& line)
       : index_(index), selection_(selection), apex_(index, selection, heading_of(line)) {}
 
-  GridPoint beyond(const CrossedEdge& edge) override {
+  SectionVertex beyond(const CrossedEdge& edge) override {
     const auto found = apex_.apex({edge.left.x, edge.left.y}, {edge.right.x, edge.right.y});
     if (!found) throw Error("the ground ends without an outline; run itin check on the store");
     return *found;
   }
 
-  std::vector<std::array<GridPoint, 3>> around(const GridBox& box) override {
+  std::vector<std::array<SectionVertex, 3>> around(const GridBox& box) override {
     if (box == box_) return around_;
     box_ = box;
     around_.clear();
     const RegionMesh region = triangulate_region(index_, selection_, box);
     statistics_ += region.statistics;
-    for (const auto& [a, b, c] : region.mesh.triangles) {
-      around_.push_back({region.vertices[a].point, region.vertices[b].point, region.vertices[c].point});
-    }
+    const auto vertex = [&](std::uint32_t v) {
+      return SectionVertex{region.vertices[v].point, region.vertices[v].theme};
+    };
+    for (const auto& [a, b, c] : region.mesh.triangles) around_.push_back({vertex(a), vertex(b), vertex(c)});
     return around_;
   }
 
@@ -59,7 +61,7 @@ class RetrievedTriangles final : public TriangleFinder {
   const Selection& selection_;
   NearbyApex apex_;
   GridBox box_;
-  std::vector<std::array<GridPoint, 3>> around_;
+  std::vector<std::array<SectionVertex, 3>> around_;
   RetrievalStatistics statistics_;
 };
 
@@ -72,9 +74,11 @@ CrossSection retrieve_section(const PointIndex& index, const Selection& selectio
   return section;
 }
 
-CrossSection cross_section(const Store& store, Point2 from, Point2 to, const Detail& detail) {
-  return retrieve_section(store.points(), selection_of(store.metadata(), detail, ThemeChoice::none()),
-                          SectionLine(store.metadata().grid, from, to));
+CrossSection cross_section(const Store& store, Point2 from, Point2 to, const Detail& detail,
+                           const ThemeChoice& themes) {
+  const Selection selection = selection_of(store.metadata(), detail, themes);
+  const StandingIndex index(store, selection);
+  return retrieve_section(index, selection, SectionLine(store.metadata().grid, from, to));
 }
 
 }  // namespace itin

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 
 #include "triangulate/apex_frame.hpp"
 
@@ -72,18 +73,18 @@ void NearbyApex::load(const Leaf& leaf) {
     std::uint32_t& first = first_[bin(p.x, p.y)];
     next_.push_back(first);
     first = static_cast<std::uint32_t>(points_.size());
-    points_.push_back(p);
+    points_.push_back({p, block->theme(k)});
   }
 }
 
-void NearbyApex::consider(const ApexFrame& frame, const GridPoint& point, Candidate& candidate) const {
+void NearbyApex::consider(const ApexFrame& frame, const SectionVertex& point, Candidate& candidate) const {
   const Position c{point.x, point.y};
   if (!frame.inside(candidate.reach, c.x, c.y) || orientation(frame.a, frame.b, c) <= 0) return;
   if (candidate.best) {
     const Position best{candidate.best->x, candidate.best->y};
     if (best == c || in_circle_perturbed(frame.a, frame.b, best, c) < 0) return;
   }
-  const bool hidden = std::any_of(segments_.begin(), segments_.end(),
+  const bool hidden = std::any_of(near_.begin(), near_.end(),
                                   [&](const Segment& s) { return crosses(s, frame.a, c) || crosses(s, frame.b, c); });
   if (hidden) return;
   candidate.best = point;
@@ -100,27 +101,38 @@ void NearbyApex::search_bins(const ApexFrame& frame, const GridBox& box, Candida
 }
 
 /// The vertex of the least circle up to lambda, which must fit into the neighbourhood.
-std::optional<GridPoint> NearbyApex::search(const ApexFrame& frame, double lambda) {
+std::optional<SectionVertex> NearbyApex::search(const ApexFrame& frame, double lambda) {
   Candidate candidate{std::nullopt, lambda};
-  search_bins(frame, frame.cap_box(lambda, box_), candidate);
-  for (std::size_t i = 0; i < leaves_.size();) {
-    if (!frame.cap_meets(candidate.reach, leaves_[i].cell.box())) {
-      ++i;
-      continue;
-    }
+  const GridBox cap = frame.cap_box(lambda, box_);
+  // No others come between the edge and what is in the circle.
+  near_.clear();
+  std::copy_if(segments_.begin(), segments_.end(), std::back_inserter(near_), [&](const Segment& s) {
+    return cap.meets({std::min(s.ax, s.bx), std::min(s.ay, s.by), std::max(s.ax, s.bx), std::max(s.ay, s.by)});
+  });
+  search_bins(frame, cap, candidate);
+  reached_.clear();
+  for (const Leaf& leaf : leaves_) {
+    const GridBox box = leaf.cell.box();
+    if (frame.cap_meets(candidate.reach, box)) reached_.emplace_back(frame.key(box), leaf.key);
+  }
+  // Those first that may hold the least circle: it may leave the others out.
+  std::sort(reached_.begin(), reached_.end());
+  for (const auto& [circle, key] : reached_) {
+    const auto leaf = std::find_if(leaves_.begin(), leaves_.end(), [key = key](const Leaf& l) { return l.key == key; });
+    const GridBox box = leaf->cell.box();
+    if (!frame.cap_meets(candidate.reach, box) || hide(near_, frame.a, frame.b, intersection(box, cap))) continue;
     const std::size_t before = points_.size();
-    load(leaves_[i]);
-    leaves_[i] = leaves_.back();
+    load(*leaf);
+    *leaf = leaves_.back();
     leaves_.pop_back();
     for (std::size_t p = before; p < points_.size(); ++p) consider(frame, points_[p], candidate);
-    i = 0;  // nearer leaves may have been passed over, but never one that a smaller circle meets
   }
   // What lies on the searched circle itself may have rivals that rounding left out.
   if (candidate.best && candidate.reach < 0.999 * lambda) return candidate.best;
   return std::nullopt;
 }
 
-std::optional<GridPoint> NearbyApex::apex(Position a, Position b) {
+std::optional<SectionVertex> NearbyApex::apex(Position a, Position b) {
   const ApexFrame frame(a, b);
   const GridBox all = index_.bounds();
   const auto fits = [&](double lambda) {
@@ -136,7 +148,7 @@ std::optional<GridPoint> NearbyApex::apex(Position a, Position b) {
   }
   const auto found = fallback_.apex(a, b);
   if (!found) return std::nullopt;
-  return found->point;
+  return SectionVertex{found->point, found->theme};
 }
 
 }  // namespace itin

@@ -10,8 +10,10 @@
 #include <memory>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
+#include "cross_section/section_walk.hpp"
 #include "store/point_index.hpp"
 #include "triangulate/apex.hpp"
 #include "triangulate/selection.hpp"
@@ -27,22 +29,22 @@ class NearbyApex {
   NearbyApex(const PointIndex& index, const Selection& selection, Point2 heading);
 
   /// As ApexSearch::apex.
-  std::optional<GridPoint> apex(Position a, Position b);
+  std::optional<SectionVertex> apex(Position a, Position b);
 
   /// Every block counts once.
   RetrievalStatistics statistics() const;
 
  private:
   struct Candidate {
-    std::optional<GridPoint> best;
+    std::optional<SectionVertex> best;
     double reach = 0;  ///< its lambda, or the one searched
   };
 
   /// Makes a neighbourhood of edge ab that circles up to lambda fit into.
   void move_to(Position a, Position b, double lambda);
-  std::optional<GridPoint> search(const ApexFrame& frame, double lambda);
+  std::optional<SectionVertex> search(const ApexFrame& frame, double lambda);
   void search_bins(const ApexFrame& frame, const GridBox& box, Candidate& candidate) const;
-  void consider(const ApexFrame& frame, const GridPoint& point, Candidate& candidate) const;
+  void consider(const ApexFrame& frame, const SectionVertex& point, Candidate& candidate) const;
   void load(const Leaf& leaf);
   std::size_t bin(std::int32_t x, std::int32_t y) const;
 
@@ -52,17 +54,19 @@ class NearbyApex {
   ApexSearch fallback_;
   BlockReader blocks_;
 
-  GridBox box_;               ///< the neighbourhood
-  double half_side_ = 0;      ///< of the last one, grid units
-  std::vector<Leaf> leaves_;  ///< of the neighbourhood, not yet loaded
+  GridBox box_;                                            ///< the neighbourhood
+  double half_side_ = 0;                                   ///< of the last one, grid units
+  std::vector<Leaf> leaves_;                               ///< of the neighbourhood, not yet loaded
+  std::vector<std::pair<double, std::uint64_t>> reached_;  ///< of these, what one search's circle meets: circle and key
   std::vector<Segment> segments_;
+  std::vector<Segment> near_;  ///< of these, those that meet the box of one search's circle
 
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   int bin_shift_ = 0;
   std::uint32_t columns_ = 0;
   std::vector<std::uint32_t> first_;  ///< per bin, into points_
   std::vector<std::uint32_t> next_;   ///< per point
-  std::vector<GridPoint> points_;
+  std::vector<SectionVertex> points_;
 };
 
 }  // namespace itin

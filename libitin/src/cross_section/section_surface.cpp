@@ -16,6 +16,7 @@
 #include "cross_section/section_walk.hpp"
 #include "store/block_cache.hpp"
 #include "triangulate/region.hpp"
+#include "triangulate/standing_index.hpp"
 
 namespace itin {
 
@@ -97,9 +98,9 @@ class TiledTriangles final : public TriangleFinder {
  public:
   TiledTriangles(TileCache& tiles, const SectionLine& line) : tiles_(tiles), line_(line) {}
 
-  GridPoint beyond(const CrossedEdge& edge) override {
+  SectionVertex beyond(const CrossedEdge& edge) override {
     if (at_.triangle != kNoTriangle) {
-      const GridPoint& apex = tile_->apex(at_);
+      const SectionVertex& apex = tile_->apex(at_);
       const bool keeps_left = edge.right.x == apex.x && edge.right.y == apex.y;
       at_ = tile_->onwards(at_, keeps_left);
     }
@@ -107,7 +108,7 @@ class TiledTriangles final : public TriangleFinder {
     return at_.triangle == kNoTriangle ? beyond_by_retrieval(edge) : tile_->apex(at_);
   }
 
-  std::vector<std::array<GridPoint, 3>> around(const GridBox& box) override {
+  std::vector<std::array<SectionVertex, 3>> around(const GridBox& box) override {
     at_ = {};
     go_to({box.xmin, box.ymin});
     if (tile_->square().contains(box)) return tile_->around(box);
@@ -137,12 +138,12 @@ class TiledTriangles final : public TriangleFinder {
     at_ = tile_->ahead(edge, {place.x, place.y});
   }
 
-  GridPoint beyond_by_retrieval(const CrossedEdge& edge) {
+  SectionVertex beyond_by_retrieval(const CrossedEdge& edge) {
     ApexSearch search(tiles_.index(), tiles_.selection());
     const auto found = search.apex({edge.left.x, edge.left.y}, {edge.right.x, edge.right.y});
     statistics_ += search.statistics();
     if (!found) throw Error("the ground ends without an outline; run itin check on the store");
-    return found->point;
+    return {found->point, found->theme};
   }
 
   TileCache& tiles_;
@@ -156,10 +157,11 @@ class TiledTriangles final : public TriangleFinder {
 
 class SectionSurface::Impl {
  public:
-  Impl(const Store& store, const Detail& detail, const Options& options)
+  Impl(const Store& store, const Detail& detail, const ThemeChoice& themes, const Options& options)
       : grid_(store.metadata().grid),
-        selection_(selection_of(store.metadata(), detail, ThemeChoice::none())),
-        tiles_(store.points(), selection_, options.cache_bytes) {}
+        selection_(selection_of(store.metadata(), detail, themes)),
+        index_(store, selection_),
+        tiles_(index_, selection_, options.cache_bytes) {}
 
   CrossSection between(Point2 from, Point2 to) {
     const SectionLine line(grid_, from, to);
@@ -172,12 +174,15 @@ class SectionSurface::Impl {
  private:
   Grid grid_;
   Selection selection_;
+  StandingIndex index_;
   TileCache tiles_;
 };
 
-SectionSurface::SectionSurface(const Store& store, const Detail& detail) : SectionSurface(store, detail, Options()) {}
-SectionSurface::SectionSurface(const Store& store, const Detail& detail, const Options& options)
-    : impl_(std::make_unique<Impl>(store, detail, options)) {}
+SectionSurface::SectionSurface(const Store& store, const Detail& detail, const ThemeChoice& themes)
+    : SectionSurface(store, detail, themes, Options()) {}
+SectionSurface::SectionSurface(const Store& store, const Detail& detail, const ThemeChoice& themes,
+                               const Options& options)
+    : impl_(std::make_unique<Impl>(store, detail, themes, options)) {}
 SectionSurface::SectionSurface(SectionSurface&&) noexcept = default;
 SectionSurface& SectionSurface::operator=(SectionSurface&&) noexcept = default;
 SectionSurface::~SectionSurface() = default;

@@ -17,7 +17,7 @@ bool same_place(const GridPoint& a, const GridPoint& b) {
 
 SectionTile::SectionTile(const GridBox& square, const RegionMesh& region) : square_(square) {
   const auto count = static_cast<std::uint32_t>(region.mesh.triangles.size());
-  for (const SelectedVertex& v : region.vertices) vertices_.push_back(v.point);
+  for (const SelectedVertex& v : region.vertices) vertices_.push_back({v.point, v.theme});
   std::vector<std::uint32_t> order(count), place(count);
   std::iota(order.begin(), order.end(), 0u);
   const auto least_corner = [&](std::uint32_t t) {
@@ -46,7 +46,7 @@ SectionTile::SectionTile(const GridBox& square, const RegionMesh& region) : squa
 }
 
 std::size_t SectionTile::bytes() const {
-  return sizeof(*this) + vertices_.capacity() * sizeof(GridPoint) + faces_.capacity() * sizeof(Face) +
+  return sizeof(*this) + vertices_.capacity() * sizeof(SectionVertex) + faces_.capacity() * sizeof(Face) +
          (first_.size() + triangles_.size()) * sizeof(std::uint32_t);
 }
 
@@ -94,8 +94,8 @@ SectionTile::Stop SectionTile::onwards(const Stop& from, bool keeps_left) const 
   return {next, back[0] == from.triangle ? 0u : back[1] == from.triangle ? 1u : 2u};
 }
 
-std::vector<std::array<GridPoint, 3>> SectionTile::around(const GridBox& box) const {
-  std::vector<std::array<GridPoint, 3>> result;
+std::vector<std::array<SectionVertex, 3>> SectionTile::around(const GridBox& box) const {
+  std::vector<std::array<SectionVertex, 3>> result;
   for_each_bin(box, [&](std::size_t bin) {
     for (const std::uint32_t t : in_bin(bin)) {
       if (box_of(t).meets(box)) result.push_back({corner(t, 0), corner(t, 1), corner(t, 2)});

@@ -30,9 +30,9 @@ class SectionTile {
   /// From a triangle on to the one across its edge from the apex to the left (or right) end of the edge it was entered
   /// by; kNoTriangle where this tile does not have it.
   Stop onwards(const Stop& from, bool keeps_left) const;
-  const GridPoint& apex(const Stop& at) const { return vertices_[faces_[at.triangle].corners[at.apex]]; }
+  const SectionVertex& apex(const Stop& at) const { return vertices_[faces_[at.triangle].corners[at.apex]]; }
   /// Triangles, among them all that meet a box within the square.
-  std::vector<std::array<GridPoint, 3>> around(const GridBox& box) const;
+  std::vector<std::array<SectionVertex, 3>> around(const GridBox& box) const;
 
  private:
   struct Face {
@@ -40,7 +40,7 @@ class SectionTile {
     std::array<std::uint32_t, 3> neighbours;  ///< opposite the corners
   };
 
-  const GridPoint& corner(std::uint32_t triangle, std::size_t i) const {
+  const SectionVertex& corner(std::uint32_t triangle, std::size_t i) const {
     return vertices_[faces_[triangle].corners[i]];
   }
   std::uint32_t column(std::int32_t x) const;
@@ -51,7 +51,7 @@ class SectionTile {
   std::span<const std::uint32_t> in_bin(std::size_t bin) const;
 
   GridBox square_;
-  std::vector<GridPoint> vertices_;
+  std::vector<SectionVertex> vertices_;
   std::vector<Face> faces_;  ///< in about the vertices' order, that of the Morton curve: neighbours are near in memory
   // Triangles by the bins of the square that their boxes meet.
   int bin_shift_ = 0;

@@ -12,19 +12,38 @@ namespace {
 
 using Place = SectionCrossing::Place;
 
+/// A crossing, and the theme of the feature that it lies within: at a vertex that one's, and on an edge, once the
+/// triangles on both sides are known, theirs.
+struct Met : SectionCrossing {
+  std::uint16_t theme = 0;
+  bool at_vertex = false;
+};
+
+/// Of a triangle by two of its corners. These are features' both and differ in a party wall only.
+std::uint16_t either(std::uint16_t a, std::uint16_t b) {
+  return a == 0 || b == 0 ? std::max(a, b) : std::min(a, b);
+}
+/// Of an edge by the triangles beside it: a foot is not within the feature.
+std::uint16_t both(std::uint16_t a, std::uint16_t b) {
+  return std::min(a, b);
+}
+
 /// Breakpoints over ground without gap, in order.
 struct Stretch {
-  std::vector<SectionCrossing> crossings;
+  std::vector<Met> crossings;
   std::uint64_t triangles = 0;
 
   double from() const { return crossings.front().distance; }
   double to() const { return crossings.back().distance; }
 
-  /// A vertex on the line is crossed with several edges at once.
-  void add(const SectionCrossing& c) {
+  /// A vertex on the line is crossed with several edges at once. Of what comes twice the second knows more.
+  void add(const Met& c) {
     if (!crossings.empty()) {
-      const SectionCrossing& last = crossings.back();
-      if (c.t <= last.t && c.position == last.position) return;
+      Met& last = crossings.back();
+      if (c.t <= last.t && c.position == last.position) {
+        last.theme = c.theme;
+        return;
+      }
     }
     crossings.push_back(c);
   }
@@ -56,7 +75,7 @@ class SectionWalk {
   std::optional<CrossedEdge> edge_before_start() {
     const GridBox box = line_.start_box();
     std::optional<CrossedEdge> first;
-    for (const auto& triangle : triangles_.around(box)) {
+    for (const std::array<SectionVertex, 3>& triangle : triangles_.around(box)) {
       const std::optional<CrossedEdge> entry = entry_into(triangle);
       if (!entry || (first && !SectionLine::crossed_before(entry->left, entry->right, first->left, first->right))) {
         continue;
@@ -67,10 +86,10 @@ class SectionWalk {
   }
 
   /// Where the line enters a triangle that contains its start.
-  std::optional<CrossedEdge> entry_into(const std::array<GridPoint, 3>& triangle) const {
+  std::optional<CrossedEdge> entry_into(const std::array<SectionVertex, 3>& triangle) const {
     std::optional<CrossedEdge> entry, exit;
     for (std::size_t i = 0; i < 3; ++i) {
-      const GridPoint &p = triangle[i], &q = triangle[(i + 1) % 3];
+      const SectionVertex &p = triangle[i], &q = triangle[(i + 1) % 3];
       if (left(p) && !left(q)) entry = CrossedEdge{p, q};
       if (!left(p) && left(q)) exit = CrossedEdge{q, p};
     }
@@ -84,13 +103,24 @@ class SectionWalk {
 
   Stretch walk(CrossedEdge edge, const std::optional<OutlineCrossing>& exit) {
     Stretch stretch;
-    SectionCrossing in = line_.crossing(edge.left, edge.right);
+    Met in = met(edge);
+    std::uint16_t behind = 0;
     if (in.place == Place::kWithin) stretch.add(in);
-    while (!(exit && lies_on(edge, *exit)) && !at_end(in)) {
-      const GridPoint c = triangles_.beyond(edge);
+    while (!(exit && lies_on(edge, *exit))) {
+      const bool ends = at_end(in);
+      // Whether the end is within a feature takes the triangle beyond it.
+      if (ends && (behind == 0 || in.at_vertex || in.place != Place::kWithin)) break;
+      const SectionVertex c = triangles_.beyond(edge);
+      const std::uint16_t theme = either(either(edge.left.theme, edge.right.theme), c.theme);
+      if (!in.at_vertex) in.theme = both(behind, theme);
+      if (ends) {
+        stretch.add(in);
+        break;
+      }
+      behind = theme;
       (left(c) ? edge.left : edge.right) = c;
-      const SectionCrossing out = line_.crossing(edge.left, edge.right);
-      add_piece(in, out, stretch);
+      const Met out = met(edge);
+      add_piece(in, out, theme, stretch);
       in = out;
     }
     if (stretch.crossings.empty()) throw Error("a cross-section lost its way; run itin check on the store");
@@ -101,12 +131,22 @@ class SectionWalk {
     return c.place == Place::kBeyond || (c.place == Place::kWithin && c.t == (line_.is_point() ? 0 : 1));
   }
 
-  void add_piece(const SectionCrossing& in, const SectionCrossing& out, Stretch& stretch) const {
+  Met met(const CrossedEdge& edge) const {
+    Met result{line_.crossing(edge.left, edge.right)};
+    for (const SectionVertex* v : {&edge.left, &edge.right}) {
+      if (line_.side(*v) == 0) result.theme = v->theme, result.at_vertex = true;
+    }
+    return result;
+  }
+
+  /// `theme`: the triangle's.
+  void add_piece(const Met& in, const Met& out, std::uint16_t theme, Stretch& stretch) const {
     const std::optional<SectionPiece> piece = line_.clip(in, out);
     if (!piece) return;
     ++stretch.triangles;
-    stretch.add(piece->from);
-    stretch.add(piece->to);
+    if (in.at_vertex && out.at_vertex) theme = either(in.theme, out.theme);  // along an edge, or none
+    stretch.add({piece->from, in.place == Place::kWithin ? in.theme : piece->from.t == out.t ? out.theme : theme});
+    stretch.add({piece->to, out.place == Place::kWithin ? out.theme : piece->to.t == in.t ? in.theme : theme});
   }
 
   static bool lies_on(const CrossedEdge& edge, const OutlineCrossing& segment) {
@@ -132,12 +172,11 @@ std::vector<Stretch> united(std::vector<Stretch> stretches) {
     }
     Stretch& last = result.back();
     if (s.to() > last.to()) last.triangles += s.triangles;
-    std::vector<SectionCrossing> all = std::move(last.crossings);
+    std::vector<Met> all = std::move(last.crossings);
     all.insert(all.end(), s.crossings.begin(), s.crossings.end());
-    std::stable_sort(all.begin(), all.end(),
-                     [](const SectionCrossing& a, const SectionCrossing& b) { return a.t < b.t; });
+    std::stable_sort(all.begin(), all.end(), [](const Met& a, const Met& b) { return a.t < b.t; });
     last.crossings.clear();
-    for (const SectionCrossing& c : all) last.add(c);
+    for (const Met& c : all) last.add(c);
   }
   return result;
 }
@@ -150,10 +189,10 @@ CrossSection section_of(const SectionLine& line, const std::vector<Stretch>& str
   for (const Stretch& s : stretches) {
     if (s.from() > covered) section.gaps.push_back({covered, s.from()});
     double distance = s.from();
-    for (const SectionCrossing& c : s.crossings) {
+    for (const Met& c : s.crossings) {
       // Crossings a rounding error apart may come in the wrong order.
       distance = std::max(distance, c.distance);
-      section.breakpoints.push_back({distance, c.position});
+      section.breakpoints.push_back({distance, c.position, c.theme});
     }
     covered = distance, started = true;
     section.triangles += s.triangles;
@@ -191,13 +230,13 @@ class NeighboursOnSegment {
   NeighboursOnSegment(const OutlineCrossing& segment, const SectionLine& line, OnLine on_line)
       : segment_(segment), line_(line), on_line_(on_line) {}
 
-  void consider(const GridPoint& p) {
+  void consider(const SectionVertex& p) {
     const GridBox box{std::min(segment_.left.x, segment_.right.x), std::min(segment_.left.y, segment_.right.y),
                       std::max(segment_.left.x, segment_.right.x), std::max(segment_.left.y, segment_.right.y)};
     if (!box.contains(p.x, p.y) || orientation(segment_.left, segment_.right, p) != 0) return;
     const bool on_left = counts_as_left(line_, on_line_, p);
-    std::optional<GridPoint>& nearest = on_left ? left_ : right_;
-    const auto distance = [this](const GridPoint& q) {
+    std::optional<SectionVertex>& nearest = on_left ? left_ : right_;
+    const auto distance = [this](const SectionVertex& q) {
       const SectionLine::Wide side = line_.side(q);
       return side < 0 ? -side : side;
     };
@@ -213,7 +252,7 @@ class NeighboursOnSegment {
   OutlineCrossing segment_;
   const SectionLine& line_;
   OnLine on_line_;
-  std::optional<GridPoint> left_, right_;
+  std::optional<SectionVertex> left_, right_;
 };
 
 /// About the distance from a vertex to the next, metres.
@@ -245,7 +284,8 @@ CrossedEdge find_edge_on(const PointIndex& index, const Selection& selection, co
       statistics.blocks_read += 1;
       for (std::size_t k = 0; k < block->points.size(); ++k) {
         const GridPoint& p = block->points[k];
-        if (box.contains(p.x, p.y) && selection.selects(level_of(leaf, *block, k), p.x, p.y)) neighbours.consider(p);
+        if (box.contains(p.x, p.y) && selection.selects(level_of(leaf, *block, k), p.x, p.y))
+          neighbours.consider({p, block->theme(k)});
       }
     }
     // The box is centred on the crossing, so what lies outside it is farther away along the segment.

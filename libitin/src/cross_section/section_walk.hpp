@@ -13,10 +13,15 @@
 
 namespace itin {
 
+/// A vertex of the triangulation, and the theme of the standing feature that it is part of, off the feature's outline.
+struct SectionVertex : GridPoint {
+  std::uint16_t theme = 0;  ///< 0: none
+};
+
 /// An edge that the line crosses, by its ends left and right of it.
 struct CrossedEdge {
-  GridPoint left;
-  GridPoint right;
+  SectionVertex left;
+  SectionVertex right;
 };
 
 /// Finds the ground's triangles, one after another. Serves one line.
@@ -24,9 +29,9 @@ class TriangleFinder {
  public:
   virtual ~TriangleFinder() = default;
   /// The third vertex of the ground triangle ahead of an edge, which is known to be there.
-  virtual GridPoint beyond(const CrossedEdge& edge) = 0;
+  virtual SectionVertex beyond(const CrossedEdge& edge) = 0;
   /// Ground triangles, among them all that meet the box, which is at most one grid step wide; counterclockwise.
-  virtual std::vector<std::array<GridPoint, 3>> around(const GridBox& box) = 0;
+  virtual std::vector<std::array<SectionVertex, 3>> around(const GridBox& box) = 0;
   /// The edge of the triangulation at which the line crosses a segment of the outline.
   virtual CrossedEdge edge_on(const OutlineCrossing& segment, const SectionLine& line, OnLine on_line) = 0;
 };

@@ -19,6 +19,8 @@ struct StoredFootprint {
 
 /// Of a theme, by its number, in the order of import. Throws CorruptStore.
 std::vector<StoredFootprint> stored_footprints(const Store& store, std::uint16_t theme);
+/// Those of one of its footprint_blocks.
+std::vector<StoredFootprint> stored_footprints(const Store& store, std::uint16_t theme, std::uint32_t block);
 
 inline constexpr std::size_t kFootprintsInBlock = 256;
 

@@ -45,6 +45,36 @@ bool crosses(const Segment& s, Position p, Position q) {
   return orientation(p, q, a) * orientation(p, q, b) < 0 && orientation(a, b, p) * orientation(a, b, q) < 0;
 }
 
+namespace {
+
+/// The shadow of a segment is convex: it holds a box when it holds the corners.
+bool hides(const Segment& s, Position p, const GridBox& box) {
+  return crosses(s, p, {box.xmin, box.ymin}) && crosses(s, p, {box.xmax, box.ymax}) &&
+         crosses(s, p, {box.xmin, box.ymax}) && crosses(s, p, {box.xmax, box.ymin});
+}
+
+bool hide(std::span<const Segment> segments, Position a, Position b, const GridBox& box, int halvings) {
+  const Position centre{std::midpoint(box.xmin, box.xmax), std::midpoint(box.ymin, box.ymax)};
+  bool hidden = false;
+  for (const Segment& s : segments) {
+    for (const Position p : {a, b}) {
+      if (!crosses(s, p, centre)) continue;
+      if (hides(s, p, box)) return true;
+      hidden = true;
+    }
+  }
+  if (!hidden || halvings == 0) return false;
+  const auto [first, second] = halves(box);
+  return hide(segments, a, b, first, halvings - 1) && hide(segments, a, b, second, halvings - 1);
+}
+
+}  // namespace
+
+bool hide(std::span<const Segment> segments, Position a, Position b, const GridBox& box) {
+  constexpr int kShadowHalvings = 6;
+  return !segments.empty() && hide(segments, a, b, box, kShadowHalvings);
+}
+
 /// What is known while one circle is searched.
 struct ApexSearch::Search {
   const ApexFrame& frame;
@@ -129,8 +159,12 @@ void ApexSearch::look_in(const GridBox& piece, Search& search) {
   std::vector<std::pair<double, std::uint32_t>> order(leaves_.size());
   for (std::uint32_t i = 0; i < leaves_.size(); ++i) order[i] = {frame.key(leaves_[i].cell.box()), i};
   std::sort(order.begin(), order.end());
+  const std::span nearest(segments_.data(), std::min(segments_.size(), std::size_t{kNearSegments}));
   for (const auto& [key, i] : order) {
-    if (frame.cap_meets(search.reach, leaves_[i].cell.box())) look_in(leaves_[i], search);
+    const GridBox box = intersection(leaves_[i].cell.box(), search.box);
+    if (!frame.cap_meets(search.reach, leaves_[i].cell.box())) continue;
+    if (!blocks_.has_read(leaves_[i]) && hide(nearest, frame.a, frame.b, box)) continue;
+    look_in(leaves_[i], search);
   }
 }
 

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <itin/geometry.hpp>
@@ -77,5 +78,9 @@ class ApexSearch {
 
 /// Whether segment s properly crosses the line of sight pq: touching does not block it.
 bool crosses(const Segment& s, Position p, Position q);
+
+/// Whether the segments hide every position of the box from a or from b, as far as that shows in boxes an eighth as
+/// wide, each hidden by one segment. Never true otherwise.
+bool hide(std::span<const Segment> segments, Position a, Position b, const GridBox& box);
 
 }  // namespace itin

@@ -11,7 +11,9 @@
 // 0.299792458 / f throughout, where some published examples have 0.3 / f: that moves losses by less than 0.01 dB.
 //
 // Clutter is added to the ground for the losses, except nearer than kClutterFreeM to an end (P.452-18); horizons and
-// smooth heights use bare ground. A profile's points are taken as they are: see with_spacing().
+// smooth heights use bare ground. Features that stand on a surface are no clutter: they are edges like the terrain's,
+// and horizons, and only the smooth heights do without them. A profile's points are taken as they are: see
+// with_spacing().
 #pragma once
 
 #include <optional>
@@ -82,8 +84,10 @@ struct PathLosses {
 
 /// P.452-17 section 4.2.3, P.1812-6 section 4.3.4. Throws InputError unless the path's length is positive, the
 /// frequency and the radius are, the share over sea is within [0, 1], no antenna is below its ground, and the profile
-/// has ground at both ends.
-PathLosses path_losses(const Profile& profile, const Antennas& antennas, const RadioPath& path);
+/// has ground at both ends. `bare`: the same line's ground without what stands on it, for the smooth heights; null
+/// where the profile is that.
+PathLosses path_losses(const Profile& profile, const Antennas& antennas, const RadioPath& path,
+                       const Profile* bare = nullptr);
 
 /// The same ground with no two points farther apart than this, metres: a triangulated surface is straight between
 /// breakpoints, but the Earth below it is not, and the formulas look at points only.

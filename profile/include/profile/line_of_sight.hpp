@@ -16,6 +16,7 @@
 
 #include <itin/earth.hpp>
 #include <itin/geometry.hpp>
+#include <itin/grazing.hpp>
 #include <itin/tin.hpp>
 
 namespace itin::profile {
@@ -29,7 +30,7 @@ struct SightLine {
   Point3 critical;
 
   /// A ray that grazes the surface is visible, and so is one over ground without data.
-  bool visible() const { return !clearance || *clearance >= 0; }
+  bool visible() const { return !clearance || *clearance >= -kGrazing; }
 };
 
 /// Immutable and safe for concurrent use. Refers to the Tin, which must outlive it.

@@ -1,7 +1,7 @@
 // Many lines of sight over one surface, in parallel.
 //
 //   const std::vector<Link> links = read_links("links.csv", store.metadata().crs_wkt);
-//   const std::vector<LinkResult> rows = survey_links(store, detail, links, {.earth = earth}, progress);
+//   const std::vector<LinkResult> rows = survey_links(store, links, {.earth = earth, .detail = detail}, progress);
 #pragma once
 
 #include <optional>
@@ -12,6 +12,7 @@
 #include <itin/earth.hpp>
 #include <itin/geometry.hpp>
 #include <itin/progress.hpp>
+#include <itin/theme.hpp>
 #include <profile/los.hpp>
 
 namespace itin {
@@ -20,7 +21,7 @@ class Store;
 
 namespace itin::profile {
 
-/// Heights are metres above the surface at the ends.
+/// Heights are metres above what the ends stand on.
 struct Link {
   std::string id;
   Point2 from;
@@ -38,6 +39,10 @@ std::vector<Link> read_links(const std::string& path, const std::string& to_crs,
 
 struct LinkQuery {
   Earth earth;
+  Detail detail = Detail::tolerance(0);      ///< of the surface
+  ThemeChoice themes = ThemeChoice::none();  ///< likewise
+  /// What the ends stand on where features stand on the ground: these, or the ground under them.
+  bool from_on_surface = false, to_on_surface = false;
   std::optional<RadioPath> radio;  ///< gives fresnel_fraction and ld_db
   bool gaps_block = false;         ///< ground without data stops the ray
 };
@@ -48,14 +53,14 @@ struct LinkResult {
   std::optional<double> clearance_m;
   std::optional<double> critical_m;  ///< where that is, from the first end
   std::optional<double> fresnel_fraction;
-  std::optional<double> ld_db;
-  std::string message;  ///< of an error
+  std::optional<double> ld_db;  ///< nothing also where an antenna is within a feature
+  std::string message;          ///< of an error
 };
 
 /// One result a link, in order, whatever the number of threads. Links over one area share the tiles that are read and
-/// triangulated for them. A link that cannot be computed (no ground under an end) is an error row. Throws CorruptStore,
-/// FileError, Cancelled.
-std::vector<LinkResult> survey_links(const Store& store, const Detail& detail, const std::vector<Link>& links,
-                                     const LinkQuery& query, Progress& progress);
+/// triangulated for them, and answers are those of analyse() to the last bit. A link that cannot be computed (no ground
+/// under an end) is an error row. Throws CorruptStore, FileError, Cancelled.
+std::vector<LinkResult> survey_links(const Store& store, const std::vector<Link>& links, const LinkQuery& query,
+                                     Progress& progress);
 
 }  // namespace itin::profile

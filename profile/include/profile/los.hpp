@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -35,8 +36,8 @@ struct Obstruction {
   double peak_at_m = 0;         ///< where it is deepest
   double peak_m = 0;            ///< elevation of the ground there
   double depth_m = 0;           ///< of the ray below it, > 0
-  std::uint16_t theme = 0;
-  std::int64_t feature = -1;
+  std::uint16_t theme = 0;      ///< of what stands at peak_at_m
+  std::int64_t feature = -1;    ///< as in ProfilePoint
 };
 
 /// Of two-criterion planning: on an Earth of factor k, this fraction of F1 must be clear.
@@ -63,7 +64,9 @@ struct TallObject {
 };
 
 struct LosQuery {
-  double from_height_m = 0, to_height_m = 0;  ///< above the ground at the ends
+  double from_height_m = 0, to_height_m = 0;  ///< above what the ends stand on
+  /// What that is where features stand on the ground: these, or the ground under them.
+  bool from_on_surface = false, to_on_surface = false;
   Earth earth;
   std::optional<RadioPath> radio;
   std::vector<Criterion> criteria;  ///< with fraction > 0 only if there is a frequency
@@ -80,7 +83,9 @@ struct LosQuery {
 struct LosReport {
   LosQuery query;
   Profile profile;
-  Antennas antennas;  ///< elevations
+  Profile ground;        ///< without standing features; no points where the profile has none either
+  EndGrounds stands_on;  ///< elevations of what the ends stand on
+  Antennas antennas;     ///< elevations
   SightVerdict verdict = SightVerdict::kVisible;
   std::optional<double> clearance_m;
   std::optional<ProfilePoint> critical;
@@ -89,7 +94,7 @@ struct LosReport {
   std::vector<CriterionResult> criteria;
   std::vector<NamedHeights> required;
   std::optional<FresnelClearance> fresnel;
-  std::optional<PathLosses> losses;
+  std::optional<PathLosses> losses;  ///< nothing without a frequency, or where an antenna is within a feature
   std::optional<VisibleHeight> visible;
 
   // What the caller knows besides, for the report's header and maps.
@@ -98,16 +103,24 @@ struct LosReport {
   std::vector<std::string> from_lines, to_lines;           ///< about the ends
   std::string crs_wkt;                                     ///< empty: the profile has no positions
   std::vector<std::string> themes;                         ///< names by ProfilePoint::theme; 0 is the terrain
+  std::map<std::pair<std::uint16_t, std::int64_t>, std::string> features;  ///< names by theme and feature
 };
 
-/// Throws InputError where the profile has no ground at an end, a height is negative, or a criterion asks for a part of
-/// the Fresnel zone without a frequency. O(n) but for logarithmic factors.
-LosReport analyse(Profile profile, const LosQuery& query);
+/// What the ends stand on, as the query has it.
+EndGrounds stands_on(const Profile& profile, const Profile& ground, const LosQuery& query);
+
+/// `ground`: the same line without standing features, for a profile that has them. Throws InputError where there is no
+/// ground at an end, a height is negative, or a criterion asks for a part of the Fresnel zone without a frequency. O(n)
+/// but for logarithmic factors.
+LosReport analyse(Profile profile, const LosQuery& query, Profile ground = {});
+
+/// The position at a distance along the line, in the profile's CRS.
+Point2 position_at(const LosReport& report, double distance_m);
 
 /// Elevation and distance of the ray at a distance, metres; a straight line in the drawing's effective Earth.
 double ray_elevation_m(const LosReport& report, double distance_m);
 
-/// "terrain", or the theme's name.
-std::string cause_of(const LosReport& report, std::uint16_t theme);
+/// "terrain", or the theme's name, and of a feature that is known: "buildings, Town Hall".
+std::string cause_of(const LosReport& report, std::uint16_t theme, std::int64_t feature = -1);
 
 }  // namespace itin::profile

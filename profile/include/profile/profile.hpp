@@ -4,7 +4,9 @@
 //   const Sight sight = line_of_sight(profile, {h1, h2}, earth);   // profile/sight.hpp
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -18,7 +20,7 @@ struct ProfilePoint {
   double y = 0;
   double ground_m = 0;        ///< elevation of the surface
   double clutter_m = 0;       ///< on top of it, for diffraction only
-  std::uint16_t theme = 0;    ///< 0: terrain
+  std::uint16_t theme = 0;    ///< of the feature that it is within, as in Breakpoint; 0: terrain
   std::int64_t feature = -1;  ///< none
 };
 
@@ -31,7 +33,29 @@ struct Profile {
 
   /// Whether the ground is continuous from point i to point i + 1.
   bool joined(std::size_t i) const;
+  /// The theme of what is between point i and point i + 1.
+  std::uint16_t theme_between(std::size_t i) const;
 };
+
+/// A stretch of one standing theme, from point `first` to point `last`.
+struct FeatureRun {
+  std::size_t first = 0, last = 0;
+  std::uint16_t theme = 0;
+};
+/// In order; what merely touches the line is left out.
+std::vector<FeatureRun> feature_runs(const Profile& profile);
+
+/// Elevations of what the two ends of a line stand on.
+struct EndGrounds {
+  double from_m = 0;
+  double to_m = 0;
+};
+/// The profile's own ends. Precondition: it has points.
+EndGrounds ends_of(const Profile& profile);
+/// The profile's height at a distance, the greater one at a vertical face; nothing in a gap. O(log n).
+std::optional<double> height_at(const Profile& profile, double distance_m);
+/// Whether there is ground under both ends.
+bool has_ground_at_ends(const Profile& profile);
 
 Profile from_section(const CrossSection& section);
 

@@ -6,7 +6,8 @@
 //
 // A requirement asks that everywhere between the ends the ray stand `fraction` first Fresnel radii above the ground, on
 // an Earth of its own: two-criterion planning after ITU-R P.530-18 section 2.2 is two of them, the greater height
-// rules. Heights are metres above the ground at each end and least ones: at exactly this height the requirement is met.
+// rules. Heights are metres above what the ends stand on (`grounds`; without it, the profile there) and least ones: at
+// exactly this height the requirement is met.
 #pragma once
 
 #include <optional>
@@ -43,7 +44,8 @@ struct PlannedHeights {
   double from_m = 0;
   double to_m = 0;
 };
-RequiredHeights required_heights(const Profile& profile, const PlannedHeights& planned, const Requirement& requirement);
+RequiredHeights required_heights(const Profile& profile, const PlannedHeights& planned, const Requirement& requirement,
+                                 const std::optional<EndGrounds>& grounds = {});
 
 /// What is seen of an upright object at the second end from an antenna or eye at the first.
 struct VisibleHeight {
@@ -55,6 +57,7 @@ struct VisibleHeight {
 };
 
 /// `eye_m` above the ground at the first end; hub <= tip above the ground at the second.
-VisibleHeight visible_height(const Profile& profile, double eye_m, double hub_m, double tip_m, const Earth& earth);
+VisibleHeight visible_height(const Profile& profile, double eye_m, double hub_m, double tip_m, const Earth& earth,
+                             const std::optional<EndGrounds>& grounds = {});
 
 }  // namespace itin::profile

@@ -52,13 +52,14 @@ void draw_legend(Drawing& drawing, Point2 at, double width, const std::vector<Le
   const Lettering lettering{kLabelSize, kInk, Align::kLeft, false, 0};
   Point2 p = at;
   for (const LegendItem& item : items) {
-    const double length = kSample + kGap + drawing.text_width(item.name, lettering);
+    const std::string name = drawing.fitted(item.name, width - kSample - kGap, lettering);
+    const double length = kSample + kGap + drawing.text_width(name, lettering);
     if (p.x > at.x && p.x + length > at.x + width) p = {at.x, p.y + kRow};
     if (item.area)
       drawing.rectangle({p.x, p.y - 6, p.x + kSample, p.y + 1}, item.stroke.colour);
     else
       draw_line(drawing, {p.x, p.y - 2.5}, {p.x + kSample, p.y - 2.5}, item.stroke);
-    drawing.text({p.x + kSample + kGap, p.y}, item.name, lettering);
+    drawing.text({p.x + kSample + kGap, p.y}, name, lettering);
     p.x += length + kBetween;
   }
 }

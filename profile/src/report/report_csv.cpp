@@ -25,7 +25,8 @@ std::string report_csv(const LosReport& report) {
   const double length = report.profile.length_m, drop = report.query.earth.drop_coefficient();
   const double wavelength = report.query.radio ? wavelength_m(report.query.radio->frequency_ghz) : 0;
   std::string csv =
-      "distance_m,x,y,lon,lat,ground_m,feature_top_m,bulge_m,ray_m,f1_m,clearance_m,clearance_f1,v,visible\n";
+      "distance_m,x,y,lon,lat,ground_m,feature_top_m,bulge_m,ray_m,f1_m,clearance_m,clearance_f1,v,visible,"
+      "theme\n";
   double steepest = -std::numeric_limits<double>::infinity();
   for (const ProfilePoint& p : report.profile.points) {
     const double d = p.distance_m, bulge = drop * d * (length - d), ray = ray_elevation_m(report, d);
@@ -41,15 +42,15 @@ std::string report_csv(const LosReport& report) {
     } else {
       csv += ",,,,";
     }
-    csv += number(p.ground_m, 3) + "," + number(p.ground_m + p.clutter_m, 3) + "," + number(bulge, 3) + "," +
-           number(ray, 3) + ",";
+    csv += number(height_at(report.ground, d).value_or(p.ground_m), 3) + "," + number(p.ground_m + p.clutter_m, 3) +
+           "," + number(bulge, 3) + "," + number(ray, 3) + ",";
     csv += wavelength > 0 ? number(radius, 3) : "";
     csv += "," + number(clearance, 3) + ",";
     if (radius > 0)
       csv += number(clearance / radius, 4) + "," + number(-std::sqrt(2.0) * clearance / radius, 4);
     else
       csv += ",";
-    csv += visible ? ",1\n" : ",0\n";
+    csv += (visible ? ",1," : ",0,") + cause_of(report, p.theme) + "\n";
   }
   return csv;
 }

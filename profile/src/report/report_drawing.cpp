@@ -1,4 +1,4 @@
-// The drawing as a page: SVG and PNG have one, the PDF adds a second of tables and the trade-off chart.
+// The drawing as a page: SVG and PNG have one, the PDF adds tables and the trade-off chart.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -17,17 +17,6 @@ constexpr double kWidth = 842, kHeight = 595, kMargin = 36;
 
 const Lettering kPlain{8.5, kInk, Align::kLeft, false, 0}, kBold{8.5, kInk, Align::kLeft, true, 0};
 
-/// The text cut to a width, with an ellipsis.
-std::string fitted(const Drawing& drawing, std::string text, double width, const Lettering& lettering) {
-  if (drawing.text_width(text, lettering) <= width) return text;
-  const std::string dots = "\xE2\x80\xA6";
-  while (!text.empty() && drawing.text_width(text + dots, lettering) > width) {
-    do text.pop_back();
-    while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0) == 0x80);
-  }
-  return text + dots;
-}
-
 /// Sets tables one below the other in a column.
 class Column {
  public:
@@ -35,25 +24,29 @@ class Column {
       : drawing_(drawing), left_(left), width_(width), y_(top) {}
 
   double y() const { return y_; }
+  bool has_room_for(const Table& table) const {
+    const double rows = static_cast<double>(table.rows.size() + (table.header.empty() ? 0 : 1));
+    return y_ + kTitle + rows * kRow + (table.note.empty() ? 0 : kNote) <= kHeight - kMargin;
+  }
 
   void set(const Table& table) {
     drawing_.text({left_, y_ + 10}, table.title, {10, kInk, Align::kLeft, true, 0});
-    y_ += 16;
+    y_ += kTitle;
     const Point2 rule[] = {{left_, y_}, {left_ + width_, y_}};
     drawing_.polyline(rule, {kGrey, 0.6, {}});
     const std::vector<double> widths = column_widths(table);
     if (!table.header.empty()) row(table.header, widths, kBold);
     for (const auto& cells : table.rows) row(cells, widths, kPlain);
     if (!table.note.empty()) {
-      y_ += 10;
-      drawing_.text({left_, y_}, fitted(drawing_, table.note, width_, {7.5, kGrey, Align::kLeft, false, 0}),
+      y_ += kNote;
+      drawing_.text({left_, y_}, drawing_.fitted(table.note, width_, {7.5, kGrey, Align::kLeft, false, 0}),
                     {7.5, kGrey, Align::kLeft, false, 0});
     }
     y_ += 16;
   }
 
  private:
-  /// What each column would like, shared out in proportion.
+  /// What each column would like; where that is too much, the widest give way.
   std::vector<double> column_widths(const Table& table) const {
     const std::size_t columns = table.header.empty() ? table.rows.front().size() : table.header.size();
     std::vector<double> widths(columns, 0);
@@ -64,40 +57,55 @@ class Column {
     };
     widen(table.header, kBold);
     for (const auto& cells : table.rows) widen(cells, kPlain);
-    double sum = 0;
-    for (const double w : widths) sum += w;
-    const double scale = width_ / sum;
-    // What is wider than the column shrinks in proportion; what is narrower keeps its width.
-    if (scale < 1) {
-      for (double& w : widths) w *= scale;
+    double narrow = 0;
+    std::size_t wide = columns;
+    std::vector<double> ascending = widths;
+    std::sort(ascending.begin(), ascending.end());
+    for (const double w : ascending) {
+      const double share = (width_ - narrow) / static_cast<double>(wide);
+      if (w > share) {
+        for (double& width : widths) width = std::min(width, share);
+        break;
+      }
+      narrow += w, --wide;
     }
     return widths;
   }
 
   void row(const std::vector<std::string>& cells, const std::vector<double>& widths, const Lettering& lettering) {
-    y_ += 11.5;
+    y_ += kRow;
     double x = left_;
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      drawing_.text({x, y_}, fitted(drawing_, cells[i], widths[i] - 3, lettering), lettering);
+      drawing_.text({x, y_}, drawing_.fitted(cells[i], widths[i] - 3, lettering), lettering);
       x += widths[i];
     }
   }
+
+  static constexpr double kTitle = 16, kRow = 11.5, kNote = 10;
 
   Drawing& drawing_;
   double left_, width_, y_;
 };
 
+/// Smaller where it would not fit, and cut where it must be.
+void draw_title(Drawing& drawing, const std::string& title) {
+  Lettering lettering{16, kInk, Align::kLeft, true, 0};
+  const double width = kWidth - 2 * kMargin;
+  while (lettering.size > 10 && drawing.text_width(title, lettering) > width) lettering.size -= 1;
+  drawing.text({kMargin, 46}, drawing.fitted(title, width, lettering), lettering);
+}
+
 void draw_first_page(Drawing& drawing, const LosReport& report) {
-  drawing.text({kMargin, 46}, report.title, {16, kInk, Align::kLeft, true, 0});
+  draw_title(drawing, report.title);
   drawing.text({kMargin, 63},
-               fitted(drawing, verdict_line(report), kWidth - 2 * kMargin, {10, kInk, Align::kLeft, false, 0}),
+               drawing.fitted(verdict_line(report), kWidth - 2 * kMargin, {10, kInk, Align::kLeft, false, 0}),
                {10, kInk, Align::kLeft, false, 0});
   const double half = (kWidth - 2 * kMargin) / 2;
   const auto end = [&](double x, const char* name, const std::vector<std::string>& lines) {
     drawing.text({x, 82}, name, kBold);
     double y = 82;
     for (const std::string& line : lines) {
-      drawing.text({x + 16, y}, fitted(drawing, line, half - 20, kPlain), kPlain);
+      drawing.text({x + 16, y}, drawing.fitted(line, half - 20, kPlain), kPlain);
       y += 11;
     }
   };
@@ -110,36 +118,61 @@ void draw_first_page(Drawing& drawing, const LosReport& report) {
   for (const auto& [name, value] : report.facts) {
     drawing.text({kMargin, y}, name, {8, kGrey, Align::kLeft, true, 0});
     drawing.text({kMargin + 62, y},
-                 fitted(drawing, value, kWidth - 2 * kMargin - 62, {8, kGrey, Align::kLeft, false, 0}),
+                 drawing.fitted(value, kWidth - 2 * kMargin - 62, {8, kGrey, Align::kLeft, false, 0}),
                  {8, kGrey, Align::kLeft, false, 0});
     y += 11;
   }
 }
 
-void draw_second_page(Drawing& drawing, const LosReport& report) {
-  drawing.text({kMargin, 46}, report.title, {16, kInk, Align::kLeft, true, 0});
-  const double half = (kWidth - 3 * kMargin) / 2;
-  Column left(drawing, kMargin, half, 62), right(drawing, 2 * kMargin + half, half, 62);
-  for (const Table& table : result_tables(report)) {
-    const bool losses = table.title == "Losses" || table.title == "Path";
-    (losses ? right : left).set(table);
+/// Two columns of tables a page, and as many pages as they take.
+class TablePages {
+ public:
+  TablePages(Drawing& drawing, const LosReport& report) : drawing_(drawing), report_(report) { begin_page(); }
+
+  void draw() {
+    for (const Table& table : result_tables(report_)) {
+      const bool losses = table.title == "Losses" || table.title == "Path";
+      place(table, losses ? 1 : 0).set(table);
+    }
+    if (!has_trade_off(report_)) return;
+    if (columns_[shorter()].y() + kLeastChart > kHeight - kMargin) begin_page();
+    const std::size_t i = shorter();
+    const double x = left_of(i), y = columns_[i].y();
+    draw_trade_off_chart(drawing_, {x, y, x + kHalf, std::min(kHeight - kMargin, y + 330)}, report_);
   }
-  if (!has_trade_off(report)) return;
-  Column& shorter = left.y() < right.y() ? left : right;
-  const double x = &shorter == &left ? kMargin : 2 * kMargin + half;
-  const double bottom = std::min(kHeight - kMargin, shorter.y() + 330);
-  draw_trade_off_chart(drawing, {x, shorter.y(), x + half, bottom}, report);
-}
+
+ private:
+  static constexpr double kHalf = (kWidth - 3 * kMargin) / 2, kTop = 62, kLeastChart = 200;
+
+  static double left_of(std::size_t i) { return i == 0 ? kMargin : 2 * kMargin + kHalf; }
+  std::size_t shorter() const { return columns_[0].y() < columns_[1].y() ? 0 : 1; }
+
+  void begin_page() {
+    drawing_.new_page();
+    draw_title(drawing_, report_.title);
+    columns_.clear();
+    for (const std::size_t i : {0U, 1U}) columns_.emplace_back(drawing_, left_of(i), kHalf, kTop);
+  }
+
+  Column& place(const Table& table, std::size_t preferred) {
+    for (const std::size_t i : {preferred, 1 - preferred}) {
+      if (columns_[i].has_room_for(table)) return columns_[i];
+    }
+    begin_page();
+    return columns_[preferred];
+  }
+
+  Drawing& drawing_;
+  const LosReport& report_;
+  std::vector<Column> columns_;
+};
 
 }  // namespace
 
 std::string report_drawing(const LosReport& report, Drawing::Format format) {
   Drawing drawing(format, kWidth, kHeight);
   draw_first_page(drawing, report);
-  if (format == Drawing::Format::kPdf) {
-    drawing.new_page();
-    draw_second_page(drawing, report);
-  }
+  if (format == Drawing::Format::kPdf) TablePages(drawing, report).draw();
   return drawing.finish();
 }
 

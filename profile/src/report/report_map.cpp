@@ -129,7 +129,7 @@ class Kml {
 };
 
 std::string obstruction_name(const LosReport& report, const Obstruction& o) {
-  return fmt::format("{}, {:.2f} m above the ray", cause_of(report, o.theme), o.depth_m);
+  return fmt::format("{}, {:.2f} m above the ray", cause_of(report, o.theme, o.feature), o.depth_m);
 }
 
 }  // namespace
@@ -195,7 +195,7 @@ std::vector<VectorLayer> report_layers(const LosReport& report) {
       {}};
   for (const Obstruction& o : report.obstructions) {
     cuts.features.push_back(
-        {path.obstruction_line(o), {o.from_m, o.to_m, o.peak_at_m, o.depth_m, cause_of(report, o.theme)}});
+        {path.obstruction_line(o), {o.from_m, o.to_m, o.peak_at_m, o.depth_m, cause_of(report, o.theme, o.feature)}});
   }
   return {line, ends, ground, cuts};
 }

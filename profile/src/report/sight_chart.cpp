@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "report/tables.hpp"
+#include "theme_colour.hpp"
 
 namespace itin::profile {
 
@@ -17,15 +18,9 @@ namespace {
 constexpr int kArcParts = 240;
 constexpr Colour kGround{0.80, 0.74, 0.62, 1}, kGroundLine{0.42, 0.33, 0.20, 1}, kRay{0.05, 0.25, 0.60, 1},
     kZone{0.20, 0.45, 0.85, 0.13}, kInnerZone{0.20, 0.45, 0.85, 0.16}, kZoneLine{0.20, 0.45, 0.85, 1},
-    kWorst{0.75, 0.35, 0.05, 1}, kCut{0.80, 0.10, 0.10, 0.75}, kMarker{0.75, 0.05, 0.05, 1},
-    kClutter{0.45, 0.65, 0.35, 0.8}, kNoData{0.9, 0.9, 0.9, 1}, kWhite{1, 1, 1, 0.85};
-/// By theme number, going round.
-constexpr Colour kThemes[] = {
-    {0.62, 0.20, 0.20, 1}, {0.20, 0.50, 0.22, 1}, {0.40, 0.30, 0.60, 1}, {0.80, 0.55, 0.10, 1}};
-
-const Colour& colour_of(std::uint16_t theme) {
-  return kThemes[(theme - 1U) % std::size(kThemes)];
-}
+    kWorst{0.75, 0.35, 0.05, 1}, kCut{0.80, 0.10, 0.10, 0.45}, kMarker{0.75, 0.05, 0.05, 1},
+    kClutter{0.45, 0.65, 0.35, 0.8}, kNoData{0.9, 0.9, 0.9, 1}, kWhite{1, 1, 1, 0.85},
+    kFeatureLine{0.30, 0.20, 0.20, 1};
 
 /// Everything drawn, in metres over the chord between the ends' verticals.
 class SightChart {
@@ -36,7 +31,8 @@ class SightChart {
         length_(std::max(report.profile.length_m, 1e-3)),
         drop_(report.query.earth.drop_coefficient()),
         wavelength_(report.query.radio ? wavelength_m(report.query.radio->frequency_ghz) : 0),
-        dense_(with_spacing(report.profile, length_ / kArcParts)) {
+        dense_(with_spacing(report.profile, length_ / kArcParts)),
+        ground_(report.ground.points.empty() ? dense_ : with_spacing(report.ground, length_ / kArcParts)) {
     find_worst();
     const auto [low, high] = range();
     frame_ = make_frame({area.xmin + 52, area.ymin, area.xmax - 12, area.ymax - 66}, 0, length_, low, high);
@@ -46,10 +42,10 @@ class SightChart {
     drawing_.clip(frame_.box);
     draw_arcs();
     draw_gaps();
+    draw_features();
     draw_ground();
     draw_zones();
     draw_cuts();
-    draw_features();
     draw_lines();
     drawing_.unclip();
     draw_axes();
@@ -112,10 +108,10 @@ class SightChart {
 
   /// Calls visit(first, last) for each run of joined points.
   template <class Visit>
-  void for_each_run(Visit visit) const {
+  static void for_each_run(const Profile& profile, Visit visit) {
     std::size_t first = 0;
-    for (std::size_t i = 0; i < dense_.points.size(); ++i) {
-      if (i + 1 < dense_.points.size() && dense_.joined(i)) continue;
+    for (std::size_t i = 0; i < profile.points.size(); ++i) {
+      if (i + 1 < profile.points.size() && profile.joined(i)) continue;
       visit(first, i);
       first = i + 1;
     }
@@ -129,11 +125,11 @@ class SightChart {
   }
 
   void draw_ground() {
-    for_each_run([&](std::size_t first, std::size_t last) {
+    for_each_run(ground_, [&](std::size_t first, std::size_t last) {
       std::vector<Point2> ground, canopy;
       bool clutter = false;
       for (std::size_t i = first; i <= last; ++i) {
-        const ProfilePoint& p = dense_.points[i];
+        const ProfilePoint& p = ground_.points[i];
         ground.push_back(at(p));
         canopy.push_back(at(p.distance_m, p.ground_m + p.clutter_m + bulge(p.distance_m)));
         clutter = clutter || p.clutter_m > 0;
@@ -175,14 +171,14 @@ class SightChart {
     }
   }
 
+  /// Before the ground, which covers what of them is in it.
   void draw_features() {
-    for (std::size_t i = 0; i + 1 < dense_.points.size(); ++i) {
-      const ProfilePoint &a = dense_.points[i], &b = dense_.points[i + 1];
-      const std::uint16_t theme = a.ground_m >= b.ground_m ? a.theme : b.theme;
-      if (theme == 0 || !dense_.joined(i)) continue;
-      const Point2 piece[] = {at(a), at(b)};
-      fill_below({piece[0], piece[1]}, colour_of(theme));
-      themes_.insert(theme);
+    for (const FeatureRun& run : feature_runs(dense_)) {
+      std::vector<Point2> top;
+      for (std::size_t i = run.first; i <= run.last; ++i) top.push_back(at(dense_.points[i]));
+      fill_below(top, theme_colour(run.theme));
+      drawing_.polyline(top, {kFeatureLine, 0.7, {}});
+      themes_.insert(run.theme);
     }
   }
 
@@ -191,7 +187,7 @@ class SightChart {
   }
   void draw_lines() {
     if (worst_k_ > 0) {
-      for_each_run([&](std::size_t first, std::size_t last) {
+      for_each_run(dense_, [&](std::size_t first, std::size_t last) {
         std::vector<Point2> line;
         for (std::size_t i = first; i <= last; ++i) {
           line.push_back(at(dense_.points[i].distance_m, worst_ground(dense_.points[i])));
@@ -217,6 +213,16 @@ class SightChart {
                   {8, kInk, Align::kRight, false, 0});
   }
 
+  /// Of what is drawn of the surface.
+  double highest_between(double from, double to) const {
+    double highest = -std::numeric_limits<double>::infinity();
+    for (const ProfilePoint& p : dense_.points) {
+      const bool between = p.distance_m >= std::min(from, to) && p.distance_m <= std::max(from, to);
+      if (between) highest = std::max(highest, p.ground_m + bulge(p.distance_m));
+    }
+    return highest;
+  }
+
   void draw_mast(double d, double ground, double antenna, const std::string& name, double height) {
     const bool first = d == 0;
     const Point2 foot = at(d, ground), top = at(d, antenna);
@@ -227,17 +233,17 @@ class SightChart {
     const Lettering lettering{8.5, kInk, Align::kLeft, true, 0};
     const double width = drawing_.text_width(text, lettering);
     const double x = first ? top.x + 5 : top.x - 5 - width;
-    // Clear of the ray and its zone, which may rise away from the mast.
+    // Clear of the ray, its zone and the ground, which may rise away from the mast.
     const double end = std::clamp((width + 10) / (frame_.x.to - frame_.x.from), 0.0, 1.0) * length_;
     const double beside = first ? end : length_ - end;
-    const double y = std::max(std::min(top.y, frame_.y.at(ray(beside) + radius(beside))) - 8, frame_.box.ymin + 24);
+    const double highest = std::max({antenna, ray(beside) + radius(beside), highest_between(d, beside)});
+    const double y = std::max(frame_.y.at(highest) - 8, frame_.box.ymin + 24);
     drawing_.rectangle({x - 2, y - 8.5, x + width + 2, y + 3}, kWhite);
     drawing_.text({x, y}, text, lettering);
   }
   void draw_masts() {
-    const auto& points = report_.profile.points;
-    draw_mast(0, points.front().ground_m, report_.antennas.from_m, "A", report_.query.from_height_m);
-    draw_mast(length_, points.back().ground_m, report_.antennas.to_m, "B", report_.query.to_height_m);
+    draw_mast(0, report_.stands_on.from_m, report_.antennas.from_m, "A", report_.query.from_height_m);
+    draw_mast(length_, report_.stands_on.to_m, report_.antennas.to_m, "B", report_.query.to_height_m);
   }
 
   /// Its label hangs from the top of the chart, clear of the ray, on a line down to the point.
@@ -246,7 +252,8 @@ class SightChart {
     if (!tightest) return;
     const Point2 point = at(tightest->distance_m, tightest->ground_m + bulge(tightest->distance_m));
     const Lettering lettering{8.5, kMarker, Align::kLeft, false, 0};
-    const std::string text = "Critical point, " + critical_line(report_);
+    const std::string text =
+        drawing_.fitted("Critical point, " + critical_line(report_), frame_.box.width() - 12, lettering);
     const double width = drawing_.text_width(text, lettering), y = frame_.box.ymin + 12;
     const double x = std::clamp(point.x - width / 2, frame_.box.xmin + 6, frame_.box.xmax - width - 6);
     const Point2 leader[] = {{std::clamp(point.x, x, x + width), y + 4}, point};
@@ -269,8 +276,8 @@ class SightChart {
     if (worst_k_ > 0) items.push_back({fmt::format("Terrain at K = {:.4g}", worst_k_), {kWorst, 0.9, {4, 2}}, false});
     if (has_clutter_) items.push_back({"Clutter", {kClutter, 1, {}}, true});
     for (const std::uint16_t theme : themes_)
-      items.push_back({cause_of(report_, theme), {colour_of(theme), 1, {}}, true});
-    if (!report_.obstructions.empty()) items.push_back({"Ground above the ray", {kCut, 1, {}}, true});
+      items.push_back({cause_of(report_, theme), {theme_colour(theme), 1, {}}, true});
+    if (!report_.obstructions.empty()) items.push_back({"Above the ray", {kCut, 1, {}}, true});
     items.push_back({"Equal elevation", {kFaint, 0.8, {}}, false});
     draw_legend(drawing_, {frame_.box.xmin, frame_.box.ymax + 43}, frame_.box.width(), items);
   }
@@ -280,6 +287,7 @@ class SightChart {
   double length_, drop_, wavelength_;
   double worst_drop_ = 0, worst_k_ = 0;
   Profile dense_;
+  Profile ground_;  ///< likewise, without standing features
   ChartFrame frame_;
   bool has_clutter_ = false;
   std::set<std::uint16_t> themes_;

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
+
+#include <itin/grazing.hpp>
 
 namespace itin::profile {
 
@@ -21,18 +22,13 @@ std::string capitalised(std::string text) {
   return text;
 }
 
-/// What stands at a distance: the higher neighbour's theme.
+/// What stands at a distance.
 std::uint16_t theme_at(const Profile& profile, double distance_m) {
-  std::uint16_t theme = 0;
-  double highest = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i + 1 < profile.points.size(); ++i) {
-    const ProfilePoint &a = profile.points[i], &b = profile.points[i + 1];
-    if (distance_m < a.distance_m || distance_m > b.distance_m) continue;
-    for (const ProfilePoint* p : {&a, &b}) {
-      if (p->ground_m > highest) highest = p->ground_m, theme = p->theme;
-    }
+    const bool holds = profile.points[i].distance_m <= distance_m && distance_m <= profile.points[i + 1].distance_m;
+    if (holds && profile.theme_between(i) != 0) return profile.theme_between(i);
   }
-  return theme;
+  return 0;
 }
 
 Table criteria_table(const LosReport& report) {
@@ -66,13 +62,17 @@ Table obstructions_table(const LosReport& report) {
   for (const Obstruction* o : list) {
     table.rows.push_back({fmt::format("{:.1f} m", o->from_m), fmt::format("{:.1f} m", o->to_m),
                           fmt::format("{:.1f} m", o->peak_at_m), fmt::format("{:.2f} m", o->peak_m),
-                          fmt::format("{:.2f} m", o->depth_m), cause_of(report, o->theme)});
+                          fmt::format("{:.2f} m", o->depth_m), cause_of(report, o->theme, o->feature)});
   }
   return table;
 }
 
 Table heights_table(const LosReport& report) {
-  Table table{"Required heights above ground", {"for", "first end alone", "second end alone", "both equal"}, {}, ""};
+  const LosQuery& query = report.query;
+  std::string above = base_name(query.from_on_surface);
+  if (query.from_on_surface != query.to_on_surface)
+    above += fmt::format(" (A) and {} (B)", base_name(query.to_on_surface));
+  Table table{"Required heights above " + above, {"for", "first end alone", "second end alone", "both equal"}, {}, ""};
   for (const NamedHeights& named : report.required) {
     table.rows.push_back({named.name, metres(named.heights.from_alone_m), metres(named.heights.to_alone_m),
                           metres(named.heights.both_equal_m)});
@@ -117,7 +117,7 @@ Table object_table(const LosReport& report) {
   const TallObject& object = *report.query.object;
   return {"Seen of the object at the second end",
           {},
-          {{"Hidden below", fmt::format("{:.2f} m above its ground", seen.from_m)},
+          {{"Hidden below", fmt::format("{:.2f} m above its {}", seen.from_m, base_name(report.query.to_on_surface))},
            {fmt::format("Up to the hub, {:g} m", object.hub_m),
             fmt::format("{:.2f} m, {:.0f} %", seen.hub_visible_m, 100 * seen.hub_fraction)},
            {fmt::format("Up to the tip, {:g} m", object.tip_m),
@@ -127,21 +127,29 @@ Table object_table(const LosReport& report) {
 
 }  // namespace
 
+const char* base_name(bool on_surface) {
+  return on_surface ? "surface" : "ground";
+}
+
 std::string distance_text(double metres) {
   return metres < 2000 ? fmt::format("{:.1f} m", metres) : fmt::format("{:.3f} km", metres / 1000);
 }
 
 std::optional<TightestPoint> tightest_point(const LosReport& report) {
   if (!report.critical || !report.clearance_m) return std::nullopt;
-  const bool free = *report.clearance_m >= 0;
+  const bool free = *report.clearance_m >= -kGrazing;
   if (free && report.fresnel) {
     const double d = report.fresnel->distance_m,
                  bulge = report.query.earth.drop_coefficient() * d * (report.profile.length_m - d);
-    return TightestPoint{d, ray_elevation_m(report, d) - bulge - report.fresnel->clearance_m,
-                         report.fresnel->clearance_m, report.fresnel->fraction, theme_at(report.profile, d)};
+    return TightestPoint{d,
+                         ray_elevation_m(report, d) - bulge - report.fresnel->clearance_m,
+                         report.fresnel->clearance_m,
+                         report.fresnel->fraction,
+                         theme_at(report.profile, d),
+                         -1};
   }
   const ProfilePoint& p = *report.critical;
-  TightestPoint point{p.distance_m, p.ground_m, *report.clearance_m, {}, p.theme};
+  TightestPoint point{p.distance_m, p.ground_m, *report.clearance_m, {}, p.theme, p.feature};
   if (report.query.radio) {
     const double radius = fresnel_radius_m(p.distance_m, report.profile.length_m - p.distance_m,
                                            wavelength_m(report.query.radio->frequency_ghz));
@@ -155,7 +163,7 @@ std::string critical_line(const LosReport& report) {
   if (!point) return "no ground between the ends";
   return fmt::format("{}: clearance {:.2f} m{}; {}", distance_text(point->distance_m), point->clearance_m,
                      point->fraction ? fmt::format(", {:.2f} F1", *point->fraction) : "",
-                     cause_of(report, point->theme));
+                     cause_of(report, point->theme, point->feature));
 }
 
 std::string verdict_line(const LosReport& report) {

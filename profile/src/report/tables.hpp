@@ -25,6 +25,7 @@ struct TightestPoint {
   double distance_m = 0, ground_m = 0, clearance_m = 0;
   std::optional<double> fraction;  ///< of F1
   std::uint16_t theme = 0;
+  std::int64_t feature = -1;
 };
 std::optional<TightestPoint> tightest_point(const LosReport& report);
 /// "4532.1 m: clearance 3.20 m, 0.45 F1; terrain".
@@ -34,6 +35,9 @@ Table facts_table(const LosReport& report);
 Table ends_table(const LosReport& report);
 /// Verdicts, obstructions, required heights, radio and losses, the tall object: those there are.
 std::vector<Table> result_tables(const LosReport& report);
+
+/// What an end's heights count from: "ground" or "surface".
+const char* base_name(bool on_surface);
 
 /// Metres up to 2 km, kilometres beyond.
 std::string distance_text(double metres);

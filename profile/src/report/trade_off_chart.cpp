@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+
+#include "report/tables.hpp"
 
 namespace itin::profile {
 
@@ -32,7 +35,8 @@ void draw_trade_off_chart(Drawing& drawing, const Box& area, const LosReport& re
   const auto [x_most, y_most] = ranges(report);
   ChartFrame frame = make_frame({area.xmin + 46, area.ymin + 16, area.xmax - 8, area.ymax - 62}, 0, x_most, 0, y_most);
   frame.x_ticks = 7, frame.y_ticks = 7;
-  frame.x_title = "Height at A, m above ground", frame.y_title = "Height at B, m above ground";
+  frame.x_title = std::string("Height at A, m above ") + base_name(report.query.from_on_surface);
+  frame.y_title = std::string("Height at B, m above ") + base_name(report.query.to_on_surface);
   drawing.text({area.xmin, area.ymin + 8}, "Heights at A against B", {10, kInk, Align::kLeft, true, 0});
   for (const double tick : frame.y.ticks(frame.y_ticks)) {
     const Point2 line[] = {frame.at(0, tick), frame.at(x_most, tick)};

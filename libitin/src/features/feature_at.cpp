@@ -1,0 +1,88 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <itin/feature_at.hpp>
+#include <itin/store.hpp>
+
+#include "store/footprint_codec.hpp"
+
+namespace itin {
+
+namespace {
+
+/// Metres: how far a place may be outside of a footprint that it belongs to.
+constexpr double kNear = 1;
+
+Point2 plan_of(const Point2& p) {
+  return p;
+}
+Point2 plan_of(const Point3& p) {
+  return {p.x, p.y};
+}
+
+double squared_distance(Point2 p, Point2 a, Point2 b) {
+  const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
+  const double t = square > 0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / square, 0.0, 1.0) : 0;
+  const double ex = a.x + t * dx - p.x, ey = a.y + t * dy - p.y;
+  return ex * ex + ey * ey;
+}
+
+/// A place against rings, read by the even-odd rule.
+class Nearness {
+ public:
+  explicit Nearness(Point2 place) : place_(place) {}
+
+  template <class Ring>
+  void consider(const Ring& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Point2 a = plan_of(ring[i]), b = plan_of(ring[(i + 1) % ring.size()]);
+      squared_ = std::min(squared_, squared_distance(place_, a, b));
+      if ((a.y > place_.y) != (b.y > place_.y) && place_.x < a.x + (place_.y - a.y) / (b.y - a.y) * (b.x - a.x)) {
+        inside_ = !inside_;
+      }
+    }
+  }
+
+  /// Metres; 0 inside.
+  double distance() const { return inside_ ? 0 : std::sqrt(squared_); }
+
+ private:
+  Point2 place_;
+  bool inside_ = false;
+  double squared_ = std::numeric_limits<double>::infinity();
+};
+
+double distance_to(const FootprintFeature& feature, Point2 place) {
+  Nearness plan(place);
+  for (const PlanRing& ring : feature.rings) plan.consider(ring);
+  double distance = plan.distance();
+  for (const RoofSurface& surface : feature.surfaces) {
+    Nearness roof(place);
+    for (const auto& ring : surface.rings) roof.consider(ring);
+    distance = std::min(distance, roof.distance());
+  }
+  return distance;
+}
+
+}  // namespace
+
+std::vector<std::optional<FeatureAt>> features_at(const Store& store, std::uint16_t theme,
+                                                  const std::vector<Point2>& places) {
+  std::vector<std::optional<FeatureAt>> found(places.size());
+  std::vector<double> nearest(places.size(), kNear);
+  std::int64_t number = 0;
+  const std::uint32_t blocks = store.metadata().themes[theme - std::size_t{1}].footprint_blocks;
+  for (std::uint32_t block = 0; block < blocks; ++block) {
+    for (const StoredFootprint& footprint : stored_footprints(store, theme, block)) {
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        const double distance = distance_to(footprint.feature, places[i]);
+        if (distance < nearest[i]) nearest[i] = distance, found[i] = {number, footprint.feature.name};
+      }
+      ++number;
+    }
+  }
+  return found;
+}
+
+}  // namespace itin

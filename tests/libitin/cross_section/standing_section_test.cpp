@@ -1,0 +1,232 @@
+// Cross-sections with buildings, vegetation and walls against the window's triangles cut by the line.
+#include <fstream>
+#include <map>
+#include <random>
+#include <set>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <itin/cross_section.hpp>
+#include <itin/error.hpp>
+#include <itin/feature_at.hpp>
+#include <itin/import.hpp>
+#include <itin/section_line.hpp>
+#include <itin/store.hpp>
+#include <itin/triangulate.hpp>
+
+#include "support/raster_file.hpp"
+#include "support/slow_section.hpp"
+#include "support/temporary_directory.hpp"
+#include "support/vector_file.hpp"
+
+namespace itin {
+namespace {
+
+using test::LineFeature;
+
+std::string text(const CrossSection& section) {
+  std::ostringstream out;
+  out.precision(17);
+  for (const Breakpoint& b : section.breakpoints) {
+    out << b.distance << ": " << b.position.x << " " << b.position.y << " " << b.position.z << " " << b.theme << "\n";
+  }
+  for (const SectionGap& g : section.gaps) out << "gap " << g.from << " " << g.to << "\n";
+  return out.str();
+}
+
+CrossSection mirrored(CrossSection s) {
+  std::reverse(s.breakpoints.begin(), s.breakpoints.end());
+  std::reverse(s.gaps.begin(), s.gaps.end());
+  for (Breakpoint& b : s.breakpoints) b.distance = s.length - b.distance;
+  for (SectionGap& g : s.gaps) g = {s.length - g.to, s.length - g.from};
+  return s;
+}
+
+LineFeature box(double x0, double y0, double x1, double y1, double height) {
+  LineFeature f;
+  f.polygon = true;
+  f.vertices = {{x0, y0, 0}, {x1, y0, 0}, {x1, y1, 0}, {x0, y1, 0}, {x0, y0, 0}};
+  f.properties = fmt::format(R"({{"h":{}}})", height);
+  return f;
+}
+
+/// 60 x 60 posts every 10 m from (300000, 199400), and what tests put on them.
+class StandingSections : public testing::Test {
+ protected:
+  void ground(double (*height)(int, int)) {
+    test::write_raster(path("t.tif"), {300000, 200000, 10, 60, 60, 27700}, height);
+    ImportOptions options;
+    options.sources = {path("t.tif")};
+    NoProgress progress;
+    import_terrain(path("s.itin"), options, progress);
+  }
+  void raise(ThemeKind kind, const std::string& theme, const std::vector<LineFeature>& features) {
+    test::write_lines(path(theme + ".geojson"), features, true);
+    ImportOptions options;
+    options.sources = {path(theme + ".geojson")};
+    options.kind = kind;
+    options.theme = theme;
+    options.height_field = "h";
+    NoProgress progress;
+    import_lines(path("s.itin"), options, progress);
+  }
+  std::string path(const std::string& name) const { return directory_.file(name); }
+
+  test::TemporaryDirectory directory_;
+};
+
+/// A window's triangles, to be cut by lines.
+struct Whole {
+  Whole(const Store& store, const Detail& detail, const ThemeChoice& choice) {
+    NoProgress progress;
+    const Tin tin = triangulate(store, Window::all(), detail, progress, choice);
+    for (const Triangle& t : tin.triangles) {
+      triangles.push_back({tin.vertices[t[0]], tin.vertices[t[1]], tin.vertices[t[2]]});
+      themes.push_back(tin.theme(t));
+    }
+    for (std::uint32_t v = 0; v < tin.vertices.size(); ++v) {
+      const Point3 p = tin.point(v);
+      const bool within = !tin.standing.empty() && tin.standing[v] != 0;
+      (within ? inner : other).push_back({p.x, p.y});
+      if (!within) outside.emplace(p.x, p.y);
+    }
+  }
+  CrossSection along(const Grid& grid, Point2 a, Point2 b) const {
+    const SectionLine line(grid, a, b);
+    CrossSection section = test::slow_section(line, triangles, themes);
+    // A vertex on an outline is not within the feature, even if others stand all about it.
+    for (Breakpoint& p : section.breakpoints) {
+      if (outside.contains({p.position.x, p.position.y})) p.theme = 0;
+    }
+    return line.is_mirrored() ? mirrored(section) : section;
+  }
+
+  std::vector<std::array<GridPoint, 3>> triangles;
+  std::vector<std::uint16_t> themes;
+  std::vector<Point2> inner, other;             ///< vertices of features off their outlines, and the others
+  std::set<std::pair<double, double>> outside;  ///< those others
+};
+
+double rolling(int c, int r) {
+  return 100 + 8 * std::sin(c * 0.3) + 6 * std::cos(r * 0.23) + 0.3 * ((c * 7 + r * 13) % 5);
+}
+
+TEST_F(StandingSections, EqualTheWindowsTrianglesCutByTheLine) {
+  const auto seed = static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed());
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed);
+  const auto in = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(random() % 100000) / 100000;
+  };
+  ground(rolling);
+  std::vector<LineFeature> houses, woods, walls;
+  for (int i = 0; i < 25; ++i) {  // they touch and overlap
+    const double x = 300000 + std::round(in(2, 54)) * 10, y = 199400 + std::round(in(4, 54)) * 10;
+    houses.push_back(box(x, y, x + in(2, 40), y + in(2, 40), in(2, 30)));
+    houses.push_back(box(x + in(-9, 9), y - 12, x + 12, y, in(2, 30)));
+  }
+  for (int i = 0; i < 6; ++i) {
+    const double x = in(300020, 300400), y = in(199420, 199800);
+    woods.push_back(box(x, y, x + in(20, 150), y + in(20, 150), in(5, 20)));
+  }
+  for (int i = 0; i < 5; ++i) {
+    const double x = in(300020, 300500), y = in(199420, 199950);
+    walls.push_back(box(x, y, x + in(30, 80), y + 0.4, 1.8));
+  }
+  raise(ThemeKind::Vegetation, "woods", woods);
+  raise(ThemeKind::Buildings, "houses", houses);
+  raise(ThemeKind::Walls, "walls", walls);
+
+  const Store store(path("s.itin"));
+  const Grid& grid = store.metadata().grid;
+  std::map<std::uint16_t, int> met;
+  const std::vector<Detail> details{Detail::tolerance(0), Detail::tolerance(2), Detail::tolerance(32),
+                                    Detail::rings({300290, 199700}, {{60, 0}, {150, 2}, {1000, 32}})};
+  for (const ThemeChoice& choice :
+       {ThemeChoice::all(), ThemeChoice::parse("houses"), ThemeChoice::parse("woods,walls"), ThemeChoice::none()}) {
+    for (std::size_t d = 0; d < details.size(); ++d) {
+      const Whole whole(store, details[d], choice);
+      const SectionSurface surface(store, details[d], choice);
+      const auto vertex = [&] {
+        const std::vector<Point2>& from = whole.inner.empty() || random() % 2 == 0 ? whole.other : whole.inner;
+        return from[random() % from.size()];
+      };
+      for (int i = 0; i < 60; ++i) {
+        Point2 a{in(299990, 300600), in(199390, 200010)}, b{in(299990, 300600), in(199390, 200010)};
+        if (i % 4 == 1) a = vertex();
+        if (i % 4 == 2) a = vertex(), b = vertex();
+        if (i % 12 == 3) a = vertex(), b = {a.x, b.y};  // along what runs due north
+        if (i % 12 == 7) a = vertex(), b = {b.x, a.y};
+        if (i % 12 == 11) b = a;
+        SCOPED_TRACE(fmt::format("detail {}, from {},{} to {},{}", d, a.x, a.y, b.x, b.y));
+        CrossSection expected = whole.along(grid, a, b);
+        const CrossSection found = cross_section(store, a, b, details[d], choice);
+        ASSERT_EQ(text(surface.between(a, b)), text(found));
+        ASSERT_EQ(text(mirrored(cross_section(store, b, a, details[d], choice))), text(found));
+        for (const Breakpoint& p : found.breakpoints) ++met[p.theme];
+        ASSERT_EQ(text(found), text(expected));
+      }
+    }
+  }
+  EXPECT_GT(met[0], 1000);
+  for (std::uint16_t theme = 1; theme <= 3; ++theme) EXPECT_GT(met[theme], theme == 3 ? 10 : 100) << theme;
+}
+
+double flat(int, int) {
+  return 50;
+}
+
+TEST_F(StandingSections, AHouseHasItsFootAndItsEavesAtEitherWall) {
+  ground(flat);
+  raise(ThemeKind::Buildings, "houses", {box(300102, 199702, 300142, 199732, 9)});
+  const Store store(path("s.itin"));
+  const CrossSection section =
+      cross_section(store, {300095, 199715.3}, {300150, 199715.3}, Detail::tolerance(0), ThemeChoice::all());
+  // What the walls are made of: foot, eaves, eaves, foot, and other points between them on roof and ground.
+  std::vector<double> at_foot, at_eaves;
+  for (const Breakpoint& p : section.breakpoints) {
+    const bool within = p.distance > 7 && p.distance < 47;
+    EXPECT_EQ(p.theme, within ? 1 : 0) << p.distance;
+    if (p.position.z == 50) at_foot.push_back(p.distance);
+    if (p.position.z == 59) at_eaves.push_back(p.distance);
+    const bool in_wall = (p.distance > 7 && p.distance < 7.05) || (p.distance > 46.95 && p.distance < 47);
+    EXPECT_TRUE(in_wall || p.position.z == 50 || p.position.z == 59) << p.distance;
+  }
+  EXPECT_NEAR(*std::find_if(at_foot.rbegin(), at_foot.rend(), [](double d) { return d < 8; }), 7, 1e-9);
+  EXPECT_NEAR(*std::find_if(at_foot.begin(), at_foot.end(), [](double d) { return d > 8; }), 47, 1e-9);
+  ASSERT_GE(at_eaves.size(), 2u);
+  EXPECT_NEAR(at_eaves.front(), 7.05, 1e-9);
+  EXPECT_NEAR(at_eaves.back(), 46.95, 1e-9);
+}
+
+TEST_F(StandingSections, FeaturesAreKnownByPlace) {
+  ground(flat);
+  raise(ThemeKind::Buildings, "houses",
+        {box(300102, 199702, 300142, 199732, 9), box(300142, 199702, 300162, 199732, 5)});
+  raise(ThemeKind::Vegetation, "woods", {box(300202, 199702, 300242, 199732, 9)});
+  const Store store(path("s.itin"));
+  const auto houses = features_at(store, 1, {{300103, 199703}, {300150, 199731.9}, {300102, 199710}, {300180, 199710}});
+  ASSERT_EQ(houses.size(), 4u);
+  ASSERT_TRUE(houses[0] && houses[1] && houses[2]);
+  EXPECT_EQ(houses[0]->number, 0);
+  EXPECT_EQ(houses[0]->name, "feature 0");
+  EXPECT_EQ(houses[1]->number, 1);
+  EXPECT_EQ(houses[2]->number, 0);
+  EXPECT_FALSE(houses[3]);
+  EXPECT_TRUE(features_at(store, 2, {{300210, 199710}}).front());
+}
+
+TEST_F(StandingSections, UnknownThemesAreRefused) {
+  ground(flat);
+  const Store store(path("s.itin"));
+  const auto ask = [&] {
+    return cross_section(store, {300100, 199700}, {300200, 199700}, Detail::tolerance(0), ThemeChoice::parse("moats"));
+  };
+  EXPECT_THROW(ask(), InputError);
+  EXPECT_THROW(SectionSurface(store, Detail::tolerance(0), ThemeChoice::parse("moats")), InputError);
+}
+
+}  // namespace
+}  // namespace itin

@@ -1,0 +1,113 @@
+// Batches of links against one report each.
+#include <random>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <itin/cross_section.hpp>
+#include <itin/import.hpp>
+#include <itin/store.hpp>
+#include <profile/links.hpp>
+
+#include "link_sharing.hpp"
+#include "support/raster_file.hpp"
+#include "support/same_bits.hpp"
+#include "support/temporary_directory.hpp"
+#include "support/vector_file.hpp"
+
+namespace itin::profile {
+namespace {
+
+class Links : public testing::Test {
+ protected:
+  void SetUp() override {
+    test::write_raster(directory_.file("t.tif"), {300000, 200000, 10, 60, 60, 27700},
+                       [](int c, int r) { return 100 + 8 * std::sin(c * 0.3) + 6 * std::cos(r * 0.23); });
+    ImportOptions options;
+    options.sources = {directory_.file("t.tif")};
+    NoProgress progress;
+    import_terrain(directory_.file("s.itin"), options, progress);
+    std::vector<test::LineFeature> houses;
+    for (int i = 0; i < 30; ++i) {
+      const double x = in(300020, 300540), y = in(199440, 199940), u = x + in(6, 30), v = y + in(6, 30);
+      test::LineFeature f;
+      f.polygon = true;
+      f.vertices = {{x, y, 0}, {u, y, 0}, {u, v, 0}, {x, v, 0}, {x, y, 0}};
+      f.properties = fmt::format(R"({{"h":{}}})", in(3, 15));
+      houses.push_back(f);
+    }
+    test::write_lines(directory_.file("b.geojson"), houses, true);
+    options.sources = {directory_.file("b.geojson")};
+    options.kind = ThemeKind::Buildings;
+    options.height_field = "h";
+    import_lines(directory_.file("s.itin"), options, progress);
+    store_.emplace(directory_.file("s.itin"));
+  }
+
+  double in(double low, double high) { return low + (high - low) * static_cast<double>(random_() % 100000) / 100000; }
+
+  std::vector<Link> links(int count) {
+    std::vector<Link> links;
+    for (int i = 0; i < count; ++i) {
+      const auto place = [&] { return Point2{in(300010, 300580), in(199420, 199990)}; };
+      links.push_back({fmt::format("{}", i), place(), in(0, 20), place(), in(0, 20)});
+    }
+    links[0].to = links[0].from;
+    links[1].to = {400000, 200000};  // leaves the data
+    return links;
+  }
+
+  LosReport report(const Link& link, const LinkQuery& query) const {
+    LosQuery of_one;
+    of_one.earth = query.earth, of_one.radio = query.radio;
+    of_one.from_height_m = link.from_height, of_one.to_height_m = link.to_height;
+    of_one.from_on_surface = query.from_on_surface, of_one.to_on_surface = query.to_on_surface;
+    const auto along = [&](const ThemeChoice& themes) {
+      return from_section(cross_section(*store_, link.from, link.to, query.detail, themes));
+    };
+    return analyse(along(query.themes), of_one, along(ThemeChoice::none()));
+  }
+
+  void expect_reports(const std::vector<Link>& links, const LinkQuery& query) {
+    NoProgress progress;
+    const std::vector<LinkResult> results = survey_links(*store_, links, query, progress);
+    ASSERT_EQ(results.size(), links.size());
+    for (std::size_t i = 0; i < std::min<std::size_t>(links.size(), 100); ++i) {
+      SCOPED_TRACE(i);
+      if (i == 1) {
+        EXPECT_FALSE(results[i].verdict);
+        EXPECT_FALSE(results[i].message.empty());
+        continue;
+      }
+      const LosReport expected = report(links[i], query);
+      EXPECT_EQ(results[i].verdict, expected.verdict);
+      EXPECT_TRUE(test::same_bits(*results[i].clearance_m, *expected.clearance_m));
+      EXPECT_EQ(results[i].critical_m, expected.critical->distance_m);
+      EXPECT_EQ(results[i].ld_db, expected.losses ? std::optional(expected.losses->ld_db) : std::nullopt);
+      EXPECT_EQ(results[i].fresnel_fraction,
+                expected.fresnel ? std::optional(expected.fresnel->fraction) : std::nullopt);
+    }
+  }
+
+  test::TemporaryDirectory directory_;
+  std::optional<Store> store_;
+  std::mt19937 random_{5};
+};
+
+TEST_F(Links, HaveTheAnswersOfTheirReports) {
+  const std::vector<Link> few = links(5), many = links(3000);
+  EXPECT_FALSE(sharing_pays(*store_, Detail::tolerance(0), few));
+  EXPECT_TRUE(sharing_pays(*store_, Detail::tolerance(0), many));
+  LinkQuery query;
+  expect_reports(few, query);
+  expect_reports(many, query);
+  query.themes = ThemeChoice::all();
+  query.radio = RadioPath{.frequency_ghz = 6, .effective_earth_km = 8500};
+  for (const bool from : {false, true}) {
+    query.from_on_surface = from, query.to_on_surface = !from;
+    expect_reports(many, query);
+  }
+}
+
+}  // namespace
+}  // namespace itin::profile

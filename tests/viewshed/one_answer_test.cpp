@@ -1,0 +1,269 @@
+// Law 4: thousands of cells of viewsheds, each asked again as a line of sight.
+//
+// A plain viewshed may call a cell visible that a sight line raised by 2e would see, e being its error bound
+// (viewshed.hpp, "Accuracy"); nothing else may differ, and of precise and certified viewsheds nothing at all.
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <random>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <itin/cross_section.hpp>
+#include <itin/grazing.hpp>
+#include <itin/import.hpp>
+#include <itin/store.hpp>
+#include <profile/los.hpp>
+#include <viewshed/certified.hpp>
+#include <viewshed/viewshed.hpp>
+
+#include "support/raster_file.hpp"
+#include "support/temporary_directory.hpp"
+#include "support/vector_file.hpp"
+
+namespace itin {
+namespace {
+
+using test::LineFeature;
+using viewshed::Request;
+using viewshed::Result;
+
+/// What became of the cells asked again.
+struct Agreement {
+  int visible = 0, hidden = 0;      ///< by the line of sight
+  int within_slack = 0, wrong = 0;  ///< cells that differ: as documented, and otherwise
+};
+
+std::ostream& operator<<(std::ostream& out, const Agreement& a) {
+  return out << a.visible << " visible, " << a.hidden << " hidden, " << a.within_slack << " within the slack, "
+             << a.wrong << " wrong";
+}
+
+class OneAnswer : public testing::Test {
+ protected:
+  void SetUp() override {
+    const unsigned seed = std::random_device{}();
+    random_.seed(seed);
+    std::cout << "seed " << seed << "\n";
+  }
+
+  double in(double low, double high) { return low + (high - low) * static_cast<double>(random_() % 100000) / 100000; }
+
+  profile::LosReport line_of_sight(const Store& store, const Request& request, Point2 target) const {
+    const viewshed::Observer& eye = request.observers.front();
+    const auto along = [&](const ThemeChoice& themes) {
+      return profile::from_section(cross_section(store, eye.position, target, request.detail, themes));
+    };
+    profile::LosQuery query;
+    query.from_height_m = eye.height, query.to_height_m = request.target_height;
+    query.from_on_surface = request.observers_on_surface, query.to_on_surface = request.targets_on_surface;
+    query.earth = request.earth;
+    const bool standing = request.themes.includes_standing(store.metadata().themes);
+    return profile::analyse(along(request.themes), query, standing ? along(ThemeChoice::none()) : profile::Profile{});
+  }
+
+  /// `slack` in metres: what the sight line may be raised by for a cell that is called visible.
+  Agreement ask_again(const Store& store, const Result& result, double slack, int wanted) {
+    using profile::SightVerdict;
+    const bool certified = result.request.mode == viewshed::Mode::kCertified;
+    const std::uint8_t yes = certified ? viewshed::kCertainlyVisible : viewshed::kVisible;
+    const std::uint8_t no = certified ? viewshed::kCertainlyHidden : viewshed::kHidden;
+    Request request = result.request;
+    if (certified) request.detail = Detail::tolerance(0);
+    Agreement agreement;
+    for (int tries = 0; tries < 20 * wanted && agreement.visible + agreement.hidden < wanted; ++tries) {
+      const auto column = static_cast<std::int64_t>(random_() % static_cast<unsigned>(result.grid.columns()));
+      const auto row = static_cast<std::int64_t>(random_() % static_cast<unsigned>(result.grid.rows()));
+      const std::uint8_t value = result.visible[result.grid.index({column, row})];
+      if (value != yes && value != no) continue;
+      const profile::LosReport line = line_of_sight(store, request, result.grid.centre(column, row));
+      const bool sees = line.verdict == SightVerdict::kVisible;
+      ++(sees ? agreement.visible : agreement.hidden);
+      if (sees == (value == yes)) continue;
+      const bool excused = value == yes && *line.clearance_m + slack >= -kGrazing;
+      ++(excused ? agreement.within_slack : agreement.wrong);
+      if (!excused && agreement.wrong < 4) {
+        const Point2 p = result.grid.centre(column, row);
+        ADD_FAILURE() << fmt::format("{},{}: the viewshed says {}, the clearance is {}, the slack {}", p.x, p.y,
+                                     value == yes ? "visible" : "hidden", *line.clearance_m, slack);
+      }
+    }
+    std::cout << agreement << "\n";
+    return agreement;
+  }
+
+  void expect_plain_agrees(const Store& store, const Request& request, int wanted) {
+    NoProgress progress;
+    const Result result = viewshed::compute(store, request, progress);
+    const Agreement agreement = ask_again(store, result, 2 * result.error_bound_m, wanted);
+    EXPECT_EQ(agreement.wrong, 0);
+    EXPECT_LE(agreement.within_slack, wanted / 100);
+    EXPECT_GT(agreement.visible, wanted / 50);  // otherwise nothing was tested
+    EXPECT_GT(agreement.hidden, wanted / 50);
+  }
+
+  void expect_exact(const Store& store, const Result& result, int wanted) {
+    const Agreement agreement = ask_again(store, result, 0, wanted);
+    EXPECT_EQ(agreement.wrong + agreement.within_slack, 0);
+    EXPECT_GT(agreement.visible, wanted / 50);
+    EXPECT_GT(agreement.hidden, wanted / 50);
+  }
+
+  test::TemporaryDirectory directory_;
+  std::mt19937 random_;
+};
+
+/// A town in a wood on rolling ground, 600 m a side.
+class InATown : public OneAnswer {
+ protected:
+  void SetUp() override {
+    OneAnswer::SetUp();
+    test::write_raster(directory_.file("t.tif"), {300000, 200000, 10, 60, 60, 27700}, [](int c, int r) {
+      return 100 + 8 * std::sin(c * 0.3) + 6 * std::cos(r * 0.23) + 0.3 * ((c * 7 + r * 13) % 5);
+    });
+    ImportOptions options;
+    options.sources = {directory_.file("t.tif")};
+    NoProgress progress;
+    import_terrain(directory_.file("s.itin"), options, progress);
+    std::vector<LineFeature> houses, woods;
+    for (int i = 0; i < 40; ++i) {
+      const double x = in(300020, 300540), y = in(199440, 199940);
+      houses.push_back(block(x, y, x + in(6, 30), y + in(6, 30), in(3, 12)));
+    }
+    for (int i = 0; i < 4; ++i) {
+      const double x = in(300020, 300450), y = in(199440, 199850);
+      woods.push_back(block(x, y, x + in(20, 90), y + in(20, 90), in(5, 15)));
+    }
+    raise(ThemeKind::Vegetation, "woods", woods);
+    raise(ThemeKind::Buildings, "houses", houses);
+    store_.emplace(directory_.file("s.itin"));
+    request_.observers = {{"eye", {300287.3, 199712.9}, 2}};
+    request_.cell_size = 3;
+    request_.themes = ThemeChoice::all();
+    request_.target_height = 1.7;
+  }
+
+  static LineFeature block(double x0, double y0, double x1, double y1, double height) {
+    LineFeature f;
+    f.polygon = true;
+    f.vertices = {{x0, y0, 0}, {x1, y0, 0}, {x1, y1, 0}, {x0, y1, 0}, {x0, y0, 0}};
+    f.properties = fmt::format(R"({{"h":{}}})", height);
+    return f;
+  }
+
+  void raise(ThemeKind kind, const std::string& theme, const std::vector<LineFeature>& features) {
+    test::write_lines(directory_.file(theme + ".geojson"), features, true);
+    ImportOptions options;
+    options.sources = {directory_.file(theme + ".geojson")};
+    options.kind = kind;
+    options.theme = theme;
+    options.height_field = "h";
+    NoProgress progress;
+    import_lines(directory_.file("s.itin"), options, progress);
+  }
+
+  std::optional<Store> store_;
+  Request request_;
+};
+
+TEST_F(InATown, OfBareGround) {
+  request_.themes = ThemeChoice::none();
+  for (const double height : {0.0, 1.7}) {
+    request_.target_height = height;
+    expect_plain_agrees(*store_, request_, 1000);
+  }
+}
+
+TEST_F(InATown, WithFeaturesAndEndsOnEither) {
+  request_.observers.front().height = 15;  // above any roof or tree
+  for (const bool observer : {false, true}) {
+    for (const bool target : {false, true}) {
+      SCOPED_TRACE(
+          fmt::format("observer {}, targets {}", observer ? "surface" : "ground", target ? "surface" : "ground"));
+      request_.observers_on_surface = observer, request_.targets_on_surface = target;
+      expect_plain_agrees(*store_, request_, 800);
+    }
+  }
+}
+
+TEST_F(InATown, WithFeaturesAtATolerance) {
+  request_.observers.front().height = 15;
+  for (const double tolerance : {2.0, 8.0}) {
+    request_.detail = Detail::tolerance(tolerance);
+    expect_plain_agrees(*store_, request_, 600);
+  }
+}
+
+TEST_F(InATown, PreciseAgreesEntirelyWithFeatures) {
+  NoProgress progress;
+  request_.observers.front().height = 15;
+  for (const bool target : {false, true}) {
+    request_.targets_on_surface = target;
+    expect_exact(*store_, viewshed::compute_precise(*store_, request_, {}, progress).result, 800);
+  }
+}
+
+TEST_F(InATown, OverAFlatEarth) {
+  request_.earth = Earth::flat();
+  request_.target_height = 0;
+  request_.targets_on_surface = true;
+  request_.observers.front().height = 15;
+  expect_plain_agrees(*store_, request_, 600);
+}
+
+/// 20 km square about Cardiff, 160,000 posts.
+class InWales : public OneAnswer {
+ protected:
+  void SetUp() override {
+    OneAnswer::SetUp();
+    ImportOptions options;
+    for (const char* tile : {"st08", "st18", "st07", "st17"}) {
+      options.sources.push_back(ITIN_DATA_DIR "/os-terrain50-wales/tiles/" + std::string(tile) + ".zip");
+      if (!std::filesystem::exists(options.sources.back())) GTEST_SKIP() << "no " << options.sources.back();
+    }
+    NoProgress progress;
+    import_terrain(directory_.file("s.itin"), options, progress);
+    store_.emplace(directory_.file("s.itin"));
+    request_.observers = {{"mast", {310580, 182340}, 20}};
+    request_.cell_size = 50;
+    request_.target_height = 2;
+    request_.radius = 9000;
+  }
+
+  std::optional<Store> store_;
+  Request request_;
+};
+
+TEST_F(InWales, PlainAtEveryTolerance) {
+  for (const double tolerance : {0.0, 2.0, 8.0}) {
+    SCOPED_TRACE(tolerance);
+    request_.detail = Detail::tolerance(tolerance);
+    expect_plain_agrees(*store_, request_, 1500);
+  }
+}
+
+TEST_F(InWales, PlainInRings) {
+  request_.detail = Detail::rings(request_.observers.front().position, {{1000, 0}, {3000, 2}, {20000, 8}});
+  expect_plain_agrees(*store_, request_, 1500);
+}
+
+TEST_F(InWales, PreciseAgreesEntirely) {
+  NoProgress progress;
+  for (const double height : {0.0, 2.0}) {
+    request_.target_height = height;
+    const Result result = viewshed::compute_precise(*store_, request_, {}, progress).result;
+    expect_exact(*store_, result, 2000);
+  }
+}
+
+TEST_F(InWales, CertainlyIsCertain) {
+  NoProgress progress;
+  request_.mode = viewshed::Mode::kCertified;
+  request_.detail = Detail::tolerance(1);
+  request_.target_height = 30;
+  expect_exact(*store_, viewshed::compute_certified(*store_, request_, progress).result, 2000);
+}
+
+}  // namespace
+}  // namespace itin
