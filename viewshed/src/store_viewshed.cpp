@@ -2,6 +2,7 @@
 #include <itin/triangulate.hpp>
 #include <viewshed/viewshed.hpp>
 
+#include "blocked_features.hpp"
 #include "request.hpp"
 #include "stopwatch.hpp"
 
@@ -24,6 +25,7 @@ Result compute_on_surface(const Store& store, const Surveyed& surveyed, const Re
   Result result = surveyed.ground ? compute(surveyed.tin, *surveyed.ground, request, progress)
                                   : compute(surveyed.tin, request, progress);
   for (const ThemeInfo& theme : store.metadata().themes) result.theme_names.push_back(theme.name);
+  if (request.mode == Mode::kBlocker) find_blocking_features(store, surveyed.tin, result);
   return result;
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <itin/feature_at.hpp>
 #include <itin/store.hpp>
@@ -65,19 +66,42 @@ double distance_to(const FootprintFeature& feature, Point2 place) {
   return distance;
 }
 
+Box box_of(const FootprintFeature& feature) {
+  Box box;
+  for (const PlanRing& ring : feature.rings)
+    for (const Point2& p : ring) box.extend(p);
+  for (const RoofSurface& surface : feature.surfaces)
+    for (const auto& ring : surface.rings)
+      for (const Point3& p : ring) box.extend(plan_of(p));
+  return box;
+}
+
+/// Numbers of places from west to east, so that few are asked about a footprint.
+std::vector<std::size_t> from_west(const std::vector<Point2>& places) {
+  std::vector<std::size_t> order(places.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return places[i].x < places[j].x; });
+  return order;
+}
+
 }  // namespace
 
 std::vector<std::optional<FeatureAt>> features_at(const Store& store, std::uint16_t theme,
                                                   const std::vector<Point2>& places) {
   std::vector<std::optional<FeatureAt>> found(places.size());
   std::vector<double> nearest(places.size(), kNear);
+  const std::vector<std::size_t> order = from_west(places);
   std::int64_t number = 0;
   const std::uint32_t blocks = store.metadata().themes[theme - std::size_t{1}].footprint_blocks;
   for (std::uint32_t block = 0; block < blocks; ++block) {
     for (const StoredFootprint& footprint : stored_footprints(store, theme, block)) {
-      for (std::size_t i = 0; i < places.size(); ++i) {
-        const double distance = distance_to(footprint.feature, places[i]);
-        if (distance < nearest[i]) nearest[i] = distance, found[i] = {number, footprint.feature.name};
+      const Box box = box_of(footprint.feature);
+      auto i = std::lower_bound(order.begin(), order.end(), box.xmin - kNear,
+                                [&](std::size_t place, double x) { return places[place].x < x; });
+      for (; i != order.end() && places[*i].x <= box.xmax + kNear; ++i) {
+        if (places[*i].y < box.ymin - kNear || places[*i].y > box.ymax + kNear) continue;
+        const double distance = distance_to(footprint.feature, places[*i]);
+        if (distance < nearest[*i]) nearest[*i] = distance, found[*i] = {number, footprint.feature.name};
       }
       ++number;
     }
