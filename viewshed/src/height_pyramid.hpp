@@ -68,8 +68,8 @@ class HeightPyramid {
   /// The Tin must outlive it. About 20 bytes a triangle of even size.
   explicit HeightPyramid(const Tin& tin);
 
-  /// Calls visit(triangle) for every triangle that may rise above a line of the sheaf, or come within its margin, nearest
-  /// first, some more than once. A block is left out as a whole where the lines run above its highest point.
+  /// Calls visit(triangle) for every triangle that may rise above a line of the sheaf, or come within its margin,
+  /// nearest first, some more than once. A block is left out as a whole where the lines run above its highest point.
   template <class Visit>
   void search(const Sheaf& sheaf, const Visit& visit) const;
 

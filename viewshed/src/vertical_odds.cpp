@@ -61,7 +61,7 @@ double VerticalOdds::least_margin(const SightLines& lines, unsigned i, Memory& m
       least = std::max(-rise / unit, -kSure);
       memory = triangle;
       sheaf.margin = least <= -kSure ? -std::numeric_limits<double>::infinity()
-                             : least * sigma_ * (least > 0 ? Deviation::kMost : deviation.least());
+                                     : least * sigma_ * (least > 0 ? Deviation::kMost : deviation.least());
     });
   };
   if (const Memory last = memory) consider(*last);

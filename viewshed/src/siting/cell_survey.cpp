@@ -2,6 +2,7 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <optional>
 
 #include <itin/parallel.hpp>
 #include <viewshed/certified.hpp>
@@ -103,10 +104,10 @@ std::vector<CoverageBounds> judge_cells(const EnvelopeScene& scene, const SiteSu
   const RasterGrid& grid = *survey.targets.grid;
   const CellBlocks blocks(grid);
   const RasterGrid tiles = grid_of_tiles(grid);
-  const CertifiedPass pass(scene, grid, tiles, request);
-  std::vector<EnvelopeScene::Look> looks(options.size());
+  const CertifiedPass pass(scene, grid, tiles);
+  std::vector<std::optional<EnvelopeScene::Look>> looks(options.size());
   parallel_for(options.size(), [&](std::size_t i) {
-    const Eye eye = eye_at(scene.envelope.lower.grid, survey.stands[options[i]]);
+    const Eye eye = eye_at(scene.envelope.lower.grid, request, survey.stands[options[i]]);
     const auto tile = tiles.cell_at(eye.position);
     looks[i] = tile ? scene.look_from(eye, scene.bins.triangles(tiles.index(*tile))) : scene.look_from(eye);
   });
@@ -123,9 +124,9 @@ std::vector<CoverageBounds> judge_cells(const EnvelopeScene& scene, const SiteSu
       TileValues<std::uint8_t> values;
       if (open(blocks, work->tile, *bounds[i], set, values)) {
         if (scene.exact) {
-          pass.judge(looks[i], values, *work, [&](const Doubtful& d) { walk(scene, d, values); });
+          pass.judge(*looks[i], values, *work, [&](const Doubtful& d) { walk(scene, d, values); });
         } else {
-          pass.judge(looks[i], values, *work, nullptr);
+          pass.judge(*looks[i], values, *work, nullptr);
         }
         close(values, set);
       }

@@ -28,6 +28,6 @@ std::vector<CoverageBounds> judge_points(const EnvelopeScene& scene, const SiteS
 /// Where points lie, for EnvelopeScene.
 RasterGrid bins_of_points(const std::vector<Point2>& points);
 
-Eye eye_at(const Grid& grid, const SiteStand& stand);
+Eye eye_at(const Grid& grid, const Request& request, const SiteStand& stand);
 
 }  // namespace itin::viewshed

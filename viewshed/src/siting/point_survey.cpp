@@ -164,7 +164,8 @@ std::vector<CoverageBounds> judge_points(const EnvelopeScene& scene, const SiteS
   std::atomic<std::size_t> done = 0;
   parallel_for(options.size(), [&](std::size_t i) {
     progress.throw_if_cancelled();
-    const EnvelopeScene::Look look = scene.look_from(eye_at(scene.envelope.lower.grid, survey.stands[options[i]]));
+    const EnvelopeScene::Look look =
+        scene.look_from(eye_at(scene.envelope.lower.grid, request, survey.stands[options[i]]));
     Occluder occluder;
     auto certain = bounds[i]->certain.blocks().begin();
     result[i].exact = scene.exact;

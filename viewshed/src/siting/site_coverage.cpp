@@ -121,8 +121,8 @@ RasterGrid::Cell cell_of(const RasterGrid& grid, std::size_t element) {
   return CellBlocks(grid).cell(element);
 }
 
-Eye eye_at(const Grid& grid, const SiteStand& stand) {
-  return eye_of(grid, {stand.name, stand.position, stand.elevation(), true}, stand.ground);
+Eye eye_at(const Grid& grid, const Request& request, const SiteStand& stand) {
+  return eye_of(grid, request, {stand.name, stand.position, stand.elevation(), true}, stand.ground);
 }
 
 Request request_of(const SiteSurvey& survey, std::span<const std::size_t> options) {
