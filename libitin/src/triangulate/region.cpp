@@ -26,6 +26,8 @@ constexpr std::uint64_t kGrowth = 8, kLargeGrowth = 2;
 constexpr std::uint64_t kManyPoints = 1 << 16, kFewPoints = 4096;
 /// Mean point spacings: cells of about 256 points.
 constexpr double kCellSide = 16;
+/// In points: what reading a cell costs besides. Over open water cells are empty, and no few.
+constexpr std::uint64_t kCellCost = 64;
 
 double area(const GridBox& b) {
   return b.empty() ? 0 : (1.0 + b.xmax - b.xmin) * (1.0 + b.ymax - b.ymin);
@@ -398,12 +400,15 @@ class RegionTriangulation {
   bool look_farther() {
     enclosed_.assign(mesh_.triangles.size(), 0);
     std::vector<Cell> missing;
+    // The outline alone shuts in little, and triangles across the sea see far.
+    const bool lines =
+        std::any_of(themes_.begin(), themes_.end(), [](std::uint16_t theme) { return theme != kCoverage; });
     Enclosure enclosure(mesh_, vertices_, known_, index_.bounds());
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
       if (ground_[t] != Ground::kYes) continue;
-      enclosed_[t] =
-          circumdisc_in(corner(t, 0), corner(t, 1), corner(t, 2), read_box_) || !in_region(t) || enclosure.holds(t);
-      if (!enclosed_[t]) enclosure.add_missing(missing);
+      enclosed_[t] = circumdisc_in(corner(t, 0), corner(t, 1), corner(t, 2), read_box_) || !in_region(t) ||
+                     (lines && enclosure.holds(t));
+      if (lines && !enclosed_[t]) enclosure.add_missing(missing);
     }
     std::sort(missing.begin(), missing.end());
     missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
@@ -417,7 +422,7 @@ class RegionTriangulation {
     std::vector<std::pair<std::uint64_t, SelectedVertex>> found;
     if (most_known_ == 0) return false;
     for (const Leaf& leaf : leaves_in(cell.box())) read_block(leaf, cell.box(), found);
-    most_known_ -= std::min<std::uint64_t>(most_known_, found.size() + 1);
+    most_known_ -= std::min<std::uint64_t>(most_known_, found.size() + kCellCost);
     for (const auto& [code, vertex] : found) vertex_at(vertex.position(), &vertex);
     insert_segments(read_segments(square_of(cell)));
     known_.add(cell);

@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# A town in full: Delft (AHN3 lidar, BGT, CityJSON of 3dfier) with all its themes. Time of each import and of the whole
+# window.
+#   benchmarks/peers/delft.sh [WORK_DIR]      needs node and npm (the lidar is LAZ), jq, and ../shared/data
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+readonly here=$PWD/benchmarks/peers data=$PWD/../shared/data/ahn3-bgt-delft work=${1:-build/peers/delft}
+readonly itin=${ITIN:-$PWD/build/release/bin/itin}
+mkdir -p "$work"
+cd "$work"
+
+[ -d node_modules/laz-perf ] || npm install --silent --no-fund --no-audit laz-perf@0.0.7 >/dev/null
+for i in 1 2; do
+  [ -f ahn3_$i.las ] || NODE_PATH=node_modules node "$here/las_from_laz.js" "$data/ahn3/ahn3_cropped_$i.laz" ahn3_$i.las
+done
+
+timed() {  # timed "what" command...
+  local start=$EPOCHREALTIME what=$1
+  shift
+  "$@" >/dev/null 2>messages.txt || { cat messages.txt >&2; exit 1; }
+  awk -v a="$start" -v b="$EPOCHREALTIME" -v w="$what" 'BEGIN { printf "%-44s %7.2f s\n", w, b - a }'
+}
+rm -f delft.itin
+timed "import of 283,895 ground points" \
+  "$itin" import delft.itin ahn3_1.las ahn3_2.las --class 2,9 --crs EPSG:7415 --to-crs EPSG:28992 --quiet
+timed "and of 160 buildings" "$itin" import delft.itin "$data/output/testarea.json" --kind buildings --crs EPSG:7415 --quiet
+timed "vegetation" "$itin" import delft.itin "$data/bgt/bgt_begroeidterreindeel.sqlite" --kind vegetation --quiet
+timed "walls" "$itin" import delft.itin "$data/bgt/bgt_scheiding.sqlite" --kind walls --quiet
+timed "roads" "$itin" import delft.itin "$data/bgt/bgt_wegdeel.sqlite" --kind roads --quiet
+timed "the whole window, bare, to PLY" "$itin" tin delft.itin --all -o bare.ply --overwrite --quiet
+timed "the whole window, all themes, to PLY" "$itin" tin delft.itin --all --themes all -o all.ply --overwrite --quiet
+timed "its picture" "$itin" tin delft.itin --all --themes all --image delft.jpg --overwrite --quiet
+"$itin" info delft.itin --json | jq -c '{vertices, bytes, bytes_per_vertex, themes}'
