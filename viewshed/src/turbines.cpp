@@ -9,6 +9,8 @@
 #include <itin/triangulate.hpp>
 #include <viewshed/turbines.hpp>
 
+#include "axis_sweep.hpp"
+#include "binned_heights.hpp"
 #include "boundary.hpp"
 #include "eye.hpp"
 #include "least_height.hpp"
@@ -202,20 +204,27 @@ Zone survey_turbines(const Tin& ground, const Tin* screened, const ZoneRequest& 
   const RasterGrid tiles = grid_of_tiles(zone.grid);
   const TriangleBins bins(ground, tiles);
   const ZoneSurvey lines(ground, bins, tiles, zone);
+  const Scene* const curtains = request.nodata == NoData::kBlock ? &*scene : nullptr;
   {
-    const LeastHeights heights(ground, request.earth, *scene);
+    const BinnedHeights binned(ground, scene->boundary());
     zone.statistics.scene_seconds = watch.lap();
-    zone.bare = lines.run(heights, "sight lines", zone.statistics.lines, progress);
-    if (request.radar) zone.radar = radar_view(ground, *scene, bins, tiles, heights, zone, progress);
+    const AxisSweep sweep(ground, request.earth, binned);
+    zone.bare = lines.run(sweep, curtains, "sight lines", zone.statistics.lines, progress);
     zone.statistics.lines_seconds = watch.lap();
+  }
+  if (request.radar) {
+    const LeastHeights heights(ground, request.earth, *scene);
+    zone.radar = radar_view(ground, *scene, bins, tiles, heights, zone, progress);
+    zone.statistics.lines_seconds += watch.lap();
   }
   if (screened != nullptr) {
     // One scene at a time, for they are what takes memory.
     scene.reset();
     scene.emplace(*screened, request.earth, request.nodata, ceiling(*screened, request));
-    const LeastHeights heights(*screened, request.earth, *scene);
+    const BinnedHeights binned(*screened, scene->boundary());
     zone.statistics.scene_seconds += watch.lap();
-    zone.screened = lines.run(heights, "sight lines, screened", zone.statistics.lines, progress);
+    const AxisSweep sweep(*screened, request.earth, binned);
+    zone.screened = lines.run(sweep, curtains, "sight lines, screened", zone.statistics.lines, progress);
     zone.statistics.lines_seconds += watch.lap();
     zone.statistics.retrieval += screened->statistics;
     zone.statistics.triangles += screened->triangles.size();
