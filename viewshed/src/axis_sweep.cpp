@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace itin::viewshed {
 
@@ -12,155 +13,218 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kHidden = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint32_t kNone = 0xffffffff;
 
+std::size_t number(std::int64_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// A sight line from an eye to the top of an axis, while what hides it is being looked for.
+class Sight {
+ public:
+  /// `along` is the eye's distance in bins, `lowered` its height less the drop.
+  Sight(const Tin& tin, const SightLine& line, double base, double along, double lowered)
+      : tin_(tin), line_(line), top_(line.to_z()), along_(along), lowered_(lowered) {
+    raise(std::min(base, top_));
+  }
+
+  double least() const { return least_; }
+  /// Of the line to the least height, outward a bin.
+  double slope() const { return slope_; }
+  std::uint32_t silhouette() const { return silhouette_; }
+
+  /// Whether the top can still be seen over this triangle, too.
+  bool clears(std::uint32_t triangle) {
+    const Triangle& t = tin_.triangles[triangle];
+    const GridPoint &a = tin_.vertices[t[0]], &b = tin_.vertices[t[1]], &c = tin_.vertices[t[2]];
+    const double end = line_.clearing_end(a, b, c);
+    if (end <= least_) return true;
+    silhouette_ = triangle;
+    if (end > top_ && line_.hidden_by(a, b, c)) return false;
+    // What rises by less than a grazing is only touched, though clearing it takes a hair more than the top.
+    raise(std::min(end, top_));
+    return true;
+  }
+
+ private:
+  void raise(double least) {
+    least_ = least;
+    slope_ = (lowered_ - least) / along_;
+  }
+
+  const Tin& tin_;
+  const SightLine& line_;
+  double top_, along_, lowered_;
+  double least_ = 0, slope_ = 0;
+  std::uint32_t silhouette_ = kNone;
+};
+
 }  // namespace
 
-/// One axis and one tile.
+/// One axis and one tile, seen from the axis towards one side at a time.
 class AxisSweep::Task {
  public:
-  Task(const AxisSweep& sweep, const Axis& axis, const Eyes& eyes, Heights& heights)
-      : tin_(sweep.tin_),
-        bins_(sweep.bins_),
-        axis_(axis),
-        eyes_(eyes),
-        heights_(heights),
-        drop_(sweep.drop_),
-        grazing_(sweep.grazing_),
-        axis_column_(bins_.column_at(axis.x)),
-        axis_row_(bins_.row_at(axis.y)) {
-    for (std::int64_t c = 0; c < eyes.tile.columns; ++c)
-      columns_[static_cast<std::size_t>(c)] = bins_.column_at(eyes.centres.x[static_cast<std::size_t>(c)]);
-    for (std::int64_t r = 0; r < eyes.tile.rows; ++r)
-      rows_[static_cast<std::size_t>(r)] = bins_.row_at(eyes.centres.y[static_cast<std::size_t>(r)]);
-    const double bin = bins_.bin_size();
+  Task(const AxisSweep& sweep, const Axis& axis, const Eyes& eyes, Scratch& scratch, Heights& heights)
+      : sweep_(sweep), bins_(sweep.bins_), axis_(axis), eyes_(eyes), profile_(scratch), heights_(heights) {
+    const double bin = bins_.bin_size(), drop = sweep.drop_;
     profile_axis_.top = axis.top;
-    profile_axis_.drop = drop_ * bin * bin;
-    // A ten-thousandth of a metre, and single precision's rounding of heights and of drops.
-    const double greatest = bins_.greatest_magnitude() + std::abs(axis.top) + drop_ * 4 * axis.radius * axis.radius;
-    profile_axis_.margin = 100 * grazing_ + greatest * 0x1p-21;
+    profile_axis_.drop = drop * bin * bin;
+    // Above all single precision's rounding of heights and of drops.
+    const double greatest = bins_.greatest_magnitude() + std::abs(axis.top) + 4 * drop * axis.radius * axis.radius;
+    profile_axis_.margin = 100 * sweep.grazing_ + greatest * 0x1p-21;
   }
 
   std::uint64_t run() {
     heights_.fill(kInfinity);
-    for (unsigned side = 0; side < 4; ++side) look_from(side);
+    const double column = bins_.column_at(axis_.x), row = bins_.row_at(axis_.y);
+    for (const Quadrant::Side side : {Quadrant::kEast, Quadrant::kWest, Quadrant::kSouth, Quadrant::kNorth}) {
+      const Quadrant quadrant(bins_, column, row, side);
+      look_from(quadrant);
+    }
     return lines_;
   }
 
  private:
-  static std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
+  void look_from(const Quadrant& quadrant) {
+    place_cells(quadrant);
+    if (farthest_ <= 0) return;
+    auto [from, to] = slopes();
+    if (from > to) return;
+    // Sectors one cell wide at the tile's far end. A hair more, against rounding.
+    const double width = std::max(1.0, cell_) / farthest_;
+    from -= 1e-9;
+    silhouettes_.fill(kNone);
+    for (std::size_t i = 0; from + static_cast<double>(i) * width <= to; ++i)
+      sweep(quadrant, from + static_cast<double>(i) * width, from + static_cast<double>(i + 1) * width);
+  }
 
-  void look_from(unsigned side) {
-    const Quadrant quadrant(bins_, axis_column_, axis_row_, side);
-    by_row_ = side < 2;
-    majors_ = by_row_ ? eyes_.tile.columns : eyes_.tile.rows;
-    minors_ = by_row_ ? eyes_.tile.rows : eyes_.tile.columns;
-    for (std::int64_t i = 0; i < majors_; ++i) along_[index(i)] = quadrant.along(columns_[index(i)], rows_[index(i)]);
-    for (std::int64_t i = 0; i < minors_; ++i) across_[index(i)] = quadrant.across(columns_[index(i)], rows_[index(i)]);
-    const bool grows = along_[index(majors_ - 1)] > along_[0];
-    const double farthest = std::max(along_[index(majors_ - 1)], along_[0]);
-    if (farthest <= 0) return;
-    double from = 1, to = -1;
-    for (const double v : {across_[0], across_[index(minors_ - 1)]}) {
-      for (const double u : {along_[0], along_[index(majors_ - 1)]}) {
-        const double slope = u > 0 ? v / u : v < 0 ? -kInfinity : kInfinity;
+  void place_cells(const Quadrant& quadrant) {
+    const bool columns = quadrant.along_columns();
+    majors_ = columns ? eyes_.tile.columns : eyes_.tile.rows;
+    minors_ = columns ? eyes_.tile.rows : eyes_.tile.columns;
+    const auto column = [&](std::int64_t i) { return bins_.column_at(eyes_.centres.x[number(i)]); };
+    const auto row = [&](std::int64_t i) { return bins_.row_at(eyes_.centres.y[number(i)]); };
+    for (std::int64_t i = 0; i < majors_; ++i)
+      along_[number(i)] = columns ? quadrant.along(column(i), 0) : quadrant.along(0, row(i));
+    for (std::int64_t i = 0; i < minors_; ++i)
+      across_[number(i)] = columns ? quadrant.across(0, row(i)) : quadrant.across(column(i), 0);
+    farthest_ = std::max(along_[0], along_[number(majors_ - 1)]);
+    nearest_ = std::max(0.0, std::min(along_[0], along_[number(majors_ - 1)]));
+    cell_ = minors_ > 1 ? (across_[number(minors_ - 1)] - across_[0]) / static_cast<double>(minors_ - 1) : 0;
+  }
+
+  /// Of the cells within the quadrant; empty where none is.
+  std::pair<double, double> slopes() const {
+    double from = kInfinity, to = -kInfinity;
+    for (const double v : {across_[0], across_[number(minors_ - 1)]}) {
+      for (const double u : {along_[0], along_[number(majors_ - 1)]}) {
+        const double slope = u > 0 ? v / u : std::copysign(kInfinity, v);
         from = std::min(from, slope), to = std::max(to, slope);
       }
     }
-    // A hair more, against rounding.
-    from = std::max(from, -1.0) - 1e-9, to = std::min(to, 1.0);
-    if (from > to) return;
-    const double cell = std::abs(across_[index(minors_ - 1)] - across_[0]) / static_cast<double>(std::max<std::int64_t>(1, minors_ - 1));
-    const double width = std::max(1.0, cell) / farthest;
-    const auto sectors = static_cast<std::size_t>(std::ceil((to - from) / width)) + 1;
-    const std::size_t count = std::min(quadrant.slab_at(farthest) + 1, quadrant.slabs());
-    silhouettes_.fill(kNone);
+    return {std::max(from, -1.0), std::min(to, 1.0)};
+  }
+
+  /// The cells with slopes in [from, to), nearest first.
+  void sweep(const Quadrant& quadrant, double from, double to) {
     bool surveyed = false;
-    for (std::size_t j = 0; j < sectors; ++j) {
-      const double low = from + static_cast<double>(j) * width, high = from + static_cast<double>(j + 1) * width;
-      surveyed = false;
-      last_ = kNone;
-      for (std::int64_t n = 0; n < majors_; ++n) {
-        const std::int64_t i = grows ? n : majors_ - 1 - n;
-        const double u = along_[index(i)];
-        if (u <= 0) continue;
-        for (std::int64_t k = first_from(low * u, cell); k < first_from(high * u, cell); ++k) {
-          const std::size_t place = by_row_ ? index(k * Tile::kSide + i) : index(i * Tile::kSide + k);
-          const double v = across_[index(k)];
-          if (std::isnan(eyes_.elevation[place])) continue;
-          if (by_row_ ? std::abs(v) > u : std::abs(v) >= u) continue;
-          const double dx = eyes_.centres.x[by_row_ ? index(i) : index(k)] - axis_.x;
-          const double dy = eyes_.centres.y[by_row_ ? index(k) : index(i)] - axis_.y;
-          const double squared = dx * dx + dy * dy;
-          if (squared > axis_.radius * axis_.radius) continue;
-          if (!surveyed) {
-            profile_.survey(quadrant, low, high, count, profile_axis_);
-            surveyed = true;
-          }
-          ++lines_;
-          look(quadrant, place, index(i), u, v / u, squared, {axis_.x + dx, axis_.y + dy, eyes_.elevation[place]});
+    last_ = kNone;
+    const bool columns = quadrant.along_columns(), grows = along_[0] < along_[number(majors_ - 1)];
+    for (std::int64_t n = 0; n < majors_; ++n) {
+      const std::int64_t i = grows ? n : majors_ - 1 - n;
+      const double u = along_[number(i)];
+      if (u <= 0) continue;
+      const std::int64_t end = first_across(to * u);
+      for (std::int64_t k = first_across(from * u); k < end; ++k) {
+        const Cell cell{columns ? i : k, columns ? k : i, i, u, across_[number(k)]};
+        // Of cells on a diagonal, each belongs to one quadrant.
+        if (columns ? std::abs(cell.across) > u : std::abs(cell.across) >= u) continue;
+        if (!has_eye(cell)) continue;
+        if (!std::exchange(surveyed, true)) {
+          const std::size_t count = std::min(quadrant.slab_at(farthest_) + 1, quadrant.slabs());
+          profile_.survey(quadrant, from, to, quadrant.slab_at(nearest_), count, profile_axis_);
         }
+        look(quadrant, cell);
       }
     }
   }
 
-  /// The first of the tile's cells across that lies at `v` or beyond.
-  std::int64_t first_from(double v, double cell) const {
-    const double at = cell > 0 ? (v - across_[0]) / cell : (v > across_[0] ? 1 : 0);
-    return static_cast<std::int64_t>(std::clamp(std::ceil(at), 0.0, static_cast<double>(minors_)));
+  struct Cell {
+    std::int64_t column = 0, row = 0, major = 0;
+    double along = 0, across = 0;
+    std::size_t index() const { return number(row * Tile::kSide + column); }
+  };
+
+  /// The first of the cells across that lies at `v` or beyond.
+  std::int64_t first_across(double v) const {
+    const double at = cell_ > 0 ? (v - across_[0]) / cell_ : v - across_[0];
+    return at <= 0 ? 0 : at > static_cast<double>(minors_ - 1) ? minors_ : static_cast<std::int64_t>(std::ceil(at));
   }
 
-  void look(const Quadrant& quadrant, std::size_t place, std::size_t major, double u, double slope, double squared,
-            const Point3& eye) {
-    const double lowered = eye.z - drop_ * squared;
-    const std::size_t slab = quadrant.slab_at(u);
-    heights_[place] = kHidden;
-    if (profile_.hides((lowered - axis_.top) / u, slab)) return;
-    const SightLine line(eye, {axis_.x, axis_.y, axis_.top}, drop_, grazing_);
-    double least = std::min(axis_.base, axis_.top), per_bin = (lowered - least) / u;
-    std::uint32_t silhouette = kNone;
-    const auto clear = [&](std::uint32_t number) {
-      const Triangle& t = tin_.triangles[number];
-      const GridPoint &a = tin_.vertices[t[0]], &b = tin_.vertices[t[1]], &c = tin_.vertices[t[2]];
-      const double end = line.clearing_end(a, b, c);
-      if (end <= least) return true;
-      silhouette = number;
-      if (end > axis_.top && line.hidden_by(a, b, c)) return false;
-      // What rises by less than a grazing is only touched, though clearing it takes a hair more than the top.
-      least = std::min(end, axis_.top), per_bin = (lowered - least) / u;
-      return true;
-    };
-    const auto remember = [&] { last_ = silhouettes_[major] = silhouette; };
-    const std::uint32_t beside = silhouettes_[major];
-    if (last_ != kNone && !clear(last_)) return remember();
-    if (beside != kNone && beside != last_ && !clear(beside)) return remember();
+  Point2 from_axis(const Cell& cell) const {
+    return {eyes_.centres.x[number(cell.column)] - axis_.x, eyes_.centres.y[number(cell.row)] - axis_.y};
+  }
+
+  bool has_eye(const Cell& cell) const {
+    const Point2 d = from_axis(cell);
+    return d.x * d.x + d.y * d.y <= axis_.radius * axis_.radius && !std::isnan(eyes_.elevation[cell.index()]);
+  }
+
+  void look(const Quadrant& quadrant, const Cell& cell) {
+    ++lines_;
+    const Point2 d = from_axis(cell);
+    const double elevation = eyes_.elevation[cell.index()];
+    const double lowered = elevation - sweep_.drop_ * (d.x * d.x + d.y * d.y);
+    heights_[cell.index()] = kHidden;
+    if (profile_.hides((lowered - axis_.top) / cell.along, quadrant.slab_at(cell.along))) return;
+    const SightLine line({axis_.x + d.x, axis_.y + d.y, elevation}, {axis_.x, axis_.y, axis_.top}, sweep_.drop_,
+                         sweep_.grazing_);
+    Sight sight(sweep_.tin_, line, axis_.base, cell.along, lowered);
+    if (decide(quadrant, cell, sight)) heights_[cell.index()] = sight.least();
+    if (sight.silhouette() != kNone) last_ = silhouettes_[number(cell.major)] = sight.silhouette();
+  }
+
+  /// Whether the top is seen.
+  bool decide(const Quadrant& quadrant, const Cell& cell, Sight& sight) {
+    const std::uint32_t beside = silhouettes_[number(cell.major)];
+    if (last_ != kNone && !sight.clears(last_)) return false;
+    if (beside != kNone && beside != last_ && !sight.clears(beside)) return false;
     bool seen = true;
-    profile_.search(slab, [&] { return least; }, [&] { return per_bin; }, [&](std::size_t k) {
-      const double begin = slope * quadrant.begin(k), end = slope * quadrant.end(k);
-      const double low = quadrant.minor() + std::min(begin, end), high = quadrant.minor() + std::max(begin, end);
-      const auto first = std::max<std::int64_t>(0, static_cast<std::int64_t>(std::floor(low - BinnedHeights::kSlack)));
-      const auto last = std::min(quadrant.lines() - 1, static_cast<std::int64_t>(std::floor(high + BinnedHeights::kSlack)));
-      for (std::int64_t bin = first; bin <= last; ++bin)
-        for (const std::uint32_t t : quadrant.triangles(k, bin))
-          if (!clear(t)) return seen = false;
-      return true;
-    });
-    if (silhouette != kNone) remember();
-    if (!seen) return;
-    heights_[place] = least;
+    const double slope = cell.across / cell.along;
+    profile_.search(quadrant.slab_at(cell.along), sight,
+                    [&](std::size_t slab) { return seen = clears(quadrant, slab, slope, cell.along, sight); });
+    return seen;
   }
 
-  const Tin& tin_;
+  /// Looks at the triangles that lie in a slab under the line.
+  bool clears(const Quadrant& quadrant, std::size_t slab, double slope, double along, Sight& sight) {
+    const double begin = std::max(0.0, quadrant.begin(slab)), end = std::min(quadrant.end(slab), along);
+    const double low = quadrant.minor() + slope * (slope < 0 ? end : begin) - BinnedHeights::kSlack;
+    const double high = quadrant.minor() + slope * (slope < 0 ? begin : end) + BinnedHeights::kSlack;
+    const auto first = static_cast<std::int64_t>(std::max(0.0, low));
+    const auto last = std::min(quadrant.lines() - 1, static_cast<std::int64_t>(high));
+    const double lift = profile_axis_.drop * (1 + slope * slope) * begin * begin - profile_axis_.margin;
+    for (std::int64_t bin = first; bin <= last; ++bin) {
+      const double lowest = sight.least() + sight.slope() * (sight.slope() < 0 ? end : begin) + lift;
+      if (quadrant.high()[quadrant.bin(slab, bin)] <= lowest) continue;
+      for (const std::uint32_t t : quadrant.triangles(slab, bin))
+        if (bins_.top(t) > lowest && !sight.clears(t)) return false;
+    }
+    return true;
+  }
+
+  const AxisSweep& sweep_;
   const BinnedHeights& bins_;
   const Axis& axis_;
   const Eyes& eyes_;
+  SectorProfile& profile_;
   Heights& heights_;
-  double drop_, grazing_, axis_column_, axis_row_;
   SectorProfile::Axis profile_axis_;
-  std::array<double, Tile::kSide> columns_{}, rows_{}, along_{}, across_{};
-  bool by_row_ = true;
+  // The tile's cells as the quadrant has them, in bins.
+  std::array<double, Tile::kSide> along_{}, across_{};
   std::int64_t majors_ = 0, minors_ = 0;
-  SectorProfile profile_;
-  std::array<std::uint32_t, Tile::kSide> silhouettes_{};
+  double farthest_ = 0, nearest_ = 0, cell_ = 0;
+  // What hid the last eye of this sector, and of the last one the eye as far away.
   std::uint32_t last_ = kNone;
+  std::array<std::uint32_t, Tile::kSide> silhouettes_{};
   std::uint64_t lines_ = 0;
 };
 
@@ -170,8 +234,8 @@ AxisSweep::AxisSweep(const Tin& tin, const Earth& earth, const BinnedHeights& bi
       drop_(earth.drop_coefficient() * tin.grid.resolution),
       grazing_(kGrazing / tin.grid.resolution) {}
 
-std::uint64_t AxisSweep::run(const Axis& axis, const Eyes& eyes, Heights& heights) const {
-  return Task(*this, axis, eyes, heights).run();
+std::uint64_t AxisSweep::run(const Axis& axis, const Eyes& eyes, Scratch& scratch, Heights& heights) const {
+  return Task(*this, axis, eyes, scratch, heights).run();
 }
 
 }  // namespace itin::viewshed

@@ -2,7 +2,8 @@
 // which nothing hides it.
 //
 //   AxisSweep sweep(tin, earth, bins);
-//   sweep.run(axis, eyes, [&](std::size_t cell, double least) { ... });      // of cells that see its top, grid units
+//   AxisSweep::Heights heights;                             // grid units, one a cell
+//   sweep.run(axis, eyes, scratch, heights);
 //
 // Method. The tile is cut into sectors about the axis, each about a cell wide at its far end. Along a sector the bounds of
 // BinnedHeights say for nearly every slab and eye that it hides the whole axis, or that it hides nothing; what remains,
@@ -49,9 +50,11 @@ class AxisSweep {
   /// axis itself, and beyond its radius, are left out: infinity.
   using Heights = TileValues<double>;
 
-  /// For several threads at once. Cost: some hundredths of a microsecond an eye that does not see the top, a few tenths
+  /// Memory to use again.
+  using Scratch = SectorProfile;
+  /// For several threads at once, each with its own scratch. Cost: some hundredths of a microsecond an eye that does not see the top, a few tenths
   /// for others. Returns how many lines it decided.
-  std::uint64_t run(const Axis& axis, const Eyes& eyes, Heights& heights) const;
+  std::uint64_t run(const Axis& axis, const Eyes& eyes, Scratch& scratch, Heights& heights) const;
 
  private:
   class Task;

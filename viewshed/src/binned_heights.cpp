@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <itin/parallel.hpp>
 
 namespace itin::viewshed {
 
 namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 RasterGrid bin_grid(const Tin& tin) {
   const Box box = tin.bounds();
@@ -21,7 +24,7 @@ RasterGrid bin_grid(const Tin& tin) {
 
 float rounded_down(double v) {
   const auto near = static_cast<float>(v);
-  return near <= v ? near : std::nextafter(near, -std::numeric_limits<float>::infinity());
+  return near <= v ? near : std::nextafter(near, -kInfinity);
 }
 float rounded_up(double v) {
   return -rounded_down(-v);
@@ -59,34 +62,26 @@ BinnedHeights::BinnedHeights(const Tin& tin, const std::vector<BoundaryEdge>& bo
       grid_(bin_grid(tin)),
       bins_(tin, grid_),
       tops_(tin.triangles.size()),
-      by_row_(grid_.cell_count()),
-      by_column_(grid_.cell_count()) {
+      low_by_row_(grid_.cell_count(), -kInfinity),
+      high_by_row_(grid_.cell_count(), -kInfinity) {
   std::transform(tin.triangles.begin(), tin.triangles.end(), tops_.begin(), [&](const Triangle& t) {
     return std::max({tin.vertices[t[0]].z, tin.vertices[t[1]].z, tin.vertices[t[2]].z});
   });
   for (const GridPoint& v : tin.vertices)
     greatest_magnitude_ = std::max(greatest_magnitude_, std::abs(static_cast<double>(v.z)));
   parallel_for(static_cast<std::size_t>(rows()), [&](std::size_t r) {
-    const auto bin_row = static_cast<std::int64_t>(r);
-    for (std::int64_t c = 0; c < columns(); ++c) by_row_[grid_.index({c, bin_row})] = bounds_of(tin, c, bin_row);
+    for (std::int64_t c = 0; c < columns(); ++c) bound(tin, c, static_cast<std::int64_t>(r));
   });
   forget_depth_at(tin, boundary);
-  // In squares of bins, so that neither side leaves the cache.
-  constexpr std::int64_t kSide = 32;
-  parallel_for(static_cast<std::size_t>((rows() + kSide - 1) / kSide), [&](std::size_t strip) {
-    const std::int64_t first = static_cast<std::int64_t>(strip) * kSide, last = std::min(rows(), first + kSide);
-    for (std::int64_t c = 0; c < columns(); ++c)
-      for (std::int64_t r = first; r < last; ++r)
-        by_column_[static_cast<std::size_t>(c * rows() + r)] = by_row_[grid_.index({c, r})];
-  });
+  transpose();
 }
 
-BinnedHeights::Bounds BinnedHeights::bounds_of(const Tin& tin, std::int64_t column, std::int64_t row) const {
+void BinnedHeights::bound(const Tin& tin, std::int64_t column, std::int64_t row) {
   const Point2 middle = grid_.centre(column, row);
   const Square square{(middle.x - units_.origin.x) / units_.resolution, (middle.y - units_.origin.y) / units_.resolution,
                       bin_size() * (0.5 + 2 * kSlack)};
   const auto listed = triangles(column, row);
-  if (listed.empty()) return {};
+  if (listed.empty()) return;
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const std::uint32_t number : listed) {
     const Triangle& t = tin.triangles[number];
@@ -94,7 +89,8 @@ BinnedHeights::Bounds BinnedHeights::bounds_of(const Tin& tin, std::int64_t colu
     // The plane of a triangle that only nearly meets the bin may leave its own heights: low > high.
     low = std::min(low, range.low), high = std::max(high, range.high);
   }
-  return {rounded_down(low), rounded_up(high)};
+  const std::size_t bin = grid_.index({column, row});
+  low_by_row_[bin] = rounded_down(low), high_by_row_[bin] = rounded_up(high);
 }
 
 /// A bin that a triangle meets and no boundary crosses is covered throughout; elsewhere nothing is known of how low the
@@ -106,7 +102,22 @@ void BinnedHeights::forget_depth_at(const Tin& tin, const std::vector<BoundaryEd
     for (std::int64_t c = 0; c < columns(); ++c) {
       const auto listed = triangles(c, static_cast<std::int64_t>(r));
       if (std::any_of(listed.begin(), listed.end(), [&](std::uint32_t t) { return at_boundary[t]; }))
-        by_row_[grid_.index({c, static_cast<std::int64_t>(r)})].low = -std::numeric_limits<float>::infinity();
+        low_by_row_[grid_.index({c, static_cast<std::int64_t>(r)})] = -kInfinity;
+    }
+  });
+}
+
+void BinnedHeights::transpose() {
+  low_by_column_.resize(grid_.cell_count()), high_by_column_.resize(grid_.cell_count());
+  // In strips, so that neither side leaves the cache.
+  constexpr std::int64_t kStrip = 32;
+  parallel_for(static_cast<std::size_t>((rows() + kStrip - 1) / kStrip), [&](std::size_t strip) {
+    const std::int64_t first = static_cast<std::int64_t>(strip) * kStrip, last = std::min(rows(), first + kStrip);
+    for (std::int64_t c = 0; c < columns(); ++c) {
+      for (std::int64_t r = first; r < last; ++r) {
+        const std::size_t to = static_cast<std::size_t>(c * rows() + r), from = grid_.index({c, r});
+        low_by_column_[to] = low_by_row_[from], high_by_column_[to] = high_by_row_[from];
+      }
     }
   });
 }

@@ -2,15 +2,13 @@
 // vertices.
 //
 //   BinnedHeights bins(tin, boundary_edges(tin));
-//   bins.row(row)[column].high                              // grid units
+//   bins.high_by_row()[row * bins.columns() + column]          // grid units
 //   for (std::uint32_t t : bins.triangles(column, row)) ...
 //
 // Positions are in bins, columns counted eastwards and rows southwards from the north-west corner.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -27,13 +25,6 @@ class BinnedHeights {
   /// About two triangles' worth a bin; 40 bytes a triangle. `boundary` is the Tin's.
   BinnedHeights(const Tin& tin, const std::vector<BoundaryEdge>& boundary);
 
-  /// `low` is -infinity where part of the bin has no surface, `high` where all of it has none. Single precision,
-  /// rounded outwards.
-  struct Bounds {
-    float low = -std::numeric_limits<float>::infinity();
-    float high = -std::numeric_limits<float>::infinity();
-  };
-
   std::int64_t columns() const { return grid_.columns(); }
   std::int64_t rows() const { return grid_.rows(); }
   /// Grid units.
@@ -42,9 +33,12 @@ class BinnedHeights {
   double column_at(double x) const { return grid_.column_at(units_.origin.x + x * units_.resolution); }
   double row_at(double y) const { return grid_.row_at(units_.origin.y + y * units_.resolution); }
 
-  /// A row's bounds from west to east, and a column's from north to south.
-  std::span<const Bounds> row(std::int64_t row) const { return line(by_row_, row, columns()); }
-  std::span<const Bounds> column(std::int64_t column) const { return line(by_column_, column, rows()); }
+  /// Grid units, in single precision rounded outwards: the lowest is -infinity where part of the bin has no surface, the
+  /// highest where all of it has none. Row by row from the north-west, and column by column.
+  std::span<const float> low_by_row() const { return low_by_row_; }
+  std::span<const float> high_by_row() const { return high_by_row_; }
+  std::span<const float> low_by_column() const { return low_by_column_; }
+  std::span<const float> high_by_column() const { return high_by_column_; }
   /// Those that meet the bin, or nearly meet it: kSlack bins away at least.
   std::span<const std::uint32_t> triangles(std::int64_t column, std::int64_t row) const {
     return bins_.triangles(grid_.index({column, row}));
@@ -56,17 +50,15 @@ class BinnedHeights {
   double greatest_magnitude() const { return greatest_magnitude_; }
 
  private:
-  static std::span<const Bounds> line(const std::vector<Bounds>& all, std::int64_t number, std::int64_t length) {
-    return std::span(all).subspan(static_cast<std::size_t>(number * length), static_cast<std::size_t>(length));
-  }
-  Bounds bounds_of(const Tin& tin, std::int64_t column, std::int64_t row) const;
+  void bound(const Tin& tin, std::int64_t column, std::int64_t row);
   void forget_depth_at(const Tin& tin, const std::vector<BoundaryEdge>& boundary);
+  void transpose();
 
   Grid units_;
   RasterGrid grid_;
   TriangleBins bins_;
   std::vector<std::int32_t> tops_;
-  std::vector<Bounds> by_row_, by_column_;
+  std::vector<float> low_by_row_, high_by_row_, low_by_column_, high_by_column_;
   double greatest_magnitude_ = 0;
 };
 

@@ -1,47 +1,103 @@
 #include "sector_profile.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace itin::viewshed {
 
 namespace {
 
-constexpr float kNothing = -std::numeric_limits<float>::infinity();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 }  // namespace
 
-void SectorProfile::survey(const Quadrant& quadrant, double from, double to, std::size_t count, const Axis& axis) {
-  first_width_ = quadrant.first_width(), margin_ = axis.margin;
-  high_.resize(count), hidden_below_.resize(count);
-  group_high_.assign((count + kGroup - 1) / kGroup, kNothing);
-  block_high_.assign((count + kGroup * kGroup - 1) / (kGroup * kGroup), kNothing);
+Quadrant::Quadrant(const BinnedHeights& bins, double axis_column, double axis_row, Side side)
+    : bins_(bins),
+      along_columns_(side == kEast || side == kWest),
+      outward_(side == kEast || side == kSouth ? 1 : -1),
+      major_(along_columns_ ? axis_column : axis_row),
+      minor_(along_columns_ ? axis_row : axis_column),
+      first_bin_(static_cast<std::int64_t>(std::floor(major_))),
+      lines_(along_columns_ ? bins.rows() : bins.columns()),
+      stride_(along_columns_ ? bins.columns() : bins.rows()),
+      first_(static_cast<std::size_t>(first_bin_)),
+      slabs_(static_cast<std::size_t>(outward_ > 0 ? stride_ - first_bin_ : first_bin_ + 1)),
+      low_(along_columns_ ? bins.low_by_row() : bins.low_by_column()),
+      high_(along_columns_ ? bins.high_by_row() : bins.high_by_column()) {
+  const double inside = major_ - static_cast<double>(first_bin_);
+  first_width_ = outward_ > 0 ? 1 - inside : inside;
+}
+
+void SectorProfile::survey(const Quadrant& quadrant, double from, double to, std::size_t nearest, std::size_t count,
+                           const Axis& axis) {
+  quadrant_ = &quadrant, from_ = from, to_ = to, nearest_ = nearest, count_ = count, axis_ = axis;
+  highs_known_ = false;
   const double least_slope = from > 0 ? from : to < 0 ? -to : 0, greatest_slope = std::max(std::abs(from), std::abs(to));
-  const double near_drop = axis.drop * (1 + least_slope * least_slope);
-  const double far_drop = axis.drop * (1 + greatest_slope * greatest_slope);
+  near_drop_ = axis.drop * (1 + least_slope * least_slope);
+  far_drop_ = axis.drop * (1 + greatest_slope * greatest_slope);
+  survey_lows();
+}
+
+/// Calls visit(slab, first line, last line, whether all of them lie within the bins), nearest first.
+template <class Visit>
+void SectorProfile::for_each_slab(const Visit& visit) const {
   // Positions of eyes are rounded to a ten-thousandth of a grid unit.
-  const double slack = std::max(1e-6, 1e-3 / quadrant.bins().bin_size());
-  const double origin = quadrant.minor() - slack, width = 2 * slack;
-  double hidden_below = -std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < count; ++k) {
-    const double begin = quadrant.begin(k), end = quadrant.end(k);
-    const double low_edge = from * (from < 0 ? end : begin), high_edge = to * (to < 0 ? begin : end);
-    const auto first = static_cast<std::int64_t>(std::floor(origin + low_edge));
-    const auto last = static_cast<std::int64_t>(std::floor(origin + width + high_edge));
-    float low = std::numeric_limits<float>::infinity(), high = kNothing;
-    for (std::int64_t line = std::max<std::int64_t>(first, 0); line <= std::min(last, quadrant.lines() - 1); ++line) {
-      const BinnedHeights::Bounds& bounds = quadrant.bounds(k, line);
-      low = std::min(low, bounds.low), high = std::max(high, bounds.high);
+  const double slack = std::max(1e-6, 1e-3 / quadrant_->bins().bin_size());
+  const double low = quadrant_->minor() - slack + from_ * (from_ < 0 ? quadrant_->end(0) : quadrant_->begin(0));
+  const double high = quadrant_->minor() + slack + to_ * (to_ < 0 ? quadrant_->begin(0) : quadrant_->end(0));
+  const std::int64_t lines = quadrant_->lines();
+  const double slabs = static_cast<double>(count_);
+  const bool inside = std::min(low, low + from_ * slabs) >= 0 &&
+                      std::max(high, high + to_ * slabs) < static_cast<double>(lines);
+  for (std::size_t k = 0; k < count_; ++k) {
+    const double first = low + from_ * static_cast<double>(k), last = high + to_ * static_cast<double>(k);
+    if (inside) {
+      visit(k, static_cast<std::int64_t>(first), static_cast<std::int64_t>(last), true);
+    } else {
+      const auto whole_first = static_cast<std::int64_t>(std::floor(first));
+      const auto whole_last = static_cast<std::int64_t>(std::floor(last));
+      visit(k, std::max<std::int64_t>(0, whole_first), std::min(lines - 1, whole_last),
+            whole_first >= 0 && whole_last < lines);
     }
-    if (first < 0 || last >= quadrant.lines()) low = kNothing;
-    // Ground that is bare beyond the grid counts for nothing, and a float's rounding is within the margin.
-    high_[k] = static_cast<float>(high - near_drop * begin * begin);
-    const double rise = low - far_drop * end * end - axis.margin - axis.top;
-    if (end > 0) hidden_below = std::max(hidden_below, rise / end);
-    if (begin > 0) hidden_below = std::max(hidden_below, rise / begin);
-    hidden_below_[k] = hidden_below;
-    group_high_[k / kGroup] = std::max(group_high_[k / kGroup], high_[k]);
-    block_high_[k / (kGroup * kGroup)] = std::max(block_high_[k / (kGroup * kGroup)], high_[k]);
   }
+}
+
+void SectorProfile::survey_lows() {
+  hidden_below_.resize(count_ - nearest_);
+  const float* const lows = quadrant_->low().data();
+  double hidden_below = -std::numeric_limits<double>::infinity();
+  double per_begin = 0;
+  for_each_slab([&](std::size_t k, std::int64_t first, std::int64_t last, bool inside) {
+    if (k >= nearest_) hidden_below_[k - nearest_] = hidden_below;
+    float low = inside ? kInfinity : -kInfinity;
+    if (last - first <= 2 && first <= last) {
+      const std::int64_t middle = first + (last > first ? 1 : 0);
+      low = std::min({low, lows[quadrant_->bin(k, first)], lows[quadrant_->bin(k, middle)], lows[quadrant_->bin(k, last)]});
+    } else {
+      for (std::int64_t line = first; line <= last; ++line) low = std::min(low, lows[quadrant_->bin(k, line)]);
+    }
+    const double end = quadrant_->end(k), per_end = 1 / end;
+    const double rise = low - far_drop_ * end * end - axis_.margin - axis_.top;
+    hidden_below = std::max(hidden_below, rise * (rise < 0 ? per_end : per_begin));
+    per_begin = per_end;
+  });
+}
+
+void SectorProfile::survey_highs() {
+  highs_known_ = true;
+  high_.resize(count_);
+  group_high_.assign((count_ + kGroup - 1) / kGroup, -kInfinity);
+  block_high_.assign((count_ + kBlock - 1) / kBlock, -kInfinity);
+  const float* const highs = quadrant_->high().data();
+  for_each_slab([&](std::size_t k, std::int64_t first, std::int64_t last, bool) {
+    // Ground that is bare beyond the bins counts for nothing, and a float's rounding is within the margin.
+    float high = -kInfinity;
+    for (std::int64_t line = first; line <= last; ++line) high = std::max(high, highs[quadrant_->bin(k, line)]);
+    const double begin = std::max(0.0, quadrant_->begin(k));
+    high_[k] = static_cast<float>(high - near_drop_ * begin * begin);
+    group_high_[k / kGroup] = std::max(group_high_[k / kGroup], high_[k]);
+    block_high_[k / kBlock] = std::max(block_high_[k / kBlock], high_[k]);
+  });
 }
 
 }  // namespace itin::viewshed

@@ -45,6 +45,7 @@ struct ZoneSurvey::TileWork {
   Tile tile;
   TileCentres centres;
   TileValues<double> ground, eyes;  ///< grid units
+  AxisSweep::Scratch scratch;
   AxisSweep::Heights least;         ///< of the turbine at hand
   TileValues<std::uint16_t> hubs, tips;
   TileValues<double> height, angle, angle_sum, nearest;
@@ -112,7 +113,7 @@ void ZoneSurvey::look_at(std::size_t turbine, const AxisSweep& sweep, const Scen
   const Axis& axis = axes_[turbine];
   const double radius = zone_.request.turbines[turbine].radius;
   work.lines += sweep.run({axis.x, axis.y, axis.base, axis.tip, radius / ground_.grid.resolution},
-                          {work.tile, work.centres, work.eyes}, work.least);
+                          {work.tile, work.centres, work.eyes}, work.scratch, work.least);
   for (std::int64_t r = 0; r < work.tile.rows; ++r) {
     for (std::int64_t c = 0; c < work.tile.columns; ++c) {
       const std::size_t cell = cell_of(r, c);
