@@ -21,8 +21,8 @@ std::size_t number(std::int64_t i) {
 class Sight {
  public:
   /// `along` is the eye's distance in bins, `lowered` its height less the drop.
-  Sight(const Tin& tin, const SightLine& line, double base, double along, double lowered)
-      : tin_(tin), line_(line), top_(line.to_z()), along_(along), lowered_(lowered) {
+  Sight(const Tin& tin, const SightLine& line, double base, double along, double lowered, double margin)
+      : tin_(tin), line_(line), top_(line.to_z()), along_(along), lowered_(lowered), margin_(margin) {
     raise(std::min(base, top_));
   }
 
@@ -35,6 +35,7 @@ class Sight {
   bool clears(std::uint32_t triangle) {
     const Triangle& t = tin_.triangles[triangle];
     const GridPoint &a = tin_.vertices[t[0]], &b = tin_.vertices[t[1]], &c = tin_.vertices[t[2]];
+    if (line_.apart(a, b, c, least_, margin_)) return true;
     const double end = line_.clearing_end(a, b, c);
     if (end <= least_) return true;
     silhouette_ = triangle;
@@ -52,7 +53,7 @@ class Sight {
 
   const Tin& tin_;
   const SightLine& line_;
-  double top_, along_, lowered_;
+  double top_, along_, lowered_, margin_;
   double least_ = 0, slope_ = 0;
   std::uint32_t silhouette_ = kNone;
 };
@@ -177,7 +178,7 @@ class AxisSweep::Task {
     if (profile_.hides((lowered - axis_.top) / cell.along, quadrant.slab_at(cell.along))) return;
     const SightLine line({axis_.x + d.x, axis_.y + d.y, elevation}, {axis_.x, axis_.y, axis_.top}, sweep_.drop_,
                          sweep_.grazing_);
-    Sight sight(sweep_.tin_, line, axis_.base, cell.along, lowered);
+    Sight sight(sweep_.tin_, line, axis_.base, cell.along, lowered, profile_axis_.margin);
     if (decide(quadrant, cell, sight)) heights_[cell.index()] = sight.least();
     if (sight.silhouette() != kNone) last_ = silhouettes_[number(cell.major)] = sight.silhouette();
   }
