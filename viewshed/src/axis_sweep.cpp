@@ -189,26 +189,60 @@ class AxisSweep::Task {
     if (last_ != kNone && !sight.clears(last_)) return false;
     if (beside != kNone && beside != last_ && !sight.clears(beside)) return false;
     bool seen = true;
-    const double slope = cell.across / cell.along;
     profile_.search(quadrant.slab_at(cell.along), sight,
-                    [&](std::size_t slab) { return seen = clears(quadrant, slab, slope, cell.along, sight); });
+                    [&](std::size_t slab) { return seen = clears(quadrant, slab, cell, sight); });
     return seen;
   }
 
   /// Looks at the triangles that lie in a slab under the line.
-  bool clears(const Quadrant& quadrant, std::size_t slab, double slope, double along, Sight& sight) {
-    const double begin = std::max(0.0, quadrant.begin(slab)), end = std::min(quadrant.end(slab), along);
-    const double low = quadrant.minor() + slope * (slope < 0 ? end : begin) - BinnedHeights::kSlack;
-    const double high = quadrant.minor() + slope * (slope < 0 ? begin : end) + BinnedHeights::kSlack;
-    const auto first = static_cast<std::int64_t>(std::max(0.0, low));
-    const auto last = std::min(quadrant.lines() - 1, static_cast<std::int64_t>(high));
-    const double lift = profile_axis_.drop * (1 + slope * slope) * begin * begin - profile_axis_.margin;
-    for (std::int64_t bin = first; bin <= last; ++bin) {
-      const double lowest = sight.least() + sight.slope() * (sight.slope() < 0 ? end : begin) + lift;
-      if (quadrant.high()[quadrant.bin(slab, bin)] <= lowest) continue;
-      for (const std::uint32_t t : quadrant.triangles(slab, bin))
-        if (bins_.top(t) > lowest && !sight.clears(t)) return false;
+  bool clears(const Quadrant& quadrant, std::size_t slab, const Cell& cell, Sight& sight) const {
+    const double slope = cell.across / cell.along, minor = quadrant.minor();
+    for (std::size_t i = 0; i < Quadrant::kRun; ++i) {
+      const double begin = std::max(0.0, quadrant.begin(slab) + static_cast<double>(i));
+      const double end = std::min(quadrant.begin(slab) + static_cast<double>(i + 1), cell.along);
+      if (begin - end > BinnedHeights::kSlack) continue;
+      const double low = minor + slope * (slope < 0 ? end : begin), high = minor + slope * (slope < 0 ? begin : end);
+      const auto first = static_cast<std::int64_t>(std::max(0.0, low - BinnedHeights::kSlack));
+      const auto last = std::min(quadrant.lines() - 1, static_cast<std::int64_t>(high + BinnedHeights::kSlack));
+      for (std::int64_t line = first; line <= last; ++line) {
+        Stretch within{begin, end, slope};
+        if (line > first) within.limit((static_cast<double>(line) - minor) / slope, slope > 0);
+        if (line < last) within.limit((static_cast<double>(line + 1) - minor) / slope, slope < 0);
+        if (!clears(quadrant, quadrant.bin(slab, i, line), within, sight)) return false;
+      }
     }
+    return true;
+  }
+
+  /// Of a line outward, in bins along.
+  struct Stretch {
+    double begin = 0, end = 0;
+    double slope = 0;  ///< across / along
+    void limit(double at, bool from_below) {
+      if (from_below) {
+        begin = std::max(begin, at);
+      } else {
+        end = std::min(end, at);
+      }
+    }
+  };
+
+  bool clears(const Quadrant& quadrant, const RasterGrid::Cell& bin, const Stretch& stretch, Sight& sight) const {
+    if (!bins_.holds(bin)) return true;
+    const double drop = profile_axis_.drop * (1 + stretch.slope * stretch.slope);
+    // Less what curvature bends between the ends.
+    const auto height = [&](double along) {
+      return sight.least() + sight.slope() * along + drop * (along * along - 1) - profile_axis_.margin;
+    };
+    const double near = height(stretch.begin), far = height(stretch.end);
+    const auto lid = [&](double along) {
+      const Point2 p = quadrant.position(along, stretch.slope * along);
+      return bins_.lid(bin, p.x, p.y);
+    };
+    if (lid(stretch.begin) <= near && lid(stretch.end) <= far) return true;
+    const double lowest = std::min(near, far);
+    for (const std::uint32_t t : bins_.triangles(bin))
+      if (bins_.top(t) > lowest && !sight.clears(t)) return false;
     return true;
   }
 

@@ -1,8 +1,10 @@
 #include "binned_heights.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <itin/parallel.hpp>
 
@@ -11,6 +13,7 @@ namespace itin::viewshed {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr std::size_t kChunk = 4096;
 
 RasterGrid bin_grid(const Tin& tin) {
   const Box box = tin.bounds();
@@ -36,24 +39,47 @@ struct Square {
   double half = 0;
 };
 
-struct Range {
-  double low = 0, high = 0;
-};
+/// A triangle's heights about a square's middle.
+class Facet {
+ public:
+  Facet(const Tin& tin, const Triangle& t, const Square& square) : half_(square.half) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const GridPoint& v = tin.vertices[t[i]];
+      corners_[i] = {v.x - square.x, v.y - square.y, static_cast<double>(v.z)};
+    }
+    const auto& [a, b, c] = corners_;
+    const double bx = b.x - a.x, by = b.y - a.y, bz = b.z - a.z, cx = c.x - a.x, cy = c.y - a.y, cz = c.z - a.z;
+    doubled_area_ = bx * cy - by * cx;
+    rise_x_ = bz * cy - by * cz, rise_y_ = bx * cz - bz * cx;
+  }
 
-/// Of a triangle's plane over the square, but not beyond its vertices.
-Range range_of(const GridPoint& a, const GridPoint& b, const GridPoint& c, const Square& square) {
-  const double low = std::min({a.z, b.z, c.z}), high = std::max({a.z, b.z, c.z});
-  const double bx = b.x - a.x, by = b.y - a.y, bz = b.z - a.z, cx = c.x - a.x, cy = c.y - a.y, cz = c.z - a.z;
-  const double doubled_area = bx * cy - by * cx;
-  if (doubled_area == 0) return {low, high};
-  const double slope_x = (bz * cy - by * cz) / doubled_area, slope_y = (bx * cz - bz * cx) / doubled_area;
-  const double rise_x = slope_x * (square.x - a.x), rise_y = slope_y * (square.y - a.y);
-  // The last term covers the rounding of what stands before it.
-  const double spread = (std::abs(slope_x) + std::abs(slope_y)) * square.half +
-                        1e-12 * (std::abs(rise_x) + std::abs(rise_y) + std::abs(high - low));
-  const double middle = a.z + rise_x + rise_y;
-  return {std::max(low, middle - spread), std::min(high, middle + spread)};
-}
+  double doubled_area() const { return doubled_area_; }
+  /// The slopes times the doubled area.
+  double rise_x() const { return rise_x_; }
+  double rise_y() const { return rise_y_; }
+
+  /// Lowest and highest above a plane through the middle, over the square at most; low > high where the triangle only
+  /// nearly meets it.
+  std::pair<double, double> range_above(double plane_x, double plane_y) const {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Point3& p : corners_) {
+      const double above = p.z - plane_x * p.x - plane_y * p.y;
+      low = std::min(low, above), high = std::max(high, above);
+    }
+    if (doubled_area_ == 0) return {low, high};
+    const Point3& a = corners_[0];
+    const double x = rise_x_ / doubled_area_ - plane_x, y = rise_y_ / doubled_area_ - plane_y;
+    // The last term covers the rounding of what stands before it.
+    const double spread =
+        (std::abs(x) + std::abs(y)) * half_ + 1e-12 * (std::abs(x * a.x) + std::abs(y * a.y) + std::abs(high - low));
+    const double middle = a.z - plane_x * a.x - plane_y * a.y - (x * a.x + y * a.y);
+    return {std::max(low, middle - spread), std::min(high, middle + spread)};
+  }
+
+ private:
+  std::array<Point3, 3> corners_;
+  double half_, doubled_area_, rise_x_, rise_y_;
+};
 
 }  // namespace
 
@@ -62,64 +88,88 @@ BinnedHeights::BinnedHeights(const Tin& tin, const std::vector<BoundaryEdge>& bo
       grid_(bin_grid(tin)),
       bins_(tin, grid_),
       tops_(tin.triangles.size()),
-      low_by_row_(grid_.cell_count(), -kInfinity),
-      high_by_row_(grid_.cell_count(), -kInfinity) {
+      lids_(grid_.cell_count()) {
   std::transform(tin.triangles.begin(), tin.triangles.end(), tops_.begin(), [&](const Triangle& t) {
     return std::max({tin.vertices[t[0]].z, tin.vertices[t[1]].z, tin.vertices[t[2]].z});
   });
   for (const GridPoint& v : tin.vertices)
     greatest_magnitude_ = std::max(greatest_magnitude_, std::abs(static_cast<double>(v.z)));
+  Ranges ranges{std::vector(grid_.cell_count(), -kInfinity), std::vector(grid_.cell_count(), -kInfinity)};
   parallel_for(static_cast<std::size_t>(rows()), [&](std::size_t r) {
-    for (std::int64_t c = 0; c < columns(); ++c) bound(tin, c, static_cast<std::int64_t>(r));
+    for (std::int64_t c = 0; c < columns(); ++c) bound(tin, {c, static_cast<std::int64_t>(r)}, ranges);
   });
-  forget_depth_at(tin, boundary);
-  transpose();
+  forget_depth_at(tin, boundary, ranges.low);
+  bound_runs(ranges);
 }
 
-void BinnedHeights::bound(const Tin& tin, std::int64_t column, std::int64_t row) {
-  const Point2 middle = grid_.centre(column, row);
+void BinnedHeights::bound(const Tin& tin, RasterGrid::Cell bin, Ranges& ranges) {
+  const std::size_t number = grid_.index(bin);
+  const auto listed = bins_.triangles(number);
+  if (listed.empty()) return;
+  const Point2 middle = grid_.centre(bin.column, bin.row);
   const Square square{(middle.x - units_.origin.x) / units_.resolution, (middle.y - units_.origin.y) / units_.resolution,
                       bin_size() * (0.5 + 2 * kSlack)};
-  const auto listed = triangles(column, row);
-  if (listed.empty()) return;
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const std::uint32_t number : listed) {
-    const Triangle& t = tin.triangles[number];
-    const Range range = range_of(tin.vertices[t[0]], tin.vertices[t[1]], tin.vertices[t[2]], square);
-    // The plane of a triangle that only nearly meets the bin may leave its own heights: low > high.
-    low = std::min(low, range.low), high = std::max(high, range.high);
+  double low = kInfinity, high = -kInfinity, area = 0, rise_x = 0, rise_y = 0;
+  for (const std::uint32_t t : listed) {
+    const Facet facet(tin, tin.triangles[t], square);
+    const auto [lowest, highest] = facet.range_above(0, 0);
+    low = std::min(low, lowest), high = std::max(high, highest);
+    area += facet.doubled_area(), rise_x += facet.rise_x(), rise_y += facet.rise_y();
   }
-  const std::size_t bin = grid_.index({column, row});
-  low_by_row_[bin] = rounded_down(low), high_by_row_[bin] = rounded_up(high);
+  ranges.low[number] = rounded_down(low), ranges.high[number] = rounded_up(high);
+  // Sloping as the triangles do on average; rows count southwards.
+  Lid& lid = lids_[number];
+  const auto size = static_cast<float>(bin_size());
+  lid.per_column = area > 0 ? static_cast<float>(rise_x / area) * size : 0;
+  lid.per_row = area > 0 ? static_cast<float>(-rise_y / area) * size : 0;
+  double above = -kInfinity;
+  for (const std::uint32_t t : listed)
+    above = std::max(above, Facet(tin, tin.triangles[t], square)
+                                .range_above(lid.per_column / bin_size(), -lid.per_row / bin_size())
+                                .second);
+  lid.middle = rounded_up(above);
 }
 
 /// A bin that a triangle meets and no boundary crosses is covered throughout; elsewhere nothing is known of how low the
 /// ground is.
-void BinnedHeights::forget_depth_at(const Tin& tin, const std::vector<BoundaryEdge>& boundary) {
+void BinnedHeights::forget_depth_at(const Tin& tin, const std::vector<BoundaryEdge>& boundary,
+                                    std::vector<float>& low) const {
   std::vector<bool> at_boundary(tin.triangles.size());
   for (const BoundaryEdge& edge : boundary) at_boundary[edge.triangle] = true;
-  parallel_for(static_cast<std::size_t>(rows()), [&](std::size_t r) {
-    for (std::int64_t c = 0; c < columns(); ++c) {
-      const auto listed = triangles(c, static_cast<std::int64_t>(r));
+  parallel_for(grid_.cell_count() / kChunk + 1, [&](std::size_t chunk) {
+    for (std::size_t bin = chunk * kChunk; bin < std::min((chunk + 1) * kChunk, low.size()); ++bin) {
+      const auto listed = bins_.triangles(bin);
       if (std::any_of(listed.begin(), listed.end(), [&](std::uint32_t t) { return at_boundary[t]; }))
-        low_by_row_[grid_.index({c, static_cast<std::int64_t>(r)})] = -kInfinity;
+        low[bin] = -kInfinity;
     }
   });
 }
 
-void BinnedHeights::transpose() {
-  low_by_column_.resize(grid_.cell_count()), high_by_column_.resize(grid_.cell_count());
-  // In strips, so that neither side leaves the cache.
-  constexpr std::int64_t kStrip = 32;
-  parallel_for(static_cast<std::size_t>((rows() + kStrip - 1) / kStrip), [&](std::size_t strip) {
-    const std::int64_t first = static_cast<std::int64_t>(strip) * kStrip, last = std::min(rows(), first + kStrip);
-    for (std::int64_t c = 0; c < columns(); ++c) {
-      for (std::int64_t r = first; r < last; ++r) {
-        const std::size_t to = static_cast<std::size_t>(c * rows() + r), from = grid_.index({c, r});
-        low_by_column_[to] = low_by_row_[from], high_by_column_[to] = high_by_row_[from];
+void BinnedHeights::bound_runs(const Ranges& ranges) {
+  const auto bound = [&](Runs& runs, std::int64_t lines, std::int64_t length, const auto& bin_at) {
+    runs.a_line = (length + kRun - 1) / kRun;
+    const auto count = static_cast<std::size_t>(lines * runs.a_line);
+    runs.low.resize(count), runs.high.resize(count);
+    // In strips, so that columns of bins stay in the cache.
+    constexpr std::int64_t kStrip = 16;
+    parallel_for(static_cast<std::size_t>((lines + kStrip - 1) / kStrip), [&](std::size_t strip) {
+      const std::int64_t first = static_cast<std::int64_t>(strip) * kStrip, last = std::min(lines, first + kStrip);
+      for (std::int64_t run = 0; run < runs.a_line; ++run) {
+        for (std::int64_t line = first; line < last; ++line) {
+          float lowest = kInfinity, highest = -kInfinity;
+          for (std::int64_t i = run * kRun; i < std::min(length, (run + 1) * kRun); ++i) {
+            const std::size_t bin = grid_.index(bin_at(line, i));
+            lowest = std::min(lowest, ranges.low[bin]), highest = std::max(highest, ranges.high[bin]);
+          }
+          const auto to = static_cast<std::size_t>(line * runs.a_line + run);
+          runs.low[to] = lowest, runs.high[to] = highest;
+        }
       }
-    }
-  });
+    });
+  };
+  using Cell = RasterGrid::Cell;
+  bound(eastwards_, rows(), columns(), [](std::int64_t line, std::int64_t i) { return Cell{i, line}; });
+  bound(southwards_, columns(), rows(), [](std::int64_t line, std::int64_t i) { return Cell{line, i}; });
 }
 
 }  // namespace itin::viewshed

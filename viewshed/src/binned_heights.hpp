@@ -2,13 +2,14 @@
 // vertices.
 //
 //   BinnedHeights bins(tin, boundary_edges(tin));
-//   bins.high_by_row()[row * bins.columns() + column]          // grid units
-//   for (std::uint32_t t : bins.triangles(column, row)) ...
+//   bins.lid(bin, column, row)                                // grid units
+//   for (std::uint32_t t : bins.triangles(bin)) ...
 //
 // Positions are in bins, columns counted eastwards and rows southwards from the north-west corner.
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -22,7 +23,7 @@ namespace itin::viewshed {
 
 class BinnedHeights {
  public:
-  /// About two triangles' worth a bin; 40 bytes a triangle. `boundary` is the Tin's.
+  /// About two triangles' worth a bin; 50 bytes a triangle. `boundary` is the Tin's.
   BinnedHeights(const Tin& tin, const std::vector<BoundaryEdge>& boundary);
 
   std::int64_t columns() const { return grid_.columns(); }
@@ -33,16 +34,25 @@ class BinnedHeights {
   double column_at(double x) const { return grid_.column_at(units_.origin.x + x * units_.resolution); }
   double row_at(double y) const { return grid_.row_at(units_.origin.y + y * units_.resolution); }
 
-  /// Grid units, in single precision rounded outwards: the lowest is -infinity where part of the bin has no surface, the
-  /// highest where all of it has none. Row by row from the north-west, and column by column.
-  std::span<const float> low_by_row() const { return low_by_row_; }
-  std::span<const float> high_by_row() const { return high_by_row_; }
-  std::span<const float> low_by_column() const { return low_by_column_; }
-  std::span<const float> high_by_column() const { return high_by_column_; }
-  /// Those that meet the bin, or nearly meet it: kSlack bins away at least.
-  std::span<const std::uint32_t> triangles(std::int64_t column, std::int64_t row) const {
-    return bins_.triangles(grid_.index({column, row}));
+  /// Bounds of runs of kRun bins, eastwards or southwards: as many lines of runs as there are rows, or columns. Grid
+  /// units, in single precision rounded outwards: the lowest is -infinity where part of the run has no surface, the
+  /// highest where all of it has none.
+  struct Runs {
+    std::int64_t a_line = 0;
+    std::vector<float> low, high;
+  };
+  static constexpr std::int64_t kRun = 2;
+  const Runs& eastwards() const { return eastwards_; }
+  const Runs& southwards() const { return southwards_; }
+  bool holds(RasterGrid::Cell bin) const { return bin.column < columns() && bin.row < rows(); }
+  /// A plane that the surface within one bin does not rise above, at a position in bins; grid units.
+  double lid(RasterGrid::Cell bin, double column, double row) const {
+    const Lid& lid = lids_[grid_.index(bin)];
+    return lid.middle + lid.per_column * (column - static_cast<double>(bin.column) - 0.5) +
+           lid.per_row * (row - static_cast<double>(bin.row) - 0.5);
   }
+  /// Those that meet the bin, or nearly meet it: kSlack bins away at least.
+  std::span<const std::uint32_t> triangles(RasterGrid::Cell bin) const { return bins_.triangles(grid_.index(bin)); }
   static constexpr double kSlack = 1e-7;
   /// A triangle's highest vertex, grid units.
   std::int32_t top(std::uint32_t triangle) const { return tops_[triangle]; }
@@ -50,15 +60,24 @@ class BinnedHeights {
   double greatest_magnitude() const { return greatest_magnitude_; }
 
  private:
-  void bound(const Tin& tin, std::int64_t column, std::int64_t row);
-  void forget_depth_at(const Tin& tin, const std::vector<BoundaryEdge>& boundary);
-  void transpose();
+  struct Lid {
+    float middle = -std::numeric_limits<float>::infinity();
+    float per_column = 0, per_row = 0;
+  };
+  /// A value a bin.
+  struct Ranges {
+    std::vector<float> low, high;
+  };
+  void bound(const Tin& tin, RasterGrid::Cell bin, Ranges& ranges);
+  void bound_runs(const Ranges& ranges);
+  void forget_depth_at(const Tin& tin, const std::vector<BoundaryEdge>& boundary, std::vector<float>& low) const;
 
   Grid units_;
   RasterGrid grid_;
   TriangleBins bins_;
   std::vector<std::int32_t> tops_;
-  std::vector<float> low_by_row_, high_by_row_, low_by_column_, high_by_column_;
+  std::vector<Lid> lids_;
+  Runs eastwards_, southwards_;
   double greatest_magnitude_ = 0;
 };
 

@@ -14,18 +14,15 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 Quadrant::Quadrant(const BinnedHeights& bins, double axis_column, double axis_row, Side side)
     : bins_(bins),
       along_columns_(side == kEast || side == kWest),
+      runs_(along_columns_ ? bins.eastwards() : bins.southwards()),
       outward_(side == kEast || side == kSouth ? 1 : -1),
       major_(along_columns_ ? axis_column : axis_row),
       minor_(along_columns_ ? axis_row : axis_column),
-      first_bin_(static_cast<std::int64_t>(std::floor(major_))),
-      lines_(along_columns_ ? bins.rows() : bins.columns()),
-      stride_(along_columns_ ? bins.columns() : bins.rows()),
-      first_(static_cast<std::size_t>(first_bin_)),
-      slabs_(static_cast<std::size_t>(outward_ > 0 ? stride_ - first_bin_ : first_bin_ + 1)),
-      low_(along_columns_ ? bins.low_by_row() : bins.low_by_column()),
-      high_(along_columns_ ? bins.high_by_row() : bins.high_by_column()) {
-  const double inside = major_ - static_cast<double>(first_bin_);
-  first_width_ = outward_ > 0 ? 1 - inside : inside;
+      first_run_(static_cast<std::int64_t>(std::floor(major_ / static_cast<double>(kRun)))),
+      lines_(along_columns_ ? bins.rows() : bins.columns()) {
+  const double inside = major_ - static_cast<double>(first_run_) * static_cast<double>(kRun);
+  first_end_ = outward_ > 0 ? static_cast<double>(kRun) - inside : inside;
+  slabs_ = static_cast<std::size_t>(outward_ > 0 ? runs_.a_line - first_run_ : first_run_ + 1);
 }
 
 void SectorProfile::survey(const Quadrant& quadrant, double from, double to, std::size_t nearest, std::size_t count,
@@ -46,11 +43,12 @@ void SectorProfile::for_each_slab(const Visit& visit) const {
   const double low = quadrant_->minor() - slack + from_ * (from_ < 0 ? quadrant_->end(0) : quadrant_->begin(0));
   const double high = quadrant_->minor() + slack + to_ * (to_ < 0 ? quadrant_->begin(0) : quadrant_->end(0));
   const std::int64_t lines = quadrant_->lines();
+  const double low_step = from_ * Quadrant::kRun, high_step = to_ * Quadrant::kRun;
   const double slabs = static_cast<double>(count_);
-  const bool inside = std::min(low, low + from_ * slabs) >= 0 &&
-                      std::max(high, high + to_ * slabs) < static_cast<double>(lines);
+  const bool inside = std::min(low, low + low_step * slabs) >= 0 &&
+                      std::max(high, high + high_step * slabs) < static_cast<double>(lines);
   for (std::size_t k = 0; k < count_; ++k) {
-    const double first = low + from_ * static_cast<double>(k), last = high + to_ * static_cast<double>(k);
+    const double first = low + low_step * static_cast<double>(k), last = high + high_step * static_cast<double>(k);
     if (inside) {
       visit(k, static_cast<std::int64_t>(first), static_cast<std::int64_t>(last), true);
     } else {
@@ -64,7 +62,7 @@ void SectorProfile::for_each_slab(const Visit& visit) const {
 
 void SectorProfile::survey_lows() {
   hidden_below_.resize(count_ - nearest_);
-  const float* const lows = quadrant_->low().data();
+  const float* const lows = quadrant_->runs().low.data();
   double hidden_below = -std::numeric_limits<double>::infinity();
   double per_begin = 0;
   for_each_slab([&](std::size_t k, std::int64_t first, std::int64_t last, bool inside) {
@@ -72,9 +70,9 @@ void SectorProfile::survey_lows() {
     float low = inside ? kInfinity : -kInfinity;
     if (last - first <= 2 && first <= last) {
       const std::int64_t middle = first + (last > first ? 1 : 0);
-      low = std::min({low, lows[quadrant_->bin(k, first)], lows[quadrant_->bin(k, middle)], lows[quadrant_->bin(k, last)]});
+      low = std::min({low, lows[quadrant_->run(k, first)], lows[quadrant_->run(k, middle)], lows[quadrant_->run(k, last)]});
     } else {
-      for (std::int64_t line = first; line <= last; ++line) low = std::min(low, lows[quadrant_->bin(k, line)]);
+      for (std::int64_t line = first; line <= last; ++line) low = std::min(low, lows[quadrant_->run(k, line)]);
     }
     const double end = quadrant_->end(k), per_end = 1 / end;
     const double rise = low - far_drop_ * end * end - axis_.margin - axis_.top;
@@ -88,11 +86,11 @@ void SectorProfile::survey_highs() {
   high_.resize(count_);
   group_high_.assign((count_ + kGroup - 1) / kGroup, -kInfinity);
   block_high_.assign((count_ + kBlock - 1) / kBlock, -kInfinity);
-  const float* const highs = quadrant_->high().data();
+  const float* const highs = quadrant_->runs().high.data();
   for_each_slab([&](std::size_t k, std::int64_t first, std::int64_t last, bool) {
     // Ground that is bare beyond the bins counts for nothing, and a float's rounding is within the margin.
     float high = -kInfinity;
-    for (std::int64_t line = first; line <= last; ++line) high = std::max(high, highs[quadrant_->bin(k, line)]);
+    for (std::int64_t line = first; line <= last; ++line) high = std::max(high, highs[quadrant_->run(k, line)]);
     const double begin = std::max(0.0, quadrant_->begin(k));
     high_[k] = static_cast<float>(high - near_drop_ * begin * begin);
     group_high_[k / kGroup] = std::max(group_high_[k / kGroup], high_[k]);

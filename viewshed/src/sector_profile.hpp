@@ -26,38 +26,48 @@ class Quadrant {
   bool along_columns() const { return along_columns_; }
   double along(double column, double row) const { return ((along_columns_ ? column : row) - major_) * outward_; }
   double across(double column, double row) const { return (along_columns_ ? row : column) - minor_; }
+  /// Column and row.
+  Point2 position(double along, double across) const {
+    const double major = major_ + along * static_cast<double>(outward_), minor = minor_ + across;
+    return along_columns_ ? Point2{major, minor} : Point2{minor, major};
+  }
 
-  /// Slab k reaches from `begin(k)` to `end(k)` along. Slab 0 begins somewhat behind the axis.
-  double begin(std::size_t slab) const { return first_width_ + static_cast<double>(slab) - 1; }
-  double end(std::size_t slab) const { return first_width_ + static_cast<double>(slab); }
+  /// Slab k, a run of bins, reaches from `begin(k)` to `end(k)` along. Slab 0 begins somewhat behind the axis.
+  double begin(std::size_t slab) const { return end(slab) - static_cast<double>(kRun); }
+  double end(std::size_t slab) const { return first_end_ + static_cast<double>(slab * kRun); }
   /// Precondition: along >= 0.
   std::size_t slab_at(double along) const {
-    return along <= first_width_ ? 0 : static_cast<std::size_t>(along - first_width_) + 1;
+    return along <= first_end_ ? 0 : static_cast<std::size_t>((along - first_end_) / static_cast<double>(kRun)) + 1;
   }
   std::size_t slabs() const { return slabs_; }
 
   /// Across a slab bins are numbered as columns or rows are; the axis itself stands at `minor()`.
   double minor() const { return minor_; }
   std::int64_t lines() const { return lines_; }
-  std::size_t bin(std::size_t slab, std::int64_t line) const {
-    return first_ + static_cast<std::size_t>(line * stride_ + outward_ * static_cast<std::int64_t>(slab));
+  static constexpr std::size_t kRun = BinnedHeights::kRun;
+  const BinnedHeights::Runs& runs() const { return runs_; }
+  std::size_t run(std::size_t slab, std::int64_t line) const {
+    return static_cast<std::size_t>(line * runs_.a_line + run_of(slab));
   }
-  std::span<const float> low() const { return low_; }
-  std::span<const float> high() const { return high_; }
-  std::span<const std::uint32_t> triangles(std::size_t slab, std::int64_t line) const {
-    const std::int64_t bin = first_bin_ + outward_ * static_cast<std::int64_t>(slab);
-    return along_columns_ ? bins_.triangles(bin, line) : bins_.triangles(line, bin);
+  /// The i-th bin of a run, nearest first; it reaches from begin(slab) + i one bin along. May lie just outside all bins.
+  RasterGrid::Cell bin(std::size_t slab, std::size_t i, std::int64_t line) const {
+    const auto at = static_cast<std::int64_t>(outward_ > 0 ? i : kRun - 1 - i);
+    const std::int64_t major = run_of(slab) * static_cast<std::int64_t>(kRun) + at;
+    return along_columns_ ? RasterGrid::Cell{major, line} : RasterGrid::Cell{line, major};
   }
   const BinnedHeights& bins() const { return bins_; }
 
  private:
+  std::int64_t run_of(std::size_t slab) const { return first_run_ + outward_ * static_cast<std::int64_t>(slab); }
+
   const BinnedHeights& bins_;
   bool along_columns_;
+  const BinnedHeights::Runs& runs_;
   std::int64_t outward_;
-  double major_, minor_, first_width_;
-  std::int64_t first_bin_, lines_, stride_;
-  std::size_t first_, slabs_;
-  std::span<const float> low_, high_;
+  double major_, minor_;
+  std::int64_t first_run_, lines_;
+  double first_end_;
+  std::size_t slabs_;
 };
 
 /// What lies within slopes [from, to] of a quadrant (across / along).
