@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
+#include <utility>
 
 namespace itin::viewshed {
 
@@ -65,6 +65,7 @@ class AxisSweep::Task {
  public:
   Task(const AxisSweep& sweep, const Axis& axis, const Eyes& eyes, Scratch& scratch, Heights& heights)
       : sweep_(sweep), bins_(sweep.bins_), axis_(axis), eyes_(eyes), profile_(scratch), heights_(heights) {
+    radius_squared_ = axis.radius * axis.radius;
     const double bin = bins_.bin_size(), drop = sweep.drop_;
     profile_axis_.top = axis.top;
     profile_axis_.drop = drop * bin * bin;
@@ -90,7 +91,7 @@ class AxisSweep::Task {
     auto [from, to] = slopes();
     if (from > to) return;
     // Sectors one cell wide at the tile's far end. A hair more, against rounding.
-    const double width = std::max(1.0, cell_) / farthest_;
+    const double width = std::max(1.0, 1 / cells_a_bin_) / farthest_;
     from -= 1e-9;
     silhouettes_.fill(kNone);
     for (std::size_t i = 0; from + static_cast<double>(i) * width <= to; ++i)
@@ -101,15 +102,20 @@ class AxisSweep::Task {
     const bool columns = quadrant.along_columns();
     majors_ = columns ? eyes_.tile.columns : eyes_.tile.rows;
     minors_ = columns ? eyes_.tile.rows : eyes_.tile.columns;
-    const auto column = [&](std::int64_t i) { return bins_.column_at(eyes_.centres.x[number(i)]); };
-    const auto row = [&](std::int64_t i) { return bins_.row_at(eyes_.centres.y[number(i)]); };
-    for (std::int64_t i = 0; i < majors_; ++i)
-      along_[number(i)] = columns ? quadrant.along(column(i), 0) : quadrant.along(0, row(i));
-    for (std::int64_t i = 0; i < minors_; ++i)
-      across_[number(i)] = columns ? quadrant.across(0, row(i)) : quadrant.across(column(i), 0);
+    const auto &x = eyes_.centres.x, &y = eyes_.centres.y;
+    const auto squared = [](double d) { return d * d; };
+    for (std::size_t i = 0; i < number(majors_); ++i) {
+      along_[i] = columns ? quadrant.along(bins_.column_at(x[i]), 0) : quadrant.along(0, bins_.row_at(y[i]));
+      along_squared_[i] = squared(columns ? x[i] - axis_.x : y[i] - axis_.y);
+    }
+    for (std::size_t i = 0; i < number(minors_); ++i) {
+      across_[i] = columns ? quadrant.across(0, bins_.row_at(y[i])) : quadrant.across(bins_.column_at(x[i]), 0);
+      across_squared_[i] = squared(columns ? y[i] - axis_.y : x[i] - axis_.x);
+    }
     farthest_ = std::max(along_[0], along_[number(majors_ - 1)]);
     nearest_ = std::max(0.0, std::min(along_[0], along_[number(majors_ - 1)]));
-    cell_ = minors_ > 1 ? (across_[number(minors_ - 1)] - across_[0]) / static_cast<double>(minors_ - 1) : 0;
+    const double extent = across_[number(minors_ - 1)] - across_[0];
+    cells_a_bin_ = minors_ > 1 ? static_cast<double>(minors_ - 1) / extent : 1;
   }
 
   /// Of the cells within the quadrant; empty where none is.
@@ -129,63 +135,59 @@ class AxisSweep::Task {
     bool surveyed = false;
     last_ = kNone;
     const bool columns = quadrant.along_columns(), grows = along_[0] < along_[number(majors_ - 1)];
+    const std::size_t minor_step = columns ? Tile::kSide : 1, major_step = columns ? 1 : Tile::kSide;
     for (std::int64_t n = 0; n < majors_; ++n) {
-      const std::int64_t i = grows ? n : majors_ - 1 - n;
-      const double u = along_[number(i)];
+      const std::size_t i = number(grows ? n : majors_ - 1 - n);
+      const double u = along_[i];
       if (u <= 0) continue;
-      const std::int64_t end = first_across(to * u);
-      for (std::int64_t k = first_across(from * u); k < end; ++k) {
-        const Cell cell{columns ? i : k, columns ? k : i, i, u, across_[number(k)]};
+      const std::size_t end = first_across(to * u);
+      double hidden_below = 0;
+      for (std::size_t k = first_across(from * u); k < end; ++k) {
+        const Cell cell{i * major_step + k * minor_step, i, u, across_[k], along_squared_[i] + across_squared_[k]};
         // Of cells on a diagonal, each belongs to one quadrant.
         if (columns ? std::abs(cell.across) > u : std::abs(cell.across) >= u) continue;
-        if (!has_eye(cell)) continue;
-        if (!std::exchange(surveyed, true)) {
-          const std::size_t count = std::min(quadrant.slab_at(farthest_) + 1, quadrant.slabs());
-          profile_.survey(quadrant, from, to, quadrant.slab_at(nearest_), count, profile_axis_);
-        }
-        look(quadrant, cell);
+        const double elevation = eyes_.elevation[cell.index];
+        if (!(cell.squared <= radius_squared_) || std::isnan(elevation)) continue;
+        if (!std::exchange(surveyed, true)) survey(quadrant, from, to);
+        if (hidden_below == 0) hidden_below = axis_.top + u * profile_.hidden_below(quadrant.slab_at(u));
+        ++lines_;
+        heights_[cell.index] = kHidden;
+        if (elevation - sweep_.drop_ * cell.squared >= hidden_below) look(quadrant, cell);
       }
     }
   }
 
+  void survey(const Quadrant& quadrant, double from, double to) {
+    const std::size_t count = std::min(quadrant.slab_at(farthest_) + 1, quadrant.slabs());
+    profile_.survey(quadrant, from, to, quadrant.slab_at(nearest_), count, profile_axis_);
+  }
+
   struct Cell {
-    std::int64_t column = 0, row = 0, major = 0;
+    std::size_t index = 0;  ///< in the tile
+    std::size_t major = 0;
     double along = 0, across = 0;
-    std::size_t index() const { return number(row * Tile::kSide + column); }
+    double squared = 0;  ///< distance from the axis, grid units
   };
 
   /// The first of the cells across that lies at `v` or beyond.
-  std::int64_t first_across(double v) const {
-    const double at = cell_ > 0 ? (v - across_[0]) / cell_ : v - across_[0];
-    return at <= 0 ? 0 : at > static_cast<double>(minors_ - 1) ? minors_ : static_cast<std::int64_t>(std::ceil(at));
-  }
-
-  Point2 from_axis(const Cell& cell) const {
-    return {eyes_.centres.x[number(cell.column)] - axis_.x, eyes_.centres.y[number(cell.row)] - axis_.y};
-  }
-
-  bool has_eye(const Cell& cell) const {
-    const Point2 d = from_axis(cell);
-    return d.x * d.x + d.y * d.y <= axis_.radius * axis_.radius && !std::isnan(eyes_.elevation[cell.index()]);
+  std::size_t first_across(double v) const {
+    const double at = (v - across_[0]) * cells_a_bin_;
+    return at <= 0 ? 0 : at > static_cast<double>(minors_ - 1) ? number(minors_) : static_cast<std::size_t>(std::ceil(at));
   }
 
   void look(const Quadrant& quadrant, const Cell& cell) {
-    ++lines_;
-    const Point2 d = from_axis(cell);
-    const double elevation = eyes_.elevation[cell.index()];
-    const double lowered = elevation - sweep_.drop_ * (d.x * d.x + d.y * d.y);
-    heights_[cell.index()] = kHidden;
-    if (profile_.hides((lowered - axis_.top) / cell.along, quadrant.slab_at(cell.along))) return;
-    const SightLine line({axis_.x + d.x, axis_.y + d.y, elevation}, {axis_.x, axis_.y, axis_.top}, sweep_.drop_,
-                         sweep_.grazing_);
-    Sight sight(sweep_.tin_, line, axis_.base, cell.along, lowered, profile_axis_.margin);
-    if (decide(quadrant, cell, sight)) heights_[cell.index()] = sight.least();
-    if (sight.silhouette() != kNone) last_ = silhouettes_[number(cell.major)] = sight.silhouette();
+    const double x = eyes_.centres.x[cell.index % Tile::kSide], y = eyes_.centres.y[cell.index / Tile::kSide];
+    const double elevation = eyes_.elevation[cell.index];
+    const SightLine line({x, y, elevation}, {axis_.x, axis_.y, axis_.top}, sweep_.drop_, sweep_.grazing_);
+    Sight sight(sweep_.tin_, line, axis_.base, cell.along, elevation - sweep_.drop_ * cell.squared,
+                profile_axis_.margin);
+    if (decide(quadrant, cell, sight)) heights_[cell.index] = sight.least();
+    if (sight.silhouette() != kNone) last_ = silhouettes_[cell.major] = sight.silhouette();
   }
 
   /// Whether the top is seen.
   bool decide(const Quadrant& quadrant, const Cell& cell, Sight& sight) {
-    const std::uint32_t beside = silhouettes_[number(cell.major)];
+    const std::uint32_t beside = silhouettes_[cell.major];
     if (last_ != kNone && !sight.clears(last_)) return false;
     if (beside != kNone && beside != last_ && !sight.clears(beside)) return false;
     bool seen = true;
@@ -253,10 +255,11 @@ class AxisSweep::Task {
   SectorProfile& profile_;
   Heights& heights_;
   SectorProfile::Axis profile_axis_;
+  double radius_squared_;
   // The tile's cells as the quadrant has them, in bins.
-  std::array<double, Tile::kSide> along_{}, across_{};
+  std::array<double, Tile::kSide> along_{}, across_{}, along_squared_{}, across_squared_{};
   std::int64_t majors_ = 0, minors_ = 0;
-  double farthest_ = 0, nearest_ = 0, cell_ = 0;
+  double farthest_ = 0, nearest_ = 0, cells_a_bin_ = 1;
   // What hid the last eye of this sector, and of the last one the eye as far away.
   std::uint32_t last_ = kNone;
   std::array<std::uint32_t, Tile::kSide> silhouettes_{};

@@ -8,6 +8,8 @@
 
 #include <itin/parallel.hpp>
 
+#include "surface_heights.hpp"
+
 namespace itin::viewshed {
 
 namespace {
@@ -150,26 +152,33 @@ void BinnedHeights::bound_runs(const Ranges& ranges) {
     runs.a_line = (length + kRun - 1) / kRun;
     const auto count = static_cast<std::size_t>(lines * runs.a_line);
     runs.low.resize(count), runs.high.resize(count);
+    const auto bound_run = [&](std::int64_t line, std::int64_t run) {
+      float low = kInfinity, high = -kInfinity;
+      for (std::int64_t i = run * kRun; i < std::min(length, (run + 1) * kRun); ++i) {
+        const std::size_t bin = grid_.index(bin_at(line, i)), beside = grid_.index(bin_at(std::min(line + 1, lines - 1), i));
+        low = std::min({low, ranges.low[bin], ranges.low[beside]}), high = std::max(high, ranges.high[bin]);
+      }
+      const auto at = static_cast<std::size_t>(line * runs.a_line + run);
+      runs.low[at] = low, runs.high[at] = high;
+    };
     // In strips, so that columns of bins stay in the cache.
     constexpr std::int64_t kStrip = 16;
     parallel_for(static_cast<std::size_t>((lines + kStrip - 1) / kStrip), [&](std::size_t strip) {
       const std::int64_t first = static_cast<std::int64_t>(strip) * kStrip, last = std::min(lines, first + kStrip);
-      for (std::int64_t run = 0; run < runs.a_line; ++run) {
-        for (std::int64_t line = first; line < last; ++line) {
-          float lowest = kInfinity, highest = -kInfinity;
-          for (std::int64_t i = run * kRun; i < std::min(length, (run + 1) * kRun); ++i) {
-            const std::size_t bin = grid_.index(bin_at(line, i));
-            lowest = std::min(lowest, ranges.low[bin]), highest = std::max(highest, ranges.high[bin]);
-          }
-          const auto to = static_cast<std::size_t>(line * runs.a_line + run);
-          runs.low[to] = lowest, runs.high[to] = highest;
-        }
-      }
+      for (std::int64_t run = 0; run < runs.a_line; ++run)
+        for (std::int64_t line = first; line < last; ++line) bound_run(line, run);
     });
   };
   using Cell = RasterGrid::Cell;
   bound(eastwards_, rows(), columns(), [](std::int64_t line, std::int64_t i) { return Cell{i, line}; });
   bound(southwards_, columns(), rows(), [](std::int64_t line, std::int64_t i) { return Cell{line, i}; });
+}
+
+std::optional<double> BinnedHeights::ground(const Tin& tin, Point2 position) const {
+  const auto bin = grid_.cell_at(position);
+  if (!bin) return std::nullopt;
+  const auto height = surface_height(tin, triangles(*bin), position);
+  return height ? std::optional(*height * units_.resolution) : std::nullopt;
 }
 
 }  // namespace itin::viewshed

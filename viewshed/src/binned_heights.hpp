@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,11 +36,11 @@ class BinnedHeights {
   double row_at(double y) const { return grid_.row_at(units_.origin.y + y * units_.resolution); }
 
   /// Bounds of runs of kRun bins, eastwards or southwards: as many lines of runs as there are rows, or columns. Grid
-  /// units, in single precision rounded outwards: the lowest is -infinity where part of the run has no surface, the
-  /// highest where all of it has none.
+  /// units, in single precision rounded outwards.
   struct Runs {
     std::int64_t a_line = 0;
-    std::vector<float> low, high;
+    std::vector<float> low;   ///< of a run and of the one beside it in the next line; -infinity where a part is bare
+    std::vector<float> high;  ///< of a run; -infinity where all is bare
   };
   static constexpr std::int64_t kRun = 2;
   const Runs& eastwards() const { return eastwards_; }
@@ -51,6 +52,8 @@ class BinnedHeights {
     return lid.middle + lid.per_column * (column - static_cast<double>(bin.column) - 0.5) +
            lid.per_row * (row - static_cast<double>(bin.row) - 0.5);
   }
+  /// Of the surface at a position in metres, metres, where it is there.
+  std::optional<double> ground(const Tin& tin, Point2 position) const;
   /// Those that meet the bin, or nearly meet it: kSlack bins away at least.
   std::span<const std::uint32_t> triangles(RasterGrid::Cell bin) const { return bins_.triangles(grid_.index(bin)); }
   static constexpr double kSlack = 1e-7;

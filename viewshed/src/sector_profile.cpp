@@ -22,7 +22,8 @@ Quadrant::Quadrant(const BinnedHeights& bins, double axis_column, double axis_ro
       lines_(along_columns_ ? bins.rows() : bins.columns()) {
   const double inside = major_ - static_cast<double>(first_run_) * static_cast<double>(kRun);
   first_end_ = outward_ > 0 ? static_cast<double>(kRun) - inside : inside;
-  slabs_ = static_cast<std::size_t>(outward_ > 0 ? runs_.a_line - first_run_ : first_run_ + 1);
+  per_end_.resize(static_cast<std::size_t>(outward_ > 0 ? runs_.a_line - first_run_ : first_run_ + 1));
+  for (std::size_t k = 0; k < per_end_.size(); ++k) per_end_[k] = 1 / end(k);
 }
 
 void SectorProfile::survey(const Quadrant& quadrant, double from, double to, std::size_t nearest, std::size_t count,
@@ -54,7 +55,7 @@ void SectorProfile::for_each_slab(const Visit& visit) const {
     } else {
       const auto whole_first = static_cast<std::int64_t>(std::floor(first));
       const auto whole_last = static_cast<std::int64_t>(std::floor(last));
-      visit(k, std::max<std::int64_t>(0, whole_first), std::min(lines - 1, whole_last),
+      visit(k, std::clamp<std::int64_t>(whole_first, 0, lines - 1), std::clamp<std::int64_t>(whole_last, 0, lines - 1),
             whole_first >= 0 && whole_last < lines);
     }
   }
@@ -68,13 +69,11 @@ void SectorProfile::survey_lows() {
   for_each_slab([&](std::size_t k, std::int64_t first, std::int64_t last, bool inside) {
     if (k >= nearest_) hidden_below_[k - nearest_] = hidden_below;
     float low = inside ? kInfinity : -kInfinity;
-    if (last - first <= 2 && first <= last) {
-      const std::int64_t middle = first + (last > first ? 1 : 0);
-      low = std::min({low, lows[quadrant_->run(k, first)], lows[quadrant_->run(k, middle)], lows[quadrant_->run(k, last)]});
-    } else {
-      for (std::int64_t line = first; line <= last; ++line) low = std::min(low, lows[quadrant_->run(k, line)]);
-    }
-    const double end = quadrant_->end(k), per_end = 1 / end;
+    // Each covers two lines.
+    const std::int64_t last_pair = std::max(first, last - 1);
+    for (std::int64_t line = first + 2; line < last_pair; line += 2) low = std::min(low, lows[quadrant_->run(k, line)]);
+    low = std::min({low, lows[quadrant_->run(k, first)], lows[quadrant_->run(k, last_pair)]});
+    const double end = quadrant_->end(k), per_end = quadrant_->per_end(k);
     const double rise = low - far_drop_ * end * end - axis_.margin - axis_.top;
     hidden_below = std::max(hidden_below, rise * (rise < 0 ? per_end : per_begin));
     per_begin = per_end;

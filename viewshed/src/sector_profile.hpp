@@ -39,7 +39,9 @@ class Quadrant {
   std::size_t slab_at(double along) const {
     return along <= first_end_ ? 0 : static_cast<std::size_t>((along - first_end_) / static_cast<double>(kRun)) + 1;
   }
-  std::size_t slabs() const { return slabs_; }
+  std::size_t slabs() const { return per_end_.size(); }
+  /// 1 / end(slab).
+  double per_end(std::size_t slab) const { return per_end_[slab]; }
 
   /// Across a slab bins are numbered as columns or rows are; the axis itself stands at `minor()`.
   double minor() const { return minor_; }
@@ -67,7 +69,7 @@ class Quadrant {
   double major_, minor_;
   std::int64_t first_run_, lines_;
   double first_end_;
-  std::size_t slabs_;
+  std::vector<double> per_end_;
 };
 
 /// What lies within slopes [from, to] of a quadrant (across / along).
@@ -79,12 +81,12 @@ class SectorProfile {
     double margin = 0;  ///< grid units by which bounds must decide: above all rounding
   };
 
-  /// Of the slabs before `count`; hides() is asked about those from `nearest` on. Reuses what memory it has.
+  /// Of the slabs before `count`; hidden_below() is asked about those from `nearest` on. Reuses what memory it has.
   void survey(const Quadrant& quadrant, double from, double to, std::size_t nearest, std::size_t count,
               const Axis& axis);
 
-  /// Whether lines up to the axis' top that rise by `slope` outward a bin, and begin in this slab, are certainly hidden.
-  bool hides(double slope, std::size_t slab) const { return slope < hidden_below_[slab - nearest_]; }
+  /// Lines up to the axis' top that rise by less than this outward a bin, and begin in this slab, are certainly hidden.
+  double hidden_below(std::size_t slab) const { return hidden_below_[slab - nearest_]; }
 
   /// Calls visit(slab) from `last` inwards for every slab that may rise above a line of height line.least() at the axis
   /// that rises by line.slope() outward a bin; both may change meanwhile, and visit ends the search by returning false.

@@ -61,10 +61,10 @@ void validate(const ZoneRequest& request) {
 }
 
 /// Moves turbines without ground to the misplaced.
-void place_turbines(const Scene& ground, Zone& zone) {
+void place_turbines(const Tin& tin, const BinnedHeights& binned, Zone& zone) {
   std::vector<Turbine> placed;
   for (Turbine& t : zone.request.turbines) {
-    if (const auto height = ground.ground(t.position)) {
+    if (const auto height = binned.ground(tin, t.position)) {
       zone.ground_m.push_back(*height);
       placed.push_back(std::move(t));
     } else {
@@ -94,6 +94,12 @@ double ceiling(const Tin& tin, const ZoneRequest& request) {
   for (const GridPoint& v : tin.vertices) highest = std::max(highest, v.z * tin.grid.resolution);
   for (const Turbine& t : request.turbines) above = std::max(above, t.tip_height);
   return highest + above;
+}
+
+/// What hides besides the surface, where ground without data does.
+std::optional<Scene> curtains(const Tin& tin, const ZoneRequest& request) {
+  if (request.nodata != NoData::kBlock) return std::nullopt;
+  return Scene(tin, request.earth, request.nodata, ceiling(tin, request));
 }
 
 void warn_of_voids(const Tin& tin, const std::vector<BoundaryEdge>& boundary, Zone& zone) {
@@ -192,39 +198,37 @@ Zone survey_turbines(const Tin& ground, const Tin* screened, const ZoneRequest& 
   zone.request = request;
   Stopwatch watch;
   progress.report("scene", 0);
-  std::optional<Scene> scene(std::in_place, ground, request.earth, request.nodata, ceiling(ground, request));
-  place_turbines(*scene, zone);
+  const std::vector<BoundaryEdge> boundary = boundary_edges(ground);
+  std::optional<BinnedHeights> binned(std::in_place, ground, boundary);
+  place_turbines(ground, *binned, zone);
   zone.grid = grid_of(zone.request, ground.bounds());
   std::size_t last = 0;
   for (const Turbine& t : zone.request.turbines) last = std::max(last, turbine_bit(t.number).grid);
   zone.words = last + 1;
-  warn_of_voids(ground, scene->boundary(), zone);
+  warn_of_voids(ground, boundary, zone);
   zone.statistics.retrieval = ground.statistics;
   zone.statistics.triangles = ground.triangles.size();
   const RasterGrid tiles = grid_of_tiles(zone.grid);
   const TriangleBins bins(ground, tiles);
   const ZoneSurvey lines(ground, bins, tiles, zone);
-  const Scene* const curtains = request.nodata == NoData::kBlock ? &*scene : nullptr;
-  {
-    const BinnedHeights binned(ground, scene->boundary());
-    zone.statistics.scene_seconds = watch.lap();
-    const AxisSweep sweep(ground, request.earth, binned);
-    zone.bare = lines.run(sweep, curtains, "sight lines", zone.statistics.lines, progress);
-    zone.statistics.lines_seconds = watch.lap();
-  }
+  std::optional<Scene> scene = curtains(ground, request);
+  zone.statistics.scene_seconds = watch.lap();
+  zone.bare = lines.run(AxisSweep(ground, request.earth, *binned), scene ? &*scene : nullptr, "sight lines",
+                        zone.statistics.lines, progress);
+  binned.reset();
   if (request.radar) {
+    if (!scene) scene.emplace(ground, request.earth, request.nodata, ceiling(ground, request));
     const LeastHeights heights(ground, request.earth, *scene);
     zone.radar = radar_view(ground, *scene, bins, tiles, heights, zone, progress);
-    zone.statistics.lines_seconds += watch.lap();
   }
+  zone.statistics.lines_seconds = watch.lap();
   if (screened != nullptr) {
-    // One scene at a time, for they are what takes memory.
-    scene.reset();
-    scene.emplace(*screened, request.earth, request.nodata, ceiling(*screened, request));
-    const BinnedHeights binned(*screened, scene->boundary());
+    // One surface at a time, for what is made of them takes memory.
+    binned.emplace(*screened, boundary_edges(*screened));
+    scene = curtains(*screened, request);
     zone.statistics.scene_seconds += watch.lap();
-    const AxisSweep sweep(*screened, request.earth, binned);
-    zone.screened = lines.run(sweep, curtains, "sight lines, screened", zone.statistics.lines, progress);
+    zone.screened = lines.run(AxisSweep(*screened, request.earth, *binned), scene ? &*scene : nullptr,
+                              "sight lines, screened", zone.statistics.lines, progress);
     zone.statistics.lines_seconds += watch.lap();
     zone.statistics.retrieval += screened->statistics;
     zone.statistics.triangles += screened->triangles.size();
