@@ -74,14 +74,13 @@ class AxisSweep::Task {
     profile_axis_.margin = 100 * sweep.grazing_ + greatest * 0x1p-21;
   }
 
-  std::uint64_t run() {
+  void run() {
     heights_.fill(kInfinity);
     const double column = bins_.column_at(axis_.x), row = bins_.row_at(axis_.y);
     for (const Quadrant::Side side : {Quadrant::kEast, Quadrant::kWest, Quadrant::kSouth, Quadrant::kNorth}) {
       const Quadrant quadrant(bins_, column, row, side);
       look_from(quadrant);
     }
-    return lines_;
   }
 
  private:
@@ -141,7 +140,7 @@ class AxisSweep::Task {
       const double u = along_[i];
       if (u <= 0) continue;
       const std::size_t end = first_across(to * u);
-      double hidden_below = 0;
+      double hidden_below = std::numeric_limits<double>::quiet_NaN();  // of eyes this far away
       for (std::size_t k = first_across(from * u); k < end; ++k) {
         const Cell cell{i * major_step + k * minor_step, i, u, across_[k], along_squared_[i] + across_squared_[k]};
         // Of cells on a diagonal, each belongs to one quadrant.
@@ -149,8 +148,7 @@ class AxisSweep::Task {
         const double elevation = eyes_.elevation[cell.index];
         if (!(cell.squared <= radius_squared_) || std::isnan(elevation)) continue;
         if (!std::exchange(surveyed, true)) survey(quadrant, from, to);
-        if (hidden_below == 0) hidden_below = axis_.top + u * profile_.hidden_below(quadrant.slab_at(u));
-        ++lines_;
+        if (std::isnan(hidden_below)) hidden_below = axis_.top + u * profile_.hidden_below(quadrant.slab_at(u));
         heights_[cell.index] = kHidden;
         if (elevation - sweep_.drop_ * cell.squared >= hidden_below) look(quadrant, cell);
       }
@@ -172,7 +170,9 @@ class AxisSweep::Task {
   /// The first of the cells across that lies at `v` or beyond.
   std::size_t first_across(double v) const {
     const double at = (v - across_[0]) * cells_a_bin_;
-    return at <= 0 ? 0 : at > static_cast<double>(minors_ - 1) ? number(minors_) : static_cast<std::size_t>(std::ceil(at));
+    return at <= 0                                 ? 0
+           : at > static_cast<double>(minors_ - 1) ? number(minors_)
+                                                   : static_cast<std::size_t>(std::ceil(at));
   }
 
   void look(const Quadrant& quadrant, const Cell& cell) {
@@ -263,7 +263,6 @@ class AxisSweep::Task {
   // What hid the last eye of this sector, and of the last one the eye as far away.
   std::uint32_t last_ = kNone;
   std::array<std::uint32_t, Tile::kSide> silhouettes_{};
-  std::uint64_t lines_ = 0;
 };
 
 AxisSweep::AxisSweep(const Tin& tin, const Earth& earth, const BinnedHeights& bins)
@@ -272,8 +271,8 @@ AxisSweep::AxisSweep(const Tin& tin, const Earth& earth, const BinnedHeights& bi
       drop_(earth.drop_coefficient() * tin.grid.resolution),
       grazing_(kGrazing / tin.grid.resolution) {}
 
-std::uint64_t AxisSweep::run(const Axis& axis, const Eyes& eyes, Scratch& scratch, Heights& heights) const {
-  return Task(*this, axis, eyes, scratch, heights).run();
+void AxisSweep::run(const Axis& axis, const Eyes& eyes, Scratch& scratch, Heights& heights) const {
+  Task(*this, axis, eyes, scratch, heights).run();
 }
 
 }  // namespace itin::viewshed

@@ -109,8 +109,8 @@ void BinnedHeights::bound(const Tin& tin, RasterGrid::Cell bin, Ranges& ranges) 
   const auto listed = bins_.triangles(number);
   if (listed.empty()) return;
   const Point2 middle = grid_.centre(bin.column, bin.row);
-  const Square square{(middle.x - units_.origin.x) / units_.resolution, (middle.y - units_.origin.y) / units_.resolution,
-                      bin_size() * (0.5 + 2 * kSlack)};
+  const Square square{(middle.x - units_.origin.x) / units_.resolution,
+                      (middle.y - units_.origin.y) / units_.resolution, bin_size() * (0.5 + 2 * kSlack)};
   double low = kInfinity, high = -kInfinity, area = 0, rise_x = 0, rise_y = 0;
   for (const std::uint32_t t : listed) {
     const Facet facet(tin, tin.triangles[t], square);
@@ -155,7 +155,8 @@ void BinnedHeights::bound_runs(const Ranges& ranges) {
     const auto bound_run = [&](std::int64_t line, std::int64_t run) {
       float low = kInfinity, high = -kInfinity;
       for (std::int64_t i = run * kRun; i < std::min(length, (run + 1) * kRun); ++i) {
-        const std::size_t bin = grid_.index(bin_at(line, i)), beside = grid_.index(bin_at(std::min(line + 1, lines - 1), i));
+        const std::size_t bin = grid_.index(bin_at(line, i)),
+                          beside = grid_.index(bin_at(std::min(line + 1, lines - 1), i));
         low = std::min({low, ranges.low[bin], ranges.low[beside]}), high = std::max(high, ranges.high[bin]);
       }
       const auto at = static_cast<std::size_t>(line * runs.a_line + run);

@@ -30,7 +30,10 @@ void SectorProfile::survey(const Quadrant& quadrant, double from, double to, std
                            const Axis& axis) {
   quadrant_ = &quadrant, from_ = from, to_ = to, nearest_ = nearest, count_ = count, axis_ = axis;
   highs_known_ = false;
-  const double least_slope = from > 0 ? from : to < 0 ? -to : 0, greatest_slope = std::max(std::abs(from), std::abs(to));
+  const double least_slope = from > 0 ? from
+                             : to < 0 ? -to
+                                      : 0,
+               greatest_slope = std::max(std::abs(from), std::abs(to));
   near_drop_ = axis.drop * (1 + least_slope * least_slope);
   far_drop_ = axis.drop * (1 + greatest_slope * greatest_slope);
   survey_lows();

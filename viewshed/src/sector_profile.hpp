@@ -15,8 +15,8 @@
 
 namespace itin::viewshed {
 
-/// The plane of bins as seen from an axis towards one of four sides: `along` grows away from the axis in bins, by columns
-/// or rows, and `across` is the bins' other coordinate, from the axis.
+/// The plane of bins as seen from an axis towards one of four sides: `along` grows away from the axis in bins, by
+/// columns or rows, and `across` is the bins' other coordinate, from the axis.
 class Quadrant {
  public:
   enum Side : std::uint8_t { kEast, kWest, kSouth, kNorth };
@@ -51,7 +51,8 @@ class Quadrant {
   std::size_t run(std::size_t slab, std::int64_t line) const {
     return static_cast<std::size_t>(line * runs_.a_line + run_of(slab));
   }
-  /// The i-th bin of a run, nearest first; it reaches from begin(slab) + i one bin along. May lie just outside all bins.
+  /// The i-th bin of a run, nearest first; it reaches from begin(slab) + i one bin along. May lie just outside all
+  /// bins.
   RasterGrid::Cell bin(std::size_t slab, std::size_t i, std::int64_t line) const {
     const auto at = static_cast<std::int64_t>(outward_ > 0 ? i : kRun - 1 - i);
     const std::int64_t major = run_of(slab) * static_cast<std::int64_t>(kRun) + at;

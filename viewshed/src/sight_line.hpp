@@ -103,16 +103,17 @@ class SightLine {
   /// it hides nothing there. Cheaper than clearing_end, which it does not contradict.
   bool apart(const GridPoint& a, const GridPoint& b, const GridPoint& c, double end, double margin) const {
     const double dz = end - from_.z;
-    double left = -std::numeric_limits<double>::infinity(), right = -left, first = 2, last = -1, highest = -std::numeric_limits<double>::infinity();
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    double leftmost = -kInfinity, rightmost = kInfinity, first = kInfinity, last = -kInfinity, highest = -kInfinity;
     for (const GridPoint* p : {&a, &b, &c}) {
       const double x = p->x - from_.x, y = p->y - from_.y;
       const double side = dx_ * y - dy_ * x, along = (x * dx_ + y * dy_) * per_squared_length_;
-      left = std::max(left, side), right = std::min(right, side);
+      leftmost = std::max(leftmost, side), rightmost = std::min(rightmost, side);
       first = std::min(first, along), last = std::max(last, along);
       highest = std::max(highest, p->z - from_.z - along * (dz - bulge_ * (1 - along)));
     }
     // Within the triangle curvature raises the ground above the plane through its corners.
-    return left < 0 || right > 0 || highest + bulge_ * (last - first) * (last - first) / 4 <= -margin;
+    return leftmost < 0 || rightmost > 0 || highest + bulge_ * (last - first) * (last - first) / 4 <= -margin;
   }
 
   const Point3& from() const { return from_; }

@@ -168,14 +168,17 @@ double vertices_within(const StoreMetadata& metadata, const ZoneRequest& request
   return vertices * std::max(0.0, width / all.width()) * std::max(0.0, height / all.height());
 }
 
-/// As measured on OS Terrain 50: 350 bytes a triangle of one surface, another 60 of a second one at rest.
+/// As measured on OS Terrain 50: 160 bytes a triangle of one surface, 350 with a scene, another 60 of a second one at
+/// rest.
 void require_memory(const StoreMetadata& metadata, const ZoneRequest& request, const Box& window, bool screened) {
   if (!request.memory_bytes) return;
   const double triangles = 2 * vertices_within(metadata, request, window);
   const double cells = request.grid ? static_cast<double>(request.grid->cell_count())
                                     : window.width() * window.height() / (*request.cell_size * *request.cell_size);
   const double words = static_cast<double>(turbine_bit(request.turbines.back().number).grid + 1);
-  const double needed = (screened ? 410 : 350) * triangles + (screened ? 2 : 1) * (36 + 4 * words) * cells;
+  const bool scene = request.radar || request.nodata == NoData::kBlock;
+  const double needed =
+      ((scene ? 350 : 160) + (screened ? 60 : 0)) * triangles + (screened ? 2 : 1) * (36 + 4 * words) * cells;
   if (needed <= static_cast<double>(*request.memory_bytes)) return;
   throw InputError(
       fmt::format("this takes about {:.1f} GB of memory, more than the {:.1f} GB allowed: give a coarser "

@@ -46,7 +46,7 @@ struct ZoneSurvey::TileWork {
   TileCentres centres;
   TileValues<double> ground, eyes;  ///< grid units
   AxisSweep::Scratch scratch;
-  AxisSweep::Heights least;         ///< of the turbine at hand
+  AxisSweep::Heights least;  ///< of the turbine at hand
   TileValues<std::uint16_t> hubs, tips;
   TileValues<double> height, angle, angle_sum, nearest;
   std::vector<TileValues<std::uint32_t>> seen;
@@ -111,23 +111,23 @@ bool ZoneSurvey::in_reach(const Axis& axis, const Tile& tile) const {
 
 void ZoneSurvey::look_at(std::size_t turbine, const AxisSweep& sweep, const Scene* curtains, TileWork& work) const {
   const Axis& axis = axes_[turbine];
-  const double radius = zone_.request.turbines[turbine].radius;
-  work.lines += sweep.run({axis.x, axis.y, axis.base, axis.tip, radius / ground_.grid.resolution},
-                          {work.tile, work.centres, work.eyes}, work.scratch, work.least);
+  // Which cells lie within the radius is decided in metres, below.
+  const double reach = zone_.request.turbines[turbine].radius / ground_.grid.resolution + 1;
+  sweep.run({axis.x, axis.y, axis.base, axis.tip, reach}, {work.tile, work.centres, work.eyes}, work.scratch,
+            work.least);
   for (std::int64_t r = 0; r < work.tile.rows; ++r) {
+    const double dy = zone_.grid.centre_y(work.tile.row + r) - axis.position_y;
     for (std::int64_t c = 0; c < work.tile.columns; ++c) {
       const std::size_t cell = cell_of(r, c);
-      double least = work.least[cell];
-      if (std::isnan(work.ground[cell])) continue;
-      const double dx = zone_.grid.centre_x(work.tile.column + c) - axis.position_x;
-      const double dy = zone_.grid.centre_y(work.tile.row + r) - axis.position_y;
-      const double squared = dx * dx + dy * dy;
-      if (squared > axis.radius_squared) continue;
+      const double dx = zone_.grid.centre_x(work.tile.column + c) - axis.position_x, squared = dx * dx + dy * dy;
+      if (squared > axis.radius_squared || std::isnan(work.ground[cell])) continue;
       if (work.tips[cell] == kCountOutside) work.tips[cell] = work.hubs[cell] = 0;
-      if (std::isnan(least)) continue;
-      if (std::isinf(least)) least = axis.base;
-      else if (curtains != nullptr && behind_curtain(axis, work, r, c, *curtains)) continue;
-      record(turbine, cell, std::sqrt(squared), least, work);
+      const double least = work.least[cell];
+      const bool beneath = std::isinf(least);
+      work.lines += beneath ? 0 : 1;
+      if (std::isnan(least) || (curtains != nullptr && !beneath && behind_curtain(axis, work, r, c, *curtains)))
+        continue;
+      record(turbine, cell, std::sqrt(squared), beneath ? axis.base : least, work);
     }
   }
 }

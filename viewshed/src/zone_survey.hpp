@@ -21,8 +21,8 @@ class ZoneSurvey {
   /// grid. All must outlive it.
   ZoneSurvey(const Tin& ground, const TriangleBins& bins, const RasterGrid& tiles, const Zone& zone);
 
-  /// What is seen over the surface of `sweep`. What stands in `curtains`, where that is given, hides too. Adds the lines
-  /// to `lines`.
+  /// What is seen over the surface of `sweep`. What stands in `curtains`, where that is given, hides too. Adds the
+  /// lines to `lines`.
   Visibility run(const AxisSweep& sweep, const Scene* curtains, const std::string& stage, std::uint64_t& lines,
                  Progress& progress) const;
 
