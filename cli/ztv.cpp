@@ -164,7 +164,7 @@ class ZtvVerb final : public Verb {
     if (viewpoints_.given()) {
       seen_ = viewpoints_.write(folder, store, zone, progress);
       add(seen_.files);
-      document["viewpoints"] = bad_rows(seen_.path, seen_.rows, seen_.rows - seen_.bad.size(), seen_.bad);
+      document["viewpoints"] = bad_rows_document(seen_.path, seen_.rows, seen_.rows - seen_.bad.size(), seen_.bad);
     }
     add_text("areas.csv", "km2 by band of turbines seen and by ring of distance to the nearest turbine",
              viewshed::area_table(zone));
@@ -227,7 +227,7 @@ class ZtvVerb final : public Verb {
                         {"columns", zone.grid.columns()},
                         {"rows", zone.grid.rows()},
                         {"cell_m", {zone.grid.cell_width(), zone.grid.cell_height()}}};
-    document["turbines"] = bad_rows(turbines_.path(), list_.rows, zone.request.turbines.size(), list_.bad);
+    document["turbines"] = bad_rows_document(turbines_.path(), list_.rows, zone.request.turbines.size(), list_.bad);
     document["turbines"]["sha256"] = list_.sha256;
     document["farms"] = viewshed::farms_of(zone);
     document["area_km2"]["bare"] = areas(zone, zone.bare);
@@ -244,14 +244,6 @@ class ZtvVerb final : public Verb {
     return document;
   }
 
-  static Document bad_rows(const std::string& file, std::size_t rows, std::size_t used,
-                           const std::vector<BadRow>& bad) {
-    Document document{{"file", file}, {"rows", rows}, {"used", used}, {"bad", Document::array()}};
-    for (const BadRow& row : bad)
-      document["bad"].push_back({{"row", row.number}, {"feature", row.feature}, {"message", row.message}});
-    return document;
-  }
-
   static Document areas(const Zone& zone, const viewshed::Visibility& v) {
     std::uint64_t hubs = 0, tips = 0, all = 0;
     for (std::size_t i = 0; i < v.tip_count.size(); ++i) {
@@ -264,14 +256,10 @@ class ZtvVerb final : public Verb {
 
   std::vector<std::string> warnings(const Zone& zone) const {
     std::vector<std::string> warnings = zone.warnings;
-    for (const BadRow& bad : list_.bad)
-      warnings.push_back(fmt::format("{}: row {} (feature {}) is not used: {}", turbines_.path(), bad.number,
-                                     bad.feature, bad.message));
+    for (const BadRow& bad : list_.bad) warnings.push_back(bad_row_warning(turbines_.path(), bad));
     const auto of_radio = radio_.warnings(zone);
     warnings.insert(warnings.end(), of_radio.begin(), of_radio.end());
-    for (const BadRow& bad : seen_.bad)
-      warnings.push_back(
-          fmt::format("{}: row {} (feature {}) is not used: {}", seen_.path, bad.number, bad.feature, bad.message));
+    for (const BadRow& bad : seen_.bad) warnings.push_back(bad_row_warning(seen_.path, bad));
     return warnings;
   }
 

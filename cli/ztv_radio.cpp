@@ -47,9 +47,14 @@ void ZtvRadioOptions::load(const InCrs& in_crs, const StoreMetadata& metadata) {
     radar_ = viewshed::Observer{"radar", position, *radar_place_->height};
   }
   if (links_path_.empty()) return;
-  for (const profile::Link& link : profile::read_links(links_path_, metadata.crs_wkt, 0, in_crs.crs))
-    links_.push_back({link.id, link.from, link.to});
-  if (links_.empty()) throw InputError(links_path_ + ": holds no links");
+  const profile::LinkTable table = profile::read_link_table(links_path_, metadata.crs_wkt, 0, in_crs.crs);
+  for (const profile::Link& link : table.links) links_.push_back({link.id, link.from, link.to});
+  for (const profile::BadLink& link : table.bad)
+    bad_links_.push_back({link.row, static_cast<std::int64_t>(link.row), link.message});
+  if (!links_.empty()) return;
+  throw InputError(links_path_ + (bad_links_.empty() ? ": holds no links"
+                                                     : fmt::format(": none of its {} rows can be used; the first: {}",
+                                                                   bad_links_.size(), bad_links_.front().message)));
 }
 
 viewshed::LinkStudy ZtvRadioOptions::study(const Zone& zone) const {
@@ -104,8 +109,9 @@ Document ZtvRadioOptions::document(const Zone& zone) const {
     const auto& turbines = zone.request.turbines;
     const auto excluded = std::count_if(turbines.begin(), turbines.end(),
                                         [&](const Turbine& t) { return nearest_link(t).clearance < 0; });
-    document["links"] = {
-        {"links", links_.size()}, {"wavelength_m", 0.299792458 / frequency_ghz_}, {"turbines_excluded", excluded}};
+    document["links"] = bad_rows_document(links_path_, links_.size() + bad_links_.size(), links_.size(), bad_links_);
+    document["links"].update(
+        {{"links", links_.size()}, {"wavelength_m", 0.299792458 / frequency_ghz_}, {"turbines_excluded", excluded}});
   }
   return document;
 }
@@ -132,11 +138,15 @@ std::vector<std::string> ZtvRadioOptions::methods(const Zone& zone) const {
 
 std::vector<std::string> ZtvRadioOptions::warnings(const Zone& zone) const {
   if (links_.empty()) return {};
+  std::vector<std::string> warnings;
+  for (const BadRow& bad : bad_links_) warnings.push_back(bad_row_warning(links_path_, bad));
   const auto& turbines = zone.request.turbines;
   const auto unknown =
       std::count_if(turbines.begin(), turbines.end(), [](const Turbine& t) { return !t.rotor_diameter; });
-  if (unknown == 0) return {};
-  return {fmt::format("{} turbines have no rotor_diameter: links are kept clear of their axis alone", unknown)};
+  if (unknown > 0)
+    warnings.push_back(
+        fmt::format("{} turbines have no rotor_diameter: links are kept clear of their axis alone", unknown));
+  return warnings;
 }
 
 }  // namespace itin::cli

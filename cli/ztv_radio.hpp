@@ -14,6 +14,7 @@
 #include "in_crs.hpp"
 #include "values.hpp"
 #include "verb.hpp"
+#include "ztv_turbines.hpp"
 
 namespace itin::cli {
 
@@ -53,6 +54,7 @@ class ZtvRadioOptions {
   std::optional<Place> radar_place_;
   std::optional<viewshed::Observer> radar_;
   std::vector<viewshed::RadioLink> links_;
+  std::vector<BadRow> bad_links_;
 };
 
 }  // namespace itin::cli

@@ -43,6 +43,18 @@ void complete(std::optional<double>& hub, std::optional<double>& rotor, std::opt
 
 }  // namespace
 
+Document bad_rows_document(const std::string& file, std::size_t rows, std::size_t used,
+                           const std::vector<BadRow>& bad) {
+  Document document{{"file", file}, {"rows", rows}, {"used", used}, {"bad", Document::array()}};
+  for (const BadRow& row : bad)
+    document["bad"].push_back({{"row", row.number}, {"feature", row.feature}, {"message", row.message}});
+  return document;
+}
+
+std::string bad_row_warning(const std::string& file, const BadRow& row) {
+  return fmt::format("{}: row {} (feature {}) is not used: {}", file, row.number, row.feature, row.message);
+}
+
 void TurbineOptions::declare(CLI::App& app) {
   app.add_option("--turbines", query_.path,
                  "The turbines, from a vector file of points, or CSV with columns x,y. Fields hub_height and "

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <itin/coordinates.hpp>
 #include <itin/cross_section.hpp>
@@ -49,6 +51,7 @@ struct Sight {
   bool gaps = false;
 };
 
+/// `ground` is what the turbine stands on; both ends keep their bare ground whatever the surface.
 Sight look(const SectionSurface& surface, const Viewpoint& from, const Turbine& turbine, double ground,
            const Earth& earth) {
   Sight sight;
@@ -59,7 +62,8 @@ Sight look(const SectionSurface& surface, const Viewpoint& from, const Turbine& 
   sight.gaps = !section.gaps.empty();
   const profile::Profile profile = profile::from_section(section);
   const double hub = turbine.hub_height.value_or(turbine.tip_height);
-  const auto seen = profile::visible_height(profile, from.height, hub, turbine.tip_height, earth);
+  const auto seen = profile::visible_height(profile, from.height, hub, turbine.tip_height, earth,
+                                            profile::EndGrounds{from.ground, ground});
   sight.least = std::max(0.0, seen.from_m);
   sight.visible = turbine.tip_height - sight.least;
   sight.tip = seen.tip_visible_m > 0;
@@ -77,24 +81,34 @@ const char* yes_or_no(bool value) {
   return value ? "yes" : "no";
 }
 
-std::string row_of(const Viewpoint& v, const Turbine& t, const Sight& s) {
-  return fmt::format("{},{},{:.3f},{:.3f},{:.2f},{},{},{},{:.2f},{:.4f},{},{},{:.3f},{:.5f},{:.5f},{},{}\n", v.number,
-                     csv_cell(v.name), v.position.x, v.position.y, v.ground, t.number, csv_cell(t.name),
-                     csv_cell(t.farm), s.distance, s.azimuth, s.hub ? yes_or_no(*s.hub) : "", yes_or_no(s.tip),
-                     s.visible, s.vertical_deg, s.tip_deg, yes_or_no(s.distance <= t.radius),
-                     s.gaps ? "crosses ground without data" : "");
+std::string hub_cell(const Sight& s) {
+  return s.hub ? yes_or_no(*s.hub) : "";
+}
+
+std::string row_of(const Viewpoint& v, const Turbine& t, const Sight& s, const Sight* screened) {
+  std::string row =
+      fmt::format("{},{},{:.3f},{:.3f},{:.2f},{},{},{},{:.2f},{:.4f},{},{},{:.3f},{:.5f},{:.5f},{},{}", v.number,
+                  csv_cell(v.name), v.position.x, v.position.y, v.ground, t.number, csv_cell(t.name), csv_cell(t.farm),
+                  s.distance, s.azimuth, hub_cell(s), yes_or_no(s.tip), s.visible, s.vertical_deg, s.tip_deg,
+                  yes_or_no(s.distance <= t.radius), s.gaps ? "crosses ground without data" : "");
+  if (screened != nullptr)
+    row += fmt::format(",{},{},{:.3f},{:.5f}", hub_cell(*screened), yes_or_no(screened->tip), screened->visible,
+                       screened->vertical_deg);
+  return row + "\n";
 }
 
 constexpr const char* kHeader =
     "viewpoint,viewpoint_name,x,y,ground_m,turbine,turbine_name,farm,distance_m,azimuth_grid_deg,hub_visible,"
-    "tip_visible,visible_height_m,vertical_angle_deg,tip_elevation_deg,within_radius,note\n";
+    "tip_visible,visible_height_m,vertical_angle_deg,tip_elevation_deg,within_radius,note";
+constexpr const char* kScreenedHeader =
+    ",hub_visible_screened,tip_visible_screened,visible_height_screened_m,vertical_angle_screened_deg";
 
 /// A name that every file system takes.
-std::string file_name(const Viewpoint& v) {
+std::string file_name(const Viewpoint& v, const std::string& suffix) {
   std::string name;
   for (const char c : v.name)
     name += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' ? c : '_';
-  return fmt::format("wireline-{}-{}", v.number, name);
+  return fmt::format("wireline-{}-{}{}", v.number, name, suffix);
 }
 
 /// The widest gap between azimuths lies behind the viewer.
@@ -116,7 +130,7 @@ profile::WirelineQuery field_of_view(const Viewpoint& v, const std::vector<Sight
 }
 
 profile::WirelineQuery wireline_of(const Viewpoint& v, const Zone& zone, const std::vector<Sight>& sights,
-                                   double least_width) {
+                                   double least_width, const std::string& surface) {
   profile::WirelineQuery query = field_of_view(v, sights, least_width);
   query.title = fmt::format("Wireline from viewpoint {}: {}", v.number, v.name);
   query.eye_elevation_m = v.ground + v.height;
@@ -129,7 +143,7 @@ profile::WirelineQuery wireline_of(const Viewpoint& v, const Zone& zone, const s
       fmt::format("{:.0f}, {:.0f}; ground {:.1f} m, eye {:g} m above it. Of {} turbines {} have their tip seen "
                   "and {} their hub; the nearest stands {:.2f} km away.",
                   v.position.x, v.position.y, v.ground, v.height, sights.size(), tips, hubs, nearest->distance / 1000),
-      "Bare ground; " + zone.request.earth.convention()};
+      surface + "; " + zone.request.earth.convention()};
   double reach = 20000;
   for (std::size_t k = 0; k < sights.size(); ++k) {
     const Turbine& t = zone.request.turbines[k];
@@ -164,40 +178,82 @@ Document ViewpointOptions::parameters() const {
   return {{"viewpoints", query_.path}, {"wireline_field_deg", field_deg_}};
 }
 
+namespace {
+
+/// A surface and what is written of the view over it.
+struct View {
+  const SectionSurface& surface;
+  std::string title;   ///< in a wireline's notes
+  std::string suffix;  ///< of its files' names
+};
+
+/// One sight a turbine of the zone.
+std::vector<Sight> look_at_all(const View& view, const Viewpoint& from, const Zone& zone) {
+  std::vector<Sight> sights(zone.request.turbines.size());
+  parallel_for(sights.size(), [&](std::size_t k) {
+    sights[k] = look(view.surface, from, zone.request.turbines[k], zone.ground_m[k], zone.request.earth);
+  });
+  return sights;
+}
+
+Viewpoint viewpoint_of(const SiteRow& row, std::size_t number, const SectionSurface& ground, double usual_height) {
+  if (!row.position) throw InputError(row.error);
+  Viewpoint v;
+  v.number = number;
+  v.position = *row.position;
+  v.name = row.values[0].value_or(fmt::format("{}", number));
+  v.height = row.values[1] ? parse_number("its height", *row.values[1], Range::kNotNegative) : usual_height;
+  const CrossSection here = ground.between(v.position, v.position);
+  if (here.breakpoints.empty())
+    throw InputError(fmt::format("there is no data at {:.10g},{:.10g}", v.position.x, v.position.y));
+  v.ground = here.breakpoints.front().position.z;
+  return v;
+}
+
+void write_wireline(const std::string& folder, const View& view, const Viewpoint& v, const Zone& zone,
+                    const std::vector<Sight>& sights, double least_width, Progress& progress,
+                    ViewpointOptions::Written& written) {
+  const auto drawn =
+      profile::survey_wireline(view.surface, wireline_of(v, zone, sights, least_width, view.title), progress);
+  for (const char* ending : {".svg", ".pdf", ".png"}) {
+    const std::string name = file_name(v, view.suffix) + ending;
+    write_file(folder + "/" + name, profile::draw_wireline(drawn, name), true);
+    written.files.push_back({name, fmt::format("wireline from viewpoint {}, {}, to scale{}", v.number, v.name,
+                                               view.suffix.empty() ? "" : ", with what screens")});
+  }
+}
+
+}  // namespace
+
 ViewpointOptions::Written ViewpointOptions::write(const std::string& folder, const Store& store, const Zone& zone,
                                                   Progress& progress) const {
   Written written;
   written.path = query_.path;
-  const SectionSurface surface(store, zone.request.detail);
-  std::string table = kHeader;
+  const SectionSurface ground(store, zone.request.detail);
+  const View bare{ground, "Bare ground", ""};
+  std::optional<SectionSurface> features;
+  std::optional<View> screened;
+  if (zone.request.themes) {
+    features.emplace(store, zone.request.detail, *zone.request.themes);
+    screened.emplace(
+        View{*features,
+             "Ground with " + fmt::format("{}", fmt::join(zone.request.themes->names(store.metadata().themes), ", ")),
+             "-screened"});
+  }
+  std::string table = fmt::format("{}{}\n", kHeader, screened ? kScreenedHeader : "");
   for (const SiteRow& row : read_site_rows(query_, {"name", "height"}, store.metadata().crs_wkt)) {
-    Viewpoint v;
-    v.number = ++written.rows;
+    const std::size_t number = ++written.rows;
     try {
-      if (!row.position) throw InputError(row.error);
-      v.position = *row.position;
-      v.name = row.values[0].value_or(fmt::format("{}", v.number));
-      v.height = row.values[1] ? parse_number("its height", *row.values[1], Range::kNotNegative)
-                               : zone.request.observer_height;
-      const CrossSection here = surface.between(v.position, v.position);
-      if (here.breakpoints.empty())
-        throw InputError(fmt::format("there is no data at {:.10g},{:.10g}", v.position.x, v.position.y));
-      v.ground = here.breakpoints.front().position.z;
+      const Viewpoint v = viewpoint_of(row, number, ground, zone.request.observer_height);
+      const std::vector<Sight> sights = look_at_all(bare, v, zone);
+      std::vector<Sight> over_features;
+      if (screened) over_features = look_at_all(*screened, v, zone);
+      for (std::size_t k = 0; k < sights.size(); ++k)
+        table += row_of(v, zone.request.turbines[k], sights[k], screened ? &over_features[k] : nullptr);
+      write_wireline(folder, bare, v, zone, sights, field_deg_, progress, written);
+      if (screened) write_wireline(folder, *screened, v, zone, over_features, field_deg_, progress, written);
     } catch (const InputError& error) {
-      written.bad.push_back({v.number, row.feature, error.what()});
-      continue;
-    }
-    const auto& turbines = zone.request.turbines;
-    std::vector<Sight> sights(turbines.size());
-    parallel_for(turbines.size(), [&](std::size_t k) {
-      sights[k] = look(surface, v, turbines[k], zone.ground_m[k], zone.request.earth);
-    });
-    for (std::size_t k = 0; k < turbines.size(); ++k) table += row_of(v, turbines[k], sights[k]);
-    const auto view = profile::survey_wireline(surface, wireline_of(v, zone, sights, field_deg_), progress);
-    for (const char* ending : {".svg", ".pdf", ".png"}) {
-      const std::string name = file_name(v) + ending;
-      write_file(folder + "/" + name, profile::draw_wireline(view, name), true);
-      written.files.push_back({name, fmt::format("wireline from viewpoint {}, {}, to scale", v.number, v.name)});
+      written.bad.push_back({number, row.feature, error.what()});
     }
   }
   write_file(folder + "/viewpoints.csv", table, true);

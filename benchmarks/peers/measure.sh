@@ -1,20 +1,22 @@
 # Sourced by the scripts beside it: runs commands under GNU time and remembers what they cost.
 
-# measure NAME COMMAND...: sets seconds[NAME] and megabytes[NAME] (peak resident memory), and prints both.
-declare -A seconds megabytes
+# measure NAME COMMAND...: sets seconds[NAME], processor[NAME] (seconds of processor time, which others' load on the machine
+# changes least) and megabytes[NAME] (peak resident memory), and prints them.
+declare -A seconds processor megabytes
 measure() {
   local name=$1 figures
   shift
   figures=$(mktemp)
-  if ! /usr/bin/time -f '%e %M' -o "$figures" "$@" >"$figures.log" 2>&1; then
+  if ! /usr/bin/time -f '%e %M %U %S' -o "$figures" "$@" >"$figures.log" 2>&1; then
     cat "$figures.log" >&2
     echo "$name failed: $*" >&2
     exit 1
   fi
   seconds["$name"]=$(awk '{ print $1 }' "$figures")
   megabytes["$name"]=$(awk '{ printf "%.0f", $2 / 1024 }' "$figures")
+  processor["$name"]=$(awk '{ print $3 + $4 }' "$figures")
   rm -f "$figures" "$figures.log"
-  printf '  %-34s %9.2f s %9d MB\n' "$name" "${seconds[$name]}" "${megabytes[$name]}"
+  printf '  %-34s %9.2f s %9.2f s of processors %6d MB\n' "$name" "${seconds[$name]}" "${processor[$name]}" "${megabytes[$name]}"
 }
 
 # ratio A B: how many times as long A took as B.

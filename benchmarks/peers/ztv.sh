@@ -55,9 +55,14 @@ export -f gdal_runs grass_runs sites
 export turbines radius tip eye refraction sample out work
 
 against() {  # against NAME: the peer's time for all turbines, and how many times as long that is as itin's
-  awk -v peer="${seconds[$1]}" -v itin="${seconds["itin ztv, $turbines turbines"]}" -v n=$turbines -v s="$sample" \
-    'BEGIN { all = peer * n / s; printf "  %-34s %9.1f s for %d, multiplied; itin takes 1/%.1f of it\n", "", all, n, all / itin }'
+  awk -v peer="${seconds[$1]}" -v itin="${seconds["itin ztv, $turbines turbines"]}" \
+    -v peer_cpu="${processor[$1]}" -v itin_cpu="${processor["itin ztv, $turbines turbines"]}" -v n=$turbines -v s="$sample" \
+    'BEGIN {
+      printf "  %-34s %9.1f s for %d, multiplied; itin takes 1/%.1f of it\n", "", peer * n / s, n, peer * n / s / itin
+      printf "  %-34s %9.1f s of processors; itin takes 1/%.1f of it\n", "", peer_cpu * n / s, peer_cpu * n / s / itin_cpu
+    }'
 }
+
 measure "gdal_viewshed, $sample runs" bash -c gdal_runs
 against "gdal_viewshed, $sample runs"
 if $with_grass; then

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <charconv>
 #include <cmath>
@@ -36,35 +37,57 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
-double number(const std::string& text, const std::string& path, std::size_t row) {
+double number(const std::string& text) {
   const char* first = text.c_str() + std::min(text.find_first_not_of(' '), text.size());
   const char* last = text.c_str() + text.size();
   double value = 0;
   const auto [end, error] = std::from_chars(first, last, value);
-  if (error != std::errc() || end != last) {
-    throw FileError(path, fmt::format("line {}: '{}' is no number; the columns are id,x1,y1,h1,x2,y2,h2", row, text));
-  }
+  if (error != std::errc() || end != last || !std::isfinite(value))
+    throw InputError(fmt::format("'{}' is no number; the columns are id,x1,y1,h1,x2,y2,h2", text));
   return value;
 }
 
-std::vector<Link> read_table(const std::string& path, const std::string& to_crs, const std::string& csv_crs) {
+Link link_of(const std::string& line) {
+  const std::vector<std::string> cells = cells_of(line);
+  if (cells.size() != 7) throw InputError(fmt::format("has {} columns instead of 7", cells.size()));
+  std::array<double, 6> v{};
+  for (std::size_t i = 0; i < 6; ++i) v[i] = number(cells[i + 1]);
+  return {cells[0], {v[0], v[1]}, v[2], {v[3], v[4]}, v[5]};
+}
+
+/// Calls refuse(number of the row, number of its line, what is wrong) for those that cannot be understood.
+template <class Refuse>
+std::vector<Link> read_table(const std::string& path, const std::string& to_crs, const std::string& csv_crs,
+                             const Refuse& refuse) {
   std::ifstream file(path);
   if (!file) throw FileError(path, "cannot be opened");
   std::optional<CoordinateTransform> transform;
   if (!csv_crs.empty()) transform.emplace(csv_crs, to_crs);
   std::vector<Link> links;
   std::string line;
-  for (std::size_t row = 1; std::getline(file, line); ++row) {
-    if (row == 1 || line.find_first_not_of(" \r") == std::string::npos) continue;
-    const std::vector<std::string> cells = cells_of(line);
-    if (cells.size() != 7)
-      throw FileError(path, fmt::format("line {}: has {} columns instead of 7", row, cells.size()));
-    std::array<double, 6> v{};
-    for (std::size_t i = 0; i < 6; ++i) v[i] = number(cells[i + 1], path, row);
-    Link link{cells[0], {v[0], v[1]}, v[2], {v[3], v[4]}, v[5]};
-    if (transform) link.from = (*transform)(link.from), link.to = (*transform)(link.to);
-    links.push_back(std::move(link));
+  std::size_t row = 0;
+  for (std::size_t number = 1; std::getline(file, line); ++number) {
+    if (number == 1 || line.find_first_not_of(" \r") == std::string::npos) continue;
+    ++row;
+    try {
+      Link link = link_of(line);
+      if (transform) link.from = (*transform)(link.from), link.to = (*transform)(link.to);
+      links.push_back(std::move(link));
+    } catch (const InputError& error) {
+      refuse(row, number, error.what());
+    }
   }
+  return links;
+}
+
+bool is_table(const std::string& path) {
+  return path.size() > 4 && path.ends_with(".csv");
+}
+
+std::vector<Link> read_lines(const std::string& path, const std::string& to_crs, double height) {
+  std::vector<Link> links;
+  for (const Path& line : read_paths(path, to_crs))
+    links.push_back({line.name, line.corners.front(), height, line.corners.back(), height});
   return links;
 }
 
@@ -145,12 +168,20 @@ std::vector<std::size_t> by_place(const std::vector<Link>& links) {
 
 std::vector<Link> read_links(const std::string& path, const std::string& to_crs, double height,
                              const std::string& csv_crs) {
-  if (path.size() > 4 && path.ends_with(".csv")) return read_table(path, to_crs, csv_crs);
-  std::vector<Link> links;
-  for (const Path& line : read_paths(path, to_crs)) {
-    links.push_back({line.name, line.corners.front(), height, line.corners.back(), height});
-  }
-  return links;
+  if (!is_table(path)) return read_lines(path, to_crs, height);
+  return read_table(path, to_crs, csv_crs, [&](std::size_t, std::size_t line, const std::string& message) {
+    throw FileError(path, fmt::format("line {}: {}", line, message));
+  });
+}
+
+LinkTable read_link_table(const std::string& path, const std::string& to_crs, double height,
+                          const std::string& csv_crs) {
+  if (!is_table(path)) return {read_lines(path, to_crs, height), {}};
+  LinkTable table;
+  table.links = read_table(path, to_crs, csv_crs, [&](std::size_t row, std::size_t, const std::string& message) {
+    table.bad.push_back({row, message});
+  });
+  return table;
 }
 
 std::vector<LinkResult> survey_links(const Store& store, const std::vector<Link>& links, const LinkQuery& query,

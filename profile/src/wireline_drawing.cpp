@@ -67,7 +67,8 @@ class WirelinePage {
     return placed;
   }
 
-  /// From a degree below the lowest skyline to above everything.
+  /// From a degree below the lowest skyline to above everything, but for what towers over the eye, such as a house
+  /// beside it: that is cut off.
   void choose_elevations() {
     const std::size_t lines = view_.bands.front().angle_deg.size();
     double lowest = 90, highest = -90;
@@ -77,8 +78,10 @@ class WirelinePage {
         if (!std::isnan(band.angle_deg[i])) skyline = std::max<double>(skyline, band.angle_deg[i]);
       if (skyline > -90) lowest = std::min(lowest, skyline), highest = std::max(highest, skyline);
     }
-    for (const PlacedTurbine& t : turbines_) highest = std::max(highest, t.top);
-    if (lowest > highest) lowest = -1, highest = 1;
+    constexpr double kTowering = 30;
+    highest = std::min(highest, kTowering);
+    for (const PlacedTurbine& t : turbines_) highest = std::max(highest, t.top), lowest = std::min(lowest, t.top);
+    if (lowest > highest) lowest = highest < -89 ? -1 : highest - 3, highest = std::max(highest, 1.0);
     low_ = std::max(std::floor(lowest * 2 - 3) / 2, -15.0);
     high_ = std::min(std::max(std::ceil(highest * 2 + 1) / 2, low_ + 3), 60.0);
   }

@@ -37,6 +37,18 @@ struct Link {
 std::vector<Link> read_links(const std::string& path, const std::string& to_crs, double height,
                              const std::string& csv_crs = {});
 
+/// The same, but rows of a table that cannot be understood are handed back instead of ending it all.
+struct BadLink {
+  std::size_t row = 0;  ///< from 1, not counting the header
+  std::string message;
+};
+struct LinkTable {
+  std::vector<Link> links;
+  std::vector<BadLink> bad;
+};
+LinkTable read_link_table(const std::string& path, const std::string& to_crs, double height,
+                          const std::string& csv_crs = {});
+
 struct LinkQuery {
   Earth earth;
   Detail detail = Detail::tolerance(0);      ///< of the surface
