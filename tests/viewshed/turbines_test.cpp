@@ -1,12 +1,16 @@
 // Zones of theoretical visibility against single exact lines of sight, and on hand-made ground.
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <gmock/gmock.h>
 #include <iostream>
 #include <numbers>
 #include <random>
 #include <sstream>
 
+#include <gdal_priv.h>
 #include <gtest/gtest.h>
+#include <ogrsf_frmts.h>
 
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
@@ -15,6 +19,7 @@
 #include <viewshed/zone_files.hpp>
 
 #include "support/exact_line_of_sight.hpp"
+#include "support/real_terrain.hpp"
 #include "support/terrain_tin.hpp"
 #include "turbine_view.hpp"
 #include "value_bands.hpp"
@@ -122,6 +127,68 @@ TEST(Turbines, EveryValueFollowsFromSingleLinesOfSight) {
     }
   }
   EXPECT_GT(seen, 20);
+}
+
+std::string repd_path() {
+  return std::string(ITIN_DATA_DIR) + "/wind-turbine-sites/UK_REPD-June-2020-update.csv";
+}
+
+/// Operational wind farms of Wales within a box, one turbine where the database has the farm.
+std::vector<Turbine> repd_farms(const Box& box) {
+  GDALAllRegister();
+  const GDALDatasetUniquePtr file(GDALDataset::Open(repd_path().c_str(), GDAL_OF_VECTOR));
+  std::vector<Turbine> farms;
+  for (const auto& row : *file->GetLayer(0)) {
+    const auto text = [&](const char* field) { return std::string(row->GetFieldAsString(field)); };
+    const auto number = [&](const char* field) {
+      std::string digits = text(field);
+      std::erase(digits, ',');
+      return std::atof(digits.c_str());
+    };
+    const Point2 at{number("X-coordinate"), number("Y-coordinate")};
+    if (text("Technology Type") != "Wind Onshore" || text("Development Status (short)") != "Operational") continue;
+    if (!box.contains(at) || number("Height of Turbines (m)") <= 0) continue;
+    Turbine& t = farms.emplace_back();
+    t.number = farms.size(), t.farm = text("Site Name"), t.position = at, t.radius = 12000;
+    t.tip_height = number("Height of Turbines (m)"), t.hub_height = 0.6 * t.tip_height;
+  }
+  return farms;
+}
+
+TEST(Turbines, FarmsOfSouthWales) {
+  const auto tin = test::pant_y_wal();
+  if (!tin || !std::filesystem::exists(repd_path()))
+    GTEST_SKIP() << "needs " << test::os_terrain_50_path() << " and " << repd_path();
+  ZoneRequest request;
+  request.turbines = repd_farms(tin->bounds());
+  ASSERT_GE(request.turbines.size(), 2U);
+  EXPECT_THAT(request.turbines[0].farm, ::testing::StartsWith("Pant y wal"));
+  request.turbines.push_back(turbine(77, 0, 0, "planned"));
+  request.turbines.back().position = {288500, 193200}, request.turbines.back().radius = 12000;
+  request.cell_size = 400;
+  const Zone zone = survey(*tin, request);
+  EXPECT_THAT(farms_of(zone), ::testing::SizeIs(3));
+  const test::ExactLineOfSight exact(*tin, request.earth);
+  int seen = 0, hidden = 0;
+  for (std::int64_t row = 2; row < zone.grid.rows(); row += 19) {
+    for (std::int64_t column = 3; column < zone.grid.columns(); column += 19) {
+      const Point2 eye = zone.grid.centre(column, row);
+      const std::size_t cell = zone.grid.index({column, row});
+      if (zone.bare.tip_count[cell] == kCountOutside) continue;
+      const double height = exact.height(eye).value();
+      for (std::size_t k = 0; k < zone.request.turbines.size(); ++k) {
+        const Turbine& t = zone.request.turbines[k];
+        if (std::hypot(t.position.x - eye.x, t.position.y - eye.y) > t.radius) continue;
+        const Point3 tip{t.position.x, t.position.y, zone.ground_m[k] + t.tip_height};
+        const double clearance = exact.clearance({eye.x, eye.y, height + request.observer_height}, tip);
+        if (std::abs(clearance + 1e-6) < 1e-6) continue;
+        EXPECT_EQ(sees(zone, cell, t.number), clearance > -1e-6) << eye.x << "," << eye.y << " " << t.farm;
+        ++(clearance > -1e-6 ? seen : hidden);
+      }
+    }
+  }
+  EXPECT_GT(seen, 3);
+  EXPECT_GT(hidden, 20);
 }
 
 TEST(Turbines, BehindAWallSimilarTrianglesTell) {

@@ -99,21 +99,27 @@ class SightLine {
     return to_z() + result;
   }
 
-  /// Whether the triangle lies to one side of the line, or all of it below the line to `end` by at least `margin`: then
-  /// it hides nothing there. Cheaper than clearing_end, which it does not contradict.
+  /// Whether the triangle lies to one side of the line, or is below the line to `end` by at least `margin` wherever the
+  /// two meet: then it hides nothing there. Cheaper than clearing_end, which it does not contradict.
   bool apart(const GridPoint& a, const GridPoint& b, const GridPoint& c, double end, double margin) const {
     const double dz = end - from_.z;
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    double leftmost = -kInfinity, rightmost = kInfinity, first = kInfinity, last = -kInfinity, highest = -kInfinity;
-    for (const GridPoint* p : {&a, &b, &c}) {
-      const double x = p->x - from_.x, y = p->y - from_.y;
-      const double side = dx_ * y - dy_ * x, along = (x * dx_ + y * dy_) * per_squared_length_;
-      leftmost = std::max(leftmost, side), rightmost = std::min(rightmost, side);
-      first = std::min(first, along), last = std::max(last, along);
-      highest = std::max(highest, p->z - from_.z - along * (dz - bulge_ * (1 - along)));
-    }
-    // Within the triangle curvature raises the ground above the plane through its corners.
-    return leftmost < 0 || rightmost > 0 || highest + bulge_ * (last - first) * (last - first) / 4 <= -margin;
+    const auto corner_at = [&](const GridPoint& p) {
+      const double x = p.x - from_.x, y = p.y - from_.y;
+      const double along = (x * dx_ + y * dy_) * per_squared_length_;
+      return Corner{dx_ * y - dy_ * x, along, p.z - from_.z - along * (dz - bulge_ * (1 - along))};
+    };
+    const Corner p = corner_at(a), q = corner_at(b), r = corner_at(c);
+    if ((p.side > 0 && q.side > 0 && r.side > 0) || (p.side < 0 && q.side < 0 && r.side < 0)) return true;
+    // Between corners curvature raises the ground above the straight piece.
+    const double stretch = std::max({p.along, q.along, r.along}) - std::min({p.along, q.along, r.along});
+    const double limit = -margin - bulge_ * stretch * stretch / 4;
+    if (std::max({p.rise, q.rise, r.rise}) <= limit) return true;
+    const auto below = [&](const Corner& from, const Corner& to) {
+      const double across = from.side - to.side;
+      if (from.side * to.side >= 0) return from.side * to.side > 0 || std::max(from.rise, to.rise) <= limit;
+      return from.rise + from.side / across * (to.rise - from.rise) <= limit;
+    };
+    return below(p, q) && below(q, r) && below(r, p);
   }
 
   const Point3& from() const { return from_; }
