@@ -42,7 +42,7 @@ class BinnedHeights {
     std::vector<float> low;   ///< of a run and of the one beside it in the next line; -infinity where a part is bare
     std::vector<float> high;  ///< of a run; -infinity where all is bare
   };
-  static constexpr std::int64_t kRun = 2;
+  static constexpr std::int64_t kRun = 4;
   const Runs& eastwards() const { return eastwards_; }
   const Runs& southwards() const { return southwards_; }
   bool holds(RasterGrid::Cell bin) const { return bin.column < columns() && bin.row < rows(); }
