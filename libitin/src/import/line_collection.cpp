@@ -41,26 +41,39 @@ void LineCollection::take_themes(const StoreMetadata& metadata) {
   }
 }
 
-bool LineCollection::take_vertex(const GridPoint& p, std::uint16_t source) {
-  if (!from_line_[source]) return false;
-  vertices_.try_emplace(morton(p.x, p.y), Vertex{p.z, source});
-  return true;
+void LineCollection::take_segments(const PointIndex& index) {
+  index.segments(index.bounds(), stored_);
+  std::erase_if(stored_,
+                [&](const Segment& s) { return s.theme == kCoverage || s.finest > 0 || s.theme > themes_.size(); });
+  std::sort(stored_.begin(), stored_.end());
+  stored_.erase(std::unique(stored_.begin(), stored_.end()), stored_.end());
+  for (const Segment& s : stored_) {
+    const auto theme = static_cast<std::uint32_t>(s.theme - 1);
+    if (!is_terrain(themes_[theme].kind)) continue;
+    for (const std::uint64_t end : {morton(s.ax, s.ay), morton(s.bx, s.by)}) {
+      std::uint32_t& of_end = ends_.try_emplace(end, theme).first->second;
+      of_end = std::min(of_end, theme);
+    }
+  }
 }
 
-void LineCollection::take_segments(const PointIndex& index) {
-  std::vector<Segment> stored;
-  index.segments(index.bounds(), stored);
-  std::sort(stored.begin(), stored.end());
-  stored.erase(std::unique(stored.begin(), stored.end()), stored.end());
+bool LineCollection::take_vertex(const GridPoint& p, std::uint16_t source) {
+  const std::uint64_t code = morton(p.x, p.y);
+  const auto end = ends_.find(code);
+  if (!from_line_[source] && end == ends_.end()) return false;
+  const std::uint16_t of_line = from_line_[source] ? source : first_source_[end->second];
+  vertices_.try_emplace(code, Vertex{p.z, of_line});
+  return from_line_[source];
+}
+
+/// The stored lines with their heights. A vertex of the terrain has its own, one of another line gets it anew.
+void LineCollection::add_stored() {
   const auto vertex = [&](std::int32_t x, std::int32_t y) {
-    // A vertex of the terrain has its height from a line, one of another line gets it anew.
     const auto found = vertices_.find(morton(x, y));
     return GridPoint{x, y, found == vertices_.end() ? 0 : found->second.z};
   };
-  for (const Segment& s : stored) {
-    if (s.theme == kCoverage || s.finest > 0 || s.theme > themes_.size()) continue;
+  for (const Segment& s : stored_)
     segments_.push_back({vertex(s.ax, s.ay), vertex(s.bx, s.by), static_cast<std::uint32_t>(s.theme - 1)});
-  }
 }
 
 void LineCollection::take_footprints(const Store& store) {
@@ -144,6 +157,7 @@ std::uint16_t LineCollection::source_of(const GridPoint& p, std::uint32_t owner)
 }
 
 ThemeLines LineCollection::finish() {
+  add_stored();
   std::vector<std::uint32_t> order(themes_.size());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {

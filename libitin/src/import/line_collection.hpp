@@ -18,11 +18,12 @@ namespace itin {
 
 class LineCollection {
  public:
-  /// Takes a store's themes over, then its vertices, then its lines: in this order.
+  /// Takes a store's themes over, then its lines, then their vertices: in this order.
   void take_themes(const StoreMetadata& metadata);
-  /// Whether the vertex comes from a line, and so is taken over with its lines, not with the points.
-  bool take_vertex(const GridPoint& p, std::uint16_t source);
   void take_segments(const PointIndex& index);
+  /// Whether the vertex comes from lines alone, and so is taken over with them, not with the points. One at a point of
+  /// the ground is taken over with both.
+  bool take_vertex(const GridPoint& p, std::uint16_t source);
 
   /// Standing themes' footprints; their lines are not taken over, but made again.
   void take_footprints(const Store& store);
@@ -52,6 +53,7 @@ class LineCollection {
     std::uint32_t theme;
     StandingPart part;
   };
+  void add_stored();
   void place_parts(ThemeLines& result);
   std::uint16_t source_of(const GridPoint& p, std::uint32_t owner) const;
 
@@ -60,7 +62,9 @@ class LineCollection {
   std::vector<bool> stands_;                              ///< by theme
   std::vector<std::vector<StoredFootprint>> footprints_;  ///< by theme
   std::vector<OwnPart> parts_;
-  std::vector<bool> from_line_;  ///< by the store's source
+  std::vector<bool> from_line_;                            ///< by the store's source
+  std::vector<Segment> stored_;                            ///< of the store's lines, on the ground
+  std::unordered_map<std::uint64_t, std::uint32_t> ends_;  ///< theme by Morton code: those of the stored terrain lines
   std::vector<OwnedSegment> segments_;
   std::unordered_map<std::uint64_t, Vertex> vertices_;  ///< by Morton code: what lines brought along
 };

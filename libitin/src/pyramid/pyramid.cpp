@@ -36,14 +36,17 @@ std::vector<std::array<double, 4>> gap_bases(const std::vector<SourceInfo>& sour
   return bases;
 }
 
-/// Sources whose points are ground by themselves: all but lines that add to it, and what is inferred in it.
-Sources ground_sources(const std::vector<SourceInfo>& sources) {
-  Sources ground;
-  for (std::size_t s = 0; s < sources.size(); ++s) {
-    const bool scattered = sources[s].theme.empty() && sources[s].kind != kInferred;
-    if (scattered || sources[s].kind == name_of(ThemeKind::Contours)) ground.insert(static_cast<std::uint16_t>(s));
+/// The vertices of the terrain's lines, as ascending Morton codes.
+std::vector<std::uint64_t> terrain_vertices(const ThemeLines& lines) {
+  std::vector<std::uint64_t> codes;
+  for (const PlanarEdge& e : lines.lines.edges) {
+    if (lines.stands(e) || !lines.terrain[e.owner]) continue;
+    for (const std::uint32_t v : {e.from, e.to})
+      codes.push_back(morton(lines.lines.vertices[v].x, lines.lines.vertices[v].y));
   }
-  return ground;
+  std::sort(codes.begin(), codes.end());
+  codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
+  return codes;
 }
 
 /// The lines of the terrain at all levels; nothing where there are none.
@@ -202,6 +205,10 @@ void write_levels(const WorkingIndex& index, LeafBounds& bounds, const std::vect
 
 }  // namespace
 
+bool is_ground(const SourceInfo& source) {
+  return source.theme.empty() ? source.kind != kInferred : source.kind == name_of(ThemeKind::Contours);
+}
+
 PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>& sources, const Grid& grid,
                             const std::vector<double>& tolerances, const ThemeLines& lines, StoreWriter& writer,
                             Progress& progress) {
@@ -218,9 +225,12 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
     in_units.push_back(in_whole_units.back());
   }
   const std::vector<std::array<double, 4>> bases = gap_bases(sources, grid);
-  const Sources ground = ground_sources(sources);
+  Sources ground;
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    if (is_ground(sources[s])) ground.insert(static_cast<std::uint16_t>(s));
+  }
   const Sources* const only = ground.size() < sources.size() ? &ground : nullptr;
-  report.replaced = drop_replaced(*working, tiles, sources, bases, progress);
+  report.replaced = drop_replaced(*working, tiles, sources, bases, terrain_vertices(lines), progress);
   Proposal proposal = lines.empty() ? propose_levels(*working, tiles, bases, in_units, progress)
                                     : find_ground(*working, tiles, bases, only, progress);
   report.isolated = working->drop(std::move(proposal.isolated));
