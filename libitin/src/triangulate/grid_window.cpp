@@ -168,8 +168,8 @@ void GridWindow::index_edges() {
 }
 
 void GridWindow::choose_cells() {
-  // About 16 cells an edge make a round shape's boundary one edge a cell; the limits bound the index to a few MB.
-  const std::size_t limit = std::clamp<std::size_t>(16 * edges_.size(), 256, std::size_t{1} << 20);
+  // Few triangles lie in cells that the boundary meets, where each is tested; the limits bound the index to a few MB.
+  const std::size_t limit = std::clamp<std::size_t>(128 * edges_.size(), 256, std::size_t{1} << 20);
   const std::uint32_t width = static_cast<std::uint32_t>(extent_.xmax - extent_.xmin);
   const std::uint32_t height = static_cast<std::uint32_t>(extent_.ymax - extent_.ymin);
   while (std::size_t{(width >> log2_cell_) + 1} * ((height >> log2_cell_) + 1) > limit) ++log2_cell_;
