@@ -11,10 +11,6 @@ namespace itin {
 
 namespace {
 
-std::uint64_t code_of(const SelectedVertex& v) {
-  return morton(v.point.x, v.point.y);
-}
-
 std::int32_t floor_divide(Int128 numerator, Int128 positive) {
   const Int128 quotient = numerator / positive;
   return static_cast<std::int32_t>(quotient - (numerator % positive < 0));
