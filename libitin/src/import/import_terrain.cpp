@@ -97,7 +97,7 @@ std::uint64_t add_stored(const Store& store, PointSorter& sorter, LineCollection
     points.clear();
     for (std::size_t k = 0; k < block->points.size(); ++k) {
       const GridPoint& p = block->points[k];
-      if (block->sources[k] == inferred || lines.take_vertex(p, block->sources[k])) continue;
+      if (block->sources[k] == inferred || lines.take_vertex(p, block->sources[k], leaves[i].theme == 0)) continue;
       points.push_back({morton(p.x, p.y), p.z, block->sources[k], 0});
     }
     sorter.add(points);
@@ -141,7 +141,7 @@ void add_lines(LineLayer& layer, std::uint16_t number, const ImportPlan& plan, c
 void add_line_vertices(const ThemeLines& lines, PointSorter& sorter) {
   std::vector<bool> terrain(lines.lines.vertices.size());
   for (const PlanarEdge& e : lines.lines.edges) {
-    if (!lines.stands(e) && lines.terrain[e.owner]) terrain[e.from] = terrain[e.to] = true;
+    if (lines.lies(e) && lines.terrain[e.owner]) terrain[e.from] = terrain[e.to] = true;
   }
   for (std::size_t v = 0; v < terrain.size(); ++v) {
     const GridPoint& p = lines.lines.vertices[v];

@@ -10,6 +10,7 @@
 #include <itin/import.hpp>
 #include <itin/store.hpp>
 
+#include "features/ground_border.hpp"
 #include "features/standing_theme.hpp"
 #include "pyramid/theme_lines.hpp"
 #include "store/point_index.hpp"
@@ -21,9 +22,10 @@ class LineCollection {
   /// Takes a store's themes over, then its lines, then their vertices: in this order.
   void take_themes(const StoreMetadata& metadata);
   void take_segments(const PointIndex& index);
-  /// Whether the vertex comes from lines alone, and so is taken over with them, not with the points. One at a point of
-  /// the ground is taken over with both.
-  bool take_vertex(const GridPoint& p, std::uint16_t source);
+  /// Whether the vertex (`of_terrain`: of the full surface) comes from lines alone, and so is taken over with them, not
+  /// with the points. One at a point of the ground is taken over with both, one whose lines left the ground with
+  /// points.
+  bool take_vertex(const GridPoint& p, std::uint16_t source, bool of_terrain);
 
   /// Standing themes' footprints; their lines are not taken over, but made again.
   void take_footprints(const Store& store);
@@ -66,6 +68,8 @@ class LineCollection {
   std::vector<Segment> stored_;                            ///< of the store's lines, on the ground
   std::unordered_map<std::uint64_t, std::uint32_t> ends_;  ///< theme by Morton code: those of the stored terrain lines
   std::vector<OwnedSegment> segments_;
+  std::vector<ThemeVertex> ground_ends_;                ///< of edges that keep the ground about features
+  std::vector<BorderEdge> borders_;                     ///< of this ground
   std::unordered_map<std::uint64_t, Vertex> vertices_;  ///< by Morton code: what lines brought along
 };
 

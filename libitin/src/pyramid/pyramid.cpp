@@ -93,14 +93,16 @@ std::vector<RawPoint> raw_points(const std::vector<GridPoint>& points, std::size
   return result;
 }
 
-/// The vertices that each theme has besides those of the full surface, with the themes they belong to.
-void write_features(const PlacedLines& placed, const ThemeLines& lines, const std::vector<GridPoint>& draped,
-                    StoreWriter& writer, PyramidReport& report) {
+/// The vertices that each theme has besides those of the full surface, with the themes they belong to. `crossings`: of
+/// what keeps the ground with others.
+void write_features(const PlacedLines& placed, const std::vector<ThemeVertex>& crossings, const ThemeLines& lines,
+                    const std::vector<GridPoint>& draped, StoreWriter& writer, PyramidReport& report) {
   std::vector<std::pair<std::uint16_t, std::uint64_t>> ends;  // theme, code
   for (const Segment& s : placed.features) {
     ends.emplace_back(s.theme, morton(s.ax, s.ay));
     ends.emplace_back(s.theme, morton(s.bx, s.by));
   }
+  for (const auto& [theme, code] : crossings) ends.emplace_back(theme + 1, code);
   std::sort(ends.begin(), ends.end());
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
   const auto by_code = [](const GridPoint& p, std::uint64_t code) { return morton(p.x, p.y) < code; };
@@ -253,6 +255,7 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
   }
   WorkingIndex& index = *working;
   placed.standing = standing_segments(lines);
+  placed.ground = ground_segments(lines);
   std::optional<LineHierarchy> hierarchy = generalised(placed, outline, lines, in_units);
   const auto set_lines = [&] {
     std::vector<Segment> segments = outline;
@@ -284,14 +287,20 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
   LeafBounds bounds = certify(index, in_whole_units, restore, progress);
   write_levels(index, bounds, tiles, levels, writer, report, progress);
   std::vector<GridPoint> draped;
-  if (!placed.features.empty()) {
-    draped = drape(placed.ends, index, tiles, progress);
-    write_features(placed, lines, draped, writer, report);
+  const std::vector<ThemeVertex> crossings = crossings_of_ground(lines);
+  if (!placed.features.empty() || !crossings.empty()) {
+    std::vector<std::uint64_t> ends = placed.ends;
+    for (const ThemeVertex& v : crossings) ends.push_back(v.code);
+    std::sort(ends.begin(), ends.end());
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    draped = drape(ends, index, tiles, progress);
+    write_features(placed, crossings, lines, draped, writer, report);
   }
   count_lines(placed, lines.themes() + lines.parts.size(), report);
   std::vector<Segment> segments = index.all_segments();
   segments.insert(segments.end(), placed.features.begin(), placed.features.end());
   segments.insert(segments.end(), placed.standing.begin(), placed.standing.end());
+  segments.insert(segments.end(), placed.ground.begin(), placed.ground.end());
   const std::vector<Segment> masked = write_parts(lines, index, tiles, draped, segments, writer, progress);
   for (std::size_t p = 0; p < lines.parts.size(); ++p) {
     report.line_vertices[lines.themes() + p] = lines.parts[p].vertices.size();
