@@ -47,8 +47,9 @@ class ImportVerb final : public Verb {
     app.add_option("--base-field", options_.base_field, "Buildings: the field of the base's elevation")
         ->type_name("FIELD");
     app.add_option("--base", base_,
-                   "Buildings: minimum (default), mean or maximum of the terrain under the footprint, or "
-                   "terrain-following; CityJSON's own floors count unless this is given")
+                   "Buildings: what heights count from: minimum (default), mean or maximum of the terrain under the "
+                   "footprint; terrain-following is as mean; CityJSON's own floors count unless this is given. Walls "
+                   "reach down to the terrain, and where it rises above a roof, the roof follows it")
         ->type_name("RULE");
     app.add_option("--roof", roof_, "Buildings: flat (default), gabled, hipped or skeleton")->type_name("KIND");
     app.add_option("--thickness", thickness_, "Of walls and hedges that are given as lines (default: 0.3)")

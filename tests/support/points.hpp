@@ -90,8 +90,8 @@ class TestIndex {
       sorter.add({morton(p.point.x, p.point.y), p.point.z, 0, static_cast<std::uint16_t>(p.level)});
     }
     NoProgress progress;
-    const std::array spacing{1.0};
-    return sorter.finish(spacing, progress);
+    const std::array sources{SourceRank{1.0}};
+    return sorter.finish(sources, progress);
   }
 
   SortedPoints sorted_;

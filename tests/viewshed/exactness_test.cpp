@@ -127,6 +127,55 @@ TEST(Exactness, CurvatureOverLongEdges) {
   }
 }
 
+/// What one triangle hides the corners of, it hides all of, curvature included.
+TEST(Exactness, BlocksHiddenTogetherAreHidden) {
+  std::mt19937 random(logged_seed());
+  const Tin tin = test::fractal_tin(33, 2000, 300, 0.55, random());
+  const Earth earth;
+  const Scene scene(tin, earth, NoData::kClear, 0);
+  const test::ExactLineOfSight exact(tin, earth);
+  const double unit = tin.grid.resolution, drop = earth.drop_coefficient();
+  const auto in = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  const auto units = [&](double x, double y) {
+    return Point2{(x - tin.grid.origin.x) / unit, (y - tin.grid.origin.y) / unit};
+  };
+  int hidden = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Point2 eye{300000 + in(20000, 44000), 200000 + in(20000, 44000)};
+    const double elevation = exact.height(eye).value() + 20;
+    SightLines lines;
+    lines.from_x.fill(units(eye.x, eye.y).x), lines.from_y.fill(units(eye.x, eye.y).y),
+        lines.from_z.fill(elevation / unit);
+    std::array<Box, 4> boxes;
+    std::array<double, 4> level{};  // less the drop
+    for (unsigned q = 0; q < 4; ++q) {
+      const double x = 300000 + in(100, 58000), y = 200000 + in(100, 58000);
+      boxes[q] = {x, y, x + in(1, 1500), y + in(1, 1500)};
+      if (boxes[q].contains(eye)) continue;
+      level[q] = elevation + in(-300, 100);
+      for (unsigned k = 0; k < 4; ++k) {
+        const Point2 p{k % 2 == 0 ? boxes[q].xmin : boxes[q].xmax, k < 2 ? boxes[q].ymin : boxes[q].ymax};
+        const unsigned line = 4 * q + k;
+        lines.to_x[line] = units(p.x, p.y).x, lines.to_y[line] = units(p.x, p.y).y;
+        lines.to_z[line] = (level[q] + drop * std::pow(std::hypot(p.x - eye.x, p.y - eye.y), 2) + 1e-5) / unit;
+        lines.active |= 1U << line;
+      }
+    }
+    Occluder occluder;
+    const unsigned together = scene.hidden_together(lines, occluder);
+    for (unsigned q = 0; q < 4; ++q) {
+      if ((together >> q & 1) == 0) continue;
+      ++hidden;
+      for (int k = 0; k < 8; ++k) {
+        const Point2 p{in(boxes[q].xmin, boxes[q].xmax), in(boxes[q].ymin, boxes[q].ymax)};
+        const double z = level[q] + drop * std::pow(std::hypot(p.x - eye.x, p.y - eye.y), 2) - (k % 2) * in(0, 50);
+        EXPECT_LT(exact.clearance({eye.x, eye.y, elevation}, {p.x, p.y, z}), 0) << p.x << ' ' << p.y << ' ' << z;
+      }
+    }
+  }
+  EXPECT_GT(hidden, 10);
+}
+
 TEST(Exactness, ObserversOnVerticesEdgesAndCellCorners) {
   const Tin tin = test::fractal_tin(33, 50, 100, 0.55, logged_seed());
   const Point2 corner{300000, 200000};

@@ -27,7 +27,8 @@ EnvelopeScene::EnvelopeScene(Envelope e, const Request& request, const RasterGri
             ceiling_of(envelope.upper, request), envelope.outline),
       upper(envelope.upper, envelope.pieces, request.earth, curtains(envelope, request, voids)),
       bins(envelope.lower, tiles),
-      exact(envelope.exact) {
+      exact(envelope.exact),
+      drop(request.earth.drop_coefficient() * envelope.lower.grid.resolution) {
   if (envelope.bare_ground) ground_bins.emplace(*envelope.bare_ground, tiles);
 }
 
@@ -55,6 +56,23 @@ EnvelopeScene::Look EnvelopeScene::look_from(const Eye& eye, std::span<const std
 CertifiedPass::CertifiedPass(const EnvelopeScene& scene, const RasterGrid& grid, const RasterGrid& tiles)
     : scene_(scene), grid_(grid), tiles_(tiles) {}
 
+namespace {
+
+CertifiedPass::BlockValues highest_by_block(const TileValues<double>& heights, const Tile& tile) {
+  CertifiedPass::BlockValues highest;
+  highest.fill(-std::numeric_limits<double>::infinity());
+  for (std::size_t r = 0; r < static_cast<std::size_t>(tile.rows); ++r) {
+    for (std::size_t c = 0; c < static_cast<std::size_t>(tile.columns); ++c) {
+      const std::size_t block = r / CertifiedPass::kBlockSide * CertifiedPass::kBlocks + c / CertifiedPass::kBlockSide;
+      // Not a number where there is no surface: then nothing is higher.
+      if (heights[r * Tile::kSide + c] > highest[block]) highest[block] = heights[r * Tile::kSide + c];
+    }
+  }
+  return highest;
+}
+
+}  // namespace
+
 std::unique_ptr<CertifiedPass::TileWork> CertifiedPass::begin(std::size_t tile) const {
   auto work = std::make_unique<TileWork>(scene_.envelope.lower.grid, grid_, tile_at(grid_, tiles_, tile));
   const auto triangles = scene_.bins.triangles(tile);
@@ -65,6 +83,7 @@ std::unique_ptr<CertifiedPass::TileWork> CertifiedPass::begin(std::size_t tile) 
     scan_convert(scene_.envelope.lower, triangles, work->tile, work->centres, work->low);
   }
   scan_convert_highest(scene_.envelope.upper, triangles, work->tile, work->centres, work->high);
+  work->highest = highest_by_block(scene_.exact ? work->low : work->high, work->tile);
   return work;
 }
 
@@ -126,9 +145,79 @@ void CertifiedPass::fill(const EnvelopeScene::Look& look, TileValues<std::uint8_
   }
 }
 
+/// Aims four lines, the first of them number `first`, at the corners of a flat piece above all targets of the block;
+/// not where that cannot hide it as a whole.
+bool CertifiedPass::aim(const EnvelopeScene::Look& look, const TileWork& work, const CellBlock& block, unsigned first,
+                        SightLines& lines) const {
+  const Eye& eye = look.eye;
+  double highest = -std::numeric_limits<double>::infinity();
+  for (std::size_t r = block.row0 / kBlockSide; r <= block.row1 / kBlockSide; ++r)
+    for (std::size_t c = block.column0 / kBlockSide; c <= block.column1 / kBlockSide; ++c)
+      highest = std::max(highest, work.highest[r * kBlocks + c]);
+  if (!std::isfinite(highest)) return false;
+  const double resolution = scene_.envelope.lower.grid.resolution;
+  const double west = work.centres.x[block.column0], east = work.centres.x[block.column1];
+  const double north = work.centres.y[block.row0], south = work.centres.y[block.row1];
+  const auto squared = [&](double x, double y) {
+    return (x - eye.units.x) * (x - eye.units.x) + (y - eye.units.y) * (y - eye.units.y);
+  };
+  const double nearest = squared(std::clamp(eye.units.x, west, east), std::clamp(eye.units.y, south, north));
+  double farthest = 0;
+  for (unsigned i = 0; i < 4; ++i) {
+    const double x = i % 2 == 0 ? west : east, y = i < 2 ? north : south, distance = squared(x, y);
+    farthest = std::max(farthest, distance);
+    // Level as the eye sees it: as far below it as the highest target would be at the nearest place. Rounding is far
+    // less than what a line must be hidden by.
+    lines.to_x[first + i] = x;
+    lines.to_y[first + i] = y;
+    lines.to_z[first + i] =
+        (eye.target(highest * resolution) + 4 * kGrazing) / resolution + scene_.drop * (distance - nearest);
+  }
+  const double squared_metre = resolution * resolution;
+  if (nearest == 0 || !eye.view.holds(nearest * squared_metre, farthest * squared_metre)) return false;
+  lines.active |= 0xfU << first;
+  return true;
+}
+
+/// Hides what it can of the four blocks of this side, or of their quarters: most of what an observer on the ground
+/// looks at is hidden, and a triangle nearer by hides many cells.
+void CertifiedPass::hide_quarters(const EnvelopeScene::Look& look, TileValues<std::uint8_t>& values, TileWork& work,
+                                  std::size_t row, std::size_t column, std::size_t side) const {
+  const auto rows = static_cast<std::size_t>(work.tile.rows), columns = static_cast<std::size_t>(work.tile.columns);
+  SightLines lines;
+  lines.from_x.fill(look.eye.units.x);
+  lines.from_y.fill(look.eye.units.y);
+  lines.from_z.fill(look.eye.units.z);
+  std::array<CellBlock, 4> blocks{};
+  for (unsigned q = 0; q < 4; ++q) {
+    const std::size_t r = row + q / 2 * side, c = column + q % 2 * side;
+    if (r >= rows || c >= columns) continue;
+    blocks[q] = {r, std::min(r + side, rows), c, std::min(c + side, columns)};
+    aim(look, work, {r, blocks[q].row1 - 1, c, blocks[q].column1 - 1}, 4 * q, lines);
+  }
+  const unsigned hidden = lines.active == 0 ? 0 : scene_.lower.hidden_together(lines, work.occluder);
+  work.rays += static_cast<unsigned>(std::popcount(lines.active));
+  for (unsigned q = 0; q < 4; ++q) {
+    const CellBlock& block = blocks[q];
+    if (block.row1 == 0) continue;
+    if ((hidden >> q & 1) == 0) {
+      if (side > kBlockSide) hide_quarters(look, values, work, block.row0, block.column0, side / 2);
+      continue;
+    }
+    for (std::size_t r = block.row0; r < block.row1; ++r) {
+      for (std::size_t c = block.column0; c < block.column1; ++c) {
+        const std::size_t cell = r * Tile::kSide + c;
+        if (values[cell] == kUndecided) values[cell] = std::isnan(work.low[cell]) ? kOutside : kCertainlyHidden;
+      }
+    }
+  }
+}
+
 void CertifiedPass::judge(const EnvelopeScene::Look& look, TileValues<std::uint8_t>& values, TileWork& work,
                           const OnDoubtful& doubtful) const {
   const auto rows = static_cast<std::size_t>(work.tile.rows), columns = static_cast<std::size_t>(work.tile.columns);
+  if (std::find(values.begin(), values.end(), kUndecided) == values.end()) return;
+  hide_quarters(look, values, work, 0, 0, Tile::kSide / 2);
   for (std::size_t row = 0; row < rows; row += kPacketSide) {
     for (std::size_t column = 0; column < columns; column += kPacketSide) {
       Packet packet{.row = row, .column = column, .low = {}, .high = {}};

@@ -52,6 +52,7 @@ class EnvelopeScene {
   TriangleBins bins;
   std::optional<TriangleBins> ground_bins;  ///< of the bare ground, where the envelope has it
   bool exact;                               ///< the envelope is of level 0
+  double drop;                              ///< by curvature, grid units a squared grid unit
 };
 
 /// Lines of a packet that are not decided, to their lowest targets.
@@ -62,9 +63,19 @@ struct Doubtful {
   std::size_t row, column;    ///< of the packet in its tile
 };
 
+/// Of a tile: rows and columns from the first to the last.
+struct CellBlock {
+  std::size_t row0, row1, column0, column1;
+};
+
 class CertifiedPass {
  public:
   CertifiedPass(const EnvelopeScene& scene, const RasterGrid& grid, const RasterGrid& tiles);
+
+  /// Cells along the side of the smallest block that is decided as a whole.
+  static constexpr std::size_t kBlockSide = 8, kBlocks = Tile::kSide / kBlockSide;
+  /// One value a block of a tile, row by row.
+  using BlockValues = std::array<double, kBlocks * kBlocks>;
 
   /// What a tile's cells share between observers.
   struct TileWork {
@@ -73,6 +84,7 @@ class CertifiedPass {
     TileCentres centres;
     TileValues<double> low;   ///< the least height of what targets stand on, grid units
     TileValues<double> high;  ///< the upper surface
+    BlockValues highest;      ///< that targets may stand on in each block; -infinity where there is no surface
     Occluder occluder;
     std::uint64_t rays = 0;
   };
@@ -86,6 +98,10 @@ class CertifiedPass {
 
  private:
   struct Packet;
+  void hide_quarters(const EnvelopeScene::Look& look, TileValues<std::uint8_t>& values, TileWork& work, std::size_t row,
+                     std::size_t column, std::size_t side) const;
+  bool aim(const EnvelopeScene::Look& look, const TileWork& work, const CellBlock& block, unsigned first,
+           SightLines& lines) const;
   void fill(const EnvelopeScene::Look& look, TileValues<std::uint8_t>& values, const TileWork& work,
             Packet& packet) const;
 

@@ -25,6 +25,11 @@ class FieldOfView {
   /// Whether anything at this squared distance or beyond it can be in view.
   bool reaches(double squared) const { return squared <= farthest_; }
 
+  /// Whether everything between two squared distances is in view, at all heights.
+  bool holds(double nearest, double farthest) const {
+    return !azimuth_ && !elevation_ && nearest >= nearest_ && farthest <= farthest_;
+  }
+
   /// Metres from the observer to the target. An observer's own position has every azimuth.
   bool contains(double dx, double dy, double dz) const { return contains(dx, dy, dz, dz).value(); }
   bool looks_towards(double azimuth_deg) const { return !azimuth_ || azimuth_within(azimuth_deg); }

@@ -20,7 +20,8 @@ struct PacketContext {
   RayContext context;
   const SightLines* lines;
   const SightLine* exact;
-  Occluder* occluder;
+  std::array<std::uint32_t, SightLines::kSize> by{};  ///< triangles that hide a line
+  unsigned by_triangle = 0;                           ///< one bit a line: one of these does
   unsigned doubtful = 0;  ///< one bit a line: Embree took a triangle for hiding that does not
 };
 
@@ -73,25 +74,38 @@ class Scene::Impl {
   }
 
   unsigned hidden(const SightLines& lines, Occluder& occluder) const {
-    const std::array<SightLine, SightLines::kSize> exact =
-        exact_lines(lines, std::make_index_sequence<SightLines::kSize>());
+    const ExactLines exact = exact_lines(lines, std::make_index_sequence<SightLines::kSize>());
     const unsigned known = hidden_by_one(occluder, exact, lines.active);
     if (known == lines.active) return known;
-    alignas(64) RTCRay16 rays;
-    alignas(64) std::array<int, SightLines::kSize> valid;
-    const RayFrame frame{tessellation_.centre, drop_, error_bound(0) / tin_.grid.resolution, kRounding * kRoundings};
-    frame.cast(lines, lines.active & ~known, rays, valid);
     PacketContext packet;
-    packet.lines = &lines;
-    packet.exact = exact.data();
-    packet.occluder = &occluder;
-    occluded(embree_.scene(), valid, packet.context, rays);
-    unsigned result = known;
-    for (unsigned i = 0; i < SightLines::kSize; ++i)
-      result |= static_cast<unsigned>(valid[i] != 0 && rays.tfar[i] < 0) << i;
+    unsigned result = known | cast(lines, lines.active & ~known, exact, packet);
+    if (packet.by_triangle != 0)
+      occluder.triangle = packet.by[static_cast<unsigned>(std::bit_width(packet.by_triangle)) - 1];
     for (unsigned doubtful = packet.doubtful & ~result; doubtful != 0; doubtful &= doubtful - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(doubtful));
       if (hidden_by_any(lines, i, exact[i], 0, 1) || behind_curtain(lines, i)) result |= 1U << i;
+    }
+    return result;
+  }
+
+  unsigned hidden_together(const SightLines& lines, Occluder& occluder) const {
+    if (drop_ < 0) return 0;
+    const ExactLines exact = exact_lines(lines, std::make_index_sequence<SightLines::kSize>());
+    unsigned result = 0, open = lines.active;
+    const auto settle = [&](unsigned group, const Occluder& by) {
+      const unsigned four = 0xfU << 4 * group;
+      if ((open & four) == 0 || hidden_by_one(by, exact, four) != four) return;
+      result |= 1U << group;
+      open &= ~four;
+      occluder = by;
+    };
+    for (unsigned group = 0; group < SightLines::kSize / 4; ++group) settle(group, occluder);
+    if (open == 0) return result;
+    PacketContext packet;
+    cast(lines, open, exact, packet);
+    for (unsigned i = 0; i < SightLines::kSize; ++i) {
+      const unsigned group = i / 4;
+      if ((packet.by_triangle >> 4 * group & 0xfU) == 0xfU) settle(group, {packet.by[i]});
     }
     return result;
   }
@@ -118,8 +132,25 @@ class Scene::Impl {
   }
 
  private:
+  using ExactLines = std::array<SightLine, SightLines::kSize>;
+
+  /// The lines of `active` that Embree finds hidden.
+  unsigned cast(const SightLines& lines, unsigned active, const ExactLines& exact, PacketContext& packet) const {
+    alignas(64) RTCRay16 rays;
+    alignas(64) std::array<int, SightLines::kSize> valid;
+    const RayFrame frame{tessellation_.centre, drop_, error_bound(0) / tin_.grid.resolution, kRounding * kRoundings};
+    frame.cast(lines, active, rays, valid);
+    packet.lines = &lines;
+    packet.exact = exact.data();
+    occluded(embree_.scene(), valid, packet.context, rays);
+    unsigned result = 0;
+    for (unsigned i = 0; i < SightLines::kSize; ++i)
+      result |= static_cast<unsigned>(valid[i] != 0 && rays.tfar[i] < 0) << i;
+    return result;
+  }
+
   template <std::size_t... i>
-  std::array<SightLine, sizeof...(i)> exact_lines(const SightLines& l, std::index_sequence<i...>) const {
+  ExactLines exact_lines(const SightLines& l, std::index_sequence<i...>) const {
     return {SightLine({l.from_x[i], l.from_y[i], l.from_z[i]}, {l.to_x[i], l.to_y[i], l.to_z[i]}, drop_,
                       kGrazing / tin_.grid.resolution)...};
   }
@@ -128,11 +159,12 @@ class Scene::Impl {
     const Geometry geometry = embree_.triangles(tessellation_.vertices, tessellation_.indices, this);
     rtcSetGeometryOccludedFilterFunction(geometry.get(), [](const RTCFilterFunctionNArguments* arguments) {
       const auto& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
-      filter(arguments, [&](const PacketContext& packet, unsigned line, std::uint32_t piece) {
+      filter(arguments, [&](PacketContext& packet, unsigned line, std::uint32_t piece) {
         const auto& parents = self.tessellation_.parents;
         const std::uint32_t triangle = parents.empty() ? piece : parents[piece];
         if (!self.hides(packet.exact[line], triangle)) return Hit::kDoubtful;
-        packet.occluder->triangle = triangle;
+        packet.by[line] = triangle;
+        packet.by_triangle |= 1U << line;
         return Hit::kHides;
       });
     });
@@ -140,8 +172,7 @@ class Scene::Impl {
   }
 
   /// Those of the lines that the occluder hides.
-  unsigned hidden_by_one(const Occluder& occluder, const std::array<SightLine, SightLines::kSize>& lines,
-                         unsigned active) const {
+  unsigned hidden_by_one(const Occluder& occluder, const ExactLines& lines, unsigned active) const {
     if (!occluder.triangle) return 0;
     unsigned result = 0;
     for (; active != 0; active &= active - 1) {
@@ -252,6 +283,9 @@ Scene::~Scene() = default;
 
 unsigned Scene::hidden(const SightLines& lines, Occluder& occluder) const {
   return impl_->hidden(lines, occluder);
+}
+unsigned Scene::hidden_together(const SightLines& lines, Occluder& occluder) const {
+  return impl_->hidden_together(lines, occluder);
 }
 bool Scene::hidden_between(const SightLines& lines, unsigned line, double from, double to) const {
   return impl_->hidden_between(lines, line, from, to);

@@ -53,6 +53,11 @@ class Scene {
   /// One bit a line: 1 hidden. Only bits of active lines are set. From any number of threads, each with its own
   /// occluder.
   unsigned hidden(const SightLines& lines, Occluder& occluder) const;
+  /// One bit for each four lines, all four active or none: 1 where one triangle hides them all, and so whatever lies at
+  /// or below their ends' convex hull: what a convex body hides from a point is convex, and with heights less the drop
+  /// at their distance lines are straight and the ground under a triangle is convex. (Where refraction bends lines more
+  /// than the Earth does it is not, and no bit is set.)
+  unsigned hidden_together(const SightLines& lines, Occluder& occluder) const;
   /// Whether the part of a line between two fractions of its length is hidden, decided in double precision by every
   /// triangle thereabouts. Cost: the triangles under it.
   bool hidden_between(const SightLines& lines, unsigned line, double from, double to) const;

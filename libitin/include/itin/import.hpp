@@ -97,7 +97,9 @@ ImportReport import_terrain(const std::string& store_path, const ImportOptions& 
 ///
 /// Buildings, vegetation and walls with heights stand on the ground (stands()): queries that choose their theme see
 /// roofs and tops, in place of what lies under them. They need ground all under them, others are refused, with a
-/// warning. The store keeps their footprints, and stands them up again whenever its terrain changes.
+/// warning. At full detail they only raise the surface: outside of footprints it stays what it is, within it is nowhere
+/// lower, but for rounding to the grid. The store keeps their footprints, and stands them up again whenever its terrain
+/// changes.
 bool stands(const ImportOptions& options);
 ImportReport import_lines(const std::string& store_path, const ImportOptions& options, Progress& progress);
 

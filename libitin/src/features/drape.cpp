@@ -9,28 +9,14 @@ namespace itin {
 
 namespace {
 
-bool separated(const GridPoint& a, const GridPoint& b, const GridPoint& c, Position p, Position q) {
-  // The segment lies beyond one side of the triangle, or the triangle on one side of the segment.
-  const auto beyond = [&](const GridPoint& s, const GridPoint& t) {
-    return orientation(s, t, p) < 0 && orientation(s, t, q) < 0;
-  };
-  if (beyond(a, b) || beyond(b, c) || beyond(c, a)) return true;
-  const int sa = orientation(p, q, a), sb = orientation(p, q, b), sc = orientation(p, q, c);
-  return (sa > 0 && sb > 0 && sc > 0) || (sa < 0 && sb < 0 && sc < 0);
-}
-
 using TerrainEdge = std::pair<std::uint32_t, std::uint32_t>;
 
 /// Of all triangles that the plan's rings meet.
 std::set<TerrainEdge> edges_at_rings(const GridPolygon& plan, const TerrainHeights& terrain) {
   std::set<TerrainEdge> edges;
   for_each_edge(plan, [&](Position p, Position q) {
-    GridBox box;
-    box.extend(p.x, p.y);
-    box.extend(q.x, q.y);
-    for (const std::uint32_t t : terrain.triangles_near(box)) {
+    for (const std::uint32_t t : terrain.triangles_along(p, q)) {
       const Triangle& v = terrain.triangle(t);
-      if (separated(terrain.vertex(v[0]), terrain.vertex(v[1]), terrain.vertex(v[2]), p, q)) continue;
       for (int i = 0; i < 3; ++i) edges.insert(std::minmax(v[i], v[(i + 1) % 3]));
     }
   });

@@ -10,6 +10,7 @@
 
 #include "features/planar.hpp"
 #include "features/planarity.hpp"
+#include "features/terrain_overlay.hpp"
 
 namespace itin {
 
@@ -46,7 +47,9 @@ class GroupBuilder {
     if (!objections_.empty()) return objections_;
     add_masks();
     add_tops(patches);
-    if (objections_.empty()) settle();
+    if (!objections_.empty()) return objections_;
+    settle();
+    if (terrain_) lay_on_terrain();
     return objections_;
   }
 
@@ -109,18 +112,30 @@ class GroupBuilder {
   }
 
   std::optional<double> foot_height(const PreparedFeature& feature, Position p) const {
-    if (!feature.foot_on_terrain) return feature.heights.base;
+    if (!terrain_) return feature.heights.base;
     const auto z = terrain_->height_at(p);
     return z ? std::optional(*z / terrain_->grid().resolution) : std::nullopt;
+  }
+
+  bool ground_is_level() const {
+    if (!terrain_) return false;
+    GridBox box;
+    for (const ArrangedPatch& patch : arrangement_.patches) box.extend(bounds_of(patch.footprint));
+    const std::vector<std::uint32_t> near = terrain_->triangles_near(box);
+    return std::all_of(near.begin(), near.end(), [&](std::uint32_t t) {
+      const auto z = [&](std::size_t i) { return terrain_->vertex(terrain_->triangle(t)[i]).z; };
+      return z(0) == z(1) && z(1) == z(2) && z(0) == terrain_->vertex(terrain_->triangle(near.front())[0]).z;
+    });
   }
 
   void add_feet() {
     std::map<Position, std::int32_t> heights;
     std::vector<std::pair<GridEdge, std::uint32_t>> pieces;
+    const bool level = ground_is_level();
     for (const auto& [edge, patch] : arrangement_.feet) {
       const std::uint32_t f = feature_of_[patch];
       std::vector<Position> way{edge.first};
-      if (features_[f].foot_on_terrain) {
+      if (terrain_ && !level) {
         const std::vector<Position>& between = between_[edge] = terrain_->crossings(edge.first, edge.second);
         way.insert(way.end(), between.begin(), between.end());
       }
@@ -213,6 +228,28 @@ class GroupBuilder {
       const auto& [kind, feature] = named[e.owner];
       mesh_.segments.push_back({planar.vertices[e.from], planar.vertices[e.to], feature, kind});
       last = &e;
+    }
+  }
+
+  void lay_on_terrain() {
+    std::vector<CoveredGround> covered;
+    std::map<std::uint32_t, std::uint32_t> by_number;
+    for (std::uint32_t f = 0; f < features_.size(); ++f) by_number[features_[f].number] = f;
+    for (std::size_t i = 0; i < arrangement_.patches.size(); ++i) {
+      ArrangedPatch& patch = arrangement_.patches[i];
+      const PreparedFeature& f = feature_of(i);
+      covered.push_back({f.number, f.drapes() ? std::optional(f.above_terrain) : std::nullopt,
+                         std::move(patch.footprint), std::move(patch.top)});
+    }
+    OverlaidLines laid = lay_over(*terrain_, std::move(mesh_.segments), covered);
+    mesh_.segments = std::move(laid.segments);
+    mesh_.ground = std::move(laid.ground);
+    mesh_.border = std::move(laid.border);
+    for (const auto& [number, depth] : laid.pierced) {
+      // Less is rounding.
+      if (depth > 2)
+        report(by_number.at(number), fmt::format("lies up to {:.2f} m below the terrain, which it follows there",
+                                                 depth * terrain_->grid().resolution));
     }
   }
 

@@ -17,8 +17,7 @@ struct PreparedFeature {
   std::uint32_t number = 0;  ///< of the feature in the call
   FeatureKind kind = FeatureKind::building;
   RoofKind roof = RoofKind::flat;
-  bool measured = false;  ///< each patch is a plane piece of roof; else there is one patch
-  bool foot_on_terrain = false;
+  bool measured = false;     ///< each patch is a plane piece of roof; else there is one patch
   RoofHeights heights;       ///< of a building
   double above_terrain = 0;  ///< of what drapes
   std::vector<Patch> patches;
@@ -41,6 +40,7 @@ struct GroupMesh {
   std::vector<PlacedSegment> segments;
   std::vector<GridPoint> loose;  ///< vertices without segments
   std::vector<FeatureMask> masks;
+  std::vector<GridEdge> ground, border;  ///< edges of the terrain that stay
   std::vector<Finding> findings;
   std::vector<std::uint32_t> refused;  ///< numbers of features
   std::uint64_t flat_instead = 0;

@@ -4,9 +4,10 @@
 //   FeatureMesh mesh = build_feature_mesh(features, options, &terrain, progress);
 //   // leave out the terrain's vertices and lines within mesh.masks, insert mesh.vertices and mesh.segments
 //
-// A building is its outline at its base and, the wall offset inside, rings at the height of its eaves, with the creases
-// of its roof between them. What drapes is the same with heights above the terrain, whose edges it repeats within its
-// top. Who gets the ground where footprints overlap, and where walls stand between those that touch, is the rule of
+// A building is its outline on the terrain (without terrain, at its base) and, the wall offset inside, rings at the
+// height of its eaves, with the creases of its roof between them. What drapes is the same with heights above the
+// terrain, whose edges it repeats within its top. Nothing makes the surface lower (terrain_overlay.hpp). Who gets the
+// ground where footprints overlap, and where walls stand between those that touch, is the rule of
 // footprint_arrangement.hpp.
 //
 // The segments are planar: they meet only at vertices, all of which lie on the grid, one a position. That is verified
@@ -29,7 +30,8 @@
 
 namespace itin {
 
-enum class SegmentClass : std::uint8_t { foot, eaves, roof };
+/// `wall`: between feet and eaves.
+enum class SegmentClass : std::uint8_t { foot, eaves, roof, wall };
 
 struct FeatureSegment {
   std::uint32_t from, to;
@@ -48,7 +50,10 @@ struct FeatureMesh {
   Grid grid;
   std::vector<GridPoint> vertices;  ///< in Morton order
   std::vector<FeatureSegment> segments;
-  std::vector<FeatureMask> masks;    ///< disjoint but for their borders
+  std::vector<FeatureMask> masks;  ///< disjoint but for their borders
+  /// Edges of the terrain that stay, outside of masks or nearly, and those of them that shut them in
+  /// (terrain_overlay.hpp, ground_border.hpp).
+  std::vector<GridEdge> ground, border;
   std::vector<std::string> reports;  ///< one line a feature and finding, "NAME: ..."
   std::uint64_t built = 0;           ///< features that stand
   std::uint64_t refused = 0;         ///< features that do not, each reported

@@ -85,12 +85,13 @@ std::optional<std::uint32_t> MaskIndex::at(Position p) const {
   return std::nullopt;
 }
 
-bool MaskIndex::middle_inside(Position a, Position b) const {
+std::optional<std::uint32_t> MaskIndex::about_middle(Position a, Position b) const {
   const std::int64_t x = std::int64_t{a.x} + b.x, y = std::int64_t{a.y} + b.y;
-  const auto* near = entries(x >> 1, y >> 1);
-  return near != nullptr && std::any_of(near->begin(), near->end(), [&](const Entry& e) {
-           return e.whole || encloses(polygons_[e.polygon], x, y);
-         });
+  if (const auto* near = entries(x >> 1, y >> 1)) {
+    for (const Entry& e : *near)
+      if (e.whole || encloses(polygons_[e.polygon], x, y)) return e.polygon;
+  }
+  return std::nullopt;
 }
 
 }  // namespace itin

@@ -19,8 +19,9 @@ class MaskIndex {
 
   /// The first polygon that has the position inside or on its border.
   std::optional<std::uint32_t> at(Position p) const;
-  /// Whether the middle between two positions lies strictly inside some polygon, as floating point has it.
-  bool middle_inside(Position a, Position b) const;
+  /// The first polygon that has the middle between two positions strictly inside, as floating point has it.
+  std::optional<std::uint32_t> about_middle(Position a, Position b) const;
+  bool middle_inside(Position a, Position b) const { return about_middle(a, b).has_value(); }
 
  private:
   struct Entry {

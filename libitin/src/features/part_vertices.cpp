@@ -10,9 +10,6 @@ namespace itin {
 
 namespace {
 
-std::uint64_t code_of(const GridPoint& p) {
-  return morton(p.x, p.y);
-}
 bool before(const GridPoint& a, const GridPoint& b) {
   return code_of(a) < code_of(b);
 }
@@ -43,6 +40,7 @@ std::vector<PartVertex> part_vertices(const StandingPart& part, const std::vecto
   std::sort(fresh.begin(), fresh.end());
   fresh.erase(std::unique(fresh.begin(), fresh.end()), fresh.end());
   std::vector<double> nearest(fresh.size(), std::numeric_limits<double>::infinity());
+  std::vector<bool> on_foot(fresh.size());
   std::vector<std::uint64_t> outline;
   for (const auto& segment : part.segments) {
     const auto [left, right] = std::minmax(segment.a.x, segment.b.x);
@@ -53,14 +51,18 @@ std::vector<PartVertex> part_vertices(const StandingPart& part, const std::vecto
     for (; p != fresh.end() && p->x <= right + 1; ++p) {
       if (p->y < low - 1 || p->y > high + 1) continue;
       const auto [distance, z] = footing(segment, *p);
-      double& least = nearest[static_cast<std::size_t>(p - fresh.begin())];
+      const auto number = static_cast<std::size_t>(p - fresh.begin());
+      double& least = nearest[number];
       // Snap rounding leads a segment through pixels that it meets: within half the diagonal of one.
       const bool on_it = distance <= 0.75;
       if (!on_it && distance >= least) continue;
-      const auto height = static_cast<std::int32_t>(std::llround(z));
-      p->z = on_it && least <= 0.75 ? std::max(p->z, height) : height;
-      least = std::min(least, distance);
       if (on_it && segment.outline) outline.push_back(code_of(*p));
+      if (on_foot[number] && !segment.outline) continue;
+      const auto height = static_cast<std::int32_t>(std::llround(z));
+      const bool among_equals = on_it && least <= 0.75 && (on_foot[number] || !segment.outline);
+      p->z = among_equals ? std::max(p->z, height) : height;
+      least = std::min(least, distance);
+      if (on_it && segment.outline) on_foot[number] = true;
     }
   }
   std::vector<GridPoint> all = part.vertices;

@@ -85,7 +85,6 @@ class Preparing {
     if (!terrain_) return refuse("follows the terrain, of which none was given");
     const auto ground = terrain_->base_height(plan_, BaseRule::mean);
     if (!ground) return refuse("lies outside the terrain");
-    out_.feature.foot_on_terrain = true;
     out_.feature.above_terrain = units(*height);
     add_patch(plan_, {0, 0, units(*ground + *height)});
     return true;
@@ -93,12 +92,10 @@ class Preparing {
 
   bool found() {
     if (!out_.feature.measured && !check_heights()) return false;
-    const bool follows = !source_.base && source_.base_rule == BaseRule::terrain_following;
     std::optional<double> base = source_.base;
     if (!base && !terrain_) return refuse("has no base height, and there is no terrain to take it from");
     if (!base) base = terrain_->base_height(plan_.empty() ? outline_of_surfaces() : plan_, source_.base_rule);
     if (!base) return refuse("has no base height and lies outside the terrain");
-    out_.feature.foot_on_terrain = follows;
     RoofHeights& heights = out_.feature.heights;
     heights.base = units(*base);
     heights.slope = std::tan(options_.pitch_degrees * std::numbers::pi / 180);

@@ -34,8 +34,9 @@ struct StandingPart {
 };
 
 struct StandingTheme {
-  std::vector<StandingPart> parts;   ///< the finest first, none without features
-  std::vector<std::string> reports;  ///< one line a feature and finding
+  std::vector<GridEdge> ground, border;  ///< edges of the full surface about features, as in FeatureMesh
+  std::vector<StandingPart> parts;       ///< the finest first, none without features
+  std::vector<std::string> reports;      ///< one line a feature and finding
   std::uint64_t built = 0, refused = 0;
 };
 

@@ -131,6 +131,40 @@ std::vector<std::uint32_t> TerrainHeights::triangles_near(const GridBox& box) co
   return found;
 }
 
+namespace {
+
+/// Whether the segment lies beyond one side of the triangle, or the triangle on one side of the segment.
+bool separated(const GridPoint& a, const GridPoint& b, const GridPoint& c, Position p, Position q) {
+  const auto beyond = [&](const GridPoint& s, const GridPoint& t) {
+    return orientation(s, t, p) < 0 && orientation(s, t, q) < 0;
+  };
+  if (beyond(a, b) || beyond(b, c) || beyond(c, a)) return true;
+  const int sa = orientation(p, q, a), sb = orientation(p, q, b), sc = orientation(p, q, c);
+  return (sa > 0 && sb > 0 && sc > 0) || (sa < 0 && sb < 0 && sc < 0);
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> TerrainHeights::triangles_along(Position a, Position b) const {
+  // Piece by piece: the box of a long slanting segment holds many more than it meets.
+  const std::int64_t dx = std::int64_t{b.x} - a.x, dy = std::int64_t{b.y} - a.y;
+  const std::int64_t pieces = std::max(std::abs(dx), std::abs(dy)) / (4 * bucket_side_) + 1;
+  std::vector<std::uint32_t> found;
+  for (std::int64_t i = 0; i < pieces; ++i) {
+    GridBox box;
+    for (const std::int64_t k : {i, i + 1})
+      box.extend(static_cast<std::int32_t>(a.x + dx * k / pieces), static_cast<std::int32_t>(a.y + dy * k / pieces));
+    box = {box.xmin - 1, box.ymin - 1, box.xmax + 1, box.ymax + 1};
+    for (const std::uint32_t t : triangles_near(box)) {
+      const Triangle& v = tin_->triangles[t];
+      if (!separated(vertex(v[0]), vertex(v[1]), vertex(v[2]), a, b)) found.push_back(t);
+    }
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
 std::optional<double> TerrainHeights::height_at(Position p) const {
   const GridBox range = bucket_range({p.x, p.y, p.x, p.y});
   if (range.empty()) return std::nullopt;
@@ -148,12 +182,9 @@ std::optional<double> TerrainHeights::height_at(Position p) const {
 
 /// In order from a; one at an edge of two triangles is found twice.
 std::vector<TerrainHeights::Crossing> TerrainHeights::all_crossings(Position a, Position b) const {
-  GridBox box;
-  box.extend(a.x, a.y);
-  box.extend(b.x, b.y);
   const double dx = double{1} * b.x - a.x, dy = double{1} * b.y - a.y;
   std::vector<Crossing> found;
-  for (const std::uint32_t t : triangles_near(box)) {
+  for (const std::uint32_t t : triangles_along(a, b)) {
     const Triangle& v = tin_->triangles[t];
     for (int i = 0; i < 3; ++i) {
       const GridPoint &p = vertex(v[i]), &q = vertex(v[(i + 1) % 3]);

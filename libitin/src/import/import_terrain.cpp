@@ -84,6 +84,7 @@ std::vector<SourceInfo> imported_sources(const Store* store) {
 /// Adds the points that a store holds already, but for those inferred from others, and takes its lines over.
 std::uint64_t add_stored(const Store& store, PointSorter& sorter, LineCollection& lines, Progress& progress) {
   lines.take_themes(store.metadata());
+  lines.take_segments(store.points());
   const std::size_t inferred = imported_sources(&store).size();
   std::vector<Leaf> leaves;
   store.points().leaves(0, store.points().bounds(), leaves);
@@ -96,14 +97,13 @@ std::uint64_t add_stored(const Store& store, PointSorter& sorter, LineCollection
     points.clear();
     for (std::size_t k = 0; k < block->points.size(); ++k) {
       const GridPoint& p = block->points[k];
-      if (block->sources[k] == inferred || lines.take_vertex(p, block->sources[k])) continue;
+      if (block->sources[k] == inferred || lines.take_vertex(p, block->sources[k], leaves[i].theme == 0)) continue;
       points.push_back({morton(p.x, p.y), p.z, block->sources[k], 0});
     }
     sorter.add(points);
     count += points.size();
     progress.report("reading the store", static_cast<double>(i + 1) / static_cast<double>(leaves.size()));
   }
-  lines.take_segments(store.points());
   lines.take_footprints(store);
   return count;
 }
@@ -141,7 +141,7 @@ void add_lines(LineLayer& layer, std::uint16_t number, const ImportPlan& plan, c
 void add_line_vertices(const ThemeLines& lines, PointSorter& sorter) {
   std::vector<bool> terrain(lines.lines.vertices.size());
   for (const PlanarEdge& e : lines.lines.edges) {
-    if (!lines.stands(e) && lines.terrain[e.owner]) terrain[e.from] = terrain[e.to] = true;
+    if (lines.lies(e) && lines.terrain[e.owner]) terrain[e.from] = terrain[e.to] = true;
   }
   for (std::size_t v = 0; v < terrain.size(); ++v) {
     const GridPoint& p = lines.lines.vertices[v];
@@ -244,9 +244,9 @@ void write_store(StoreWriter& writer, const std::string& directory, const Store*
   report.crossings = lines.lines.crossings;
   add_line_vertices(lines, sorter);
 
-  std::vector<double> spacings;
-  for (const SourceInfo& source : sources) spacings.push_back(source.spacing);
-  SortedPoints points = sorter.finish(spacings, progress, &report.duplicates);
+  std::vector<SourceRank> ranks;
+  for (const SourceInfo& source : sources) ranks.push_back({source.spacing, is_ground(source)});
+  SortedPoints points = sorter.finish(ranks, progress, &report.duplicates);
   const PyramidReport pyramid = build_pyramid(points, sources, plan.grid, tolerances, lines, writer, progress);
   report.replaced += pyramid.replaced;
   report.isolated += pyramid.isolated;

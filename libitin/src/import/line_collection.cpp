@@ -41,26 +41,41 @@ void LineCollection::take_themes(const StoreMetadata& metadata) {
   }
 }
 
-bool LineCollection::take_vertex(const GridPoint& p, std::uint16_t source) {
-  if (!from_line_[source]) return false;
-  vertices_.try_emplace(morton(p.x, p.y), Vertex{p.z, source});
-  return true;
+void LineCollection::take_segments(const PointIndex& index) {
+  index.segments(index.bounds(), stored_);
+  // What keeps the ground about features is made again with these.
+  std::erase_if(stored_, [&](const Segment& s) {
+    return s.theme == kCoverage || s.finest > 0 || s.theme > themes_.size() || stands_[s.theme - std::size_t{1}];
+  });
+  std::sort(stored_.begin(), stored_.end());
+  stored_.erase(std::unique(stored_.begin(), stored_.end()), stored_.end());
+  for (const Segment& s : stored_) {
+    const auto theme = static_cast<std::uint32_t>(s.theme - 1);
+    if (!is_terrain(themes_[theme].kind)) continue;
+    for (const std::uint64_t end : {morton(s.ax, s.ay), morton(s.bx, s.by)}) {
+      std::uint32_t& of_end = ends_.try_emplace(end, theme).first->second;
+      of_end = std::min(of_end, theme);
+    }
+  }
 }
 
-void LineCollection::take_segments(const PointIndex& index) {
-  std::vector<Segment> stored;
-  index.segments(index.bounds(), stored);
-  std::sort(stored.begin(), stored.end());
-  stored.erase(std::unique(stored.begin(), stored.end()), stored.end());
+bool LineCollection::take_vertex(const GridPoint& p, std::uint16_t source, bool of_terrain) {
+  const std::uint64_t code = morton(p.x, p.y);
+  const auto end = ends_.find(code);
+  if ((!from_line_[source] || of_terrain) && end == ends_.end()) return false;
+  const std::uint16_t of_line = from_line_[source] ? source : first_source_[end->second];
+  vertices_.try_emplace(code, Vertex{p.z, of_line});
+  return from_line_[source];
+}
+
+/// The stored lines with their heights. A vertex of the terrain has its own, one of another line gets it anew.
+void LineCollection::add_stored() {
   const auto vertex = [&](std::int32_t x, std::int32_t y) {
-    // A vertex of the terrain has its height from a line, one of another line gets it anew.
     const auto found = vertices_.find(morton(x, y));
     return GridPoint{x, y, found == vertices_.end() ? 0 : found->second.z};
   };
-  for (const Segment& s : stored) {
-    if (s.theme == kCoverage || s.finest > 0 || s.theme > themes_.size()) continue;
+  for (const Segment& s : stored_)
     segments_.push_back({vertex(s.ax, s.ay), vertex(s.bx, s.by), static_cast<std::uint32_t>(s.theme - 1)});
-  }
 }
 
 void LineCollection::take_footprints(const Store& store) {
@@ -113,6 +128,11 @@ void LineCollection::raise(const Store& ground, ImportReport& report, Progress& 
     report.refused += standing.refused;
     add_findings(themes_[t].name, standing.reports, report.warnings);
     for (StandingPart& part : standing.parts) parts_.push_back({t, std::move(part)});
+    for (const GridEdge& edge : standing.border) borders_.push_back({t, edge});
+    for (const auto& [a, b] : standing.ground) {
+      segments_.push_back({{a.x, a.y, 0}, {b.x, b.y, 0}, t});
+      ground_ends_.insert(ground_ends_.end(), {{t, morton(a.x, a.y)}, {t, morton(b.x, b.y)}});
+    }
   }
 }
 
@@ -144,6 +164,7 @@ std::uint16_t LineCollection::source_of(const GridPoint& p, std::uint32_t owner)
 }
 
 ThemeLines LineCollection::finish() {
+  add_stored();
   std::vector<std::uint32_t> order(themes_.size());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -164,7 +185,13 @@ ThemeLines LineCollection::finish() {
     footprints.push_back(std::move(footprints_[order[i]]));
     result.terrain.push_back(is_terrain(themes.back().kind));
     result.kinds.push_back(themes.back().kind);
+    result.standing.push_back(stands.back());
   }
+  for (ThemeVertex& end : ground_ends_) end.theme = number[end.theme];
+  for (BorderEdge& border : borders_) border.theme = number[border.theme];
+  std::sort(ground_ends_.begin(), ground_ends_.end());
+  ground_ends_.erase(std::unique(ground_ends_.begin(), ground_ends_.end()), ground_ends_.end());
+  result.ground_ends = std::move(ground_ends_);
   themes_ = std::move(themes);
   first_source_ = std::move(first_source);
   stands_ = std::move(stands);
@@ -173,6 +200,7 @@ ThemeLines LineCollection::finish() {
   for (OwnPart& own : parts_) own.theme = number[own.theme];
   place_parts(result);
   result.lines = make_planar(std::move(segments_));
+  result.borders = place_borders(std::move(borders_), result.lines, result.terrain);
   std::vector<std::uint32_t> owner(result.lines.vertices.size(), std::numeric_limits<std::uint32_t>::max());
   std::vector<std::vector<Position>> ends(parts_.size());
   for (const PlanarEdge& e : result.lines.edges) {

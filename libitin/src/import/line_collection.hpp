@@ -10,6 +10,7 @@
 #include <itin/import.hpp>
 #include <itin/store.hpp>
 
+#include "features/ground_border.hpp"
 #include "features/standing_theme.hpp"
 #include "pyramid/theme_lines.hpp"
 #include "store/point_index.hpp"
@@ -18,11 +19,13 @@ namespace itin {
 
 class LineCollection {
  public:
-  /// Takes a store's themes over, then its vertices, then its lines: in this order.
+  /// Takes a store's themes over, then its lines, then their vertices: in this order.
   void take_themes(const StoreMetadata& metadata);
-  /// Whether the vertex comes from a line, and so is taken over with its lines, not with the points.
-  bool take_vertex(const GridPoint& p, std::uint16_t source);
   void take_segments(const PointIndex& index);
+  /// Whether the vertex (`of_terrain`: of the full surface) comes from lines alone, and so is taken over with them, not
+  /// with the points. One at a point of the ground is taken over with both, one whose lines left the ground with
+  /// points.
+  bool take_vertex(const GridPoint& p, std::uint16_t source, bool of_terrain);
 
   /// Standing themes' footprints; their lines are not taken over, but made again.
   void take_footprints(const Store& store);
@@ -52,6 +55,7 @@ class LineCollection {
     std::uint32_t theme;
     StandingPart part;
   };
+  void add_stored();
   void place_parts(ThemeLines& result);
   std::uint16_t source_of(const GridPoint& p, std::uint32_t owner) const;
 
@@ -60,8 +64,12 @@ class LineCollection {
   std::vector<bool> stands_;                              ///< by theme
   std::vector<std::vector<StoredFootprint>> footprints_;  ///< by theme
   std::vector<OwnPart> parts_;
-  std::vector<bool> from_line_;  ///< by the store's source
+  std::vector<bool> from_line_;                            ///< by the store's source
+  std::vector<Segment> stored_;                            ///< of the store's lines, on the ground
+  std::unordered_map<std::uint64_t, std::uint32_t> ends_;  ///< theme by Morton code: those of the stored terrain lines
   std::vector<OwnedSegment> segments_;
+  std::vector<ThemeVertex> ground_ends_;                ///< of edges that keep the ground about features
+  std::vector<BorderEdge> borders_;                     ///< of this ground
   std::unordered_map<std::uint64_t, Vertex> vertices_;  ///< by Morton code: what lines brought along
 };
 

@@ -223,13 +223,13 @@ class PointSorter::Impl {
     }
   }
 
-  std::unique_ptr<SortedPoints::Impl> finish(std::span<const double> spacing, Progress& progress,
+  std::unique_ptr<SortedPoints::Impl> finish(std::span<const SourceRank> sources, Progress& progress,
                                              std::uint64_t& duplicates) {
     write_chunks();
     spare_ = {};  // the merge has its own buffers
     while (runs_.size() > fan_in()) merge_groups(progress);
     auto sorted = std::make_unique<SortedPoints::Impl>(directory_);
-    merge_distinct(spacing, progress, *sorted);
+    merge_distinct(sources, progress, *sorted);
     duplicates = total(runs_) - sorted->size;
     return sorted;
   }
@@ -287,28 +287,34 @@ class PointSorter::Impl {
     runs_ = std::move(longer);
   }
 
-  void merge_distinct(std::span<const double> spacing, Progress& progress, SortedPoints::Impl& sorted) {
+  void merge_distinct(std::span<const SourceRank> sources, Progress& progress, SortedPoints::Impl& sorted) {
     const auto preference = [&](const RawPoint& point) {
-      return std::tuple(spacing[point.source], -std::int64_t{point.z}, point.source);
+      return std::tuple(sources[point.source].spacing, -std::int64_t{point.z}, point.source);
+    };
+    const auto prefer = [&](std::optional<RawPoint>& best, const RawPoint& point) {
+      if (!best || preference(point) < preference(*best)) best = point;
     };
     const std::uint64_t buffer = merge_buffer(runs_.size()), count = total(runs_);
     RunWriter writer(sorted.file, 0, buffer);
-    std::optional<RawPoint> best;
+    std::optional<RawPoint> best, ground;  // of one position
     std::uint64_t visited = 0;
     const auto append_best = [&] {
-      if (best) sorted.append(*best, writer);
+      if (!best) return;
+      if (!sources[best->source].ground && ground) best->source = ground->source;
+      sorted.append(*best, writer);
     };
     merge(file_, runs_, buffer, [&](const RawPoint& point) {
       if (visited++ % kProgressStep == 0) {
         progress.throw_if_cancelled();
         progress.report("sorting", static_cast<double>(visited) / static_cast<double>(count));
       }
-      if (!best || best->code != point.code) {
+      if (best && best->code != point.code) {
         append_best();
-        best = point;
-      } else if (preference(point) < preference(*best)) {
-        best = point;
+        best.reset();
+        ground.reset();
       }
+      prefer(best, point);
+      if (sources[point.source].ground) prefer(ground, point);
     });
     append_best();
     writer.flush();
@@ -335,10 +341,9 @@ void PointSorter::add(std::span<const RawPoint> points) {
   impl_->add(points);
 }
 
-SortedPoints PointSorter::finish(std::span<const double> spacing_of_source, Progress& progress,
-                                 std::uint64_t* duplicates) {
+SortedPoints PointSorter::finish(std::span<const SourceRank> sources, Progress& progress, std::uint64_t* duplicates) {
   std::uint64_t dropped = 0;
-  SortedPoints result(impl_->finish(spacing_of_source, progress, dropped));
+  SortedPoints result(impl_->finish(sources, progress, dropped));
   if (duplicates) *duplicates = dropped;
   return result;
 }

@@ -2,7 +2,7 @@
 //
 //   PointSorter sorter(directory, memory_bytes);
 //   sorter.add({morton(p.x, p.y), p.z, source});           // any order
-//   SortedPoints points = sorter.finish(spacing_of_source, progress);   // sorted, one point a position
+//   SortedPoints points = sorter.finish(ranks_of_sources, progress);   // sorted, one point a position
 #pragma once
 
 #include <cstdint>
@@ -49,6 +49,12 @@ class SortedPoints {
   std::unique_ptr<Impl> impl_;
 };
 
+/// What a source's points are worth where several lie at one position.
+struct SourceRank {
+  double spacing = 0;  ///< metres
+  bool ground = true;  ///< its points are ground by themselves, not only where others are
+};
+
 /// External merge sort. Temporary files are unlinked at once where the system allows, so that none outlives a kill.
 class PointSorter {
  public:
@@ -59,11 +65,10 @@ class PointSorter {
   void add(const RawPoint& point);
   void add(std::span<const RawPoint> points);
   /// Of several points at one position the one whose source has the finest spacing stays, among
-  /// equal spacings the highest, among equal heights the lowest source number: a rule on the points alone.
-  /// `spacing_of_source[s]` in metres. `duplicates`, if given, receives the number dropped. Throws FileError,
-  /// Cancelled.
-  SortedPoints finish(std::span<const double> spacing_of_source, Progress& progress,
-                      std::uint64_t* duplicates = nullptr);
+  /// equal spacings the highest, among equal heights the lowest source number: a rule on the points alone. Where it is
+  /// not ground and one of the others is, it becomes a point of that one's source, or there would be a hole.
+  /// `duplicates`, if given, receives the number dropped. Throws FileError, Cancelled.
+  SortedPoints finish(std::span<const SourceRank> sources, Progress& progress, std::uint64_t* duplicates = nullptr);
 
  private:
   class Impl;

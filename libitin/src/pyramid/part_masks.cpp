@@ -14,10 +14,6 @@ namespace {
 
 using Codes = std::vector<std::uint64_t>;
 
-std::uint64_t code_of(const GridPoint& p) {
-  return morton(p.x, p.y);
-}
-
 bool among(const Codes& ascending, std::uint64_t code) {
   return std::binary_search(ascending.begin(), ascending.end(), code);
 }
@@ -40,9 +36,10 @@ class PartMask {
     masked_.erase(std::unique(masked_.begin(), masked_.end()), masked_.end());
   }
   /// Lines end at feet, so a segment lies inside or outside as a whole.
-  bool covers(const Segment& s) const {
-    return among(masked_, morton(s.ax, s.ay)) || among(masked_, morton(s.bx, s.by)) ||
-           index_.middle_inside({s.ax, s.ay}, {s.bx, s.by});
+  bool covers(const Segment& s) const { return hides_end(s) || index_.middle_inside({s.ax, s.ay}, {s.bx, s.by}); }
+  /// What keeps the ground makes way only where it has to: between vertices that rise it keeps tops above the ground.
+  bool hides_end(const Segment& s) const {
+    return among(masked_, morton(s.ax, s.ay)) || among(masked_, morton(s.bx, s.by));
   }
 
   void write(std::uint16_t number, StoreWriter& writer) const {
@@ -119,10 +116,20 @@ std::vector<Segment> write_parts(const ThemeLines& lines, const WorkingIndex& in
     parts[i].write(number, writer);
     for (const Segment& s : segments) {
       const bool lower = s.theme <= lines.themes() || parts[s.theme - lines.themes() - 1].rank() > parts[i].rank();
-      if (s.theme == kCoverage || !lower || !parts[i].covers(s)) continue;
+      if (s.theme == kCoverage || !lower) continue;
+      const bool ground = s.theme <= lines.themes() && lines.standing[s.theme - std::size_t{1}];
+      if (ground ? !parts[i].hides_end(s) : !parts[i].covers(s)) continue;
       masked.push_back({s.ax, s.ay, s.bx, s.by, number, format::kMaskedSegment, format::kMaskedSegment, s.theme});
     }
   }
+  for (const PlacedBorder& placed : lines.borders) {
+    const Segment s = segment_of(placed.border);
+    for (const std::uint32_t owner : placed.makes_way_for)
+      masked.push_back({s.ax, s.ay, s.bx, s.by, static_cast<std::uint16_t>(owner + 1), format::kMaskedSegment,
+                        format::kMaskedSegment, s.theme});
+  }
+  std::sort(masked.begin(), masked.end());
+  masked.erase(std::unique(masked.begin(), masked.end()), masked.end());
   return masked;
 }
 

@@ -36,14 +36,17 @@ std::vector<std::array<double, 4>> gap_bases(const std::vector<SourceInfo>& sour
   return bases;
 }
 
-/// Sources whose points are ground by themselves: all but lines that add to it, and what is inferred in it.
-Sources ground_sources(const std::vector<SourceInfo>& sources) {
-  Sources ground;
-  for (std::size_t s = 0; s < sources.size(); ++s) {
-    const bool scattered = sources[s].theme.empty() && sources[s].kind != kInferred;
-    if (scattered || sources[s].kind == name_of(ThemeKind::Contours)) ground.insert(static_cast<std::uint16_t>(s));
+/// The vertices of the terrain's lines, as ascending Morton codes.
+std::vector<std::uint64_t> terrain_vertices(const ThemeLines& lines) {
+  std::vector<std::uint64_t> codes;
+  for (const PlanarEdge& e : lines.lines.edges) {
+    if (lines.stands(e) || !lines.terrain[e.owner]) continue;
+    for (const std::uint32_t v : {e.from, e.to})
+      codes.push_back(morton(lines.lines.vertices[v].x, lines.lines.vertices[v].y));
   }
-  return ground;
+  std::sort(codes.begin(), codes.end());
+  codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
+  return codes;
 }
 
 /// The lines of the terrain at all levels; nothing where there are none.
@@ -90,14 +93,16 @@ std::vector<RawPoint> raw_points(const std::vector<GridPoint>& points, std::size
   return result;
 }
 
-/// The vertices that each theme has besides those of the full surface, with the themes they belong to.
-void write_features(const PlacedLines& placed, const ThemeLines& lines, const std::vector<GridPoint>& draped,
-                    StoreWriter& writer, PyramidReport& report) {
+/// The vertices that each theme has besides those of the full surface, with the themes they belong to. `crossings`: of
+/// what keeps the ground with others.
+void write_features(const PlacedLines& placed, const std::vector<ThemeVertex>& crossings, const ThemeLines& lines,
+                    const std::vector<GridPoint>& draped, StoreWriter& writer, PyramidReport& report) {
   std::vector<std::pair<std::uint16_t, std::uint64_t>> ends;  // theme, code
   for (const Segment& s : placed.features) {
     ends.emplace_back(s.theme, morton(s.ax, s.ay));
     ends.emplace_back(s.theme, morton(s.bx, s.by));
   }
+  for (const auto& [theme, code] : crossings) ends.emplace_back(theme + 1, code);
   std::sort(ends.begin(), ends.end());
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
   const auto by_code = [](const GridPoint& p, std::uint64_t code) { return morton(p.x, p.y) < code; };
@@ -202,6 +207,10 @@ void write_levels(const WorkingIndex& index, LeafBounds& bounds, const std::vect
 
 }  // namespace
 
+bool is_ground(const SourceInfo& source) {
+  return source.theme.empty() ? source.kind != kInferred : source.kind == name_of(ThemeKind::Contours);
+}
+
 PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>& sources, const Grid& grid,
                             const std::vector<double>& tolerances, const ThemeLines& lines, StoreWriter& writer,
                             Progress& progress) {
@@ -218,9 +227,12 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
     in_units.push_back(in_whole_units.back());
   }
   const std::vector<std::array<double, 4>> bases = gap_bases(sources, grid);
-  const Sources ground = ground_sources(sources);
+  Sources ground;
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    if (is_ground(sources[s])) ground.insert(static_cast<std::uint16_t>(s));
+  }
   const Sources* const only = ground.size() < sources.size() ? &ground : nullptr;
-  report.replaced = drop_replaced(*working, tiles, sources, bases, progress);
+  report.replaced = drop_replaced(*working, tiles, sources, bases, terrain_vertices(lines), progress);
   Proposal proposal = lines.empty() ? propose_levels(*working, tiles, bases, in_units, progress)
                                     : find_ground(*working, tiles, bases, only, progress);
   report.isolated = working->drop(std::move(proposal.isolated));
@@ -243,6 +255,7 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
   }
   WorkingIndex& index = *working;
   placed.standing = standing_segments(lines);
+  placed.ground = ground_segments(lines);
   std::optional<LineHierarchy> hierarchy = generalised(placed, outline, lines, in_units);
   const auto set_lines = [&] {
     std::vector<Segment> segments = outline;
@@ -274,14 +287,20 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
   LeafBounds bounds = certify(index, in_whole_units, restore, progress);
   write_levels(index, bounds, tiles, levels, writer, report, progress);
   std::vector<GridPoint> draped;
-  if (!placed.features.empty()) {
-    draped = drape(placed.ends, index, tiles, progress);
-    write_features(placed, lines, draped, writer, report);
+  const std::vector<ThemeVertex> crossings = crossings_of_ground(lines);
+  if (!placed.features.empty() || !crossings.empty()) {
+    std::vector<std::uint64_t> ends = placed.ends;
+    for (const ThemeVertex& v : crossings) ends.push_back(v.code);
+    std::sort(ends.begin(), ends.end());
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    draped = drape(ends, index, tiles, progress);
+    write_features(placed, crossings, lines, draped, writer, report);
   }
   count_lines(placed, lines.themes() + lines.parts.size(), report);
   std::vector<Segment> segments = index.all_segments();
   segments.insert(segments.end(), placed.features.begin(), placed.features.end());
   segments.insert(segments.end(), placed.standing.begin(), placed.standing.end());
+  segments.insert(segments.end(), placed.ground.begin(), placed.ground.end());
   const std::vector<Segment> masked = write_parts(lines, index, tiles, draped, segments, writer, progress);
   for (std::size_t p = 0; p < lines.parts.size(); ++p) {
     report.line_vertices[lines.themes() + p] = lines.parts[p].vertices.size();

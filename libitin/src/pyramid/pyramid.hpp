@@ -16,6 +16,10 @@ namespace itin {
 /// The kind of a source of points that are inferred from contours. No file stands for it.
 inline constexpr const char* kInferred = "inferred";
 
+/// Whether a source's points are ground by themselves: all but those of lines that add to it, and what is inferred in
+/// it.
+bool is_ground(const SourceInfo& source);
+
 struct PyramidReport {
   std::uint64_t replaced = 0;  ///< coarser points that made room
   std::uint64_t isolated = 0;  ///< points left out: no ground about them

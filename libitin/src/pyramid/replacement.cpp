@@ -57,7 +57,7 @@ std::vector<std::uint64_t> covered(const WorkingIndex& index, const Sources& sou
 
 std::uint64_t drop_replaced(WorkingIndex& index, const std::vector<CurveRange>& tiles,
                             const std::vector<SourceInfo>& sources, const std::vector<std::array<double, 4>>& gap_bases,
-                            Progress& progress) {
+                            const std::vector<std::uint64_t>& kept, Progress& progress) {
   const std::map<std::uint16_t, Sources> replaced_by = replacing(sources);
   if (replaced_by.empty()) return 0;
   // All tiles are read before any is written: what is dropped here must not change what covers it there.
@@ -68,7 +68,8 @@ std::uint64_t drop_replaced(WorkingIndex& index, const std::vector<CurveRange>& 
     std::map<Sources, std::vector<Position>> candidates;
     for (const RawPoint& p : index.read(tiles[i])) {
       const auto found = replaced_by.find(p.source);
-      if (found != replaced_by.end()) candidates[found->second].push_back({morton_x(p.code), morton_y(p.code)});
+      if (found == replaced_by.end() || std::binary_search(kept.begin(), kept.end(), p.code)) continue;
+      candidates[found->second].push_back({morton_x(p.code), morton_y(p.code)});
     }
     for (auto& [finer, points] : candidates) {
       std::sort(points.begin(), points.end());

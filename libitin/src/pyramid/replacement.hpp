@@ -12,10 +12,10 @@
 namespace itin {
 
 /// Drops every point of a source that lies in the coverage (coverage.hpp) of the replacing sources of finer spacing,
-/// taken together, unless it is one of theirs; returns how many. The rule knows no order of import. `gap_bases` in grid
-/// units.
+/// taken together, unless it is one of theirs or stands at one of the ascending codes `kept`; returns how many. The
+/// rule knows no order of import. `gap_bases` in grid units.
 std::uint64_t drop_replaced(WorkingIndex& index, const std::vector<CurveRange>& tiles,
                             const std::vector<SourceInfo>& sources, const std::vector<std::array<double, 4>>& gap_bases,
-                            Progress& progress);
+                            const std::vector<std::uint64_t>& kept, Progress& progress);
 
 }  // namespace itin

@@ -17,10 +17,6 @@ namespace itin {
 
 namespace {
 
-std::uint64_t code_of(const GridPoint& p) {
-  return morton(p.x, p.y);
-}
-
 Selection everything() {
   return Selection(Detail::tolerance(0), {0.0}, Grid{});
 }
@@ -166,6 +162,38 @@ std::vector<Segment> standing_segments(const ThemeLines& lines) {
   return segments;
 }
 
+std::vector<Segment> ground_segments(const ThemeLines& lines) {
+  std::vector<Segment> segments;
+  for (const PlanarEdge& e : lines.lines.edges) {
+    if (!lines.keeps_ground(e)) continue;
+    const GridPoint &a = lines.lines.vertices[e.from], &b = lines.lines.vertices[e.to];
+    // Coarser surfaces have other edges.
+    segments.push_back({a.x, a.y, b.x, b.y, static_cast<std::uint16_t>(e.owner + 1), 0, 0});
+  }
+  for (const PlacedBorder& b : lines.borders) segments.push_back(segment_of(b.border));
+  return segments;
+}
+
+Segment segment_of(const BorderEdge& border) {
+  const auto& [a, b] = border.edge;
+  return {a.x, a.y, b.x, b.y, static_cast<std::uint16_t>(border.theme + 1), 0, 0};
+}
+
+std::vector<ThemeVertex> crossings_of_ground(const ThemeLines& lines) {
+  std::vector<ThemeVertex> ends, known = lines.ground_ends, crossings;
+  for (const PlanarEdge& e : lines.lines.edges) {
+    if (!lines.keeps_ground(e)) continue;
+    for (const std::uint32_t v : {e.from, e.to}) ends.push_back({e.owner, code_of(lines.lines.vertices[v])});
+  }
+  for (const PlacedPart& part : lines.parts)
+    for (const PartVertex& v : part.vertices) known.push_back({part.part.theme - 1u, code_of(v.point)});
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  std::sort(known.begin(), known.end());
+  std::set_difference(ends.begin(), ends.end(), known.begin(), known.end(), std::back_inserter(crossings));
+  return crossings;
+}
+
 PlacedLines place_lines(const ThemeLines& lines, const WorkingIndex& index, const std::vector<CurveRange>& tiles,
                         const Sources& ground, const std::vector<std::array<double, 4>>& gap_bases,
                         const std::vector<Segment>& outline, Progress& progress) {
@@ -173,7 +201,7 @@ PlacedLines place_lines(const ThemeLines& lines, const WorkingIndex& index, cons
   Codes codes, wanted;
   for (const GridPoint& p : vertices) codes.push_back(code_of(p));
   for (const PlanarEdge& e : lines.lines.edges) {
-    if (!lines.stands(e)) wanted.insert(wanted.end(), {codes[e.from], codes[e.to]});
+    if (lines.lies(e)) wanted.insert(wanted.end(), {codes[e.from], codes[e.to]});
   }
   std::sort(wanted.begin(), wanted.end());
   wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
@@ -185,7 +213,7 @@ PlacedLines place_lines(const ThemeLines& lines, const WorkingIndex& index, cons
 
   std::vector<Segment> candidates;
   for (const PlanarEdge& e : lines.lines.edges) {
-    if (lines.stands(e) || !lies(e.from) || !lies(e.to)) continue;
+    if (!lines.lies(e) || !lies(e.from) || !lies(e.to)) continue;
     const GridPoint &a = vertices[e.from], &b = vertices[e.to];
     candidates.push_back({a.x, a.y, b.x, b.y, static_cast<std::uint16_t>(e.owner + 1)});
   }
@@ -199,12 +227,12 @@ PlacedLines place_lines(const ThemeLines& lines, const WorkingIndex& index, cons
     test.ends_on_outline(s, placed.on_outline);
   }
   const auto on_the_ground = std::count_if(lines.lines.edges.begin(), lines.lines.edges.end(),
-                                           [&](const PlanarEdge& e) { return !lines.stands(e); });
+                                           [&](const PlanarEdge& e) { return lines.lies(e); });
   placed.left_out = static_cast<std::uint64_t>(on_the_ground) - placed.terrain.size() - placed.features.size();
   std::sort(placed.ends.begin(), placed.ends.end());
   placed.ends.erase(std::unique(placed.ends.begin(), placed.ends.end()), placed.ends.end());
   for (const PlanarEdge& e : lines.lines.edges) {
-    if (lines.stands(e) || !lines.terrain[e.owner]) continue;
+    if (!lines.lies(e) || !lines.terrain[e.owner]) continue;
     for (const std::uint32_t v : {e.from, e.to}) {
       if (!lies(v)) placed.strays.push_back(codes[v]);
     }

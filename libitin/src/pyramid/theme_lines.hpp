@@ -8,6 +8,7 @@
 #include <itin/progress.hpp>
 #include <itin/theme.hpp>
 
+#include "features/ground_border.hpp"
 #include "features/part_vertices.hpp"
 #include "features/planar.hpp"
 #include "features/standing_theme.hpp"
@@ -26,19 +27,33 @@ struct PlacedPart {
   std::vector<FeatureReach> reaches;
 };
 
+struct ThemeVertex {
+  std::uint32_t theme;  ///< from 0
+  std::uint64_t code;   ///< Morton
+  friend auto operator<=>(const ThemeVertex&, const ThemeVertex&) = default;
+};
+
 /// The lines of all themes; owner i is theme i + 1. The parts of standing themes are numbered after the themes.
 struct ThemeLines {
   PlanarLines lines;
   std::vector<bool> terrain;           ///< by theme: whether they are part of the full surface
   std::vector<ThemeKind> kinds;        ///< by theme
+  std::vector<bool> standing;          ///< by theme: whether its features are parts, and its own lines keep the ground
   std::vector<std::uint16_t> sources;  ///< by vertex: where it comes from
   std::vector<PlacedPart> parts;
+  /// Ascending: the ends of what keeps the ground, all vertices of the full surface or of the theme's parts.
+  std::vector<ThemeVertex> ground_ends;
+  std::vector<PlacedBorder> borders;  ///< of this ground
 
   std::size_t themes() const { return terrain.size(); }
   bool stands(const PlanarEdge& e) const { return e.owner >= themes(); }
+  /// Whether it is an edge of the full surface about features: it changes nothing where these are not there.
+  bool keeps_ground(const PlanarEdge& e) const { return !stands(e) && standing[e.owner]; }
+  /// Whether it is a line on the ground.
+  bool lies(const PlanarEdge& e) const { return !stands(e) && !standing[e.owner]; }
   /// Whether no line lies on the ground.
   bool empty() const {
-    return std::all_of(lines.edges.begin(), lines.edges.end(), [&](const PlanarEdge& e) { return stands(e); });
+    return std::none_of(lines.edges.begin(), lines.edges.end(), [&](const PlanarEdge& e) { return lies(e); });
   }
 };
 
@@ -47,7 +62,8 @@ struct PlacedLines {
   std::vector<Segment> terrain;           ///< part of the full surface; their ends are points of the index
   std::vector<Segment> features;          ///< on it
   std::vector<Segment> standing;          ///< of parts
-  std::vector<std::uint64_t> ends;        ///< of both, ascending Morton codes
+  std::vector<Segment> ground;            ///< edges of the full surface about these, at level 0
+  std::vector<std::uint64_t> ends;        ///< of the first two, ascending Morton codes
   std::vector<std::uint64_t> on_outline;  ///< of these, those on it
   std::vector<std::uint64_t> strays;      ///< vertices of terrain lines beyond the ground
   std::uint64_t left_out = 0;             ///< segments beyond the ground, or that leave it
@@ -55,6 +71,11 @@ struct PlacedLines {
 
 /// The segments of the parts of standing themes, which lie on the ground already.
 std::vector<Segment> standing_segments(const ThemeLines& lines);
+Segment segment_of(const BorderEdge& border);
+/// What keeps the ground about them.
+std::vector<Segment> ground_segments(const ThemeLines& lines);
+/// Vertices that this has got from crossing other lines, ascending. They may be vertices of the full surface.
+std::vector<ThemeVertex> crossings_of_ground(const ThemeLines& lines);
 
 /// Leaves out every segment that is not wholly on the ground of the given sources, whose outline is `outline`.
 /// `gap_bases` in grid units. The index must have no segments yet.

@@ -28,6 +28,17 @@ double height(const GridBox& b) {
   return static_cast<double>(b.ymax) - b.ymin;
 }
 
+/// Calls visit(part) for at most four boxes that together have the positions of one without those of another.
+template <class Visit>
+void for_each_part_beyond(GridBox box, const GridBox& hole, const Visit& visit) {
+  if (hole.empty() || !box.meets(hole)) return visit(box);
+  if (box.xmin < hole.xmin) visit({box.xmin, box.ymin, hole.xmin - 1, box.ymax});
+  if (box.xmax > hole.xmax) visit({hole.xmax + 1, box.ymin, box.xmax, box.ymax});
+  box.xmin = std::max(box.xmin, hole.xmin), box.xmax = std::min(box.xmax, hole.xmax);
+  if (box.ymin < hole.ymin) visit({box.xmin, box.ymin, box.xmax, hole.ymin - 1});
+  if (box.ymax > hole.ymax) visit({box.xmin, hole.ymax + 1, box.xmax, box.ymax});
+}
+
 /// Both have the positions of the cut, so that no leaf can fall between.
 std::pair<GridBox, GridBox> halves(const GridBox& b) {
   if (width(b) >= height(b)) {
@@ -78,7 +89,8 @@ bool hide(std::span<const Segment> segments, Position a, Position b, const GridB
 /// What is known while one circle is searched.
 struct ApexSearch::Search {
   const ApexFrame& frame;
-  GridBox box;             ///< all that the search looks at
+  GridBox box;  ///< all that the search looks at, but for
+  GridBox known;
   const Position* beyond;  ///< on the circle that the search must improve on, or null
   double reach;            ///< no circle larger than this matters any more
   std::optional<SelectedVertex> best = std::nullopt;
@@ -121,9 +133,9 @@ bool ApexSearch::hidden(Position c, Search& search) const {
   return search.from_a->blocked(c) || search.from_b->blocked(c);
 }
 
-std::optional<SelectedVertex> ApexSearch::nearest_circle(const ApexFrame& frame, double lambda,
-                                                         const Position* beyond) {
-  Search search{frame, frame.cap_box(lambda, index_.bounds()), beyond, lambda};
+std::optional<SelectedVertex> ApexSearch::nearest_circle(const ApexFrame& frame, double lambda, const Position* beyond,
+                                                         const GridBox& known) {
+  Search search{frame, frame.cap_box(lambda, index_.bounds()), known, beyond, lambda};
   if (search.box.empty()) return std::nullopt;
   // Best first, by halves of a wide box's longer side: what is near has the answer, and may have none of the points.
   using Piece = std::tuple<double, int, GridBox>;
@@ -133,7 +145,8 @@ std::optional<SelectedVertex> ApexSearch::nearest_circle(const ApexFrame& frame,
   const auto push = [&](const GridBox& box, int depth) {
     if (frame.cap_meets(search.reach, box)) pieces.emplace(frame.key(box), depth, box);
   };
-  for (push(search.box, 0); !pieces.empty();) {
+  for_each_part_beyond(search.box, known, [&](const GridBox& part) { push(part, 0); });
+  while (!pieces.empty()) {
     const auto [key, depth, box] = pieces.top();
     pieces.pop();
     if (!frame.cap_meets(search.reach, box)) continue;
@@ -175,7 +188,8 @@ void ApexSearch::look_in(const Leaf& leaf, Search& search) {
     const GridPoint& point = block->points[k];
     const Position c{point.x, point.y};
     // Segments are known only for the search's box; what lies outside comes with a larger one.
-    if (!search.box.contains(c.x, c.y) || !search.frame.inside(search.reach, c.x, c.y) || orientation(a, b, c) <= 0)
+    if (!search.box.contains(c.x, c.y) || search.known.contains(c.x, c.y) ||
+        !search.frame.inside(search.reach, c.x, c.y) || orientation(a, b, c) <= 0)
       continue;
     const std::uint8_t level = level_of(leaf, *block, k);
     if (!selection_.selects(level, c.x, c.y)) continue;
@@ -191,7 +205,7 @@ void ApexSearch::look_in(const Leaf& leaf, Search& search) {
 
 std::optional<SelectedVertex> ApexSearch::intruder(Position a, Position b, Position c) {
   const ApexFrame frame(a, b);
-  return nearest_circle(frame, frame.lambda(c), &c);
+  return nearest_circle(frame, frame.lambda(c), &c, known_);
 }
 
 std::optional<SelectedVertex> ApexSearch::apex(Position a, Position b) {
@@ -203,24 +217,25 @@ std::optional<SelectedVertex> ApexSearch::apex(Position a, Position b) {
   const double span =
       frame.r + std::hypot(static_cast<double>(all.xmax) - all.xmin, static_cast<double>(all.ymax) - all.ymin);
   for (double lambda = frame.r; lambda < span; lambda *= 4) {
-    const auto best = nearest_circle(frame, lambda, nullptr);
+    const auto best = nearest_circle(frame, lambda, nullptr, {});
     // What lies on the searched circle itself may have rivals that rounding left out.
     if (best && frame.lambda(best->position()) < 0.999 * lambda) return best;
   }
   // A grid position left of ab is at least 1 / |ab| away from it, so no circle is larger than this.
-  return nearest_circle(frame, span * span * (frame.r + 1), nullptr);
+  return nearest_circle(frame, span * span * (frame.r + 1), nullptr, {});
 }
 
 std::optional<SelectedVertex> ApexSearch::inside(Position a, Position b, Position c) {
   GridBox box;
   for (const Position p : {a, b, c}) box.extend(p.x, p.y);
+  if (known_.contains(box)) return std::nullopt;
   leaves_.clear();
   selected_leaves(index_, selection_, box, leaves_);
   for (const Leaf& leaf : leaves_) {
     const auto block = blocks_.read(leaf);
     for (std::size_t k = 0; k < block->points.size(); ++k) {
       const Position p{block->points[k].x, block->points[k].y};
-      if (!box.contains(p.x, p.y) || p == a || p == b || p == c) continue;
+      if (!box.contains(p.x, p.y) || known_.contains(p.x, p.y) || p == a || p == b || p == c) continue;
       if (orientation(a, b, p) < 0 || orientation(b, c, p) < 0 || orientation(c, a, p) < 0) continue;
       const std::uint8_t level = level_of(leaf, *block, k);
       if (selection_.selects(level, p.x, p.y))

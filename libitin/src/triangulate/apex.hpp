@@ -38,11 +38,18 @@ struct SelectedVertex {
   Position position() const { return {point.x, point.y}; }
 };
 
+inline std::uint64_t code_of(const SelectedVertex& v) {
+  return code_of(v.point);
+}
+
 /// One search serves one thread and one region: it keeps the blocks it has read, and counts them.
 class ApexSearch {
  public:
   ApexSearch(const PointIndex& index, const Selection& selection)
       : index_(index), selection_(selection), blocks_(index) {}
+
+  /// What intruder() and inside() pass over from now on: the caller has triangulated all that is selected in this box.
+  void pass_over(const GridBox& known) { known_ = known; }
 
   /// The third vertex of the triangle to the left of ab, an edge of the global triangulation that is no constraint;
   /// nullopt on the hull.
@@ -64,13 +71,15 @@ class ApexSearch {
   struct Search;
   void read_segments(const ApexFrame& frame, const GridBox& box);
   bool hidden(Position c, Search& search) const;
-  std::optional<SelectedVertex> nearest_circle(const ApexFrame& frame, double lambda, const Position* beyond);
+  std::optional<SelectedVertex> nearest_circle(const ApexFrame& frame, double lambda, const Position* beyond,
+                                               const GridBox& known);
   void look_in(const GridBox& piece, Search& search);
   void look_in(const Leaf& leaf, Search& search);
 
   const PointIndex& index_;
   const Selection& selection_;
   BlockReader blocks_;
+  GridBox known_;
   // Kept between calls for their memory.
   std::vector<Leaf> leaves_;
   std::vector<Segment> segments_;

@@ -168,8 +168,8 @@ void GridWindow::index_edges() {
 }
 
 void GridWindow::choose_cells() {
-  // About 16 cells an edge make a round shape's boundary one edge a cell; the limits bound the index to a few MB.
-  const std::size_t limit = std::clamp<std::size_t>(16 * edges_.size(), 256, std::size_t{1} << 20);
+  // Few triangles lie in cells that the boundary meets, where each is tested; the limits bound the index to a few MB.
+  const std::size_t limit = std::clamp<std::size_t>(128 * edges_.size(), 256, std::size_t{1} << 20);
   const std::uint32_t width = static_cast<std::uint32_t>(extent_.xmax - extent_.xmin);
   const std::uint32_t height = static_cast<std::uint32_t>(extent_.ymax - extent_.ymin);
   while (std::size_t{(width >> log2_cell_) + 1} * ((height >> log2_cell_) + 1) > limit) ++log2_cell_;
@@ -275,6 +275,18 @@ bool GridWindow::boundary_meets(const Figure& figure, const CellRange& range) co
     }
   }
   return false;
+}
+
+bool GridWindow::holds(const GridBox& box) const {
+  if (!extent_.contains(box)) return false;
+  if (is_box()) return true;
+  const CellRange range = cells(box);
+  for (std::uint32_t row = range.row0; row <= range.row1; ++row) {
+    const auto first = states_.begin() + static_cast<std::ptrdiff_t>(cell(range.column0, row));
+    const auto last = states_.begin() + static_cast<std::ptrdiff_t>(cell(range.column1, row)) + 1;
+    if (std::any_of(first, last, [](State s) { return s != State::Inside; })) return false;
+  }
+  return true;
 }
 
 bool GridWindow::meets(const GridBox& box) const {

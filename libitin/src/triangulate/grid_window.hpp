@@ -31,6 +31,9 @@ class GridWindow {
   const GridBox& bounds() const { return bounds_; }
   /// Boundary included.
   bool contains(std::int32_t x, std::int32_t y) const;
+  /// Whether every position of the box is in the window, as far as that shows in cells of the index. Never true
+  /// otherwise.
+  bool holds(const GridBox& box) const;
   /// Closed box, touching counts.
   bool meets(const GridBox& box) const;
   /// Closed triangle of either orientation, touching counts.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <set>
 #include <unordered_map>
@@ -11,6 +12,7 @@
 #include <itin/error.hpp>
 
 #include "triangulate/enclosure.hpp"
+#include "triangulate/segment_edges.hpp"
 
 namespace itin {
 
@@ -31,6 +33,16 @@ constexpr std::uint64_t kCellCost = 64;
 
 double area(const GridBox& b) {
   return b.empty() ? 0 : (1.0 + b.xmax - b.xmin) * (1.0 + b.ymax - b.ymin);
+}
+
+/// The sides of a box at which the bounds end moved far away.
+GridBox with_all_beyond(GridBox box, const GridBox& bounds) {
+  constexpr std::int32_t kFar = std::numeric_limits<std::int32_t>::max();
+  if (box.xmin <= bounds.xmin) box.xmin = -kFar;
+  if (box.ymin <= bounds.ymin) box.ymin = -kFar;
+  if (box.xmax >= bounds.xmax) box.xmax = kFar;
+  if (box.ymax >= bounds.ymax) box.ymax = kFar;
+  return box;
 }
 
 /// Closed segment against closed box, exactly.
@@ -69,6 +81,7 @@ class RegionTriangulation {
       : index_(index), selection_(selection), window_(window), search_(index, selection) {
     tile_ = intersection(tile, index.bounds());
     if (window != nullptr) tile_ = intersection(tile_, window->bounds());
+    if (window != nullptr && window->holds(tile_)) window_ = nullptr;
   }
 
   RegionMesh run() {
@@ -115,7 +128,7 @@ class RegionTriangulation {
   /// start from.
   bool triangulate_seed() {
     const std::vector<Leaf> leaves = leaves_in(box_);
-    if (points_of(leaves) <= kFewPoints) return false;
+    if (points_of(leaves, box_) <= kFewPoints) return false;
     const auto distance = [&](const Leaf& leaf) {
       const GridBox b = leaf.cell.box();
       return std::max({0.0, 0.0 + b.xmin - tile_.xmax, 0.0 + tile_.xmin - b.xmax, 0.0 + b.ymin - tile_.ymax,
@@ -130,6 +143,8 @@ class RegionTriangulation {
   void triangulate(const Leaf* seed) {
     proven_.clear();
     read_points(seed);
+    bare_beyond_ = with_all_beyond(read_box_, index_.bounds());
+    search_.pass_over(read_box_);
     known_ = KnownGround(read_box_, log2_cell_side_);
     most_known_ = most_points_;
     segments_.clear();
@@ -151,7 +166,7 @@ class RegionTriangulation {
   /// Where triangles reach far, as across the sea, one vertex after another turns up. A larger box has them at once.
   bool worth_growing() const {
     if (box_.contains(index_.bounds())) return false;
-    return points_of(leaves_in(box_with(4 * margin_))) <= most_points_;
+    return points_in(box_with(4 * margin_)) <= static_cast<double>(most_points_);
   }
 
   std::vector<Leaf> leaves_in(const GridBox& box) const {
@@ -160,21 +175,22 @@ class RegionTriangulation {
     return leaves;
   }
 
-  static std::uint64_t points_of(const std::vector<Leaf>& leaves) {
-    return std::accumulate(leaves.begin(), leaves.end(), std::uint64_t{0},
-                           [](std::uint64_t sum, const Leaf& leaf) { return sum + leaf.points; });
+  /// About how many of the leaves' points lie in a box: strips a few points wide meet many leaves.
+  static double points_of(const std::vector<Leaf>& leaves, const GridBox& box) {
+    return std::accumulate(leaves.begin(), leaves.end(), 0.0, [&](double sum, const Leaf& leaf) {
+      return sum + leaf.points * area(intersection(leaf.cell.box(), box)) / area(leaf.cell.box());
+    });
   }
+  double points_in(const GridBox& box) const { return points_of(leaves_in(box), box); }
 
   double first_margin() {
-    double points = 0;
-    for (const Leaf& leaf : leaves_in(tile_))
-      points += leaf.points * area(intersection(leaf.cell.box(), tile_)) / area(leaf.cell.box());
+    const double points = points_in(tile_);
     const double spacing = points > 0 ? std::sqrt(area(tile_) / points) : std::sqrt(area(tile_));
     const auto n = static_cast<std::uint64_t>(points);
     most_points_ = std::min(kGrowth * n, kLargeGrowth * n + kManyPoints) + kFewPoints;
     log2_cell_side_ = std::clamp(static_cast<int>(std::log2(spacing * kCellSide + 1)), 0, kRootLog2Side - 1);
     double margin = kMargin * spacing;
-    while (margin > 1 && points_of(leaves_in(box_with(margin))) > most_points_) margin /= 2;
+    while (margin > 1 && points_in(box_with(margin)) > static_cast<double>(most_points_)) margin /= 2;
     return margin + 1;
   }
 
@@ -298,70 +314,11 @@ class RegionTriangulation {
     if (!lay_segments()) throw Error("a constraint is lost in the triangulation");
   }
 
-  /// An edge of the mesh along a segment, in its direction; kNoTriangle beyond the hull.
-  struct SegmentEdge {
-    std::uint32_t from, to;
-    std::uint32_t left, right;
-    std::uint16_t theme = kCoverage;
-  };
-
-  /// Finds every segment's edges and marks them as constrained. False when some segment is not made of edges.
+  /// False when some segment is not made of edges.
   bool lay_segments() {
-    segment_edges_.clear();
-    mesh_.constrained.assign(mesh_.triangles.size(), 0);
-    if (constraints_.empty()) return true;
-    std::vector<std::uint32_t> some_triangle(vertices_.size(), kNoTriangle);
-    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-      for (const std::uint32_t v : mesh_.triangles[t]) some_triangle[v] = t;
-    }
-    for (std::size_t k = 0; k < constraints_.size(); ++k) {
-      const auto [from, to] = constraints_[k];
-      for (std::uint32_t at = from; at != to;) {
-        if (some_triangle[at] == kNoTriangle) return false;
-        std::optional<SegmentEdge> edge = edge_towards(at, to, some_triangle[at]);
-        if (!edge) return false;
-        edge->theme = themes_[k];
-        mark_constrained(*edge);
-        segment_edges_.push_back(*edge);
-        at = edge->to;
-      }
-    }
-    return true;
-  }
-
-  void mark_constrained(const SegmentEdge& edge) {
-    for (const std::uint32_t t : {edge.left, edge.right}) {
-      if (t == kNoTriangle) continue;
-      for (int i = 0; i < 3; ++i) {
-        if (mesh_.triangles[t][i] != edge.from && mesh_.triangles[t][i] != edge.to) {
-          mesh_.constrained[t] |= static_cast<std::uint8_t>(1 << i);
-          if (edge.theme == kCoverage)
-            mesh_.constrained[t] |= static_cast<std::uint8_t>(1 << (i + PlaneMesh::kOutline));
-        }
-      }
-    }
-  }
-
-  /// The edge that leaves vertex `at` straight towards vertex `to`, if there is one.
-  std::optional<SegmentEdge> edge_towards(std::uint32_t at, std::uint32_t to, std::uint32_t start) const {
-    const Position p = position(at), goal = position(to);
-    const auto leads = [&](std::uint32_t v) {
-      const Position q = position(v);
-      return orientation(p, q, goal) == 0 && (std::int64_t{q.x} - p.x) * (std::int64_t{goal.x} - p.x) +
-                                                     (std::int64_t{q.y} - p.y) * (std::int64_t{goal.y} - p.y) >
-                                                 0;
-    };
-    for (const int turn : {1, 2}) {  // counterclockwise, and clockwise from where the hull stopped that
-      std::uint32_t t = start;
-      do {
-        const auto& v = mesh_.triangles[t];
-        const int i = v[0] == at ? 0 : v[1] == at ? 1 : 2, next = (i + 1) % 3, previous = (i + 2) % 3;
-        if (leads(v[next])) return SegmentEdge{at, v[next], t, mesh_.neighbours[t][previous]};
-        if (leads(v[previous])) return SegmentEdge{at, v[previous], mesh_.neighbours[t][next], t};
-        t = mesh_.neighbours[t][(i + turn) % 3];
-      } while (t != kNoTriangle && t != start);
-    }
-    return std::nullopt;
+    auto edges = itin::lay_segments(mesh_, vertices_, constraints_, themes_);
+    segment_edges_ = edges ? std::move(*edges) : std::vector<SegmentEdge>();
+    return edges.has_value();
   }
 
   /// Whether triangle t meets tile and window.
@@ -406,7 +363,7 @@ class RegionTriangulation {
     Enclosure enclosure(mesh_, vertices_, known_, index_.bounds());
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
       if (ground_[t] != Ground::kYes) continue;
-      enclosed_[t] = circumdisc_in(corner(t, 0), corner(t, 1), corner(t, 2), read_box_) || !in_region(t) ||
+      enclosed_[t] = circumdisc_in(corner(t, 0), corner(t, 1), corner(t, 2), bare_beyond_) || !in_region(t) ||
                      (lines && enclosure.holds(t));
       if (lines && !enclosed_[t]) enclosure.add_missing(missing);
     }
@@ -449,9 +406,12 @@ class RegionTriangulation {
   void prove(std::uint32_t t, std::vector<SelectedVertex>& intruders, std::vector<Segment>& fresh) {
     const Triangle key = smallest_first(mesh_.triangles[t]);
     if (proven_.contains(key)) return;
-    const std::vector<Segment> crossing = read_segments(box_of(t));
-    fresh.insert(fresh.end(), crossing.begin(), crossing.end());
-    bool sound = crossing.empty();
+    bool sound = true;
+    if (!box_.contains(box_of(t))) {
+      const std::vector<Segment> crossing = read_segments(box_of(t));
+      fresh.insert(fresh.end(), crossing.begin(), crossing.end());
+      sound = crossing.empty();
+    }
     if (const auto found = search_.inside(corner(t, 0), corner(t, 1), corner(t, 2))) {
       intruders.push_back(*found);
       sound = false;
@@ -573,6 +533,7 @@ class RegionTriangulation {
   std::uint64_t most_points_ = 0;  ///< that a box is worth
   GridBox box_;                    ///< all selected segments in it have been read
   GridBox read_box_;               ///< within box_: all selected points in it have been read, too
+  GridBox bare_beyond_;            ///< read_box_ and what lies beyond all data behind it
   KnownGround known_;              ///< read_box_ and more
   int log2_cell_side_ = 0;
   std::uint64_t most_known_ = 0;  ///< points that may still be read into known_

@@ -18,6 +18,8 @@ StandingIndex::StandingIndex(const Store& store, const Selection& selection)
   const StoreMetadata& metadata = store.metadata();
   const auto last = static_cast<int>(themes_);
   ranks_.assign(themes_ + 1, last);
+  for (std::size_t t = 1; t <= themes_; ++t)
+    if (!selection.includes(static_cast<std::uint16_t>(t))) ranks_[t] = kNotThere;
   for (std::size_t p = 0; p < metadata.parts.size(); ++p) {
     const ThemeInfo& own = metadata.themes[metadata.parts[p].theme - std::size_t{1}];
     const bool chosen = selection.includes(static_cast<std::uint16_t>(themes_ + p + 1));

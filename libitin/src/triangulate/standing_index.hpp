@@ -30,8 +30,8 @@ class StandingIndex final : public PointIndex {
 
  private:
   static constexpr int kNotThere = -1;
-  /// Of what a theme number names: kNotThere for parts that are not chosen; themes on the ground and the terrain come
-  /// after all parts.
+  /// Of what a theme number names: kNotThere where it is not chosen; themes on the ground and the terrain come after
+  /// all parts.
   int rank(std::uint16_t theme) const { return ranks_[theme]; }
   bool is_part(std::uint16_t theme) const { return theme > themes_; }
   std::vector<std::uint64_t> masks(const GridBox& box, int below) const;

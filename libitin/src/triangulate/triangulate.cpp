@@ -144,9 +144,12 @@ class Assembly {
   Tin tin_;
 };
 
-/// Lines of a part are its theme's.
+/// Lines of a part are its theme's. What keeps the ground about standing features is none.
 void name_themes(Tin& tin, const StoreMetadata& metadata) {
   if (metadata.parts.empty()) return;
+  std::erase_if(tin.lines, [&](const LineEdge& e) {
+    return e.theme <= metadata.themes.size() && metadata.themes[e.theme - std::size_t{1}].stands();
+  });
   for (LineEdge& e : tin.lines) {
     if (e.theme > metadata.themes.size()) e.theme = metadata.parts[e.theme - metadata.themes.size() - 1].theme;
   }

@@ -251,6 +251,37 @@ TEST_F(ImportLines, RoadsTakeTheTerrainsHeightAndLeaveItAsItWas) {
   EXPECT_GT(draped, 100u);
 }
 
+/// A line's vertex on a post takes its place but leaves it ground, however often the store is written.
+TEST_F(ImportLines, VerticesOnPostsLeaveNoHole) {
+  import_terrain_tile(false);
+  test::write_lines(path("ridge.geojson"), {{{{300525, 197525, 900}, {301525, 198525, 910}, {302525, 197525, 920}}}});
+  test::write_lines(path("cliff.geojson"), {{{{300625, 199125, 500}, {300725, 199125, 510}}}});
+  const auto expect_whole = [&](const std::string& when) {
+    NoProgress progress;
+    const Tin tin = triangulate(Store(path("s.itin")), Window::all(), Detail::tolerance(0), progress);
+    std::int64_t area = 0;
+    for (const Triangle& t : tin.triangles)
+      area += doubled_area(tin.vertices[t[0]], tin.vertices[t[1]], tin.vertices[t[2]]);
+    EXPECT_EQ(area, 2 * std::int64_t{295000} * 295000) << when;
+    for (const GridPoint& ridge : {tin.grid.quantise({301525, 198525, 910}), tin.grid.quantise({302525, 197525, 920})})
+      EXPECT_NE(std::find(tin.vertices.begin(), tin.vertices.end(), ridge), tin.vertices.end())
+          << when << ": height " << ridge.z;
+  };
+  lines(ThemeKind::Breaklines, "ridge.geojson", "ridge");
+  expect_whole("with a ridge");
+  lines(ThemeKind::Breaklines, "cliff.geojson", "cliff");
+  expect_whole("written again");
+  // Finer ground, on the same posts and between them, takes the place of all posts but not of the lines.
+  test::write_raster(path("fine.tif"), {300012.5, 199987.5, 25, 119, 119, 27700}, [&](int, int) { return 100.0; });
+  ImportOptions options;
+  options.sources = {path("fine.tif")};
+  options.replace = true;
+  NoProgress progress;
+  import_terrain(path("s.itin"), options, progress);
+  expect_whole("replaced");
+  EXPECT_EQ(Store(path("s.itin")).metadata().themes[1].segments, 2u);
+}
+
 TEST_F(ImportLines, ThemesDoNotDependOnTheOrderOfImportBeyondTheGrid) {
   std::mt19937 random(3);
   for (const char* store : {"a.itin", "b.itin"}) import_terrain_tile(false, store);

@@ -36,25 +36,31 @@ std::vector<RawPoint> random_points(std::size_t count, std::uint64_t codes, std:
   return points;
 }
 
-/// The rule word for word: finest spacing, then highest, then lowest source number.
-std::vector<RawPoint> expected(std::vector<RawPoint> points, const std::vector<double>& spacing) {
+/// The rule word for word: finest spacing, then highest, then lowest source number; ground stays ground.
+std::vector<RawPoint> expected(std::vector<RawPoint> points, const std::vector<SourceRank>& sources) {
   const auto keep_order_by = [&](auto before) { std::stable_sort(points.begin(), points.end(), before); };
   keep_order_by([](const RawPoint& a, const RawPoint& b) { return a.source < b.source; });
   keep_order_by([](const RawPoint& a, const RawPoint& b) { return a.z > b.z; });
-  keep_order_by([&](const RawPoint& a, const RawPoint& b) { return spacing[a.source] < spacing[b.source]; });
+  keep_order_by(
+      [&](const RawPoint& a, const RawPoint& b) { return sources[a.source].spacing < sources[b.source].spacing; });
   keep_order_by([](const RawPoint& a, const RawPoint& b) { return a.code < b.code; });
+  for (std::size_t first = 0, i = 1; i < points.size(); ++i) {
+    if (points[i].code != points[first].code) first = i;
+    if (!sources[points[first].source].ground && sources[points[i].source].ground)
+      points[first].source = points[i].source;
+  }
   points.erase(
       std::unique(points.begin(), points.end(), [](const RawPoint& a, const RawPoint& b) { return a.code == b.code; }),
       points.end());
   return points;
 }
 
-SortedPoints sort(const std::vector<RawPoint>& points, const std::vector<double>& spacing, std::uint64_t memory,
+SortedPoints sort(const std::vector<RawPoint>& points, const std::vector<SourceRank>& sources, std::uint64_t memory,
                   std::uint64_t* duplicates = nullptr) {
   PointSorter sorter(::testing::TempDir(), memory);
   sorter.add(points);
   NoProgress progress;
-  return sorter.finish(spacing, progress, duplicates);
+  return sorter.finish(sources, progress, duplicates);
 }
 
 std::vector<RawPoint> all_of(const SortedPoints& sorted) {
@@ -67,14 +73,14 @@ TEST(PointSorter, AgreesWithStableSortWhateverTheMemory) {
   const std::uint64_t seed = std::random_device{}();
   SCOPED_TRACE(seed);
   std::mt19937_64 random(seed);
-  const std::vector<double> spacing{50, 5, 50};
+  const std::vector<SourceRank> sources{{50}, {5, false}, {50, false}};
   for (const std::size_t count : {0, 1, 2, 1023, 1024, 1025, 5000, 300000}) {
     for (const std::uint64_t codes : {std::uint64_t{3}, std::uint64_t{20000}, std::uint64_t{1} << 36}) {
       const std::vector<RawPoint> points = random_points(count, codes, random);
-      const std::vector<RawPoint> truth = expected(points, spacing);
+      const std::vector<RawPoint> truth = expected(points, sources);
       for (const std::uint64_t memory : {std::uint64_t{0}, kTiny, std::uint64_t{1} << 20, std::uint64_t{1} << 30}) {
         std::uint64_t duplicates = 0;
-        const SortedPoints sorted = sort(points, spacing, memory, &duplicates);
+        const SortedPoints sorted = sort(points, sources, memory, &duplicates);
         EXPECT_TRUE(same(all_of(sorted), truth)) << count << " points, " << codes << " codes, " << memory << " bytes";
         EXPECT_EQ(duplicates, count - truth.size());
       }
@@ -86,26 +92,34 @@ TEST(PointSorter, DependsNeitherOnOrderNorOnThreads) {
   const std::uint64_t seed = std::random_device{}();
   SCOPED_TRACE(seed);
   std::mt19937_64 random(seed);
-  const std::vector<double> spacing{2, 1, 1};
+  const std::vector<SourceRank> sources{{2}, {1}, {1, false}};
   std::vector<RawPoint> points = random_points(100000, 30000, random);
-  const std::vector<RawPoint> first = all_of(sort(points, spacing, kTiny));
+  const std::vector<RawPoint> first = all_of(sort(points, sources, kTiny));
   for (const int threads : {1, 2, 0}) {
     std::shuffle(points.begin(), points.end(), random);
     set_thread_count(threads);
     PointSorter sorter(::testing::TempDir(), kTiny);
     for (const RawPoint& point : points) sorter.add(point);
     NoProgress progress;
-    EXPECT_TRUE(same(all_of(sorter.finish(spacing, progress)), first)) << threads << " threads";
+    EXPECT_TRUE(same(all_of(sorter.finish(sources, progress)), first)) << threads << " threads";
   }
   set_thread_count(0);
 }
 
 TEST(PointSorter, PrefersFinerThenHigherThenEarlierSources) {
-  const std::vector<double> spacing{50, 2, 2};
-  const auto winner = [&](const std::vector<RawPoint>& points) { return all_of(sort(points, spacing, kTiny)).at(0); };
+  const std::vector<SourceRank> sources{{50}, {2}, {2}};
+  const auto winner = [&](const std::vector<RawPoint>& points) { return all_of(sort(points, sources, kTiny)).at(0); };
   EXPECT_TRUE(same(winner({{7, 900, 0}, {7, 10, 1}}), {7, 10, 1}));
   EXPECT_TRUE(same(winner({{7, 10, 1}, {7, 11, 2}}), {7, 11, 2}));
   EXPECT_TRUE(same(winner({{7, 10, 2}, {7, 10, 1}}), {7, 10, 1}));
+}
+
+TEST(PointSorter, GroundStaysGround) {
+  const std::vector<SourceRank> sources{{50}, {0, false}, {2}};
+  const auto winner = [&](const std::vector<RawPoint>& points) { return all_of(sort(points, sources, kTiny)).at(0); };
+  EXPECT_TRUE(same(winner({{7, 10, 0}, {7, 12, 1}}), {7, 12, 0}));
+  EXPECT_TRUE(same(winner({{7, 12, 1}, {7, 10, 0}, {7, 9, 2}}), {7, 12, 2}));
+  EXPECT_TRUE(same(winner({{7, 12, 1}, {8, 10, 0}}), {7, 12, 1}));
 }
 
 TEST(PointSorter, StopsWhenCancelled) {
@@ -116,8 +130,8 @@ TEST(PointSorter, StopsWhenCancelled) {
   } progress;
   PointSorter sorter(::testing::TempDir(), kTiny);
   sorter.add(RawPoint{});
-  const std::vector<double> spacing{1};
-  EXPECT_THROW(sorter.finish(spacing, progress), Cancelled);
+  const std::vector<SourceRank> sources{{1}};
+  EXPECT_THROW(sorter.finish(sources, progress), Cancelled);
 }
 
 TEST(PointSorter, LeavesNoFileBehind) {
@@ -164,7 +178,7 @@ TEST(SortedPoints, FindsLowerBoundsAsASearchThroughAllDoes) {
   SCOPED_TRACE(seed);
   std::mt19937_64 random(seed);
   for (const std::size_t count : {0, 1, 1024, 1025, 2048, 9999}) {
-    const SortedPoints sorted = sort(random_points(count, 1 << 20, random), {1, 1, 1}, kTiny);
+    const SortedPoints sorted = sort(random_points(count, 1 << 20, random), {{1}, {1}, {1}}, kTiny);
     const std::vector<RawPoint> all = all_of(sorted);
     const auto check = [&](std::uint64_t code) {
       const auto below = std::count_if(all.begin(), all.end(), [&](const RawPoint& p) { return p.code < code; });
@@ -181,7 +195,7 @@ TEST(SortedPoints, FindsLowerBoundsAsASearchThroughAllDoes) {
 TEST(SortedPoints, KeepsWhatIsWritten) {
   std::vector<RawPoint> points(5000);
   for (std::size_t i = 0; i < points.size(); ++i) points[i].code = i;
-  SortedPoints sorted = sort(points, {1}, kTiny);
+  SortedPoints sorted = sort(points, {{1}}, kTiny);
   for (std::size_t i = 1000; i < 3000; ++i) points[i].level = static_cast<std::uint16_t>(i % 7);
   sorted.write(1000, std::span(points).subspan(1000, 2000));
   EXPECT_TRUE(same(all_of(sorted), points));

@@ -151,6 +151,10 @@ class GridWindowTest : public ::testing::Test {
       ASSERT_EQ(fast.meets(box),
                 slow.meets({{box.xmin, box.ymin}, {box.xmax, box.ymin}, {box.xmax, box.ymax}, {box.xmin, box.ymax}}))
           << box.xmin << ' ' << box.ymin << ' ' << box.xmax << ' ' << box.ymax;
+      for (int i = 0; i < 8 && fast.holds(box); ++i) {
+        const int x = integer(box.xmin, box.xmax), y = integer(box.ymin, box.ymax);
+        ASSERT_TRUE(slow.contains({x, y})) << x << ' ' << y;
+      }
     }
     EXPECT_GT(hits, 0) << "the figures never met the window";
     EXPECT_LT(hits, rounds) << "the figures always met the window";
@@ -205,6 +209,15 @@ TEST_F(GridWindowTest, HolesOutsideTheirPartAreNothingButTheirBoundary) {
   for (int i = 0; i < 5; ++i) {
     compare(Window::polygons({{star({-40, 0}, 20, 40, 9), {star({40, 0}, 20, 40, 9)}}}), 100, 3000);
   }
+}
+
+TEST_F(GridWindowTest, HoldsWhatLiesWellInside) {
+  const GridWindow disc(Window::disc({0, 0}, 10000), kUnitGrid, {}), box(Window::box({0, 0, 10, 10}), kUnitGrid, {});
+  EXPECT_TRUE(disc.holds({-2000, -2000, 2000, 2000}));
+  EXPECT_FALSE(disc.holds({-2000, -2000, 2000, 9999}));
+  EXPECT_FALSE(disc.holds({9000, 9000, 9100, 9100}));
+  EXPECT_TRUE(box.holds({0, 0, 10, 10}));
+  EXPECT_FALSE(box.holds({0, 0, 11, 10}));
 }
 
 TEST_F(GridWindowTest, ShapesThinnerThanTheGridKeepTheirBoundary) {

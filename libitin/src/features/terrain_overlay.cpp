@@ -1,0 +1,306 @@
+#include "features/terrain_overlay.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <set>
+
+#include "features/mask_index.hpp"
+#include "features/planar.hpp"
+#include "triangulate/delaunay.hpp"
+
+namespace itin {
+
+namespace {
+
+using TerrainEdge = std::pair<std::uint32_t, std::uint32_t>;
+
+/// A top as a surface of its own.
+class TopSurface {
+ public:
+  TopSurface(const Grid& grid, const std::vector<PlacedSegment>& lines) {
+    tin_.grid = grid;
+    std::map<Position, std::uint32_t> numbers;
+    std::vector<Position> positions;
+    const auto number = [&](const GridPoint& p) {
+      const auto [at, fresh] = numbers.try_emplace({p.x, p.y}, static_cast<std::uint32_t>(positions.size()));
+      if (fresh) {
+        positions.push_back(at->first);
+        tin_.vertices.push_back(p);
+      }
+      return at->second;
+    };
+    std::vector<Delaunay::Constraint> constraints;
+    for (const PlacedSegment& s : lines) constraints.emplace_back(number(s.a), number(s.b));
+    Delaunay delaunay;
+    delaunay.insert(positions);
+    delaunay.constrain(constraints);
+    for (const auto& t : delaunay.mesh().triangles) tin_.triangles.push_back({t[0], t[1], t[2]});
+    heights_.emplace(tin_);
+  }
+  TopSurface(const TopSurface&) = delete;
+  TopSurface& operator=(const TopSurface&) = delete;
+
+  /// Grid units; nothing beyond the top.
+  std::optional<double> at(Position p) const {
+    const auto z = heights_->height_at(p);
+    return z ? std::optional(*z / tin_.grid.resolution) : std::nullopt;
+  }
+
+ private:
+  Tin tin_;
+  std::optional<TerrainHeights> heights_;
+};
+
+/// Polygons of several owners, to be found from positions.
+class Ownership {
+ public:
+  void add(const GridPolygons& polygons, std::uint32_t owner) {
+    for (const GridPolygon& polygon : polygons) {
+      polygons_.push_back(polygon);
+      owners_.push_back(owner);
+    }
+  }
+  void finish() { index_.emplace(polygons_); }
+  std::optional<std::uint32_t> at_middle(Position a, Position b) const {
+    const auto found = index_->about_middle(a, b);
+    return found ? std::optional(owners_[*found]) : std::nullopt;
+  }
+  std::optional<std::uint32_t> at(Position p) const {
+    const auto found = index_->at(p);
+    return found ? std::optional(owners_[*found]) : std::nullopt;
+  }
+
+ private:
+  std::vector<GridPolygon> polygons_;
+  std::vector<std::uint32_t> owners_;
+  std::optional<MaskIndex> index_;
+};
+
+class Overlaying {
+ public:
+  Overlaying(const TerrainHeights& terrain, const std::vector<CoveredGround>& covered)
+      : terrain_(terrain), covered_(covered) {
+    for (std::uint32_t i = 0; i < covered.size(); ++i) {
+      footprints_.add(covered[i].footprint, i);
+      tops_.add(covered[i].top, i);
+      if (covered[i].above) above_[covered[i].feature] = *covered[i].above;
+    }
+    footprints_.finish();
+    tops_.finish();
+  }
+
+  OverlaidLines run(std::vector<PlacedSegment> segments) {
+    find_pierced(segments);
+    const std::set<TerrainEdge> edges = edges_about(segments);
+    if (flat(edges)) return raised(std::move(segments));
+    segments_ = std::move(segments);
+    lines_ = make_planar(owned(edges));
+    classify();
+    raise();
+    return collected();
+  }
+
+ private:
+  /// Tops of which the terrain may be higher somewhere.
+  void find_pierced(const std::vector<PlacedSegment>& segments) {
+    std::vector<std::vector<PlacedSegment>> of_top(covered_.size());
+    for (const PlacedSegment& s : segments) {
+      if (s.kind == SegmentClass::foot) continue;
+      const auto top = top_of(s);
+      if (top && !covered_[*top].above) of_top[*top].push_back(s);
+    }
+    for (std::uint32_t i = 0; i < covered_.size(); ++i) {
+      if (of_top[i].empty()) continue;
+      std::int32_t low = of_top[i].front().a.z;
+      for (const PlacedSegment& s : of_top[i]) low = std::min({low, s.a.z, s.b.z});
+      const auto high = terrain_.base_height(covered_[i].top, BaseRule::maximum);
+      if (high && *high / terrain_.grid().resolution > low)
+        surfaces_[i] = std::make_unique<TopSurface>(terrain_.grid(), of_top[i]);
+    }
+  }
+
+  /// Of a top's border or within it.
+  std::optional<std::uint32_t> top_of(const PlacedSegment& s) const {
+    if (const auto inside = tops_.at_middle({s.a.x, s.a.y}, {s.b.x, s.b.y})) return inside;
+    for (const Position p : {Position{s.a.x, s.a.y}, Position{s.b.x, s.b.y}}) {
+      const auto top = tops_.at(p);
+      if (top && covered_[*top].feature == s.feature) return top;
+    }
+    return std::nullopt;
+  }
+
+  std::set<TerrainEdge> edges_about(const std::vector<PlacedSegment>& segments) {
+    std::set<std::uint32_t> triangles;
+    for (const PlacedSegment& s : segments) {
+      if (s.kind != SegmentClass::foot && s.kind != SegmentClass::eaves) continue;
+      const auto along = terrain_.triangles_along({s.a.x, s.a.y}, {s.b.x, s.b.y});
+      triangles.insert(along.begin(), along.end());
+    }
+    for (const auto& [i, surface] : surfaces_) {
+      const auto under = terrain_.triangles_near(bounds_of(covered_[i].top));
+      triangles.insert(under.begin(), under.end());
+    }
+    std::map<TerrainEdge, int> sides;
+    for (const std::uint32_t t : triangles) {
+      const Triangle& v = terrain_.triangle(t);
+      for (int i = 0; i < 3; ++i) sides[std::minmax(v[i], v[(i + 1) % 3])] += 1;
+    }
+    std::set<TerrainEdge> edges;
+    for (const auto& [edge, count] : sides) {
+      edges.insert(edge);
+      if (count == 1) border_.insert(ends_of(edge));
+    }
+    return edges;
+  }
+
+  GridEdge ends_of(const TerrainEdge& edge) const {
+    const GridPoint &a = terrain_.vertex(edge.first), &b = terrain_.vertex(edge.second);
+    return std::minmax(Position{a.x, a.y}, Position{b.x, b.y});
+  }
+
+  bool flat(const std::set<TerrainEdge>& edges) const {
+    const auto z = [&](std::uint32_t v) { return terrain_.vertex(v).z; };
+    return std::all_of(edges.begin(), edges.end(), [&](const TerrainEdge& e) {
+      return z(e.first) == z(edges.begin()->first) && z(e.second) == z(edges.begin()->first);
+    });
+  }
+
+  std::optional<std::int32_t> ground_at(const GridPoint& p, double above = 0) const {
+    const auto metres = terrain_.height_at({p.x, p.y});
+    if (!metres) return std::nullopt;
+    return static_cast<std::int32_t>(std::llround(*metres / terrain_.grid().resolution + above));
+  }
+
+  void lift(GridPoint& p, std::int32_t ground, std::uint32_t feature) {
+    if (p.z >= ground) return;
+    std::int32_t& depth = pierced_[feature];
+    depth = std::max(depth, ground - p.z);
+    p.z = ground;
+  }
+
+  /// Over level ground nothing is to be kept but heights.
+  OverlaidLines raised(std::vector<PlacedSegment> segments) {
+    for (PlacedSegment& s : segments) {
+      if (s.kind == SegmentClass::foot) continue;
+      for (GridPoint* p : {&s.a, &s.b})
+        if (const auto ground = ground_at(*p)) lift(*p, *ground, s.feature);
+    }
+    return {std::move(segments), {}, {}, std::move(pierced_)};
+  }
+
+  /// Feet come first, for heights; the terrain last.
+  std::vector<OwnedSegment> owned(const std::set<TerrainEdge>& edges) {
+    std::map<std::pair<SegmentClass, std::uint32_t>, std::uint32_t> owners;
+    for (const PlacedSegment& s : segments_) owners[{s.kind, s.feature}] = 0;
+    for (auto& [key, number] : owners) {
+      number = static_cast<std::uint32_t>(owners_.size());
+      owners_.push_back(key);
+    }
+    std::vector<OwnedSegment> result;
+    for (const PlacedSegment& s : segments_) result.push_back({s.a, s.b, owners.at({s.kind, s.feature})});
+    for (const auto& [v, w] : edges)
+      result.push_back({terrain_.vertex(v), terrain_.vertex(w), static_cast<std::uint32_t>(owners_.size())});
+    return result;
+  }
+
+  bool of_terrain(const PlanarEdge& e) const { return e.owner == owners_.size(); }
+
+  Position position(std::uint32_t v) const { return {lines_.vertices[v].x, lines_.vertices[v].y}; }
+
+  void classify() {
+    is_foot_.resize(lines_.vertices.size());
+    on_line_.resize(lines_.vertices.size());
+    top_.resize(lines_.vertices.size());
+    const PlanarEdge* last = nullptr;
+    for (const PlanarEdge& e : lines_.edges) {
+      // Ascending: the first owner has what several share.
+      if (last && last->from == e.from && last->to == e.to) continue;
+      last = &e;
+      if (!of_terrain(e)) {
+        const auto& [kind, feature] = owners_[e.owner];
+        kept_.push_back({e, kind, feature});
+        for (const std::uint32_t v : {e.from, e.to}) {
+          on_line_[v] = feature;
+          if (kind == SegmentClass::foot) is_foot_[v] = true;
+        }
+        continue;
+      }
+      if (const auto under = tops_.at_middle(position(e.from), position(e.to))) {
+        if (!surfaces_.contains(*under)) continue;
+        top_[e.from] = top_[e.to] = under;
+        kept_.push_back({e, SegmentClass::roof, covered_[*under].feature});
+      } else if (const auto over = footprints_.at_middle(position(e.from), position(e.to))) {
+        kept_.push_back({e, SegmentClass::wall, covered_[*over].feature});
+      } else {
+        ground_.push_back(e);
+      }
+    }
+  }
+
+  /// Gives every vertex its height.
+  void raise() {
+    for (std::uint32_t v = 0; v < lines_.vertices.size(); ++v) {
+      GridPoint& p = lines_.vertices[v];
+      const auto ground = ground_at(p);
+      if (!ground) continue;
+      if (is_foot_[v] || (!on_line_[v] && !top_[v])) {
+        p.z = *ground;
+      } else if (const auto drapes = on_line_[v] ? above_.find(*on_line_[v]) : above_.end(); drapes != above_.end()) {
+        p.z = *ground_at(p, drapes->second);
+      } else if (on_line_[v]) {
+        lift(p, *ground, *on_line_[v]);
+      } else {
+        const auto roof = surfaces_.at(*top_[v])->at({p.x, p.y});
+        p.z = roof ? static_cast<std::int32_t>(std::llround(*roof)) : *ground;
+        lift(p, *ground, covered_[*top_[v]].feature);
+      }
+    }
+  }
+
+  OverlaidLines collected() {
+    OverlaidLines result;
+    for (const Kept& k : kept_)
+      result.segments.push_back({lines_.vertices[k.edge.from], lines_.vertices[k.edge.to], k.feature, k.kind});
+    std::stable_sort(result.segments.begin(), result.segments.end(),
+                     [](const PlacedSegment& a, const PlacedSegment& b) { return a.kind < b.kind; });
+    for (const PlanarEdge& e : ground_) {
+      const GridEdge edge = std::minmax(position(e.from), position(e.to));
+      (border_.contains(edge) ? result.border : result.ground).push_back(edge);
+    }
+    result.pierced = std::move(pierced_);
+    return result;
+  }
+
+  struct Kept {
+    PlanarEdge edge;
+    SegmentClass kind;
+    std::uint32_t feature;
+  };
+
+  const TerrainHeights& terrain_;
+  const std::vector<CoveredGround>& covered_;
+  Ownership footprints_, tops_;
+  std::map<std::uint32_t, double> above_;                          ///< of features that drape
+  std::map<std::uint32_t, std::unique_ptr<TopSurface>> surfaces_;  ///< of tops that the terrain may pierce
+  std::vector<PlacedSegment> segments_;
+  std::vector<std::pair<SegmentClass, std::uint32_t>> owners_;
+  PlanarLines lines_;
+  std::vector<Kept> kept_;
+  std::vector<PlanarEdge> ground_;
+  std::set<GridEdge> border_;
+  std::vector<bool> is_foot_;                          ///< by vertex
+  std::vector<std::optional<std::uint32_t>> on_line_;  ///< by vertex: the feature
+  std::vector<std::optional<std::uint32_t>> top_;      ///< by vertex of the terrain alone: a pierced top over it
+  std::map<std::uint32_t, std::int32_t> pierced_;
+};
+
+}  // namespace
+
+OverlaidLines lay_over(const TerrainHeights& terrain, std::vector<PlacedSegment> segments,
+                       const std::vector<CoveredGround>& covered) {
+  return Overlaying(terrain, covered).run(std::move(segments));
+}
+
+}  // namespace itin

@@ -1,0 +1,40 @@
+// Features laid over the terrain's own edges, so that they only raise it: outside of footprints the surface with
+// features is the bare terrain, inside it is nowhere lower.
+//
+// Of every terrain triangle that a foot or an eaves line crosses all edges become lines, cut at what they cross.
+// Between feet and eaves they belong to the wall; outside they lie on the ground and keep the triangulation there what
+// it was. So each piece of the surface outside of tops lies in one terrain triangle, and its corners are no lower than
+// that: nor is the piece. A top that the terrain pierces takes all of the terrain's edges up, each vertex as high as
+// the higher of roof and terrain, which is no lower than either in between.
+//
+// Positions are rounded to the grid, so heights are what is said here within a grid step, or one times the slope.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "features/feature_group.hpp"
+
+namespace itin {
+
+/// A footprint with its top, of which lines have been made already.
+struct CoveredGround {
+  std::uint32_t feature = 0;    ///< its number
+  std::optional<double> above;  ///< its top follows the terrain already, so many grid units above it
+  GridPolygons footprint, top;
+};
+
+struct OverlaidLines {
+  std::vector<PlacedSegment> segments;
+  std::vector<GridEdge> ground;  ///< on the terrain, without the border
+  std::vector<GridEdge> border;  ///< whole edges of the terrain that has the changed ground on one side
+  std::map<std::uint32_t, std::int32_t> pierced;  ///< features, and how far the terrain rises above their tops
+};
+
+/// `segments` must be planar, feet first, and lie on the terrain.
+OverlaidLines lay_over(const TerrainHeights& terrain, std::vector<PlacedSegment> segments,
+                       const std::vector<CoveredGround>& covered);
+
+}  // namespace itin
