@@ -498,7 +498,8 @@ TEST_F(StandingThemes, DelftHasItsRoofs) {
     // The middle of the box about the building's vertices, where it lies in the building. Heights were measured from
     // the lowest surface.
     const nlohmann::json& attributes = object.at("attributes");
-    const double top = attributes.at("measuredHeight").get<double>() + attributes.at("min-height-surface").get<double>();
+    const double top =
+        attributes.at("measuredHeight").get<double>() + attributes.at("min-height-surface").get<double>();
     Box box;
     const std::function<void(const nlohmann::json&)> visit = [&](const nlohmann::json& boundary) {
       if (boundary.is_array()) {
