@@ -52,6 +52,7 @@ std::vector<std::unique_ptr<Verb>> make_verbs() {
   verbs.push_back(make_check_verb());
   verbs.push_back(make_tin_verb());
   verbs.push_back(make_viewshed_verb());
+  verbs.push_back(make_visibility_verb());
   verbs.push_back(make_ztv_verb());
   verbs.push_back(make_profile_verb());
   verbs.push_back(make_los_verb());

@@ -10,6 +10,7 @@
 
 #include <itin/base64.hpp>
 #include <itin/error.hpp>
+#include <itin/markup.hpp>
 #include <itin/output_file.hpp>
 
 #include "store_document.hpp"
@@ -27,22 +28,6 @@ constexpr const char* kStyle =
     "pre{background:#f6f6f6;padding:.6rem;overflow-x:auto;font-size:.85em}"
     "@media print{body{margin:0;max-width:none}h2{break-after:avoid}}";
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&') {
-      result += "&amp;";
-    } else if (c == '<') {
-      result += "&lt;";
-    } else if (c == '>') {
-      result += "&gt;";
-    } else {
-      result += c;
-    }
-  }
-  return result;
-}
-
 std::string amount(double v) {
   return v == std::floor(v) && v < 1e15 ? grouped(static_cast<std::uint64_t>(v)) : fmt::format("{:.6g}", v);
 }
@@ -54,7 +39,7 @@ class HtmlTable {
   void add(const std::vector<std::string>& cells, const char* tag = "td") {
     html_ += "<tr>";
     for (std::size_t i = 0; i < cells.size(); ++i)
-      html_ += fmt::format("<{0}{1}>{2}</{0}>", tag, i >= numbers_ ? " class=\"n\"" : "", escaped(cells[i]));
+      html_ += fmt::format("<{0}{1}>{2}</{0}>", tag, i >= numbers_ ? " class=\"n\"" : "", escaped_markup(cells[i]));
     html_ += "</tr>\n";
   }
   std::string finish() const { return "<table>\n" + html_ + "</table>\n"; }
@@ -94,7 +79,7 @@ std::string curve(const SiteResult& r) {
         "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"#0072b2\" opacity=\".25\"/>"
         "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n",
         x(at) - 6, y(share), 12.0, y(before) - y(share), x(at), kHeight - kBottom + 16,
-        escaped(r.stand(r.choice.chosen[i]).name));
+        escaped_markup(r.stand(r.choice.chosen[i]).name));
   }
   svg += fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"#0072b2\" stroke-width=\"2.5\"/>\n", line);
   const double bound = static_cast<double>(r.choice.upper_bound) / total;
@@ -172,7 +157,7 @@ std::string left_out(const SiteResult& r) {
   if (r.inputs.rejected.empty()) return {};
   std::string html = fmt::format("<h2>Rows left out: {}</h2>\n<ul class=\"note\">\n", r.inputs.rejected.size());
   for (std::size_t i = 0; i < std::min<std::size_t>(r.inputs.rejected.size(), 50); ++i)
-    html += "<li>" + escaped(r.inputs.rejected[i]) + "</li>\n";
+    html += "<li>" + escaped_markup(r.inputs.rejected[i]) + "</li>\n";
   return html + "</ul>\n";
 }
 
@@ -207,9 +192,9 @@ void write_site_report(const SiteResult& r, const Document& parameters, const Do
   if (!r.links.empty()) html += "<h2>Lines of sight between sites</h2>\n" + links_table(r);
   html += "<h2>Redundancy</h2>\n" + image(directory, "redundancy.png", "map of how many sites serve a place");
   html += left_out(r);
-  html +=
-      fmt::format("<h2>Parameters and inputs</h2>\n<p class=\"note\">{}</p>\n<pre>{}</pre>\n<pre>{}</pre>\n",
-                  escaped(r.options.earth.earth().convention()), escaped(parameters.dump(2)), escaped(inputs.dump(2)));
+  html += fmt::format("<h2>Parameters and inputs</h2>\n<p class=\"note\">{}</p>\n<pre>{}</pre>\n<pre>{}</pre>\n",
+                      escaped_markup(r.options.earth.earth().convention()), escaped_markup(parameters.dump(2)),
+                      escaped_markup(inputs.dump(2)));
   html += fmt::format("<p class=\"note\">itin {}</p>\n</body></html>\n", ITIN_VERSION);
   write_file((std::filesystem::path(directory) / "report.html").string(), html, overwrite);
 }

@@ -43,6 +43,7 @@ std::unique_ptr<Verb> make_info_verb();
 std::unique_ptr<Verb> make_check_verb();
 std::unique_ptr<Verb> make_tin_verb();
 std::unique_ptr<Verb> make_viewshed_verb();
+std::unique_ptr<Verb> make_visibility_verb();
 std::unique_ptr<Verb> make_ztv_verb();
 std::unique_ptr<Verb> make_profile_verb();
 std::unique_ptr<Verb> make_los_verb();

@@ -1,24 +1,30 @@
 # Sourced by the scripts beside it: runs commands under GNU time and remembers what they cost.
 
-# measure NAME COMMAND...: sets seconds[NAME] and megabytes[NAME] (peak resident memory), and prints both.
-declare -A seconds megabytes
+# measure NAME COMMAND...: sets seconds[NAME] (wall), processor[NAME] (seconds of all processors) and megabytes[NAME]
+# (peak resident memory), and prints them.
+declare -A seconds processor megabytes
 measure() {
   local name=$1 figures
   shift
   figures=$(mktemp)
-  if ! /usr/bin/time -f '%e %M' -o "$figures" "$@" >"$figures.log" 2>&1; then
+  if ! /usr/bin/time -f '%e %M %U %S' -o "$figures" "$@" >"$figures.log" 2>&1; then
     cat "$figures.log" >&2
     echo "$name failed: $*" >&2
     exit 1
   fi
   seconds["$name"]=$(awk '{ print $1 }' "$figures")
   megabytes["$name"]=$(awk '{ printf "%.0f", $2 / 1024 }' "$figures")
+  processor["$name"]=$(awk '{ print $3 + $4 }' "$figures")
   rm -f "$figures" "$figures.log"
-  printf '  %-34s %9.2f s %9d MB\n' "$name" "${seconds[$name]}" "${megabytes[$name]}"
+  printf '  %-34s %9.2f s %9.2f s of processors %7d MB\n' "$name" "${seconds[$name]}" "${processor[$name]}" \
+    "${megabytes[$name]}"
 }
 
-# ratio A B: how many times as long A took as B.
+# ratio A B: how many times as long A took as B by the clock; processor_ratio: on a busy machine.
 ratio() { awk -v a="${seconds[$1]}" -v b="${seconds[$2]}" 'BEGIN { printf "%.2f", a / (b > 0 ? b : 0.01) }'; }
+processor_ratio() {
+  awk -v a="${processor[$1]}" -v b="${processor[$2]}" 'BEGIN { printf "%.2f", a / (b > 0 ? b : 0.01) }'
+}
 
 require_tools() {
   local tool

@@ -32,18 +32,18 @@ double radius_with(const Store& store, int level, Point2 centre, double points) 
 
 }  // namespace
 
+std::optional<double> height_at(const Store& store, Point2 position, const ThemeChoice& themes, Progress& progress) {
+  const Box about = around(position, 2 * store.metadata().grid.resolution);
+  return height_on(triangulate(store, Window::box(about), Detail::tolerance(0), progress, themes), position);
+}
+
 std::vector<Eye> eyes_on_full_surface(const Store& store, const Request& request, std::vector<double>& ground,
                                       Progress& progress) {
   const Grid& grid = store.metadata().grid;
   std::vector<Eye> eyes;
   for (const Observer& observer : request.observers) {
-    const Tin tin =
-        triangulate(store, Window::box(around(observer.position, 2 * grid.resolution)), Detail::tolerance(0), progress,
-                    request.observers_on_surface ? request.themes : ThemeChoice::none());
-    std::optional<double> height;
-    for (std::uint32_t t = 0; t < tin.triangles.size() && !height; ++t)
-      height = surface_height(tin, {&t, 1}, observer.position);
-    if (height) height = *height * grid.resolution;
+    const auto height = height_at(store, observer.position,
+                                  request.observers_on_surface ? request.themes : ThemeChoice::none(), progress);
     eyes.push_back(eye_of(grid, request, observer, height));
     ground.push_back(*height);
   }
@@ -51,9 +51,7 @@ std::vector<Eye> eyes_on_full_surface(const Store& store, const Request& request
 }
 
 bool features_stand(const Store& store, const Request& request) {
-  const std::vector<ThemeInfo>& themes = store.metadata().themes;
-  return std::any_of(themes.begin(), themes.end(),
-                     [&](const ThemeInfo& theme) { return theme.stands() && request.themes.includes(theme); });
+  return request.themes.includes_standing(store.metadata().themes);
 }
 
 EnvelopeRequest certified_request(const Store& store, const Request& request, int level) {

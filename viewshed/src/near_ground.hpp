@@ -1,6 +1,7 @@
 // What a certified viewshed reads: the level asked for, and finer ones about the observers.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <itin/progress.hpp>
@@ -11,6 +12,9 @@
 #include "eye.hpp"
 
 namespace itin::viewshed {
+
+/// Metres, of the full surface with these themes; nothing where there is no data.
+std::optional<double> height_at(const Store& store, Point2 position, const ThemeChoice& themes, Progress& progress);
 
 /// The observers, on the full surface under them, or on what stands on it where the request says so; `ground` gets its
 /// heights, metres. Throws InputError for an observer outside the data.

@@ -9,6 +9,8 @@
 #include <itin/triangulate.hpp>
 #include <viewshed/turbines.hpp>
 
+#include "axis_sweep.hpp"
+#include "binned_heights.hpp"
 #include "boundary.hpp"
 #include "eye.hpp"
 #include "least_height.hpp"
@@ -59,10 +61,10 @@ void validate(const ZoneRequest& request) {
 }
 
 /// Moves turbines without ground to the misplaced.
-void place_turbines(const Scene& ground, Zone& zone) {
+void place_turbines(const Tin& tin, const BinnedHeights& binned, Zone& zone) {
   std::vector<Turbine> placed;
   for (Turbine& t : zone.request.turbines) {
-    if (const auto height = ground.ground(t.position)) {
+    if (const auto height = binned.ground(tin, t.position)) {
       zone.ground_m.push_back(*height);
       placed.push_back(std::move(t));
     } else {
@@ -92,6 +94,12 @@ double ceiling(const Tin& tin, const ZoneRequest& request) {
   for (const GridPoint& v : tin.vertices) highest = std::max(highest, v.z * tin.grid.resolution);
   for (const Turbine& t : request.turbines) above = std::max(above, t.tip_height);
   return highest + above;
+}
+
+/// What hides besides the surface, where ground without data does.
+std::optional<Scene> curtains(const Tin& tin, const ZoneRequest& request) {
+  if (request.nodata != NoData::kBlock) return std::nullopt;
+  return Scene(tin, request.earth, request.nodata, ceiling(tin, request));
 }
 
 void warn_of_voids(const Tin& tin, const std::vector<BoundaryEdge>& boundary, Zone& zone) {
@@ -160,14 +168,17 @@ double vertices_within(const StoreMetadata& metadata, const ZoneRequest& request
   return vertices * std::max(0.0, width / all.width()) * std::max(0.0, height / all.height());
 }
 
-/// As measured on OS Terrain 50: 350 bytes a triangle of one surface, another 60 of a second one at rest.
+/// As measured on OS Terrain 50: 160 bytes a triangle of one surface, 350 with a scene, another 60 of a second one at
+/// rest.
 void require_memory(const StoreMetadata& metadata, const ZoneRequest& request, const Box& window, bool screened) {
   if (!request.memory_bytes) return;
   const double triangles = 2 * vertices_within(metadata, request, window);
   const double cells = request.grid ? static_cast<double>(request.grid->cell_count())
                                     : window.width() * window.height() / (*request.cell_size * *request.cell_size);
   const double words = static_cast<double>(turbine_bit(request.turbines.back().number).grid + 1);
-  const double needed = (screened ? 410 : 350) * triangles + (screened ? 2 : 1) * (36 + 4 * words) * cells;
+  const bool scene = request.radar || request.nodata == NoData::kBlock;
+  const double needed =
+      ((scene ? 350 : 160) + (screened ? 60 : 0)) * triangles + (screened ? 2 : 1) * (36 + 4 * words) * cells;
   if (needed <= static_cast<double>(*request.memory_bytes)) return;
   throw InputError(
       fmt::format("this takes about {:.1f} GB of memory, more than the {:.1f} GB allowed: give a coarser "
@@ -190,32 +201,37 @@ Zone survey_turbines(const Tin& ground, const Tin* screened, const ZoneRequest& 
   zone.request = request;
   Stopwatch watch;
   progress.report("scene", 0);
-  std::optional<Scene> scene(std::in_place, ground, request.earth, request.nodata, ceiling(ground, request));
-  place_turbines(*scene, zone);
+  const std::vector<BoundaryEdge> boundary = boundary_edges(ground);
+  std::optional<BinnedHeights> binned(std::in_place, ground, boundary);
+  place_turbines(ground, *binned, zone);
   zone.grid = grid_of(zone.request, ground.bounds());
   std::size_t last = 0;
   for (const Turbine& t : zone.request.turbines) last = std::max(last, turbine_bit(t.number).grid);
   zone.words = last + 1;
-  warn_of_voids(ground, scene->boundary(), zone);
+  warn_of_voids(ground, boundary, zone);
   zone.statistics.retrieval = ground.statistics;
   zone.statistics.triangles = ground.triangles.size();
   const RasterGrid tiles = grid_of_tiles(zone.grid);
   const TriangleBins bins(ground, tiles);
   const ZoneSurvey lines(ground, bins, tiles, zone);
-  {
+  std::optional<Scene> scene = curtains(ground, request);
+  zone.statistics.scene_seconds = watch.lap();
+  zone.bare = lines.run(AxisSweep(ground, request.earth, *binned), scene ? &*scene : nullptr, "sight lines",
+                        zone.statistics.lines, progress);
+  binned.reset();
+  if (request.radar) {
+    if (!scene) scene.emplace(ground, request.earth, request.nodata, ceiling(ground, request));
     const LeastHeights heights(ground, request.earth, *scene);
-    zone.statistics.scene_seconds = watch.lap();
-    zone.bare = lines.run(heights, "sight lines", zone.statistics.lines, progress);
-    if (request.radar) zone.radar = radar_view(ground, *scene, bins, tiles, heights, zone, progress);
-    zone.statistics.lines_seconds = watch.lap();
+    zone.radar = radar_view(ground, *scene, bins, tiles, heights, zone, progress);
   }
+  zone.statistics.lines_seconds = watch.lap();
   if (screened != nullptr) {
-    // One scene at a time, for they are what takes memory.
-    scene.reset();
-    scene.emplace(*screened, request.earth, request.nodata, ceiling(*screened, request));
-    const LeastHeights heights(*screened, request.earth, *scene);
+    // One surface at a time, for what is made of them takes memory.
+    binned.emplace(*screened, boundary_edges(*screened));
+    scene = curtains(*screened, request);
     zone.statistics.scene_seconds += watch.lap();
-    zone.screened = lines.run(heights, "sight lines, screened", zone.statistics.lines, progress);
+    zone.screened = lines.run(AxisSweep(*screened, request.earth, *binned), scene ? &*scene : nullptr,
+                              "sight lines, screened", zone.statistics.lines, progress);
     zone.statistics.lines_seconds += watch.lap();
     zone.statistics.retrieval += screened->statistics;
     zone.statistics.triangles += screened->triangles.size();

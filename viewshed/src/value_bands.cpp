@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <itin/markup.hpp>
+
 namespace itin::viewshed {
 
 namespace {
@@ -34,22 +36,6 @@ void colour_bands(std::vector<ValueBand>& bands) {
     const Colour& c = kBands[(i - 1) % kBands.size()];
     bands[i].red = c.red, bands[i].green = c.green, bands[i].blue = c.blue;
   }
-}
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&') {
-      result += "&amp;";
-    } else if (c == '<') {
-      result += "&lt;";
-    } else if (c == '"') {
-      result += "&quot;";
-    } else {
-      result += c;
-    }
-  }
-  return result;
 }
 
 std::string style(const std::string& renderer) {
@@ -114,8 +100,8 @@ std::string banded_style(const std::vector<ValueBand>& bands) {
       last);
   for (const ValueBand& b : bands)
     text += fmt::format("          <item value=\"{}\" label=\"{}\" color=\"#{:02x}{:02x}{:02x}\" alpha=\"{}\"/>\n",
-                        std::isfinite(b.to) ? fmt::format("{:g}", b.to) : "inf", escaped(b.label), b.red, b.green,
-                        b.blue, b.alpha);
+                        std::isfinite(b.to) ? fmt::format("{:g}", b.to) : "inf", escaped_markup(b.label), b.red,
+                        b.green, b.blue, b.alpha);
   return style(text + "        </colorrampshader>\n      </rastershader>\n    </rasterrenderer>\n");
 }
 
@@ -126,7 +112,7 @@ std::string class_style(const std::vector<StyleClass>& classes) {
   for (const StyleClass& c : classes)
     text +=
         fmt::format("        <paletteEntry value=\"{}\" label=\"{}\" color=\"#{:02x}{:02x}{:02x}\" alpha=\"{}\"/>\n",
-                    c.value, escaped(c.label), c.red, c.green, c.blue, c.alpha);
+                    c.value, escaped_markup(c.label), c.red, c.green, c.blue, c.alpha);
   return style(text + "      </colorPalette>\n    </rasterrenderer>\n");
 }
 

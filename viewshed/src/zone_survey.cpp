@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -45,7 +44,9 @@ struct ZoneSurvey::TileWork {
   }
   Tile tile;
   TileCentres centres;
-  TileValues<double> ground;
+  TileValues<double> ground, eyes;  ///< grid units
+  AxisSweep::Scratch scratch;
+  AxisSweep::Heights least;  ///< of the turbine at hand
   TileValues<std::uint16_t> hubs, tips;
   TileValues<double> height, angle, angle_sum, nearest;
   std::vector<TileValues<std::uint32_t>> seen;
@@ -67,15 +68,15 @@ ZoneSurvey::ZoneSurvey(const Tin& ground, const TriangleBins& bins, const Raster
   }
 }
 
-Visibility ZoneSurvey::run(const LeastHeights& heights, const std::string& stage, std::uint64_t& lines,
-                           Progress& progress) const {
+Visibility ZoneSurvey::run(const AxisSweep& sweep, const Scene* curtains, const std::string& stage,
+                           std::uint64_t& lines, Progress& progress) const {
   Visibility result = empty_visibility(zone_);
   const std::size_t count = tiles_.cell_count();
   std::atomic<std::size_t> done = 0;
   std::vector<std::uint64_t> cast(count);
   parallel_for(count, [&](std::size_t tile) {
     progress.throw_if_cancelled();
-    decide(tile, heights, result, cast[tile]);
+    decide(tile, sweep, curtains, result, cast[tile]);
     const std::size_t now = ++done;
     if (now % 16 == 0 || now == count) progress.report(stage, static_cast<double>(now) / static_cast<double>(count));
   });
@@ -83,7 +84,8 @@ Visibility ZoneSurvey::run(const LeastHeights& heights, const std::string& stage
   return result;
 }
 
-void ZoneSurvey::decide(std::size_t tile, const LeastHeights& heights, Visibility& result, std::uint64_t& lines) const {
+void ZoneSurvey::decide(std::size_t tile, const AxisSweep& sweep, const Scene* curtains, Visibility& result,
+                        std::uint64_t& lines) const {
   const Tile place = tile_at(zone_.grid, tiles_, tile);
   std::vector<std::size_t> near;
   for (std::size_t k = 0; k < axes_.size(); ++k)
@@ -91,7 +93,9 @@ void ZoneSurvey::decide(std::size_t tile, const LeastHeights& heights, Visibilit
   if (near.empty()) return;
   const auto work = std::make_unique<TileWork>(ground_.grid, zone_.grid, place, zone_.words);
   scan_convert(ground_, bins_.triangles(tile), place, work->centres, work->ground);
-  for (const std::size_t k : near) look_at(k, heights, *work);
+  const double eye_height = zone_.request.observer_height / ground_.grid.resolution;
+  for (std::size_t i = 0; i < work->ground.size(); ++i) work->eyes[i] = work->ground[i] + eye_height;
+  for (const std::size_t k : near) look_at(k, sweep, curtains, *work);
   store(*work, result);
   lines = work->lines;
 }
@@ -105,46 +109,39 @@ bool ZoneSurvey::in_reach(const Axis& axis, const Tile& tile) const {
   return dx * dx + dy * dy <= axis.radius_squared;
 }
 
-void ZoneSurvey::look_at(std::size_t turbine, const LeastHeights& heights, TileWork& work) const {
-  LeastHeights::Memory memory;
-  for (std::int64_t r = 0; r < work.tile.rows; r += kPacketSide)
-    for (std::int64_t c = 0; c < work.tile.columns; c += kPacketSide)
-      look_from_packet(turbine, r, c, heights, memory, work);
-}
-
-void ZoneSurvey::look_from_packet(std::size_t turbine, std::int64_t row, std::int64_t column,
-                                  const LeastHeights& heights, LeastHeights::Memory& memory, TileWork& work) const {
+void ZoneSurvey::look_at(std::size_t turbine, const AxisSweep& sweep, const Scene* curtains, TileWork& work) const {
   const Axis& axis = axes_[turbine];
-  const double resolution = ground_.grid.resolution, eye_height = zone_.request.observer_height / resolution;
-  SightLines lines;
-  lines.to_x.fill(axis.x), lines.to_y.fill(axis.y), lines.to_z.fill(axis.tip);
-  std::array<double, SightLines::kSize> squared{};
-  for (unsigned i = 0; i < SightLines::kSize; ++i) {
-    const std::int64_t r = row + i / kPacketSide, c = column + i % kPacketSide;
-    const std::size_t cell = cell_of(r, c);
-    if (r >= work.tile.rows || c >= work.tile.columns || std::isnan(work.ground[cell])) continue;
-    const double dx = zone_.grid.centre_x(work.tile.column + c) - axis.position_x;
+  // Which cells lie within the radius is decided in metres, below.
+  const double reach = zone_.request.turbines[turbine].radius / ground_.grid.resolution + 1;
+  sweep.run({axis.x, axis.y, axis.base, axis.tip, reach}, {work.tile, work.centres, work.eyes}, work.scratch,
+            work.least);
+  for (std::int64_t r = 0; r < work.tile.rows; ++r) {
     const double dy = zone_.grid.centre_y(work.tile.row + r) - axis.position_y;
-    squared[i] = dx * dx + dy * dy;
-    if (squared[i] > axis.radius_squared) continue;
-    if (work.tips[cell] == kCountOutside) work.tips[cell] = work.hubs[cell] = 0;
-    lines.from_x[i] = work.centres.x[static_cast<std::size_t>(c)];
-    lines.from_y[i] = work.centres.y[static_cast<std::size_t>(r)];
-    lines.from_z[i] = work.ground[cell] + eye_height;
-    if (lines.from_x[i] == axis.x && lines.from_y[i] == axis.y) {
-      record(turbine, cell, 0, axis.base, work);
-    } else {
-      lines.active |= 1U << i;
+    for (std::int64_t c = 0; c < work.tile.columns; ++c) {
+      const std::size_t cell = cell_of(r, c);
+      const double dx = zone_.grid.centre_x(work.tile.column + c) - axis.position_x, squared = dx * dx + dy * dy;
+      if (squared > axis.radius_squared || std::isnan(work.ground[cell])) continue;
+      if (work.tips[cell] == kCountOutside) work.tips[cell] = work.hubs[cell] = 0;
+      const double least = work.least[cell];
+      const bool beneath = std::isinf(least);
+      work.lines += beneath ? 0 : 1;
+      if (std::isnan(least) || (curtains != nullptr && !beneath && behind_curtain(axis, work, r, c, *curtains)))
+        continue;
+      record(turbine, cell, std::sqrt(squared), beneath ? axis.base : least, work);
     }
   }
-  if (lines.active == 0) return;
-  work.lines += static_cast<unsigned>(std::popcount(lines.active));
-  LeastHeights::Heights lower;
-  lower.fill(axis.base);
-  const LeastHeights::Heights least = heights.find(lines, lower, memory);
-  for (unsigned i = 0; i < SightLines::kSize; ++i)
-    if (!std::isnan(least[i]))
-      record(turbine, cell_of(row + i / kPacketSide, column + i % kPacketSide), std::sqrt(squared[i]), least[i], work);
+}
+
+bool ZoneSurvey::behind_curtain(const Axis& axis, const TileWork& work, std::int64_t row, std::int64_t column,
+                                const Scene& curtains) const {
+  SightLines line;
+  line.from_x[0] = work.centres.x[static_cast<std::size_t>(column)];
+  line.from_y[0] = work.centres.y[static_cast<std::size_t>(row)];
+  line.from_z[0] = work.eyes[cell_of(row, column)];
+  line.to_x[0] = axis.x, line.to_y[0] = axis.y, line.to_z[0] = axis.tip;
+  line.active = 1;
+  Occluder occluder;
+  return curtains.hidden(line, occluder) != 0;
 }
 
 /// The turbine is seen from the cell, down to `least` grid units of elevation.

@@ -7,7 +7,8 @@
 #include <itin/tin.hpp>
 #include <viewshed/turbines.hpp>
 
-#include "least_height.hpp"
+#include "axis_sweep.hpp"
+#include "scene.hpp"
 #include "surface_heights.hpp"
 #include "triangle_bins.hpp"
 #include "turbine_view.hpp"
@@ -20,8 +21,10 @@ class ZoneSurvey {
   /// grid. All must outlive it.
   ZoneSurvey(const Tin& ground, const TriangleBins& bins, const RasterGrid& tiles, const Zone& zone);
 
-  /// What is seen over the surface of `heights`. Adds the lines to `lines`.
-  Visibility run(const LeastHeights& heights, const std::string& stage, std::uint64_t& lines, Progress& progress) const;
+  /// What is seen over the surface of `sweep`. What stands in `curtains`, where that is given, hides too. Adds the
+  /// lines to `lines`.
+  Visibility run(const AxisSweep& sweep, const Scene* curtains, const std::string& stage, std::uint64_t& lines,
+                 Progress& progress) const;
 
  private:
   struct Axis {
@@ -32,11 +35,12 @@ class ZoneSurvey {
   };
   struct TileWork;
 
-  void decide(std::size_t tile, const LeastHeights& heights, Visibility& result, std::uint64_t& lines) const;
+  void decide(std::size_t tile, const AxisSweep& sweep, const Scene* curtains, Visibility& result,
+              std::uint64_t& lines) const;
   bool in_reach(const Axis& axis, const Tile& tile) const;
-  void look_at(std::size_t turbine, const LeastHeights& heights, TileWork& work) const;
-  void look_from_packet(std::size_t turbine, std::int64_t row, std::int64_t column, const LeastHeights& heights,
-                        LeastHeights::Memory& memory, TileWork& work) const;
+  void look_at(std::size_t turbine, const AxisSweep& sweep, const Scene* curtains, TileWork& work) const;
+  bool behind_curtain(const Axis& axis, const TileWork& work, std::int64_t row, std::int64_t column,
+                      const Scene& curtains) const;
   void record(std::size_t turbine, std::size_t cell, double distance, double least, TileWork& work) const;
   void store(const TileWork& work, Visibility& result) const;
   void store_horizon(const TileWork& work, std::size_t from_cell, std::size_t to_cell, Point2 eye, Visibility& result,

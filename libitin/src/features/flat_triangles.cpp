@@ -8,10 +8,6 @@ namespace itin {
 
 namespace {
 
-std::uint64_t code_of(const GridPoint& p) {
-  return morton(p.x, p.y);
-}
-
 bool before(const GridPoint& p, const GridPoint& q) {
   return code_of(p) < code_of(q);
 }

@@ -10,9 +10,6 @@ namespace itin {
 
 namespace {
 
-std::uint64_t code_of(const GridPoint& p) {
-  return morton(p.x, p.y);
-}
 bool before(const GridPoint& a, const GridPoint& b) {
   return code_of(a) < code_of(b);
 }

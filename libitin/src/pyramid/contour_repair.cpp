@@ -15,10 +15,6 @@ namespace {
 
 using Codes = std::vector<std::uint64_t>;
 
-std::uint64_t code_of(const GridPoint& p) {
-  return morton(p.x, p.y);
-}
-
 Codes ends_of(const std::vector<Segment>& segments) {
   Codes codes;
   for (const Segment& s : segments) {

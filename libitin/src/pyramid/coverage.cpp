@@ -42,10 +42,6 @@ GridBox box_of(const std::vector<RawPoint>& points) {
   return box;
 }
 
-std::uint64_t code_of(const SelectedVertex& v) {
-  return morton(v.point.x, v.point.y);
-}
-
 Segment segment(const RegionMesh& region, std::uint32_t from, std::uint32_t to) {
   const GridPoint &a = region.vertices[from].point, &b = region.vertices[to].point;
   return {a.x, a.y, b.x, b.y};

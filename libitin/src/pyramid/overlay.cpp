@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 
 #include <itin/error.hpp>
 
 namespace itin {
 
 namespace {
-
-std::uint64_t code_of(const SelectedVertex& v) {
-  return morton(v.point.x, v.point.y);
-}
 
 std::int32_t floor_divide(Int128 numerator, Int128 positive) {
   const Int128 quotient = numerator / positive;
@@ -50,7 +48,7 @@ DifferenceRange above_crossing(const GridPoint& u, const GridPoint& v, const Gri
 /// Follows fine edges through the coarse mesh.
 class CoarseWalk {
  public:
-  explicit CoarseWalk(const RegionMesh& coarse) : coarse_(coarse), mesh_(coarse.mesh) {}
+  explicit CoarseWalk(const RegionMesh& coarse) : coarse_(coarse), mesh_(coarse.mesh) { find_pinches(); }
 
   bool contains(std::uint32_t t, Position p) const {
     for (int i = 0; i < 3; ++i) {
@@ -127,20 +125,51 @@ class CoarseWalk {
 
   /// u is a corner of face `start`.
   Exit leave_vertex(Position u, std::uint32_t start, Position v) const {
-    for (const int turn : {1, 2}) {  // counterclockwise, and clockwise from where a border stopped that
-      std::uint32_t t = start;
-      do {
-        const int i = corner(t, 0) == u ? 0 : corner(t, 1) == u ? 1 : 2;
-        const Position p = corner(t, next(i)), q = corner(t, previous(i));
-        if (orientation(u, p, v) >= 0 && orientation(u, v, q) >= 0) return {t, orientation(p, q, v) >= 0 ? kStays : i};
-        t = mesh_.neighbours[t][(i + turn) % 3];
-      } while (t != kNoTriangle && t != start);
+    if (const auto exit = leave_fan(u, start, v)) return *exit;
+    const auto [first, last] = pinched_.equal_range(mesh_.triangles[start][corner_at(start, u)]);
+    for (auto fan = first; fan != last; ++fan) {
+      if (const auto exit = leave_fan(u, fan->second, v)) return *exit;
     }
     throw Error("lost the way through the coarse surface");
   }
 
+  int corner_at(std::uint32_t t, Position u) const { return corner(t, 0) == u ? 0 : corner(t, 1) == u ? 1 : 2; }
+
+  /// Through the triangles that hang together about u.
+  std::optional<Exit> leave_fan(Position u, std::uint32_t start, Position v) const {
+    for (const int turn : {1, 2}) {  // counterclockwise, and clockwise from where a border stopped that
+      std::uint32_t t = start;
+      do {
+        const int i = corner_at(t, u);
+        const Position p = corner(t, next(i)), q = corner(t, previous(i));
+        if (orientation(u, p, v) >= 0 && orientation(u, v, q) >= 0)
+          return Exit{t, orientation(p, q, v) >= 0 ? kStays : i};
+        t = mesh_.neighbours[t][(i + turn) % 3];
+      } while (t != kNoTriangle && t != start);
+    }
+    return std::nullopt;
+  }
+
+  /// Where ground meets ground at a mere vertex, as voids do corner to corner, its triangles are several fans.
+  void find_pinches() {
+    std::vector<std::uint32_t> fan(coarse_.vertices.size(), kNoTriangle);
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      for (int i = 0; i < 3; ++i) {
+        if (mesh_.neighbours[t][previous(i)] != kNoTriangle) continue;  // each fan has one where turning back ends
+        const std::uint32_t v = mesh_.triangles[t][i];
+        if (fan[v] == kNoTriangle) {
+          fan[v] = t;
+        } else {
+          if (!pinched_.contains(v)) pinched_.emplace(v, fan[v]);
+          pinched_.emplace(v, t);
+        }
+      }
+    }
+  }
+
   const RegionMesh& coarse_;
   const PlaneMesh& mesh_;
+  std::multimap<std::uint32_t, std::uint32_t> pinched_;  ///< vertices, and a triangle of each of their fans
 };
 
 class DifferenceSweep {

@@ -14,10 +14,6 @@ namespace {
 
 using Codes = std::vector<std::uint64_t>;
 
-std::uint64_t code_of(const GridPoint& p) {
-  return morton(p.x, p.y);
-}
-
 bool among(const Codes& ascending, std::uint64_t code) {
   return std::binary_search(ascending.begin(), ascending.end(), code);
 }

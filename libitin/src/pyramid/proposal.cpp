@@ -23,10 +23,6 @@ struct TileProposal {
   std::vector<Raise> beyond;  ///< points across the border
 };
 
-std::uint64_t code_of(const SelectedVertex& v) {
-  return morton(v.point.x, v.point.y);
-}
-
 TileProposal propose(WorkingIndex& index, const CurveRange& tile, TileSurvey survey,
                      std::span<const double> tolerances) {
   const std::vector<SelectedVertex>& vertices = survey.surface.vertices;

@@ -17,10 +17,6 @@ namespace itin {
 
 namespace {
 
-std::uint64_t code_of(const GridPoint& p) {
-  return morton(p.x, p.y);
-}
-
 Selection everything() {
   return Selection(Detail::tolerance(0), {0.0}, Grid{});
 }

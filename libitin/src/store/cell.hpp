@@ -44,6 +44,9 @@ constexpr std::uint64_t morton(std::int32_t x, std::int32_t y) {
   return detail_morton::spread(static_cast<std::uint32_t>(x + kGridHalfSide)) |
          (detail_morton::spread(static_cast<std::uint32_t>(y + kGridHalfSide)) << 1);
 }
+constexpr std::uint64_t code_of(const GridPoint& p) {
+  return morton(p.x, p.y);
+}
 constexpr std::int32_t morton_x(std::uint64_t code) {
   return static_cast<std::int32_t>(detail_morton::gather(code)) - kGridHalfSide;
 }

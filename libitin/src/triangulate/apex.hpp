@@ -38,6 +38,10 @@ struct SelectedVertex {
   Position position() const { return {point.x, point.y}; }
 };
 
+inline std::uint64_t code_of(const SelectedVertex& v) {
+  return code_of(v.point);
+}
+
 /// One search serves one thread and one region: it keeps the blocks it has read, and counts them.
 class ApexSearch {
  public:

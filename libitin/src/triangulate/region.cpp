@@ -12,6 +12,7 @@
 #include <itin/error.hpp>
 
 #include "triangulate/enclosure.hpp"
+#include "triangulate/segment_edges.hpp"
 
 namespace itin {
 
@@ -313,70 +314,11 @@ class RegionTriangulation {
     if (!lay_segments()) throw Error("a constraint is lost in the triangulation");
   }
 
-  /// An edge of the mesh along a segment, in its direction; kNoTriangle beyond the hull.
-  struct SegmentEdge {
-    std::uint32_t from, to;
-    std::uint32_t left, right;
-    std::uint16_t theme = kCoverage;
-  };
-
-  /// Finds every segment's edges and marks them as constrained. False when some segment is not made of edges.
+  /// False when some segment is not made of edges.
   bool lay_segments() {
-    segment_edges_.clear();
-    mesh_.constrained.assign(mesh_.triangles.size(), 0);
-    if (constraints_.empty()) return true;
-    std::vector<std::uint32_t> some_triangle(vertices_.size(), kNoTriangle);
-    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-      for (const std::uint32_t v : mesh_.triangles[t]) some_triangle[v] = t;
-    }
-    for (std::size_t k = 0; k < constraints_.size(); ++k) {
-      const auto [from, to] = constraints_[k];
-      for (std::uint32_t at = from; at != to;) {
-        if (some_triangle[at] == kNoTriangle) return false;
-        std::optional<SegmentEdge> edge = edge_towards(at, to, some_triangle[at]);
-        if (!edge) return false;
-        edge->theme = themes_[k];
-        mark_constrained(*edge);
-        segment_edges_.push_back(*edge);
-        at = edge->to;
-      }
-    }
-    return true;
-  }
-
-  void mark_constrained(const SegmentEdge& edge) {
-    for (const std::uint32_t t : {edge.left, edge.right}) {
-      if (t == kNoTriangle) continue;
-      for (int i = 0; i < 3; ++i) {
-        if (mesh_.triangles[t][i] != edge.from && mesh_.triangles[t][i] != edge.to) {
-          mesh_.constrained[t] |= static_cast<std::uint8_t>(1 << i);
-          if (edge.theme == kCoverage)
-            mesh_.constrained[t] |= static_cast<std::uint8_t>(1 << (i + PlaneMesh::kOutline));
-        }
-      }
-    }
-  }
-
-  /// The edge that leaves vertex `at` straight towards vertex `to`, if there is one.
-  std::optional<SegmentEdge> edge_towards(std::uint32_t at, std::uint32_t to, std::uint32_t start) const {
-    const Position p = position(at), goal = position(to);
-    const auto leads = [&](std::uint32_t v) {
-      const Position q = position(v);
-      return orientation(p, q, goal) == 0 && (std::int64_t{q.x} - p.x) * (std::int64_t{goal.x} - p.x) +
-                                                     (std::int64_t{q.y} - p.y) * (std::int64_t{goal.y} - p.y) >
-                                                 0;
-    };
-    for (const int turn : {1, 2}) {  // counterclockwise, and clockwise from where the hull stopped that
-      std::uint32_t t = start;
-      do {
-        const auto& v = mesh_.triangles[t];
-        const int i = v[0] == at ? 0 : v[1] == at ? 1 : 2, next = (i + 1) % 3, previous = (i + 2) % 3;
-        if (leads(v[next])) return SegmentEdge{at, v[next], t, mesh_.neighbours[t][previous]};
-        if (leads(v[previous])) return SegmentEdge{at, v[previous], mesh_.neighbours[t][next], t};
-        t = mesh_.neighbours[t][(i + turn) % 3];
-      } while (t != kNoTriangle && t != start);
-    }
-    return std::nullopt;
+    auto edges = itin::lay_segments(mesh_, vertices_, constraints_, themes_);
+    segment_edges_ = edges ? std::move(*edges) : std::vector<SegmentEdge>();
+    return edges.has_value();
   }
 
   /// Whether triangle t meets tile and window.

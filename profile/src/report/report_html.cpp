@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <itin/base64.hpp>
+#include <itin/markup.hpp>
 
 #include "report/formats.hpp"
 #include "report/sight_chart.hpp"
@@ -21,23 +22,6 @@ constexpr const char* kStyle =
     "border-bottom:1px solid #ddd}img{width:100%;height:auto}.note{color:#666;font-size:.9em}"
     ".verdict{font-size:1.1rem;font-weight:600}@media print{body{margin:0;max-width:none}h2{break-after:avoid}}";
 
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '"')
-      result += "&quot;";
-    else
-      result += c;
-  }
-  return result;
-}
-
 template <class Draw>
 std::string image(double width, double height, const char* what, Draw draw) {
   Drawing drawing(Drawing::Format::kSvg, width, height);
@@ -46,16 +30,16 @@ std::string image(double width, double height, const char* what, Draw draw) {
 }
 
 std::string html_table(const Table& table) {
-  std::string html = fmt::format("<h2>{}</h2>\n<table>\n", escaped(table.title));
+  std::string html = fmt::format("<h2>{}</h2>\n<table>\n", escaped_markup(table.title));
   const auto row = [&](const std::vector<std::string>& cells, std::string_view tag) {
     html += "<tr>";
-    for (const std::string& cell : cells) html += fmt::format("<{0}>{1}</{0}>", tag, escaped(cell));
+    for (const std::string& cell : cells) html += fmt::format("<{0}>{1}</{0}>", tag, escaped_markup(cell));
     html += "</tr>\n";
   };
   if (!table.header.empty()) row(table.header, "th");
   for (const auto& cells : table.rows) row(cells, "td");
   html += "</table>\n";
-  if (!table.note.empty()) html += fmt::format("<p class=\"note\">{}</p>\n", escaped(table.note));
+  if (!table.note.empty()) html += fmt::format("<p class=\"note\">{}</p>\n", escaped_markup(table.note));
   return html;
 }
 
@@ -66,7 +50,7 @@ std::string report_html(const LosReport& report) {
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\">\n<meta name=\"viewport\" "
       "content=\"width=device-width\">\n<title>{0}</title>\n<style>{1}</style></head>\n<body>\n<h1>{0}</h1>\n"
       "<p class=\"verdict\">{2}</p>\n",
-      escaped(report.title), kStyle, escaped(verdict_line(report)));
+      escaped_markup(report.title), kStyle, escaped_markup(verdict_line(report)));
   html += image(842, 420, "Sight line over the terrain",
                 [&](Drawing& drawing, const Box& box) { draw_sight_chart(drawing, box, report); });
   html += html_table(ends_table(report));

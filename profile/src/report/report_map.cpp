@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <itin/coordinates.hpp>
+#include <itin/markup.hpp>
 
 #include "report/formats.hpp"
 #include "report/tables.hpp"
@@ -74,19 +75,13 @@ class Path {
   Point2 from_, to_;
 };
 
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) result += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-  return result;
-}
-
 class Kml {
  public:
   explicit Kml(const LosReport& report) : to_geographic_(report.crs_wkt, "EPSG:4326") {
     text_ = fmt::format(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<kml xmlns=\"http://www.opengis.net/kml/2.2\">\n<Document>\n"
         "<name>{}</name>\n<description>{}</description>\n",
-        escaped(report.title), escaped(verdict_line(report)));
+        escaped_markup(report.title), escaped_markup(verdict_line(report)));
     style("ray", report.verdict == SightVerdict::kHidden ? "ff2020d0" : "ff20a020", 3);
     style("ground", "ff335577", 2);
     style("cut", "ff0000ff", 5);
@@ -102,7 +97,7 @@ class Kml {
     text_ += "<LineString><altitudeMode>absolute</altitudeMode><coordinates>" + coordinates(points) +
              "</coordinates></LineString></Placemark>\n";
   }
-  void open_folder(const std::string& name) { text_ += "<Folder><name>" + escaped(name) + "</name>\n"; }
+  void open_folder(const std::string& name) { text_ += "<Folder><name>" + escaped_markup(name) + "</name>\n"; }
   void close_folder() { text_ += "</Folder>\n"; }
   std::string finish() { return text_ + "</Document>\n</kml>\n"; }
 
@@ -112,7 +107,7 @@ class Kml {
                          colour, width);
   }
   void open(const std::string& name, const std::string& style_id) {
-    text_ += "<Placemark><name>" + escaped(name) + "</name>";
+    text_ += "<Placemark><name>" + escaped_markup(name) + "</name>";
     if (!style_id.empty()) text_ += "<styleUrl>#" + style_id + "</styleUrl>";
   }
   std::string coordinates(const std::vector<Point3>& points) {

@@ -21,7 +21,7 @@ static_assert(Tile::kSide % CellBlocks::kSide == 0);
 using TileWords = std::array<std::uint64_t, kBlocks * kBlocks>;
 
 /// What one option serves of one tile.
-struct TileSet {
+struct TileCover {
   std::size_t entry = 0;  ///< of the options
   TileWords certain{}, possible{};
 };
@@ -50,7 +50,7 @@ std::size_t cell_in_tile(std::size_t block, unsigned bit) {
 }
 
 /// Opens in `values` what the bounds leave open. Returns whether anything is.
-bool open(const CellBlocks& blocks, const Tile& tile, const CoverageBounds& bounds, TileSet& set,
+bool open(const CellBlocks& blocks, const Tile& tile, const CoverageBounds& bounds, TileCover& set,
           TileValues<std::uint8_t>& values) {
   bool any = false;
   values.fill(kOutside);
@@ -68,7 +68,7 @@ bool open(const CellBlocks& blocks, const Tile& tile, const CoverageBounds& boun
   return any;
 }
 
-void close(const TileValues<std::uint8_t>& values, TileSet& set) {
+void close(const TileValues<std::uint8_t>& values, TileCover& set) {
   for (std::size_t b = 0; b < set.certain.size(); ++b) {
     for (std::uint64_t rest = set.possible[b] & ~set.certain[b]; rest != 0; rest &= rest - 1) {
       const auto bit = static_cast<unsigned>(std::countr_zero(rest));
@@ -111,7 +111,7 @@ std::vector<CoverageBounds> judge_cells(const EnvelopeScene& scene, const SiteSu
     const auto tile = tiles.cell_at(eye.position);
     looks[i] = tile ? scene.look_from(eye, scene.bins.triangles(tiles.index(*tile))) : scene.look_from(eye);
   });
-  std::vector<std::vector<TileSet>> of_tile(tiles.cell_count());
+  std::vector<std::vector<TileCover>> of_tile(tiles.cell_count());
   std::atomic<std::uint64_t> rays = 0;
   std::atomic<std::size_t> done = 0;
   parallel_for(of_tile.size(), [&](std::size_t t) {
@@ -120,7 +120,7 @@ std::vector<CoverageBounds> judge_cells(const EnvelopeScene& scene, const SiteSu
     for (std::size_t i = 0; i < options.size(); ++i) {
       if (!in_reach(tiles, t, survey.stands[options[i]].position, survey.radius)) continue;
       if (!work) work = pass.begin(t);
-      TileSet set{.entry = i};
+      TileCover set{.entry = i};
       TileValues<std::uint8_t> values;
       if (open(blocks, work->tile, *bounds[i], set, values)) {
         if (scene.exact) {
@@ -143,7 +143,7 @@ std::vector<CoverageBounds> judge_cells(const EnvelopeScene& scene, const SiteSu
   std::vector<std::vector<DemandSet::Block>> certain(options.size()), possible(options.size());
   for (std::size_t t = 0; t < of_tile.size(); ++t) {
     const Tile tile = tile_at(grid, tiles, t);
-    for (const TileSet& set : of_tile[t]) {
+    for (const TileCover& set : of_tile[t]) {
       for (std::size_t b = 0; b < set.possible.size(); ++b) {
         if (set.possible[b] == 0) continue;
         const std::uint32_t number = block_of(blocks, tile, b);

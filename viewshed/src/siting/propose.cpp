@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <unordered_map>
 
 #include <fmt/format.h>
@@ -12,7 +11,7 @@
 
 #include "../request.hpp"
 #include "../scene.hpp"
-#include "../surface_heights.hpp"
+#include "../visibility_sampler.hpp"
 
 namespace itin::viewshed {
 
@@ -25,22 +24,6 @@ constexpr unsigned kTargets = 2 * SightLines::kSize;
 /// Posts tried in a square: the highest, and others spread over the rest.
 constexpr std::size_t kHighest = 8, kOthers = 8;
 constexpr double kMostSquares = 1e6;
-
-/// SplitMix64: the same numbers for the same post, whatever else is asked for.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-  /// In [0, 1).
-  double next() {
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
-  }
-
- private:
-  std::uint64_t state_;
-};
 
 bool within(const Window::Ring& ring, Point2 p) {
   bool inside = false;
@@ -77,6 +60,7 @@ class Proposer {
         area_(area),
         request_(request),
         scene_(tin, request.earth, NoData::kClear, 0),
+        sampler_(scene_, scene_, tin.grid, request.radius, request.target_height, kTargets),
         squares_(RasterGrid::aligned(area.bounds(), request.spacing)),
         summits_(summits(tin)) {}
 
@@ -130,39 +114,18 @@ class Proposer {
     return {p.x, p.y};
   }
 
-  /// Of random targets on the ground, the share seen.
+  /// The share seen; what has no ground is not seen.
   double visibility_index(std::uint32_t v) const {
-    const Point3 eye = tin_.point(v);
-    const double resolution = tin_.grid.resolution;
-    Random random(tin_.id(v));
-    Occluder occluder;
-    unsigned seen = 0, asked = 0;
-    for (unsigned packet = 0; packet < kTargets / SightLines::kSize; ++packet) {
-      SightLines lines;
-      lines.from_x.fill(easting_in_units(tin_.grid, eye.x));
-      lines.from_y.fill(northing_in_units(tin_.grid, eye.y));
-      lines.from_z.fill((eye.z + request_.mast_height) / resolution);
-      for (unsigned i = 0; i < SightLines::kSize; ++i) {
-        const double distance = request_.radius * std::sqrt(random.next());
-        const double azimuth = 2 * std::numbers::pi * random.next();
-        const Point2 target{eye.x + distance * std::sin(azimuth), eye.y + distance * std::cos(azimuth)};
-        const auto ground = scene_.ground(target);
-        if (!ground || distance < resolution) continue;
-        lines.to_x[i] = easting_in_units(tin_.grid, target.x);
-        lines.to_y[i] = northing_in_units(tin_.grid, target.y);
-        lines.to_z[i] = (*ground + request_.target_height) / resolution;
-        lines.active |= 1U << i;
-      }
-      asked += SightLines::kSize;  // what has no ground is not seen
-      seen += static_cast<unsigned>(std::popcount(lines.active & ~scene_.hidden(lines, occluder)));
-    }
-    return static_cast<double>(seen) / asked;
+    const Point3 post = tin_.point(v);
+    const auto tally = sampler_.look({post.x, post.y}, post.z + request_.mast_height, tin_.id(v));
+    return static_cast<double>(tally.seen) / tally.asked;
   }
 
   const Tin& tin_;
   const Window& area_;
   const ProposalRequest& request_;
   Scene scene_;
+  VisibilitySampler sampler_;
   RasterGrid squares_;
   std::vector<bool> summits_;
 };

@@ -36,11 +36,6 @@ Box around(Point2 p, double radius) {
   return {p.x - radius, p.y - radius, p.x + radius, p.y + radius};
 }
 
-bool standing(const Store& store, const ThemeChoice& themes) {
-  const auto& all = store.metadata().themes;
-  return std::any_of(all.begin(), all.end(), [&](const ThemeInfo& t) { return t.stands() && themes.includes(t); });
-}
-
 /// Few rectangles that hold the discs about all positions: a window of hundreds of discs takes long to classify.
 Window window_about(const std::vector<SiteStand>& stands, const std::vector<std::size_t>& options, double radius) {
   Box box;
@@ -87,16 +82,11 @@ int level_of(const Store& store, const Box& box, std::uint64_t points) {
 
 std::vector<std::optional<double>> ground_under(const Store& store, const std::vector<Point2>& positions,
                                                 const ThemeChoice& themes, Progress& progress) {
-  const Grid& grid = store.metadata().grid;
   std::vector<std::optional<double>> result;
   for (const Point2& p : positions) {
     progress.throw_if_cancelled();
-    std::optional<double>& height = result.emplace_back();
-    if (!std::isfinite(p.x) || !std::isfinite(p.y)) continue;
-    const Tin tin =
-        triangulate(store, Window::box(around(p, 2 * grid.resolution)), Detail::tolerance(0), progress, themes);
-    for (std::uint32_t t = 0; t < tin.triangles.size() && !height; ++t) height = surface_height(tin, {&t, 1}, p);
-    if (height) *height *= grid.resolution;
+    const bool somewhere = std::isfinite(p.x) && std::isfinite(p.y);
+    result.push_back(somewhere ? height_at(store, p, themes, progress) : std::nullopt);
     if (result.size() % 64 == 0)
       progress.report("ground under sites", static_cast<double>(result.size()) / static_cast<double>(positions.size()));
   }
@@ -141,7 +131,10 @@ Request request_of(const SiteSurvey& survey, std::span<const std::size_t> option
 class SiteCoverage::Impl {
  public:
   Impl(const Store& store, SiteSurvey survey, Progress& progress)
-      : store_(store), survey_(std::move(survey)), progress_(progress), themed_(standing(store, survey_.themes)) {
+      : store_(store),
+        survey_(std::move(survey)),
+        progress_(progress),
+        themed_(survey_.themes.includes_standing(store.metadata().themes)) {
     if (survey_.stands.empty()) throw InputError("no site to look from: give at least one on the data");
     Box box;
     for (const SiteStand& stand : survey_.stands) box.extend(around(stand.position, survey_.radius));

@@ -1,0 +1,237 @@
+// Sweeps about upright axes against searches line by line, and the bounds that they rest on against the surface.
+#include "axis_sweep.hpp"
+
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "boundary.hpp"
+#include "least_height.hpp"
+#include "support/delaunay_tin.hpp"
+#include "support/exact_line_of_sight.hpp"
+#include "support/real_terrain.hpp"
+#include "support/terrain_tin.hpp"
+
+namespace itin::viewshed {
+namespace {
+
+std::uint32_t logged_seed() {
+  const std::uint32_t seed = std::random_device{}();
+  std::cout << "seed " << seed << '\n';
+  return seed;
+}
+
+struct Tally {
+  int seen = 0, hidden = 0, partly = 0;
+};
+
+/// Every cell of a grid over the Tin, as tiles see it, looking at one axis.
+class Sweeping {
+ public:
+  Sweeping(const Tin& tin, const Earth& earth, double cell)
+      : tin_(tin),
+        earth_(earth),
+        bins_(tin, boundary_edges(tin)),
+        sweep_(tin, earth, bins_),
+        scene_(tin, earth, NoData::kClear, 0),
+        heights_(tin, earth, scene_),
+        exact_(tin, earth),
+        grid_(RasterGrid::aligned(tin.bounds(), cell)),
+        tiles_(grid_of_tiles(grid_)),
+        in_tiles_(tin, tiles_) {}
+
+  /// Metres.
+  Tally compare(Point2 foot, double height, double eye_height, double radius) {
+    Tally tally;
+    const auto base = exact_.height(foot);
+    if (!base) return tally;
+    const double unit = tin_.grid.resolution;
+    const AxisSweep::Axis axis{easting_in_units(tin_.grid, foot.x), northing_in_units(tin_.grid, foot.y), *base / unit,
+                               (*base + height) / unit, radius / unit};
+    const auto work = std::make_unique<Work>();
+    for (std::size_t i = 0; i < tiles_.cell_count(); ++i) {
+      const Tile tile = tile_at(grid_, tiles_, i);
+      const TileCentres centres(tin_.grid, grid_, tile);
+      scan_convert(tin_, in_tiles_.triangles(i), tile, centres, work->eyes);
+      for (double& z : work->eyes) z += eye_height / unit;
+      sweep_.run(axis, {tile, centres, work->eyes}, work->scratch, work->found);
+      for (std::int64_t r = 0; r < tile.rows; ++r)
+        for (std::int64_t c = 0; c < tile.columns; ++c) check(axis, centres, *work, r, c, tally);
+    }
+    return tally;
+  }
+
+ private:
+  struct Work {
+    TileValues<double> eyes;
+    AxisSweep::Heights found;
+    AxisSweep::Scratch scratch;
+  };
+
+  void check(const AxisSweep::Axis& axis, const TileCentres& centres, const Work& work, std::int64_t row,
+             std::int64_t column, Tally& tally) {
+    const auto cell = static_cast<std::size_t>(row * Tile::kSide + column);
+    if (std::isnan(work.eyes[cell])) return;
+    const double x = centres.x[static_cast<std::size_t>(column)], y = centres.y[static_cast<std::size_t>(row)];
+    const double distance = std::hypot(x - axis.x, y - axis.y), found = work.found[cell];
+    if (distance == 0 || distance > axis.radius * (1 + 1e-9)) {
+      EXPECT_TRUE(std::isinf(found)) << "an eye that does not look";
+      return;
+    }
+    if (distance > axis.radius * (1 - 1e-9)) return;
+    SightLines line;
+    line.from_x[0] = x, line.from_y[0] = y, line.from_z[0] = work.eyes[cell];
+    line.to_x[0] = axis.x, line.to_y[0] = axis.y, line.to_z[0] = axis.top, line.active = 1;
+    LeastHeights::Heights lower{};
+    lower[0] = axis.base;
+    LeastHeights::Memory memory;
+    const double expected = heights_.find(line, lower, memory)[0];
+    ++(std::isnan(expected) ? tally.hidden : tally.seen);
+    if (std::isnan(expected) != std::isnan(found)) {
+      const double unit = tin_.grid.resolution;
+      const Point3 from{tin_.grid.origin.x + x * unit, tin_.grid.origin.y + y * unit, work.eyes[cell] * unit};
+      const Point3 to{tin_.grid.origin.x + axis.x * unit, tin_.grid.origin.y + axis.y * unit, axis.top * unit};
+      EXPECT_NEAR(exact_.clearance(from, to), -kGrazing, 1e-7) << x << ", " << y << " found " << found;
+    } else if (!std::isnan(expected)) {
+      EXPECT_NEAR(found, expected, 1e-4) << x << ", " << y;
+      if (found > axis.base + 1) ++tally.partly;
+    }
+  }
+
+  const Tin& tin_;
+  Earth earth_;
+  BinnedHeights bins_;
+  AxisSweep sweep_;
+  Scene scene_;
+  LeastHeights heights_;
+  test::ExactLineOfSight exact_;
+  RasterGrid grid_;
+  RasterGrid tiles_;
+  TriangleBins in_tiles_;
+};
+
+Point2 place_in(const Tin& tin, std::mt19937& random) {
+  const Box box = tin.bounds();
+  std::uniform_real_distribution<double> share(0.02, 0.98);
+  const double x = share(random);
+  return {box.xmin + x * box.width(), box.ymin + share(random) * box.height()};
+}
+
+TEST(AxisSweep, RandomTins) {
+  std::mt19937 random(logged_seed());
+  Tally all;
+  for (int i = 0; i < 6; ++i) {
+    const Tin tin = test::random_tin(random, 300, i % 2 == 0 ? 0 : 0.1, {{500000, 4000000}, 0.01}, 50000);
+    const double size = std::max(tin.bounds().width(), tin.bounds().height());
+    Sweeping sweeping(tin, {}, size / (i < 2 ? 10 : 150));
+    const Tally t = sweeping.compare(place_in(tin, random), 20, i % 3 == 0 ? 0 : 2, size * (i % 2 == 0 ? 2 : 0.4));
+    all.seen += t.seen, all.hidden += t.hidden, all.partly += t.partly;
+  }
+  EXPECT_GT(all.hidden, 100);
+  EXPECT_GT(all.partly, 100);
+}
+
+TEST(AxisSweep, FractalTerrainWithCellsOfEverySize) {
+  std::mt19937 random(logged_seed());
+  int hidden = 0;
+  for (const double roughness : {0.35, 0.5, 0.65}) {
+    const Tin tin = test::fractal_tin(65, 50, 150, roughness, random());
+    for (const double cell : {23.0, 50.0, 170.0}) {
+      Sweeping sweeping(tin, {}, cell);
+      hidden += sweeping.compare(place_in(tin, random), 120, 2, 2000).hidden;
+      // On a post, and so on cells' corners and diagonals.
+      EXPECT_GT(sweeping.compare({300000 + 50 * 20, 200000 + 50 * 31}, 60, 0, 5000).seen, 0);
+    }
+  }
+  EXPECT_GT(hidden, 0);
+}
+
+TEST(AxisSweep, GroundWithVoids) {
+  std::mt19937 random(logged_seed());
+  const std::vector<double> z = test::fractal_heights(65, 120, 0.5, random());
+  const Tin tin = test::lattice_tin(65, 65, 50, [&](std::int32_t c, std::int32_t r) {
+    const bool bare = (c / 9 + r / 9) % 4 == 0 || std::hypot(c - 32, r - 32) > 31;
+    return bare ? NAN : z[static_cast<std::size_t>(r) * 65 + static_cast<std::size_t>(c)];
+  });
+  Sweeping sweeping(tin, {}, 37);
+  Tally all;
+  for (int i = 0; i < 6; ++i) {
+    const Tally t = sweeping.compare(place_in(tin, random), 90, 2, 5000);
+    all.seen += t.seen, all.hidden += t.hidden;
+  }
+  EXPECT_GT(all.seen, 0);
+  EXPECT_GT(all.hidden, 0);
+}
+
+TEST(AxisSweep, LongEdgesOnACurvedEarth) {
+  std::mt19937 random(logged_seed());
+  const Tin tin = test::fractal_tin(17, 4000, 60, 0.5, random());
+  int partly = 0;
+  for (const double k : {0.13, -0.5, 0.9}) {
+    Earth earth;
+    earth.refraction = k;
+    Sweeping sweeping(tin, earth, 900);
+    partly += sweeping.compare(place_in(tin, random), 200, 2, 60000).partly;
+  }
+  EXPECT_GT(partly, 50);
+}
+
+TEST(AxisSweep, WallsAndRoofs) {
+  // Boxes with walls a centimetre thick, among which eyes and axis may stand.
+  const Tin tin = test::lattice_tin(
+      161, 161, 5, [](std::int32_t c, std::int32_t r) { return c % 7 < 3 && r % 11 < 4 ? 9.0 + c % 5 : 0.01 * c; });
+  Sweeping sweeping(tin, {}, 7);
+  std::mt19937 random(logged_seed());
+  const Tally t = sweeping.compare(place_in(tin, random), 60, 2, 700);
+  EXPECT_GT(t.partly, 100);
+  EXPECT_GT(t.hidden, 0);
+}
+
+TEST(AxisSweep, RealTerrain) {
+  const auto tin = test::big_tujunga(300, 300, 60);
+  if (!tin) GTEST_SKIP() << "needs " << test::big_tujunga_path();
+  std::mt19937 random(logged_seed());
+  Sweeping sweeping(*tin, {}, 20);
+  int hidden = 0;
+  for (int i = 0; i < 4; ++i) hidden += sweeping.compare(place_in(*tin, random), 150, 2, 5000).hidden;
+  EXPECT_GT(hidden, 50);
+}
+
+TEST(BinnedHeights, LidsAndRunsHoldAtEveryPointOfABin) {
+  std::mt19937 random(logged_seed());
+  const Tin tin = test::random_tin(random, 400, 0.1, {{500000, 4000000}, 0.01}, 50000);
+  const BinnedHeights bins(tin, boundary_edges(tin));
+  const test::ExactLineOfSight exact(tin, {});
+  std::uniform_real_distribution<double> share(0, 1);
+  int looked = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double column = share(random) * static_cast<double>(bins.columns());
+    const double row = share(random) * static_cast<double>(bins.rows());
+    const RasterGrid::Cell bin{static_cast<std::int64_t>(column), static_cast<std::int64_t>(row)};
+    const double size = bins.bin_size() * tin.grid.resolution, half = size / 2;
+    const Point2 p{tin.bounds().xmin - half + column * size, tin.bounds().ymax + half - row * size};
+    const auto& east = bins.eastwards();
+    const auto run = static_cast<std::size_t>(bin.row * east.a_line + bin.column / BinnedHeights::kRun);
+    const auto height = exact.height(p);
+    if (!height) {
+      EXPECT_EQ(east.low[run], -INFINITY);
+      continue;
+    }
+    ++looked;
+    const double z = *height / tin.grid.resolution;
+    EXPECT_LE(z, bins.lid(bin, column, row) + 1e-6);
+    EXPECT_LE(z, east.high[run] + 1e-6);
+    EXPECT_GE(z, east.low[run] - 1e-6);
+    const auto& south = bins.southwards();
+    const auto down = static_cast<std::size_t>(bin.column * south.a_line + bin.row / BinnedHeights::kRun);
+    EXPECT_LE(z, south.high[down] + 1e-6);
+    EXPECT_GE(z, south.low[down] - 1e-6);
+  }
+  EXPECT_GT(looked, 1000);
+}
+
+}  // namespace
+}  // namespace itin::viewshed

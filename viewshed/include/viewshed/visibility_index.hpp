@@ -1,0 +1,55 @@
+// How much is seen from everywhere in an area: the total viewshed, as a visibility index (Franklin and Ray 1994).
+//
+//   viewshed::IndexRequest request{.area = Window::box(box), .cell_size = 250, .radius = 5000};
+//   viewshed::VisibilityIndex index = viewshed::visibility_index(store, request, progress);
+//   viewshed::write_geotiff("index.tif", index, request, crs_wkt, overwrite);
+//
+// Every cell's centre is an observer's place, and of the ground within the radius a share is seen: its estimate from
+// targets at random, evenly spread over the disc, comes with its standard error. Both ends stand on the ground, and
+// what the themes have standing there hides; each sight line is decided as viewsheds decide theirs.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <itin/window.hpp>
+#include <viewshed/viewshed.hpp>
+
+namespace itin::viewshed {
+
+struct IndexRequest {
+  Window area;             ///< of observers: cells whose centre lies in it; all(): the whole coverage
+  double cell_size = 100;  ///< metres
+  double height = 2;       ///< of observers above the ground, metres
+  double target_height = 0;
+  double radius = 5000;    ///< metres
+  unsigned targets = 128;  ///< an observer, rounded up to a multiple of 16
+  Earth earth = {};
+  Detail detail = Detail::tolerance(0);
+  ThemeChoice themes = ThemeChoice::none();
+  NoData nodata = NoData::kClear;  ///< kUnknown is refused: a sample knows no doubt
+};
+
+struct VisibilityIndex {
+  RasterGrid grid;
+  std::vector<float> share;           ///< of the ground within the radius, 0 to 1; NaN outside the area, or its ground
+  std::vector<float> standard_error;  ///< of that: sqrt(p (1 - p) / n), with one target more of either kind
+  double mean = 0;                    ///< over the cells
+  double mean_error = 0;              ///< the standard error of that, for these cells
+  std::uint64_t observers = 0;
+  std::uint64_t rays = 0;
+  std::uint64_t triangles = 0;
+  RetrievalStatistics retrieval;
+};
+
+/// The same store and request give the same numbers, whatever the number of threads. Cost: retrieval of the area and
+/// the radius about it, and about a microsecond a target. Throws InputError (values out of range, no ground in the
+/// area), and what triangulate() throws.
+VisibilityIndex visibility_index(const Store& store, const IndexRequest& request, Progress& progress);
+
+/// Two bands, Float32: the share and its standard error; nodata NaN. Throws FileError.
+void write_geotiff(const std::string& path, const VisibilityIndex& index, const IndexRequest& request,
+                   const std::string& crs_wkt, bool overwrite);
+
+}  // namespace itin::viewshed

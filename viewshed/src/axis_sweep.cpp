@@ -1,0 +1,278 @@
+#include "axis_sweep.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace itin::viewshed {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kHidden = std::numeric_limits<double>::quiet_NaN();
+constexpr std::uint32_t kNone = 0xffffffff;
+
+std::size_t number(std::int64_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// A sight line from an eye to the top of an axis, while what hides it is being looked for.
+class Sight {
+ public:
+  /// `along` is the eye's distance in bins, `lowered` its height less the drop.
+  Sight(const Tin& tin, const SightLine& line, double base, double along, double lowered, double margin)
+      : tin_(tin), line_(line), top_(line.to_z()), along_(along), lowered_(lowered), margin_(margin) {
+    raise(std::min(base, top_));
+  }
+
+  double least() const { return least_; }
+  /// Of the line to the least height, outward a bin.
+  double slope() const { return slope_; }
+  std::uint32_t silhouette() const { return silhouette_; }
+
+  /// Whether the top can still be seen over this triangle, too.
+  bool clears(std::uint32_t triangle) {
+    const Triangle& t = tin_.triangles[triangle];
+    const GridPoint &a = tin_.vertices[t[0]], &b = tin_.vertices[t[1]], &c = tin_.vertices[t[2]];
+    if (line_.apart(a, b, c, least_, margin_)) return true;
+    const double end = line_.clearing_end(a, b, c);
+    if (end <= least_) return true;
+    silhouette_ = triangle;
+    if (end > top_ && line_.hidden_by(a, b, c)) return false;
+    // What rises by less than a grazing is only touched, though clearing it takes a hair more than the top.
+    raise(std::min(end, top_));
+    return true;
+  }
+
+ private:
+  void raise(double least) {
+    least_ = least;
+    slope_ = (lowered_ - least) / along_;
+  }
+
+  const Tin& tin_;
+  const SightLine& line_;
+  double top_, along_, lowered_, margin_;
+  double least_ = 0, slope_ = 0;
+  std::uint32_t silhouette_ = kNone;
+};
+
+}  // namespace
+
+/// One axis and one tile, seen from the axis towards one side at a time.
+class AxisSweep::Task {
+ public:
+  Task(const AxisSweep& sweep, const Axis& axis, const Eyes& eyes, Scratch& scratch, Heights& heights)
+      : sweep_(sweep), bins_(sweep.bins_), axis_(axis), eyes_(eyes), profile_(scratch), heights_(heights) {
+    radius_squared_ = axis.radius * axis.radius;
+    const double bin = bins_.bin_size(), drop = sweep.drop_;
+    profile_axis_.top = axis.top;
+    profile_axis_.drop = drop * bin * bin;
+    // Above all single precision's rounding of heights and of drops.
+    const double greatest = bins_.greatest_magnitude() + std::abs(axis.top) + 4 * drop * axis.radius * axis.radius;
+    profile_axis_.margin = 100 * sweep.grazing_ + greatest * 0x1p-21;
+  }
+
+  void run() {
+    heights_.fill(kInfinity);
+    const double column = bins_.column_at(axis_.x), row = bins_.row_at(axis_.y);
+    for (const Quadrant::Side side : {Quadrant::kEast, Quadrant::kWest, Quadrant::kSouth, Quadrant::kNorth}) {
+      const Quadrant quadrant(bins_, column, row, side);
+      look_from(quadrant);
+    }
+  }
+
+ private:
+  void look_from(const Quadrant& quadrant) {
+    place_cells(quadrant);
+    if (farthest_ <= 0) return;
+    auto [from, to] = slopes();
+    if (from > to) return;
+    // Sectors one cell wide at the tile's far end. A hair more, against rounding.
+    const double width = std::max(1.0, 1 / cells_a_bin_) / farthest_;
+    from -= 1e-9;
+    silhouettes_.fill(kNone);
+    for (std::size_t i = 0; from + static_cast<double>(i) * width <= to; ++i)
+      sweep(quadrant, from + static_cast<double>(i) * width, from + static_cast<double>(i + 1) * width);
+  }
+
+  void place_cells(const Quadrant& quadrant) {
+    const bool columns = quadrant.along_columns();
+    majors_ = columns ? eyes_.tile.columns : eyes_.tile.rows;
+    minors_ = columns ? eyes_.tile.rows : eyes_.tile.columns;
+    const auto &x = eyes_.centres.x, &y = eyes_.centres.y;
+    const auto squared = [](double d) { return d * d; };
+    for (std::size_t i = 0; i < number(majors_); ++i) {
+      along_[i] = columns ? quadrant.along(bins_.column_at(x[i]), 0) : quadrant.along(0, bins_.row_at(y[i]));
+      along_squared_[i] = squared(columns ? x[i] - axis_.x : y[i] - axis_.y);
+    }
+    for (std::size_t i = 0; i < number(minors_); ++i) {
+      across_[i] = columns ? quadrant.across(0, bins_.row_at(y[i])) : quadrant.across(bins_.column_at(x[i]), 0);
+      across_squared_[i] = squared(columns ? y[i] - axis_.y : x[i] - axis_.x);
+    }
+    farthest_ = std::max(along_[0], along_[number(majors_ - 1)]);
+    nearest_ = std::max(0.0, std::min(along_[0], along_[number(majors_ - 1)]));
+    const double extent = across_[number(minors_ - 1)] - across_[0];
+    cells_a_bin_ = minors_ > 1 ? static_cast<double>(minors_ - 1) / extent : 1;
+  }
+
+  /// Of the cells within the quadrant; empty where none is.
+  std::pair<double, double> slopes() const {
+    double from = kInfinity, to = -kInfinity;
+    for (const double v : {across_[0], across_[number(minors_ - 1)]}) {
+      for (const double u : {along_[0], along_[number(majors_ - 1)]}) {
+        const double slope = u > 0 ? v / u : std::copysign(kInfinity, v);
+        from = std::min(from, slope), to = std::max(to, slope);
+      }
+    }
+    return {std::max(from, -1.0), std::min(to, 1.0)};
+  }
+
+  /// The cells with slopes in [from, to), nearest first.
+  void sweep(const Quadrant& quadrant, double from, double to) {
+    bool surveyed = false;
+    last_ = kNone;
+    const bool columns = quadrant.along_columns(), grows = along_[0] < along_[number(majors_ - 1)];
+    const std::size_t minor_step = columns ? Tile::kSide : 1, major_step = columns ? 1 : Tile::kSide;
+    for (std::int64_t n = 0; n < majors_; ++n) {
+      const std::size_t i = number(grows ? n : majors_ - 1 - n);
+      const double u = along_[i];
+      if (u <= 0) continue;
+      const std::size_t end = first_across(to * u);
+      double hidden_below = std::numeric_limits<double>::quiet_NaN();  // of eyes this far away
+      for (std::size_t k = first_across(from * u); k < end; ++k) {
+        const Cell cell{i * major_step + k * minor_step, i, u, across_[k], along_squared_[i] + across_squared_[k]};
+        // Of cells on a diagonal, each belongs to one quadrant.
+        if (columns ? std::abs(cell.across) > u : std::abs(cell.across) >= u) continue;
+        const double elevation = eyes_.elevation[cell.index];
+        if (!(cell.squared <= radius_squared_) || std::isnan(elevation)) continue;
+        if (!std::exchange(surveyed, true)) survey(quadrant, from, to);
+        if (std::isnan(hidden_below)) hidden_below = axis_.top + u * profile_.hidden_below(quadrant.slab_at(u));
+        heights_[cell.index] = kHidden;
+        if (elevation - sweep_.drop_ * cell.squared >= hidden_below) look(quadrant, cell);
+      }
+    }
+  }
+
+  void survey(const Quadrant& quadrant, double from, double to) {
+    const std::size_t count = std::min(quadrant.slab_at(farthest_) + 1, quadrant.slabs());
+    profile_.survey(quadrant, from, to, quadrant.slab_at(nearest_), count, profile_axis_);
+  }
+
+  struct Cell {
+    std::size_t index = 0;  ///< in the tile
+    std::size_t major = 0;
+    double along = 0, across = 0;
+    double squared = 0;  ///< distance from the axis, grid units
+  };
+
+  /// The first of the cells across that lies at `v` or beyond.
+  std::size_t first_across(double v) const {
+    const double at = (v - across_[0]) * cells_a_bin_;
+    return at <= 0                                 ? 0
+           : at > static_cast<double>(minors_ - 1) ? number(minors_)
+                                                   : static_cast<std::size_t>(std::ceil(at));
+  }
+
+  void look(const Quadrant& quadrant, const Cell& cell) {
+    const double x = eyes_.centres.x[cell.index % Tile::kSide], y = eyes_.centres.y[cell.index / Tile::kSide];
+    const double elevation = eyes_.elevation[cell.index];
+    const SightLine line({x, y, elevation}, {axis_.x, axis_.y, axis_.top}, sweep_.drop_, sweep_.grazing_);
+    Sight sight(sweep_.tin_, line, axis_.base, cell.along, elevation - sweep_.drop_ * cell.squared,
+                profile_axis_.margin);
+    if (decide(quadrant, cell, sight)) heights_[cell.index] = sight.least();
+    if (sight.silhouette() != kNone) last_ = silhouettes_[cell.major] = sight.silhouette();
+  }
+
+  /// Whether the top is seen.
+  bool decide(const Quadrant& quadrant, const Cell& cell, Sight& sight) {
+    const std::uint32_t beside = silhouettes_[cell.major];
+    if (last_ != kNone && !sight.clears(last_)) return false;
+    if (beside != kNone && beside != last_ && !sight.clears(beside)) return false;
+    bool seen = true;
+    profile_.search(quadrant.slab_at(cell.along), sight,
+                    [&](std::size_t slab) { return seen = clears(quadrant, slab, cell, sight); });
+    return seen;
+  }
+
+  /// Looks at the triangles that lie in a slab under the line.
+  bool clears(const Quadrant& quadrant, std::size_t slab, const Cell& cell, Sight& sight) const {
+    const double slope = cell.across / cell.along, minor = quadrant.minor();
+    for (std::size_t i = 0; i < Quadrant::kRun; ++i) {
+      const double begin = std::max(0.0, quadrant.begin(slab) + static_cast<double>(i));
+      const double end = std::min(quadrant.begin(slab) + static_cast<double>(i + 1), cell.along);
+      if (begin - end > BinnedHeights::kSlack) continue;
+      const double low = minor + slope * (slope < 0 ? end : begin), high = minor + slope * (slope < 0 ? begin : end);
+      const auto first = static_cast<std::int64_t>(std::max(0.0, low - BinnedHeights::kSlack));
+      const auto last = std::min(quadrant.lines() - 1, static_cast<std::int64_t>(high + BinnedHeights::kSlack));
+      for (std::int64_t line = first; line <= last; ++line) {
+        Stretch within{begin, end, slope};
+        if (line > first) within.limit((static_cast<double>(line) - minor) / slope, slope > 0);
+        if (line < last) within.limit((static_cast<double>(line + 1) - minor) / slope, slope < 0);
+        if (!clears(quadrant, quadrant.bin(slab, i, line), within, sight)) return false;
+      }
+    }
+    return true;
+  }
+
+  /// Of a line outward, in bins along.
+  struct Stretch {
+    double begin = 0, end = 0;
+    double slope = 0;  ///< across / along
+    void limit(double at, bool from_below) {
+      if (from_below) {
+        begin = std::max(begin, at);
+      } else {
+        end = std::min(end, at);
+      }
+    }
+  };
+
+  bool clears(const Quadrant& quadrant, const RasterGrid::Cell& bin, const Stretch& stretch, Sight& sight) const {
+    if (!bins_.holds(bin)) return true;
+    const double drop = profile_axis_.drop * (1 + stretch.slope * stretch.slope);
+    // Less what curvature bends between the ends.
+    const auto height = [&](double along) {
+      return sight.least() + sight.slope() * along + drop * (along * along - 1) - profile_axis_.margin;
+    };
+    const double near = height(stretch.begin), far = height(stretch.end);
+    const auto lid = [&](double along) {
+      const Point2 p = quadrant.position(along, stretch.slope * along);
+      return bins_.lid(bin, p.x, p.y);
+    };
+    if (lid(stretch.begin) <= near && lid(stretch.end) <= far) return true;
+    const double lowest = std::min(near, far);
+    for (const std::uint32_t t : bins_.triangles(bin))
+      if (bins_.top(t) > lowest && !sight.clears(t)) return false;
+    return true;
+  }
+
+  const AxisSweep& sweep_;
+  const BinnedHeights& bins_;
+  const Axis& axis_;
+  const Eyes& eyes_;
+  SectorProfile& profile_;
+  Heights& heights_;
+  SectorProfile::Axis profile_axis_;
+  double radius_squared_;
+  // The tile's cells as the quadrant has them, in bins.
+  std::array<double, Tile::kSide> along_{}, across_{}, along_squared_{}, across_squared_{};
+  std::int64_t majors_ = 0, minors_ = 0;
+  double farthest_ = 0, nearest_ = 0, cells_a_bin_ = 1;
+  // What hid the last eye of this sector, and of the last one the eye as far away.
+  std::uint32_t last_ = kNone;
+  std::array<std::uint32_t, Tile::kSide> silhouettes_{};
+};
+
+AxisSweep::AxisSweep(const Tin& tin, const Earth& earth, const BinnedHeights& bins)
+    : tin_(tin),
+      bins_(bins),
+      drop_(earth.drop_coefficient() * tin.grid.resolution),
+      grazing_(kGrazing / tin.grid.resolution) {}
+
+void AxisSweep::run(const Axis& axis, const Eyes& eyes, Scratch& scratch, Heights& heights) const {
+  Task(*this, axis, eyes, scratch, heights).run();
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,68 @@
+// How much of an upright axis, such as a turbine, is seen from every cell of a tile: the least height of the axis at
+// which nothing hides it.
+//
+//   AxisSweep sweep(tin, earth, bins);
+//   AxisSweep::Heights heights;                             // grid units, one a cell
+//   sweep.run(axis, eyes, scratch, heights);
+//
+// Method. The tile is cut into sectors about the axis, each about a cell wide at its far end. Along a sector the bounds
+// of BinnedHeights say for nearly every slab and eye that it hides the whole axis, or that it hides nothing; what
+// remains, mostly the slabs about a line's silhouette and the ground before the eye, is decided triangle by triangle in
+// double precision. An eye begins with what hid its neighbours, so that bounds leave little to decide.
+//
+// Accuracy. Every triangle that may hide more than what is known is looked at exactly, and bounds decide by more than
+// rounding. So the line at the height found has a clearance between -kGrazing and 0, up to rounding, or the height is
+// the lower bound; a line is reported hidden only where a triangle or a bound proves it. It agrees with LeastHeights,
+// with Scene::hidden_between and with single lines of sight.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <itin/earth.hpp>
+#include <itin/tin.hpp>
+
+#include "binned_heights.hpp"
+#include "sector_profile.hpp"
+#include "sight_line.hpp"
+#include "surface_heights.hpp"
+
+namespace itin::viewshed {
+
+class AxisSweep {
+ public:
+  /// All must outlive it.
+  AxisSweep(const Tin& tin, const Earth& earth, const BinnedHeights& bins);
+
+  /// Grid units.
+  struct Axis {
+    double x = 0, y = 0;
+    double base = 0, top = 0;  ///< elevations; what of it is seen below its base does not count
+    double radius = 0;         ///< eyes farther away do not look
+  };
+  /// One a cell of a tile, NaN where none stands.
+  struct Eyes {
+    const Tile& tile;
+    const TileCentres& centres;
+    const TileValues<double>& elevation;  ///< grid units
+  };
+  /// Of each cell: where a sight line to its top is hidden NaN, else the least height seen, from base to top. Eyes at
+  /// the axis itself, and beyond its radius, are left out: infinity.
+  using Heights = TileValues<double>;
+
+  /// Memory to use again.
+  using Scratch = SectorProfile;
+  /// For several threads at once, each with its own scratch. Cost: some hundredths of a microsecond an eye that does
+  /// not see the top, a few tenths for others.
+  void run(const Axis& axis, const Eyes& eyes, Scratch& scratch, Heights& heights) const;
+
+ private:
+  class Task;
+
+  const Tin& tin_;
+  const BinnedHeights& bins_;
+  double drop_;     ///< grid units of drop a squared grid unit
+  double grazing_;  ///< grid units
+};
+
+}  // namespace itin::viewshed

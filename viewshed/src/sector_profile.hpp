@@ -1,0 +1,134 @@
+// The surface along a narrow sector of the horizon about an upright axis: how low and how high it is from slab to slab,
+// the slabs being one bin wide along the sector's main direction.
+//
+// Heights are grid units, lowered by the drop at their distance from the axis: then sight lines to the axis are
+// straight, and two heights that a surface keeps between are all it takes to decide most of them.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "binned_heights.hpp"
+
+namespace itin::viewshed {
+
+/// The plane of bins as seen from an axis towards one of four sides: `along` grows away from the axis in bins, by
+/// columns or rows, and `across` is the bins' other coordinate, from the axis.
+class Quadrant {
+ public:
+  enum Side : std::uint8_t { kEast, kWest, kSouth, kNorth };
+
+  Quadrant(const BinnedHeights& bins, double axis_column, double axis_row, Side side);
+
+  bool along_columns() const { return along_columns_; }
+  double along(double column, double row) const { return ((along_columns_ ? column : row) - major_) * outward_; }
+  double across(double column, double row) const { return (along_columns_ ? row : column) - minor_; }
+  /// Column and row.
+  Point2 position(double along, double across) const {
+    const double major = major_ + along * static_cast<double>(outward_), minor = minor_ + across;
+    return along_columns_ ? Point2{major, minor} : Point2{minor, major};
+  }
+
+  /// Slab k, a run of bins, reaches from `begin(k)` to `end(k)` along. Slab 0 begins somewhat behind the axis.
+  double begin(std::size_t slab) const { return end(slab) - static_cast<double>(kRun); }
+  double end(std::size_t slab) const { return first_end_ + static_cast<double>(slab * kRun); }
+  /// Precondition: along >= 0.
+  std::size_t slab_at(double along) const {
+    return along <= first_end_ ? 0 : static_cast<std::size_t>((along - first_end_) / static_cast<double>(kRun)) + 1;
+  }
+  std::size_t slabs() const { return per_end_.size(); }
+  /// 1 / end(slab).
+  double per_end(std::size_t slab) const { return per_end_[slab]; }
+
+  /// Across a slab bins are numbered as columns or rows are; the axis itself stands at `minor()`.
+  double minor() const { return minor_; }
+  std::int64_t lines() const { return lines_; }
+  static constexpr std::size_t kRun = BinnedHeights::kRun;
+  const BinnedHeights::Runs& runs() const { return runs_; }
+  std::size_t run(std::size_t slab, std::int64_t line) const {
+    return static_cast<std::size_t>(line * runs_.a_line + run_of(slab));
+  }
+  /// The i-th bin of a run, nearest first; it reaches from begin(slab) + i one bin along. May lie just outside all
+  /// bins.
+  RasterGrid::Cell bin(std::size_t slab, std::size_t i, std::int64_t line) const {
+    const auto at = static_cast<std::int64_t>(outward_ > 0 ? i : kRun - 1 - i);
+    const std::int64_t major = run_of(slab) * static_cast<std::int64_t>(kRun) + at;
+    return along_columns_ ? RasterGrid::Cell{major, line} : RasterGrid::Cell{line, major};
+  }
+  const BinnedHeights& bins() const { return bins_; }
+
+ private:
+  std::int64_t run_of(std::size_t slab) const { return first_run_ + outward_ * static_cast<std::int64_t>(slab); }
+
+  const BinnedHeights& bins_;
+  bool along_columns_;
+  const BinnedHeights::Runs& runs_;
+  std::int64_t outward_;
+  double major_, minor_;
+  std::int64_t first_run_, lines_;
+  double first_end_;
+  std::vector<double> per_end_;
+};
+
+/// What lies within slopes [from, to] of a quadrant (across / along).
+class SectorProfile {
+ public:
+  struct Axis {
+    double top = 0;     ///< the height that hiding is about
+    double drop = 0;    ///< grid units of drop a squared bin
+    double margin = 0;  ///< grid units by which bounds must decide: above all rounding
+  };
+
+  /// Of the slabs before `count`; hidden_below() is asked about those from `nearest` on. Reuses what memory it has.
+  void survey(const Quadrant& quadrant, double from, double to, std::size_t nearest, std::size_t count,
+              const Axis& axis);
+
+  /// Lines up to the axis' top that rise by less than this outward a bin, and begin in this slab, are certainly hidden.
+  double hidden_below(std::size_t slab) const { return hidden_below_[slab - nearest_]; }
+
+  /// Calls visit(slab) from `last` inwards for every slab that may rise above a line of height line.least() at the axis
+  /// that rises by line.slope() outward a bin; both may change meanwhile, and visit ends the search by returning false.
+  template <class Line, class Visit>
+  void search(std::size_t last, const Line& line, const Visit& visit);
+
+ private:
+  static constexpr std::size_t kGroup = 8, kBlock = 64;
+
+  template <class Visit>
+  void for_each_slab(const Visit& visit) const;
+  void survey_lows();
+  void survey_highs();
+
+  const Quadrant* quadrant_ = nullptr;
+  double from_ = 0, to_ = 0, near_drop_ = 0, far_drop_ = 0;
+  std::size_t nearest_ = 0, count_ = 0;
+  Axis axis_;
+  bool highs_known_ = false;
+  std::vector<float> high_, group_high_, block_high_;  ///< of a slab, of 8, of 64
+  std::vector<double> hidden_below_;                   ///< by what lies nearer than slab nearest_ + i
+};
+
+template <class Line, class Visit>
+void SectorProfile::search(std::size_t last, const Line& line, const Visit& visit) {
+  if (!highs_known_) survey_highs();
+  // The lowest point of the line over the slabs from first to last.
+  const auto lowest = [&](std::size_t from, std::size_t to) {
+    const double s = line.slope();
+    return line.least() - axis_.margin + s * (s < 0 ? quadrant_->end(to) : quadrant_->begin(from));
+  };
+  for (std::size_t block = last / kBlock + 1; block-- > 0;) {
+    const std::size_t block_first = block * kBlock, block_last = std::min(last, block_first + kBlock - 1);
+    if (block_high_[block] <= lowest(block_first, block_last)) continue;
+    for (std::size_t group = block_last / kGroup + 1; group-- > block_first / kGroup;) {
+      const std::size_t group_first = group * kGroup, group_last = std::min(last, group_first + kGroup - 1);
+      if (group_high_[group] <= lowest(group_first, group_last)) continue;
+      for (std::size_t slab = group_last + 1; slab-- > group_first;)
+        if (high_[slab] > lowest(slab, slab) && !visit(slab)) return;
+    }
+  }
+}
+
+}  // namespace itin::viewshed
