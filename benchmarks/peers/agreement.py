@@ -2,7 +2,7 @@
 """How far two viewsheds on one grid agree: agreement.py A.tif B.tif
 
 Prints the intersection over union of their visible cells (value 1), over the cells where both have data, and how many
-cells differ.
+cells differ. One may be cut from the other's grid, as gdal_viewshed cuts its raster to the radius.
 """
 import sys
 
@@ -21,10 +21,20 @@ def read(path):
     return raster.GetGeoTransform(), cells == 1, has_data
 
 
-transform_a, visible_a, data_a = read(sys.argv[1])
-transform_b, visible_b, data_b = read(sys.argv[2])
-if visible_a.shape != visible_b.shape or not np.allclose(transform_a, transform_b):
-    sys.exit(f"{sys.argv[1]} and {sys.argv[2]} lie on different grids")
+def common(a, b):
+    """The parts of two rasters that lie over each other."""
+    (grid_a, visible_a, data_a), (grid_b, visible_b, data_b) = a, b
+    shift = np.array([(grid_b[0] - grid_a[0]) / grid_a[1], (grid_b[3] - grid_a[3]) / grid_a[5]])
+    if not np.allclose(grid_a[1::4], grid_b[1::4]) or not np.allclose(shift, np.rint(shift), atol=1e-3):
+        sys.exit(f"{sys.argv[1]} and {sys.argv[2]} lie on different grids")
+    column, row = np.rint(shift).astype(int)
+    rows = slice(max(row, 0), min(visible_a.shape[0], visible_b.shape[0] + row))
+    columns = slice(max(column, 0), min(visible_a.shape[1], visible_b.shape[1] + column))
+    there = slice(rows.start - row, rows.stop - row), slice(columns.start - column, columns.stop - column)
+    return visible_a[rows, columns], data_a[rows, columns], visible_b[there], data_b[there]
+
+
+visible_a, data_a, visible_b, data_b = common(read(sys.argv[1]), read(sys.argv[2]))
 both = data_a & data_b
 intersection = np.count_nonzero(visible_a & visible_b & both)
 union = np.count_nonzero((visible_a | visible_b) & both)

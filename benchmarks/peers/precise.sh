@@ -52,7 +52,7 @@ compare() {  # compare CASE STORE DEM X Y RADIUS (0: the whole raster)
   fi
   echo "$name: mast at $x,$y, $eye m up, targets $target m up, radius $radius"
   if [ ! -f "$store" ]; then measure "itin import" "$itin" import --quiet "$store" "$dem"; fi
-  local call=("$itin" viewshed "$store" --observer "$x,$y,$eye" --target-height $target --like "$cells" --quiet)
+  local call=("$itin" viewshed "$store" --observer "$x,$y,$eye" --target-height $target --like "$cells" --nodata clear --quiet)
   if [ "$radius" != 0 ]; then call+=(--radius "$radius"); else call+=(--radius 1e6); fi
   measure gdal_viewshed gdal_viewshed -q -ox "$x" -oy "$y" -oz $eye -tz $target -md "$radius" -vv 1 -iv 0 -ov 255 \
     -cc "$(awk "BEGIN { print 1 - $refraction }")" "$cells" "$out/gdal.tif"

@@ -13,6 +13,7 @@
 #include <viewshed/site_coverage.hpp>
 
 #include "../envelope.hpp"
+#include "../near_ground.hpp"
 #include "../request.hpp"
 #include "../stopwatch.hpp"
 #include "cell_blocks.hpp"
