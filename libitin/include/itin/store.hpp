@@ -111,8 +111,8 @@ class Store {
 };
 
 /// Reads every byte of the store and verifies checksums, index, order and counts, and that certificates are present
-/// wherever there is ground. Returns an empty vector for a sound store. Throws FileError when reading itself fails,
-/// and Cancelled.
+/// wherever there is ground, and in a sound store that features rise no higher above it than the index says. Returns an
+/// empty vector for a sound store. Throws FileError when reading itself fails, and Cancelled.
 std::vector<Damage> check(const Store& store, Progress& progress);
 
 }  // namespace itin

@@ -121,11 +121,7 @@ class GroupBuilder {
     if (!terrain_) return false;
     GridBox box;
     for (const ArrangedPatch& patch : arrangement_.patches) box.extend(bounds_of(patch.footprint));
-    const std::vector<std::uint32_t> near = terrain_->triangles_near(box);
-    return std::all_of(near.begin(), near.end(), [&](std::uint32_t t) {
-      const auto z = [&](std::size_t i) { return terrain_->vertex(terrain_->triangle(t)[i]).z; };
-      return z(0) == z(1) && z(1) == z(2) && z(0) == terrain_->vertex(terrain_->triangle(near.front())[0]).z;
-    });
+    return terrain_->level_about(box);
   }
 
   void add_feet() {

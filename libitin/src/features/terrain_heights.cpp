@@ -122,13 +122,33 @@ std::vector<std::uint32_t> TerrainHeights::triangles_near(const GridBox& box) co
       const std::size_t i = static_cast<std::size_t>(r) * columns_ + c;
       for (std::uint32_t k = first_[i]; k < first_[i + 1]; ++k) {
         const Triangle& v = tin_->triangles[triangles_[k]];
-        if (box.meets(box_of(vertex(v[0]), vertex(v[1]), vertex(v[2])))) found.push_back(triangles_[k]);
+        const GridBox own = box_of(vertex(v[0]), vertex(v[1]), vertex(v[2]));
+        if (!box.meets(own)) continue;
+        // In the first of the buckets that list it.
+        const GridBox all = bucket_range(own);
+        if (c == std::max(all.xmin, range.xmin) && r == std::max(all.ymin, range.ymin)) found.push_back(triangles_[k]);
       }
     }
   }
   std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
+}
+
+bool TerrainHeights::level_about(const GridBox& box) const {
+  const GridBox range = bucket_range(box);
+  std::optional<std::int32_t> height;
+  for (std::int32_t r = range.ymin; r <= range.ymax && !range.empty(); ++r) {
+    for (std::int32_t c = range.xmin; c <= range.xmax; ++c) {
+      const std::size_t i = static_cast<std::size_t>(r) * columns_ + c;
+      for (std::uint32_t k = first_[i]; k < first_[i + 1]; ++k) {
+        for (const std::uint32_t v : tin_->triangles[triangles_[k]]) {
+          if (height && *height != vertex(v).z) return false;
+          height = vertex(v).z;
+        }
+      }
+    }
+  }
+  return true;
 }
 
 namespace {

@@ -32,6 +32,8 @@ class TerrainHeights {
 
   /// Indices, ascending, of the triangles whose boxes meet the box.
   std::vector<std::uint32_t> triangles_near(const GridBox& box) const;
+  /// Whether triangles near a box are all equally high and level. False also where only those a little further are not.
+  bool level_about(const GridBox& box) const;
   /// Of those that meet the closed segment ab, ascending.
   std::vector<std::uint32_t> triangles_along(Position a, Position b) const;
   const Triangle& triangle(std::uint32_t t) const { return tin_->triangles[t]; }

@@ -1,4 +1,5 @@
-// A real wood on real ground: the Environment Agency's canopy heights at 1 m as blocks of vegetation over OS Terrain 50.
+// A real wood on real ground: the Environment Agency's canopy heights at 1 m as blocks of vegetation over OS
+// Terrain 50.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -104,8 +105,8 @@ TEST(Canopy, FingleWoodsStandAsHighAsTheyWereMeasured) {
     for (int column = 0; column + kSide <= canopy.columns; column += kSide) {
       const double height = mean_height(canopy, column, row);
       for (const int off : {4, 11, 19}) {
-        const GridPoint p = bare.grid.quantise(
-            {canopy.corner.x + column + off + 0.5, canopy.corner.y - row - kSide + off + 0.5, 0});
+        const GridPoint p =
+            bare.grid.quantise({canopy.corner.x + column + off + 0.5, canopy.corner.y - row - kSide + off + 0.5, 0});
         const double above = *high.height_at({p.x, p.y}) - *low.height_at({p.x, p.y});
         errors.push_back(std::abs(above - (height < kLeast ? 0 : height)));
         rise += above;

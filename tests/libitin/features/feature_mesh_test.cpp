@@ -244,6 +244,37 @@ INSTANTIATE_TEST_SUITE_P(OfAllSizes, FeatureMeshCrowds,
                          testing::Values(Crowd{15, 15, 0.05}, Crowd{3, 2, 0.05}, Crowd{0.5, 0.5, 0.02},
                                          Crowd{0.15, 0.1, 0.02}));
 
+// The same on ground as rough as they are large: nothing sinks into it, and its edges stay planar with all lines.
+TEST(FeatureMesh, SurvivesAnythingOnRoughGround) {
+  std::mt19937 random = seeded();
+  std::uint64_t built = 0, joined = 0, ground = 0;
+  for (int round = 0; round < 40; ++round) {
+    std::uniform_real_distribution<double> height(0.5, 9), rough(0, 6);
+    const double step = round % 2 == 0 ? 2 : 7;
+    const Tin tin = test::lattice_tin(
+        20, 20, step, [&](auto, auto) { return rough(random); }, 0.01, kFeatureGrid.origin);
+    const TerrainHeights terrain(tin);
+    std::uniform_real_distribution<double> centre(6 * step, 13 * step);
+    std::uniform_int_distribution<int> count(1, 6), corners(3, 9), roof(0, 3), kind(0, 2);
+    std::vector<FootprintFeature> features;
+    for (int i = count(random); i > 0; --i) {
+      const Point2 at{kFeatureGrid.origin.x + centre(random), kFeatureGrid.origin.y + centre(random)};
+      features.push_back(house("f" + std::to_string(i), {random_ring(random, 2.5 * step, corners(random), at)}, 3,
+                               height(random), static_cast<RoofKind>(roof(random))));
+      features.back().kind = static_cast<FeatureKind>(kind(random));
+      if (round % 3 != 0) features.back().base.reset();
+    }
+    const FeatureMesh mesh = meshed(features, &terrain);
+    ASSERT_NO_FATAL_FAILURE(expect_planar(mesh)) << "round " << round;
+    for (const GridPoint& p : mesh.vertices)
+      ASSERT_GE(p.z, std::floor(*terrain.height_at({p.x, p.y}) / mesh.grid.resolution)) << "round " << round;
+    built += mesh.built, joined += reported(mesh, "were joined"), ground += mesh.ground.size() + mesh.border.size();
+  }
+  std::cout << built << " built, " << ground << " edges of ground; lines joined in " << joined << " of 40 rounds\n";
+  EXPECT_GT(built, 40U);
+  EXPECT_GT(ground, 1000U);
+}
+
 // Rectangles on a coarse lattice: edges overlap, corners meet edges and corners all the time.
 TEST(FeatureMesh, SurvivesTouchingInEveryWay) {
   std::mt19937 random = seeded();
