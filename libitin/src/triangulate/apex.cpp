@@ -134,9 +134,13 @@ bool ApexSearch::hidden(Position c, Search& search) const {
 }
 
 std::optional<SelectedVertex> ApexSearch::nearest_circle(const ApexFrame& frame, double lambda, const Position* beyond,
-                                                         const GridBox& known) {
+                                                         const GridBox& known, Segments segments) {
   Search search{frame, frame.cap_box(lambda, index_.bounds()), known, beyond, lambda};
   if (search.box.empty()) return std::nullopt;
+  if (segments == Segments::kPassed) {
+    segments_.clear();
+    search.segments_known = true;
+  }
   // Best first, by halves of a wide box's longer side: what is near has the answer, and may have none of the points.
   using Piece = std::tuple<double, int, GridBox>;
   const auto later = [](const Piece& p, const Piece& q) { return std::get<0>(p) > std::get<0>(q); };
@@ -205,10 +209,18 @@ void ApexSearch::look_in(const Leaf& leaf, Search& search) {
 
 std::optional<SelectedVertex> ApexSearch::intruder(Position a, Position b, Position c) {
   const ApexFrame frame(a, b);
-  return nearest_circle(frame, frame.lambda(c), &c, known_);
+  return nearest_circle(frame, frame.lambda(c), &c, known_, Segments::kHide);
 }
 
 std::optional<SelectedVertex> ApexSearch::apex(Position a, Position b) {
+  return left_of(a, b, Segments::kHide);
+}
+
+std::optional<SelectedVertex> ApexSearch::nearest_left_of(Position a, Position b) {
+  return left_of(a, b, Segments::kPassed);
+}
+
+std::optional<SelectedVertex> ApexSearch::left_of(Position a, Position b, Segments segments) {
   const GridBox all = index_.bounds();
   // The edges along the border of a raster are many.
   const Position farthest{b.y > a.y ? all.xmin : all.xmax, b.x > a.x ? all.ymax : all.ymin};
@@ -217,12 +229,12 @@ std::optional<SelectedVertex> ApexSearch::apex(Position a, Position b) {
   const double span =
       frame.r + std::hypot(static_cast<double>(all.xmax) - all.xmin, static_cast<double>(all.ymax) - all.ymin);
   for (double lambda = frame.r; lambda < span; lambda *= 4) {
-    const auto best = nearest_circle(frame, lambda, nullptr, {});
+    const auto best = nearest_circle(frame, lambda, nullptr, {}, segments);
     // What lies on the searched circle itself may have rivals that rounding left out.
     if (best && frame.lambda(best->position()) < 0.999 * lambda) return best;
   }
   // A grid position left of ab is at least 1 / |ab| away from it, so no circle is larger than this.
-  return nearest_circle(frame, span * span * (frame.r + 1), nullptr, {});
+  return nearest_circle(frame, span * span * (frame.r + 1), nullptr, {}, segments);
 }
 
 std::optional<SelectedVertex> ApexSearch::inside(Position a, Position b, Position c) {

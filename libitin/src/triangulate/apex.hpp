@@ -54,6 +54,8 @@ class ApexSearch {
   /// The third vertex of the triangle to the left of ab, an edge of the global triangulation that is no constraint;
   /// nullopt on the hull.
   std::optional<SelectedVertex> apex(Position a, Position b);
+  /// The vertex to the left of ab with the least circle, whatever segments come between; nullopt if there is none.
+  std::optional<SelectedVertex> nearest_left_of(Position a, Position b);
 
   /// A vertex to the left of ab, visible from both ends, inside the circle through a, b and c, which lies to the right
   /// of ab: the least such circle's, if there is any. (By the tie rule, where a vertex lies on the circle.)
@@ -71,8 +73,10 @@ class ApexSearch {
   struct Search;
   void read_segments(const ApexFrame& frame, const GridBox& box);
   bool hidden(Position c, Search& search) const;
+  enum class Segments { kHide, kPassed };
+  std::optional<SelectedVertex> left_of(Position a, Position b, Segments segments);
   std::optional<SelectedVertex> nearest_circle(const ApexFrame& frame, double lambda, const Position* beyond,
-                                               const GridBox& known);
+                                               const GridBox& known, Segments segments);
   void look_in(const GridBox& piece, Search& search);
   void look_in(const Leaf& leaf, Search& search);
 

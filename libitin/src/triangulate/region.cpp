@@ -441,7 +441,10 @@ class RegionTriangulation {
     const Position p = position(from), q = position(to);
     const Triangle key{from, to, kNoTriangle};
     if (!tile_reaches_left_of(p, q, 0) || proven_.contains(key)) return;
-    if (const auto found = search_.apex(p, q)) {
+    auto found = search_.apex(p, q);
+    // An edge between ends of segments far away may be none of the whole surface's: then lines may hide all from it.
+    if (!found) found = search_.nearest_left_of(p, q);
+    if (found) {
       intruders.push_back(*found);
     } else {
       proven_.insert(key);

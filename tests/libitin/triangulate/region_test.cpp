@@ -362,14 +362,23 @@ void expect_windows_equal_whole(const std::vector<GridPoint>& points, const std:
   }
 }
 
-TEST_P(RegionLines, WindowEqualsWholeAtEveryLevelWithAndWithoutATheme) {
-  const auto seed = static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed());
+void expect_windows_equal_whole_among_lines(Pattern pattern, unsigned seed) {
   SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937 random(seed + static_cast<unsigned>(GetParam()));
+  std::mt19937 random(seed + static_cast<unsigned>(pattern));
   for (int run = 0; run < 3; ++run) {
-    const std::vector<GridPoint> points = test::make_points(GetParam(), 20 + static_cast<int>(random() % 1000), random);
+    const std::vector<GridPoint> points = test::make_points(pattern, 20 + static_cast<int>(random() % 1000), random);
     expect_windows_equal_whole(points, random_segments(points, 1 + static_cast<int>(random() % 40), random), random);
   }
+}
+
+TEST_P(RegionLines, WindowEqualsWholeAtEveryLevelWithAndWithoutATheme) {
+  expect_windows_equal_whole_among_lines(GetParam(),
+                                         static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed()));
+}
+
+/// Far ends of lines were the hull of what a window had read, and lines hid from them all that lies beyond.
+TEST(RegionLinesOnce, AWindowBeyondTheHullOfFarEndsIsNotEmpty) {
+  expect_windows_equal_whole_among_lines(Pattern{2}, 39023);
 }
 
 TEST_P(RegionLines, WindowEqualsWholeAlongStreets) {
