@@ -1,6 +1,7 @@
 // itin los: line-of-sight verdicts and reports.
 
 #include <filesystem>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -81,7 +82,8 @@ class LosVerb final : public Verb {
     radio_.declare(app);
     app.add_option(
            "--report", reports_,
-           "Write the report, as its ending says: .json .csv .svg .pdf .png .html .kml .gpkg; may be given again")
+           "Write the report, as its ending says: .json .csv .svg .pdf .png .html .kml .gpkg; may be given again. With "
+           "--links one for each: {id} in the name stands for the link's")
         ->type_name("FILE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -94,11 +96,19 @@ class LosVerb final : public Verb {
     radio_.validate();
     if (links_.given()) {
       if (store_.empty() || line_.given()) throw InputError("--links takes a STORE, and the place of --from and --to");
-      if (!reports_.empty()) throw InputError("--report is for one line; --links writes a table, -o out.csv");
+      for (const std::string& path : reports_) {
+        profile::require_report_format(path, true);
+        if (path.find(kId) == std::string::npos)
+          throw InputError(
+              fmt::format("--report '{}': with --links give each link a file of its own, such as "
+                          "reports/{}.pdf",
+                          path, kId));
+      }
       links_.validate();
       line_.validate_surface();
       query_.earth = earth_.earth();
       query_.radio = radio_.radio(query_.earth);
+      query_.criteria = radio_.criteria();
       return;
     }
     if (store_.empty() == profile_csv_.empty()) throw InputError("give a STORE with --from and --to, or --profile-csv");
@@ -138,19 +148,24 @@ class LosVerb final : public Verb {
     for (const std::string& path : reports_) policy_.require_writable(path);
     Result result = store_.empty() ? run_profile() : run_store();
     add_warnings(result);
-    Document whole{{"itin", ITIN_VERSION}, {"command", {{"verb", name()}}}};
-    whole["command"].update(parameters());
-    whole.update(result.document);
-    whole["warnings"] = result.warnings;
-    for (const std::string& path : reports_) {
-      profile::write_report(report_, whole.dump(2) + "\n", path, policy_.overwrite);
-    }
+    write_reports(result, reports_);
     result.document["outputs"] = reports_;
     result.text = text_of(report_);
     return result;
   }
 
  private:
+  /// Of a link, in names of files.
+  static constexpr const char* kId = "{id}";
+
+  void write_reports(const Result& result, const std::vector<std::string>& paths) const {
+    Document whole{{"itin", ITIN_VERSION}, {"command", {{"verb", name()}}}};
+    whole["command"].update(parameters());
+    whole.update(result.document);
+    whole["warnings"] = result.warnings;
+    for (const std::string& path : paths) profile::write_report(report_, whole.dump(2) + "\n", path, policy_.overwrite);
+  }
+
   Result run_profile() {
     query_.from_height_m = heights_[0], query_.to_height_m = heights_[1];
     query_.points_as_given = true;
@@ -176,15 +191,56 @@ class LosVerb final : public Verb {
   Result run_links(Progress& progress) {
     policy_.require_writable(links_.output());
     const Store store(store_);
-    Result result = links_.run(store, line_, query_, policy_.overwrite, progress);
+    const std::vector<profile::Link> links = links_.links(store, line_);
+    const std::vector<std::vector<std::string>> reports = reports_of(links);
+    Result result = links_.run(store, links, line_, query_, policy_.overwrite, progress);
     result.document["refraction"] = earth_.document();
     add_warnings(result);
+    for (std::size_t i = 0; i < links.size() && !reports_.empty(); ++i) {
+      progress.throw_if_cancelled();
+      progress.report("reports", static_cast<double>(i) / static_cast<double>(links.size()));
+      report_link(store, links[i], reports[i], result);
+    }
     return result;
+  }
+
+  /// The files of each link's reports. Throws InputError where two would be one, FileError where one cannot be written.
+  std::vector<std::vector<std::string>> reports_of(const std::vector<profile::Link>& links) const {
+    std::vector<std::vector<std::string>> result(links.size());
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      for (std::string path : reports_) {
+        path.replace(path.find(kId), std::string_view(kId).size(), file_name(links[i].id));
+        if (!names.insert(path).second)
+          throw InputError(fmt::format("--report: two links' reports would be {}; give links different ids", path));
+        policy_.require_writable(path);
+        result[i].push_back(std::move(path));
+      }
+    }
+    return result;
+  }
+
+  /// A link without a verdict has no report; the table says why.
+  void report_link(const Store& store, const profile::Link& link, const std::vector<std::string>& paths,
+                   Result& result) {
+    Result one;
+    try {
+      one = run_line(store, line_.run(store, query_, {link.from, link.to, link.from_height, link.to_height}));
+    } catch (const InputError&) {
+      return;
+    }
+    if (title_.empty()) report_.title = "Line-of-sight report: " + link.id;
+    one.document["link"] = link.id;
+    write_reports(one, paths);
+    for (const std::string& path : paths) result.document["outputs"].push_back(path);
   }
 
   Result run_store() {
     const Store store(store_);
-    LosStoreOptions::Result line = line_.run(store, query_);
+    return run_line(store, line_.run(store, query_));
+  }
+
+  Result run_line(const Store& store, LosStoreOptions::Result line) {
     report_ = std::move(line.report);
     Result result;
     result.warnings = std::move(line.warnings);

@@ -66,10 +66,13 @@ Document LosLinks::parameters() const {
   return {{"links", path_}, {"link_height_m", height_}};
 }
 
-Result LosLinks::run(const Store& store, const LosStoreOptions& surface, const profile::LosQuery& query, bool overwrite,
-                     Progress& progress) const {
+std::vector<Link> LosLinks::links(const Store& store, const LosStoreOptions& surface) const {
+  return profile::read_links(path_, store.metadata().crs_wkt, height_, surface.in_crs());
+}
+
+Result LosLinks::run(const Store& store, const std::vector<Link>& links, const LosStoreOptions& surface,
+                     const profile::LosQuery& query, bool overwrite, Progress& progress) const {
   const StoreMetadata& metadata = store.metadata();
-  const std::vector<Link> links = profile::read_links(path_, metadata.crs_wkt, height_, surface.in_crs());
   const std::vector<LinkResult> results = profile::survey_links(store, links,
                                                                 {.earth = query.earth,
                                                                  .detail = surface.detail(),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -22,10 +23,12 @@ class LosLinks {
   /// Throws InputError.
   void validate();
   Document parameters() const;
+  /// In the store's CRS. Throws FileError, InputError.
+  std::vector<profile::Link> links(const Store& store, const LosStoreOptions& surface) const;
   /// Writes the table. Where a link could not be computed the result says so as its failure. Throws FileError,
   /// InputError, CorruptStore, Cancelled.
-  Result run(const Store& store, const LosStoreOptions& surface, const profile::LosQuery& query, bool overwrite,
-             Progress& progress) const;
+  Result run(const Store& store, const std::vector<profile::Link>& links, const LosStoreOptions& surface,
+             const profile::LosQuery& query, bool overwrite, Progress& progress) const;
 
  private:
   std::string path_, output_, height_text_;

@@ -198,9 +198,13 @@ double LosStoreOptions::height_above(const char* option, double ground_m, double
 }
 
 LosStoreOptions::Result LosStoreOptions::run(const Store& store, profile::LosQuery query) const {
+  const auto transform = in_crs_.transform_to(store.metadata().crs_wkt);
+  return run(store, std::move(query), {transform(from_.position), transform(to_.position), from_height_, to_height_});
+}
+
+LosStoreOptions::Result LosStoreOptions::run(const Store& store, profile::LosQuery query, const Ends& ends) const {
   const StoreMetadata& metadata = store.metadata();
-  const auto transform = in_crs_.transform_to(metadata.crs_wkt);
-  const Point2 from = transform(from_.position), to = transform(to_.position);
+  const auto& [from, to, from_height, to_height] = ends;
   const Detail detail = detail_.detail(from);
   const ThemeChoice& themes = themes_.choice();
   CrossSection section = cross_section(store, from, to, detail, themes);
@@ -218,8 +222,8 @@ LosStoreOptions::Result LosStoreOptions::run(const Store& store, profile::LosQue
   require_ground("--to", to, !empty && line.points.back().distance_m == line.length_m);
   query.from_on_surface = from_on_ == "surface", query.to_on_surface = to_on_ == "surface";
   const profile::EndGrounds stands_on = profile::stands_on(line, ground, query);
-  query.from_height_m = height_above("--from", stands_on.from_m, from_height_);
-  query.to_height_m = height_above("--to", stands_on.to_m, to_height_);
+  query.from_height_m = height_above("--from", stands_on.from_m, from_height);
+  query.to_height_m = height_above("--to", stands_on.to_m, to_height);
   query.clearance_error_m = clearance_error(store, detail, themes, from, to);
   query.gaps_block = nodata_text_ == "block";
 

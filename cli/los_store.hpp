@@ -38,6 +38,11 @@ class LosStoreOptions {
   const std::string& in_crs() const { return in_crs_.crs; }
   Document parameters() const;
 
+  /// In the store's CRS; heights as --absolute-heights says.
+  struct Ends {
+    Point2 from, to;
+    double from_height, to_height;
+  };
   struct Result {
     profile::LosReport report;
     LosEnd from, to;
@@ -49,6 +54,8 @@ class LosStoreOptions {
   /// Completes the query by heights and the surface's error, and works out the report. Throws InputError,
   /// CorruptStore, FileError.
   Result run(const Store& store, profile::LosQuery query) const;
+  /// The same between other ends.
+  Result run(const Store& store, profile::LosQuery query, const Ends& ends) const;
 
  private:
   double height_above(const char* option, double ground_m, double given_m) const;

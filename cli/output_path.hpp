@@ -16,4 +16,7 @@ struct OutputPolicy {
   void require_writable(const std::string& path) const;
 };
 
+/// What of a name can be part of every file system's names.
+std::string file_name(const std::string& name);
+
 }  // namespace itin::cli
