@@ -30,11 +30,7 @@ class Links : public testing::Test {
     std::vector<test::LineFeature> houses;
     for (int i = 0; i < 30; ++i) {
       const double x = in(300020, 300540), y = in(199440, 199940), u = x + in(6, 30), v = y + in(6, 30);
-      test::LineFeature f;
-      f.polygon = true;
-      f.vertices = {{x, y, 0}, {u, y, 0}, {u, v, 0}, {x, v, 0}, {x, y, 0}};
-      f.properties = fmt::format(R"({{"h":{}}})", in(3, 15));
-      houses.push_back(f);
+      houses.push_back(test::box(x, y, u, v, in(3, 15)));
     }
     test::write_lines(directory_.file("b.geojson"), houses, true);
     options.sources = {directory_.file("b.geojson")};

@@ -17,6 +17,13 @@ struct LineFeature {
   std::string properties = "{}";  ///< JSON
 };
 
+/// The outline of a box with sides along the axes; its field h is the height of what stands there.
+inline LineFeature box(double x0, double y0, double x1, double y1, double height) {
+  return {.vertices = {{x0, y0, 0}, {x1, y0, 0}, {x1, y1, 0}, {x0, y1, 0}, {x0, y0, 0}},
+          .polygon = true,
+          .properties = fmt::format(R"({{"h":{}}})", height)};
+}
+
 /// Writes 3D coordinates, or 2D ones where `flat`.
 inline void write_lines(const std::string& path, const std::vector<LineFeature>& features, bool flat = false) {
   std::string text =

@@ -11,16 +11,14 @@
 #include "support/exact_line_of_sight.hpp"
 #include "support/real_terrain.hpp"
 #include "support/terrain_tin.hpp"
+#include "support/viewshed_of.hpp"
 
 namespace itin::viewshed {
 namespace {
 
 constexpr Point2 kCorner{300000, 200000};
 
-Result run(const Tin& tin, const Request& request) {
-  NoProgress progress;
-  return compute(tin, request, progress);
-}
+using test::run;
 
 void expect_first(const Tin& tin, Point2 from, double cell, const Earth& earth) {
   Request request;

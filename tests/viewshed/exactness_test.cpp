@@ -144,8 +144,7 @@ TEST(Exactness, BlocksHiddenTogetherAreHidden) {
     const Point2 eye{300000 + in(20000, 44000), 200000 + in(20000, 44000)};
     const double elevation = exact.height(eye).value() + 20;
     SightLines lines;
-    lines.from_x.fill(units(eye.x, eye.y).x), lines.from_y.fill(units(eye.x, eye.y).y),
-        lines.from_z.fill(elevation / unit);
+    lines.start_at({units(eye.x, eye.y).x, units(eye.x, eye.y).y, elevation / unit});
     std::array<Box, 4> boxes;
     std::array<double, 4> level{};  // less the drop
     for (unsigned q = 0; q < 4; ++q) {

@@ -12,6 +12,7 @@
 
 #include "support/exact_line_of_sight.hpp"
 #include "support/terrain_tin.hpp"
+#include "support/viewshed_of.hpp"
 
 namespace itin::viewshed {
 namespace {
@@ -21,10 +22,7 @@ constexpr Point2 kCorner{300000, 200000};
 /// Lines this near to grazing may fall either way in single precision.
 constexpr double kNearGrazing = 0.02;
 
-Result run(const Tin& tin, const Request& request) {
-  NoProgress progress;
-  return compute(tin, request, progress);
-}
+using test::run;
 
 /// Observers strewn over a kilometre and a half of hills, some with views of their own.
 Request strewn(std::size_t count, Mode mode) {

@@ -129,11 +129,11 @@ class InATown : public OneAnswer {
     std::vector<LineFeature> houses, woods;
     for (int i = 0; i < 40; ++i) {
       const double x = in(300020, 300540), y = in(199440, 199940);
-      houses.push_back(block(x, y, x + in(6, 30), y + in(6, 30), in(3, 12)));
+      houses.push_back(test::box(x, y, x + in(6, 30), y + in(6, 30), in(3, 12)));
     }
     for (int i = 0; i < 4; ++i) {
       const double x = in(300020, 300450), y = in(199440, 199850);
-      woods.push_back(block(x, y, x + in(20, 90), y + in(20, 90), in(5, 15)));
+      woods.push_back(test::box(x, y, x + in(20, 90), y + in(20, 90), in(5, 15)));
     }
     raise(ThemeKind::Vegetation, "woods", woods);
     raise(ThemeKind::Buildings, "houses", houses);
@@ -142,14 +142,6 @@ class InATown : public OneAnswer {
     request_.cell_size = 3;
     request_.themes = ThemeChoice::all();
     request_.target_height = 1.7;
-  }
-
-  static LineFeature block(double x0, double y0, double x1, double y1, double height) {
-    LineFeature f;
-    f.polygon = true;
-    f.vertices = {{x0, y0, 0}, {x1, y0, 0}, {x1, y1, 0}, {x0, y1, 0}, {x0, y0, 0}};
-    f.properties = fmt::format(R"({{"h":{}}})", height);
-    return f;
   }
 
   void raise(ThemeKind kind, const std::string& theme, const std::vector<LineFeature>& features) {

@@ -11,6 +11,7 @@
 
 #include "support/exact_line_of_sight.hpp"
 #include "support/terrain_tin.hpp"
+#include "support/viewshed_of.hpp"
 #include "vertical_odds.hpp"
 
 namespace itin::viewshed {
@@ -18,10 +19,7 @@ namespace {
 
 constexpr Point2 kCorner{300000, 200000};
 
-Result run(const Tin& tin, const Request& request) {
-  NoProgress progress;
-  return compute(tin, request, progress);
-}
+using test::run;
 
 double correlation(double distance, double length) {
   return distance == 0 ? 1 : length == 0 ? 0 : std::exp(-distance / length);

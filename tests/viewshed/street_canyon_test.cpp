@@ -21,15 +21,10 @@ class StreetCanyon : public testing::Test {
     options.sources = {directory_.file("t.tif")};
     NoProgress progress;
     import_terrain(directory_.file("s.itin"), options, progress);
-    const auto row = [](double from, double to, const char* height) {
-      test::LineFeature f;
-      f.polygon = true;
-      const double x0 = 300000 + from, x1 = 300000 + to;
-      f.vertices = {{x0, 200040, 0}, {x1, 200040, 0}, {x1, 200240, 0}, {x0, 200240, 0}, {x0, 200040, 0}};
-      f.properties = height;
-      return f;
+    const auto row = [](double from, double to, double height) {
+      return test::box(300000 + from, 200040, 300000 + to, 200240, height);
     };
-    test::write_lines(directory_.file("b.geojson"), {row(100, 120, R"({"h":10})"), row(140, 160, R"({"h":20})")}, true);
+    test::write_lines(directory_.file("b.geojson"), {row(100, 120, 10), row(140, 160, 20)}, true);
     options.sources = {directory_.file("b.geojson")};
     options.kind = ThemeKind::Buildings;
     options.height_field = "h";

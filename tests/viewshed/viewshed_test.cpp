@@ -10,6 +10,7 @@
 #include <viewshed/viewshed.hpp>
 
 #include "support/terrain_tin.hpp"
+#include "support/viewshed_of.hpp"
 
 namespace itin::viewshed {
 namespace {
@@ -36,10 +37,7 @@ Request look(double dx, double dy, double height = 2) {
   return request;
 }
 
-Result run(const Tin& tin, const Request& request) {
-  NoProgress progress;
-  return compute(tin, request, progress);
-}
+using test::run;
 
 std::uint8_t at(const Result& result, double dx, double dy) {
   return result.visible[result.grid.index(result.grid.cell_at({kCorner.x + dx, kCorner.y + dy}).value())];

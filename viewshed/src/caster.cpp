@@ -86,7 +86,7 @@ void Caster::look(std::uint32_t observer, std::int64_t row, std::int64_t column,
   const Eye& eye = eyes_[observer];
   LookPacket packet;
   SightLines& lines = packet.lines;
-  lines.from_x.fill(eye.units.x), lines.from_y.fill(eye.units.y), lines.from_z.fill(eye.units.z);
+  lines.start_at(eye.units);
   const double resolution = targets_.grid.resolution, per_metre = 1 / resolution;
   double longest = 0;
   for (unsigned i = 0; i < SightLines::kSize; ++i) {

@@ -185,9 +185,7 @@ void CertifiedPass::hide_quarters(const EnvelopeScene::Look& look, TileValues<st
                                   std::size_t row, std::size_t column, std::size_t side) const {
   const auto rows = static_cast<std::size_t>(work.tile.rows), columns = static_cast<std::size_t>(work.tile.columns);
   SightLines lines;
-  lines.from_x.fill(look.eye.units.x);
-  lines.from_y.fill(look.eye.units.y);
-  lines.from_z.fill(look.eye.units.z);
+  lines.start_at(look.eye.units);
   std::array<CellBlock, 4> blocks{};
   for (unsigned q = 0; q < 4; ++q) {
     const std::size_t r = row + q / 2 * side, c = column + q % 2 * side;
@@ -221,11 +219,7 @@ void CertifiedPass::judge(const EnvelopeScene::Look& look, TileValues<std::uint8
   for (std::size_t row = 0; row < rows; row += kPacketSide) {
     for (std::size_t column = 0; column < columns; column += kPacketSide) {
       Packet packet{.row = row, .column = column, .low = {}, .high = {}};
-      for (SightLines* const lines : {&packet.low, &packet.high}) {
-        lines->from_x.fill(look.eye.units.x);
-        lines->from_y.fill(look.eye.units.y);
-        lines->from_z.fill(look.eye.units.z);
-      }
+      for (SightLines* const lines : {&packet.low, &packet.high}) lines->start_at(look.eye.units);
       fill(look, values, work, packet);
       const unsigned all = packet.low.active, under = packet.starts_under | packet.ends_under | packet.ambiguous;
       if (all == 0) continue;

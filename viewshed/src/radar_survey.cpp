@@ -28,7 +28,7 @@ class RadarTile {
  private:
   void look(std::int64_t row, std::int64_t column, const LeastHeights& heights, std::vector<float>& result) {
     SightLines lines;
-    lines.from_x.fill(radar_.units.x), lines.from_y.fill(radar_.units.y), lines.from_z.fill(radar_.units.z);
+    lines.start_at(radar_.units);
     LeastHeights::Heights lower{};
     for (unsigned i = 0; i < SightLines::kSize; ++i) {
       const std::int64_t r = row + i / kPacketSide, c = column + i % kPacketSide;

@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include <itin/geometry.hpp>
+
 namespace itin::viewshed {
 
 /// In grid units (heights too).
@@ -11,6 +13,13 @@ struct SightLines {
   alignas(64) std::array<double, kSize> from_x{}, from_y{}, from_z{};
   alignas(64) std::array<double, kSize> to_x{}, to_y{}, to_z{};
   unsigned active = 0;  ///< one bit a line; ends of active lines differ horizontally
+
+  /// All from one eye.
+  void start_at(const Point3& eye) {
+    from_x.fill(eye.x);
+    from_y.fill(eye.y);
+    from_z.fill(eye.z);
+  }
 };
 
 /// Packets are four by four cells: the closer together, the fewer boxes of a scene they meet.

@@ -32,11 +32,10 @@ VisibilitySampler::Tally VisibilitySampler::look(Point2 eye, double elevation, s
   Random random(seed);
   Occluder occluder;
   Tally tally;
+  const Point3 from{easting_in_units(grid_, eye.x), northing_in_units(grid_, eye.y), elevation / grid_.resolution};
   while (tally.asked < targets_) {
     SightLines lines;
-    lines.from_x.fill(easting_in_units(grid_, eye.x));
-    lines.from_y.fill(northing_in_units(grid_, eye.y));
-    lines.from_z.fill(elevation / grid_.resolution);
+    lines.start_at(from);
     for (unsigned i = 0; i < SightLines::kSize; ++i) {
       const double distance = radius_ * std::sqrt(random.next());
       const double azimuth = 2 * std::numbers::pi * random.next();

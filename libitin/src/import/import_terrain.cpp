@@ -139,13 +139,9 @@ void add_lines(LineLayer& layer, std::uint16_t number, const ImportPlan& plan, c
 
 /// The vertices of the terrain's lines are points of the full surface.
 void add_line_vertices(const ThemeLines& lines, PointSorter& sorter) {
-  std::vector<bool> terrain(lines.lines.vertices.size());
-  for (const PlanarEdge& e : lines.lines.edges) {
-    if (lines.lies(e) && lines.terrain[e.owner]) terrain[e.from] = terrain[e.to] = true;
-  }
-  for (std::size_t v = 0; v < terrain.size(); ++v) {
+  for (const std::uint32_t v : lines.terrain_vertices()) {
     const GridPoint& p = lines.lines.vertices[v];
-    if (terrain[v]) sorter.add({morton(p.x, p.y), p.z, lines.sources[v], 0});
+    sorter.add({code_of(p), p.z, lines.sources[v], 0});
   }
 }
 

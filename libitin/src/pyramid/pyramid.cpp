@@ -36,16 +36,10 @@ std::vector<std::array<double, 4>> gap_bases(const std::vector<SourceInfo>& sour
   return bases;
 }
 
-/// The vertices of the terrain's lines, as ascending Morton codes.
-std::vector<std::uint64_t> terrain_vertices(const ThemeLines& lines) {
+/// Of the vertices of the terrain's lines, ascending, as those are in Morton order.
+std::vector<std::uint64_t> terrain_codes(const ThemeLines& lines) {
   std::vector<std::uint64_t> codes;
-  for (const PlanarEdge& e : lines.lines.edges) {
-    if (lines.stands(e) || !lines.terrain[e.owner]) continue;
-    for (const std::uint32_t v : {e.from, e.to})
-      codes.push_back(morton(lines.lines.vertices[v].x, lines.lines.vertices[v].y));
-  }
-  std::sort(codes.begin(), codes.end());
-  codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
+  for (const std::uint32_t v : lines.terrain_vertices()) codes.push_back(code_of(lines.lines.vertices[v]));
   return codes;
 }
 
@@ -232,7 +226,7 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
     if (is_ground(sources[s])) ground.insert(static_cast<std::uint16_t>(s));
   }
   const Sources* const only = ground.size() < sources.size() ? &ground : nullptr;
-  report.replaced = drop_replaced(*working, tiles, sources, bases, terrain_vertices(lines), progress);
+  report.replaced = drop_replaced(*working, tiles, sources, bases, terrain_codes(lines), progress);
   Proposal proposal = lines.empty() ? propose_levels(*working, tiles, bases, in_units, progress)
                                     : find_ground(*working, tiles, bases, only, progress);
   report.isolated = working->drop(std::move(proposal.isolated));

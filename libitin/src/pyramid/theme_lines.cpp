@@ -152,6 +152,15 @@ class OutlineTest {
 
 }  // namespace
 
+std::vector<std::uint32_t> ThemeLines::terrain_vertices() const {
+  std::vector<std::uint32_t> vertices;
+  for (const PlanarEdge& e : lines.edges)
+    if (lies(e) && terrain[e.owner]) vertices.insert(vertices.end(), {e.from, e.to});
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
 std::vector<Segment> standing_segments(const ThemeLines& lines) {
   std::vector<Segment> segments;
   for (const PlanarEdge& e : lines.lines.edges) {
@@ -231,12 +240,8 @@ PlacedLines place_lines(const ThemeLines& lines, const WorkingIndex& index, cons
   placed.left_out = static_cast<std::uint64_t>(on_the_ground) - placed.terrain.size() - placed.features.size();
   std::sort(placed.ends.begin(), placed.ends.end());
   placed.ends.erase(std::unique(placed.ends.begin(), placed.ends.end()), placed.ends.end());
-  for (const PlanarEdge& e : lines.lines.edges) {
-    if (!lines.lies(e) || !lines.terrain[e.owner]) continue;
-    for (const std::uint32_t v : {e.from, e.to}) {
-      if (!lies(v)) placed.strays.push_back(codes[v]);
-    }
-  }
+  for (const std::uint32_t v : lines.terrain_vertices())
+    if (!lies(v)) placed.strays.push_back(codes[v]);
   return placed;
 }
 

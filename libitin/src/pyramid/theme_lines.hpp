@@ -51,6 +51,8 @@ struct ThemeLines {
   bool keeps_ground(const PlanarEdge& e) const { return !stands(e) && standing[e.owner]; }
   /// Whether it is a line on the ground.
   bool lies(const PlanarEdge& e) const { return !stands(e) && !standing[e.owner]; }
+  /// The numbers of the vertices of the terrain's lines, ascending: points of the full surface.
+  std::vector<std::uint32_t> terrain_vertices() const;
   /// Whether no line lies on the ground.
   bool empty() const {
     return std::none_of(lines.edges.begin(), lines.edges.end(), [&](const PlanarEdge& e) { return lies(e); });

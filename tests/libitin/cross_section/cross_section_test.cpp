@@ -8,31 +8,16 @@
 
 #include "cross_section/retrieval.hpp"
 #include "support/covered_index.hpp"
+#include "support/section_text.hpp"
 #include "support/slow_section.hpp"
 #include "triangulate/region.hpp"
 
 namespace itin {
 namespace {
 
+using test::mirrored;
 using test::Pattern;
-
-std::string text(const CrossSection& section) {
-  std::ostringstream out;
-  out.precision(17);
-  for (const Breakpoint& b : section.breakpoints) {
-    out << b.distance << ": " << b.position.x << " " << b.position.y << " " << b.position.z << "\n";
-  }
-  for (const SectionGap& g : section.gaps) out << "gap " << g.from << " " << g.to << "\n";
-  return out.str();
-}
-
-CrossSection mirrored(CrossSection s) {
-  std::reverse(s.breakpoints.begin(), s.breakpoints.end());
-  std::reverse(s.gaps.begin(), s.gaps.end());
-  for (Breakpoint& b : s.breakpoints) b.distance = s.length - b.distance;
-  for (SectionGap& g : s.gaps) g = {s.length - g.to, s.length - g.from};
-  return s;
-}
+using test::text;
 
 /// Ends of every kind: anywhere, at vertices, in the middle of two vertices, due north and east of another.
 class Ends {

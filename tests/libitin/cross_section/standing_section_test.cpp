@@ -17,6 +17,7 @@
 #include <itin/triangulate.hpp>
 
 #include "support/raster_file.hpp"
+#include "support/section_text.hpp"
 #include "support/slow_section.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/vector_file.hpp"
@@ -24,33 +25,10 @@
 namespace itin {
 namespace {
 
+using test::box;
 using test::LineFeature;
-
-std::string text(const CrossSection& section) {
-  std::ostringstream out;
-  out.precision(17);
-  for (const Breakpoint& b : section.breakpoints) {
-    out << b.distance << ": " << b.position.x << " " << b.position.y << " " << b.position.z << " " << b.theme << "\n";
-  }
-  for (const SectionGap& g : section.gaps) out << "gap " << g.from << " " << g.to << "\n";
-  return out.str();
-}
-
-CrossSection mirrored(CrossSection s) {
-  std::reverse(s.breakpoints.begin(), s.breakpoints.end());
-  std::reverse(s.gaps.begin(), s.gaps.end());
-  for (Breakpoint& b : s.breakpoints) b.distance = s.length - b.distance;
-  for (SectionGap& g : s.gaps) g = {s.length - g.to, s.length - g.from};
-  return s;
-}
-
-LineFeature box(double x0, double y0, double x1, double y1, double height) {
-  LineFeature f;
-  f.polygon = true;
-  f.vertices = {{x0, y0, 0}, {x1, y0, 0}, {x1, y1, 0}, {x0, y1, 0}, {x0, y0, 0}};
-  f.properties = fmt::format(R"({{"h":{}}})", height);
-  return f;
-}
+using test::mirrored;
+using test::text;
 
 /// 60 x 60 posts every 10 m from (300000, 199400), and what tests put on them.
 class StandingSections : public testing::Test {

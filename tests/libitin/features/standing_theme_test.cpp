@@ -36,6 +36,7 @@
 namespace itin {
 namespace {
 
+using test::box;
 using test::LineFeature;
 using Corners = std::array<GridPoint, 3>;
 
@@ -129,14 +130,6 @@ std::set<Corners> global(const Store& store, const Detail& detail, const ThemeCh
   for (const auto& t : delaunay.mesh().triangles)
     result.insert(smallest_first({corners[t[0]], corners[t[1]], corners[t[2]]}));
   return result;
-}
-
-LineFeature box(double x0, double y0, double x1, double y1, double height) {
-  LineFeature f;
-  f.polygon = true;
-  f.vertices = {{x0, y0, 0}, {x1, y0, 0}, {x1, y1, 0}, {x0, y1, 0}, {x0, y0, 0}};
-  f.properties = fmt::format(R"({{"h":{}}})", height);
-  return f;
 }
 
 class StandingThemes : public testing::Test {

@@ -66,11 +66,7 @@ class PointPass {
                     Verdict& verdict) const {
     if (open == 0) return;
     Packet packet;
-    for (SightLines* const lines : {&packet.low, &packet.high}) {
-      lines->from_x.fill(look.eye.units.x);
-      lines->from_y.fill(look.eye.units.y);
-      lines->from_z.fill(look.eye.units.z);
-    }
+    for (SightLines* const lines : {&packet.low, &packet.high}) lines->start_at(look.eye.units);
     for (; open != 0; open &= open - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(open));
       fill(look, first + at + i, i, std::uint64_t{1} << (at + i), packet, verdict);

@@ -149,13 +149,14 @@ class SiteCoverage::Impl {
     });
   }
 
-  /// Group by group of all options, so that what is found does not depend on what was found before.
+  /// Over the envelopes of all options, group by group, so that what is found does not depend on what was found before.
   void look_first() {
-    std::vector<std::size_t> all(states_.size());
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-    const auto fresh = [&](std::size_t option) { return states_[option].stage < 0; };
-    for (const std::vector<std::size_t>& group : groups(all, levels_.front()))
-      if (std::any_of(group.begin(), group.end(), fresh)) judge_group(group, 0, levels_.front(), false);
+    for (const std::vector<std::size_t>& group : groups(all_options(), levels_.front())) {
+      std::vector<std::size_t> fresh;
+      std::copy_if(group.begin(), group.end(), std::back_inserter(fresh),
+                   [&](std::size_t option) { return states_[option].stage < 0; });
+      if (!fresh.empty()) judge_group(fresh, group, 0, levels_.front(), false);
+    }
   }
 
   /// Each option's next stage.
@@ -204,6 +205,12 @@ class SiteCoverage::Impl {
     if (first > 0) levels_.push_back(0);
   }
 
+  std::vector<std::size_t> all_options() const {
+    std::vector<std::size_t> all(states_.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return all;
+  }
+
   /// Points of a scene; what is left is for the rest of the program.
   std::uint64_t budget() const { return survey_.memory_bytes / 4 * 3 / kBytesAPoint; }
 
@@ -234,7 +241,8 @@ class SiteCoverage::Impl {
     const int stage = states_[options.front()].stage + 1;
     const bool themed = stage == static_cast<int>(levels_.size());
     const int level = themed ? 0 : levels_[static_cast<std::size_t>(stage)];
-    for (const std::vector<std::size_t>& group : groups(options, level)) judge_group(group, stage, level, themed);
+    for (const std::vector<std::size_t>& group : groups(options, level))
+      judge_group(group, group, stage, level, themed);
   }
 
   std::unique_ptr<EnvelopeScene> scene_of(const std::vector<std::size_t>& group, int level, bool themed) {
@@ -261,28 +269,26 @@ class SiteCoverage::Impl {
   /// The full surface about all sites, once and for all, where the memory holds it: bare, and then with the themes.
   const EnvelopeScene& whole_scene(bool themed) {
     std::unique_ptr<EnvelopeScene>& whole = whole_[themed ? 1 : 0];
-    if (!whole) {
-      std::vector<std::size_t> all(states_.size());
-      std::iota(all.begin(), all.end(), std::size_t{0});
-      whole = scene_of(all, 0, themed);
-    }
+    if (!whole) whole = scene_of(all_options(), 0, themed);
     return *whole;
   }
 
-  void judge_group(const std::vector<std::size_t>& group, int stage, int level, bool themed) {
+  /// `options` among those of the group, whose envelope is looked at.
+  void judge_group(const std::vector<std::size_t>& options, const std::vector<std::size_t>& group, int stage, int level,
+                   bool themed) {
     std::unique_ptr<EnvelopeScene> own;
     if (level > 0 || !whole_fits_) own = scene_of(group, level, themed);
     const EnvelopeScene& scene = own ? *own : whole_scene(themed);
     Stopwatch watch;
-    Request request = request_of(survey_, group);
+    Request request = request_of(survey_, options);
     if (!themed) request.target_height += raise_;
     std::vector<const CoverageBounds*> before;
-    for (const std::size_t option : group) before.push_back(&states_[option].bounds);
+    for (const std::size_t option : options) before.push_back(&states_[option].bounds);
     const auto look = survey_.targets.grid ? judge_cells : judge_points;
-    std::vector<CoverageBounds> after = look(scene, survey_, request, group, before, progress_, statistics_);
-    for (std::size_t i = 0; i < group.size(); ++i) {
+    std::vector<CoverageBounds> after = look(scene, survey_, request, options, before, progress_, statistics_);
+    for (std::size_t i = 0; i < options.size(); ++i) {
       if (themed_ && !themed) after[i].certain = {}, after[i].exact = false;  // features may hide it
-      settle(group[i], stage, std::move(after[i]));
+      settle(options[i], stage, std::move(after[i]));
     }
     statistics_.rays_seconds += watch.lap();
   }
