@@ -165,6 +165,7 @@ std::vector<std::size_t> options_of(const Choice& choice) {
 double optimum(const Instance& instance, const ChoiceGoal& goal, std::vector<std::size_t>& chosen, std::size_t from) {
   double best = instance.sum(chosen, goal.cover, false);
   for (std::size_t option = from; option < instance.options.size(); ++option) {
+    if (instance.same_place(option, chosen)) continue;
     chosen.push_back(option);
     if (within(instance, goal, chosen)) best = std::max(best, optimum(instance, goal, chosen, option + 1));
     chosen.pop_back();
