@@ -1,5 +1,6 @@
 #include "los_reports.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <set>
 
@@ -60,8 +61,12 @@ void LosReports::validate_links() const {
 }
 
 std::string LosReports::title(const std::string& of) const {
-  if (!title_.empty()) return of.empty() ? title_ : title_ + ": " + of;
-  return of.empty() ? "Line-of-sight report" : "Line-of-sight report: " + of;
+  std::string title = title_.empty() ? "Line-of-sight report" : title_;
+  if (!of.empty()) title += ": " + of;
+  // Line ends and the like have no glyphs.
+  std::replace_if(
+      title.begin(), title.end(), [](unsigned char c) { return c < ' '; }, ' ');
+  return title;
 }
 
 void LosReports::write(const LosCase& one, const Document& command, const std::vector<std::string>& paths,

@@ -211,9 +211,9 @@ LosStoreOptions::Result LosStoreOptions::run(const Store& store, profile::LosQue
   Result result;
   result.surface = surface_document(metadata, detail, themes);
   if (!line.gaps.empty() && nodata_text_ != "clear") {
-    result.warnings.push_back(fmt::format("the line crosses {} stretch{} without data, which {}; see gaps, --nodata",
-                                          line.gaps.size(), line.gaps.size() == 1 ? "" : "es",
-                                          query.gaps_block ? "block it" : "count as clear"));
+    result.warnings.push_back(fmt::format("the line crosses ground without data {}, which {}; see gaps, --nodata",
+                                          line.gaps.size() == 1 ? "once" : fmt::format("{} times", line.gaps.size()),
+                                          query.gaps_block ? "blocks it" : "counts as clear"));
   }
   result.report = profile::analyse(std::move(line), query, std::move(ground));
   profile::LosReport& report = result.report;
