@@ -25,12 +25,6 @@ constexpr double kMostGrowth = 64;
 NearbyApex::NearbyApex(const PointIndex& index, const Selection& selection, Point2 heading)
     : index_(index), selection_(selection), heading_(heading), fallback_(index, selection), blocks_(index) {}
 
-RetrievalStatistics NearbyApex::statistics() const {
-  RetrievalStatistics all = blocks_.statistics();
-  all += fallback_.statistics();
-  return all;
-}
-
 void NearbyApex::move_to(Position a, Position b, double lambda) {
   const double mx = (static_cast<double>(a.x) + b.x) / 2, my = (static_cast<double>(a.y) + b.y) / 2;
   const double length = std::max(1.0, std::hypot(static_cast<double>(b.x) - a.x, static_cast<double>(b.y) - a.y));

@@ -31,9 +31,6 @@ class NearbyApex {
   /// As ApexSearch::apex.
   std::optional<SectionVertex> apex(Position a, Position b);
 
-  /// Every block counts once.
-  RetrievalStatistics statistics() const;
-
  private:
   struct Candidate {
     std::optional<SectionVertex> best;
