@@ -12,9 +12,7 @@ std::string optional_metres(const std::optional<double>& value) {
   return value ? fmt::format("{:.2f} m", *value) : "none is enough";
 }
 
-void add_facts(profile::LosReport& report) {
-  report.facts.emplace_back("Refraction", report.query.earth.convention());
-  if (!report.query.radio) return;
+void add_radio_fact(profile::LosReport& report) {
   const profile::RadioPath& radio = *report.query.radio;
   report.facts.emplace_back(
       "Radio", fmt::format("{:g} GHz, {} polarisation, effective Earth {:.1f} km, {:.0f} % over sea; wavelength "
@@ -22,6 +20,12 @@ void add_facts(profile::LosReport& report) {
                            radio.frequency_ghz,
                            radio.polarisation == profile::Polarisation::kVertical ? "vertical" : "horizontal",
                            radio.effective_earth_km, 100 * radio.over_sea));
+}
+
+void add_facts(profile::LosReport& report) {
+  report.facts.emplace_back("Refraction", report.query.earth.convention());
+  if (report.query.radio) add_radio_fact(report);
+  report.facts.emplace_back("Program", "itin " ITIN_VERSION);
 }
 
 }  // namespace
