@@ -1,6 +1,5 @@
 #include "los_links.hpp"
 
-#include <algorithm>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -9,6 +8,7 @@
 #include <itin/error.hpp>
 #include <itin/output_file.hpp>
 
+#include "csv_cell.hpp"
 #include "store_document.hpp"
 #include "values.hpp"
 
@@ -16,35 +16,84 @@ namespace itin::cli {
 
 namespace {
 
-using profile::Link;
 using profile::LinkResult;
+using profile::LinkTable;
 
+/// Every digit.
 std::string cell(const std::optional<double>& value) {
   return value ? fmt::format("{}", *value) : "";
 }
 
-/// Quoted where it has to be.
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
+/// The columns behind those that every table has.
+struct Columns {
+  bool radio = false, object = false, errors = false;
+};
+
+/// One row a row of the file, in its order.
+class TableWriter {
+ public:
+  explicit TableWriter(const Columns& columns) : columns_(columns) {
+    text_ = "id,distance_m,verdict,clearance_m,critical_m";
+    if (columns.radio) text_ += ",fresnel_fraction,ld_db";
+    if (columns.object) text_ += ",hidden_below_m,hub_visible_m,hub_fraction,tip_visible_m,tip_fraction";
+    text_ += columns.errors ? ",message\n" : "\n";
+  }
+
+  void add(const std::string& id, const LinkResult& r) {
+    const auto out = std::back_inserter(text_);
+    const std::string distance = r.verdict || r.distance_m > 0 ? fmt::format("{}", r.distance_m) : "";
+    fmt::format_to(out, "{},{},{},{},{}", csv_cell(id), distance, r.verdict ? name_of(*r.verdict) : "error",
+                   cell(r.clearance_m), cell(r.critical_m));
+    if (columns_.radio) fmt::format_to(out, ",{},{}", cell(r.fresnel_fraction), cell(r.ld_db));
+    if (columns_.object && r.visible) {
+      fmt::format_to(out, ",{},{},{},{},{}", r.visible->from_m, r.visible->hub_visible_m, r.visible->hub_fraction,
+                     r.visible->tip_visible_m, r.visible->tip_fraction);
+    } else if (columns_.object) {
+      text_ += ",,,,,";
+    }
+    if (columns_.errors) text_ += "," + csv_cell(r.message);
+    text_ += "\n";
+  }
+
+  const std::string& text() const { return text_; }
+
+ private:
+  Columns columns_;
+  std::string text_;
+};
+
+std::string table_text(const LinkTable& table, const std::vector<LinkResult>& results, const Columns& columns) {
+  TableWriter writer(columns);
+  auto bad = table.bad.begin();
+  for (std::size_t row = 1, i = 0; i < results.size() || bad != table.bad.end(); ++row) {
+    if (bad != table.bad.end() && bad->row == row) {
+      LinkResult error;
+      error.message = fmt::format("line {}: {}", bad->line, bad->message);
+      writer.add(bad->id, error);
+      ++bad;
+    } else {
+      writer.add(table.links[i].id, results[i]);
+      ++i;
+    }
+  }
+  return writer.text();
 }
 
-std::string table(const std::vector<Link>& links, const std::vector<LinkResult>& results, bool radio, bool errors) {
-  std::string text = "id,distance_m,verdict,clearance_m,critical_m";
-  if (radio) text += ",fresnel_fraction,ld_db";
-  text += errors ? ",message\n" : "\n";
-  const auto out = std::back_inserter(text);
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    const LinkResult& r = results[i];
-    fmt::format_to(out, "{},{},{},{},{}", cell(links[i].id), r.distance_m, r.verdict ? name_of(*r.verdict) : "error",
-                   cell(r.clearance_m), cell(r.critical_m));
-    if (radio) fmt::format_to(out, ",{},{}", cell(r.fresnel_fraction), cell(r.ld_db));
-    if (errors) fmt::format_to(out, ",{}", cell(r.message));
-    text += "\n";
+struct Counts {
+  std::size_t visible = 0, hidden = 0, undecided = 0, error = 0, gaps = 0;
+};
+
+Counts counts_of(const LinkTable& table, const std::vector<LinkResult>& results) {
+  Counts counts;
+  counts.error = table.bad.size();
+  for (const LinkResult& r : results) {
+    counts.error += !r.verdict;
+    counts.visible += r.verdict == profile::SightVerdict::kVisible;
+    counts.hidden += r.verdict == profile::SightVerdict::kHidden;
+    counts.undecided += r.verdict == profile::SightVerdict::kUndecided;
+    counts.gaps += r.has_gaps;
   }
-  return text;
+  return counts;
 }
 
 }  // namespace
@@ -52,52 +101,70 @@ std::string table(const std::vector<Link>& links, const std::vector<LinkResult>&
 void LosLinks::declare(CLI::App& app) {
   app.add_option("--links", path_, "Many links: a table id,x1,y1,h1,x2,y2,h2 (.csv), or a file of lines")
       ->type_name("FILE");
-  app.add_option("--link-height", height_text_, "Height of both ends of the lines of a file (default: 2)")
+  app.add_option("--link-height", height_text_,
+                 "Height of both ends of the lines of a file (default: 2, and at the second end the tip of "
+                 "--visible-height)")
       ->type_name("METRES");
   app.add_option("-o,--output", output_, "With --links: the table to write (.csv)")->type_name("FILE");
 }
 
-void LosLinks::validate() {
+void LosLinks::validate(const std::optional<profile::TallObject>& object) {
   if (!output_.ends_with(".csv")) throw InputError(fmt::format("-o '{}': --links writes a table, .csv", output_));
-  if (!height_text_.empty()) height_ = parse_number("--link-height", height_text_, Range::kNotNegative);
+  if (object) heights_.to_m = object->tip_m;
+  if (height_text_.empty()) return;
+  heights_.from_m = heights_.to_m = parse_number("--link-height", height_text_, Range::kNotNegative);
+}
+
+void LosLinks::require_none() const {
+  if (!output_.empty())
+    throw InputError(fmt::format("-o '{}' is of use with --links; for one line give --report", output_));
+  if (!height_text_.empty()) throw InputError("--link-height is of use with --links only");
 }
 
 Document LosLinks::parameters() const {
-  return {{"links", path_}, {"link_height_m", height_}};
+  return {{"links", path_}, {"link_height_m", heights_.from_m}, {"link_height_to_m", heights_.to_m}};
 }
 
-std::vector<Link> LosLinks::links(const Store& store, const LosStoreOptions& surface) const {
-  return profile::read_links(path_, store.metadata().crs_wkt, height_, surface.in_crs());
+LinkTable LosLinks::table(const Store& store, const LosStoreOptions& surface) const {
+  return profile::read_link_table(path_, store.metadata().crs_wkt, heights_, surface.in_crs());
 }
 
-Result LosLinks::run(const Store& store, const std::vector<Link>& links, const LosStoreOptions& surface,
-                     const profile::LosQuery& query, bool overwrite, Progress& progress) const {
+LosLinks::Survey LosLinks::run(const Store& store, const LinkTable& table, const LosStoreOptions& surface,
+                               const profile::LosQuery& query, bool overwrite, Progress& progress) const {
   const StoreMetadata& metadata = store.metadata();
-  const std::vector<LinkResult> results = profile::survey_links(store, links,
+  const std::vector<LinkResult> results = profile::survey_links(store, table.links,
                                                                 {.earth = query.earth,
                                                                  .detail = surface.detail(),
                                                                  .themes = surface.themes(),
                                                                  .from_on_surface = surface.from_on_surface(),
                                                                  .to_on_surface = surface.to_on_surface(),
                                                                  .radio = query.radio,
+                                                                 .object = query.object,
                                                                  .gaps_block = surface.gaps_block()},
                                                                 progress);
-  const auto failed = static_cast<std::size_t>(
-      std::count_if(results.begin(), results.end(), [](const LinkResult& r) { return !r.verdict; }));
-  const auto visible = static_cast<std::size_t>(std::count_if(results.begin(), results.end(), [](const LinkResult& r) {
-    return r.verdict == profile::SightVerdict::kVisible;
-  }));
-  write_file(output_, table(links, results, query.radio.has_value(), failed > 0), overwrite);
-  Result result;
+  const Counts counts = counts_of(table, results);
+  write_file(output_, table_text(table, results, {query.radio.has_value(), query.object.has_value(), counts.error > 0}),
+             overwrite);
+  Survey survey;
+  for (const LinkResult& r : results) survey.computed.push_back(r.verdict.has_value());
+  Result& result = survey.result;
   result.document["crs"] = crs_identifier(metadata.crs_wkt);
   result.document["surface"] = surface_document(metadata, surface.detail(), surface.themes());
-  result.document["links"] = {{"visible", visible}, {"hidden", results.size() - visible - failed}, {"error", failed}};
+  result.document["links"] = {
+      {"visible", counts.visible}, {"hidden", counts.hidden}, {"undecided", counts.undecided}, {"error", counts.error}};
   result.document["outputs"] = Document::array({output_});
-  result.text = fmt::format("{}: {} links, {} visible\n", output_, grouped(links.size()), grouped(visible));
-  if (failed > 0)
+  const std::size_t all = results.size() + table.bad.size();
+  result.text = fmt::format("{}: {} links, {} visible", output_, grouped(all), grouped(counts.visible));
+  if (counts.undecided > 0) result.text += fmt::format(", {} undecided at this tolerance", grouped(counts.undecided));
+  result.text += "\n";
+  if (counts.gaps > 0 && !surface.gaps_clear()) {
+    result.warnings.push_back(fmt::format("{} of {} links cross ground without data, which {}; see --nodata",
+                                          counts.gaps, all, surface.gaps_block() ? "blocks them" : "counts as clear"));
+  }
+  if (counts.error > 0)
     result.failure =
-        fmt::format("{}: {} of {} links could not be computed; see the column message", output_, failed, links.size());
-  return result;
+        fmt::format("{}: {} of {} links could not be computed; see the column message", output_, counts.error, all);
+  return survey;
 }
 
 }  // namespace itin::cli

@@ -12,6 +12,7 @@
 #include <itin/error.hpp>
 #include <itin/feature_at.hpp>
 #include <itin/geodesic.hpp>
+#include <profile/clearance_error.hpp>
 
 #include "store_document.hpp"
 
@@ -31,26 +32,6 @@ std::pair<LosEnd::Site, LosEnd::Site> sites(Point2 from, Point2 to, const std::s
   const Geodesic direction = geodesic(a, b);
   return {{from, a, grid_azimuth_deg(from, to), direction.azimuth_deg},
           {to, b, grid_azimuth_deg(to, from), direction.back_azimuth_deg}};
-}
-
-/// How much the surface's clearances may differ from the full surface's: with both ends standing on it, by as much as
-/// the certified error is wide, and by the features that are left out at this detail. (Where the ground between a
-/// feature and the next coarse vertices slopes otherwise than without the feature, the certificate does not say how
-/// much.)
-double clearance_error(const Store& store, const Detail& detail, const ThemeChoice& themes, Point2 from, Point2 to) {
-  const std::vector<LevelInfo>& levels = store.metadata().levels;
-  Box box;
-  box.extend(from);
-  box.extend(to);
-  CertifiedError widest;
-  int finest = 0;
-  for (std::size_t i = 0; i < levels.size() && levels[i].tolerance <= detail.coarsest(); ++i) {
-    if (levels[i].tolerance <= detail.finest()) finest = static_cast<int>(i);
-    const auto error = store.certified_error(static_cast<int>(i), box);
-    if (!error) continue;
-    widest.lo = std::min(widest.lo, error->lo), widest.hi = std::max(widest.hi, error->hi);
-  }
-  return widest.hi - widest.lo + store.greatest_height_left_out(themes, finest, box);
 }
 
 std::string angle(double degrees) {
@@ -224,15 +205,15 @@ LosStoreOptions::Result LosStoreOptions::run(const Store& store, profile::LosQue
   const profile::EndGrounds stands_on = profile::stands_on(line, ground, query);
   query.from_height_m = height_above("--from", stands_on.from_m, from_height);
   query.to_height_m = height_above("--to", stands_on.to_m, to_height);
-  query.clearance_error_m = clearance_error(store, detail, themes, from, to);
+  query.clearance_error_m = profile::clearance_error(store, detail, themes, from, to);
   query.gaps_block = nodata_text_ == "block";
 
   Result result;
   result.surface = surface_document(metadata, detail, themes);
   if (!line.gaps.empty() && nodata_text_ != "clear") {
-    result.warnings.push_back(fmt::format("the line crosses {} stretch{} without data, which {}; see gaps, --nodata",
-                                          line.gaps.size(), line.gaps.size() == 1 ? "" : "es",
-                                          query.gaps_block ? "block it" : "count as clear"));
+    result.warnings.push_back(fmt::format("the line crosses ground without data {}, which {}; see gaps, --nodata",
+                                          line.gaps.size() == 1 ? "once" : fmt::format("{} times", line.gaps.size()),
+                                          query.gaps_block ? "blocks it" : "counts as clear"));
   }
   result.report = profile::analyse(std::move(line), query, std::move(ground));
   profile::LosReport& report = result.report;

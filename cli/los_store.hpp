@@ -35,6 +35,7 @@ class LosStoreOptions {
   bool from_on_surface() const { return from_on_ == "surface"; }
   bool to_on_surface() const { return to_on_ == "surface"; }
   bool gaps_block() const { return nodata_text_ == "block"; }
+  bool gaps_clear() const { return nodata_text_ == "clear"; }
   const std::string& in_crs() const { return in_crs_.crs; }
   Document parameters() const;
 

@@ -1,6 +1,7 @@
 // itin profile: the surface along a line or a path.
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -190,9 +191,16 @@ class ProfileVerb final : public Verb {
     document.update(found);
     document.erase("outputs");
     const Point2 a = corners.front(), b = corners.back();
-    const std::string title = fmt::format("Profile from {:.10g}, {:.10g} to {:.10g}, {:.10g}", a.x, a.y, b.x, b.y);
+    std::vector<double> turns;
+    double length = 0;
+    for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+      length += std::hypot(corners[i].x - corners[i - 1].x, corners[i].y - corners[i - 1].y);
+      turns.push_back(length);
+    }
+    std::string title = fmt::format("Profile from {:.10g}, {:.10g} to {:.10g}, {:.10g}", a.x, a.y, b.x, b.y);
+    if (!turns.empty()) title += fmt::format(" with {} corner{}", turns.size(), turns.size() > 1 ? "s" : "");
     for (const std::string& output : outputs_) {
-      write_profile({metadata, profiles, ground, document, title, policy_.overwrite}, output);
+      write_profile({metadata, profiles, ground, document, title, turns, policy_.overwrite}, output);
     }
   }
 

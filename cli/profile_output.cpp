@@ -107,6 +107,7 @@ std::string geojson(const ProfileOutput& output) {
 std::string chart(const ProfileOutput& output, const std::string& path) {
   profile::Chart chart;
   chart.title = output.title;
+  chart.corners_m = output.corners_m;
   chart.note =
       fmt::format("{}; {}; itin {}", std::filesystem::path(output.document["command"]["store"]).filename().string(),
                   crs_title(output.metadata.crs_wkt), ITIN_VERSION);

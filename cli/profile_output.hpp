@@ -33,6 +33,7 @@ struct ProfileOutput {
   const profile::Profile& ground;  ///< for charts: the first without standing features; empty where it has none
   Document document;               ///< the whole, for .json
   std::string title;               ///< of charts
+  std::vector<double> corners_m;   ///< likewise: where along the line it turns
   bool overwrite = false;
 };
 

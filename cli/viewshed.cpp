@@ -13,6 +13,7 @@
 
 #include "detail_options.hpp"
 #include "earth_options.hpp"
+#include "feature_raster.hpp"
 #include "horizon_output.hpp"
 #include "observer_options.hpp"
 #include "store_document.hpp"
@@ -45,6 +46,7 @@ class ViewshedVerb final : public Verb {
     app.add_option("STORE", store_, "The store")->required();
     outputs_.declare(app);
     horizon_.declare(app);
+    features_.declare(app);
     app.add_option(
            "--mode", mode_text_,
            "visible (to any observer; the default); count (how many see it); certified (certainly visible, "
@@ -75,7 +77,8 @@ class ViewshedVerb final : public Verb {
 
   void validate() override {
     horizon_.validate();
-    outputs_.validate(horizon_.paths());
+    features_.validate();
+    outputs_.validate(other_outputs());
     observers_.validate();
     validate_targets();
     detail_.validate();
@@ -124,6 +127,7 @@ class ViewshedVerb final : public Verb {
     const StoreMetadata& metadata = store.metadata();
     complete_request(metadata);
     request_.themes.check(metadata.themes);
+    features_.require_themes(metadata, request_.themes);
     if (!horizon_.paths().empty() && places_.size() > 1)
       throw InputError("--horizon is that of one observer; give one");
     outputs_.prepare(request_);
@@ -135,13 +139,24 @@ class ViewshedVerb final : public Verb {
     outputs_.write(surveyed, context, result.warnings);
     outputs_.write_each([&](std::size_t i) { return survey_alone(store, surveyed, i, progress); }, context);
     const Document targets = horizon_.write(surveyed, metadata, earth_.document(), outputs_.overwrite(), progress);
+    // What is certain or exact is so of the full surface.
+    const Detail detail = precise_ || certified() ? Detail::tolerance(0) : request_.detail;
+    const Document features =
+        features_.write(store, surveyed.result.grid, {detail, request_.themes}, outputs_.overwrite(), progress);
     result.document = document(surveyed.result, metadata, context.surface);
+    if (!features.is_null()) result.document["features"] = features;
     if (!targets.empty()) result.document["horizon_targets"] = targets;
     result.text = text(surveyed.result);
     return result;
   }
 
  private:
+  std::vector<std::string> other_outputs() const {
+    std::vector<std::string> paths = horizon_.paths();
+    for (const std::string& path : features_.paths()) paths.push_back(path);
+    return paths;
+  }
+
   void declare_targets(CLI::App& app) {
     app.add_option("--target-height", target_height_text_, "h of the targets, one in every cell (default: 0)")
         ->type_name("METRES");
@@ -323,6 +338,7 @@ class ViewshedVerb final : public Verb {
   EarthOptions earth_;
   ViewshedOutputs outputs_;
   HorizonOutput horizon_;
+  FeatureRaster features_;
 
   std::vector<ObserverPlace> places_;
   viewshed::Request request_;

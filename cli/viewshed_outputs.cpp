@@ -37,7 +37,8 @@ void ViewshedOutputs::validate(const std::vector<std::string>& others) {
   others_ = others;
   if (paths().empty() && each_.empty())
     throw InputError(
-        "give an output: --output FILE.tif or FILE.gpkg, --image FILE.png, --each DIR, or --horizon FILE.csv");
+        "give an output: --output FILE.tif or FILE.gpkg, --image FILE.png, --each DIR, --horizon FILE.csv, or "
+        "--features FILE.tif");
   std::set<std::string> names;
   for (const std::string& path : outputs_) {
     const std::string ending = std::filesystem::path(path).extension().string();

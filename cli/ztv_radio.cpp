@@ -47,7 +47,7 @@ void ZtvRadioOptions::load(const InCrs& in_crs, const StoreMetadata& metadata) {
     radar_ = viewshed::Observer{"radar", position, *radar_place_->height};
   }
   if (links_path_.empty()) return;
-  const profile::LinkTable table = profile::read_link_table(links_path_, metadata.crs_wkt, 0, in_crs.crs);
+  const profile::LinkTable table = profile::read_link_table(links_path_, metadata.crs_wkt, {}, in_crs.crs);
   for (const profile::Link& link : table.links) links_.push_back({link.id, link.from, link.to});
   for (const profile::BadLink& link : table.bad)
     bad_links_.push_back({link.row, static_cast<std::int64_t>(link.row), link.message});

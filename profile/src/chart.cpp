@@ -42,6 +42,7 @@ class ChartPage {
     if (!empty_) draw_gaps();
     draw_grid();
     if (!empty_) draw_series();
+    draw_corners();
     draw_axes();
     draw_legend();
     return drawing_.finish();
@@ -96,6 +97,20 @@ class ChartPage {
       for (const auto& stretch : stretches(chart_.series[i].profile)) drawing_.polyline(placed(stretch), stroke(i));
     }
     drawing_.unclip();
+  }
+
+  /// Numbered as far as there is room.
+  void draw_corners() {
+    constexpr double kRoom = 44;
+    double labelled = frame_.xmin - kRoom;
+    for (std::size_t i = 0; i < chart_.corners_m.size(); ++i) {
+      const double x = x_.at(chart_.corners_m[i] / unit());
+      line({x, frame_.ymin + 10}, {x, frame_.ymax}, {kFaint, 0.8, {3, 3}});
+      if (x - labelled < kRoom) continue;
+      labelled = x;
+      drawing_.text({x, frame_.ymin + 7}, fmt::format("corner {}", i + 1),
+                    {.size = 8, .colour = kFaint, .align = Align::kCentre});
+    }
   }
 
   std::vector<Point2> placed(const std::vector<ProfilePoint>& stretch) const {

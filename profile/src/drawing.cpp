@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <string_view>
 
 #include <itin/error.hpp>
 
@@ -45,6 +46,13 @@ cairo_surface_t* make_surface(Drawing::Format format, double width, double heigh
   }
   return cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::lround(width * kPixelsPerPoint)),
                                     static_cast<int>(std::lround(height * kPixelsPerPoint)));
+}
+
+/// Cairo numbers the surfaces of a process, and an SVG's only group bears the number though nothing refers to it.
+void remove_surface_number(std::string& svg) {
+  constexpr std::string_view kNumbered = "<g id=\"surface";
+  const std::size_t group = svg.find(kNumbered), end = svg.find("\">", group);
+  if (group != std::string::npos) svg.erase(group + 2, end + 1 - (group + 2));
 }
 
 void select_font(cairo_t* cairo, const Lettering& lettering) {
@@ -185,6 +193,7 @@ std::string Drawing::finish() {
   cairo_surface_finish(surface_->surface);
   require_success(cairo_status(surface_->cairo));
   require_success(cairo_surface_status(surface_->surface));
+  if (surface_->format == Format::kSvg) remove_surface_number(surface_->bytes);
   return std::move(surface_->bytes);
 }
 

@@ -1,95 +1,23 @@
 #include <algorithm>
-#include <array>
 #include <atomic>
-#include <charconv>
 #include <cmath>
-#include <fstream>
 #include <tuple>
 
-#include <fmt/format.h>
-
-#include <itin/coordinates.hpp>
 #include <itin/cross_section.hpp>
 #include <itin/error.hpp>
-#include <itin/grazing.hpp>
 #include <itin/parallel.hpp>
-#include <itin/paths.hpp>
 #include <itin/store.hpp>
+#include <profile/clearance_error.hpp>
 #include <profile/links.hpp>
 #include <profile/profile.hpp>
 
 #include "line_clearance.hpp"
 #include "link_sharing.hpp"
+#include "sight_verdict.hpp"
 
 namespace itin::profile {
 
 namespace {
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells(1);
-  for (const char c : line) {
-    if (c == ',') {
-      cells.emplace_back();
-    } else if (c != '\r' && c != '"') {
-      cells.back() += c;
-    }
-  }
-  return cells;
-}
-
-double number(const std::string& text) {
-  const char* first = text.c_str() + std::min(text.find_first_not_of(' '), text.size());
-  const char* last = text.c_str() + text.size();
-  double value = 0;
-  const auto [end, error] = std::from_chars(first, last, value);
-  if (error != std::errc() || end != last || !std::isfinite(value))
-    throw InputError(fmt::format("'{}' is no number; the columns are id,x1,y1,h1,x2,y2,h2", text));
-  return value;
-}
-
-Link link_of(const std::string& line) {
-  const std::vector<std::string> cells = cells_of(line);
-  if (cells.size() != 7) throw InputError(fmt::format("has {} columns instead of 7", cells.size()));
-  std::array<double, 6> v{};
-  for (std::size_t i = 0; i < 6; ++i) v[i] = number(cells[i + 1]);
-  return {cells[0], {v[0], v[1]}, v[2], {v[3], v[4]}, v[5]};
-}
-
-/// Calls refuse(number of the row, number of its line, what is wrong) for those that cannot be understood.
-template <class Refuse>
-std::vector<Link> read_table(const std::string& path, const std::string& to_crs, const std::string& csv_crs,
-                             const Refuse& refuse) {
-  std::ifstream file(path);
-  if (!file) throw FileError(path, "cannot be opened");
-  std::optional<CoordinateTransform> transform;
-  if (!csv_crs.empty()) transform.emplace(csv_crs, to_crs);
-  std::vector<Link> links;
-  std::string line;
-  std::size_t row = 0;
-  for (std::size_t number = 1; std::getline(file, line); ++number) {
-    if (number == 1 || line.find_first_not_of(" \r") == std::string::npos) continue;
-    ++row;
-    try {
-      Link link = link_of(line);
-      if (transform) link.from = (*transform)(link.from), link.to = (*transform)(link.to);
-      links.push_back(std::move(link));
-    } catch (const InputError& error) {
-      refuse(row, number, error.what());
-    }
-  }
-  return links;
-}
-
-bool is_table(const std::string& path) {
-  return path.size() > 4 && path.ends_with(".csv");
-}
-
-std::vector<Link> read_lines(const std::string& path, const std::string& to_crs, double height) {
-  std::vector<Link> links;
-  for (const Path& line : read_paths(path, to_crs))
-    links.push_back({line.name, line.corners.front(), height, line.corners.back(), height});
-  return links;
-}
 
 /// The surface, and where features stand on it the ground under them.
 class Surfaces {
@@ -101,6 +29,7 @@ class Surfaces {
   }
 
   LinkResult survey(const Link& link) const {
+    if (link.from_height < 0 || link.to_height < 0) throw InputError("a height above ground is negative");
     const Profile profile = from_section(surface_ ? surface_->between(link.from, link.to)
                                                   : cross_section(store_, link.from, link.to, query_.detail));
     LinkResult result;
@@ -114,11 +43,15 @@ class Surfaces {
     const EndGrounds grounds = grounds_of(profile, bare);
     const Antennas antennas{grounds.from_m + link.from_height, grounds.to_m + link.to_height};
     const auto line = line_clearance(profile, antennas, query_.earth);
-    const bool blocked = query_.gaps_block && !profile.gaps.empty();
-    const bool hidden = profile.length_m > 0 && line->clearance_m < -kGrazing;
-    result.verdict = hidden || blocked ? SightVerdict::kHidden : SightVerdict::kVisible;
+    const double error = clearance_error(store_, query_.detail, query_.themes, link.from, link.to);
+    result.has_gaps = !profile.gaps.empty();
+    result.verdict = sight_verdict(profile, line->clearance_m, {error, query_.gaps_block});
     result.clearance_m = line->clearance_m;
     result.critical_m = line->critical.distance_m;
+    if (query_.object) {
+      const auto& [hub, tip] = *query_.object;
+      result.visible = visible_height(profile, link.from_height, hub, tip, query_.earth, grounds);
+    }
     if (query_.radio && profile.length_m > 0) add_radio(profile, bare ? &*bare : nullptr, antennas, result);
     return result;
   }
@@ -165,24 +98,6 @@ std::vector<std::size_t> by_place(const std::vector<Link>& links) {
 }
 
 }  // namespace
-
-std::vector<Link> read_links(const std::string& path, const std::string& to_crs, double height,
-                             const std::string& csv_crs) {
-  if (!is_table(path)) return read_lines(path, to_crs, height);
-  return read_table(path, to_crs, csv_crs, [&](std::size_t, std::size_t line, const std::string& message) {
-    throw FileError(path, fmt::format("line {}: {}", line, message));
-  });
-}
-
-LinkTable read_link_table(const std::string& path, const std::string& to_crs, double height,
-                          const std::string& csv_crs) {
-  if (!is_table(path)) return {read_lines(path, to_crs, height), {}};
-  LinkTable table;
-  table.links = read_table(path, to_crs, csv_crs, [&](std::size_t row, std::size_t, const std::string& message) {
-    table.bad.push_back({row, message});
-  });
-  return table;
-}
 
 std::vector<LinkResult> survey_links(const Store& store, const std::vector<Link>& links, const LinkQuery& query,
                                      Progress& progress) {

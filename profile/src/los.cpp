@@ -10,6 +10,7 @@
 #include <profile/los.hpp>
 
 #include "line_clearance.hpp"
+#include "sight_verdict.hpp"
 
 namespace itin::profile {
 
@@ -48,15 +49,6 @@ void require_valid(const Profile& profile, const LosQuery& query, const Profile&
       throw InputError("a criterion with a fraction of the Fresnel zone takes a frequency");
     }
   }
-}
-
-SightVerdict sight_verdict(const LosReport& report) {
-  if (report.query.gaps_block && !report.profile.gaps.empty()) return SightVerdict::kHidden;
-  if (!report.clearance_m || report.profile.length_m == 0) return SightVerdict::kVisible;
-  if (report.query.clearance_error_m > 0 && std::abs(*report.clearance_m) < report.query.clearance_error_m) {
-    return SightVerdict::kUndecided;
-  }
-  return *report.clearance_m >= -kGrazing ? SightVerdict::kVisible : SightVerdict::kHidden;
 }
 
 /// The least of the fractions of F1, or without a wavelength a sign, with both antennas `shift` metres higher: lifting
@@ -163,7 +155,7 @@ LosReport analyse(Profile profile, const LosQuery& query, Profile ground) {
     report.critical = line->critical;
     report.obstructions = std::move(line->obstructions);
   }
-  report.verdict = sight_verdict(report);
+  report.verdict = sight_verdict(report.profile, report.clearance_m, {query.clearance_error_m, query.gaps_block});
   const double rise = report.antennas.to_m - report.antennas.from_m;
   report.elevation_angle_from_deg = elevation_deg(rise, report.profile.length_m, query.earth);
   report.elevation_angle_to_deg = elevation_deg(-rise, report.profile.length_m, query.earth);

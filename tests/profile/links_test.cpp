@@ -1,4 +1,6 @@
 // Batches of links against one report each.
+#include <algorithm>
+#include <fstream>
 #include <random>
 
 #include <fmt/format.h>
@@ -7,6 +9,7 @@
 #include <itin/cross_section.hpp>
 #include <itin/import.hpp>
 #include <itin/store.hpp>
+#include <profile/clearance_error.hpp>
 #include <profile/links.hpp>
 
 #include "link_sharing.hpp"
@@ -58,6 +61,8 @@ class Links : public testing::Test {
     of_one.earth = query.earth, of_one.radio = query.radio;
     of_one.from_height_m = link.from_height, of_one.to_height_m = link.to_height;
     of_one.from_on_surface = query.from_on_surface, of_one.to_on_surface = query.to_on_surface;
+    of_one.object = query.object;
+    of_one.clearance_error_m = clearance_error(*store_, query.detail, query.themes, link.from, link.to);
     const auto along = [&](const ThemeChoice& themes) {
       return from_section(cross_section(*store_, link.from, link.to, query.detail, themes));
     };
@@ -82,12 +87,19 @@ class Links : public testing::Test {
       EXPECT_EQ(results[i].ld_db, expected.losses ? std::optional(expected.losses->ld_db) : std::nullopt);
       EXPECT_EQ(results[i].fresnel_fraction,
                 expected.fresnel ? std::optional(expected.fresnel->fraction) : std::nullopt);
+      ASSERT_EQ(results[i].visible.has_value(), expected.visible.has_value());
+      if (expected.visible) {
+        EXPECT_EQ(results[i].visible->tip_visible_m, expected.visible->tip_visible_m);
+      }
     }
+    undecided_ = std::count_if(results.begin(), results.end(),
+                               [](const LinkResult& r) { return r.verdict == SightVerdict::kUndecided; });
   }
 
   test::TemporaryDirectory directory_;
   std::optional<Store> store_;
   std::mt19937 random_{5};
+  std::ptrdiff_t undecided_ = 0;  ///< of those surveyed last
 };
 
 TEST_F(Links, HaveTheAnswersOfTheirReports) {
@@ -101,8 +113,54 @@ TEST_F(Links, HaveTheAnswersOfTheirReports) {
   query.radio = RadioPath{.frequency_ghz = 6, .effective_earth_km = 8500};
   for (const bool from : {false, true}) {
     query.from_on_surface = from, query.to_on_surface = !from;
+    query.object = TallObject{60, 100};
     expect_reports(many, query);
+    EXPECT_EQ(undecided_, 0);
   }
+  query.detail = Detail::tolerance(4);
+  expect_reports(many, query);
+  EXPECT_GT(undecided_, 0);
+}
+
+TEST_F(Links, AtAHeightBelowTheGroundAreErrors) {
+  NoProgress progress;
+  const std::vector<Link> one = {{"low", {300100, 199700}, -1, {300200, 199700}, 2}};
+  const std::vector<LinkResult> results = survey_links(*store_, one, {}, progress);
+  EXPECT_FALSE(results[0].verdict);
+  EXPECT_NE(results[0].message, "");
+}
+
+LinkTable table_of(const std::string& text) {
+  const test::TemporaryDirectory directory;
+  std::ofstream(directory.file("l.csv")) << text;
+  return read_link_table(directory.file("l.csv"), "EPSG:27700", {});
+}
+
+TEST(LinkTable, TakesItsColumnsByNameWhereItHasThemAll) {
+  for (const char* text : {"id,x1,y1,h1,x2,y2,h2\n\"a, \"\"b\"\"\",1,2,3,4,5,6\n", "\"a, \"\"b\"\"\",1,2,3,4,5,6",
+                           "name,e,n,h,e,n,h\r\n\"a, \"\"b\"\"\", 1,2 ,3,4,5,6\r\n\r\n",
+                           "\xEF\xBB\xBFH2,y2,X2,note,h1,y1,x1,id\n6,5,4,\"x,y\",3,2,1,\"a, \"\"b\"\"\"\n"}) {
+    const LinkTable table = table_of(text);
+    ASSERT_EQ(table.links.size(), 1U) << text;
+    EXPECT_TRUE(table.bad.empty());
+    const Link& link = table.links[0];
+    EXPECT_EQ(link.id, "a, \"b\"");
+    EXPECT_EQ(link.from, (Point2{1, 2}));
+    EXPECT_EQ(link.to, (Point2{4, 5}));
+    EXPECT_EQ(link.from_height, 3);
+    EXPECT_EQ(link.to_height, 6);
+  }
+}
+
+TEST(LinkTable, NamesTheRowsThatItDoesNotUnderstand) {
+  const LinkTable table = table_of("id,x1,y1,h1,x2,y2,h2\na,1,2,3,4,5,6\n\nb,1,2,3\nc,1,2,3,nan,5,6\nd,1,2,3,4,5,6\n");
+  ASSERT_EQ(table.links.size(), 2U);
+  ASSERT_EQ(table.bad.size(), 2U);
+  EXPECT_EQ(table.bad[0].row, 2U);
+  EXPECT_EQ(table.bad[0].line, 4U);
+  EXPECT_EQ(table.bad[0].id, "b");
+  EXPECT_EQ(table.bad[1].row, 3U);
+  EXPECT_EQ(table.bad[1].message, "x2 'nan' is no number");
 }
 
 }  // namespace

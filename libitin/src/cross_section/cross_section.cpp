@@ -7,6 +7,7 @@
 #include <itin/store.hpp>
 
 #include "cross_section/nearby_apex.hpp"
+#include "cross_section/read_once.hpp"
 #include "cross_section/retrieval.hpp"
 #include "cross_section/section_walk.hpp"
 #include "triangulate/region.hpp"
@@ -38,7 +39,6 @@ class RetrievedTriangles final : public TriangleFinder {
     box_ = box;
     around_.clear();
     const RegionMesh region = triangulate_region(index_, selection_, box);
-    statistics_ += region.statistics;
     const auto vertex = [&](std::uint32_t v) {
       return SectionVertex{region.vertices[v].point, region.vertices[v].theme};
     };
@@ -47,13 +47,8 @@ class RetrievedTriangles final : public TriangleFinder {
   }
 
   CrossedEdge edge_on(const OutlineCrossing& segment, const SectionLine& line, OnLine on_line) override {
-    return find_edge_on(index_, selection_, segment, line, on_line, statistics_);
-  }
-
-  RetrievalStatistics statistics() const {
-    RetrievalStatistics all = statistics_;
-    all += apex_.statistics();
-    return all;
+    RetrievalStatistics counted_by_index;
+    return find_edge_on(index_, selection_, segment, line, on_line, counted_by_index);
   }
 
  private:
@@ -62,15 +57,15 @@ class RetrievedTriangles final : public TriangleFinder {
   NearbyApex apex_;
   GridBox box_;
   std::vector<std::array<SectionVertex, 3>> around_;
-  RetrievalStatistics statistics_;
 };
 
 }  // namespace
 
 CrossSection retrieve_section(const PointIndex& index, const Selection& selection, const SectionLine& line) {
-  RetrievedTriangles triangles(index, selection, line);
-  CrossSection section = walk_section(index, line, triangles);
-  section.statistics = triangles.statistics();
+  const ReadOnce blocks(index);
+  RetrievedTriangles triangles(blocks, selection, line);
+  CrossSection section = walk_section(blocks, line, triangles);
+  section.statistics = blocks.statistics();
   return section;
 }
 

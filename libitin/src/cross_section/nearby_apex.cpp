@@ -25,12 +25,6 @@ constexpr double kMostGrowth = 64;
 NearbyApex::NearbyApex(const PointIndex& index, const Selection& selection, Point2 heading)
     : index_(index), selection_(selection), heading_(heading), fallback_(index, selection), blocks_(index) {}
 
-RetrievalStatistics NearbyApex::statistics() const {
-  RetrievalStatistics all = blocks_.statistics();
-  all += fallback_.statistics();
-  return all;
-}
-
 void NearbyApex::move_to(Position a, Position b, double lambda) {
   const double mx = (static_cast<double>(a.x) + b.x) / 2, my = (static_cast<double>(a.y) + b.y) / 2;
   const double length = std::max(1.0, std::hypot(static_cast<double>(b.x) - a.x, static_cast<double>(b.y) - a.y));
@@ -40,23 +34,27 @@ void NearbyApex::move_to(Position a, Position b, double lambda) {
   box_ = rounded_outwards({x - half_side_, y - half_side_, x + half_side_, y + half_side_});
   leaves_.clear();
   selected_leaves(index_, selection_, box_, leaves_);
-  std::erase_if(leaves_, [&](const Leaf& leaf) { return leaf.level < selection_.finest_in(leaf.cell.box()); });
   segments_.clear();
   index_.segments(box_, segments_);
   std::erase_if(segments_, [&](const Segment& s) { return !selection_.selects(s); });
 
-  bin_shift_ = std::bit_width(static_cast<std::uint32_t>(std::max(length, half_side_ / 64)));
+  bin_shift_ = std::bit_width(static_cast<std::uint32_t>(std::max(length / 2, half_side_ / 64)));
   columns_ = (static_cast<std::uint32_t>(box_.xmax - box_.xmin) >> bin_shift_) + 1;
   const std::uint32_t rows = (static_cast<std::uint32_t>(box_.ymax - box_.ymin) >> bin_shift_) + 1;
   first_.assign(std::size_t{columns_} * rows, kNone);
   next_.clear();
   points_.clear();
-  // What was read before comes for free.
-  std::erase_if(leaves_, [&](const Leaf& leaf) {
-    if (!blocks_.has_read(leaf)) return false;
-    load(leaf);
-    return true;
-  });
+  unread_.clear();
+  for (const Leaf& leaf : leaves_) {
+    const GridBox box = leaf.cell.box();
+    if (leaf.level < selection_.finest_in(box)) continue;
+    // What was read before comes for free.
+    if (blocks_.has_read(leaf)) {
+      load(leaf);
+    } else {
+      unread_.push_back({leaf, box});
+    }
+  }
 }
 
 std::size_t NearbyApex::bin(std::int32_t x, std::int32_t y) const {
@@ -101,9 +99,8 @@ void NearbyApex::search_bins(const ApexFrame& frame, const GridBox& box, Candida
 }
 
 /// The vertex of the least circle up to lambda, which must fit into the neighbourhood.
-std::optional<SectionVertex> NearbyApex::search(const ApexFrame& frame, double lambda) {
+std::optional<SectionVertex> NearbyApex::search(const ApexFrame& frame, double lambda, const GridBox& cap) {
   Candidate candidate{std::nullopt, lambda};
-  const GridBox cap = frame.cap_box(lambda, box_);
   // No others come between the edge and what is in the circle.
   near_.clear();
   std::copy_if(segments_.begin(), segments_.end(), std::back_inserter(near_), [&](const Segment& s) {
@@ -111,20 +108,20 @@ std::optional<SectionVertex> NearbyApex::search(const ApexFrame& frame, double l
   });
   search_bins(frame, cap, candidate);
   reached_.clear();
-  for (const Leaf& leaf : leaves_) {
-    const GridBox box = leaf.cell.box();
-    if (frame.cap_meets(candidate.reach, box)) reached_.emplace_back(frame.key(box), leaf.key);
+  for (const auto& [leaf, box] : unread_) {
+    if (cap.meets(box) && frame.cap_meets(candidate.reach, box)) reached_.emplace_back(frame.key(box), leaf.key);
   }
   // Those first that may hold the least circle: it may leave the others out.
   std::sort(reached_.begin(), reached_.end());
   for (const auto& [circle, key] : reached_) {
-    const auto leaf = std::find_if(leaves_.begin(), leaves_.end(), [key = key](const Leaf& l) { return l.key == key; });
-    const GridBox box = leaf->cell.box();
+    const auto at =
+        std::find_if(unread_.begin(), unread_.end(), [key = key](const Unread& u) { return u.leaf.key == key; });
+    const GridBox box = at->box;
     if (!frame.cap_meets(candidate.reach, box) || hide(near_, frame.a, frame.b, intersection(box, cap))) continue;
     const std::size_t before = points_.size();
-    load(*leaf);
-    *leaf = leaves_.back();
-    leaves_.pop_back();
+    load(at->leaf);
+    *at = unread_.back();
+    unread_.pop_back();
     for (std::size_t p = before; p < points_.size(); ++p) consider(frame, points_[p], candidate);
   }
   // What lies on the searched circle itself may have rivals that rounding left out.
@@ -134,17 +131,17 @@ std::optional<SectionVertex> NearbyApex::search(const ApexFrame& frame, double l
 
 std::optional<SectionVertex> NearbyApex::apex(Position a, Position b) {
   const ApexFrame frame(a, b);
+  constexpr GridBox kEverywhere{-kGridHalfSide, -kGridHalfSide, kGridHalfSide - 1, kGridHalfSide - 1};
   const GridBox all = index_.bounds();
-  const auto fits = [&](double lambda) {
-    const GridBox reached =
-        frame.cap_box(lambda, {-kGridHalfSide, -kGridHalfSide, kGridHalfSide - 1, kGridHalfSide - 1});
-    return !box_.empty() && box_.contains(a.x, a.y) && box_.contains(b.x, b.y) &&
-           box_.contains(intersection(reached, all));
-  };
   for (double lambda = 1.5 * frame.r; lambda < kMostGrowth * frame.r; lambda *= 2) {
-    if (!fits(lambda)) move_to(a, b, lambda);
-    if (!fits(lambda)) break;
-    if (const auto found = search(frame, lambda)) return found;
+    const GridBox cap = frame.cap_box(lambda, kEverywhere);
+    const auto fits = [&] {
+      return !box_.empty() && box_.contains(a.x, a.y) && box_.contains(b.x, b.y) &&
+             box_.contains(intersection(cap, all));
+    };
+    if (!fits()) move_to(a, b, lambda);
+    if (!fits()) break;
+    if (const auto found = search(frame, lambda, intersection(cap, box_))) return found;
   }
   const auto found = fallback_.apex(a, b);
   if (!found) return std::nullopt;

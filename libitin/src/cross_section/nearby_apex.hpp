@@ -31,18 +31,21 @@ class NearbyApex {
   /// As ApexSearch::apex.
   std::optional<SectionVertex> apex(Position a, Position b);
 
-  /// Every block counts once.
-  RetrievalStatistics statistics() const;
-
  private:
   struct Candidate {
     std::optional<SectionVertex> best;
     double reach = 0;  ///< its lambda, or the one searched
   };
 
+  struct Unread {
+    Leaf leaf;
+    GridBox box;  ///< its cell's
+  };
+
   /// Makes a neighbourhood of edge ab that circles up to lambda fit into.
   void move_to(Position a, Position b, double lambda);
-  std::optional<SectionVertex> search(const ApexFrame& frame, double lambda);
+  /// `cap`: the box of the circle's part left of ab, within the neighbourhood.
+  std::optional<SectionVertex> search(const ApexFrame& frame, double lambda, const GridBox& cap);
   void search_bins(const ApexFrame& frame, const GridBox& box, Candidate& candidate) const;
   void consider(const ApexFrame& frame, const SectionVertex& point, Candidate& candidate) const;
   void load(const Leaf& leaf);
@@ -56,7 +59,8 @@ class NearbyApex {
 
   GridBox box_;                                            ///< the neighbourhood
   double half_side_ = 0;                                   ///< of the last one, grid units
-  std::vector<Leaf> leaves_;                               ///< of the neighbourhood, not yet loaded
+  std::vector<Leaf> leaves_;                               ///< for its memory
+  std::vector<Unread> unread_;                             ///< of the neighbourhood
   std::vector<std::pair<double, std::uint64_t>> reached_;  ///< of these, what one search's circle meets: circle and key
   std::vector<Segment> segments_;
   std::vector<Segment> near_;  ///< of these, those that meet the box of one search's circle

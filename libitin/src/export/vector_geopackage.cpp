@@ -79,6 +79,9 @@ void write_geopackage(const std::string& path, const std::string& crs_wkt, const
   const QuietGdal quiet;
   // Equal calls give equal bytes only if the file does not say when it was written.
   const CPLConfigOptionSetter fixed("OGR_CURRENT_DATE", "1970-01-01T00:00:00.000Z", false);
+  // The file has its name only when it is complete: no step on the way there has to be kept.
+  const CPLConfigOptionSetter unsynced("OGR_SQLITE_SYNCHRONOUS", "OFF", false);
+  const CPLConfigOptionSetter in_memory("OGR_SQLITE_JOURNAL", "MEMORY", false);
   PendingFile output(path, overwrite);
   Writer writer(output, crs_wkt);
   for (const VectorLayer& layer : layers) writer.add(layer);

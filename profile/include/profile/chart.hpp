@@ -21,6 +21,7 @@ struct Chart {
   std::vector<ChartSeries> series;  ///< the first is drawn as ground, the others as lines over it
   Profile ground;                   ///< of the first, without standing features; no points where it has none
   std::vector<std::string> themes;  ///< names by ProfilePoint::theme, of those features
+  std::vector<double> corners_m;    ///< where along the profile its path turns
 };
 
 /// Throws InputError unless the name ends in .svg, .pdf or .png.

@@ -1,7 +1,7 @@
 // Many lines of sight over one surface, in parallel.
 //
-//   const std::vector<Link> links = read_links("links.csv", store.metadata().crs_wkt);
-//   const std::vector<LinkResult> rows = survey_links(store, links, {.earth = earth, .detail = detail}, progress);
+//   const LinkTable table = read_link_table("links.csv", store.metadata().crs_wkt, {2, 2});
+//   const std::vector<LinkResult> rows = survey_links(store, table.links, {.earth = earth}, progress);
 #pragma once
 
 #include <optional>
@@ -14,6 +14,7 @@
 #include <itin/progress.hpp>
 #include <itin/theme.hpp>
 #include <profile/los.hpp>
+#include <profile/required_heights.hpp>
 
 namespace itin {
 class Store;
@@ -30,23 +31,28 @@ struct Link {
   double to_height = 0;
 };
 
-/// A CSV table `id,x1,y1,h1,x2,y2,h2` with a header line (its columns in this order), or a file of lines, whose ends
-/// are the links' ends `height` metres above the surface. In the CRS `to_crs` (WKT); CSV tables are taken to be in
-/// `csv_crs`, or in `to_crs` if that is empty. Throws FileError naming the line or feature, InputError for an unknown
-/// CRS.
-std::vector<Link> read_links(const std::string& path, const std::string& to_crs, double height,
-                             const std::string& csv_crs = {});
+/// Of links from a file that does not tell.
+struct LinkHeights {
+  double from_m = 0, to_m = 0;
+};
 
-/// The same, but rows of a table that cannot be understood are handed back instead of ending it all.
+/// A row that cannot be understood.
 struct BadLink {
-  std::size_t row = 0;  ///< from 1, not counting the header
+  std::size_t row = 0;   ///< from 1, not counting the header
+  std::size_t line = 0;  ///< of the file, from 1
+  std::string id;        ///< as far as there is one
   std::string message;
 };
 struct LinkTable {
   std::vector<Link> links;
-  std::vector<BadLink> bad;
+  std::vector<BadLink> bad;  ///< in order
 };
-LinkTable read_link_table(const std::string& path, const std::string& to_crs, double height,
+
+/// A CSV table `id,x1,y1,h1,x2,y2,h2`, or a file of lines, whose ends are the links' ends at `heights` above the
+/// surface. A table may have a header line; one with all these names may have its columns in another order and others
+/// besides. In the CRS `to_crs` (WKT); CSV tables are taken to be in `csv_crs`, or in `to_crs` if that is empty. Throws
+/// FileError naming the feature of a file of lines, InputError for an unknown CRS.
+LinkTable read_link_table(const std::string& path, const std::string& to_crs, const LinkHeights& heights,
                           const std::string& csv_crs = {});
 
 struct LinkQuery {
@@ -55,8 +61,9 @@ struct LinkQuery {
   ThemeChoice themes = ThemeChoice::none();  ///< likewise
   /// What the ends stand on where features stand on the ground: these, or the ground under them.
   bool from_on_surface = false, to_on_surface = false;
-  std::optional<RadioPath> radio;  ///< gives fresnel_fraction and ld_db
-  bool gaps_block = false;         ///< ground without data stops the ray
+  std::optional<RadioPath> radio;    ///< gives fresnel_fraction and ld_db
+  std::optional<TallObject> object;  ///< what stands at each second end; gives visible
+  bool gaps_block = false;           ///< ground without data stops the ray
 };
 
 struct LinkResult {
@@ -66,7 +73,9 @@ struct LinkResult {
   std::optional<double> critical_m;  ///< where that is, from the first end
   std::optional<double> fresnel_fraction;
   std::optional<double> ld_db;  ///< nothing also where an antenna is within a feature
-  std::string message;          ///< of an error
+  std::optional<VisibleHeight> visible;
+  bool has_gaps = false;  ///< crosses ground without data
+  std::string message;    ///< of an error
 };
 
 /// One result a link, in order, whatever the number of threads. Links over one area share the tiles that are read and

@@ -175,9 +175,9 @@ std::vector<VectorLayer> report_layers(const LosReport& report) {
   ends.features.push_back({{path.ray(0)}, {std::string("from"), 0.0, report.query.from_height_m}});
   ends.features.push_back(
       {{path.ray(report.profile.length_m)}, {std::string("to"), report.profile.length_m, report.query.to_height_m}});
-  if (report.critical) {
-    const ProfilePoint& p = *report.critical;
-    ends.features.push_back({{{p.x, p.y, p.ground_m}}, {std::string("critical"), p.distance_m, {}}});
+  if (const auto tightest = tightest_point(report)) {
+    const Point2 p = path.position(tightest->distance_m);
+    ends.features.push_back({{{p.x, p.y, tightest->ground_m}}, {std::string("critical"), tightest->distance_m, {}}});
   }
   VectorLayer ground{"ground", Shape::kLines, {{"points", kWhole}}, {}};
   if (report.profile.points.size() > 1) {

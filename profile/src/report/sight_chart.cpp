@@ -20,7 +20,7 @@ constexpr Colour kGround{0.80, 0.74, 0.62, 1}, kGroundLine{0.42, 0.33, 0.20, 1},
     kZone{0.20, 0.45, 0.85, 0.13}, kInnerZone{0.20, 0.45, 0.85, 0.16}, kZoneLine{0.20, 0.45, 0.85, 1},
     kWorst{0.75, 0.35, 0.05, 1}, kCut{0.80, 0.10, 0.10, 0.45}, kMarker{0.75, 0.05, 0.05, 1},
     kClutter{0.45, 0.65, 0.35, 0.8}, kNoData{0.9, 0.9, 0.9, 1}, kWhite{1, 1, 1, 0.85},
-    kFeatureLine{0.30, 0.20, 0.20, 1};
+    kFeatureLine{0.30, 0.20, 0.20, 1}, kSeen{0.00, 0.62, 0.45, 1}, kUnseen{0.62, 0.62, 0.62, 1};
 
 /// Everything drawn, in metres over the chord between the ends' verticals.
 class SightChart {
@@ -49,6 +49,7 @@ class SightChart {
     draw_lines();
     drawing_.unclip();
     draw_axes();
+    draw_object();
     draw_masts();
     draw_critical();
     draw_key();
@@ -77,6 +78,7 @@ class SightChart {
       low = std::min(low, p.ground_m + bulge(d));
       high = std::max({high, p.ground_m + p.clutter_m + curve, ray(d) + radius(d)});
     }
+    if (report_.query.object) high = std::max(high, report_.stands_on.to_m + report_.query.object->tip_m);
     const double span = std::max({high - low, length_ / 200, 1.0});
     return {low - 0.10 * span, high + 0.22 * span};
   }
@@ -246,6 +248,22 @@ class SightChart {
     draw_mast(length_, report_.stands_on.to_m, report_.antennas.to_m, "B", report_.query.to_height_m);
   }
 
+  /// Beside the second mast, what is seen of the object and what is not, with a mark at its hub.
+  void draw_object() {
+    if (!report_.visible) return;
+    const TallObject& object = *report_.query.object;
+    const double right = frame_.box.xmax - 2, left = right - 5, foot = report_.stands_on.to_m;
+    const auto up = [&](double height) { return frame_.y.at(foot + height); };
+    const double from = report_.visible->from_m;
+    drawing_.rectangle({left, up(from), right, up(0)}, kUnseen);
+    drawing_.rectangle({left, up(object.tip_m), right, up(from)}, kSeen);
+    const Point2 hub[] = {{left - 3, up(object.hub_m)}, {right, up(object.hub_m)}};
+    if (object.hub_m < object.tip_m) drawing_.polyline(hub, {kInk, 0.8, {}});
+    if (from >= object.tip_m) return;
+    const Point2 lowest[] = {at(0, report_.antennas.from_m), {left, up(from)}};
+    drawing_.polyline(lowest, {kSeen, 0.9, {4, 2}});
+  }
+
   /// Its label hangs from the top of the chart, clear of the ray, on a line down to the point.
   void draw_critical() {
     const auto tightest = tightest_point(report_);
@@ -278,6 +296,10 @@ class SightChart {
     for (const std::uint16_t theme : themes_)
       items.push_back({cause_of(report_, theme), {theme_colour(theme), 1, {}}, true});
     if (!report_.obstructions.empty()) items.push_back({"Above the ray", {kCut, 1, {}}, true});
+    if (report_.visible) {
+      items.push_back({"Of the object at B: seen", {kSeen, 1, {}}, true});
+      items.push_back({"hidden", {kUnseen, 1, {}}, true});
+    }
     items.push_back({"Equal elevation", {kFaint, 0.8, {}}, false});
     draw_legend(drawing_, {frame_.box.xmin, frame_.box.ymax + 43}, frame_.box.width(), items);
   }

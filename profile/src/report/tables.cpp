@@ -125,6 +125,16 @@ Table object_table(const LosReport& report) {
           ""};
 }
 
+/// Of a free path. Where no frequency is given, and the least clearance is that of an end over its own foot, any
+/// wavelength finds the same place.
+std::optional<FresnelClearance> tightest_zone(const LosReport& report) {
+  if (*report.clearance_m < -kGrazing) return std::nullopt;
+  if (report.fresnel) return report.fresnel;
+  const double d = report.critical->distance_m;
+  if (d > 0 && d < report.profile.length_m) return std::nullopt;
+  return fresnel_clearance(report.profile, report.antennas, report.query.earth, 1);
+}
+
 }  // namespace
 
 const char* base_name(bool on_surface) {
@@ -137,14 +147,14 @@ std::string distance_text(double metres) {
 
 std::optional<TightestPoint> tightest_point(const LosReport& report) {
   if (!report.critical || !report.clearance_m) return std::nullopt;
-  const bool free = *report.clearance_m >= -kGrazing;
-  if (free && report.fresnel) {
-    const double d = report.fresnel->distance_m,
+  if (const auto zone = tightest_zone(report)) {
+    const double d = zone->distance_m,
                  bulge = report.query.earth.drop_coefficient() * d * (report.profile.length_m - d);
+    const std::optional<double> fraction = report.fresnel ? std::optional(zone->fraction) : std::nullopt;
     return TightestPoint{d,
-                         ray_elevation_m(report, d) - bulge - report.fresnel->clearance_m,
-                         report.fresnel->clearance_m,
-                         report.fresnel->fraction,
+                         ray_elevation_m(report, d) - bulge - zone->clearance_m,
+                         zone->clearance_m,
+                         fraction,
                          theme_at(report.profile, d),
                          -1};
   }

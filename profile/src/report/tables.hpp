@@ -19,8 +19,8 @@ struct Table {
 
 /// "Hidden", with the clearance and where it is least, in one line.
 std::string verdict_line(const LosReport& report);
-/// The point a planner looks at: where the ray is cut deepest, or, on a free path with a frequency, where the Fresnel
-/// zone is tightest (the least clearance in metres of a free path is often that of a mast over its own foot).
+/// The point a planner looks at: where the ray is cut deepest, or, on a free path, where the Fresnel zone is tightest,
+/// if there is a frequency or if the least clearance in metres is that of a mast over its own foot.
 struct TightestPoint {
   double distance_m = 0, ground_m = 0, clearance_m = 0;
   std::optional<double> fraction;  ///< of F1

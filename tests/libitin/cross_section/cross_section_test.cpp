@@ -124,6 +124,8 @@ TEST_P(SectionPatterns, EqualEveryTriangleCutByTheLine) {
                                                << ", from " << a.x << " " << a.y << " to " << b.x << " " << b.y;
         const CrossSection back = retrieve_section(*index, selection, SectionLine(grid, b, a));
         ASSERT_EQ(text(mirrored(back)), text(found));
+        // No block is read twice.
+        ASSERT_LE(found.statistics.points_read, points.size());
         with_gaps += found.gaps.empty() ? 0 : 1;
         pieces += found.breakpoints.size();
       }

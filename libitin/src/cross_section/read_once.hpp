@@ -1,0 +1,30 @@
+// An index whose blocks one line reads, and counts, once, whatever asks for them.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "store/point_index.hpp"
+#include "triangulate/block_reader.hpp"
+
+namespace itin {
+
+/// Serves one thread, unlike other indices. Keeps what it has read.
+class ReadOnce final : public PointIndex {
+ public:
+  explicit ReadOnce(const PointIndex& base) : base_(base), blocks_(base) {}
+
+  int level_count() const override { return base_.level_count(); }
+  GridBox bounds() const override { return base_.bounds(); }
+  void leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const override { base_.leaves(finest, box, out); }
+  std::shared_ptr<const Block> block(const Leaf& leaf) const override { return blocks_.read(leaf); }
+  void segments(const GridBox& box, std::vector<Segment>& out) const override { base_.segments(box, out); }
+
+  const RetrievalStatistics& statistics() const { return blocks_.statistics(); }
+
+ private:
+  const PointIndex& base_;
+  mutable BlockReader blocks_;
+};
+
+}  // namespace itin

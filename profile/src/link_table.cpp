@@ -1,0 +1,161 @@
+// Links from files.
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include <itin/coordinates.hpp>
+#include <itin/error.hpp>
+#include <itin/paths.hpp>
+#include <profile/links.hpp>
+
+namespace itin::profile {
+
+namespace {
+
+constexpr std::size_t kColumns = 7;
+constexpr std::array<const char*, kColumns> kNames = {"id", "x1", "y1", "h1", "x2", "y2", "h2"};
+constexpr const char* kUtf8Mark = "\xEF\xBB\xBF";
+
+/// Of a row of CSV, without the quotes of those that have them.
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (c == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"') {
+      cells.back() += c;
+      ++i;
+    } else if (c == '"') {
+      quoted = !quoted;
+    } else if (c == ',' && !quoted) {
+      cells.emplace_back();
+    } else if (c != '\r') {
+      cells.back() += c;
+    }
+  }
+  return cells;
+}
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
+  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+}
+
+std::optional<double> number(const std::string& text) {
+  const std::string digits = trimmed(text);
+  double value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+/// Which cell each of kNames is in.
+using Columns = std::array<std::size_t, kColumns>;
+
+/// Where a header has all the names they tell; else the columns are in the usual order.
+Columns columns_of(const std::vector<std::string>& header) {
+  std::vector<std::string> names;
+  for (const std::string& cell : header) {
+    std::string name = trimmed(cell);
+    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+    names.push_back(name);
+  }
+  Columns usual{}, named{};
+  for (std::size_t i = 0; i < kColumns; ++i) usual[i] = i;
+  for (std::size_t i = 0; i < kColumns; ++i) {
+    const auto found = std::find(names.begin(), names.end(), kNames[i]);
+    if (found == names.end()) return usual;
+    named[i] = static_cast<std::size_t>(found - names.begin());
+  }
+  return named;
+}
+
+/// A first line with no number where the coordinates are is a header.
+bool is_header(const std::vector<std::string>& cells) {
+  return std::none_of(cells.begin() + 1, cells.end(), [](const std::string& cell) { return number(cell).has_value(); });
+}
+
+class TableReader {
+ public:
+  TableReader(const std::string& path, const std::string& to_crs, const std::string& csv_crs) : file_(path) {
+    if (!file_) throw FileError(path, "cannot be opened");
+    if (!csv_crs.empty()) transform_.emplace(csv_crs, to_crs);
+  }
+
+  /// Calls take(link) or refuse(row, number of its line, id, what is wrong) for each row.
+  template <class Take, class Refuse>
+  void read(const Take& take, const Refuse& refuse) {
+    std::string line;
+    std::size_t row = 0;
+    for (std::size_t number = 1; std::getline(file_, line); ++number) {
+      if (number == 1 && line.starts_with(kUtf8Mark)) line.erase(0, 3);
+      if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+      const std::vector<std::string> cells = cells_of(line);
+      if (number == 1) {
+        const bool header = is_header(cells);
+        columns_ = columns_of(header ? cells : std::vector<std::string>());
+        width_ = header ? std::max(cells.size(), kColumns) : kColumns;
+        if (header) continue;
+      }
+      ++row;
+      try {
+        take(link_of(cells));
+      } catch (const InputError& error) {
+        refuse(row, number, columns_[0] < cells.size() ? cells[columns_[0]] : "", error.what());
+      }
+    }
+  }
+
+ private:
+  Link link_of(const std::vector<std::string>& cells) const {
+    if (cells.size() != width_)
+      throw InputError(fmt::format("has {} columns instead of {}: id,x1,y1,h1,x2,y2,h2", cells.size(), width_));
+    std::array<double, kColumns> v{};
+    for (std::size_t i = 1; i < kColumns; ++i) {
+      const auto value = number(cells[columns_[i]]);
+      if (!value) throw InputError(fmt::format("{} '{}' is no number", kNames[i], cells[columns_[i]]));
+      v[i] = *value;
+    }
+    Link link{cells[columns_[0]], {v[1], v[2]}, v[3], {v[4], v[5]}, v[6]};
+    if (transform_) link.from = (*transform_)(link.from), link.to = (*transform_)(link.to);
+    return link;
+  }
+
+  std::ifstream file_;
+  std::optional<CoordinateTransform> transform_;
+  Columns columns_{};
+  std::size_t width_ = kColumns;
+};
+
+bool is_table(const std::string& path) {
+  return path.size() > 4 && path.ends_with(".csv");
+}
+
+std::vector<Link> read_lines(const std::string& path, const std::string& to_crs, const LinkHeights& heights) {
+  std::vector<Link> links;
+  for (const Path& line : read_paths(path, to_crs))
+    links.push_back({line.name, line.corners.front(), heights.from_m, line.corners.back(), heights.to_m});
+  return links;
+}
+
+}  // namespace
+
+LinkTable read_link_table(const std::string& path, const std::string& to_crs, const LinkHeights& heights,
+                          const std::string& csv_crs) {
+  if (!is_table(path)) return {read_lines(path, to_crs, heights), {}};
+  LinkTable table;
+  TableReader(path, to_crs, csv_crs)
+      .read([&](Link link) { table.links.push_back(std::move(link)); },
+            [&](std::size_t row, std::size_t line, const std::string& id, const std::string& message) {
+              table.bad.push_back({row, line, id, message});
+            });
+  return table;
+}
+
+}  // namespace itin::profile
