@@ -240,7 +240,6 @@ class GroupBuilder {
     OverlaidLines laid = lay_over(*terrain_, std::move(mesh_.segments), covered);
     mesh_.segments = std::move(laid.segments);
     mesh_.ground = std::move(laid.ground);
-    mesh_.border = std::move(laid.border);
     for (const auto& [number, depth] : laid.pierced) {
       // Less is rounding.
       if (depth > 2)

@@ -8,6 +8,7 @@
 
 #include "features/feature_mesh.hpp"
 #include "features/footprint_arrangement.hpp"
+#include "features/ground_border.hpp"
 #include "features/roof.hpp"
 
 namespace itin {
@@ -40,7 +41,7 @@ struct GroupMesh {
   std::vector<PlacedSegment> segments;
   std::vector<GridPoint> loose;  ///< vertices without segments
   std::vector<FeatureMask> masks;
-  std::vector<GridEdge> ground, border;  ///< edges of the terrain that stay
+  ChangedGround ground;
   std::vector<Finding> findings;
   std::vector<std::uint32_t> refused;  ///< numbers of features
   std::uint64_t flat_instead = 0;

@@ -39,8 +39,7 @@ class Assembly {
     for (const PlacedSegment& s : group.segments) points_.insert(points_.end(), {s.a, s.b});
     points_.insert(points_.end(), group.loose.begin(), group.loose.end());
     mesh_.masks.insert(mesh_.masks.end(), group.masks.begin(), group.masks.end());
-    mesh_.ground.insert(mesh_.ground.end(), group.ground.begin(), group.ground.end());
-    mesh_.border.insert(mesh_.border.end(), group.border.begin(), group.border.end());
+    mesh_.ground.append(group.ground);
     mesh_.flat_instead += group.flat_instead;
   }
 

@@ -25,6 +25,7 @@
 #include <itin/progress.hpp>
 
 #include "features/footprint.hpp"
+#include "features/ground_border.hpp"
 #include "features/plan_overlay.hpp"
 #include "features/terrain_heights.hpp"
 
@@ -50,10 +51,8 @@ struct FeatureMesh {
   Grid grid;
   std::vector<GridPoint> vertices;  ///< in Morton order
   std::vector<FeatureSegment> segments;
-  std::vector<FeatureMask> masks;  ///< disjoint but for their borders
-  /// Edges of the terrain that stay, outside of masks or nearly, and those of them that shut them in
-  /// (terrain_overlay.hpp, ground_border.hpp).
-  std::vector<GridEdge> ground, border;
+  std::vector<FeatureMask> masks;    ///< disjoint but for their borders
+  ChangedGround ground;              ///< outside of masks or nearly, and under what drapes (terrain_overlay.hpp)
   std::vector<std::string> reports;  ///< one line a feature and finding, "NAME: ..."
   std::uint64_t built = 0;           ///< features that stand
   std::uint64_t refused = 0;         ///< features that do not, each reported

@@ -1,7 +1,6 @@
 #include "features/ground_border.hpp"
 
 #include <algorithm>
-#include <set>
 
 #include "features/planarity.hpp"
 
@@ -9,56 +8,136 @@ namespace itin {
 
 namespace {
 
-/// Every edge once, with the range of those that share it.
-struct DistinctEdges {
-  std::vector<GridEdge> edges;
-  std::vector<std::size_t> first;  ///< in the lines' edges, which are ascending; and one behind the last
-};
-
-DistinctEdges distinct(const PlanarLines& lines) {
-  DistinctEdges result;
-  const auto position = [&](std::uint32_t v) { return Position{lines.vertices[v].x, lines.vertices[v].y}; };
-  for (std::size_t i = 0; i < lines.edges.size(); ++i) {
-    const PlanarEdge& e = lines.edges[i];
-    if (i > 0 && lines.edges[i - 1].from == e.from && lines.edges[i - 1].to == e.to) continue;
-    result.edges.emplace_back(position(e.from), position(e.to));
-    result.first.push_back(i);
-  }
-  result.first.push_back(lines.edges.size());
-  return result;
+GridEdge undirected(const GridEdge& e) {
+  return std::minmax(e.first, e.second);
+}
+GridEdge reversed(const GridEdge& e) {
+  return {e.second, e.first};
 }
 
 }  // namespace
 
-std::vector<PlacedBorder> place_borders(std::vector<BorderEdge> borders, const PlanarLines& lines,
-                                        const std::vector<bool>& terrain) {
-  std::sort(borders.begin(), borders.end(), [](const BorderEdge& a, const BorderEdge& b) {
-    return a.edge != b.edge ? a.edge < b.edge : a.theme < b.theme;
-  });
-  borders.erase(std::unique(borders.begin(), borders.end()), borders.end());
-  if (borders.empty()) return {};
-  DistinctEdges all = distinct(lines);
-  const std::size_t of_lines = all.edges.size();
-  std::vector<std::size_t> first_border;  // of each edge behind those of the lines
-  for (std::size_t i = 0; i < borders.size(); ++i) {
-    if (i > 0 && borders[i - 1].edge == borders[i].edge) continue;
-    all.edges.push_back(borders[i].edge);
-    first_border.push_back(i);
+void ChangedGround::append(const ChangedGround& other) {
+  pieces.insert(pieces.end(), other.pieces.begin(), other.pieces.end());
+  inner.insert(inner.end(), other.inner.begin(), other.inner.end());
+  border.insert(border.end(), other.border.begin(), other.border.end());
+}
+
+/// Whom each border meets.
+class GroundBorder::Contacts {
+ public:
+  struct Contact {
+    std::uint32_t theme;
+    GridEdge edge;                         ///< directed, as the theme has it
+    std::vector<std::uint32_t> same, cut;  ///< owners of this very edge, and of others that have a part in common
+  };
+
+  Contacts(const std::vector<OfTheme>& themes, const PlanarLines& lines) : lines_(lines) {
+    for (std::uint32_t t = 0; t < themes.size(); ++t)
+      for (const GridEdge& e : themes[t].border) contacts_.push_back({t, e, {}, {}});
+    std::stable_sort(contacts_.begin(), contacts_.end(),
+                     [](const Contact& a, const Contact& b) { return undirected(a.edge) < undirected(b.edge); });
+    if (!contacts_.empty()) meet();
   }
-  first_border.push_back(borders.size());
-  std::vector<std::set<std::uint32_t>> crossed(borders.size());
-  for (const auto& [line, edge] : conflicts(all.edges)) {
-    if (line >= of_lines || edge < of_lines) continue;
-    const std::size_t k = edge - of_lines;
-    for (std::size_t b = first_border[k]; b < first_border[k + 1]; ++b)
-      for (std::size_t i = all.first[line]; i < all.first[line + 1]; ++i) crossed[b].insert(lines.edges[i].owner);
+
+  const std::vector<Contact>& all() const { return contacts_; }
+
+ private:
+  void meet() {
+    std::vector<GridEdge> edges;
+    std::vector<std::size_t> first_line, first_border;  // of each distinct edge; and one behind the last
+    for (std::size_t i = 0; i < lines_.edges.size(); ++i) {
+      const GridEdge e = edge_of(lines_.edges[i]);
+      if (!edges.empty() && edges.back() == e) continue;
+      edges.push_back(e);
+      first_line.push_back(i);
+    }
+    first_line.push_back(lines_.edges.size());
+    const std::size_t of_lines = edges.size();
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      const GridEdge e = undirected(contacts_[i].edge);
+      if (i > 0 && edges.back() == e) continue;
+      edges.push_back(e);
+      first_border.push_back(i);
+    }
+    first_border.push_back(contacts_.size());
+    for (const auto& [line, edge] : conflicts(edges)) {
+      if (line >= of_lines || edge < of_lines) continue;
+      const bool same = edges[line] == edges[edge];
+      for (std::size_t b = first_border[edge - of_lines]; b < first_border[edge - of_lines + 1]; ++b) {
+        std::vector<std::uint32_t>& owners = same ? contacts_[b].same : contacts_[b].cut;
+        for (std::size_t i = first_line[line]; i < first_line[line + 1]; ++i) owners.push_back(lines_.edges[i].owner);
+      }
+    }
   }
+
+  GridEdge edge_of(const PlanarEdge& e) const {
+    const GridPoint &a = lines_.vertices[e.from], &b = lines_.vertices[e.to];
+    return std::minmax(Position{a.x, a.y}, Position{b.x, b.y});
+  }
+
+  const PlanarLines& lines_;
+  std::vector<Contact> contacts_;
+};
+
+void GroundBorder::add(std::uint32_t theme, const ChangedGround& changed) {
+  themes_[theme].inner.insert(changed.inner.begin(), changed.inner.end());
+  themes_[theme].border.insert(changed.border.begin(), changed.border.end());
+}
+
+/// Heights come from the ground anyway.
+OwnedSegment GroundBorder::keep(std::uint32_t theme, const GridEdge& edge) {
+  themes_[theme].border.erase(edge);
+  themes_[theme].border.erase(reversed(edge));
+  themes_[theme].inner.insert(undirected(edge));
+  return {{edge.first.x, edge.first.y, 0}, {edge.second.x, edge.second.y, 0}, theme};
+}
+
+std::vector<OwnedSegment> GroundBorder::seams() {
+  std::vector<OwnedSegment> kept;
+  for (std::uint32_t t = 0; t < themes_.size(); ++t) {
+    OfTheme& of_theme = themes_[t];
+    std::erase_if(of_theme.border, [&](const GridEdge& e) { return of_theme.inner.contains(undirected(e)); });
+    std::vector<GridEdge> met;
+    for (const GridEdge& e : of_theme.border)
+      if (e.first < e.second && of_theme.border.contains(reversed(e))) met.push_back(e);
+    for (const GridEdge& e : met) kept.push_back(keep(t, e));
+  }
+  return kept;
+}
+
+std::vector<OwnedSegment> GroundBorder::widen(const PlanarLines& lines, const Owners& owners, const Apex& apex) {
+  std::vector<OwnedSegment> kept;
+  const Contacts contacts(themes_, lines);
+  for (const Contacts::Contact& contact : contacts.all()) {
+    const auto own = [&](std::uint32_t owner) { return owners.theme[owner] == contact.theme; };
+    OfTheme& of_theme = themes_[contact.theme];
+    if (std::none_of(contact.cut.begin(), contact.cut.end(), own) || !of_theme.border.contains(contact.edge)) continue;
+    const auto& [from, to] = contact.edge;
+    const std::optional<Position> beyond = apex(to, from);
+    const OwnedSegment line = keep(contact.theme, contact.edge);
+    if (!beyond) continue;  // the outline of the ground is there in any case
+    kept.push_back(line);
+    for (const GridEdge& e : {GridEdge{from, *beyond}, GridEdge{*beyond, to}}) {
+      if (of_theme.border.contains(reversed(e)))
+        kept.push_back(keep(contact.theme, e));
+      else
+        of_theme.border.insert(e);
+    }
+  }
+  return kept;
+}
+
+std::vector<PlacedBorder> GroundBorder::place(const PlanarLines& lines, const Owners& owners) const {
   std::vector<PlacedBorder> placed;
-  for (std::size_t b = 0; b < borders.size(); ++b) {
-    const bool needless = std::any_of(crossed[b].begin(), crossed[b].end(), [&](std::uint32_t owner) {
-      return owner == borders[b].theme || (owner < terrain.size() && terrain[owner]);
+  const Contacts contacts(themes_, lines);
+  for (const Contacts::Contact& contact : contacts.all()) {
+    std::set<std::uint32_t> met(contact.same.begin(), contact.same.end());
+    met.insert(contact.cut.begin(), contact.cut.end());
+    const bool needless = std::any_of(met.begin(), met.end(), [&](std::uint32_t owner) {
+      return owners.theme[owner] == contact.theme || owners.terrain[owners.theme[owner]];
     });
-    if (!needless) placed.push_back({borders[b], {crossed[b].begin(), crossed[b].end()}});
+    if (!needless) placed.push_back({{contact.theme, undirected(contact.edge)}, {met.begin(), met.end()}});
   }
   return placed;
 }

@@ -1,15 +1,36 @@
 // What shuts in the ground that standing features change: edges of the full surface that no feature of their theme
 // cuts, so nothing may cut them where that theme is there alone, lest the triangles beyond become others. Where another
 // theme's lines cross one it makes way for them, when they are there.
+//
+//   GroundBorder border(themes);
+//   border.add(theme, changed);                     // what each piece of each theme changes
+//   lines = ...; + border.seams()                   // planar, with all other lines
+//   while (there are border.widen(lines, ...)) ...  // planar again, with these
+//   border.place(lines, terrain)
+//
+// Making lines planar leads them past vertices of other themes, less than a grid step aside, and so now and then onto a
+// border or over it. The triangle beyond is changed ground then as well: the border moves on, around it.
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
+#include <set>
 #include <vector>
 
 #include "features/plan_overlay.hpp"
 #include "features/planar.hpp"
 
 namespace itin {
+
+/// Triangles of the full surface that standing features change, by their edges.
+struct ChangedGround {
+  std::vector<GridEdge> pieces;  ///< of edges between them, or nearly, that stay: cut where the features' lines cross
+  std::vector<GridEdge> inner;   ///< edges between them, whole, the lesser end first
+  std::vector<GridEdge> border;  ///< edges with one of them to the left and none to the right
+
+  void append(const ChangedGround& other);
+};
 
 struct BorderEdge {
   std::uint32_t theme = 0;  ///< from 0
@@ -22,9 +43,35 @@ struct PlacedBorder {
   std::vector<std::uint32_t> makes_way_for;  ///< owners, ascending
 };
 
-/// Those that are still needed among planar lines: a line of the terrain, or one of the same theme, does as well.
-/// `terrain`: whether an owner is a theme of the terrain.
-std::vector<PlacedBorder> place_borders(std::vector<BorderEdge> borders, const PlanarLines& lines,
-                                        const std::vector<bool>& terrain);
+class GroundBorder {
+ public:
+  /// Who the owners of lines are.
+  struct Owners {
+    std::vector<std::uint32_t> theme;  ///< by owner
+    std::vector<bool> terrain;         ///< by theme: whether it is part of the full surface
+  };
+  /// The full surface's third vertex left of an edge of it; nothing at the end of the ground.
+  using Apex = std::function<std::optional<Position>(Position from, Position to)>;
+
+  explicit GroundBorder(std::size_t themes) : themes_(themes) {}
+  void add(std::uint32_t theme, const ChangedGround& changed);
+
+  /// Where the changed ground of two pieces of a theme meets: edges to be kept as lines, owned by themes.
+  std::vector<OwnedSegment> seams();
+  /// The same for borders that planar lines of their own theme cut, which move on. None when all is well.
+  std::vector<OwnedSegment> widen(const PlanarLines& lines, const Owners& owners, const Apex& apex);
+  /// Those that are still needed: a line of the terrain or one of the same theme does as well. After widen() has found
+  /// nothing more.
+  std::vector<PlacedBorder> place(const PlanarLines& lines, const Owners& owners) const;
+
+ private:
+  struct OfTheme {
+    std::set<GridEdge> inner, border;
+  };
+  class Contacts;
+  OwnedSegment keep(std::uint32_t theme, const GridEdge& edge);
+
+  std::vector<OfTheme> themes_;
+};
 
 }  // namespace itin

@@ -189,8 +189,7 @@ class Standing {
   }
 
   void add(const FeatureMesh& mesh, const TerrainHeights& terrain, const Numbers& numbers) {
-    theme_.ground.insert(theme_.ground.end(), mesh.ground.begin(), mesh.ground.end());
-    theme_.border.insert(theme_.border.end(), mesh.border.begin(), mesh.border.end());
+    theme_.ground.append(mesh.ground);
     const std::vector<int> levels = levels_of(mesh, numbers.size());
     std::vector<std::int32_t> top(numbers.size(), std::numeric_limits<std::int32_t>::min());
     std::vector<int> level_of_vertex(mesh.vertices.size(), -1);

@@ -13,6 +13,7 @@
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
 
+#include "features/ground_border.hpp"
 #include "features/plan_overlay.hpp"
 #include "store/footprint_codec.hpp"
 #include "store/store_writer.hpp"
@@ -34,9 +35,9 @@ struct StandingPart {
 };
 
 struct StandingTheme {
-  std::vector<GridEdge> ground, border;  ///< edges of the full surface about features, as in FeatureMesh
-  std::vector<StandingPart> parts;       ///< the finest first, none without features
-  std::vector<std::string> reports;      ///< one line a feature and finding
+  ChangedGround ground;
+  std::vector<StandingPart> parts;   ///< the finest first, none without features
+  std::vector<std::string> reports;  ///< one line a feature and finding
   std::uint64_t built = 0, refused = 0;
 };
 

@@ -142,22 +142,26 @@ class Overlaying {
       const auto under = terrain_.triangles_near(bounds_of(covered_[i].top));
       triangles.insert(under.begin(), under.end());
     }
-    std::map<TerrainEdge, int> sides;
+    std::set<TerrainEdge> edges, directed;
     for (const std::uint32_t t : triangles) {
       const Triangle& v = terrain_.triangle(t);
-      for (int i = 0; i < 3; ++i) sides[std::minmax(v[i], v[(i + 1) % 3])] += 1;
+      for (int i = 0; i < 3; ++i) {
+        edges.insert(std::minmax(v[i], v[(i + 1) % 3]));
+        directed.emplace(v[i], v[(i + 1) % 3]);
+      }
     }
-    std::set<TerrainEdge> edges;
-    for (const auto& [edge, count] : sides) {
-      edges.insert(edge);
-      if (count == 1) border_.insert(ends_of(edge));
+    for (const TerrainEdge& e : directed) {
+      if (!directed.contains({e.second, e.first}))
+        border_.push_back(ends_of(e));
+      else if (e.first < e.second)
+        inner_.push_back(std::minmax(ends_of(e).first, ends_of(e).second));
     }
     return edges;
   }
 
   GridEdge ends_of(const TerrainEdge& edge) const {
     const GridPoint &a = terrain_.vertex(edge.first), &b = terrain_.vertex(edge.second);
-    return std::minmax(Position{a.x, a.y}, Position{b.x, b.y});
+    return {{a.x, a.y}, {b.x, b.y}};
   }
 
   bool flat(const std::set<TerrainEdge>& edges) const {
@@ -180,14 +184,14 @@ class Overlaying {
     p.z = ground;
   }
 
-  /// Over level ground nothing is to be kept but heights.
+  /// Over level ground nothing is to be kept but heights, and what lies beyond.
   OverlaidLines raised(std::vector<PlacedSegment> segments) {
     for (PlacedSegment& s : segments) {
       if (s.kind == SegmentClass::foot) continue;
       for (GridPoint* p : {&s.a, &s.b})
         if (const auto ground = ground_at(*p)) lift(*p, *ground, s.feature);
     }
-    return {std::move(segments), {}, {}, std::move(pierced_)};
+    return {std::move(segments), changed(), std::move(pierced_)};
   }
 
   /// Feet come first, for heights; the terrain last.
@@ -259,18 +263,35 @@ class Overlaying {
     }
   }
 
+  ChangedGround changed() {
+    ChangedGround ground;
+    ground.inner = std::move(inner_);
+    std::copy_if(border_.begin(), border_.end(), std::back_inserter(ground.border),
+                 [&](const GridEdge& e) { return carries_terrain(e); });
+    return ground;
+  }
+
   OverlaidLines collected() {
     OverlaidLines result;
     for (const Kept& k : kept_)
       result.segments.push_back({lines_.vertices[k.edge.from], lines_.vertices[k.edge.to], k.feature, k.kind});
     std::stable_sort(result.segments.begin(), result.segments.end(),
                      [](const PlacedSegment& a, const PlacedSegment& b) { return a.kind < b.kind; });
+    result.ground = changed();
+    std::set<GridEdge> whole;
+    for (const GridEdge& e : border_) whole.insert(std::minmax(e.first, e.second));
     for (const PlanarEdge& e : ground_) {
       const GridEdge edge = std::minmax(position(e.from), position(e.to));
-      (border_.contains(edge) ? result.border : result.ground).push_back(edge);
+      if (!whole.contains(edge)) result.ground.pieces.push_back(edge);
     }
     result.pierced = std::move(pierced_);
     return result;
+  }
+
+  /// Whether the surface has the terrain's triangles on both sides of an edge: on the ground, or raised.
+  bool carries_terrain(const GridEdge& e) const {
+    if (const auto top = tops_.at_middle(e.first, e.second)) return covered_[*top].above.has_value();
+    return !footprints_.at_middle(e.first, e.second);
   }
 
   struct Kept {
@@ -289,7 +310,7 @@ class Overlaying {
   PlanarLines lines_;
   std::vector<Kept> kept_;
   std::vector<PlanarEdge> ground_;
-  std::set<GridEdge> border_;
+  std::vector<GridEdge> border_, inner_;               ///< as in ChangedGround
   std::vector<bool> is_foot_;                          ///< by vertex
   std::vector<std::optional<std::uint32_t>> on_line_;  ///< by vertex: the feature
   std::vector<std::optional<std::uint32_t>> top_;      ///< by vertex of the terrain alone: a pierced top over it

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "features/feature_group.hpp"
+#include "features/ground_border.hpp"
 
 namespace itin {
 
@@ -28,8 +29,7 @@ struct CoveredGround {
 
 struct OverlaidLines {
   std::vector<PlacedSegment> segments;
-  std::vector<GridEdge> ground;  ///< on the terrain, without the border
-  std::vector<GridEdge> border;  ///< whole edges of the terrain that has the changed ground on one side
+  ChangedGround ground;
   std::map<std::uint32_t, std::int32_t> pierced;  ///< features, and how far the terrain rises above their tops
 };
 

@@ -236,7 +236,7 @@ void write_store(StoreWriter& writer, const std::string& directory, const Store*
   if (offered == 0) throw InputError("nothing to import: the sources hold no point with a height");
   if (ground != nullptr) collection.raise(*ground, report, progress);
 
-  const ThemeLines lines = collection.finish();
+  const ThemeLines lines = collection.finish(ground);
   report.crossings = lines.lines.crossings;
   add_line_vertices(lines, sorter);
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/triangulate.hpp>
 
 #include "features/part_vertices.hpp"
 #include "store/store_format.hpp"
@@ -24,6 +25,29 @@ void add_findings(const std::string& theme, const std::vector<std::string>& find
     warnings.push_back(fmt::format("theme '{}': {}", theme, findings[i]));
   if (findings.size() > kMostFindings)
     warnings.push_back(fmt::format("theme '{}': {} more like these", theme, findings.size() - kMostFindings));
+}
+
+/// The full surface's third vertex left of an edge of it.
+std::optional<Position> apex_of(const Store& ground, Position from, Position to) {
+  const Grid& grid = ground.metadata().grid;
+  Box box;
+  for (const Position& p : {from, to}) box.extend(grid.position(p.x, p.y));
+  box = {box.xmin - grid.resolution, box.ymin - grid.resolution, box.xmax + grid.resolution,
+         box.ymax + grid.resolution};
+  NoProgress quiet;
+  const Tin tin = triangulate(ground, Window::box(box), Detail::tolerance(0), quiet);
+  const auto at = [&](std::uint32_t v) { return Position{tin.vertices[v].x, tin.vertices[v].y}; };
+  for (const Triangle& t : tin.triangles)
+    for (int i = 0; i < 3; ++i)
+      if (at(t[i]) == from && at(t[(i + 1) % 3]) == to) return at(t[(i + 2) % 3]);
+  return std::nullopt;
+}
+
+const GridPoint* vertex_at(const StandingPart& part, Position p) {
+  const std::uint64_t code = morton(p.x, p.y);
+  const auto at = std::lower_bound(part.vertices.begin(), part.vertices.end(), code,
+                                   [](const GridPoint& q, std::uint64_t c) { return code_of(q) < c; });
+  return at != part.vertices.end() && code_of(*at) == code ? &*at : nullptr;
 }
 
 }  // namespace
@@ -120,6 +144,7 @@ void LineCollection::add_footprint(std::uint32_t theme, StoredFootprint footprin
 }
 
 void LineCollection::raise(const Store& ground, ImportReport& report, Progress& progress) {
+  changed_.resize(themes_.size());
   for (std::uint32_t t = 0; t < themes_.size(); ++t) {
     if (footprints_[t].empty()) continue;
     StandingTheme standing = stand(ground, footprints_[t], progress);
@@ -128,12 +153,15 @@ void LineCollection::raise(const Store& ground, ImportReport& report, Progress& 
     report.refused += standing.refused;
     add_findings(themes_[t].name, standing.reports, report.warnings);
     for (StandingPart& part : standing.parts) parts_.push_back({t, std::move(part)});
-    for (const GridEdge& edge : standing.border) borders_.push_back({t, edge});
-    for (const auto& [a, b] : standing.ground) {
-      segments_.push_back({{a.x, a.y, 0}, {b.x, b.y, 0}, t});
-      ground_ends_.insert(ground_ends_.end(), {{t, morton(a.x, a.y)}, {t, morton(b.x, b.y)}});
-    }
+    for (const auto& [a, b] : standing.ground.pieces) keep({{a.x, a.y, 0}, {b.x, b.y, 0}, t});
+    changed_[t] = std::move(standing.ground);
   }
+}
+
+/// An edge that keeps the ground about features.
+void LineCollection::keep(const OwnedSegment& ground_line) {
+  segments_.push_back(ground_line);
+  for (const GridPoint& p : {ground_line.a, ground_line.b}) ground_ends_.push_back({ground_line.owner, code_of(p)});
 }
 
 /// Gives their lines to make_planar()'s segments, under the numbers that follow the themes'.
@@ -163,7 +191,47 @@ std::uint16_t LineCollection::source_of(const GridPoint& p, std::uint32_t owner)
   return found != vertices_.end() ? found->second.source : first_source_[owner];
 }
 
-ThemeLines LineCollection::finish() {
+/// The same, for one that may lie under what drapes: then it is a line of its top. `masks` of the parts.
+void LineCollection::keep_or_raise(const OwnedSegment& ground_line, const std::vector<MaskIndex>& masks) {
+  const Position a{ground_line.a.x, ground_line.a.y}, b{ground_line.b.x, ground_line.b.y};
+  for (std::size_t p = 0; p < parts_.size(); ++p) {
+    if (parts_[p].theme != ground_line.owner || !masks[p].middle_inside(a, b)) continue;
+    StandingPart& part = parts_[p].part;
+    const GridPoint *top_a = vertex_at(part, a), *top_b = vertex_at(part, b);
+    if (top_a == nullptr || top_b == nullptr) continue;
+    part.segments.push_back({*top_a, *top_b, false});
+    segments_.push_back({*top_a, *top_b, static_cast<std::uint32_t>(themes_.size() + p)});
+    return;
+  }
+  keep(ground_line);
+}
+
+/// Puts all segments into one plane, with what keeps the ground about features.
+void LineCollection::make_lines(ThemeLines& result, const Store* ground) {
+  GroundBorder border(themes_.size());
+  for (std::uint32_t t = 0; t < changed_.size(); ++t) border.add(t, changed_[t]);
+  std::vector<MaskIndex> masks;
+  for (const PlacedPart& part : result.parts) masks.emplace_back(part.masks);
+  for (const OwnedSegment& s : border.seams()) keep_or_raise(s, masks);
+  GroundBorder::Owners owners;
+  owners.terrain = result.terrain;
+  for (std::uint32_t t = 0; t < themes_.size(); ++t) owners.theme.push_back(t);
+  for (const PlacedPart& part : result.parts) owners.theme.push_back(part.part.theme - 1u);
+  const auto apex = [&](Position from, Position to) { return apex_of(*ground, from, to); };
+  for (;;) {
+    result.lines = make_planar(segments_);
+    const std::vector<OwnedSegment> more = border.widen(result.lines, owners, apex);
+    if (more.empty()) break;
+    for (const OwnedSegment& s : more) keep_or_raise(s, masks);
+  }
+  segments_.clear();
+  result.borders = border.place(result.lines, owners);
+  std::sort(ground_ends_.begin(), ground_ends_.end());
+  ground_ends_.erase(std::unique(ground_ends_.begin(), ground_ends_.end()), ground_ends_.end());
+  result.ground_ends = std::move(ground_ends_);
+}
+
+ThemeLines LineCollection::finish(const Store* ground) {
   add_stored();
   std::vector<std::uint32_t> order(themes_.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -188,10 +256,6 @@ ThemeLines LineCollection::finish() {
     result.standing.push_back(stands.back());
   }
   for (ThemeVertex& end : ground_ends_) end.theme = number[end.theme];
-  for (BorderEdge& border : borders_) border.theme = number[border.theme];
-  std::sort(ground_ends_.begin(), ground_ends_.end());
-  ground_ends_.erase(std::unique(ground_ends_.begin(), ground_ends_.end()), ground_ends_.end());
-  result.ground_ends = std::move(ground_ends_);
   themes_ = std::move(themes);
   first_source_ = std::move(first_source);
   stands_ = std::move(stands);
@@ -199,8 +263,10 @@ ThemeLines LineCollection::finish() {
   for (OwnedSegment& s : segments_) s.owner = number[s.owner];
   for (OwnPart& own : parts_) own.theme = number[own.theme];
   place_parts(result);
-  result.lines = make_planar(std::move(segments_));
-  result.borders = place_borders(std::move(borders_), result.lines, result.terrain);
+  std::vector<ChangedGround> changed(order.size());
+  for (std::size_t t = 0; t < changed_.size(); ++t) changed[number[t]] = std::move(changed_[t]);
+  changed_ = std::move(changed);
+  make_lines(result, ground);
   std::vector<std::uint32_t> owner(result.lines.vertices.size(), std::numeric_limits<std::uint32_t>::max());
   std::vector<std::vector<Position>> ends(parts_.size());
   for (const PlanarEdge& e : result.lines.edges) {

@@ -11,6 +11,7 @@
 #include <itin/store.hpp>
 
 #include "features/ground_border.hpp"
+#include "features/mask_index.hpp"
 #include "features/standing_theme.hpp"
 #include "pyramid/theme_lines.hpp"
 #include "store/point_index.hpp"
@@ -40,8 +41,8 @@ class LineCollection {
   /// Builds all standing themes on a store's ground.
   void raise(const Store& ground, ImportReport& report, Progress& progress);
 
-  /// Puts the themes in order and the lines of all of them into one plane.
-  ThemeLines finish();
+  /// Puts the themes in order and the lines of all of them into one plane. `ground` as in raise(), if it was called.
+  ThemeLines finish(const Store* ground);
   /// After finish(): in order, features counted.
   const std::vector<ThemeInfo>& themes() const { return themes_; }
   const std::vector<std::vector<StoredFootprint>>& footprints() const { return footprints_; }
@@ -57,6 +58,9 @@ class LineCollection {
   };
   void add_stored();
   void place_parts(ThemeLines& result);
+  void keep(const OwnedSegment& ground_line);
+  void keep_or_raise(const OwnedSegment& ground_line, const std::vector<MaskIndex>& masks);
+  void make_lines(ThemeLines& result, const Store* ground);
   std::uint16_t source_of(const GridPoint& p, std::uint32_t owner) const;
 
   std::vector<ThemeInfo> themes_;
@@ -69,7 +73,7 @@ class LineCollection {
   std::unordered_map<std::uint64_t, std::uint32_t> ends_;  ///< theme by Morton code: those of the stored terrain lines
   std::vector<OwnedSegment> segments_;
   std::vector<ThemeVertex> ground_ends_;                ///< of edges that keep the ground about features
-  std::vector<BorderEdge> borders_;                     ///< of this ground
+  std::vector<ChangedGround> changed_;                  ///< by theme: of this ground
   std::unordered_map<std::uint64_t, Vertex> vertices_;  ///< by Morton code: what lines brought along
 };
 

@@ -268,7 +268,8 @@ TEST(FeatureMesh, SurvivesAnythingOnRoughGround) {
     ASSERT_NO_FATAL_FAILURE(expect_planar(mesh)) << "round " << round;
     for (const GridPoint& p : mesh.vertices)
       ASSERT_GE(p.z, std::floor(*terrain.height_at({p.x, p.y}) / mesh.grid.resolution)) << "round " << round;
-    built += mesh.built, joined += reported(mesh, "were joined"), ground += mesh.ground.size() + mesh.border.size();
+    built += mesh.built, joined += reported(mesh, "were joined"),
+        ground += mesh.ground.pieces.size() + mesh.ground.border.size();
   }
   std::cout << built << " built, " << ground << " edges of ground; lines joined in " << joined << " of 40 rounds\n";
   EXPECT_GT(built, 40U);

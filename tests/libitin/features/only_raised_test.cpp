@@ -126,6 +126,16 @@ TEST_F(OnlyRaised, NoWoodLowersTheGround) {
   compare(ThemeChoice::all());
 }
 
+/// Much of the ground is level, so that features lie on level triangles next to steep ones.
+TEST_F(OnlyRaised, NothingOnLevelGroundChangesTheSlopesAboutIt) {
+  ground(5, [&](int, int) { return in(0, 1) < 0.85 ? 100 : 104; });
+  std::vector<LineFeature> houses;
+  for (int i = 0; i < 60; ++i)
+    houses.push_back(polygon({300000 + in(20, 170), 200000 - in(20, 170)}, 1, 4, 4, in(1, 9)));
+  raise(ThemeKind::Buildings, "houses", houses);
+  compare(ThemeChoice::all());
+}
+
 /// What stands in each other's way.
 TEST_F(OnlyRaised, NothingTogetherLowersTheGround) {
   ground(5, [&](int, int) { return 100 + in(0, 5); });

@@ -27,8 +27,9 @@ class SurfaceComparison {
     for (const Triangle& t : bare.triangles) steepest_ = std::max(steepest_, slope_of(bare, t));
   }
 
-  /// Rounding: a grid step, and a step aside on the steepest slope.
-  double allowed() const { return bare_.grid.resolution * (1 + steepest_); }
+  /// Rounding: a grid step of heights, and on the steepest slope half a step aside in x and in y, twice: lines are made
+  /// planar by themselves, and then with all others.
+  double allowed() const { return bare_.grid.resolution * (1 + std::sqrt(2) * steepest_); }
 
   void at(Position p) {
     const auto low = low_.height_at(p), high = high_.height_at(p);
