@@ -52,6 +52,7 @@ void write_site_maps(const Store& store, const SiteResult& r, const std::string&
   viewshed::Result result = as_viewshed(r);
   viewshed::MapOptions options;
   options.map_pixels = kMapPixels;
+  options.seen = "Served", options.unseen = "Not served";
   options.title = fmt::format("Served by {} sites", r.choice.chosen.size());
   options.subtitle = fmt::format(
       "radius {:g} km, targets {:g} m up{}{}", r.options.radius / 1000, r.options.target_height,

@@ -82,7 +82,7 @@ class FresnelSites : public ::testing::Test {
   }
 
   /// What itin los says of each pair.
-  DemandSet served(std::size_t option) {
+  DemandSet served(std::size_t option, const ThemeChoice& themes) {
     const RasterGrid& grid = *survey_.targets.grid;
     const SiteStand& stand = survey_.stands[option];
     std::vector<std::size_t> elements;
@@ -98,7 +98,7 @@ class FresnelSites : public ::testing::Test {
     }
     profile::LinkQuery query;
     query.earth = survey_.earth;
-    query.themes = survey_.themes;
+    query.themes = themes;
     query.radio = profile::RadioPath{.frequency_ghz = frequency_ghz_, .effective_earth_km = 8500};
     query.gaps_block = survey_.nodata == NoData::kBlock;
     query.to_on_surface = survey_.targets.on_surface;
@@ -116,7 +116,13 @@ class FresnelSites : public ::testing::Test {
   }
   std::vector<DemandSet> all_served() {
     std::vector<DemandSet> sets;
-    for (std::size_t i = 0; i < survey_.stands.size(); ++i) sets.push_back(served(i));
+    const bool standing = survey_.themes.includes_standing(store_->metadata().themes);
+    for (std::size_t i = 0; i < survey_.stands.size(); ++i) {
+      sets.push_back(served(i, survey_.themes));
+      // Sites keep to what the bare terrain allows, also where a house's edge lowers the ground beside it by a hair.
+      if (standing && !survey_.targets.on_surface)
+        sets.back() = intersection(sets.back(), served(i, ThemeChoice::none()));
+    }
     return sets;
   }
 
