@@ -21,7 +21,10 @@ std::unique_ptr<tbb::global_control> control;
 }  // namespace
 
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {
-  tbb::parallel_for(std::size_t{0}, count, body);
+  // Isolated: what is thrown elsewhere must not end a loop within another one, which its caller would take for
+  // finished.
+  tbb::task_group_context own(tbb::task_group_context::isolated);
+  tbb::parallel_for(std::size_t{0}, count, body, own);
 }
 
 void set_thread_count(int threads) {

@@ -86,8 +86,8 @@ ImportReport import_terrain(const std::string& store_path, const ImportOptions& 
 
 /// Where contours are imported, options.repair decides for all contours of the store, also when something is added
 /// later: points are inferred along ridges, valleys, passes, hilltops and pits (features/flat_skeleton.hpp) and have a
-/// source of their own, of kind "inferred", the last one. They depend on what was imported alone, and are inferred anew
-/// whenever anything is added.
+/// source of their own, of kind "inferred", the last one. They depend on the terrain and the lines that were imported
+/// alone, and are inferred anew whenever such are added.
 ///
 /// Adds lines and polygons (as their rings) to a theme, which is made if there is none of that name. Contours may make
 /// a new store; other lines need ground to lie on. All lines of the store are made planar together: crossings get a

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/error.hpp>
 #include <itin/parallel.hpp>
 #include <itin/triangulate.hpp>
 
@@ -51,7 +52,17 @@ class Comparing {
   Comparing(const Store& store, const ThemeInfo& theme)
       : store_(store), theme_(theme), choice_(ThemeChoice::parse(theme.name)) {}
 
+  /// A store may be too broken for a surface.
   std::optional<Damage> in(const Square& square) const {
+    try {
+      return compared(square);
+    } catch (const Error& error) {
+      return Damage{fmt::format("theme '{}'", theme_.name), fmt::format("has no surface: {}", error.what())};
+    }
+  }
+
+ private:
+  std::optional<Damage> compared(const Square& square) const {
     const auto [column, row] = square;
     const Box box{static_cast<double>(column) * kSquare, static_cast<double>(row) * kSquare,
                   static_cast<double>(column + 1) * kSquare, static_cast<double>(row + 1) * kSquare};
@@ -67,7 +78,6 @@ class Comparing {
     return std::nullopt;
   }
 
- private:
   std::optional<Damage> at(const GridPoint& p, const TerrainHeights& low, const TerrainHeights& high,
                            const Box& box) const {
     const Grid& grid = store_.metadata().grid;

@@ -81,8 +81,10 @@ std::vector<SourceInfo> imported_sources(const Store* store) {
   return sources;
 }
 
-/// Adds the points that a store holds already, but for those inferred from others, and takes its lines over.
-std::uint64_t add_stored(const Store& store, PointSorter& sorter, LineCollection& lines, Progress& progress) {
+/// Adds the points that a store holds already, but for those inferred from others, which are put aside, and takes its
+/// lines over.
+std::uint64_t add_stored(const Store& store, PointSorter& sorter, LineCollection& lines,
+                         std::vector<GridPoint>& inferred_points, Progress& progress) {
   lines.take_themes(store.metadata());
   lines.take_segments(store.points());
   const std::size_t inferred = imported_sources(&store).size();
@@ -97,13 +99,19 @@ std::uint64_t add_stored(const Store& store, PointSorter& sorter, LineCollection
     points.clear();
     for (std::size_t k = 0; k < block->points.size(); ++k) {
       const GridPoint& p = block->points[k];
-      if (block->sources[k] == inferred || lines.take_vertex(p, block->sources[k], leaves[i].theme == 0)) continue;
+      if (block->sources[k] == inferred) {
+        inferred_points.push_back(p);
+        continue;
+      }
+      if (lines.take_vertex(p, block->sources[k], leaves[i].theme == 0)) continue;
       points.push_back({morton(p.x, p.y), p.z, block->sources[k], 0});
     }
     sorter.add(points);
     count += points.size();
     progress.report("reading the store", static_cast<double>(i + 1) / static_cast<double>(leaves.size()));
   }
+  std::sort(inferred_points.begin(), inferred_points.end(),
+            [](const GridPoint& a, const GridPoint& b) { return code_of(a) < code_of(b); });
   lines.take_footprints(store);
   return count;
 }
@@ -204,19 +212,28 @@ std::vector<ThemeInfo> counted_themes(const LineCollection& collection, const Th
   return themes;
 }
 
+/// Where the store goes, and where what comes before it.
+struct Target {
+  StoreWriter& writer;
+  std::string passing;  ///< path
+  bool last = false;    ///< it goes where it is to go, whatever
+  std::vector<double> tolerances;
+};
+
 /// Writes a store of all that `base` (may be null) holds and the additions. Standing features are raised on the ground
-/// of `ground`; without, only their footprints are kept.
-void write_store(StoreWriter& writer, const std::string& directory, const Store* base, Additions& additions,
-                 const Store* ground, const std::vector<double>& tolerances, const ImportOptions& options,
-                 ImportReport& report, Progress& progress) {
+/// of `ground`; without, only their footprints are kept. False where they need another turn, on the ground of the
+/// passing store that was written instead: this one has other ground than they were raised on, or they were not.
+bool write_store(const Target& target, const Store* base, Additions& additions, const Store* ground,
+                 const ImportOptions& options, ImportReport& report, RaisedFeatures& raised, Progress& progress) {
   const ImportPlan& plan = additions.plan;
   std::vector<SourceInfo> sources = imported_sources(base);
   // One more may stand for inferred points.
   if (sources.size() + plan.sources.size() + plan.lines.size() + additions.footprints.size() >= format::kMaxSources)
     throw InputError("a store holds at most 32,766 sources; merge some of them first");
-  PointSorter sorter(directory, options.memory_bytes / 2);
+  PointSorter sorter(directory_of(target.passing), options.memory_bytes / 2);
   LineCollection collection;
-  std::uint64_t offered = base != nullptr ? add_stored(*base, sorter, collection, progress) : 0;
+  std::vector<GridPoint> inferred;
+  std::uint64_t offered = base != nullptr ? add_stored(*base, sorter, collection, inferred, progress) : 0;
   for (const auto& source : plan.sources) {
     add_source(*source, static_cast<std::uint16_t>(sources.size()), sorter, report, progress);
     sources.push_back(source->info());
@@ -234,16 +251,23 @@ void write_store(StoreWriter& writer, const std::string& directory, const Store*
   if (repair) sources.push_back(inferred_source());
   offered += report.read;
   if (offered == 0) throw InputError("nothing to import: the sources hold no point with a height");
-  if (ground != nullptr) collection.raise(*ground, report, progress);
+  if (ground != nullptr) collection.raise(*ground, raised, progress);
 
   const ThemeLines lines = collection.finish(ground);
-  report.crossings = lines.lines.crossings;
+  report.crossings = std::max(report.crossings, lines.lines.crossings);
   add_line_vertices(lines, sorter);
+  const bool done = target.last || !collection.stands() || (ground != nullptr && !collection.changes_terrain(lines));
+  std::optional<StoreWriter> passing;
+  if (!done) passing.emplace(target.passing, plan.crs_wkt, plan.grid, target.tolerances);
+  StoreWriter& writer = done ? target.writer : *passing;
 
   std::vector<SourceRank> ranks;
   for (const SourceInfo& source : sources) ranks.push_back({source.spacing, is_ground(source)});
   SortedPoints points = sorter.finish(ranks, progress, &report.duplicates);
-  const PyramidReport pyramid = build_pyramid(points, sources, plan.grid, tolerances, lines, writer, progress);
+  // Ground that features stand on stays as it is.
+  const PyramidReport pyramid =
+      build_pyramid(points, sources, plan.grid, target.tolerances, lines,
+                    ground != nullptr && collection.stands() ? &inferred : nullptr, writer, progress);
   report.replaced += pyramid.replaced;
   report.isolated += pyramid.isolated;
   report.left_out = pyramid.left_out;
@@ -262,6 +286,7 @@ void write_store(StoreWriter& writer, const std::string& directory, const Store*
   std::vector<ThemePart> parts;
   for (const PlacedPart& part : lines.parts) parts.push_back(part.part);
   writer.commit(std::move(sources), std::move(themes), std::move(parts));
+  return done;
 }
 
 /// A store for the time of an import only.
@@ -280,12 +305,6 @@ class PassingStore {
   std::string path_;
 };
 
-bool has_standing_themes(const Store* store) {
-  if (store == nullptr) return false;
-  const auto& themes = store->metadata().themes;
-  return std::any_of(themes.begin(), themes.end(), [](const ThemeInfo& theme) { return theme.stands(); });
-}
-
 Additions plan_additions(const ImportOptions& options, const Store* store) {
   Additions additions;
   if (stands(options)) {
@@ -299,6 +318,37 @@ Additions plan_additions(const ImportOptions& options, const Store* store) {
     additions.plan = plan_import(options, store != nullptr ? &store->metadata() : nullptr);
   }
   return additions;
+}
+
+/// What stands needs its ground finished first, and gives lines of the ground vertices where it crosses them. Few of
+/// these, within a grid step or two of others, are left after some turns.
+constexpr std::size_t kMostTurns = 3;
+
+void write_in_turns(const std::string& store_path, StoreWriter& writer, const std::vector<double>& tolerances,
+                    const std::optional<Store>& existing, Additions& additions, const ImportOptions& options,
+                    ImportReport& report, Progress& progress) {
+  std::vector<std::unique_ptr<PassingStore>> passing;
+  std::optional<Store> before;
+  const auto next = [&] { return fmt::format("{}.ground{}", store_path, passing.size()); };
+  passing.push_back(std::make_unique<PassingStore>(next()));
+  const Store* const store = existing ? &*existing : nullptr;
+  // With lines among contours what is inferred from these is made anew.
+  const bool changes = additions.change_terrain(options) || (repairs(store) && !additions.plan.lines.empty());
+  const Store* const ground = changes ? nullptr : store;
+  RaisedFeatures raised;
+  bool done = write_store({writer, passing.back()->path(), false, tolerances}, store, additions, ground, options,
+                          report, raised, progress);
+  while (!done) {
+    before.emplace(passing.back()->path());
+    passing.push_back(std::make_unique<PassingStore>(next()));
+    Additions nothing;
+    nothing.plan = plan_nothing(before->metadata());
+    done = write_store({writer, passing.back()->path(), passing.size() >= kMostTurns, tolerances}, &*before, nothing,
+                       &*before, options, report, raised, progress);
+  }
+  report.features += raised.features;
+  report.refused += raised.refused;
+  report.warnings.insert(report.warnings.end(), raised.warnings.begin(), raised.warnings.end());
 }
 
 ImportReport import_sources(const std::string& store_path, const ImportOptions& options, Progress& progress) {
@@ -319,21 +369,7 @@ ImportReport import_sources(const std::string& store_path, const ImportOptions& 
   // The writer comes first: it holds the lock, and a place that cannot be written is known before hours of work.
   const ImportPlan& plan = additions.plan;
   StoreWriter writer(store_path, plan.crs_wkt, plan.grid, tolerances);
-  const std::string directory = directory_of(store_path);
-  if (has_standing_themes(store) && additions.change_terrain(options)) {
-    // What stands needs the new ground finished first.
-    const PassingStore passing(store_path + ".ground");
-    {
-      StoreWriter first(passing.path(), plan.crs_wkt, plan.grid, tolerances);
-      write_store(first, directory, store, additions, nullptr, tolerances, options, report, progress);
-    }
-    const Store ground(passing.path());
-    Additions nothing;
-    nothing.plan = plan_nothing(ground.metadata());
-    write_store(writer, directory, &ground, nothing, &ground, tolerances, options, report, progress);
-  } else {
-    write_store(writer, directory, store, additions, store, tolerances, options, report, progress);
-  }
+  write_in_turns(store_path, writer, tolerances, existing, additions, options, report, progress);
 
   const Store written(store_path);
   report.store_bytes = written.file_bytes();

@@ -143,7 +143,12 @@ void LineCollection::add_footprint(std::uint32_t theme, StoredFootprint footprin
   footprints_[theme].push_back(std::move(footprint));
 }
 
-void LineCollection::raise(const Store& ground, ImportReport& report, Progress& progress) {
+bool LineCollection::stands() const {
+  return std::any_of(footprints_.begin(), footprints_.end(), [](const auto& of_theme) { return !of_theme.empty(); });
+}
+
+void LineCollection::raise(const Store& ground, RaisedFeatures& report, Progress& progress) {
+  report = {};
   changed_.resize(themes_.size());
   for (std::uint32_t t = 0; t < themes_.size(); ++t) {
     if (footprints_[t].empty()) continue;
@@ -229,6 +234,12 @@ void LineCollection::make_lines(ThemeLines& result, const Store* ground) {
   std::sort(ground_ends_.begin(), ground_ends_.end());
   ground_ends_.erase(std::unique(ground_ends_.begin(), ground_ends_.end()), ground_ends_.end());
   result.ground_ends = std::move(ground_ends_);
+}
+
+bool LineCollection::changes_terrain(const ThemeLines& lines) const {
+  const std::vector<std::uint32_t> vertices = lines.terrain_vertices();
+  return std::any_of(vertices.begin(), vertices.end(),
+                     [&](std::uint32_t v) { return !vertices_.contains(code_of(lines.lines.vertices[v])); });
 }
 
 ThemeLines LineCollection::finish(const Store* ground) {

@@ -18,6 +18,13 @@
 
 namespace itin {
 
+/// Of all imports so far.
+struct RaisedFeatures {
+  std::uint64_t features = 0;  ///< that stand
+  std::uint64_t refused = 0;
+  std::vector<std::string> warnings;
+};
+
 class LineCollection {
  public:
   /// Takes a store's themes over, then its lines, then their vertices: in this order.
@@ -38,11 +45,16 @@ class LineCollection {
   void add_features(std::uint32_t theme, std::uint64_t count) { themes_[theme].features += count; }
 
   void add_footprint(std::uint32_t theme, StoredFootprint footprint);
+  /// Whether any theme stands.
+  bool stands() const;
   /// Builds all standing themes on a store's ground.
-  void raise(const Store& ground, ImportReport& report, Progress& progress);
+  void raise(const Store& ground, RaisedFeatures& report, Progress& progress);
 
   /// Puts the themes in order and the lines of all of them into one plane. `ground` as in raise(), if it was called.
   ThemeLines finish(const Store* ground);
+  /// After finish(): whether crossing each other, or what stands, has given lines of the terrain vertices that they did
+  /// not bring along.
+  bool changes_terrain(const ThemeLines& lines) const;
   /// After finish(): in order, features counted.
   const std::vector<ThemeInfo>& themes() const { return themes_; }
   const std::vector<std::vector<StoredFootprint>>& footprints() const { return footprints_; }

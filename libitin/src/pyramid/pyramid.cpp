@@ -206,8 +206,8 @@ bool is_ground(const SourceInfo& source) {
 }
 
 PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>& sources, const Grid& grid,
-                            const std::vector<double>& tolerances, const ThemeLines& lines, StoreWriter& writer,
-                            Progress& progress) {
+                            const std::vector<double>& tolerances, const ThemeLines& lines,
+                            const std::vector<GridPoint>* inferred, StoreWriter& writer, Progress& progress) {
   const int levels = static_cast<int>(tolerances.size());
   std::optional<WorkingIndex> working(std::in_place, points, levels, kLeafCapacity);
   std::vector<CurveRange> tiles = working->tiles(tile_points(points.size()));
@@ -241,7 +241,9 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
     report.flat_before = report.flat_after = flat.triangles();
     const auto source = std::find_if(sources.begin(), sources.end(), [](const auto& s) { return s.kind == kInferred; });
     if (source != sources.end()) {
-      points = points.with(raw_points(flat.inferred(), static_cast<std::size_t>(source - sources.begin())), kDropped);
+      points = points.with(raw_points(inferred != nullptr ? *inferred : flat.inferred(),
+                                      static_cast<std::size_t>(source - sources.begin())),
+                           kDropped);
       working.emplace(points, levels, kLeafCapacity);
       tiles = working->tiles(tile_points(points.size()));
       report.flat_after = survey_flat(*working, tiles, placed, outline, lines, progress).triangles();

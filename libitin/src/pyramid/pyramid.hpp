@@ -35,9 +35,9 @@ struct PyramidReport {
 /// bases. Out of core: memory follows the leaves (about 100 bytes for 512 points) and the tiles in work, not the
 /// points. The result depends on the set of points, the lines and the gap bases alone. The vertices of terrain lines
 /// must be among the points. Contours are repaired (contour_repair.hpp) where one of the sources is kInferred: it gets
-/// the points. Throws FileError, Cancelled.
+/// the points, those of an earlier repair (`inferred`, in Morton order) if they are given. Throws FileError, Cancelled.
 PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>& sources, const Grid& grid,
-                            const std::vector<double>& tolerances, const ThemeLines& lines, StoreWriter& writer,
-                            Progress& progress);
+                            const std::vector<double>& tolerances, const ThemeLines& lines,
+                            const std::vector<GridPoint>* inferred, StoreWriter& writer, Progress& progress);
 
 }  // namespace itin

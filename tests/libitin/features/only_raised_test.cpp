@@ -136,6 +136,32 @@ TEST_F(OnlyRaised, NothingOnLevelGroundChangesTheSlopesAboutIt) {
   compare(ThemeChoice::all());
 }
 
+/// On contours, with points inferred between them: what stands gives these vertices where it crosses them, and stands
+/// on what has become of the ground then.
+TEST_F(OnlyRaised, NoHouseLowersGroundOfContours) {
+  std::vector<LineFeature> contours;
+  for (int k = 0; k < 9; ++k) {
+    LineFeature& ring = contours.emplace_back();
+    const double turn = in(0, 6.28), wobble = in(0.05, 0.15);
+    for (int i = 0; i <= 48; ++i) {
+      const double angle = i % 48 * 6.283185307 / 48, r = (12 + 11 * k) * (1 + wobble * std::sin(3 * angle) / (k + 1));
+      ring.vertices.push_back(
+          {300100 + r * std::cos(angle + turn), 199900 + r * std::sin(angle + turn), 200.0 - 5 * k});
+    }
+  }
+  test::write_lines(path("contours.geojson"), contours);
+  ImportOptions options;
+  options.sources = {path("contours.geojson")};
+  options.kind = ThemeKind::Contours;
+  NoProgress progress;
+  EXPECT_GT(import_lines(path("s.itin"), options, progress).inferred, 0U);
+  std::vector<LineFeature> houses;
+  for (int i = 0; i < 12; ++i)
+    houses.push_back(polygon({300100 + in(-70, 70), 199900 + in(-70, 70)}, 4, 12, 4, in(1, 9)));
+  raise(ThemeKind::Buildings, "houses", houses);
+  compare(ThemeChoice::all());
+}
+
 /// What stands in each other's way.
 TEST_F(OnlyRaised, NothingTogetherLowersTheGround) {
   ground(5, [&](int, int) { return 100 + in(0, 5); });

@@ -1,0 +1,55 @@
+// Loops over threads: within each other, and when one throws.
+#include <atomic>
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <itin/parallel.hpp>
+
+namespace itin {
+namespace {
+
+TEST(ParallelFor, RunsEachIterationOnce) {
+  std::vector<std::atomic<int>> runs(1000);
+  parallel_for(runs.size(), [&](std::size_t i) { ++runs[i]; });
+  for (const auto& count : runs) EXPECT_EQ(count, 1);
+}
+
+TEST(ParallelFor, Rethrows) {
+  EXPECT_THROW(parallel_for(100,
+                            [](std::size_t i) {
+                              if (i == 37) throw std::runtime_error("37");
+                            }),
+               std::runtime_error);
+}
+
+// A body that goes on while another one throws must find its own loops whole.
+TEST(ParallelFor, LoopsWithinAreWholeWhateverOthersThrow) {
+  for (int round = 0; round < 20; ++round) {
+    std::atomic<int> begun = 0, broken = 0;
+    const auto body = [&](std::size_t i) {
+      if (i == 1) {
+        // Waits for another thread to be at its loops, where there is one.
+        for (int k = 0; k < 100 && begun == 0; ++k) std::this_thread::sleep_for(std::chrono::microseconds(100));
+        throw std::runtime_error("1");
+      }
+      for (int k = 0; k < 20; ++k) {
+        std::atomic<int> runs = 0;
+        ++begun;
+        parallel_for(50, [&](std::size_t) {
+          std::this_thread::sleep_for(std::chrono::microseconds(2));
+          ++runs;
+        });
+        if (runs != 50) ++broken;
+      }
+    };
+    EXPECT_THROW(parallel_for(2, body), std::runtime_error);
+    ASSERT_EQ(broken, 0) << "round " << round;
+  }
+}
+
+}  // namespace
+}  // namespace itin
