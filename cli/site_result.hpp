@@ -65,8 +65,8 @@ viewshed::SiteSurvey site_survey(const SiteOptions& options, const SiteInputs& i
 SiteRasters site_rasters(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
                          const viewshed::SiteCoverage& coverage, const viewshed::Choice& choice, Progress& progress);
 
-/// Between all chosen sites, and to the hub.
 LinkRules link_rules(const SiteOptions& options);
+/// Between all chosen sites, and to the hub.
 std::vector<SiteLink> site_links(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
                                  const viewshed::Choice& choice, const std::optional<viewshed::SiteStand>& hub,
                                  Progress& progress);
