@@ -121,7 +121,7 @@ class SiteVerb final : public Verb {
   viewshed::Choice choose(const Store& store, const SiteInputs& inputs, viewshed::SiteCoverage& coverage,
                           Progress& progress) const {
     viewshed::ChoiceGoal goal = this->goal(inputs, coverage);
-    const SiteLinks links(store, options_.themes.choice(), options_.earth.earth(), progress);
+    const SiteLinks links(store, link_rules(options_), progress);
     const SiteRules rules(inputs.stands, inputs.options.size(), options_.min_spacing, options_.intervisible,
                           hub(store, progress), links);
     if (rules.any()) {
@@ -162,6 +162,8 @@ class SiteVerb final : public Verb {
   }
 
   void warn(const SiteResult& site, std::vector<std::string>& warnings) const {
+    if (options_.frequency_ghz && options_.earth.is_default())
+      warnings.emplace_back("radio at the refraction of light; the usual one of radio is --effective-earth 4/3");
     const std::vector<std::string>& rejected = site.inputs.rejected;
     for (std::size_t i = 0; i < std::min(rejected.size(), kMostWarnings); ++i)
       warnings.push_back("left out: " + rejected[i]);

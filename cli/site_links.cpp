@@ -21,17 +21,18 @@ profile::SightLine SiteLinks::between(const SiteStand& a, const SiteStand& b) co
   const double length = distance(a, b);
   if (length == 0) return {};
   const Window window = Window::corridor(a.position, b.position, 4 * store_.metadata().grid.resolution);
-  const Tin tin = triangulate(store_, window, Detail::tolerance(0), progress_, themes_);
-  return profile::SightLines(tin, earth_)
+  const Tin tin = triangulate(store_, window, Detail::tolerance(0), progress_, rules_.themes);
+  const std::optional<double> wavelength = rules_.fresnel ? std::optional(rules_.fresnel->wavelength) : std::nullopt;
+  return profile::SightLines(tin, rules_.earth, wavelength)
       .between({a.position.x, a.position.y, a.elevation()}, {b.position.x, b.position.y, b.elevation()});
 }
 
-bool SiteLinks::sees(const std::vector<SiteStand>& stands, std::size_t a, std::size_t b) const {
+bool SiteLinks::connect(const std::vector<SiteStand>& stands, std::size_t a, std::size_t b) const {
   const auto key = std::minmax(a, b);
   const auto known = seen_.find(key);
   if (known != seen_.end()) return known->second;
   progress_.throw_if_cancelled();
-  return seen_[key] = between(stands[a], stands[b]).visible();
+  return seen_[key] = connect(stands[a], stands[b]);
 }
 
 bool SiteRules::spaced(std::size_t a, std::size_t b) const {
@@ -42,7 +43,7 @@ bool SiteRules::sees_hub(std::size_t option) const {
   if (!hub_) return false;
   const auto known = sees_hub_.find(option);
   if (known != sees_hub_.end()) return known->second;
-  return sees_hub_[option] = links_.between(stands_[option], *hub_).visible();
+  return sees_hub_[option] = links_.connect(stands_[option], *hub_);
 }
 
 bool SiteRules::sees_another_candidate(std::size_t option) const {
@@ -57,7 +58,7 @@ bool SiteRules::sees_another_candidate(std::size_t option) const {
     return da != db ? da < db : a < b;
   });
   return sees_another_[option] = std::any_of(others.begin(), others.end(),
-                                             [&](std::size_t other) { return links_.sees(stands_, option, other); });
+                                             [&](std::size_t other) { return links_.connect(stands_, option, other); });
 }
 
 bool SiteRules::may_join(std::size_t option, std::span<const std::size_t> chosen) const {
@@ -66,7 +67,7 @@ bool SiteRules::may_join(std::size_t option, std::span<const std::size_t> chosen
   if (!intervisible_ || sees_hub(option)) return true;
   if (chosen.empty()) return !hub_ && sees_another_candidate(option);
   return std::any_of(chosen.begin(), chosen.end(),
-                     [&](std::size_t other) { return links_.sees(stands_, option, other); });
+                     [&](std::size_t other) { return links_.connect(stands_, option, other); });
 }
 
 bool SiteRules::holds_together(std::span<const std::size_t> chosen) const {
@@ -76,7 +77,7 @@ bool SiteRules::holds_together(std::span<const std::size_t> chosen) const {
     if (!intervisible_ || sees_hub(chosen[i])) continue;
     bool linked = false;
     for (std::size_t j = 0; j < chosen.size() && !linked; ++j)
-      linked = j != i && links_.sees(stands_, chosen[i], chosen[j]);
+      linked = j != i && links_.connect(stands_, chosen[i], chosen[j]);
     if (!linked) return false;
   }
   return true;

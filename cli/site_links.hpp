@@ -7,26 +7,38 @@
 #include <span>
 #include <vector>
 
+#include <itin/fresnel_zone.hpp>
 #include <itin/store.hpp>
 #include <profile/line_of_sight.hpp>
 #include <viewshed/site_coverage.hpp>
 
 namespace itin::cli {
 
+/// What lines between sites are judged by.
+struct LinkRules {
+  ThemeChoice themes;
+  Earth earth;
+  std::optional<FresnelCriterion> fresnel;
+
+  bool met_by(const profile::SightLine& line) const { return line.clears(fresnel ? fresnel->fraction : 0); }
+};
+
 /// Remembers what it has looked at. Over the full surface with the themes.
 class SiteLinks {
  public:
-  SiteLinks(const Store& store, const ThemeChoice& themes, const Earth& earth, Progress& progress)
-      : store_(store), themes_(themes), earth_(earth), progress_(progress) {}
+  SiteLinks(const Store& store, LinkRules rules, Progress& progress)
+      : store_(store), rules_(std::move(rules)), progress_(progress) {}
 
   profile::SightLine between(const viewshed::SiteStand& a, const viewshed::SiteStand& b) const;
+  bool connect(const viewshed::SiteStand& a, const viewshed::SiteStand& b) const {
+    return rules_.met_by(between(a, b));
+  }
   /// The same, for options by their number; asked again it costs nothing.
-  bool sees(const std::vector<viewshed::SiteStand>& stands, std::size_t a, std::size_t b) const;
+  bool connect(const std::vector<viewshed::SiteStand>& stands, std::size_t a, std::size_t b) const;
 
  private:
   const Store& store_;
-  ThemeChoice themes_;
-  Earth earth_;
+  LinkRules rules_;
   Progress& progress_;
   mutable std::map<std::pair<std::size_t, std::size_t>, bool> seen_;
 };

@@ -52,10 +52,13 @@ void write_site_maps(const Store& store, const SiteResult& r, const std::string&
   viewshed::Result result = as_viewshed(r);
   viewshed::MapOptions options;
   options.map_pixels = kMapPixels;
+  options.seen = "Served", options.unseen = "Not served";
   options.title = fmt::format("Served by {} sites", r.choice.chosen.size());
-  options.subtitle =
-      fmt::format("radius {:g} km, targets {:g} m up{}", r.options.radius / 1000, r.options.target_height,
-                  r.options.cover > 1 ? fmt::format(", by at least {} sites", r.options.cover) : "");
+  options.subtitle = fmt::format(
+      "radius {:g} km, targets {:g} m up{}{}", r.options.radius / 1000, r.options.target_height,
+      r.options.frequency_ghz ? fmt::format(", {:g} F1 clear at {:g} GHz", r.options.fresnel, *r.options.frequency_ghz)
+                              : "",
+      r.options.cover > 1 ? fmt::format(", by at least {} sites", r.options.cover) : "");
   const viewshed::MapImage coverage = draw_map(tin, result, options);
   warnings.insert(warnings.end(), coverage.warnings.begin(), coverage.warnings.end());
   write_image((fs::path(directory) / "coverage.png").string(), coverage, overwrite);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <profile/fresnel.hpp>
 
 namespace itin::cli {
 
@@ -84,6 +85,11 @@ void SiteOptions::declare_demand(CLI::App& app) {
   app.add_option("--target-height", target_height_text_, "h of the targets (default: 2)")->type_name("METRES");
   app.add_option("--target-on", target_on_, "ground (default), or the surface with the roofs and tops of --themes")
       ->type_name("ground|surface");
+  app.add_option("--frequency", frequency_text_,
+                 "Served is what is in sight with its first Fresnel zone clear at this frequency; links likewise")
+      ->type_name("GHZ");
+  app.add_option("--fresnel", fresnel_text_, "So much of that zone's radius must be clear, 0 to 1 (default: 0.6)")
+      ->type_name("FRACTION");
   app.add_option("--radius", radius_text_, "How far a site serves (default: 10000)")->type_name("METRES");
   app.add_option("--cell", cell_text_, "Size of the cells, of the rasters too (default: 50)")->type_name("METRES");
 }
@@ -116,8 +122,6 @@ void SiteOptions::declare_work(CLI::App& app) {
       ->type_name("unknown|block|clear");
   app.add_option("--memory", memory_text_, "Memory to work in; it changes the speed only (default: 1G)")
       ->type_name("SIZE");
-  app.add_option("--frequency", frequency_text_, "Not in this version: served means a clear line of sight")
-      ->type_name("GHZ");
   app.add_flag("--resume", resume, "Go on where a run with the same parameters was killed");
   app.add_flag("--overwrite", overwrite, "Replace existing outputs");
 }
@@ -140,15 +144,12 @@ void SiteOptions::apply_parameter_file() {
 
 void SiteOptions::validate() {
   apply_parameter_file();
-  if (!frequency_text_.empty())
-    throw InputError(
-        "--frequency: Fresnel clearance as the meaning of served is not in this version; leave it out, and check links "
-        "with itin los --frequency");
   validate_candidates();
   validate_masts();
   validate_demand();
   validate_choice();
   validate_work();
+  validate_links();
 }
 
 void SiteOptions::validate_candidates() {
@@ -187,6 +188,39 @@ void SiteOptions::validate_demand() {
   cell = number("--cell", cell_text_, Range::kPositive);
   if (cell.value_or(0) > radius) throw InputError(fmt::format("--cell '{}': larger than the radius", cell_text_));
   if (demand == "cells" && !weight_field.empty()) throw InputError("--weight-field is of use with points only");
+}
+
+void SiteOptions::validate_links() {
+  frequency_ghz = number("--frequency", frequency_text_, Range::kPositive);
+  if (!frequency_ghz) {
+    if (!fresnel_text_.empty()) throw InputError("--fresnel takes a --frequency: the zone's radius depends on it");
+    return;
+  }
+  fresnel = number("--fresnel", fresnel_text_, Range::kPositive).value_or(fresnel);
+  if (fresnel > 1) throw InputError(fmt::format("--fresnel '{}': more than the zone; give 0 to 1", fresnel_text_));
+  if (earth.earth().drop_coefficient() == 0)
+    throw InputError("--frequency takes a curved Earth; leave out --curvature off");
+  // No clearance at all where the zone ends on the ground.
+  if (target_height == 0)
+    throw InputError("--frequency takes a --target-height above 0: no link to the ground is clear");
+  for (const Mast& mast : masts)
+    if (mast.height == 0)
+      throw InputError("--frequency takes a --mast-height above 0: no link from the ground is clear");
+}
+
+std::optional<FresnelCriterion> SiteOptions::criterion() const {
+  if (!frequency_ghz) return std::nullopt;
+  return FresnelCriterion{profile::wavelength_m(*frequency_ghz), fresnel};
+}
+
+std::string SiteOptions::meaning_of_served() const {
+  if (!frequency_ghz) return "Served is what has a clear line of sight to a site";
+  return fmt::format(
+      "Served is what has a clear line of sight to a site that leaves at least {:g} of the first Fresnel zone's radius "
+      "clear of the surface everywhere between, at {:g} GHz (wavelength {:.6g} m = 0.299792458 / f; F1 = "
+      "sqrt(wavelength "
+      "d1 d2 / (d1 + d2)))",
+      fresnel, *frequency_ghz, profile::wavelength_m(*frequency_ghz));
 }
 
 void SiteOptions::validate_choice() {
@@ -249,6 +283,7 @@ Document SiteOptions::parameters() const {
   p["target_on"] = target_on_;
   p["radius_m"] = radius;
   p["cell_m"] = cell.value_or(50);
+  if (frequency_ghz) p["frequency_ghz"] = *frequency_ghz, p["fresnel"] = fresnel;
   if (count) p["count"] = *count;
   if (budget) p["budget"] = *budget;
   if (share) p["share"] = *share;

@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <itin/fresnel_zone.hpp>
 #include <itin/sites.hpp>
 #include <viewshed/viewshed.hpp>
 
@@ -32,6 +33,10 @@ class SiteOptions {
   /// What was given, by option name without dashes: what a parameter file holds.
   Document given() const;
   Document parameters() const;
+  /// What a link must leave clear, if anything.
+  std::optional<FresnelCriterion> criterion() const;
+  /// When a target is served, in a sentence.
+  std::string meaning_of_served() const;
 
   std::string store, directory;
   // Candidates.
@@ -49,6 +54,8 @@ class SiteOptions {
   bool targets_on_surface = false;
   double radius = 10000;
   std::optional<double> cell;
+  std::optional<double> frequency_ghz;  ///< served is what is in sight, and with a frequency clear by this much:
+  double fresnel = 0.6;                 ///< fraction of the first Fresnel zone
   // The choice.
   std::optional<std::size_t> count;
   std::optional<double> budget, share;
@@ -77,6 +84,7 @@ class SiteOptions {
   void validate_candidates();
   void validate_masts();
   void validate_demand();
+  void validate_links();
   void validate_choice();
   void validate_work();
 
@@ -85,7 +93,8 @@ class SiteOptions {
   std::string spacing_text_, mast_height_text_, mast_cost_text_, observer_on_ = "ground";
   std::string target_height_text_, target_on_ = "ground", radius_text_, cell_text_;
   std::string count_text_, budget_text_, share_text_, min_spacing_text_, cover_text_, hub_text_;
-  std::string exact_final_text_, swap_text_, tolerance_text_, nodata_text_, memory_text_, frequency_text_;
+  std::string exact_final_text_, swap_text_, tolerance_text_, nodata_text_, memory_text_;
+  std::string frequency_text_, fresnel_text_;
 };
 
 }  // namespace itin::cli

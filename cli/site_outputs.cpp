@@ -62,19 +62,29 @@ std::string link_end(const SiteResult& r, std::size_t chosen) {
   return r.stand(r.choice.chosen[chosen]).name;
 }
 
+bool is_clear(const SiteResult& r, const SiteLink& link) {
+  return link_rules(r.options).met_by(link.line);
+}
+
 std::string links_table(const SiteResult& r) {
-  std::string text = "from,to,distance_m,verdict,clearance_m,critical_x,critical_y,critical_z\n";
+  std::string text = "from,to,distance_m,verdict,clearance_m,critical_x,critical_y,critical_z";
+  text += r.options.frequency_ghz ? ",fresnel_fraction,clear\n" : "\n";
   const auto out = std::back_inserter(text);
   for (const SiteLink& link : r.links) {
     fmt::format_to(out, "{},{},{:.3f},{}", csv_cell(link_end(r, link.from)),
                    link.to ? csv_cell(link_end(r, *link.to)) : "hub", link.distance_m,
                    link.line.visible() ? "visible" : "hidden");
     if (link.line.clearance) {
-      fmt::format_to(out, ",{:.3f},{:.3f},{:.3f},{:.3f}\n", *link.line.clearance, link.line.critical.x,
+      fmt::format_to(out, ",{:.3f},{:.3f},{:.3f},{:.3f}", *link.line.clearance, link.line.critical.x,
                      link.line.critical.y, link.line.critical.z);
     } else {
-      text += ",,,,\n";
+      text += ",,,,";
     }
+    if (r.options.frequency_ghz) {
+      text += link.line.fresnel_fraction ? fmt::format(",{:.4f}", *link.line.fresnel_fraction) : ",";
+      text += is_clear(r, link) ? ",yes" : ",no";
+    }
+    text += '\n';
   }
   return text;
 }
@@ -131,16 +141,19 @@ VectorLayer links_layer(const SiteResult& r) {
                      {"to_id", Type::kText},
                      {"distance_m", Type::kNumber},
                      {"verdict", Type::kText},
-                     {"clearance_m", Type::kNumber}},
+                     {"clearance_m", Type::kNumber},
+                     {"fresnel_fraction", Type::kNumber}},
                     {}};
   for (const SiteLink& link : r.links) {
     if (!link.to) continue;
     const viewshed::SiteStand &a = r.stand(r.choice.chosen[link.from]), &b = r.stand(r.choice.chosen[*link.to]);
-    VectorLayer::Value clearance;
+    VectorLayer::Value clearance, fraction;
     if (link.line.clearance) clearance = *link.line.clearance;
+    if (link.line.fresnel_fraction) fraction = *link.line.fresnel_fraction;
     layer.features.push_back(
         {{{a.position.x, a.position.y, a.elevation()}, {b.position.x, b.position.y, b.elevation()}},
-         {a.name, b.name, link.distance_m, std::string(link.line.visible() ? "visible" : "hidden"), clearance}});
+         {a.name, b.name, link.distance_m, std::string(link.line.visible() ? "visible" : "hidden"), clearance,
+          fraction}});
   }
   return layer;
 }
@@ -183,6 +196,7 @@ Document site_document(const SiteResult& r, const StoreMetadata& metadata) {
   document["crs"] = crs_identifier(metadata.crs_wkt);
   document["surface"] = surface_document(metadata, Detail::tolerance(0), r.options.themes.choice());
   document["refraction"] = r.options.earth.document();
+  document["served"] = r.options.meaning_of_served();
   document["value"] = r.in_metric(r.choice.value);
   document["upper_bound"] = r.in_metric(r.choice.upper_bound);
   document["gap_percent"] = viewshed::gap_percent(r.choice);
@@ -223,6 +237,8 @@ Document site_document(const SiteResult& r, const StoreMetadata& metadata) {
                    {"distance_m", link.distance_m},
                    {"verdict", link.line.visible() ? "visible" : "hidden"}};
     if (link.line.clearance) entry["clearance_m"] = *link.line.clearance;
+    if (link.line.fresnel_fraction) entry["fresnel_fraction"] = *link.line.fresnel_fraction;
+    if (r.options.frequency_ghz) entry["clear"] = is_clear(r, link);
     document["links"].push_back(std::move(entry));
   }
   return document;

@@ -135,12 +135,13 @@ std::string closest_table(const SiteResult& r) {
 }
 
 std::string links_table(const SiteResult& r) {
-  HtmlTable table({"From", "To", "Verdict", "km", "Clearance m"}, 3);
+  HtmlTable table({"From", "To", "Verdict", "km", "Clearance m", "of F1"}, 3);
   for (const SiteLink& link : r.links) {
     table.add({r.stand(r.choice.chosen[link.from]).name,
-               link.to ? r.stand(r.choice.chosen[*link.to]).name : std::string("hub"),
-               link.line.visible() ? "visible" : "hidden", fmt::format("{:.2f}", link.distance_m / 1000),
-               link.line.clearance ? fmt::format("{:+.1f}", *link.line.clearance) : ""});
+               link.to ? r.stand(r.choice.chosen[*link.to]).name : std::string("hub"), outcome_of(r.options, link),
+               fmt::format("{:.2f}", link.distance_m / 1000),
+               link.line.clearance ? fmt::format("{:+.1f}", *link.line.clearance) : "",
+               link.line.fresnel_fraction ? fmt::format("{:+.2f}", *link.line.fresnel_fraction) : ""});
   }
   return table.finish();
 }
@@ -192,9 +193,10 @@ void write_site_report(const SiteResult& r, const Document& parameters, const Do
   if (!r.links.empty()) html += "<h2>Lines of sight between sites</h2>\n" + links_table(r);
   html += "<h2>Redundancy</h2>\n" + image(directory, "redundancy.png", "map of how many sites serve a place");
   html += left_out(r);
-  html += fmt::format("<h2>Parameters and inputs</h2>\n<p class=\"note\">{}</p>\n<pre>{}</pre>\n<pre>{}</pre>\n",
-                      escaped_markup(r.options.earth.earth().convention()), escaped_markup(parameters.dump(2)),
-                      escaped_markup(inputs.dump(2)));
+  html +=
+      fmt::format("<h2>Parameters and inputs</h2>\n<p class=\"note\">{}. {}</p>\n<pre>{}</pre>\n<pre>{}</pre>\n",
+                  escaped_markup(r.options.meaning_of_served()), escaped_markup(r.options.earth.earth().convention()),
+                  escaped_markup(parameters.dump(2)), escaped_markup(inputs.dump(2)));
   html += fmt::format("<p class=\"note\">itin {}</p>\n</body></html>\n", ITIN_VERSION);
   write_file((std::filesystem::path(directory) / "report.html").string(), html, overwrite);
 }

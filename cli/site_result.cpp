@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "site_links.hpp"
-
 namespace itin::cli {
 
 namespace {
@@ -92,9 +90,20 @@ viewshed::SiteSurvey site_survey(const SiteOptions& options, const SiteInputs& i
   survey.earth = options.earth.earth();
   survey.nodata = options.nodata;
   survey.themes = options.themes.choice();
+  survey.fresnel = options.criterion();
   survey.tolerance = options.tolerance;
   survey.memory_bytes = options.memory_bytes;
   return survey;
+}
+
+LinkRules link_rules(const SiteOptions& options) {
+  return {options.themes.choice(), options.earth.earth(), options.criterion()};
+}
+
+const char* outcome_of(const SiteOptions& options, const SiteLink& link) {
+  if (!link.line.visible()) return "hidden";
+  if (!options.frequency_ghz) return "visible";
+  return link_rules(options).met_by(link.line) ? "clear" : "in sight, zone cut";
 }
 
 std::size_t SiteResult::refined() const {
@@ -137,7 +146,7 @@ SiteRasters site_rasters(const Store& store, const SiteOptions& options, const S
 std::vector<SiteLink> site_links(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
                                  const viewshed::Choice& choice, const std::optional<SiteStand>& hub,
                                  Progress& progress) {
-  const SiteLinks links(store, options.themes.choice(), options.earth.earth(), progress);
+  const SiteLinks links(store, link_rules(options), progress);
   std::vector<SiteLink> result;
   const auto add = [&](std::size_t from, std::optional<std::size_t> to, const SiteStand& a, const SiteStand& b) {
     result.push_back(

@@ -9,6 +9,7 @@
 #include <viewshed/siting.hpp>
 
 #include "site_inputs.hpp"
+#include "site_links.hpp"
 
 namespace itin::cli {
 
@@ -19,6 +20,9 @@ struct SiteLink {
   double distance_m = 0;
   profile::SightLine line;
 };
+
+/// For links: "clear" as served is meant, "hidden", or in sight only.
+const char* outcome_of(const SiteOptions& options, const SiteLink& link);
 
 /// An option's coverage in the demand's own measure.
 struct CoverageSummary {
@@ -61,6 +65,7 @@ viewshed::SiteSurvey site_survey(const SiteOptions& options, const SiteInputs& i
 SiteRasters site_rasters(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
                          const viewshed::SiteCoverage& coverage, const viewshed::Choice& choice, Progress& progress);
 
+LinkRules link_rules(const SiteOptions& options);
 /// Between all chosen sites, and to the hub.
 std::vector<SiteLink> site_links(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
                                  const viewshed::Choice& choice, const std::optional<viewshed::SiteStand>& hub,

@@ -20,6 +20,18 @@ mkdir -p "$out/precise"
 measure "itin site, 10 of 500" "$itin" site "$work/wales.itin" --quiet --candidates "$out/candidates.csv" \
   --name-field name --mast-height 20 --count 10 --swap off --memory 4G "${looks[@]}" -o "$out/choice"
 
+# Served as a clear Fresnel zone; and the same with every candidate exact from the first.
+for ghz in 5 0.45; do
+  radio=(--frequency "$ghz" --effective-earth 4/3)
+  measure "at $ghz GHz" "$itin" site "$work/wales.itin" --quiet --candidates "$out/candidates.csv" --name-field name \
+    --mast-height 20 --count 10 --swap off --memory 4G "${looks[@]}" "${radio[@]}" -o "$out/choice-$ghz"
+  measure "at $ghz GHz, all exact" "$itin" site "$work/wales.itin" --quiet --candidates "$out/candidates.csv" \
+    --name-field name --mast-height 20 --count 10 --swap off --memory 4G "${looks[@]}" "${radio[@]}" --tolerance 0 \
+    -o "$out/exact-$ghz"
+  cmp <(cut -d, -f1-9 "$out/choice-$ghz/sites.csv") <(cut -d, -f1-9 "$out/exact-$ghz/sites.csv") &&
+    echo "  the same sites and gains"
+done
+
 precise() {  # precise NAME X Y ...
   while [ $# -gt 0 ]; do
     "$itin" viewshed "$work/wales.itin" --quiet --precise --observer "$2,$3,20" "${looks[@]}" \

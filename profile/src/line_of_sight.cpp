@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
+#include <itin/fresnel_zone.hpp>
 #include <itin/section_line.hpp>
 #include <profile/line_of_sight.hpp>
 
@@ -34,29 +36,43 @@ std::optional<SectionPiece> chord_of(const SectionLine& line, const Tin& tin, co
 
 class SightLines::Impl {
  public:
-  Impl(const Tin& tin, const Earth& earth) : tin_(&tin), buckets_(tin), drop_(earth.drop_coefficient()) {}
+  Impl(const Tin& tin, const Earth& earth, std::optional<double> wavelength)
+      : tin_(&tin), buckets_(tin), drop_(earth.drop_coefficient()), wavelength_(wavelength) {}
 
   SightLine between(Point3 a, Point3 b) const {
     const SectionLine line(tin_->grid, {a.x, a.y}, {b.x, b.y});
     // Whichever end was given first, all arithmetic is the same.
     if (line.is_mirrored() || (line.is_point() && b.z < a.z)) std::swap(a, b);
-    const Ray ray(a.z, b.z, line.length(), drop_);
+    const double length = line.length();
+    const Ray ray(a.z, b.z, length, drop_);
+    const RayOverGround over_ground{a.z, b.z, drop_ * length * length};
     LeastClearance least;
+    LeastFraction tightest(std::sqrt(wavelength_.value_or(0) * length));
     for (const std::uint32_t t : buckets_.near(line.start(), line.end())) {
       const std::optional<SectionPiece> chord = chord_of(line, *tin_, tin_->triangles[t]);
       if (!chord) continue;
       const std::optional<SectionPiece> piece = line.clip(chord->from, chord->to);
       if (!piece) continue;
       least.consider(ray, {piece->from.distance, piece->from.position.z}, {piece->to.distance, piece->to.position.z});
+      if (wavelength_ && length > 0) consider(over_ground, length, *piece, tightest);
     }
     SightLine result;
-    result.length = line.length();
+    result.length = length;
     result.clearance = least.clearance;
+    if (tightest.least()) result.fresnel_fraction = tightest.least()->fraction;
     if (least.clearance) result.critical = position(line, least.place);
     return result;
   }
 
  private:
+  static void consider(const RayOverGround& ray, double length, const SectionPiece& piece, LeastFraction& tightest) {
+    const double from = piece.from.distance / length, to = piece.to.distance / length;
+    const double from_z = piece.from.position.z, to_z = piece.to.position.z;
+    tightest.consider(from, ray.clearance(from, from_z));
+    tightest.consider(to, ray.clearance(to, to_z));
+    if (from < to) tightest.consider_inside(ray.piece(from, from_z, to, to_z));
+  }
+
   static Point3 position(const SectionLine& line, const GroundPoint& p) {
     const double t = line.length() > 0 ? p.distance / line.length() : 0;
     const Point2 a = line.start(), b = line.end();
@@ -66,9 +82,11 @@ class SightLines::Impl {
   const Tin* tin_;
   TriangleBuckets buckets_;
   double drop_;  ///< metres a square metre of distance
+  std::optional<double> wavelength_;
 };
 
-SightLines::SightLines(const Tin& tin, const Earth& earth) : impl_(std::make_unique<Impl>(tin, earth)) {}
+SightLines::SightLines(const Tin& tin, const Earth& earth, std::optional<double> wavelength)
+    : impl_(std::make_unique<Impl>(tin, earth, wavelength)) {}
 SightLines::SightLines(SightLines&&) noexcept = default;
 SightLines& SightLines::operator=(SightLines&&) noexcept = default;
 SightLines::~SightLines() = default;

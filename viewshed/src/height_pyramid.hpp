@@ -70,8 +70,9 @@ class HeightPyramid {
 
   /// Calls visit(triangle) for every triangle that may rise above a line of the sheaf, or come within its margin,
   /// nearest first, some more than once. A block is left out as a whole where the lines run above its highest point.
-  template <class Visit>
-  void search(const Sheaf& sheaf, const Visit& visit) const;
+  /// `Lines` is a Sheaf, or what has its members and another lowest_over().
+  template <class Lines, class Visit>
+  void search(const Lines& sheaf, const Visit& visit) const;
 
  private:
   struct Block {
@@ -128,8 +129,8 @@ inline HeightPyramid::Stretch HeightPyramid::Track::within(const Block& b) const
   return stretch;
 }
 
-template <class Visit>
-void HeightPyramid::search(const Sheaf& sheaf, const Visit& visit) const {
+template <class Lines, class Visit>
+void HeightPyramid::search(const Lines& sheaf, const Visit& visit) const {
   const Track track = track_of(sheaf);
   // The child nearest to the lines' start, and then across x, y and both.
   const std::uint32_t near = (track.west.per < 0 ? 1U : 0U) | (track.north.per < 0 ? 2U : 0U);

@@ -56,7 +56,7 @@ class MapDrawing {
         canvas_(std::max(width_, 40 * unit_) + 4 * unit_, height_ + 14 * unit_, kPaper),
         left_((canvas_.width() - width_) / 2),
         top_(6 * unit_),
-        overlay_(result) {}
+        overlay_(result, options) {}
 
   MapImage draw() {
     draw_ground();

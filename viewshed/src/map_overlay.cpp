@@ -53,9 +53,9 @@ Extremes extremes_of(const std::vector<float>& values) {
 
 }  // namespace
 
-MapOverlay::MapOverlay(const Result& result) : result_(result) {
+MapOverlay::MapOverlay(const Result& result, const MapOptions& options) : result_(result) {
   make_scale();
-  make_keys();
+  make_keys(options);
 }
 
 std::optional<Tint> MapOverlay::at(std::size_t cell) const {
@@ -229,7 +229,7 @@ void MapOverlay::scale_probabilities() {
     add_step(percent / 100.0, {kSeenColour, percent == 5 ? 0 : 0.85 * (percent - 5) / 95}, fmt::format("{}", percent));
 }
 
-void MapOverlay::make_keys() {
+void MapOverlay::make_keys(const MapOptions& options) {
   const CellCounts& cells = result_.cells;
   if (result_.request.mode == Mode::kCertified) {
     keys_ = {{{{kSeenColour, kOpacity}}, "Certainly visible", cells.visible},
@@ -242,7 +242,7 @@ void MapOverlay::make_keys() {
   if (mode != Mode::kBlocker && mode != Mode::kHeight && mode != Mode::kProbability)
     for (const Step& step : steps_) seen.push_back(step.tint);
   if (seen.empty()) seen.push_back({kSeenColour, kOpacity});
-  keys_ = {{std::move(seen), "Visible", cells.visible}, {{}, "Hidden", cells.hidden}};
+  keys_ = {{std::move(seen), options.seen, cells.visible}, {{}, options.unseen, cells.hidden}};
 }
 
 }  // namespace itin::viewshed

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <viewshed/map_image.hpp>
 #include <viewshed/viewshed.hpp>
 
 #include "canvas.hpp"
@@ -23,7 +24,7 @@ struct Tint {
 
 class MapOverlay {
  public:
-  explicit MapOverlay(const Result& result);
+  MapOverlay(const Result& result, const MapOptions& options);
 
   /// Nothing outside the field of view.
   std::optional<Tint> at(std::size_t cell) const;
@@ -57,7 +58,7 @@ class MapOverlay {
   void scale_probabilities();
   double blocker_value(std::uint32_t theme) const;
   void add_step(double most, Tint tint, std::string text);
-  void make_keys();
+  void make_keys(const MapOptions& options);
 
   const Result& result_;
   std::string title_;

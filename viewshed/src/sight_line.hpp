@@ -59,6 +59,27 @@ class SightLine {
     if (bulge_ > 0) at(std::clamp(0.5 + under.slope() / (2 * bulge_), first, last));
   }
 
+  /// Whether the triangle lies wholly to one side of the line.
+  bool beside(const GridPoint& a, const GridPoint& b, const GridPoint& c) const {
+    const auto side = [&](const GridPoint& p) { return dx_ * (p.y - from_.y) - dy_ * (p.x - from_.x); };
+    const double sa = side(a), sb = side(b), sc = side(c);
+    return (sa > 0 && sb > 0 && sc > 0) || (sa < 0 && sb < 0 && sc < 0);
+  }
+
+  /// The ground over a triangle as far as it lies between the ends: from one fraction of the length to another,
+  /// straight, and so much above the straight line (without the Earth's bulge).
+  struct Ground {
+    double from = 0, to = 0;
+    double from_rise = 0, to_rise = 0;
+  };
+  /// Nothing where the line does not pass over the triangle.
+  std::optional<Ground> ground_over(const GridPoint& a, const GridPoint& b, const GridPoint& c) const {
+    const Section under = section(a, b, c);
+    if (!under.meets_line()) return std::nullopt;
+    const double first = std::max(under.low, 0.0), last = std::min(under.high, 1.0);
+    return Ground{first, last, under.straight(first), under.straight(last)};
+  }
+
   /// Where between the ends the triangle rises highest above the line, as a fraction of the length. Precondition: the
   /// line passes over the triangle.
   double highest_at(const GridPoint& a, const GridPoint& b, const GridPoint& c) const {
@@ -135,13 +156,6 @@ class SightLine {
     double along;  ///< fraction of the line's length
     double rise;   ///< above the straight line
   };
-
-  /// Whether the triangle lies to one side of the line.
-  bool beside(const GridPoint& a, const GridPoint& b, const GridPoint& c) const {
-    const auto side = [&](const GridPoint& p) { return dx_ * (p.y - from_.y) - dy_ * (p.x - from_.x); };
-    const double sa = side(a), sb = side(b), sc = side(c);
-    return (sa > 0 && sb > 0 && sc > 0) || (sa < 0 && sb < 0 && sc < 0);
-  }
 
   /// A triangle's cut by the line's vertical plane: from `low` to `high` along the line.
   struct Section {

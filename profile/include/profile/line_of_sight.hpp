@@ -3,6 +3,7 @@
 //   const profile::SightLines sight_lines(tin, earth);
 //   const profile::SightLine line = sight_lines.between({x0, y0, z0 + 1.7}, {x1, y1, z1 + 2});
 //   if (line.visible()) ...
+//   profile::SightLines(tin, earth, wavelength_m(7.5)).between(...).fresnel_fraction  // least clearance / F1
 //
 // The vertical plane through both ends cuts the surface into straight pieces, one a triangle. Within a piece the
 // clearance, the height of the ray above the surface, is a quadratic of the distance (the ray and the piece are
@@ -26,18 +27,24 @@ struct SightLine {
   /// Metres, the least height of the ray above the surface between the ends, both included; nothing where no ground
   /// lies between them.
   std::optional<double> clearance;
-  /// Where on the surface that is; of several places the one nearest to the end that comes first in (x, y, z).
+  /// The least clearance / F1 between the ends, as fresnel_clearance() has it; nothing without a wavelength, and where
+  /// no ground lies between them.
+  std::optional<double> fresnel_fraction;
+  /// Where on the surface the clearance is least; of several places the one nearest to the end that comes first in (x,
+  /// y, z).
   Point3 critical;
 
   /// A ray that grazes the surface is visible, and so is one over ground without data.
   bool visible() const { return !clearance || *clearance >= -kGrazing; }
+  /// Whether it is visible, and at least this fraction of the first Fresnel zone is clear.
+  bool clears(double fraction) const { return visible() && (!fresnel_fraction || *fresnel_fraction >= fraction); }
 };
 
 /// Immutable and safe for concurrent use. Refers to the Tin, which must outlive it.
 class SightLines {
  public:
   /// O(n) time and memory in the triangles.
-  SightLines(const Tin& tin, const Earth& earth);
+  SightLines(const Tin& tin, const Earth& earth, std::optional<double> wavelength = std::nullopt);
   SightLines(SightLines&&) noexcept;
   SightLines& operator=(SightLines&&) noexcept;
   ~SightLines();

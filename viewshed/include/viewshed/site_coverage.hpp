@@ -11,6 +11,10 @@
 // Exact means the walk over every triangle of the full surface in double precision, as compute_precise(). Where themes
 // that stand on the ground are chosen, the bare terrain comes first: features only raise it, so that what it hides for
 // a target on the ground needs no further look; only then are they read.
+//
+// With a FresnelCriterion the zone is judged over the same surfaces, after the line (over coarse ones only where the
+// memory does not hold the full one): what the lower one cuts is not served, what clears the upper one is. In the end
+// it is what fresnel_clearance() says of each link's profile.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +23,7 @@
 #include <string>
 #include <vector>
 
+#include <itin/fresnel_zone.hpp>
 #include <itin/store.hpp>
 #include <viewshed/siting.hpp>
 #include <viewshed/viewshed.hpp>
@@ -54,6 +59,8 @@ struct SiteSurvey {
   Earth earth;
   NoData nodata = NoData::kUnknown;
   ThemeChoice themes = ThemeChoice::none();
+  /// Served are targets in sight; with a criterion only those whose link meets it, too.
+  std::optional<FresnelCriterion> fresnel;
   // Changes the speed, never what is exact.
   std::optional<double> tolerance;  ///< of the first look; none: chosen by the number of points
   std::uint64_t memory_bytes = std::uint64_t{1} << 30;

@@ -68,6 +68,62 @@ bool open(const CellBlocks& blocks, const Tile& tile, const CoverageBounds& boun
   return any;
 }
 
+/// Four by four cells and their Fresnel zones.
+class ZonePacket {
+ public:
+  ZonePacket(const SiteScene& scene, const Eye& eye, const CertifiedPass::TileWork& work)
+      : scene_(scene), eye_(eye), work_(work) {
+    for (SightLines* const lines : {&low_, &high_}) lines->start_at(eye.units);
+  }
+
+  /// Of the cells that are visible or may be, leaves what the zones leave.
+  void judge(std::size_t row, std::size_t column, TileValues<std::uint8_t>& values) {
+    unsigned visible = 0;
+    low_.active = high_.active = 0;
+    for (unsigned i = 0; i < SightLines::kSize; ++i) {
+      const std::size_t r = row + i / kPacketSide, c = column + i % kPacketSide, cell = r * Tile::kSide + c;
+      if (values[cell] != kCertainlyVisible && values[cell] != kUndecided) continue;
+      aim(i, r, c);
+      if (values[cell] == kCertainlyVisible) visible |= 1U << i;
+    }
+    if (high_.active == 0) return;
+    const unsigned cut = scene_.zone->certainly_cut(high_);
+    low_.active = scene_.surface.exact ? 0 : high_.active & visible & ~cut;
+    const unsigned open = low_.active == 0 ? 0 : low_.active & ~scene_.zone->certainly_clear(low_);
+    for (unsigned i = 0; i < SightLines::kSize; ++i) {
+      std::uint8_t& value = values[(row + i / kPacketSide) * Tile::kSide + column + i % kPacketSide];
+      if ((cut >> i & 1) != 0) value = kCertainlyHidden;
+      if ((open >> i & 1) != 0) value = kUndecided;
+    }
+  }
+
+ private:
+  /// A target at the eye's own place has no zone.
+  void aim(unsigned i, std::size_t r, std::size_t c) {
+    const double resolution = scene_.surface.envelope.lower.grid.resolution;
+    const double x = work_.centres.x[c], y = work_.centres.y[r];
+    if (x == eye_.units.x && y == eye_.units.y) return;
+    const std::size_t cell = r * Tile::kSide + c;
+    low_.to_x[i] = high_.to_x[i] = x;
+    low_.to_y[i] = high_.to_y[i] = y;
+    low_.to_z[i] = eye_.target(work_.low[cell] * resolution) / resolution;
+    high_.to_z[i] = scene_.surface.exact ? low_.to_z[i] : eye_.target(work_.high[cell] * resolution) / resolution;
+    high_.active |= 1U << i;
+  }
+
+  const SiteScene& scene_;
+  const Eye& eye_;
+  const CertifiedPass::TileWork& work_;
+  SightLines low_, high_;  ///< to the lowest and the highest targets
+};
+
+void judge_zones(const SiteScene& scene, const EnvelopeScene::Look& look, const CertifiedPass::TileWork& work,
+                 TileValues<std::uint8_t>& values) {
+  ZonePacket packet(scene, look.eye, work);
+  for (std::size_t row = 0; row < Tile::kSide; row += kPacketSide)
+    for (std::size_t column = 0; column < Tile::kSide; column += kPacketSide) packet.judge(row, column, values);
+}
+
 void close(const TileValues<std::uint8_t>& values, TileCover& set) {
   for (std::size_t b = 0; b < set.certain.size(); ++b) {
     for (std::uint64_t rest = set.possible[b] & ~set.certain[b]; rest != 0; rest &= rest - 1) {
@@ -97,10 +153,11 @@ bool in_reach(const RasterGrid& tiles, std::size_t tile, Point2 p, double radius
 
 }  // namespace
 
-std::vector<CoverageBounds> judge_cells(const EnvelopeScene& scene, const SiteSurvey& survey, const Request& request,
+std::vector<CoverageBounds> judge_cells(const SiteScene& site_scene, const SiteSurvey& survey, const Request& request,
                                         std::span<const std::size_t> options,
                                         std::span<const CoverageBounds* const> bounds, Progress& progress,
                                         Statistics& statistics) {
+  const EnvelopeScene& scene = site_scene.surface;
   const RasterGrid& grid = *survey.targets.grid;
   const CellBlocks blocks(grid);
   const RasterGrid tiles = grid_of_tiles(grid);
@@ -128,6 +185,7 @@ std::vector<CoverageBounds> judge_cells(const EnvelopeScene& scene, const SiteSu
         } else {
           pass.judge(*looks[i], values, *work, nullptr);
         }
+        if (site_scene.zone) judge_zones(site_scene, *looks[i], *work, values);
         close(values, set);
       }
       if (std::any_of(set.possible.begin(), set.possible.end(), [](std::uint64_t w) { return w != 0; }))

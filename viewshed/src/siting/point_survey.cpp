@@ -41,9 +41,9 @@ GroundBounds ground_at(const EnvelopeScene& scene, const RasterGrid& tiles, Poin
 /// Judges packets of points as CertifiedPass does those of cells.
 class PointPass {
  public:
-  PointPass(const EnvelopeScene& scene, const SiteSurvey& survey, const Request& request,
+  PointPass(const SiteScene& scene, const SiteSurvey& survey, const Request& request,
             const std::vector<GroundBounds>& grounds)
-      : scene_(scene), survey_(survey), request_(request), grounds_(grounds) {}
+      : scene_(scene.surface), zone_(scene.zone), survey_(survey), request_(request), grounds_(grounds) {}
 
   /// The bits of `open` that are certainly visible, and those that are certainly hidden. Of points `first` and on.
   struct Verdict {
@@ -77,13 +77,32 @@ class PointPass {
     const unsigned visible = packet.low.active & ~scene_.upper.touched(packet.low);
     packet.high.active = all & ~visible;
     const unsigned hidden = packet.high.active == 0 ? 0 : scene_.lower.hidden(packet.high, occluder);
-    verdict.visible |= std::uint64_t{visible} << at;
-    verdict.hidden |= std::uint64_t{hidden} << at;
+    unsigned seen = visible, unseen = hidden;
     packet.low.active = all & ~visible & ~hidden;
-    if (!scene_.exact || packet.low.active == 0) return;
-    const unsigned walked = hidden_exactly(scene_, packet.low, packet.starts_under, packet.ends_under);
-    verdict.hidden |= std::uint64_t{walked} << at;
-    verdict.visible |= std::uint64_t{packet.low.active & ~walked} << at;
+    if (scene_.exact && packet.low.active != 0) {
+      const unsigned walked = hidden_exactly(scene_, packet.low, packet.starts_under, packet.ends_under);
+      seen |= packet.low.active & ~walked;
+      unseen |= walked;
+    }
+    if (zone_) judge_zones(packet, all, seen, unseen);
+    verdict.visible |= std::uint64_t{seen} << at;
+    verdict.hidden |= std::uint64_t{unseen} << at;
+  }
+
+  /// Of what is seen or may be, leaves what the Fresnel zones leave.
+  void judge_zones(const Packet& packet, unsigned all, unsigned& seen, unsigned& unseen) const {
+    // One by one: points may lie far apart.
+    SightLines low = packet.low, high = packet.high;
+    for (unsigned rest = all & ~unseen; rest != 0; rest &= rest - 1) {
+      const unsigned bit = rest & -rest;
+      low.active = high.active = bit;
+      if (zone_->certainly_cut(high) != 0) {
+        unseen |= bit;
+        seen &= ~bit;
+      } else if ((seen & bit) != 0 && !scene_.exact && zone_->certainly_clear(low) == 0) {
+        seen &= ~bit;
+      }
+    }
   }
 
   void fill(const EnvelopeScene::Look& look, std::size_t point, unsigned i, std::uint64_t bit, Packet& packet,
@@ -116,6 +135,7 @@ class PointPass {
   }
 
   const EnvelopeScene& scene_;
+  const std::optional<ClearZone>& zone_;
   const SiteSurvey& survey_;
   const Request& request_;
   const std::vector<GroundBounds>& grounds_;
@@ -142,10 +162,11 @@ RasterGrid bins_of_points(const std::vector<Point2>& points) {
           static_cast<std::int64_t>(std::floor(side)) + 1};
 }
 
-std::vector<CoverageBounds> judge_points(const EnvelopeScene& scene, const SiteSurvey& survey, const Request& request,
+std::vector<CoverageBounds> judge_points(const SiteScene& site_scene, const SiteSurvey& survey, const Request& request,
                                          std::span<const std::size_t> options,
                                          std::span<const CoverageBounds* const> bounds, Progress& progress,
                                          Statistics& statistics) {
+  const EnvelopeScene& scene = site_scene.surface;
   const std::vector<Point2>& points = survey.targets.points;
   const RasterGrid tiles = bins_of_points(points);
   std::vector<GroundBounds> grounds(points.size());
@@ -154,7 +175,7 @@ std::vector<CoverageBounds> judge_points(const EnvelopeScene& scene, const SiteS
     for (std::size_t i = chunk * kChunk; i < std::min(points.size(), (chunk + 1) * kChunk); ++i)
       grounds[i] = ground_at(scene, tiles, points[i]);
   });
-  const PointPass pass(scene, survey, request, grounds);
+  const PointPass pass(site_scene, survey, request, grounds);
   std::vector<CoverageBounds> result(options.size());
   std::atomic<std::uint64_t> rays = 0;
   std::atomic<std::size_t> done = 0;

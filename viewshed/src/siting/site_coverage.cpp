@@ -112,23 +112,6 @@ RasterGrid::Cell cell_of(const RasterGrid& grid, std::size_t element) {
   return CellBlocks(grid).cell(element);
 }
 
-Eye eye_at(const Grid& grid, const Request& request, const SiteStand& stand) {
-  return eye_of(grid, request, {stand.name, stand.position, stand.elevation(), true}, stand.ground);
-}
-
-Request request_of(const SiteSurvey& survey, std::span<const std::size_t> options) {
-  Request request;
-  for (const std::size_t option : options) {
-    const SiteStand& stand = survey.stands[option];
-    request.observers.push_back({stand.name, stand.position, stand.elevation(), true});
-  }
-  request.target_height = survey.targets.height;
-  request.radius = survey.radius;
-  request.earth = survey.earth;
-  request.nodata = survey.nodata;
-  return request;
-}
-
 class SiteCoverage::Impl {
  public:
   Impl(const Store& store, SiteSurvey survey, Progress& progress)
@@ -245,7 +228,10 @@ class SiteCoverage::Impl {
       judge_group(group, group, stage, level, themed);
   }
 
-  std::unique_ptr<EnvelopeScene> scene_of(const std::vector<std::size_t>& group, int level, bool themed) {
+  /// Over coarse surfaces zones take as long as over the full one, which is looked at next, if the memory holds it.
+  bool zones_at(int level) const { return level == 0 || !whole_fits_; }
+
+  std::unique_ptr<SiteScene> scene_of(const std::vector<std::size_t>& group, int level, bool themed) {
     Stopwatch watch;
     Request request = request_of(survey_, group);
     EnvelopeRequest read = what_to_read(group, request, level);
@@ -260,15 +246,15 @@ class SiteCoverage::Impl {
     if (!themed) request.target_height += raise_;
     const RasterGrid tiles =
         survey_.targets.grid ? grid_of_tiles(*survey_.targets.grid) : bins_of_points(survey_.targets.points);
-    auto scene = std::make_unique<EnvelopeScene>(std::move(envelope), request, tiles,
-                                                 survey_.nodata == NoData::kBlock ? Voids::kBlock : Voids::kPass);
+    auto scene = std::make_unique<SiteScene>(std::move(envelope), survey_, request, tiles);
+    if (survey_.fresnel && zones_at(level)) scene->zone.emplace(scene->surface, *survey_.fresnel);
     statistics_.scene_seconds += watch.lap();
     return scene;
   }
 
   /// The full surface about all sites, once and for all, where the memory holds it: bare, and then with the themes.
-  const EnvelopeScene& whole_scene(bool themed) {
-    std::unique_ptr<EnvelopeScene>& whole = whole_[themed ? 1 : 0];
+  const SiteScene& whole_scene(bool themed) {
+    std::unique_ptr<SiteScene>& whole = whole_[themed ? 1 : 0];
     if (!whole) whole = scene_of(all_options(), 0, themed);
     return *whole;
   }
@@ -276,9 +262,9 @@ class SiteCoverage::Impl {
   /// `options` among those of the group, whose envelope is looked at.
   void judge_group(const std::vector<std::size_t>& options, const std::vector<std::size_t>& group, int stage, int level,
                    bool themed) {
-    std::unique_ptr<EnvelopeScene> own;
+    std::unique_ptr<SiteScene> own;
     if (level > 0 || !whole_fits_) own = scene_of(group, level, themed);
-    const EnvelopeScene& scene = own ? *own : whole_scene(themed);
+    const SiteScene& scene = own ? *own : whole_scene(themed);
     Stopwatch watch;
     Request request = request_of(survey_, options);
     if (!themed) request.target_height += raise_;
@@ -288,6 +274,7 @@ class SiteCoverage::Impl {
     std::vector<CoverageBounds> after = look(scene, survey_, request, options, before, progress_, statistics_);
     for (std::size_t i = 0; i < options.size(); ++i) {
       if (themed_ && !themed) after[i].certain = {}, after[i].exact = false;  // features may hide it
+      if (survey_.fresnel && !scene.zone) after[i].certain = {};              // or its zone is cut
       settle(options[i], stage, std::move(after[i]));
     }
     statistics_.rays_seconds += watch.lap();
@@ -322,7 +309,7 @@ class SiteCoverage::Impl {
   bool themed_;
   double raise_ = 0;
   bool whole_fits_ = false;
-  std::array<std::unique_ptr<EnvelopeScene>, 2> whole_;
+  std::array<std::unique_ptr<SiteScene>, 2> whole_;
   std::vector<int> levels_;  ///< of the looks at the bare terrain
   std::vector<State> states_;
   Statistics statistics_;

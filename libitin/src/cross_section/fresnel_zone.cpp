@@ -1,0 +1,63 @@
+#include <algorithm>
+#include <array>
+
+#include <itin/fresnel_zone.hpp>
+
+namespace itin {
+
+namespace {
+
+/// a t^3 + b t^2 + c t + d.
+struct Cubic {
+  double a, b, c, d;
+  double at(double t) const { return ((a * t + b) * t + c) * t + d; }
+};
+
+/// The root in [low, high], where the cubic is monotone, by bisection; nothing if the sign does not change.
+std::optional<double> root_between(const Cubic& cubic, double low, double high) {
+  const bool rising = cubic.at(low) < 0;
+  if ((cubic.at(high) < 0) == rising) return std::nullopt;
+  while (true) {
+    const double middle = low + (high - low) / 2;
+    if (middle <= low || middle >= high) return middle;
+    ((cubic.at(middle) < 0) == rising ? low : high) = middle;
+  }
+}
+
+/// Where the cubic is stationary, ascending; both are `from` where it is not.
+std::array<double, 2> stationary_points(const Cubic& cubic, double from) {
+  const double a = 3 * cubic.a, half_b = cubic.b, c = cubic.c;
+  if (a == 0) {
+    const double only = half_b == 0 ? from : -c / (2 * half_b);
+    return {only, only};
+  }
+  const double discriminant = half_b * half_b - a * c;
+  if (discriminant < 0) return {from, from};
+  const double q = -(half_b + std::copysign(std::sqrt(discriminant), half_b));
+  const double first = q / a, second = q == 0 ? first : c / q;
+  return {std::min(first, second), std::max(first, second)};
+}
+
+}  // namespace
+
+void LeastFraction::consider(double t, double clearance) {
+  const double radius = unit_ * std::sqrt(t * (1 - t));
+  if (radius == 0 && clearance != 0) return;
+  const double fraction = radius == 0 ? 0 : clearance / radius;
+  if (!least_ || fraction < least_->fraction) least_ = Place{fraction, t, clearance};
+}
+
+/// The ratio is stationary where its numerator's and denominator's logarithmic derivatives agree: with the radius
+/// proportional to sqrt(t (1 - t)) that is at the roots of this cubic.
+void LeastFraction::consider_inside(const RayPiece& p) {
+  const Cubic cubic{-p.square, 1.5 * p.square, p.linear / 2 + p.constant, -p.constant / 2};
+  const std::array<double, 2> turns = stationary_points(cubic, p.from);
+  const std::array<double, 4> bounds = {p.from, std::clamp(turns[0], p.from, p.to), std::clamp(turns[1], p.from, p.to),
+                                        p.to};
+  for (std::size_t i = 0; i + 1 < bounds.size(); ++i) {
+    const auto root = root_between(cubic, bounds[i], bounds[i + 1]);
+    if (root) consider(*root, p.at(*root));
+  }
+}
+
+}  // namespace itin

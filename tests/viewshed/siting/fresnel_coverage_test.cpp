@@ -1,0 +1,273 @@
+// Sites that serve what their Fresnel zones leave clear: bounds, the last look and the choice against itin los --links.
+#include <cmath>
+#include <iostream>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <itin/import.hpp>
+#include <profile/links.hpp>
+#include <viewshed/site_coverage.hpp>
+
+#include "support/raster_file.hpp"
+#include "support/temporary_directory.hpp"
+#include "support/terrain_tin.hpp"
+#include "support/vector_file.hpp"
+
+namespace itin::viewshed {
+namespace {
+
+constexpr Point2 kNorthWest{300000, 200000};
+constexpr double kStep = 50;
+
+class FresnelSites : public ::testing::Test {
+ protected:
+  FresnelSites() {
+    const std::uint32_t seed = std::random_device{}();
+    std::cout << "seed " << seed << '\n';
+    random_.seed(seed);
+  }
+
+  double draw(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+
+  template <class HeightAt>
+  void make_store(int side, const HeightAt& height) {
+    test::write_raster(directory_.file("t.tif"), {kNorthWest.x, kNorthWest.y, kStep, side, side, 27700}, height);
+    ImportOptions options;
+    options.sources = {directory_.file("t.tif")};
+    import_terrain(path(), options, progress_);
+    side_ = side;
+  }
+  void make_fractal(int side, double relief, bool with_void) {
+    const std::vector<double> z = test::fractal_heights(129, relief, 0.55, random_());
+    make_store(side, [&](int c, int r) {
+      if (with_void && std::hypot(c - 0.35 * side, r - 0.6 * side) < 6) return std::nan("");
+      return z[static_cast<std::size_t>(r) * 129 + static_cast<std::size_t>(c)];
+    });
+  }
+  void add_houses(int count) {
+    std::vector<test::LineFeature> houses;
+    for (int i = 0; i < count; ++i) {
+      const double x = kNorthWest.x + draw(200, side_ * kStep - 200), y = kNorthWest.y - draw(200, side_ * kStep - 200);
+      houses.push_back(test::box(x, y, x + draw(10, 60), y + draw(10, 60), draw(4, 25)));
+    }
+    test::write_lines(directory_.file("houses.geojson"), houses, true);
+    ImportOptions options;
+    options.sources = {directory_.file("houses.geojson")};
+    options.kind = ThemeKind::Buildings;
+    options.theme = "houses";
+    options.height_field = "h";
+    import_lines(path(), options, progress_);
+    survey_.themes = ThemeChoice::all();
+  }
+
+  void make_survey(std::size_t count) {
+    store_.emplace(path());
+    std::vector<Point2> positions;
+    for (std::size_t i = 0; i < 2 * count; ++i)
+      positions.push_back({kNorthWest.x + draw(0, side_ * kStep), kNorthWest.y - draw(0, side_ * kStep)});
+    const auto ground = ground_under(*store_, positions, ThemeChoice::none(), progress_);
+    for (std::size_t i = 0; i < positions.size() && survey_.stands.size() < count; ++i)
+      if (ground[i]) survey_.stands.push_back({std::to_string(i), positions[i], std::round(draw(2, 40)), *ground[i]});
+    survey_.radius = 1200;
+    survey_.targets.height = draw(0.5, 10);
+    survey_.targets.grid = grid_of_reach(*store_, survey_.stands, survey_.radius, 80);
+    survey_.tolerance = 2;
+    // With little memory zones are judged over the coarse surface, too.
+    if (draw(0, 1) < 0.5) survey_.memory_bytes = 4000000;
+    survey_.earth = draw(0, 1) < 0.5 ? Earth{} : Earth::effective_earth(4.0 / 3);
+    survey_.nodata = draw(0, 1) < 0.5 ? NoData::kUnknown : NoData::kBlock;
+    frequency_ghz_ = std::exp(draw(std::log(0.2), std::log(10)));
+    survey_.fresnel = FresnelCriterion{profile::wavelength_m(frequency_ghz_), draw(0.1, 1)};
+  }
+
+  /// What itin los says of each pair.
+  DemandSet served(std::size_t option, const ThemeChoice& themes) {
+    const RasterGrid& grid = *survey_.targets.grid;
+    const SiteStand& stand = survey_.stands[option];
+    std::vector<std::size_t> elements;
+    std::vector<profile::Link> links;
+    for (std::int64_t row = 0; row < grid.rows(); ++row) {
+      for (std::int64_t column = 0; column < grid.columns(); ++column) {
+        const Point2 p = grid.centre(column, row);
+        const double dx = p.x - stand.position.x, dy = p.y - stand.position.y;
+        if (dx * dx + dy * dy > survey_.radius * survey_.radius) continue;
+        elements.push_back(element_of(grid, {column, row}));
+        links.push_back({"", stand.position, stand.height, p, survey_.targets.height});
+      }
+    }
+    profile::LinkQuery query;
+    query.earth = survey_.earth;
+    query.themes = themes;
+    query.radio = profile::RadioPath{.frequency_ghz = frequency_ghz_, .effective_earth_km = 8500};
+    query.gaps_block = survey_.nodata == NoData::kBlock;
+    query.to_on_surface = survey_.targets.on_surface;
+    const std::vector<profile::LinkResult> results = survey_links(*store_, links, query, progress_);
+    std::vector<std::uint64_t> members(element_count(grid) / 64);
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      in_sight_ += results[i].verdict == profile::SightVerdict::kVisible;
+      if (results[i].verdict == profile::SightVerdict::kVisible &&
+          results[i].fresnel_fraction.value_or(1) >= survey_.fresnel->fraction)
+        members[elements[i] / 64] |= std::uint64_t{1} << elements[i] % 64;
+    }
+    DemandSet set;
+    for (std::size_t b = 0; b < members.size(); ++b) set.add(static_cast<std::uint32_t>(b), members[b]);
+    return set;
+  }
+  std::vector<DemandSet> all_served() {
+    std::vector<DemandSet> sets;
+    const bool standing = survey_.themes.includes_standing(store_->metadata().themes);
+    for (std::size_t i = 0; i < survey_.stands.size(); ++i) {
+      sets.push_back(served(i, survey_.themes));
+      // Sites keep to what the bare terrain allows, also where a house's edge lowers the ground beside it by a hair.
+      if (standing && !survey_.targets.on_surface)
+        sets.back() = intersection(sets.back(), served(i, ThemeChoice::none()));
+    }
+    return sets;
+  }
+
+  /// The padding about the grid, where points are asked about but cells are not.
+  DemandSet inside(const DemandSet& set) const {
+    const RasterGrid& grid = *survey_.targets.grid;
+    DemandSet result;
+    for (const DemandSet::Block& block : set.blocks()) {
+      std::uint64_t members = 0;
+      for (unsigned bit = 0; bit < 64; ++bit) {
+        const RasterGrid::Cell cell = cell_of(grid, std::size_t{64} * block.number + bit);
+        if (cell.column < grid.columns() && cell.row < grid.rows()) members |= block.members & std::uint64_t{1} << bit;
+      }
+      result.add(block.number, members);
+    }
+    return result;
+  }
+
+  void expect_bounds_at_every_stage(const SiteSurvey& survey, const std::vector<DemandSet>& truth) {
+    SiteCoverage coverage(*store_, survey, progress_);
+    std::vector<std::size_t> all;
+    for (std::size_t i = 0; i < truth.size(); ++i) all.push_back(i);
+    coverage.look_first();
+    for (int stage = 0;; ++stage) {
+      for (const std::size_t i : all) {
+        const CoverageBounds& bounds = coverage.bounds(i);
+        const DemandSet certain = inside(bounds.certain), possible = inside(bounds.possible);
+        EXPECT_TRUE(is_subset(certain, truth[i])) << "stage " << stage << ", site " << i;
+        EXPECT_TRUE(is_subset(truth[i], possible)) << "stage " << stage << ", site " << i;
+        EXPECT_TRUE(!bounds.exact || (certain == truth[i] && possible == truth[i])) << "site " << i;
+      }
+      if (stage == coverage.last_stage()) break;
+      coverage.refine(all);
+    }
+    for (const std::size_t i : all) EXPECT_TRUE(coverage.bounds(i).exact);
+  }
+
+  /// Over cells, and over points at the same places.
+  void expect_law_four() {
+    const std::vector<DemandSet> truth = all_served();
+    std::size_t sum = 0;
+    for (const DemandSet& set : truth) sum += set.size();
+    EXPECT_LT(sum, in_sight_);  // the zone matters
+    expect_bounds_at_every_stage(survey_, truth);
+    SiteSurvey of_points = survey_;
+    of_points.targets.grid.reset();
+    const RasterGrid& grid = *survey_.targets.grid;
+    for (std::size_t element = 0; element < element_count(grid); ++element) {
+      const RasterGrid::Cell cell = cell_of(grid, element);
+      of_points.targets.points.push_back(grid.centre(cell.column, cell.row));
+    }
+    expect_bounds_at_every_stage(of_points, truth);
+  }
+
+  Choice choose_by_bounds(std::size_t count, bool with_zone) {
+    SiteSurvey survey = survey_;
+    if (!with_zone) survey.fresnel.reset();
+    SiteCoverage coverage(*store_, survey, progress_);
+    coverage.look_first();
+    std::vector<SiteOption> options;
+    for (std::size_t i = 0; i < survey.stands.size(); ++i) options.push_back({i, 1});
+    ChoiceGoal goal{.count = count};
+    goal.swaps = false;
+    return choose(Demand(element_count(*survey.targets.grid)), options, coverage, goal, progress_);
+  }
+
+  std::string path() { return directory_.file("s.itin"); }
+
+  test::TemporaryDirectory directory_;
+  std::optional<Store> store_;
+  int side_ = 0;
+  SiteSurvey survey_;
+  double frequency_ghz_ = 1;
+  std::size_t in_sight_ = 0;  ///< of the pairs asked about
+  std::mt19937 random_;
+  NoProgress progress_;
+};
+
+TEST_F(FresnelSites, BoundsHoldAndTheLastLookIsThatOfLines) {
+  make_fractal(70, 150, true);
+  make_survey(6);
+  expect_law_four();
+}
+
+TEST_F(FresnelSites, LikewiseAmongHouses) {
+  make_fractal(40, 60, false);
+  add_houses(60);
+  make_survey(4);
+  expect_law_four();
+}
+
+TEST_F(FresnelSites, LikewiseForTargetsOnRoofs) {
+  make_fractal(40, 60, false);
+  add_houses(60);
+  survey_.targets.on_surface = true;
+  make_survey(4);
+  expect_law_four();
+}
+
+TEST_F(FresnelSites, TheChoiceIsThatOfBruteForce) {
+  make_fractal(129, 200, false);
+  make_survey(16);
+  const std::vector<DemandSet> truth = all_served();
+  const Demand demand(element_count(*survey_.targets.grid));
+  std::vector<std::size_t> slow;
+  std::vector<DemandSet> served;
+  Weight before = 0;
+  for (int step = 0; step < 5; ++step) {
+    Weight best = before;
+    std::size_t taken = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      served.push_back(truth[i]);
+      const Weight value = served_by(demand, served, 1);
+      served.pop_back();
+      if (value > best) best = value, taken = i;
+    }
+    if (best == before) break;
+    slow.push_back(taken);
+    served.push_back(truth[taken]);
+    before = best;
+  }
+  const Choice choice = choose_by_bounds(5, true);
+  std::vector<std::size_t> chosen;
+  for (const ChosenSite& site : choice.chosen) chosen.push_back(site.option);
+  EXPECT_EQ(chosen, slow);
+  EXPECT_EQ(choice.value, before);
+}
+
+TEST_F(FresnelSites, TheZoneChangesTheChoice) {
+  // A plain with a hill at its edge: a low mast in the middle sees all of it, along the ground; the hill but half.
+  make_store(60, [](int c, int r) { return std::max(0.0, 120 - 30 * std::hypot(c - 1, r - 30)); });
+  store_.emplace(path());
+  const std::vector<Point2> positions{{kNorthWest.x + 1500, kNorthWest.y - 1500},
+                                      {kNorthWest.x + 75, kNorthWest.y - 1525}};
+  const auto ground = ground_under(*store_, positions, ThemeChoice::none(), progress_);
+  survey_.stands = {{"plain", positions[0], 8, *ground[0]}, {"hill", positions[1], 8, *ground[1]}};
+  survey_.radius = 1300;
+  survey_.targets.height = 1.5;
+  survey_.targets.grid = grid_of_reach(*store_, survey_.stands, survey_.radius, 50);
+  frequency_ghz_ = 0.45;
+  survey_.fresnel = FresnelCriterion{profile::wavelength_m(frequency_ghz_), 0.6};
+  EXPECT_EQ(choose_by_bounds(1, false).chosen.at(0).option, 0U);
+  EXPECT_EQ(choose_by_bounds(1, true).chosen.at(0).option, 1U);
+  expect_law_four();
+}
+
+}  // namespace
+}  // namespace itin::viewshed

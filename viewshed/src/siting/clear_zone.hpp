@@ -1,0 +1,42 @@
+// Which sight lines leave so much of the first Fresnel zone clear.
+//
+//   const ClearZone zone(scene, {.wavelength = 0.06, .fraction = 0.6});
+//   unsigned cut = zone.certainly_cut(to_highest_targets);        // whatever the full surface is: one bit a line
+//   unsigned clear = zone.certainly_clear(to_lowest_targets);
+//
+// Ground that rises above the line lowered by the fraction of the zone's radius cuts the zone. Lowered so, and over the
+// curved Earth, the line is convex in the distance, so that a tangent bounds it from below over whole blocks of
+// triangles; what is left, few triangles near an end or a ridge, is judged one by one in double precision by the
+// definition that lines of sight have (itin/fresnel_zone.hpp). Raising a target only clears more.
+#pragma once
+
+#include <optional>
+
+#include <itin/fresnel_zone.hpp>
+
+#include "../certified_pass.hpp"
+#include "../height_pyramid.hpp"
+
+namespace itin::viewshed {
+
+class ClearZone {
+ public:
+  /// The scene must outlive it. O(n) time and memory.
+  ClearZone(const EnvelopeScene& scene, const FresnelCriterion& criterion);
+
+  /// One bit a line; the closer together their ends, the faster. Over a scene of level 0 a zone is either certainly cut
+  /// or certainly clear. From any number of threads.
+  unsigned certainly_cut(const SightLines& to_highest_targets) const;
+  /// Says nothing of the lines themselves across ground without data.
+  unsigned certainly_clear(const SightLines& to_lowest_targets) const;
+
+ private:
+  unsigned cut(const HeightPyramid& pyramid, const Tin& tin, const SightLines& lines) const;
+
+  const EnvelopeScene& scene_;
+  FresnelCriterion criterion_;
+  HeightPyramid lower_;
+  std::optional<HeightPyramid> upper_;  ///< none over a scene of level 0
+};
+
+}  // namespace itin::viewshed
