@@ -121,7 +121,7 @@ std::vector<OwnedSegment> GroundBorder::widen(const PlanarLines& lines, const Ow
     for (const GridEdge& e : {GridEdge{from, *beyond}, GridEdge{*beyond, to}}) {
       if (of_theme.border.contains(reversed(e)))
         kept.push_back(keep(contact.theme, e));
-      else
+      else if (!of_theme.inner.contains(undirected(e)))
         of_theme.border.insert(e);
     }
   }

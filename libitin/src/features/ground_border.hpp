@@ -26,7 +26,7 @@ namespace itin {
 /// Triangles of the full surface that standing features change, by their edges.
 struct ChangedGround {
   std::vector<GridEdge> pieces;  ///< of edges between them, or nearly, that stay: cut where the features' lines cross
-  std::vector<GridEdge> inner;   ///< edges between them, whole, the lesser end first
+  std::vector<GridEdge> inner;   ///< edges between them or under roofs, whole, the lesser end first
   std::vector<GridEdge> border;  ///< edges with one of them to the left and none to the right
 
   void append(const ChangedGround& other);

@@ -266,8 +266,13 @@ class Overlaying {
   ChangedGround changed() {
     ChangedGround ground;
     ground.inner = std::move(inner_);
-    std::copy_if(border_.begin(), border_.end(), std::back_inserter(ground.border),
-                 [&](const GridEdge& e) { return carries_terrain(e); });
+    // Under a roof nothing is to be kept, whoever else changes what lies beyond.
+    for (const GridEdge& e : border_) {
+      if (carries_terrain(e))
+        ground.border.push_back(e);
+      else
+        ground.inner.push_back(std::minmax(e.first, e.second));
+    }
     return ground;
   }
 
