@@ -154,7 +154,7 @@ class Overlaying {
       if (!directed.contains({e.second, e.first}))
         border_.push_back(ends_of(e));
       else if (e.first < e.second)
-        inner_.push_back(std::minmax(ends_of(e).first, ends_of(e).second));
+        inner_.emplace_back(std::minmax(ends_of(e).first, ends_of(e).second));
     }
     return edges;
   }
@@ -271,7 +271,7 @@ class Overlaying {
       if (carries_terrain(e))
         ground.border.push_back(e);
       else
-        ground.inner.push_back(std::minmax(e.first, e.second));
+        ground.inner.emplace_back(std::minmax(e.first, e.second));
     }
     return ground;
   }
