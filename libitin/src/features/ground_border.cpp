@@ -106,9 +106,15 @@ std::vector<OwnedSegment> GroundBorder::seams() {
   return kept;
 }
 
-std::vector<OwnedSegment> GroundBorder::widen(const PlanarLines& lines, const Owners& owners, const Apex& apex) {
-  std::vector<OwnedSegment> kept;
+GroundBorder::Fit GroundBorder::fit(const PlanarLines& lines, const Owners& owners, const Apex& apex) {
   const Contacts contacts(themes_, lines);
+  Fit result{widen(contacts, owners, apex), {}};
+  if (result.lines.empty()) result.placed = place(contacts, owners);
+  return result;
+}
+
+std::vector<OwnedSegment> GroundBorder::widen(const Contacts& contacts, const Owners& owners, const Apex& apex) {
+  std::vector<OwnedSegment> kept;
   for (const Contacts::Contact& contact : contacts.all()) {
     const auto own = [&](std::uint32_t owner) { return owners.theme[owner] == contact.theme; };
     OfTheme& of_theme = themes_[contact.theme];
@@ -128,9 +134,8 @@ std::vector<OwnedSegment> GroundBorder::widen(const PlanarLines& lines, const Ow
   return kept;
 }
 
-std::vector<PlacedBorder> GroundBorder::place(const PlanarLines& lines, const Owners& owners) const {
+std::vector<PlacedBorder> GroundBorder::place(const Contacts& contacts, const Owners& owners) {
   std::vector<PlacedBorder> placed;
-  const Contacts contacts(themes_, lines);
   for (const Contacts::Contact& contact : contacts.all()) {
     std::set<std::uint32_t> met(contact.same.begin(), contact.same.end());
     met.insert(contact.cut.begin(), contact.cut.end());

@@ -5,8 +5,8 @@
 //   GroundBorder border(themes);
 //   border.add(theme, changed);                     // what each piece of each theme changes
 //   lines = ...; + border.seams()                   // planar, with all other lines
-//   while (there are border.widen(lines, ...)) ...  // planar again, with these
-//   border.place(lines, terrain)
+//   auto fit = border.fit(lines, ...);              // while it has lines: planar again, with these
+//   fit.placed                                      // in the end
 //
 // Making lines planar leads them past vertices of other themes, less than a grid step aside, and so now and then onto a
 // border or over it. The triangle beyond is changed ground then as well: the border moves on, around it.
@@ -58,11 +58,12 @@ class GroundBorder {
 
   /// Where the changed ground of two pieces of a theme meets: edges to be kept as lines, owned by themes.
   std::vector<OwnedSegment> seams();
-  /// The same for borders that planar lines of their own theme cut, which move on. None when all is well.
-  std::vector<OwnedSegment> widen(const PlanarLines& lines, const Owners& owners, const Apex& apex);
-  /// Those that are still needed: a line of the terrain or one of the same theme does as well. After widen() has found
-  /// nothing more.
-  std::vector<PlacedBorder> place(const PlanarLines& lines, const Owners& owners) const;
+  struct Fit {
+    std::vector<OwnedSegment> lines;   ///< the same for borders that lines of their own theme cut: these have moved on
+    std::vector<PlacedBorder> placed;  ///< where there are none: the borders still needed, for a line of the terrain or
+                                       ///< one of the same theme does as well
+  };
+  Fit fit(const PlanarLines& lines, const Owners& owners, const Apex& apex);
 
  private:
   struct OfTheme {
@@ -70,6 +71,8 @@ class GroundBorder {
   };
   class Contacts;
   OwnedSegment keep(std::uint32_t theme, const GridEdge& edge);
+  std::vector<OwnedSegment> widen(const Contacts& contacts, const Owners& owners, const Apex& apex);
+  static std::vector<PlacedBorder> place(const Contacts& contacts, const Owners& owners);
 
   std::vector<OfTheme> themes_;
 };

@@ -320,31 +320,27 @@ Additions plan_additions(const ImportOptions& options, const Store* store) {
   return additions;
 }
 
-/// What stands needs its ground finished first, and gives lines of the ground vertices where it crosses them. Few of
-/// these, within a grid step or two of others, are left after some turns.
+/// Few vertices that what stands gives to lines of the ground, within a grid step or two of others, are left after so
+/// many turns.
 constexpr std::size_t kMostTurns = 3;
 
+/// What stands needs its ground finished first, and gives lines of the ground vertices where it crosses them.
 void write_in_turns(const std::string& store_path, StoreWriter& writer, const std::vector<double>& tolerances,
-                    const std::optional<Store>& existing, Additions& additions, const ImportOptions& options,
+                    const std::optional<Store>& existing, Additions additions, const ImportOptions& options,
                     ImportReport& report, Progress& progress) {
+  const Store* base = existing ? &*existing : nullptr;
+  // With lines among contours what is inferred from these is made anew.
+  const bool changes = additions.change_terrain(options) || (repairs(base) && !additions.plan.lines.empty());
+  const Store* ground = changes ? nullptr : base;
   std::vector<std::unique_ptr<PassingStore>> passing;
   std::optional<Store> before;
-  const auto next = [&] { return fmt::format("{}.ground{}", store_path, passing.size()); };
-  passing.push_back(std::make_unique<PassingStore>(next()));
-  const Store* const store = existing ? &*existing : nullptr;
-  // With lines among contours what is inferred from these is made anew.
-  const bool changes = additions.change_terrain(options) || (repairs(store) && !additions.plan.lines.empty());
-  const Store* const ground = changes ? nullptr : store;
   RaisedFeatures raised;
-  bool done = write_store({writer, passing.back()->path(), false, tolerances}, store, additions, ground, options,
-                          report, raised, progress);
-  while (!done) {
-    before.emplace(passing.back()->path());
-    passing.push_back(std::make_unique<PassingStore>(next()));
-    Additions nothing;
-    nothing.plan = plan_nothing(before->metadata());
-    done = write_store({writer, passing.back()->path(), passing.size() >= kMostTurns, tolerances}, &*before, nothing,
-                       &*before, options, report, raised, progress);
+  for (std::size_t turn = 1;; ++turn) {
+    passing.push_back(std::make_unique<PassingStore>(fmt::format("{}.ground{}", store_path, passing.size())));
+    const Target target{writer, passing.back()->path(), turn == kMostTurns, tolerances};
+    if (write_store(target, base, additions, ground, options, report, raised, progress)) break;
+    base = ground = &before.emplace(passing.back()->path());
+    additions = Additions{plan_nothing(base->metadata()), {}};
   }
   report.features += raised.features;
   report.refused += raised.refused;
@@ -367,9 +363,8 @@ ImportReport import_sources(const std::string& store_path, const ImportOptions& 
   report.warnings = additions.plan.warnings;
 
   // The writer comes first: it holds the lock, and a place that cannot be written is known before hours of work.
-  const ImportPlan& plan = additions.plan;
-  StoreWriter writer(store_path, plan.crs_wkt, plan.grid, tolerances);
-  write_in_turns(store_path, writer, tolerances, existing, additions, options, report, progress);
+  StoreWriter writer(store_path, additions.plan.crs_wkt, additions.plan.grid, tolerances);
+  write_in_turns(store_path, writer, tolerances, existing, std::move(additions), options, report, progress);
 
   const Store written(store_path);
   report.store_bytes = written.file_bytes();

@@ -225,12 +225,12 @@ void LineCollection::make_lines(ThemeLines& result, const Store* ground) {
   const auto apex = [&](Position from, Position to) { return apex_of(*ground, from, to); };
   for (;;) {
     result.lines = make_planar(segments_);
-    const std::vector<OwnedSegment> more = border.widen(result.lines, owners, apex);
-    if (more.empty()) break;
-    for (const OwnedSegment& s : more) keep_or_raise(s, masks);
+    GroundBorder::Fit fit = border.fit(result.lines, owners, apex);
+    result.borders = std::move(fit.placed);
+    if (fit.lines.empty()) break;
+    for (const OwnedSegment& s : fit.lines) keep_or_raise(s, masks);
   }
   segments_.clear();
-  result.borders = border.place(result.lines, owners);
   std::sort(ground_ends_.begin(), ground_ends_.end());
   ground_ends_.erase(std::unique(ground_ends_.begin(), ground_ends_.end()), ground_ends_.end());
   result.ground_ends = std::move(ground_ends_);

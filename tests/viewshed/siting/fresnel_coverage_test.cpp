@@ -13,6 +13,7 @@
 #include "support/temporary_directory.hpp"
 #include "support/terrain_tin.hpp"
 #include "support/vector_file.hpp"
+#include "viewshed/siting/survey_points.hpp"
 
 namespace itin::viewshed {
 namespace {
@@ -126,20 +127,7 @@ class FresnelSites : public ::testing::Test {
     return sets;
   }
 
-  /// The padding about the grid, where points are asked about but cells are not.
-  DemandSet inside(const DemandSet& set) const {
-    const RasterGrid& grid = *survey_.targets.grid;
-    DemandSet result;
-    for (const DemandSet::Block& block : set.blocks()) {
-      std::uint64_t members = 0;
-      for (unsigned bit = 0; bit < 64; ++bit) {
-        const RasterGrid::Cell cell = cell_of(grid, std::size_t{64} * block.number + bit);
-        if (cell.column < grid.columns() && cell.row < grid.rows()) members |= block.members & std::uint64_t{1} << bit;
-      }
-      result.add(block.number, members);
-    }
-    return result;
-  }
+  DemandSet inside(const DemandSet& set) const { return test::without_padding(*survey_.targets.grid, set); }
 
   void expect_bounds_at_every_stage(const SiteSurvey& survey, const std::vector<DemandSet>& truth) {
     SiteCoverage coverage(*store_, survey, progress_);
@@ -167,13 +155,7 @@ class FresnelSites : public ::testing::Test {
     for (const DemandSet& set : truth) sum += set.size();
     EXPECT_LT(sum, in_sight_);  // the zone matters
     expect_bounds_at_every_stage(survey_, truth);
-    SiteSurvey of_points = survey_;
-    of_points.targets.grid.reset();
-    const RasterGrid& grid = *survey_.targets.grid;
-    for (std::size_t element = 0; element < element_count(grid); ++element) {
-      const RasterGrid::Cell cell = cell_of(grid, element);
-      of_points.targets.points.push_back(grid.centre(cell.column, cell.row));
-    }
+    const SiteSurvey of_points = test::survey_of_points(survey_);
     expect_bounds_at_every_stage(of_points, truth);
   }
 

@@ -12,6 +12,7 @@
 #include "support/raster_file.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/terrain_tin.hpp"
+#include "viewshed/siting/survey_points.hpp"
 
 namespace itin::viewshed {
 namespace {
@@ -135,28 +136,10 @@ TEST_F(Sites, PointsAreServedAsCellsAtTheSamePlaces) {
   make_terrain(80, 200, true);
   make_survey(5);
   const std::vector<DemandSet> truth = all_precise();
-  SiteSurvey of_points = survey_;
-  of_points.targets.grid.reset();
-  const RasterGrid& grid = *survey_.targets.grid;
-  for (std::size_t element = 0; element < element_count(grid); ++element) {
-    const RasterGrid::Cell cell = cell_of(grid, element);
-    of_points.targets.points.push_back(grid.centre(cell.column, cell.row));  // beyond the grid there is no ground
-  }
-  SiteCoverage coverage(*store_, of_points, progress_);
+  SiteCoverage coverage(*store_, test::survey_of_points(survey_), progress_);
   std::vector<std::size_t> all{0, 1, 2, 3, 4};
   coverage.look_first();
-  const auto inside = [&](const DemandSet& set) {  // of the padding nothing is asked
-    DemandSet result;
-    for (const DemandSet::Block& block : set.blocks()) {
-      std::uint64_t members = 0;
-      for (unsigned bit = 0; bit < 64; ++bit) {
-        const RasterGrid::Cell cell = cell_of(grid, std::size_t{64} * block.number + bit);
-        if (cell.column < grid.columns() && cell.row < grid.rows()) members |= block.members & std::uint64_t{1} << bit;
-      }
-      result.add(block.number, members);
-    }
-    return result;
-  };
+  const auto inside = [&](const DemandSet& set) { return test::without_padding(*survey_.targets.grid, set); };
   for (;;) {
     for (const std::size_t i : all) {
       CoverageBounds bounds = coverage.bounds(i);
