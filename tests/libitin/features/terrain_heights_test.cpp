@@ -7,12 +7,13 @@
 
 #include "libitin/features/feature_fixture.hpp"
 #include "support/delaunay_tin.hpp"
+#include "support/seed.hpp"
 #include "triangulate/delaunay.hpp"
 
 namespace itin {
 namespace {
 
-using test::expect_planar, test::kFeatureGrid, test::meshed, test::seeded;
+using test::expect_planar, test::kFeatureGrid, test::meshed;
 
 double plane(const Tin& tin, const Triangle& t, double x, double y) {
   const GridPoint &a = tin.vertices[t[0]], &b = tin.vertices[t[1]], &c = tin.vertices[t[2]];
@@ -55,7 +56,7 @@ GridPolygons star(std::mt19937& random, Position centre, double radius) {
 }
 
 TEST(TerrainHeights, AgreeWithEveryTriangle) {
-  std::mt19937 random = seeded();
+  std::mt19937 random(test::seed());
   const Tin tin = test::random_tin(random, 400, 0.05, kFeatureGrid);
   const TerrainHeights terrain(tin);
   std::uniform_int_distribution<std::int32_t> anywhere(-11000, 11000);
@@ -71,7 +72,7 @@ TEST(TerrainHeights, AgreeWithEveryTriangle) {
 }
 
 TEST(TerrainHeights, FindAllCrossings) {
-  std::mt19937 random = seeded();
+  std::mt19937 random(test::seed());
   const Tin tin = test::random_tin(random, 200, 0, kFeatureGrid);
   const TerrainHeights terrain(tin);
   std::uniform_int_distribution<std::int32_t> anywhere(-9000, 9000);
@@ -106,7 +107,7 @@ TEST(TerrainHeights, FindAllCrossings) {
 }
 
 TEST(TerrainHeights, BaseRulesAgreeWithDenseSampling) {
-  std::mt19937 random = seeded();
+  std::mt19937 random(test::seed());
   for (int round = 0; round < 10; ++round) {
     const Tin tin = test::random_tin(random, 300, round % 2 ? 0.1 : 0, kFeatureGrid);
     const TerrainHeights terrain(tin);
@@ -170,7 +171,7 @@ class Joined {
 
 // The top of what drapes is the terrain's own triangles, raised: anywhere inside, not only at vertices.
 TEST(Drape, RepeatsTheTerrain) {
-  std::mt19937 random = seeded();
+  std::mt19937 random(test::seed());
   for (int round = 0; round < 5; ++round) {
     const Tin tin = even_tin(random);
     const TerrainHeights terrain(tin);
