@@ -101,6 +101,16 @@ struct Range {
   std::size_t first, end;
 };
 
+/// The interval between neighbours of the values from `first` to `last` that holds a third of `thrice`.
+std::size_t interval(const std::vector<std::int32_t>& values, std::int64_t thrice, std::size_t first,
+                     std::size_t last) {
+  const auto begin = values.begin();
+  const auto after =
+      std::upper_bound(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(last), thrice,
+                       [](std::int64_t t, std::int32_t value) { return t < 3 * std::int64_t{value}; });
+  return static_cast<std::size_t>(after - begin) - 1;
+}
+
 /// Those of the intervals between neighbouring values that meet [low, high].
 Range intervals(const std::vector<std::int32_t>& values, double low, double high) {
   const auto from = std::lower_bound(values.begin(), values.end(), low) - values.begin();
@@ -116,12 +126,12 @@ LatticeSquares::LatticeSquares(std::span<const Position> positions, std::span<co
   if (place(positions)) {
     mark_full(known);
     for (std::size_t i = 0; i < positions.size(); ++i) {
-      if (nodes_[i] == kNone) clear_about(positions[i]);
+      if (!nodes_[i].exists()) clear_about(positions[i]);
     }
     for (const Segment& s : segments) clear_along(s);
     number_triangles();
   }
-  if (count_ == 0) nodes_.assign(positions.size(), kNone);
+  if (count_ == 0) nodes_.assign(positions.size(), {});
   find_rest(segments);
 }
 
@@ -135,12 +145,12 @@ bool LatticeSquares::place(std::span<const Position> positions) {
   if (columns_.size() * rows_.size() > kMostNodesAPost * positions.size()) return false;
   column_step_ = median_step(columns_), row_step_ = median_step(rows_);
   vertices_.assign(columns_.size() * rows_.size(), kNone);
-  nodes_.assign(positions.size(), kNone);
+  nodes_.assign(positions.size(), {});
   for (std::uint32_t i = 0; i < positions.size(); ++i) {
     const std::uint32_t column = x.number(positions[i].x), row = y.number(positions[i].y);
     if (column == kNone || row == kNone) continue;
-    nodes_[i] = static_cast<std::uint32_t>(node(column, row));
-    vertices_[nodes_[i]] = i;
+    nodes_[i] = {column, row};
+    vertices_[node(column, row)] = i;
   }
   return true;
 }
@@ -194,6 +204,7 @@ void LatticeSquares::clear_along(const Segment& s) {
     const Range columns = intervals(columns_, x0 - 1, x1 + 1);
     for (std::size_t column = columns.first; column < columns.end; ++column) {
       const std::int32_t left = columns_[column], right = columns_[column + 1];
+      if (east <= left || west >= right || high <= south || low >= north) continue;
       const auto [least, greatest] =
           std::minmax({orientation(a, b, Position{left, south}), orientation(a, b, Position{right, south}),
                        orientation(a, b, Position{left, north}), orientation(a, b, Position{right, north})});
@@ -210,29 +221,28 @@ void LatticeSquares::number_triangles() {
   }
 }
 
-std::uint32_t LatticeSquares::node_at(Position p) const {
+std::size_t LatticeSquares::node_at(Position p) const {
   const auto column = std::lower_bound(columns_.begin(), columns_.end(), p.x);
   const auto row = std::lower_bound(rows_.begin(), rows_.end(), p.y);
   if (column == columns_.end() || row == rows_.end() || *column != p.x || *row != p.y) return kNone;
-  return static_cast<std::uint32_t>(
-      node(static_cast<std::size_t>(column - columns_.begin()), static_cast<std::size_t>(row - rows_.begin())));
+  return node(static_cast<std::size_t>(column - columns_.begin()), static_cast<std::size_t>(row - rows_.begin()));
 }
 
 void LatticeSquares::find_rest(std::span<const Segment> segments) {
-  std::vector<std::uint32_t> ends;
+  std::vector<std::size_t> ends;
   if (count_ > 0) {
     for (const Segment& s : segments) {
       for (const Position p : {Position{s.ax, s.ay}, Position{s.bx, s.by}}) ends.push_back(node_at(p));
     }
     std::sort(ends.begin(), ends.end());
   }
-  const auto surrounded = [&](std::uint32_t n) {
+  const auto surrounded = [&](std::size_t n) {
     const std::size_t width = columns_.size();
     return n > width && first_[n] != kNone && first_[n - 1] != kNone && first_[n - width] != kNone &&
            first_[n - width - 1] != kNone && !std::binary_search(ends.begin(), ends.end(), n);
   };
   for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
-    if (nodes_[i] == kNone || !surrounded(nodes_[i])) rest_.push_back(i);
+    if (!nodes_[i].exists() || !surrounded(node(nodes_[i].column, nodes_[i].row))) rest_.push_back(i);
   }
 }
 
@@ -291,24 +301,23 @@ void LatticeSquares::fill(PlaneMesh& mesh) const {
 /// Whether a triangle of posts lies in full squares. Their border is made of edges, so its centroid tells.
 bool LatticeSquares::covers(const std::array<std::uint32_t, 3>& triangle) const {
   std::int64_t x = 0, y = 0;
+  std::uint32_t west = kNone, east = 0, south = kNone, north = 0;
   for (const std::uint32_t v : triangle) {
-    if (v >= nodes_.size() || nodes_[v] == kNone) return false;
-    x += columns_[nodes_[v] % columns_.size()];
-    y += rows_[nodes_[v] / columns_.size()];
+    if (v >= nodes_.size() || !nodes_[v].exists()) return false;
+    const auto [column, row] = nodes_[v];
+    x += columns_[column], y += rows_[row];
+    west = std::min(west, column), east = std::max(east, column);
+    south = std::min(south, row), north = std::max(north, row);
   }
-  const auto before = [](const std::vector<std::int32_t>& values, std::int64_t thrice) {
-    const auto after = std::upper_bound(values.begin(), values.end(), thrice,
-                                        [](std::int64_t t, std::int32_t value) { return t < 3 * std::int64_t{value}; });
-    return static_cast<std::size_t>(after - values.begin()) - 1;
-  };
-  return first_[node(before(columns_, x), before(rows_, y))] != kNone;
+  return first_[node(interval(columns_, x, west, east), interval(rows_, y, south, north))] != kNone;
 }
 
 /// Makes neighbours of a triangle and of the square beyond its edge.
 void LatticeSquares::link(PlaneMesh& mesh, std::uint32_t triangle, unsigned edge) const {
   const auto& corners = mesh.triangles[triangle];
-  const std::uint32_t p = nodes_[corners[(edge + 1) % 3]], q = nodes_[corners[(edge + 2) % 3]];
-  const auto width = static_cast<std::uint32_t>(columns_.size());
+  const auto [p_column, p_row] = nodes_[corners[(edge + 1) % 3]];
+  const auto [q_column, q_row] = nodes_[corners[(edge + 2) % 3]];
+  const std::size_t p = node(p_column, p_row), q = node(q_column, q_row), width = columns_.size();
   std::uint32_t neighbour = kNone;
   unsigned side = 0;
   // The square is to the right of pq.

@@ -41,6 +41,12 @@ class LatticeSquares {
   void fill(PlaneMesh& mesh) const;
 
  private:
+  static constexpr std::uint32_t kNone = kNoTriangle;
+  struct Node {
+    std::uint32_t column = kNone, row = kNone;
+    bool exists() const { return row != kNone; }
+  };
+
   bool place(std::span<const Position> positions);
   void mark_full(const GridBox& known);
   void clear_about(Position p);
@@ -49,7 +55,7 @@ class LatticeSquares {
   void find_rest(std::span<const Segment> segments);
 
   std::size_t node(std::size_t column, std::size_t row) const { return row * columns_.size() + column; }
-  std::uint32_t node_at(Position p) const;
+  std::size_t node_at(Position p) const;
   bool covers(const std::array<std::uint32_t, 3>& triangle) const;
   void add_squares(PlaneMesh& mesh) const;
   void link(PlaneMesh& mesh, std::uint32_t triangle, unsigned edge) const;
@@ -57,7 +63,7 @@ class LatticeSquares {
   std::vector<std::int32_t> columns_, rows_;     ///< ascending
   std::int32_t column_step_ = 0, row_step_ = 0;  ///< as most are apart
   std::vector<std::uint32_t> vertices_;          ///< by node: the position's index, or kNone
-  std::vector<std::uint32_t> nodes_;             ///< by position: its node, or kNone
+  std::vector<Node> nodes_;                      ///< by position
   std::vector<std::uint32_t> first_;  ///< by node: the first triangle of the square to its upper right, or kNone
   std::vector<std::uint32_t> rest_;
   std::uint32_t count_ = 0;
