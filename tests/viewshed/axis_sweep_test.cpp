@@ -13,16 +13,11 @@
 #include "support/delaunay_tin.hpp"
 #include "support/exact_line_of_sight.hpp"
 #include "support/real_terrain.hpp"
+#include "support/seed.hpp"
 #include "support/terrain_tin.hpp"
 
 namespace itin::viewshed {
 namespace {
-
-std::uint32_t logged_seed() {
-  const std::uint32_t seed = std::random_device{}();
-  std::cout << "seed " << seed << '\n';
-  return seed;
-}
 
 struct Tally {
   int seen = 0, hidden = 0, partly = 0;
@@ -121,7 +116,7 @@ Point2 place_in(const Tin& tin, std::mt19937& random) {
 }
 
 TEST(AxisSweep, RandomTins) {
-  std::mt19937 random(logged_seed());
+  std::mt19937 random(test::seed());
   Tally all;
   for (int i = 0; i < 6; ++i) {
     const Tin tin = test::random_tin(random, 300, i % 2 == 0 ? 0 : 0.1, {{500000, 4000000}, 0.01}, 50000);
@@ -135,7 +130,7 @@ TEST(AxisSweep, RandomTins) {
 }
 
 TEST(AxisSweep, FractalTerrainWithCellsOfEverySize) {
-  std::mt19937 random(logged_seed());
+  std::mt19937 random(test::seed());
   int hidden = 0;
   for (const double roughness : {0.35, 0.5, 0.65}) {
     const Tin tin = test::fractal_tin(65, 50, 150, roughness, random());
@@ -150,7 +145,7 @@ TEST(AxisSweep, FractalTerrainWithCellsOfEverySize) {
 }
 
 TEST(AxisSweep, GroundWithVoids) {
-  std::mt19937 random(logged_seed());
+  std::mt19937 random(test::seed());
   const std::vector<double> z = test::fractal_heights(65, 120, 0.5, random());
   const Tin tin = test::lattice_tin(65, 65, 50, [&](std::int32_t c, std::int32_t r) {
     const bool bare = (c / 9 + r / 9) % 4 == 0 || std::hypot(c - 32, r - 32) > 31;
@@ -167,7 +162,7 @@ TEST(AxisSweep, GroundWithVoids) {
 }
 
 TEST(AxisSweep, LongEdgesOnACurvedEarth) {
-  std::mt19937 random(logged_seed());
+  std::mt19937 random(test::seed());
   const Tin tin = test::fractal_tin(17, 4000, 60, 0.5, random());
   int partly = 0;
   for (const double k : {0.13, -0.5, 0.9}) {
@@ -184,7 +179,7 @@ TEST(AxisSweep, WallsAndRoofs) {
   const Tin tin = test::lattice_tin(
       161, 161, 5, [](std::int32_t c, std::int32_t r) { return c % 7 < 3 && r % 11 < 4 ? 9.0 + c % 5 : 0.01 * c; });
   Sweeping sweeping(tin, {}, 7);
-  std::mt19937 random(logged_seed());
+  std::mt19937 random(test::seed());
   const Tally t = sweeping.compare(place_in(tin, random), 60, 2, 700);
   EXPECT_GT(t.partly, 100);
   EXPECT_GT(t.hidden, 0);
@@ -193,7 +188,7 @@ TEST(AxisSweep, WallsAndRoofs) {
 TEST(AxisSweep, RealTerrain) {
   const auto tin = test::big_tujunga(300, 300, 60);
   if (!tin) GTEST_SKIP() << "needs " << test::big_tujunga_path();
-  std::mt19937 random(logged_seed());
+  std::mt19937 random(test::seed());
   Sweeping sweeping(*tin, {}, 20);
   int hidden = 0;
   for (int i = 0; i < 4; ++i) hidden += sweeping.compare(place_in(*tin, random), 150, 2, 5000).hidden;
@@ -201,7 +196,7 @@ TEST(AxisSweep, RealTerrain) {
 }
 
 TEST(BinnedHeights, LidsAndRunsHoldAtEveryPointOfABin) {
-  std::mt19937 random(logged_seed());
+  std::mt19937 random(test::seed());
   const Tin tin = test::random_tin(random, 400, 0.1, {{500000, 4000000}, 0.01}, 50000);
   const BinnedHeights bins(tin, boundary_edges(tin));
   const test::ExactLineOfSight exact(tin, {});
