@@ -20,9 +20,9 @@ namespace itin {
 namespace {
 
 /// The box is this many mean point spacings wider than the region: most circumdiscs of the region's triangles fit in.
-constexpr double kMargin = 3;
+constexpr double kMargin = 4;
 /// After so many rounds of mending the box may grow.
-constexpr int kPatience = 3;
+constexpr int kPatience = 8;
 /// A box is not made to have more points than so many times those of the region (large regions: kLargeGrowth times and
 /// kManyPoints), and a few.
 constexpr std::uint64_t kGrowth = 8, kLargeGrowth = 2;

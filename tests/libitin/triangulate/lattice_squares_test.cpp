@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "features/planar.hpp"
+#include "support/seed.hpp"
 
 namespace itin {
 namespace {
@@ -156,9 +157,7 @@ class RandomGround {
 };
 
 TEST(LatticeSquares, WithTheRestAreTheWholeTriangulation) {
-  const auto seed = static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed());
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  RandomGround random(seed);
+  RandomGround random(test::seed());
   for (int run = 0; run < 200; ++run) {
     SCOPED_TRACE("run " + std::to_string(run));
     std::size_t given = 0;
