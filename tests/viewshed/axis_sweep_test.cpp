@@ -34,7 +34,7 @@ class Sweeping {
   Sweeping(const Tin& tin, const Earth& earth, double cell)
       : tin_(tin),
         earth_(earth),
-        bins_(tin, boundary_edges(tin)),
+        bins_(tin),
         sweep_(tin, earth, bins_),
         scene_(tin, earth, NoData::kClear, 0),
         heights_(tin, earth, scene_),
@@ -203,7 +203,7 @@ TEST(AxisSweep, RealTerrain) {
 TEST(BinnedHeights, LidsAndRunsHoldAtEveryPointOfABin) {
   std::mt19937 random(logged_seed());
   const Tin tin = test::random_tin(random, 400, 0.1, {{500000, 4000000}, 0.01}, 50000);
-  const BinnedHeights bins(tin, boundary_edges(tin));
+  const BinnedHeights bins(tin);
   const test::ExactLineOfSight exact(tin, {});
   std::uniform_real_distribution<double> share(0, 1);
   int looked = 0;

@@ -85,12 +85,16 @@ class Facet {
 
 }  // namespace
 
-BinnedHeights::BinnedHeights(const Tin& tin, const std::vector<BoundaryEdge>& boundary)
+BinnedHeights::BinnedHeights(const Tin& tin) : BinnedHeights(tin, cell_lattice(tin)) {}
+
+BinnedHeights::BinnedHeights(const Tin& tin, const std::optional<CellLattice>& lattice)
     : units_(tin.grid),
-      grid_(bin_grid(tin)),
-      bins_(tin, grid_),
+      grid_(lattice ? lattice->grid : bin_grid(tin)),
+      bins_(lattice ? TriangleBins(*lattice) : TriangleBins(tin, grid_)),
       tops_(tin.triangles.size()),
-      lids_(grid_.cell_count()) {
+      lids_(grid_.cell_count()),
+      lattice_(lattice.has_value()),
+      boundary_(lattice_ ? boundary_edges(tin, *lattice) : boundary_edges(tin)) {
   std::transform(tin.triangles.begin(), tin.triangles.end(), tops_.begin(), [&](const Triangle& t) {
     return std::max({tin.vertices[t[0]].z, tin.vertices[t[1]].z, tin.vertices[t[2]].z});
   });
@@ -100,7 +104,11 @@ BinnedHeights::BinnedHeights(const Tin& tin, const std::vector<BoundaryEdge>& bo
   parallel_for(static_cast<std::size_t>(rows()), [&](std::size_t r) {
     for (std::int64_t c = 0; c < columns(); ++c) bound(tin, {c, static_cast<std::int64_t>(r)}, ranges);
   });
-  forget_depth_at(tin, boundary, ranges.low);
+  if (lattice) {
+    forget_depth_of_halves(ranges.low);
+  } else {
+    forget_depth_at_boundary(tin, ranges.low);
+  }
   bound_runs(ranges);
 }
 
@@ -134,10 +142,9 @@ void BinnedHeights::bound(const Tin& tin, RasterGrid::Cell bin, Ranges& ranges) 
 
 /// A bin that a triangle meets and no boundary crosses is covered throughout; elsewhere nothing is known of how low the
 /// ground is.
-void BinnedHeights::forget_depth_at(const Tin& tin, const std::vector<BoundaryEdge>& boundary,
-                                    std::vector<float>& low) const {
+void BinnedHeights::forget_depth_at_boundary(const Tin& tin, std::vector<float>& low) const {
   std::vector<bool> at_boundary(tin.triangles.size());
-  for (const BoundaryEdge& edge : boundary) at_boundary[edge.triangle] = true;
+  for (const BoundaryEdge& edge : boundary_) at_boundary[edge.triangle] = true;
   parallel_for(grid_.cell_count() / kChunk + 1, [&](std::size_t chunk) {
     for (std::size_t bin = chunk * kChunk; bin < std::min((chunk + 1) * kChunk, low.size()); ++bin) {
       const auto listed = bins_.triangles(bin);
@@ -145,6 +152,12 @@ void BinnedHeights::forget_depth_at(const Tin& tin, const std::vector<BoundaryEd
         low[bin] = -kInfinity;
     }
   });
+}
+
+/// A lattice's cell is covered by two triangles.
+void BinnedHeights::forget_depth_of_halves(std::vector<float>& low) const {
+  for (std::size_t bin = 0; bin < low.size(); ++bin)
+    if (bins_.triangles(bin).size() < 2) low[bin] = -kInfinity;
 }
 
 void BinnedHeights::bound_runs(const Ranges& ranges) {
@@ -173,6 +186,22 @@ void BinnedHeights::bound_runs(const Ranges& ranges) {
   using Cell = RasterGrid::Cell;
   bound(eastwards_, rows(), columns(), [](std::int64_t line, std::int64_t i) { return Cell{i, line}; });
   bound(southwards_, columns(), rows(), [](std::int64_t line, std::int64_t i) { return Cell{line, i}; });
+}
+
+void BinnedHeights::list_triangles(const Box& box, std::vector<std::uint32_t>& result) const {
+  result.clear();
+  const auto bin = [](double at, std::int64_t count) {
+    return static_cast<std::int64_t>(std::clamp(std::floor(at), 0.0, static_cast<double>(count - 1)));
+  };
+  const std::int64_t west = bin(grid_.column_at(box.xmin) - kSlack, columns());
+  const std::int64_t east = bin(grid_.column_at(box.xmax) + kSlack, columns());
+  const std::int64_t south = bin(grid_.row_at(box.ymin) + kSlack, rows());
+  for (std::int64_t row = bin(grid_.row_at(box.ymax) - kSlack, rows()); row <= south; ++row) {
+    for (std::int64_t column = west; column <= east; ++column) {
+      const auto listed = triangles({column, row});
+      result.insert(result.end(), listed.begin(), listed.end());
+    }
+  }
 }
 
 std::optional<double> BinnedHeights::ground(const Tin& tin, Point2 position) const {
