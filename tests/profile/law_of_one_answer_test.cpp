@@ -16,6 +16,7 @@
 
 #include "line_clearance.hpp"
 #include "support/same_bits.hpp"
+#include "support/seed.hpp"
 #include "support/slow_section.hpp"
 #include "support/temporary_directory.hpp"
 
@@ -35,9 +36,7 @@ class CoastalStore : public ::testing::Test {
     NoProgress progress;
     import_terrain(path, options, progress);
     store_.emplace(path);
-    const unsigned seed = std::random_device{}();
-    random_.seed(seed);
-    std::cout << "seed " << seed << "\n";
+    random_.seed(test::seed());
   }
 
   Point2 anywhere() {

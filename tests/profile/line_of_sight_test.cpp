@@ -10,6 +10,7 @@
 #include <profile/line_of_sight.hpp>
 
 #include "support/same_bits.hpp"
+#include "support/seed.hpp"
 #include "triangle_buckets.hpp"
 
 namespace itin::profile {
@@ -112,10 +113,7 @@ class RandomSights : public ::testing::Test {
   static constexpr double kSpacing = 100;
 
   void SetUp() override {
-    const unsigned seed = std::random_device{}();
-    random_.seed(seed);
-    RecordProperty("seed", static_cast<int>(seed));
-    std::cout << "seed " << seed << "\n";
+    random_.seed(test::seed());
     std::normal_distribution<double> height(100, 20);
     tin_ = lattice(kPosts, kPosts, kSpacing, [&](int, int) { return height(random_); });
   }

@@ -30,7 +30,7 @@ Tin gappy(std::mt19937& random, double share) {
 }
 
 TEST(CellLattice, EveryTriangleLiesInItsCell) {
-  std::mt19937 random(test::logged_seed());
+  std::mt19937 random(test::seed());
   for (const double share : {0.0, 0.1}) {
     const Tin tin = gappy(random, share);
     const auto lattice = cell_lattice(tin);
@@ -46,7 +46,7 @@ TEST(CellLattice, EveryTriangleLiesInItsCell) {
 }
 
 TEST(CellLattice, EndsWhereEdgesHaveNoTwins) {
-  std::mt19937 random(test::logged_seed());
+  std::mt19937 random(test::seed());
   for (const double share : {0.0, 0.02, 0.1, 0.15}) {
     const Tin tin = gappy(random, share);
     const auto lattice = cell_lattice(tin);
@@ -56,7 +56,7 @@ TEST(CellLattice, EndsWhereEdgesHaveNoTwins) {
 }
 
 TEST(CellLattice, OtherTinsAreNone) {
-  std::mt19937 random(test::logged_seed());
+  std::mt19937 random(test::seed());
   EXPECT_FALSE(cell_lattice(Tin{}));
   EXPECT_FALSE(cell_lattice(test::random_tin(random, 100, 0)));
   Tin moved = gappy(random, 0);

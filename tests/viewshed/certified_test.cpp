@@ -15,6 +15,7 @@
 #include "support/brute_force_viewshed.hpp"
 #include "support/exact_line_of_sight.hpp"
 #include "support/raster_file.hpp"
+#include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/terrain_tin.hpp"
 #include "surface_heights.hpp"
@@ -26,12 +27,6 @@ using test::look;
 
 constexpr Point2 kNorthWest{300000, 200000};
 constexpr double kStep = 50;
-
-std::uint32_t logged_seed() {
-  const std::uint32_t seed = std::random_device{}();
-  std::cout << "seed " << seed << '\n';
-  return seed;
-}
 
 /// A store of a few thousand posts, with all of its triangles at hand.
 class Terrain {
@@ -122,7 +117,7 @@ void expect_both(const Terrain& terrain, const Request& request) {
 }
 
 TEST(Certified, NeverWrongOnRandomTerrain) {
-  const std::uint32_t seed = logged_seed();
+  const std::uint32_t seed = test::seed();
   const Terrain terrain = fractal(49, 150, seed);
   for (const double target : {0.0, 2.0}) {
     for (const bool curved : {true, false}) {
@@ -151,7 +146,7 @@ TEST(Certified, NeverWrongAtTheEdgeAndAcrossVoids) {
 }
 
 TEST(Certified, FieldsOfView) {
-  const Terrain terrain = fractal(40, 120, logged_seed());
+  const Terrain terrain = fractal(40, 120, test::seed());
   Request request = look(terrain.at(980, 1015), 4, 2, 31);
   request.radius = 700;
   request.min_radius = 120;

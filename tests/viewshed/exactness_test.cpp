@@ -11,6 +11,7 @@
 #include "support/delaunay_tin.hpp"
 #include "support/exact_line_of_sight.hpp"
 #include "support/real_terrain.hpp"
+#include "support/seed.hpp"
 #include "support/terrain_tin.hpp"
 
 namespace itin::viewshed {
@@ -93,15 +94,8 @@ void expect_exact(const Agreement& agreement) {
   EXPECT_LE(static_cast<double>(agreement.missed), 2 + 0.005 * static_cast<double>(agreement.cells));
 }
 
-std::uint32_t logged_seed() {
-  const std::uint32_t seed = std::random_device{}();
-  ::testing::Test::RecordProperty("seed", std::to_string(seed));
-  std::cout << "seed " << seed << '\n';
-  return seed;
-}
-
 TEST(Exactness, RandomTins) {
-  std::mt19937 random(logged_seed());
+  std::mt19937 random(test::seed());
   for (int i = 0; i < 6; ++i) {
     const Tin tin = test::random_tin(random, 400, 0, {{500000, 4000000}, 0.01}, 50000);
     const Point3 v = tin.point(static_cast<std::uint32_t>(random() % tin.vertices.size()));
@@ -110,7 +104,7 @@ TEST(Exactness, RandomTins) {
 }
 
 TEST(Exactness, FractalTerrainWithEveryTargetHeight) {
-  const std::uint32_t seed = logged_seed();
+  const std::uint32_t seed = test::seed();
   const Tin tin = test::fractal_tin(33, 50, 150, 0.55, seed);
   const Point2 middle{300000 + 801.3, 200000 + 777.7};
   for (const double target : {0.0, 0.5, 2.0, 20.0}) expect_exact(compare(tin, look(middle, 10, target, 40)));
@@ -118,7 +112,7 @@ TEST(Exactness, FractalTerrainWithEveryTargetHeight) {
 
 TEST(Exactness, CurvatureOverLongEdges) {
   // Posts 4 km apart: the scene must cut its edges, the answer must not show it.
-  const Tin tin = test::fractal_tin(17, 4000, 60, 0.5, logged_seed());
+  const Tin tin = test::fractal_tin(17, 4000, 60, 0.5, test::seed());
   const Point2 middle{300000 + 31234.5, 200000 + 33456.7};
   for (const double k : {0.13, 0.0, -0.5, 0.9}) {
     Request request = look(middle, 40, 2, 1500);
@@ -129,7 +123,7 @@ TEST(Exactness, CurvatureOverLongEdges) {
 
 /// What one triangle hides the corners of, it hides all of, curvature included.
 TEST(Exactness, BlocksHiddenTogetherAreHidden) {
-  std::mt19937 random(logged_seed());
+  std::mt19937 random(test::seed());
   const Tin tin = test::fractal_tin(33, 2000, 300, 0.55, random());
   const Earth earth;
   const Scene scene(tin, earth, NoData::kClear, 0);
@@ -176,7 +170,7 @@ TEST(Exactness, BlocksHiddenTogetherAreHidden) {
 }
 
 TEST(Exactness, ObserversOnVerticesEdgesAndCellCorners) {
-  const Tin tin = test::fractal_tin(33, 50, 100, 0.55, logged_seed());
+  const Tin tin = test::fractal_tin(33, 50, 100, 0.55, test::seed());
   const Point2 corner{300000, 200000};
   for (const Point2 offset : {Point2{800, 800}, Point2{825, 800}, Point2{800, 812}, Point2{825, 825},
                               Point2{812.5, 812.5}, Point2{0, 0}, Point2{1600, 800}, Point2{1600, 1600}}) {
@@ -203,7 +197,7 @@ TEST(Exactness, ThinPillarsOnAPlane) {
 }
 
 TEST(Exactness, HolesLetSightLinesPass) {
-  std::mt19937 random(logged_seed());
+  std::mt19937 random(test::seed());
   const Tin tin = test::random_tin(random, 500, 0.1, {{0, 0}, 0.01}, 50000);
   const Triangle& t = tin.triangles[tin.triangles.size() / 2];
   const Point3 a = tin.point(t[0]), b = tin.point(t[1]), c = tin.point(t[2]);

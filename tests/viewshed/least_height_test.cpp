@@ -11,6 +11,7 @@
 #include "support/delaunay_tin.hpp"
 #include "support/exact_line_of_sight.hpp"
 #include "support/real_terrain.hpp"
+#include "support/seed.hpp"
 #include "support/terrain_tin.hpp"
 #include "surface_heights.hpp"
 
@@ -18,13 +19,6 @@ namespace itin::viewshed {
 namespace {
 
 constexpr double kExactness = 1e-7;  ///< of double precision, metres
-
-std::uint32_t logged_seed() {
-  const std::uint32_t seed = std::random_device{}();
-  ::testing::Test::RecordProperty("seed", std::to_string(seed));
-  std::cout << "seed " << seed << '\n';
-  return seed;
-}
 
 class Measured {
  public:
@@ -127,7 +121,7 @@ Tally compare(const Tin& tin, const Earth& earth, double eye_height, double axis
 }
 
 TEST(LeastHeight, RandomTins) {
-  std::mt19937 random(logged_seed());
+  std::mt19937 random(test::seed());
   Tally all;
   for (int i = 0; i < 4; ++i) {
     const Tin tin = test::random_tin(random, 300, i % 2 == 0 ? 0 : 0.1, {{500000, 4000000}, 0.01}, 50000);
@@ -139,7 +133,7 @@ TEST(LeastHeight, RandomTins) {
 }
 
 TEST(LeastHeight, FractalTerrainAtEveryRoughness) {
-  std::mt19937 random(logged_seed());
+  std::mt19937 random(test::seed());
   for (const double roughness : {0.35, 0.5, 0.65}) {
     const Tin tin = test::fractal_tin(33, 50, 150, roughness, random());
     for (const double eye : {0.0, 2.0, 60.0}) {
@@ -150,7 +144,7 @@ TEST(LeastHeight, FractalTerrainAtEveryRoughness) {
 }
 
 TEST(LeastHeight, LongEdgesOnACurvedEarth) {
-  std::mt19937 random(logged_seed());
+  std::mt19937 random(test::seed());
   const Tin tin = test::fractal_tin(17, 4000, 60, 0.5, random());
   for (const double k : {0.13, 0.0, -0.5, 0.9}) {
     Earth earth;
@@ -162,7 +156,7 @@ TEST(LeastHeight, LongEdgesOnACurvedEarth) {
 TEST(LeastHeight, RealTerrain) {
   const auto tin = test::big_tujunga(300, 300, 40);
   if (!tin) GTEST_SKIP() << "needs " << test::big_tujunga_path();
-  std::mt19937 random(logged_seed());
+  std::mt19937 random(test::seed());
   EXPECT_GT(compare(*tin, {}, 2, 150, random).touches, 50);
 }
 

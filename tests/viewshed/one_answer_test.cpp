@@ -19,6 +19,7 @@
 #include <viewshed/viewshed.hpp>
 
 #include "support/raster_file.hpp"
+#include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/vector_file.hpp"
 
@@ -42,12 +43,6 @@ std::ostream& operator<<(std::ostream& out, const Agreement& a) {
 
 class OneAnswer : public testing::Test {
  protected:
-  void SetUp() override {
-    const unsigned seed = std::random_device{}();
-    random_.seed(seed);
-    std::cout << "seed " << seed << "\n";
-  }
-
   double in(double low, double high) { return low + (high - low) * static_cast<double>(random_() % 100000) / 100000; }
 
   profile::LosReport line_of_sight(const Store& store, const Request& request, Point2 target) const {
@@ -111,7 +106,7 @@ class OneAnswer : public testing::Test {
   }
 
   test::TemporaryDirectory directory_;
-  std::mt19937 random_;
+  std::mt19937 random_{test::seed()};
 };
 
 /// A town in a wood on rolling ground, 600 m a side.

@@ -11,6 +11,7 @@
 
 #include "support/brute_force_viewshed.hpp"
 #include "support/raster_file.hpp"
+#include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/terrain_tin.hpp"
 #include "support/vector_file.hpp"
@@ -26,8 +27,7 @@ constexpr Point2 kNorthWest{300000, 200000}, kEye{300437.3, 199487.1};  // nothi
 class StandingCertified : public testing::Test {
  protected:
   void make(double void_radius = 0) {
-    const std::uint32_t seed = std::random_device{}();
-    std::cout << "seed " << seed << '\n';
+    const std::uint32_t seed = test::seed();
     const std::vector<double> z = test::fractal_heights(65, 60, 0.5, seed);
     test::write_raster(directory_.file("t.tif"), {kNorthWest.x, kNorthWest.y, kStep, kSide, kSide, 27700},
                        [&](int c, int r) {

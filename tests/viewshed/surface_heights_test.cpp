@@ -9,6 +9,7 @@
 
 #include "support/delaunay_tin.hpp"
 #include "support/exact_line_of_sight.hpp"
+#include "support/seed.hpp"
 #include "support/terrain_tin.hpp"
 
 namespace itin::viewshed {
@@ -52,9 +53,7 @@ TEST(SurfaceHeights, OnALatticeWhoseEdgesRunThroughTheCentres) {
 }
 
 TEST(SurfaceHeights, OnRandomTinsWithHoles) {
-  const std::uint32_t seed = std::random_device{}();
-  std::cout << "seed " << seed << '\n';
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed());
   for (int i = 0; i < 5; ++i) {
     const Tin tin = test::random_tin(random, 200, 0.1, {{500000, 4000000}, 0.01}, 20000);
     compare(tin, RasterGrid::aligned(tin.bounds(), 7));

@@ -20,6 +20,7 @@
 
 #include "support/exact_line_of_sight.hpp"
 #include "support/real_terrain.hpp"
+#include "support/seed.hpp"
 #include "support/terrain_tin.hpp"
 #include "turbine_view.hpp"
 #include "value_bands.hpp"
@@ -94,8 +95,7 @@ Expected expected(const test::ExactLineOfSight& exact, const Zone& zone, Point2 
 }
 
 TEST(Turbines, EveryValueFollowsFromSingleLinesOfSight) {
-  const std::uint32_t seed = std::random_device{}();
-  std::cout << "seed " << seed << '\n';
+  const std::uint32_t seed = test::seed();
   const Tin tin = test::fractal_tin(33, 50, 150, 0.5, seed);
   ZoneRequest request;
   request.cell_size = 50;

@@ -13,7 +13,7 @@ namespace itin::viewshed {
 namespace {
 
 TEST(VoidShadow, IsWhereSomeEdgeIsCrossedBack) {
-  std::mt19937 random(test::logged_seed());
+  std::mt19937 random(test::seed());
   std::uniform_real_distribution<double> share(-0.2, 1.2);
   int shaded = 0, clear = 0;
   for (int i = 0; i < 5; ++i) {

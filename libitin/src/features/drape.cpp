@@ -11,11 +11,15 @@ namespace {
 
 using TerrainEdge = std::pair<std::uint32_t, std::uint32_t>;
 
-/// Of all triangles that the plan's rings meet.
+/// Where rings and edges meet they are rounded, the edges by up to a step and once more where they are made planar: an
+/// edge that no ring meets may so get a vertex.
+constexpr std::int32_t kRounded = 2;
+
+/// Of all triangles at the plan's rings, so that no new vertex is seen by those within.
 std::set<TerrainEdge> edges_at_rings(const GridPolygon& plan, const TerrainHeights& terrain) {
   std::set<TerrainEdge> edges;
   for_each_edge(plan, [&](Position p, Position q) {
-    for (const std::uint32_t t : terrain.triangles_along(p, q)) {
+    for (const std::uint32_t t : terrain.triangles_along(p, q, kRounded)) {
       const Triangle& v = terrain.triangle(t);
       for (int i = 0; i < 3; ++i) edges.insert(std::minmax(v[i], v[(i + 1) % 3]));
     }

@@ -153,31 +153,41 @@ bool TerrainHeights::level_about(const GridBox& box) const {
 
 namespace {
 
-/// Whether the segment lies beyond one side of the triangle, or the triangle on one side of the segment.
-bool separated(const GridPoint& a, const GridPoint& b, const GridPoint& c, Position p, Position q) {
-  const auto beyond = [&](const GridPoint& s, const GridPoint& t) {
-    return orientation(s, t, p) < 0 && orientation(s, t, q) < 0;
+/// Whether p lies more than `reach` to the right of the line from s to t.
+bool beyond(Position s, Position t, Position p, std::int64_t reach) {
+  const std::int64_t length = std::abs(std::int64_t{t.x} - s.x) + std::abs(std::int64_t{t.y} - s.y);  // at least
+  return doubled_area(s, t, p) < -reach * length;
+}
+
+/// Whether a side of the triangle, or the segment, tells that they are more than `reach` apart.
+bool separated(const std::array<Position, 3>& triangle, Position p, Position q, std::int64_t reach) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Position &s = triangle[i], &t = triangle[(i + 1) % 3];
+    if (beyond(s, t, p, reach) && beyond(s, t, q, reach)) return true;
+  }
+  const auto all_beyond = [&](Position s, Position t) {
+    return std::all_of(triangle.begin(), triangle.end(), [&](Position v) { return beyond(s, t, v, reach); });
   };
-  if (beyond(a, b) || beyond(b, c) || beyond(c, a)) return true;
-  const int sa = orientation(p, q, a), sb = orientation(p, q, b), sc = orientation(p, q, c);
-  return (sa > 0 && sb > 0 && sc > 0) || (sa < 0 && sb < 0 && sc < 0);
+  return all_beyond(p, q) || all_beyond(q, p);
 }
 
 }  // namespace
 
-std::vector<std::uint32_t> TerrainHeights::triangles_along(Position a, Position b) const {
+std::vector<std::uint32_t> TerrainHeights::triangles_along(Position a, Position b, std::int32_t reach) const {
   // Piece by piece: the box of a long slanting segment holds many more than it meets.
   const std::int64_t dx = std::int64_t{b.x} - a.x, dy = std::int64_t{b.y} - a.y;
   const std::int64_t pieces = std::max(std::abs(dx), std::abs(dy)) / (4 * bucket_side_) + 1;
+  const std::int32_t wider = reach + 1;
   std::vector<std::uint32_t> found;
   for (std::int64_t i = 0; i < pieces; ++i) {
     GridBox box;
     for (const std::int64_t k : {i, i + 1})
       box.extend(static_cast<std::int32_t>(a.x + dx * k / pieces), static_cast<std::int32_t>(a.y + dy * k / pieces));
-    box = {box.xmin - 1, box.ymin - 1, box.xmax + 1, box.ymax + 1};
+    box = {box.xmin - wider, box.ymin - wider, box.xmax + wider, box.ymax + wider};
     for (const std::uint32_t t : triangles_near(box)) {
       const Triangle& v = tin_->triangles[t];
-      if (!separated(vertex(v[0]), vertex(v[1]), vertex(v[2]), a, b)) found.push_back(t);
+      const auto at = [&](std::size_t k) { return Position{vertex(v[k]).x, vertex(v[k]).y}; };
+      if (!separated({at(0), at(1), at(2)}, a, b, reach)) found.push_back(t);
     }
   }
   std::sort(found.begin(), found.end());

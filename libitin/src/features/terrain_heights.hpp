@@ -34,8 +34,8 @@ class TerrainHeights {
   std::vector<std::uint32_t> triangles_near(const GridBox& box) const;
   /// Whether triangles near a box are all equally high and level. False also where only those a little further are not.
   bool level_about(const GridBox& box) const;
-  /// Of those that meet the closed segment ab, ascending.
-  std::vector<std::uint32_t> triangles_along(Position a, Position b) const;
+  /// All those within `reach` grid steps of the closed segment ab, and perhaps some a little further off, ascending.
+  std::vector<std::uint32_t> triangles_along(Position a, Position b, std::int32_t reach = 0) const;
   const Triangle& triangle(std::uint32_t t) const { return tin_->triangles[t]; }
   const GridPoint& vertex(std::uint32_t v) const { return tin_->vertices[v]; }
 

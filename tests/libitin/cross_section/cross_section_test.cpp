@@ -9,6 +9,7 @@
 #include "cross_section/retrieval.hpp"
 #include "support/covered_index.hpp"
 #include "support/section_text.hpp"
+#include "support/seed.hpp"
 #include "support/slow_section.hpp"
 #include "triangulate/region.hpp"
 
@@ -82,8 +83,7 @@ class Ends {
 class SectionPatterns : public testing::TestWithParam<Pattern> {};
 
 TEST_P(SectionPatterns, EqualEveryTriangleCutByTheLine) {
-  const auto seed = static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed());
-  SCOPED_TRACE("seed " + std::to_string(seed));
+  const auto seed = test::seed();
   std::mt19937 random(seed + static_cast<unsigned>(GetParam()));
   constexpr int kLevels = 4;
   const std::vector<double> tolerances{0, 1, 2, 3};

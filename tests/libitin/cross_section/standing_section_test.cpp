@@ -18,6 +18,7 @@
 
 #include "support/raster_file.hpp"
 #include "support/section_text.hpp"
+#include "support/seed.hpp"
 #include "support/slow_section.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/vector_file.hpp"
@@ -92,9 +93,7 @@ double rolling(int c, int r) {
 }
 
 TEST_F(StandingSections, EqualTheWindowsTrianglesCutByTheLine) {
-  const auto seed = static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed());
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed());
   const auto in = [&](double low, double high) {
     return low + (high - low) * static_cast<double>(random() % 100000) / 100000;
   };

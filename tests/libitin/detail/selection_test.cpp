@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/seed.hpp"
+
 namespace itin {
 namespace {
 
@@ -43,9 +45,7 @@ TEST(Selection, RingRimBelongsToTheRing) {
 }
 
 TEST(Selection, AgreesWithDistancesOneByOne) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(seed);
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed());
   const Selection selection(Detail::rings({100, 200}, {{5, 0}, {10, 1}, {20, 4}, {40, 8}}), kTolerances, kGrid);
   const auto asked = [](std::int64_t x, std::int64_t y) {
     const std::int64_t d2 = x * x + y * y;

@@ -13,6 +13,7 @@
 #include <itin/tin_export.hpp>
 
 #include "support/delaunay_tin.hpp"
+#include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
 
 namespace itin::test {
@@ -35,9 +36,7 @@ inline std::string bytes_of(const std::string& path) {
 class ExportTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    const unsigned seed = std::random_device{}();
-    RecordProperty("seed", std::to_string(seed));
-    std::mt19937 random(seed);
+    std::mt19937 random(test::seed());
     // An origin and a resolution that make most coordinates inexact in decimals.
     tin_ = random_tin(random, 400, 0.1, {{318000.1, 176000.7}, 0.01}, 500000);
     options_.crs_wkt = wkt_of(27700);

@@ -17,6 +17,7 @@
 #include <itin/triangulate.hpp>
 
 #include "libitin/features/surface_comparison.hpp"
+#include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/vector_file.hpp"
 
@@ -121,7 +122,7 @@ TEST(Canopy, FingleWoodsStandAsHighAsTheyWereMeasured) {
             << " m\n";
   EXPECT_LT(worst, 0.03);
   EXPECT_NEAR(rise / measured, 1, 0.1);
-  std::mt19937 random(static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed()));
+  std::mt19937 random(test::seed());
   test::SurfaceComparison comparison(bare, tin);
   comparison.everywhere(random);
   comparison.expect_only_raised();

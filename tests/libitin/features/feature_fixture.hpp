@@ -16,12 +16,6 @@
 
 namespace itin::test {
 
-inline std::mt19937 seeded() {
-  const auto seed = static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed());
-  std::cout << "seed " << seed << "\n";
-  return std::mt19937(seed);
-}
-
 inline const Grid kFeatureGrid{{300000, 200000}, 0.01};
 
 inline PlanRing box_ring(double xmin, double ymin, double xmax, double ymax) {

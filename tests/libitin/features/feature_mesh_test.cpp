@@ -8,13 +8,14 @@
 #include <itin/error.hpp>
 
 #include "libitin/features/feature_fixture.hpp"
+#include "support/seed.hpp"
 #include "triangulate/delaunay.hpp"
 
 namespace itin {
 namespace {
 
 using test::box_ring, test::expect_masked, test::expect_planar, test::heights, test::house, test::kFeatureGrid,
-    test::mask_area, test::meshed, test::reported, test::seeded;
+    test::mask_area, test::meshed, test::reported;
 
 /// The surface that a mesh makes by itself: the height above a position, by constrained triangulation of all lines.
 class Surface {
@@ -203,7 +204,7 @@ class FeatureMeshCrowds : public testing::TestWithParam<Crowd> {};
 // Self-crossing polygons of every size, overlapping each other, with every roof: whatever comes in, what comes out is
 // planar, lies in its masks, and has heights between base and top.
 TEST_P(FeatureMeshCrowds, StayPlanar) {
-  std::mt19937 random = seeded();
+  std::mt19937 random(test::seed());
   const Crowd crowd = GetParam();
   std::uint64_t built = 0, refused = 0, joined = 0, flat = 0;
   for (int round = 0; round < 60; ++round) {
@@ -246,7 +247,7 @@ INSTANTIATE_TEST_SUITE_P(OfAllSizes, FeatureMeshCrowds,
 
 // The same on ground as rough as they are large: nothing sinks into it, and its edges stay planar with all lines.
 TEST(FeatureMesh, SurvivesAnythingOnRoughGround) {
-  std::mt19937 random = seeded();
+  std::mt19937 random(test::seed());
   std::uint64_t built = 0, joined = 0, ground = 0;
   for (int round = 0; round < 40; ++round) {
     std::uniform_real_distribution<double> height(0.5, 9), rough(0, 6);
@@ -278,7 +279,7 @@ TEST(FeatureMesh, SurvivesAnythingOnRoughGround) {
 
 // Rectangles on a coarse lattice: edges overlap, corners meet edges and corners all the time.
 TEST(FeatureMesh, SurvivesTouchingInEveryWay) {
-  std::mt19937 random = seeded();
+  std::mt19937 random(test::seed());
   for (int round = 0; round < 60; ++round) {
     std::uniform_int_distribution<int> at(0, 6), side(1, 4), height(1, 3), roof(0, 3);
     std::vector<FootprintFeature> features;

@@ -10,6 +10,7 @@
 
 #include "features/hot_pixel.hpp"
 #include "features/planar.hpp"
+#include "support/seed.hpp"
 #include "triangulate/apex.hpp"
 
 namespace itin {
@@ -105,9 +106,7 @@ void expect_whole_lines(const Lines& lines, const LineHierarchy& hierarchy) {
 }
 
 TEST(LineHierarchy, NothingCrossesAtAnyMixtureOfLevels) {
-  const auto seed = static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed());
-  std::cout << "seed " << seed << "\n";
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed());
   std::size_t fine = 0, coarse = 0;
   for (int run = 0; run < 40; ++run) {
     const Lines lines = wandering(random, 1 + static_cast<int>(random() % 12), 40);

@@ -13,6 +13,7 @@
 
 #include "libitin/features/surface_comparison.hpp"
 #include "support/raster_file.hpp"
+#include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/vector_file.hpp"
 
@@ -23,11 +24,6 @@ using test::LineFeature, test::SurfaceComparison;
 
 class OnlyRaised : public testing::Test {
  protected:
-  OnlyRaised() {
-    const auto seed = static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed());
-    std::cout << "seed " << seed << "\n";
-    random_.seed(seed);
-  }
   std::string path(const std::string& name) const { return directory_.file(name); }
   double in(double low, double high) { return low + (high - low) * static_cast<double>(random_() % 100001) / 100000; }
 
@@ -78,7 +74,7 @@ class OnlyRaised : public testing::Test {
   }
 
   test::TemporaryDirectory directory_;
-  std::mt19937 random_;
+  std::mt19937 random_{test::seed()};
 };
 
 struct Rules {

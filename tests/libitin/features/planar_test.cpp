@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "features/hot_pixel.hpp"
+#include "support/seed.hpp"
 #include "triangulate/apex.hpp"
 
 namespace itin {
@@ -17,12 +18,6 @@ namespace {
 
 /// A vertex moves by at most half a step in x and in y.
 constexpr double kHalfDiagonal = 0.70711;
-
-std::mt19937 seeded() {
-  const auto seed = static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed());
-  std::cout << "seed " << seed << "\n";
-  return std::mt19937(seed);
-}
 
 double distance(const GridPoint& a, const GridPoint& b, double x, double y) {
   const double dx = static_cast<double>(b.x) - a.x, dy = static_cast<double>(b.y) - a.y;
@@ -113,7 +108,7 @@ GridPoint random_point(std::mt19937& random, std::int32_t side) {
 }
 
 TEST(Planar, RandomSegmentsDenseAndSparse) {
-  std::mt19937 random = seeded();
+  std::mt19937 random(test::seed());
   for (int run = 0; run < 300; ++run) {
     // From a few dozen pixels, where everything touches, to the whole grid.
     const std::int32_t side = 4 << (random() % 28);
@@ -128,7 +123,7 @@ TEST(Planar, RandomSegmentsDenseAndSparse) {
 }
 
 TEST(Planar, BundlesOfNearlyParallelSegments) {
-  std::mt19937 random = seeded();
+  std::mt19937 random(test::seed());
   for (int run = 0; run < 100; ++run) {
     std::vector<OwnedSegment> segments;
     const std::int32_t length = 20 << (random() % 10);
@@ -144,7 +139,7 @@ TEST(Planar, BundlesOfNearlyParallelSegments) {
 }
 
 TEST(Planar, RandomPolygonsThatCrossThemselves) {
-  std::mt19937 random = seeded();
+  std::mt19937 random(test::seed());
   for (int run = 0; run < 150; ++run) {
     const std::int32_t side = 6 << (random() % 16);
     std::vector<OwnedSegment> segments;
@@ -162,7 +157,7 @@ TEST(Planar, RandomPolygonsThatCrossThemselves) {
 }
 
 TEST(Planar, TheGridsFarCorners) {
-  std::mt19937 random = seeded();
+  std::mt19937 random(test::seed());
   constexpr std::int32_t low = -kGridHalfSide, high = kGridHalfSide - 1;
   const std::vector<OwnedSegment> segments{{{low, low, -9}, {high, high, 9}, 0},
                                            {{low, high, 5}, {high, low, 5}, 1},

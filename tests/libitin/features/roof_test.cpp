@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "libitin/features/feature_fixture.hpp"
+#include "support/seed.hpp"
 
 namespace itin {
 namespace {
@@ -79,7 +80,7 @@ TEST(Roof, HippedIsTheSkeletonOverARectangle) {
 // Every node of a straight skeleton is as far from its nearest side's line as it is high; on convex plans that is the
 // distance from the outline.
 TEST(Roof, SkeletonNodesAreAsHighAsTheyAreFarFromTheOutline) {
-  std::mt19937 random = test::seeded();
+  std::mt19937 random(test::seed());
   int tried = 0;
   for (int round = 0; round < 300; ++round) {
     GridRing ring;

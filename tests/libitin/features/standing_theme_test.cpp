@@ -28,6 +28,7 @@
 #include "store/seal.hpp"
 #include "store/store_format.hpp"
 #include "support/raster_file.hpp"
+#include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/vector_file.hpp"
 #include "triangulate/delaunay.hpp"
@@ -180,7 +181,7 @@ class StandingThemes : public testing::Test {
   }
 
   static void expect_only_raised(const Tin& bare, const Tin& tin) {
-    std::mt19937 random(static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed()));
+    std::mt19937 random(test::seed());
     test::SurfaceComparison comparison(bare, tin);
     comparison.everywhere(random);
     comparison.expect_only_raised();
@@ -230,9 +231,7 @@ double rolling(int c, int r) {
 }
 
 TEST_F(StandingThemes, WindowEqualsWholeWithAllThatStands) {
-  const auto seed = static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed());
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed());
   const auto in = [&](double low, double high) {
     return low + (high - low) * static_cast<double>(random() % 100000) / 100000;
   };

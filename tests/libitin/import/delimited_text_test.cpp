@@ -12,6 +12,7 @@
 
 #include <itin/error.hpp>
 
+#include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
 
 namespace itin {
@@ -118,9 +119,7 @@ TEST(DelimitedText, BadColumnsAreNamed) {
 }
 
 TEST(DelimitedText, LongFilesCrossBufferEdges) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(fmt::format("seed {}", seed));
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed());
   std::string content = "x y z\n";
   std::vector<Point3> written;
   while (content.size() < 3'500'000) {

@@ -18,6 +18,7 @@
 #include "store/point_index.hpp"
 #include "support/raster_file.hpp"
 #include "support/real_terrain.hpp"
+#include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/vector_file.hpp"
 #include "triangulate/delaunay.hpp"
@@ -198,9 +199,7 @@ void expect_windows_of_the_whole(const Store& store, std::mt19937& random, const
 }
 
 TEST_F(ImportLines, WindowEqualsWholeWithConstraints) {
-  const auto seed = static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed());
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed());
   for (const bool with_void : {false, true}) {
     std::filesystem::remove(path("s.itin"));
     import_terrain_tile(with_void);
@@ -354,7 +353,7 @@ TEST(ImportContours, WindowEqualsWholeOnRealContours) {
   const Store store(directory.file("c.itin"));
   EXPECT_TRUE(check(store, progress).empty());
   EXPECT_EQ(store.metadata().themes[0].features, 322u);
-  std::mt19937 random(static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed()));
+  std::mt19937 random(test::seed());
   expect_windows_of_the_whole(store, random, {ThemeChoice::none()}, 4);
 }
 

@@ -14,6 +14,7 @@
 #include "import/las_file.hpp"
 #include "import/las_projection.hpp"
 #include "support/las_writer.hpp"
+#include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
 
 namespace itin {
@@ -238,10 +239,7 @@ TEST(LasFile, EveryTruncationIsAnErrorThatNamesAnOffset) {
 }
 
 TEST(LasFile, RandomDamageNeverDoesWorseThanAnError) {
-  const unsigned seed = std::random_device{}();
-  RecordProperty("seed", std::to_string(seed));
-  SCOPED_TRACE(fmt::format("seed {}", seed));
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed());
   const TemporaryDirectory directory;
   int errors = 0, readings = 0;
   for (int round = 0; round < 3000; ++round) {

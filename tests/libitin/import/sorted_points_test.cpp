@@ -13,6 +13,8 @@
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
 
+#include "support/seed.hpp"
+
 namespace itin {
 namespace {
 
@@ -70,9 +72,7 @@ std::vector<RawPoint> all_of(const SortedPoints& sorted) {
 }
 
 TEST(PointSorter, AgreesWithStableSortWhateverTheMemory) {
-  const std::uint64_t seed = std::random_device{}();
-  SCOPED_TRACE(seed);
-  std::mt19937_64 random(seed);
+  std::mt19937_64 random(test::seed());
   const std::vector<SourceRank> sources{{50}, {5, false}, {50, false}};
   for (const std::size_t count : {0, 1, 2, 1023, 1024, 1025, 5000, 300000}) {
     for (const std::uint64_t codes : {std::uint64_t{3}, std::uint64_t{20000}, std::uint64_t{1} << 36}) {
@@ -89,9 +89,7 @@ TEST(PointSorter, AgreesWithStableSortWhateverTheMemory) {
 }
 
 TEST(PointSorter, DependsNeitherOnOrderNorOnThreads) {
-  const std::uint64_t seed = std::random_device{}();
-  SCOPED_TRACE(seed);
-  std::mt19937_64 random(seed);
+  std::mt19937_64 random(test::seed());
   const std::vector<SourceRank> sources{{2}, {1}, {1, false}};
   std::vector<RawPoint> points = random_points(100000, 30000, random);
   const std::vector<RawPoint> first = all_of(sort(points, sources, kTiny));
@@ -174,9 +172,7 @@ TEST(PointSorter, SaysThatTheDiskIsFull) {
 }
 
 TEST(SortedPoints, FindsLowerBoundsAsASearchThroughAllDoes) {
-  const std::uint64_t seed = std::random_device{}();
-  SCOPED_TRACE(seed);
-  std::mt19937_64 random(seed);
+  std::mt19937_64 random(test::seed());
   for (const std::size_t count : {0, 1, 1024, 1025, 2048, 9999}) {
     const SortedPoints sorted = sort(random_points(count, 1 << 20, random), {{1}, {1}, {1}}, kTiny);
     const std::vector<RawPoint> all = all_of(sorted);

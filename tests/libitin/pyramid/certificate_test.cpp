@@ -12,6 +12,7 @@
 #include <itin/triangulate.hpp>
 
 #include "support/raster_file.hpp"
+#include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/vector_file.hpp"
 
@@ -107,7 +108,6 @@ void expect_certified(const Store& store, unsigned seed) {
 }
 
 TEST(Certificate, HoldsOnRealTerrainWithAndWithoutVoids) {
-  const auto seed = static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed());
   const test::TemporaryDirectory directory;
   const test::CardiffTerrain terrain;
   const auto none = [](int, int) { return false; };
@@ -123,14 +123,12 @@ TEST(Certificate, HoldsOnRealTerrainWithAndWithoutVoids) {
     options.sources = {raster};
     NoProgress progress;
     import_terrain(path, options, progress);
-    expect_certified(Store(path), seed);
+    expect_certified(Store(path), test::seed());
   }
 }
 
 TEST(Certificate, HoldsWithLinesOfTheTerrain) {
-  const auto seed = static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed());
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed());
   const auto in = [&](double low, double high) {
     return low + (high - low) * static_cast<double>(random() % 100000) / 100000;
   };
@@ -165,7 +163,7 @@ TEST(Certificate, HoldsWithLinesOfTheTerrain) {
     options.sources = {lines};
     options.kind = ThemeKind::Breaklines;
     import_lines(path, options, progress);
-    expect_certified(Store(path), seed);
+    expect_certified(Store(path), test::seed());
   }
 }
 

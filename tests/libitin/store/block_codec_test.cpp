@@ -9,6 +9,7 @@
 #include "libitin/store/random_points.hpp"
 #include "store/byte_stream.hpp"
 #include "store/store_writer.hpp"
+#include "support/seed.hpp"
 
 namespace itin {
 namespace {
@@ -27,8 +28,7 @@ void expect_round_trip(const Cell& cell, const std::vector<GridPoint>& points,
 class BlockCodecScatter : public testing::TestWithParam<Scatter> {};
 
 TEST_P(BlockCodecScatter, RoundTrip) {
-  SCOPED_TRACE(test::test_seed());
-  std::mt19937_64 random(test::test_seed());
+  std::mt19937_64 random(test::seed());
   for (const int log2_side : {4, 5, 7, 10, 13, 17, 22, 29, 30}) {
     for (const std::size_t count : {1, 2, 3, 10, 255, 512, 2000}) {
       Cell cell{morton(-12345, 67890), log2_side};
@@ -107,8 +107,7 @@ void expect_error_or_valid(const Cell& cell, const std::vector<std::uint8_t>& by
 }
 
 TEST(BlockCodec, DamagedBytesNeverBreakThePromises) {
-  SCOPED_TRACE(test::test_seed());
-  std::mt19937_64 random(test::test_seed());
+  std::mt19937_64 random(test::seed());
   for (const Scatter how : {Scatter::Uniform, Scatter::Lattice, Scatter::SparseLattice, Scatter::Clustered}) {
     const Cell cell{morton(0, 0), 16};
     const auto points = test::scatter(how, cell, 200, random);
@@ -124,8 +123,7 @@ TEST(BlockCodec, DamagedBytesNeverBreakThePromises) {
 }
 
 TEST(BlockCodec, RandomBytesNeverBreakThePromises) {
-  SCOPED_TRACE(test::test_seed());
-  std::mt19937_64 random(test::test_seed());
+  std::mt19937_64 random(test::seed());
   for (int i = 0; i < 50000; ++i) {
     std::vector<std::uint8_t> bytes(random() % 80);
     // Small bytes make headers that get further.

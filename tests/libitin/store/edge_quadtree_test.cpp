@@ -8,6 +8,7 @@
 
 #include "libitin/store/random_points.hpp"
 #include "store/byte_stream.hpp"
+#include "support/seed.hpp"
 
 namespace itin {
 namespace {
@@ -25,8 +26,7 @@ TEST(Crosses, TouchingCounts) {
 }
 
 TEST(EdgeQuadtree, EveryCellListsEverySegmentThatCrossesIt) {
-  SCOPED_TRACE(test::test_seed());
-  const auto given = test::random_store(test::test_seed(), 6000).segments;
+  const auto given = test::random_store(test::seed(), 6000).segments;
   std::set<Segment> seen;
   std::size_t leaves = 0;
   std::uint64_t end = 0;

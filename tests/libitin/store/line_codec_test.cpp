@@ -8,6 +8,7 @@
 #include "libitin/store/random_points.hpp"
 #include "store/byte_stream.hpp"
 #include "store/edge_quadtree.hpp"
+#include "support/seed.hpp"
 
 namespace itin {
 namespace {
@@ -38,8 +39,7 @@ std::vector<Segment> random_lines(std::mt19937& random, std::size_t count, int s
 }
 
 TEST(LineCodec, GivesBackWhatItWasGiven) {
-  SCOPED_TRACE(test::test_seed());
-  std::mt19937 random(test::test_seed());
+  std::mt19937 random(test::seed());
   for (const std::size_t count : {1u, 2u, 40u, 256u}) {
     for (const int step : {1, 5, 50}) {
       for (const bool forwards : {false, true}) {
@@ -60,8 +60,7 @@ TEST(LineCodec, TakesTheGridsCorners) {
 }
 
 TEST(LineCodec, NeverTrustsItsBytes) {
-  SCOPED_TRACE(test::test_seed());
-  std::mt19937 random(test::test_seed());
+  std::mt19937 random(test::seed());
   const std::vector<Segment> segments = random_lines(random, 60, 1, false);
   const std::vector<std::uint8_t> bytes = encode_lines(kCell, segments);
   for (int i = 0; i < 20000; ++i) {

@@ -7,13 +7,13 @@
 #include <gtest/gtest.h>
 
 #include "libitin/store/random_points.hpp"
+#include "support/seed.hpp"
 
 namespace itin {
 namespace {
 
 TEST(MortonRange, FindsEveryPositionOfABoxInOrder) {
-  SCOPED_TRACE(test::test_seed());
-  std::mt19937_64 random(test::test_seed());
+  std::mt19937_64 random(test::seed());
   const auto uniform = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
   for (int trial = 0; trial < 300; ++trial) {
     const int x = uniform(-20, 20), y = uniform(-20, 20);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -11,14 +10,6 @@
 #include "store/store_writer.hpp"
 
 namespace itin::test {
-
-std::uint64_t test_seed() {
-  static const std::uint64_t seed = [] {
-    const char* given = std::getenv("ITIN_TEST_SEED");
-    return given ? std::strtoull(given, nullptr, 10) : std::random_device{}();
-  }();
-  return seed;
-}
 
 std::vector<GridPoint> in_curve_order(std::vector<GridPoint> points) {
   std::map<std::uint64_t, GridPoint> by_code;

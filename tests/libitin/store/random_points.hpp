@@ -14,9 +14,6 @@
 
 namespace itin::test {
 
-/// A new seed each run, printed with every failure; ITIN_TEST_SEED repeats one.
-std::uint64_t test_seed();
-
 /// Sorted along the Morton curve, one point a position.
 std::vector<GridPoint> in_curve_order(std::vector<GridPoint> points);
 

@@ -12,6 +12,7 @@
 
 #include "libitin/store/random_points.hpp"
 #include "store/point_index.hpp"
+#include "support/seed.hpp"
 
 namespace itin {
 namespace {
@@ -84,8 +85,7 @@ class StoreDamage : public testing::Test {
     }
   }
 
-  const std::uint64_t seed_ = test::test_seed();
-  const testing::ScopedTrace trace_{__FILE__, __LINE__, seed_};
+  const std::uint64_t seed_ = test::seed();
   const test::TemporaryDirectory directory_;
   const std::string path_ = directory_.file("damaged.itin");
   std::string sound_;

@@ -9,6 +9,7 @@
 
 #include "libitin/store/random_points.hpp"
 #include "store/point_index.hpp"
+#include "support/seed.hpp"
 
 namespace itin {
 namespace {
@@ -54,8 +55,7 @@ class StoreTest : public testing::Test {
     }
   }
 
-  const std::uint64_t seed_ = test::test_seed();
-  const testing::ScopedTrace trace_{__FILE__, __LINE__, seed_};
+  const std::uint64_t seed_ = test::seed();
   const test::TemporaryDirectory directory_;
   const std::string path_ = directory_.file("random #1?%.itin");
   const GivenStore given_ = test::random_store(seed_, 12000);

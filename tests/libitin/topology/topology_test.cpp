@@ -12,6 +12,7 @@
 #include <itin/topology.hpp>
 
 #include "support/delaunay_tin.hpp"
+#include "support/seed.hpp"
 
 namespace itin {
 namespace {
@@ -168,9 +169,7 @@ void check(const Tin& tin) {
 }
 
 TEST(Topology, AgreesWithDefinitionsOnRandomTins) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(seed);
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed());
   int several_fans = 0;
   for (int i = 0; i < 40; ++i) {
     const Tin tin = test::random_tin(random, 5 + i * 3, i % 4 * 0.2);

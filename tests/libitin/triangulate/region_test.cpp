@@ -12,6 +12,7 @@
 #include "features/planar.hpp"
 #include "pyramid/coverage.hpp"
 #include "support/points.hpp"
+#include "support/seed.hpp"
 
 namespace itin {
 namespace {
@@ -123,8 +124,7 @@ std::vector<Window> windows_about(const GridBox& b, std::mt19937& random) {
 class RegionPatterns : public testing::TestWithParam<Pattern> {};
 
 TEST_P(RegionPatterns, WindowEqualsWhole) {
-  const auto seed = static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed());
-  SCOPED_TRACE("seed " + std::to_string(seed));
+  const auto seed = test::seed();
   std::mt19937 random(seed + static_cast<unsigned>(GetParam()));
   for (int run = 0; run < 12; ++run) {
     const std::vector<GridPoint> points = test::make_points(GetParam(), 3 + static_cast<int>(random() % 1500), random);
@@ -175,7 +175,6 @@ std::vector<Segment> outline_of(const Whole& whole, const std::vector<std::array
 class RegionCoverage : public testing::TestWithParam<Pattern> {};
 
 void expect_windows_equal_the_whole_across_voids(Pattern pattern, unsigned seed) {
-  SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937 random(seed + static_cast<unsigned>(pattern));
   constexpr int kLevels = 4;
   for (int run = 0; run < 8; ++run) {
@@ -263,8 +262,7 @@ void expect_windows_equal_the_whole_across_voids(Pattern pattern, unsigned seed)
 }
 
 TEST_P(RegionCoverage, WindowEqualsWholeAtEveryLevelAcrossVoids) {
-  expect_windows_equal_the_whole_across_voids(GetParam(),
-                                              static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed()));
+  expect_windows_equal_the_whole_across_voids(GetParam(), test::seed());
 }
 
 // A small window within one large triangle, behind an outline that is all that was read at first.
@@ -363,7 +361,6 @@ void expect_windows_equal_whole(const std::vector<GridPoint>& points, const std:
 }
 
 void expect_windows_equal_whole_among_lines(Pattern pattern, unsigned seed) {
-  SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937 random(seed + static_cast<unsigned>(pattern));
   for (int run = 0; run < 3; ++run) {
     const std::vector<GridPoint> points = test::make_points(pattern, 20 + static_cast<int>(random() % 1000), random);
@@ -372,8 +369,7 @@ void expect_windows_equal_whole_among_lines(Pattern pattern, unsigned seed) {
 }
 
 TEST_P(RegionLines, WindowEqualsWholeAtEveryLevelWithAndWithoutATheme) {
-  expect_windows_equal_whole_among_lines(GetParam(),
-                                         static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed()));
+  expect_windows_equal_whole_among_lines(GetParam(), test::seed());
 }
 
 /// Far ends of lines were the hull of what a window had read, and lines hid from them all that lies beyond.
@@ -382,8 +378,7 @@ TEST(RegionLinesOnce, AWindowBeyondTheHullOfFarEndsIsNotEmpty) {
 }
 
 TEST_P(RegionLines, WindowEqualsWholeAlongStreets) {
-  const auto seed = static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed());
-  SCOPED_TRACE("seed " + std::to_string(seed));
+  const auto seed = test::seed();
   std::mt19937 random(seed + 100 + static_cast<unsigned>(GetParam()));
   for (int run = 0; run < 2; ++run) {
     std::vector<GridPoint> points = test::make_points(GetParam(), 300 + static_cast<int>(random() % 2500), random);

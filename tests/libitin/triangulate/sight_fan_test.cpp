@@ -7,15 +7,14 @@
 
 #include <gtest/gtest.h>
 
+#include "support/seed.hpp"
 #include "triangulate/apex.hpp"
 
 namespace itin {
 namespace {
 
 TEST(SightFan, AgreesWithLookingAtEverySegment) {
-  const auto seed = static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed());
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed());
   // From far apart, where doubles round, to a lattice of few positions, where everything is collinear.
   for (const int half : {3, 12, 5000, 1 << 28}) {
     const auto position = [&] {

@@ -2,11 +2,12 @@
 #include "triangulate/grid_window.hpp"
 
 #include <cmath>
-#include <cstdlib>
 #include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "support/seed.hpp"
 
 namespace itin {
 namespace {
@@ -101,13 +102,6 @@ Twin twin_of(const Window& window) {
 
 class GridWindowTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const char* given = std::getenv("ITIN_TEST_SEED");
-    const unsigned seed = given ? static_cast<unsigned>(std::atoi(given)) : std::random_device{}();
-    RecordProperty("seed", std::to_string(seed));
-    trace_ = std::make_unique<::testing::ScopedTrace>(__FILE__, __LINE__, "ITIN_TEST_SEED=" + std::to_string(seed));
-    random_.seed(seed);
-  }
   double number(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
   std::int32_t integer(std::int32_t low, std::int32_t high) {
     return std::uniform_int_distribution<std::int32_t>(low, high)(random_);
@@ -160,8 +154,7 @@ class GridWindowTest : public ::testing::Test {
     EXPECT_LT(hits, rounds) << "the figures always met the window";
   }
 
-  std::mt19937 random_;
-  std::unique_ptr<::testing::ScopedTrace> trace_;
+  std::mt19937 random_{test::seed()};
 };
 
 TEST_F(GridWindowTest, BoxAgreesWithTwin) {

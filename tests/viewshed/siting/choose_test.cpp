@@ -10,6 +10,8 @@
 #include <itin/error.hpp>
 #include <viewshed/siting.hpp>
 
+#include "support/seed.hpp"
+
 namespace itin::viewshed {
 namespace {
 
@@ -183,7 +185,7 @@ class Choosing : public ::testing::Test {
     refined_ = coverage.refined();
     return choice;
   }
-  std::uint32_t seed_ = std::random_device{}();
+  std::uint32_t seed_ = test::seed();
   std::mt19937 random_{seed_};
   std::size_t refined_ = 0;
 };

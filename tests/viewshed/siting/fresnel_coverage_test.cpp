@@ -10,6 +10,7 @@
 #include <viewshed/site_coverage.hpp>
 
 #include "support/raster_file.hpp"
+#include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/terrain_tin.hpp"
 #include "support/vector_file.hpp"
@@ -23,12 +24,6 @@ constexpr double kStep = 50;
 
 class FresnelSites : public ::testing::Test {
  protected:
-  FresnelSites() {
-    const std::uint32_t seed = std::random_device{}();
-    std::cout << "seed " << seed << '\n';
-    random_.seed(seed);
-  }
-
   double draw(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
 
   template <class HeightAt>
@@ -179,7 +174,7 @@ class FresnelSites : public ::testing::Test {
   SiteSurvey survey_;
   double frequency_ghz_ = 1;
   std::size_t in_sight_ = 0;  ///< of the pairs asked about
-  std::mt19937 random_;
+  std::mt19937 random_{test::seed()};
   NoProgress progress_;
 };
 

@@ -10,6 +10,7 @@
 #include <viewshed/site_proposal.hpp>
 
 #include "support/raster_file.hpp"
+#include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/terrain_tin.hpp"
 #include "viewshed/siting/survey_points.hpp"
@@ -23,10 +24,8 @@ constexpr double kStep = 50, kRadius = 1500;
 class Sites : public ::testing::Test {
  protected:
   void make_terrain(int side, double relief, bool with_void) {
-    const std::uint32_t seed = std::random_device{}();
-    std::cout << "seed " << seed << '\n';
-    random_.seed(seed);
-    const std::vector<double> z = test::fractal_heights(129, relief, 0.55, seed);
+    random_.seed(test::seed());
+    const std::vector<double> z = test::fractal_heights(129, relief, 0.55, test::seed());
     const std::string raster = directory_.file("t.tif"), path = directory_.file("t.itin");
     test::write_raster(raster, {kNorthWest.x, kNorthWest.y, kStep, side, side, 27700}, [&](int c, int r) {
       if (with_void && std::hypot(c - 0.35 * side, r - 0.6 * side) < 6) return std::nan("");
