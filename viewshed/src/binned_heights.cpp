@@ -102,13 +102,12 @@ BinnedHeights::BinnedHeights(const Tin& tin, const std::optional<CellLattice>& l
     greatest_magnitude_ = std::max(greatest_magnitude_, std::abs(static_cast<double>(v.z)));
   Ranges ranges{std::vector(grid_.cell_count(), -kInfinity), std::vector(grid_.cell_count(), -kInfinity)};
   parallel_for(static_cast<std::size_t>(rows()), [&](std::size_t r) {
-    for (std::int64_t c = 0; c < columns(); ++c) bound(tin, {c, static_cast<std::int64_t>(r)}, ranges);
+    for (std::int64_t c = 0; c < columns(); ++c) {
+      const RasterGrid::Cell bin{c, static_cast<std::int64_t>(r)};
+      lattice_ ? bound_cell(tin, bin, ranges) : bound(tin, bin, ranges);
+    }
   });
-  if (lattice) {
-    forget_depth_of_halves(ranges.low);
-  } else {
-    forget_depth_at_boundary(tin, ranges.low);
-  }
+  if (!lattice_) forget_depth_at_boundary(tin, ranges.low);
   bound_runs(ranges);
 }
 
@@ -140,6 +139,41 @@ void BinnedHeights::bound(const Tin& tin, RasterGrid::Cell bin, Ranges& ranges) 
   lid.middle = rounded_up(above);
 }
 
+/// A lattice's cell: between its corners, if both of its triangles are there; of one triangle nothing is known where it
+/// is not.
+void BinnedHeights::bound_cell(const Tin& tin, RasterGrid::Cell bin, Ranges& ranges) {
+  const std::size_t number = grid_.index(bin);
+  const auto held = bins_.triangles(number);
+  if (held.empty()) return;
+  constexpr auto kMax = std::numeric_limits<std::int32_t>::max(), kMin = std::numeric_limits<std::int32_t>::min();
+  GridPoint least{kMax, kMax, kMax}, greatest{kMin, kMin, kMin};
+  for (const std::uint32_t t : held) {
+    for (const std::uint32_t i : tin.triangles[t]) {
+      const GridPoint& v = tin.vertices[i];
+      least = {std::min(least.x, v.x), std::min(least.y, v.y), std::min(least.z, v.z)};
+      greatest = {std::max(greatest.x, v.x), std::max(greatest.y, v.y), std::max(greatest.z, v.z)};
+    }
+  }
+  ranges.high[number] = rounded_up(greatest.z);
+  Lid& lid = lids_[number];
+  lid.middle = ranges.high[number];
+  if (held.size() < 2) return;
+  ranges.low[number] = rounded_down(least.z);
+  // By column and then by row, from the north-west.
+  std::array<double, 4> corners{};
+  for (const std::uint32_t t : held) {
+    for (const std::uint32_t i : tin.triangles[t]) {
+      const GridPoint& v = tin.vertices[i];
+      corners[(v.x == greatest.x ? 1U : 0U) + (v.y == least.y ? 2U : 0U)] = v.z;
+    }
+  }
+  lid.per_column = static_cast<float>((corners[1] - corners[0] + corners[3] - corners[2]) / 2);
+  lid.per_row = static_cast<float>((corners[2] - corners[0] + corners[3] - corners[1]) / 2);
+  const double east = double{lid.per_column} / 2, south = double{lid.per_row} / 2;
+  lid.middle = rounded_up(std::max({corners[0] + east + south, corners[1] - east + south, corners[2] + east - south,
+                                    corners[3] - east - south}));
+}
+
 /// A bin that a triangle meets and no boundary crosses is covered throughout; elsewhere nothing is known of how low the
 /// ground is.
 void BinnedHeights::forget_depth_at_boundary(const Tin& tin, std::vector<float>& low) const {
@@ -152,12 +186,6 @@ void BinnedHeights::forget_depth_at_boundary(const Tin& tin, std::vector<float>&
         low[bin] = -kInfinity;
     }
   });
-}
-
-/// A lattice's cell is covered by two triangles.
-void BinnedHeights::forget_depth_of_halves(std::vector<float>& low) const {
-  for (std::size_t bin = 0; bin < low.size(); ++bin)
-    if (bins_.triangles(bin).size() < 2) low[bin] = -kInfinity;
 }
 
 void BinnedHeights::bound_runs(const Ranges& ranges) {

@@ -90,6 +90,7 @@ class BinnedHeights {
     std::vector<float> low, high;
   };
   void bound(const Tin& tin, RasterGrid::Cell bin, Ranges& ranges);
+  void bound_cell(const Tin& tin, RasterGrid::Cell bin, Ranges& ranges);
   void bound_runs(const Ranges& ranges);
   void forget_depth_at_boundary(const Tin& tin, std::vector<float>& low) const;
   void forget_depth_of_halves(std::vector<float>& low) const;
