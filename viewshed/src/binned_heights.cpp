@@ -170,8 +170,8 @@ void BinnedHeights::bound_cell(const Tin& tin, RasterGrid::Cell bin, Ranges& ran
   lid.per_column = static_cast<float>((corners[1] - corners[0] + corners[3] - corners[2]) / 2);
   lid.per_row = static_cast<float>((corners[2] - corners[0] + corners[3] - corners[1]) / 2);
   const double east = double{lid.per_column} / 2, south = double{lid.per_row} / 2;
-  lid.middle = rounded_up(std::max({corners[0] + east + south, corners[1] - east + south, corners[2] + east - south,
-                                    corners[3] - east - south}));
+  lid.middle = rounded_up(std::max(
+      {corners[0] + east + south, corners[1] - east + south, corners[2] + east - south, corners[3] - east - south}));
 }
 
 /// A bin that a triangle meets and no boundary crosses is covered throughout; elsewhere nothing is known of how low the
