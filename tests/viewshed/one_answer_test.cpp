@@ -130,8 +130,8 @@ class InATown : public OneAnswer {
       const double x = in(300020, 300450), y = in(199440, 199850);
       woods.push_back(test::box(x, y, x + in(20, 90), y + in(20, 90), in(5, 15)));
     }
-    raise(ThemeKind::Vegetation, "woods", woods);
-    raise(ThemeKind::Buildings, "houses", houses);
+    add(ThemeKind::Vegetation, "woods", woods);
+    add(ThemeKind::Buildings, "houses", houses);
     store_.emplace(directory_.file("s.itin"));
     request_.observers = {{"eye", {300287.3, 199712.9}, 2}};
     request_.cell_size = 3;
@@ -139,13 +139,13 @@ class InATown : public OneAnswer {
     request_.target_height = 1.7;
   }
 
-  void raise(ThemeKind kind, const std::string& theme, const std::vector<LineFeature>& features) {
+  void add(ThemeKind kind, const std::string& theme, const std::vector<LineFeature>& features) {
     test::write_lines(directory_.file(theme + ".geojson"), features, true);
     ImportOptions options;
     options.sources = {directory_.file(theme + ".geojson")};
     options.kind = kind;
     options.theme = theme;
-    options.height_field = "h";
+    if (kind != ThemeKind::Roads) options.height_field = "h";
     NoProgress progress;
     import_lines(directory_.file("s.itin"), options, progress);
   }
@@ -181,7 +181,7 @@ TEST_F(InATown, WhateverLinesLieOnTheGround) {
   for (int i = 0; i < 12; ++i)
     roads.push_back({{{in(300020, 300580), in(199420, 199980), 0}, {in(300020, 300580), in(199420, 199980), 0}}});
   store_.reset();
-  raise(ThemeKind::Roads, "roads", roads);
+  add(ThemeKind::Roads, "roads", roads);
   store_.emplace(directory_.file("s.itin"));
   EXPECT_EQ(viewshed::compute(*store_, request_, progress).visible, before.visible);
   expect_plain_agrees(*store_, request_, 300);
