@@ -27,7 +27,7 @@ namespace itin {
 /// Only ground triangles that meet the region, and only vertices that they use, in ascending Morton order.
 struct RegionMesh {
   std::vector<SelectedVertex> vertices;
-  PlaneMesh mesh;               ///< neighbours are kNoTriangle where there is no triangle in this mesh
+  PlaneMesh mesh;               ///< in_order(); neighbours are kNoTriangle where there is no triangle in this mesh
   std::vector<LineEdge> lines;  ///< edges of these triangles that are part of a theme's line
   RetrievalStatistics statistics;
 };
