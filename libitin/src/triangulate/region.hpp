@@ -1,7 +1,8 @@
 // The triangles of the global constrained Delaunay triangulation that meet one region, by one thread.
 //
 // This is the kernel under every window query and under the import's verification. It triangulates what lies in a box
-// around the region, then proves each ground triangle that meets the region to be global, or mends it:
+// around the region, but for the full squares of a lattice (lattice_squares.hpp), then proves each ground triangle that
+// meets the region to be global, or mends it:
 //   1. a triangle whose circumdisc lies in the box, or as much of it as the triangle sees past the lines there
 //      (enclosure.hpp), is global, for all that could disturb it has been read;
 //   2. otherwise no segment may cross it, no vertex lie in it, and beyond none of its unconstrained edges may a vertex,
