@@ -1,5 +1,7 @@
 // The parts of a viewshed and the whole: scene, sight lines, writing; on fractal terrain of half a million triangles.
+#include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <unistd.h>
 
 #include <benchmark/benchmark.h>
@@ -7,6 +9,9 @@
 #include <itin/progress.hpp>
 #include <viewshed/viewshed.hpp>
 
+#include "binned_heights.hpp"
+#include "eye.hpp"
+#include "full_surface.hpp"
 #include "scene.hpp"
 #include "support/terrain_tin.hpp"
 #include "surface_heights.hpp"
@@ -38,6 +43,32 @@ void BM_Scene(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(Scene(terrain(), Earth{}, NoData::kClear, 1000));
 }
 BENCHMARK(BM_Scene)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void BM_Bins(benchmark::State& state) {
+  for (auto _ : state) benchmark::DoNotOptimize(BinnedHeights(terrain()));
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(terrain().triangles.size()));
+}
+BENCHMARK(BM_Bins)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+/// What `--precise` does once the surface is in memory: cells as large as those of the terrain, and finer ones.
+void BM_Sweep(benchmark::State& state) {
+  const Request request = whole(state.range(0));
+  const RasterGrid tiles = grid_of_tiles(*request.grid);
+  const FullSurface surface(terrain(), std::nullopt, request.earth, *request.grid, tiles);
+  const Observer& observer = request.observers.front();
+  const Eye eye = eye_of(terrain().grid, request, observer, height_on(terrain(), observer.position));
+  const auto work = std::make_unique<FullSurface::Work>();
+  std::uint64_t lines = 0;
+  for (auto _ : state) {
+    for (std::size_t tile = 0; tile < tiles.cell_count(); ++tile) {
+      TileValues<std::uint8_t> values;
+      values.fill(kUndecided);
+      lines += surface.judge(eye, tile, values, *work);
+    }
+  }
+  state.SetItemsProcessed(static_cast<std::int64_t>(lines));
+}
+BENCHMARK(BM_Sweep)->Arg(512)->Arg(2048)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void BM_Heights(benchmark::State& state) {
   const Request request = whole(4096);

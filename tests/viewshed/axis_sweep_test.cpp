@@ -1,6 +1,7 @@
 // Sweeps about upright axes against searches line by line, and the bounds that they rest on against the surface.
 #include "axis_sweep.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -29,7 +30,7 @@ class Sweeping {
   Sweeping(const Tin& tin, const Earth& earth, double cell)
       : tin_(tin),
         earth_(earth),
-        bins_(tin, boundary_edges(tin)),
+        bins_(tin),
         sweep_(tin, earth, bins_),
         scene_(tin, earth, NoData::kClear, 0),
         heights_(tin, earth, scene_),
@@ -195,19 +196,96 @@ TEST(AxisSweep, RealTerrain) {
   EXPECT_GT(hidden, 50);
 }
 
-TEST(BinnedHeights, LidsAndRunsHoldAtEveryPointOfABin) {
+/// Every cell of a grid over the Tin as an eye sees it, against the line over every triangle: to the last bit.
+Tally look_around(const Tin& tin, const Earth& earth, const Point3& eye, double target_height, double cell) {
+  const BinnedHeights bins(tin);
+  const AxisSweep sweep(tin, earth, bins);
+  const RasterGrid grid = RasterGrid::aligned(tin.bounds(), cell), tiles = grid_of_tiles(grid);
+  const TriangleBins in_tiles(tin, tiles);
+  struct Work {
+    TileValues<double> targets;
+    AxisSweep::Heights seen;
+    AxisSweep::Scratch scratch;
+  };
+  const auto work = std::make_unique<Work>();
+  const double unit = tin.grid.resolution;
+  Tally tally;
+  for (std::size_t i = 0; i < tiles.cell_count(); ++i) {
+    const Tile tile = tile_at(grid, tiles, i);
+    const TileCentres centres(tin.grid, grid, tile);
+    scan_convert(tin, in_tiles.triangles(i), tile, centres, work->targets);
+    for (double& z : work->targets) z += target_height / unit;
+    sweep.look_from(eye, {tile, centres, work->targets}, work->scratch, work->seen);
+    for (std::size_t k = 0; k < work->targets.size(); ++k) {
+      if (std::isnan(work->targets[k])) continue;
+      const Point3 target{centres.x[k % Tile::kSide], centres.y[k / Tile::kSide], work->targets[k]};
+      if (target.x == eye.x && target.y == eye.y) continue;
+      const SightLine line(eye, target, earth.drop_coefficient() * unit, kGrazing / unit);
+      const bool hidden = std::any_of(tin.triangles.begin(), tin.triangles.end(), [&](const Triangle& t) {
+        return line.hidden_by(tin.vertices[t[0]], tin.vertices[t[1]], tin.vertices[t[2]]);
+      });
+      EXPECT_EQ(std::isnan(work->seen[k]), hidden) << "at " << target.x << ", " << target.y;
+      ++(hidden ? tally.hidden : tally.seen);
+    }
+  }
+  return tally;
+}
+
+Point3 above(const Tin& tin, Point2 position, double height) {
+  const double unit = tin.grid.resolution;
+  return {easting_in_units(tin.grid, position.x), northing_in_units(tin.grid, position.y),
+          (height_on(tin, position).value_or(0) + height) / unit};
+}
+
+TEST(AxisSweep, AnEyeSeesWhatTheWalkOverEveryTriangleSays) {
   std::mt19937 random(test::seed());
-  const Tin tin = test::random_tin(random, 400, 0.1, {{500000, 4000000}, 0.01}, 50000);
-  const BinnedHeights bins(tin, boundary_edges(tin));
+  const std::vector<double> z = test::fractal_heights(33, 60, 0.5, random());
+  const Tin lattice = test::lattice_tin(33, 33, 50, [&](std::int32_t c, std::int32_t r) {
+    return (c / 5 + r / 5) % 5 == 0 ? NAN : z[static_cast<std::size_t>(r) * 33 + static_cast<std::size_t>(c)];
+  });
+  const Tin walls = test::lattice_tin(
+      41, 41, 5, [](std::int32_t c, std::int32_t r) { return c % 7 < 2 && r % 11 < 4 ? 9.0 + c % 5 : 0.01 * c; });
+  const Tin scattered = test::random_tin(random, 300, 0.1, {{500000, 4000000}, 0.01}, 50000);
+  Tally all;
+  for (const Tin* tin : {&lattice, &walls, &scattered}) {
+    const Box box = tin->bounds();
+    for (const double height : {2.0, 30.0}) {
+      const Tally t = look_around(*tin, {}, above(*tin, place_in(*tin, random), height), height == 2 ? 0 : 2,
+                                  std::max(box.width(), box.height()) / 48);
+      all.seen += t.seen, all.hidden += t.hidden;
+    }
+    // On a vertex, and so on corners and edges of bins; and from outside.
+    const Point3 vertex = tin->point(static_cast<std::uint32_t>(random() % tin->vertices.size()));
+    look_around(*tin, {}, above(*tin, {vertex.x, vertex.y}, 3), 1, box.width() / 32);
+    look_around(*tin, {}, above(*tin, {box.xmin - 0.3 * box.width(), box.ymax + 2 * box.height()}, 90), 1,
+                box.width() / 32);
+  }
+  EXPECT_GT(all.seen, 100);
+  EXPECT_GT(all.hidden, 100);
+}
+
+TEST(AxisSweep, AnEyeSeesAlongBentLines) {
+  std::mt19937 random(test::seed());
+  const Tin tin = test::fractal_tin(17, 4000, 60, 0.5, random());
+  for (const double k : {0.13, -0.5, 0.9, 1.4, 3.0}) {
+    Earth earth;
+    earth.refraction = k;
+    look_around(tin, earth, above(tin, place_in(tin, random), 40), 2, 1100);
+  }
+}
+
+void expect_bounds(const Tin& tin, std::mt19937& random) {
+  const BinnedHeights bins(tin);
   const test::ExactLineOfSight exact(tin, {});
   std::uniform_real_distribution<double> share(0, 1);
+  const Box box = tin.bounds();
+  const double unit = tin.grid.resolution;
   int looked = 0;
-  for (int i = 0; i < 20000; ++i) {
-    const double column = share(random) * static_cast<double>(bins.columns());
-    const double row = share(random) * static_cast<double>(bins.rows());
+  for (int i = 0; i < 6000; ++i) {
+    const Point2 p{box.xmin + share(random) * box.width(), box.ymin + share(random) * box.height()};
+    const double column = bins.column_at((p.x - tin.grid.origin.x) / unit);
+    const double row = bins.row_at((p.y - tin.grid.origin.y) / unit);
     const RasterGrid::Cell bin{static_cast<std::int64_t>(column), static_cast<std::int64_t>(row)};
-    const double size = bins.bin_size() * tin.grid.resolution, half = size / 2;
-    const Point2 p{tin.bounds().xmin - half + column * size, tin.bounds().ymax + half - row * size};
     const auto& east = bins.eastwards();
     const auto run = static_cast<std::size_t>(bin.row * east.a_line + bin.column / BinnedHeights::kRun);
     const auto height = exact.height(p);
@@ -216,7 +294,7 @@ TEST(BinnedHeights, LidsAndRunsHoldAtEveryPointOfABin) {
       continue;
     }
     ++looked;
-    const double z = *height / tin.grid.resolution;
+    const double z = *height / unit;
     EXPECT_LE(z, bins.lid(bin, column, row) + 1e-6);
     EXPECT_LE(z, east.high[run] + 1e-6);
     EXPECT_GE(z, east.low[run] - 1e-6);
@@ -226,6 +304,19 @@ TEST(BinnedHeights, LidsAndRunsHoldAtEveryPointOfABin) {
     EXPECT_GE(z, south.low[down] - 1e-6);
   }
   EXPECT_GT(looked, 1000);
+}
+
+TEST(BinnedHeights, LidsAndRunsHoldAtEveryPointOfABin) {
+  std::mt19937 random(test::seed());
+  expect_bounds(test::random_tin(random, 400, 0.1, {{500000, 4000000}, 0.01}, 50000), random);
+  const std::vector<double> z = test::fractal_heights(33, 60, 0.5, random());
+  expect_bounds(test::lattice_tin(33, 33, 50,
+                                  [&](std::int32_t c, std::int32_t r) {
+                                    return (c / 5 + r / 5) % 5 == 0
+                                               ? NAN
+                                               : z[static_cast<std::size_t>(r) * 33 + static_cast<std::size_t>(c)];
+                                  }),
+                random);
 }
 
 }  // namespace

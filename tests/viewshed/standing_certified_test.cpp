@@ -90,7 +90,7 @@ class StandingCertified : public testing::Test {
     NoProgress progress;
     const RasterGrid cells = compute(*store_, r, progress).grid;
     const std::vector<std::uint8_t> truth = test::brute_force(surface_, ground_, r, cells);
-    for (const std::uint64_t memory : {std::uint64_t{1} << 30, std::uint64_t{1000000}}) {
+    for (const std::uint64_t memory : {std::uint64_t{1} << 30, std::uint64_t{160000}}) {
       const Result result = compute_precise(*store_, r, {.memory_bytes = memory}, progress).result;
       ASSERT_EQ(result.visible.size(), truth.size());
       std::uint64_t different = 0;

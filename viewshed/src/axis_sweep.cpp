@@ -5,66 +5,32 @@
 #include <limits>
 #include <utility>
 
+#include "sweep_sights.hpp"
+
 namespace itin::viewshed {
 
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kHidden = std::numeric_limits<double>::quiet_NaN();
-constexpr std::uint32_t kNone = 0xffffffff;
 
 std::size_t number(std::int64_t i) {
   return static_cast<std::size_t>(i);
 }
-
-/// A sight line from an eye to the top of an axis, while what hides it is being looked for.
-class Sight {
- public:
-  /// `along` is the eye's distance in bins, `lowered` its height less the drop.
-  Sight(const Tin& tin, const SightLine& line, double base, double along, double lowered, double margin)
-      : tin_(tin), line_(line), top_(line.to_z()), along_(along), lowered_(lowered), margin_(margin) {
-    raise(std::min(base, top_));
-  }
-
-  double least() const { return least_; }
-  /// Of the line to the least height, outward a bin.
-  double slope() const { return slope_; }
-  std::uint32_t silhouette() const { return silhouette_; }
-
-  /// Whether the top can still be seen over this triangle, too.
-  bool clears(std::uint32_t triangle) {
-    const Triangle& t = tin_.triangles[triangle];
-    const GridPoint &a = tin_.vertices[t[0]], &b = tin_.vertices[t[1]], &c = tin_.vertices[t[2]];
-    if (line_.apart(a, b, c, least_, margin_)) return true;
-    const double end = line_.clearing_end(a, b, c);
-    if (end <= least_) return true;
-    silhouette_ = triangle;
-    if (end > top_ && line_.hidden_by(a, b, c)) return false;
-    // What rises by less than a grazing is only touched, though clearing it takes a hair more than the top.
-    raise(std::min(end, top_));
-    return true;
-  }
-
- private:
-  void raise(double least) {
-    least_ = least;
-    slope_ = (lowered_ - least) / along_;
-  }
-
-  const Tin& tin_;
-  const SightLine& line_;
-  double top_, along_, lowered_, margin_;
-  double least_ = 0, slope_ = 0;
-  std::uint32_t silhouette_ = kNone;
-};
 
 }  // namespace
 
 /// One axis and one tile, seen from the axis towards one side at a time.
 class AxisSweep::Task {
  public:
-  Task(const AxisSweep& sweep, const Axis& axis, const Eyes& eyes, Scratch& scratch, Heights& heights)
-      : sweep_(sweep), bins_(sweep.bins_), axis_(axis), eyes_(eyes), profile_(scratch), heights_(heights) {
+  Task(const AxisSweep& sweep, const Axis& axis, bool point, const Ends& ends, Scratch& scratch, Heights& heights)
+      : sweep_(sweep),
+        bins_(sweep.bins_),
+        axis_(axis),
+        point_(point),
+        ends_(ends),
+        profile_(scratch),
+        heights_(heights) {
     radius_squared_ = axis.radius * axis.radius;
     const double bin = bins_.bin_size(), drop = sweep.drop_;
     profile_axis_.top = axis.top;
@@ -86,22 +52,22 @@ class AxisSweep::Task {
  private:
   void look_from(const Quadrant& quadrant) {
     place_cells(quadrant);
-    if (farthest_ <= 0) return;
+    if (farthest_ <= 0 || quadrant.slabs() == 0) return;
     auto [from, to] = slopes();
     if (from > to) return;
     // Sectors one cell wide at the tile's far end. A hair more, against rounding.
     const double width = std::max(1.0, 1 / cells_a_bin_) / farthest_;
     from -= 1e-9;
-    silhouettes_.fill(kNone);
+    silhouettes_.fill(kNoSilhouette);
     for (std::size_t i = 0; from + static_cast<double>(i) * width <= to; ++i)
       sweep(quadrant, from + static_cast<double>(i) * width, from + static_cast<double>(i + 1) * width);
   }
 
   void place_cells(const Quadrant& quadrant) {
     const bool columns = quadrant.along_columns();
-    majors_ = columns ? eyes_.tile.columns : eyes_.tile.rows;
-    minors_ = columns ? eyes_.tile.rows : eyes_.tile.columns;
-    const auto &x = eyes_.centres.x, &y = eyes_.centres.y;
+    majors_ = columns ? ends_.tile.columns : ends_.tile.rows;
+    minors_ = columns ? ends_.tile.rows : ends_.tile.columns;
+    const auto &x = ends_.centres.x, &y = ends_.centres.y;
     const auto squared = [](double d) { return d * d; };
     for (std::size_t i = 0; i < number(majors_); ++i) {
       along_[i] = columns ? quadrant.along(bins_.column_at(x[i]), 0) : quadrant.along(0, bins_.row_at(y[i]));
@@ -132,7 +98,7 @@ class AxisSweep::Task {
   /// The cells with slopes in [from, to), nearest first.
   void sweep(const Quadrant& quadrant, double from, double to) {
     bool surveyed = false;
-    last_ = kNone;
+    last_ = kNoSilhouette;
     const bool columns = quadrant.along_columns(), grows = along_[0] < along_[number(majors_ - 1)];
     const std::size_t minor_step = columns ? Tile::kSide : 1, major_step = columns ? 1 : Tile::kSide;
     for (std::int64_t n = 0; n < majors_; ++n) {
@@ -145,7 +111,7 @@ class AxisSweep::Task {
         const Cell cell{i * major_step + k * minor_step, i, u, across_[k], along_squared_[i] + across_squared_[k]};
         // Of cells on a diagonal, each belongs to one quadrant.
         if (columns ? std::abs(cell.across) > u : std::abs(cell.across) >= u) continue;
-        const double elevation = eyes_.elevation[cell.index];
+        const double elevation = ends_.elevation[cell.index];
         if (!(cell.squared <= radius_squared_) || std::isnan(elevation)) continue;
         if (!std::exchange(surveyed, true)) survey(quadrant, from, to);
         if (std::isnan(hidden_below)) hidden_below = axis_.top + u * profile_.hidden_below(quadrant.slab_at(u));
@@ -156,7 +122,7 @@ class AxisSweep::Task {
   }
 
   void survey(const Quadrant& quadrant, double from, double to) {
-    const std::size_t count = std::min(quadrant.slab_at(farthest_) + 1, quadrant.slabs());
+    const std::size_t count = quadrant.slab_at(farthest_) + 1;
     profile_.survey(quadrant, from, to, quadrant.slab_at(nearest_), count, profile_axis_);
   }
 
@@ -176,20 +142,31 @@ class AxisSweep::Task {
   }
 
   void look(const Quadrant& quadrant, const Cell& cell) {
-    const double x = eyes_.centres.x[cell.index % Tile::kSide], y = eyes_.centres.y[cell.index / Tile::kSide];
-    const double elevation = eyes_.elevation[cell.index];
-    const SightLine line({x, y, elevation}, {axis_.x, axis_.y, axis_.top}, sweep_.drop_, sweep_.grazing_);
-    Sight sight(sweep_.tin_, line, axis_.base, cell.along, elevation - sweep_.drop_ * cell.squared,
-                profile_axis_.margin);
+    const double x = ends_.centres.x[cell.index % Tile::kSide], y = ends_.centres.y[cell.index / Tile::kSide];
+    const double elevation = ends_.elevation[cell.index];
+    const SweptEnd end{cell.along, elevation - sweep_.drop_ * cell.squared};
+    const Point3 top{axis_.x, axis_.y, axis_.top}, other{x, y, elevation};
+    if (point_) {
+      const SightLine line(top, other, sweep_.drop_, sweep_.grazing_);
+      look(quadrant, cell, PointSight(sweep_.tin_, line, end, profile_axis_.margin));
+    } else {
+      const SightLine line(other, top, sweep_.drop_, sweep_.grazing_);
+      look(quadrant, cell, AxisSight(sweep_.tin_, line, axis_.base, end, profile_axis_.margin));
+    }
+  }
+
+  template <class Sight>
+  void look(const Quadrant& quadrant, const Cell& cell, Sight sight) {
     if (decide(quadrant, cell, sight)) heights_[cell.index] = sight.least();
-    if (sight.silhouette() != kNone) last_ = silhouettes_[cell.major] = sight.silhouette();
+    if (sight.silhouette() != kNoSilhouette) last_ = silhouettes_[cell.major] = sight.silhouette();
   }
 
   /// Whether the top is seen.
+  template <class Sight>
   bool decide(const Quadrant& quadrant, const Cell& cell, Sight& sight) {
     const std::uint32_t beside = silhouettes_[cell.major];
-    if (last_ != kNone && !sight.clears(last_)) return false;
-    if (beside != kNone && beside != last_ && !sight.clears(beside)) return false;
+    if (last_ != kNoSilhouette && !sight.clears(last_)) return false;
+    if (beside != kNoSilhouette && beside != last_ && !sight.clears(beside)) return false;
     bool seen = true;
     profile_.search(quadrant.slab_at(cell.along), sight,
                     [&](std::size_t slab) { return seen = clears(quadrant, slab, cell, sight); });
@@ -197,6 +174,7 @@ class AxisSweep::Task {
   }
 
   /// Looks at the triangles that lie in a slab under the line.
+  template <class Sight>
   bool clears(const Quadrant& quadrant, std::size_t slab, const Cell& cell, Sight& sight) const {
     const double slope = cell.across / cell.along, minor = quadrant.minor();
     for (std::size_t i = 0; i < Quadrant::kRun; ++i) {
@@ -229,12 +207,13 @@ class AxisSweep::Task {
     }
   };
 
+  template <class Sight>
   bool clears(const Quadrant& quadrant, const RasterGrid::Cell& bin, const Stretch& stretch, Sight& sight) const {
     if (!bins_.holds(bin)) return true;
     const double drop = profile_axis_.drop * (1 + stretch.slope * stretch.slope);
     // Less what curvature bends between the ends.
     const auto height = [&](double along) {
-      return sight.least() + sight.slope() * along + drop * (along * along - 1) - profile_axis_.margin;
+      return sight.least() + sight.slope() * along + drop * along * along - std::max(drop, 0.0) - profile_axis_.margin;
     };
     const double near = height(stretch.begin), far = height(stretch.end);
     const auto lid = [&](double along) {
@@ -250,8 +229,9 @@ class AxisSweep::Task {
 
   const AxisSweep& sweep_;
   const BinnedHeights& bins_;
-  const Axis& axis_;
-  const Eyes& eyes_;
+  Axis axis_;
+  bool point_;  ///< the axis is but its top
+  const Ends& ends_;
   SectorProfile& profile_;
   Heights& heights_;
   SectorProfile::Axis profile_axis_;
@@ -261,7 +241,7 @@ class AxisSweep::Task {
   std::int64_t majors_ = 0, minors_ = 0;
   double farthest_ = 0, nearest_ = 0, cells_a_bin_ = 1;
   // What hid the last eye of this sector, and of the last one the eye as far away.
-  std::uint32_t last_ = kNone;
+  std::uint32_t last_ = kNoSilhouette;
   std::array<std::uint32_t, Tile::kSide> silhouettes_{};
 };
 
@@ -271,8 +251,13 @@ AxisSweep::AxisSweep(const Tin& tin, const Earth& earth, const BinnedHeights& bi
       drop_(earth.drop_coefficient() * tin.grid.resolution),
       grazing_(kGrazing / tin.grid.resolution) {}
 
-void AxisSweep::run(const Axis& axis, const Eyes& eyes, Scratch& scratch, Heights& heights) const {
-  Task(*this, axis, eyes, scratch, heights).run();
+void AxisSweep::run(const Axis& axis, const Ends& eyes, Scratch& scratch, Heights& heights) const {
+  Task(*this, axis, false, eyes, scratch, heights).run();
+}
+
+void AxisSweep::look_from(const Point3& eye, const Ends& targets, Scratch& scratch, Heights& heights) const {
+  const double radius = bins_.farthest_from(eye.x, eye.y) + 1;
+  Task(*this, {eye.x, eye.y, eye.z, eye.z, radius}, true, targets, scratch, heights).run();
 }
 
 }  // namespace itin::viewshed

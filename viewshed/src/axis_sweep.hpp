@@ -40,8 +40,8 @@ class AxisSweep {
     double base = 0, top = 0;  ///< elevations; what of it is seen below its base does not count
     double radius = 0;         ///< eyes farther away do not look
   };
-  /// One a cell of a tile, NaN where none stands.
-  struct Eyes {
+  /// The other ends of lines, one a cell of a tile, NaN where none is.
+  struct Ends {
     const Tile& tile;
     const TileCentres& centres;
     const TileValues<double>& elevation;  ///< grid units
@@ -54,7 +54,11 @@ class AxisSweep {
   using Scratch = SectorProfile;
   /// For several threads at once, each with its own scratch. Cost: some hundredths of a microsecond an eye that does
   /// not see the top, a few tenths for others.
-  void run(const Axis& axis, const Eyes& eyes, Scratch& scratch, Heights& heights) const;
+  void run(const Axis& axis, const Ends& eyes, Scratch& scratch, Heights& heights) const;
+
+  /// The other way round, from an eye to targets, exact to the last bit as the line from the eye over every triangle:
+  /// NaN where hidden, infinity for a target at the eye itself, else the eye's height.
+  void look_from(const Point3& eye, const Ends& targets, Scratch& scratch, Heights& seen) const;
 
  private:
   class Task;

@@ -85,12 +85,16 @@ class Facet {
 
 }  // namespace
 
-BinnedHeights::BinnedHeights(const Tin& tin, const std::vector<BoundaryEdge>& boundary)
+BinnedHeights::BinnedHeights(const Tin& tin) : BinnedHeights(tin, cell_lattice(tin)) {}
+
+BinnedHeights::BinnedHeights(const Tin& tin, const std::optional<CellLattice>& lattice)
     : units_(tin.grid),
-      grid_(bin_grid(tin)),
-      bins_(tin, grid_),
+      grid_(lattice ? lattice->grid : bin_grid(tin)),
+      bins_(lattice ? TriangleBins(*lattice) : TriangleBins(tin, grid_)),
       tops_(tin.triangles.size()),
-      lids_(grid_.cell_count()) {
+      lids_(grid_.cell_count()),
+      lattice_(lattice.has_value()),
+      boundary_(lattice_ ? boundary_edges(tin, *lattice) : boundary_edges(tin)) {
   std::transform(tin.triangles.begin(), tin.triangles.end(), tops_.begin(), [&](const Triangle& t) {
     return std::max({tin.vertices[t[0]].z, tin.vertices[t[1]].z, tin.vertices[t[2]].z});
   });
@@ -98,9 +102,12 @@ BinnedHeights::BinnedHeights(const Tin& tin, const std::vector<BoundaryEdge>& bo
     greatest_magnitude_ = std::max(greatest_magnitude_, std::abs(static_cast<double>(v.z)));
   Ranges ranges{std::vector(grid_.cell_count(), -kInfinity), std::vector(grid_.cell_count(), -kInfinity)};
   parallel_for(static_cast<std::size_t>(rows()), [&](std::size_t r) {
-    for (std::int64_t c = 0; c < columns(); ++c) bound(tin, {c, static_cast<std::int64_t>(r)}, ranges);
+    for (std::int64_t c = 0; c < columns(); ++c) {
+      const RasterGrid::Cell bin{c, static_cast<std::int64_t>(r)};
+      lattice_ ? bound_cell(tin, bin, ranges) : bound(tin, bin, ranges);
+    }
   });
-  forget_depth_at(tin, boundary, ranges.low);
+  if (!lattice_) forget_depth_at_boundary(tin, ranges.low);
   bound_runs(ranges);
 }
 
@@ -132,12 +139,46 @@ void BinnedHeights::bound(const Tin& tin, RasterGrid::Cell bin, Ranges& ranges) 
   lid.middle = rounded_up(above);
 }
 
+/// A lattice's cell: between its corners, if both of its triangles are there; of one triangle nothing is known where it
+/// is not.
+void BinnedHeights::bound_cell(const Tin& tin, RasterGrid::Cell bin, Ranges& ranges) {
+  const std::size_t number = grid_.index(bin);
+  const auto held = bins_.triangles(number);
+  if (held.empty()) return;
+  constexpr auto kMax = std::numeric_limits<std::int32_t>::max(), kMin = std::numeric_limits<std::int32_t>::min();
+  GridPoint least{kMax, kMax, kMax}, greatest{kMin, kMin, kMin};
+  for (const std::uint32_t t : held) {
+    for (const std::uint32_t i : tin.triangles[t]) {
+      const GridPoint& v = tin.vertices[i];
+      least = {std::min(least.x, v.x), std::min(least.y, v.y), std::min(least.z, v.z)};
+      greatest = {std::max(greatest.x, v.x), std::max(greatest.y, v.y), std::max(greatest.z, v.z)};
+    }
+  }
+  ranges.high[number] = rounded_up(greatest.z);
+  Lid& lid = lids_[number];
+  lid.middle = ranges.high[number];
+  if (held.size() < 2) return;
+  ranges.low[number] = rounded_down(least.z);
+  // By column and then by row, from the north-west.
+  std::array<double, 4> corners{};
+  for (const std::uint32_t t : held) {
+    for (const std::uint32_t i : tin.triangles[t]) {
+      const GridPoint& v = tin.vertices[i];
+      corners[(v.x == greatest.x ? 1U : 0U) + (v.y == least.y ? 2U : 0U)] = v.z;
+    }
+  }
+  lid.per_column = static_cast<float>((corners[1] - corners[0] + corners[3] - corners[2]) / 2);
+  lid.per_row = static_cast<float>((corners[2] - corners[0] + corners[3] - corners[1]) / 2);
+  const double east = double{lid.per_column} / 2, south = double{lid.per_row} / 2;
+  lid.middle = rounded_up(std::max(
+      {corners[0] + east + south, corners[1] - east + south, corners[2] + east - south, corners[3] - east - south}));
+}
+
 /// A bin that a triangle meets and no boundary crosses is covered throughout; elsewhere nothing is known of how low the
 /// ground is.
-void BinnedHeights::forget_depth_at(const Tin& tin, const std::vector<BoundaryEdge>& boundary,
-                                    std::vector<float>& low) const {
+void BinnedHeights::forget_depth_at_boundary(const Tin& tin, std::vector<float>& low) const {
   std::vector<bool> at_boundary(tin.triangles.size());
-  for (const BoundaryEdge& edge : boundary) at_boundary[edge.triangle] = true;
+  for (const BoundaryEdge& edge : boundary_) at_boundary[edge.triangle] = true;
   parallel_for(grid_.cell_count() / kChunk + 1, [&](std::size_t chunk) {
     for (std::size_t bin = chunk * kChunk; bin < std::min((chunk + 1) * kChunk, low.size()); ++bin) {
       const auto listed = bins_.triangles(bin);
@@ -173,6 +214,22 @@ void BinnedHeights::bound_runs(const Ranges& ranges) {
   using Cell = RasterGrid::Cell;
   bound(eastwards_, rows(), columns(), [](std::int64_t line, std::int64_t i) { return Cell{i, line}; });
   bound(southwards_, columns(), rows(), [](std::int64_t line, std::int64_t i) { return Cell{line, i}; });
+}
+
+void BinnedHeights::list_triangles(const Box& box, std::vector<std::uint32_t>& result) const {
+  result.clear();
+  const auto bin = [](double at, std::int64_t count) {
+    return static_cast<std::int64_t>(std::clamp(std::floor(at), 0.0, static_cast<double>(count - 1)));
+  };
+  const std::int64_t west = bin(grid_.column_at(box.xmin) - kSlack, columns());
+  const std::int64_t east = bin(grid_.column_at(box.xmax) + kSlack, columns());
+  const std::int64_t south = bin(grid_.row_at(box.ymin) + kSlack, rows());
+  for (std::int64_t row = bin(grid_.row_at(box.ymax) - kSlack, rows()); row <= south; ++row) {
+    for (std::int64_t column = west; column <= east; ++column) {
+      const auto listed = triangles({column, row});
+      result.insert(result.end(), listed.begin(), listed.end());
+    }
+  }
 }
 
 std::optional<double> BinnedHeights::ground(const Tin& tin, Point2 position) const {

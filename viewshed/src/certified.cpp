@@ -105,11 +105,18 @@ Voids voids_of(NoData rule) {
   return rule == NoData::kUnknown ? Voids::kDoubt : rule == NoData::kBlock ? Voids::kBlock : Voids::kPass;
 }
 
-}  // namespace
+/// A point of an envelope costs about as much as two of the full surface.
+constexpr std::uint64_t kEnvelopeCosts = 2;
 
-namespace {
+/// Whether the level asked for is no cheaper than the full surface: level 0 itself, and others that leave out little.
+bool exact_is_as_cheap(const Store& store, const Request& request) {
+  const int level = level_within(store.metadata(), request.detail.coarsest());
+  const Window window = window_of(request);
+  const Box box = window.is_all() ? store.metadata().grid.box(store.metadata().bounds) : window.bounds();
+  return kEnvelopeCosts * store.points_about(level, box) >= store.points_about(0, box);
+}
 
-/// With features on the ground: the exact answer, but where ground without data leaves it open.
+/// The exact answer, but where ground without data leaves it open.
 Surveyed decide_exactly(const Store& store, const Request& request, Progress& progress) {
   Request open = request, closed = request;
   open.mode = closed.mode = Mode::kVisible;
@@ -134,7 +141,9 @@ Surveyed decide_exactly(const Store& store, const Request& request, Progress& pr
 
 Surveyed compute_certified(const Store& store, const Request& request, Progress& progress) {
   validate(request);
-  if (features_stand(store, request)) return decide_exactly(store, request, progress);
+  // Certificates know nothing of features on the ground.
+  if (features_stand(store, request) || exact_is_as_cheap(store, request))
+    return decide_exactly(store, request, progress);
   Surveyed surveyed;
   Result& result = surveyed.result;
   result.request = request;

@@ -1,4 +1,4 @@
-// All that maps need of OpenImageIO: lettering and files.
+// Lettering and files of maps.
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -6,14 +6,12 @@
 #include <memory>
 #include <unistd.h>
 
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
 #include <viewshed/map_image.hpp>
 
+#include "drawing.hpp"
 #include "lettering.hpp"
 #include "plain_text.hpp"
 
@@ -44,10 +42,6 @@ std::string find_font() {
   return best == found.end() ? std::string() : *best;
 }
 
-OIIO::ImageSpec spec_of(int width, int height) {
-  return {width, height, 3, OIIO::TypeDesc::UINT8};
-}
-
 }  // namespace
 
 Lettering::Lettering() : font_(find_font()) {}
@@ -55,14 +49,11 @@ Lettering::Lettering() : font_(find_font()) {}
 void Lettering::draw(Canvas& canvas, const std::string& text, Point2 baseline, int size, Colour colour,
                      Align align) const {
   if (!available()) return;
-  using OIIO::ImageBufAlgo::TextAlignX;
-  OIIO::ImageBuf image(spec_of(canvas.width(), canvas.height()), canvas.rgb().data());
   const std::array<float, 3> rgb{colour.red / 255.0F, colour.green / 255.0F, colour.blue / 255.0F};
-  const TextAlignX x = align == Align::kLeft     ? TextAlignX::Left
-                       : align == Align::kCentre ? TextAlignX::Center
-                                                 : TextAlignX::Right;
-  OIIO::ImageBufAlgo::render_text(image, static_cast<int>(baseline.x), static_cast<int>(baseline.y), plain_text(text),
-                                  size, font_, rgb, x);
+  const int side = align == Align::kLeft ? 0 : align == Align::kCentre ? 1 : 2;
+  drawing().draw_text({canvas.rgb().data(), canvas.width(), canvas.height()}, plain_text(text).c_str(),
+                      {font_.c_str(), size}, static_cast<int>(baseline.x), static_cast<int>(baseline.y), side,
+                      rgb.data());
 }
 
 void Lettering::draw_with_rim(Canvas& canvas, const std::string& text, Point2 baseline, int size, Colour colour) const {
@@ -73,7 +64,7 @@ void Lettering::draw_with_rim(Canvas& canvas, const std::string& text, Point2 ba
 }
 
 int Lettering::width(const std::string& text, int size) const {
-  return available() ? OIIO::ImageBufAlgo::text_size(plain_text(text), size, font_).width() : 0;
+  return available() ? drawing().text_width(plain_text(text).c_str(), {font_.c_str(), size}) : 0;
 }
 
 void write_image(const std::string& path, const MapImage& image, bool overwrite) {
@@ -83,16 +74,14 @@ void write_image(const std::string& path, const MapImage& image, bool overwrite)
     throw FileError(path, "exists already; allow overwriting or name another file");
   const fs::path ending = fs::path(path).extension();
   const std::string temporary = fmt::format("{}.{}.tmp{}", path, getpid(), ending.string());
-  const auto output = OIIO::ImageOutput::create(temporary);
-  if (!output) {
-    OIIO::geterror();
+  if (!drawing().knows_format(temporary.c_str()))
     throw InputError(fmt::format("{}: no image format for the ending '{}'; use .png", path, ending.string()));
-  }
-  const bool written = output->open(temporary, spec_of(image.width, image.height)) &&
-                       output->write_image(OIIO::TypeDesc::UINT8, image.rgb.data()) && output->close();
-  if (written) fs::rename(temporary, path, error);
-  if (written && !error) return;
-  const std::string reason = written ? error.message() : output->geterror();
+  // The module does not change what it writes.
+  const Picture picture{const_cast<std::uint8_t*>(image.rgb.data()), image.width, image.height};
+  const char* const failed = drawing().write(picture, temporary.c_str());
+  if (failed == nullptr) fs::rename(temporary, path, error);
+  if (failed == nullptr && !error) return;
+  const std::string reason = failed == nullptr ? error.message() : failed;
   fs::remove(temporary, error);
   throw FileError(path, "cannot be written: " + reason);
 }

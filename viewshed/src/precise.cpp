@@ -1,101 +1,34 @@
 #include <algorithm>
-#include <atomic>
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <memory>
-#include <mutex>
 #include <optional>
 
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
+#include <itin/triangulate.hpp>
 #include <viewshed/certified.hpp>
 
 #include "certified_pass.hpp"
-#include "exact_walk.hpp"
+#include "full_surface.hpp"
 #include "ground_tiles.hpp"
 #include "near_ground.hpp"
 #include "observation.hpp"
+#include "observer_raster.hpp"
 #include "request.hpp"
 #include "stopwatch.hpp"
+#include "void_shadow.hpp"
 
 namespace itin::viewshed {
 
 namespace {
 
-/// Peak memory a point of an envelope: triangulation, two surfaces, two scenes.
-constexpr std::uint64_t kBytesAPoint = 1200;
-/// No coarse pass over so few points: the full surface is as fast.
-constexpr std::uint64_t kFewPoints = 40000;
+/// Peak memory a point of the full surface: triangulation, triangles and bins.
+constexpr std::uint64_t kBytesAPoint = 400;
+/// Of an envelope, which has two surfaces and two scenes; and half of the memory is for what is refined meanwhile.
+constexpr std::uint64_t kBytesAnEnvelopePoint = 2400;
 /// The coarse pass reads so much less than the full surface.
 constexpr std::uint64_t kCoarseShare = 12;
-
-bool decided(std::uint8_t value) {
-  return value != kUndecided;
-}
-
-/// One observer's raster on its way.
-class Refinement {
- public:
-  Refinement(const RasterGrid& grid, const RasterGrid& tiles, Progress& progress)
-      : grid_(grid), tiles_(tiles), progress_(progress), values_(grid.cell_count(), kUndecided) {}
-
-  std::vector<std::uint8_t>& values() { return values_; }
-  std::uint64_t rays() const { return rays_; }
-
-  /// Judges the tiles of cells by a scene. `doubtful(tile, work, values, lines)` gets what stays undecided.
-  template <class OnDoubtful>
-  void judge(const EnvelopeScene& scene, const Eye& eye, const std::vector<std::size_t>& cells,
-             const OnDoubtful& doubtful) {
-    const CertifiedPass pass(scene, grid_, tiles_);
-    const EnvelopeScene::Look look = scene.look_from(eye);
-    parallel_for(cells.size(), [&](std::size_t i) {
-      progress_.throw_if_cancelled();
-      const auto work = pass.begin(cells[i]);
-      TileValues<std::uint8_t> values;
-      values.fill(kOutside);
-      for_each_row(work->tile, [&](std::size_t in_tile, std::size_t in_grid, std::size_t n) {
-        std::copy_n(values_.data() + in_grid, n, values.data() + in_tile);
-      });
-      pass.judge(look, values, *work, [&](const Doubtful& d) { doubtful(i, *work, values, d); });
-      for_each_row(work->tile, [&](std::size_t in_tile, std::size_t in_grid, std::size_t n) {
-        std::copy_n(values.data() + in_tile, n, values_.data() + in_grid);
-      });
-      rays_ += work->rays;
-      report(work->tile);
-    });
-  }
-
- private:
-  template <class Visit>
-  void for_each_row(const Tile& tile, const Visit& visit) const {
-    for (std::int64_t r = 0; r < tile.rows; ++r)
-      visit(static_cast<std::size_t>(r * Tile::kSide), grid_.index({tile.column, tile.row + r}),
-            static_cast<std::size_t>(tile.columns));
-  }
-
-  void report(const Tile& tile) {
-    std::uint64_t now = 0;
-    for_each_row(tile, [&](std::size_t, std::size_t in_grid, std::size_t n) {
-      now += static_cast<std::uint64_t>(std::count_if(values_.data() + in_grid, values_.data() + in_grid + n, decided));
-    });
-    const std::lock_guard lock(mutex_);
-    std::uint64_t& before = decided_[grid_.index({tile.column, tile.row})];
-    done_ += now - before;
-    before = now;
-    progress_.report("cells decided", static_cast<double>(done_) / static_cast<double>(values_.size()));
-  }
-
-  const RasterGrid& grid_;
-  const RasterGrid& tiles_;
-  Progress& progress_;
-  std::vector<std::uint8_t> values_;
-  std::atomic<std::uint64_t> rays_ = 0;
-  std::mutex mutex_;
-  std::map<std::size_t, std::uint64_t> decided_;
-  std::uint64_t done_ = 0;
-};
 
 Point2 along(const Grid& grid, const SightLines& lines, unsigned i, double s) {
   return {grid.origin.x + (lines.from_x[i] + s * (lines.to_x[i] - lines.from_x[i])) * grid.resolution,
@@ -117,7 +50,7 @@ class Precise {
       : store_(store),
         request_(request),
         features_(features_stand(store, request)),
-        budget_(options.memory_bytes / 2 / kBytesAPoint),
+        memory_(options.memory_bytes),
         progress_(progress) {}
 
   Surveyed run() {
@@ -125,29 +58,17 @@ class Precise {
     require_mode();
     Result& result = surveyed_.result;
     result.request = request_;
-    Stopwatch watch;
     const std::vector<Eye> eyes = eyes_on_full_surface(store_, request_, result.ground_m, progress_);
-    const int level = first_level();
-    Envelope envelope = envelop(store_, certified_request(store_, request_, level), progress_);
-    result.grid = cells_of(request_, envelope.lower.bounds());
-    tiles_ = grid_of_tiles(result.grid);
-    surveyed_.tin = envelope.lower;
-    count(envelope);
-    look_for_voids(envelope);
-    ground_.emplace(store_, envelope.lower.bounds());
-    result.statistics.retrieval_seconds = watch.lap();
-    if (level == 0 || !features_) {
-      first_.emplace(std::move(envelope), request_, tiles_, voids_of(request_.nodata));
-    } else if (result.crosses_voids && request_.nodata == NoData::kBlock) {
-      throw InputError(
-          "with --themes, --nodata block needs the whole window in memory: give more --memory or a smaller --radius");
+    if (fits()) {
+      retrieve_all();
+    } else {
+      retrieve_coarse();
     }
-    result.statistics.scene_seconds = watch.lap();
     for (std::size_t tile = 0; tile < tiles_.cell_count(); ++tile)
       observations_.push_back(Observations(request_).of_tile());
     for (std::uint32_t i = 0; i < eyes.size(); ++i) look(eyes[i], i);
     finish();
-    result.statistics.rays_seconds = watch.lap();
+    result.statistics.rays_seconds += watch_.lap();
     return std::move(surveyed_);
   }
 
@@ -160,54 +81,98 @@ class Precise {
     throw InputError("precise viewsheds tell visible, count, which and nearest; choose one of these modes");
   }
 
-  int first_level() const {
+  Box box() const {
     const Window window = window_of(request_);
-    const Box box = window.is_all() ? store_.metadata().grid.box(store_.metadata().bounds) : window.bounds();
-    const std::uint64_t all = store_.points_about(0, box);
-    if (all <= (features_ ? budget_ : std::min(budget_, kFewPoints))) return 0;
+    return window.is_all() ? store_.metadata().grid.box(store_.metadata().bounds) : window.bounds();
+  }
+
+  std::uint64_t budget() const { return memory_ / kBytesAPoint; }
+  bool fits() const { return store_.points_about(0, box()) <= budget(); }
+
+  int coarse_level() const {
+    const std::uint64_t most = std::min(memory_ / kBytesAnEnvelopePoint, store_.points_about(0, box()) / kCoarseShare);
     int level = 1;
-    while (level + 1 < static_cast<int>(store_.metadata().levels.size()) &&
-           store_.points_about(level, box) > std::min(budget_, all / kCoarseShare))
+    while (level + 1 < static_cast<int>(store_.metadata().levels.size()) && store_.points_about(level, box()) > most)
       ++level;
     return level;
   }
 
-  void count(const Envelope& envelope) {
+  Tin triangulated(const Window& window, const ThemeChoice& themes) {
+    Tin tin = triangulate(store_, window, Detail::tolerance(0), progress_, themes);
     Statistics& statistics = surveyed_.result.statistics;
-    statistics.retrieval += envelope.lower.statistics;
-    statistics.triangles += envelope.lower.triangles.size();
+    statistics.retrieval += tin.statistics;
+    statistics.retrieval_seconds += watch_.lap();
+    return tin;
   }
 
-  void look_for_voids(const Envelope& envelope) {
+  /// `targets` is where they stand.
+  void retrieve_full(const Window& window, const Window& targets, std::optional<FullSurface>& surface) {
+    Tin tin = triangulated(window, features_ ? request_.themes : ThemeChoice::none());
+    std::optional<Tin> ground;
+    if (features_ && !request_.targets_on_surface) ground = triangulated(targets, ThemeChoice::none());
+    surveyed_.result.statistics.triangles += tin.triangles.size();
+    if (tiles_.cell_count() == 0) lay_out(tin);
+    surface.emplace(std::move(tin), std::move(ground), request_.earth, surveyed_.result.grid, tiles_);
+    surveyed_.result.statistics.scene_seconds += watch_.lap();
+  }
+
+  void lay_out(const Tin& tin) {
+    surveyed_.result.grid = cells_of(request_, tin.bounds());
+    tiles_ = grid_of_tiles(surveyed_.result.grid);
+  }
+
+  void retrieve_all() {
+    const Window window = window_of(request_);
+    retrieve_full(window, window, full_);
+    look_for_voids(full_->tin(), full_->boundary());
+  }
+
+  void retrieve_coarse() {
+    Envelope envelope = envelop(store_, certified_request(store_, request_, coarse_level()), progress_);
+    Result& result = surveyed_.result;
+    result.statistics.retrieval += envelope.lower.statistics;
+    result.statistics.triangles += envelope.lower.triangles.size();
+    result.statistics.retrieval_seconds += watch_.lap();
+    lay_out(envelope.lower);
+    look_for_voids(envelope.lower, envelope.outline);
+    ground_.emplace(store_, envelope.lower.bounds());
+    if (features_ && result.crosses_voids && request_.nodata == NoData::kBlock)
+      throw InputError(
+          "with --themes, --nodata block needs the whole window in memory: give more --memory or a smaller --radius");
+    surveyed_.tin = envelope.lower;
+    if (!features_) coarse_.emplace(std::move(envelope), request_, tiles_, voids_of(request_.nodata));
+    result.statistics.scene_seconds += watch_.lap();
+  }
+
+  void look_for_voids(const Tin& tin, const std::vector<BoundaryEdge>& outline) {
     Result& result = surveyed_.result;
     for (const Observer& observer : request_.observers) {
       const double reach = radius_of(request_, observer).value_or(std::numeric_limits<double>::infinity());
-      result.crosses_voids =
-          result.crosses_voids || surface_resumes(envelope.lower, envelope.outline, observer.position, reach);
+      result.crosses_voids = result.crosses_voids || surface_resumes(tin, outline, observer.position, reach);
     }
     if (result.crosses_voids && request_.nodata == NoData::kUnknown) result.warnings.emplace_back(kVoidsWarning);
   }
 
   void look(const Eye& eye, std::uint32_t observer) {
-    Refinement refinement(surveyed_.result.grid, tiles_, progress_);
+    ObserverRaster raster(surveyed_.result.grid, tiles_, progress_);
     for_each_look(eye, observer, [&](const Observation& observation, const Look& look, std::size_t place) {
-      if (!observation.open(look)) refinement.values()[place] = kOutside;
+      if (!observation.open(look)) raster.values()[place] = kOutside;
     });
     std::vector<std::size_t> all(tiles_.cell_count());
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-    if (first_ && first_->exact) {
-      refinement.judge(*first_, eye, all,
-                       [&](std::size_t, const auto&, auto& values, const Doubtful& d) { walk(*first_, d, values); });
+    if (full_) {
+      judge(*full_, eye, all, raster);
+      if (request_.nodata == NoData::kBlock && surveyed_.result.crosses_voids) shade(eye, all, raster);
     } else {
       // Certificates know nothing of what stands on the ground: then whole lines are needed.
-      const std::vector<TileSet> needed = features_ ? under_lines(eye, refinement) : coarse_pass(eye, all, refinement);
+      const std::vector<TileSet> needed = features_ ? under_lines(eye, raster) : coarse_pass(eye, all, raster);
       // The scene's memory is free for the segments, when no other observer needs it.
-      if (observer + 1 == request_.observers.size()) first_.reset();
-      for (const std::vector<std::size_t>& segment : segments(eye, needed)) refine(eye, segment, needed, refinement);
+      if (observer + 1 == request_.observers.size()) coarse_.reset();
+      for (const std::vector<std::size_t>& segment : segments(eye, needed)) refine(eye, segment, needed, raster);
     }
-    surveyed_.result.statistics.rays += refinement.rays();
+    surveyed_.result.statistics.rays += raster.rays();
     for_each_look(eye, observer, [&](Observation& observation, const Look& look, std::size_t place) {
-      const std::uint8_t value = refinement.values()[place];
+      const std::uint8_t value = raster.values()[place];
       if (value != kOutside) observation.enter(look.cell);
       if (value == kCertainlyVisible) observation.see(look);
     });
@@ -231,26 +196,56 @@ class Precise {
     });
   }
 
+  static void judge(const FullSurface& surface, const Eye& eye, const std::vector<std::size_t>& tiles,
+                    ObserverRaster& raster) {
+    raster.judge(tiles, [&](std::size_t i, TileValues<std::uint8_t>& values) {
+      const auto work = std::make_unique<FullSurface::Work>();
+      return surface.judge(eye, tiles[i], values, *work);
+    });
+  }
+
+  /// Hides what lies behind voids.
+  void shade(const Eye& eye, const std::vector<std::size_t>& tiles, ObserverRaster& raster) const {
+    const VoidShadow shadow(full_->tin(), full_->boundary(), eye.units);
+    const RasterGrid& grid = surveyed_.result.grid;
+    raster.judge(tiles, [&](std::size_t i, TileValues<std::uint8_t>& values) {
+      const Tile tile = tile_at(grid, tiles_, tiles[i]);
+      const TileCentres centres(full_->tin().grid, grid, tile);
+      for (std::size_t cell = 0; cell < values.size(); ++cell) {
+        std::uint8_t& value = values[cell];
+        if (value == kCertainlyVisible && shadow.holds(centres.x[cell % Tile::kSide], centres.y[cell / Tile::kSide]))
+          value = kCertainlyHidden;
+      }
+      return 0;
+    });
+  }
+
   /// The ground that each tile's undecided lines need at full detail.
-  std::vector<TileSet> coarse_pass(const Eye& eye, const std::vector<std::size_t>& all, Refinement& refinement) {
+  std::vector<TileSet> coarse_pass(const Eye& eye, const std::vector<std::size_t>& all, ObserverRaster& raster) {
     std::vector<TileSet> needed(all.size());
     const Grid& units = store_.metadata().grid;
-    refinement.judge(*first_, eye, all, [&](std::size_t tile, const auto&, const auto&, const Doubtful& d) {
-      if (needed[tile].empty()) needed[tile] = TileSet(ground_->count());
-      UpperScene::Stretches stretches;
-      first_->upper.find_stretches(d.lines, d.starts_under, d.ends_under, stretches);
-      for_each_line(d.lines.active, [&](unsigned i) {
-        const Point2 target = along(units, d.lines, i, 1);
-        ground_->add_line(target, target, needed[tile]);
-        for (const Stretch& s : stretches[i])
-          ground_->add_line(along(units, d.lines, i, s.from), along(units, d.lines, i, s.to), needed[tile]);
+    const CertifiedPass pass(*coarse_, surveyed_.result.grid, tiles_);
+    const EnvelopeScene::Look look = coarse_->look_from(eye);
+    raster.judge(all, [&](std::size_t tile, TileValues<std::uint8_t>& values) {
+      const auto work = pass.begin(tile);
+      pass.judge(look, values, *work, [&](const Doubtful& d) {
+        if (needed[tile].empty()) needed[tile] = TileSet(ground_->count());
+        UpperScene::Stretches stretches;
+        coarse_->upper.find_stretches(d.lines, d.starts_under, d.ends_under, stretches);
+        for_each_line(d.lines.active, [&](unsigned i) {
+          const Point2 target = along(units, d.lines, i, 1);
+          ground_->add_line(target, target, needed[tile]);
+          for (const Stretch& s : stretches[i])
+            ground_->add_line(along(units, d.lines, i, s.from), along(units, d.lines, i, s.to), needed[tile]);
+        });
       });
+      return work->rays;
     });
     return needed;
   }
 
   /// The ground under all lines in view to each tile's cells. Cells out of view become kOutside.
-  std::vector<TileSet> under_lines(const Eye& eye, Refinement& refinement) {
+  std::vector<TileSet> under_lines(const Eye& eye, ObserverRaster& raster) {
     const RasterGrid& grid = surveyed_.result.grid;
     constexpr double kAnyHeight = 1e9;
     std::vector<TileSet> needed(tiles_.cell_count());
@@ -258,7 +253,7 @@ class Precise {
       const Tile tile = tile_at(grid, tiles_, i);
       for (std::int64_t r = 0; r < tile.rows; ++r) {
         for (std::int64_t c = 0; c < tile.columns; ++c) {
-          std::uint8_t& value = refinement.values()[grid.index({tile.column + c, tile.row + r})];
+          std::uint8_t& value = raster.values()[grid.index({tile.column + c, tile.row + r})];
           if (value != kUndecided) continue;
           const Point2 centre = grid.centre(tile.column + c, tile.row + r);
           if (eye.view.contains(centre.x - eye.position.x, centre.y - eye.position.y, -kAnyHeight, kAnyHeight) ==
@@ -291,7 +286,7 @@ class Precise {
     for (const auto& [azimuth, tile] : order) {
       TileSet wider = together;
       wider |= needed[tile];
-      if (result.empty() || ground_->points(wider) > budget_) {
+      if (result.empty() || ground_->points(wider) > budget()) {
         result.emplace_back();
         wider = needed[tile];
       }
@@ -302,18 +297,14 @@ class Precise {
   }
 
   void refine(const Eye& eye, const std::vector<std::size_t>& cells, const std::vector<TileSet>& needed,
-              Refinement& refinement) {
+              ObserverRaster& raster) {
+    surveyed_.result.statistics.rays_seconds += watch_.lap();
     TileSet ground(ground_->count());
     for (const std::size_t tile : cells) ground |= needed[tile];
-    EnvelopeRequest wanted{.window = ground_->window(ground), .level = 0, .discs = {}, .observers = {eye.position}};
-    if (features_) wanted.themes = request_.themes;
-    if (features_ && !request_.targets_on_surface) wanted.bare_ground = window_over(cells);
-    Envelope envelope = envelop(store_, wanted, progress_);
-    count(envelope);
+    std::optional<FullSurface> surface;
     // The edges of the window are no voids; lines behind voids were hidden in the coarse pass.
-    const EnvelopeScene scene(std::move(envelope), request_, tiles_, Voids::kPass);
-    refinement.judge(scene, eye, cells,
-                     [&](std::size_t, const auto&, auto& values, const Doubtful& d) { walk(scene, d, values); });
+    retrieve_full(ground_->window(ground), window_over(cells), surface);
+    judge(*surface, eye, cells, raster);
   }
 
   Window window_over(const std::vector<std::size_t>& cells) const {
@@ -328,6 +319,7 @@ class Precise {
   }
 
   void finish() {
+    if (full_) surveyed_.tin = std::move(*full_).release();
     Result& result = surveyed_.result;
     Observation::prepare(result);
     for (std::size_t i = 0; i < observations_.size(); ++i)
@@ -337,12 +329,14 @@ class Precise {
   const Store& store_;
   const Request& request_;
   bool features_;         ///< stand on the ground
-  std::uint64_t budget_;  ///< points
+  std::uint64_t memory_;  ///< bytes
   Progress& progress_;
+  Stopwatch watch_;
   Surveyed surveyed_;
   RasterGrid tiles_;
   std::optional<GroundTiles> ground_;
-  std::optional<EnvelopeScene> first_;
+  std::optional<FullSurface> full_;                         ///< all of it, where it fits into the memory
+  std::optional<EnvelopeScene> coarse_;                     ///< elsewhere, unless features stand on the ground
   std::vector<std::unique_ptr<Observation>> observations_;  ///< a tile
 };
 

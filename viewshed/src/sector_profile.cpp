@@ -20,9 +20,12 @@ Quadrant::Quadrant(const BinnedHeights& bins, double axis_column, double axis_ro
       minor_(along_columns_ ? axis_row : axis_column),
       first_run_(static_cast<std::int64_t>(std::floor(major_ / static_cast<double>(kRun)))),
       lines_(along_columns_ ? bins.rows() : bins.columns()) {
+  // From an axis beside the bins, those in front of it.
+  first_run_ = outward_ > 0 ? std::max<std::int64_t>(0, first_run_) : std::min(runs_.a_line - 1, first_run_);
   const double inside = major_ - static_cast<double>(first_run_) * static_cast<double>(kRun);
   first_end_ = outward_ > 0 ? static_cast<double>(kRun) - inside : inside;
-  per_end_.resize(static_cast<std::size_t>(outward_ > 0 ? runs_.a_line - first_run_ : first_run_ + 1));
+  const std::int64_t slabs = outward_ > 0 ? runs_.a_line - first_run_ : first_run_ + 1;
+  per_end_.resize(static_cast<std::size_t>(std::max<std::int64_t>(0, slabs)));
   for (std::size_t k = 0; k < per_end_.size(); ++k) per_end_[k] = 1 / end(k);
 }
 
@@ -34,8 +37,7 @@ void SectorProfile::survey(const Quadrant& quadrant, double from, double to, std
                              : to < 0 ? -to
                                       : 0,
                greatest_slope = std::max(std::abs(from), std::abs(to));
-  near_drop_ = axis.drop * (1 + least_slope * least_slope);
-  far_drop_ = axis.drop * (1 + greatest_slope * greatest_slope);
+  least_ = 1 + least_slope * least_slope, greatest_ = 1 + greatest_slope * greatest_slope;
   survey_lows();
 }
 
@@ -64,6 +66,19 @@ void SectorProfile::for_each_slab(const Visit& visit) const {
   }
 }
 
+/// Within a slab. Refraction that bends lines more than the Earth does raises what is far away.
+double SectorProfile::drop_at(double along, double squared) const {
+  return axis_.drop * squared * along * along;
+}
+double SectorProfile::least_drop(std::size_t slab) const {
+  return axis_.drop > 0 ? drop_at(std::max(0.0, quadrant_->begin(slab)), least_)
+                        : drop_at(quadrant_->end(slab), greatest_);
+}
+double SectorProfile::greatest_drop(std::size_t slab) const {
+  return axis_.drop > 0 ? drop_at(quadrant_->end(slab), greatest_)
+                        : drop_at(std::max(0.0, quadrant_->begin(slab)), least_);
+}
+
 void SectorProfile::survey_lows() {
   hidden_below_.resize(count_ - nearest_);
   const float* const lows = quadrant_->runs().low.data();
@@ -76,8 +91,8 @@ void SectorProfile::survey_lows() {
     const std::int64_t last_pair = std::max(first, last - 1);
     for (std::int64_t line = first + 2; line < last_pair; line += 2) low = std::min(low, lows[quadrant_->run(k, line)]);
     low = std::min({low, lows[quadrant_->run(k, first)], lows[quadrant_->run(k, last_pair)]});
-    const double end = quadrant_->end(k), per_end = quadrant_->per_end(k);
-    const double rise = low - far_drop_ * end * end - axis_.margin - axis_.top;
+    const double per_end = quadrant_->per_end(k);
+    const double rise = low - greatest_drop(k) - axis_.margin - axis_.top;
     hidden_below = std::max(hidden_below, rise * (rise < 0 ? per_end : per_begin));
     per_begin = per_end;
   });
@@ -93,8 +108,7 @@ void SectorProfile::survey_highs() {
     // Ground that is bare beyond the bins counts for nothing, and a float's rounding is within the margin.
     float high = -kInfinity;
     for (std::int64_t line = first; line <= last; ++line) high = std::max(high, highs[quadrant_->run(k, line)]);
-    const double begin = std::max(0.0, quadrant_->begin(k));
-    high_[k] = static_cast<float>(high - near_drop_ * begin * begin);
+    high_[k] = static_cast<float>(high - least_drop(k));
     group_high_[k / kGroup] = std::max(group_high_[k / kGroup], high_[k]);
     block_high_[k / kBlock] = std::max(block_high_[k / kBlock], high_[k]);
   });

@@ -5,6 +5,7 @@
 // straight, and two heights that a surface keeps between are all it takes to decide most of them.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -32,12 +33,14 @@ class Quadrant {
     return along_columns_ ? Point2{major, minor} : Point2{minor, major};
   }
 
-  /// Slab k, a run of bins, reaches from `begin(k)` to `end(k)` along. Slab 0 begins somewhat behind the axis.
+  /// Slab k, a run of bins, reaches from `begin(k)` to `end(k)` along. Slab 0 begins somewhat behind the axis, or
+  /// where the bins do.
   double begin(std::size_t slab) const { return end(slab) - static_cast<double>(kRun); }
   double end(std::size_t slab) const { return first_end_ + static_cast<double>(slab * kRun); }
-  /// Precondition: along >= 0.
+  /// The last one beyond the bins. Preconditions: along >= 0, and there are slabs.
   std::size_t slab_at(double along) const {
-    return along <= first_end_ ? 0 : static_cast<std::size_t>((along - first_end_) / static_cast<double>(kRun)) + 1;
+    if (along <= first_end_) return 0;
+    return std::min(slabs() - 1, static_cast<std::size_t>((along - first_end_) / static_cast<double>(kRun)) + 1);
   }
   std::size_t slabs() const { return per_end_.size(); }
   /// 1 / end(slab).
@@ -99,11 +102,15 @@ class SectorProfile {
 
   template <class Visit>
   void for_each_slab(const Visit& visit) const;
+  double drop_at(double along, double squared) const;
+  double least_drop(std::size_t slab) const;
+  double greatest_drop(std::size_t slab) const;
   void survey_lows();
   void survey_highs();
 
   const Quadrant* quadrant_ = nullptr;
-  double from_ = 0, to_ = 0, near_drop_ = 0, far_drop_ = 0;
+  double from_ = 0, to_ = 0;
+  double least_ = 0, greatest_ = 0;  ///< squared distances a squared distance along
   std::size_t nearest_ = 0, count_ = 0;
   Axis axis_;
   bool highs_known_ = false;

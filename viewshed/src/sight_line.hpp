@@ -133,7 +133,7 @@ class SightLine {
     if ((p.side > 0 && q.side > 0 && r.side > 0) || (p.side < 0 && q.side < 0 && r.side < 0)) return true;
     // Between corners curvature raises the ground above the straight piece.
     const double stretch = std::max({p.along, q.along, r.along}) - std::min({p.along, q.along, r.along});
-    const double limit = -margin - bulge_ * stretch * stretch / 4;
+    const double limit = -margin - std::max(bulge_, 0.0) * stretch * stretch / 4;
     if (std::max({p.rise, q.rise, r.rise}) <= limit) return true;
     const auto below = [&](const Corner& from, const Corner& to) {
       const double across = from.side - to.side;

@@ -28,8 +28,7 @@ class RowSections {
       const GridPoint& v = tin.vertices[t[i]];
       corners_[i] = {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
     }
-    std::sort(corners_.begin(), corners_.end(),
-              [](const Point3& a, const Point3& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
+    order(0, 1), order(1, 2), order(0, 1);
   }
 
   double lowest() const { return corners_[0].y; }
@@ -51,6 +50,11 @@ class RowSections {
   }
 
  private:
+  void order(std::size_t first, std::size_t second) {
+    Point3 &a = corners_[first], &b = corners_[second];
+    if (b.y != a.y ? b.y < a.y : b.x < a.x) std::swap(a, b);
+  }
+
   static Crossing cross(const Point3& a, const Point3& b, double y) {
     if (y >= b.y) return {b.x, b.z};
     const double w = (y - a.y) / (b.y - a.y);
@@ -95,23 +99,23 @@ template <class Visit>
 void for_each_centre(const Tin& tin, std::span<const std::uint32_t> triangles, const Tile& tile,
                      const TileCentres& centres, const Visit& visit) {
   const auto& [x, y] = centres;
-  const auto spacing = [](double first, double last, std::int64_t count) {
-    return count > 1 ? std::abs(last - first) / static_cast<double>(count - 1) : 1.0;
+  const auto a_unit = [](double first, double last, std::int64_t count) {
+    return count > 1 ? static_cast<double>(count - 1) / std::abs(last - first) : 1.0;
   };
-  const double per_column = spacing(x[0], x[static_cast<std::size_t>(tile.columns - 1)], tile.columns);
-  const double per_row = spacing(y[0], y[static_cast<std::size_t>(tile.rows - 1)], tile.rows);
-  // Rows and columns are found by division, give or take one, and then compared exactly.
+  const double columns_a_unit = a_unit(x[0], x[static_cast<std::size_t>(tile.columns - 1)], tile.columns);
+  const double rows_a_unit = a_unit(y[0], y[static_cast<std::size_t>(tile.rows - 1)], tile.rows);
+  // Rows and columns are found by spacing, give or take one, and then compared exactly.
   const auto first_at = [](double cells, std::int64_t limit) {
     return static_cast<std::int64_t>(std::clamp(std::floor(cells) - 1, 0.0, static_cast<double>(limit)));
   };
   for (const std::uint32_t t : triangles) {
     const RowSections sections(tin, tin.triangles[t]);
-    for (std::int64_t r = first_at((y[0] - sections.highest()) / per_row, tile.rows); r < tile.rows; ++r) {
+    for (std::int64_t r = first_at((y[0] - sections.highest()) * rows_a_unit, tile.rows); r < tile.rows; ++r) {
       const double row_y = y[static_cast<std::size_t>(r)];
       if (row_y > sections.highest()) continue;
       if (row_y < sections.lowest()) break;
       const auto [west, east] = sections.at(row_y);
-      for (std::int64_t c = first_at((west.x - x[0]) / per_column, tile.columns); c < tile.columns; ++c) {
+      for (std::int64_t c = first_at((west.x - x[0]) * columns_a_unit, tile.columns); c < tile.columns; ++c) {
         const double cell_x = x[static_cast<std::size_t>(c)];
         if (cell_x < west.x) continue;
         if (cell_x > east.x) break;

@@ -68,23 +68,33 @@ class TriangleInBins {
 }  // namespace
 
 TriangleBins::TriangleBins(const Tin& tin, const RasterGrid& grid) {
-  // Chunks of triangles count on their own and then know where to write: ascending numbers, whatever the threads.
-  constexpr std::size_t kChunks = 16;
-  const std::size_t count = tin.triangles.size(), bins = grid.cell_count();
-  std::vector<std::vector<std::uint32_t>> places(kChunks, std::vector<std::uint32_t>(bins));
-  const auto for_each_entry = [&](std::size_t chunk, const auto& body) {
-    for (std::size_t t = count * chunk / kChunks; t < count * (chunk + 1) / kChunks; ++t) {
-      const TriangleInBins triangle(tin, tin.triangles[t], grid);
-      const BinRange& box = triangle.box();
-      for (std::int64_t row = box.north; row <= box.south; ++row) {
-        auto [west, east] = std::pair{box.west, box.east};
-        if (!triangle.fills_box()) std::tie(west, east) = triangle.columns_in(row);
-        for (std::int64_t column = west; column <= east; ++column)
-          body(static_cast<std::uint32_t>(t), grid.index({column, row}));
-      }
+  fill(tin.triangles.size(), grid.cell_count(), [&](std::size_t t, const auto& visit) {
+    const TriangleInBins triangle(tin, tin.triangles[t], grid);
+    const BinRange& box = triangle.box();
+    for (std::int64_t row = box.north; row <= box.south; ++row) {
+      auto [west, east] = std::pair{box.west, box.east};
+      if (!triangle.fills_box()) std::tie(west, east) = triangle.columns_in(row);
+      for (std::int64_t column = west; column <= east; ++column) visit(grid.index({column, row}));
     }
+  });
+}
+
+TriangleBins::TriangleBins(const CellLattice& lattice) {
+  fill(lattice.cell_of.size(), lattice.grid.cell_count(),
+       [&](std::size_t t, const auto& visit) { visit(lattice.cell_of[t]); });
+}
+
+/// `for_each_bin(t, visit)` calls visit(bin) for every bin of a triangle.
+template <class ForEachBin>
+void TriangleBins::fill(std::size_t count, std::size_t bins, const ForEachBin& for_each_bin) {
+  // Chunks of triangles count on their own and then know where to write: ascending numbers, whatever the threads.
+  const auto chunks = static_cast<std::size_t>(std::min(16, thread_count()));
+  std::vector<std::vector<std::uint32_t>> places(chunks, std::vector<std::uint32_t>(bins));
+  const auto for_each_entry = [&](std::size_t chunk, const auto& body) {
+    for (std::size_t t = count * chunk / chunks; t < count * (chunk + 1) / chunks; ++t)
+      for_each_bin(t, [&](std::size_t bin) { body(static_cast<std::uint32_t>(t), bin); });
   };
-  parallel_for(kChunks, [&](std::size_t chunk) {
+  parallel_for(chunks, [&](std::size_t chunk) {
     for_each_entry(chunk, [&](std::uint32_t, std::size_t bin) { ++places[chunk][bin]; });
   });
   first_.resize(bins + 1);
@@ -98,7 +108,7 @@ TriangleBins::TriangleBins(const Tin& tin, const RasterGrid& grid) {
     first_[bin + 1] = first_[bin] + total;
   }
   triangles_.resize(first_[bins]);
-  parallel_for(kChunks, [&](std::size_t chunk) {
+  parallel_for(chunks, [&](std::size_t chunk) {
     for_each_entry(chunk,
                    [&](std::uint32_t t, std::size_t bin) { triangles_[first_[bin] + places[chunk][bin]++] = t; });
   });

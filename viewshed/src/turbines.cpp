@@ -200,14 +200,13 @@ Zone survey_turbines(const Tin& ground, const Tin* screened, const ZoneRequest& 
   zone.request = request;
   Stopwatch watch;
   progress.report("scene", 0);
-  const std::vector<BoundaryEdge> boundary = boundary_edges(ground);
-  std::optional<BinnedHeights> binned(std::in_place, ground, boundary);
+  std::optional<BinnedHeights> binned(std::in_place, ground);
   place_turbines(ground, *binned, zone);
   zone.grid = grid_of(zone.request, ground.bounds());
   std::size_t last = 0;
   for (const Turbine& t : zone.request.turbines) last = std::max(last, turbine_bit(t.number).grid);
   zone.words = last + 1;
-  warn_of_voids(ground, boundary, zone);
+  warn_of_voids(ground, binned->boundary(), zone);
   zone.statistics.retrieval = ground.statistics;
   zone.statistics.triangles = ground.triangles.size();
   const RasterGrid tiles = grid_of_tiles(zone.grid);
@@ -226,7 +225,7 @@ Zone survey_turbines(const Tin& ground, const Tin* screened, const ZoneRequest& 
   zone.statistics.lines_seconds = watch.lap();
   if (screened != nullptr) {
     // One surface at a time, for what is made of them takes memory.
-    binned.emplace(*screened, boundary_edges(*screened));
+    binned.emplace(*screened);
     scene = curtains(*screened, request);
     zone.statistics.scene_seconds += watch.lap();
     zone.screened = lines.run(AxisSweep(*screened, request.earth, *binned), scene ? &*scene : nullptr,

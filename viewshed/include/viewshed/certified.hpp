@@ -25,9 +25,9 @@ inline constexpr std::uint8_t kCertainlyVisible = 2;
 /// surface lies between two envelopes of the level asked for. Finer levels, as small as they are, stand in about every
 /// observer, for coarse ground there would hide everything. With several observers a cell is certainly visible when it
 /// is to one of them, and certainly hidden when it is to all. Under NoData::kUnknown a line across a void and back is
-/// never certainly visible. Cost: as a plain viewshed twice over. With themes that stand on the ground every cell is
-/// decided, but for such lines across voids, as by compute_precise() and at its cost.
-/// Throws as compute() does.
+/// never certainly visible. Cost: as a plain viewshed twice over. With themes that stand on the ground, and where the
+/// level has half of all points or more, every cell is decided, but for such lines across voids, as by
+/// compute_precise() and at its cost. Throws as compute() does.
 Surveyed compute_certified(const Store& store, const Request& request, Progress& progress);
 
 struct PreciseOptions {
@@ -35,10 +35,12 @@ struct PreciseOptions {
 };
 
 /// Exact for the full surface, in modes kVisible, kCount, kWhich and kNearest: each cell has the value that the exact
-/// walk in double precision over every triangle would give it. A certified pass at a coarse level decides most cells;
-/// for the others the places where their lines come near the ground, and no more, are read at full detail, as many at a
-/// time as the memory allows, and the few lines that graze are walked. Request::detail is not used. NoData::kUnknown
-/// counts as clear, with a warning.
+/// walk in double precision over every triangle would give it. The surface is swept about each observer: bounds along
+/// narrow sectors decide nearly every line, the others are walked where the ground comes near them. Where the surface
+/// does not fit into the memory, a certified pass at a coarse level decides most cells; for the others the places where
+/// their lines come near the ground, and no more, are read at full detail and swept, as many at a time as the memory
+/// allows. Request::detail is not used. NoData::kUnknown counts as clear, with a warning. Cost, on one core: about a
+/// microsecond a point; a third of that for rasters.
 /// Throws as compute() does, and InputError where themes that stand on the ground, NoData::kBlock and voids come
 /// together in a window too large for the memory.
 Surveyed compute_precise(const Store& store, const Request& request, const PreciseOptions& options, Progress& progress);

@@ -1,0 +1,51 @@
+// The only part that sees OpenImageIO.
+#include <string>
+
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/imageio.h>
+
+#include "../src/drawing.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+OIIO::ImageSpec spec_of(const Picture& picture) {
+  return {picture.width, picture.height, 3, OIIO::TypeDesc::UINT8};
+}
+
+void draw_text(const Picture& picture, const char* text, const Font& font, int x, int y, int align,
+               const float* colour) {
+  using OIIO::ImageBufAlgo::TextAlignX;
+  OIIO::ImageBuf image(spec_of(picture), picture.rgb);
+  const TextAlignX side = align == 0 ? TextAlignX::Left : align == 1 ? TextAlignX::Center : TextAlignX::Right;
+  OIIO::ImageBufAlgo::render_text(image, x, y, text, font.size, font.path, {colour, 3}, side);
+}
+
+int text_width(const char* text, const Font& font) {
+  return OIIO::ImageBufAlgo::text_size(text, font.size, font.path).width();
+}
+
+bool knows_format(const char* path) {
+  const bool known = OIIO::ImageOutput::create(path) != nullptr;
+  if (!known) OIIO::geterror();
+  return known;
+}
+
+const char* write(const Picture& picture, const char* path) {
+  static thread_local std::string reason;
+  const auto output = OIIO::ImageOutput::create(path);
+  const bool written = output && output->open(path, spec_of(picture)) &&
+                       output->write_image(OIIO::TypeDesc::UINT8, picture.rgb) && output->close();
+  if (written) return nullptr;
+  reason = output ? output->geterror() : OIIO::geterror();
+  return reason.c_str();
+}
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default")))
+const Drawing itin_drawing{draw_text, text_width, knows_format, write};
+
+}  // namespace itin::viewshed

@@ -1,0 +1,39 @@
+// All that maps need of OpenImageIO, loaded when the first map is drawn: it brings some 150 libraries with it, a tenth
+// of a second of every command.
+//
+//   drawing().draw_text(...);
+//
+// The module (viewshed/drawing) knows nothing of itin but this header; plain types alone pass between the two.
+#pragma once
+
+#include <cstdint>
+
+namespace itin::viewshed {
+
+/// 8-bit sRGB, row by row from the top.
+struct Picture {
+  std::uint8_t* rgb;
+  int width, height;
+};
+
+/// A font's path and its height in pixels.
+struct Font {
+  const char* path;
+  int size;
+};
+
+struct Drawing {
+  /// From (x, y), or about it, or up to it, for align 0, 1, 2.
+  void (*draw_text)(const Picture& picture, const char* text, const Font& font, int x, int y, int align,
+                    const float* colour);
+  int (*text_width)(const char* text, const Font& font);
+  /// Whether the path's ending names a format.
+  bool (*knows_format)(const char* path);
+  /// Null, or why it failed: until the thread's next call.
+  const char* (*write)(const Picture& picture, const char* path);
+};
+
+/// The table that the module exports as `itin_drawing`; loads it. Throws FileError where it is missing or broken.
+const Drawing& drawing();
+
+}  // namespace itin::viewshed

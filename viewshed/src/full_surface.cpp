@@ -1,0 +1,85 @@
+#include "full_surface.hpp"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <itin/grazing.hpp>
+
+namespace itin::viewshed {
+
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// Calls visit(row, column, cell) for each of a tile's cells.
+template <class Visit>
+void for_each_cell(const Tile& tile, const Visit& visit) {
+  for (std::int64_t r = 0; r < tile.rows; ++r)
+    for (std::int64_t c = 0; c < tile.columns; ++c) visit(r, c, static_cast<std::size_t>(r * Tile::kSide + c));
+}
+
+}  // namespace
+
+FullSurface::FullSurface(Tin surface, std::optional<Tin> bare_ground, const Earth& earth, const RasterGrid& grid,
+                         const RasterGrid& tiles)
+    : tin_(std::move(surface)),
+      bare_ground_(std::move(bare_ground)),
+      grid_(grid),
+      tiles_(tiles),
+      heights_(tin_),
+      sweep_(tin_, earth, heights_) {
+  if (bare_ground_ || !heights_.partition()) of_tiles_.emplace(bare_ground_ ? *bare_ground_ : tin_, tiles);
+}
+
+std::uint64_t FullSurface::judge(const Eye& eye, std::size_t index, TileValues<std::uint8_t>& values,
+                                 Work& work) const {
+  const Tile tile = tile_at(grid_, tiles_, index);
+  const TileCentres centres(tin_.grid, grid_, tile);
+  find_ground(index, tile, centres, work);
+  raise_targets(eye, tile, centres, values, work);
+  sweep_.look_from(eye.units, {tile, centres, work.targets}, work.scratch, work.seen);
+  std::uint64_t lines = 0;
+  for_each_cell(tile, [&](std::int64_t, std::int64_t, std::size_t cell) {
+    if (std::isnan(work.targets[cell])) return;
+    ++lines;
+    values[cell] = std::isnan(work.seen[cell]) ? kCertainlyHidden : kCertainlyVisible;
+  });
+  return lines;
+}
+
+void FullSurface::find_ground(std::size_t index, const Tile& tile, const TileCentres& centres, Work& work) const {
+  if (of_tiles_) {
+    scan_convert(bare_ground_ ? *bare_ground_ : tin_, of_tiles_->triangles(index), tile, centres, work.ground);
+    return;
+  }
+  const Point2 first = grid_.centre(tile.column, tile.row);
+  const Point2 last = grid_.centre(tile.column + tile.columns - 1, tile.row + tile.rows - 1);
+  heights_.list_triangles({first.x, last.y, last.x, first.y}, work.triangles);
+  scan_convert(tin_, work.triangles, tile, centres, work.ground);
+}
+
+/// Where undecided cells have their targets; those that need no line are decided.
+void FullSurface::raise_targets(const Eye& eye, const Tile& tile, const TileCentres& centres,
+                                TileValues<std::uint8_t>& values, Work& work) const {
+  // The arithmetic of plain viewsheds, to the last bit.
+  const double resolution = tin_.grid.resolution, metre = 1 / resolution, grazing = kGrazing / resolution;
+  for_each_cell(tile, [&](std::int64_t r, std::int64_t c, std::size_t cell) {
+    work.targets[cell] = kNone;
+    std::uint8_t& value = values[cell];
+    if (value != kUndecided) return;
+    value = kOutside;
+    const double ground = work.ground[cell];
+    if (std::isnan(ground)) return;
+    const double target = eye.target(ground * resolution);
+    const Point2 centre = grid_.centre(tile.column + c, tile.row + r);
+    if (!eye.view.contains(centre.x - eye.position.x, centre.y - eye.position.y, target - eye.elevation)) return;
+    const bool below = target * metre < ground - grazing;
+    const bool at_eye =
+        centres.x[static_cast<std::size_t>(c)] == eye.units.x && centres.y[static_cast<std::size_t>(r)] == eye.units.y;
+    value = below ? kCertainlyHidden : kCertainlyVisible;
+    if (!below && !at_eye) work.targets[cell] = target * metre;
+  });
+}
+
+}  // namespace itin::viewshed

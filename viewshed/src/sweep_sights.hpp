@@ -1,0 +1,88 @@
+// Sight lines of a sweep about an upright axis, while what hides them is being looked for triangle by triangle.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include <itin/tin.hpp>
+
+#include "sight_line.hpp"
+
+namespace itin::viewshed {
+
+inline constexpr std::uint32_t kNoSilhouette = 0xffffffff;
+
+/// How far from the axis the other end is, in bins, and how high, less the drop, grid units.
+struct SweptEnd {
+  double along = 0;
+  double lowered = 0;
+};
+
+/// From an eye to the top of an axis: how far down it is seen.
+class AxisSight {
+ public:
+  AxisSight(const Tin& tin, const SightLine& from_eye, double base, const SweptEnd& eye, double margin)
+      : tin_(tin), line_(from_eye), top_(from_eye.to_z()), eye_(eye), margin_(margin) {
+    raise(std::min(base, top_));
+  }
+
+  double least() const { return least_; }
+  /// Of the line to the least height, outward a bin.
+  double slope() const { return slope_; }
+  std::uint32_t silhouette() const { return silhouette_; }
+
+  /// Whether the top can still be seen over this triangle, too.
+  bool clears(std::uint32_t triangle) {
+    const Triangle& t = tin_.triangles[triangle];
+    const GridPoint &a = tin_.vertices[t[0]], &b = tin_.vertices[t[1]], &c = tin_.vertices[t[2]];
+    if (line_.apart(a, b, c, least_, margin_)) return true;
+    const double end = line_.clearing_end(a, b, c);
+    if (end <= least_) return true;
+    silhouette_ = triangle;
+    if (end > top_ && line_.hidden_by(a, b, c)) return false;
+    // What rises by less than a grazing is only touched, though clearing it takes a hair more than the top.
+    raise(std::min(end, top_));
+    return true;
+  }
+
+ private:
+  void raise(double least) {
+    least_ = least;
+    slope_ = (eye_.lowered - least) / eye_.along;
+  }
+
+  const Tin& tin_;
+  const SightLine& line_;
+  double top_;
+  SweptEnd eye_;
+  double margin_;
+  double least_ = 0, slope_ = 0;
+  std::uint32_t silhouette_ = kNoSilhouette;
+};
+
+/// From a point to a target: whether it is seen.
+class PointSight {
+ public:
+  PointSight(const Tin& tin, const SightLine& to_target, const SweptEnd& target, double margin)
+      : tin_(tin), line_(to_target), slope_((target.lowered - to_target.from().z) / target.along), margin_(margin) {}
+
+  double least() const { return line_.from().z; }
+  double slope() const { return slope_; }
+  std::uint32_t silhouette() const { return silhouette_; }
+
+  bool clears(std::uint32_t triangle) {
+    const Triangle& t = tin_.triangles[triangle];
+    const GridPoint &a = tin_.vertices[t[0]], &b = tin_.vertices[t[1]], &c = tin_.vertices[t[2]];
+    if (line_.apart(a, b, c, line_.to_z(), margin_) || !line_.hidden_by(a, b, c)) return true;
+    silhouette_ = triangle;
+    return false;
+  }
+
+ private:
+  const Tin& tin_;
+  const SightLine& line_;
+  double slope_, margin_;
+  std::uint32_t silhouette_ = kNoSilhouette;
+};
+
+}  // namespace itin::viewshed
