@@ -9,12 +9,6 @@ namespace itin {
 
 namespace {
 
-Triangle smallest_first(const Triangle& t) {
-  if (t[1] < t[0] && t[1] < t[2]) return {t[1], t[2], t[0]};
-  if (t[2] < t[0] && t[2] < t[1]) return {t[2], t[0], t[1]};
-  return t;
-}
-
 /// A region's vertices in its own cell come one after another, and so do the cells: what lies there is in order
 /// already, vertices as well as the triangles of which they are the first. All else is foreign to the region; mostly,
 /// but not always, it is some other's own as well.
@@ -29,7 +23,6 @@ class Assembly {
   Tin run() && {
     list_codes();
     place_vertices();
-    parallel_for(parts_.size(), [&](std::size_t r) { sort_triangles(regions_[r].mesh.triangles, parts_[r]); });
     gather_triangles();
     gather_lines();
     for (const RegionMesh& region : regions_) tin_.statistics += region.statistics;
@@ -41,8 +34,13 @@ class Assembly {
     std::vector<std::uint64_t> codes;    ///< by vertex
     std::size_t first = 0, end = 0;      ///< the region's own vertices
     std::vector<std::uint32_t> numbers;  ///< by vertex: its number in the result
-    std::vector<Triangle> own, foreign;  ///< each in order
     bool owns(std::size_t v) const { return v >= first && v < end; }
+  };
+
+  /// Of a region's triangles, and where they go.
+  struct Slice {
+    std::vector<Triangle>::const_iterator first, end;
+    std::size_t place;
   };
 
   static void find_own(const Cell& cell, const std::vector<SelectedVertex>& vertices, Part& part) {
@@ -56,21 +54,32 @@ class Assembly {
     part.first = at(cell.code), part.end = at(cell.end());
   }
 
+  /// `own` is in ascending order, and stays so.
+  template <class Item>
+  static void add_those_of_nobody(std::vector<Item> foreign, std::vector<Item>& own) {
+    std::sort(foreign.begin(), foreign.end());
+    foreign.erase(std::unique(foreign.begin(), foreign.end()), foreign.end());
+    std::vector<Item> nobodys;
+    std::set_difference(foreign.begin(), foreign.end(), own.begin(), own.end(), std::back_inserter(nobodys));
+    const auto middle = static_cast<std::ptrdiff_t>(own.size());
+    own.insert(own.end(), nobodys.begin(), nobodys.end());
+    std::inplace_merge(own.begin(), own.begin() + middle, own.end());
+  }
+
+  static Triangle renumbered(const Triangle& t, const std::vector<std::uint32_t>& numbers) {
+    return {numbers[t[0]], numbers[t[1]], numbers[t[2]]};
+  }
+
   /// The codes of all vertices.
   void list_codes() {
-    std::vector<std::uint64_t> foreign, nobodys;
+    std::vector<std::uint64_t> foreign;
     for (const Part& part : parts_) {
       const auto at = [&](std::size_t v) { return part.codes.begin() + static_cast<std::ptrdiff_t>(v); };
       codes_.insert(codes_.end(), at(part.first), at(part.end));
       foreign.insert(foreign.end(), part.codes.begin(), at(part.first));
       foreign.insert(foreign.end(), at(part.end), part.codes.end());
     }
-    std::sort(foreign.begin(), foreign.end());
-    foreign.erase(std::unique(foreign.begin(), foreign.end()), foreign.end());
-    std::set_difference(foreign.begin(), foreign.end(), codes_.begin(), codes_.end(), std::back_inserter(nobodys));
-    const auto middle = static_cast<std::ptrdiff_t>(codes_.size());
-    codes_.insert(codes_.end(), nobodys.begin(), nobodys.end());
-    std::inplace_merge(codes_.begin(), codes_.begin() + middle, codes_.end());
+    add_those_of_nobody(std::move(foreign), codes_);
   }
 
   void place_vertices() {
@@ -108,47 +117,30 @@ class Assembly {
     }
   }
 
-  /// With the new numbers, which are in the order of the old ones.
-  static void sort_triangles(const std::vector<Triangle>& triangles, Part& part) {
-    std::vector<std::uint32_t> first_of(part.end - part.first + 2, 0);
-    for (const Triangle& t : triangles) {
-      if (const std::uint32_t v = std::min({t[0], t[1], t[2]}); part.owns(v)) ++first_of[v - part.first + 2];
-    }
-    for (std::size_t i = 2; i < first_of.size(); ++i) first_of[i] += first_of[i - 1];
-    part.own.resize(first_of.back());
-    for (const Triangle& t : triangles) {
-      const auto& [a, b, c] = smallest_first(t);
-      const Triangle renumbered{part.numbers[a], part.numbers[b], part.numbers[c]};
-      if (part.owns(a)) {
-        part.own[first_of[a - part.first + 1]++] = renumbered;
-      } else {
-        part.foreign.push_back(renumbered);
-      }
-    }
-    const auto second = [](const Triangle& t) { return t[1]; };
-    for (std::size_t i = 0; i + 1 < first_of.size(); ++i)
-      std::ranges::sort(part.own.begin() + first_of[i], part.own.begin() + first_of[i + 1], {}, second);
-    std::sort(part.foreign.begin(), part.foreign.end());
-  }
-
+  /// A region's own triangles stand together too.
   void gather_triangles() {
-    std::vector<Triangle> own, foreign;
+    std::vector<Slice> own;
+    std::vector<Triangle> foreign;
     std::size_t count = 0;
-    for (const Part& part : parts_) count += part.own.size();
-    own.reserve(count);
-    for (Part& part : parts_) {
-      own.insert(own.end(), part.own.begin(), part.own.end());
-      foreign.insert(foreign.end(), part.foreign.begin(), part.foreign.end());
-      part.own = {};
+    for (std::size_t r = 0; r < parts_.size(); ++r) {
+      const std::vector<Triangle>& triangles = regions_[r].mesh.triangles;
+      const auto at = [&](std::size_t vertex) {
+        return std::partition_point(triangles.begin(), triangles.end(),
+                                    [&](const Triangle& t) { return t[0] < vertex; });
+      };
+      const auto first = at(parts_[r].first), end = at(parts_[r].end);
+      own.push_back({first, end, count});
+      count += static_cast<std::size_t>(end - first);
+      const auto renumber = [&](const Triangle& t) { return renumbered(t, parts_[r].numbers); };
+      std::transform(triangles.begin(), first, std::back_inserter(foreign), renumber);
+      std::transform(end, triangles.end(), std::back_inserter(foreign), renumber);
     }
-    std::sort(foreign.begin(), foreign.end());
-    foreign.erase(std::unique(foreign.begin(), foreign.end()), foreign.end());
-    std::vector<Triangle> nobodys;
-    std::set_difference(foreign.begin(), foreign.end(), own.begin(), own.end(), std::back_inserter(nobodys));
-    const auto middle = static_cast<std::ptrdiff_t>(own.size());
-    own.insert(own.end(), nobodys.begin(), nobodys.end());
-    std::inplace_merge(own.begin(), own.begin() + middle, own.end());
-    tin_.triangles = std::move(own);
+    tin_.triangles.resize(count);
+    parallel_for(parts_.size(), [&](std::size_t r) {
+      std::transform(own[r].first, own[r].end, tin_.triangles.begin() + static_cast<std::ptrdiff_t>(own[r].place),
+                     [&](const Triangle& t) { return renumbered(t, parts_[r].numbers); });
+    });
+    add_those_of_nobody(std::move(foreign), tin_.triangles);
   }
 
   void gather_lines() {

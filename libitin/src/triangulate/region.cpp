@@ -13,6 +13,8 @@
 
 #include "triangulate/enclosure.hpp"
 #include "triangulate/lattice_squares.hpp"
+#include "triangulate/merge_runs.hpp"
+#include "triangulate/mesh_order.hpp"
 #include "triangulate/segment_edges.hpp"
 
 namespace itin {
@@ -206,7 +208,7 @@ class RegionTriangulation {
         read_block(leaf, read_box_, found);
     }
     if (seed != nullptr) read_block(*seed, box_, found);
-    std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    merge_runs(found, [](const auto& a, const auto& b) { return a.first < b.first; });
     // Themes may share a vertex, and the seed's may be read twice.
     found.erase(
         std::unique(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first == b.first; }),
@@ -495,6 +497,7 @@ class RegionTriangulation {
       const auto [from, to] = std::minmax({vertex_number[edge.from], vertex_number[edge.to]});
       result.lines.push_back({from, to, edge.theme});
     }
+    result.mesh = in_order(result.mesh, result.vertices.size());
     return result;
   }
 

@@ -1,7 +1,8 @@
 // The triangles of the global constrained Delaunay triangulation that meet one region, by one thread.
 //
 // This is the kernel under every window query and under the import's verification. It triangulates what lies in a box
-// around the region, then proves each ground triangle that meets the region to be global, or mends it:
+// around the region, but for the full squares of a lattice (lattice_squares.hpp), then proves each ground triangle that
+// meets the region to be global, or mends it:
 //   1. a triangle whose circumdisc lies in the box, or as much of it as the triangle sees past the lines there
 //      (enclosure.hpp), is global, for all that could disturb it has been read;
 //   2. otherwise no segment may cross it, no vertex lie in it, and beyond none of its unconstrained edges may a vertex,
@@ -27,7 +28,7 @@ namespace itin {
 /// Only ground triangles that meet the region, and only vertices that they use, in ascending Morton order.
 struct RegionMesh {
   std::vector<SelectedVertex> vertices;
-  PlaneMesh mesh;               ///< neighbours are kNoTriangle where there is no triangle in this mesh
+  PlaneMesh mesh;               ///< in_order(); neighbours are kNoTriangle where there is no triangle in this mesh
   std::vector<LineEdge> lines;  ///< edges of these triangles that are part of a theme's line
   RetrievalStatistics statistics;
 };
