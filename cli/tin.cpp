@@ -75,9 +75,10 @@ class TinVerb final : public Verb {
     const Store store(store_);
     const auto [window, centre] = window_.region(store.metadata());
     const Detail detail = detail_.detail(centre);
-    themes_.choice().check(store.metadata().themes);
-    const Tin tin = triangulate(store, window, detail, progress, themes_.choice());
-    const Document surface = surface_document(store.metadata(), detail, themes_.choice());
+    const ThemeChoice themes = themes_.choice().with_ground_lines();
+    themes.check(store.metadata().themes);
+    const Tin tin = triangulate(store, window, detail, progress, themes);
+    const Document surface = surface_document(store.metadata(), detail, themes);
     if (!output_.empty()) write(tin, store.metadata(), surface, progress);
     if (!image_.empty()) viewshed::write_image(image_, viewshed::draw_oblique(tin, view_), policy_.overwrite);
     return {document(tin, store.metadata(), surface), text(tin), {}, {}};

@@ -48,8 +48,16 @@ ThemeChoice ThemeChoice::parse(std::string_view text) {
   }
 }
 
+ThemeChoice ThemeChoice::with_ground_lines() const {
+  ThemeChoice choice = *this;
+  choice.ground_lines_ = true;
+  return choice;
+}
+
 bool ThemeChoice::includes(const ThemeInfo& theme) const {
-  return all_ || is_terrain(theme.kind) || std::find(names_.begin(), names_.end(), theme.name) != names_.end();
+  if (is_terrain(theme.kind)) return true;
+  if (!theme.stands() && !ground_lines_) return false;
+  return all_ || std::find(names_.begin(), names_.end(), theme.name) != names_.end();
 }
 
 bool ThemeChoice::includes_standing(const std::vector<ThemeInfo>& themes) const {

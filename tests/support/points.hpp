@@ -24,7 +24,7 @@ struct LevelPoint {
   int level = 0;
 };
 
-enum class Pattern { kRandom, kLattice, kClusters, kContours, kCollinear, kCocircular };
+enum class Pattern { kRandom, kLattice, kClusters, kContours, kCollinear, kCocircular, kGappyLattice };
 
 inline std::vector<GridPoint> make_points(Pattern pattern, int count, std::mt19937& random) {
   const auto below = [&](int n) { return static_cast<std::int32_t>(random() % static_cast<unsigned>(n)); };
@@ -39,6 +39,13 @@ inline std::vector<GridPoint> make_points(Pattern pattern, int count, std::mt199
       case Pattern::kLattice:
         p = {i % side * 50, i / side * 50, 0};
         break;
+      case Pattern::kGappyLattice: {
+        // Rectangles, rounded to the grid, with gaps and strays.
+        const int column = i % side, row = i / side;
+        p = {column * 50 + column / 3, row * 70 + row / 2, 0};
+        if (below(40) == 0) p = {below(50 * side), below(70 * side), 0};
+        break;
+      }
       case Pattern::kClusters: {
         const int centre = below(5);
         p = {centre * 20000 + below(300) * below(30), centre * centre * 3000 + below(300) * below(30), 0};

@@ -174,6 +174,20 @@ TEST_F(InATown, WithFeaturesAndEndsOnEither) {
   }
 }
 
+TEST_F(InATown, WhateverLinesLieOnTheGround) {
+  NoProgress progress;
+  const Result before = viewshed::compute(*store_, request_, progress);
+  std::vector<LineFeature> roads;
+  for (int i = 0; i < 12; ++i)
+    roads.push_back({{{in(300020, 300580), in(199420, 199980), 0}, {in(300020, 300580), in(199420, 199980), 0}}});
+  store_.reset();
+  raise(ThemeKind::Roads, "roads", roads);
+  store_.emplace(directory_.file("s.itin"));
+  EXPECT_EQ(viewshed::compute(*store_, request_, progress).visible, before.visible);
+  expect_plain_agrees(*store_, request_, 300);
+  expect_exact(*store_, viewshed::compute_precise(*store_, request_, {}, progress).result, 300);
+}
+
 TEST_F(InATown, WithFeaturesAtATolerance) {
   request_.observers.front().height = 15;
   for (const double tolerance : {2.0, 8.0}) {

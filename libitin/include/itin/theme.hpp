@@ -1,11 +1,12 @@
 // Themes: named classes of lines in a store.
 //
-//   ThemeChoice::parse("roads,hedges")    // or "all", "none"
+//   ThemeChoice::parse("houses,hedges")   // or "all", "none"
+//   ThemeChoice::all().with_ground_lines()
 //
 // Lines of terrain themes (contours, breaklines, water) have heights and are part of the full surface, whatever a query
-// chooses. Those of the other kinds lie on it, and are part of a query's triangulation only where it names their theme.
-// A theme of buildings, walls or vegetation may stand on it instead, with roofs and tops: what of the terrain and of
-// other themes lies under them then makes way.
+// chooses. Those of the other kinds lie on it, and are part of a query's triangulation only where it names their theme
+// and asks for lines on the ground. A theme of buildings, walls or vegetation may stand on it instead, with roofs and
+// tops: what of the terrain and of other themes lies under them then makes way.
 #pragma once
 
 #include <cstdint>
@@ -49,13 +50,17 @@ struct ThemePart {
 /// before vegetation; among equals the name decides.
 bool comes_before(const ThemeInfo& a, const ThemeInfo& b);
 
-/// Which themes a query wants besides those of the terrain.
+/// Which themes a query wants besides those of the terrain. Lines that only lie on the ground (roads, and whatever was
+/// imported without heights) are straight between their vertices, where the terrain is not: a surface to look over has
+/// none of them, and they are there only where with_ground_lines() asks for them.
 class ThemeChoice {
  public:
   static ThemeChoice all() { return ThemeChoice(true, {}); }
   static ThemeChoice none() { return ThemeChoice(false, {}); }
   /// "all", "none", or names with commas between. Throws InputError for an empty name.
   static ThemeChoice parse(std::string_view text);
+  /// The same choice, of lines on the ground as well.
+  ThemeChoice with_ground_lines() const;
 
   bool includes(const ThemeInfo& theme) const;
   /// Whether some theme that it includes stands on the ground.
@@ -69,6 +74,7 @@ class ThemeChoice {
   ThemeChoice(bool all, std::vector<std::string> names) : all_(all), names_(std::move(names)) {}
   bool all_;
   std::vector<std::string> names_;
+  bool ground_lines_ = false;
 };
 
 }  // namespace itin

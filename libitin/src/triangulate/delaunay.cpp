@@ -1,5 +1,8 @@
 #include "triangulate/delaunay.hpp"
 
+#include <algorithm>
+#include <numeric>
+
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Constrained_triangulation_face_base_2.h>
 #include <CGAL/Delaunay_triangulation_2.h>
@@ -34,17 +37,16 @@ class Builder {
   using Vertex = typename Triangulation::Vertex_handle;
   using Face = typename Triangulation::Face_handle;
 
-  void insert(std::span<const Position> positions) {
-    const std::size_t first = vertices_.size();
-    vertices_.resize(first + positions.size());
+  void insert(std::span<const TraitsPoint> points) {
     std::size_t step = 1;
-    while (step * kThinning < positions.size()) step *= kThinning;
+    while (step * kThinning < points.size()) step *= kThinning;
     for (const std::size_t top = step; step >= 1; step /= kThinning) {
-      for (std::size_t i = 0; i < positions.size(); i += step) {
+      for (std::size_t i = 0; i < points.size(); i += step) {
         if (step != top && i % (step * kThinning) == 0) continue;
-        const TraitsPoint p{positions[i].x, positions[i].y, static_cast<std::uint32_t>(first + i)};
-        vertices_[first + i] = triangulation_.insert(p, hint_);
-        hint_ = vertices_[first + i]->face();
+        const Vertex vertex = triangulation_.insert(points[i], hint_);
+        if (points[i].vertex >= vertices_.size()) vertices_.resize(points[i].vertex + std::size_t{1});
+        vertices_[points[i].vertex] = vertex;
+        hint_ = vertex->face();
       }
     }
   }
@@ -70,9 +72,11 @@ class Builder {
     return mesh;
   }
 
-  std::vector<Position> positions() const {
-    std::vector<Position> result(vertices_.size());
-    for (std::size_t i = 0; i < vertices_.size(); ++i) result[i] = {vertices_[i]->point().x, vertices_[i]->point().y};
+  std::vector<TraitsPoint> points() const {
+    std::vector<TraitsPoint> result;
+    for (const Vertex& vertex : vertices_) {
+      if (vertex != Vertex()) result.push_back(vertex->point());
+    }
     return result;
   }
 
@@ -80,7 +84,7 @@ class Builder {
   static std::uint32_t number(Face f, int corner) { return f->vertex(corner)->point().vertex; }
 
   Triangulation triangulation_;
-  std::vector<Vertex> vertices_;
+  std::vector<Vertex> vertices_;  ///< by number
   Face hint_;
 };
 
@@ -89,19 +93,22 @@ class Builder {
 /// The unconstrained triangulation is faster; the first constraint changes it over.
 class Delaunay::Impl {
  public:
-  void insert(std::span<const Position> positions) {
+  void insert(std::span<const TraitsPoint> points) {
+    for (const TraitsPoint& p : points) next_ = std::max(next_, p.vertex + 1);
     if (constrained_) {
-      constrained_->insert(positions);
+      constrained_->insert(points);
     } else {
-      free_->insert(positions);
+      free_->insert(points);
     }
   }
+  /// One more than the greatest number so far.
+  std::uint32_t next() const { return next_; }
 
   void constrain(std::span<const Constraint> constraints) {
     if (constraints.empty()) return;
     if (!constrained_) {
       constrained_ = std::make_unique<Builder<Constrained>>();
-      constrained_->insert(free_->positions());
+      constrained_->insert(free_->points());
       free_.reset();
     }
     constrained_->constrain(constraints);
@@ -112,6 +119,7 @@ class Delaunay::Impl {
  private:
   std::unique_ptr<Builder<Free>> free_ = std::make_unique<Builder<Free>>();
   std::unique_ptr<Builder<Constrained>> constrained_;
+  std::uint32_t next_ = 0;
 };
 
 Delaunay::Delaunay() : impl_(std::make_unique<Impl>()) {}
@@ -120,7 +128,14 @@ Delaunay& Delaunay::operator=(Delaunay&&) noexcept = default;
 Delaunay::~Delaunay() = default;
 
 void Delaunay::insert(std::span<const Position> positions) {
-  impl_->insert(positions);
+  std::vector<std::uint32_t> numbers(positions.size());
+  std::iota(numbers.begin(), numbers.end(), impl_->next());
+  insert(positions, numbers);
+}
+void Delaunay::insert(std::span<const Position> positions, std::span<const std::uint32_t> numbers) {
+  std::vector<TraitsPoint> points(numbers.size());
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = {positions[i].x, positions[i].y, numbers[i]};
+  impl_->insert(points);
 }
 void Delaunay::constrain(std::span<const Constraint> constraints) {
   impl_->constrain(constraints);

@@ -1,7 +1,8 @@
 // Bulk constrained Delaunay triangulation of grid positions, by CGAL on exact integer predicates.
 //
 //   Delaunay delaunay;
-//   delaunay.insert(positions);                       // vertex numbers follow the order of insertion
+//   delaunay.insert(positions);                       // vertex numbers follow the order of insertion, from 0 or from
+//                                                     // after the greatest one so far
 //   delaunay.constrain({{0, 17}, {17, 40}});
 //   PlaneMesh mesh = delaunay.mesh();
 //
@@ -43,6 +44,8 @@ class Delaunay {
   /// All positions ever inserted must differ. Fastest when they come along a space-filling curve:
   /// about 2.8 million a second.
   void insert(std::span<const Position> positions);
+  /// Under these numbers, a position each.
+  void insert(std::span<const Position> positions, std::span<const std::uint32_t> numbers);
   /// Numbers of inserted vertices, ends different.
   void constrain(std::span<const Constraint> constraints);
   /// Empty while all vertices are collinear.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace itin {
@@ -101,30 +102,65 @@ GridWindow::GridWindow(const Window& window, const Grid& grid, const GridBox& da
     extent_ = bounds_ = data_bounds;
     return;
   }
+  bool boxes = true;
   for (const Window::Polygon& part : window.parts()) {
+    const std::size_t first = edges_.size();
     add_ring(corners_on(grid, part.outer), false);
+    boxes = boxes && part.holes.empty() && form_box({edges_.data() + first, edges_.size() - first});
     for (const Window::Ring& hole : part.holes) add_ring(corners_on(grid, hole), true);
   }
   for (const Edge& e : edges_) extent_.extend(e.box());
   bounds_ = intersection(extent_, kWholeGrid);
 
-  if (forms_box()) {
+  if (form_box(edges_)) {
     edges_.clear();
   } else if (!edges_.empty()) {
+    if (boxes) edges_ = without_common_borders(edges_);
     index_edges();
   }
 }
 
-/// Whether the edges are the four sides of extent_, of either orientation.
-bool GridWindow::forms_box() const {
-  if (edges_.size() != 4) return false;
+/// Whether the edges are the four sides of a box, of either orientation.
+bool GridWindow::form_box(std::span<const Edge> edges) {
+  if (edges.size() != 4) return false;
   for (std::size_t i = 0; i < 4; ++i) {
-    const Edge& e = edges_[i];
-    const Position next = edges_[(i + 1) % 4].a, opposite = edges_[(i + 2) % 4].a;
+    const Edge& e = edges[i];
+    const Position next = edges[(i + 1) % 4].a, opposite = edges[(i + 2) % 4].a;
     const bool side = (e.a.x == e.b.x) != (e.a.y == e.b.y);
     if (!side || e.b != next || e.a.x == opposite.x || e.a.y == opposite.y) return false;
   }
   return true;
+}
+
+/// Of boxes: the boundary of their union, and of where more of them overlap. A border between two that stand side by
+/// side has inside on both sides.
+std::vector<GridWindow::Edge> GridWindow::without_common_borders(const std::vector<Edge>& edges) {
+  struct End {
+    bool vertical;
+    std::int32_t line, at;
+    int change;  ///< in how many edges more run upwards or to the right than back
+  };
+  std::vector<End> ends;
+  for (const Edge& e : edges) {
+    const bool vertical = e.a.x == e.b.x;
+    const std::int32_t line = vertical ? e.a.x : e.a.y, from = vertical ? e.a.y : e.a.x, to = vertical ? e.b.y : e.b.x;
+    const int change = from < to ? 1 : -1;
+    ends.push_back({vertical, line, std::min(from, to), change});
+    ends.push_back({vertical, line, std::max(from, to), -change});
+  }
+  const auto place = [](const End& e) { return std::tuple(e.vertical, e.line, e.at); };
+  std::sort(ends.begin(), ends.end(), [&](const End& a, const End& b) { return place(a) < place(b); });
+  std::vector<Edge> kept;
+  int running = 0;
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+    const End &low = ends[i], &high = ends[i + 1];
+    running += low.change;  // 0 again at the end of each line
+    if (running == 0 || low.at == high.at) continue;
+    const Position p = low.vertical ? Position{low.line, low.at} : Position{low.at, low.line};
+    const Position q = low.vertical ? Position{low.line, high.at} : Position{high.at, low.line};
+    kept.insert(kept.end(), static_cast<std::size_t>(std::abs(running)), running > 0 ? Edge{p, q} : Edge{q, p});
+  }
+  return kept;
 }
 
 std::vector<Position> GridWindow::corners_on(const Grid& grid, const Window::Ring& ring) {

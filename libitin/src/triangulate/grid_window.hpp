@@ -60,7 +60,8 @@ class GridWindow {
 
   static std::vector<Position> corners_on(const Grid& grid, const Window::Ring& ring);
   void add_ring(std::vector<Position> corners, bool hole);
-  bool forms_box() const;
+  static bool form_box(std::span<const Edge> edges);
+  static std::vector<Edge> without_common_borders(const std::vector<Edge>& edges);
   bool is_box() const { return edges_.empty(); }
   void index_edges();
   void choose_cells();

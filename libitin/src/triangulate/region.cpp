@@ -12,6 +12,7 @@
 #include <itin/error.hpp>
 
 #include "triangulate/enclosure.hpp"
+#include "triangulate/lattice_squares.hpp"
 #include "triangulate/segment_edges.hpp"
 
 namespace itin {
@@ -19,9 +20,9 @@ namespace itin {
 namespace {
 
 /// The box is this many mean point spacings wider than the region: most circumdiscs of the region's triangles fit in.
-constexpr double kMargin = 3;
+constexpr double kMargin = 4;
 /// After so many rounds of mending the box may grow.
-constexpr int kPatience = 3;
+constexpr int kPatience = 8;
 /// A box is not made to have more points than so many times those of the region (large regions: kLargeGrowth times and
 /// kManyPoints), and a few.
 constexpr std::uint64_t kGrowth = 8, kLargeGrowth = 2;
@@ -152,8 +153,12 @@ class RegionTriangulation {
     std::vector<Position> positions(vertices_.size());
     std::transform(vertices_.begin(), vertices_.end(), positions.begin(),
                    [](const SelectedVertex& v) { return v.position(); });
+    squares_ = LatticeSquares(positions, segments, bare_beyond_);
     delaunay_ = Delaunay();
-    delaunay_.insert(positions);
+    const std::vector<std::uint32_t>& rest = squares_.rest();
+    for (std::size_t i = 0; i < rest.size(); ++i) positions[i] = positions[rest[i]];
+    positions.resize(rest.size());
+    delaunay_.insert(positions, rest);
     constraints_.clear();
     themes_.clear();
     constrain_ = false;
@@ -248,7 +253,7 @@ class RegionTriangulation {
     const auto [extra, fresh] = extras_.try_emplace(code, static_cast<std::uint32_t>(vertices_.size()));
     if (fresh) {
       vertices_.push_back(known ? *known : SelectedVertex{{p.x, p.y, 0}, 0, 0, 0});
-      delaunay_.insert(std::array{p});
+      delaunay_.insert(std::array{p}, std::array{extra->second});
     }
     if (known) {
       vertices_[extra->second] = *known;
@@ -306,12 +311,17 @@ class RegionTriangulation {
   /// Mostly the plain Delaunay triangulation contains every segment as a chain of edges, and then it is the constrained
   /// one as well; it takes half the time to make.
   void make_mesh() {
-    mesh_ = delaunay_.mesh();
+    triangulate_rest();
     if (lay_segments() || mesh_.triangles.empty()) return;
     constrain_ = true;
     delaunay_.constrain(constraints_);
-    mesh_ = delaunay_.mesh();
+    triangulate_rest();
     if (!lay_segments()) throw Error("a constraint is lost in the triangulation");
+  }
+
+  void triangulate_rest() {
+    mesh_ = delaunay_.mesh();
+    squares_.fill(mesh_);
   }
 
   /// False when some segment is not made of edges.
@@ -363,7 +373,8 @@ class RegionTriangulation {
     Enclosure enclosure(mesh_, vertices_, known_, index_.bounds());
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
       if (ground_[t] != Ground::kYes) continue;
-      enclosed_[t] = circumdisc_in(corner(t, 0), corner(t, 1), corner(t, 2), bare_beyond_) || !in_region(t) ||
+      enclosed_[t] = t < squares_.triangle_count() ||
+                     circumdisc_in(corner(t, 0), corner(t, 1), corner(t, 2), bare_beyond_) || !in_region(t) ||
                      (lines && enclosure.holds(t));
       if (lines && !enclosed_[t]) enclosure.add_missing(missing);
     }
@@ -549,7 +560,8 @@ class RegionTriangulation {
   std::vector<std::uint16_t> themes_;  ///< of the constraints
   bool constrain_ = false;             ///< whether delaunay_ knows the constraints
   std::vector<SegmentEdge> segment_edges_;
-  Delaunay delaunay_;
+  LatticeSquares squares_;  ///< of the points read at first
+  Delaunay delaunay_;       ///< of the others
   PlaneMesh mesh_;
   std::vector<Ground> ground_;
   std::vector<std::uint8_t> enclosed_;  ///< per triangle: it needs no proof

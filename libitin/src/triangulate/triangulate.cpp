@@ -6,6 +6,7 @@
 #include <itin/store.hpp>
 #include <itin/triangulate.hpp>
 
+#include "triangulate/assembly.hpp"
 #include "triangulate/region.hpp"
 #include "triangulate/standing_index.hpp"
 
@@ -57,93 +58,6 @@ class TilePlan {
   std::vector<Cell> cells_;
 };
 
-/// Puts the regions of a plan's cells together. Regions agree where they overlap, so what several hold is taken once.
-class Assembly {
- public:
-  Assembly(std::vector<RegionMesh> regions, const Grid& grid) : regions_(std::move(regions)) { tin_.grid = grid; }
-
-  Tin run() && {
-    number_vertices();
-    gather_triangles();
-    gather_lines();
-    for (const RegionMesh& region : regions_) tin_.statistics += region.statistics;
-    return std::move(tin_);
-  }
-
- private:
-  static std::uint64_t code(const SelectedVertex& v) { return morton(v.point.x, v.point.y); }
-
-  /// Merges the regions' vertex lists, each in Morton order already, and notes each one's new number.
-  void number_vertices() {
-    std::vector<std::vector<std::uint64_t>> codes(regions_.size());
-    parallel_for(regions_.size(), [&](std::size_t r) {
-      codes[r].resize(regions_[r].vertices.size());
-      std::transform(regions_[r].vertices.begin(), regions_[r].vertices.end(), codes[r].begin(), code);
-    });
-    std::vector<std::uint64_t> all;
-    for (const auto& c : codes) all.insert(all.end(), c.begin(), c.end());
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
-    tin_.vertices.resize(all.size());
-    tin_.sources.resize(all.size());
-    const bool any = std::any_of(regions_.begin(), regions_.end(), [](const RegionMesh& region) {
-      return std::any_of(region.vertices.begin(), region.vertices.end(), [](const auto& v) { return v.theme != 0; });
-    });
-    if (any) tin_.standing.resize(all.size());
-    numbers_.resize(regions_.size());
-    parallel_for(regions_.size(), [&](std::size_t r) {
-      numbers_[r].resize(codes[r].size());
-      auto at = all.begin();
-      for (std::size_t v = 0; v < codes[r].size(); ++v) {
-        at = std::lower_bound(at, all.end(), codes[r][v]);
-        numbers_[r][v] = static_cast<std::uint32_t>(at - all.begin());
-      }
-    });
-    for (std::size_t r = 0; r < regions_.size(); ++r) {
-      for (std::size_t v = 0; v < numbers_[r].size(); ++v) {
-        tin_.vertices[numbers_[r][v]] = regions_[r].vertices[v].point;
-        tin_.sources[numbers_[r][v]] = regions_[r].vertices[v].source;
-        if (any) tin_.standing[numbers_[r][v]] = regions_[r].vertices[v].theme;
-      }
-    }
-  }
-
-  void gather_triangles() {
-    std::vector<std::vector<Triangle>> parts(regions_.size());
-    parallel_for(regions_.size(), [&](std::size_t r) {
-      for (const auto& [a, b, c] : regions_[r].mesh.triangles) {
-        Triangle t{numbers_[r][a], numbers_[r][b], numbers_[r][c]};
-        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-        parts[r].push_back(t);
-      }
-      std::sort(parts[r].begin(), parts[r].end());
-    });
-    for (const auto& part : parts) {
-      const auto middle = static_cast<std::ptrdiff_t>(tin_.triangles.size());
-      tin_.triangles.insert(tin_.triangles.end(), part.begin(), part.end());
-      // Cells come in Morton order, so parts overlap only near their borders.
-      const auto low = part.empty()
-                           ? tin_.triangles.end()
-                           : std::lower_bound(tin_.triangles.begin(), tin_.triangles.begin() + middle, part.front());
-      std::inplace_merge(low, tin_.triangles.begin() + middle, tin_.triangles.end());
-    }
-    tin_.triangles.erase(std::unique(tin_.triangles.begin(), tin_.triangles.end()), tin_.triangles.end());
-  }
-
-  void gather_lines() {
-    for (std::size_t r = 0; r < regions_.size(); ++r) {
-      for (const LineEdge& e : regions_[r].lines)
-        tin_.lines.push_back({numbers_[r][e.from], numbers_[r][e.to], e.theme});
-    }
-    std::sort(tin_.lines.begin(), tin_.lines.end());
-    tin_.lines.erase(std::unique(tin_.lines.begin(), tin_.lines.end()), tin_.lines.end());
-  }
-
-  std::vector<RegionMesh> regions_;
-  std::vector<std::vector<std::uint32_t>> numbers_;  ///< per region and vertex: its number in the result
-  Tin tin_;
-};
-
 /// Lines of a part are its theme's. What keeps the ground about standing features is none.
 void name_themes(Tin& tin, const StoreMetadata& metadata) {
   if (metadata.parts.empty()) return;
@@ -175,7 +89,7 @@ Tin triangulate(const Store& store, const Window& window, const Detail& detail, 
     regions[i] = triangulate_region(index, selection, square_of(cell), window.is_all() ? nullptr : &grid_window);
     progress.report("triangulating", static_cast<double>(++done) / static_cast<double>(regions.size()));
   });
-  Tin tin = Assembly(std::move(regions), metadata.grid).run();
+  Tin tin = assemble(std::move(regions), plan.cells(), metadata.grid);
   name_themes(tin, metadata);
   return tin;
 }

@@ -270,9 +270,10 @@ TEST_F(StandingThemes, WindowEqualsWholeWithAllThatStands) {
   expect_sound();
   const Store store(path("s.itin"));
   EXPECT_EQ(store.metadata().themes.size(), 5u);
-  expect_windows_of_the_whole(store, random,
-                              {ThemeChoice::none(), ThemeChoice::all(), ThemeChoice::parse("houses"),
-                               ThemeChoice::parse("woods"), ThemeChoice::parse("roads,walls")});
+  expect_windows_of_the_whole(
+      store, random,
+      {ThemeChoice::none(), ThemeChoice::all(), ThemeChoice::all().with_ground_lines(), ThemeChoice::parse("houses"),
+       ThemeChoice::parse("woods"), ThemeChoice::parse("roads,walls").with_ground_lines()});
 }
 
 TEST_F(StandingThemes, AHouseHasItsHeightAndTheGroundItsOwn) {

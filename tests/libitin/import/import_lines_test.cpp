@@ -218,7 +218,7 @@ TEST_F(ImportLines, WindowEqualsWholeWithConstraints) {
     EXPECT_EQ(store.metadata().themes[0].name, "lakes");
     EXPECT_EQ(store.metadata().themes[1].name, "ridges");
     EXPECT_EQ(store.metadata().themes[2].name, "roads");
-    expect_windows_of_the_whole(store, random, {ThemeChoice::none(), ThemeChoice::all()});
+    expect_windows_of_the_whole(store, random, {ThemeChoice::none(), ThemeChoice::all().with_ground_lines()});
   }
 }
 
@@ -232,7 +232,8 @@ TEST_F(ImportLines, RoadsTakeTheTerrainsHeightAndLeaveItAsItWas) {
   lines(ThemeKind::Roads, "roads.geojson");
   const Store store(path("s.itin"));
   EXPECT_EQ(triangles_of(triangulate(store, Window::all(), Detail::tolerance(0), progress)), before);
-  const Tin with = triangulate(store, Window::all(), Detail::tolerance(0), progress, ThemeChoice::parse("roads"));
+  const Tin with = triangulate(store, Window::all(), Detail::tolerance(0), progress,
+                               ThemeChoice::parse("roads").with_ground_lines());
   std::size_t draped = 0;
   for (const GridPoint& p : with.vertices) {
     for (const Corners& c : before) {
@@ -331,7 +332,8 @@ TEST_F(ImportLines, MistakesAreNamed) {
   NoProgress progress;
   expect_error(
       [&] {
-        triangulate(Store(path("s.itin")), Window::all(), Detail::tolerance(0), progress, ThemeChoice::parse("lane"));
+        triangulate(Store(path("s.itin")), Window::all(), Detail::tolerance(0), progress,
+                    ThemeChoice::parse("lane").with_ground_lines());
       },
       "it has lanes");
 }

@@ -146,7 +146,7 @@ TEST_P(RegionPatterns, WindowEqualsWhole) {
 
 INSTANTIATE_TEST_SUITE_P(Region, RegionPatterns,
                          testing::Values(Pattern::kRandom, Pattern::kLattice, Pattern::kClusters, Pattern::kContours,
-                                         Pattern::kCollinear, Pattern::kCocircular));
+                                         Pattern::kCollinear, Pattern::kCocircular, Pattern::kGappyLattice));
 
 /// Whether three times the centroid of abc lies in a triangle of `ground`, scaled likewise.
 bool centroid_in(const std::vector<std::array<GridPoint, 3>>& ground, const GridPoint& a, const GridPoint& b,
@@ -271,7 +271,8 @@ TEST_P(RegionCoverage, WindowBehindAnOutlineEqualsTheWhole) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Region, RegionCoverage,
-                         testing::Values(Pattern::kRandom, Pattern::kLattice, Pattern::kClusters, Pattern::kContours));
+                         testing::Values(Pattern::kRandom, Pattern::kLattice, Pattern::kClusters, Pattern::kContours,
+                                         Pattern::kGappyLattice));
 
 class RegionLines : public testing::TestWithParam<Pattern> {};
 
@@ -389,7 +390,7 @@ TEST_P(RegionLines, WindowEqualsWholeAlongStreets) {
 
 INSTANTIATE_TEST_SUITE_P(Region, RegionLines,
                          testing::Values(Pattern::kRandom, Pattern::kLattice, Pattern::kClusters, Pattern::kContours,
-                                         Pattern::kCollinear, Pattern::kCocircular));
+                                         Pattern::kCollinear, Pattern::kCocircular, Pattern::kGappyLattice));
 
 }  // namespace
 }  // namespace itin

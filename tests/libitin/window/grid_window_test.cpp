@@ -198,6 +198,22 @@ TEST_F(GridWindowTest, OverlappingPartsAreTheirUnion) {
   }
 }
 
+TEST_F(GridWindowTest, BoxesSideBySideAreTheirUnion) {
+  for (int i = 0; i < 30; ++i) {
+    std::vector<Window::Polygon> parts;
+    for (int k = integer(2, 25); k > 0; --k) {
+      const double x = 20 * integer(-5, 4), y = 20 * integer(-5, 4), w = 20 * integer(1, 2), h = 20 * integer(1, 3);
+      parts.push_back({{{x, y}, {x + w, y}, {x + w, y + h}, {x, y + h}}, {}});
+    }
+    compare(Window::polygons(parts), 120, 1000);
+  }
+  const GridWindow pair(
+      Window::polygons({{{{0, 0}, {5, 0}, {5, 9}, {0, 9}}, {}}, {{{5, 0}, {9, 0}, {9, 9}, {5, 9}}, {}}}), kUnitGrid,
+      {});
+  EXPECT_TRUE(pair.contains(5, 4));
+  EXPECT_TRUE(pair.meets({4, 4, 0}, {6, 4, 0}, {5, 6, 0}));
+}
+
 TEST_F(GridWindowTest, HolesOutsideTheirPartAreNothingButTheirBoundary) {
   for (int i = 0; i < 5; ++i) {
     compare(Window::polygons({{star({-40, 0}, 20, 40, 9), {star({40, 0}, 20, 40, 9)}}}), 100, 3000);

@@ -1,0 +1,72 @@
+// Squares of a lattice of posts, which need no triangulation.
+//
+//   const LatticeSquares squares(positions, segments, known);
+//   delaunay.insert(the positions of squares.rest());   // and whatever else turns up outside `known`
+//   PlaneMesh mesh = delaunay.mesh();
+//   squares.fill(mesh);                                  // now as if all positions had been inserted
+//
+// Rasters are lattices: posts stand where columns and rows cross, at whatever distances from each other. The circle
+// about a square (or rectangle) between neighbouring columns and rows has no other crossing in or on it. So where all
+// four posts are there, nothing else stands in the circle and no segment comes between them, two triangles of the
+// constrained Delaunay triangulation are known, on either side of the diagonal that the tie rule of predicates.hpp
+// chooses: from lower right to upper left. Elsewhere, as beside voids, coasts and streets, the triangulation of all
+// vertices not wholly surrounded by such squares has the same triangles.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <itin/geometry.hpp>
+
+#include "store/point_index.hpp"
+#include "triangulate/delaunay.hpp"
+
+namespace itin {
+
+class LatticeSquares {
+ public:
+  LatticeSquares() = default;
+  /// All positions and segments there are within `known`, and perhaps others. Where few squares would be found, none
+  /// are.
+  LatticeSquares(std::span<const Position> positions, std::span<const Segment> segments, const GridBox& known);
+
+  /// Triangles that fill() puts first.
+  std::uint32_t triangle_count() const { return count_; }
+  /// Indices of the positions that belong to triangles elsewhere or are ends of segments, ascending.
+  const std::vector<std::uint32_t>& rest() const { return rest_; }
+  /// Makes of the triangulation of rest(), of the segments and of vertices outside `known` that of all. Vertices of the
+  /// mesh have the numbers that they have here.
+  void fill(PlaneMesh& mesh) const;
+
+ private:
+  static constexpr std::uint32_t kNone = kNoTriangle;
+  struct Node {
+    std::uint32_t column = kNone, row = kNone;
+    bool exists() const { return row != kNone; }
+  };
+
+  bool place(std::span<const Position> positions);
+  void mark_full(const GridBox& known);
+  void clear_about(Position p);
+  void clear_along(const Segment& segment);
+  void number_triangles();
+  void find_rest(std::span<const Segment> segments);
+
+  std::size_t node(std::size_t column, std::size_t row) const { return row * columns_.size() + column; }
+  std::size_t node_at(Position p) const;
+  bool covers(const std::array<std::uint32_t, 3>& triangle) const;
+  void add_squares(PlaneMesh& mesh) const;
+  void link(PlaneMesh& mesh, std::uint32_t triangle, unsigned edge) const;
+
+  std::vector<std::int32_t> columns_, rows_;     ///< ascending
+  std::int32_t column_step_ = 0, row_step_ = 0;  ///< as most are apart
+  std::vector<std::uint32_t> vertices_;          ///< by node: the position's index, or kNone
+  std::vector<Node> nodes_;                      ///< by position
+  std::vector<std::uint32_t> first_;  ///< by node: the first triangle of the square to its upper right, or kNone
+  std::vector<std::uint32_t> rest_;
+  std::uint32_t count_ = 0;
+};
+
+}  // namespace itin
