@@ -104,7 +104,7 @@ BinnedHeights::BinnedHeights(const Tin& tin, const std::optional<CellLattice>& l
   parallel_for(static_cast<std::size_t>(rows()), [&](std::size_t r) {
     for (std::int64_t c = 0; c < columns(); ++c) {
       const RasterGrid::Cell bin{c, static_cast<std::int64_t>(r)};
-      lattice_ ? bound_cell(tin, bin, ranges) : bound(tin, bin, ranges);
+      lattice ? bound_cell(*lattice, bin, ranges) : bound(tin, bin, ranges);
     }
   });
   if (!lattice_) forget_depth_at_boundary(tin, ranges.low);
@@ -141,32 +141,18 @@ void BinnedHeights::bound(const Tin& tin, RasterGrid::Cell bin, Ranges& ranges) 
 
 /// A lattice's cell: between its corners, if both of its triangles are there; of one triangle nothing is known where it
 /// is not.
-void BinnedHeights::bound_cell(const Tin& tin, RasterGrid::Cell bin, Ranges& ranges) {
-  const std::size_t number = grid_.index(bin);
-  const auto held = bins_.triangles(number);
-  if (held.empty()) return;
-  constexpr auto kMax = std::numeric_limits<std::int32_t>::max(), kMin = std::numeric_limits<std::int32_t>::min();
-  GridPoint least{kMax, kMax, kMax}, greatest{kMin, kMin, kMin};
-  for (const std::uint32_t t : held) {
-    for (const std::uint32_t i : tin.triangles[t]) {
-      const GridPoint& v = tin.vertices[i];
-      least = {std::min(least.x, v.x), std::min(least.y, v.y), std::min(least.z, v.z)};
-      greatest = {std::max(greatest.x, v.x), std::max(greatest.y, v.y), std::max(greatest.z, v.z)};
-    }
-  }
-  ranges.high[number] = rounded_up(greatest.z);
+void BinnedHeights::bound_cell(const CellLattice& lattice, RasterGrid::Cell bin, Ranges& ranges) {
+  const std::size_t number = grid_.index(bin), held = bins_.triangles(number).size();
+  if (held == 0) return;
+  const std::size_t below = number + static_cast<std::size_t>(columns());
+  const std::array<double, 4> corners{double(lattice.posts[number]), double(lattice.posts[number + 1]),
+                                      double(lattice.posts[below]), double(lattice.posts[below + 1])};
+  const auto [least, greatest] = std::minmax_element(corners.begin(), corners.end());
+  ranges.high[number] = rounded_up(*greatest);
   Lid& lid = lids_[number];
   lid.middle = ranges.high[number];
-  if (held.size() < 2) return;
-  ranges.low[number] = rounded_down(least.z);
-  // By column and then by row, from the north-west.
-  std::array<double, 4> corners{};
-  for (const std::uint32_t t : held) {
-    for (const std::uint32_t i : tin.triangles[t]) {
-      const GridPoint& v = tin.vertices[i];
-      corners[(v.x == greatest.x ? 1U : 0U) + (v.y == least.y ? 2U : 0U)] = v.z;
-    }
-  }
+  if (held < 2) return;
+  ranges.low[number] = rounded_down(*least);
   lid.per_column = static_cast<float>((corners[1] - corners[0] + corners[3] - corners[2]) / 2);
   lid.per_row = static_cast<float>((corners[2] - corners[0] + corners[3] - corners[1]) / 2);
   const double east = double{lid.per_column} / 2, south = double{lid.per_row} / 2;
@@ -214,22 +200,6 @@ void BinnedHeights::bound_runs(const Ranges& ranges) {
   using Cell = RasterGrid::Cell;
   bound(eastwards_, rows(), columns(), [](std::int64_t line, std::int64_t i) { return Cell{i, line}; });
   bound(southwards_, columns(), rows(), [](std::int64_t line, std::int64_t i) { return Cell{line, i}; });
-}
-
-void BinnedHeights::list_triangles(const Box& box, std::vector<std::uint32_t>& result) const {
-  result.clear();
-  const auto bin = [](double at, std::int64_t count) {
-    return static_cast<std::int64_t>(std::clamp(std::floor(at), 0.0, static_cast<double>(count - 1)));
-  };
-  const std::int64_t west = bin(grid_.column_at(box.xmin) - kSlack, columns());
-  const std::int64_t east = bin(grid_.column_at(box.xmax) + kSlack, columns());
-  const std::int64_t south = bin(grid_.row_at(box.ymin) + kSlack, rows());
-  for (std::int64_t row = bin(grid_.row_at(box.ymax) - kSlack, rows()); row <= south; ++row) {
-    for (std::int64_t column = west; column <= east; ++column) {
-      const auto listed = triangles({column, row});
-      result.insert(result.end(), listed.begin(), listed.end());
-    }
-  }
 }
 
 std::optional<double> BinnedHeights::ground(const Tin& tin, Point2 position) const {

@@ -71,8 +71,18 @@ class BinnedHeights {
   const std::vector<BoundaryEdge>& boundary() const { return boundary_; }
   /// Whether each triangle lies in one bin alone.
   bool partition() const { return lattice_; }
-  /// All triangles of the bins that meet a box, metres, or nearly do; bin by bin.
-  void list_triangles(const Box& box, std::vector<std::uint32_t>& triangles) const;
+  /// Calls visit(triangles) for each bin about a position in grid units, but for rounding: 1, or up to 4 at its edges.
+  /// Ends when visit returns true.
+  template <class Visit>
+  void find_at(double x, double y, const Visit& visit) const {
+    const double column = column_at(x), row = row_at(y);
+    const auto at = [](double v, std::int64_t count) {
+      return static_cast<std::int64_t>(std::clamp(v, 0.0, static_cast<double>(count - 1)));
+    };
+    for (std::int64_t r = at(row - kSlack, rows()); r <= at(row + kSlack, rows()); ++r)
+      for (std::int64_t c = at(column - kSlack, columns()); c <= at(column + kSlack, columns()); ++c)
+        if (visit(triangles({c, r}))) return;
+  }
   /// A triangle's highest vertex, grid units.
   std::int32_t top(std::uint32_t triangle) const { return tops_[triangle]; }
   /// Of the surface, grid units.
@@ -90,7 +100,7 @@ class BinnedHeights {
     std::vector<float> low, high;
   };
   void bound(const Tin& tin, RasterGrid::Cell bin, Ranges& ranges);
-  void bound_cell(const Tin& tin, RasterGrid::Cell bin, Ranges& ranges);
+  void bound_cell(const CellLattice& lattice, RasterGrid::Cell bin, Ranges& ranges);
   void bound_runs(const Ranges& ranges);
   void forget_depth_at_boundary(const Tin& tin, std::vector<float>& low) const;
   void forget_depth_of_halves(std::vector<float>& low) const;

@@ -116,6 +116,14 @@ std::optional<CellLattice> cell_lattice(const Tin& tin) {
     }
   });
   if (odd) return std::nullopt;
+  lattice.posts.assign(static_cast<std::size_t>(columns * rows), CellLattice::kNoPost);
+  const double a_unit = 1 / static_cast<double>(spacing);
+  for (const GridPoint& v : tin.vertices) {
+    // Whole numbers but for rounding.
+    const auto column = static_cast<std::int64_t>(static_cast<double>(v.x - west) * a_unit + 0.5);
+    const auto row = static_cast<std::int64_t>(static_cast<double>(north - v.y) * a_unit + 0.5);
+    lattice.posts[static_cast<std::size_t>(row * columns + column)] = v.z;
+  }
   const double unit = tin.grid.resolution, cell = static_cast<double>(spacing) * unit;
   lattice.grid = {
       {tin.grid.origin.x + static_cast<double>(west) * unit, tin.grid.origin.y + static_cast<double>(north) * unit},

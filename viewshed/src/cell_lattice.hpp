@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct CellLattice {
   RasterGrid grid;  ///< metres; a cell more than needed on every side
   /// Of each triangle: its cell's number in the grid.
   std::vector<std::uint32_t> cell_of;
+  /// Heights, grid units, of every cell's north-western corner; kNoPost where no vertex is.
+  std::vector<std::int32_t> posts;
+  static constexpr std::int32_t kNoPost = std::numeric_limits<std::int32_t>::min();
 };
 
 /// Nothing where the Tin is no lattice, or covers so little of one that a grid would be mostly empty. O(n); what is no

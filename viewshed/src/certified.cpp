@@ -107,13 +107,17 @@ Voids voids_of(NoData rule) {
 
 /// A point of an envelope costs about as much as two of the full surface.
 constexpr std::uint64_t kEnvelopeCosts = 2;
+/// More take over a gigabyte, which the full surface, read by segments, does not.
+constexpr std::uint64_t kMostEnvelopePoints = 1500000;
 
-/// Whether the level asked for is no cheaper than the full surface: level 0 itself, and others that leave out little.
+/// Whether the level asked for is no cheaper than the full surface: level 0 itself, others that leave out little, and
+/// those that are too large for the memory.
 bool exact_is_as_cheap(const Store& store, const Request& request) {
   const int level = level_within(store.metadata(), request.detail.coarsest());
   const Window window = window_of(request);
   const Box box = window.is_all() ? store.metadata().grid.box(store.metadata().bounds) : window.bounds();
-  return kEnvelopeCosts * store.points_about(level, box) >= store.points_about(0, box);
+  const std::uint64_t points = store.points_about(level, box);
+  return points > kMostEnvelopePoints || kEnvelopeCosts * points >= store.points_about(0, box);
 }
 
 /// The exact answer, but where ground without data leaves it open.

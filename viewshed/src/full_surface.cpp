@@ -29,7 +29,9 @@ FullSurface::FullSurface(Tin surface, std::optional<Tin> bare_ground, const Eart
       tiles_(tiles),
       heights_(tin_),
       sweep_(tin_, earth, heights_) {
-  if (bare_ground_ || !heights_.partition()) of_tiles_.emplace(bare_ground_ ? *bare_ground_ : tin_, tiles);
+  // Cells much smaller than triangles are filled triangle by triangle.
+  const bool small = 2 * grid.cell_width() < heights_.bin_size() * tin_.grid.resolution;
+  if (bare_ground_ || small || !heights_.partition()) of_tiles_.emplace(bare_ground_ ? *bare_ground_ : tin_, tiles);
 }
 
 std::uint64_t FullSurface::judge(const Eye& eye, std::size_t index, TileValues<std::uint8_t>& values,
@@ -53,10 +55,15 @@ void FullSurface::find_ground(std::size_t index, const Tile& tile, const TileCen
     scan_convert(bare_ground_ ? *bare_ground_ : tin_, of_tiles_->triangles(index), tile, centres, work.ground);
     return;
   }
-  const Point2 first = grid_.centre(tile.column, tile.row);
-  const Point2 last = grid_.centre(tile.column + tile.columns - 1, tile.row + tile.rows - 1);
-  heights_.list_triangles({first.x, last.y, last.x, first.y}, work.triangles);
-  scan_convert(tin_, work.triangles, tile, centres, work.ground);
+  work.ground.fill(kNone);
+  for_each_cell(tile, [&](std::int64_t r, std::int64_t c, std::size_t cell) {
+    const Point2 centre{centres.x[static_cast<std::size_t>(c)], centres.y[static_cast<std::size_t>(r)]};
+    heights_.find_at(centre.x, centre.y, [&](std::span<const std::uint32_t> triangles) {
+      const auto height = surface_height_at(tin_, triangles, centre);
+      if (height) work.ground[cell] = *height;
+      return height.has_value();
+    });
+  });
 }
 
 /// Where undecided cells have their targets; those that need no line are decided.

@@ -43,7 +43,6 @@ class FullSurface {
     TileValues<double> ground, targets;  ///< grid units
     AxisSweep::Heights seen;
     AxisSweep::Scratch scratch;
-    std::vector<std::uint32_t> triangles;
   };
   /// kUndecided cells become kCertainlyVisible, kCertainlyHidden, or kOutside where there is no ground or the eye does
   /// not look. Returns how many sight lines that took.
@@ -59,7 +58,7 @@ class FullSurface {
   const RasterGrid& grid_;
   const RasterGrid& tiles_;
   BinnedHeights heights_;
-  std::optional<TriangleBins> of_tiles_;  ///< of what targets stand on, where `heights_` does not list it well
+  std::optional<TriangleBins> of_tiles_;  ///< of what targets stand on, where `heights_` does not tell it well
   AxisSweep sweep_;
 };
 

@@ -146,8 +146,12 @@ void scan_convert_highest(const Tin& tin, std::span<const std::uint32_t> triangl
 }
 
 std::optional<double> surface_height(const Tin& tin, std::span<const std::uint32_t> triangles, Point2 position) {
-  const double x = easting_in_units(tin.grid, position.x);
-  const double y = northing_in_units(tin.grid, position.y);
+  return surface_height_at(tin, triangles,
+                           {easting_in_units(tin.grid, position.x), northing_in_units(tin.grid, position.y)});
+}
+
+std::optional<double> surface_height_at(const Tin& tin, std::span<const std::uint32_t> triangles, Point2 units) {
+  const auto& [x, y] = units;
   for (const std::uint32_t t : triangles) {
     const RowSections sections(tin, tin.triangles[t]);
     if (y < sections.lowest() || y > sections.highest()) continue;

@@ -56,6 +56,9 @@ void scan_convert_highest(const Tin& tin, std::span<const std::uint32_t> triangl
 /// Height in grid units at a position in metres, if one of `triangles` holds it.
 std::optional<double> surface_height(const Tin& tin, std::span<const std::uint32_t> triangles, Point2 position);
 
+/// The same at a position in grid units.
+std::optional<double> surface_height_at(const Tin& tin, std::span<const std::uint32_t> triangles, Point2 units);
+
 /// Height in metres at a position in metres, by looking at every triangle of the Tin.
 std::optional<double> height_on(const Tin& tin, Point2 position);
 

@@ -26,8 +26,8 @@ inline constexpr std::uint8_t kCertainlyVisible = 2;
 /// observer, for coarse ground there would hide everything. With several observers a cell is certainly visible when it
 /// is to one of them, and certainly hidden when it is to all. Under NoData::kUnknown a line across a void and back is
 /// never certainly visible. Cost: as a plain viewshed twice over. With themes that stand on the ground, and where the
-/// level has half of all points or more, every cell is decided, but for such lines across voids, as by
-/// compute_precise() and at its cost. Throws as compute() does.
+/// level has half of all points or more, or over a million and a half, every cell is decided, but for such lines across
+/// voids, as by compute_precise() and at its cost. Throws as compute() does.
 Surveyed compute_certified(const Store& store, const Request& request, Progress& progress);
 
 struct PreciseOptions {
