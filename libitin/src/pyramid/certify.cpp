@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <tuple>
 #include <unordered_map>
+#include <utility>
 
 #include <itin/detail.hpp>
 #include <itin/error.hpp>
@@ -140,9 +142,7 @@ class CellVerification {
       any = true;
     };
     for (const std::uint32_t v : worst_by_face(d, tolerances_[static_cast<std::size_t>(k)])) raise_own(v);
-    for (const Difference::Crossing& c : worst_by_edge(d)) {
-      if (const auto v = remedy(c, d)) raise_own(*v);
-    }
+    for (const std::uint32_t v : remedies(d)) raise_own(v);
     return any;
   }
 
@@ -160,17 +160,26 @@ class CellVerification {
     return result;
   }
 
-  static std::vector<Difference::Crossing> worst_by_edge(const Difference& d) {
+  /// What breaks up each coarse edge where it is most off, of the places where anything does. Of places as far off the
+  /// first by its ends' codes: cells that leave points to each other agree on them, or none would ever raise any.
+  std::vector<std::uint32_t> remedies(const Difference& d) const {
     std::vector<Difference::Crossing> crossings = d.too_large;
-    const auto key = [](const Difference::Crossing& c) {
-      return std::tuple(c.coarse_from, c.coarse_to, -c.size, c.fine_edge);
+    const auto coarse_edge = [](const Difference::Crossing& c) { return std::pair(c.coarse_from, c.coarse_to); };
+    const auto key = [&](const Difference::Crossing& c) {
+      const FineEdges::Edge& edge = edges_->edges()[c.fine_edge];
+      return std::tuple(coarse_edge(c), -c.size, std::min(edge.u, edge.v), std::max(edge.u, edge.v));
     };
     std::sort(crossings.begin(), crossings.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
-    const auto same_edge = [](const auto& a, const auto& b) {
-      return a.coarse_from == b.coarse_from && a.coarse_to == b.coarse_to;
-    };
-    crossings.erase(std::unique(crossings.begin(), crossings.end(), same_edge), crossings.end());
-    return crossings;
+    std::vector<std::uint32_t> result;
+    std::optional<std::pair<std::uint32_t, std::uint32_t>> mended;
+    for (const Difference::Crossing& c : crossings) {
+      if (mended == coarse_edge(c)) continue;
+      const auto v = remedy(c, d);
+      if (!v) continue;
+      result.push_back(*v);
+      mended = coarse_edge(c);
+    }
+    return result;
   }
 
   /// The fine edge's nearer end, or the other one, or a corner opposite: the first that is not in the coarse surface

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include <itin/error.hpp>
 
@@ -252,18 +253,19 @@ class DifferenceSweep {
       range.add(result_.at_vertex[v]);
       return;
     }
-    const std::uint32_t end =
-        walk_.walk(Position{pu.x, pu.y}, result_.is_coarse_vertex[u] != 0, result_.face[u], Position{pv.x, pv.y},
-                   [&](std::uint32_t p, std::uint32_t q) {
-                     const GridPoint &pp = coarse_.vertices[p].point, &pq = coarse_.vertices[q].point;
-                     const DifferenceRange d = above_crossing(pu, pv, pp, pq);
-                     range.add(d);
-                     if (d.size() > allowed_) {
-                       const bool nearer_u = std::abs(doubled_area(pp, pq, pu)) <= std::abs(doubled_area(pp, pq, pv));
-                       result_.too_large.push_back({std::min(p, q), std::max(p, q), d.size(), e,
-                                                    edges_.edges()[e].u == u ? nearer_u : !nearer_u});
-                     }
-                   });
+    const std::uint32_t end = walk_.walk(
+        Position{pu.x, pu.y}, result_.is_coarse_vertex[u] != 0, result_.face[u], Position{pv.x, pv.y},
+        [&](std::uint32_t p, std::uint32_t q) {
+          const GridPoint &pp = coarse_.vertices[p].point, &pq = coarse_.vertices[q].point;
+          const DifferenceRange d = above_crossing(pu, pv, pp, pq);
+          range.add(d);
+          if (d.size() > allowed_) {
+            // Where both are as near it is the one with the lesser code, in whatever region that is asked.
+            const std::pair at_u(std::abs(doubled_area(pp, pq, pu)), u), at_v(std::abs(doubled_area(pp, pq, pv)), v);
+            result_.too_large.push_back(
+                {std::min(p, q), std::max(p, q), d.size(), e, (edges_.edges()[e].u == u) == (at_u < at_v)});
+          }
+        });
     if (result_.face[v] == kNoTriangle) settle(v, end);
     range.add(result_.at_vertex[u]);
     range.add(result_.at_vertex[v]);
