@@ -70,7 +70,8 @@ class ViewshedVerb final : public Verb {
     earth_.declare(app);
     app.add_option("--nodata", nodata_text_, "What ground without data does to sight lines (default: unknown)")
         ->type_name("unknown|block|clear");
-    app.add_flag("--precise", precise_, "Exact for the full surface, of which more than --memory holds is read only where it decides");
+    app.add_flag("--precise", precise_,
+                 "Exact for the full surface, of which more than --memory holds is read only where it decides");
     app.add_option("--memory", memory_text_, "Memory for --precise to work in; it changes the speed only (default: 1G)")
         ->type_name("SIZE");
   }
