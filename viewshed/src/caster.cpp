@@ -17,13 +17,14 @@ struct Caster::TileWork {
   Tile tile;
   TileCentres centres;
   TileValues<double> heights;  ///< of the ground, grid units
+  TileValues<double> cover;    ///< of the surface over it, where an eye lies under that
   std::unique_ptr<Observation> observation;
   Occluder occluder;
   Tally tally;
 };
 
-Caster::Caster(const Tin& targets, const TriangleBins& bins, const Scene& scene, const std::vector<Eye>& eyes,
-               const Observations& observations, Result& result)
+Caster::Caster(const Tin& targets, const TriangleBins& bins, const Tin* cover, const Scene& scene,
+               const std::vector<Eye>& eyes, const Observations& observations, Result& result)
     : targets_(targets),
       bins_(bins),
       scene_(scene),
@@ -31,7 +32,21 @@ Caster::Caster(const Tin& targets, const TriangleBins& bins, const Scene& scene,
       observations_(observations),
       result_(result),
       tiles_(grid_of_tiles(result.grid)),
-      grazing_(kGrazing / targets.grid.resolution) {}
+      grazing_(kGrazing / targets.grid.resolution),
+      cover_(nullptr),
+      covered_(eyes.size()) {
+  if (cover != nullptr) find_covered_eyes(*cover);
+}
+
+void Caster::find_covered_eyes(const Tin& cover) {
+  for (std::size_t i = 0; i < eyes_.size(); ++i) {
+    const auto height = scene_.ground(eyes_[i].position);
+    if (!height || eyes_[i].elevation >= *height - kGrazing) continue;
+    covered_[i] = 1;
+    cover_ = &cover;
+  }
+  if (cover_ != nullptr) cover_bins_.emplace(cover, tiles_);
+}
 
 void Caster::run(Progress& progress) {
   Observation::prepare(result_);
@@ -58,6 +73,7 @@ Caster::Tally Caster::decide(std::size_t tile) const {
   const auto work = std::make_unique<TileWork>(targets_.grid, result_.grid, tile_at(result_.grid, tiles_, tile),
                                                observations_.of_tile());
   scan_convert(targets_, bins_.triangles(tile), work->tile, work->centres, work->heights);
+  if (cover_ != nullptr) scan_convert(*cover_, cover_bins_->triangles(tile), work->tile, work->centres, work->cover);
   for (const std::uint32_t observer : eyes_near(work->tile)) {
     for (std::int64_t r = 0; r < work->tile.rows; r += kPacketSide)
       for (std::int64_t c = 0; c < work->tile.columns; c += kPacketSide) look(observer, r, c, *work);
@@ -108,6 +124,7 @@ void Caster::look(std::uint32_t observer, std::int64_t row, std::int64_t column,
       work.observation->see(look);
       continue;
     }
+    if (covered_[observer] != 0 && lines.to_z[i] < work.cover[cell] - grazing_) continue;
     lines.active |= 1U << i;
     longest = std::max(longest, look.squared_distance() + look.dz * look.dz);
   }

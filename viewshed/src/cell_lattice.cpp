@@ -119,9 +119,9 @@ std::optional<CellLattice> cell_lattice(const Tin& tin) {
   lattice.posts.assign(static_cast<std::size_t>(columns * rows), CellLattice::kNoPost);
   const double a_unit = 1 / static_cast<double>(spacing);
   for (const GridPoint& v : tin.vertices) {
-    // Whole numbers but for rounding.
-    const auto column = static_cast<std::int64_t>(static_cast<double>(v.x - west) * a_unit + 0.5);
-    const auto row = static_cast<std::int64_t>(static_cast<double>(north - v.y) * a_unit + 0.5);
+    // Whole numbers but for rounding, which the quarter swallows.
+    const auto column = static_cast<std::int64_t>(static_cast<double>(v.x - west) * a_unit + 0.25);
+    const auto row = static_cast<std::int64_t>(static_cast<double>(north - v.y) * a_unit + 0.25);
     lattice.posts[static_cast<std::size_t>(row * columns + column)] = v.z;
   }
   const double unit = tin.grid.resolution, cell = static_cast<double>(spacing) * unit;

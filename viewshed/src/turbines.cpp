@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <ranges>
 
 #include <fmt/format.h>
 
@@ -157,9 +158,9 @@ Window window_of(const ZoneRequest& request) {
 /// Of the vertices that a query at this detail reads, those within the window's box, were they spread evenly.
 double vertices_within(const StoreMetadata& metadata, const ZoneRequest& request, const Box& window) {
   double vertices = 0;
-  for (auto level = metadata.levels.rbegin(); level != metadata.levels.rend(); ++level) {
-    vertices += static_cast<double>(level->vertices);
-    if (level->tolerance <= request.detail.coarsest()) break;
+  for (const LevelInfo& level : metadata.levels | std::views::reverse) {
+    vertices += static_cast<double>(level.vertices);
+    if (level.tolerance <= request.detail.coarsest()) break;
   }
   const Box all = metadata.grid.box(metadata.bounds);
   const double width = std::min(all.xmax, window.xmax) - std::max(all.xmin, window.xmin);

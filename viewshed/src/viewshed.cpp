@@ -54,9 +54,10 @@ Result compute_on(const Tin& tin, const Tin* ground, const Request& request, Pro
   result.statistics.scene_seconds = watch.lap();
 
   const Tin& targets = ground != nullptr && !request.targets_on_surface ? *ground : tin;
+  const Tin* const cover = &targets == &tin ? nullptr : &tin;
   const TriangleBins bins(targets, grid_of_tiles(result.grid));
   const Observations observations(result.request, eyes, tin, scene);
-  Caster(targets, bins, scene, eyes, observations, result).run(progress);
+  Caster(targets, bins, cover, scene, eyes, observations, result).run(progress);
   if (request.mode == Mode::kBlocker) name_blockers(tin, result);
   result.statistics.rays_seconds = watch.lap();
   return result;
