@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <ranges>
 
 #include <fmt/format.h>
 
@@ -158,9 +157,9 @@ Window window_of(const ZoneRequest& request) {
 /// Of the vertices that a query at this detail reads, those within the window's box, were they spread evenly.
 double vertices_within(const StoreMetadata& metadata, const ZoneRequest& request, const Box& window) {
   double vertices = 0;
-  for (const LevelInfo& level : metadata.levels | std::views::reverse) {
-    vertices += static_cast<double>(level.vertices);
-    if (level.tolerance <= request.detail.coarsest()) break;
+  for (std::size_t k = metadata.levels.size(); k-- > 0;) {
+    vertices += static_cast<double>(metadata.levels[k].vertices);
+    if (metadata.levels[k].tolerance <= request.detail.coarsest()) break;
   }
   const Box all = metadata.grid.box(metadata.bounds);
   const double width = std::min(all.xmax, window.xmax) - std::max(all.xmin, window.xmin);
