@@ -1,0 +1,249 @@
+#!/usr/bin/python3
+"""Random stores, asked in several ways that must agree: precise, certified and plain viewsheds, and sight lines.
+
+    tests/fuzz/agreement.py FIRST_SEED COUNT      with build/dev/bin/itin, or ITIN_PROGRAM; needs gdal-bin python3-gdal
+
+Every seed imports terrain (raster, contours or scattered points) and features in a random order, checks the store, and
+looks from three places. What disagrees, fails or takes ten minutes is printed; its folder in build/fuzz is kept.
+Plain viewsheds may call visible what is hidden by single precision's error bound.
+"""
+import csv
+import json
+import math
+import os
+import random
+import shutil
+import subprocess
+import sys
+
+import numpy as np
+from osgeo import gdal, osr
+
+gdal.UseExceptions()
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+ITIN = os.environ.get("ITIN_PROGRAM", ROOT + "/build/dev/bin/itin")
+X0, Y0 = 300000, 200000
+VISIBLE, OUTSIDE, CERTAINLY_HIDDEN, CERTAINLY_VISIBLE = 1, 255, 1, 2
+PLAIN_ERROR_M = 0.02
+
+
+class Failure(Exception):
+    pass
+
+
+class Refusal(Exception):
+    """The program said plainly that it cannot: that is no fault."""
+
+
+def itin(*arguments):
+    call = [ITIN, *map(str, arguments)]
+    done = subprocess.run(call, capture_output=True, text=True, timeout=600, check=False)
+    if done.returncode in (1, 2):
+        raise Refusal(done.stderr.strip()[-300:])
+    if done.returncode != 0:
+        raise Failure(f"status {done.returncode}: {' '.join(call)}: {done.stderr.strip()[-600:]}")
+    return done.stdout
+
+
+def fractal(side, rng, relief, roughness):
+    """Midpoint displacement, cut to side x side."""
+    size = 1 << (side - 1).bit_length()
+    z = np.zeros((size + 1, size + 1))
+    z[::size, ::size] = rng.normal(0, relief, (2, 2))
+    step = size
+    while step > 1:
+        half, posts = step // 2, z[::step, ::step].copy()
+        middle = (posts[:-1, :-1] + posts[1:, :-1] + posts[:-1, 1:] + posts[1:, 1:]) / 4
+        z[half::step, half::step] = middle + rng.normal(0, relief, middle.shape)
+        z[half::step, ::step] = (posts[:-1] + posts[1:]) / 2 + rng.normal(0, relief, posts[1:].shape)
+        z[::step, half::step] = (posts[:, :-1] + posts[:, 1:]) / 2 + rng.normal(0, relief, posts[:, 1:].shape)
+        step, relief = half, relief * roughness
+    return z[:side, :side]
+
+
+def write_raster(path, z, north_west, step):
+    raster = gdal.GetDriverByName("GTiff").Create(path, z.shape[1], z.shape[0], 1, gdal.GDT_Float32)
+    crs = osr.SpatialReference()
+    crs.ImportFromEPSG(27700)
+    raster.SetProjection(crs.ExportToWkt())
+    raster.SetGeoTransform((north_west[0], step, 0, north_west[1], 0, -step))
+    raster.GetRasterBand(1).SetNoDataValue(-9999)
+    raster.GetRasterBand(1).WriteArray(np.where(np.isnan(z), -9999, z))
+
+
+def write_features(path, kind, shapes):
+    crs = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::27700"}}
+    features = [{"type": "Feature", "properties": {"h": h}, "geometry": {"type": kind, "coordinates": c}} for c, h in shapes]
+    with open(path, "w", encoding="ascii") as file:
+        json.dump({"type": "FeatureCollection", "crs": crs, "features": features}, file)
+
+
+class Trial:
+    def __init__(self, seed):
+        self.random, self.rng = random.Random(seed), np.random.default_rng(seed)
+        self.folder = f"{ROOT}/build/fuzz/{seed}"
+        shutil.rmtree(self.folder, ignore_errors=True)
+        os.makedirs(self.folder)
+        self.store, self.standing, self.faults = self.path("s.itin"), [], []
+        r = self.random
+        self.step, self.posts = r.choice([1, 2, 5, 10, 50]), r.choice([33, 50, 80, 120])
+        self.side = self.step * self.posts
+        self.relief = self.side * r.choice([0, 0.01, 0.05, 0.15])
+        self.unit = self.side / r.choice([25, 60, 150])
+
+    def path(self, name):
+        return f"{self.folder}/{name}"
+
+    def log(self, *what):
+        with open(self.path("log.txt"), "a", encoding="utf-8") as file:
+            print(*what, file=file)
+
+    def place(self, margin=0.12):
+        within = lambda: self.side * self.random.uniform(margin, 1 - margin)
+        return X0 + within(), Y0 + within()
+
+    def import_terrain(self):
+        r, n = self.random, self.posts
+        self.z = np.round(fractal(n, self.rng, self.relief, r.choice([0.45, 0.6])), r.choice([0, 1, 2]))
+        if r.random() < 0.35:
+            rows, columns = np.mgrid[:n, :n]
+            hole = (columns - n * r.random()) ** 2 + (rows - n * r.random()) ** 2 < (n * r.uniform(0.05, 0.25)) ** 2
+            self.z[hole] = np.nan
+        write_raster(self.path("t.tif"), self.z, (X0, Y0 + self.side), self.step)
+        how = r.choice(["raster", "contours", "scattered"])
+        self.log(how, "step", self.step, "posts", n, "relief", self.relief)
+        if how == "contours" and np.nanmax(self.z) - np.nanmin(self.z) > 2:
+            interval = (np.nanmax(self.z) - np.nanmin(self.z)) / 12
+            subprocess.run(["gdal_contour", "-q", "-a", "z", "-i", str(interval), self.path("t.tif"), self.path("c.gpkg")],
+                           check=True)
+            itin("import", self.store, self.path("c.gpkg"), "--kind", "contours", "--z-field", "z", "--quiet")
+        elif how == "scattered":
+            with open(self.path("p.csv"), "w", encoding="ascii") as file:
+                print("x,y,z", file=file)
+                for x, y in self.rng.uniform(0, self.side, (n * n // 2, 2)):
+                    z = self.z[min(int((self.side - y) / self.step), n - 1), min(int(x / self.step), n - 1)]
+                    if not np.isnan(z):
+                        print(f"{X0 + x:.3f},{Y0 + y:.3f},{z:.2f}", file=file)
+            itin("import", self.store, self.path("p.csv"), "--crs", "EPSG:27700", "--quiet")
+        else:
+            itin("import", self.store, self.path("t.tif"), "--quiet")
+
+    def rectangle(self):
+        r, (x, y), a = self.random, self.place(), self.random.uniform(0, 3)
+        w, h = self.unit * r.uniform(0.3, 1.5), self.unit * r.uniform(0.3, 1)
+        turned = lambda u, v: (x + u * math.cos(a) - v * math.sin(a), y + u * math.sin(a) + v * math.cos(a))
+        return [[turned(-w, -h), turned(w, -h), turned(w, h), turned(-w, h), turned(-w, -h)]]
+
+    def blob(self):
+        (x, y), n, size = self.place(0.2), self.random.randint(3, 14), self.unit * self.random.uniform(1, 4)
+        radii = [size * self.random.uniform(0.4, 1) for _ in range(n)]
+        ring = [(x + q * math.cos(2 * math.pi * i / n), y + q * math.sin(2 * math.pi * i / n)) for i, q in enumerate(radii)]
+        return [ring + ring[:1]]
+
+    def line(self, with_heights=False):
+        places = [self.place() for _ in range(self.random.randint(2, 6))]
+        return [(*p, self.random.uniform(-1, 1) * self.relief) for p in places] if with_heights else places
+
+    def add(self, what):
+        r, path = self.random, self.path(what + ".geojson")
+        many = range(r.choice([1, 5, 20]))
+        self.log("add", what)
+        options = ["--quiet"]
+        if what == "buildings":
+            write_features(path, "Polygon", [(self.rectangle(), r.uniform(2, 20)) for _ in many])
+            options += ["--height-field", "h", "--roof", r.choice(["flat", "gabled", "hipped", "skeleton"])]
+        elif what == "vegetation":
+            write_features(path, "Polygon", [(self.blob(), 0) for _ in many])
+            options += ["--height", r.choice([3, 15])]
+        elif what == "walls":
+            write_features(path, "LineString", [(self.line(), 0) for _ in many])
+            options += ["--height", r.choice([1.5, 6]), "--thickness", r.choice([0.3, 1])]
+        elif what == "replace":
+            path, posts = self.path("replace.tif"), self.posts // 2
+            corner = X0 + self.side * r.uniform(0, 0.6), Y0 + self.side * r.uniform(0.4, 1)
+            write_raster(path, fractal(posts, self.rng, self.relief + 1, 0.5), corner, self.step / r.choice([1, 2, 3.7]))
+            options += r.choice([["--replace"], []])
+        else:
+            write_features(path, "LineString", [(self.line(what != "roads"), 0) for _ in many])
+        try:
+            itin("import", self.store, path, *([] if what == "replace" else ["--kind", what]), *options)
+        except Refusal as refusal:
+            self.log("refused:", refusal)
+        else:
+            self.standing += [what] if what in ("buildings", "vegetation", "walls") else []
+
+    def look(self):
+        r = self.random
+        bounds = json.loads(itin("info", self.store, "--json"))["bounds"]
+        eye = r.uniform(bounds["xmin"], bounds["xmax"]), r.uniform(bounds["ymin"], bounds["ymax"])
+        height, target, themes = r.choice([0, 1.5, 2, 30]), r.choice([0, 1.5, 10]), r.choice(["none", "all"] + self.standing)
+        shared = ["--themes", themes, "--nodata", r.choice(["clear", "block"]), "--refraction", r.choice([0, 0.13, 0.25])]
+        shared += ["--target-on", r.choice(["ground", "surface"]), "--observer-on", r.choice(["ground", "surface"])]
+        call = ["viewshed", self.store, "--observer", f"{eye[0]:.3f},{eye[1]:.3f},{height}", "--target-height", target,
+                "--cell", f"{max(self.side / r.choice([60, 110]), 0.05):.4f}", "--overwrite", "--quiet", *shared]
+        self.log(*call)
+        raster = lambda name: gdal.Open(self.path(name)).ReadAsArray()
+        itin(*call, "--precise", "--memory", r.choice(["4M", "20M", "1G"]), "-o", self.path("precise.tif"))
+        itin(*call, "--tolerance", 0, "-o", self.path("plain.tif"))
+        itin(*call, "--mode", "certified", "--tolerance", r.choice([0, 0.5, 2, 8]), "-o", self.path("certified.tif"))
+        precise, plain, certified = raster("precise.tif"), raster("plain.tif"), raster("certified.tif")
+        wrong = (certified == CERTAINLY_VISIBLE) & (precise != VISIBLE) | (certified == CERTAINLY_HIDDEN) & (precise == VISIBLE)
+        if wrong.any():
+            self.faults.append(f"certified: {wrong.sum()} cells")
+        cells = np.argwhere(precise != OUTSIDE)
+        if len(cells) == 0:
+            return
+        differ = np.argwhere(precise != plain)[:200]
+        drawn = cells[self.rng.choice(len(cells), min(250, len(cells)), replace=False)]
+        self.ask_again(eye, height, target, shared, precise, plain, np.concatenate([differ, drawn]))
+
+    def ask_again(self, eye, height, target, shared, precise, plain, cells):
+        west, size, _, north, _, down = gdal.Open(self.path("precise.tif")).GetGeoTransform()
+        with open(self.path("links.csv"), "w", encoding="ascii") as file:
+            print("id,x1,y1,h1,x2,y2,h2", file=file)
+            for i, (row, column) in enumerate(cells):
+                x, y = west + (column + 0.5) * size, north + (row + 0.5) * down
+                print(f"{i},{eye[0]:.3f},{eye[1]:.3f},{height},{x!r},{y!r},{target}", file=file)
+        itin("los", self.store, "--links", self.path("links.csv"), "-o", self.path("los.csv"), "--overwrite", "--quiet", *shared)
+        with open(self.path("los.csv"), encoding="utf-8") as file:
+            links = {int(link["id"]): link for link in csv.DictReader(file)}
+        for i, (row, column) in enumerate(cells):
+            sees = links[i]["verdict"] == "visible"
+            if (precise[row, column] == VISIBLE) != sees:
+                self.faults.append(f"cell {row},{column}: precise {precise[row, column]}, los {links[i]['verdict']}")
+            if (plain[row, column] == VISIBLE) != sees and abs(float(links[i]["clearance_m"])) > PLAIN_ERROR_M:
+                self.faults.append(f"cell {row},{column}: plain {plain[row, column]}, clearance {links[i]['clearance_m']}")
+
+    def run(self):
+        self.import_terrain()
+        kinds = ["buildings", "walls", "vegetation", "breaklines", "roads", "water", "replace"]
+        for what in self.random.sample(kinds, self.random.randint(0, 5)):
+            self.add(what)
+        itin("check", self.store, "--quiet")
+        for _ in range(3):
+            try:
+                self.look()
+            except Refusal as refusal:
+                self.log("refused:", refusal)
+
+
+def main():
+    first, count = int(sys.argv[1]), int(sys.argv[2])
+    failed = 0
+    for seed in range(first, first + count):
+        trial = Trial(seed)
+        try:
+            trial.run()
+        except (Failure, Refusal, subprocess.TimeoutExpired) as error:
+            trial.faults.append(str(error))
+        if trial.faults:
+            failed += 1
+            print(f"seed {seed}: {len(trial.faults)} faults, the first: {'; '.join(trial.faults[:3])}", flush=True)
+        else:
+            shutil.rmtree(trial.folder)
+    print(f"{failed} of {count} seeds failed")
+    return min(failed, 1)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
