@@ -6,8 +6,7 @@ void ThemeOptions::declare(CLI::App& app, const std::string& otherwise) {
   app.add_option("--themes", themes_,
                  "Surface features to include: all, none, or their names (" + otherwise +
                      "). Lines of the terrain are always there; lines that only lie on it, as roads do, change no "
-                     "height and come "
-                     "with itin tin alone")
+                     "height and come with itin tin alone")
       ->type_name("NAME,NAME...");
 }
 

@@ -24,6 +24,35 @@ struct Tally {
   int seen = 0, hidden = 0, partly = 0;
 };
 
+/// Every cell of a grid over a Tin, tile by tile, with its ground raised.
+class RaisedGround {
+ public:
+  RaisedGround(const Tin& tin, double cell)
+      : tin_(tin),
+        grid_(RasterGrid::aligned(tin.bounds(), cell)),
+        tiles_(grid_of_tiles(grid_)),
+        in_tiles_(tin, tiles_) {}
+
+  /// Calls visit(ends) for every tile; `above` is in metres.
+  template <class Visit>
+  void for_each_tile(double above, const Visit& visit) const {
+    const auto elevation = std::make_unique<TileValues<double>>();
+    for (std::size_t i = 0; i < tiles_.cell_count(); ++i) {
+      const Tile tile = tile_at(grid_, tiles_, i);
+      const TileCentres centres(tin_.grid, grid_, tile);
+      scan_convert(tin_, in_tiles_.triangles(i), tile, centres, *elevation);
+      for (double& z : *elevation) z += above / tin_.grid.resolution;
+      visit(AxisSweep::Ends{tile, centres, *elevation});
+    }
+  }
+
+ private:
+  const Tin& tin_;
+  RasterGrid grid_;
+  RasterGrid tiles_;
+  TriangleBins in_tiles_;
+};
+
 /// Every cell of a grid over the Tin, as tiles see it, looking at one axis.
 class Sweeping {
  public:
@@ -35,9 +64,7 @@ class Sweeping {
         scene_(tin, earth, NoData::kClear, 0),
         heights_(tin, earth, scene_),
         exact_(tin, earth),
-        grid_(RasterGrid::aligned(tin.bounds(), cell)),
-        tiles_(grid_of_tiles(grid_)),
-        in_tiles_(tin, tiles_) {}
+        ground_(tin, cell) {}
 
   /// Metres.
   Tally compare(Point2 foot, double height, double eye_height, double radius) {
@@ -48,38 +75,35 @@ class Sweeping {
     const AxisSweep::Axis axis{easting_in_units(tin_.grid, foot.x), northing_in_units(tin_.grid, foot.y), *base / unit,
                                (*base + height) / unit, radius / unit};
     const auto work = std::make_unique<Work>();
-    for (std::size_t i = 0; i < tiles_.cell_count(); ++i) {
-      const Tile tile = tile_at(grid_, tiles_, i);
-      const TileCentres centres(tin_.grid, grid_, tile);
-      scan_convert(tin_, in_tiles_.triangles(i), tile, centres, work->eyes);
-      for (double& z : work->eyes) z += eye_height / unit;
-      sweep_.run(axis, {tile, centres, work->eyes}, work->scratch, work->found);
-      for (std::int64_t r = 0; r < tile.rows; ++r)
-        for (std::int64_t c = 0; c < tile.columns; ++c) check(axis, centres, *work, r, c, tally);
-    }
+    ground_.for_each_tile(eye_height, [&](const AxisSweep::Ends& eyes) {
+      sweep_.run(axis, eyes, work->scratch, work->found);
+      for (std::int64_t r = 0; r < eyes.tile.rows; ++r)
+        for (std::int64_t c = 0; c < eyes.tile.columns; ++c) check(axis, eyes, work->found, r, c, tally);
+    });
     return tally;
   }
 
  private:
   struct Work {
-    TileValues<double> eyes;
     AxisSweep::Heights found;
     AxisSweep::Scratch scratch;
   };
 
-  void check(const AxisSweep::Axis& axis, const TileCentres& centres, const Work& work, std::int64_t row,
-             std::int64_t column, Tally& tally) {
+  void check(const AxisSweep::Axis& axis, const AxisSweep::Ends& eyes, const AxisSweep::Heights& heights,
+             std::int64_t row, std::int64_t column, Tally& tally) {
     const auto cell = static_cast<std::size_t>(row * Tile::kSide + column);
-    if (std::isnan(work.eyes[cell])) return;
-    const double x = centres.x[static_cast<std::size_t>(column)], y = centres.y[static_cast<std::size_t>(row)];
-    const double distance = std::hypot(x - axis.x, y - axis.y), found = work.found[cell];
+    const double eye = eyes.elevation[cell];
+    if (std::isnan(eye)) return;
+    const double x = eyes.centres.x[static_cast<std::size_t>(column)],
+                 y = eyes.centres.y[static_cast<std::size_t>(row)];
+    const double distance = std::hypot(x - axis.x, y - axis.y), found = heights[cell];
     if (distance == 0 || distance > axis.radius * (1 + 1e-9)) {
       EXPECT_TRUE(std::isinf(found)) << "an eye that does not look";
       return;
     }
     if (distance > axis.radius * (1 - 1e-9)) return;
     SightLines line;
-    line.from_x[0] = x, line.from_y[0] = y, line.from_z[0] = work.eyes[cell];
+    line.from_x[0] = x, line.from_y[0] = y, line.from_z[0] = eye;
     line.to_x[0] = axis.x, line.to_y[0] = axis.y, line.to_z[0] = axis.top, line.active = 1;
     LeastHeights::Heights lower{};
     lower[0] = axis.base;
@@ -88,7 +112,7 @@ class Sweeping {
     ++(std::isnan(expected) ? tally.hidden : tally.seen);
     if (std::isnan(expected) != std::isnan(found)) {
       const double unit = tin_.grid.resolution;
-      const Point3 from{tin_.grid.origin.x + x * unit, tin_.grid.origin.y + y * unit, work.eyes[cell] * unit};
+      const Point3 from{tin_.grid.origin.x + x * unit, tin_.grid.origin.y + y * unit, eye * unit};
       const Point3 to{tin_.grid.origin.x + axis.x * unit, tin_.grid.origin.y + axis.y * unit, axis.top * unit};
       EXPECT_NEAR(exact_.clearance(from, to), -kGrazing, 1e-7) << x << ", " << y << " found " << found;
     } else if (!std::isnan(expected)) {
@@ -104,9 +128,7 @@ class Sweeping {
   Scene scene_;
   LeastHeights heights_;
   test::ExactLineOfSight exact_;
-  RasterGrid grid_;
-  RasterGrid tiles_;
-  TriangleBins in_tiles_;
+  RaisedGround ground_;
 };
 
 Point2 place_in(const Tin& tin, std::mt19937& random) {
@@ -200,25 +222,18 @@ TEST(AxisSweep, RealTerrain) {
 Tally look_around(const Tin& tin, const Earth& earth, const Point3& eye, double target_height, double cell) {
   const BinnedHeights bins(tin);
   const AxisSweep sweep(tin, earth, bins);
-  const RasterGrid grid = RasterGrid::aligned(tin.bounds(), cell), tiles = grid_of_tiles(grid);
-  const TriangleBins in_tiles(tin, tiles);
   struct Work {
-    TileValues<double> targets;
     AxisSweep::Heights seen;
     AxisSweep::Scratch scratch;
   };
   const auto work = std::make_unique<Work>();
   const double unit = tin.grid.resolution;
   Tally tally;
-  for (std::size_t i = 0; i < tiles.cell_count(); ++i) {
-    const Tile tile = tile_at(grid, tiles, i);
-    const TileCentres centres(tin.grid, grid, tile);
-    scan_convert(tin, in_tiles.triangles(i), tile, centres, work->targets);
-    for (double& z : work->targets) z += target_height / unit;
-    sweep.look_from(eye, {tile, centres, work->targets}, work->scratch, work->seen);
-    for (std::size_t k = 0; k < work->targets.size(); ++k) {
-      if (std::isnan(work->targets[k])) continue;
-      const Point3 target{centres.x[k % Tile::kSide], centres.y[k / Tile::kSide], work->targets[k]};
+  RaisedGround(tin, cell).for_each_tile(target_height, [&](const AxisSweep::Ends& targets) {
+    sweep.look_from(eye, targets, work->scratch, work->seen);
+    for (std::size_t k = 0; k < targets.elevation.size(); ++k) {
+      if (std::isnan(targets.elevation[k])) continue;
+      const Point3 target{targets.centres.x[k % Tile::kSide], targets.centres.y[k / Tile::kSide], targets.elevation[k]};
       if (target.x == eye.x && target.y == eye.y) continue;
       const SightLine line(eye, target, earth.drop_coefficient() * unit, kGrazing / unit);
       const bool hidden = std::any_of(tin.triangles.begin(), tin.triangles.end(), [&](const Triangle& t) {
@@ -227,7 +242,7 @@ Tally look_around(const Tin& tin, const Earth& earth, const Point3& eye, double 
       EXPECT_EQ(std::isnan(work->seen[k]), hidden) << "at " << target.x << ", " << target.y;
       ++(hidden ? tally.hidden : tally.seen);
     }
-  }
+  });
   return tally;
 }
 

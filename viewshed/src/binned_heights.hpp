@@ -103,7 +103,6 @@ class BinnedHeights {
   void bound_cell(const CellLattice& lattice, RasterGrid::Cell bin, Ranges& ranges);
   void bound_runs(const Ranges& ranges);
   void forget_depth_at_boundary(const Tin& tin, std::vector<float>& low) const;
-  void forget_depth_of_halves(std::vector<float>& low) const;
 
   Grid units_;
   RasterGrid grid_;

@@ -114,8 +114,7 @@ constexpr std::uint64_t kMostEnvelopePoints = 1500000;
 /// those that are too large for the memory.
 bool exact_is_as_cheap(const Store& store, const Request& request) {
   const int level = level_within(store.metadata(), request.detail.coarsest());
-  const Window window = window_of(request);
-  const Box box = window.is_all() ? store.metadata().grid.box(store.metadata().bounds) : window.bounds();
+  const Box box = box_of_window(store, request);
   const std::uint64_t points = store.points_about(level, box);
   return points > kMostEnvelopePoints || kEnvelopeCosts * points >= store.points_about(0, box);
 }

@@ -1,7 +1,6 @@
 #include "full_surface.hpp"
 
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <itin/grazing.hpp>
@@ -9,8 +8,6 @@
 namespace itin::viewshed {
 
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// Calls visit(row, column, cell) for each of a tile's cells.
 template <class Visit>
@@ -55,7 +52,7 @@ void FullSurface::find_ground(std::size_t index, const Tile& tile, const TileCen
     scan_convert(bare_ground_ ? *bare_ground_ : tin_, of_tiles_->triangles(index), tile, centres, work.ground);
     return;
   }
-  work.ground.fill(kNone);
+  work.ground.fill(kNoSurface);
   for_each_cell(tile, [&](std::int64_t r, std::int64_t c, std::size_t cell) {
     const Point2 centre{centres.x[static_cast<std::size_t>(c)], centres.y[static_cast<std::size_t>(r)]};
     heights_.find_at(centre.x, centre.y, [&](std::span<const std::uint32_t> triangles) {
@@ -72,7 +69,7 @@ void FullSurface::raise_targets(const Eye& eye, const Tile& tile, const TileCent
   // The arithmetic of plain viewsheds, to the last bit.
   const double resolution = tin_.grid.resolution, metre = 1 / resolution, grazing = kGrazing / resolution;
   for_each_cell(tile, [&](std::int64_t r, std::int64_t c, std::size_t cell) {
-    work.targets[cell] = kNone;
+    work.targets[cell] = kNoSurface;
     std::uint8_t& value = values[cell];
     if (value != kUndecided) return;
     value = kOutside;

@@ -54,6 +54,11 @@ bool features_stand(const Store& store, const Request& request) {
   return request.themes.includes_standing(store.metadata().themes);
 }
 
+Box box_of_window(const Store& store, const Request& request) {
+  const Window window = window_of(request);
+  return window.is_all() ? store.metadata().grid.box(store.metadata().bounds) : window.bounds();
+}
+
 EnvelopeRequest certified_request(const Store& store, const Request& request, int level) {
   EnvelopeRequest result;
   result.window = window_of(request);
@@ -62,7 +67,7 @@ EnvelopeRequest certified_request(const Store& store, const Request& request, in
     result.themes = request.themes;
     if (!request.targets_on_surface) result.bare_ground = result.window;
   }
-  const Box box = result.window.is_all() ? store.metadata().grid.box(store.metadata().bounds) : result.window.bounds();
+  const Box box = box_of_window(store, request);
   const double points = std::min({kNearPoints, kAllNearPoints / static_cast<double>(request.observers.size()),
                                   kNearShare * static_cast<double>(store.points_about(0, box))});
   for (const Observer& observer : request.observers) {

@@ -25,6 +25,9 @@ std::vector<Eye> eyes_on_full_surface(const Store& store, const Request& request
 /// says what is there.
 bool features_stand(const Store& store, const Request& request);
 
+/// About all that the request's window may hold of the store.
+Box box_of_window(const Store& store, const Request& request);
+
 /// For request.detail.
 EnvelopeRequest certified_request(const Store& store, const Request& request);
 

@@ -50,6 +50,7 @@ class Precise {
       : store_(store),
         request_(request),
         features_(features_stand(store, request)),
+        box_(box_of_window(store, request)),
         memory_(options.memory_bytes),
         progress_(progress) {}
 
@@ -81,18 +82,13 @@ class Precise {
     throw InputError("precise viewsheds tell visible, count, which and nearest; choose one of these modes");
   }
 
-  Box box() const {
-    const Window window = window_of(request_);
-    return window.is_all() ? store_.metadata().grid.box(store_.metadata().bounds) : window.bounds();
-  }
-
   std::uint64_t budget() const { return memory_ / kBytesAPoint; }
-  bool fits() const { return store_.points_about(0, box()) <= budget(); }
+  bool fits() const { return store_.points_about(0, box_) <= budget(); }
 
   int coarse_level() const {
-    const std::uint64_t most = std::min(memory_ / kBytesAnEnvelopePoint, store_.points_about(0, box()) / kCoarseShare);
+    const std::uint64_t most = std::min(memory_ / kBytesAnEnvelopePoint, store_.points_about(0, box_) / kCoarseShare);
     int level = 1;
-    while (level + 1 < static_cast<int>(store_.metadata().levels.size()) && store_.points_about(level, box()) > most)
+    while (level + 1 < static_cast<int>(store_.metadata().levels.size()) && store_.points_about(level, box_) > most)
       ++level;
     return level;
   }
@@ -328,7 +324,8 @@ class Precise {
 
   const Store& store_;
   const Request& request_;
-  bool features_;         ///< stand on the ground
+  bool features_;  ///< stand on the ground
+  Box box_;
   std::uint64_t memory_;  ///< bytes
   Progress& progress_;
   Stopwatch watch_;

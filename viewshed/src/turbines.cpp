@@ -185,11 +185,6 @@ void require_memory(const StoreMetadata& metadata, const ZoneRequest& request, c
                   needed / 1e9, static_cast<double>(*request.memory_bytes) / 1e9));
 }
 
-bool any_stands(const std::vector<ThemeInfo>& themes, const ThemeChoice& choice) {
-  return std::any_of(themes.begin(), themes.end(),
-                     [&](const ThemeInfo& theme) { return theme.stands() && choice.includes(theme); });
-}
-
 }  // namespace
 
 Zone survey_turbines(const Tin& ground, const Tin* screened, const ZoneRequest& request, Progress& progress) {
@@ -240,7 +235,7 @@ Zone survey_turbines(const Tin& ground, const Tin* screened, const ZoneRequest& 
 Zone survey_turbines(const Store& store, const ZoneRequest& request, Progress& progress) {
   validate(request);
   Stopwatch watch;
-  const bool stands = request.themes && any_stands(store.metadata().themes, *request.themes);
+  const bool stands = request.themes && request.themes->includes_standing(store.metadata().themes);
   const Window window = window_of(request);
   require_memory(store.metadata(), request, window.bounds(), stands);
   const Tin ground = triangulate(store, window, request.detail, progress, ThemeChoice::none());
