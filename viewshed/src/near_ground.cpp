@@ -63,10 +63,6 @@ EnvelopeRequest certified_request(const Store& store, const Request& request, in
   EnvelopeRequest result;
   result.window = window_of(request);
   result.level = level;
-  if (level == 0 && features_stand(store, request)) {
-    result.themes = request.themes;
-    if (!request.targets_on_surface) result.bare_ground = result.window;
-  }
   const Box box = box_of_window(store, request);
   const double points = std::min({kNearPoints, kAllNearPoints / static_cast<double>(request.observers.size()),
                                   kNearShare * static_cast<double>(store.points_about(0, box))});

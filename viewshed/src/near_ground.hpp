@@ -31,7 +31,7 @@ Box box_of_window(const Store& store, const Request& request);
 /// For request.detail.
 EnvelopeRequest certified_request(const Store& store, const Request& request);
 
-/// The same with another level than request.detail's. Level 0 has the features that stand.
+/// The same with another level than request.detail's. No features stand there.
 EnvelopeRequest certified_request(const Store& store, const Request& request, int level);
 
 }  // namespace itin::viewshed

@@ -3,9 +3,12 @@
 
 #include <itin/parallel.hpp>
 #include <itin/triangulate.hpp>
+#include <viewshed/site_coverage.hpp>
 
+#include "../surface_heights.hpp"
+#include "../triangle_bins.hpp"
 #include "cell_blocks.hpp"
-#include "group_survey.hpp"
+#include "point_bins.hpp"
 
 namespace itin::viewshed {
 
