@@ -60,7 +60,8 @@ class ZtvVerb final : public Verb {
         ->type_name("unknown|block|clear");
     app.add_option(
            "--memory", memory_text_,
-           "Refuse, before any work, what would take more than this; the error says how much (default: no limit)")
+           "Memory to work in, in parts where it does not hold all at once; the result never depends on it (default: no "
+           "limit)")
         ->type_name("SIZE");
     policy_.declare(app);
   }

@@ -32,9 +32,14 @@ double radius_with(const Store& store, int level, Point2 centre, double points) 
 
 }  // namespace
 
-std::optional<double> height_at(const Store& store, Point2 position, const ThemeChoice& themes, Progress& progress) {
+std::optional<double> height_at(const Store& store, Point2 position, const ThemeChoice& themes, Progress& progress,
+                                const Detail& detail) {
   const Box about = around(position, 2 * store.metadata().grid.resolution);
-  return height_on(triangulate(store, Window::box(about), Detail::tolerance(0), progress, themes), position);
+  return height_on(triangulate(store, Window::box(about), detail, progress, themes), position);
+}
+
+Tin coverage_of(const Store& store, const Window& window, Progress& progress) {
+  return triangulate(store, window, Detail::tolerance(store.metadata().levels.back().tolerance), progress);
 }
 
 std::vector<Eye> eyes_on_full_surface(const Store& store, const Request& request, std::vector<double>& ground,
