@@ -60,8 +60,7 @@ class ZtvVerb final : public Verb {
         ->type_name("unknown|block|clear");
     app.add_option("--memory", memory_text_,
                    "Memory to work in, in parts where it does not hold all at once; the result never depends on it "
-                   "(default: no "
-                   "limit)")
+                   "(default: no limit)")
         ->type_name("SIZE");
     policy_.declare(app);
   }
