@@ -1,13 +1,16 @@
 // What lies behind voids, by sectors of the horizon and by looking at every edge.
 #include "void_shadow.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "support/delaunay_tin.hpp"
 #include "support/seed.hpp"
+#include "support/terrain_tin.hpp"
 
 namespace itin::viewshed {
 namespace {
@@ -39,6 +42,71 @@ TEST(VoidShadow, IsWhereSomeEdgeIsCrossedBack) {
   }
   EXPECT_GT(shaded, 100);
   EXPECT_GT(clear, 100);
+}
+
+/// A coarse lattice with posts missing, so that rims run along its lines and diagonals.
+Tin holed_lattice(std::mt19937& random) {
+  const auto height = [&](auto c, auto r) { return c + r > 2 && random() % 5 == 0 ? std::nan("") : 0.0; };
+  return test::lattice_tin(9, 9, 4, height, 1, {0, 0});
+}
+
+bool on_surface(const Tin& tin, Point2 p) {
+  return std::any_of(tin.triangles.begin(), tin.triangles.end(), [&](const Triangle& t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const GridPoint &a = tin.vertices[t[i]], &b = tin.vertices[t[(i + 1) % 3]];
+      const double side = (double{1} * b.x - a.x) * (p.y - a.y) - (double{1} * b.y - a.y) * (p.x - a.x);
+      if (side < -1e-9) return false;
+    }
+    return true;
+  });
+}
+
+/// By the pieces of the line between the lattice's lines and diagonals.
+bool leaves_surface(const Tin& tin, Point2 from, Point2 to) {
+  std::vector<double> cuts{0, 1};
+  const double dx = to.x - from.x, dy = to.y - from.y;
+  const auto cut = [&](double at, double by, double size) {
+    if (by == 0) return;
+    for (int k = -20; k <= 20; ++k)
+      if (const double s = (size * k - at) / by; s > 0 && s < 1) cuts.push_back(s);
+  };
+  cut(from.x, dx, 4), cut(from.y, dy, 4), cut(from.x + from.y, dx + dy, 4), cut(from.x - from.y, dx - dy, 4);
+  std::sort(cuts.begin(), cuts.end());
+  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+    const double s = (cuts[i] + cuts[i + 1]) / 2;
+    if (cuts[i + 1] - cuts[i] > 1e-9 && !on_surface(tin, {from.x + s * dx, from.y + s * dy})) return true;
+  }
+  return false;
+}
+
+TEST(VoidShadow, OnTheRimTellsFromWhichSideALineComes) {
+  std::mt19937 random(test::seed());
+  int shaded = 0, clear = 0;
+  for (int i = 0; i < 10; ++i) {
+    const Tin tin = holed_lattice(random);
+    const std::vector<BoundaryEdge> boundary = boundary_edges(tin);
+    const auto place = [&] {  // often on a vertex, an edge or the middle of a square
+      Point2 p;
+      do {
+        p = {static_cast<double>(random() % 33), static_cast<double>(random() % 33)};
+      } while (!on_surface(tin, p));
+      return p;
+    };
+    for (int e = 0; e < 20; ++e) {
+      const Point2 eye = place();
+      const VoidShadow shadow(tin, boundary, {eye.x, eye.y, 0});
+      for (int k = 0; k < 50; ++k) {
+        const Point2 target = place();
+        if (target.x == eye.x && target.y == eye.y) continue;
+        const bool expected = leaves_surface(tin, eye, target);
+        EXPECT_EQ(shadow.holds(target.x, target.y), expected)
+            << eye.x << ", " << eye.y << " to " << target.x << ", " << target.y;
+        ++(expected ? shaded : clear);
+      }
+    }
+  }
+  EXPECT_GT(shaded, 1000);
+  EXPECT_GT(clear, 1000);
 }
 
 }  // namespace

@@ -11,22 +11,40 @@ namespace itin::viewshed {
 namespace {
 
 constexpr std::size_t kSectors = 4096;
+constexpr double kTurn = 2 * std::numbers::pi;
 
 }  // namespace
 
+double VoidShadow::cross(const Vector& a, const Vector& b) {
+  return a.x * b.y - a.y * b.x;
+}
+
+double VoidShadow::dot(const Vector& a, const Vector& b) {
+  return a.x * b.x + a.y * b.y;
+}
+
+/// Whether a place on the line's straight lies on it, past the eye.
+bool VoidShadow::reaches(const Vector& line, const Vector& place) {
+  return dot(line, place) > 0 && dot(place, place) <= dot(line, line);
+}
+
 VoidShadow::VoidShadow(const Tin& tin, const std::vector<BoundaryEdge>& boundary, const Point3& eye)
     : tin_(tin), eye_(eye) {
+  // The surface lies to the left: seen from its right side it begins here.
+  const auto faces_away = [&](const BoundaryEdge& edge) {
+    const Vector a = from_eye(edge.from), b = from_eye(edge.to);
+    return cross(a, b) < 0;
+  };
+  if (std::none_of(boundary.begin(), boundary.end(), faces_away)) return;
+  sectors_.resize(kSectors);
   for (const BoundaryEdge& edge : boundary) {
-    const GridPoint &a = tin.vertices[edge.from], &b = tin.vertices[edge.to];
-    // The surface lies to the left: seen from its right side it begins here.
-    const double side = (double{1} * b.x - a.x) * (eye.y - a.y) - (double{1} * b.y - a.y) * (eye.x - a.x);
-    if (side >= 0) continue;
-    sectors_.resize(kSectors);
     // From the right side an edge runs clockwise; a sector more on both sides, against rounding.
-    const std::size_t last = (sector_of(b.x, b.y) + 1) % kSectors;
-    for (std::size_t s = (sector_of(a.x, a.y) + kSectors - 1) % kSectors;; s = (s + 1) % kSectors) {
+    const bool away = faces_away(edge);
+    const GridPoint &first = tin.vertices[away ? edge.from : edge.to], &last = tin.vertices[away ? edge.to : edge.from];
+    const std::size_t end = (sector_of(last.x, last.y) + 1) % kSectors;
+    for (std::size_t s = (sector_of(first.x, first.y) + kSectors - 1) % kSectors;; s = (s + 1) % kSectors) {
       sectors_[s].push_back(edge);
-      if (s == last) break;
+      if (s == end) break;
     }
   }
 }
@@ -34,11 +52,39 @@ VoidShadow::VoidShadow(const Tin& tin, const std::vector<BoundaryEdge>& boundary
 bool VoidShadow::holds(double x, double y) const {
   if (sectors_.empty()) return false;
   const std::vector<BoundaryEdge>& edges = sectors_[sector_of(x, y)];
-  SightLines line;
-  line.from_x[0] = eye_.x, line.from_y[0] = eye_.y;
-  line.to_x[0] = x, line.to_y[0] = y;
-  return std::any_of(edges.begin(), edges.end(),
-                     [&](const BoundaryEdge& edge) { return crossing_back(tin_, edge, line, 0) == Crossing::kBack; });
+  const Vector line{x - eye_.x, y - eye_.y};
+  return std::any_of(edges.begin(), edges.end(), [&](const BoundaryEdge& edge) {
+    const Vector a = from_eye(edge.from), b = from_eye(edge.to), along{b.x - a.x, b.y - a.y};
+    const double side_of_a = cross(line, a), side_of_b = cross(line, b);
+    if (side_of_a == 0 && reaches(line, a) && comes_from_void(edges, a)) return true;
+    if (side_of_b == 0 && reaches(line, b) && comes_from_void(edges, b)) return true;
+    const bool crosses = (side_of_a < 0 && side_of_b > 0) || (side_of_a > 0 && side_of_b < 0);
+    return crosses && cross(along, a) > 0 && cross(along, {line.x - a.x, line.y - a.y}) >= 0;
+  });
+}
+
+/// Whether the line from the eye comes to this corner of the rim across ground without data. Of all edges that end
+/// there, the first one clockwise from the line tells on which side of it that lies.
+bool VoidShadow::comes_from_void(const std::vector<BoundaryEdge>& edges, const Vector& corner) const {
+  const Vector to_eye{-corner.x, -corner.y};
+  double nearest = kTurn;
+  bool from_void = false;
+  for (const BoundaryEdge& edge : edges) {
+    const Vector a = from_eye(edge.from), b = from_eye(edge.to);
+    const bool ends_here = b == corner;
+    if (!ends_here && a != corner) continue;
+    const Vector along = ends_here ? Vector{a.x - b.x, a.y - b.y} : Vector{b.x - a.x, b.y - a.y};
+    const double left = cross(along, to_eye), ahead = dot(along, to_eye);
+    if (left == 0 && ahead > 0) return false;
+    const double angle = std::atan2(left, ahead), clockwise = angle < 0 ? angle + kTurn : angle;
+    if (clockwise < nearest) nearest = clockwise, from_void = ends_here;
+  }
+  return from_void;
+}
+
+VoidShadow::Vector VoidShadow::from_eye(std::uint32_t vertex) const {
+  const GridPoint& v = tin_.vertices[vertex];
+  return {v.x - eye_.x, v.y - eye_.y};
 }
 
 void VoidShadow::hide(const TileCentres& centres, TileValues<std::uint8_t>& values) const {

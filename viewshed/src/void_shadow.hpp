@@ -17,12 +17,12 @@ namespace itin::viewshed {
 
 class VoidShadow {
  public:
-  /// The Tin must outlive it. Grid units. Cost: the edges that face away from the eye, each as often as the sectors of
-  /// the horizon it spans.
+  /// The Tin must outlive it. Grid units. Cost: the edges, each as often as the sectors of the horizon it spans, if any
+  /// faces away from the eye.
   VoidShadow(const Tin& tin, const std::vector<BoundaryEdge>& boundary, const Point3& eye);
 
-  /// Whether the line from the eye to a place comes back to the surface by crossing_back(). Cost: the edges of one
-  /// sector.
+  /// Whether the line from the eye to a place comes back to the surface, be it at the place itself. Both lie on the
+  /// surface. Cost: the edges of one sector.
   bool holds(double x, double y) const;
 
   /// Of a tile's cells, what is kCertainlyVisible and lies in it becomes kCertainlyHidden.
@@ -30,6 +30,16 @@ class VoidShadow {
 
  private:
   std::size_t sector_of(double x, double y) const;
+  /// From the eye, grid units.
+  struct Vector {
+    double x = 0, y = 0;
+    friend bool operator==(const Vector&, const Vector&) = default;
+  };
+  static double cross(const Vector& a, const Vector& b);
+  static double dot(const Vector& a, const Vector& b);
+  static bool reaches(const Vector& line, const Vector& place);
+  Vector from_eye(std::uint32_t vertex) const;
+  bool comes_from_void(const std::vector<BoundaryEdge>& edges, const Vector& corner) const;
 
   const Tin& tin_;
   Point3 eye_;
