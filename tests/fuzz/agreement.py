@@ -235,7 +235,10 @@ class Trial:
                 if math.dist(eye, turbines[k][0]) < radius:
                     lines.append((eye, 2, *turbines[k]))
                     where.append((row, column, k))
-        for (row, column, k), (sees, clearance) in zip(where, self.lines(lines, shared)):
+        for (row, column, k), line in zip(where, self.lines(lines, shared)):
+            if line is None:  # a turbine without ground
+                continue
+            sees, clearance = line
             if bool(seen[k // 32, row, column] >> k % 32 & 1) != sees and abs(clearance) > ROUNDING_M:
                 self.faults.append(f"cell {row},{column}: ztv sees turbine {k}: {not sees}, los clears by {clearance}")
 
@@ -274,10 +277,15 @@ class Trial:
             print("id,x1,y1,h1,x2,y2,h2", file=file)
             for i, (a, up, b, over) in enumerate(ends):
                 print(f"{i},{a[0]!r},{a[1]!r},{up},{b[0]!r},{b[1]!r},{over}", file=file)
-        itin("los", self.store, "--links", self.path("links.csv"), "-o", self.path("los.csv"), "--overwrite", "--quiet", *options)
+        try:
+            itin("los", self.store, "--links", self.path("links.csv"), "-o", self.path("los.csv"), "--overwrite", "--quiet",
+                 *options)
+        except Refusal as refusal:  # some ends without ground, which the table names
+            self.log("refused:", refusal)
         with open(self.path("los.csv"), encoding="utf-8") as file:
             links = {int(link["id"]): link for link in csv.DictReader(file)}
-        return [(links[i]["verdict"] == "visible", float(links[i]["clearance_m"] or "nan")) for i in range(len(ends))]
+        return [(link["verdict"] == "visible", float(link["clearance_m"] or "nan")) if link["verdict"] else None
+                for link in (links[i] for i in range(len(ends)))]
 
     def run(self):
         self.import_terrain()
