@@ -12,10 +12,10 @@
 #include <itin/error.hpp>
 
 #include "triangulate/enclosure.hpp"
+#include "triangulate/growing_mesh.hpp"
 #include "triangulate/lattice_squares.hpp"
 #include "triangulate/merge_runs.hpp"
 #include "triangulate/mesh_order.hpp"
-#include "triangulate/segment_edges.hpp"
 
 namespace itin {
 
@@ -81,7 +81,7 @@ class RegionTriangulation {
  public:
   RegionTriangulation(const PointIndex& index, const Selection& selection, const GridBox& tile,
                       const GridWindow* window)
-      : index_(index), selection_(selection), window_(window), search_(index, selection) {
+      : index_(index), selection_(selection), window_(window), search_(index, selection), grown_(vertices_) {
     tile_ = intersection(tile, index.bounds());
     if (window != nullptr) tile_ = intersection(tile_, window->bounds());
     if (window != nullptr && window->holds(tile_)) window_ = nullptr;
@@ -91,17 +91,12 @@ class RegionTriangulation {
     RegionMesh result;
     if (!tile_.empty() && triangulate_box(first_margin())) {
       for (int mended = 0;; ++mended) {
-        mark_ground();
-        while (look_farther()) {
-          make_mesh();
-          mark_ground();
-        }
+        do mark_ground();
+        while (look_farther());
         if (!mend()) break;
         if (mended == kPatience && worth_growing()) {
           triangulate_box(4 * margin_);
           mended = 0;
-        } else {
-          make_mesh();
         }
       }
       result = extract();
@@ -117,7 +112,7 @@ class RegionTriangulation {
   bool triangulate_box(double margin) {
     margin_ = margin;
     box_ = read_box_ = box_with(margin_);
-    for (triangulate(nullptr); mesh_.triangles.empty(); triangulate(nullptr)) {
+    for (triangulate(nullptr); mesh().triangles.empty(); triangulate(nullptr)) {
       if (box_.contains(index_.bounds())) return false;
       box_ = box_with(margin_ *= 4);
       if (triangulate_seed()) return true;
@@ -139,12 +134,12 @@ class RegionTriangulation {
     };
     triangulate(&*std::min_element(leaves.begin(), leaves.end(),
                                    [&](const Leaf& a, const Leaf& b) { return distance(a) < distance(b); }));
-    return !mesh_.triangles.empty();
+    return !mesh().triangles.empty();
   }
 
   /// Of all points in read_box_ and in the seed, if given, and of all segments in box_.
   void triangulate(const Leaf* seed) {
-    proven_.clear();
+    hull_.clear();
     read_points(seed);
     bare_beyond_ = with_all_beyond(read_box_, index_.bounds());
     search_.pass_over(read_box_);
@@ -156,16 +151,25 @@ class RegionTriangulation {
     std::transform(vertices_.begin(), vertices_.end(), positions.begin(),
                    [](const SelectedVertex& v) { return v.position(); });
     squares_ = LatticeSquares(positions, segments, bare_beyond_);
-    delaunay_ = Delaunay();
-    const std::vector<std::uint32_t>& rest = squares_.rest();
-    for (std::size_t i = 0; i < rest.size(); ++i) positions[i] = positions[rest[i]];
-    positions.resize(rest.size());
-    delaunay_.insert(positions, rest);
     constraints_.clear();
-    themes_.clear();
-    constrain_ = false;
-    insert_segments(segments);
-    make_mesh();
+    grown_.start({});
+    note_segments(segments);
+    triangulate_vertices();
+    if (mesh().triangles.empty()) return;
+    for (const Constraint& c : constraints_) grown_.lay(c.from, c.to, c.theme);
+  }
+
+  /// All but those in the midst of squares.
+  void triangulate_vertices() {
+    std::vector<std::uint32_t> numbers = squares_.rest();
+    for (auto v = static_cast<std::uint32_t>(sorted_); v < vertices_.size(); ++v) numbers.push_back(v);
+    std::vector<Position> positions(numbers.size());
+    std::transform(numbers.begin(), numbers.end(), positions.begin(), [&](std::uint32_t v) { return position(v); });
+    Delaunay delaunay;
+    delaunay.insert(positions, numbers);
+    PlaneMesh mesh = delaunay.mesh();
+    squares_.fill(mesh);
+    grown_.start(std::move(mesh));
   }
 
   GridBox box_with(double margin) const { return intersection(expanded(tile_, margin), expanded(index_.bounds(), 1)); }
@@ -255,7 +259,7 @@ class RegionTriangulation {
     const auto [extra, fresh] = extras_.try_emplace(code, static_cast<std::uint32_t>(vertices_.size()));
     if (fresh) {
       vertices_.push_back(known ? *known : SelectedVertex{{p.x, p.y, 0}, 0, 0, 0});
-      delaunay_.insert(std::array{p}, std::array{extra->second});
+      if (!mesh().triangles.empty()) grown_.insert(extra->second);
     }
     if (known) {
       vertices_[extra->second] = *known;
@@ -266,36 +270,41 @@ class RegionTriangulation {
     return extra->second;
   }
 
-  void insert_segments(const std::vector<Segment>& segments) {
-    std::vector<Delaunay::Constraint> constraints;
-    for (const Segment& s : segments) {
-      constraints.emplace_back(vertex_at({s.ax, s.ay}, nullptr), vertex_at({s.bx, s.by}, nullptr));
-      themes_.push_back(s.theme);
-    }
-    if (constrain_) delaunay_.constrain(constraints);
-    constraints_.insert(constraints_.end(), constraints.begin(), constraints.end());
+  /// Their ends become vertices.
+  void note_segments(const std::vector<Segment>& segments) {
+    for (const Segment& s : segments)
+      constraints_.push_back({vertex_at({s.ax, s.ay}, nullptr), vertex_at({s.bx, s.by}, nullptr), s.theme});
   }
 
+  void insert_segments(const std::vector<Segment>& segments) {
+    const std::size_t before = constraints_.size();
+    note_segments(segments);
+    for (std::size_t k = before; k < constraints_.size(); ++k)
+      grown_.lay(constraints_[k].from, constraints_[k].to, constraints_[k].theme);
+  }
+
+  const PlaneMesh& mesh() const { return grown_.mesh(); }
   Position position(std::uint32_t vertex) const { return vertices_[vertex].position(); }
-  Position corner(std::uint32_t triangle, int i) const { return position(mesh_.triangles[triangle][i % 3]); }
-  bool constrained(std::uint32_t triangle, int i) const { return mesh_.constrained[triangle] >> i & 1; }
+  Position corner(std::uint32_t triangle, int i) const { return position(mesh().triangles[triangle][i % 3]); }
+  bool constrained(std::uint32_t triangle, int i) const { return mesh().constrained[triangle] >> i & 1; }
   bool on_outline(std::uint32_t triangle, int i) const {
-    return mesh_.constrained[triangle] >> (i + PlaneMesh::kOutline) & 1;
+    return mesh().constrained[triangle] >> (i + PlaneMesh::kOutline) & 1;
   }
 
   /// ground_[t] is right for every triangle that meets the box: no segment crosses the box unseen, so a triangle's part
   /// in the box is ground or not as a whole, and so are neighbours whose common edge meets the box unless it is
   /// part of the outline. A box that no outline meets has a vertex or a line in it, hence is ground.
   void mark_ground() {
-    ground_.assign(mesh_.triangles.size(), Ground::kUnknown);
+    ground_.assign(mesh().triangles.size(), Ground::kUnknown);
     std::vector<std::uint32_t> stack;
     const auto settle = [&](std::uint32_t t, Ground ground) {
       if (t == kNoTriangle || ground_[t] != Ground::kUnknown) return;
       ground_[t] = ground;
       stack.push_back(t);
     };
-    for (const SegmentEdge& edge : segment_edges_) {
-      if (edge.theme != kCoverage || !meets(position(edge.from), position(edge.to), box_)) continue;
+    outline_ = edges_of(Lines::kOutline);
+    for (const SegmentEdge& edge : outline_) {
+      if (!meets(position(edge.from), position(edge.to), box_)) continue;
       settle(edge.left, Ground::kYes);
       settle(edge.right, Ground::kNo);
     }
@@ -305,32 +314,18 @@ class RegionTriangulation {
       stack.pop_back();
       for (int i = 0; i < 3; ++i) {
         if (!on_outline(t, i) && meets(corner(t, i + 1), corner(t, i + 2), box_))
-          settle(mesh_.neighbours[t][i], ground_[t]);
+          settle(mesh().neighbours[t][i], ground_[t]);
       }
     }
   }
 
-  /// Mostly the plain Delaunay triangulation contains every segment as a chain of edges, and then it is the constrained
-  /// one as well; it takes half the time to make.
-  void make_mesh() {
-    triangulate_rest();
-    if (lay_segments() || mesh_.triangles.empty()) return;
-    constrain_ = true;
-    delaunay_.constrain(constraints_);
-    triangulate_rest();
-    if (!lay_segments()) throw Error("a constraint is lost in the triangulation");
-  }
-
-  void triangulate_rest() {
-    mesh_ = delaunay_.mesh();
-    squares_.fill(mesh_);
-  }
-
-  /// False when some segment is not made of edges.
-  bool lay_segments() {
-    auto edges = itin::lay_segments(mesh_, vertices_, constraints_, themes_);
-    segment_edges_ = edges ? std::move(*edges) : std::vector<SegmentEdge>();
-    return edges.has_value();
+  /// The edges of all segments, or of the outline only.
+  enum class Lines { kAll, kOutline };
+  std::vector<SegmentEdge> edges_of(Lines which) const {
+    std::vector<SegmentEdge> edges;
+    for (const Constraint& c : constraints_)
+      if (which == Lines::kAll || c.theme == kCoverage) grown_.edges_of(c.from, c.to, c.theme, edges);
+    return edges;
   }
 
   /// Whether triangle t meets tile and window.
@@ -339,13 +334,13 @@ class RegionTriangulation {
     if (!corners.meets(tile_)) return false;
     if (!tile_.contains(corners) && !reaches_tile(t)) return false;
     if (window_ == nullptr) return true;
-    const auto& [a, b, c] = mesh_.triangles[t];
+    const auto& [a, b, c] = mesh().triangles[t];
     return window_->meets(vertices_[a].point, vertices_[b].point, vertices_[c].point);
   }
 
   GridBox box_of(std::uint32_t t) const {
     GridBox box;
-    for (const std::uint32_t v : mesh_.triangles[t]) box.extend(vertices_[v].point.x, vertices_[v].point.y);
+    for (const std::uint32_t v : mesh().triangles[t]) box.extend(vertices_[v].point.x, vertices_[v].point.y);
     return box;
   }
 
@@ -367,18 +362,20 @@ class RegionTriangulation {
   /// Reads the ground that thin triangles see past the lines beside them, beyond what is known. True when there was
   /// some.
   bool look_farther() {
-    enclosed_.assign(mesh_.triangles.size(), 0);
     std::vector<Cell> missing;
     // The outline alone shuts in little, and triangles across the sea see far.
     const bool lines =
-        std::any_of(themes_.begin(), themes_.end(), [](std::uint16_t theme) { return theme != kCoverage; });
-    Enclosure enclosure(mesh_, vertices_, known_, index_.bounds());
-    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-      if (ground_[t] != Ground::kYes) continue;
-      enclosed_[t] = t < squares_.triangle_count() ||
-                     circumdisc_in(corner(t, 0), corner(t, 1), corner(t, 2), bare_beyond_) || !in_region(t) ||
-                     (lines && enclosure.holds(t));
-      if (lines && !enclosed_[t]) enclosure.add_missing(missing);
+        std::any_of(constraints_.begin(), constraints_.end(), [](const Constraint& c) { return c.theme != kCoverage; });
+    Enclosure enclosure(mesh(), vertices_, known_, index_.bounds());
+    for (std::uint32_t t = 0; t < mesh().triangles.size(); ++t) {
+      if (ground_[t] != Ground::kYes || grown_.settled(t)) continue;
+      if (t < squares_.triangle_count() ||
+          circumdisc_in(corner(t, 0), corner(t, 1), corner(t, 2), bare_beyond_) || !in_region(t) ||
+          (lines && enclosure.holds(t))) {
+        grown_.settle(t);
+      } else if (lines) {
+        enclosure.add_missing(missing);
+      }
     }
     std::sort(missing.begin(), missing.end());
     missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
@@ -403,13 +400,13 @@ class RegionTriangulation {
   bool mend() {
     std::vector<SelectedVertex> intruders;
     std::vector<Segment> fresh;
-    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    for (std::uint32_t t = 0; t < mesh().triangles.size(); ++t) {
       if (ground_[t] != Ground::kYes) continue;
-      if (!enclosed_[t]) prove(t, intruders, fresh);
+      if (!grown_.settled(t)) prove(t, intruders, fresh);
       look_beyond_hull(t, intruders);
     }
-    for (const SegmentEdge& edge : segment_edges_) {
-      if (edge.theme == kCoverage && edge.left == kNoTriangle) look_left_of(edge.from, edge.to, intruders);
+    for (const SegmentEdge& edge : outline_) {
+      if (edge.left == kNoTriangle) look_left_of(edge.from, edge.to, intruders);
     }
     for (const SelectedVertex& v : intruders) vertex_at(v.position(), &v);
     insert_segments(fresh);
@@ -417,8 +414,6 @@ class RegionTriangulation {
   }
 
   void prove(std::uint32_t t, std::vector<SelectedVertex>& intruders, std::vector<Segment>& fresh) {
-    const Triangle key = smallest_first(mesh_.triangles[t]);
-    if (proven_.contains(key)) return;
     bool sound = true;
     if (!box_.contains(box_of(t))) {
       const std::vector<Segment> crossing = read_segments(box_of(t));
@@ -437,13 +432,13 @@ class RegionTriangulation {
         sound = false;
       }
     }
-    if (sound) proven_.insert(key);
+    if (sound) grown_.settle(t);
   }
 
   void look_beyond_hull(std::uint32_t t, std::vector<SelectedVertex>& intruders) {
-    const auto& v = mesh_.triangles[t];
+    const auto& v = mesh().triangles[t];
     for (int i = 0; i < 3; ++i) {
-      if (mesh_.neighbours[t][i] == kNoTriangle && !on_outline(t, i))
+      if (mesh().neighbours[t][i] == kNoTriangle && !on_outline(t, i))
         look_left_of(v[(i + 2) % 3], v[(i + 1) % 3], intruders);
     }
   }
@@ -452,29 +447,22 @@ class RegionTriangulation {
   /// missing, unless the edge is on the hull of the whole surface.
   void look_left_of(std::uint32_t from, std::uint32_t to, std::vector<SelectedVertex>& intruders) {
     const Position p = position(from), q = position(to);
-    const Triangle key{from, to, kNoTriangle};
-    if (!tile_reaches_left_of(p, q, 0) || proven_.contains(key)) return;
+    if (!tile_reaches_left_of(p, q, 0) || hull_.contains({from, to})) return;
     auto found = search_.apex(p, q);
     // An edge between ends of segments far away may be none of the whole surface's: then lines may hide all from it.
     if (!found) found = search_.nearest_left_of(p, q);
     if (found) {
       intruders.push_back(*found);
     } else {
-      proven_.insert(key);
+      hull_.insert({from, to});
     }
-  }
-
-  static Triangle smallest_first(const Triangle& t) {
-    if (t[1] < t[0] && t[1] < t[2]) return {t[1], t[2], t[0]};
-    if (t[2] < t[0] && t[2] < t[1]) return {t[2], t[0], t[1]};
-    return t;
   }
 
   RegionMesh extract() {
     RegionMesh result;
-    std::vector<std::uint32_t> triangle_number(mesh_.triangles.size(), kNoTriangle);
+    std::vector<std::uint32_t> triangle_number(mesh().triangles.size(), kNoTriangle);
     std::vector<std::uint32_t> kept;
-    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    for (std::uint32_t t = 0; t < mesh().triangles.size(); ++t) {
       if (ground_[t] != Ground::kYes || !in_region(t)) continue;
       triangle_number[t] = static_cast<std::uint32_t>(kept.size());
       kept.push_back(t);
@@ -483,15 +471,15 @@ class RegionTriangulation {
     for (const std::uint32_t t : kept) {
       Triangle triangle{}, neighbours{};
       for (int i = 0; i < 3; ++i) {
-        triangle[i] = vertex_number[mesh_.triangles[t][i]];
-        const std::uint32_t n = mesh_.neighbours[t][i];
+        triangle[i] = vertex_number[mesh().triangles[t][i]];
+        const std::uint32_t n = mesh().neighbours[t][i];
         neighbours[i] = n == kNoTriangle ? kNoTriangle : triangle_number[n];
       }
       result.mesh.triangles.push_back(triangle);
       result.mesh.neighbours.push_back(neighbours);
-      result.mesh.constrained.push_back(mesh_.constrained[t]);
+      result.mesh.constrained.push_back(mesh().constrained[t]);
     }
-    for (const SegmentEdge& edge : segment_edges_) {
+    for (const SegmentEdge& edge : edges_of(Lines::kAll)) {
       const auto kept_side = [&](std::uint32_t t) { return t != kNoTriangle && triangle_number[t] != kNoTriangle; };
       if (edge.theme == kCoverage || (!kept_side(edge.left) && !kept_side(edge.right))) continue;
       const auto [from, to] = std::minmax({vertex_number[edge.from], vertex_number[edge.to]});
@@ -505,7 +493,7 @@ class RegionTriangulation {
   std::vector<std::uint32_t> number_vertices(const std::vector<std::uint32_t>& kept, std::vector<SelectedVertex>& out) {
     std::vector<std::uint8_t> used(vertices_.size(), 0);
     for (const std::uint32_t t : kept) {
-      for (const std::uint32_t v : mesh_.triangles[t]) used[v] = 1;
+      for (const std::uint32_t v : mesh().triangles[t]) used[v] = 1;
     }
     const auto code = [&](std::uint32_t v) { return morton(vertices_[v].point.x, vertices_[v].point.y); };
     std::vector<std::uint32_t> order, late;
@@ -540,6 +528,10 @@ class RegionTriangulation {
   }
 
   enum class Ground : std::uint8_t { kUnknown, kYes, kNo };
+  struct Constraint {
+    std::uint32_t from, to;
+    std::uint16_t theme;
+  };
 
   const PointIndex& index_;
   const Selection& selection_;
@@ -559,16 +551,12 @@ class RegionTriangulation {
   std::unordered_map<std::uint64_t, std::uint32_t> extras_;  ///< the others by Morton code
   std::set<std::uint32_t> unread_;                           ///< of these, those known by position only
   std::set<Segment> segments_;
-  std::vector<Delaunay::Constraint> constraints_;
-  std::vector<std::uint16_t> themes_;  ///< of the constraints
-  bool constrain_ = false;             ///< whether delaunay_ knows the constraints
-  std::vector<SegmentEdge> segment_edges_;
+  std::vector<Constraint> constraints_;
   LatticeSquares squares_;  ///< of the points read at first
-  Delaunay delaunay_;       ///< of the others
-  PlaneMesh mesh_;
+  GrowingMesh grown_;       ///< settled: a triangle that needs no more proof
   std::vector<Ground> ground_;
-  std::vector<std::uint8_t> enclosed_;  ///< per triangle: it needs no proof
-  std::set<Triangle> proven_;
+  std::vector<SegmentEdge> outline_;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> hull_;  ///< edges known to have nothing beyond
   RetrievalStatistics statistics_;
 };
 
