@@ -24,13 +24,13 @@ namespace {
 /// The box is this many mean point spacings wider than the region: most circumdiscs of the region's triangles fit in.
 constexpr double kMargin = 4;
 /// After so many rounds of mending the box may grow.
-constexpr int kPatience = 8;
+constexpr int kPatience = 32;
 /// A box is not made to have more points than so many times those of the region (large regions: kLargeGrowth times and
 /// kManyPoints), and a few.
 constexpr std::uint64_t kGrowth = 8, kLargeGrowth = 2;
 constexpr std::uint64_t kManyPoints = 1 << 16, kFewPoints = 4096;
-/// Mean point spacings: cells of about 256 points.
-constexpr double kCellSide = 16;
+/// Mean point spacings: cells of about 64 points.
+constexpr double kCellSide = 8;
 /// In points: what reading a cell costs besides. Over open water cells are empty, and no few.
 constexpr std::uint64_t kCellCost = 64;
 
@@ -414,25 +414,22 @@ class RegionTriangulation {
   }
 
   void prove(std::uint32_t t, std::vector<SelectedVertex>& intruders, std::vector<Segment>& fresh) {
-    bool sound = true;
     if (!box_.contains(box_of(t))) {
       const std::vector<Segment> crossing = read_segments(box_of(t));
       fresh.insert(fresh.end(), crossing.begin(), crossing.end());
-      sound = crossing.empty();
+      if (!crossing.empty()) return;
     }
-    if (const auto found = search_.inside(corner(t, 0), corner(t, 1), corner(t, 2))) {
-      intruders.push_back(*found);
-      sound = false;
-    }
-    for (int i = 0; i < 3; ++i) {
-      if (constrained(t, i)) continue;
+    // What lies in a triangle takes it away, and with it all questions about what it sees.
+    std::optional<SelectedVertex> found = search_.inside(corner(t, 0), corner(t, 1), corner(t, 2));
+    for (int i = 0; i < 3 && !found; ++i) {
       // Beyond edge i is left of its reverse.
-      if (const auto found = search_.intruder(corner(t, i + 2), corner(t, i + 1), corner(t, i))) {
-        intruders.push_back(*found);
-        sound = false;
-      }
+      if (!constrained(t, i)) found = search_.intruder(corner(t, i + 2), corner(t, i + 1), corner(t, i));
     }
-    if (sound) grown_.settle(t);
+    if (found) {
+      intruders.push_back(*found);
+    } else {
+      grown_.settle(t);
+    }
   }
 
   void look_beyond_hull(std::uint32_t t, std::vector<SelectedVertex>& intruders) {
