@@ -32,7 +32,7 @@ constexpr std::uint64_t kManyPoints = 1 << 16, kFewPoints = 4096;
 /// Mean point spacings: cells of about 64 points.
 constexpr double kCellSide = 8;
 /// In points: what reading a cell costs besides. Over open water cells are empty, and no few.
-constexpr std::uint64_t kCellCost = 64;
+constexpr std::uint64_t kCellCost = 16;
 
 double area(const GridBox& b) {
   return b.empty() ? 0 : (1.0 + b.xmax - b.xmin) * (1.0 + b.ymax - b.ymin);
