@@ -133,8 +133,7 @@ bool Enclosure::follow(Position eye, const ApexFrame& frame, double lambda, cons
       if (!known_beyond_hull(eye, cones_[next], limit)) return false;
       continue;
     }
-    if (cones_.size() > kMostCones ||
-        !known(u, limit, box_of(corner(from, edge + 1), corner(from, edge + 2))))
+    if (cones_.size() > kMostCones || !known(u, limit, box_of(corner(from, edge + 1), corner(from, edge + 2))))
       return false;
     int j = 0;
     while (mesh_.neighbours[u][j] != from) ++j;

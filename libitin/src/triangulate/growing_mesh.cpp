@@ -10,16 +10,13 @@ namespace itin {
 
 namespace {
 
-constexpr auto kByEnds = [](const auto& a, const auto& b) {
-  return std::tie(a.from, a.to) < std::tie(b.from, b.to);
-};
+constexpr auto kByEnds = [](const auto& a, const auto& b) { return std::tie(a.from, a.to) < std::tie(b.from, b.to); };
 
 /// Of a sorted range; null where there is none.
 template <class Edge>
 const Edge* find(const std::vector<Edge>& edges, std::uint32_t from, std::uint32_t to) {
-  const auto found = std::lower_bound(edges.begin(), edges.end(), std::pair(from, to), [](const Edge& e, const auto& p) {
-    return std::pair(e.from, e.to) < p;
-  });
+  const auto found = std::lower_bound(edges.begin(), edges.end(), std::pair(from, to),
+                                      [](const Edge& e, const auto& p) { return std::pair(e.from, e.to) < p; });
   return found != edges.end() && found->from == from && found->to == to ? &*found : nullptr;
 }
 
@@ -138,7 +135,8 @@ void GrowingMesh::take_disturbed(Position p) {
   for (std::size_t k = 0; k < cavity_.size(); ++k) {
     for (int i = 0; i < 3; ++i) {
       const Side edge = side(cavity_[k], i);
-      if (edge.bits == 0 && edge.outer != kNoTriangle && !taken(edge.outer) && disturbs(p, edge.outer)) take(edge.outer);
+      if (edge.bits == 0 && edge.outer != kNoTriangle && !taken(edge.outer) && disturbs(p, edge.outer))
+        take(edge.outer);
     }
   }
 }

@@ -131,8 +131,8 @@ TEST(GrowingMesh, RefusesLinesThatCross) {
   std::vector<SelectedVertex> vertices;
   for (const Position p : {Position{0, 0}, {10, 0}, {0, 10}, {10, 11}}) vertices.push_back({{p.x, p.y, 0}, 0, 0, 0});
   Delaunay delaunay;
-  delaunay.insert(std::array{vertices[0].position(), vertices[1].position(), vertices[2].position(),
-                             vertices[3].position()});
+  delaunay.insert(
+      std::array{vertices[0].position(), vertices[1].position(), vertices[2].position(), vertices[3].position()});
   GrowingMesh grown(vertices);
   grown.start(delaunay.mesh());
   grown.lay(0, 3, 1);
