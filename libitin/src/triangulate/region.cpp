@@ -125,7 +125,7 @@ class RegionTriangulation {
     squares_ = LatticeSquares(positions, segments, bare_beyond_);
     constraints_.clear();
     grown_.start({});
-    note_segments(segments);
+    insert(segments);
     triangulate_vertices();
     if (mesh().triangles.empty()) return;
     for (const Constraint& c : constraints_) grown_.lay(c.from, c.to, c.theme);
@@ -175,16 +175,12 @@ class RegionTriangulation {
     return number;
   }
 
-  /// Their ends become vertices.
-  void note_segments(const std::vector<Segment>& segments) {
-    for (const Segment& s : segments) constraints_.push_back({end_at({s.ax, s.ay}), end_at({s.bx, s.by}), s.theme});
-  }
-
-  void insert_segments(const std::vector<Segment>& segments) {
-    const std::size_t before = constraints_.size();
-    note_segments(segments);
-    for (std::size_t k = before; k < constraints_.size(); ++k)
-      grown_.lay(constraints_[k].from, constraints_[k].to, constraints_[k].theme);
+  /// Into the mesh if there is one. Their ends become vertices.
+  void insert(const std::vector<Segment>& segments) {
+    for (const Segment& s : segments) {
+      const Constraint& c = constraints_.emplace_back(end_at({s.ax, s.ay}), end_at({s.bx, s.by}), s.theme);
+      if (!mesh().triangles.empty()) grown_.lay(c.from, c.to, c.theme);
+    }
   }
 
   const PlaneMesh& mesh() const { return grown_.mesh(); }
@@ -250,17 +246,15 @@ class RegionTriangulation {
 
   /// The separating axis theorem, the boxes known to overlap: is the whole tile right of one edge?
   bool reaches_tile(std::uint32_t t) const {
-    for (int i = 0; i < 3; ++i) {
-      if (!tile_reaches_left_of(corner(t, i), corner(t, i + 1), 0)) return false;
-    }
-    return true;
+    return tile_reaches_left_of(corner(t, 0), corner(t, 1)) && tile_reaches_left_of(corner(t, 1), corner(t, 2)) &&
+           tile_reaches_left_of(corner(t, 2), corner(t, 0));
   }
 
-  /// Whether some corner of the tile has orientation >= least relative to pq.
-  bool tile_reaches_left_of(Position p, Position q, int least) const {
+  /// Whether some corner of the tile is left of pq or in line with it.
+  bool tile_reaches_left_of(Position p, Position q) const {
     // The corner farthest to the left of pq.
     const Position c{q.y > p.y ? tile_.xmin : tile_.xmax, q.x > p.x ? tile_.ymax : tile_.ymin};
-    return orientation(p, q, c) >= least;
+    return orientation(p, q, c) >= 0;
   }
 
   /// Reads the ground that thin triangles see past the lines beside them, beyond what is known. True when there was
@@ -293,7 +287,7 @@ class RegionTriangulation {
     const std::vector<RegionReader::Coded> found = read_.points(cell.box());
     most_known_ -= std::min<std::uint64_t>(most_known_, found.size() + kCellCost);
     for (const auto& [code, vertex] : found) insert(vertex);
-    insert_segments(read_.fresh_segments(square_of(cell)));
+    insert(read_.fresh_segments(square_of(cell)));
     known_.add(cell);
     return true;
   }
@@ -311,7 +305,7 @@ class RegionTriangulation {
       if (edge.left == kNoTriangle) look_left_of(edge.from, edge.to, intruders);
     }
     for (const SelectedVertex& v : intruders) insert(v);
-    insert_segments(fresh);
+    insert(fresh);
     return !intruders.empty() || !fresh.empty();
   }
 
@@ -346,7 +340,7 @@ class RegionTriangulation {
   /// missing, unless the edge is on the hull of the whole surface.
   void look_left_of(std::uint32_t from, std::uint32_t to, std::vector<SelectedVertex>& intruders) {
     const Position p = position(from), q = position(to);
-    if (!tile_reaches_left_of(p, q, 0) || hull_.contains({from, to})) return;
+    if (!tile_reaches_left_of(p, q) || hull_.contains({from, to})) return;
     auto found = search_.apex(p, q);
     // An edge between ends of segments far away may be none of the whole surface's: then lines may hide all from it.
     if (!found) found = search_.nearest_left_of(p, q);
