@@ -125,12 +125,14 @@ bool Enclosure::known_beyond_hull(Position eye, const Cone& cone, const GridBox&
 }
 
 bool Enclosure::follow(Position eye, const ApexFrame& frame, double lambda, const GridBox& limit) {
-  for (std::size_t next = 0; next < cones_.size(); ++next) {
-    const auto [from, edge, right, left] = cones_[next];
+  std::size_t next = 0;
+  while (next < cones_.size()) {
+    const Cone cone = cones_[next++];
+    const auto& [from, edge, right, left] = cone;
     if (!may_meet(frame, lambda, corner(from, edge + 1), corner(from, edge + 2))) continue;
     const std::uint32_t u = mesh_.neighbours[from][edge];
     if (u == kNoTriangle) {
-      if (!known_beyond_hull(eye, cones_[next], limit)) return false;
+      if (!known_beyond_hull(eye, cone, limit)) return false;
       continue;
     }
     if (cones_.size() > kMostCones || !known(u, limit, box_of(corner(from, edge + 1), corner(from, edge + 2))))

@@ -132,9 +132,11 @@ void GrowingMesh::take_beyond_hull(const Place& place, std::uint32_t vertex) {
 }
 
 void GrowingMesh::take_disturbed(Position p) {
-  for (std::size_t k = 0; k < cavity_.size(); ++k) {
+  std::size_t next = 0;
+  while (next < cavity_.size()) {
+    const std::uint32_t t = cavity_[next++];
     for (int i = 0; i < 3; ++i) {
-      const Side edge = side(cavity_[k], i);
+      const Side edge = side(t, i);
       if (edge.bits == 0 && edge.outer != kNoTriangle && !taken(edge.outer) && disturbs(p, edge.outer))
         take(edge.outer);
     }

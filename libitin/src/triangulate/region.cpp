@@ -178,7 +178,8 @@ class RegionTriangulation {
   /// Into the mesh if there is one. Their ends become vertices.
   void insert(const std::vector<Segment>& segments) {
     for (const Segment& s : segments) {
-      const Constraint& c = constraints_.emplace_back(end_at({s.ax, s.ay}), end_at({s.bx, s.by}), s.theme);
+      const Constraint c{end_at({s.ax, s.ay}), end_at({s.bx, s.by}), s.theme};
+      constraints_.push_back(c);
       if (!mesh().triangles.empty()) grown_.lay(c.from, c.to, c.theme);
     }
   }
