@@ -9,8 +9,6 @@ namespace {
 
 /// For more, a search among the unread vertices is as fast.
 constexpr std::size_t kMostCones = 2000;
-/// Circles of so many cells' sides hold more points than what is seen of them.
-constexpr double kWide = 2;
 
 /// Whether segment pq may meet the circle `lambda`: surely false only when it does not.
 bool may_meet(const ApexFrame& frame, double lambda, Position p, Position q) {
@@ -20,6 +18,37 @@ bool may_meet(const ApexFrame& frame, double lambda, Position p, Position q) {
   const double along = (lambda * frame.nx - px) * dx + (lambda * frame.ny - py) * dy;
   const double s = std::clamp(along / (dx * dx + dy * dy), 0.0, 1.0);
   return frame.inside(lambda, p.x + s * dx, p.y + s * dy);
+}
+
+struct Point {
+  double x, y;
+};
+
+std::vector<Point> corners_of(const GridBox& b) {
+  const double x0 = b.xmin, y0 = b.ymin, x1 = b.xmax, y1 = b.ymax;
+  return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+}
+
+/// Cuts off what lies more than a grid unit to the right of pq (I. Sutherland, G. Hodgman 1974).
+void keep_left_of(std::vector<Point>& polygon, Position p, Position q) {
+  const double dx = static_cast<double>(q.x) - p.x, dy = static_cast<double>(q.y) - p.y;
+  const double unit = std::hypot(dx, dy);
+  const auto side = [&](const Point& c) { return dx * (c.y - p.y) - dy * (c.x - p.x) + unit; };
+  std::vector<Point> kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point &from = polygon[i], &to = polygon[(i + 1) % polygon.size()];
+    const double before = side(from), after = side(to);
+    if (before >= 0) kept.push_back(from);
+    if ((before < 0) != (after < 0)) {
+      const double share = before / (before - after);
+      kept.push_back({from.x + share * (to.x - from.x), from.y + share * (to.y - from.y)});
+    }
+  }
+  polygon = std::move(kept);
+}
+
+std::int32_t rounded(double v) {
+  return static_cast<std::int32_t>(std::lround(v));
 }
 
 GridBox box_of(Position p, Position q) {
@@ -45,11 +74,10 @@ bool Enclosure::known(std::uint32_t t, const GridBox& limit, const GridBox& near
 }
 
 bool Enclosure::add_missing(std::vector<Cell>& cells) const {
-  return radius_ > kWide * known_.cell_side() && !unknown_.empty() && known_.add_missing(unknown_, cells);
+  return !unknown_.empty() && known_.add_missing(unknown_, cells);
 }
 
 bool Enclosure::holds(std::uint32_t t) {
-  radius_ = 0;
   if (!known(t, all_, all_)) return false;
   for (int i = 0; i < 3; ++i) {
     if ((mesh_.constrained[t] >> i & 1) != 0) continue;
@@ -64,7 +92,6 @@ bool Enclosure::shut_in(std::uint32_t t, int edge, End end) {
   const ApexFrame frame(a, b);
   const double lambda = frame.lambda(corner(t, edge));
   const GridBox limit = frame.cap_box(lambda, all_);
-  radius_ = std::hypot(frame.r, lambda);
   unknown_ = {};
   cones_.clear();
   // The triangles about the eye, from the edge on, as long as they are left of ab.
@@ -85,13 +112,30 @@ void Enclosure::look_through(std::uint32_t t, int edge, Position right, Position
   if ((mesh_.constrained[t] >> edge & 1) == 0) cones_.push_back({t, edge, right, left});
 }
 
+/// Whether what is seen beyond an edge of the hull is known ground. There are no vertices in that.
+bool Enclosure::known_beyond_hull(Position eye, const Cone& cone, const GridBox& limit) {
+  std::vector<Point> seen = corners_of(expanded(limit, 1));
+  keep_left_of(seen, corner(cone.triangle, cone.edge + 2), corner(cone.triangle, cone.edge + 1));
+  keep_left_of(seen, eye, cone.right);
+  keep_left_of(seen, cone.left, eye);
+  GridBox box;
+  for (const Point& p : seen) box.extend(rounded(p.x), rounded(p.y));
+  unknown_ = intersection(expanded(box, 1), limit);
+  return known_.covers(unknown_);
+}
+
 bool Enclosure::follow(Position eye, const ApexFrame& frame, double lambda, const GridBox& limit) {
-  for (std::size_t next = 0; next < cones_.size(); ++next) {
-    const auto [from, edge, right, left] = cones_[next];
+  std::size_t next = 0;
+  while (next < cones_.size()) {
+    const Cone cone = cones_[next++];
+    const auto& [from, edge, right, left] = cone;
     if (!may_meet(frame, lambda, corner(from, edge + 1), corner(from, edge + 2))) continue;
     const std::uint32_t u = mesh_.neighbours[from][edge];
-    if (u == kNoTriangle || cones_.size() > kMostCones ||
-        !known(u, limit, box_of(corner(from, edge + 1), corner(from, edge + 2))))
+    if (u == kNoTriangle) {
+      if (!known_beyond_hull(eye, cone, limit)) return false;
+      continue;
+    }
+    if (cones_.size() > kMostCones || !known(u, limit, box_of(corner(from, edge + 1), corner(from, edge + 2))))
       return false;
     int j = 0;
     while (mesh_.neighbours[u][j] != from) ++j;

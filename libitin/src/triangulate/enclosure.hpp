@@ -31,8 +31,7 @@ class Enclosure {
   /// Whether triangle t lies in known ground, and surely all that could disturb it too. False also where it takes long
   /// to tell.
   bool holds(std::uint32_t t);
-  /// After holds(t) was false: adds the cells into which it could not look. False where that is no few cells, or too
-  /// few to be worth it.
+  /// After holds(t) was false: adds the cells into which it could not look. False where those are many.
   bool add_missing(std::vector<Cell>& cells) const;
 
  private:
@@ -49,6 +48,7 @@ class Enclosure {
   bool known(std::uint32_t t, const GridBox& limit, const GridBox& near);
   bool shut_in(std::uint32_t t, int edge, End eye);
   void look_through(std::uint32_t t, int edge, Position right, Position left);
+  bool known_beyond_hull(Position eye, const Cone& cone, const GridBox& limit);
   bool follow(Position eye, const ApexFrame& frame, double lambda, const GridBox& limit);
 
   const PlaneMesh& mesh_;
@@ -56,8 +56,7 @@ class Enclosure {
   const KnownGround& known_;
   GridBox all_;
   std::vector<Cone> cones_;
-  GridBox unknown_;    ///< what the last failure lacked, as far as it is near
-  double radius_ = 0;  ///< of the circumcircle that was looked at last
+  GridBox unknown_;  ///< what the last failure lacked, as far as it is near
 };
 
 }  // namespace itin

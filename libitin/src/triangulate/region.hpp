@@ -33,9 +33,6 @@ struct RegionMesh {
   RetrievalStatistics statistics;
 };
 
-/// Whether the circumdisc of the counterclockwise abc surely lies in `box`.
-bool circumdisc_in(Position a, Position b, Position c, const GridBox& box);
-
 /// Triangles that meet both `tile` and, if given, `window`. Touching counts.
 RegionMesh triangulate_region(const PointIndex& index, const Selection& selection, const GridBox& tile,
                               const GridWindow* window = nullptr);

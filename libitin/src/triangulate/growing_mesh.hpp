@@ -1,0 +1,109 @@
+// A constrained Delaunay triangulation that takes in single vertices and segments in place: of the mesh only those
+// triangles change that must, and it is known which.
+//
+//   GrowingMesh grown(vertices);           // by number; others may join later
+//   grown.start(delaunay.mesh());          // up to its convex hull
+//   grown.lay(0, 17, theme);               // segments meet at vertices only
+//   vertices.push_back(v), grown.insert(number of v);
+//
+// The triangles that a new vertex disturbs are those whose circumcircles it lies in, as far as they hang together
+// without a constrained edge between them (A. Bowyer, D. Watson 1981); those that a segment crosses make way for the
+// triangulations of the two polygons at its sides (M. Anglada 1997). Ties are broken by predicates.hpp, so the mesh is
+// the one that CGAL makes of the same vertices and segments.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "triangulate/apex.hpp"
+#include "triangulate/delaunay.hpp"
+
+namespace itin {
+
+/// An edge of the mesh along a segment, in its direction; kNoTriangle beyond the hull.
+struct SegmentEdge {
+  std::uint32_t from, to;
+  std::uint32_t left, right;
+  std::uint16_t theme = kCoverage;
+};
+
+class GrowingMesh {
+ public:
+  /// Refers to the vertices.
+  explicit GrowingMesh(const std::vector<SelectedVertex>& vertices) : vertices_(vertices) {}
+
+  /// Begins anew. The mesh has no constraints, and all vertices are in it or, where it is empty, none.
+  void start(PlaneMesh mesh);
+  /// A vertex where there is none yet. Precondition: there are triangles.
+  void insert(std::uint32_t vertex);
+  /// Precondition: there are triangles, and their vertices include both ends. Throws Error where it crosses another.
+  void lay(std::uint32_t from, std::uint32_t to, std::uint16_t theme);
+
+  const PlaneMesh& mesh() const { return mesh_; }
+  /// Appends the edges that a segment laid earlier is made of.
+  void edges_of(std::uint32_t from, std::uint32_t to, std::uint16_t theme, std::vector<SegmentEdge>& edges) const;
+
+  /// A mark on a triangle that is gone when the triangle changes.
+  bool settled(std::uint32_t triangle) const { return settled_[triangle] != 0; }
+  void settle(std::uint32_t triangle) { settled_[triangle] = 1; }
+
+ private:
+  using Corners = std::array<std::uint32_t, 3>;
+  /// An edge with the place to its left, and what is known of it.
+  struct Side {
+    std::uint32_t from, to;
+    std::uint32_t outer;  ///< the triangle to its right
+    std::uint8_t bits;    ///< kLine and kOutline
+  };
+  struct HalfEdge {
+    std::uint32_t from, to, triangle;
+    int edge;
+  };
+  /// The triangle that holds a position, or whose edge on the hull it lies beyond.
+  struct Place {
+    std::uint32_t triangle;
+    int beyond;  ///< that edge, or kInside
+  };
+  static constexpr int kInside = -1;
+  static constexpr std::uint8_t kLine = 1, kOutline = 1 << PlaneMesh::kOutline, kTaken = 0x80;
+
+  Position position(std::uint32_t vertex) const { return vertices_[vertex].position(); }
+  std::uint32_t corner(std::uint32_t t, int i) const { return mesh_.triangles[t][i % 3]; }
+  Position at_corner(std::uint32_t t, int i) const { return position(corner(t, i)); }
+  std::uint8_t bits(std::uint32_t t, int edge) const { return (mesh_.constrained[t] >> edge) & (kLine | kOutline); }
+  bool taken(std::uint32_t t) const { return (mesh_.constrained[t] & kTaken) != 0; }
+  Side side(std::uint32_t t, int edge) const;
+  int edge_between(std::uint32_t t, std::uint32_t from, std::uint32_t to) const;
+  bool disturbs(Position p, std::uint32_t t) const;
+  SegmentEdge edge_towards(std::uint32_t at, std::uint32_t to) const;
+
+  Place locate(Position p);
+  void clear();
+  void take(std::uint32_t t);
+  void take_beyond_hull(const Place& place, std::uint32_t vertex);
+  void split_edge_at(std::uint32_t vertex);
+  void take_disturbed(Position p);
+  void fan_out(std::uint32_t vertex);
+  void add_side(const Side& side, std::uint32_t vertex);
+  void cut(std::uint32_t at, std::uint32_t to, std::uint32_t first);
+  void fill_between(std::uint32_t from, std::uint32_t to, std::span<const std::uint32_t> chain);
+  void replace();
+  std::uint32_t place_for(std::size_t number);
+
+  const std::vector<SelectedVertex>& vertices_;
+  PlaneMesh mesh_;
+  std::vector<std::uint32_t> some_triangle_;  ///< by vertex
+  std::vector<std::uint8_t> settled_;
+  std::uint32_t last_ = 0;  ///< a triangle near the last change
+  std::uint32_t turn_ = 0;
+  // What is being replaced, kept for its memory.
+  std::vector<std::uint32_t> cavity_, left_, right_;
+  std::vector<Side> rim_;
+  std::vector<Corners> filling_;
+  std::vector<HalfEdge> half_edges_;
+};
+
+}  // namespace itin

@@ -1,0 +1,71 @@
+// What has been read of an index for one region: vertices by number, and segments, each once.
+#pragma once
+
+#include <cstdint>
+#include <set>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include <itin/tin.hpp>
+
+#include "store/point_index.hpp"
+#include "triangulate/apex.hpp"
+#include "triangulate/selection.hpp"
+
+namespace itin {
+
+class RegionReader {
+ public:
+  /// Refers to both.
+  RegionReader(const PointIndex& index, const Selection& selection) : index_(index), selection_(selection) {}
+
+  std::vector<Leaf> leaves_in(const GridBox& box) const;
+  /// About how many of the leaves' points lie in a box: strips a few points wide meet many leaves.
+  static double points_of(const std::vector<Leaf>& leaves, const GridBox& box);
+  double points_in(const GridBox& box) const { return points_of(leaves_in(box), box); }
+
+  /// Forgets all, and reads the points of one box and, if given, those of a leaf in another. They get the first
+  /// numbers, in Morton order.
+  void start(const GridBox& box, const Leaf* leaf, const GridBox& leaf_box);
+  /// Of a box, with their Morton codes.
+  using Coded = std::pair<std::uint64_t, SelectedVertex>;
+  std::vector<Coded> points(const GridBox& box);
+  /// Those that meet the box and have not been read before.
+  std::vector<Segment> fresh_segments(const GridBox& box);
+
+  struct Numbered {
+    std::uint32_t vertex;
+    bool fresh;  ///< it was not there before
+  };
+  Numbered number_of(const SelectedVertex& vertex);
+  /// A segment's end, of which only the position is known.
+  Numbered number_of(Position end);
+  /// Gives a segment's end its height. Throws Error where there is no vertex.
+  void complete(std::uint32_t vertex, ApexSearch& search);
+
+  const std::vector<SelectedVertex>& vertices() const { return vertices_; }
+  /// So many vertices are in Morton order; those after them came one by one.
+  std::uint32_t in_order() const { return in_order_; }
+  const RetrievalStatistics& statistics() const { return statistics_; }
+
+ private:
+  void read_block(const Leaf& leaf, const GridBox& box, std::vector<Coded>& found);
+  Numbered number_of(const SelectedVertex& vertex, bool whole);
+
+  const PointIndex& index_;
+  const Selection& selection_;
+  std::vector<SelectedVertex> vertices_;
+  std::uint32_t in_order_ = 0;
+  std::unordered_map<std::uint64_t, std::uint32_t> others_;  ///< by Morton code
+  std::set<std::uint32_t> bare_;                             ///< of these, those known by position only
+  std::set<Segment> segments_;
+  RetrievalStatistics statistics_;
+};
+
+/// Closed segment against closed box, exactly.
+bool meets(Position p, Position q, const GridBox& box);
+
+double area(const GridBox& box);
+
+}  // namespace itin

@@ -1,0 +1,143 @@
+#include "triangulate/growing_mesh.hpp"
+
+#include <algorithm>
+#include <random>
+#include <set>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/seed.hpp"
+#include "triangulate/delaunay.hpp"
+
+namespace itin {
+namespace {
+
+/// Few columns and rows, so that much is collinear and cocircular.
+std::vector<SelectedVertex> random_vertices(std::size_t count, int side, std::mt19937& random) {
+  std::uniform_int_distribution<std::int32_t> coordinate(-side, side);
+  std::set<Position> positions;
+  while (positions.size() < count) positions.insert({coordinate(random), coordinate(random)});
+  std::vector<SelectedVertex> vertices;
+  for (const Position& p : positions) vertices.push_back({{p.x, p.y, 0}, 0, 0, 0});
+  std::shuffle(vertices.begin(), vertices.end(), random);
+  return vertices;
+}
+
+/// None crosses another; they may overlap, and pass through vertices.
+std::vector<Delaunay::Constraint> random_segments(const std::vector<SelectedVertex>& vertices, int count,
+                                                  std::mt19937& random) {
+  std::uniform_int_distribution<std::uint32_t> any(0, static_cast<std::uint32_t>(vertices.size() - 1));
+  std::vector<Delaunay::Constraint> segments;
+  for (int i = 0; i < count; ++i) {
+    const std::uint32_t a = any(random), b = any(random);
+    const Position p = vertices[a].position(), q = vertices[b].position();
+    const bool free = std::none_of(segments.begin(), segments.end(), [&](const Delaunay::Constraint& s) {
+      const Position from = vertices[s.first].position(), to = vertices[s.second].position();
+      return crosses(Segment{.ax = from.x, .ay = from.y, .bx = to.x, .by = to.y}, p, q);
+    });
+    if (a != b && free) segments.emplace_back(a, b);
+  }
+  return segments;
+}
+
+std::vector<std::array<std::uint32_t, 3>> sorted_triangles(const PlaneMesh& mesh) {
+  std::vector<std::array<std::uint32_t, 3>> triangles = mesh.triangles;
+  for (auto& t : triangles) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  std::sort(triangles.begin(), triangles.end());
+  return triangles;
+}
+
+/// Neighbours know each other by the edge between them, and agree on what it is part of.
+void expect_linked(const PlaneMesh& mesh) {
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t n = mesh.neighbours[t][i];
+      if (n == kNoTriangle) continue;
+      int j = 0;
+      while (j < 2 && mesh.neighbours[n][j] != t) ++j;
+      ASSERT_EQ(mesh.neighbours[n][j], t);
+      ASSERT_EQ(mesh.triangles[t][(i + 1) % 3], mesh.triangles[n][(j + 2) % 3]);
+      ASSERT_EQ(mesh.triangles[t][(i + 2) % 3], mesh.triangles[n][(j + 1) % 3]);
+      ASSERT_EQ(mesh.constrained[t] >> i & 9, mesh.constrained[n] >> j & 9);
+    }
+  }
+}
+
+TEST(GrowingMesh, EqualsTheTriangulationOfAllAtOnceInWhateverOrderItGrows) {
+  std::mt19937 random(test::seed());
+  for (int run = 0; run < 60; ++run) {
+    const std::vector<SelectedVertex> vertices = random_vertices(20 + random() % 200, 8 << random() % 8, random);
+    const auto segments = random_segments(vertices, static_cast<int>(random() % 60), random);
+    Delaunay whole, first;
+    std::vector<Position> positions;
+    for (const SelectedVertex& v : vertices) positions.push_back(v.position());
+    whole.insert(positions);
+    whole.constrain(segments);
+    positions.resize(6 + random() % 10);
+    first.insert(positions);
+    if (first.mesh().triangles.empty()) continue;
+
+    std::vector<SelectedVertex> known(vertices.begin(), vertices.begin() + std::ssize(positions));
+    GrowingMesh grown(known);
+    grown.start(first.mesh());
+    std::vector<Delaunay::Constraint> waiting = segments;
+    const auto lay_some = [&](bool all) {
+      std::erase_if(waiting, [&](const Delaunay::Constraint& s) {
+        if (std::max(s.first, s.second) >= known.size() || (!all && random() % 3 != 0)) return false;
+        grown.lay(s.first, s.second, 1);
+        return true;
+      });
+    };
+    while (known.size() < vertices.size()) {
+      lay_some(false);
+      known.push_back(vertices[known.size()]);
+      grown.insert(static_cast<std::uint32_t>(known.size() - 1));
+    }
+    lay_some(true);
+    ASSERT_EQ(sorted_triangles(grown.mesh()), sorted_triangles(whole.mesh())) << "run " << run;
+    expect_linked(grown.mesh());
+    for (const auto& [from, to] : segments) {
+      std::vector<SegmentEdge> edges;
+      grown.edges_of(from, to, 1, edges);
+      for (const SegmentEdge& e : edges) {
+        const std::uint32_t t = e.left != kNoTriangle ? e.left : e.right;
+        ASSERT_NE(grown.mesh().constrained[t] & 7, 0);
+      }
+    }
+  }
+}
+
+TEST(GrowingMesh, TellsWhichTrianglesChanged) {
+  std::vector<SelectedVertex> vertices;
+  for (const Position p : {Position{0, 0}, {10, 0}, {0, 10}, {10, 11}, {100, 0}, {100, 10}, {101, 5}})
+    vertices.push_back({{p.x, p.y, 0}, 0, 0, 0});
+  std::vector<Position> positions;
+  for (const SelectedVertex& v : vertices) positions.push_back(v.position());
+  Delaunay delaunay;
+  delaunay.insert(positions);
+  GrowingMesh grown(vertices);
+  grown.start(delaunay.mesh());
+  for (std::uint32_t t = 0; t < grown.mesh().triangles.size(); ++t) grown.settle(t);
+  vertices.push_back({{3, 3, 0}, 0, 0, 0});
+  grown.insert(7);
+  for (std::uint32_t t = 0; t < grown.mesh().triangles.size(); ++t) {
+    const auto& corners = grown.mesh().triangles[t];
+    EXPECT_EQ(grown.settled(t), std::find(corners.begin(), corners.end(), 7U) == corners.end());
+  }
+}
+
+TEST(GrowingMesh, RefusesLinesThatCross) {
+  std::vector<SelectedVertex> vertices;
+  for (const Position p : {Position{0, 0}, {10, 0}, {0, 10}, {10, 11}}) vertices.push_back({{p.x, p.y, 0}, 0, 0, 0});
+  Delaunay delaunay;
+  delaunay.insert(
+      std::array{vertices[0].position(), vertices[1].position(), vertices[2].position(), vertices[3].position()});
+  GrowingMesh grown(vertices);
+  grown.start(delaunay.mesh());
+  grown.lay(0, 3, 1);
+  EXPECT_ANY_THROW(grown.lay(1, 2, 1));
+}
+
+}  // namespace
+}  // namespace itin
