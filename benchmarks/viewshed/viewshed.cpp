@@ -57,13 +57,12 @@ void BM_Sweep(benchmark::State& state) {
   const FullSurface surface(terrain(), std::nullopt, request.earth, *request.grid, tiles);
   const Observer& observer = request.observers.front();
   const Eye eye = eye_of(terrain().grid, request, observer, height_on(terrain(), observer.position));
-  const auto work = std::make_unique<FullSurface::Work>();
   std::uint64_t lines = 0;
   for (auto _ : state) {
     for (std::size_t tile = 0; tile < tiles.cell_count(); ++tile) {
       TileValues<std::uint8_t> values;
       values.fill(kUndecided);
-      lines += surface.judge(eye, tile, values, *work);
+      lines += surface.judge(eye, values, *surface.begin(tile));
     }
   }
   state.SetItemsProcessed(static_cast<std::int64_t>(lines));

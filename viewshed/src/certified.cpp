@@ -102,7 +102,7 @@ void decide_all(const CertifiedPass& pass, const RasterGrid& tiles, const std::v
 }
 
 Voids voids_of(NoData rule) {
-  return rule == NoData::kUnknown ? Voids::kDoubt : rule == NoData::kBlock ? Voids::kBlock : Voids::kPass;
+  return rule == NoData::kUnknown ? Voids::kDoubt : voids_without_doubt(rule);
 }
 
 /// A point of an envelope costs about as much as two of the full surface.

@@ -21,6 +21,10 @@ std::optional<Curtains> curtains(const Envelope& envelope, const Request& reques
 
 }  // namespace
 
+Voids voids_without_doubt(NoData rule) {
+  return rule == NoData::kBlock ? Voids::kBlock : Voids::kPass;
+}
+
 EnvelopeScene::EnvelopeScene(Envelope e, const Request& request, const RasterGrid& tiles, Voids voids)
     : envelope(std::move(e)),
       lower(envelope.lower, request.earth, voids == Voids::kBlock ? NoData::kBlock : NoData::kClear,

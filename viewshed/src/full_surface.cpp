@@ -31,15 +31,17 @@ FullSurface::FullSurface(Tin surface, std::optional<Tin> bare_ground, const Eart
   if (bare_ground_ || small || !heights_.partition()) of_tiles_.emplace(bare_ground_ ? *bare_ground_ : tin_, tiles);
 }
 
-std::uint64_t FullSurface::judge(const Eye& eye, std::size_t index, TileValues<std::uint8_t>& values,
-                                 Work& work) const {
-  const Tile tile = tile_at(grid_, tiles_, index);
-  const TileCentres centres(tin_.grid, grid_, tile);
-  find_ground(index, tile, centres, work);
-  raise_targets(eye, tile, centres, values, work);
-  sweep_.look_from(eye.units, {tile, centres, work.targets}, work.scratch, work.seen);
+std::unique_ptr<FullSurface::TileWork> FullSurface::begin(std::size_t tile) const {
+  auto work = std::make_unique<TileWork>(tin_.grid, grid_, tile_at(grid_, tiles_, tile));
+  find_ground(tile, *work);
+  return work;
+}
+
+std::uint64_t FullSurface::judge(const Eye& eye, TileValues<std::uint8_t>& values, TileWork& work) const {
+  raise_targets(eye, values, work);
+  sweep_.look_from(eye.units, {work.tile, work.centres, work.targets}, work.scratch, work.seen);
   std::uint64_t lines = 0;
-  for_each_cell(tile, [&](std::int64_t, std::int64_t, std::size_t cell) {
+  for_each_cell(work.tile, [&](std::int64_t, std::int64_t, std::size_t cell) {
     if (std::isnan(work.targets[cell])) return;
     ++lines;
     values[cell] = std::isnan(work.seen[cell]) ? kCertainlyHidden : kCertainlyVisible;
@@ -47,14 +49,15 @@ std::uint64_t FullSurface::judge(const Eye& eye, std::size_t index, TileValues<s
   return lines;
 }
 
-void FullSurface::find_ground(std::size_t index, const Tile& tile, const TileCentres& centres, Work& work) const {
+void FullSurface::find_ground(std::size_t index, TileWork& work) const {
   if (of_tiles_) {
-    scan_convert(bare_ground_ ? *bare_ground_ : tin_, of_tiles_->triangles(index), tile, centres, work.ground);
+    scan_convert(bare_ground_ ? *bare_ground_ : tin_, of_tiles_->triangles(index), work.tile, work.centres,
+                 work.ground);
     return;
   }
   work.ground.fill(kNoSurface);
-  for_each_cell(tile, [&](std::int64_t r, std::int64_t c, std::size_t cell) {
-    const Point2 centre{centres.x[static_cast<std::size_t>(c)], centres.y[static_cast<std::size_t>(r)]};
+  for_each_cell(work.tile, [&](std::int64_t r, std::int64_t c, std::size_t cell) {
+    const Point2 centre{work.centres.x[static_cast<std::size_t>(c)], work.centres.y[static_cast<std::size_t>(r)]};
     heights_.find_at(centre.x, centre.y, [&](std::span<const std::uint32_t> triangles) {
       const auto height = surface_height_at(tin_, triangles, centre);
       if (height) work.ground[cell] = *height;
@@ -64,23 +67,22 @@ void FullSurface::find_ground(std::size_t index, const Tile& tile, const TileCen
 }
 
 /// Where undecided cells have their targets; those that need no line are decided.
-void FullSurface::raise_targets(const Eye& eye, const Tile& tile, const TileCentres& centres,
-                                TileValues<std::uint8_t>& values, Work& work) const {
+void FullSurface::raise_targets(const Eye& eye, TileValues<std::uint8_t>& values, TileWork& work) const {
   // The arithmetic of plain viewsheds, to the last bit.
   const double resolution = tin_.grid.resolution, metre = 1 / resolution, grazing = kGrazing / resolution;
-  for_each_cell(tile, [&](std::int64_t r, std::int64_t c, std::size_t cell) {
-    work.targets[cell] = kNoSurface;
+  work.targets.fill(kNoSurface);
+  for_each_cell(work.tile, [&](std::int64_t r, std::int64_t c, std::size_t cell) {
     std::uint8_t& value = values[cell];
     if (value != kUndecided) return;
     value = kOutside;
     const double ground = work.ground[cell];
     if (std::isnan(ground)) return;
     const double target = eye.target(ground * resolution);
-    const Point2 centre = grid_.centre(tile.column + c, tile.row + r);
+    const Point2 centre = grid_.centre(work.tile.column + c, work.tile.row + r);
     if (!eye.view.contains(centre.x - eye.position.x, centre.y - eye.position.y, target - eye.elevation)) return;
     const bool below = target * metre < ground - grazing;
-    const bool at_eye =
-        centres.x[static_cast<std::size_t>(c)] == eye.units.x && centres.y[static_cast<std::size_t>(r)] == eye.units.y;
+    const bool at_eye = work.centres.x[static_cast<std::size_t>(c)] == eye.units.x &&
+                        work.centres.y[static_cast<std::size_t>(r)] == eye.units.y;
     value = below ? kCertainlyHidden : kCertainlyVisible;
     if (!below && !at_eye) work.targets[cell] = target * metre;
   });

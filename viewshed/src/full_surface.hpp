@@ -2,11 +2,12 @@
 // triangles for rays.
 //
 //   const FullSurface surface(std::move(tin), std::nullopt, request.earth, grid, tiles);
-//   FullSurface::Work work;
-//   surface.judge(eye, tile, values, work);   // every kUndecided cell becomes visible, hidden or outside
+//   const auto work = surface.begin(tile);
+//   surface.judge(eye, values, *work);   // every kUndecided cell becomes visible, hidden or outside; other eyes follow
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -38,20 +39,25 @@ class FullSurface {
   /// Leaves nothing to judge by.
   Tin release() && { return std::move(tin_); }
 
-  /// Memory to use again, of one thread.
-  struct Work {
-    TileValues<double> ground, targets;  ///< grid units
+  /// What a tile's cells share between eyes, for one thread.
+  struct TileWork {
+    TileWork(const Grid& units, const RasterGrid& grid, const Tile& t) : tile(t), centres(units, grid, t) {}
+    Tile tile;
+    TileCentres centres;
+    TileValues<double> ground;   ///< grid units; kNoSurface where none is
+    TileValues<double> targets;  ///< of the last eye's lines; kNoSurface where none was needed
     AxisSweep::Heights seen;
     AxisSweep::Scratch scratch;
   };
+  std::unique_ptr<TileWork> begin(std::size_t tile) const;
+
   /// kUndecided cells become kCertainlyVisible, kCertainlyHidden, or kOutside where there is no ground or the eye does
   /// not look. Returns how many sight lines that took.
-  std::uint64_t judge(const Eye& eye, std::size_t tile, TileValues<std::uint8_t>& values, Work& work) const;
+  std::uint64_t judge(const Eye& eye, TileValues<std::uint8_t>& values, TileWork& work) const;
 
  private:
-  void raise_targets(const Eye& eye, const Tile& tile, const TileCentres& centres, TileValues<std::uint8_t>& values,
-                     Work& work) const;
-  void find_ground(std::size_t index, const Tile& tile, const TileCentres& centres, Work& work) const;
+  void raise_targets(const Eye& eye, TileValues<std::uint8_t>& values, TileWork& work) const;
+  void find_ground(std::size_t index, TileWork& work) const;
 
   Tin tin_;
   std::optional<Tin> bare_ground_;

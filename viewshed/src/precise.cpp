@@ -40,10 +40,6 @@ void for_each_line(unsigned active, const Visit& visit) {
   for (; active != 0; active &= active - 1) visit(static_cast<unsigned>(std::countr_zero(active)));
 }
 
-Voids voids_of(NoData rule) {
-  return rule == NoData::kBlock ? Voids::kBlock : Voids::kPass;
-}
-
 class Precise {
  public:
   Precise(const Store& store, const Request& request, const PreciseOptions& options, Progress& progress)
@@ -136,7 +132,7 @@ class Precise {
       throw InputError(
           "with --themes, --nodata block needs the whole window in memory: give more --memory or a smaller --radius");
     surveyed_.tin = envelope.lower;
-    if (!features_) coarse_.emplace(std::move(envelope), request_, tiles_, voids_of(request_.nodata));
+    if (!features_) coarse_.emplace(std::move(envelope), request_, tiles_, voids_without_doubt(request_.nodata));
     result.statistics.scene_seconds += watch_.lap();
   }
 
@@ -195,8 +191,7 @@ class Precise {
   static void judge(const FullSurface& surface, const Eye& eye, const std::vector<std::size_t>& tiles,
                     ObserverRaster& raster) {
     raster.judge(tiles, [&](std::size_t i, TileValues<std::uint8_t>& values) {
-      const auto work = std::make_unique<FullSurface::Work>();
-      return surface.judge(eye, tiles[i], values, *work);
+      return surface.judge(eye, values, *surface.begin(tiles[i]));
     });
   }
 
@@ -205,13 +200,7 @@ class Precise {
     const VoidShadow shadow(full_->tin(), full_->boundary(), eye.units);
     const RasterGrid& grid = surveyed_.result.grid;
     raster.judge(tiles, [&](std::size_t i, TileValues<std::uint8_t>& values) {
-      const Tile tile = tile_at(grid, tiles_, tiles[i]);
-      const TileCentres centres(full_->tin().grid, grid, tile);
-      for (std::size_t cell = 0; cell < values.size(); ++cell) {
-        std::uint8_t& value = values[cell];
-        if (value == kCertainlyVisible && shadow.holds(centres.x[cell % Tile::kSide], centres.y[cell / Tile::kSide]))
-          value = kCertainlyHidden;
-      }
+      shadow.hide(TileCentres(full_->tin().grid, grid, tile_at(grid, tiles_, tiles[i])), values);
       return 0;
     });
   }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <viewshed/certified.hpp>
+
 namespace itin::viewshed {
 
 namespace {
@@ -37,6 +39,14 @@ bool VoidShadow::holds(double x, double y) const {
   line.to_x[0] = x, line.to_y[0] = y;
   return std::any_of(edges.begin(), edges.end(),
                      [&](const BoundaryEdge& edge) { return crossing_back(tin_, edge, line, 0) == Crossing::kBack; });
+}
+
+void VoidShadow::hide(const TileCentres& centres, TileValues<std::uint8_t>& values) const {
+  if (sectors_.empty()) return;
+  for (std::size_t cell = 0; cell < values.size(); ++cell) {
+    if (values[cell] == kCertainlyVisible && holds(centres.x[cell % Tile::kSide], centres.y[cell / Tile::kSide]))
+      values[cell] = kCertainlyHidden;
+  }
 }
 
 std::size_t VoidShadow::sector_of(double x, double y) const {

@@ -11,6 +11,7 @@
 #include <itin/tin.hpp>
 
 #include "boundary.hpp"
+#include "surface_heights.hpp"
 
 namespace itin::viewshed {
 
@@ -23,6 +24,9 @@ class VoidShadow {
   /// Whether the line from the eye to a place comes back to the surface by crossing_back(). Cost: the edges of one
   /// sector.
   bool holds(double x, double y) const;
+
+  /// Of a tile's cells, what is kCertainlyVisible and lies in it becomes kCertainlyHidden.
+  void hide(const TileCentres& centres, TileValues<std::uint8_t>& values) const;
 
  private:
   std::size_t sector_of(double x, double y) const;
