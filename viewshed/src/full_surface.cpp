@@ -18,17 +18,17 @@ void for_each_cell(const Tile& tile, const Visit& visit) {
 
 }  // namespace
 
-FullSurface::FullSurface(Tin surface, std::optional<Tin> bare_ground, const Earth& earth, const RasterGrid& grid,
+FullSurface::FullSurface(const Tin& surface, const Tin* bare_ground, const Earth& earth, const RasterGrid& grid,
                          const RasterGrid& tiles)
-    : tin_(std::move(surface)),
-      bare_ground_(std::move(bare_ground)),
+    : tin_(surface),
+      bare_ground_(bare_ground),
       grid_(grid),
       tiles_(tiles),
       heights_(tin_),
       sweep_(tin_, earth, heights_) {
   // Cells much smaller than triangles are filled triangle by triangle.
   const bool small = 2 * grid.cell_width() < heights_.bin_size() * tin_.grid.resolution;
-  if (bare_ground_ || small || !heights_.partition()) of_tiles_.emplace(bare_ground_ ? *bare_ground_ : tin_, tiles);
+  if (bare_ground_ != nullptr || small || !heights_.partition()) of_tiles_.emplace(targets_on(), tiles);
 }
 
 std::unique_ptr<FullSurface::TileWork> FullSurface::begin(std::size_t tile) const {
@@ -51,8 +51,7 @@ std::uint64_t FullSurface::judge(const Eye& eye, TileValues<std::uint8_t>& value
 
 void FullSurface::find_ground(std::size_t index, TileWork& work) const {
   if (of_tiles_) {
-    scan_convert(bare_ground_ ? *bare_ground_ : tin_, of_tiles_->triangles(index), work.tile, work.centres,
-                 work.ground);
+    scan_convert(targets_on(), of_tiles_->triangles(index), work.tile, work.centres, work.ground);
     return;
   }
   work.ground.fill(kNoSurface);
@@ -68,7 +67,6 @@ void FullSurface::find_ground(std::size_t index, TileWork& work) const {
 
 /// Where undecided cells have their targets; those that need no line are decided.
 void FullSurface::raise_targets(const Eye& eye, TileValues<std::uint8_t>& values, TileWork& work) const {
-  // The arithmetic of plain viewsheds, to the last bit.
   const double resolution = tin_.grid.resolution, metre = 1 / resolution, grazing = kGrazing / resolution;
   work.targets.fill(kNoSurface);
   for_each_cell(work.tile, [&](std::int64_t r, std::int64_t c, std::size_t cell) {
