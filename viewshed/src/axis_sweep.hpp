@@ -12,8 +12,8 @@
 //
 // Accuracy. Every triangle that may hide more than what is known is looked at exactly, and bounds decide by more than
 // rounding. So the line at the height found has a clearance between -kGrazing and 0, up to rounding, or the height is
-// the lower bound; a line is reported hidden only where a triangle or a bound proves it. It agrees with LeastHeights,
-// with Scene::hidden_between and with single lines of sight.
+// the lower bound; a line is reported hidden only where a triangle or a bound proves it. It agrees with single lines of
+// sight.
 #pragma once
 
 #include <array>
