@@ -58,9 +58,9 @@ class ZtvVerb final : public Verb {
     earth_.declare(app);
     app.add_option("--nodata", nodata_text_, "What ground without data does to sight lines (default: unknown)")
         ->type_name("unknown|block|clear");
-    app.add_option(
-           "--memory", memory_text_,
-           "Refuse, before any work, what would take more than this; the error says how much (default: no limit)")
+    app.add_option("--memory", memory_text_,
+                   "Memory to work in, in parts where it does not hold all at once; the result never depends on it "
+                   "(default: no limit)")
         ->type_name("SIZE");
     policy_.declare(app);
   }

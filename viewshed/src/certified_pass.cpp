@@ -80,14 +80,9 @@ CertifiedPass::BlockValues highest_by_block(const TileValues<double>& heights, c
 std::unique_ptr<CertifiedPass::TileWork> CertifiedPass::begin(std::size_t tile) const {
   auto work = std::make_unique<TileWork>(scene_.envelope.lower.grid, grid_, tile_at(grid_, tiles_, tile));
   const auto triangles = scene_.bins.triangles(tile);
-  if (scene_.ground_bins) {
-    scan_convert(*scene_.envelope.bare_ground, scene_.ground_bins->triangles(tile), work->tile, work->centres,
-                 work->low);
-  } else {
-    scan_convert(scene_.envelope.lower, triangles, work->tile, work->centres, work->low);
-  }
+  scan_convert(scene_.envelope.lower, triangles, work->tile, work->centres, work->low);
   scan_convert_highest(scene_.envelope.upper, triangles, work->tile, work->centres, work->high);
-  work->highest = highest_by_block(scene_.exact ? work->low : work->high, work->tile);
+  work->highest = highest_by_block(work->high, work->tile);
   return work;
 }
 
@@ -115,7 +110,7 @@ void CertifiedPass::fill(const EnvelopeScene::Look& look, TileValues<std::uint8_
       value = kOutside;
       continue;
     }
-    const double ground_low = work.low[cell], ground_high = scene_.exact ? ground_low : work.high[cell];
+    const double ground_low = work.low[cell], ground_high = work.high[cell];
     const double low_m = eye.target(ground_low * resolution), high_m = eye.target(ground_high * resolution);
     const double low = low_m * metre, high = high_m * metre;
     const Point2 centre =

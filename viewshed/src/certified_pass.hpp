@@ -7,9 +7,7 @@
 //
 // The target stands between the lower and the upper surface at its cell's centre. A line to the lowest target that
 // clears the upper surface sees whatever the full surface is; one to the highest target that the lower surface hides
-// does not. Over an envelope of level 0 both surfaces are the full one (but for what the upper one is raised against
-// rounding), and the target's height is exact: also where targets stand on the bare ground beneath what the envelope
-// holds of features.
+// does not.
 #pragma once
 
 #include <cstdint>
@@ -53,7 +51,7 @@ class EnvelopeScene {
   UpperScene upper;
   TriangleBins bins;
   std::optional<TriangleBins> ground_bins;  ///< of the bare ground, where the envelope has it
-  bool exact;                               ///< the envelope is of level 0
+  bool exact;                               ///< both surfaces are the full one, of level 0
   double drop;                              ///< by curvature, grid units a squared grid unit
 };
 

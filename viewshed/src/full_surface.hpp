@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <itin/earth.hpp>
@@ -78,6 +79,19 @@ class FullSurface {
   BinnedHeights heights_;
   std::optional<TriangleBins> of_tiles_;  ///< of what targets stand on, where `heights_` does not tell it well
   AxisSweep sweep_;
+};
+
+/// Together with what it is made of.
+struct OwnedSurface {
+  OwnedSurface(Tin surface, std::optional<Tin> bare_ground, const Earth& earth, const RasterGrid& grid,
+               const RasterGrid& tiles)
+      : tin(std::move(surface)),
+        ground(std::move(bare_ground)),
+        full(tin, ground ? &*ground : nullptr, earth, grid, tiles) {}
+
+  const Tin tin;
+  const std::optional<Tin> ground;
+  const FullSurface full;
 };
 
 }  // namespace itin::viewshed

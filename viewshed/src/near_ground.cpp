@@ -32,9 +32,14 @@ double radius_with(const Store& store, int level, Point2 centre, double points) 
 
 }  // namespace
 
-std::optional<double> height_at(const Store& store, Point2 position, const ThemeChoice& themes, Progress& progress) {
+std::optional<double> height_at(const Store& store, Point2 position, const ThemeChoice& themes, Progress& progress,
+                                const Detail& detail) {
   const Box about = around(position, 2 * store.metadata().grid.resolution);
-  return height_on(triangulate(store, Window::box(about), Detail::tolerance(0), progress, themes), position);
+  return height_on(triangulate(store, Window::box(about), detail, progress, themes), position);
+}
+
+Tin coverage_of(const Store& store, const Window& window, Progress& progress) {
+  return triangulate(store, window, Detail::tolerance(store.metadata().levels.back().tolerance), progress);
 }
 
 std::vector<Eye> eyes_on_full_surface(const Store& store, const Request& request, std::vector<double>& ground,
@@ -63,10 +68,6 @@ EnvelopeRequest certified_request(const Store& store, const Request& request, in
   EnvelopeRequest result;
   result.window = window_of(request);
   result.level = level;
-  if (level == 0 && features_stand(store, request)) {
-    result.themes = request.themes;
-    if (!request.targets_on_surface) result.bare_ground = result.window;
-  }
   const Box box = box_of_window(store, request);
   const double points = std::min({kNearPoints, kAllNearPoints / static_cast<double>(request.observers.size()),
                                   kNearShare * static_cast<double>(store.points_about(0, box))});

@@ -13,8 +13,12 @@
 
 namespace itin::viewshed {
 
-/// Metres, of the full surface with these themes; nothing where there is no data.
-std::optional<double> height_at(const Store& store, Point2 position, const ThemeChoice& themes, Progress& progress);
+/// Metres, of the full surface with these themes, or of another detail; nothing where there is no data.
+std::optional<double> height_at(const Store& store, Point2 position, const ThemeChoice& themes, Progress& progress,
+                                const Detail& detail = Detail::tolerance(0));
+
+/// All that has data within the window, at the coarsest level: its outline is that of the full surface.
+Tin coverage_of(const Store& store, const Window& window, Progress& progress);
 
 /// The observers, on the full surface under them, or on what stands on it where the request says so; `ground` gets its
 /// heights, metres. Throws InputError for an observer outside the data.
@@ -31,7 +35,7 @@ Box box_of_window(const Store& store, const Request& request);
 /// For request.detail.
 EnvelopeRequest certified_request(const Store& store, const Request& request);
 
-/// The same with another level than request.detail's. Level 0 has the features that stand.
+/// The same with another level than request.detail's. No features stand there.
 EnvelopeRequest certified_request(const Store& store, const Request& request, int level);
 
 }  // namespace itin::viewshed

@@ -40,19 +40,6 @@ void for_each_line(unsigned active, const Visit& visit) {
   for (; active != 0; active &= active - 1) visit(static_cast<unsigned>(std::countr_zero(active)));
 }
 
-/// Ground at full detail, for as long as it is needed.
-struct Segment {
-  Segment(Tin surface, std::optional<Tin> bare_ground, const Earth& earth, const RasterGrid& grid,
-          const RasterGrid& tiles)
-      : tin(std::move(surface)),
-        ground(std::move(bare_ground)),
-        full(tin, ground ? &*ground : nullptr, earth, grid, tiles) {}
-
-  const Tin tin;
-  const std::optional<Tin> ground;
-  const FullSurface full;
-};
-
 /// Where the surface does not fit into the memory.
 class InSegments {
  public:
@@ -109,7 +96,7 @@ class InSegments {
   }
 
   /// `targets` is where they stand.
-  Segment retrieve(const Window& window, const Window& targets) {
+  OwnedSurface retrieve(const Window& window, const Window& targets) {
     Tin tin = triangulated(window, features_ ? request_.themes : ThemeChoice::none());
     std::optional<Tin> ground;
     if (features_ && !request_.targets_on_surface) ground = triangulated(targets, ThemeChoice::none());
@@ -151,7 +138,7 @@ class InSegments {
     std::atomic<std::uint64_t> lines = 0;
     std::atomic<std::size_t> done = 0;
     for (const std::vector<std::size_t>& cells : segments(eye, needed)) {
-      const Segment segment = refine(cells, needed);
+      const OwnedSurface segment = refine(cells, needed);
       parallel_for(cells.size(), [&](std::size_t i) {
         progress_.throw_if_cancelled();
         lines += observations_[cells[i]]->look({segment.full, eye, observer, nullptr, *segment.full.begin(cells[i])});
@@ -170,7 +157,7 @@ class InSegments {
     // The scene's memory is free for the segments, when no other observer needs it.
     if (observer + 1 == request_.observers.size()) coarse_.reset();
     for (const std::vector<std::size_t>& cells : segments(eye, needed)) {
-      const Segment segment = refine(cells, needed);
+      const OwnedSurface segment = refine(cells, needed);
       raster.judge(cells, [&](std::size_t i, TileValues<std::uint8_t>& values) {
         return segment.full.judge(eye, values, *segment.full.begin(cells[i]));
       });
@@ -268,7 +255,7 @@ class InSegments {
   }
 
   /// The edges of the window are no voids; lines behind voids were hidden in the coarse pass.
-  Segment refine(const std::vector<std::size_t>& cells, const std::vector<TileSet>& needed) {
+  OwnedSurface refine(const std::vector<std::size_t>& cells, const std::vector<TileSet>& needed) {
     surveyed_.result.statistics.rays_seconds += watch_.lap();
     TileSet ground(ground_->count());
     for (const std::size_t tile : cells) ground |= needed[tile];

@@ -12,23 +12,8 @@ namespace itin::viewshed {
 
 namespace {
 
-constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-
 std::size_t cell_of(std::int64_t row, std::int64_t column) {
   return static_cast<std::size_t>(row * Tile::kSide + column);
-}
-
-Visibility empty_visibility(const Zone& zone) {
-  const std::size_t cells = zone.grid.cell_count();
-  Visibility v;
-  v.hub_count.assign(cells, kCountOutside);
-  v.tip_count.assign(cells, kCountOutside);
-  v.turbines.assign(cells * zone.words, 0);
-  for (std::vector<float>* floats :
-       {&v.visible_height_m, &v.vertical_angle_deg, &v.vertical_angle_sum_deg, &v.horizontal_angle_deg,
-        &v.horizontal_from_deg, &v.horizontal_occupied_deg, &v.share, &v.nearest_m})
-    floats->assign(cells, kNone);
-  return v;
 }
 
 }  // namespace
@@ -68,36 +53,34 @@ ZoneSurvey::ZoneSurvey(const Tin& ground, const TriangleBins& bins, const Raster
   }
 }
 
-Visibility ZoneSurvey::run(const AxisSweep& sweep, const Scene* curtains, const std::string& stage,
-                           std::uint64_t& lines, Progress& progress) const {
-  Visibility result = empty_visibility(zone_);
-  const std::size_t count = tiles_.cell_count();
+std::uint64_t ZoneSurvey::run(const AxisSweep& sweep, const Scene* curtains, std::span<const std::size_t> tiles,
+                              const std::string& stage, Visibility& result, Progress& progress) const {
   std::atomic<std::size_t> done = 0;
-  std::vector<std::uint64_t> cast(count);
-  parallel_for(count, [&](std::size_t tile) {
+  std::atomic<std::uint64_t> lines = 0;
+  parallel_for(tiles.size(), [&](std::size_t i) {
     progress.throw_if_cancelled();
-    decide(tile, sweep, curtains, result, cast[tile]);
+    lines += decide(tiles[i], sweep, curtains, result);
     const std::size_t now = ++done;
-    if (now % 16 == 0 || now == count) progress.report(stage, static_cast<double>(now) / static_cast<double>(count));
+    if (now % 16 == 0 || now == tiles.size())
+      progress.report(stage, static_cast<double>(now) / static_cast<double>(tiles.size()));
   });
-  for (const std::uint64_t n : cast) lines += n;
-  return result;
+  return lines;
 }
 
-void ZoneSurvey::decide(std::size_t tile, const AxisSweep& sweep, const Scene* curtains, Visibility& result,
-                        std::uint64_t& lines) const {
+std::uint64_t ZoneSurvey::decide(std::size_t tile, const AxisSweep& sweep, const Scene* curtains,
+                                 Visibility& result) const {
   const Tile place = tile_at(zone_.grid, tiles_, tile);
   std::vector<std::size_t> near;
   for (std::size_t k = 0; k < axes_.size(); ++k)
     if (in_reach(axes_[k], place)) near.push_back(k);
-  if (near.empty()) return;
+  if (near.empty()) return 0;
   const auto work = std::make_unique<TileWork>(ground_.grid, zone_.grid, place, zone_.words);
   scan_convert(ground_, bins_.triangles(tile), place, work->centres, work->ground);
   const double eye_height = zone_.request.observer_height / ground_.grid.resolution;
   for (std::size_t i = 0; i < work->ground.size(); ++i) work->eyes[i] = work->ground[i] + eye_height;
   for (const std::size_t k : near) look_at(k, sweep, curtains, *work);
   store(*work, result);
-  lines = work->lines;
+  return work->lines;
 }
 
 /// Whether a cell's centre may lie within the radius.

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <string>
 #include <vector>
 
 #include <itin/tin.hpp>
@@ -21,10 +23,10 @@ class ZoneSurvey {
   /// grid. All must outlive it.
   ZoneSurvey(const Tin& ground, const TriangleBins& bins, const RasterGrid& tiles, const Zone& zone);
 
-  /// What is seen over the surface of `sweep`. What stands in `curtains`, where that is given, hides too. Adds the
-  /// lines to `lines`.
-  Visibility run(const AxisSweep& sweep, const Scene* curtains, const std::string& stage, std::uint64_t& lines,
-                 Progress& progress) const;
+  /// Enters what is seen over the surface of `sweep` from the cells of these tiles. What stands in `curtains`, where
+  /// that is given, hides too. Returns how many lines that took.
+  std::uint64_t run(const AxisSweep& sweep, const Scene* curtains, std::span<const std::size_t> tiles,
+                    const std::string& stage, Visibility& result, Progress& progress) const;
 
  private:
   struct Axis {
@@ -35,8 +37,7 @@ class ZoneSurvey {
   };
   struct TileWork;
 
-  void decide(std::size_t tile, const AxisSweep& sweep, const Scene* curtains, Visibility& result,
-              std::uint64_t& lines) const;
+  std::uint64_t decide(std::size_t tile, const AxisSweep& sweep, const Scene* curtains, Visibility& result) const;
   bool in_reach(const Axis& axis, const Tile& tile) const;
   void look_at(std::size_t turbine, const AxisSweep& sweep, const Scene* curtains, TileWork& work) const;
   bool behind_curtain(const Axis& axis, const TileWork& work, std::int64_t row, std::int64_t column,

@@ -9,6 +9,8 @@
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_2.h>
 
+#include <itin/convex_hull.hpp>
+
 #include "pyramid/vertex_walk.hpp"
 #include "triangulate/cgal_traits.hpp"
 
@@ -255,23 +257,11 @@ class GreedyInsertion {
   std::vector<StarFace> star_;
 };
 
-/// The convex hull's vertices, without those inside its edges (A. M. Andrew's monotone chain).
-std::vector<std::uint32_t> convex_hull(const RegionMesh& fine, std::vector<std::uint32_t> candidates) {
+std::vector<std::uint32_t> hull_of(const RegionMesh& fine, std::vector<std::uint32_t> candidates) {
   const auto at = [&](std::uint32_t v) { return fine.vertices[v].position(); };
-  std::sort(candidates.begin(), candidates.end(), [&](std::uint32_t a, std::uint32_t b) { return at(a) < at(b); });
-  if (candidates.size() < 3) return candidates;
-  std::vector<std::uint32_t> hull;
-  for (int chain = 0; chain < 2; ++chain) {
-    const std::size_t base = hull.size();
-    for (const std::uint32_t p : candidates) {
-      while (hull.size() >= base + 2 && orientation(at(hull[hull.size() - 2]), at(hull.back()), at(p)) <= 0)
-        hull.pop_back();
-      hull.push_back(p);
-    }
-    hull.pop_back();
-    std::reverse(candidates.begin(), candidates.end());
-  }
-  return hull;
+  return convex_hull(
+      std::move(candidates), [&](std::uint32_t a, std::uint32_t b) { return at(a) < at(b); },
+      [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) { return orientation(at(a), at(b), at(c)) > 0; });
 }
 
 }  // namespace
@@ -288,7 +278,7 @@ std::vector<std::uint8_t> greedy_levels(const RegionMesh& fine, std::span<const 
     levels[v] = candidacy[v] == Candidacy::kCorner ? static_cast<std::uint8_t>(coarsest) : fine.vertices[v].level;
     if (levels[v] > 0) given[levels[v]].push_back(v);
   }
-  std::vector<std::uint32_t> first = convex_hull(fine, candidates);
+  std::vector<std::uint32_t> first = hull_of(fine, candidates);
   first.insert(first.end(), given[static_cast<std::size_t>(coarsest)].begin(),
                given[static_cast<std::size_t>(coarsest)].end());
   for (const std::uint32_t p : first) levels[p] = static_cast<std::uint8_t>(coarsest);

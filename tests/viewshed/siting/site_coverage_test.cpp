@@ -61,6 +61,7 @@ class Sites : public ::testing::Test {
     request.target_height = survey_.targets.height;
     request.radius = kRadius;
     request.grid = survey_.targets.grid;
+    request.nodata = survey_.nodata;
     const Result result = compute_precise(*store_, request, {}, progress_).result;
     DemandSet set;
     const RasterGrid& grid = *survey_.targets.grid;
@@ -129,6 +130,19 @@ TEST_F(Sites, TheMemoryChangesNothingExact) {
   survey_.memory_bytes = 4000000;
   SiteCoverage coverage(*store_, survey_, progress_);
   expect_bounds_at_every_stage(coverage, all_precise());
+}
+
+TEST_F(Sites, WhatIsMissingHidesIfThatIsAskedFor) {
+  make_terrain(100, 200, true);
+  make_survey(8);
+  survey_.nodata = NoData::kBlock;
+  const std::vector<DemandSet> truth = all_precise();
+  SiteCoverage coverage(*store_, survey_, progress_);
+  expect_bounds_at_every_stage(coverage, truth);
+  survey_.tolerance.reset();
+  SiteCoverage at_once(*store_, survey_, progress_);
+  EXPECT_EQ(at_once.last_stage(), 0);
+  expect_bounds_at_every_stage(at_once, truth);
 }
 
 TEST_F(Sites, PointsAreServedAsCellsAtTheSamePlaces) {

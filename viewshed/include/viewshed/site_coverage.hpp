@@ -1,5 +1,6 @@
 // What each of many sites serves, better and better: first all of them over one coarse envelope of the surface, then,
-// for those that are asked about again, over finer ones, in the end exactly.
+// for those that are asked about again, exactly. Cells are swept over the full surface, which takes no longer than a
+// coarse look, so that they are exact at once where the memory holds it.
 //
 //   SiteSurvey survey;
 //   survey.stands = {...};                       // positions, heights, ground under them
@@ -8,9 +9,9 @@
 //   coverage.look_first();
 //   Choice choice = choose(demand, options, coverage, {.count = 10}, progress);
 //
-// Exact means the walk over every triangle of the full surface in double precision, as compute_precise(). Where themes
-// that stand on the ground are chosen, the bare terrain comes first: features only raise it, so that what it hides for
-// a target on the ground needs no further look; only then are they read.
+// Exact means every triangle of the full surface in double precision, as compute_precise(). Where themes that stand on
+// the ground are chosen, the bare terrain comes first: features only raise it, so that what it hides for a target on
+// the ground needs no further look; only then are they read.
 //
 // With a FresnelCriterion the zone is judged over the same surfaces, after the line (over coarse ones only where the
 // memory does not hold the full one): what the lower one cuts is not served, what clears the upper one is. In the end

@@ -50,7 +50,8 @@ struct ZoneRequest {
   Detail detail = Detail::tolerance(0);  ///< of the surface; not used with a Tin
   std::optional<ThemeChoice> themes;     ///< of the screened surface, likewise; nothing: bare ground alone
   NoData nodata = NoData::kUnknown;
-  /// What a survey of a store may take, bytes: one that would take more is refused before it begins. Nothing: any.
+  /// What a survey of a store may take, bytes, about: it is made in parts where the surface does not fit. The results
+  /// are the same. Nothing: any.
   std::optional<std::uint64_t> memory_bytes;
   std::optional<Observer> radar;  ///< whose horizon is looked for besides, over bare ground
 };
@@ -120,8 +121,9 @@ struct Zone {
 /// unusable numbers), Cancelled.
 Zone survey_turbines(const Tin& ground, const Tin* screened, const ZoneRequest& request, Progress& progress);
 
-/// On the surface of a store: one retrieval within the turbines' radii. Throws also what triangulate() throws, and
-/// InputError where memory_bytes is not enough, saying about how much is.
+/// On the surface of a store: one retrieval within the turbines' radii, or one a part. Throws also what triangulate()
+/// throws, and InputError where memory_bytes is not enough for any part, or for all with a radar, saying about how much
+/// is.
 Zone survey_turbines(const Store& store, const ZoneRequest& request, Progress& progress);
 
 }  // namespace itin::viewshed

@@ -81,12 +81,13 @@ class ZoneTest {
 
 }  // namespace
 
-ClearZone::ClearZone(const EnvelopeScene& scene, const FresnelCriterion& criterion)
-    : scene_(scene), criterion_(criterion), lower_(scene.envelope.lower) {
-  if (!scene.exact) upper_.emplace(scene.envelope.upper);
+ClearZone::ClearZone(const Tin& lower, const Tin* upper, const Earth& earth, const FresnelCriterion& criterion)
+    : drop_(earth.drop_coefficient() * lower.grid.resolution), criterion_(criterion), lower_(lower) {
+  if (upper != nullptr) upper_.emplace(*upper);
 }
 
-unsigned ClearZone::cut(const HeightPyramid& pyramid, const Tin& tin, const SightLines& lines) const {
+unsigned ClearZone::cut(const Bounded& surface, const SightLines& lines) const {
+  const Tin& tin = surface.tin;
   const double resolution = tin.grid.resolution, grazing = kGrazing / resolution;
   std::vector<ZoneTest> tests;
   tests.reserve(SightLines::kSize);
@@ -97,7 +98,7 @@ unsigned ClearZone::cut(const HeightPyramid& pyramid, const Tin& tin, const Sigh
     const auto i = static_cast<unsigned>(std::countr_zero(rest));
     // From the target: what cuts the zone is most often near it.
     const SightLine line({lines.to_x[i], lines.to_y[i], lines.to_z[i]},
-                         {lines.from_x[i], lines.from_y[i], lines.from_z[i]}, scene_.drop, grazing);
+                         {lines.from_x[i], lines.from_y[i], lines.from_z[i]}, drop_, grazing);
     const double zone = std::sqrt(criterion_.wavelength / resolution * std::hypot(line.dx(), line.dy()));
     tests.emplace_back(line, zone, criterion_.fraction, grazing);
     sheaf.add(line);
@@ -108,7 +109,7 @@ unsigned ClearZone::cut(const HeightPyramid& pyramid, const Tin& tin, const Sigh
   // Most triangles lie in several bins.
   std::array<std::uint32_t, 256> before;
   before.fill(std::numeric_limits<std::uint32_t>::max());
-  pyramid.search(sheaf, [&](std::uint32_t t) {
+  surface.pyramid.search(sheaf, [&](std::uint32_t t) {
     if (std::exchange(before[t % before.size()], t) == t) return;
     const Triangle& triangle = tin.triangles[t];
     const GridPoint &a = tin.vertices[triangle[0]], &b = tin.vertices[triangle[1]], &c = tin.vertices[triangle[2]];
@@ -123,13 +124,11 @@ unsigned ClearZone::cut(const HeightPyramid& pyramid, const Tin& tin, const Sigh
 }
 
 unsigned ClearZone::certainly_cut(const SightLines& to_highest_targets) const {
-  return cut(lower_, scene_.envelope.lower, to_highest_targets);
+  return cut(lower_, to_highest_targets);
 }
 
 unsigned ClearZone::certainly_clear(const SightLines& to_lowest_targets) const {
-  const unsigned doubtful = upper_ ? cut(*upper_, scene_.envelope.upper, to_lowest_targets)
-                                   : cut(lower_, scene_.envelope.lower, to_lowest_targets);
-  return to_lowest_targets.active & ~doubtful;
+  return to_lowest_targets.active & ~cut(upper_ ? *upper_ : lower_, to_lowest_targets);
 }
 
 }  // namespace itin::viewshed

@@ -1,6 +1,6 @@
 // Which sight lines leave so much of the first Fresnel zone clear.
 //
-//   const ClearZone zone(scene, {.wavelength = 0.06, .fraction = 0.6});
+//   const ClearZone zone(lower, &upper, earth, {.wavelength = 0.06, .fraction = 0.6});
 //   unsigned cut = zone.certainly_cut(to_highest_targets);        // whatever the full surface is: one bit a line
 //   unsigned clear = zone.certainly_clear(to_lowest_targets);
 //
@@ -12,31 +12,40 @@
 
 #include <optional>
 
+#include <itin/earth.hpp>
 #include <itin/fresnel_zone.hpp>
+#include <itin/tin.hpp>
 
-#include "../certified_pass.hpp"
 #include "../height_pyramid.hpp"
+#include "../sight_line.hpp"
 
 namespace itin::viewshed {
 
 class ClearZone {
  public:
-  /// The scene must outlive it. O(n) time and memory.
-  ClearZone(const EnvelopeScene& scene, const FresnelCriterion& criterion);
+  /// The surface lies between the two, or is `lower` itself: then `upper` is null. They must outlive this. O(n) time
+  /// and memory.
+  ClearZone(const Tin& lower, const Tin* upper, const Earth& earth, const FresnelCriterion& criterion);
 
-  /// One bit a line; the closer together their ends, the faster. Over a scene of level 0 a zone is either certainly cut
+  /// One bit a line; the closer together their ends, the faster. Over the surface itself a zone is either certainly cut
   /// or certainly clear. From any number of threads.
   unsigned certainly_cut(const SightLines& to_highest_targets) const;
   /// Says nothing of the lines themselves across ground without data.
   unsigned certainly_clear(const SightLines& to_lowest_targets) const;
 
  private:
-  unsigned cut(const HeightPyramid& pyramid, const Tin& tin, const SightLines& lines) const;
+  /// A surface, and the pyramid of its bounds.
+  struct Bounded {
+    explicit Bounded(const Tin& t) : tin(t), pyramid(t) {}
+    const Tin& tin;
+    HeightPyramid pyramid;
+  };
+  unsigned cut(const Bounded& surface, const SightLines& lines) const;
 
-  const EnvelopeScene& scene_;
+  double drop_;  ///< grid units a squared grid unit
   FresnelCriterion criterion_;
-  HeightPyramid lower_;
-  std::optional<HeightPyramid> upper_;  ///< none over a scene of level 0
+  Bounded lower_;
+  std::optional<Bounded> upper_;
 };
 
 }  // namespace itin::viewshed

@@ -1,11 +1,6 @@
 #include "group_survey.hpp"
 
-#include "../request.hpp"
-
 namespace itin::viewshed {
-
-SiteScene::SiteScene(Envelope envelope, const SiteSurvey& survey, const Request& request, const RasterGrid& tiles)
-    : surface(std::move(envelope), request, tiles, survey.nodata == NoData::kBlock ? Voids::kBlock : Voids::kPass) {}
 
 Eye eye_at(const Grid& grid, const Request& request, const SiteStand& stand) {
   return eye_of(grid, request, {stand.name, stand.position, stand.elevation(), true}, stand.ground);

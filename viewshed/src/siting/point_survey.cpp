@@ -6,9 +6,11 @@
 
 #include <itin/parallel.hpp>
 
-#include "../exact_walk.hpp"
+#include "../certified_pass.hpp"
 #include "../sight_line.hpp"
+#include "clear_zone.hpp"
 #include "group_survey.hpp"
+#include "point_bins.hpp"
 
 namespace itin::viewshed {
 
@@ -38,12 +40,29 @@ GroundBounds ground_at(const EnvelopeScene& scene, const RasterGrid& tiles, Poin
   return ground;
 }
 
+/// One bit for each active line that is hidden, over a scene of level 0. `starts_under` and `ends_under` say which
+/// lines begin or end below the upper surface.
+unsigned hidden_exactly(const EnvelopeScene& scene, const SightLines& lines, unsigned starts_under,
+                        unsigned ends_under) {
+  UpperScene::Stretches stretches;
+  scene.upper.find_stretches(lines, starts_under, ends_under, stretches);
+  unsigned result = 0;
+  for (unsigned active = lines.active; active != 0; active &= active - 1) {
+    const auto i = static_cast<unsigned>(std::countr_zero(active));
+    const bool hidden = std::any_of(stretches[i].begin(), stretches[i].end(), [&](const Stretch& s) {
+      return scene.lower.hidden_between(lines, i, s.from, s.to);
+    });
+    if (hidden) result |= 1U << i;
+  }
+  return result;
+}
+
 /// Judges packets of points as CertifiedPass does those of cells.
 class PointPass {
  public:
-  PointPass(const SiteScene& scene, const SiteSurvey& survey, const Request& request,
-            const std::vector<GroundBounds>& grounds)
-      : scene_(scene.surface), zone_(scene.zone), survey_(survey), request_(request), grounds_(grounds) {}
+  PointPass(const EnvelopeScene& scene, const std::optional<ClearZone>& zone, const SiteSurvey& survey,
+            const Request& request, const std::vector<GroundBounds>& grounds)
+      : scene_(scene), zone_(zone), survey_(survey), request_(request), grounds_(grounds) {}
 
   /// The bits of `open` that are certainly visible, and those that are certainly hidden. Of points `first` and on.
   struct Verdict {
@@ -147,57 +166,71 @@ std::uint64_t certain_of(const DemandSet& set, std::uint32_t number,
   return at != set.blocks().end() && at->number == number ? at->members : 0;
 }
 
-}  // namespace
+class PointSurvey final : public GroupSurvey {
+ public:
+  PointSurvey(const SiteSurvey& survey, const Request& request, Envelope envelope, bool zones)
+      : survey_(survey),
+        bins_(bins_of_points(survey.targets.points)),
+        scene_(std::move(envelope), request, bins_, voids_without_doubt(survey.nodata)),
+        grounds_(survey.targets.points.size()) {
+    if (zones) {
+      zone_.emplace(scene_.envelope.lower, scene_.exact ? nullptr : &scene_.envelope.upper, survey.earth,
+                    *survey.fresnel);
+    }
+    constexpr std::size_t kChunk = 256;
+    parallel_for((grounds_.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+      for (std::size_t i = chunk * kChunk; i < std::min(grounds_.size(), (chunk + 1) * kChunk); ++i)
+        grounds_[i] = ground_at(scene_, bins_, survey.targets.points[i]);
+    });
+  }
 
-RasterGrid bins_of_points(const std::vector<Point2>& points) {
-  Box box;
-  for (const Point2& p : points) box.extend(p);
-  const double side = std::clamp(std::sqrt(static_cast<double>(points.size())), 1.0, 512.0);
-  const double size = std::max({box.width(), box.height(), 1.0}) * 1.001 / std::floor(side);
-  // Half a bin about them, so that no point lies on an edge.
-  return {{box.xmin - size / 2, box.ymax + size / 2},
-          size,
-          size,
-          static_cast<std::int64_t>(std::floor(side)) + 1,
-          static_cast<std::int64_t>(std::floor(side)) + 1};
-}
+  std::vector<CoverageBounds> judge(const SiteLooks& looks, Progress& progress, Statistics& statistics) const override {
+    const PointPass pass(scene_, zone_, survey_, looks.request, grounds_);
+    std::vector<CoverageBounds> result(looks.options.size());
+    std::atomic<std::uint64_t> rays = 0;
+    std::atomic<std::size_t> done = 0;
+    parallel_for(result.size(), [&](std::size_t i) {
+      progress.throw_if_cancelled();
+      const EnvelopeScene::Look look =
+          scene_.look_from(eye_at(scene_.envelope.lower.grid, looks.request, survey_.stands[looks.options[i]]));
+      rays += judge(pass, look, *looks.bounds[i], result[i]);
+      progress.report("sight lines of candidates", static_cast<double>(++done) / static_cast<double>(result.size()));
+    });
+    statistics.rays += rays;
+    return result;
+  }
 
-std::vector<CoverageBounds> judge_points(const SiteScene& site_scene, const SiteSurvey& survey, const Request& request,
-                                         std::span<const std::size_t> options,
-                                         std::span<const CoverageBounds* const> bounds, Progress& progress,
-                                         Statistics& statistics) {
-  const EnvelopeScene& scene = site_scene.surface;
-  const std::vector<Point2>& points = survey.targets.points;
-  const RasterGrid tiles = bins_of_points(points);
-  std::vector<GroundBounds> grounds(points.size());
-  constexpr std::size_t kChunk = 256;
-  parallel_for((points.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
-    for (std::size_t i = chunk * kChunk; i < std::min(points.size(), (chunk + 1) * kChunk); ++i)
-      grounds[i] = ground_at(scene, tiles, points[i]);
-  });
-  const PointPass pass(site_scene, survey, request, grounds);
-  std::vector<CoverageBounds> result(options.size());
-  std::atomic<std::uint64_t> rays = 0;
-  std::atomic<std::size_t> done = 0;
-  parallel_for(options.size(), [&](std::size_t i) {
-    progress.throw_if_cancelled();
-    const EnvelopeScene::Look look =
-        scene.look_from(eye_at(scene.envelope.lower.grid, request, survey.stands[options[i]]));
+ private:
+  /// Returns how many sight lines that took.
+  std::uint64_t judge(const PointPass& pass, const EnvelopeScene::Look& look, const CoverageBounds& before,
+                      CoverageBounds& after) const {
     Occluder occluder;
-    auto certain = bounds[i]->certain.blocks().begin();
-    result[i].exact = scene.exact;
-    for (const DemandSet::Block& block : bounds[i]->possible.blocks()) {
-      const std::uint64_t known = certain_of(bounds[i]->certain, block.number, certain);
+    std::uint64_t rays = 0;
+    auto certain = before.certain.blocks().begin();
+    for (const DemandSet::Block& block : before.possible.blocks()) {
+      const std::uint64_t known = certain_of(before.certain, block.number, certain);
       const std::uint64_t open = block.members & ~known;
       const PointPass::Verdict verdict = pass.judge(look, std::size_t{64} * block.number, open, occluder);
-      result[i].certain.add(block.number, known | verdict.visible);
-      result[i].possible.add(block.number, block.members & ~verdict.hidden);
+      after.certain.add(block.number, known | verdict.visible);
+      after.possible.add(block.number, block.members & ~verdict.hidden);
       rays += static_cast<std::uint64_t>(std::popcount(open));
     }
-    progress.report("sight lines of candidates", static_cast<double>(++done) / static_cast<double>(options.size()));
-  });
-  statistics.rays += rays;
-  return result;
+    after.exact = scene_.exact;
+    return rays;
+  }
+
+  const SiteSurvey& survey_;
+  RasterGrid bins_;
+  EnvelopeScene scene_;
+  std::vector<GroundBounds> grounds_;
+  std::optional<ClearZone> zone_;
+};
+
+}  // namespace
+
+std::unique_ptr<GroupSurvey> survey_points(const SiteSurvey& survey, const Request& request, Envelope envelope,
+                                           bool zones) {
+  return std::make_unique<PointSurvey>(survey, request, std::move(envelope), zones);
 }
 
 }  // namespace itin::viewshed

@@ -2,10 +2,13 @@
 #include <cmath>
 
 #include <itin/parallel.hpp>
-#include <itin/triangulate.hpp>
+#include <viewshed/site_coverage.hpp>
 
+#include "../near_ground.hpp"
+#include "../surface_heights.hpp"
+#include "../triangle_bins.hpp"
 #include "cell_blocks.hpp"
-#include "group_survey.hpp"
+#include "point_bins.hpp"
 
 namespace itin::viewshed {
 
@@ -59,13 +62,8 @@ DemandSet within_reach(const SiteTargets& targets, Point2 position, double radiu
 
 namespace {
 
-/// The whole coverage at the coarsest level: its outline is that of the full surface.
-Tin coarsest_surface(const Store& store, const Window& window, Progress& progress) {
-  return triangulate(store, window, Detail::tolerance(store.metadata().levels.back().tolerance), progress);
-}
-
 DemandSet cells_with_ground(const Store& store, const RasterGrid& grid, Progress& progress) {
-  const Tin tin = coarsest_surface(store, Window::box(grid.bounds()), progress);
+  const Tin tin = coverage_of(store, Window::box(grid.bounds()), progress);
   const RasterGrid tiles = grid_of_tiles(grid);
   const TriangleBins bins(tin, tiles);
   const CellBlocks blocks(grid);
@@ -89,7 +87,7 @@ DemandSet cells_with_ground(const Store& store, const RasterGrid& grid, Progress
 
 DemandSet points_with_ground(const Store& store, const std::vector<Point2>& points, Progress& progress) {
   const RasterGrid bins_grid = bins_of_points(points);
-  const Tin tin = coarsest_surface(store, Window::box(bins_grid.bounds()), progress);
+  const Tin tin = coverage_of(store, Window::box(bins_grid.bounds()), progress);
   const TriangleBins bins(tin, bins_grid);
   DemandSet set;
   for (std::size_t first = 0; first < points.size(); first += 64) {

@@ -23,8 +23,8 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Peak memory a point of an envelope, as for precise viewsheds.
-constexpr std::uint64_t kBytesAPoint = 1200;
+/// Peak memory a point: of an envelope, and of a surface that is swept.
+constexpr std::uint64_t kBytesAPoint = 1200, kBytesASweptPoint = 400;
 /// Of the full surface's points the first look reads so many at most: fewer where a second look is cheap, since the
 /// memory holds the full surface for all of them.
 constexpr std::uint64_t kFirstShare = 2, kFirstShareOfWhole = 8;
@@ -180,10 +180,12 @@ class SiteCoverage::Impl {
  private:
   void choose_levels(const Box& box) {
     const std::uint64_t all = store_.points_about(0, box);
-    whole_fits_ = all * (themed_ ? 3 : 1) <= budget();
-    int first = survey_.tolerance   ? level_within(store_.metadata(), *survey_.tolerance)
-                : all <= kFewPoints ? 0
-                                    : level_of(store_, box, all / (whole_fits_ ? kFirstShareOfWhole : kFirstShare));
+    whole_fits_ = all * (themed_ ? 3 : 1) <= budget(0);
+    // To look at cells exactly takes no longer than to look at them coarsely.
+    const bool exact_at_once = all <= kFewPoints || (survey_.targets.grid && whole_fits_);
+    const int first = survey_.tolerance ? level_within(store_.metadata(), *survey_.tolerance)
+                      : exact_at_once   ? 0
+                                        : level_of(store_, box, all / (whole_fits_ ? kFirstShareOfWhole : kFirstShare));
     levels_ = {first};
     if (first > 0) levels_.push_back(0);
   }
@@ -194,8 +196,12 @@ class SiteCoverage::Impl {
     return all;
   }
 
-  /// Points of a scene; what is left is for the rest of the program.
-  std::uint64_t budget() const { return survey_.memory_bytes / 4 * 3 / kBytesAPoint; }
+  /// Cells of the full surface are swept; everything else is judged over envelopes.
+  bool sweeps(int level) const { return level == 0 && survey_.targets.grid; }
+  /// Points to look at together; what is left is for the rest of the program.
+  std::uint64_t budget(int level) const {
+    return survey_.memory_bytes / 4 * 3 / (sweeps(level) ? kBytesASweptPoint : kBytesAPoint);
+  }
 
   std::uint64_t points_of(const std::vector<std::size_t>& options, int level) const {
     Box box;
@@ -205,7 +211,7 @@ class SiteCoverage::Impl {
 
   /// Neighbours together, as many as the memory holds.
   std::vector<std::vector<std::size_t>> groups(std::vector<std::size_t> options, int level) const {
-    if (options.size() < 2 || points_of(options, level) <= budget()) return {std::move(options)};
+    if (options.size() < 2 || points_of(options, level) <= budget(level)) return {std::move(options)};
     Box box;
     for (const std::size_t option : options) box.extend(survey_.stands[option].position);
     std::sort(options.begin(), options.end(), [&](std::size_t a, std::size_t b) {
@@ -231,67 +237,100 @@ class SiteCoverage::Impl {
   /// Over coarse surfaces zones take as long as over the full one, which is looked at next, if the memory holds it.
   bool zones_at(int level) const { return level == 0 || !whole_fits_; }
 
-  std::unique_ptr<SiteScene> scene_of(const std::vector<std::size_t>& group, int level, bool themed) {
+  std::unique_ptr<GroupSurvey> survey_of(const std::vector<std::size_t>& group, int level, bool themed) {
+    return sweeps(level) ? swept(group, themed) : enveloped(group, level, themed);
+  }
+
+  Request request_of(std::span<const std::size_t> options, bool themed) const {
+    Request request = viewshed::request_of(survey_, options);
+    if (!themed) request.target_height += raise_;
+    return request;
+  }
+
+  std::unique_ptr<GroupSurvey> swept(const std::vector<std::size_t>& group, bool themed) {
     Stopwatch watch;
-    Request request = request_of(survey_, group);
-    EnvelopeRequest read = what_to_read(group, request, level);
+    const Window window = window_of(group);
+    const auto triangulated = [&](const ThemeChoice& themes) {
+      Tin tin = triangulate(store_, window, Detail::tolerance(0), progress_, themes);
+      count(tin);
+      return tin;
+    };
+    Tin surface = triangulated(themed ? survey_.themes : ThemeChoice::none());
+    std::optional<Tin> bare_ground;
+    if (themed && !survey_.targets.on_surface) bare_ground = triangulated(ThemeChoice::none());
+    statistics_.retrieval_seconds += watch.lap();
+    auto survey = survey_cells_exactly(survey_, std::move(surface), std::move(bare_ground));
+    statistics_.scene_seconds += watch.lap();
+    return survey;
+  }
+
+  std::unique_ptr<GroupSurvey> enveloped(const std::vector<std::size_t>& group, int level, bool themed) {
+    Stopwatch watch;
+    const Request request = request_of(group, themed);
+    EnvelopeRequest read = what_to_read(group, level);
     if (themed) {
       read.themes = survey_.themes;
       if (!survey_.targets.on_surface) read.bare_ground = read.window;
     }
     Envelope envelope = envelop(store_, read, progress_);
-    statistics_.retrieval += envelope.lower.statistics;
-    statistics_.triangles += envelope.lower.triangles.size();
+    count(envelope.lower);
     statistics_.retrieval_seconds += watch.lap();
-    if (!themed) request.target_height += raise_;
-    const RasterGrid tiles =
-        survey_.targets.grid ? grid_of_tiles(*survey_.targets.grid) : bins_of_points(survey_.targets.points);
-    auto scene = std::make_unique<SiteScene>(std::move(envelope), survey_, request, tiles);
-    if (survey_.fresnel && zones_at(level)) scene->zone.emplace(scene->surface, *survey_.fresnel);
+    const bool zones = survey_.fresnel && zones_at(level);
+    const auto survey = survey_.targets.grid ? survey_cells : survey_points;
+    auto result = survey(survey_, request, std::move(envelope), zones);
     statistics_.scene_seconds += watch.lap();
-    return scene;
+    return result;
+  }
+
+  void count(const Tin& tin) {
+    statistics_.retrieval += tin.statistics;
+    statistics_.triangles += tin.triangles.size();
   }
 
   /// The full surface about all sites, once and for all, where the memory holds it: bare, and then with the themes.
-  const SiteScene& whole_scene(bool themed) {
-    std::unique_ptr<SiteScene>& whole = whole_[themed ? 1 : 0];
-    if (!whole) whole = scene_of(all_options(), 0, themed);
+  const GroupSurvey& whole_survey(bool themed) {
+    std::unique_ptr<GroupSurvey>& whole = whole_[themed ? 1 : 0];
+    if (!whole) whole = survey_of(all_options(), 0, themed);
     return *whole;
   }
 
-  /// `options` among those of the group, whose envelope is looked at.
+  /// `options` among those of the group, over whose surface they are looked at.
   void judge_group(const std::vector<std::size_t>& options, const std::vector<std::size_t>& group, int stage, int level,
                    bool themed) {
-    std::unique_ptr<SiteScene> own;
-    if (level > 0 || !whole_fits_) own = scene_of(group, level, themed);
-    const SiteScene& scene = own ? *own : whole_scene(themed);
+    std::unique_ptr<GroupSurvey> own;
+    if (level > 0 || !whole_fits_) own = survey_of(group, level, themed);
+    const GroupSurvey& survey = own ? *own : whole_survey(themed);
     Stopwatch watch;
-    Request request = request_of(survey_, options);
-    if (!themed) request.target_height += raise_;
     std::vector<const CoverageBounds*> before;
     for (const std::size_t option : options) before.push_back(&states_[option].bounds);
-    const auto look = survey_.targets.grid ? judge_cells : judge_points;
-    std::vector<CoverageBounds> after = look(scene, survey_, request, options, before, progress_, statistics_);
+    std::vector<CoverageBounds> after =
+        survey.judge({request_of(options, themed), options, before}, progress_, statistics_);
     for (std::size_t i = 0; i < options.size(); ++i) {
       if (themed_ && !themed) after[i].certain = {}, after[i].exact = false;  // features may hide it
-      if (survey_.fresnel && !scene.zone) after[i].certain = {};              // or its zone is cut
+      if (survey_.fresnel && !zones_at(level)) after[i].certain = {};         // or its zone is cut
       settle(options[i], stage, std::move(after[i]));
     }
     statistics_.rays_seconds += watch.lap();
   }
 
+  Window window_of(const std::vector<std::size_t>& group) const {
+    return group.size() > 1 ? window_about(survey_.stands, group, survey_.radius)
+                            : Window::disc(survey_.stands[group.front()].position, survey_.radius);
+  }
+
   /// Less about each site than a single viewshed reads: they are many.
-  EnvelopeRequest what_to_read(const std::vector<std::size_t>& group, const Request& request, int level) const {
+  EnvelopeRequest what_to_read(const std::vector<std::size_t>& group, int level) const {
     EnvelopeRequest read;
     read.level = level;
-    read.window = group.size() > 1 ? window_about(survey_.stands, group, survey_.radius) : window_of(request);
-    for (const Observer& observer : request.observers) {
-      read.observers.push_back(observer.position);
+    read.window = window_of(group);
+    for (const std::size_t option : group) {
+      const Point2 position = survey_.stands[option].position;
+      read.observers.push_back(position);
       if (level == 0) continue;
-      const double points = static_cast<double>(store_.points_about(0, around(observer.position, survey_.radius)));
+      const double points = static_cast<double>(store_.points_about(0, around(position, survey_.radius)));
       const double share = std::sqrt(kNearPoints / std::max(points, kNearPoints));
-      read.discs.push_back({observer.position, survey_.radius * share, 0});
-      if (level > 1) read.discs.push_back({observer.position, 2 * survey_.radius * share, 1});
+      read.discs.push_back({position, survey_.radius * share, 0});
+      if (level > 1) read.discs.push_back({position, 2 * survey_.radius * share, 1});
     }
     return read;
   }
@@ -309,7 +348,7 @@ class SiteCoverage::Impl {
   bool themed_;
   double raise_ = 0;
   bool whole_fits_ = false;
-  std::array<std::unique_ptr<SiteScene>, 2> whole_;
+  std::array<std::unique_ptr<GroupSurvey>, 2> whole_;
   std::vector<int> levels_;  ///< of the looks at the bare terrain
   std::vector<State> states_;
   Statistics statistics_;

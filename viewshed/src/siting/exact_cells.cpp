@@ -1,0 +1,95 @@
+// Cells judged over the full surface itself.
+#include <itin/parallel.hpp>
+#include <viewshed/certified.hpp>
+
+#include "../full_surface.hpp"
+#include "../void_shadow.hpp"
+#include "clear_zone.hpp"
+#include "tile_judge.hpp"
+#include "zone_cut.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+struct FullGround {
+  FullGround(const SiteSurvey& s, Tin tin, std::optional<Tin> bare_ground)
+      : survey(s),
+        tiles(grid_of_tiles(*survey.targets.grid)),
+        surface(std::move(tin), std::move(bare_ground), survey.earth, *survey.targets.grid, tiles) {
+    if (survey.fresnel) zone.emplace(surface.tin, nullptr, survey.earth, *survey.fresnel);
+  }
+
+  const SiteSurvey& survey;
+  RasterGrid tiles;
+  OwnedSurface surface;
+  std::optional<ClearZone> zone;
+};
+
+struct ExactLook {
+  Eye eye;
+  std::optional<VoidShadow> shadow;  ///< where ground without data hides
+};
+
+class ExactTile final : public TileJudge::Work {
+ public:
+  ExactTile(const FullGround& ground, const std::vector<ExactLook>& looks, std::size_t tile)
+      : ground_(ground), looks_(looks), work_(ground.surface.full.begin(tile)) {}
+
+  std::uint64_t judge(std::size_t i, TileValues<std::uint8_t>& values) override {
+    const auto& [eye, shadow] = looks_[i];
+    const std::uint64_t lines = ground_.surface.full.judge(eye, values, *work_);
+    if (shadow) shadow->hide(work_->centres, values);
+    if (ground_.zone) cut_zones(*ground_.zone, eye, {work_->centres, work_->targets, work_->targets}, values);
+    return lines;
+  }
+
+ private:
+  const FullGround& ground_;
+  const std::vector<ExactLook>& looks_;
+  std::unique_ptr<FullSurface::TileWork> work_;
+};
+
+class ExactJudge final : public TileJudge {
+ public:
+  ExactJudge(const FullGround& ground, const SiteLooks& looks) : ground_(ground) {
+    const Tin& tin = ground.surface.tin;
+    for (const std::size_t option : looks.options)
+      looks_.push_back({eye_at(tin.grid, looks.request, ground.survey.stands[option]), std::nullopt});
+    if (ground.survey.nodata != NoData::kBlock) return;
+    parallel_for(looks_.size(),
+                 [&](std::size_t i) { looks_[i].shadow.emplace(tin, ground.surface.full.boundary(), looks_[i].eye.units); });
+  }
+
+  std::unique_ptr<Work> begin(std::size_t tile) const override {
+    return std::make_unique<ExactTile>(ground_, looks_, tile);
+  }
+
+ private:
+  const FullGround& ground_;
+  std::vector<ExactLook> looks_;
+};
+
+class ExactCells final : public GroupSurvey {
+ public:
+  ExactCells(const SiteSurvey& survey, Tin surface, std::optional<Tin> bare_ground)
+      : ground_(survey, std::move(surface), std::move(bare_ground)) {}
+
+  std::vector<CoverageBounds> judge(const SiteLooks& looks, Progress& progress, Statistics& statistics) const override {
+    auto result = judge_tiles(ExactJudge(ground_, looks), ground_.survey, looks, progress, statistics);
+    for (CoverageBounds& bounds : result) bounds.exact = true;
+    return result;
+  }
+
+ private:
+  FullGround ground_;
+};
+
+}  // namespace
+
+std::unique_ptr<GroupSurvey> survey_cells_exactly(const SiteSurvey& survey, Tin surface,
+                                                  std::optional<Tin> bare_ground) {
+  return std::make_unique<ExactCells>(survey, std::move(surface), std::move(bare_ground));
+}
+
+}  // namespace itin::viewshed

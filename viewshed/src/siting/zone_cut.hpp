@@ -1,0 +1,25 @@
+// Leaves of the cells of a tile that are in sight those whose Fresnel zones are clear.
+#pragma once
+
+#include <cstdint>
+
+#include "../eye.hpp"
+#include "../surface_heights.hpp"
+#include "clear_zone.hpp"
+
+namespace itin::viewshed {
+
+/// Where the targets of a tile's cells may be, grid units; kNoSurface where none is. Over the full surface `low` and
+/// `high` are one.
+struct TileTargets {
+  const TileCentres& centres;
+  const TileValues<double>& low;
+  const TileValues<double>& high;
+  bool exact() const { return &low == &high; }
+};
+
+/// Visible cells and undecided ones whose zone is certainly cut become kCertainlyHidden; visible ones become kUndecided
+/// where it is not certainly clear. A target at the eye's own place has no zone.
+void cut_zones(const ClearZone& zone, const Eye& eye, const TileTargets& targets, TileValues<std::uint8_t>& values);
+
+}  // namespace itin::viewshed

@@ -1,0 +1,21 @@
+// What is asked about a zone of visibility, checked and laid out on the ground.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include <itin/geometry.hpp>
+#include <viewshed/turbines.hpp>
+
+namespace itin::viewshed {
+
+/// Throws InputError, naming the turbine or the option.
+void validate(const ZoneRequest& request);
+
+/// The zone before any line of sight: its turbines on their ground, those without any among the misplaced, its grid
+/// over what of the coverage lies within a radius, and no cell seen. `ground` gives metres. Throws InputError where no
+/// turbine stands on the ground.
+Zone lay_out(const ZoneRequest& request, const Box& coverage,
+             const std::function<std::optional<double>(Point2)>& ground);
+
+}  // namespace itin::viewshed
