@@ -162,17 +162,26 @@ std::string left_out(const SiteResult& r) {
   return html + "</ul>\n";
 }
 
+/// How few candidates had to be looked at closely, and why that was enough.
+std::string looks(const SiteResult& r) {
+  const std::string options =
+      fmt::format("{} candidates, {} options", r.inputs.candidates.size(), r.inputs.options.size());
+  if (r.coverage.last_stage() == 0) return options + "; the first look at each was exact.";
+  return options + fmt::format(
+                       "; {} of them were looked at again after the first look. The others could be left: what they "
+                       "serve at most "
+                       "never came first, so exact coverage of all would have led to the same choice.",
+                       r.refined());
+}
+
 std::string summary(const SiteResult& r) {
   const double total = std::max(r.in_metric(r.inputs.total), 1e-300);
   return fmt::format(
       "<p class=\"figure\">{} sites serve {} of a demand of {} ({:.1f} %). No choice within the same limits serves "
-      "more "
-      "than {}: at most {:.1f} % were left on the table.</p>\n<p>{} candidates, {} options; {} of them were looked at "
-      "again after the first look. The others could be left: what they serve at most never came first, so exact "
-      "coverage of all would have led to the same choice.{}</p>\n",
+      "more than {}: at most {:.1f} % were left on the table.</p>\n<p>{}{}</p>\n",
       r.choice.chosen.size(), amount(r.in_metric(r.choice.value)), amount(r.in_metric(r.inputs.total)),
       100 * r.in_metric(r.choice.value) / total, amount(r.in_metric(r.choice.upper_bound)),
-      viewshed::gap_percent(r.choice), r.inputs.candidates.size(), r.inputs.options.size(), r.refined(),
+      viewshed::gap_percent(r.choice), looks(r),
       r.choice.swaps > 0 ? fmt::format(" {} exchanges after greedy gained more.", r.choice.swaps) : "");
 }
 

@@ -18,6 +18,7 @@
 #include "request.hpp"
 #include "scene.hpp"
 #include "stopwatch.hpp"
+#include "void_shadow.hpp"
 #include "zone_parts.hpp"
 #include "zone_request.hpp"
 #include "zone_survey.hpp"
@@ -33,10 +34,15 @@ double ceiling(const Tin& tin, const ZoneRequest& request) {
   return highest + above;
 }
 
-/// What hides besides the surface, where ground without data does.
-std::optional<Scene> curtains(const Tin& tin, const ZoneRequest& request) {
-  if (request.nodata != NoData::kBlock) return std::nullopt;
-  return Scene(tin, request.earth, request.nodata, ceiling(tin, request));
+/// What voids hide from each turbine, where they do.
+std::vector<VoidShadow> shadows(const Tin& tin, const std::vector<BoundaryEdge>& boundary, const ZoneRequest& request) {
+  std::vector<VoidShadow> result;
+  if (request.nodata != NoData::kBlock) return result;
+  for (const Turbine& t : request.turbines) {
+    result.emplace_back(tin, boundary,
+                        Point3{easting_in_units(tin.grid, t.position.x), northing_in_units(tin.grid, t.position.y), 0});
+  }
+  return result;
 }
 
 void warn_of_voids(const Tin& tin, Zone& zone) {
@@ -71,10 +77,10 @@ class ZoneWork {
             Visibility& visibility) {
     Stopwatch watch;
     const BinnedHeights binned(surface);
-    const std::optional<Scene> scene = curtains(surface, zone_.request);
+    const std::vector<VoidShadow> behind_voids = shadows(surface, binned.boundary(), zone_.request);
     zone_.statistics.scene_seconds += watch.lap();
-    zone_.statistics.lines += survey.run(AxisSweep(surface, zone_.request.earth, binned), scene ? &*scene : nullptr,
-                                         tiles, stage, visibility, progress_);
+    zone_.statistics.lines += survey.run({AxisSweep(surface, zone_.request.earth, binned), behind_voids}, tiles, stage,
+                                         visibility, progress_);
     zone_.statistics.lines_seconds += watch.lap();
     zone_.statistics.retrieval += surface.statistics;
     zone_.statistics.triangles += surface.triangles.size();

@@ -53,13 +53,13 @@ ZoneSurvey::ZoneSurvey(const Tin& ground, const TriangleBins& bins, const Raster
   }
 }
 
-std::uint64_t ZoneSurvey::run(const AxisSweep& sweep, const Scene* curtains, std::span<const std::size_t> tiles,
-                              const std::string& stage, Visibility& result, Progress& progress) const {
+std::uint64_t ZoneSurvey::run(const Surface& surface, std::span<const std::size_t> tiles, const std::string& stage,
+                              Visibility& result, Progress& progress) const {
   std::atomic<std::size_t> done = 0;
   std::atomic<std::uint64_t> lines = 0;
   parallel_for(tiles.size(), [&](std::size_t i) {
     progress.throw_if_cancelled();
-    lines += decide(tiles[i], sweep, curtains, result);
+    lines += decide(tiles[i], surface, result);
     const std::size_t now = ++done;
     if (now % 16 == 0 || now == tiles.size())
       progress.report(stage, static_cast<double>(now) / static_cast<double>(tiles.size()));
@@ -67,8 +67,7 @@ std::uint64_t ZoneSurvey::run(const AxisSweep& sweep, const Scene* curtains, std
   return lines;
 }
 
-std::uint64_t ZoneSurvey::decide(std::size_t tile, const AxisSweep& sweep, const Scene* curtains,
-                                 Visibility& result) const {
+std::uint64_t ZoneSurvey::decide(std::size_t tile, const Surface& surface, Visibility& result) const {
   const Tile place = tile_at(zone_.grid, tiles_, tile);
   std::vector<std::size_t> near;
   for (std::size_t k = 0; k < axes_.size(); ++k)
@@ -78,7 +77,7 @@ std::uint64_t ZoneSurvey::decide(std::size_t tile, const AxisSweep& sweep, const
   scan_convert(ground_, bins_.triangles(tile), place, work->centres, work->ground);
   const double eye_height = zone_.request.observer_height / ground_.grid.resolution;
   for (std::size_t i = 0; i < work->ground.size(); ++i) work->eyes[i] = work->ground[i] + eye_height;
-  for (const std::size_t k : near) look_at(k, sweep, curtains, *work);
+  for (const std::size_t k : near) look_at(k, surface, *work);
   store(*work, result);
   return work->lines;
 }
@@ -92,12 +91,12 @@ bool ZoneSurvey::in_reach(const Axis& axis, const Tile& tile) const {
   return dx * dx + dy * dy <= axis.radius_squared;
 }
 
-void ZoneSurvey::look_at(std::size_t turbine, const AxisSweep& sweep, const Scene* curtains, TileWork& work) const {
+void ZoneSurvey::look_at(std::size_t turbine, const Surface& surface, TileWork& work) const {
   const Axis& axis = axes_[turbine];
   // Which cells lie within the radius is decided in metres, below.
   const double reach = zone_.request.turbines[turbine].radius / ground_.grid.resolution + 1;
-  sweep.run({axis.x, axis.y, axis.base, axis.tip, reach}, {work.tile, work.centres, work.eyes}, work.scratch,
-            work.least);
+  surface.sweep.run({axis.x, axis.y, axis.base, axis.tip, reach}, {work.tile, work.centres, work.eyes}, work.scratch,
+                    work.least);
   for (std::int64_t r = 0; r < work.tile.rows; ++r) {
     const double dy = zone_.grid.centre_y(work.tile.row + r) - axis.position_y;
     for (std::int64_t c = 0; c < work.tile.columns; ++c) {
@@ -108,23 +107,13 @@ void ZoneSurvey::look_at(std::size_t turbine, const AxisSweep& sweep, const Scen
       const double least = work.least[cell];
       const bool beneath = std::isinf(least);
       work.lines += beneath ? 0 : 1;
-      if (std::isnan(least) || (curtains != nullptr && !beneath && behind_curtain(axis, work, r, c, *curtains)))
+      if (std::isnan(least)) continue;
+      if (!surface.shadows.empty() && surface.shadows[turbine].holds(work.centres.x[static_cast<std::size_t>(c)],
+                                                                     work.centres.y[static_cast<std::size_t>(r)]))
         continue;
       record(turbine, cell, std::sqrt(squared), beneath ? axis.base : least, work);
     }
   }
-}
-
-bool ZoneSurvey::behind_curtain(const Axis& axis, const TileWork& work, std::int64_t row, std::int64_t column,
-                                const Scene& curtains) const {
-  SightLines line;
-  line.from_x[0] = work.centres.x[static_cast<std::size_t>(column)];
-  line.from_y[0] = work.centres.y[static_cast<std::size_t>(row)];
-  line.from_z[0] = work.eyes[cell_of(row, column)];
-  line.to_x[0] = axis.x, line.to_y[0] = axis.y, line.to_z[0] = axis.tip;
-  line.active = 1;
-  Occluder occluder;
-  return curtains.hidden(line, occluder) != 0;
 }
 
 /// The turbine is seen from the cell, down to `least` grid units of elevation.

@@ -10,10 +10,10 @@
 #include <viewshed/turbines.hpp>
 
 #include "axis_sweep.hpp"
-#include "scene.hpp"
 #include "surface_heights.hpp"
 #include "triangle_bins.hpp"
 #include "turbine_view.hpp"
+#include "void_shadow.hpp"
 
 namespace itin::viewshed {
 
@@ -23,10 +23,14 @@ class ZoneSurvey {
   /// grid. All must outlive it.
   ZoneSurvey(const Tin& ground, const TriangleBins& bins, const RasterGrid& tiles, const Zone& zone);
 
-  /// Enters what is seen over the surface of `sweep` from the cells of these tiles. What stands in `curtains`, where
-  /// that is given, hides too. Returns how many lines that took.
-  std::uint64_t run(const AxisSweep& sweep, const Scene* curtains, std::span<const std::size_t> tiles,
-                    const std::string& stage, Visibility& result, Progress& progress) const;
+  /// The surface to look over, and each turbine's shadow of voids where these hide; else none.
+  struct Surface {
+    const AxisSweep& sweep;
+    const std::vector<VoidShadow>& shadows;
+  };
+  /// Enters what is seen from the cells of these tiles. Returns how many lines that took.
+  std::uint64_t run(const Surface& surface, std::span<const std::size_t> tiles, const std::string& stage,
+                    Visibility& result, Progress& progress) const;
 
  private:
   struct Axis {
@@ -37,11 +41,9 @@ class ZoneSurvey {
   };
   struct TileWork;
 
-  std::uint64_t decide(std::size_t tile, const AxisSweep& sweep, const Scene* curtains, Visibility& result) const;
+  std::uint64_t decide(std::size_t tile, const Surface& surface, Visibility& result) const;
   bool in_reach(const Axis& axis, const Tile& tile) const;
-  void look_at(std::size_t turbine, const AxisSweep& sweep, const Scene* curtains, TileWork& work) const;
-  bool behind_curtain(const Axis& axis, const TileWork& work, std::int64_t row, std::int64_t column,
-                      const Scene& curtains) const;
+  void look_at(std::size_t turbine, const Surface& surface, TileWork& work) const;
   void record(std::size_t turbine, std::size_t cell, double distance, double least, TileWork& work) const;
   void store(const TileWork& work, Visibility& result) const;
   void store_horizon(const TileWork& work, std::size_t from_cell, std::size_t to_cell, Point2 eye, Visibility& result,

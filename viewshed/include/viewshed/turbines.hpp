@@ -116,9 +116,8 @@ struct Zone {
 
 /// On given surfaces; `screened` may be null, and must cover what `ground` does. Turbines without ground become
 /// misplaced. Cost: 0.5 microseconds a triangle and a tenth of a microsecond a line, of processor time. Memory: 80
-/// bytes a triangle and 40 bytes a cell, twice with a screened surface; 170 a triangle with a radar, or where ground
-/// without data blocks. The result does not depend on the number of threads. Throws InputError (nothing to see,
-/// unusable numbers), Cancelled.
+/// bytes a triangle and 40 bytes a cell, twice with a screened surface; 170 a triangle with a radar. The result does
+/// not depend on the number of threads. Throws InputError (nothing to see, unusable numbers), Cancelled.
 Zone survey_turbines(const Tin& ground, const Tin* screened, const ZoneRequest& request, Progress& progress);
 
 /// On the surface of a store: one retrieval within the turbines' radii, or one a part. Throws also what triangulate()
