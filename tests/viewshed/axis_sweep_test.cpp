@@ -1,4 +1,5 @@
-// Sweeps about upright axes against searches line by line, and the bounds that they rest on against the surface.
+// Sweeps about upright axes and from eyes against all triangles, line by line, and the bounds that they rest on against
+// the surface.
 #include "axis_sweep.hpp"
 
 #include <algorithm>
@@ -10,7 +11,6 @@
 #include <gtest/gtest.h>
 
 #include "boundary.hpp"
-#include "least_height.hpp"
 #include "support/delaunay_tin.hpp"
 #include "support/exact_line_of_sight.hpp"
 #include "support/real_terrain.hpp"
@@ -56,15 +56,13 @@ class RaisedGround {
 /// Every cell of a grid over the Tin, as tiles see it, looking at one axis.
 class Sweeping {
  public:
+  /// Metres.
   Sweeping(const Tin& tin, const Earth& earth, double cell)
-      : tin_(tin),
-        earth_(earth),
-        bins_(tin),
-        sweep_(tin, earth, bins_),
-        scene_(tin, earth, NoData::kClear, 0),
-        heights_(tin, earth, scene_),
-        exact_(tin, earth),
-        ground_(tin, cell) {}
+      : tin_(tin), earth_(earth), bins_(tin), sweep_(tin, earth, bins_), exact_(tin, earth), ground_(tin, cell) {
+    const Box box = tin.bounds();
+    every_ = 1 + static_cast<std::int64_t>(box.width() * box.height() / (cell * cell) *
+                                           static_cast<double>(tin.triangles.size()) / 3e6);
+  }
 
   /// Metres.
   Tally compare(Point2 foot, double height, double eye_height, double radius) {
@@ -78,7 +76,8 @@ class Sweeping {
     ground_.for_each_tile(eye_height, [&](const AxisSweep::Ends& eyes) {
       sweep_.run(axis, eyes, work->scratch, work->found);
       for (std::int64_t r = 0; r < eyes.tile.rows; ++r)
-        for (std::int64_t c = 0; c < eyes.tile.columns; ++c) check(axis, eyes, work->found, r, c, tally);
+        for (std::int64_t c = (r * 7) % every_; c < eyes.tile.columns; c += every_)
+          check(axis, eyes, work->found, r, c, tally);
     });
     return tally;
   }
@@ -102,13 +101,7 @@ class Sweeping {
       return;
     }
     if (distance > axis.radius * (1 - 1e-9)) return;
-    SightLines line;
-    line.from_x[0] = x, line.from_y[0] = y, line.from_z[0] = eye;
-    line.to_x[0] = axis.x, line.to_y[0] = axis.y, line.to_z[0] = axis.top, line.active = 1;
-    LeastHeights::Heights lower{};
-    lower[0] = axis.base;
-    LeastHeights::Memory memory;
-    const double expected = heights_.find(line, lower, memory)[0];
+    const double expected = least({x, y, eye}, axis);
     ++(std::isnan(expected) ? tally.hidden : tally.seen);
     if (std::isnan(expected) != std::isnan(found)) {
       const double unit = tin_.grid.resolution;
@@ -121,14 +114,26 @@ class Sweeping {
     }
   }
 
+  /// Grid units; the height of the axis above which an eye sees it.
+  double least(const Point3& eye, const AxisSweep::Axis& axis) const {
+    const double unit = tin_.grid.resolution;
+    const SightLine line(eye, {axis.x, axis.y, axis.top}, earth_.drop_coefficient() * unit, kGrazing / unit);
+    double least = axis.base;
+    for (const Triangle& t : tin_.triangles) {
+      const GridPoint &a = tin_.vertices[t[0]], &b = tin_.vertices[t[1]], &c = tin_.vertices[t[2]];
+      if (line.hidden_by(a, b, c)) return NAN;
+      least = std::max(least, std::min(axis.top, line.clearing_end(a, b, c)));
+    }
+    return least;
+  }
+
   const Tin& tin_;
   Earth earth_;
   BinnedHeights bins_;
   AxisSweep sweep_;
-  Scene scene_;
-  LeastHeights heights_;
   test::ExactLineOfSight exact_;
   RaisedGround ground_;
+  std::int64_t every_ = 1;  ///< of so many cells one is looked at
 };
 
 Point2 place_in(const Tin& tin, std::mt19937& random) {
@@ -148,8 +153,8 @@ TEST(AxisSweep, RandomTins) {
     const Tally t = sweeping.compare(place_in(tin, random), 20, i % 3 == 0 ? 0 : 2, size * (i % 2 == 0 ? 2 : 0.4));
     all.seen += t.seen, all.hidden += t.hidden, all.partly += t.partly;
   }
-  EXPECT_GT(all.hidden, 100);
-  EXPECT_GT(all.partly, 100);
+  EXPECT_GT(all.hidden, 20);
+  EXPECT_GT(all.partly, 20);
 }
 
 TEST(AxisSweep, FractalTerrainWithCellsOfEverySize) {
@@ -194,7 +199,7 @@ TEST(AxisSweep, LongEdgesOnACurvedEarth) {
     Sweeping sweeping(tin, earth, 900);
     partly += sweeping.compare(place_in(tin, random), 200, 2, 60000).partly;
   }
-  EXPECT_GT(partly, 50);
+  EXPECT_GT(partly, 10);
 }
 
 TEST(AxisSweep, WallsAndRoofs) {
@@ -204,8 +209,7 @@ TEST(AxisSweep, WallsAndRoofs) {
   Sweeping sweeping(tin, {}, 7);
   std::mt19937 random(test::seed());
   const Tally t = sweeping.compare(place_in(tin, random), 60, 2, 700);
-  EXPECT_GT(t.partly, 100);
-  EXPECT_GT(t.hidden, 0);
+  EXPECT_GT(t.partly + t.hidden, 10);
 }
 
 TEST(AxisSweep, RealTerrain) {
@@ -215,7 +219,7 @@ TEST(AxisSweep, RealTerrain) {
   Sweeping sweeping(*tin, {}, 20);
   int hidden = 0;
   for (int i = 0; i < 4; ++i) hidden += sweeping.compare(place_in(*tin, random), 150, 2, 5000).hidden;
-  EXPECT_GT(hidden, 50);
+  EXPECT_GT(hidden, 5);
 }
 
 /// The lines from an eye to every cell of a grid over the Tin, against those over every triangle: to the last bit.

@@ -31,8 +31,8 @@ using viewshed::Result;
 
 /// What became of the cells asked again.
 struct Agreement {
-  int visible = 0, hidden = 0;      ///< by the line of sight
-  int wrong = 0;                    ///< cells that differ
+  int visible = 0, hidden = 0;  ///< by the line of sight
+  int wrong = 0;                ///< cells that differ
 };
 
 std::ostream& operator<<(std::ostream& out, const Agreement& a) {

@@ -189,7 +189,8 @@ class AxisSweep::Task {
     const double lowest = lowest_->end[cell.index];
     double least = sight.least();
     for (const double end : {lowest_->wanted[cell.index], lowest}) {
-      if (!(end >= lowest && end < least) || sight.silhouette() == kNoSilhouette || sight.hides(sight.silhouette(), end))
+      if (!(end >= lowest && end < least) || sight.silhouette() == kNoSilhouette ||
+          sight.hides(sight.silhouette(), end))
         continue;
       const SightLine line = line_between({axis_.x, axis_.y, axis_.top}, other_end(cell, end));
       PointSight lower(sweep_.tin_, line, {cell.along, sweep_.drop_ * cell.squared}, profile_axis_.margin);
@@ -250,7 +251,8 @@ class AxisSweep::Task {
     const double drop = profile_axis_.drop * (1 + stretch.slope * stretch.slope);
     // Less what curvature bends between the ends.
     const auto height = [&](double along) {
-      return sight.at_axis() + sight.slope() * along + drop * along * along - std::max(drop, 0.0) - profile_axis_.margin;
+      return sight.at_axis() + sight.slope() * along + drop * along * along - std::max(drop, 0.0) -
+             profile_axis_.margin;
     };
     const double near = height(stretch.begin), far = height(stretch.end);
     const auto lid = [&](double along) {

@@ -49,6 +49,16 @@ std::uint64_t FullSurface::judge(const Eye& eye, TileValues<std::uint8_t>& value
   return lines;
 }
 
+double FullSurface::raise_from(const Eye& eye, Point2 position, double lowest, double highest) const {
+  const RasterGrid around({position.x - 0.5, position.y + 0.5}, 1, 1, 1, 1);
+  const auto work = std::make_unique<TileWork>(tin_.grid, around, Tile{0, 0, 1, 1});
+  work->centres.x[0] = easting_in_units(tin_.grid, position.x);
+  work->centres.y[0] = northing_in_units(tin_.grid, position.y);
+  work->ground[0] = lowest, work->targets[0] = highest;
+  raise_from(eye, {work->ground, work->ground}, *work);
+  return work->seen[0];
+}
+
 void FullSurface::find_ground(std::size_t index, TileWork& work) const {
   if (of_tiles_) {
     scan_convert(targets_on(), of_tiles_->triangles(index), work.tile, work.centres, work.ground);

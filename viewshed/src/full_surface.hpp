@@ -65,6 +65,8 @@ class FullSurface {
   void raise_from(const Eye& eye, const AxisSweep::Lowest& lowest, TileWork& work) const {
     sweep_.raise_from(eye.units, {work.tile, work.centres, work.targets}, lowest, work.scratch, work.seen);
   }
+  /// The same for a single place, given in metres; grid units.
+  double raise_from(const Eye& eye, Point2 position, double lowest, double highest) const;
 
  private:
   void raise_targets(const Eye& eye, TileValues<std::uint8_t>& values, TileWork& work) const;

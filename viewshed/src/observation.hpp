@@ -2,8 +2,8 @@
 //
 //   const Observations observations(request, tin);
 //   const std::unique_ptr<Observation> observation = observations.of_tile();
-//   lines += observation->look({surface, eye, observer, nullptr, *surface.begin(tile)});   // one observer after another
-//   observation->store(surface.tile(i), result, cells);
+//   lines += observation->look({surface, eye, observer, nullptr, *surface.begin(tile)});   // one observer after
+//   another observation->store(surface.tile(i), result, cells);
 //
 // The result does not depend on the order of the looks.
 #pragma once

@@ -92,8 +92,9 @@ class SectorProfile {
   /// Lines up to the axis' top that rise by less than this outward a bin, and begin in this slab, are certainly hidden.
   double hidden_below(std::size_t slab) const { return hidden_below_[slab - nearest_]; }
 
-  /// Calls visit(slab) from `last` inwards for every slab that may rise above a line of height line.at_axis() at the axis
-  /// that rises by line.slope() outward a bin; both may change meanwhile, and visit ends the search by returning false.
+  /// Calls visit(slab) from `last` inwards for every slab that may rise above a line of height line.at_axis() at the
+  /// axis that rises by line.slope() outward a bin; both may change meanwhile, and visit ends the search by returning
+  /// false.
   template <class Line, class Visit>
   void search(std::size_t last, const Line& line, const Visit& visit);
 

@@ -66,7 +66,10 @@ class AxisSight {
 class PointSight {
  public:
   PointSight(const Tin& tin, const SightLine& to_target, const SweptEnd& target, double margin)
-      : tin_(tin), line_(to_target), slope_((to_target.to_z() - target.drop - to_target.from().z) / target.along), margin_(margin) {}
+      : tin_(tin),
+        line_(to_target),
+        slope_((to_target.to_z() - target.drop - to_target.from().z) / target.along),
+        margin_(margin) {}
 
   double at_axis() const { return line_.from().z; }
   double slope() const { return slope_; }

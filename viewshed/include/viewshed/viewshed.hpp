@@ -13,8 +13,8 @@
 // T(cx, cy) + target_height, so one on the ground within a building is hidden. A sight line that grazes the surface
 // sees (law 4).
 //
-// Accuracy. Exact for the surface asked for: each cell has the verdict of its sight line over every triangle, decided in
-// double precision. Ground that rises less than a micrometre above a sight line grazes it.
+// Accuracy. Exact for the surface asked for: each cell has the verdict of its sight line over every triangle, decided
+// in double precision. Ground that rises less than a micrometre above a sight line grazes it.
 #pragma once
 
 #include <cstdint>
@@ -175,9 +175,9 @@ constexpr std::size_t which_grids(std::size_t observers) {
 
 /// On a given surface. The Tin must hold every triangle that sight lines cross; where it ends there is no data.
 /// Cost: O(n) for n triangles (about 0.1 microseconds each) and about 50 ns a cell and observer, in mode kHeight 150;
-/// memory 25 bytes a triangle of a raster, 50 of others, and a tenth of a megabyte a thread. The result does not depend on the number of
-/// threads. Throws InputError (an observer outside the data, by name; an unusable radius, cell size or angle; more than
-/// 65534 observers to count), Cancelled.
+/// memory 25 bytes a triangle of a raster, 50 of others, and a tenth of a megabyte a thread. The result does not depend
+/// on the number of threads. Throws InputError (an observer outside the data, by name; an unusable radius, cell size or
+/// angle; more than 65534 observers to count), Cancelled.
 Result compute(const Tin& tin, const Request& request, Progress& progress);
 
 /// The same, with the ground on which ends stand that are not on the surface. It must cover what the surface covers.
