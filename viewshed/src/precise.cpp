@@ -70,7 +70,8 @@ class InSegments {
  private:
   void require_mode() const {
     if (request_.mode == Mode::kBlocker || request_.mode == Mode::kProbability)
-      throw InputError("this mode needs the whole window in memory: give more --memory or a smaller --radius");
+      throw InputError(
+          "blockers and probabilities need the whole window in memory: give more --memory or a smaller --radius");
   }
 
   /// Certificates know nothing of what stands on the ground, and cells that a coarse level decides have no exact height
