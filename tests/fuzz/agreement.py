@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""Random stores, asked in several ways that must agree: precise, certified and plain viewsheds, and sight lines.
+"""Random stores, asked in several ways that must agree: precise, certified and plain viewsheds, zones of visibility of
+turbines, coverage of sites, and sight lines.
 
     tests/fuzz/agreement.py FIRST_SEED COUNT      with build/dev/bin/itin, or ITIN_PROGRAM; needs gdal-bin python3-gdal
 
-Every seed imports terrain (raster, contours or scattered points) and features in a random order, checks the store, and
-looks from three places. What disagrees, fails or takes ten minutes is printed; its folder in build/fuzz is kept.
+Every seed imports terrain (raster, contours or scattered points) and features in a random order, checks the store, looks
+from three places, at turbines, and from the best of three sites. What disagrees, fails or takes ten minutes is printed; its folder in build/fuzz is kept.
 """
 import csv
 import json
@@ -23,6 +24,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 ITIN = os.environ.get("ITIN_PROGRAM", ROOT + "/build/dev/bin/itin")
 X0, Y0 = 300000, 200000
 VISIBLE, OUTSIDE, CERTAINLY_HIDDEN, CERTAINLY_VISIBLE = 1, 255, 1, 2
+ROUNDING_M = 2e-6
 
 
 class Failure(Exception):
@@ -98,7 +100,7 @@ class Trial:
 
     def place(self, margin=0.12):
         within = lambda: self.side * self.random.uniform(margin, 1 - margin)
-        return X0 + within(), Y0 + within()
+        return round(X0 + within(), 3), round(Y0 + within(), 3)
 
     def import_terrain(self):
         r, n = self.random, self.posts
@@ -170,21 +172,34 @@ class Trial:
         else:
             self.standing += [what] if what in ("buildings", "vegetation", "walls") else []
 
+    def raster(self, name):
+        return gdal.Open(self.path(name)).ReadAsArray()
+
+    def shared_options(self):
+        r = self.random
+        themes = r.choice(["none", "all"] + self.standing)
+        return ["--themes", themes, "--nodata", r.choice(["clear", "block"]), "--refraction", r.choice([0, 0.13, 0.25])]
+
+    def cell_size(self):
+        return f"{max(self.side / self.random.choice([60, 110]), 0.05):.4f}"
+
+    def drawn(self, cells, count):
+        return cells[self.rng.choice(len(cells), min(count, len(cells)), replace=False)]
+
     def look(self):
         r = self.random
         bounds = json.loads(itin("info", self.store, "--json"))["bounds"]
-        eye = r.uniform(bounds["xmin"], bounds["xmax"]), r.uniform(bounds["ymin"], bounds["ymax"])
-        height, target, themes = r.choice([0, 1.5, 2, 30]), r.choice([0, 1.5, 10]), r.choice(["none", "all"] + self.standing)
-        shared = ["--themes", themes, "--nodata", r.choice(["clear", "block"]), "--refraction", r.choice([0, 0.13, 0.25])]
+        eye = round(r.uniform(bounds["xmin"], bounds["xmax"]), 3), round(r.uniform(bounds["ymin"], bounds["ymax"]), 3)
+        height, target = r.choice([0, 1.5, 2, 30]), r.choice([0, 1.5, 10])
+        shared = self.shared_options()
         shared += ["--target-on", r.choice(["ground", "surface"]), "--observer-on", r.choice(["ground", "surface"])]
-        call = ["viewshed", self.store, "--observer", f"{eye[0]:.3f},{eye[1]:.3f},{height}", "--target-height", target,
-                "--cell", f"{max(self.side / r.choice([60, 110]), 0.05):.4f}", "--overwrite", "--quiet", *shared]
+        call = ["viewshed", self.store, "--observer", f"{eye[0]},{eye[1]},{height}", "--target-height", target,
+                "--cell", self.cell_size(), "--overwrite", "--quiet", *shared]
         self.log(*call)
-        raster = lambda name: gdal.Open(self.path(name)).ReadAsArray()
         itin(*call, "--precise", "--memory", r.choice(["4M", "20M", "1G"]), "-o", self.path("precise.tif"))
         itin(*call, "--tolerance", 0, "-o", self.path("plain.tif"))
         itin(*call, "--mode", "certified", "--tolerance", r.choice([0, 0.5, 2, 8]), "-o", self.path("certified.tif"))
-        precise, plain, certified = raster("precise.tif"), raster("plain.tif"), raster("certified.tif")
+        precise, plain, certified = map(self.raster, ("precise.tif", "plain.tif", "certified.tif"))
         wrong = (certified == CERTAINLY_VISIBLE) & (precise != VISIBLE) | (certified == CERTAINLY_HIDDEN) & (precise == VISIBLE)
         if wrong.any():
             self.faults.append(f"certified: {wrong.sum()} cells")
@@ -194,8 +209,11 @@ class Trial:
         if (precise != plain).any():
             self.faults.append(f"plain: {(precise != plain).sum()} cells")
         self.look_for_heights(call, target, precise)
-        drawn = cells[self.rng.choice(len(cells), min(250, len(cells)), replace=False)]
-        self.ask_again(eye, height, target, shared, precise, drawn)
+        cells = self.drawn(cells, 250)
+        targets = self.centres("precise.tif", cells)
+        for (row, column), (sees, clearance) in zip(cells, self.lines([(eye, height, t, target) for t in targets], shared)):
+            if (precise[row, column] == VISIBLE) != sees:
+                self.faults.append(f"cell {row},{column}: precise {precise[row, column]}, los clears by {clearance}")
 
     def look_for_heights(self, call, target, precise):
         """The least height seen must say what is seen at the target's, however little memory it is found in."""
@@ -206,7 +224,7 @@ class Trial:
             except Refusal as refusal:
                 self.log("refused:", refusal)
             else:
-                heights.append(gdal.Open(self.path(name)).ReadAsArray().astype(float))
+                heights.append(self.raster(name))
         for least in heights:
             wrong = (precise != OUTSIDE) & (abs(least - target) > 1e-4 * (1 + target)) & ((least < target) != (precise == VISIBLE))
             if wrong.any():
@@ -214,20 +232,68 @@ class Trial:
         if not np.allclose(heights[0], heights[-1], 1e-6, 1e-5, equal_nan=True):
             self.faults.append("heights differ with the memory")
 
-    def ask_again(self, eye, height, target, shared, precise, cells):
-        west, size, _, north, _, down = gdal.Open(self.path("precise.tif")).GetGeoTransform()
+    def look_at_turbines(self):
+        r = self.random
+        turbines = [(self.place(0.05), r.choice([2, 30, 120])) for _ in range(r.choice([1, 3, 40]))]
+        self.write_sites("turbines.csv", "x,y,tip_height", [(*place, tip) for place, tip in turbines])
+        radius, shared = self.side * r.choice([0.2, 0.6, 2]), self.shared_options()
+        call = ["ztv", self.store, "--turbines", self.path("turbines.csv"), "--radius", radius, "--cell", self.cell_size(),
+                "--observer-height", 2, "--memory", r.choice(["5M", "20M", "2G"]), "-o", self.path("ztv"), "--overwrite",
+                "--quiet", *shared]
+        self.log(*call)
+        itin(*call)
+        name = "ztv/turbines.tif" if shared[1] == "none" else "ztv/turbines-screened.tif"
+        seen, counted = np.atleast_3d(self.raster(name).T).T, self.raster("ztv/tip-count.tif")
+        cells = self.drawn(np.argwhere(counted != 65535), 60)
+        lines, where = [], []
+        for (row, column), eye in zip(cells, self.centres(name, cells)):
+            for k in r.sample(range(len(turbines)), min(len(turbines), 4)):
+                if math.dist(eye, turbines[k][0]) < radius:
+                    lines.append((eye, 2, *turbines[k]))
+                    where.append((row, column, k))
+        for (row, column, k), (sees, clearance) in zip(where, self.lines(lines, shared)):
+            if bool(seen[k // 32, row, column] >> k % 32 & 1) != sees and abs(clearance) > ROUNDING_M:
+                self.faults.append(f"cell {row},{column}: ztv sees turbine {k}: {not sees}, los clears by {clearance}")
+
+    def choose_site(self):
+        r = self.random
+        self.write_sites("candidates.csv", "name,x,y", [(f"c{i}", *self.place(0.05)) for i in range(3)])
+        shared = [*self.shared_options(), "--target-on", r.choice(["ground", "surface"])]
+        looks = ["--target-height", r.choice([0, 1.5, 10]), "--radius", self.side * r.choice([0.2, 0.6]), "--overwrite",
+                 "--quiet", *shared]
+        call = ["site", self.store, "--candidates", self.path("candidates.csv"), "--name-field", "name", "--mast-height", 15,
+                "--count", 1, "--cell", self.cell_size(), "--memory", r.choice(["5M", "1G"]), *looks, "-o", self.path("site")]
+        call += r.choice([[], ["--tolerance", r.choice([0, 2])]])
+        self.log(*call)
+        itin(*call)
+        with open(self.path("site/sites.csv"), encoding="utf-8") as file:
+            site = next(csv.DictReader(file))
+        itin("viewshed", self.store, "--precise", "--observer", f"{site['x']},{site['y']},15", "--like",
+             self.path("site/coverage.tif"), *looks, "-o", self.path("of-site.tif"))
+        served, precise = self.raster("site/coverage.tif"), self.raster("of-site.tif")
+        wrong = np.count_nonzero((served == VISIBLE) != (precise == VISIBLE))
+        if wrong:
+            self.faults.append(f"site: {wrong} cells are served otherwise than precise")
+
+    def write_sites(self, name, header, rows):
+        with open(self.path(name), "w", encoding="ascii") as file:
+            print(header, *(",".join(map(str, row)) for row in rows), sep="\n",
+                  file=file)
+
+    def centres(self, name, cells):
+        west, size, _, north, _, down = gdal.Open(self.path(name)).GetGeoTransform()
+        return [(west + (column + 0.5) * size, north + (row + 0.5) * down) for row, column in cells]
+
+    def lines(self, ends, options):
+        """Of each (place, height, place, height): whether it is a line of sight, and its clearance in metres."""
         with open(self.path("links.csv"), "w", encoding="ascii") as file:
             print("id,x1,y1,h1,x2,y2,h2", file=file)
-            for i, (row, column) in enumerate(cells):
-                x, y = west + (column + 0.5) * size, north + (row + 0.5) * down
-                print(f"{i},{eye[0]:.3f},{eye[1]:.3f},{height},{x!r},{y!r},{target}", file=file)
-        itin("los", self.store, "--links", self.path("links.csv"), "-o", self.path("los.csv"), "--overwrite", "--quiet", *shared)
+            for i, (a, up, b, over) in enumerate(ends):
+                print(f"{i},{a[0]!r},{a[1]!r},{up},{b[0]!r},{b[1]!r},{over}", file=file)
+        itin("los", self.store, "--links", self.path("links.csv"), "-o", self.path("los.csv"), "--overwrite", "--quiet", *options)
         with open(self.path("los.csv"), encoding="utf-8") as file:
             links = {int(link["id"]): link for link in csv.DictReader(file)}
-        for i, (row, column) in enumerate(cells):
-            sees = links[i]["verdict"] == "visible"
-            if (precise[row, column] == VISIBLE) != sees:
-                self.faults.append(f"cell {row},{column}: precise {precise[row, column]}, los {links[i]['verdict']}")
+        return [(links[i]["verdict"] == "visible", float(links[i]["clearance_m"] or "nan")) for i in range(len(ends))]
 
     def run(self):
         self.import_terrain()
@@ -235,9 +301,9 @@ class Trial:
         for what in self.random.sample(kinds, self.random.randint(0, 5)):
             self.add(what)
         itin("check", self.store, "--quiet")
-        for _ in range(3):
+        for ask in [self.look] * 3 + [self.look_at_turbines, self.choose_site]:
             try:
-                self.look()
+                ask()
             except Refusal as refusal:
                 self.log("refused:", refusal)
 

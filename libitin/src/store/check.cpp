@@ -60,6 +60,11 @@ class Inspection {
     }
   }
 
+  /// At a level's own points both surfaces meet.
+  static bool holds_certificate(const Leaf& leaf) {
+    return leaf.lo <= leaf.hi && (leaf.points == 0 || (leaf.lo <= 0 && leaf.hi >= 0));
+  }
+
   void inspect_leaves(int tree, const DirectoryChunk& chunk) {
     for (const Leaf& leaf : chunk) {
       if (leaf.points > 0) block_keys_.push_back(leaf.key);
@@ -67,7 +72,7 @@ class Inspection {
         guarded([&] { inspect_edges(leaf); });
         continue;
       }
-      if (leaf.lo > 0 || leaf.hi < 0) damage_.push_back({format::place("directory", leaf.key), "has no certificate"});
+      if (!holds_certificate(leaf)) damage_.push_back({format::place("directory", leaf.key), "has no certificate"});
       if (leaf.points > 0) guarded([&] { inspect_block(leaf); });
     }
   }

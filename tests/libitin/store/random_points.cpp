@@ -94,6 +94,8 @@ GivenStore random_store(std::uint64_t seed, std::size_t count, int levels) {
       if (level > 0) {
         leaf.lo = static_cast<std::int32_t>(-uniform(0, 100 << level));
         leaf.hi = static_cast<std::int32_t>(uniform(0, 100 << level));
+        // Where a level has no points the surfaces need not meet.
+        if (leaf.points.empty() && uniform(0, 1) == 0) leaf.hi = leaf.lo;
       }
       store.leaves.push_back(std::move(leaf));
     };
