@@ -27,7 +27,8 @@ class FirstBlocker {
     std::uint32_t triangle = 0;
     double at = 0;  ///< fraction of the line's length where it first rises above it
   };
-  /// Ends in grid units. Nothing for a line that no ground hides. Of triangles that begin to hide at one place the first by number.
+  /// Ends in grid units. Nothing for a line that no ground hides. Of triangles that begin to hide at one place the
+  /// first by number.
   std::optional<Blocker> find(const Point3& from, const Point3& to) const;
 
  private:
