@@ -39,7 +39,8 @@ class AxisSweep::Task {
     profile_axis_.top = axis.top;
     profile_axis_.drop = drop * bin * bin;
     // Above all single precision's rounding of heights and of drops.
-    const double greatest = bins_.greatest_magnitude() + std::abs(axis.top) + 4 * drop * axis.radius * axis.radius;
+    const double greatest =
+        bins_.greatest_magnitude() + std::abs(axis.top) + 4 * std::abs(drop) * axis.radius * axis.radius;
     profile_axis_.margin = 100 * sweep.grazing_ + greatest * 0x1p-21;
   }
 
