@@ -54,7 +54,7 @@ BENCHMARK(BM_Bins)->Unit(benchmark::kMillisecond)->UseRealTime();
 void BM_Sweep(benchmark::State& state) {
   const Request request = whole(state.range(0));
   const RasterGrid tiles = grid_of_tiles(*request.grid);
-  const FullSurface surface(terrain(), std::nullopt, request.earth, *request.grid, tiles);
+  const FullSurface surface(terrain(), nullptr, request.earth, *request.grid, tiles);
   const Observer& observer = request.observers.front();
   const Eye eye = eye_of(terrain().grid, request, observer, height_on(terrain(), observer.position));
   std::uint64_t lines = 0;

@@ -1,4 +1,5 @@
 // Certified and precise viewsheds against the exact walk over every triangle of the full surface.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -6,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <itin/error.hpp>
 #include <itin/import.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/certified.hpp>
@@ -247,6 +249,29 @@ TEST(Certified, RingsAndSeveralObservers) {
   }
 }
 
+/// Heights and angles, whose ground is read as a whole in any memory.
+void expect_heights_at_any_memory(const Terrain& terrain, Request request, const Result& visible) {
+  NoProgress progress;
+  request.mode = Mode::kHeight;
+  const Result all = compute_precise(terrain.store(), request, {}, progress).result;
+  const Result parts = compute_precise(terrain.store(), request, {.memory_bytes = 16000000}, progress).result;
+  EXPECT_TRUE(all.visible == visible.visible);
+  EXPECT_TRUE(parts.visible == visible.visible);
+  for (std::size_t i = 0; i < all.least_height_m.size(); ++i) {
+    const float a = all.least_height_m[i], b = parts.least_height_m[i];
+    ASSERT_TRUE(a == b || (std::isnan(a) && std::isnan(b)) || std::abs(a - b) < 1e-5 * a) << a << ", " << b;
+  }
+  request.mode = Mode::kAngle;
+  const auto angles = [&](std::uint64_t memory) {
+    return compute_precise(terrain.store(), request, {.memory_bytes = memory}, progress).result.angle_deg;
+  };
+  const std::vector<float> whole = angles(1 << 30), cut = angles(16000000);
+  EXPECT_TRUE(std::equal(whole.begin(), whole.end(), cut.begin(), cut.end(),
+                         [](float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); }));
+  request.mode = Mode::kBlocker;
+  EXPECT_THROW(compute_precise(terrain.store(), request, {.memory_bytes = 1300000}, progress), InputError);
+}
+
 TEST(Precise, TheMemoryChangesNothingOnTheWholeSample) {
   // Large enough for pieces of several levels about the observer, that overlap.
   const test::CardiffTerrain heights;
@@ -260,6 +285,7 @@ TEST(Precise, TheMemoryChangesNothingOnTheWholeSample) {
       const Result other = compute_precise(terrain.store(), request, {.memory_bytes = memory}, progress).result;
       EXPECT_TRUE(result.visible == other.visible) << "memory " << memory;
     }
+    expect_heights_at_any_memory(terrain, request, result);
     // And the walk over all triangles beneath the line.
     const Eye eye =
         eye_of(terrain.full().grid, request, request.observers[0], whole.ground(request.observers[0].position));

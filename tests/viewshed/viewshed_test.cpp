@@ -203,7 +203,6 @@ TEST(Viewshed, TheNumberOfThreadsDoesNotShow) {
   set_thread_count(0);
   const Result all = run(tin, request);
   EXPECT_EQ(one.count, all.count);
-  EXPECT_EQ(one.error_bound_m, all.error_bound_m);
   EXPECT_EQ(one.statistics.rays, all.statistics.rays);
 }
 

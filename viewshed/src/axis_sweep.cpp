@@ -23,12 +23,15 @@ std::size_t number(std::int64_t i) {
 /// One axis and one tile, seen from the axis towards one side at a time.
 class AxisSweep::Task {
  public:
-  Task(const AxisSweep& sweep, const Axis& axis, bool point, const Ends& ends, Scratch& scratch, Heights& heights)
+  /// `lowest` is that of Kind::kHeight.
+  Task(const AxisSweep& sweep, const Axis& axis, Kind kind, const Ends& ends, const Lowest* lowest, Scratch& scratch,
+       Heights& heights)
       : sweep_(sweep),
         bins_(sweep.bins_),
         axis_(axis),
-        point_(point),
+        kind_(kind),
         ends_(ends),
+        lowest_(lowest),
         profile_(scratch),
         heights_(heights) {
     radius_squared_ = axis.radius * axis.radius;
@@ -36,7 +39,8 @@ class AxisSweep::Task {
     profile_axis_.top = axis.top;
     profile_axis_.drop = drop * bin * bin;
     // Above all single precision's rounding of heights and of drops.
-    const double greatest = bins_.greatest_magnitude() + std::abs(axis.top) + 4 * drop * axis.radius * axis.radius;
+    const double greatest =
+        bins_.greatest_magnitude() + std::abs(axis.top) + 4 * std::abs(drop) * axis.radius * axis.radius;
     profile_axis_.margin = 100 * sweep.grazing_ + greatest * 0x1p-21;
   }
 
@@ -108,7 +112,7 @@ class AxisSweep::Task {
       const std::size_t end = first_across(to * u);
       double hidden_below = std::numeric_limits<double>::quiet_NaN();  // of eyes this far away
       for (std::size_t k = first_across(from * u); k < end; ++k) {
-        const Cell cell{i * major_step + k * minor_step, i, u, across_[k], along_squared_[i] + across_squared_[k]};
+        Cell cell{i * major_step + k * minor_step, i, u, across_[k], along_squared_[i] + across_squared_[k]};
         // Of cells on a diagonal, each belongs to one quadrant.
         if (columns ? std::abs(cell.across) > u : std::abs(cell.across) >= u) continue;
         const double elevation = ends_.elevation[cell.index];
@@ -116,7 +120,8 @@ class AxisSweep::Task {
         if (!std::exchange(surveyed, true)) survey(quadrant, from, to);
         if (std::isnan(hidden_below)) hidden_below = axis_.top + u * profile_.hidden_below(quadrant.slab_at(u));
         heights_[cell.index] = kHidden;
-        if (elevation - sweep_.drop_ * cell.squared >= hidden_below) look(quadrant, cell);
+        cell.hidden_below = hidden_below + sweep_.drop_ * cell.squared;
+        if (elevation >= cell.hidden_below) look(quadrant, cell);
       }
     }
   }
@@ -130,7 +135,8 @@ class AxisSweep::Task {
     std::size_t index = 0;  ///< in the tile
     std::size_t major = 0;
     double along = 0, across = 0;
-    double squared = 0;  ///< distance from the axis, grid units
+    double squared = 0;       ///< distance from the axis, grid units
+    double hidden_below = 0;  ///< elevation
   };
 
   /// The first of the cells across that lies at `v` or beyond.
@@ -142,23 +148,56 @@ class AxisSweep::Task {
   }
 
   void look(const Quadrant& quadrant, const Cell& cell) {
-    const double x = ends_.centres.x[cell.index % Tile::kSide], y = ends_.centres.y[cell.index / Tile::kSide];
+    const Point3 top{axis_.x, axis_.y, axis_.top};
     const double elevation = ends_.elevation[cell.index];
-    const SweptEnd end{cell.along, elevation - sweep_.drop_ * cell.squared};
-    const Point3 top{axis_.x, axis_.y, axis_.top}, other{x, y, elevation};
-    if (point_) {
-      const SightLine line(top, other, sweep_.drop_, sweep_.grazing_);
-      look(quadrant, cell, PointSight(sweep_.tin_, line, end, profile_axis_.margin));
-    } else {
-      const SightLine line(other, top, sweep_.drop_, sweep_.grazing_);
-      look(quadrant, cell, AxisSight(sweep_.tin_, line, axis_.base, end, profile_axis_.margin));
+    const SweptEnd end{cell.along, sweep_.drop_ * cell.squared};
+    switch (kind_) {
+      case Kind::kAxis: {
+        const SightLine line = line_between(other_end(cell, elevation), top);
+        return look(quadrant, cell, AxisSight(sweep_.tin_, line, axis_.base, end, profile_axis_.margin));
+      }
+      case Kind::kPoint: {
+        const SightLine line = line_between(top, other_end(cell, elevation));
+        return look(quadrant, cell, PointSight(sweep_.tin_, line, end, profile_axis_.margin));
+      }
+      case Kind::kHeight: {
+        const HeightSight::Range range{lowest_->end[cell.index], elevation, cell.hidden_below};
+        const SightLine line = line_between(top, other_end(cell, range.lowest));
+        look(quadrant, cell, HeightSight(sweep_.tin_, line, range, end, profile_axis_.margin));
+      }
     }
+  }
+
+  Point3 other_end(const Cell& cell, double elevation) const {
+    return {ends_.centres.x[cell.index % Tile::kSide], ends_.centres.y[cell.index / Tile::kSide], elevation};
+  }
+  SightLine line_between(const Point3& from, const Point3& to) const {
+    return {from, to, sweep_.drop_, sweep_.grazing_};
   }
 
   template <class Sight>
   void look(const Quadrant& quadrant, const Cell& cell, Sight sight) {
-    if (decide(quadrant, cell, sight)) heights_[cell.index] = sight.least();
+    if (decide(quadrant, cell, sight)) heights_[cell.index] = least(quadrant, cell, sight);
     if (sight.silhouette() != kNoSilhouette) last_ = silhouettes_[cell.major] = sight.silhouette();
+  }
+
+  template <class Sight>
+  double least(const Quadrant&, const Cell&, const Sight& sight) {
+    return sight.least();
+  }
+  /// What rises above a line by less than a grazing is only touched, though clearing it may take metres, near the eye.
+  double least(const Quadrant& quadrant, const Cell& cell, const HeightSight& sight) {
+    const double lowest = lowest_->end[cell.index];
+    double least = sight.least();
+    for (const double end : {lowest_->wanted[cell.index], lowest}) {
+      if (!(end >= lowest && end < least) || sight.silhouette() == kNoSilhouette ||
+          sight.hides(sight.silhouette(), end))
+        continue;
+      const SightLine line = line_between({axis_.x, axis_.y, axis_.top}, other_end(cell, end));
+      PointSight lower(sweep_.tin_, line, {cell.along, sweep_.drop_ * cell.squared}, profile_axis_.margin);
+      if (decide(quadrant, cell, lower)) least = end;
+    }
+    return least;
   }
 
   /// Whether the top is seen.
@@ -213,7 +252,8 @@ class AxisSweep::Task {
     const double drop = profile_axis_.drop * (1 + stretch.slope * stretch.slope);
     // Less what curvature bends between the ends.
     const auto height = [&](double along) {
-      return sight.least() + sight.slope() * along + drop * along * along - std::max(drop, 0.0) - profile_axis_.margin;
+      return sight.at_axis() + sight.slope() * along + drop * along * along - std::max(drop, 0.0) -
+             profile_axis_.margin;
     };
     const double near = height(stretch.begin), far = height(stretch.end);
     const auto lid = [&](double along) {
@@ -230,8 +270,9 @@ class AxisSweep::Task {
   const AxisSweep& sweep_;
   const BinnedHeights& bins_;
   Axis axis_;
-  bool point_;  ///< the axis is but its top
+  Kind kind_;
   const Ends& ends_;
+  const Lowest* lowest_;
   SectorProfile& profile_;
   Heights& heights_;
   SectorProfile::Axis profile_axis_;
@@ -252,12 +293,20 @@ AxisSweep::AxisSweep(const Tin& tin, const Earth& earth, const BinnedHeights& bi
       grazing_(kGrazing / tin.grid.resolution) {}
 
 void AxisSweep::run(const Axis& axis, const Ends& eyes, Scratch& scratch, Heights& heights) const {
-  Task(*this, axis, false, eyes, scratch, heights).run();
+  Task(*this, axis, Kind::kAxis, eyes, nullptr, scratch, heights).run();
 }
 
-void AxisSweep::look_from(const Point3& eye, const Ends& targets, Scratch& scratch, Heights& heights) const {
-  const double radius = bins_.farthest_from(eye.x, eye.y) + 1;
-  Task(*this, {eye.x, eye.y, eye.z, eye.z, radius}, true, targets, scratch, heights).run();
+void AxisSweep::look_from(const Point3& eye, const Ends& targets, Scratch& scratch, Heights& seen) const {
+  Task(*this, axis_at(eye), Kind::kPoint, targets, nullptr, scratch, seen).run();
+}
+
+void AxisSweep::raise_from(const Point3& eye, const Ends& highest, const Lowest& lowest, Scratch& scratch,
+                           Heights& least) const {
+  Task(*this, axis_at(eye), Kind::kHeight, highest, &lowest, scratch, least).run();
+}
+
+AxisSweep::Axis AxisSweep::axis_at(const Point3& eye) const {
+  return {eye.x, eye.y, eye.z, eye.z, bins_.farthest_from(eye.x, eye.y) + 1};
 }
 
 }  // namespace itin::viewshed

@@ -203,9 +203,12 @@ void BinnedHeights::bound_runs(const Ranges& ranges) {
 }
 
 std::optional<double> BinnedHeights::ground(const Tin& tin, Point2 position) const {
-  const auto bin = grid_.cell_at(position);
-  if (!bin) return std::nullopt;
-  const auto height = surface_height(tin, triangles(*bin), position);
+  const Point2 units{easting_in_units(tin.grid, position.x), northing_in_units(tin.grid, position.y)};
+  std::optional<double> height;
+  find_at(units.x, units.y, [&](std::span<const std::uint32_t> triangles) {
+    height = surface_height_at(tin, triangles, units);
+    return height.has_value();
+  });
   return height ? std::optional(*height * units_.resolution) : std::nullopt;
 }
 

@@ -12,9 +12,9 @@ class BlockerObservation final : public Observation {
   explicit BlockerObservation(const FirstBlocker& blockers);
 
   bool open(const Look& look) const override { return value(look.cell) != kVisible; }
-  void judge(const LookPacket& packet, const Scene& scene, Occluder& occluder) override;
 
  private:
+  void judge(const Look& look, const Sight& sight) override;
   void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override;
 
   const FirstBlocker& blockers_;

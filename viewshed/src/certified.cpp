@@ -162,10 +162,7 @@ Surveyed compute_certified(const Store& store, const Request& request, Progress&
   const RasterGrid tiles = grid_of_tiles(result.grid);
   const EnvelopeScene scene(std::move(envelope), request, tiles, voids_of(request.nodata));
   std::vector<EnvelopeScene::Look> looks;
-  for (const Eye& eye : eyes) {
-    looks.push_back(scene.look_from(eye));
-    result.error_bound_m = std::max(result.error_bound_m, scene.lower.error_bound(0));
-  }
+  for (const Eye& eye : eyes) looks.push_back(scene.look_from(eye));
   result.statistics.scene_seconds = watch.lap();
 
   result.visible.resize(result.grid.cell_count());

@@ -10,9 +10,8 @@ FirstBlocker::FirstBlocker(const Tin& tin, const Earth& earth)
       grazing_(kGrazing / tin.grid.resolution),
       pyramid_(tin) {}
 
-std::optional<FirstBlocker::Blocker> FirstBlocker::find(const SightLines& lines, unsigned i) const {
-  const SightLine line({lines.from_x[i], lines.from_y[i], lines.from_z[i]},
-                       {lines.to_x[i], lines.to_y[i], lines.to_z[i]}, drop_, grazing_);
+std::optional<FirstBlocker::Blocker> FirstBlocker::find(const Point3& from, const Point3& to) const {
+  const SightLine line(from, to, drop_, grazing_);
   std::optional<Blocker> first;
   Sheaf sheaf(line);
   pyramid_.search(sheaf, [&](std::uint32_t triangle) {

@@ -1,10 +1,10 @@
 // What first hides a target from an eye: of the triangles that rise above the sight line, the nearest to the eye.
 //
 //   const FirstBlocker blockers(tin, earth);
-//   const std::optional<FirstBlocker::Blocker> blocker = blockers.find(lines, i);
+//   const std::optional<FirstBlocker::Blocker> blocker = blockers.find(eye, target);
 //
 // Decided in double precision by every triangle that may matter (HeightPyramid), with SightLine's rule for grazing: a
-// line that Scene reports hidden by ground has a blocker.
+// line that a viewshed reports hidden by ground has a blocker.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,6 @@
 #include <itin/tin.hpp>
 
 #include "height_pyramid.hpp"
-#include "sight_lines.hpp"
 
 namespace itin::viewshed {
 
@@ -28,8 +27,9 @@ class FirstBlocker {
     std::uint32_t triangle = 0;
     double at = 0;  ///< fraction of the line's length where it first rises above it
   };
-  /// Nothing for a line that no ground hides. Of triangles that begin to hide at one place the first by number.
-  std::optional<Blocker> find(const SightLines& lines, unsigned i) const;
+  /// Ends in grid units. Nothing for a line that no ground hides. Of triangles that begin to hide at one place the
+  /// first by number.
+  std::optional<Blocker> find(const Point3& from, const Point3& to) const;
 
  private:
   const Tin& tin_;

@@ -18,17 +18,17 @@ void for_each_cell(const Tile& tile, const Visit& visit) {
 
 }  // namespace
 
-FullSurface::FullSurface(Tin surface, std::optional<Tin> bare_ground, const Earth& earth, const RasterGrid& grid,
+FullSurface::FullSurface(const Tin& surface, const Tin* bare_ground, const Earth& earth, const RasterGrid& grid,
                          const RasterGrid& tiles)
-    : tin_(std::move(surface)),
-      bare_ground_(std::move(bare_ground)),
+    : tin_(surface),
+      bare_ground_(bare_ground),
       grid_(grid),
       tiles_(tiles),
       heights_(tin_),
       sweep_(tin_, earth, heights_) {
   // Cells much smaller than triangles are filled triangle by triangle.
   const bool small = 2 * grid.cell_width() < heights_.bin_size() * tin_.grid.resolution;
-  if (bare_ground_ || small || !heights_.partition()) of_tiles_.emplace(bare_ground_ ? *bare_ground_ : tin_, tiles);
+  if (bare_ground_ != nullptr || small || !heights_.partition()) of_tiles_.emplace(targets_on(), tiles);
 }
 
 std::unique_ptr<FullSurface::TileWork> FullSurface::begin(std::size_t tile) const {
@@ -49,10 +49,19 @@ std::uint64_t FullSurface::judge(const Eye& eye, TileValues<std::uint8_t>& value
   return lines;
 }
 
+double FullSurface::raise_from(const Eye& eye, Point2 position, double lowest, double highest) const {
+  const RasterGrid around({position.x - 0.5, position.y + 0.5}, 1, 1, 1, 1);
+  const auto work = std::make_unique<TileWork>(tin_.grid, around, Tile{0, 0, 1, 1});
+  work->centres.x[0] = easting_in_units(tin_.grid, position.x);
+  work->centres.y[0] = northing_in_units(tin_.grid, position.y);
+  work->ground[0] = lowest, work->targets[0] = highest;
+  raise_from(eye, {work->ground, work->ground}, *work);
+  return work->seen[0];
+}
+
 void FullSurface::find_ground(std::size_t index, TileWork& work) const {
   if (of_tiles_) {
-    scan_convert(bare_ground_ ? *bare_ground_ : tin_, of_tiles_->triangles(index), work.tile, work.centres,
-                 work.ground);
+    scan_convert(targets_on(), of_tiles_->triangles(index), work.tile, work.centres, work.ground);
     return;
   }
   work.ground.fill(kNoSurface);
@@ -68,7 +77,6 @@ void FullSurface::find_ground(std::size_t index, TileWork& work) const {
 
 /// Where undecided cells have their targets; those that need no line are decided.
 void FullSurface::raise_targets(const Eye& eye, TileValues<std::uint8_t>& values, TileWork& work) const {
-  // The arithmetic of plain viewsheds, to the last bit.
   const double resolution = tin_.grid.resolution, metre = 1 / resolution, grazing = kGrazing / resolution;
   work.targets.fill(kNoSurface);
   for_each_cell(work.tile, [&](std::int64_t r, std::int64_t c, std::size_t cell) {

@@ -1,7 +1,7 @@
-// The full surface in memory, and what an eye sees of what stands on it: exact, cell for cell, and without a tree of
+// A whole surface in memory, and what an eye sees of what stands on it: exact, cell for cell, and without a tree of
 // triangles for rays.
 //
-//   const FullSurface surface(std::move(tin), std::nullopt, request.earth, grid, tiles);
+//   const FullSurface surface(tin, nullptr, request.earth, grid, tiles);
 //   const auto work = surface.begin(tile);
 //   surface.judge(eye, values, *work);   // every kUndecided cell becomes visible, hidden or outside; other eyes follow
 #pragma once
@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <itin/earth.hpp>
@@ -26,18 +27,20 @@ namespace itin::viewshed {
 
 class FullSurface {
  public:
-  /// `surface` hides; targets stand on it, or on `bare_ground` where that is given. `tiles` are those of `grid`, and
-  /// both must outlive this.
-  FullSurface(Tin surface, std::optional<Tin> bare_ground, const Earth& earth, const RasterGrid& grid,
+  /// `surface` hides; targets stand on it, or on `bare_ground` where that is given. `tiles` are those of `grid`. All
+  /// must outlive this.
+  FullSurface(const Tin& surface, const Tin* bare_ground, const Earth& earth, const RasterGrid& grid,
               const RasterGrid& tiles);
   FullSurface(const FullSurface&) = delete;
   FullSurface& operator=(const FullSurface&) = delete;
 
   const Tin& tin() const { return tin_; }
+  const RasterGrid& grid() const { return grid_; }
+  const RasterGrid& tiles() const { return tiles_; }
+  /// Of what hides, metres, if there is any at that position.
+  std::optional<double> height(Point2 position) const { return heights_.ground(tin_, position); }
   /// Where it ends.
   const std::vector<BoundaryEdge>& boundary() const { return heights_.boundary(); }
-  /// Leaves nothing to judge by.
-  Tin release() && { return std::move(tin_); }
 
   /// What a tile's cells share between eyes, for one thread.
   struct TileWork {
@@ -48,6 +51,9 @@ class FullSurface {
     TileValues<double> targets;  ///< of the last eye's lines; kNoSurface where none was needed
     AxisSweep::Heights seen;
     AxisSweep::Scratch scratch;
+    Point3 target(std::size_t cell) const {
+      return {centres.x[cell % Tile::kSide], centres.y[cell / Tile::kSide], targets[cell]};
+    }
   };
   std::unique_ptr<TileWork> begin(std::size_t tile) const;
 
@@ -55,17 +61,39 @@ class FullSurface {
   /// not look. Returns how many sight lines that took.
   std::uint64_t judge(const Eye& eye, TileValues<std::uint8_t>& values, TileWork& work) const;
 
+  /// AxisSweep::raise_from() up to work.targets; the heights are work.seen.
+  void raise_from(const Eye& eye, const AxisSweep::Lowest& lowest, TileWork& work) const {
+    sweep_.raise_from(eye.units, {work.tile, work.centres, work.targets}, lowest, work.scratch, work.seen);
+  }
+  /// The same for a single place, given in metres; grid units.
+  double raise_from(const Eye& eye, Point2 position, double lowest, double highest) const;
+
  private:
   void raise_targets(const Eye& eye, TileValues<std::uint8_t>& values, TileWork& work) const;
   void find_ground(std::size_t index, TileWork& work) const;
 
-  Tin tin_;
-  std::optional<Tin> bare_ground_;
+  const Tin& targets_on() const { return bare_ground_ != nullptr ? *bare_ground_ : tin_; }
+
+  const Tin& tin_;
+  const Tin* bare_ground_;
   const RasterGrid& grid_;
   const RasterGrid& tiles_;
   BinnedHeights heights_;
   std::optional<TriangleBins> of_tiles_;  ///< of what targets stand on, where `heights_` does not tell it well
   AxisSweep sweep_;
+};
+
+/// Together with what it is made of.
+struct OwnedSurface {
+  OwnedSurface(Tin surface, std::optional<Tin> bare_ground, const Earth& earth, const RasterGrid& grid,
+               const RasterGrid& tiles)
+      : tin(std::move(surface)),
+        ground(std::move(bare_ground)),
+        full(tin, ground ? &*ground : nullptr, earth, grid, tiles) {}
+
+  const Tin tin;
+  const std::optional<Tin> ground;
+  const FullSurface full;
 };
 
 }  // namespace itin::viewshed

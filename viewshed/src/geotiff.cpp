@@ -36,7 +36,6 @@ std::vector<std::pair<std::string, std::string>> metadata_of(const Result& resul
                                                          {"target_height_m", fmt::format("{:.12g}", r.target_height)},
                                                          {"nodata_rule", nodata_text(r.nodata)},
                                                          {"refraction", r.earth.convention()},
-                                                         {"error_bound_m", fmt::format("{:.3g}", result.error_bound_m)},
                                                          {"cells", "decided at their centres"}};
   if (r.radius) items.emplace_back("radius_m", fmt::format("{:.12g}", *r.radius));
   if (r.min_radius > 0) items.emplace_back("min_radius_m", fmt::format("{:.12g}", r.min_radius));

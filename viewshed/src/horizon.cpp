@@ -100,13 +100,10 @@ SightedTarget sighted(const HorizonTarget& target, const Tin& surface, const Tin
   result.distance_m = std::hypot(dx, dy);
   result.azimuth_deg = std::fmod(std::atan2(dx, dy) * kDegrees + 360, 360);
   result.elevation_deg = eye.view.elevation(dx, dy, result.elevation_m - eye.elevation);
-  SightLines lines;
-  lines.from_x[0] = eye.units.x, lines.from_y[0] = eye.units.y, lines.from_z[0] = eye.units.z;
-  lines.to_x[0] = easting_in_units(surface.grid, target.position.x);
-  lines.to_y[0] = northing_in_units(surface.grid, target.position.y);
-  lines.to_z[0] = result.elevation_m / surface.grid.resolution;
-  const bool same_place = lines.to_x[0] == lines.from_x[0] && lines.to_y[0] == lines.from_y[0];
-  result.visible = same_place || !blockers.find(lines, 0);
+  const Point3 to{easting_in_units(surface.grid, target.position.x), northing_in_units(surface.grid, target.position.y),
+                  result.elevation_m / surface.grid.resolution};
+  const bool same_place = to.x == eye.units.x && to.y == eye.units.y;
+  result.visible = same_place || !blockers.find(eye.units, to);
   return result;
 }
 

@@ -1,7 +1,6 @@
 #include "least_height_observation.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -9,21 +8,8 @@
 
 namespace itin::viewshed {
 
-namespace {
-
-/// A height this little above one that is asked for may be due to what grazing allows.
-constexpr double kHair = 0.01;
-
-}  // namespace
-
-LeastHeightObservation::LeastHeightObservation(const LeastHeights& heights, const std::vector<Eye>& eyes,
-                                               double resolution)
-    : heights_(heights), eyes_(eyes), resolution_(resolution) {
+LeastHeightObservation::LeastHeightObservation() {
   least_.fill(std::numeric_limits<double>::infinity());
-}
-
-bool LeastHeightObservation::in_view(const Eye& eye, const Look& look) const {
-  return eye.view.contains(look.dx, look.dy, look.dz, kSky) != false;
 }
 
 bool LeastHeightObservation::open(const Look& look) const {
@@ -34,55 +20,54 @@ void LeastHeightObservation::keep(const Look& look) {
   least_[look.cell] = 0;
 }
 
-/// Of the line to the target that counts as visible. One on the ground ends exactly there.
-double LeastHeightObservation::wanted_end(const Eye& eye, double ground) const {
-  return ground + (eye.target(ground * resolution_) - ground * resolution_) / resolution_;
+std::uint64_t LeastHeightObservation::look(const TileLook& tile) {
+  FullSurface::TileWork& work = tile.work;
+  work.targets.fill(kNoSurface);
+  std::uint64_t lines = 0;
+  tile.for_each_cell([&](const Look& look) {
+    if (open(look)) lines += raise(tile, look) ? 1 : 0;
+  });
+  tile.surface.raise_from(tile.eye, {lowest_, wanted_}, work);
+  tile.for_each_cell([&](const Look& look) {
+    if (!std::isnan(work.targets[look.cell]) && !std::isnan(work.seen[look.cell])) settle(tile, look);
+  });
+  return lines;
 }
 
-LeastHeightObservation::Bounds LeastHeightObservation::bounds(const Look& look, double ground) const {
-  const Eye& eye = eyes_[look.observer];
-  Bounds b{ground, kSky / resolution_};
+/// Where its line may end, if it needs one.
+bool LeastHeightObservation::raise(const TileLook& tile, const Look& look) {
+  const Eye& eye = tile.eye;
+  FullSurface::TileWork& work = tile.work;
+  if (eye.view.contains(look.dx, look.dy, look.dz, kSky) == false) return false;
+  enter(look.cell);
+  const Point3 end = work.target(look.cell);
+  if (end.x == eye.units.x && end.y == eye.units.y) {
+    see(look);
+    return false;
+  }
+  const double resolution = tile.surface.tin().grid.resolution, ground = work.ground[look.cell];
+  // A target on the ground ends exactly there.
+  const double wanted = ground + (eye.target(ground * resolution) - ground * resolution) / resolution;
+  double lowest = ground, highest = kSky / resolution;
   if (const auto range = eye.view.heights_at(look.squared_distance())) {
-    b.lower = std::max(b.lower, (eye.elevation + range->first) / resolution_);
-    b.upper = std::min(b.upper, (eye.elevation + range->second) / resolution_);
+    lowest = std::max(lowest, (eye.elevation + range->first) / resolution);
+    highest = std::min(highest, (eye.elevation + range->second) / resolution);
   }
   // What is known to be seen by another observer, unless the target that counts as visible is higher.
-  const double wanted = wanted_end(eye, ground);
-  return {b.lower, std::min(b.upper, std::max(ground + least_[look.cell] / resolution_, wanted))};
+  highest = std::min(highest, std::max(ground + least_[look.cell] / resolution, wanted));
+  if (lowest > highest) return false;
+  work.targets[look.cell] = highest, lowest_[look.cell] = lowest, wanted_[look.cell] = wanted;
+  return true;
 }
 
-void LeastHeightObservation::judge(const LookPacket& packet, const Scene& scene, Occluder&) {
-  SightLines lines = packet.lines;
-  LeastHeights::Heights lower{};
-  for (unsigned rest = packet.lines.active; rest != 0; rest &= rest - 1) {
-    const auto i = static_cast<unsigned>(std::countr_zero(rest));
-    const Bounds b = bounds(packet.looks[i], packet.lines.to_z[i]);
-    lower[i] = b.lower;
-    lines.to_z[i] = b.upper;
-    if (b.lower > b.upper) lines.active &= ~(1U << i);
-  }
-  const LeastHeights::Heights found = heights_.find(lines, lower, memory_);
-  for (unsigned rest = lines.active; rest != 0; rest &= rest - 1) {
-    const auto i = static_cast<unsigned>(std::countr_zero(rest));
-    if (!std::isnan(found[i])) settle(packet.looks[i], packet.lines, i, found[i], scene);
-  }
-}
-
-void LeastHeightObservation::settle(const Look& look, const SightLines& lines, unsigned i, double least,
-                                    const Scene& scene) {
-  const double ground = lines.to_z[i], wanted = wanted_end(eyes_[look.observer], ground);
-  const Bounds allowed = bounds(look, ground);
-  const auto seen_at = [&](double end) {
-    if (end < allowed.lower || end > allowed.upper) return false;
-    if (least <= end) return true;
-    if ((least - end) * resolution_ > kHair) return false;
-    SightLines line = lines;
-    line.to_z[i] = end;
-    return !scene.hidden_between(line, i, 0, 1);
-  };
-  const double height = seen_at(ground) ? 0 : (least - ground) * resolution_;
+void LeastHeightObservation::settle(const TileLook& tile, const Look& look) {
+  const FullSurface::TileWork& work = tile.work;
+  const Point3 highest = work.target(look.cell);
+  if (tile.shadow != nullptr && tile.shadow->holds(highest.x, highest.y)) return;
+  const double ground = work.ground[look.cell], seen = work.seen[look.cell], wanted = wanted_[look.cell];
+  const double height = seen <= ground ? 0 : (seen - ground) * tile.surface.tin().grid.resolution;
   least_[look.cell] = std::min(least_[look.cell], height);
-  if (seen_at(wanted)) mark_visible(look.cell);
+  if (wanted >= lowest_[look.cell] && wanted <= highest.z && seen <= wanted) mark_visible(look.cell);
 }
 
 void LeastHeightObservation::store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const {

@@ -1,9 +1,10 @@
 #include "observation.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
+
+#include <viewshed/certified.hpp>
 
 #include "blocker_observation.hpp"
 #include "field_of_view.hpp"
@@ -101,9 +102,28 @@ class NearestObserver final : public Observation {
 
 }  // namespace
 
-void Observation::judge(const LookPacket& packet, const Scene& scene, Occluder& occluder) {
-  unsigned visible = packet.lines.active & ~scene.hidden(packet.lines, occluder);
-  for (; visible != 0; visible &= visible - 1) see(packet.looks[static_cast<unsigned>(std::countr_zero(visible))]);
+std::uint64_t Observation::look(const TileLook& tile) {
+  FullSurface::TileWork& work = tile.work;
+  TileValues<std::uint8_t> values;
+  values.fill(kOutside);
+  tile.for_each_cell([&](const Look& look) {
+    if (open(look)) values[look.cell] = kUndecided;
+  });
+  const std::uint64_t lines = tile.surface.judge(tile.eye, values, work);
+  if (tile.shadow != nullptr) tile.shadow->hide(work.centres, values);
+  const double resolution = tile.surface.tin().grid.resolution;
+  tile.for_each_cell([&](Look look) {
+    if (values[look.cell] == kOutside) return;
+    enter(look.cell);
+    const bool seen = values[look.cell] == kCertainlyVisible;
+    look.dz = tile.eye.target(work.ground[look.cell] * resolution) - tile.eye.elevation;
+    if (!std::isnan(work.targets[look.cell])) {
+      judge(look, {tile.eye.units, work.target(look.cell), seen});
+    } else if (seen) {
+      see(look);
+    }
+  });
+  return lines;
 }
 
 void Observation::store(const Tile& tile, Result& result, CellCounts& cells) const {
@@ -131,9 +151,7 @@ void Observation::prepare(Result& result) {
   if (mode == Mode::kNearest) result.nearest.resize(cells), result.distance_m.resize(cells);
 }
 
-Observations::Observations(const Request& request, const std::vector<Eye>& eyes, const Tin& tin, const Scene& scene)
-    : request_(request), eyes_(&eyes), resolution_(tin.grid.resolution) {
-  if (request.mode == Mode::kHeight) heights_.emplace(tin, request.earth, scene);
+Observations::Observations(const Request& request, const Tin& tin) : request_(request) {
   if (request.mode == Mode::kBlocker) blockers_.emplace(tin, request.earth);
   if (request.mode == Mode::kProbability) odds_.emplace(tin, request.earth, request.vertical_error);
 }
@@ -151,7 +169,7 @@ std::unique_ptr<Observation> Observations::of_tile() const {
     case Mode::kBlocker:
       return std::make_unique<BlockerObservation>(*blockers_);
     case Mode::kHeight:
-      return std::make_unique<LeastHeightObservation>(*heights_, *eyes_, resolution_);
+      return std::make_unique<LeastHeightObservation>();
     case Mode::kProbability:
       return std::make_unique<ProbabilityObservation>(*odds_, request_.nodata);
     case Mode::kVisible:

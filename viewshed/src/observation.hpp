@@ -1,15 +1,14 @@
 // What a mode keeps of the looks at a tile's cells.
 //
-//   const Observations observations(request, eyes, tin, scene);
+//   const Observations observations(request, tin);
 //   const std::unique_ptr<Observation> observation = observations.of_tile();
-//   observation->enter(cell);                                                      // in some field of view
-//   if (observation->open(look)) ... observation->see(look);                       // or nothing, where it is hidden
-//   observation->store(tile, result, cells);
+//   lines += observation->look({surface, eye, observer, nullptr, *surface.begin(tile)});   // one observer after
+//   another observation->store(surface.tile(i), result, cells);
 //
 // The result does not depend on the order of the looks.
 #pragma once
 
-#include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 
@@ -17,11 +16,10 @@
 
 #include "eye.hpp"
 #include "first_blocker.hpp"
-#include "least_height.hpp"
-#include "scene.hpp"
-#include "sight_lines.hpp"
+#include "full_surface.hpp"
 #include "surface_heights.hpp"
 #include "vertical_odds.hpp"
+#include "void_shadow.hpp"
 
 namespace itin::viewshed {
 
@@ -33,10 +31,23 @@ struct Look {
   double squared_distance() const { return dx * dx + dy * dy; }
 };
 
-/// Looks whose lines are to be cast.
-struct LookPacket {
-  SightLines lines;
-  std::array<Look, SightLines::kSize> looks;
+/// One observer's looks at the cells of a tile.
+struct TileLook {
+  const FullSurface& surface;
+  const Eye& eye;
+  std::uint32_t observer;
+  const VoidShadow* shadow;  ///< what ground without data hides; may be null
+  FullSurface::TileWork& work;
+
+  /// Calls visit(look) for every cell that has ground; the looks lead to the ground.
+  template <class Visit>
+  void for_each_cell(const Visit& visit) const;
+};
+
+/// What became of a line between places that differ horizontally; grid units.
+struct Sight {
+  Point3 from, to;
+  bool seen = false;
 };
 
 class Observation {
@@ -50,19 +61,15 @@ class Observation {
   void enter(std::size_t cell) {
     if (values_[cell] == kOutside) values_[cell] = kHidden;
   }
-  /// The elevation of what is looked at, over ground of this one, metres.
-  virtual double target(const Eye& eye, double ground) const { return eye.target(ground); }
-  /// Whether the target is in the eye's field of view.
-  virtual bool in_view(const Eye& eye, const Look& look) const { return eye.view.contains(look.dx, look.dy, look.dz); }
-  /// Whether it could matter that the target is seen.
+  /// Whether it could matter that the target is seen, whatever its height.
   virtual bool open(const Look&) const { return true; }
   /// The target is seen.
   void see(const Look& look) {
     mark_visible(look.cell);
     keep(look);
   }
-  /// Sees what the scene does not hide.
-  virtual void judge(const LookPacket& packet, const Scene& scene, Occluder& occluder);
+  /// Looks at every cell that is open. Returns how many sight lines that took.
+  virtual std::uint64_t look(const TileLook& tile);
   /// Counts the cells, and writes them to their places in the result.
   void store(const Tile& tile, Result& result, CellCounts& cells) const;
 
@@ -75,6 +82,9 @@ class Observation {
 
  private:
   virtual void keep(const Look&) {}
+  virtual void judge(const Look& look, const Sight& sight) {
+    if (sight.seen) see(look);
+  }
   /// A row of `columns` cells, from `cell` in the tile to `place` in the grid.
   virtual void store_row(std::size_t, std::size_t, std::size_t, Result&) const {}
 
@@ -84,20 +94,31 @@ class Observation {
 /// Makes the Observations of a request's mode, which is not kCertified. All that it is given must outlive it and them.
 class Observations {
  public:
-  /// For modes that need no more than verdicts: kVisible, kCount, kWhich, kNearest.
+  /// For modes that need no more than sight lines.
   explicit Observations(const Request& request) : request_(request) {}
-  /// For every mode; the scene is of that Tin.
-  Observations(const Request& request, const std::vector<Eye>& eyes, const Tin& tin, const Scene& scene);
+  /// For every mode, over that Tin.
+  Observations(const Request& request, const Tin& tin);
 
   std::unique_ptr<Observation> of_tile() const;
 
  private:
   const Request& request_;
-  const std::vector<Eye>* eyes_ = nullptr;
-  double resolution_ = 0;
-  std::optional<LeastHeights> heights_;
   std::optional<FirstBlocker> blockers_;
   std::optional<VerticalOdds> odds_;
 };
+
+template <class Visit>
+void TileLook::for_each_cell(const Visit& visit) const {
+  const Grid& units = surface.tin().grid;
+  for (std::int64_t r = 0; r < work.tile.rows; ++r) {
+    const double dy = surface.grid().centre_y(work.tile.row + r) - eye.position.y;
+    for (std::int64_t c = 0; c < work.tile.columns; ++c) {
+      const auto cell = static_cast<std::size_t>(r * Tile::kSide + c);
+      if (std::isnan(work.ground[cell])) continue;
+      const double dx = surface.grid().centre_x(work.tile.column + c) - eye.position.x;
+      visit(Look{cell, observer, dx, dy, work.ground[cell] * units.resolution - eye.elevation});
+    }
+  }
+}
 
 }  // namespace itin::viewshed

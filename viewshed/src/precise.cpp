@@ -1,7 +1,8 @@
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
-#include <limits>
+#include <numeric>
 #include <optional>
 
 #include <itin/error.hpp>
@@ -17,7 +18,6 @@
 #include "observer_raster.hpp"
 #include "request.hpp"
 #include "stopwatch.hpp"
-#include "void_shadow.hpp"
 
 namespace itin::viewshed {
 
@@ -40,9 +40,10 @@ void for_each_line(unsigned active, const Visit& visit) {
   for (; active != 0; active &= active - 1) visit(static_cast<unsigned>(std::countr_zero(active)));
 }
 
-class Precise {
+/// Where the surface does not fit into the memory.
+class InSegments {
  public:
-  Precise(const Store& store, const Request& request, const PreciseOptions& options, Progress& progress)
+  InSegments(const Store& store, const Request& request, const PreciseOptions& options, Progress& progress)
       : store_(store),
         request_(request),
         features_(features_stand(store, request)),
@@ -51,35 +52,33 @@ class Precise {
         progress_(progress) {}
 
   Surveyed run() {
-    validate(request_);
     require_mode();
     Result& result = surveyed_.result;
     result.request = request_;
     const std::vector<Eye> eyes = eyes_on_full_surface(store_, request_, result.ground_m, progress_);
-    if (fits()) {
-      retrieve_all();
-    } else {
-      retrieve_coarse();
-    }
+    retrieve_coarse();
     for (std::size_t tile = 0; tile < tiles_.cell_count(); ++tile)
       observations_.push_back(Observations(request_).of_tile());
     for (std::uint32_t i = 0; i < eyes.size(); ++i) look(eyes[i], i);
-    finish();
+    Observation::prepare(result);
+    for (std::size_t i = 0; i < observations_.size(); ++i)
+      observations_[i]->store(tile_at(result.grid, tiles_, i), result, result.cells);
     result.statistics.rays_seconds += watch_.lap();
     return std::move(surveyed_);
   }
 
  private:
-  /// Cells that a coarse level decides have no exact height of ground.
   void require_mode() const {
-    using enum Mode;
-    for (const Mode mode : {kVisible, kCount, kWhich, kNearest})
-      if (request_.mode == mode) return;
-    throw InputError("precise viewsheds tell visible, count, which and nearest; choose one of these modes");
+    if (request_.mode == Mode::kBlocker || request_.mode == Mode::kProbability)
+      throw InputError(
+          "blockers and probabilities need the whole window in memory: give more --memory or a smaller --radius");
   }
 
+  /// Certificates know nothing of what stands on the ground, and cells that a coarse level decides have no exact height
+  /// of ground.
+  bool whole_lines() const { return features_ || request_.mode == Mode::kHeight || request_.mode == Mode::kAngle; }
+
   std::uint64_t budget() const { return memory_ / kBytesAPoint; }
-  bool fits() const { return store_.points_about(0, box_) <= budget(); }
 
   int coarse_level() const {
     const std::uint64_t most = std::min(memory_ / kBytesAnEnvelopePoint, store_.points_about(0, box_) / kCoarseShare);
@@ -98,25 +97,13 @@ class Precise {
   }
 
   /// `targets` is where they stand.
-  void retrieve_full(const Window& window, const Window& targets, std::optional<FullSurface>& surface) {
+  OwnedSurface retrieve(const Window& window, const Window& targets) {
     Tin tin = triangulated(window, features_ ? request_.themes : ThemeChoice::none());
     std::optional<Tin> ground;
     if (features_ && !request_.targets_on_surface) ground = triangulated(targets, ThemeChoice::none());
-    surveyed_.result.statistics.triangles += tin.triangles.size();
-    if (tiles_.cell_count() == 0) lay_out(tin);
-    surface.emplace(std::move(tin), std::move(ground), request_.earth, surveyed_.result.grid, tiles_);
-    surveyed_.result.statistics.scene_seconds += watch_.lap();
-  }
-
-  void lay_out(const Tin& tin) {
-    surveyed_.result.grid = cells_of(request_, tin.bounds());
-    tiles_ = grid_of_tiles(surveyed_.result.grid);
-  }
-
-  void retrieve_all() {
-    const Window window = window_of(request_);
-    retrieve_full(window, window, full_);
-    look_for_voids(full_->tin(), full_->boundary());
+    Result& result = surveyed_.result;
+    result.statistics.triangles += tin.triangles.size();
+    return {std::move(tin), std::move(ground), request_.earth, result.grid, tiles_};
   }
 
   void retrieve_coarse() {
@@ -125,52 +112,66 @@ class Precise {
     result.statistics.retrieval += envelope.lower.statistics;
     result.statistics.triangles += envelope.lower.triangles.size();
     result.statistics.retrieval_seconds += watch_.lap();
-    lay_out(envelope.lower);
-    look_for_voids(envelope.lower, envelope.outline);
+    result.grid = cells_of(request_, envelope.lower.bounds());
+    tiles_ = grid_of_tiles(result.grid);
+    look_for_voids(envelope.lower, envelope.outline, result);
     ground_.emplace(store_, envelope.lower.bounds());
-    if (features_ && result.crosses_voids && request_.nodata == NoData::kBlock)
+    if (whole_lines() && result.crosses_voids && request_.nodata == NoData::kBlock)
       throw InputError(
-          "with --themes, --nodata block needs the whole window in memory: give more --memory or a smaller --radius");
+          "with --themes, or for heights and angles, --nodata block needs the whole window in memory: give more "
+          "--memory or a smaller --radius");
     surveyed_.tin = envelope.lower;
-    if (!features_) coarse_.emplace(std::move(envelope), request_, tiles_, voids_without_doubt(request_.nodata));
+    if (!whole_lines()) coarse_.emplace(std::move(envelope), request_, tiles_, voids_without_doubt(request_.nodata));
     result.statistics.scene_seconds += watch_.lap();
   }
 
-  void look_for_voids(const Tin& tin, const std::vector<BoundaryEdge>& outline) {
-    Result& result = surveyed_.result;
-    for (const Observer& observer : request_.observers) {
-      const double reach = radius_of(request_, observer).value_or(std::numeric_limits<double>::infinity());
-      result.crosses_voids = result.crosses_voids || surface_resumes(tin, outline, observer.position, reach);
+  void look(const Eye& eye, std::uint32_t observer) {
+    if (whole_lines()) {
+      look_over(eye, observer);
+    } else {
+      look_certified(eye, observer);
     }
-    if (result.crosses_voids && request_.nodata == NoData::kUnknown) result.warnings.emplace_back(kVoidsWarning);
   }
 
-  void look(const Eye& eye, std::uint32_t observer) {
+  /// All ground under all lines.
+  void look_over(const Eye& eye, std::uint32_t observer) {
+    const std::vector<TileSet> needed = under_lines(eye, observer);
+    std::atomic<std::uint64_t> lines = 0;
+    std::atomic<std::size_t> done = 0;
+    for (const std::vector<std::size_t>& cells : segments(eye, needed)) {
+      const OwnedSurface segment = refine(cells, needed);
+      parallel_for(cells.size(), [&](std::size_t i) {
+        progress_.throw_if_cancelled();
+        lines += observations_[cells[i]]->look({segment.full, eye, observer, nullptr, *segment.full.begin(cells[i])});
+        progress_.report("cells decided", static_cast<double>(++done) / static_cast<double>(needed.size()));
+      });
+    }
+    surveyed_.result.statistics.rays += lines;
+  }
+
+  void look_certified(const Eye& eye, std::uint32_t observer) {
     ObserverRaster raster(surveyed_.result.grid, tiles_, progress_);
-    for_each_look(eye, observer, [&](const Observation& observation, const Look& look, std::size_t place) {
-      if (!observation.open(look)) raster.values()[place] = kOutside;
+    for_each_look(eye, observer, [&](std::size_t tile, const Look& look, std::size_t place) {
+      if (!observations_[tile]->open(look)) raster.values()[place] = kOutside;
     });
-    std::vector<std::size_t> all(tiles_.cell_count());
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-    if (full_) {
-      judge(*full_, eye, all, raster);
-      if (request_.nodata == NoData::kBlock && surveyed_.result.crosses_voids) shade(eye, all, raster);
-    } else {
-      // Certificates know nothing of what stands on the ground: then whole lines are needed.
-      const std::vector<TileSet> needed = features_ ? under_lines(eye, raster) : coarse_pass(eye, all, raster);
-      // The scene's memory is free for the segments, when no other observer needs it.
-      if (observer + 1 == request_.observers.size()) coarse_.reset();
-      for (const std::vector<std::size_t>& segment : segments(eye, needed)) refine(eye, segment, needed, raster);
+    const std::vector<TileSet> needed = coarse_pass(eye, raster);
+    // The scene's memory is free for the segments, when no other observer needs it.
+    if (observer + 1 == request_.observers.size()) coarse_.reset();
+    for (const std::vector<std::size_t>& cells : segments(eye, needed)) {
+      const OwnedSurface segment = refine(cells, needed);
+      raster.judge(cells, [&](std::size_t i, TileValues<std::uint8_t>& values) {
+        return segment.full.judge(eye, values, *segment.full.begin(cells[i]));
+      });
     }
     surveyed_.result.statistics.rays += raster.rays();
-    for_each_look(eye, observer, [&](Observation& observation, const Look& look, std::size_t place) {
+    for_each_look(eye, observer, [&](std::size_t tile, const Look& look, std::size_t place) {
       const std::uint8_t value = raster.values()[place];
-      if (value != kOutside) observation.enter(look.cell);
-      if (value == kCertainlyVisible) observation.see(look);
+      if (value != kOutside) observations_[tile]->enter(look.cell);
+      if (value == kCertainlyVisible) observations_[tile]->see(look);
     });
   }
 
-  /// Calls visit(observation, look, place in the grid) for every cell; the looks know no heights.
+  /// Calls visit(tile, look, place in the grid) for every cell; the looks know no heights.
   template <class Visit>
   void for_each_look(const Eye& eye, std::uint32_t observer, const Visit& visit) const {
     const RasterGrid& grid = surveyed_.result.grid;
@@ -179,34 +180,18 @@ class Precise {
       for (std::int64_t r = 0; r < tile.rows; ++r) {
         for (std::int64_t c = 0; c < tile.columns; ++c) {
           const Point2 centre = grid.centre(tile.column + c, tile.row + r);
-          visit(*observations_[i],
-                {static_cast<std::size_t>(r * Tile::kSide + c), observer, centre.x - eye.position.x,
-                 centre.y - eye.position.y, 0},
+          const auto cell = static_cast<std::size_t>(r * Tile::kSide + c);
+          visit(i, Look{cell, observer, centre.x - eye.position.x, centre.y - eye.position.y, 0},
                 grid.index({tile.column + c, tile.row + r}));
         }
       }
     });
   }
 
-  static void judge(const FullSurface& surface, const Eye& eye, const std::vector<std::size_t>& tiles,
-                    ObserverRaster& raster) {
-    raster.judge(tiles, [&](std::size_t i, TileValues<std::uint8_t>& values) {
-      return surface.judge(eye, values, *surface.begin(tiles[i]));
-    });
-  }
-
-  /// Hides what lies behind voids.
-  void shade(const Eye& eye, const std::vector<std::size_t>& tiles, ObserverRaster& raster) const {
-    const VoidShadow shadow(full_->tin(), full_->boundary(), eye.units);
-    const RasterGrid& grid = surveyed_.result.grid;
-    raster.judge(tiles, [&](std::size_t i, TileValues<std::uint8_t>& values) {
-      shadow.hide(TileCentres(full_->tin().grid, grid, tile_at(grid, tiles_, tiles[i])), values);
-      return 0;
-    });
-  }
-
   /// The ground that each tile's undecided lines need at full detail.
-  std::vector<TileSet> coarse_pass(const Eye& eye, const std::vector<std::size_t>& all, ObserverRaster& raster) {
+  std::vector<TileSet> coarse_pass(const Eye& eye, ObserverRaster& raster) {
+    std::vector<std::size_t> all(tiles_.cell_count());
+    std::iota(all.begin(), all.end(), std::size_t{0});
     std::vector<TileSet> needed(all.size());
     const Grid& units = store_.metadata().grid;
     const CertifiedPass pass(*coarse_, surveyed_.result.grid, tiles_);
@@ -229,27 +214,16 @@ class Precise {
     return needed;
   }
 
-  /// The ground under all lines in view to each tile's cells. Cells out of view become kOutside.
-  std::vector<TileSet> under_lines(const Eye& eye, ObserverRaster& raster) {
-    const RasterGrid& grid = surveyed_.result.grid;
+  /// The ground under all lines in view to each tile's open cells.
+  std::vector<TileSet> under_lines(const Eye& eye, std::uint32_t observer) const {
     constexpr double kAnyHeight = 1e9;
     std::vector<TileSet> needed(tiles_.cell_count());
-    parallel_for(needed.size(), [&](std::size_t i) {
-      const Tile tile = tile_at(grid, tiles_, i);
-      for (std::int64_t r = 0; r < tile.rows; ++r) {
-        for (std::int64_t c = 0; c < tile.columns; ++c) {
-          std::uint8_t& value = raster.values()[grid.index({tile.column + c, tile.row + r})];
-          if (value != kUndecided) continue;
-          const Point2 centre = grid.centre(tile.column + c, tile.row + r);
-          if (eye.view.contains(centre.x - eye.position.x, centre.y - eye.position.y, -kAnyHeight, kAnyHeight) ==
-              false) {
-            value = kOutside;
-            continue;
-          }
-          if (needed[i].empty()) needed[i] = TileSet(ground_->count());
-          ground_->add_line(eye.position, centre, needed[i]);
-        }
-      }
+    for_each_look(eye, observer, [&](std::size_t tile, const Look& look, std::size_t) {
+      const bool in_view = eye.view.contains(look.dx, look.dy, -kAnyHeight, kAnyHeight) != false;
+      if (!in_view || !observations_[tile]->open(look)) return;
+      TileSet& tiles = needed[tile];
+      if (tiles.empty()) tiles = TileSet(ground_->count());
+      ground_->add_line(eye.position, {eye.position.x + look.dx, eye.position.y + look.dy}, tiles);
     });
     return needed;
   }
@@ -281,15 +255,12 @@ class Precise {
     return result;
   }
 
-  void refine(const Eye& eye, const std::vector<std::size_t>& cells, const std::vector<TileSet>& needed,
-              ObserverRaster& raster) {
+  /// The edges of the window are no voids; lines behind voids were hidden in the coarse pass.
+  OwnedSurface refine(const std::vector<std::size_t>& cells, const std::vector<TileSet>& needed) {
     surveyed_.result.statistics.rays_seconds += watch_.lap();
     TileSet ground(ground_->count());
     for (const std::size_t tile : cells) ground |= needed[tile];
-    std::optional<FullSurface> surface;
-    // The edges of the window are no voids; lines behind voids were hidden in the coarse pass.
-    retrieve_full(ground_->window(ground), window_over(cells), surface);
-    judge(*surface, eye, cells, raster);
+    return retrieve(ground_->window(ground), window_over(cells));
   }
 
   Window window_over(const std::vector<std::size_t>& cells) const {
@@ -303,14 +274,6 @@ class Precise {
     return Window::polygons(std::move(parts));
   }
 
-  void finish() {
-    if (full_) surveyed_.tin = std::move(*full_).release();
-    Result& result = surveyed_.result;
-    Observation::prepare(result);
-    for (std::size_t i = 0; i < observations_.size(); ++i)
-      observations_[i]->store(tile_at(result.grid, tiles_, i), result, result.cells);
-  }
-
   const Store& store_;
   const Request& request_;
   bool features_;  ///< stand on the ground
@@ -321,8 +284,7 @@ class Precise {
   Surveyed surveyed_;
   RasterGrid tiles_;
   std::optional<GroundTiles> ground_;
-  std::optional<FullSurface> full_;                         ///< all of it, where it fits into the memory
-  std::optional<EnvelopeScene> coarse_;                     ///< elsewhere, unless features stand on the ground
+  std::optional<EnvelopeScene> coarse_;                     ///< unless whole lines are needed
   std::vector<std::unique_ptr<Observation>> observations_;  ///< a tile
 };
 
@@ -330,7 +292,13 @@ class Precise {
 
 Surveyed compute_precise(const Store& store, const Request& request, const PreciseOptions& options,
                          Progress& progress) {
-  return Precise(store, request, options, progress).run();
+  validate(request);
+  if (request.mode == Mode::kCertified) throw InputError("precise viewsheds leave nothing undecided");
+  if (store.points_about(0, box_of_window(store, request)) > options.memory_bytes / kBytesAPoint)
+    return InSegments(store, request, options, progress).run();
+  Request whole = request;
+  whole.detail = Detail::tolerance(0);
+  return compute_with_surface(store, whole, progress);
 }
 
 }  // namespace itin::viewshed

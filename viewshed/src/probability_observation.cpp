@@ -1,7 +1,6 @@
 #include "probability_observation.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <limits>
 
 namespace itin::viewshed {
@@ -15,18 +14,12 @@ void ProbabilityObservation::keep(const Look& look) {
   margins_[look.cell] = VerticalOdds::kSure;
 }
 
-void ProbabilityObservation::judge(const LookPacket& packet, const Scene& scene, Occluder& occluder) {
-  const unsigned hidden = scene.hidden(packet.lines, occluder);
-  for (unsigned rest = packet.lines.active; rest != 0; rest &= rest - 1) {
-    const auto i = static_cast<unsigned>(std::countr_zero(rest));
-    const std::size_t cell = packet.looks[i].cell;
-    const bool seen = (hidden >> i & 1) == 0;
-    if (seen) mark_visible(cell);
-    const double margin = odds_.least_margin(packet.lines, i, memory_);
-    // What no ground hides is behind missing ground that blocks.
-    if (!seen && margin > 0 && nodata_ == NoData::kBlock) continue;
-    margins_[cell] = std::max(margins_[cell], margin);
-  }
+void ProbabilityObservation::judge(const Look& look, const Sight& sight) {
+  if (sight.seen) mark_visible(look.cell);
+  const double margin = odds_.least_margin(sight.from, sight.to, memory_);
+  // What no ground hides is behind missing ground that blocks.
+  if (!sight.seen && margin > 0 && nodata_ == NoData::kBlock) return;
+  margins_[look.cell] = std::max(margins_[look.cell], margin);
 }
 
 void ProbabilityObservation::store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const {

@@ -11,9 +11,8 @@ class ProbabilityObservation final : public Observation {
   /// Of one tile; `odds` must outlive it.
   ProbabilityObservation(const VerticalOdds& odds, NoData nodata);
 
-  void judge(const LookPacket& packet, const Scene& scene, Occluder& occluder) override;
-
  private:
+  void judge(const Look& look, const Sight& sight) override;
   void keep(const Look& look) override;
   void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override;
 

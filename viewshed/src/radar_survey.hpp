@@ -3,22 +3,23 @@
 
 #include <vector>
 
-#include <itin/tin.hpp>
+#include <itin/progress.hpp>
 #include <viewshed/turbines.hpp>
 
 #include "eye.hpp"
-#include "least_height.hpp"
-#include "triangle_bins.hpp"
+#include "full_surface.hpp"
+#include "void_shadow.hpp"
 
 namespace itin::viewshed {
 
-/// For every cell of the zone's grid, metres above its ground, up to kRadarCeiling: NaN above that, and without ground.
+/// For every cell of the surface's grid, metres above its ground, up to kRadarCeiling: NaN above that, and without
+/// ground. `shadow` is what ground without data hides from the radar; may be null.
 inline constexpr double kRadarCeiling = 1000;
-std::vector<float> radar_heights(const Eye& radar, const Tin& ground, const TriangleBins& bins, const RasterGrid& tiles,
-                                 const RasterGrid& grid, const LeastHeights& heights, Progress& progress);
+std::vector<float> radar_heights(const Eye& radar, const FullSurface& surface, const VoidShadow* shadow,
+                                 Progress& progress);
 
 /// What the radar sees of one turbine, metres from its tip down; 0: hidden.
-double radar_sees(const Eye& radar, const Tin& ground, const Turbine& turbine, double ground_m,
-                  const LeastHeights& heights);
+double radar_sees(const Eye& radar, const FullSurface& surface, const VoidShadow* shadow, const Turbine& turbine,
+                  double ground_m);
 
 }  // namespace itin::viewshed

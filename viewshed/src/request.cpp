@@ -149,6 +149,14 @@ Window window_of(const Request& request) {
   return Window::polygons(std::move(parts));
 }
 
+void look_for_voids(const Tin& tin, const std::vector<BoundaryEdge>& outline, Result& result) {
+  for (const Observer& observer : result.request.observers) {
+    const double reach = radius_of(result.request, observer).value_or(std::numeric_limits<double>::infinity());
+    result.crosses_voids = result.crosses_voids || surface_resumes(tin, outline, observer.position, reach);
+  }
+  if (result.crosses_voids && result.request.nodata == NoData::kUnknown) result.warnings.emplace_back(kVoidsWarning);
+}
+
 double ceiling_of(const Tin& tin, const Request& request) {
   if (request.mode == Mode::kHeight) return 2 * kSky;
   double highest = 0;

@@ -4,6 +4,8 @@
 #include <itin/window.hpp>
 #include <viewshed/viewshed.hpp>
 
+#include "boundary.hpp"
+
 namespace itin::viewshed {
 
 inline constexpr const char* kVoidsWarning =
@@ -24,6 +26,10 @@ RasterGrid cells_of(const Request& request, const Box& coverage);
 
 /// The region that holds every sight line of the request.
 Window window_of(const Request& request);
+
+/// Whether sight lines of the result's request may cross ground without data, with a warning where the request does not
+/// say what becomes of them. `outline` is where the surface ends.
+void look_for_voids(const Tin& tin, const std::vector<BoundaryEdge>& outline, Result& result);
 
 /// Above every end of every sight line over this surface, metres.
 double ceiling_of(const Tin& tin, const Request& request);

@@ -92,8 +92,9 @@ class SectorProfile {
   /// Lines up to the axis' top that rise by less than this outward a bin, and begin in this slab, are certainly hidden.
   double hidden_below(std::size_t slab) const { return hidden_below_[slab - nearest_]; }
 
-  /// Calls visit(slab) from `last` inwards for every slab that may rise above a line of height line.least() at the axis
-  /// that rises by line.slope() outward a bin; both may change meanwhile, and visit ends the search by returning false.
+  /// Calls visit(slab) from `last` inwards for every slab that may rise above a line of height line.at_axis() at the
+  /// axis that rises by line.slope() outward a bin; both may change meanwhile, and visit ends the search by returning
+  /// false.
   template <class Line, class Visit>
   void search(std::size_t last, const Line& line, const Visit& visit);
 
@@ -124,7 +125,7 @@ void SectorProfile::search(std::size_t last, const Line& line, const Visit& visi
   // The lowest point of the line over the slabs from first to last.
   const auto lowest = [&](std::size_t from, std::size_t to) {
     const double s = line.slope();
-    return line.least() - axis_.margin + s * (s < 0 ? quadrant_->end(to) : quadrant_->begin(from));
+    return line.at_axis() - axis_.margin + s * (s < 0 ? quadrant_->end(to) : quadrant_->begin(from));
   };
   for (std::size_t block = last / kBlock + 1; block-- > 0;) {
     const std::size_t block_first = block * kBlock, block_last = std::min(last, block_first + kBlock - 1);

@@ -27,6 +27,13 @@ class SightLine {
     bulge_ = drop * squared;
   }
 
+  /// The line to another height at the same place.
+  SightLine with_end(double z) const {
+    SightLine line = *this;
+    line.dz_ = z - from_.z;
+    return line;
+  }
+
   /// Whether the triangle hides the one end from the other. Precondition: the ends differ horizontally.
   bool hidden_by(const GridPoint& a, const GridPoint& b, const GridPoint& c) const {
     const Section under = section(a, b, c);

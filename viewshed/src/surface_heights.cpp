@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace itin::viewshed {
@@ -162,10 +161,16 @@ std::optional<double> surface_height_at(const Tin& tin, std::span<const std::uin
 }
 
 std::optional<double> height_on(const Tin& tin, Point2 position) {
-  std::vector<std::uint32_t> all(tin.triangles.size());
-  std::iota(all.begin(), all.end(), 0U);
-  const std::optional<double> units = surface_height(tin, all, position);
-  return units ? std::optional(*units * tin.grid.resolution) : std::nullopt;
+  const Point2 units{easting_in_units(tin.grid, position.x), northing_in_units(tin.grid, position.y)};
+  const auto beside = [&](const Triangle& t) {
+    const GridPoint &a = tin.vertices[t[0]], &b = tin.vertices[t[1]], &c = tin.vertices[t[2]];
+    return (a.x < units.x && b.x < units.x && c.x < units.x) || (a.x > units.x && b.x > units.x && c.x > units.x);
+  };
+  for (std::uint32_t i = 0; i < tin.triangles.size(); ++i) {
+    if (beside(tin.triangles[i])) continue;
+    if (const auto height = surface_height_at(tin, std::span(&i, 1), units)) return *height * tin.grid.resolution;
+  }
+  return std::nullopt;
 }
 
 }  // namespace itin::viewshed

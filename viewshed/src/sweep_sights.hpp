@@ -12,11 +12,13 @@ namespace itin::viewshed {
 
 inline constexpr std::uint32_t kNoSilhouette = 0xffffffff;
 
-/// How far from the axis the other end is, in bins, and how high, less the drop, grid units.
+/// How far from the axis the other end is, in bins, and the drop there, grid units.
 struct SweptEnd {
   double along = 0;
-  double lowered = 0;
+  double drop = 0;
 };
+
+// Each tells the line that is to be cleared by its height at the axis and its slope, outward a bin.
 
 /// From an eye to the top of an axis: how far down it is seen.
 class AxisSight {
@@ -26,9 +28,9 @@ class AxisSight {
     raise(std::min(base, top_));
   }
 
-  double least() const { return least_; }
-  /// Of the line to the least height, outward a bin.
+  double at_axis() const { return least_; }
   double slope() const { return slope_; }
+  double least() const { return least_; }
   std::uint32_t silhouette() const { return silhouette_; }
 
   /// Whether the top can still be seen over this triangle, too.
@@ -48,7 +50,7 @@ class AxisSight {
  private:
   void raise(double least) {
     least_ = least;
-    slope_ = (eye_.lowered - least) / eye_.along;
+    slope_ = (line_.from().z - eye_.drop - least) / eye_.along;
   }
 
   const Tin& tin_;
@@ -64,10 +66,14 @@ class AxisSight {
 class PointSight {
  public:
   PointSight(const Tin& tin, const SightLine& to_target, const SweptEnd& target, double margin)
-      : tin_(tin), line_(to_target), slope_((target.lowered - to_target.from().z) / target.along), margin_(margin) {}
+      : tin_(tin),
+        line_(to_target),
+        slope_((to_target.to_z() - target.drop - to_target.from().z) / target.along),
+        margin_(margin) {}
 
-  double least() const { return line_.from().z; }
+  double at_axis() const { return line_.from().z; }
   double slope() const { return slope_; }
+  double least() const { return at_axis(); }
   std::uint32_t silhouette() const { return silhouette_; }
 
   bool clears(std::uint32_t triangle) {
@@ -82,6 +88,55 @@ class PointSight {
   const Tin& tin_;
   const SightLine& line_;
   double slope_, margin_;
+  std::uint32_t silhouette_ = kNoSilhouette;
+};
+
+/// From a point to what may stand on the ground: how low that is seen.
+class HeightSight {
+ public:
+  struct Range {
+    double lowest = 0, highest = 0;
+    double hidden_below = 0;  ///< is known to be hidden
+  };
+  HeightSight(const Tin& tin, const SightLine& to_lowest, const Range& range, const SweptEnd& end, double margin)
+      : tin_(tin), line_(to_lowest), end_(end), highest_(range.highest), margin_(margin) {
+    raise(std::max(range.lowest, std::min(range.hidden_below, highest_)));
+  }
+
+  double at_axis() const { return line_.from().z; }
+  double slope() const { return slope_; }
+  double least() const { return least_; }
+  std::uint32_t silhouette() const { return silhouette_; }
+
+  /// Whether the highest can still be seen over this triangle, too.
+  bool clears(std::uint32_t triangle) {
+    const Triangle& t = tin_.triangles[triangle];
+    const GridPoint &a = tin_.vertices[t[0]], &b = tin_.vertices[t[1]], &c = tin_.vertices[t[2]];
+    if (line_.apart(a, b, c, least_, margin_)) return true;
+    const double end = line_.clearing_end(a, b, c);
+    if (end <= least_) return true;
+    silhouette_ = triangle;
+    if (end > highest_ && hides(triangle, highest_)) return false;
+    raise(std::min(end, highest_));
+    return true;
+  }
+
+  bool hides(std::uint32_t triangle, double end) const {
+    const Triangle& t = tin_.triangles[triangle];
+    return line_.with_end(end).hidden_by(tin_.vertices[t[0]], tin_.vertices[t[1]], tin_.vertices[t[2]]);
+  }
+
+ private:
+  void raise(double least) {
+    least_ = least;
+    slope_ = (least - end_.drop - at_axis()) / end_.along;
+  }
+
+  const Tin& tin_;
+  const SightLine& line_;
+  SweptEnd end_;
+  double highest_, margin_;
+  double least_ = 0, slope_ = 0;
   std::uint32_t silhouette_ = kNoSilhouette;
 };
 

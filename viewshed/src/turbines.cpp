@@ -12,11 +12,10 @@
 #include "binned_heights.hpp"
 #include "boundary.hpp"
 #include "eye.hpp"
-#include "least_height.hpp"
+#include "full_surface.hpp"
 #include "near_ground.hpp"
 #include "radar_survey.hpp"
 #include "request.hpp"
-#include "scene.hpp"
 #include "stopwatch.hpp"
 #include "void_shadow.hpp"
 #include "zone_parts.hpp"
@@ -26,13 +25,6 @@
 namespace itin::viewshed {
 
 namespace {
-
-double ceiling(const Tin& tin, const ZoneRequest& request) {
-  double highest = 0, above = request.observer_height;
-  for (const GridPoint& v : tin.vertices) highest = std::max(highest, v.z * tin.grid.resolution);
-  for (const Turbine& t : request.turbines) above = std::max(above, t.tip_height);
-  return highest + above;
-}
 
 /// What voids hide from each turbine, where they do.
 std::vector<VoidShadow> shadows(const Tin& tin, const std::vector<BoundaryEdge>& boundary, const ZoneRequest& request) {
@@ -67,7 +59,7 @@ class ZoneWork {
     const ZoneSurvey survey(ground, bins, tiles_, zone_);
     zone_.statistics.scene_seconds += watch.lap();
     look(survey, ground, tiles, "sight lines", zone_.bare);
-    if (zone_.request.radar) look_from_radar(ground, bins);
+    if (zone_.request.radar) look_from_radar(ground);
     if (screened != nullptr) look(survey, *screened, tiles, "sight lines, screened", *zone_.screened);
   }
 
@@ -86,20 +78,22 @@ class ZoneWork {
     zone_.statistics.triangles += surface.triangles.size();
   }
 
-  void look_from_radar(const Tin& ground, const TriangleBins& bins) {
+  void look_from_radar(const Tin& ground) {
     Stopwatch watch;
     const Observer& radar = *zone_.request.radar;
-    const Scene scene(ground, zone_.request.earth, zone_.request.nodata, ceiling(ground, zone_.request));
-    const LeastHeights heights(ground, zone_.request.earth, scene);
-    const auto height = scene.ground(radar.position);
+    const FullSurface surface(ground, nullptr, zone_.request.earth, zone_.grid, tiles_);
+    const auto height = surface.height(radar.position);
     Request request;
     request.earth = zone_.request.earth;
     const Eye eye = eye_of(ground.grid, request, radar, height);
+    std::optional<VoidShadow> behind_voids;
+    if (zone_.request.nodata == NoData::kBlock) behind_voids.emplace(ground, surface.boundary(), eye.units);
+    const VoidShadow* const shadow = behind_voids ? &*behind_voids : nullptr;
     RadarView& view = zone_.radar.emplace();
     view.ground_m = *height;
-    view.height_m = radar_heights(eye, ground, bins, tiles_, zone_.grid, heights, progress_);
+    view.height_m = radar_heights(eye, surface, shadow, progress_);
     for (std::size_t k = 0; k < zone_.request.turbines.size(); ++k)
-      view.turbine_m.push_back(radar_sees(eye, ground, zone_.request.turbines[k], zone_.ground_m[k], heights));
+      view.turbine_m.push_back(radar_sees(eye, surface, shadow, zone_.request.turbines[k], zone_.ground_m[k]));
     zone_.statistics.lines_seconds += watch.lap();
   }
 

@@ -44,9 +44,8 @@ VerticalOdds::VerticalOdds(const Tin& tin, const Earth& earth, const VerticalErr
       correlation_(error.correlation_length / tin.grid.resolution),
       pyramid_(tin) {}
 
-double VerticalOdds::least_margin(const SightLines& lines, unsigned i, Memory& memory) const {
-  const SightLine line({lines.from_x[i], lines.from_y[i], lines.from_z[i]},
-                       {lines.to_x[i], lines.to_y[i], lines.to_z[i]}, drop_, grazing_);
+double VerticalOdds::least_margin(const Point3& from, const Point3& to, Memory& memory) const {
+  const SightLine line(from, to, drop_, grazing_);
   const Deviation deviation(std::hypot(line.dx(), line.dy()), correlation_);
   double least = kSure;
   // Ground further below the line than this has more of a margin.

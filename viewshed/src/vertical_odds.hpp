@@ -17,7 +17,6 @@
 #include <viewshed/viewshed.hpp>
 
 #include "height_pyramid.hpp"
-#include "sight_lines.hpp"
 
 namespace itin::viewshed {
 
@@ -29,8 +28,9 @@ class VerticalOdds {
 
   /// The triangle of the last line's critical place: it most often is near the next one's too.
   using Memory = std::optional<std::uint32_t>;
-  /// The least clearance of line i in standard deviations, from -kSure to kSure; negative where it is hidden.
-  double least_margin(const SightLines& lines, unsigned i, Memory& memory) const;
+  /// The least clearance of a line in standard deviations, from -kSure to kSure; negative where it is hidden. Ends in
+  /// grid units.
+  double least_margin(const Point3& from, const Point3& to, Memory& memory) const;
   static constexpr double kSure = 6;
   /// Phi: that of a margin; 1 from kSure on, 0 from -kSure down.
   static double probability(double margin);

@@ -1,28 +1,18 @@
 #include <algorithm>
-#include <limits>
 
 #include <viewshed/viewshed.hpp>
 
 #include "boundary.hpp"
-#include "caster.hpp"
 #include "eye.hpp"
+#include "full_surface.hpp"
+#include "look_around.hpp"
 #include "request.hpp"
-#include "scene.hpp"
 #include "stopwatch.hpp"
 #include "surface_heights.hpp"
-#include "triangle_bins.hpp"
 
 namespace itin::viewshed {
 
 namespace {
-
-void look_for_voids(const Tin& tin, const std::vector<BoundaryEdge>& boundary, Result& result) {
-  for (const Observer& observer : result.request.observers) {
-    const double reach = radius_of(result.request, observer).value_or(std::numeric_limits<double>::infinity());
-    result.crosses_voids = result.crosses_voids || surface_resumes(tin, boundary, observer.position, reach);
-  }
-  if (result.crosses_voids && result.request.nodata == NoData::kUnknown) result.warnings.emplace_back(kVoidsWarning);
-}
 
 void name_blockers(const Tin& tin, Result& result) {
   result.blocker_theme.resize(result.blocker.size());
@@ -39,25 +29,21 @@ Result compute_on(const Tin& tin, const Tin* ground, const Request& request, Pro
   result.request = request;
   Stopwatch watch;
   progress.report("scene", 0);
-  const Scene scene(tin, request.earth, request.nodata, ceiling_of(tin, request));
-  const Tin* const base = request.observers_on_surface ? nullptr : ground;
+  result.grid = cells_of(request, tin.bounds());
+  const RasterGrid tiles = grid_of_tiles(result.grid);
+  const FullSurface surface(tin, request.targets_on_surface ? nullptr : ground, request.earth, result.grid, tiles);
   std::vector<Eye> eyes;
   for (const Observer& observer : request.observers) {
-    const auto height = base != nullptr ? height_on(*base, observer.position) : scene.ground(observer.position);
+    const bool raised = request.observers_on_surface || ground == nullptr;
+    const auto height = raised ? surface.height(observer.position) : height_on(*ground, observer.position);
     eyes.push_back(eye_of(tin.grid, request, observer, height));
     result.ground_m.push_back(*height);
   }
-  result.grid = cells_of(request, tin.bounds());
-  look_for_voids(tin, scene.boundary(), result);
+  look_for_voids(tin, surface.boundary(), result);
   result.statistics.triangles = tin.triangles.size();
   result.statistics.retrieval = tin.statistics;
   result.statistics.scene_seconds = watch.lap();
-
-  const Tin& targets = ground != nullptr && !request.targets_on_surface ? *ground : tin;
-  const Tin* const cover = &targets == &tin ? nullptr : &tin;
-  const TriangleBins bins(targets, grid_of_tiles(result.grid));
-  const Observations observations(result.request, eyes, tin, scene);
-  Caster(targets, bins, cover, scene, eyes, observations, result).run(progress);
+  look_around(surface, eyes, result, progress);
   if (request.mode == Mode::kBlocker) name_blockers(tin, result);
   result.statistics.rays_seconds = watch.lap();
   return result;

@@ -106,12 +106,12 @@ class Partition {
         tiles_(grid_of_tiles(zone.grid)),
         points_(store, level_within(store.metadata(), zone.request.detail.coarsest()), box) {}
 
-  /// Bytes. As measured on OS Terrain 50: 160 a triangle of one surface, 350 with a radar's scene, another 60 of a
-  /// second one at rest; and what a cell's results take.
+  /// Bytes. As measured on OS Terrain 50: 160 a triangle of one surface, another 60 of a second one at rest; and what a
+  /// cell's results take.
   double memory(const std::vector<Point2>& window) const {
     const double triangles = 2 * static_cast<double>(points_.within(window));
     const double results = 36 + 4 * static_cast<double>(zone_.words);
-    return ((zone_.request.radar ? 350 : 160) + (screened_ ? 60 : 0)) * triangles +
+    return (screened_ ? 220 : 160) * triangles +
            (screened_ ? 2 : 1) * results * static_cast<double>(zone_.grid.cell_count());
   }
 

@@ -34,15 +34,14 @@ struct PreciseOptions {
   std::uint64_t memory_bytes = std::uint64_t{1} << 30;  ///< changes the speed, never the answer
 };
 
-/// Exact for the full surface, in modes kVisible, kCount, kWhich and kNearest: each cell has the value that the exact
-/// walk in double precision over every triangle would give it. The surface is swept about each observer: bounds along
-/// narrow sectors decide nearly every line, the others are walked where the ground comes near them. Where the surface
-/// does not fit into the memory, a certified pass at a coarse level decides most cells; for the others the places where
-/// their lines come near the ground, and no more, are read at full detail and swept, as many at a time as the memory
-/// allows. Request::detail is not used. NoData::kUnknown counts as clear, with a warning. Cost, on one core: about a
-/// microsecond a point; a third of that for rasters.
-/// Throws as compute() does, and InputError where themes that stand on the ground, NoData::kBlock and voids come
-/// together in a window too large for the memory.
+/// Exact for the full surface, in every mode but kCertified: as compute() at tolerance 0, with the same answer. Where
+/// the surface does not fit into the memory, a certified pass at a coarse level decides most cells; for the others the
+/// places where their lines come near the ground, and no more, are read at full detail and swept, as many at a time as
+/// the memory allows. With themes that stand on the ground, and for heights and angles, that is all ground under the
+/// lines. Request::detail is not used. NoData::kUnknown counts as clear, with a warning. Cost, on one core: about a
+/// microsecond a point; a third of that for rasters. Throws as compute() does, and, where the window is too large for
+/// the memory, InputError in modes kBlocker and kProbability and where NoData::kBlock and voids come together with such
+/// themes or modes.
 Surveyed compute_precise(const Store& store, const Request& request, const PreciseOptions& options, Progress& progress);
 
 }  // namespace itin::viewshed

@@ -17,12 +17,12 @@ struct FullGround {
       : survey(s),
         tiles(grid_of_tiles(*survey.targets.grid)),
         surface(std::move(tin), std::move(bare_ground), survey.earth, *survey.targets.grid, tiles) {
-    if (survey.fresnel) zone.emplace(surface.tin(), nullptr, survey.earth, *survey.fresnel);
+    if (survey.fresnel) zone.emplace(surface.tin, nullptr, survey.earth, *survey.fresnel);
   }
 
   const SiteSurvey& survey;
   RasterGrid tiles;
-  FullSurface surface;
+  OwnedSurface surface;
   std::optional<ClearZone> zone;
 };
 
@@ -34,11 +34,11 @@ struct ExactLook {
 class ExactTile final : public TileJudge::Work {
  public:
   ExactTile(const FullGround& ground, const std::vector<ExactLook>& looks, std::size_t tile)
-      : ground_(ground), looks_(looks), work_(ground.surface.begin(tile)) {}
+      : ground_(ground), looks_(looks), work_(ground.surface.full.begin(tile)) {}
 
   std::uint64_t judge(std::size_t i, TileValues<std::uint8_t>& values) override {
     const auto& [eye, shadow] = looks_[i];
-    const std::uint64_t lines = ground_.surface.judge(eye, values, *work_);
+    const std::uint64_t lines = ground_.surface.full.judge(eye, values, *work_);
     if (shadow) shadow->hide(work_->centres, values);
     if (ground_.zone) cut_zones(*ground_.zone, eye, {work_->centres, work_->targets, work_->targets}, values);
     return lines;
@@ -53,12 +53,13 @@ class ExactTile final : public TileJudge::Work {
 class ExactJudge final : public TileJudge {
  public:
   ExactJudge(const FullGround& ground, const SiteLooks& looks) : ground_(ground) {
-    const Tin& tin = ground.surface.tin();
+    const Tin& tin = ground.surface.tin;
     for (const std::size_t option : looks.options)
       looks_.push_back({eye_at(tin.grid, looks.request, ground.survey.stands[option]), std::nullopt});
     if (ground.survey.nodata != NoData::kBlock) return;
-    parallel_for(looks_.size(),
-                 [&](std::size_t i) { looks_[i].shadow.emplace(tin, ground.surface.boundary(), looks_[i].eye.units); });
+    parallel_for(looks_.size(), [&](std::size_t i) {
+      looks_[i].shadow.emplace(tin, ground.surface.full.boundary(), looks_[i].eye.units);
+    });
   }
 
   std::unique_ptr<Work> begin(std::size_t tile) const override {

@@ -1,0 +1,93 @@
+#include "look_around.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <optional>
+#include <utility>
+
+#include <itin/parallel.hpp>
+
+#include "observation.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+struct Tally {
+  CellCounts cells;
+  std::uint64_t lines = 0;
+};
+
+class LookAround {
+ public:
+  LookAround(const FullSurface& surface, const std::vector<Eye>& eyes, Result& result)
+      : surface_(surface),
+        eyes_(eyes),
+        result_(result),
+        observations_(result.request, surface.tin()),
+        shadows_(eyes.size()) {
+    if (result.request.nodata != NoData::kBlock || !result.crosses_voids) return;
+    parallel_for(eyes.size(),
+                 [&](std::size_t i) { shadows_[i].emplace(surface.tin(), surface.boundary(), eyes[i].units); });
+  }
+
+  Tally decide(std::size_t tile) const {
+    const auto work = surface_.begin(tile);
+    const auto observation = observations_.of_tile();
+    Tally tally;
+    for (const std::uint32_t i : eyes_near(work->tile)) {
+      const VoidShadow* const shadow = shadows_[i] ? &*shadows_[i] : nullptr;
+      tally.lines += observation->look({surface_, eyes_[i], i, shadow, *work});
+    }
+    observation->store(work->tile, result_, tally.cells);
+    return tally;
+  }
+
+ private:
+  /// The eyes that reach the tile, the nearest first: they most often settle what is asked of the others.
+  std::vector<std::uint32_t> eyes_near(const Tile& tile) const {
+    const Point2 nw = surface_.grid().centre(tile.column, tile.row);
+    const Point2 se = surface_.grid().centre(tile.column + tile.columns - 1, tile.row + tile.rows - 1);
+    std::vector<std::pair<double, std::uint32_t>> order;
+    for (std::uint32_t i = 0; i < eyes_.size(); ++i) {
+      const Point2 p = eyes_[i].position;
+      const double dx = p.x - std::clamp(p.x, nw.x, se.x), dy = p.y - std::clamp(p.y, se.y, nw.y);
+      if (const double squared = dx * dx + dy * dy; eyes_[i].view.reaches(squared)) order.emplace_back(squared, i);
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<std::uint32_t> observers;
+    for (const auto& [squared, observer] : order) observers.push_back(observer);
+    return observers;
+  }
+
+  const FullSurface& surface_;
+  const std::vector<Eye>& eyes_;
+  Result& result_;
+  Observations observations_;
+  std::vector<std::optional<VoidShadow>> shadows_;  ///< of each eye, where ground without data hides
+};
+
+}  // namespace
+
+void look_around(const FullSurface& surface, const std::vector<Eye>& eyes, Result& result, Progress& progress) {
+  Observation::prepare(result);
+  const LookAround looks(surface, eyes, result);
+  const std::size_t count = surface.tiles().cell_count();
+  std::atomic<std::size_t> done = 0;
+  std::vector<Tally> tallies(count);
+  parallel_for(count, [&](std::size_t i) {
+    progress.throw_if_cancelled();
+    tallies[i] = looks.decide(i);
+    const std::size_t now = ++done;
+    if (now % 64 == 0 || now == count)
+      progress.report("sight lines", static_cast<double>(now) / static_cast<double>(count));
+  });
+  for (const Tally& tally : tallies) {
+    result.cells.visible += tally.cells.visible;
+    result.cells.hidden += tally.cells.hidden;
+    result.cells.outside += tally.cells.outside;
+    result.statistics.rays += tally.lines;
+  }
+}
+
+}  // namespace itin::viewshed

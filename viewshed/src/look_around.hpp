@@ -1,0 +1,19 @@
+// Looks from every eye at every cell of a surface, tile by tile.
+#pragma once
+
+#include <vector>
+
+#include <itin/progress.hpp>
+#include <viewshed/viewshed.hpp>
+
+#include "eye.hpp"
+#include "full_surface.hpp"
+
+namespace itin::viewshed {
+
+/// Fills the result's rasters and counts; its request says in what mode, its grid is the surface's, and
+/// `crosses_voids` tells whether NoData::kBlock matters. Memory: 36 kB a thread and, where it does, what edges of voids
+/// each eye sees from behind. Throws Cancelled.
+void look_around(const FullSurface& surface, const std::vector<Eye>& eyes, Result& result, Progress& progress);
+
+}  // namespace itin::viewshed
