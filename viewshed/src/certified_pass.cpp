@@ -12,25 +12,16 @@
 
 namespace itin::viewshed {
 
-namespace {
-
-std::optional<Curtains> curtains(const Envelope& envelope, const Request& request, Voids voids) {
-  if (voids == Voids::kPass || envelope.outline.empty()) return std::nullopt;
-  return Curtains{envelope.outline, ceiling_of(envelope.upper, request)};
-}
-
-}  // namespace
-
 Voids voids_without_doubt(NoData rule) {
   return rule == NoData::kBlock ? Voids::kBlock : Voids::kPass;
 }
 
-EnvelopeScene::EnvelopeScene(Envelope e, const Request& request, const RasterGrid& tiles, Voids voids)
+EnvelopeScene::EnvelopeScene(Envelope e, const Request& request, const RasterGrid& tiles, Voids v)
     : envelope(std::move(e)),
-      lower(envelope.lower, request.earth, voids == Voids::kBlock ? NoData::kBlock : NoData::kClear,
-            ceiling_of(envelope.upper, request), envelope.outline),
-      upper(envelope.upper, envelope.pieces, request.earth, curtains(envelope, request, voids)),
+      lower(envelope.lower, request.earth, NoData::kClear, 0),
+      upper(envelope.upper, envelope.pieces, request.earth),
       bins(envelope.lower, tiles),
+      voids(v),
       exact(envelope.exact),
       drop(request.earth.drop_coefficient() * envelope.lower.grid.resolution) {
   if (envelope.bare_ground) ground_bins.emplace(*envelope.bare_ground, tiles);
@@ -54,7 +45,9 @@ EnvelopeScene::Look EnvelopeScene::look_from(const Eye& eye, std::span<const std
     if (apart(eye.units.x, a.x, b.x, c.x) || apart(eye.units.y, a.y, b.y, c.y)) continue;
     if (const auto height = surface_height(tin, {&t, 1}, eye.position)) highest = std::max(highest, *height);
   }
-  return {eye, highest};
+  Look look{eye, highest};
+  if (voids != Voids::kPass) look.shadow.emplace(tin, envelope.outline, eye.units);
+  return look;
 }
 
 CertifiedPass::CertifiedPass(const EnvelopeScene& scene, const RasterGrid& grid, const RasterGrid& tiles)
@@ -92,6 +85,7 @@ struct CertifiedPass::Packet {
   SightLines low, high;    ///< to the lowest and to the highest target
   unsigned ambiguous = 0;  ///< perhaps outside the field of view
   unsigned starts_under = 0, ends_under = 0;
+  unsigned behind_void = 0;
 
   std::size_t cell(unsigned i) const { return (row + i / kPacketSide) * Tile::kSide + column + i % kPacketSide; }
 };
@@ -131,6 +125,13 @@ void CertifiedPass::fill(const EnvelopeScene::Look& look, TileValues<std::uint8_
       continue;
     }
     const unsigned bit = 1U << i;
+    if (look.shadow && look.shadow->holds(x, y)) {
+      if (scene_.voids == Voids::kBlock && in_view) {
+        value = kCertainlyHidden;
+        continue;
+      }
+      packet.behind_void |= bit;
+    }
     packet.low.to_x[i] = packet.high.to_x[i] = x;
     packet.low.to_y[i] = packet.high.to_y[i] = y;
     packet.low.to_z[i] = low;
@@ -220,7 +221,8 @@ void CertifiedPass::judge(const EnvelopeScene::Look& look, TileValues<std::uint8
       Packet packet{.row = row, .column = column, .low = {}, .high = {}};
       for (SightLines* const lines : {&packet.low, &packet.high}) lines->start_at(look.eye.units);
       fill(look, values, work, packet);
-      const unsigned all = packet.low.active, under = packet.starts_under | packet.ends_under | packet.ambiguous;
+      const unsigned all = packet.low.active,
+                     under = packet.starts_under | packet.ends_under | packet.ambiguous | packet.behind_void;
       if (all == 0) continue;
       // Most of what an observer on the ground looks at is hidden.
       packet.high.active = all & ~packet.ambiguous;

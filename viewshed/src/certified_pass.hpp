@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include <viewshed/viewshed.hpp>
@@ -23,6 +24,7 @@
 #include "surface_heights.hpp"
 #include "triangle_bins.hpp"
 #include "upper_scene.hpp"
+#include "void_shadow.hpp"
 
 namespace itin::viewshed {
 
@@ -41,6 +43,7 @@ class EnvelopeScene {
   struct Look {
     Eye eye;
     double upper = 0;  ///< grid units: the upper surface there, or -infinity where there is none
+    std::optional<VoidShadow> shadow = std::nullopt;  ///< unless voids are passed
   };
   Look look_from(const Eye& eye) const;
   /// The same, from those of the triangles that may lie under the eye.
@@ -51,8 +54,9 @@ class EnvelopeScene {
   UpperScene upper;
   TriangleBins bins;
   std::optional<TriangleBins> ground_bins;  ///< of the bare ground, where the envelope has it
-  bool exact;                               ///< both surfaces are the full one, of level 0
-  double drop;                              ///< by curvature, grid units a squared grid unit
+  Voids voids;
+  bool exact;   ///< both surfaces are the full one, of level 0
+  double drop;  ///< by curvature, grid units a squared grid unit
 };
 
 /// Lines of a packet that are not decided, to their lowest targets.

@@ -154,13 +154,18 @@ class InSegments {
     for_each_look(eye, observer, [&](std::size_t tile, const Look& look, std::size_t place) {
       if (!observations_[tile]->open(look)) raster.values()[place] = kOutside;
     });
-    const std::vector<TileSet> needed = coarse_pass(eye, raster);
+    const EnvelopeScene::Look coarse_look = coarse_->look_from(eye);
+    const std::vector<TileSet> needed = coarse_pass(coarse_look, raster);
     // The scene's memory is free for the segments, when no other observer needs it.
     if (observer + 1 == request_.observers.size()) coarse_.reset();
     for (const std::vector<std::size_t>& cells : segments(eye, needed)) {
       const OwnedSurface segment = refine(cells, needed);
       raster.judge(cells, [&](std::size_t i, TileValues<std::uint8_t>& values) {
-        return segment.full.judge(eye, values, *segment.full.begin(cells[i]));
+        const auto work = segment.full.begin(cells[i]);
+        const std::uint64_t lines = segment.full.judge(eye, values, *work);
+        // The edges of the window are no voids.
+        if (coarse_look.shadow) coarse_look.shadow->hide(work->centres, values);
+        return lines;
       });
     }
     surveyed_.result.statistics.rays += raster.rays();
@@ -189,13 +194,12 @@ class InSegments {
   }
 
   /// The ground that each tile's undecided lines need at full detail.
-  std::vector<TileSet> coarse_pass(const Eye& eye, ObserverRaster& raster) {
+  std::vector<TileSet> coarse_pass(const EnvelopeScene::Look& look, ObserverRaster& raster) {
     std::vector<std::size_t> all(tiles_.cell_count());
     std::iota(all.begin(), all.end(), std::size_t{0});
     std::vector<TileSet> needed(all.size());
     const Grid& units = store_.metadata().grid;
     const CertifiedPass pass(*coarse_, surveyed_.result.grid, tiles_);
-    const EnvelopeScene::Look look = coarse_->look_from(eye);
     raster.judge(all, [&](std::size_t tile, TileValues<std::uint8_t>& values) {
       const auto work = pass.begin(tile);
       pass.judge(look, values, *work, [&](const Doubtful& d) {
@@ -255,7 +259,7 @@ class InSegments {
     return result;
   }
 
-  /// The edges of the window are no voids; lines behind voids were hidden in the coarse pass.
+  /// All the ground that the cells need.
   OwnedSurface refine(const std::vector<std::size_t>& cells, const std::vector<TileSet>& needed) {
     surveyed_.result.statistics.rays_seconds += watch_.lap();
     TileSet ground(ground_->count());

@@ -56,8 +56,7 @@ RasterGrid location_grid(const Tin& tin) {
 
 class Scene::Impl {
  public:
-  Impl(const Tin& tin, const Earth& earth, NoData nodata, double ceiling,
-       std::optional<std::vector<BoundaryEdge>> outline)
+  Impl(const Tin& tin, const Earth& earth, NoData nodata, double ceiling)
       : tin_(tin),
         drop_(earth.drop_coefficient() * tin.grid.resolution),
         sag_(drop_ == 0 ? 0 : kSag),
@@ -67,7 +66,7 @@ class Scene::Impl {
         boundary_(boundary_edges(tin)) {
     attach_surface();
     attach_walls();
-    if (nodata == NoData::kBlock) attach_curtains(outline ? std::move(*outline) : boundary_, ceiling);
+    if (nodata == NoData::kBlock) attach_curtains(boundary_, ceiling);
     embree_.commit();
     // Fewer, larger arrays for the ray casting that follows; Embree has its own copy of what it needs.
     tessellation_.indices = {};
@@ -274,9 +273,8 @@ class Scene::Impl {
   EmbreeScene embree_;
 };
 
-Scene::Scene(const Tin& tin, const Earth& earth, NoData nodata, double ceiling,
-             std::optional<std::vector<BoundaryEdge>> outline)
-    : impl_(std::make_unique<Impl>(tin, earth, nodata, ceiling, std::move(outline))) {}
+Scene::Scene(const Tin& tin, const Earth& earth, NoData nodata, double ceiling)
+    : impl_(std::make_unique<Impl>(tin, earth, nodata, ceiling)) {}
 Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 Scene::~Scene() = default;

@@ -42,10 +42,9 @@ struct Occluder {
 
 class Scene {
  public:
-  /// The Tin must outlive the scene. With NoData::kBlock curtains stand along the Tin's boundary, or along `outline`
-  /// where that is given, `ceiling` metres high: no end may lie higher. Throws std::bad_alloc.
-  Scene(const Tin& tin, const Earth& earth, NoData nodata, double ceiling,
-        std::optional<std::vector<BoundaryEdge>> outline = std::nullopt);
+  /// The Tin must outlive the scene. With NoData::kBlock curtains stand along the Tin's boundary, `ceiling` metres
+  /// high: no end may lie higher. Throws std::bad_alloc.
+  Scene(const Tin& tin, const Earth& earth, NoData nodata, double ceiling);
   Scene(Scene&&) noexcept;
   Scene& operator=(Scene&&) noexcept;
   ~Scene();

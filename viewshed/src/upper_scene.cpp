@@ -64,8 +64,8 @@ void join(std::vector<Event>& events, bool starts_under, bool ends_under, std::v
 
 class UpperScene::Impl {
  public:
-  Impl(const Tin& tin, std::vector<std::uint32_t> pieces, const Earth& earth, std::optional<Curtains> curtains)
-      : tin_(tin), pieces_(std::move(pieces)), boundary_(boundary_edges(tin)), curtains_(std::move(curtains)) {
+  Impl(const Tin& tin, std::vector<std::uint32_t> pieces, const Earth& earth)
+      : tin_(tin), pieces_(std::move(pieces)), boundary_(boundary_edges(tin)) {
     const double drop = earth.drop_coefficient() * tin.grid.resolution;
     Tessellation tessellation = tessellate(tin, drop);
     const double sag = drop == 0 ? 0 : kSag;
@@ -74,7 +74,6 @@ class UpperScene::Impl {
     attach_surface(tessellation);
     parents_ = std::move(tessellation.parents);
     attach_walls(walls_under(tin, boundary_, tessellation, drop, std::nullopt));
-    if (curtains_) attach_curtains(walls_under(tin, curtains_->edges, tessellation, drop, curtains_->ceiling));
     embree_.commit();
   }
 
@@ -156,31 +155,16 @@ class UpperScene::Impl {
     embree_.attach(geometry);
   }
 
-  void attach_curtains(const Walls& walls) {
-    if (walls.indices.empty()) return;
-    const Geometry geometry = embree_.triangles(walls.vertices, walls.indices, this);
-    rtcSetGeometryOccludedFilterFunction(geometry.get(), [](const RTCFilterFunctionNArguments* arguments) {
-      const auto& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
-      filter(arguments, [&](PacketContext& packet, unsigned line, unsigned i) {
-        const BoundaryEdge& edge = self.curtains_->edges[RTCHitN_primID(arguments->hit, arguments->N, i) / 2];
-        return packet.events == nullptr && crossing_back(self.tin_, edge, *packet.lines, line) != Crossing::kNone;
-      });
-    });
-    embree_.attach(geometry);
-  }
-
   const Tin& tin_;
   std::vector<std::uint32_t> pieces_;
   std::vector<std::uint32_t> parents_;  ///< of the pieces of cut triangles
   std::vector<BoundaryEdge> boundary_;
-  std::optional<Curtains> curtains_;
   RayFrame frame_;
   EmbreeScene embree_;
 };
 
-UpperScene::UpperScene(const Tin& tin, std::vector<std::uint32_t> pieces, const Earth& earth,
-                       std::optional<Curtains> curtains)
-    : impl_(std::make_unique<Impl>(tin, std::move(pieces), earth, std::move(curtains))) {}
+UpperScene::UpperScene(const Tin& tin, std::vector<std::uint32_t> pieces, const Earth& earth)
+    : impl_(std::make_unique<Impl>(tin, std::move(pieces), earth)) {}
 UpperScene::UpperScene(UpperScene&&) noexcept = default;
 UpperScene& UpperScene::operator=(UpperScene&&) noexcept = default;
 UpperScene::~UpperScene() = default;

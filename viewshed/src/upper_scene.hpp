@@ -29,27 +29,20 @@ struct Stretch {
   double to = 1;
 };
 
-/// Lines that come back to the surface across one of these edges count as touching it.
-struct Curtains {
-  std::vector<BoundaryEdge> edges;
-  double ceiling = 0;  ///< metres; no end lies higher
-};
-
 /// Safe for concurrent use.
 class UpperScene {
  public:
   /// The Tin must outlive the scene, and may consist of overlapping pieces: `pieces` has the first triangle of each but
   /// the first. Throws std::bad_alloc.
-  UpperScene(const Tin& tin, std::vector<std::uint32_t> pieces, const Earth& earth, std::optional<Curtains> curtains);
+  UpperScene(const Tin& tin, std::vector<std::uint32_t> pieces, const Earth& earth);
   UpperScene(UpperScene&&) noexcept;
   UpperScene& operator=(UpperScene&&) noexcept;
   ~UpperScene();
 
   /// One bit a line: 0 clears the surface, 1 may not.
   unsigned touched(const SightLines& lines) const;
-  /// For each active line what holds every part that does not clear the surface, but for a
-  /// millimetre at its ends. `starts_under` and `ends_under`: lines whose end is not above the surface. Curtains do not
-  /// count.
+  /// For each active line what holds every part that does not clear the surface, but for a millimetre at its ends.
+  /// `starts_under` and `ends_under`: lines whose end is not above the surface.
   using Stretches = std::array<std::vector<Stretch>, SightLines::kSize>;
   void find_stretches(const SightLines& lines, unsigned starts_under, unsigned ends_under, Stretches& result) const;
   /// e(l) in grid units for a line of `length` grid units.

@@ -28,22 +28,26 @@ bool VoidShadow::reaches(const Vector& line, const Vector& place) {
   return dot(line, place) > 0 && dot(place, place) <= dot(line, line);
 }
 
-VoidShadow::VoidShadow(const Tin& tin, const std::vector<BoundaryEdge>& boundary, const Point3& eye)
-    : tin_(tin), eye_(eye) {
-  // The surface lies to the left: seen from its right side it begins here.
-  const auto faces_away = [&](const BoundaryEdge& edge) {
-    const Vector a = from_eye(edge.from), b = from_eye(edge.to);
-    return cross(a, b) < 0;
+VoidShadow::VoidShadow(const Tin& tin, const std::vector<BoundaryEdge>& boundary, const Point3& eye) : eye_(eye) {
+  const auto from_eye = [&](std::uint32_t vertex) {
+    const GridPoint& v = tin.vertices[vertex];
+    return Vector{v.x - eye.x, v.y - eye.y};
   };
-  if (std::none_of(boundary.begin(), boundary.end(), faces_away)) return;
+  // The surface lies to the left: seen from its right side it begins here.
+  const auto faces_away = [](const Edge& edge) { return cross(edge.from, edge.to) < 0; };
+  for (const BoundaryEdge& edge : boundary) edges_.push_back({from_eye(edge.from), from_eye(edge.to)});
+  if (std::none_of(edges_.begin(), edges_.end(), faces_away)) {
+    edges_ = {};
+    return;
+  }
   sectors_.resize(kSectors);
-  for (const BoundaryEdge& edge : boundary) {
+  for (std::uint32_t i = 0; i < edges_.size(); ++i) {
     // From the right side an edge runs clockwise; a sector more on both sides, against rounding.
+    const Edge& edge = edges_[i];
     const bool away = faces_away(edge);
-    const GridPoint &first = tin.vertices[away ? edge.from : edge.to], &last = tin.vertices[away ? edge.to : edge.from];
-    const std::size_t end = (sector_of(last.x, last.y) + 1) % kSectors;
-    for (std::size_t s = (sector_of(first.x, first.y) + kSectors - 1) % kSectors;; s = (s + 1) % kSectors) {
-      sectors_[s].push_back(edge);
+    const std::size_t end = (sector_of(away ? edge.to : edge.from) + 1) % kSectors;
+    for (std::size_t s = (sector_of(away ? edge.from : edge.to) + kSectors - 1) % kSectors;; s = (s + 1) % kSectors) {
+      sectors_[s].push_back(i);
       if (s == end) break;
     }
   }
@@ -51,10 +55,11 @@ VoidShadow::VoidShadow(const Tin& tin, const std::vector<BoundaryEdge>& boundary
 
 bool VoidShadow::holds(double x, double y) const {
   if (sectors_.empty()) return false;
-  const std::vector<BoundaryEdge>& edges = sectors_[sector_of(x, y)];
   const Vector line{x - eye_.x, y - eye_.y};
-  return std::any_of(edges.begin(), edges.end(), [&](const BoundaryEdge& edge) {
-    const Vector a = from_eye(edge.from), b = from_eye(edge.to), along{b.x - a.x, b.y - a.y};
+  const Numbers& edges = sectors_[sector_of(line)];
+  return std::any_of(edges.begin(), edges.end(), [&](std::uint32_t i) {
+    const auto& [a, b] = edges_[i];
+    const Vector along{b.x - a.x, b.y - a.y};
     const double side_of_a = cross(line, a), side_of_b = cross(line, b);
     if (side_of_a == 0 && reaches(line, a) && comes_from_void(edges, a)) return true;
     if (side_of_b == 0 && reaches(line, b) && comes_from_void(edges, b)) return true;
@@ -65,12 +70,12 @@ bool VoidShadow::holds(double x, double y) const {
 
 /// Whether the line from the eye comes to this corner of the rim across ground without data. Of all edges that end
 /// there, the first one clockwise from the line tells on which side of it that lies.
-bool VoidShadow::comes_from_void(const std::vector<BoundaryEdge>& edges, const Vector& corner) const {
+bool VoidShadow::comes_from_void(const Numbers& edges, const Vector& corner) const {
   const Vector to_eye{-corner.x, -corner.y};
   double nearest = kTurn;
   bool from_void = false;
-  for (const BoundaryEdge& edge : edges) {
-    const Vector a = from_eye(edge.from), b = from_eye(edge.to);
+  for (const std::uint32_t i : edges) {
+    const auto& [a, b] = edges_[i];
     const bool ends_here = b == corner;
     if (!ends_here && a != corner) continue;
     const Vector along = ends_here ? Vector{a.x - b.x, a.y - b.y} : Vector{b.x - a.x, b.y - a.y};
@@ -82,11 +87,6 @@ bool VoidShadow::comes_from_void(const std::vector<BoundaryEdge>& edges, const V
   return from_void;
 }
 
-VoidShadow::Vector VoidShadow::from_eye(std::uint32_t vertex) const {
-  const GridPoint& v = tin_.vertices[vertex];
-  return {v.x - eye_.x, v.y - eye_.y};
-}
-
 void VoidShadow::hide(const TileCentres& centres, TileValues<std::uint8_t>& values) const {
   if (sectors_.empty()) return;
   for (std::size_t cell = 0; cell < values.size(); ++cell) {
@@ -95,8 +95,8 @@ void VoidShadow::hide(const TileCentres& centres, TileValues<std::uint8_t>& valu
   }
 }
 
-std::size_t VoidShadow::sector_of(double x, double y) const {
-  const double turns = std::atan2(x - eye_.x, y - eye_.y) / (2 * std::numbers::pi) + 0.5;
+std::size_t VoidShadow::sector_of(const Vector& place) {
+  const double turns = std::atan2(place.x, place.y) / kTurn + 0.5;
   return std::min(kSectors - 1, static_cast<std::size_t>(turns * kSectors));
 }
 

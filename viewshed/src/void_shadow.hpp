@@ -17,8 +17,7 @@ namespace itin::viewshed {
 
 class VoidShadow {
  public:
-  /// The Tin must outlive it. Grid units. Cost: the edges, each as often as the sectors of the horizon it spans, if any
-  /// faces away from the eye.
+  /// Grid units. Cost: the edges, each as often as the sectors of the horizon it spans, if any faces away from the eye.
   VoidShadow(const Tin& tin, const std::vector<BoundaryEdge>& boundary, const Point3& eye);
 
   /// Whether the line from the eye to a place comes back to the surface, be it at the place itself. Both lie on the
@@ -29,21 +28,26 @@ class VoidShadow {
   void hide(const TileCentres& centres, TileValues<std::uint8_t>& values) const;
 
  private:
-  std::size_t sector_of(double x, double y) const;
   /// From the eye, grid units.
   struct Vector {
     double x = 0, y = 0;
     friend bool operator==(const Vector&, const Vector&) = default;
   };
+  /// The surface is to the left of from -> to.
+  struct Edge {
+    Vector from, to;
+  };
+  using Numbers = std::vector<std::uint32_t>;
+
   static double cross(const Vector& a, const Vector& b);
   static double dot(const Vector& a, const Vector& b);
   static bool reaches(const Vector& line, const Vector& place);
-  Vector from_eye(std::uint32_t vertex) const;
-  bool comes_from_void(const std::vector<BoundaryEdge>& edges, const Vector& corner) const;
+  static std::size_t sector_of(const Vector& place);
+  bool comes_from_void(const Numbers& edges, const Vector& corner) const;
 
-  const Tin& tin_;
   Point3 eye_;
-  std::vector<std::vector<BoundaryEdge>> sectors_;  ///< clockwise from the south; empty where no edge faces away
+  std::vector<Edge> edges_;       ///< none where no edge faces away
+  std::vector<Numbers> sectors_;  ///< clockwise from the south; as edges_
 };
 
 }  // namespace itin::viewshed

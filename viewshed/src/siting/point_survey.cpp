@@ -139,6 +139,10 @@ class PointPass {
       verdict.visible |= bit;
       return;
     }
+    if (look.shadow && look.shadow->holds(x, y)) {
+      verdict.hidden |= bit;
+      return;
+    }
     const double metre = 1 / grid.resolution;
     const auto target = [&](double units) { return (units * grid.resolution + request_.target_height) * metre; };
     const double low = target(ground.low), high = target(scene_.exact ? ground.low : ground.high);
