@@ -160,19 +160,22 @@ class Standing {
     const TerrainHeights terrain(tin);
     const std::vector<Segment> outline = outline_near(ground_, box);
     FeatureMesh mesh = build_feature_mesh(features, options_, &terrain, quiet);
-    const std::set<std::uint32_t> beyond = beyond_ground(mesh, outline, terrain);
-    if (!beyond.empty()) {
+    std::set<std::uint32_t> left_out;
+    // Over what those had covered, others may now reach.
+    for (auto beyond = beyond_ground(mesh, outline, terrain); !beyond.empty();
+         beyond = beyond_ground(mesh, outline, terrain)) {
       for (const std::uint32_t f : beyond) {
         theme_.reports.push_back(features[f].name + ": left out: reaches beyond the ground");
         features[f].rings.clear();
         features[f].surfaces.clear();
       }
+      left_out.merge(beyond);
       mesh = build_feature_mesh(features, options_, &terrain, quiet);
-      std::erase_if(mesh.reports, [&](const std::string& report) {
-        return std::any_of(beyond.begin(), beyond.end(),
-                           [&](std::uint32_t f) { return report.starts_with(features[f].name + ": "); });
-      });
     }
+    std::erase_if(mesh.reports, [&](const std::string& report) {
+      return std::any_of(left_out.begin(), left_out.end(),
+                         [&](std::uint32_t f) { return report.starts_with(features[f].name + ": "); });
+    });
     theme_.reports.insert(theme_.reports.end(), mesh.reports.begin(), mesh.reports.end());
     theme_.built += mesh.built;
     theme_.refused += mesh.refused;

@@ -381,6 +381,16 @@ TEST_F(StandingThemes, WhatCannotStandIsNamed) {
   EXPECT_THROW(raise(ThemeKind::Walls, "houses", {box(300302, 199702, 300342, 199732, 9)}), InputError);
 }
 
+/// The lower house has no ground of its own there before the higher one is left out.
+TEST_F(StandingThemes, WhatALeftOutHouseCoveredOverAVoidIsNotBuiltEither) {
+  ground(10, [](int c, int r) { return std::hypot(c - 25, r - 25) < 2 ? std::nan("") : 50.0; });
+  const ImportReport report = raise(ThemeKind::Buildings, "houses",
+                                    {box(300200, 199720, 300310, 199770, 12), box(300180, 199735, 300330, 199755, 9)});
+  EXPECT_EQ(report.features, 0u);
+  EXPECT_EQ(report.refused, 2u);
+  expect_sound();
+}
+
 /// In every cell, what stands is at most as much above the ground as the store says.
 TEST_F(StandingThemes, NothingRisesAboveTheGreatestHeight) {
   ground(10, rolling);
