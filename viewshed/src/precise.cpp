@@ -27,12 +27,20 @@ namespace {
 constexpr std::uint64_t kBytesAPoint = 400;
 /// Of an envelope, which has two surfaces and two scenes; and half of the memory is for what is refined meanwhile.
 constexpr std::uint64_t kBytesAnEnvelopePoint = 2400;
+/// Of the rasters that hold what is known of every cell.
+constexpr std::uint64_t kBytesACell = 6;
 /// The coarse pass reads so much less than the full surface.
 constexpr std::uint64_t kCoarseShare = 12;
 
 Point2 along(const Grid& grid, const SightLines& lines, unsigned i, double s) {
   return {grid.origin.x + (lines.from_x[i] + s * (lines.to_x[i] - lines.from_x[i])) * grid.resolution,
           grid.origin.y + (lines.from_y[i] + s * (lines.to_y[i] - lines.from_y[i])) * grid.resolution};
+}
+
+/// What the rasters leave of the memory, or a quarter of it.
+std::uint64_t memory_beside_rasters(std::uint64_t memory, std::uint64_t cells) {
+  const std::uint64_t rasters = std::min(memory, kBytesACell * cells);
+  return std::max(memory / 4, memory - rasters);
 }
 
 template <class Visit>
@@ -48,7 +56,7 @@ class InSegments {
         request_(request),
         features_(features_stand(store, request)),
         box_(box_of_window(store, request)),
-        memory_(options.memory_bytes),
+        memory_(memory_beside_rasters(options.memory_bytes, cells_of(request, box_).cell_count())),
         progress_(progress) {}
 
   Surveyed run() {
@@ -282,7 +290,7 @@ class InSegments {
   const Request& request_;
   bool features_;  ///< stand on the ground
   Box box_;
-  std::uint64_t memory_;  ///< bytes
+  std::uint64_t memory_;  ///< bytes, without the rasters
   Progress& progress_;
   Stopwatch watch_;
   Surveyed surveyed_;
