@@ -56,9 +56,10 @@ class SiteVerb final : public Verb {
     };
     coverage.look_first();
     SiteResult site{options_, inputs, coverage, choose(store, inputs, coverage, progress), {}, {}};
-    site.links = site_links(store, options_, inputs, site.choice, hub(store, progress), progress);
+    const std::optional<viewshed::SiteStand> hub_stand = hub(store, progress);
+    site.links = site_links(store, options_, inputs, site.choice, hub_stand, progress);
     site.rasters = site_rasters(store, options_, inputs, coverage, site.choice, progress);
-    Result result = write(store, site, progress);
+    Result result = write(store, site, hub_stand, progress);
     if (work.restored() > 0)
       result.text += fmt::format("{} results of an earlier run were used\n", grouped(work.restored()));
     work.remove();
@@ -133,7 +134,8 @@ class SiteVerb final : public Verb {
     return viewshed::choose(inputs.demand, inputs.options, coverage, goal, progress);
   }
 
-  Result write(const Store& store, const SiteResult& site, Progress& progress) {
+  Result write(const Store& store, const SiteResult& site, const std::optional<viewshed::SiteStand>& hub_stand,
+               Progress& progress) {
     const std::string& crs = store.metadata().crs_wkt;
     Result result;
     warn(site, result.warnings);
@@ -144,7 +146,10 @@ class SiteVerb final : public Verb {
     write_site_rasters(site, options_.directory, crs, parameters().dump(), policy_.overwrite);
     write_site_tables(site, options_.directory, policy_.overwrite);
     write_site_layers(site, options_.directory, crs, policy_.overwrite);
-    write_site_report(site, parameters(), inputs_document_, options_.directory, policy_.overwrite);
+    const auto profiles = write_site_profiles(store, site, hub_stand, options_.directory, policy_.overwrite, progress);
+    for (const SiteProfile& profile : profiles)
+      result.document["outputs"].push_back({{"path", profile.path}, {"what", "profile of the link " + profile.what}});
+    write_site_report(site, profiles, parameters(), inputs_document_, options_.directory, policy_.overwrite);
     Document whole{{"itin", ITIN_VERSION}, {"command", {{"verb", name()}}}};
     whole["command"].update(parameters());
     whole.update(result.document);
@@ -157,7 +162,7 @@ class SiteVerb final : public Verb {
                                      {"blocks_read", statistics.retrieval.blocks_read},
                                      {"triangles", statistics.triangles},
                                      {"rays", statistics.rays}};
-    result.text = text(site);
+    result.text = text(site, result.document["outputs"].size());
     return result;
   }
 
@@ -181,7 +186,7 @@ class SiteVerb final : public Verb {
       warnings.emplace_back("the wanted share is not reached: no further site that may be taken gains anything");
   }
 
-  std::string text(const SiteResult& site) const {
+  std::string text(const SiteResult& site, std::size_t files) const {
     const double total = site.in_metric(site.inputs.total);
     std::string text;
     for (const viewshed::ChosenSite& chosen : site.choice.chosen) {
@@ -197,7 +202,7 @@ class SiteVerb final : public Verb {
     text += fmt::format("{} candidates, {} options, {} looked at again; {} left out\n",
                         grouped(site.inputs.candidates.size()), grouped(site.inputs.options.size()),
                         grouped(site.refined()), grouped(site.inputs.rejected.size()));
-    return text + fmt::format("{}: {} files; open report.html\n", options_.directory, outputs_.size());
+    return text + fmt::format("{}: {} files; open report.html\n", options_.directory, files);
   }
 
   SiteOptions options_;

@@ -146,12 +146,24 @@ std::string links_table(const SiteResult& r) {
   return table.finish();
 }
 
-std::string image(const std::string& directory, const char* name, const char* what) {
-  const std::string path = (std::filesystem::path(directory) / name).string();
+std::string image(const std::string& path, const std::string& type, const std::string& what) {
   std::ifstream file(path, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   if (bytes.empty()) throw FileError(path, "cannot be read back for the report");
-  return fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">\n", what, base64(bytes));
+  return fmt::format("<img alt=\"{}\" src=\"data:{};base64,{}\">\n", escaped_markup(what), type, base64(bytes));
+}
+
+std::string map(const std::string& directory, const char* name, const char* what) {
+  return image((std::filesystem::path(directory) / name).string(), "image/png", what);
+}
+
+std::string drawings(const std::vector<SiteProfile>& profiles) {
+  if (profiles.empty()) return {};
+  std::string html = "<h2>Profiles of the links in sight</h2>\n";
+  for (const SiteProfile& profile : profiles)
+    html += "<p class=\"note\">" + escaped_markup(profile.what) + "</p>\n" +
+            image(profile.path, "image/svg+xml", "profile of " + profile.what);
+  return html;
 }
 
 std::string left_out(const SiteResult& r) {
@@ -187,20 +199,21 @@ std::string summary(const SiteResult& r) {
 
 }  // namespace
 
-void write_site_report(const SiteResult& r, const Document& parameters, const Document& inputs,
-                       const std::string& directory, bool overwrite) {
+void write_site_report(const SiteResult& r, const std::vector<SiteProfile>& profiles, const Document& parameters,
+                       const Document& inputs, const std::string& directory, bool overwrite) {
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Sites</title><style>{}</style></head>"
       "<body>\n<h1>{} sites chosen from {} candidates</h1>\n",
       kStyle, r.choice.chosen.size(), r.inputs.candidates.size());
   html += summary(r);
-  html += image(directory, "coverage.png", "map of what the choice serves");
+  html += map(directory, "coverage.png", "map of what the choice serves");
   html += "<h2>Coverage curve</h2>\n" + curve(r);
   html += "<h2>Sites, in the order in which they gain most</h2>\n" + sites_table(r);
   html += "<h2>How closely candidates had to be looked at</h2>\n" + looks_table(r);
   html += "<h2>Those that came nearest</h2>\n" + closest_table(r);
   if (!r.links.empty()) html += "<h2>Lines of sight between sites</h2>\n" + links_table(r);
-  html += "<h2>Redundancy</h2>\n" + image(directory, "redundancy.png", "map of how many sites serve a place");
+  html += drawings(profiles);
+  html += "<h2>Redundancy</h2>\n" + map(directory, "redundancy.png", "map of how many sites serve a place");
   html += left_out(r);
   html +=
       fmt::format("<h2>Parameters and inputs</h2>\n<p class=\"note\">{}. {}</p>\n<pre>{}</pre>\n<pre>{}</pre>\n",

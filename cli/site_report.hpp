@@ -2,9 +2,11 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <itin/store.hpp>
 
+#include "site_profiles.hpp"
 #include "site_result.hpp"
 #include "verb.hpp"
 
@@ -14,8 +16,8 @@ namespace itin::cli {
 void write_site_maps(const Store& store, const SiteResult& result, const std::string& directory, bool overwrite,
                      Progress& progress, std::vector<std::string>& warnings);
 
-/// `parameters` and `inputs` are shown as they are; the maps are read from the folder. Throws FileError.
-void write_site_report(const SiteResult& result, const Document& parameters, const Document& inputs,
-                       const std::string& directory, bool overwrite);
+/// `parameters` and `inputs` are shown as they are; the maps and profiles are read from their files. Throws FileError.
+void write_site_report(const SiteResult& result, const std::vector<SiteProfile>& profiles, const Document& parameters,
+                       const Document& inputs, const std::string& directory, bool overwrite);
 
 }  // namespace itin::cli
