@@ -79,8 +79,7 @@ std::vector<std::pair<std::string, std::string>> facts_about(const Store& store,
 
 /// The themes by number, and the features where the sight line is cut or tightest.
 void name_features(const Store& store, profile::LosReport& report) {
-  report.themes = {"terrain"};
-  for (const ThemeInfo& theme : store.metadata().themes) report.themes.push_back(theme.name);
+  report.themes = theme_names(store.metadata());
   struct Wanted {
     std::vector<Point2> places;
     std::vector<std::int64_t*> features;

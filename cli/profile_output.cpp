@@ -22,13 +22,6 @@ namespace {
 using profile::Profile;
 using profile::ProfilePoint;
 
-/// By ProfilePoint::theme.
-std::vector<std::string> theme_names(const StoreMetadata& metadata) {
-  std::vector<std::string> names{"terrain"};
-  for (const ThemeInfo& theme : metadata.themes) names.push_back(theme.name);
-  return names;
-}
-
 std::string ending_of(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });

@@ -9,6 +9,8 @@
 #include <profile/report.hpp>
 
 #include "output_path.hpp"
+#include "radio_options.hpp"
+#include "store_document.hpp"
 
 namespace itin::cli {
 
@@ -26,7 +28,7 @@ profile::LosReport report_of(const Store& store, const SiteOptions& options, con
   if (options.frequency_ghz && query.earth.drop_coefficient() > 0) {
     query.radio.emplace();
     query.radio->frequency_ghz = *options.frequency_ghz;
-    query.radio->effective_earth_km = 1 / (2 * query.earth.drop_coefficient()) / 1000;
+    query.radio->effective_earth_km = effective_earth_km(query.earth);
   }
   const ThemeChoice& themes = options.themes.choice();
   const auto profile_with = [&](const ThemeChoice& choice) {
@@ -43,8 +45,7 @@ profile::LosReport report_of(const Store& store, const SiteOptions& options, con
   };
   report.from_lines = about(from), report.to_lines = about(to);
   report.crs_wkt = store.metadata().crs_wkt;
-  report.themes = {"terrain"};
-  for (const ThemeInfo& theme : store.metadata().themes) report.themes.push_back(theme.name);
+  report.themes = theme_names(store.metadata());
   return report;
 }
 

@@ -179,11 +179,11 @@ std::string looks(const SiteResult& r) {
   const std::string options =
       fmt::format("{} candidates, {} options", r.inputs.candidates.size(), r.inputs.options.size());
   if (r.coverage.last_stage() == 0) return options + "; the first look at each was exact.";
-  return options + fmt::format(
-                       "; {} of them were looked at again after the first look. The others could be left: what they "
-                       "serve at most "
-                       "never came first, so exact coverage of all would have led to the same choice.",
-                       r.refined());
+  return fmt::format(
+      "{}; {} of them were looked at again after the first look. The others could be left: what they serve at most "
+      "never "
+      "came first, so exact coverage of all would have led to the same choice.",
+      options, r.refined());
 }
 
 std::string summary(const SiteResult& r) {

@@ -58,6 +58,12 @@ Document themes_document(const StoreMetadata& metadata) {
   return themes;
 }
 
+std::vector<std::string> theme_names(const StoreMetadata& metadata) {
+  std::vector<std::string> names{"terrain"};
+  for (const ThemeInfo& theme : metadata.themes) names.push_back(theme.name);
+  return names;
+}
+
 std::string themes_table(const StoreMetadata& metadata) {
   if (metadata.themes.empty()) return fmt::format("{:<12}none\n", "themes");
   std::string table;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <itin/detail.hpp>
 #include <itin/store.hpp>
@@ -20,6 +21,9 @@ Document surface_document(const StoreMetadata& metadata, const Detail& detail, c
 /// `themes`, in the store's order; and the same as text.
 Document themes_document(const StoreMetadata& metadata);
 std::string themes_table(const StoreMetadata& metadata);
+
+/// By the number of a theme; 0 is the terrain.
+std::vector<std::string> theme_names(const StoreMetadata& metadata);
 
 /// `levels`, finest first. A level's `vertices` are those stored in it, so that they sum up to the store's;
 /// `query_vertices` are those that a query at its tolerance reads: its own and all coarser ones.

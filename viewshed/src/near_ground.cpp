@@ -15,17 +15,13 @@ namespace {
 /// Points of one level about one observer, and about all of them; never more than this share of the full surface.
 constexpr double kNearPoints = 16000, kAllNearPoints = 400000, kNearShare = 1.0 / 64;
 
-Box around(Point2 p, double radius) {
-  return {p.x - radius, p.y - radius, p.x + radius, p.y + radius};
-}
-
 /// The greatest radius, in steps of a square root of 2, within which a level has no more points than that.
 double radius_with(const Store& store, int level, Point2 centre, double points) {
   const Box all = store.metadata().grid.box(store.metadata().bounds);
   const double greatest = std::max(all.width(), all.height());
   double radius = store.metadata().grid.resolution;
   while (radius < greatest &&
-         static_cast<double>(store.points_about(level, around(centre, std::sqrt(2) * radius))) <= points)
+         static_cast<double>(store.points_about(level, disc_box(centre, std::sqrt(2) * radius))) <= points)
     radius *= std::sqrt(2);
   return radius;
 }
@@ -34,7 +30,7 @@ double radius_with(const Store& store, int level, Point2 centre, double points) 
 
 std::optional<double> height_at(const Store& store, Point2 position, const ThemeChoice& themes, Progress& progress,
                                 const Detail& detail) {
-  const Box about = around(position, 2 * store.metadata().grid.resolution);
+  const Box about = disc_box(position, 2 * store.metadata().grid.resolution);
   return height_on(triangulate(store, Window::box(about), detail, progress, themes), position);
 }
 

@@ -78,10 +78,6 @@ double default_cell_size(const Box& box) {
   return 10 * decade;
 }
 
-Box disc_box(Point2 centre, double radius) {
-  return {centre.x - radius, centre.y - radius, centre.x + radius, centre.y + radius};
-}
-
 Box intersection(const Box& a, const Box& b) {
   return {std::max(a.xmin, b.xmin), std::max(a.ymin, b.ymin), std::min(a.xmax, b.xmax), std::min(a.ymax, b.ymax)};
 }
@@ -129,6 +125,10 @@ RasterGrid cells_of(const Request& request, const Box& coverage) {
   }
   if (area.empty()) throw InputError("no observer's radius reaches any data");
   return RasterGrid::aligned(area, request.cell_size ? *request.cell_size : default_cell_size(area));
+}
+
+Box disc_box(Point2 centre, double radius) {
+  return {centre.x - radius, centre.y - radius, centre.x + radius, centre.y + radius};
 }
 
 Window window_of(const Request& request) {

@@ -24,6 +24,9 @@ std::optional<double> radius_of(const Request& request, const Observer& observer
 /// the radius of an observer, where each has one. Throws InputError if there is none.
 RasterGrid cells_of(const Request& request, const Box& coverage);
 
+/// About a disc, metres.
+Box disc_box(Point2 centre, double radius);
+
 /// The region that holds every sight line of the request.
 Window window_of(const Request& request);
 

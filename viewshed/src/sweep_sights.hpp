@@ -20,46 +20,64 @@ struct SweptEnd {
 
 // Each tells the line that is to be cleared by its height at the axis and its slope, outward a bin.
 
-/// From an eye to the top of an axis: how far down it is seen.
-class AxisSight {
+/// The end of a line, raised by every triangle that hides what is lower.
+class RaisedEnd {
  public:
-  AxisSight(const Tin& tin, const SightLine& from_eye, double base, const SweptEnd& eye, double margin)
-      : tin_(tin), line_(from_eye), top_(from_eye.to_z()), eye_(eye), margin_(margin) {
-    raise(std::min(base, top_));
-  }
-
-  double at_axis() const { return least_; }
-  double slope() const { return slope_; }
   double least() const { return least_; }
   std::uint32_t silhouette() const { return silhouette_; }
 
-  /// Whether the top can still be seen over this triangle, too.
-  bool clears(std::uint32_t triangle) {
+  bool hides(std::uint32_t triangle, double end) const {
+    const Triangle& t = tin_.triangles[triangle];
+    return line_.with_end(end).hidden_by(tin_.vertices[t[0]], tin_.vertices[t[1]], tin_.vertices[t[2]]);
+  }
+
+ protected:
+  RaisedEnd(const Tin& tin, const SightLine& line, double least, double highest, double margin)
+      : tin_(tin), line_(line), highest_(highest), margin_(margin), least_(least) {}
+  const SightLine& line() const { return line_; }
+
+  /// Whether the highest can still be seen over this triangle, too. Calls raised() where the least one is higher then.
+  template <class Raised>
+  bool clears(std::uint32_t triangle, const Raised& raised) {
     const Triangle& t = tin_.triangles[triangle];
     const GridPoint &a = tin_.vertices[t[0]], &b = tin_.vertices[t[1]], &c = tin_.vertices[t[2]];
     if (line_.apart(a, b, c, least_, margin_)) return true;
     const double end = line_.clearing_end(a, b, c);
     if (end <= least_) return true;
     silhouette_ = triangle;
-    if (end > top_ && line_.hidden_by(a, b, c)) return false;
-    // What rises by less than a grazing is only touched, though clearing it takes a hair more than the top.
-    raise(std::min(end, top_));
+    if (end > highest_ && hides(triangle, highest_)) return false;
+    // What rises by less than a grazing is only touched, though clearing it takes a hair more than the highest.
+    least_ = std::min(end, highest_);
+    raised();
     return true;
   }
 
  private:
-  void raise(double least) {
-    least_ = least;
-    slope_ = (line_.from().z - eye_.drop - least) / eye_.along;
-  }
-
   const Tin& tin_;
   const SightLine& line_;
-  double top_;
-  SweptEnd eye_;
-  double margin_;
-  double least_ = 0, slope_ = 0;
+  double highest_, margin_, least_;
   std::uint32_t silhouette_ = kNoSilhouette;
+};
+
+/// From an eye to the top of an axis: how far down it is seen.
+class AxisSight : public RaisedEnd {
+ public:
+  AxisSight(const Tin& tin, const SightLine& from_eye, double base, const SweptEnd& eye, double margin)
+      : RaisedEnd(tin, from_eye, std::min(base, from_eye.to_z()), from_eye.to_z(), margin), eye_(eye) {
+    turn();
+  }
+
+  double at_axis() const { return least(); }
+  double slope() const { return slope_; }
+  bool clears(std::uint32_t triangle) {
+    return RaisedEnd::clears(triangle, [this] { turn(); });
+  }
+
+ private:
+  void turn() { slope_ = (line().from().z - eye_.drop - least()) / eye_.along; }
+
+  SweptEnd eye_;
+  double slope_ = 0;
 };
 
 /// From a point to a target: whether it is seen.
@@ -92,52 +110,30 @@ class PointSight {
 };
 
 /// From a point to what may stand on the ground: how low that is seen.
-class HeightSight {
+class HeightSight : public RaisedEnd {
  public:
   struct Range {
     double lowest = 0, highest = 0;
     double hidden_below = 0;  ///< is known to be hidden
   };
   HeightSight(const Tin& tin, const SightLine& to_lowest, const Range& range, const SweptEnd& end, double margin)
-      : tin_(tin), line_(to_lowest), end_(end), highest_(range.highest), margin_(margin) {
-    raise(std::max(range.lowest, std::min(range.hidden_below, highest_)));
+      : RaisedEnd(tin, to_lowest, std::max(range.lowest, std::min(range.hidden_below, range.highest)), range.highest,
+                  margin),
+        end_(end) {
+    turn();
   }
 
-  double at_axis() const { return line_.from().z; }
+  double at_axis() const { return line().from().z; }
   double slope() const { return slope_; }
-  double least() const { return least_; }
-  std::uint32_t silhouette() const { return silhouette_; }
-
-  /// Whether the highest can still be seen over this triangle, too.
   bool clears(std::uint32_t triangle) {
-    const Triangle& t = tin_.triangles[triangle];
-    const GridPoint &a = tin_.vertices[t[0]], &b = tin_.vertices[t[1]], &c = tin_.vertices[t[2]];
-    if (line_.apart(a, b, c, least_, margin_)) return true;
-    const double end = line_.clearing_end(a, b, c);
-    if (end <= least_) return true;
-    silhouette_ = triangle;
-    if (end > highest_ && hides(triangle, highest_)) return false;
-    raise(std::min(end, highest_));
-    return true;
-  }
-
-  bool hides(std::uint32_t triangle, double end) const {
-    const Triangle& t = tin_.triangles[triangle];
-    return line_.with_end(end).hidden_by(tin_.vertices[t[0]], tin_.vertices[t[1]], tin_.vertices[t[2]]);
+    return RaisedEnd::clears(triangle, [this] { turn(); });
   }
 
  private:
-  void raise(double least) {
-    least_ = least;
-    slope_ = (least - end_.drop - at_axis()) / end_.along;
-  }
+  void turn() { slope_ = (least() - end_.drop - at_axis()) / end_.along; }
 
-  const Tin& tin_;
-  const SightLine& line_;
   SweptEnd end_;
-  double highest_, margin_;
-  double least_ = 0, slope_ = 0;
-  std::uint32_t silhouette_ = kNoSilhouette;
+  double slope_ = 0;
 };
 
 }  // namespace itin::viewshed

@@ -15,6 +15,7 @@
 #include <itin/error.hpp>
 
 #include "envelope.hpp"
+#include "request.hpp"
 #include "surface_heights.hpp"
 
 namespace itin::viewshed {
@@ -180,7 +181,7 @@ class Partition {
     }
     for (std::size_t k = 0; k < met.size(); ++k) {
       const Point2 p = zone_.request.turbines[k].position;
-      if (met[k]) add_corners({p.x - margin_, p.y - margin_, p.x + margin_, p.y + margin_}, points);
+      if (met[k]) add_corners(disc_box(p, margin_), points);
     }
     return hull_of(std::move(points));
   }

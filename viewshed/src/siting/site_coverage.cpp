@@ -33,18 +33,14 @@ constexpr double kNearPoints = 128;
 /// No coarse look at so few points: the full surface is as fast.
 constexpr std::uint64_t kFewPoints = 40000;
 
-Box around(Point2 p, double radius) {
-  return {p.x - radius, p.y - radius, p.x + radius, p.y + radius};
-}
-
 /// Few rectangles that hold the discs about all positions: a window of hundreds of discs takes long to classify.
 Window window_about(const std::vector<SiteStand>& stands, const std::vector<std::size_t>& options, double radius) {
   Box box;
-  for (const std::size_t option : options) box.extend(around(stands[option].position, radius));
+  for (const std::size_t option : options) box.extend(disc_box(stands[option].position, radius));
   const RasterGrid cells = RasterGrid::aligned(box, radius / 4);
   std::vector<bool> met(cells.cell_count());
   for (const std::size_t option : options) {
-    const Box disc = around(stands[option].position, radius);
+    const Box disc = disc_box(stands[option].position, radius);
     const auto last_of = [](double at, std::int64_t count) {
       return std::min(count - 1, static_cast<std::int64_t>(std::floor(at)));
     };
@@ -121,7 +117,7 @@ class SiteCoverage::Impl {
         themed_(survey_.themes.includes_standing(store.metadata().themes)) {
     if (survey_.stands.empty()) throw InputError("no site to look from: give at least one on the data");
     Box box;
-    for (const SiteStand& stand : survey_.stands) box.extend(around(stand.position, survey_.radius));
+    for (const SiteStand& stand : survey_.stands) box.extend(disc_box(stand.position, survey_.radius));
     choose_levels(box);
     // A target on a roof is seen from afar as one so high above the bare ground may be.
     if (survey_.targets.on_surface && themed_) raise_ = store.greatest_feature_height(survey_.themes, box);
@@ -205,7 +201,7 @@ class SiteCoverage::Impl {
 
   std::uint64_t points_of(const std::vector<std::size_t>& options, int level) const {
     Box box;
-    for (const std::size_t option : options) box.extend(around(survey_.stands[option].position, survey_.radius));
+    for (const std::size_t option : options) box.extend(disc_box(survey_.stands[option].position, survey_.radius));
     return store_.points_about(level, box);
   }
 
@@ -327,7 +323,7 @@ class SiteCoverage::Impl {
       const Point2 position = survey_.stands[option].position;
       read.observers.push_back(position);
       if (level == 0) continue;
-      const double points = static_cast<double>(store_.points_about(0, around(position, survey_.radius)));
+      const double points = static_cast<double>(store_.points_about(0, disc_box(position, survey_.radius)));
       const double share = std::sqrt(kNearPoints / std::max(points, kNearPoints));
       read.discs.push_back({position, survey_.radius * share, 0});
       if (level > 1) read.discs.push_back({position, 2 * survey_.radius * share, 1});
