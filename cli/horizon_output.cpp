@@ -134,12 +134,13 @@ std::vector<viewshed::HorizonTarget> HorizonOutput::targets(const viewshed::Requ
   return targets;
 }
 
-Document HorizonOutput::write(const viewshed::Surveyed& surveyed, const StoreMetadata& metadata,
-                              const Document& refraction, bool overwrite, Progress& progress) const {
+Document HorizonOutput::write(viewshed::Surveyed& surveyed, const StoreMetadata& metadata, const Document& refraction,
+                              bool overwrite, Progress& progress) const {
   if (paths_.empty()) return nullptr;
   const viewshed::Request& request = surveyed.result.request;
-  const viewshed::Horizon horizon = viewshed::horizon(surveyed.tin, surveyed.ground ? *surveyed.ground : surveyed.tin,
-                                                      request, {step_deg_, targets(request, metadata)}, progress);
+  const Tin& surface = surveyed.listed();
+  const viewshed::Horizon horizon = viewshed::horizon(surface, surveyed.ground ? *surveyed.ground : surface, request,
+                                                      {step_deg_, targets(request, metadata)}, progress);
   for (const std::string& path : paths_) {
     const std::string ending = ending_of(path);
     const std::string bytes = ending == ".csv"    ? table(horizon, metadata)

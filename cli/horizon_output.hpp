@@ -23,7 +23,7 @@ class HorizonOutput {
 
   /// Computes and writes what was asked for, if anything; the document of the horizon's targets, or null. Throws
   /// InputError, FileError.
-  Document write(const viewshed::Surveyed& surveyed, const StoreMetadata& metadata, const Document& refraction,
+  Document write(viewshed::Surveyed& surveyed, const StoreMetadata& metadata, const Document& refraction,
                  bool overwrite, Progress& progress) const;
 
  private:

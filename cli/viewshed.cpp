@@ -132,7 +132,7 @@ class ViewshedVerb final : public Verb {
     if (!horizon_.paths().empty() && places_.size() > 1)
       throw InputError("--horizon is that of one observer; give one");
     outputs_.prepare(request_);
-    const viewshed::Surveyed surveyed = survey(store, request_, progress);
+    viewshed::Surveyed surveyed = survey(store, request_, progress);
     const ViewshedOutputs::Context context{metadata.crs_wkt,
                                            surface_document(metadata, request_.detail, request_.themes)};
     Result result;

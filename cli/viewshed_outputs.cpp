@@ -79,11 +79,11 @@ void ViewshedOutputs::write_raster(const std::string& path, const viewshed::Resu
   viewshed::write_geotiff(path, result, options);
 }
 
-void ViewshedOutputs::write(const viewshed::Surveyed& surveyed, const Context& context,
+void ViewshedOutputs::write(viewshed::Surveyed& surveyed, const Context& context,
                             std::vector<std::string>& warnings) const {
   std::optional<viewshed::MapImage> map;
   if (!image_.empty()) {
-    map = viewshed::draw_map(surveyed.tin, surveyed.result);
+    map = viewshed::draw_map(surveyed.listed(), surveyed.result);
     warnings.insert(warnings.end(), map->warnings.begin(), map->warnings.end());
   }
   for (const std::string& path : outputs_) {

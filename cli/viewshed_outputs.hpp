@@ -26,7 +26,7 @@ class ViewshedOutputs {
     std::string crs_wkt;
     Document surface;
   };
-  void write(const viewshed::Surveyed& surveyed, const Context& context, std::vector<std::string>& warnings) const;
+  void write(viewshed::Surveyed& surveyed, const Context& context, std::vector<std::string>& warnings) const;
   /// Calls compute(observer) for every observer whose own raster is wanted.
   using Compute = std::function<viewshed::Result(std::size_t)>;
   void write_each(const Compute& compute, const Context& context) const;

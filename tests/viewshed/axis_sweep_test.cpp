@@ -58,7 +58,7 @@ class Sweeping {
  public:
   /// Metres.
   Sweeping(const Tin& tin, const Earth& earth, double cell)
-      : tin_(tin), earth_(earth), bins_(tin), sweep_(tin, earth, bins_), exact_(tin, earth), ground_(tin, cell) {
+      : tin_(tin), earth_(earth), bins_(tin), sweep_(earth, bins_), exact_(tin, earth), ground_(tin, cell) {
     const Box box = tin.bounds();
     every_ = 1 + static_cast<std::int64_t>(box.width() * box.height() / (cell * cell) *
                                            static_cast<double>(tin.triangles.size()) / 3e6);
@@ -229,7 +229,7 @@ class LookingAround {
       : tin_(tin),
         drop_(earth.drop_coefficient() * tin.grid.resolution),
         bins_(tin),
-        sweep_(tin, earth, bins_),
+        sweep_(earth, bins_),
         ground_(tin, cell) {}
 
   /// Metres above the ground.
@@ -404,7 +404,9 @@ void expect_bounds(const Tin& tin, std::mt19937& random) {
     }
     ++looked;
     const double z = *height / unit;
-    EXPECT_LE(z, bins.lid(bin, column, row) + 1e-6);
+    EXPECT_LE(
+        z, bins.lid(bin).at(column - static_cast<double>(bin.column) - 0.5, row - static_cast<double>(bin.row) - 0.5) +
+               1e-6);
     EXPECT_LE(z, east.high[run] + 1e-6);
     EXPECT_GE(z, east.low[run] - 1e-6);
     const auto& south = bins.southwards();

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "boundary.hpp"
 #include "support/delaunay_tin.hpp"
 #include "support/seed.hpp"
 #include "support/terrain_tin.hpp"
@@ -26,7 +27,7 @@ TEST(VoidShadow, IsWhereSomeEdgeIsCrossedBack) {
     // On a vertex, too, where edges end.
     const GridPoint& v = tin.vertices[random() % tin.vertices.size()];
     for (const Point3& eye : {place(), place(), Point3{double{1} * v.x, double{1} * v.y, 0}}) {
-      const VoidShadow shadow(tin, boundary, eye);
+      const VoidShadow shadow(rim_of(tin, boundary), eye);
       for (int k = 0; k < 300; ++k) {
         const Point3 target = place();
         SightLines line;
@@ -94,7 +95,7 @@ TEST(VoidShadow, OnTheRimTellsFromWhichSideALineComes) {
     };
     for (int e = 0; e < 20; ++e) {
       const Point2 eye = place();
-      const VoidShadow shadow(tin, boundary, {eye.x, eye.y, 0});
+      const VoidShadow shadow(rim_of(tin, boundary), {eye.x, eye.y, 0});
       for (int k = 0; k < 50; ++k) {
         const Point2 target = place();
         if (target.x == eye.x && target.y == eye.y) continue;

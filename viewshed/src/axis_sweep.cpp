@@ -154,16 +154,16 @@ class AxisSweep::Task {
     switch (kind_) {
       case Kind::kAxis: {
         const SightLine line = line_between(other_end(cell, elevation), top);
-        return look(quadrant, cell, AxisSight(sweep_.tin_, line, axis_.base, end, profile_axis_.margin));
+        return look(quadrant, cell, AxisSight(line, axis_.base, end, profile_axis_.margin));
       }
       case Kind::kPoint: {
         const SightLine line = line_between(top, other_end(cell, elevation));
-        return look(quadrant, cell, PointSight(sweep_.tin_, line, end, profile_axis_.margin));
+        return look(quadrant, cell, PointSight(line, end, profile_axis_.margin));
       }
       case Kind::kHeight: {
         const HeightSight::Range range{lowest_->end[cell.index], elevation, cell.hidden_below};
         const SightLine line = line_between(top, other_end(cell, range.lowest));
-        look(quadrant, cell, HeightSight(sweep_.tin_, line, range, end, profile_axis_.margin));
+        look(quadrant, cell, HeightSight(line, range, end, profile_axis_.margin));
       }
     }
   }
@@ -191,10 +191,10 @@ class AxisSweep::Task {
     double least = sight.least();
     for (const double end : {lowest_->wanted[cell.index], lowest}) {
       if (!(end >= lowest && end < least) || sight.silhouette() == kNoSilhouette ||
-          sight.hides(sight.silhouette(), end))
+          sight.hides(bins_.corners(sight.silhouette()), end))
         continue;
       const SightLine line = line_between({axis_.x, axis_.y, axis_.top}, other_end(cell, end));
-      PointSight lower(sweep_.tin_, line, {cell.along, sweep_.drop_ * cell.squared}, profile_axis_.margin);
+      PointSight lower(line, {cell.along, sweep_.drop_ * cell.squared}, profile_axis_.margin);
       if (decide(quadrant, cell, lower)) least = end;
     }
     return least;
@@ -204,8 +204,8 @@ class AxisSweep::Task {
   template <class Sight>
   bool decide(const Quadrant& quadrant, const Cell& cell, Sight& sight) {
     const std::uint32_t beside = silhouettes_[cell.major];
-    if (last_ != kNoSilhouette && !sight.clears(last_)) return false;
-    if (beside != kNoSilhouette && beside != last_ && !sight.clears(beside)) return false;
+    if (last_ != kNoSilhouette && !clears(last_, sight)) return false;
+    if (beside != kNoSilhouette && beside != last_ && !clears(beside, sight)) return false;
     bool seen = true;
     profile_.search(quadrant.slab_at(cell.along), sight,
                     [&](std::size_t slab) { return seen = clears(quadrant, slab, cell, sight); });
@@ -256,15 +256,18 @@ class AxisSweep::Task {
              profile_axis_.margin;
     };
     const double near = height(stretch.begin), far = height(stretch.end);
-    const auto lid = [&](double along) {
+    const BinnedHeights::Lid lid = bins_.lid(bin);
+    const auto lid_at = [&](double along) {
       const Point2 p = quadrant.position(along, stretch.slope * along);
-      return bins_.lid(bin, p.x, p.y);
+      return lid.at(p.x - static_cast<double>(bin.column) - 0.5, p.y - static_cast<double>(bin.row) - 0.5);
     };
-    if (lid(stretch.begin) <= near && lid(stretch.end) <= far) return true;
-    const double lowest = std::min(near, far);
-    for (const std::uint32_t t : bins_.triangles(bin))
-      if (bins_.top(t) > lowest && !sight.clears(t)) return false;
-    return true;
+    if (lid_at(stretch.begin) <= near && lid_at(stretch.end) <= far) return true;
+    return bins_.for_each_triangle(bin, std::min(near, far), [&](std::uint32_t t) { return clears(t, sight); });
+  }
+
+  template <class Sight>
+  bool clears(std::uint32_t triangle, Sight& sight) const {
+    return sight.clears(triangle, bins_.corners(triangle));
   }
 
   const AxisSweep& sweep_;
@@ -286,11 +289,10 @@ class AxisSweep::Task {
   std::array<std::uint32_t, Tile::kSide> silhouettes_{};
 };
 
-AxisSweep::AxisSweep(const Tin& tin, const Earth& earth, const BinnedHeights& bins)
-    : tin_(tin),
-      bins_(bins),
-      drop_(earth.drop_coefficient() * tin.grid.resolution),
-      grazing_(kGrazing / tin.grid.resolution) {}
+AxisSweep::AxisSweep(const Earth& earth, const BinnedHeights& surface)
+    : bins_(surface),
+      drop_(earth.drop_coefficient() * surface.units().resolution),
+      grazing_(kGrazing / surface.units().resolution) {}
 
 void AxisSweep::run(const Axis& axis, const Ends& eyes, Scratch& scratch, Heights& heights) const {
   Task(*this, axis, Kind::kAxis, eyes, nullptr, scratch, heights).run();

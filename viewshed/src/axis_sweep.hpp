@@ -1,7 +1,7 @@
 // How much of an upright axis, such as a turbine, is seen from every cell of a tile: the least height of the axis at
 // which nothing hides it. And the other way round, from an eye: which cells' targets it sees, and from what height on.
 //
-//   AxisSweep sweep(tin, earth, bins);
+//   AxisSweep sweep(earth, bins);
 //   AxisSweep::Heights heights;                             // grid units, one a cell
 //   sweep.run(axis, eyes, scratch, heights);
 //
@@ -20,7 +20,6 @@
 #include <cstdint>
 
 #include <itin/earth.hpp>
-#include <itin/tin.hpp>
 
 #include "binned_heights.hpp"
 #include "sector_profile.hpp"
@@ -31,8 +30,8 @@ namespace itin::viewshed {
 
 class AxisSweep {
  public:
-  /// All must outlive it.
-  AxisSweep(const Tin& tin, const Earth& earth, const BinnedHeights& bins);
+  /// `surface` must outlive it.
+  AxisSweep(const Earth& earth, const BinnedHeights& surface);
 
   /// Grid units.
   struct Axis {
@@ -77,7 +76,6 @@ class AxisSweep {
 
   Axis axis_at(const Point3& eye) const;
 
-  const Tin& tin_;
   const BinnedHeights& bins_;
   double drop_;     ///< grid units of drop a squared grid unit
   double grazing_;  ///< grid units

@@ -44,11 +44,10 @@ struct Square {
 /// A triangle's heights about a square's middle.
 class Facet {
  public:
-  Facet(const Tin& tin, const Triangle& t, const Square& square) : half_(square.half) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const GridPoint& v = tin.vertices[t[i]];
-      corners_[i] = {v.x - square.x, v.y - square.y, static_cast<double>(v.z)};
-    }
+  Facet(const std::array<GridPoint, 3>& corners, const Square& square) : half_(square.half) {
+    std::transform(corners.begin(), corners.end(), corners_.begin(), [&](const GridPoint& v) {
+      return Point3{v.x - square.x, v.y - square.y, static_cast<double>(v.z)};
+    });
     const auto& [a, b, c] = corners_;
     const double bx = b.x - a.x, by = b.y - a.y, bz = b.z - a.z, cx = c.x - a.x, cy = c.y - a.y, cz = c.z - a.z;
     doubled_area_ = bx * cy - by * cx;
@@ -83,133 +82,181 @@ class Facet {
   double half_, doubled_area_, rise_x_, rise_y_;
 };
 
+/// The cells of a lattice as bins.
+RasterGrid bin_grid(const LatticeTin& lattice) {
+  const Point2 corner = lattice.grid.position(lattice.west, lattice.north);
+  const double side = lattice.spacing * lattice.grid.resolution;
+  return {corner, side, side, lattice.columns, lattice.rows};
+}
+
+double greatest_magnitude_of(std::int32_t z, double greatest) {
+  return std::max(greatest, std::abs(static_cast<double>(z)));
+}
+
 }  // namespace
 
-BinnedHeights::BinnedHeights(const Tin& tin) : BinnedHeights(tin, cell_lattice(tin)) {}
+BinnedHeights::BinnedHeights(const Tin& tin) : BinnedHeights(tin, lattice_of(tin)) {}
 
-BinnedHeights::BinnedHeights(const Tin& tin, const std::optional<CellLattice>& lattice)
-    : units_(tin.grid),
-      grid_(lattice ? lattice->grid : bin_grid(tin)),
-      bins_(lattice ? TriangleBins(*lattice) : TriangleBins(tin, grid_)),
-      tops_(tin.triangles.size()),
-      lids_(grid_.cell_count()),
-      lattice_(lattice.has_value()),
-      boundary_(lattice_ ? boundary_edges(tin, *lattice) : boundary_edges(tin)) {
-  std::transform(tin.triangles.begin(), tin.triangles.end(), tops_.begin(), [&](const Triangle& t) {
-    return std::max({tin.vertices[t[0]].z, tin.vertices[t[1]].z, tin.vertices[t[2]].z});
-  });
-  for (const GridPoint& v : tin.vertices)
-    greatest_magnitude_ = std::max(greatest_magnitude_, std::abs(static_cast<double>(v.z)));
-  Ranges ranges{std::vector(grid_.cell_count(), -kInfinity), std::vector(grid_.cell_count(), -kInfinity)};
+BinnedHeights::BinnedHeights(const Tin& tin, std::optional<LatticeTin> lattice)
+    : tin_(&tin),
+      own_(std::move(lattice)),
+      lattice_(own_ ? &*own_ : nullptr),
+      units_(tin.grid),
+      grid_(own_ ? bin_grid(*own_) : bin_grid(tin)) {
+  own_ ? bound_lattice() : bound_tin();
+}
+
+BinnedHeights::BinnedHeights(const LatticeTin& lattice)
+    : lattice_(&lattice), units_(lattice.grid), grid_(bin_grid(lattice)) {
+  bound_lattice();
+}
+
+void BinnedHeights::bound_lattice() {
+  rim_ = lattice_->rim();
+  for (const std::int32_t z : lattice_->heights)
+    if (z != LatticeTin::kNoPost) greatest_magnitude_ = greatest_magnitude_of(z, greatest_magnitude_);
+  bound_runs([&](std::size_t cell) { return range_of_cell(*lattice_, cell); });
+}
+
+void BinnedHeights::bound_tin() {
+  const Tin& tin = *tin_;
+  listed_.emplace(Listed{TriangleBins(tin, grid_), std::vector<Lid>(grid_.cell_count()), {}});
+  for (std::uint32_t t = 0; t < tin.triangles.size(); ++t) {
+    const auto [a, b, c] = tin.corners(t);
+    listed_->tops.push_back(std::max({a.z, b.z, c.z}));
+  }
+  for (const GridPoint& v : tin.vertices) greatest_magnitude_ = greatest_magnitude_of(v.z, greatest_magnitude_);
+  std::vector<Range> ranges(grid_.cell_count());
   parallel_for(static_cast<std::size_t>(rows()), [&](std::size_t r) {
     for (std::int64_t c = 0; c < columns(); ++c) {
       const RasterGrid::Cell bin{c, static_cast<std::int64_t>(r)};
-      lattice ? bound_cell(*lattice, bin, ranges) : bound(tin, bin, ranges);
+      ranges[grid_.index(bin)] = bound_bin(bin);
     }
   });
-  if (!lattice_) forget_depth_at_boundary(tin, ranges.low);
-  bound_runs(ranges);
+  const std::vector<BoundaryEdge> boundary = boundary_edges(tin);
+  rim_ = rim_of(tin, boundary);
+  forget_depth_at_boundary(boundary, ranges);
+  bound_runs([&](std::size_t bin) { return ranges[bin]; });
 }
 
-void BinnedHeights::bound(const Tin& tin, RasterGrid::Cell bin, Ranges& ranges) {
+BinnedHeights::Range BinnedHeights::bound_bin(RasterGrid::Cell bin) {
   const std::size_t number = grid_.index(bin);
-  const auto listed = bins_.triangles(number);
-  if (listed.empty()) return;
+  const auto listed = listed_->bins.triangles(number);
+  if (listed.empty()) return {-kInfinity, -kInfinity};
   const Point2 middle = grid_.centre(bin.column, bin.row);
   const Square square{(middle.x - units_.origin.x) / units_.resolution,
                       (middle.y - units_.origin.y) / units_.resolution, bin_size() * (0.5 + 2 * kSlack)};
   double low = kInfinity, high = -kInfinity, area = 0, rise_x = 0, rise_y = 0;
   for (const std::uint32_t t : listed) {
-    const Facet facet(tin, tin.triangles[t], square);
+    const Facet facet(tin_->corners(t), square);
     const auto [lowest, highest] = facet.range_above(0, 0);
     low = std::min(low, lowest), high = std::max(high, highest);
     area += facet.doubled_area(), rise_x += facet.rise_x(), rise_y += facet.rise_y();
   }
-  ranges.low[number] = rounded_down(low), ranges.high[number] = rounded_up(high);
   // Sloping as the triangles do on average; rows count southwards.
-  Lid& lid = lids_[number];
-  const auto size = static_cast<float>(bin_size());
-  lid.per_column = area > 0 ? static_cast<float>(rise_x / area) * size : 0;
-  lid.per_row = area > 0 ? static_cast<float>(-rise_y / area) * size : 0;
+  const double slope_x = area > 0 ? rise_x / area : 0, slope_y = area > 0 ? rise_y / area : 0;
   double above = -kInfinity;
   for (const std::uint32_t t : listed)
-    above = std::max(above, Facet(tin, tin.triangles[t], square)
-                                .range_above(lid.per_column / bin_size(), -lid.per_row / bin_size())
-                                .second);
-  lid.middle = rounded_up(above);
+    above = std::max(above, Facet(tin_->corners(t), square).range_above(slope_x, slope_y).second);
+  listed_->lids[number] = {above, slope_x * bin_size(), -slope_y * bin_size()};
+  return {rounded_down(low), rounded_up(high)};
 }
 
-/// A lattice's cell: between its corners, if both of its triangles are there; of one triangle nothing is known where it
-/// is not.
-void BinnedHeights::bound_cell(const CellLattice& lattice, RasterGrid::Cell bin, Ranges& ranges) {
-  const std::size_t number = grid_.index(bin), held = bins_.triangles(number).size();
-  if (held == 0) return;
-  const std::size_t below = number + static_cast<std::size_t>(columns());
-  const std::array<double, 4> corners{double(lattice.posts[number]), double(lattice.posts[number + 1]),
-                                      double(lattice.posts[below]), double(lattice.posts[below + 1])};
-  const auto [least, greatest] = std::minmax_element(corners.begin(), corners.end());
-  ranges.high[number] = rounded_up(*greatest);
-  Lid& lid = lids_[number];
-  lid.middle = ranges.high[number];
-  if (held < 2) return;
-  ranges.low[number] = rounded_down(*least);
-  lid.per_column = static_cast<float>((corners[1] - corners[0] + corners[3] - corners[2]) / 2);
-  lid.per_row = static_cast<float>((corners[2] - corners[0] + corners[3] - corners[1]) / 2);
-  const double east = double{lid.per_column} / 2, south = double{lid.per_row} / 2;
-  lid.middle = rounded_up(std::max(
-      {corners[0] + east + south, corners[1] - east + south, corners[2] + east - south, corners[3] - east - south}));
+/// Of a cell with one triangle nothing is known where that is not.
+BinnedHeights::Range BinnedHeights::range_of_cell(const LatticeTin& lattice, std::size_t cell) {
+  if (lattice.halves[cell] == 0) return {-kInfinity, -kInfinity};
+  const std::int32_t* const upper = lattice.heights.data() + cell;
+  const std::int32_t* const lower = upper + lattice.columns;
+  const float high = rounded_up(std::max(std::max(upper[0], upper[1]), std::max(lower[0], lower[1])));
+  if (!lattice.whole(cell)) return {-kInfinity, high};
+  return {rounded_down(std::min(std::min(upper[0], upper[1]), std::min(lower[0], lower[1]))), high};
+}
+
+/// Sums and halves of whole numbers, all exact.
+BinnedHeights::Lid BinnedHeights::lid_of_cell(const LatticeTin& lattice, std::size_t cell) {
+  if (lattice.halves[cell] == 0) return {};
+  const std::int32_t* const upper = lattice.heights.data() + cell;
+  const std::int32_t* const lower = upper + lattice.columns;
+  const double nw = upper[0], ne = upper[1], sw = lower[0], se = lower[1];
+  if (!lattice.whole(cell)) return {std::max(std::max(nw, ne), std::max(sw, se)), 0, 0};
+  const double per_column = (ne - nw + se - sw) / 2, per_row = (sw - nw + se - ne) / 2;
+  // Both pairs of opposite corners are as far above the plane through the middle of all four.
+  return {(nw + ne + sw + se) / 4 + std::abs(nw - ne - sw + se) / 4, per_column, per_row};
 }
 
 /// A bin that a triangle meets and no boundary crosses is covered throughout; elsewhere nothing is known of how low the
 /// ground is.
-void BinnedHeights::forget_depth_at_boundary(const Tin& tin, std::vector<float>& low) const {
-  std::vector<bool> at_boundary(tin.triangles.size());
-  for (const BoundaryEdge& edge : boundary_) at_boundary[edge.triangle] = true;
-  parallel_for(grid_.cell_count() / kChunk + 1, [&](std::size_t chunk) {
-    for (std::size_t bin = chunk * kChunk; bin < std::min((chunk + 1) * kChunk, low.size()); ++bin) {
-      const auto listed = bins_.triangles(bin);
+void BinnedHeights::forget_depth_at_boundary(const std::vector<BoundaryEdge>& boundary,
+                                             std::vector<Range>& ranges) const {
+  std::vector<bool> at_boundary(tin_->triangles.size());
+  for (const BoundaryEdge& edge : boundary) at_boundary[edge.triangle] = true;
+  parallel_for(ranges.size() / kChunk + 1, [&](std::size_t chunk) {
+    for (std::size_t bin = chunk * kChunk; bin < std::min((chunk + 1) * kChunk, ranges.size()); ++bin) {
+      const auto listed = listed_->bins.triangles(bin);
       if (std::any_of(listed.begin(), listed.end(), [&](std::uint32_t t) { return at_boundary[t]; }))
-        low[bin] = -kInfinity;
+        ranges[bin].low = -kInfinity;
     }
   });
 }
 
-void BinnedHeights::bound_runs(const Ranges& ranges) {
-  const auto bound = [&](Runs& runs, std::int64_t lines, std::int64_t length, const auto& bin_at) {
+/// In blocks that stay in the cache, each with the bins beside it.
+template <class RangeOf>
+void BinnedHeights::bound_runs(const RangeOf& range_of) {
+  const auto make = [](Runs& runs, std::int64_t lines, std::int64_t length) {
     runs.a_line = (length + kRun - 1) / kRun;
-    const auto count = static_cast<std::size_t>(lines * runs.a_line);
-    runs.low.resize(count), runs.high.resize(count);
-    const auto bound_run = [&](std::int64_t line, std::int64_t run) {
-      float low = kInfinity, high = -kInfinity;
-      for (std::int64_t i = run * kRun; i < std::min(length, (run + 1) * kRun); ++i) {
-        const std::size_t bin = grid_.index(bin_at(line, i)),
-                          beside = grid_.index(bin_at(std::min(line + 1, lines - 1), i));
-        low = std::min({low, ranges.low[bin], ranges.low[beside]}), high = std::max(high, ranges.high[bin]);
-      }
-      const auto at = static_cast<std::size_t>(line * runs.a_line + run);
-      runs.low[at] = low, runs.high[at] = high;
-    };
-    // In strips, so that columns of bins stay in the cache.
-    constexpr std::int64_t kStrip = 16;
-    parallel_for(static_cast<std::size_t>((lines + kStrip - 1) / kStrip), [&](std::size_t strip) {
-      const std::int64_t first = static_cast<std::int64_t>(strip) * kStrip, last = std::min(lines, first + kStrip);
-      for (std::int64_t run = 0; run < runs.a_line; ++run)
-        for (std::int64_t line = first; line < last; ++line) bound_run(line, run);
-    });
+    runs.low.resize(static_cast<std::size_t>(lines * runs.a_line)), runs.high.resize(runs.low.size());
   };
-  using Cell = RasterGrid::Cell;
-  bound(eastwards_, rows(), columns(), [](std::int64_t line, std::int64_t i) { return Cell{i, line}; });
-  bound(southwards_, columns(), rows(), [](std::int64_t line, std::int64_t i) { return Cell{line, i}; });
+  make(eastwards_, rows(), columns()), make(southwards_, columns(), rows());
+  constexpr std::int64_t kBlockRows = 64, kBlockColumns = 256, kStride = kBlockColumns + 1;
+  parallel_for(static_cast<std::size_t>((rows() + kBlockRows - 1) / kBlockRows), [&](std::size_t strip) {
+    std::vector<Range> ranges(static_cast<std::size_t>((kBlockRows + 1) * kStride));
+    const std::int64_t first_row = static_cast<std::int64_t>(strip) * kBlockRows,
+                       end_row = std::min(rows(), first_row + kBlockRows), last_row = std::min(rows() - 1, end_row);
+    for (std::int64_t first = 0; first < columns(); first += kBlockColumns) {
+      const std::int64_t end = std::min(columns(), first + kBlockColumns), last = std::min(columns() - 1, end);
+      const auto at = [&](std::int64_t row, std::int64_t column) -> Range& {
+        return ranges[static_cast<std::size_t>((row - first_row) * kStride + column - first)];
+      };
+      for (std::int64_t row = first_row; row <= last_row; ++row)
+        for (std::int64_t column = first; column <= last; ++column)
+          at(row, column) = range_of(grid_.index({column, row}));
+      const auto bound = [](Runs& runs, std::int64_t line, std::int64_t from, std::int64_t to, const auto& bin,
+                            const auto& beside) {
+        float low = kInfinity, high = -kInfinity;
+        for (std::int64_t i = from; i < to; ++i)
+          low = std::min(low, std::min(bin(i).low, beside(i).low)), high = std::max(high, bin(i).high);
+        const auto place = static_cast<std::size_t>(line * runs.a_line + from / kRun);
+        runs.low[place] = low, runs.high[place] = high;
+      };
+      for (std::int64_t row = first_row; row < end_row; ++row)
+        for (std::int64_t from = first; from < end; from += kRun)
+          bound(
+              eastwards_, row, from, std::min(end, from + kRun), [&](std::int64_t i) { return at(row, i); },
+              [&](std::int64_t i) { return at(std::min(row + 1, last_row), i); });
+      for (std::int64_t column = first; column < end; ++column)
+        for (std::int64_t from = first_row; from < end_row; from += kRun)
+          bound(
+              southwards_, column, from, std::min(end_row, from + kRun), [&](std::int64_t i) { return at(i, column); },
+              [&](std::int64_t i) { return at(i, std::min(column + 1, last)); });
+    }
+  });
 }
 
-std::optional<double> BinnedHeights::ground(const Tin& tin, Point2 position) const {
-  const Point2 units{easting_in_units(tin.grid, position.x), northing_in_units(tin.grid, position.y)};
+std::optional<double> BinnedHeights::height_at(Point2 units) const {
+  const double column = column_at(units.x), row = row_at(units.y);
+  const auto at = [](double v, std::int64_t count) {
+    return static_cast<std::int64_t>(std::clamp(v, 0.0, static_cast<double>(count - 1)));
+  };
   std::optional<double> height;
-  find_at(units.x, units.y, [&](std::span<const std::uint32_t> triangles) {
-    height = surface_height_at(tin, triangles, units);
-    return height.has_value();
-  });
-  return height ? std::optional(*height * units_.resolution) : std::nullopt;
+  // One bin, or up to four at its edges.
+  for (std::int64_t r = at(row - kSlack, rows()); r <= at(row + kSlack, rows()); ++r)
+    for (std::int64_t c = at(column - kSlack, columns()); c <= at(column + kSlack, columns()); ++c)
+      if (!for_each_triangle({c, r}, -kInfinity, [&](std::uint32_t t) {
+            height = height_over(corners(t), units);
+            return !height;
+          }))
+        return height;
+  return std::nullopt;
 }
 
 }  // namespace itin::viewshed

@@ -1,21 +1,22 @@
 // How low and how high a surface is within small squares: bounds that hold at every point of a square, not only at
-// vertices.
+// vertices. A lattice's squares are its cells, and their bounds are told from the posts when they are asked for.
 //
 //   BinnedHeights bins(tin);
-//   bins.lid(bin, column, row)                                // grid units
-//   for (std::uint32_t t : bins.triangles(bin)) ...
+//   bins.lid(bin).at(column, row)                            // grid units
+//   bins.for_each_triangle(bin, [&](std::uint32_t t) { return use(bins.corners(t)); });
 //
 // Positions are in bins, columns counted eastwards and rows southwards from the north-west corner.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <span>
 #include <vector>
 
+#include <itin/lattice_tin.hpp>
 #include <itin/raster.hpp>
 #include <itin/tin.hpp>
 
@@ -26,10 +27,14 @@ namespace itin::viewshed {
 
 class BinnedHeights {
  public:
-  /// About two triangles' worth a bin: the cells themselves where the Tin is a lattice, 25 bytes a triangle, and then
-  /// four times as fast; 50 elsewhere.
+  /// Of what must outlive it. About two triangles' worth a bin, 50 bytes a triangle; where it is a lattice its cells,
+  /// for a fraction of that.
   explicit BinnedHeights(const Tin& tin);
+  explicit BinnedHeights(const LatticeTin& lattice);
+  BinnedHeights(const BinnedHeights&) = delete;
+  BinnedHeights& operator=(const BinnedHeights&) = delete;
 
+  const Grid& units() const { return units_; }
   std::int64_t columns() const { return grid_.columns(); }
   std::int64_t rows() const { return grid_.rows(); }
   /// Grid units.
@@ -56,63 +61,71 @@ class BinnedHeights {
   const Runs& eastwards() const { return eastwards_; }
   const Runs& southwards() const { return southwards_; }
   bool holds(RasterGrid::Cell bin) const { return bin.column < columns() && bin.row < rows(); }
-  /// A plane that the surface within one bin does not rise above, at a position in bins; grid units.
-  double lid(RasterGrid::Cell bin, double column, double row) const {
-    const Lid& lid = lids_[grid_.index(bin)];
-    return lid.middle + lid.per_column * (column - static_cast<double>(bin.column) - 0.5) +
-           lid.per_row * (row - static_cast<double>(bin.row) - 0.5);
+
+  /// A plane that the surface within one bin does not rise above.
+  struct Lid {
+    double middle = -std::numeric_limits<double>::infinity();
+    double per_column = 0, per_row = 0;
+    /// At a position as far from the bin's middle, in bins; grid units.
+    double at(double east, double south) const { return middle + per_column * east + per_row * south; }
+  };
+  Lid lid(RasterGrid::Cell bin) const {
+    const std::size_t number = grid_.index(bin);
+    return lattice_ != nullptr ? lid_of_cell(*lattice_, number) : listed_->lids[number];
   }
-  /// Of the surface at a position in metres, metres, where it is there.
-  std::optional<double> ground(const Tin& tin, Point2 position) const;
-  /// Those that meet the bin, or nearly meet it: kSlack bins away at least.
-  std::span<const std::uint32_t> triangles(RasterGrid::Cell bin) const { return bins_.triangles(grid_.index(bin)); }
-  static constexpr double kSlack = 1e-7;
-  /// Where the surface ends.
-  const std::vector<BoundaryEdge>& boundary() const { return boundary_; }
-  /// Whether each triangle lies in one bin alone.
-  bool partition() const { return lattice_; }
-  /// Calls visit(triangles) for each bin about a position in grid units, but for rounding: 1, or up to 4 at its edges.
-  /// Ends when visit returns true.
+  /// Calls visit(triangle) for those that meet the bin, or nearly meet it, kSlack bins away at least, and may rise
+  /// above a height, grid units. Ends when one call returns false, and returns whether none did.
   template <class Visit>
-  void find_at(double x, double y, const Visit& visit) const {
-    const double column = column_at(x), row = row_at(y);
-    const auto at = [](double v, std::int64_t count) {
-      return static_cast<std::int64_t>(std::clamp(v, 0.0, static_cast<double>(count - 1)));
-    };
-    for (std::int64_t r = at(row - kSlack, rows()); r <= at(row + kSlack, rows()); ++r)
-      for (std::int64_t c = at(column - kSlack, columns()); c <= at(column + kSlack, columns()); ++c)
-        if (visit(triangles({c, r}))) return;
+  bool for_each_triangle(RasterGrid::Cell bin, double above, const Visit& visit) const {
+    const std::size_t number = grid_.index(bin);
+    if (lattice_ != nullptr) return lattice_->for_each_triangle(number, visit);
+    const auto triangles = listed_->bins.triangles(number);
+    return std::all_of(triangles.begin(), triangles.end(),
+                       [&](std::uint32_t t) { return listed_->tops[t] <= above || visit(t); });
   }
-  /// A triangle's highest vertex, grid units.
-  std::int32_t top(std::uint32_t triangle) const { return tops_[triangle]; }
+  static constexpr double kSlack = 1e-7;
+  std::array<GridPoint, 3> corners(std::uint32_t triangle) const {
+    return lattice_ != nullptr ? lattice_->corners(triangle) : tin_->corners(triangle);
+  }
+  /// Where the surface ends.
+  const std::vector<RimEdge>& rim() const { return rim_; }
+  /// Whether each triangle lies in one bin alone.
+  bool partition() const { return lattice_ != nullptr; }
+  /// Of the surface at a position, if it is there; grid units.
+  std::optional<double> height_at(Point2 units) const;
   /// Of the surface, grid units.
   double greatest_magnitude() const { return greatest_magnitude_; }
 
  private:
-  BinnedHeights(const Tin& tin, const std::optional<CellLattice>& lattice);
+  BinnedHeights(const Tin& tin, std::optional<LatticeTin> lattice);
 
-  struct Lid {
-    float middle = -std::numeric_limits<float>::infinity();
-    float per_column = 0, per_row = 0;
+  struct Range {
+    float low, high;
   };
-  /// A value a bin.
-  struct Ranges {
-    std::vector<float> low, high;
+  /// What of a Tin that is no lattice is worked out once.
+  struct Listed {
+    TriangleBins bins;
+    std::vector<Lid> lids;           ///< a bin
+    std::vector<std::int32_t> tops;  ///< a triangle: its highest vertex
   };
-  void bound(const Tin& tin, RasterGrid::Cell bin, Ranges& ranges);
-  void bound_cell(const CellLattice& lattice, RasterGrid::Cell bin, Ranges& ranges);
-  void bound_runs(const Ranges& ranges);
-  void forget_depth_at_boundary(const Tin& tin, std::vector<float>& low) const;
+  static Lid lid_of_cell(const LatticeTin& lattice, std::size_t cell);
+  static Range range_of_cell(const LatticeTin& lattice, std::size_t cell);
+  void bound_lattice();
+  void bound_tin();
+  Range bound_bin(RasterGrid::Cell bin);
+  void forget_depth_at_boundary(const std::vector<BoundaryEdge>& boundary, std::vector<Range>& ranges) const;
+  template <class RangeOf>
+  void bound_runs(const RangeOf& range_of);
 
+  const Tin* tin_ = nullptr;
+  std::optional<LatticeTin> own_;        ///< made of the Tin
+  const LatticeTin* lattice_ = nullptr;  ///< else it is the Tin
   Grid units_;
   RasterGrid grid_;
-  TriangleBins bins_;
-  std::vector<std::int32_t> tops_;
-  std::vector<Lid> lids_;
+  std::optional<Listed> listed_;
   Runs eastwards_, southwards_;
   double greatest_magnitude_ = 0;
-  bool lattice_;
-  std::vector<BoundaryEdge> boundary_;
+  std::vector<RimEdge> rim_;
 };
 
 }  // namespace itin::viewshed

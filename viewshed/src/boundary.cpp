@@ -29,17 +29,23 @@ std::vector<BoundaryEdge> boundary_edges(const Tin& tin) {
   return edges;
 }
 
-bool surface_resumes(const Tin& tin, const std::vector<BoundaryEdge>& boundary, Point2 position, double reach) {
-  const Point2 p{(position.x - tin.grid.origin.x) / tin.grid.resolution,
-                 (position.y - tin.grid.origin.y) / tin.grid.resolution};
-  return std::any_of(boundary.begin(), boundary.end(), [&](const BoundaryEdge& edge) {
-    const GridPoint &from = tin.vertices[edge.from], &to = tin.vertices[edge.to];
+std::vector<RimEdge> rim_of(const Tin& tin, const std::vector<BoundaryEdge>& boundary) {
+  std::vector<RimEdge> rim;
+  rim.reserve(boundary.size());
+  for (const BoundaryEdge& edge : boundary) rim.push_back({tin.vertices[edge.from], tin.vertices[edge.to]});
+  return rim;
+}
+
+bool surface_resumes(const Grid& units, const std::vector<RimEdge>& rim, Point2 position, double reach) {
+  const Point2 p{(position.x - units.origin.x) / units.resolution, (position.y - units.origin.y) / units.resolution};
+  return std::any_of(rim.begin(), rim.end(), [&](const RimEdge& edge) {
+    const auto& [from, to] = edge;
     const Point2 a{static_cast<double>(from.x), static_cast<double>(from.y)};
     const Point2 b{static_cast<double>(to.x), static_cast<double>(to.y)};
     const double side = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
     // A millionth of a grid unit, so that a position on the boundary's own line does not count.
     const bool outside = side < -1e-6 * std::hypot(b.x - a.x, b.y - a.y);
-    return outside && distance_to_segment(p, a, b) * tin.grid.resolution < reach;
+    return outside && distance_to_segment(p, a, b) * units.resolution < reach;
   });
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <itin/lattice_tin.hpp>
 #include <itin/tin.hpp>
 
 #include "sight_lines.hpp"
@@ -20,9 +21,12 @@ struct BoundaryEdge {
 /// In ascending order of the triangles they belong to. O(n) time, 40 bytes a triangle while running.
 std::vector<BoundaryEdge> boundary_edges(const Tin& tin);
 
+/// The same by their ends.
+std::vector<RimEdge> rim_of(const Tin& tin, const std::vector<BoundaryEdge>& boundary);
+
 /// Whether a sight line within `reach` metres of a position on the surface can cross ground without data: whether the
-/// surface begins anew across some boundary edge, seen from there.
-bool surface_resumes(const Tin& tin, const std::vector<BoundaryEdge>& boundary, Point2 position, double reach);
+/// surface begins anew across some piece of its rim, seen from there.
+bool surface_resumes(const Grid& units, const std::vector<RimEdge>& rim, Point2 position, double reach);
 
 enum class Crossing : std::uint8_t { kNone, kBack, kDoubtful };
 

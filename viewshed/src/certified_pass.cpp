@@ -46,7 +46,7 @@ EnvelopeScene::Look EnvelopeScene::look_from(const Eye& eye, std::span<const std
     if (const auto height = surface_height(tin, {&t, 1}, eye.position)) highest = std::max(highest, *height);
   }
   Look look{eye, highest};
-  if (voids != Voids::kPass) look.shadow.emplace(tin, envelope.outline, eye.units);
+  if (voids != Voids::kPass) look.shadow.emplace(rim_of(tin, envelope.outline), eye.units);
   return look;
 }
 

@@ -20,19 +20,27 @@ void for_each_cell(const Tile& tile, const Visit& visit) {
 
 FullSurface::FullSurface(const Tin& surface, const Tin* bare_ground, const Earth& earth, const RasterGrid& grid,
                          const RasterGrid& tiles)
-    : tin_(surface),
-      bare_ground_(bare_ground),
+    : targets_on_(bare_ground != nullptr ? bare_ground : &surface),
       grid_(grid),
       tiles_(tiles),
-      heights_(tin_),
-      sweep_(tin_, earth, heights_) {
+      heights_(surface),
+      sweep_(earth, heights_) {
   // Cells much smaller than triangles are filled triangle by triangle.
-  const bool small = 2 * grid.cell_width() < heights_.bin_size() * tin_.grid.resolution;
-  if (bare_ground_ != nullptr || small || !heights_.partition()) of_tiles_.emplace(targets_on(), tiles);
+  const bool small = 2 * grid.cell_width() < heights_.bin_size() * units().resolution;
+  if (bare_ground != nullptr || small || !heights_.partition()) of_tiles_.emplace(*targets_on_, tiles);
+}
+
+FullSurface::FullSurface(const LatticeTin& surface, const Earth& earth, const RasterGrid& grid, const RasterGrid& tiles)
+    : grid_(grid), tiles_(tiles), heights_(surface), sweep_(earth, heights_) {}
+
+std::optional<double> FullSurface::height(Point2 position) const {
+  const auto height =
+      heights_.height_at({easting_in_units(units(), position.x), northing_in_units(units(), position.y)});
+  return height ? std::optional(*height * units().resolution) : std::nullopt;
 }
 
 std::unique_ptr<FullSurface::TileWork> FullSurface::begin(std::size_t tile) const {
-  auto work = std::make_unique<TileWork>(tin_.grid, grid_, tile_at(grid_, tiles_, tile));
+  auto work = std::make_unique<TileWork>(units(), grid_, tile_at(grid_, tiles_, tile));
   find_ground(tile, *work);
   return work;
 }
@@ -51,9 +59,9 @@ std::uint64_t FullSurface::judge(const Eye& eye, TileValues<std::uint8_t>& value
 
 double FullSurface::raise_from(const Eye& eye, Point2 position, double lowest, double highest) const {
   const RasterGrid around({position.x - 0.5, position.y + 0.5}, 1, 1, 1, 1);
-  const auto work = std::make_unique<TileWork>(tin_.grid, around, Tile{0, 0, 1, 1});
-  work->centres.x[0] = easting_in_units(tin_.grid, position.x);
-  work->centres.y[0] = northing_in_units(tin_.grid, position.y);
+  const auto work = std::make_unique<TileWork>(units(), around, Tile{0, 0, 1, 1});
+  work->centres.x[0] = easting_in_units(units(), position.x);
+  work->centres.y[0] = northing_in_units(units(), position.y);
   work->ground[0] = lowest, work->targets[0] = highest;
   raise_from(eye, {work->ground, work->ground}, *work);
   return work->seen[0];
@@ -61,23 +69,20 @@ double FullSurface::raise_from(const Eye& eye, Point2 position, double lowest, d
 
 void FullSurface::find_ground(std::size_t index, TileWork& work) const {
   if (of_tiles_) {
-    scan_convert(targets_on(), of_tiles_->triangles(index), work.tile, work.centres, work.ground);
+    scan_convert(*targets_on_, of_tiles_->triangles(index), work.tile, work.centres, work.ground);
     return;
   }
   work.ground.fill(kNoSurface);
   for_each_cell(work.tile, [&](std::int64_t r, std::int64_t c, std::size_t cell) {
-    const Point2 centre{work.centres.x[static_cast<std::size_t>(c)], work.centres.y[static_cast<std::size_t>(r)]};
-    heights_.find_at(centre.x, centre.y, [&](std::span<const std::uint32_t> triangles) {
-      const auto height = surface_height_at(tin_, triangles, centre);
-      if (height) work.ground[cell] = *height;
-      return height.has_value();
-    });
+    const auto height =
+        heights_.height_at({work.centres.x[static_cast<std::size_t>(c)], work.centres.y[static_cast<std::size_t>(r)]});
+    if (height) work.ground[cell] = *height;
   });
 }
 
 /// Where undecided cells have their targets; those that need no line are decided.
 void FullSurface::raise_targets(const Eye& eye, TileValues<std::uint8_t>& values, TileWork& work) const {
-  const double resolution = tin_.grid.resolution, metre = 1 / resolution, grazing = kGrazing / resolution;
+  const double resolution = units().resolution, metre = 1 / resolution, grazing = kGrazing / resolution;
   work.targets.fill(kNoSurface);
   for_each_cell(work.tile, [&](std::int64_t r, std::int64_t c, std::size_t cell) {
     std::uint8_t& value = values[cell];

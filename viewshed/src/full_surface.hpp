@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <itin/earth.hpp>
+#include <itin/lattice_tin.hpp>
 #include <itin/raster.hpp>
 #include <itin/tin.hpp>
 #include <viewshed/certified.hpp>
@@ -31,16 +32,17 @@ class FullSurface {
   /// must outlive this.
   FullSurface(const Tin& surface, const Tin* bare_ground, const Earth& earth, const RasterGrid& grid,
               const RasterGrid& tiles);
+  FullSurface(const LatticeTin& surface, const Earth& earth, const RasterGrid& grid, const RasterGrid& tiles);
   FullSurface(const FullSurface&) = delete;
   FullSurface& operator=(const FullSurface&) = delete;
 
-  const Tin& tin() const { return tin_; }
+  const Grid& units() const { return heights_.units(); }
   const RasterGrid& grid() const { return grid_; }
   const RasterGrid& tiles() const { return tiles_; }
   /// Of what hides, metres, if there is any at that position.
-  std::optional<double> height(Point2 position) const { return heights_.ground(tin_, position); }
+  std::optional<double> height(Point2 position) const;
   /// Where it ends.
-  const std::vector<BoundaryEdge>& boundary() const { return heights_.boundary(); }
+  const std::vector<RimEdge>& rim() const { return heights_.rim(); }
 
   /// What a tile's cells share between eyes, for one thread.
   struct TileWork {
@@ -72,14 +74,11 @@ class FullSurface {
   void raise_targets(const Eye& eye, TileValues<std::uint8_t>& values, TileWork& work) const;
   void find_ground(std::size_t index, TileWork& work) const;
 
-  const Tin& targets_on() const { return bare_ground_ != nullptr ? *bare_ground_ : tin_; }
-
-  const Tin& tin_;
-  const Tin* bare_ground_;
+  const Tin* targets_on_ = nullptr;  ///< what targets stand on, where that is a Tin
   const RasterGrid& grid_;
   const RasterGrid& tiles_;
   BinnedHeights heights_;
-  std::optional<TriangleBins> of_tiles_;  ///< of what targets stand on, where `heights_` does not tell it well
+  std::optional<TriangleBins> of_tiles_;  ///< of that Tin, where `heights_` does not tell its heights well
   AxisSweep sweep_;
 };
 

@@ -45,7 +45,7 @@ bool LeastHeightObservation::raise(const TileLook& tile, const Look& look) {
     see(look);
     return false;
   }
-  const double resolution = tile.surface.tin().grid.resolution, ground = work.ground[look.cell];
+  const double resolution = tile.surface.units().resolution, ground = work.ground[look.cell];
   // A target on the ground ends exactly there.
   const double wanted = ground + (eye.target(ground * resolution) - ground * resolution) / resolution;
   double lowest = ground, highest = kSky / resolution;
@@ -65,7 +65,7 @@ void LeastHeightObservation::settle(const TileLook& tile, const Look& look) {
   const Point3 highest = work.target(look.cell);
   if (tile.shadow != nullptr && tile.shadow->holds(highest.x, highest.y)) return;
   const double ground = work.ground[look.cell], seen = work.seen[look.cell], wanted = wanted_[look.cell];
-  const double height = seen <= ground ? 0 : (seen - ground) * tile.surface.tin().grid.resolution;
+  const double height = seen <= ground ? 0 : (seen - ground) * tile.surface.units().resolution;
   least_[look.cell] = std::min(least_[look.cell], height);
   if (wanted >= lowest_[look.cell] && wanted <= highest.z && seen <= wanted) mark_visible(look.cell);
 }

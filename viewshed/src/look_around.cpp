@@ -7,8 +7,6 @@
 
 #include <itin/parallel.hpp>
 
-#include "observation.hpp"
-
 namespace itin::viewshed {
 
 namespace {
@@ -20,15 +18,10 @@ struct Tally {
 
 class LookAround {
  public:
-  LookAround(const FullSurface& surface, const std::vector<Eye>& eyes, Result& result)
-      : surface_(surface),
-        eyes_(eyes),
-        result_(result),
-        observations_(result.request, surface.tin()),
-        shadows_(eyes.size()) {
+  LookAround(const FullSurface& surface, const Observations& observations, const std::vector<Eye>& eyes, Result& result)
+      : surface_(surface), eyes_(eyes), result_(result), observations_(observations), shadows_(eyes.size()) {
     if (result.request.nodata != NoData::kBlock || !result.crosses_voids) return;
-    parallel_for(eyes.size(),
-                 [&](std::size_t i) { shadows_[i].emplace(surface.tin(), surface.boundary(), eyes[i].units); });
+    parallel_for(eyes.size(), [&](std::size_t i) { shadows_[i].emplace(surface.rim(), eyes[i].units); });
   }
 
   Tally decide(std::size_t tile) const {
@@ -63,15 +56,16 @@ class LookAround {
   const FullSurface& surface_;
   const std::vector<Eye>& eyes_;
   Result& result_;
-  Observations observations_;
+  const Observations& observations_;
   std::vector<std::optional<VoidShadow>> shadows_;  ///< of each eye, where ground without data hides
 };
 
 }  // namespace
 
-void look_around(const FullSurface& surface, const std::vector<Eye>& eyes, Result& result, Progress& progress) {
+void look_around(const FullSurface& surface, const Observations& observations, const std::vector<Eye>& eyes,
+                 Result& result, Progress& progress) {
   Observation::prepare(result);
-  const LookAround looks(surface, eyes, result);
+  const LookAround looks(surface, observations, eyes, result);
   const std::size_t count = surface.tiles().cell_count();
   std::atomic<std::size_t> done = 0;
   std::vector<Tally> tallies(count);

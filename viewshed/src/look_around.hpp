@@ -8,12 +8,14 @@
 
 #include "eye.hpp"
 #include "full_surface.hpp"
+#include "observation.hpp"
 
 namespace itin::viewshed {
 
-/// Fills the result's rasters and counts; its request says in what mode, its grid is the surface's, and
-/// `crosses_voids` tells whether NoData::kBlock matters. Memory: 36 kB a thread and, where it does, what edges of voids
-/// each eye sees from behind. Throws Cancelled.
-void look_around(const FullSurface& surface, const std::vector<Eye>& eyes, Result& result, Progress& progress);
+/// Fills the result's rasters and counts; its request, of which the observations are, says in what mode, its grid is
+/// the surface's, and `crosses_voids` tells whether NoData::kBlock matters. Memory: 36 kB a thread and, where it does,
+/// what edges of voids each eye sees from behind. Throws Cancelled.
+void look_around(const FullSurface& surface, const Observations& observations, const std::vector<Eye>& eyes,
+                 Result& result, Progress& progress);
 
 }  // namespace itin::viewshed

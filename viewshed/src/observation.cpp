@@ -111,7 +111,7 @@ std::uint64_t Observation::look(const TileLook& tile) {
   });
   const std::uint64_t lines = tile.surface.judge(tile.eye, values, work);
   if (tile.shadow != nullptr) tile.shadow->hide(work.centres, values);
-  const double resolution = tile.surface.tin().grid.resolution;
+  const double resolution = tile.surface.units().resolution;
   tile.for_each_cell([&](Look look) {
     if (values[look.cell] == kOutside) return;
     enter(look.cell);

@@ -109,7 +109,7 @@ class Observations {
 
 template <class Visit>
 void TileLook::for_each_cell(const Visit& visit) const {
-  const Grid& units = surface.tin().grid;
+  const Grid& units = surface.units();
   for (std::int64_t r = 0; r < work.tile.rows; ++r) {
     const double dy = surface.grid().centre_y(work.tile.row + r) - eye.position.y;
     for (std::int64_t c = 0; c < work.tile.columns; ++c) {

@@ -18,6 +18,7 @@
 #include "observer_raster.hpp"
 #include "request.hpp"
 #include "stopwatch.hpp"
+#include "store_viewshed.hpp"
 
 namespace itin::viewshed {
 
@@ -25,6 +26,8 @@ namespace {
 
 /// Peak memory a point of the full surface: triangulation, triangles and bins.
 constexpr std::uint64_t kBytesAPoint = 400;
+/// The same where it is a lattice.
+constexpr std::uint64_t kBytesAPost = 10;
 /// Of an envelope, which has two surfaces and two scenes; and half of the memory is for what is refined meanwhile.
 constexpr std::uint64_t kBytesAnEnvelopePoint = 2400;
 /// Of the rasters that hold what is known of every cell.
@@ -122,7 +125,7 @@ class InSegments {
     result.statistics.retrieval_seconds += watch_.lap();
     result.grid = cells_of(request_, envelope.lower.bounds());
     tiles_ = grid_of_tiles(result.grid);
-    look_for_voids(envelope.lower, envelope.outline, result);
+    look_for_voids(envelope.lower.grid, rim_of(envelope.lower, envelope.outline), result);
     ground_.emplace(store_, envelope.lower.bounds());
     if (whole_lines() && result.crosses_voids && request_.nodata == NoData::kBlock)
       throw InputError(
@@ -306,11 +309,14 @@ Surveyed compute_precise(const Store& store, const Request& request, const Preci
                          Progress& progress) {
   validate(request);
   if (request.mode == Mode::kCertified) throw InputError("precise viewsheds leave nothing undecided");
-  if (store.points_about(0, box_of_window(store, request)) > options.memory_bytes / kBytesAPoint)
-    return InSegments(store, request, options, progress).run();
   Request whole = request;
   whole.detail = Detail::tolerance(0);
-  return compute_with_surface(store, whole, progress);
+  const Box box = box_of_window(store, request);
+  const std::uint64_t memory = memory_beside_rasters(options.memory_bytes, cells_of(request, box).cell_count());
+  if (auto surveyed = compute_over_lattice(store, whole, memory / kBytesAPost, progress)) return std::move(*surveyed);
+  if (store.points_about(0, box) > options.memory_bytes / kBytesAPoint)
+    return InSegments(store, request, options, progress).run();
+  return compute_over_tin(store, whole, progress);
 }
 
 }  // namespace itin::viewshed

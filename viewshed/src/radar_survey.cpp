@@ -11,7 +11,7 @@ namespace {
 
 void survey_tile(const Eye& radar, const FullSurface& surface, const VoidShadow* shadow, FullSurface::TileWork& work,
                  std::vector<float>& result) {
-  const double resolution = surface.tin().grid.resolution;
+  const double resolution = surface.units().resolution;
   for (std::size_t i = 0; i < work.ground.size(); ++i) work.targets[i] = work.ground[i] + kRadarCeiling / resolution;
   surface.raise_from(radar, {work.ground, work.ground}, work);
   for (std::int64_t r = 0; r < work.tile.rows; ++r) {
@@ -42,7 +42,7 @@ std::vector<float> radar_heights(const Eye& radar, const FullSurface& surface, c
 
 double radar_sees(const Eye& radar, const FullSurface& surface, const VoidShadow* shadow, const Turbine& turbine,
                   double ground_m) {
-  const Grid& units = surface.tin().grid;
+  const Grid& units = surface.units();
   const double tip = (ground_m + turbine.tip_height) / units.resolution;
   const double least = surface.raise_from(radar, turbine.position, ground_m / units.resolution, tip);
   if (std::isinf(least)) return turbine.tip_height;

@@ -149,10 +149,10 @@ Window window_of(const Request& request) {
   return Window::polygons(std::move(parts));
 }
 
-void look_for_voids(const Tin& tin, const std::vector<BoundaryEdge>& outline, Result& result) {
+void look_for_voids(const Grid& units, const std::vector<RimEdge>& rim, Result& result) {
   for (const Observer& observer : result.request.observers) {
     const double reach = radius_of(result.request, observer).value_or(std::numeric_limits<double>::infinity());
-    result.crosses_voids = result.crosses_voids || surface_resumes(tin, outline, observer.position, reach);
+    result.crosses_voids = result.crosses_voids || surface_resumes(units, rim, observer.position, reach);
   }
   if (result.crosses_voids && result.request.nodata == NoData::kUnknown) result.warnings.emplace_back(kVoidsWarning);
 }

@@ -31,8 +31,8 @@ Box disc_box(Point2 centre, double radius);
 Window window_of(const Request& request);
 
 /// Whether sight lines of the result's request may cross ground without data, with a warning where the request does not
-/// say what becomes of them. `outline` is where the surface ends.
-void look_for_voids(const Tin& tin, const std::vector<BoundaryEdge>& outline, Result& result);
+/// say what becomes of them. `rim` is where the surface ends, in these units.
+void look_for_voids(const Grid& units, const std::vector<RimEdge>& rim, Result& result);
 
 /// Above every end of every sight line over this surface, metres.
 double ceiling_of(const Tin& tin, const Request& request);

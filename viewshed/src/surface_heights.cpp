@@ -22,11 +22,10 @@ struct Crossing {
 /// its crossings with a row agree to the last bit.
 class RowSections {
  public:
-  RowSections(const Tin& tin, const Triangle& t) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const GridPoint& v = tin.vertices[t[i]];
-      corners_[i] = {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-    }
+  explicit RowSections(const std::array<GridPoint, 3>& corners) {
+    std::transform(corners.begin(), corners.end(), corners_.begin(), [](const GridPoint& v) {
+      return Point3{static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+    });
     order(0, 1), order(1, 2), order(0, 1);
   }
 
@@ -108,7 +107,7 @@ void for_each_centre(const Tin& tin, std::span<const std::uint32_t> triangles, c
     return static_cast<std::int64_t>(std::clamp(std::floor(cells) - 1, 0.0, static_cast<double>(limit)));
   };
   for (const std::uint32_t t : triangles) {
-    const RowSections sections(tin, tin.triangles[t]);
+    const RowSections sections(tin.corners(t));
     for (std::int64_t r = first_at((y[0] - sections.highest()) * rows_a_unit, tile.rows); r < tile.rows; ++r) {
       const double row_y = y[static_cast<std::size_t>(r)];
       if (row_y > sections.highest()) continue;
@@ -150,25 +149,29 @@ std::optional<double> surface_height(const Tin& tin, std::span<const std::uint32
 }
 
 std::optional<double> surface_height_at(const Tin& tin, std::span<const std::uint32_t> triangles, Point2 units) {
-  const auto& [x, y] = units;
-  for (const std::uint32_t t : triangles) {
-    const RowSections sections(tin, tin.triangles[t]);
-    if (y < sections.lowest() || y > sections.highest()) continue;
-    const auto [west, east] = sections.at(y);
-    if (x >= west.x && x <= east.x) return RowSections::height(west, east, x);
-  }
+  for (const std::uint32_t t : triangles)
+    if (const auto height = height_over(tin.corners(t), units)) return height;
   return std::nullopt;
+}
+
+std::optional<double> height_over(const std::array<GridPoint, 3>& triangle, Point2 units) {
+  const auto& [x, y] = units;
+  const RowSections sections(triangle);
+  if (y < sections.lowest() || y > sections.highest()) return std::nullopt;
+  const auto [west, east] = sections.at(y);
+  if (x < west.x || x > east.x) return std::nullopt;
+  return RowSections::height(west, east, x);
 }
 
 std::optional<double> height_on(const Tin& tin, Point2 position) {
   const Point2 units{easting_in_units(tin.grid, position.x), northing_in_units(tin.grid, position.y)};
-  const auto beside = [&](const Triangle& t) {
-    const GridPoint &a = tin.vertices[t[0]], &b = tin.vertices[t[1]], &c = tin.vertices[t[2]];
+  const auto beside = [&](const std::array<GridPoint, 3>& corners) {
+    const auto& [a, b, c] = corners;
     return (a.x < units.x && b.x < units.x && c.x < units.x) || (a.x > units.x && b.x > units.x && c.x > units.x);
   };
   for (std::uint32_t i = 0; i < tin.triangles.size(); ++i) {
-    if (beside(tin.triangles[i])) continue;
-    if (const auto height = surface_height_at(tin, std::span(&i, 1), units)) return *height * tin.grid.resolution;
+    if (beside(tin.corners(i))) continue;
+    if (const auto height = height_over(tin.corners(i), units)) return *height * tin.grid.resolution;
   }
   return std::nullopt;
 }

@@ -59,6 +59,9 @@ std::optional<double> surface_height(const Tin& tin, std::span<const std::uint32
 /// The same at a position in grid units.
 std::optional<double> surface_height_at(const Tin& tin, std::span<const std::uint32_t> triangles, Point2 units);
 
+/// The same over a single triangle, if it holds the position.
+std::optional<double> height_over(const std::array<GridPoint, 3>& triangle, Point2 units);
+
 /// Height in metres at a position in metres, by looking at every triangle of the Tin.
 std::optional<double> height_on(const Tin& tin, Point2 position);
 

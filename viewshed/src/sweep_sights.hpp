@@ -2,15 +2,19 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 
-#include <itin/tin.hpp>
+#include <itin/geometry.hpp>
 
 #include "sight_line.hpp"
 
 namespace itin::viewshed {
 
 inline constexpr std::uint32_t kNoSilhouette = 0xffffffff;
+
+/// Of a triangle, counterclockwise.
+using Corners = std::array<GridPoint, 3>;
 
 /// How far from the axis the other end is, in bins, and the drop there, grid units.
 struct SweptEnd {
@@ -26,26 +30,25 @@ class RaisedEnd {
   double least() const { return least_; }
   std::uint32_t silhouette() const { return silhouette_; }
 
-  bool hides(std::uint32_t triangle, double end) const {
-    const Triangle& t = tin_.triangles[triangle];
-    return line_.with_end(end).hidden_by(tin_.vertices[t[0]], tin_.vertices[t[1]], tin_.vertices[t[2]]);
+  bool hides(const Corners& triangle, double end) const {
+    const auto& [a, b, c] = triangle;
+    return line_.with_end(end).hidden_by(a, b, c);
   }
 
  protected:
-  RaisedEnd(const Tin& tin, const SightLine& line, double least, double highest, double margin)
-      : tin_(tin), line_(line), highest_(highest), margin_(margin), least_(least) {}
+  RaisedEnd(const SightLine& line, double least, double highest, double margin)
+      : line_(line), highest_(highest), margin_(margin), least_(least) {}
   const SightLine& line() const { return line_; }
 
   /// Whether the highest can still be seen over this triangle, too. Calls raised() where the least one is higher then.
   template <class Raised>
-  bool clears(std::uint32_t triangle, const Raised& raised) {
-    const Triangle& t = tin_.triangles[triangle];
-    const GridPoint &a = tin_.vertices[t[0]], &b = tin_.vertices[t[1]], &c = tin_.vertices[t[2]];
+  bool clears(std::uint32_t triangle, const Corners& corners, const Raised& raised) {
+    const auto& [a, b, c] = corners;
     if (line_.apart(a, b, c, least_, margin_)) return true;
     const double end = line_.clearing_end(a, b, c);
     if (end <= least_) return true;
     silhouette_ = triangle;
-    if (end > highest_ && hides(triangle, highest_)) return false;
+    if (end > highest_ && hides(corners, highest_)) return false;
     // What rises by less than a grazing is only touched, though clearing it takes a hair more than the highest.
     least_ = std::min(end, highest_);
     raised();
@@ -53,7 +56,6 @@ class RaisedEnd {
   }
 
  private:
-  const Tin& tin_;
   const SightLine& line_;
   double highest_, margin_, least_;
   std::uint32_t silhouette_ = kNoSilhouette;
@@ -62,15 +64,15 @@ class RaisedEnd {
 /// From an eye to the top of an axis: how far down it is seen.
 class AxisSight : public RaisedEnd {
  public:
-  AxisSight(const Tin& tin, const SightLine& from_eye, double base, const SweptEnd& eye, double margin)
-      : RaisedEnd(tin, from_eye, std::min(base, from_eye.to_z()), from_eye.to_z(), margin), eye_(eye) {
+  AxisSight(const SightLine& from_eye, double base, const SweptEnd& eye, double margin)
+      : RaisedEnd(from_eye, std::min(base, from_eye.to_z()), from_eye.to_z(), margin), eye_(eye) {
     turn();
   }
 
   double at_axis() const { return least(); }
   double slope() const { return slope_; }
-  bool clears(std::uint32_t triangle) {
-    return RaisedEnd::clears(triangle, [this] { turn(); });
+  bool clears(std::uint32_t triangle, const Corners& corners) {
+    return RaisedEnd::clears(triangle, corners, [this] { turn(); });
   }
 
  private:
@@ -83,9 +85,8 @@ class AxisSight : public RaisedEnd {
 /// From a point to a target: whether it is seen.
 class PointSight {
  public:
-  PointSight(const Tin& tin, const SightLine& to_target, const SweptEnd& target, double margin)
-      : tin_(tin),
-        line_(to_target),
+  PointSight(const SightLine& to_target, const SweptEnd& target, double margin)
+      : line_(to_target),
         slope_((to_target.to_z() - target.drop - to_target.from().z) / target.along),
         margin_(margin) {}
 
@@ -94,16 +95,14 @@ class PointSight {
   double least() const { return at_axis(); }
   std::uint32_t silhouette() const { return silhouette_; }
 
-  bool clears(std::uint32_t triangle) {
-    const Triangle& t = tin_.triangles[triangle];
-    const GridPoint &a = tin_.vertices[t[0]], &b = tin_.vertices[t[1]], &c = tin_.vertices[t[2]];
+  bool clears(std::uint32_t triangle, const Corners& corners) {
+    const auto& [a, b, c] = corners;
     if (line_.apart(a, b, c, line_.to_z(), margin_) || !line_.hidden_by(a, b, c)) return true;
     silhouette_ = triangle;
     return false;
   }
 
  private:
-  const Tin& tin_;
   const SightLine& line_;
   double slope_, margin_;
   std::uint32_t silhouette_ = kNoSilhouette;
@@ -116,8 +115,8 @@ class HeightSight : public RaisedEnd {
     double lowest = 0, highest = 0;
     double hidden_below = 0;  ///< is known to be hidden
   };
-  HeightSight(const Tin& tin, const SightLine& to_lowest, const Range& range, const SweptEnd& end, double margin)
-      : RaisedEnd(tin, to_lowest, std::max(range.lowest, std::min(range.hidden_below, range.highest)), range.highest,
+  HeightSight(const SightLine& to_lowest, const Range& range, const SweptEnd& end, double margin)
+      : RaisedEnd(to_lowest, std::max(range.lowest, std::min(range.hidden_below, range.highest)), range.highest,
                   margin),
         end_(end) {
     turn();
@@ -125,8 +124,8 @@ class HeightSight : public RaisedEnd {
 
   double at_axis() const { return line().from().z; }
   double slope() const { return slope_; }
-  bool clears(std::uint32_t triangle) {
-    return RaisedEnd::clears(triangle, [this] { turn(); });
+  bool clears(std::uint32_t triangle, const Corners& corners) {
+    return RaisedEnd::clears(triangle, corners, [this] { turn(); });
   }
 
  private:

@@ -68,7 +68,8 @@ class TriangleInBins {
 }  // namespace
 
 TriangleBins::TriangleBins(const Tin& tin, const RasterGrid& grid) {
-  fill(tin.triangles.size(), grid.cell_count(), [&](std::size_t t, const auto& visit) {
+  const std::size_t count = tin.triangles.size(), bins = grid.cell_count();
+  const auto for_each_bin = [&](std::size_t t, const auto& visit) {
     const TriangleInBins triangle(tin, tin.triangles[t], grid);
     const BinRange& box = triangle.box();
     for (std::int64_t row = box.north; row <= box.south; ++row) {
@@ -76,17 +77,7 @@ TriangleBins::TriangleBins(const Tin& tin, const RasterGrid& grid) {
       if (!triangle.fills_box()) std::tie(west, east) = triangle.columns_in(row);
       for (std::int64_t column = west; column <= east; ++column) visit(grid.index({column, row}));
     }
-  });
-}
-
-TriangleBins::TriangleBins(const CellLattice& lattice) {
-  fill(lattice.cell_of.size(), lattice.grid.cell_count(),
-       [&](std::size_t t, const auto& visit) { visit(lattice.cell_of[t]); });
-}
-
-/// `for_each_bin(t, visit)` calls visit(bin) for every bin of a triangle.
-template <class ForEachBin>
-void TriangleBins::fill(std::size_t count, std::size_t bins, const ForEachBin& for_each_bin) {
+  };
   // Chunks of triangles count on their own and then know where to write: ascending numbers, whatever the threads.
   const auto chunks = static_cast<std::size_t>(std::min(16, thread_count()));
   std::vector<std::vector<std::uint32_t>> places(chunks, std::vector<std::uint32_t>(bins));

@@ -8,8 +8,6 @@
 #include <itin/raster.hpp>
 #include <itin/tin.hpp>
 
-#include "cell_lattice.hpp"
-
 namespace itin::viewshed {
 
 class TriangleBins {
@@ -17,17 +15,12 @@ class TriangleBins {
   /// A triangle is listed in every cell of `grid` that it meets, or nearly meets, by ascending number. O(n) plus the
   /// entries.
   TriangleBins(const Tin& tin, const RasterGrid& grid);
-  /// Each triangle in its one cell.
-  explicit TriangleBins(const CellLattice& lattice);
 
   std::span<const std::uint32_t> triangles(std::size_t bin) const {
     return std::span(triangles_).subspan(first_[bin], first_[bin + 1] - first_[bin]);
   }
 
  private:
-  template <class ForEachBin>
-  void fill(std::size_t count, std::size_t bins, const ForEachBin& for_each_bin);
-
   std::vector<std::size_t> first_;  ///< of bin b: [first_[b], first_[b + 1])
   std::vector<std::uint32_t> triangles_;
 };

@@ -27,21 +27,21 @@ namespace itin::viewshed {
 namespace {
 
 /// What voids hide from each turbine, where they do.
-std::vector<VoidShadow> shadows(const Tin& tin, const std::vector<BoundaryEdge>& boundary, const ZoneRequest& request) {
+std::vector<VoidShadow> shadows(const BinnedHeights& surface, const ZoneRequest& request) {
   std::vector<VoidShadow> result;
   if (request.nodata != NoData::kBlock) return result;
   for (const Turbine& t : request.turbines) {
-    result.emplace_back(tin, boundary,
-                        Point3{easting_in_units(tin.grid, t.position.x), northing_in_units(tin.grid, t.position.y), 0});
+    result.emplace_back(surface.rim(), Point3{easting_in_units(surface.units(), t.position.x),
+                                              northing_in_units(surface.units(), t.position.y), 0});
   }
   return result;
 }
 
 void warn_of_voids(const Tin& tin, Zone& zone) {
   if (zone.request.nodata != NoData::kUnknown) return;
-  const std::vector<BoundaryEdge> boundary = boundary_edges(tin);
+  const std::vector<RimEdge> rim = rim_of(tin, boundary_edges(tin));
   const bool crossed = std::any_of(zone.request.turbines.begin(), zone.request.turbines.end(), [&](const Turbine& t) {
-    return surface_resumes(tin, boundary, t.position, t.radius);
+    return surface_resumes(tin.grid, rim, t.position, t.radius);
   });
   if (crossed) zone.warnings.emplace_back(kVoidsWarning);
 }
@@ -69,10 +69,10 @@ class ZoneWork {
             Visibility& visibility) {
     Stopwatch watch;
     const BinnedHeights binned(surface);
-    const std::vector<VoidShadow> behind_voids = shadows(surface, binned.boundary(), zone_.request);
+    const std::vector<VoidShadow> behind_voids = shadows(binned, zone_.request);
     zone_.statistics.scene_seconds += watch.lap();
-    zone_.statistics.lines += survey.run({AxisSweep(surface, zone_.request.earth, binned), behind_voids}, tiles, stage,
-                                         visibility, progress_);
+    zone_.statistics.lines +=
+        survey.run({AxisSweep(zone_.request.earth, binned), behind_voids}, tiles, stage, visibility, progress_);
     zone_.statistics.lines_seconds += watch.lap();
     zone_.statistics.retrieval += surface.statistics;
     zone_.statistics.triangles += surface.triangles.size();
@@ -87,7 +87,7 @@ class ZoneWork {
     request.earth = zone_.request.earth;
     const Eye eye = eye_of(ground.grid, request, radar, height);
     std::optional<VoidShadow> behind_voids;
-    if (zone_.request.nodata == NoData::kBlock) behind_voids.emplace(ground, surface.boundary(), eye.units);
+    if (zone_.request.nodata == NoData::kBlock) behind_voids.emplace(surface.rim(), eye.units);
     const VoidShadow* const shadow = behind_voids ? &*behind_voids : nullptr;
     RadarView& view = zone_.radar.emplace();
     view.ground_m = *height;

@@ -28,14 +28,11 @@ bool VoidShadow::reaches(const Vector& line, const Vector& place) {
   return dot(line, place) > 0 && dot(place, place) <= dot(line, line);
 }
 
-VoidShadow::VoidShadow(const Tin& tin, const std::vector<BoundaryEdge>& boundary, const Point3& eye) : eye_(eye) {
-  const auto from_eye = [&](std::uint32_t vertex) {
-    const GridPoint& v = tin.vertices[vertex];
-    return Vector{v.x - eye.x, v.y - eye.y};
-  };
+VoidShadow::VoidShadow(const std::vector<RimEdge>& rim, const Point3& eye) : eye_(eye) {
+  const auto from_eye = [&](const GridPoint& p) { return Vector{p.x - eye.x, p.y - eye.y}; };
   // The surface lies to the left: seen from its right side it begins here.
   const auto faces_away = [](const Edge& edge) { return cross(edge.from, edge.to) < 0; };
-  for (const BoundaryEdge& edge : boundary) edges_.push_back({from_eye(edge.from), from_eye(edge.to)});
+  for (const RimEdge& edge : rim) edges_.push_back({from_eye(edge.from), from_eye(edge.to)});
   if (std::none_of(edges_.begin(), edges_.end(), faces_away)) {
     edges_ = {};
     return;

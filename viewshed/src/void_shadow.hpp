@@ -1,6 +1,6 @@
 // What lies behind ground without data as an eye sees it: beyond an edge where the surface begins anew.
 //
-//   const VoidShadow shadow(tin, boundary_edges(tin), eye.units);
+//   const VoidShadow shadow(surface.rim(), eye.units);
 //   if (shadow.holds(target)) ...                       // hidden under NoData::kBlock
 #pragma once
 
@@ -8,9 +8,8 @@
 #include <vector>
 
 #include <itin/geometry.hpp>
-#include <itin/tin.hpp>
+#include <itin/lattice_tin.hpp>
 
-#include "boundary.hpp"
 #include "surface_heights.hpp"
 
 namespace itin::viewshed {
@@ -18,7 +17,7 @@ namespace itin::viewshed {
 class VoidShadow {
  public:
   /// Grid units. Cost: the edges, each as often as the sectors of the horizon it spans, if any faces away from the eye.
-  VoidShadow(const Tin& tin, const std::vector<BoundaryEdge>& boundary, const Point3& eye);
+  VoidShadow(const std::vector<RimEdge>& rim, const Point3& eye);
 
   /// Whether the line from the eye to a place comes back to the surface, be it at the place itself. Both lie on the
   /// surface. Cost: the edges of one sector.

@@ -49,6 +49,11 @@ struct Tin {
   std::vector<std::uint16_t> standing;
   std::vector<LineEdge> lines;  ///< of every theme present, ascending; an edge that themes share comes for each
 
+  /// Of a triangle, counterclockwise.
+  std::array<GridPoint, 3> corners(std::uint32_t triangle) const {
+    const auto& [a, b, c] = triangles[triangle];
+    return {vertices[a], vertices[b], vertices[c]};
+  }
   Point3 point(std::uint32_t vertex) const { return grid.point(vertices[vertex]); }
   /// The theme (from 1) of the standing feature that the triangle is part of; 0 for ground.
   std::uint16_t theme(const Triangle& t) const;

@@ -130,6 +130,10 @@ std::shared_ptr<const Block> StoreFile::block(const Leaf& leaf) const {
   return block;
 }
 
+std::shared_ptr<const Block> StoreFile::block_once(const Leaf& leaf) const {
+  return std::make_shared<const Block>(read_block(leaf));
+}
+
 void StoreFile::segments(const GridBox& box, std::vector<Segment>& out) const {
   for (auto tree = chunks_.lower_bound(format::kFirstEdgeTree); tree != chunks_.end(); ++tree)
     segments(tree->first, box, out);

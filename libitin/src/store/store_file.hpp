@@ -25,6 +25,7 @@ class StoreFile final : public PointIndex {
   GridBox bounds() const override { return metadata_.bounds; }
   void leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const override;
   std::shared_ptr<const Block> block(const Leaf& leaf) const override;
+  std::shared_ptr<const Block> block_once(const Leaf& leaf) const override;
   void segments(const GridBox& box, std::vector<Segment>& out) const override;
 
   /// One of the theme's footprint blocks.

@@ -18,6 +18,7 @@
 
 #include "../height_pyramid.hpp"
 #include "../sight_line.hpp"
+#include "../sight_lines.hpp"
 
 namespace itin::viewshed {
 

@@ -57,9 +57,8 @@ class ExactJudge final : public TileJudge {
     for (const std::size_t option : looks.options)
       looks_.push_back({eye_at(tin.grid, looks.request, ground.survey.stands[option]), std::nullopt});
     if (ground.survey.nodata != NoData::kBlock) return;
-    parallel_for(looks_.size(), [&](std::size_t i) {
-      looks_[i].shadow.emplace(tin, ground.surface.full.boundary(), looks_[i].eye.units);
-    });
+    parallel_for(looks_.size(),
+                 [&](std::size_t i) { looks_[i].shadow.emplace(ground.surface.full.rim(), looks_[i].eye.units); });
   }
 
   std::unique_ptr<Work> begin(std::size_t tile) const override {
