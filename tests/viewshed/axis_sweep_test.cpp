@@ -73,8 +73,9 @@ class Sweeping {
     const AxisSweep::Axis axis{easting_in_units(tin_.grid, foot.x), northing_in_units(tin_.grid, foot.y), *base / unit,
                                (*base + height) / unit, radius / unit};
     const auto work = std::make_unique<Work>();
+    const AxisSweep::View view = sweep_.view_of(axis);
     ground_.for_each_tile(eye_height, [&](const AxisSweep::Ends& eyes) {
-      sweep_.run(axis, eyes, work->scratch, work->found);
+      sweep_.run(view, eyes, work->scratch, work->found);
       for (std::int64_t r = 0; r < eyes.tile.rows; ++r)
         for (std::int64_t c = (r * 7) % every_; c < eyes.tile.columns; c += every_)
           check(axis, eyes, work->found, r, c, tally);
@@ -235,8 +236,9 @@ class LookingAround {
   /// Metres above the ground.
   Tally see(const Point3& eye, double target_height) {
     Tally tally;
+    const AxisSweep::View view = sweep_.view_from(eye, INFINITY);
     ground_.for_each_tile(target_height, [&](const AxisSweep::Ends& targets) {
-      sweep_.look_from(eye, targets, work_->scratch, work_->found);
+      sweep_.look_from(view, targets, work_->scratch, work_->found);
       for_each_line(eye, targets, [&](std::size_t cell, const SightLine& line) {
         const bool hidden = hides(line);
         EXPECT_EQ(std::isnan(work_->found[cell]), hidden) << "cell " << cell;
@@ -250,12 +252,13 @@ class LookingAround {
   Tally raise(const Point3& eye, double wanted, double highest) {
     Tally tally;
     const double metre = 1 / tin_.grid.resolution;
+    const AxisSweep::View view = sweep_.view_from(eye, INFINITY);
     ground_.for_each_tile(0, [&](const AxisSweep::Ends& ground) {
       for (std::size_t i = 0; i < ground.elevation.size(); ++i) {
         work_->wanted[i] = ground.elevation[i] + wanted * metre;
         work_->highest[i] = ground.elevation[i] + highest * metre;
       }
-      sweep_.raise_from(eye, {ground.tile, ground.centres, work_->highest}, {ground.elevation, work_->wanted},
+      sweep_.raise_from(view, {ground.tile, ground.centres, work_->highest}, {ground.elevation, work_->wanted},
                         work_->scratch, work_->found);
       for_each_line(eye, ground, [&](std::size_t cell, const SightLine& line) {
         const double lowest = ground.elevation[cell], found = work_->found[cell];

@@ -24,47 +24,45 @@ std::size_t number(std::int64_t i) {
 class AxisSweep::Task {
  public:
   /// `lowest` is that of Kind::kHeight.
-  Task(const AxisSweep& sweep, const Axis& axis, Kind kind, const Ends& ends, const Lowest* lowest, Scratch& scratch,
+  Task(const AxisSweep& sweep, const View& view, Kind kind, const Ends& ends, const Lowest* lowest, Scratch& scratch,
        Heights& heights)
       : sweep_(sweep),
         bins_(sweep.bins_),
-        axis_(axis),
+        view_(view),
+        axis_(view.axis_),
         kind_(kind),
         ends_(ends),
         lowest_(lowest),
         profile_(scratch),
         heights_(heights) {
-    radius_squared_ = axis.radius * axis.radius;
-    const double bin = bins_.bin_size(), drop = sweep.drop_;
-    profile_axis_.top = axis.top;
-    profile_axis_.drop = drop * bin * bin;
-    // Above all single precision's rounding of heights and of drops.
-    const double greatest =
-        bins_.greatest_magnitude() + std::abs(axis.top) + 4 * std::abs(drop) * axis.radius * axis.radius;
-    profile_axis_.margin = 100 * sweep.grazing_ + greatest * 0x1p-21;
+    radius_squared_ = axis_.radius * axis_.radius;
   }
 
   void run() {
     heights_.fill(kInfinity);
-    const double column = bins_.column_at(axis_.x), row = bins_.row_at(axis_.y);
-    for (const Quadrant::Side side : {Quadrant::kEast, Quadrant::kWest, Quadrant::kSouth, Quadrant::kNorth}) {
-      const Quadrant quadrant(bins_, column, row, side);
-      look_from(quadrant);
-    }
+    highest_ = -kInfinity;
+    for (const double elevation : ends_.elevation)
+      if (elevation > highest_) highest_ = elevation;
+    for (std::size_t i = 0; i < view_.quadrants_.size(); ++i) look_from(view_.quadrants_[i], view_.fans_[i]);
   }
 
  private:
-  void look_from(const Quadrant& quadrant) {
+  void look_from(const Quadrant& quadrant, const HorizonFan& fan) {
     place_cells(quadrant);
     if (farthest_ <= 0 || quadrant.slabs() == 0) return;
     auto [from, to] = slopes();
     if (from > to) return;
-    // Sectors one cell wide at the tile's far end. A hair more, against rounding.
+    // A hair more, against rounding.
+    from -= 1e-9, to += 1e-9;
+    if (hides_all(quadrant, fan, from, to)) {
+      for_each_cell(quadrant, from, to, [&](const Cell& cell) { heights_[cell.index] = kHidden; });
+      return;
+    }
+    // Sectors one cell wide at the tile's far end.
     const double width = std::max(1.0, 1 / cells_a_bin_) / farthest_;
-    from -= 1e-9;
     silhouettes_.fill(kNoSilhouette);
     for (std::size_t i = 0; from + static_cast<double>(i) * width <= to; ++i)
-      sweep(quadrant, from + static_cast<double>(i) * width, from + static_cast<double>(i + 1) * width);
+      sweep(quadrant, fan, from + static_cast<double>(i) * width, from + static_cast<double>(i + 1) * width);
   }
 
   void place_cells(const Quadrant& quadrant) {
@@ -99,10 +97,22 @@ class AxisSweep::Task {
     return {std::max(from, -1.0), std::min(to, 1.0)};
   }
 
-  /// The cells with slopes in [from, to), nearest first.
-  void sweep(const Quadrant& quadrant, double from, double to) {
-    bool surveyed = false;
-    last_ = kNoSilhouette;
+  /// Whether what lies before the tile hides even the highest of its ends.
+  bool hides_all(const Quadrant& quadrant, const HorizonFan& fan, double from, double to) const {
+    const double below = fan.known(from, to, quadrant.slab_at(nearest_)).below, drop = sweep_.drop_;
+    const auto ends = [](const auto& of, std::int64_t count) {
+      return std::minmax_element(of.begin(), of.begin() + count);
+    };
+    const auto [near_along, far_along] = ends(along_squared_, majors_);
+    const auto [near_across, far_across] = ends(across_squared_, minors_);
+    // Cells amid a row or a column may lie nearer than those at its ends, but not farther.
+    const double least_drop = drop > 0 ? drop * (*near_along + *near_across) : drop * (*far_along + *far_across);
+    return highest_ < axis_.top + std::min(below * nearest_, below * farthest_) + least_drop;
+  }
+
+  /// Calls visit(cell) for those with slopes in [from, to) whose ends are looked at, nearest first.
+  template <class Visit>
+  void for_each_cell(const Quadrant& quadrant, double from, double to, const Visit& visit) const {
     const bool columns = quadrant.along_columns(), grows = along_[0] < along_[number(majors_ - 1)];
     const std::size_t minor_step = columns ? Tile::kSide : 1, major_step = columns ? 1 : Tile::kSide;
     for (std::int64_t n = 0; n < majors_; ++n) {
@@ -110,25 +120,35 @@ class AxisSweep::Task {
       const double u = along_[i];
       if (u <= 0) continue;
       const std::size_t end = first_across(to * u);
-      double hidden_below = std::numeric_limits<double>::quiet_NaN();  // of eyes this far away
       for (std::size_t k = first_across(from * u); k < end; ++k) {
         Cell cell{i * major_step + k * minor_step, i, u, across_[k], along_squared_[i] + across_squared_[k]};
         // Of cells on a diagonal, each belongs to one quadrant.
         if (columns ? std::abs(cell.across) > u : std::abs(cell.across) >= u) continue;
-        const double elevation = ends_.elevation[cell.index];
-        if (!(cell.squared <= radius_squared_) || std::isnan(elevation)) continue;
-        if (!std::exchange(surveyed, true)) survey(quadrant, from, to);
-        if (std::isnan(hidden_below)) hidden_below = axis_.top + u * profile_.hidden_below(quadrant.slab_at(u));
-        heights_[cell.index] = kHidden;
-        cell.hidden_below = hidden_below + sweep_.drop_ * cell.squared;
-        if (elevation >= cell.hidden_below) look(quadrant, cell);
+        if (cell.squared <= radius_squared_ && !std::isnan(ends_.elevation[cell.index])) visit(cell);
       }
     }
   }
 
-  void survey(const Quadrant& quadrant, double from, double to) {
-    const std::size_t count = quadrant.slab_at(farthest_) + 1;
-    profile_.survey(quadrant, from, to, quadrant.slab_at(nearest_), count, profile_axis_);
+  void sweep(const Quadrant& quadrant, const HorizonFan& fan, double from, double to) {
+    bool surveyed = false;
+    last_ = kNoSilhouette;
+    double along = -1, hidden_below = 0;  // of ends this far away
+    for_each_cell(quadrant, from, to, [&](Cell cell) {
+      if (!std::exchange(surveyed, true)) survey(quadrant, fan, from, to);
+      if (cell.along != along) {
+        along = cell.along;
+        hidden_below = axis_.top + along * profile_.hidden_below(quadrant.slab_at(along));
+      }
+      heights_[cell.index] = kHidden;
+      cell.hidden_below = hidden_below + sweep_.drop_ * cell.squared;
+      if (ends_.elevation[cell.index] >= cell.hidden_below) look(quadrant, cell);
+    });
+  }
+
+  void survey(const Quadrant& quadrant, const HorizonFan& fan, double from, double to) {
+    const std::size_t nearest = quadrant.slab_at(nearest_);
+    profile_.survey(Sector(quadrant, from, to, view_.sector_axis_), fan.known(from, to, nearest), nearest,
+                    quadrant.slab_at(farthest_) + 1);
   }
 
   struct Cell {
@@ -154,16 +174,16 @@ class AxisSweep::Task {
     switch (kind_) {
       case Kind::kAxis: {
         const SightLine line = line_between(other_end(cell, elevation), top);
-        return look(quadrant, cell, AxisSight(line, axis_.base, end, profile_axis_.margin));
+        return look(quadrant, cell, AxisSight(line, axis_.base, end, view_.sector_axis_.margin));
       }
       case Kind::kPoint: {
         const SightLine line = line_between(top, other_end(cell, elevation));
-        return look(quadrant, cell, PointSight(line, end, profile_axis_.margin));
+        return look(quadrant, cell, PointSight(line, end, view_.sector_axis_.margin));
       }
       case Kind::kHeight: {
         const HeightSight::Range range{lowest_->end[cell.index], elevation, cell.hidden_below};
         const SightLine line = line_between(top, other_end(cell, range.lowest));
-        look(quadrant, cell, HeightSight(line, range, end, profile_axis_.margin));
+        look(quadrant, cell, HeightSight(line, range, end, view_.sector_axis_.margin));
       }
     }
   }
@@ -194,7 +214,7 @@ class AxisSweep::Task {
           sight.hides(bins_.corners(sight.silhouette()), end))
         continue;
       const SightLine line = line_between({axis_.x, axis_.y, axis_.top}, other_end(cell, end));
-      PointSight lower(line, {cell.along, sweep_.drop_ * cell.squared}, profile_axis_.margin);
+      PointSight lower(line, {cell.along, sweep_.drop_ * cell.squared}, view_.sector_axis_.margin);
       if (decide(quadrant, cell, lower)) least = end;
     }
     return least;
@@ -249,11 +269,11 @@ class AxisSweep::Task {
   template <class Sight>
   bool clears(const Quadrant& quadrant, const RasterGrid::Cell& bin, const Stretch& stretch, Sight& sight) const {
     if (!bins_.holds(bin)) return true;
-    const double drop = profile_axis_.drop * (1 + stretch.slope * stretch.slope);
+    const double drop = view_.sector_axis_.drop * (1 + stretch.slope * stretch.slope);
     // Less what curvature bends between the ends.
     const auto height = [&](double along) {
       return sight.at_axis() + sight.slope() * along + drop * along * along - std::max(drop, 0.0) -
-             profile_axis_.margin;
+             view_.sector_axis_.margin;
     };
     const double near = height(stretch.begin), far = height(stretch.end);
     const BinnedHeights::Lid lid = bins_.lid(bin);
@@ -272,17 +292,18 @@ class AxisSweep::Task {
 
   const AxisSweep& sweep_;
   const BinnedHeights& bins_;
-  Axis axis_;
+  const View& view_;
+  const Axis& axis_;
   Kind kind_;
   const Ends& ends_;
   const Lowest* lowest_;
   SectorProfile& profile_;
   Heights& heights_;
-  SectorProfile::Axis profile_axis_;
   double radius_squared_;
   // The tile's cells as the quadrant has them, in bins.
   std::array<double, Tile::kSide> along_{}, across_{}, along_squared_{}, across_squared_{};
   std::int64_t majors_ = 0, minors_ = 0;
+  double highest_ = 0;  ///< of the tile's ends
   double farthest_ = 0, nearest_ = 0, cells_a_bin_ = 1;
   // What hid the last eye of this sector, and of the last one the eye as far away.
   std::uint32_t last_ = kNoSilhouette;
@@ -294,21 +315,41 @@ AxisSweep::AxisSweep(const Earth& earth, const BinnedHeights& surface)
       drop_(earth.drop_coefficient() * surface.units().resolution),
       grazing_(kGrazing / surface.units().resolution) {}
 
-void AxisSweep::run(const Axis& axis, const Ends& eyes, Scratch& scratch, Heights& heights) const {
+AxisSweep::View::View(const BinnedHeights& bins, const Axis& axis, double drop, double grazing) : axis_(axis) {
+  const double bin = bins.bin_size();
+  sector_axis_.top = axis.top;
+  sector_axis_.drop = drop * bin * bin;
+  // Above all single precision's rounding of heights and of drops.
+  const double greatest =
+      bins.greatest_magnitude() + std::abs(axis.top) + 4 * std::abs(drop) * axis.radius * axis.radius;
+  sector_axis_.margin = 100 * grazing + greatest * 0x1p-21;
+  const double column = bins.column_at(axis.x), row = bins.row_at(axis.y);
+  for (const Quadrant::Side side : {Quadrant::kEast, Quadrant::kWest, Quadrant::kSouth, Quadrant::kNorth})
+    quadrants_.emplace_back(bins, column, row, side);
+  for (const Quadrant& quadrant : quadrants_)
+    fans_.emplace_back(quadrant, sector_axis_,
+                       quadrant.slabs() == 0 ? 0 : quadrant.slab_at(axis.radius / bin) + std::size_t{1});
+}
+
+AxisSweep::View AxisSweep::view_of(const Axis& axis) const {
+  return {bins_, axis, drop_, grazing_};
+}
+
+AxisSweep::View AxisSweep::view_from(const Point3& eye, double radius) const {
+  return view_of({eye.x, eye.y, eye.z, eye.z, std::min(radius, bins_.farthest_from(eye.x, eye.y) + 1)});
+}
+
+void AxisSweep::run(const View& axis, const Ends& eyes, Scratch& scratch, Heights& heights) const {
   Task(*this, axis, Kind::kAxis, eyes, nullptr, scratch, heights).run();
 }
 
-void AxisSweep::look_from(const Point3& eye, const Ends& targets, Scratch& scratch, Heights& seen) const {
-  Task(*this, axis_at(eye), Kind::kPoint, targets, nullptr, scratch, seen).run();
+void AxisSweep::look_from(const View& eye, const Ends& targets, Scratch& scratch, Heights& seen) const {
+  Task(*this, eye, Kind::kPoint, targets, nullptr, scratch, seen).run();
 }
 
-void AxisSweep::raise_from(const Point3& eye, const Ends& highest, const Lowest& lowest, Scratch& scratch,
+void AxisSweep::raise_from(const View& eye, const Ends& highest, const Lowest& lowest, Scratch& scratch,
                            Heights& least) const {
-  Task(*this, axis_at(eye), Kind::kHeight, highest, &lowest, scratch, least).run();
-}
-
-AxisSweep::Axis AxisSweep::axis_at(const Point3& eye) const {
-  return {eye.x, eye.y, eye.z, eye.z, bins_.farthest_from(eye.x, eye.y) + 1};
+  Task(*this, eye, Kind::kHeight, highest, &lowest, scratch, least).run();
 }
 
 }  // namespace itin::viewshed

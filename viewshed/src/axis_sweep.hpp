@@ -2,13 +2,15 @@
 // which nothing hides it. And the other way round, from an eye: which cells' targets it sees, and from what height on.
 //
 //   AxisSweep sweep(earth, bins);
+//   const AxisSweep::View view = sweep.view_of(axis);       // for all tiles
 //   AxisSweep::Heights heights;                             // grid units, one a cell
-//   sweep.run(axis, eyes, scratch, heights);
+//   sweep.run(view, eyes, scratch, heights);
 //
-// Method. The tile is cut into sectors about the axis, each about a cell wide at its far end. Along a sector the bounds
-// of BinnedHeights say for nearly every slab and eye that it hides the whole axis, or that it hides nothing; what
-// remains, mostly the slabs about a line's silhouette and the ground before the eye, is decided triangle by triangle in
-// double precision. An eye begins with what hid its neighbours, so that bounds leave little to decide.
+// Method. What hides from far away is told once for all tiles (horizon_fan.hpp). The tile is cut into sectors about the
+// axis, each about a cell wide at its far end. Along a sector the bounds of BinnedHeights say for nearly every slab and
+// eye that it hides the whole axis, or that it hides nothing; what remains, mostly the slabs about a line's silhouette
+// and the ground before the eye, is decided triangle by triangle in double precision. An eye begins with what hid its
+// neighbours, so that bounds leave little to decide.
 //
 // Accuracy. Every triangle that may hide more than what is known is looked at exactly, and bounds decide by more than
 // rounding. So the line at the height found has a clearance between -kGrazing and 0, up to rounding, or the height is
@@ -18,10 +20,12 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include <itin/earth.hpp>
 
 #include "binned_heights.hpp"
+#include "horizon_fan.hpp"
 #include "sector_profile.hpp"
 #include "sight_line.hpp"
 #include "surface_heights.hpp"
@@ -49,15 +53,21 @@ class AxisSweep {
   /// the axis itself, and beyond its radius, are left out: infinity.
   using Heights = TileValues<double>;
 
+  /// What the tiles about an axis share. Refers to the sweep's surface.
+  class View;
+  View view_of(const Axis& axis) const;
+  /// The same of an eye that looks as far as there is surface, but no farther than `radius` grid units.
+  View view_from(const Point3& eye, double radius) const;
+
   /// Memory to use again.
   using Scratch = SectorProfile;
   /// For several threads at once, each with its own scratch. Cost: some hundredths of a microsecond an eye that does
   /// not see the top, a few tenths for others.
-  void run(const Axis& axis, const Ends& eyes, Scratch& scratch, Heights& heights) const;
+  void run(const View& axis, const Ends& eyes, Scratch& scratch, Heights& heights) const;
 
   /// The other way round, from an eye to targets, exact to the last bit as the line from the eye over every triangle:
   /// NaN where hidden, infinity for a target at the eye itself, else the eye's height.
-  void look_from(const Point3& eye, const Ends& targets, Scratch& scratch, Heights& seen) const;
+  void look_from(const View& eye, const Ends& targets, Scratch& scratch, Heights& seen) const;
 
   /// Of each cell's ends the lowest that counts, and one that is asked for besides: it need not lie within the range.
   struct Lowest {
@@ -68,17 +78,27 @@ class AxisSweep {
   /// infinity for a cell at the eye itself. The line to a height found touches the surface, or the height is one of the
   /// three given: it is at most one of them just where look_from() sees that. Cost: some tenths of a microsecond a cell
   /// that does not see the lowest.
-  void raise_from(const Point3& eye, const Ends& highest, const Lowest& lowest, Scratch& scratch, Heights& least) const;
+  void raise_from(const View& eye, const Ends& highest, const Lowest& lowest, Scratch& scratch, Heights& least) const;
 
  private:
   enum class Kind : std::uint8_t { kAxis, kPoint, kHeight };
   class Task;
 
-  Axis axis_at(const Point3& eye) const;
-
   const BinnedHeights& bins_;
   double drop_;     ///< grid units of drop a squared grid unit
   double grazing_;  ///< grid units
+};
+
+class AxisSweep::View {
+ public:
+  View(const BinnedHeights& bins, const Axis& axis, double drop, double grazing);
+
+ private:
+  friend class AxisSweep;
+  Axis axis_;
+  Sector::Axis sector_axis_;
+  std::vector<Quadrant> quadrants_;
+  std::vector<HorizonFan> fans_;  ///< of each quadrant
 };
 
 }  // namespace itin::viewshed

@@ -243,6 +243,8 @@ void BinnedHeights::bound_runs(const RangeOf& range_of) {
 }
 
 std::optional<double> BinnedHeights::height_at(Point2 units) const {
+  if (lattice_ != nullptr)
+    if (const auto post = lattice_->post_at(units.x, units.y)) return *post;
   const double column = column_at(units.x), row = row_at(units.y);
   const auto at = [](double v, std::int64_t count) {
     return static_cast<std::int64_t>(std::clamp(v, 0.0, static_cast<double>(count - 1)));

@@ -22,6 +22,8 @@ class FieldOfView {
     nearest_ = nearest * nearest;
   }
 
+  /// Nothing farther away is in view, metres.
+  double farthest() const { return std::sqrt(farthest_); }
   /// Whether anything at this squared distance or beyond it can be in view.
   bool reaches(double squared) const { return squared <= farthest_; }
 

@@ -45,9 +45,10 @@ std::unique_ptr<FullSurface::TileWork> FullSurface::begin(std::size_t tile) cons
   return work;
 }
 
-std::uint64_t FullSurface::judge(const Eye& eye, TileValues<std::uint8_t>& values, TileWork& work) const {
+std::uint64_t FullSurface::judge(const Eye& eye, const AxisSweep::View& view, TileValues<std::uint8_t>& values,
+                                 TileWork& work) const {
   raise_targets(eye, values, work);
-  sweep_.look_from(eye.units, {work.tile, work.centres, work.targets}, work.scratch, work.seen);
+  sweep_.look_from(view, {work.tile, work.centres, work.targets}, work.scratch, work.seen);
   std::uint64_t lines = 0;
   for_each_cell(work.tile, [&](std::int64_t, std::int64_t, std::size_t cell) {
     if (std::isnan(work.targets[cell])) return;
@@ -57,13 +58,13 @@ std::uint64_t FullSurface::judge(const Eye& eye, TileValues<std::uint8_t>& value
   return lines;
 }
 
-double FullSurface::raise_from(const Eye& eye, Point2 position, double lowest, double highest) const {
+double FullSurface::raise_from(const AxisSweep::View& view, Point2 position, double lowest, double highest) const {
   const RasterGrid around({position.x - 0.5, position.y + 0.5}, 1, 1, 1, 1);
   const auto work = std::make_unique<TileWork>(units(), around, Tile{0, 0, 1, 1});
   work->centres.x[0] = easting_in_units(units(), position.x);
   work->centres.y[0] = northing_in_units(units(), position.y);
   work->ground[0] = lowest, work->targets[0] = highest;
-  raise_from(eye, {work->ground, work->ground}, *work);
+  raise_from(view, {work->ground, work->ground}, *work);
   return work->seen[0];
 }
 

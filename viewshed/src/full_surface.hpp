@@ -3,7 +3,9 @@
 //
 //   const FullSurface surface(tin, nullptr, request.earth, grid, tiles);
 //   const auto work = surface.begin(tile);
-//   surface.judge(eye, values, *work);   // every kUndecided cell becomes visible, hidden or outside; other eyes follow
+//   const auto view = surface.view_from(eye);
+//   surface.judge(eye, view, values, *work);   // every kUndecided cell becomes visible, hidden or outside; other eyes
+//   follow
 #pragma once
 
 #include <cstdint>
@@ -59,16 +61,22 @@ class FullSurface {
   };
   std::unique_ptr<TileWork> begin(std::size_t tile) const;
 
+  /// What all tiles share of an eye.
+  AxisSweep::View view_from(const Eye& eye) const {
+    return sweep_.view_from(eye.units, eye.view.farthest() / units().resolution + 1);
+  }
+
   /// kUndecided cells become kCertainlyVisible, kCertainlyHidden, or kOutside where there is no ground or the eye does
   /// not look. Returns how many sight lines that took.
-  std::uint64_t judge(const Eye& eye, TileValues<std::uint8_t>& values, TileWork& work) const;
+  std::uint64_t judge(const Eye& eye, const AxisSweep::View& view, TileValues<std::uint8_t>& values,
+                      TileWork& work) const;
 
   /// AxisSweep::raise_from() up to work.targets; the heights are work.seen.
-  void raise_from(const Eye& eye, const AxisSweep::Lowest& lowest, TileWork& work) const {
-    sweep_.raise_from(eye.units, {work.tile, work.centres, work.targets}, lowest, work.scratch, work.seen);
+  void raise_from(const AxisSweep::View& view, const AxisSweep::Lowest& lowest, TileWork& work) const {
+    sweep_.raise_from(view, {work.tile, work.centres, work.targets}, lowest, work.scratch, work.seen);
   }
   /// The same for a single place, given in metres; grid units.
-  double raise_from(const Eye& eye, Point2 position, double lowest, double highest) const;
+  double raise_from(const AxisSweep::View& view, Point2 position, double lowest, double highest) const;
 
  private:
   void raise_targets(const Eye& eye, TileValues<std::uint8_t>& values, TileWork& work) const;

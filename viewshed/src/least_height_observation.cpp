@@ -27,7 +27,7 @@ std::uint64_t LeastHeightObservation::look(const TileLook& tile) {
   tile.for_each_cell([&](const Look& look) {
     if (open(look)) lines += raise(tile, look) ? 1 : 0;
   });
-  tile.surface.raise_from(tile.eye, {lowest_, wanted_}, work);
+  tile.surface.raise_from(tile.view, {lowest_, wanted_}, work);
   tile.for_each_cell([&](const Look& look) {
     if (!std::isnan(work.targets[look.cell]) && !std::isnan(work.seen[look.cell])) settle(tile, look);
   });

@@ -19,7 +19,13 @@ struct Tally {
 class LookAround {
  public:
   LookAround(const FullSurface& surface, const Observations& observations, const std::vector<Eye>& eyes, Result& result)
-      : surface_(surface), eyes_(eyes), result_(result), observations_(observations), shadows_(eyes.size()) {
+      : surface_(surface),
+        eyes_(eyes),
+        result_(result),
+        observations_(observations),
+        views_(eyes.size()),
+        shadows_(eyes.size()) {
+    parallel_for(eyes.size(), [&](std::size_t i) { views_[i].emplace(surface.view_from(eyes[i])); });
     if (result.request.nodata != NoData::kBlock || !result.crosses_voids) return;
     parallel_for(eyes.size(), [&](std::size_t i) { shadows_[i].emplace(surface.rim(), eyes[i].units); });
   }
@@ -30,7 +36,7 @@ class LookAround {
     Tally tally;
     for (const std::uint32_t i : eyes_near(work->tile)) {
       const VoidShadow* const shadow = shadows_[i] ? &*shadows_[i] : nullptr;
-      tally.lines += observation->look({surface_, eyes_[i], i, shadow, *work});
+      tally.lines += observation->look({surface_, eyes_[i], *views_[i], i, shadow, *work});
     }
     observation->store(work->tile, result_, tally.cells);
     return tally;
@@ -57,7 +63,8 @@ class LookAround {
   const std::vector<Eye>& eyes_;
   Result& result_;
   const Observations& observations_;
-  std::vector<std::optional<VoidShadow>> shadows_;  ///< of each eye, where ground without data hides
+  std::vector<std::optional<AxisSweep::View>> views_;  ///< each eye's
+  std::vector<std::optional<VoidShadow>> shadows_;     ///< of each eye, where ground without data hides
 };
 
 }  // namespace

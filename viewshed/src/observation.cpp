@@ -109,7 +109,7 @@ std::uint64_t Observation::look(const TileLook& tile) {
   tile.for_each_cell([&](const Look& look) {
     if (open(look)) values[look.cell] = kUndecided;
   });
-  const std::uint64_t lines = tile.surface.judge(tile.eye, values, work);
+  const std::uint64_t lines = tile.surface.judge(tile.eye, tile.view, values, work);
   if (tile.shadow != nullptr) tile.shadow->hide(work.centres, values);
   const double resolution = tile.surface.units().resolution;
   tile.for_each_cell([&](Look look) {

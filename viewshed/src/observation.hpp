@@ -2,7 +2,7 @@
 //
 //   const Observations observations(request, tin);
 //   const std::unique_ptr<Observation> observation = observations.of_tile();
-//   lines += observation->look({surface, eye, observer, nullptr, *surface.begin(tile)});   // one observer after
+//   lines += observation->look({surface, eye, view, observer, nullptr, *surface.begin(tile)});   // one observer after
 //   another observation->store(surface.tile(i), result, cells);
 //
 // The result does not depend on the order of the looks.
@@ -35,6 +35,7 @@ struct Look {
 struct TileLook {
   const FullSurface& surface;
   const Eye& eye;
+  const AxisSweep::View& view;  ///< the eye's
   std::uint32_t observer;
   const VoidShadow* shadow;  ///< what ground without data hides; may be null
   FullSurface::TileWork& work;

@@ -26,8 +26,8 @@ namespace {
 
 /// Peak memory a point of the full surface: triangulation, triangles and bins.
 constexpr std::uint64_t kBytesAPoint = 400;
-/// The same where it is a lattice.
-constexpr std::uint64_t kBytesAPost = 10;
+/// The same where it is a lattice: posts, halves and bounds of runs.
+constexpr std::uint64_t kBytesAPost = 9;
 /// Of an envelope, which has two surfaces and two scenes; and half of the memory is for what is refined meanwhile.
 constexpr std::uint64_t kBytesAnEnvelopePoint = 2400;
 /// Of the rasters that hold what is known of every cell.
@@ -151,9 +151,11 @@ class InSegments {
     std::atomic<std::size_t> done = 0;
     for (const std::vector<std::size_t>& cells : segments(eye, needed)) {
       const OwnedSurface segment = refine(cells, needed);
+      const AxisSweep::View view = segment.full.view_from(eye);
       parallel_for(cells.size(), [&](std::size_t i) {
         progress_.throw_if_cancelled();
-        lines += observations_[cells[i]]->look({segment.full, eye, observer, nullptr, *segment.full.begin(cells[i])});
+        lines +=
+            observations_[cells[i]]->look({segment.full, eye, view, observer, nullptr, *segment.full.begin(cells[i])});
         progress_.report("cells decided", static_cast<double>(++done) / static_cast<double>(needed.size()));
       });
     }
@@ -171,9 +173,10 @@ class InSegments {
     if (observer + 1 == request_.observers.size()) coarse_.reset();
     for (const std::vector<std::size_t>& cells : segments(eye, needed)) {
       const OwnedSurface segment = refine(cells, needed);
+      const AxisSweep::View view = segment.full.view_from(eye);
       raster.judge(cells, [&](std::size_t i, TileValues<std::uint8_t>& values) {
         const auto work = segment.full.begin(cells[i]);
-        const std::uint64_t lines = segment.full.judge(eye, values, *work);
+        const std::uint64_t lines = segment.full.judge(eye, view, values, *work);
         // The edges of the window are no voids.
         if (coarse_look.shadow) coarse_look.shadow->hide(work->centres, values);
         return lines;

@@ -9,7 +9,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "binned_heights.hpp"
@@ -77,7 +78,7 @@ class Quadrant {
 };
 
 /// What lies within slopes [from, to] of a quadrant (across / along).
-class SectorProfile {
+class Sector {
  public:
   struct Axis {
     double top = 0;     ///< the height that hiding is about
@@ -85,9 +86,45 @@ class SectorProfile {
     double margin = 0;  ///< grid units by which bounds must decide: above all rounding
   };
 
-  /// Of the slabs before `count`; hidden_below() is asked about those from `nearest` on. Reuses what memory it has.
-  void survey(const Quadrant& quadrant, double from, double to, std::size_t nearest, std::size_t count,
-              const Axis& axis);
+  Sector(const Quadrant& quadrant, double from, double to, const Axis& axis);
+
+  const Quadrant& quadrant() const { return quadrant_; }
+  const Axis& axis() const { return axis_; }
+
+  /// Lines up to the axis' top that rise by less than `below` outward a bin, and begin in this slab or farther away,
+  /// are certainly hidden, by what lies nearer than the slab.
+  struct Hidden {
+    std::size_t slab = 0;
+    double below = -std::numeric_limits<double>::infinity();
+  };
+  /// The same for the slab `end`. Calls visit(hidden) for every slab before it.
+  template <class Visit>
+  Hidden look_on(Hidden hidden, std::size_t end, const Visit& visit) const;
+
+  /// Calls visit(slab, first line, last line, whether all of them lie within the bins) from slab `first` on, before
+  /// `end`.
+  template <class Visit>
+  void for_each_slab(std::size_t first, std::size_t end, const Visit& visit) const;
+
+  // Within a slab, grid units.
+  double least_drop(std::size_t slab) const;
+  double greatest_drop(std::size_t slab) const;
+
+ private:
+  double drop_at(double along, double squared) const { return axis_.drop * squared * along * along; }
+
+  const Quadrant& quadrant_;
+  double from_, to_;
+  Axis axis_;
+  double least_, greatest_;  ///< squared distances a squared distance along
+};
+
+/// How low and how high a sector is, slab by slab.
+class SectorProfile {
+ public:
+  /// Of the slabs before `count`; hidden_below() is asked about those from `nearest` on. `known` is of one of those up
+  /// to there. Reuses what memory it has.
+  void survey(const Sector& sector, const Sector::Hidden& known, std::size_t nearest, std::size_t count);
 
   /// Lines up to the axis' top that rise by less than this outward a bin, and begin in this slab, are certainly hidden.
   double hidden_below(std::size_t slab) const { return hidden_below_[slab - nearest_]; }
@@ -101,31 +138,68 @@ class SectorProfile {
  private:
   static constexpr std::size_t kGroup = 8, kBlock = 64;
 
-  template <class Visit>
-  void for_each_slab(const Visit& visit) const;
-  double drop_at(double along, double squared) const;
-  double least_drop(std::size_t slab) const;
-  double greatest_drop(std::size_t slab) const;
-  void survey_lows();
   void survey_highs();
 
-  const Quadrant* quadrant_ = nullptr;
-  double from_ = 0, to_ = 0;
-  double least_ = 0, greatest_ = 0;  ///< squared distances a squared distance along
+  std::optional<Sector> sector_;
   std::size_t nearest_ = 0, count_ = 0;
-  Axis axis_;
   bool highs_known_ = false;
   std::vector<float> high_, group_high_, block_high_;  ///< of a slab, of 8, of 64
   std::vector<double> hidden_below_;                   ///< by what lies nearer than slab nearest_ + i
 };
 
+template <class Visit>
+void Sector::for_each_slab(std::size_t first_slab, std::size_t end, const Visit& visit) const {
+  // Positions of eyes are rounded to a ten-thousandth of a grid unit.
+  const double slack = std::max(1e-6, 1e-3 / quadrant_.bins().bin_size());
+  const double low = quadrant_.minor() - slack + from_ * (from_ < 0 ? quadrant_.end(0) : quadrant_.begin(0));
+  const double high = quadrant_.minor() + slack + to_ * (to_ < 0 ? quadrant_.begin(0) : quadrant_.end(0));
+  const std::int64_t lines = quadrant_.lines();
+  const double low_step = from_ * Quadrant::kRun, high_step = to_ * Quadrant::kRun;
+  const double slabs = static_cast<double>(end);
+  const bool inside = std::min(low, low + low_step * slabs) >= 0 &&
+                      std::max(high, high + high_step * slabs) < static_cast<double>(lines);
+  for (std::size_t k = first_slab; k < end; ++k) {
+    const double first = low + low_step * static_cast<double>(k), last = high + high_step * static_cast<double>(k);
+    if (inside) {
+      visit(k, static_cast<std::int64_t>(first), static_cast<std::int64_t>(last), true);
+    } else {
+      const auto whole_first = static_cast<std::int64_t>(std::floor(first));
+      const auto whole_last = static_cast<std::int64_t>(std::floor(last));
+      visit(k, std::clamp<std::int64_t>(whole_first, 0, lines - 1), std::clamp<std::int64_t>(whole_last, 0, lines - 1),
+            whole_first >= 0 && whole_last < lines);
+    }
+  }
+}
+
+template <class Visit>
+Sector::Hidden Sector::look_on(Hidden hidden, std::size_t end, const Visit& visit) const {
+  const float* const lows = quadrant_.runs().low.data();
+  double per_begin = hidden.slab == 0 ? 0 : quadrant_.per_end(hidden.slab - 1);
+  for_each_slab(hidden.slab, end, [&](std::size_t k, std::int64_t first, std::int64_t last, bool inside) {
+    hidden.slab = k;
+    visit(hidden);
+    float low = inside ? std::numeric_limits<float>::infinity() : -std::numeric_limits<float>::infinity();
+    // Each covers two lines.
+    const std::int64_t last_pair = std::max(first, last - 1);
+    for (std::int64_t line = first + 2; line < last_pair; line += 2) low = std::min(low, lows[quadrant_.run(k, line)]);
+    low = std::min({low, lows[quadrant_.run(k, first)], lows[quadrant_.run(k, last_pair)]});
+    const double per_end = quadrant_.per_end(k);
+    const double rise = low - greatest_drop(k) - axis_.margin - axis_.top;
+    hidden.below = std::max(hidden.below, rise * (rise < 0 ? per_end : per_begin));
+    per_begin = per_end;
+  });
+  hidden.slab = end;
+  return hidden;
+}
+
 template <class Line, class Visit>
 void SectorProfile::search(std::size_t last, const Line& line, const Visit& visit) {
   if (!highs_known_) survey_highs();
+  const Quadrant& quadrant = sector_->quadrant();
   // The lowest point of the line over the slabs from first to last.
   const auto lowest = [&](std::size_t from, std::size_t to) {
     const double s = line.slope();
-    return line.at_axis() - axis_.margin + s * (s < 0 ? quadrant_->end(to) : quadrant_->begin(from));
+    return line.at_axis() - sector_->axis().margin + s * (s < 0 ? quadrant.end(to) : quadrant.begin(from));
   };
   for (std::size_t block = last / kBlock + 1; block-- > 0;) {
     const std::size_t block_first = block * kBlock, block_last = std::min(last, block_first + kBlock - 1);

@@ -55,11 +55,12 @@ ZoneSurvey::ZoneSurvey(const Tin& ground, const TriangleBins& bins, const Raster
 
 std::uint64_t ZoneSurvey::run(const Surface& surface, std::span<const std::size_t> tiles, const std::string& stage,
                               Visibility& result, Progress& progress) const {
+  const Views views = views_over(surface.sweep);
   std::atomic<std::size_t> done = 0;
   std::atomic<std::uint64_t> lines = 0;
   parallel_for(tiles.size(), [&](std::size_t i) {
     progress.throw_if_cancelled();
-    lines += decide(tiles[i], surface, result);
+    lines += decide(tiles[i], surface, views, result);
     const std::size_t now = ++done;
     if (now % 16 == 0 || now == tiles.size())
       progress.report(stage, static_cast<double>(now) / static_cast<double>(tiles.size()));
@@ -67,7 +68,19 @@ std::uint64_t ZoneSurvey::run(const Surface& surface, std::span<const std::size_
   return lines;
 }
 
-std::uint64_t ZoneSurvey::decide(std::size_t tile, const Surface& surface, Visibility& result) const {
+ZoneSurvey::Views ZoneSurvey::views_over(const AxisSweep& sweep) const {
+  Views views(axes_.size());
+  parallel_for(views.size(), [&](std::size_t k) {
+    const Axis& axis = axes_[k];
+    // Which cells lie within the radius is decided in metres.
+    const double reach = zone_.request.turbines[k].radius / ground_.grid.resolution + 1;
+    views[k].emplace(sweep.view_of({axis.x, axis.y, axis.base, axis.tip, reach}));
+  });
+  return views;
+}
+
+std::uint64_t ZoneSurvey::decide(std::size_t tile, const Surface& surface, const Views& views,
+                                 Visibility& result) const {
   const Tile place = tile_at(zone_.grid, tiles_, tile);
   std::vector<std::size_t> near;
   for (std::size_t k = 0; k < axes_.size(); ++k)
@@ -77,7 +90,7 @@ std::uint64_t ZoneSurvey::decide(std::size_t tile, const Surface& surface, Visib
   scan_convert(ground_, bins_.triangles(tile), place, work->centres, work->ground);
   const double eye_height = zone_.request.observer_height / ground_.grid.resolution;
   for (std::size_t i = 0; i < work->ground.size(); ++i) work->eyes[i] = work->ground[i] + eye_height;
-  for (const std::size_t k : near) look_at(k, surface, *work);
+  for (const std::size_t k : near) look_at(k, surface, *views[k], *work);
   store(*work, result);
   return work->lines;
 }
@@ -91,12 +104,10 @@ bool ZoneSurvey::in_reach(const Axis& axis, const Tile& tile) const {
   return dx * dx + dy * dy <= axis.radius_squared;
 }
 
-void ZoneSurvey::look_at(std::size_t turbine, const Surface& surface, TileWork& work) const {
+void ZoneSurvey::look_at(std::size_t turbine, const Surface& surface, const AxisSweep::View& view,
+                         TileWork& work) const {
   const Axis& axis = axes_[turbine];
-  // Which cells lie within the radius is decided in metres, below.
-  const double reach = zone_.request.turbines[turbine].radius / ground_.grid.resolution + 1;
-  surface.sweep.run({axis.x, axis.y, axis.base, axis.tip, reach}, {work.tile, work.centres, work.eyes}, work.scratch,
-                    work.least);
+  surface.sweep.run(view, {work.tile, work.centres, work.eyes}, work.scratch, work.least);
   for (std::int64_t r = 0; r < work.tile.rows; ++r) {
     const double dy = zone_.grid.centre_y(work.tile.row + r) - axis.position_y;
     for (std::int64_t c = 0; c < work.tile.columns; ++c) {

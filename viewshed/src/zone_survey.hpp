@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -41,9 +42,12 @@ class ZoneSurvey {
   };
   struct TileWork;
 
-  std::uint64_t decide(std::size_t tile, const Surface& surface, Visibility& result) const;
+  /// The turbines over a surface.
+  using Views = std::vector<std::optional<AxisSweep::View>>;
+  Views views_over(const AxisSweep& sweep) const;
+  std::uint64_t decide(std::size_t tile, const Surface& surface, const Views& views, Visibility& result) const;
   bool in_reach(const Axis& axis, const Tile& tile) const;
-  void look_at(std::size_t turbine, const Surface& surface, TileWork& work) const;
+  void look_at(std::size_t turbine, const Surface& surface, const AxisSweep::View& view, TileWork& work) const;
   void record(std::size_t turbine, std::size_t cell, double distance, double least, TileWork& work) const;
   void store(const TileWork& work, Visibility& result) const;
   void store_horizon(const TileWork& work, std::size_t from_cell, std::size_t to_cell, Point2 eye, Visibility& result,

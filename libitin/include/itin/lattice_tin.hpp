@@ -57,6 +57,17 @@ struct LatticeTin {
     return {x(column), y(row), heights[index(column, row)]};
   }
 
+  /// The height of the post at a position, grid units, where that is one of a whole cell's.
+  std::optional<std::int32_t> post_at(double at_x, double at_y) const {
+    const double column = (at_x - west) / spacing, row = (north - at_y) / spacing;
+    if (!(column >= 1 && row >= 1 && column < columns && row < rows)) return std::nullopt;
+    const auto c = static_cast<std::uint32_t>(column), r = static_cast<std::uint32_t>(row);
+    if (c != column || r != row) return std::nullopt;
+    const std::size_t post = index(c, r);
+    if (!whole(post) && !whole(post - columns - 1)) return std::nullopt;
+    return heights[post];
+  }
+
   /// Calls visit(triangle) for each of a cell's triangles, by a number of its own, until one call returns false.
   /// Returns whether none did.
   template <class Visit>

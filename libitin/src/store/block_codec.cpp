@@ -304,7 +304,7 @@ std::vector<std::uint8_t> encode_block(const Cell& cell, std::span<const GridPoi
   return out;
 }
 
-Block decode_block(const Cell& cell, std::span<const std::uint8_t> bytes) {
+Block decode_block(const Cell& cell, std::span<const std::uint8_t> bytes, BlockOrder order) {
   ByteReader header(bytes);
   const auto count = static_cast<std::size_t>(header.varint(1, kMaxBlockPoints));
   Lattice lattice = read_lattice(header, cell);
@@ -335,7 +335,7 @@ Block decode_block(const Cell& cell, std::span<const std::uint8_t> bytes) {
     return height;
   });
   if (!bits.finished_cleanly()) throw DecodeError("points end too early or too late");
-  if (!lattice.scattered()) sort_lattice_points(cell, lattice, block.points);
+  if (order == BlockOrder::kMorton && !lattice.scattered()) sort_lattice_points(cell, lattice, block.points);
   return block;
 }
 

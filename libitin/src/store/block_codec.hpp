@@ -15,9 +15,11 @@ namespace itin {
 std::vector<std::uint8_t> encode_block(const Cell& cell, std::span<const GridPoint> points,
                                        std::span<const std::uint16_t> sources);
 
-/// Whatever the bytes, returns a block of `cell` in strictly ascending Morton order, or throws DecodeError.
-/// About 50 ns a point.
-Block decode_block(const Cell& cell, std::span<const std::uint8_t> bytes);
+/// Of a decoded block's points: strictly ascending, as everywhere; or as they are coded, for those who do not care.
+enum class BlockOrder : std::uint8_t { kMorton, kAny };
+
+/// Whatever the bytes, returns a block of `cell`, no position twice, or throws DecodeError. About 50 ns a point.
+Block decode_block(const Cell& cell, std::span<const std::uint8_t> bytes, BlockOrder order = BlockOrder::kMorton);
 
 inline constexpr std::uint32_t kMaxBlockPoints = 4096;
 

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace itin {
 
 namespace {
 
 constexpr int kMaxOffset = 25;
-constexpr std::int64_t kHeightLimit = std::int64_t{1} << 20;  // keeps every sum below 2^63
 
 constexpr auto kWeights = [] {
   std::array<double, 2 * kMaxOffset * kMaxOffset + 1> weights{};
@@ -19,32 +19,57 @@ constexpr auto kWeights = [] {
   return weights;
 }();
 
-// Weighted sums over the samples. All are integers below 2^53, hence exact.
+// Where the buckets lie that are looked at, from the point's own.
+struct Offset {
+  int x, y;
+  constexpr std::int64_t weight() const { return 65536 / (x * x + y * y + 1); }
+};
+constexpr std::array<Offset, 8> kAround = {{{0, 0}, {-1, 0}, {0, -1}, {-1, -1}, {1, -1}, {-1, 1}, {-2, 0}, {0, -2}}};
+
+// Weighted sums over the samples. All are integers below 2^53, hence exact, in whatever order they are added up.
 struct Moments {
   double w = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0, z = 0, xz = 0, yz = 0;
 
-  void add(std::int64_t offset_x, std::int64_t offset_y, std::int64_t offset_z) {
-    const double weight = kWeights[static_cast<std::size_t>(offset_x * offset_x + offset_y * offset_y)];
-    const auto dx = static_cast<double>(offset_x), dy = static_cast<double>(offset_y);
-    const auto dz = static_cast<double>(offset_z);
+  constexpr void add(double weight, double dx, double dy, double dz) {
     const double wx = weight * dx, wy = weight * dy;
     w += weight, x += wx, y += wy;
     xx += wx * dx, xy += wx * dy, yy += wy * dy;
     z += weight * dz, xz += wx * dz, yz += wy * dz;
   }
+};
 
-  // The plane's height at the origin of the offsets.
-  double intercept() const {
-    const double spread_x = xx * w - x * x, spread_y = yy * w - y * y, cross = xy * w - x * y;
+// What of a least-squares plane depends on the samples' positions alone.
+struct Plane {
+  double w = 0, x = 0, y = 0, a = 0, c = 0, cross = 0, determinant = 0;
+
+  constexpr Plane() = default;
+  constexpr explicit Plane(const Moments& m) : w(m.w), x(m.x), y(m.y), cross(m.xy * m.w - m.x * m.y) {
+    const double spread_x = m.xx * m.w - m.x * m.x, spread_y = m.yy * m.w - m.y * m.y;
     const double damping = (spread_x + spread_y) * 0.125;
-    const double a = spread_x + damping, c = spread_y + damping;
-    const double determinant = a * c - cross * cross;
+    a = spread_x + damping, c = spread_y + damping;
+    determinant = a * c - cross * cross;
+  }
+
+  // Its height at the origin of the offsets.
+  double intercept(double z, double xz, double yz) const {
     if (!(determinant > 0)) return z / w;
-    const double e = xz * w - x * z, f = yz * w - y * z;
+    const double e = xz * w - z * x, f = yz * w - z * y;
     const double slope_x = e * c - f * cross, slope_y = a * f - cross * e;
     return (z - (slope_x * x + slope_y * y) / determinant) / w;
   }
 };
+
+// Where buckets are single positions, by which of them hold a sample, as bits.
+constexpr auto kPlanes = [] {
+  std::array<Plane, std::size_t{1} << kAround.size()> planes{};
+  for (std::size_t there = 0; there < planes.size(); ++there) {
+    Moments moments;
+    for (std::size_t i = 0; i < kAround.size(); ++i)
+      if ((there >> i & 1) != 0) moments.add(static_cast<double>(kAround[i].weight()), kAround[i].x, kAround[i].y, 0);
+    planes[there] = Plane(moments);
+  }
+  return planes;
+}();
 
 }  // namespace
 
@@ -60,23 +85,47 @@ HeightPredictor::HeightPredictor(std::uint32_t width, std::uint32_t height, std:
 }
 
 std::int64_t HeightPredictor::predict(std::uint32_t x, std::uint32_t y) const {
-  const std::size_t here = bucket(x, y);
-  const std::array<std::size_t, 8> around = {
-      here,     here - 1,          here - stride_, here - stride_ - 1, here - stride_ + 1, here + stride_ - 1,
-      here - 2, here - 2 * stride_};
-  const std::int64_t base = samples_.back().z;
-  Moments moments;
-  for (const std::size_t b : around) {
-    if (latest_[b] == 0) continue;
-    const Sample& s = samples_[latest_[b] - 1u];
-    moments.add((static_cast<std::int64_t>(s.x) - x) >> offset_shift_,
-                (static_cast<std::int64_t>(s.y) - y) >> offset_shift_,
-                std::clamp(s.z - base, -kHeightLimit, kHeightLimit));
-  }
-  if (moments.w == 0) return base;
   const double limit = 2.0 * kHeightLimit;
-  const double offset = std::clamp(moments.intercept(), -limit, limit) + limit + 0.5;
-  return base + static_cast<std::int64_t>(offset) - 2 * kHeightLimit;
+  const double offset = shift_ == 0 ? offset_on_lattice(x, y) : offset_among(x, y);
+  return samples_.back().z + static_cast<std::int64_t>(std::clamp(offset, -limit, limit) + limit + 0.5) -
+         2 * kHeightLimit;
+}
+
+double HeightPredictor::offset_on_lattice(std::uint32_t x, std::uint32_t y) const {
+  const std::size_t here = bucket(x, y);
+  const auto stride = static_cast<std::ptrdiff_t>(stride_);
+  std::size_t there = 0;
+  std::int64_t z = 0, xz = 0, yz = 0;
+  const auto look = [&](std::size_t number, const Offset& b) {
+    const Sample* const s = latest(here + static_cast<std::size_t>(b.y * stride + b.x));
+    there |= std::size_t{s != nullptr} << number;
+    const std::int64_t wz = s != nullptr ? b.weight() * above_last(*s) : 0;
+    z += wz, xz += wz * b.x, yz += wz * b.y;
+  };
+  // Without a loop, for all factors are constants then.
+  [&]<std::size_t... i>(std::index_sequence<i...>) {
+    (look(i, kAround[i]), ...);
+  }
+  (std::make_index_sequence<kAround.size()>());
+  return there == 0
+             ? 0
+             : kPlanes[there].intercept(static_cast<double>(z), static_cast<double>(xz), static_cast<double>(yz));
+}
+
+double HeightPredictor::offset_among(std::uint32_t x, std::uint32_t y) const {
+  const std::size_t here = bucket(x, y);
+  const auto stride = static_cast<std::ptrdiff_t>(stride_);
+  Moments moments;
+#pragma GCC unroll 8
+  for (const Offset& b : kAround) {
+    const Sample* const s = latest(here + static_cast<std::size_t>(b.y * stride + b.x));
+    if (s == nullptr) continue;
+    const std::int64_t east = (static_cast<std::int64_t>(s->x) - x) >> offset_shift_,
+                       north = (static_cast<std::int64_t>(s->y) - y) >> offset_shift_;
+    const double weight = kWeights[static_cast<std::size_t>(east * east + north * north)];
+    moments.add(weight, static_cast<double>(east), static_cast<double>(north), static_cast<double>(above_last(*s)));
+  }
+  return moments.w == 0 ? 0 : Plane(moments).intercept(moments.z, moments.xz, moments.yz);
 }
 
 void HeightPredictor::add(std::uint32_t x, std::uint32_t y, std::int64_t z) {

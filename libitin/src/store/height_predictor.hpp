@@ -6,6 +6,8 @@
 // contraction or fast-math). FORMAT.md repeats this arithmetic.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -30,6 +32,19 @@ class HeightPredictor {
     return ((y >> shift_) + kMargin) * stride_ + (x >> shift_) + kMargin;
   }
 
+  // A bucket's latest sample; null where it has none.
+  const Sample* latest(std::size_t bucket) const {
+    const std::uint16_t number = latest_[bucket];
+    return number == 0 ? nullptr : &samples_[number - 1U];
+  }
+  std::int64_t above_last(const Sample& s) const {
+    return std::clamp(s.z - samples_.back().z, -kHeightLimit, kHeightLimit);
+  }
+  // Above the last sample's height; 0 where no sample is near. The first one where buckets are single positions.
+  double offset_on_lattice(std::uint32_t x, std::uint32_t y) const;
+  double offset_among(std::uint32_t x, std::uint32_t y) const;
+
+  static constexpr std::int64_t kHeightLimit = std::int64_t{1} << 20;  ///< keeps every sum below 2^53
   static constexpr std::size_t kMargin = 2;
   int shift_ = 0;         ///< log2 of a bucket's side
   int offset_shift_ = 0;  ///< brings differences of positions below 32

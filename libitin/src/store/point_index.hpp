@@ -76,7 +76,7 @@ class PointIndex {
   /// of all themes included.
   virtual void leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const = 0;
   virtual std::shared_ptr<const Block> block(const Leaf& leaf) const = 0;
-  /// The same for those who will not ask again: nothing is kept for the next time.
+  /// The same in any order, for those who will not ask again: nothing is kept for the next time.
   virtual std::shared_ptr<const Block> block_once(const Leaf& leaf) const { return block(leaf); }
 
   /// Appends every segment that meets `box`, of the coverage and of all themes, at all levels, and perhaps others

@@ -51,9 +51,9 @@ DirectoryChunk StoreFile::read_chunk(int tree, const ChunkEntry& entry) const {
                   [&] { return decode_chunk(rows_.read(BlobKind::Directory, key), tree, entry); });
 }
 
-Block StoreFile::read_block(const Leaf& leaf) const {
+Block StoreFile::read_block(const Leaf& leaf, BlockOrder order) const {
   return at_place(rows_.path(), format::place("block", leaf.key), [&] {
-    Block block = decode_block(leaf.cell, rows_.read(BlobKind::Block, leaf.key));
+    Block block = decode_block(leaf.cell, rows_.read(BlobKind::Block, leaf.key), order);
     const auto [low, high] = std::minmax_element(block.points.begin(), block.points.end(),
                                                  [](const GridPoint& a, const GridPoint& b) { return a.z < b.z; });
     if (block.points.size() != leaf.points || low->z != leaf.zmin || high->z != leaf.zmax) {
@@ -131,7 +131,7 @@ std::shared_ptr<const Block> StoreFile::block(const Leaf& leaf) const {
 }
 
 std::shared_ptr<const Block> StoreFile::block_once(const Leaf& leaf) const {
-  return std::make_shared<const Block>(read_block(leaf));
+  return std::make_shared<const Block>(read_block(leaf, BlockOrder::kAny));
 }
 
 void StoreFile::segments(const GridBox& box, std::vector<Segment>& out) const {

@@ -9,6 +9,7 @@
 #include <itin/store.hpp>
 
 #include "store/block_cache.hpp"
+#include "store/block_codec.hpp"
 #include "store/directory.hpp"
 #include "store/footprint_codec.hpp"
 #include "store/morton_range.hpp"
@@ -42,7 +43,7 @@ class StoreFile final : public PointIndex {
 
   /// Read and decoded, past the cache.
   DirectoryChunk read_chunk(int tree, const ChunkEntry& entry) const;
-  Block read_block(const Leaf& leaf) const;
+  Block read_block(const Leaf& leaf, BlockOrder order = BlockOrder::kMorton) const;
   std::vector<Segment> read_edges(const Leaf& leaf) const;
 
  private:

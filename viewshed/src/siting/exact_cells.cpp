@@ -28,17 +28,18 @@ struct FullGround {
 
 struct ExactLook {
   Eye eye;
+  AxisSweep::View view;
   std::optional<VoidShadow> shadow;  ///< where ground without data hides
 };
 
 class ExactTile final : public TileJudge::Work {
  public:
-  ExactTile(const FullGround& ground, const std::vector<ExactLook>& looks, std::size_t tile)
+  ExactTile(const FullGround& ground, const std::vector<std::optional<ExactLook>>& looks, std::size_t tile)
       : ground_(ground), looks_(looks), work_(ground.surface.full.begin(tile)) {}
 
   std::uint64_t judge(std::size_t i, TileValues<std::uint8_t>& values) override {
-    const auto& [eye, shadow] = looks_[i];
-    const std::uint64_t lines = ground_.surface.full.judge(eye, values, *work_);
+    const auto& [eye, view, shadow] = *looks_[i];
+    const std::uint64_t lines = ground_.surface.full.judge(eye, view, values, *work_);
     if (shadow) shadow->hide(work_->centres, values);
     if (ground_.zone) cut_zones(*ground_.zone, eye, {work_->centres, work_->targets, work_->targets}, values);
     return lines;
@@ -46,19 +47,19 @@ class ExactTile final : public TileJudge::Work {
 
  private:
   const FullGround& ground_;
-  const std::vector<ExactLook>& looks_;
+  const std::vector<std::optional<ExactLook>>& looks_;
   std::unique_ptr<FullSurface::TileWork> work_;
 };
 
 class ExactJudge final : public TileJudge {
  public:
-  ExactJudge(const FullGround& ground, const SiteLooks& looks) : ground_(ground) {
-    const Tin& tin = ground.surface.tin;
-    for (const std::size_t option : looks.options)
-      looks_.push_back({eye_at(tin.grid, looks.request, ground.survey.stands[option]), std::nullopt});
-    if (ground.survey.nodata != NoData::kBlock) return;
-    parallel_for(looks_.size(),
-                 [&](std::size_t i) { looks_[i].shadow.emplace(ground.surface.full.rim(), looks_[i].eye.units); });
+  ExactJudge(const FullGround& ground, const SiteLooks& looks) : ground_(ground), looks_(looks.options.size()) {
+    const FullSurface& surface = ground.surface.full;
+    parallel_for(looks_.size(), [&](std::size_t i) {
+      const Eye eye = eye_at(surface.units(), looks.request, ground.survey.stands[looks.options[i]]);
+      looks_[i].emplace(ExactLook{eye, surface.view_from(eye), std::nullopt});
+      if (ground.survey.nodata == NoData::kBlock) looks_[i]->shadow.emplace(surface.rim(), eye.units);
+    });
   }
 
   std::unique_ptr<Work> begin(std::size_t tile) const override {
@@ -67,7 +68,7 @@ class ExactJudge final : public TileJudge {
 
  private:
   const FullGround& ground_;
-  std::vector<ExactLook> looks_;
+  std::vector<std::optional<ExactLook>> looks_;
 };
 
 class ExactCells final : public GroupSurvey {
