@@ -1,6 +1,8 @@
 #include "site_profiles.hpp"
 
 #include <filesystem>
+#include <set>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -57,6 +59,7 @@ std::vector<SiteProfile> write_site_profiles(const Store& store, const SiteResul
   namespace fs = std::filesystem;
   const fs::path folder = fs::path(directory) / "links";
   std::vector<SiteProfile> profiles;
+  std::set<std::string> taken;
   for (const SiteLink& link : r.links) {
     progress.throw_if_cancelled();
     if (!link.line.visible() || link.distance_m == 0) continue;
@@ -65,7 +68,10 @@ std::vector<SiteProfile> write_site_profiles(const Store& store, const SiteResul
     std::error_code failed;
     fs::create_directory(folder, failed);
     if (failed) throw FileError(folder.string(), "cannot be made (" + failed.message() + "); name another place");
-    const std::string path = (folder / (file_name(from.name + "--" + to.name) + ".svg")).string();
+    std::string name = file_name(from.name + "--" + to.name);
+    if (!taken.insert(name).second) name += fmt::format("-{}", &link - r.links.data() + 1);
+    taken.insert(name);
+    const std::string path = (folder / (name + ".svg")).string();
     profile::write_report(report_of(store, r.options, from, to), {}, path, overwrite);
     profiles.push_back({path, fmt::format("{} to {}, {:.1f} km", from.name, to.name, link.distance_m / 1000)});
     progress.report("profiles of links",

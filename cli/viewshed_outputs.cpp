@@ -83,7 +83,7 @@ void ViewshedOutputs::write(viewshed::Surveyed& surveyed, const Context& context
                             std::vector<std::string>& warnings) const {
   std::optional<viewshed::MapImage> map;
   if (!image_.empty()) {
-    map = viewshed::draw_map(surveyed.listed(), surveyed.result);
+    map = viewshed::draw_map(surveyed.surface.listed(), surveyed.result);
     warnings.insert(warnings.end(), map->warnings.begin(), map->warnings.end());
   }
   for (const std::string& path : outputs_) {

@@ -100,12 +100,15 @@ double expect_certain(const Terrain& terrain, Request request, double tolerance,
 
 void expect_precise(const Terrain& terrain, const Request& request, const std::vector<std::uint8_t>& truth) {
   NoProgress progress;
-  // The whole at once; a coarse pass and a few segments; many segments.
-  for (const std::uint64_t memory : {std::uint64_t{1} << 30, std::uint64_t{500000}, std::uint64_t{160000}}) {
-    const Result result = compute_precise(terrain.store(), request, {.memory_bytes = memory}, progress).result;
+  // By its posts; the whole at once; a coarse pass and a few segments; many segments.
+  constexpr std::uint64_t kMemory[] = {1 << 30, 1 << 30, 500000, 160000};
+  for (std::size_t i = 0; i < std::size(kMemory); ++i) {
+    const std::uint64_t memory = kMemory[i];
+    const Result result =
+        compute_precise(terrain.store(), request, {.memory_bytes = memory, .lattices = i == 0}, progress).result;
     ASSERT_EQ(result.visible.size(), truth.size());
     std::uint64_t different = 0;
-    for (std::size_t i = 0; i < truth.size(); ++i) different += result.visible[i] != truth[i];
+    for (std::size_t k = 0; k < truth.size(); ++k) different += result.visible[k] != truth[k];
     EXPECT_EQ(different, 0U) << "memory " << memory;
   }
 }
@@ -225,13 +228,17 @@ TEST(Certified, RingsAndSeveralObservers) {
     }
   }
   request.mode = Mode::kCount;
-  const Result count = compute_precise(terrain.store(), request, {.memory_bytes = 500000}, progress).result;
+  const Result count =
+      compute_precise(terrain.store(), request, {.memory_bytes = 500000, .lattices = false}, progress).result;
   request.mode = Mode::kVisible;
-  const Result any = compute_precise(terrain.store(), request, {.memory_bytes = 500000}, progress).result;
+  const Result any =
+      compute_precise(terrain.store(), request, {.memory_bytes = 500000, .lattices = false}, progress).result;
   request.mode = Mode::kWhich;
-  const Result which = compute_precise(terrain.store(), request, {.memory_bytes = 500000}, progress).result;
+  const Result which =
+      compute_precise(terrain.store(), request, {.memory_bytes = 500000, .lattices = false}, progress).result;
   request.mode = Mode::kNearest;
-  const Result nearest = compute_precise(terrain.store(), request, {.memory_bytes = 500000}, progress).result;
+  const Result nearest =
+      compute_precise(terrain.store(), request, {.memory_bytes = 500000, .lattices = false}, progress).result;
   const auto distance = [&](std::size_t observer, std::size_t i) {
     const auto columns = nearest.grid.columns();
     const Point2 c =
@@ -254,7 +261,8 @@ void expect_heights_at_any_memory(const Terrain& terrain, Request request, const
   NoProgress progress;
   request.mode = Mode::kHeight;
   const Result all = compute_precise(terrain.store(), request, {}, progress).result;
-  const Result parts = compute_precise(terrain.store(), request, {.memory_bytes = 16000000}, progress).result;
+  const Result parts =
+      compute_precise(terrain.store(), request, {.memory_bytes = 16000000, .lattices = false}, progress).result;
   EXPECT_TRUE(all.visible == visible.visible);
   EXPECT_TRUE(parts.visible == visible.visible);
   for (std::size_t i = 0; i < all.least_height_m.size(); ++i) {
@@ -263,7 +271,8 @@ void expect_heights_at_any_memory(const Terrain& terrain, Request request, const
   }
   request.mode = Mode::kAngle;
   const auto angles = [&](std::uint64_t memory) {
-    return compute_precise(terrain.store(), request, {.memory_bytes = memory}, progress).result.angle_deg;
+    return compute_precise(terrain.store(), request, {.memory_bytes = memory, .lattices = false}, progress)
+        .result.angle_deg;
   };
   const std::vector<float> whole = angles(1 << 30), cut = angles(16000000);
   EXPECT_TRUE(std::equal(whole.begin(), whole.end(), cut.begin(), cut.end(),
@@ -282,7 +291,8 @@ TEST(Precise, TheMemoryChangesNothingOnTheWholeSample) {
     const Result result = compute_precise(terrain.store(), request, {}, progress).result;
     const Scene whole(terrain.full(), request.earth, request.nodata, 10000);
     for (const std::uint64_t memory : {std::uint64_t{16000000}, std::uint64_t{1300000}}) {
-      const Result other = compute_precise(terrain.store(), request, {.memory_bytes = memory}, progress).result;
+      const Result other =
+          compute_precise(terrain.store(), request, {.memory_bytes = memory, .lattices = false}, progress).result;
       EXPECT_TRUE(result.visible == other.visible) << "memory " << memory;
     }
     expect_heights_at_any_memory(terrain, request, result);

@@ -105,8 +105,10 @@ Voids voids_of(NoData rule) {
   return rule == NoData::kUnknown ? Voids::kDoubt : voids_without_doubt(rule);
 }
 
-/// A point of an envelope costs about as much as two of the full surface.
-constexpr std::uint64_t kEnvelopeCosts = 2;
+/// A point of an envelope costs about as much as two of the full surface, or as so many posts of a lattice.
+constexpr std::uint64_t kEnvelopeCosts = 2, kEnvelopeCostsInPosts = 8;
+/// So few posts are looked at in a moment, whatever way is asked for.
+constexpr std::uint64_t kFewPosts = 100000;
 /// More take over a gigabyte, which the full surface, read by segments, does not.
 constexpr std::uint64_t kMostEnvelopePoints = 1500000;
 
@@ -115,8 +117,11 @@ constexpr std::uint64_t kMostEnvelopePoints = 1500000;
 bool exact_is_as_cheap(const Store& store, const Request& request) {
   const int level = level_within(store.metadata(), request.detail.coarsest());
   const Box box = box_of_window(store, request);
-  const std::uint64_t points = store.points_about(level, box);
-  return points > kMostEnvelopePoints || kEnvelopeCosts * points >= store.points_about(0, box);
+  const std::uint64_t points = store.points_about(level, box), all = store.points_about(0, box);
+  if (points > kMostEnvelopePoints || kEnvelopeCosts * points >= all) return true;
+  return all > kFewPosts && kEnvelopeCostsInPosts * points >= all &&
+         looks_like_lattice(store, window_of(request), ThemeChoice::none(),
+                            PreciseOptions().memory_bytes / kBytesAPost);
 }
 
 /// The exact answer, but where ground without data leaves it open.
@@ -168,7 +173,7 @@ Surveyed compute_certified(const Store& store, const Request& request, Progress&
   result.visible.resize(result.grid.cell_count());
   decide_all(CertifiedPass(scene, result.grid, tiles), tiles, looks, result, progress);
   result.statistics.rays_seconds = watch.lap();
-  surveyed.tin = scene.envelope.lower;
+  surveyed.surface.tin = scene.envelope.lower;
   return surveyed;
 }
 

@@ -19,6 +19,7 @@
 #include <itin/raster.hpp>
 #include <itin/tin.hpp>
 #include <viewshed/certified.hpp>
+#include <viewshed/surface.hpp>
 
 #include "axis_sweep.hpp"
 #include "binned_heights.hpp"
@@ -39,6 +40,7 @@ class FullSurface {
   FullSurface& operator=(const FullSurface&) = delete;
 
   const Grid& units() const { return heights_.units(); }
+  const AxisSweep& sweep() const { return sweep_; }
   const RasterGrid& grid() const { return grid_; }
   const RasterGrid& tiles() const { return tiles_; }
   /// Of what hides, metres, if there is any at that position.
@@ -92,14 +94,15 @@ class FullSurface {
 
 /// Together with what it is made of.
 struct OwnedSurface {
-  OwnedSurface(Tin surface, std::optional<Tin> bare_ground, const Earth& earth, const RasterGrid& grid,
+  OwnedSurface(Surface of, std::optional<Tin> bare_ground, const Earth& earth, const RasterGrid& grid,
                const RasterGrid& tiles)
-      : tin(std::move(surface)),
+      : surface(std::move(of)),
         ground(std::move(bare_ground)),
-        full(tin, ground ? &*ground : nullptr, earth, grid, tiles) {}
+        full(surface.lattice ? FullSurface(*surface.lattice, earth, grid, tiles)
+                             : FullSurface(surface.tin, ground ? &*ground : nullptr, earth, grid, tiles)) {}
 
-  const Tin tin;
-  const std::optional<Tin> ground;
+  const Surface surface;
+  const std::optional<Tin> ground;  ///< none where the surface is a lattice
   const FullSurface full;
 };
 

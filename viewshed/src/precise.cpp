@@ -26,8 +26,6 @@ namespace {
 
 /// Peak memory a point of the full surface: triangulation, triangles and bins.
 constexpr std::uint64_t kBytesAPoint = 400;
-/// The same where it is a lattice: posts, halves and bounds of runs.
-constexpr std::uint64_t kBytesAPost = 9;
 /// Of an envelope, which has two surfaces and two scenes; and half of the memory is for what is refined meanwhile.
 constexpr std::uint64_t kBytesAnEnvelopePoint = 2400;
 /// Of the rasters that hold what is known of every cell.
@@ -114,7 +112,7 @@ class InSegments {
     if (features_ && !request_.targets_on_surface) ground = triangulated(targets, ThemeChoice::none());
     Result& result = surveyed_.result;
     result.statistics.triangles += tin.triangles.size();
-    return {std::move(tin), std::move(ground), request_.earth, result.grid, tiles_};
+    return {{std::move(tin), std::nullopt}, std::move(ground), request_.earth, result.grid, tiles_};
   }
 
   void retrieve_coarse() {
@@ -131,7 +129,7 @@ class InSegments {
       throw InputError(
           "with --themes, or for heights and angles, --nodata block needs the whole window in memory: give more "
           "--memory or a smaller --radius");
-    surveyed_.tin = envelope.lower;
+    surveyed_.surface.tin = envelope.lower;
     if (!whole_lines()) coarse_.emplace(std::move(envelope), request_, tiles_, voids_without_doubt(request_.nodata));
     result.statistics.scene_seconds += watch_.lap();
   }
@@ -316,7 +314,8 @@ Surveyed compute_precise(const Store& store, const Request& request, const Preci
   whole.detail = Detail::tolerance(0);
   const Box box = box_of_window(store, request);
   const std::uint64_t memory = memory_beside_rasters(options.memory_bytes, cells_of(request, box).cell_count());
-  if (auto surveyed = compute_over_lattice(store, whole, memory / kBytesAPost, progress)) return std::move(*surveyed);
+  if (options.lattices)
+    if (auto surveyed = compute_over_lattice(store, whole, memory / kBytesAPost, progress)) return std::move(*surveyed);
   if (store.points_about(0, box) > options.memory_bytes / kBytesAPoint)
     return InSegments(store, request, options, progress).run();
   return compute_over_tin(store, whole, progress);

@@ -1,13 +1,10 @@
 #include "store_viewshed.hpp"
 
-#include <limits>
-
 #include <itin/error.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/viewshed.hpp>
 
 #include "blocked_features.hpp"
-#include "envelope.hpp"
 #include "request.hpp"
 #include "stopwatch.hpp"
 
@@ -30,37 +27,34 @@ Surveyed survey(const Store& store, const Request& request, Surveyed surveyed, d
 
 std::optional<Surveyed> compute_over_lattice(const Store& store, const Request& request, std::uint64_t most_posts,
                                              Progress& progress) {
-  if (needs_tin(request) || level_within(store.metadata(), request.detail.coarsest()) != 0) return std::nullopt;
+  if (needs_tin(request)) return std::nullopt;
   Stopwatch watch;
-  Surveyed surveyed;
-  surveyed.lattice = triangulate_lattice(store, window_of(request), request.themes, most_posts, progress);
-  if (!surveyed.lattice) return std::nullopt;
-  return survey(store, request, std::move(surveyed), watch.lap(), progress);
+  auto surface = retrieve_lattice(store, window_of(request), request.detail, request.themes, most_posts, progress);
+  if (!surface) return std::nullopt;
+  return survey(store, request, {std::move(*surface), std::nullopt, {}}, watch.lap(), progress);
 }
 
 Surveyed compute_over_tin(const Store& store, const Request& request, Progress& progress) {
   Stopwatch watch;
   Surveyed surveyed;
-  surveyed.tin = triangulate(store, window_of(request), request.detail, progress, request.themes);
+  Tin& tin = surveyed.surface.tin;
+  tin = triangulate(store, window_of(request), request.detail, progress, request.themes);
   const double seconds = watch.lap();
-  if (!surveyed.tin.standing.empty() && !(request.observers_on_surface && request.targets_on_surface))
+  if (!tin.standing.empty() && !(request.observers_on_surface && request.targets_on_surface))
     surveyed.ground = triangulate(store, window_of(request), request.detail, progress, ThemeChoice::none());
   return survey(store, request, std::move(surveyed), seconds, progress);
 }
 
 Surveyed compute_with_surface(const Store& store, const Request& request, Progress& progress) {
   validate(request);
-  constexpr std::uint64_t kAny = std::numeric_limits<std::uint32_t>::max() / 2;
-  if (auto surveyed = compute_over_lattice(store, request, kAny, progress)) return std::move(*surveyed);
+  if (auto surveyed = compute_over_lattice(store, request, kAnyLattice, progress)) return std::move(*surveyed);
   return compute_over_tin(store, request, progress);
 }
 
 Result compute_on_surface(const Store& store, const Surveyed& surveyed, const Request& request, Progress& progress) {
-  Result result = surveyed.lattice  ? compute(*surveyed.lattice, request, progress)
-                  : surveyed.ground ? compute(surveyed.tin, *surveyed.ground, request, progress)
-                                    : compute(surveyed.tin, request, progress);
+  Result result = compute(surveyed.surface, surveyed.ground ? &*surveyed.ground : nullptr, request, progress);
   for (const ThemeInfo& theme : store.metadata().themes) result.theme_names.push_back(theme.name);
-  if (request.mode == Mode::kBlocker) find_blocking_features(store, surveyed.tin, result);
+  if (request.mode == Mode::kBlocker) find_blocking_features(store, surveyed.surface.tin, result);
   return result;
 }
 

@@ -1,15 +1,13 @@
 #include <algorithm>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include <itin/triangulate.hpp>
 #include <viewshed/turbines.hpp>
 
 #include "axis_sweep.hpp"
-#include "binned_heights.hpp"
 #include "boundary.hpp"
 #include "eye.hpp"
 #include "full_surface.hpp"
@@ -27,7 +25,7 @@ namespace itin::viewshed {
 namespace {
 
 /// What voids hide from each turbine, where they do.
-std::vector<VoidShadow> shadows(const BinnedHeights& surface, const ZoneRequest& request) {
+std::vector<VoidShadow> shadows(const FullSurface& surface, const ZoneRequest& request) {
   std::vector<VoidShadow> result;
   if (request.nodata != NoData::kBlock) return result;
   for (const Turbine& t : request.turbines) {
@@ -49,43 +47,32 @@ void warn_of_voids(const Tin& tin, Zone& zone) {
 /// Surveys the parts of a zone, one after another.
 class ZoneWork {
  public:
-  ZoneWork(Zone& zone, Progress& progress) : zone_(zone), progress_(progress), tiles_(grid_of_tiles(zone.grid)) {}
+  ZoneWork(Zone& zone, Progress& progress) : zone_(zone), progress_(progress) {}
 
-  /// `screened` may be null.
-  void survey(const Tin& ground, const Tin* screened, std::span<const std::size_t> tiles) {
-    Stopwatch watch;
-    progress_.report("scene", 0);
-    const TriangleBins bins(ground, tiles_);
-    const ZoneSurvey survey(ground, bins, tiles_, zone_);
-    zone_.statistics.scene_seconds += watch.lap();
+  /// `screen` may be null.
+  void survey(const FullSurface& ground, const FullSurface* screen, std::span<const std::size_t> tiles) {
+    const ZoneSurvey survey(ground, zone_);
     look(survey, ground, tiles, "sight lines", zone_.bare);
     if (zone_.request.radar) look_from_radar(ground);
-    if (screened != nullptr) look(survey, *screened, tiles, "sight lines, screened", *zone_.screened);
+    if (screen != nullptr) look(survey, *screen, tiles, "sight lines, screened", *zone_.screened);
   }
 
  private:
-  /// Over one surface at a time, for what is made of it takes memory.
-  void look(const ZoneSurvey& survey, const Tin& surface, std::span<const std::size_t> tiles, const std::string& stage,
-            Visibility& visibility) {
+  void look(const ZoneSurvey& survey, const FullSurface& surface, std::span<const std::size_t> tiles,
+            const std::string& stage, Visibility& visibility) {
     Stopwatch watch;
-    const BinnedHeights binned(surface);
-    const std::vector<VoidShadow> behind_voids = shadows(binned, zone_.request);
-    zone_.statistics.scene_seconds += watch.lap();
-    zone_.statistics.lines +=
-        survey.run({AxisSweep(zone_.request.earth, binned), behind_voids}, tiles, stage, visibility, progress_);
+    const std::vector<VoidShadow> behind_voids = shadows(surface, zone_.request);
+    zone_.statistics.lines += survey.run({surface.sweep(), behind_voids}, tiles, stage, visibility, progress_);
     zone_.statistics.lines_seconds += watch.lap();
-    zone_.statistics.retrieval += surface.statistics;
-    zone_.statistics.triangles += surface.triangles.size();
   }
 
-  void look_from_radar(const Tin& ground) {
+  void look_from_radar(const FullSurface& surface) {
     Stopwatch watch;
     const Observer& radar = *zone_.request.radar;
-    const FullSurface surface(ground, nullptr, zone_.request.earth, zone_.grid, tiles_);
     const auto height = surface.height(radar.position);
     Request request;
     request.earth = zone_.request.earth;
-    const Eye eye = eye_of(ground.grid, request, radar, height);
+    const Eye eye = eye_of(surface.units(), request, radar, height);
     std::optional<VoidShadow> behind_voids;
     if (zone_.request.nodata == NoData::kBlock) behind_voids.emplace(surface.rim(), eye.units);
     const VoidShadow* const shadow = behind_voids ? &*behind_voids : nullptr;
@@ -99,8 +86,16 @@ class ZoneWork {
 
   Zone& zone_;
   Progress& progress_;
-  RasterGrid tiles_;
 };
+
+/// The ground of the whole zone, where that is a lattice and the memory holds it.
+std::optional<Surface> lattice_under(const Store& store, const Zone& zone, Progress& progress) {
+  std::uint64_t most_posts = kAnyLattice;
+  if (const auto memory = zone.request.memory_bytes)
+    most_posts = (*memory - std::min(*memory, bytes_of_results(zone))) / kBytesAPost;
+  return retrieve_lattice(store, window_of(zone.request), zone.request.detail, ThemeChoice::none(), most_posts,
+                          progress);
+}
 
 }  // namespace
 
@@ -108,10 +103,14 @@ Zone survey_turbines(const Tin& ground, const Tin* screened, const ZoneRequest& 
   validate(request);
   Zone zone = lay_out(request, ground.bounds(), [&](Point2 p) { return height_on(ground, p); });
   warn_of_voids(ground, zone);
-  if (screened != nullptr) zone.screened = zone.bare;
-  std::vector<std::size_t> tiles(grid_of_tiles(zone.grid).cell_count());
-  std::iota(tiles.begin(), tiles.end(), std::size_t{0});
-  ZoneWork(zone, progress).survey(ground, screened, tiles);
+  const RasterGrid tiles = grid_of_tiles(zone.grid);
+  const FullSurface bare(ground, nullptr, request.earth, zone.grid, tiles);
+  std::optional<FullSurface> screen;
+  if (screened != nullptr) {
+    zone.screened = zone.bare;
+    screen.emplace(*screened, nullptr, request.earth, zone.grid, tiles);
+  }
+  ZoneWork(zone, progress).survey(bare, screen ? &*screen : nullptr, whole_zone(zone).tiles);
   return zone;
 }
 
@@ -124,15 +123,31 @@ Zone survey_turbines(const Store& store, const ZoneRequest& request, Progress& p
   warn_of_voids(outline, zone);
   const bool stands = request.themes && request.themes->includes_standing(store.metadata().themes);
   if (stands) zone.screened = zone.bare;
+  const RasterGrid tiles = grid_of_tiles(zone.grid);
   ZoneWork work(zone, progress);
-  zone.statistics.retrieval_seconds += watch.lap();
-  for (const ZonePart& part : zone_parts(store, zone, stands)) {
-    watch.lap();
-    const Tin ground = triangulate(store, part.window, request.detail, progress, ThemeChoice::none());
-    std::optional<Tin> screened;
-    if (stands) screened = triangulate(store, part.window, request.detail, progress, *request.themes);
+  const auto counted = [&](Surface surface) {
     zone.statistics.retrieval_seconds += watch.lap();
-    work.survey(ground, screened ? &*screened : nullptr, part.tiles);
+    zone.statistics.retrieval += surface.statistics();
+    zone.statistics.triangles += surface.triangle_count();
+    return surface;
+  };
+  const auto survey = [&](Surface bare, const ZonePart& part) {
+    const OwnedSurface ground(counted(std::move(bare)), std::nullopt, request.earth, zone.grid, tiles);
+    std::optional<OwnedSurface> screen;
+    if (stands)
+      screen.emplace(
+          counted(retrieve_surface(store, part.window, request.detail, *request.themes, kAnyLattice, progress)),
+          std::nullopt, request.earth, zone.grid, tiles);
+    zone.statistics.scene_seconds += watch.lap();
+    work.survey(ground.full, screen ? &screen->full : nullptr, part.tiles);
+    watch.lap();
+  };
+  auto lattice = stands ? std::nullopt : lattice_under(store, zone, progress);
+  if (lattice) {
+    survey(std::move(*lattice), whole_zone(zone));
+  } else {
+    for (const ZonePart& part : zone_parts(store, zone, stands))
+      survey(retrieve_surface(store, part.window, request.detail, ThemeChoice::none(), kAnyLattice, progress), part);
   }
   if (request.themes && !stands) {
     zone.screened = zone.bare;

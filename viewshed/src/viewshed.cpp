@@ -21,46 +21,35 @@ void name_blockers(const Tin& tin, Result& result) {
   });
 }
 
-/// What is looked over.
-struct Ground {
-  const Tin* tin = nullptr;  ///< or
-  const LatticeTin* lattice = nullptr;
-  const Tin* bare = nullptr;  ///< what ends stand on, where that is not the surface
-  const Grid& units() const { return lattice != nullptr ? lattice->grid : tin->grid; }
-  Box bounds() const { return lattice != nullptr ? lattice->bounds() : tin->bounds(); }
-  std::size_t triangles() const { return lattice != nullptr ? lattice->triangle_count() : tin->triangles.size(); }
-};
-
-Observations observations_over(const Ground& ground, const Request& request) {
-  return ground.lattice != nullptr ? Observations(request) : Observations(request, *ground.tin);
-}
-
-Result compute_on(const Ground& ground, const Request& request, Progress& progress) {
+/// One of the two is there; `bare` is null where ends stand on that.
+Result compute_on(const Tin* tin, const LatticeTin* lattice, const Tin* bare, const Request& request,
+                  Progress& progress) {
   validate(request);
   Result result;
-  result.statistics.triangles = ground.triangles();
-  if (result.statistics.triangles == 0) eye_of(ground.units(), request, request.observers.front(), std::nullopt);
+  const Grid& units = lattice != nullptr ? lattice->grid : tin->grid;
+  result.statistics.triangles = lattice != nullptr ? lattice->triangle_count() : tin->triangles.size();
+  result.statistics.retrieval = lattice != nullptr ? lattice->statistics : tin->statistics;
+  if (result.statistics.triangles == 0) eye_of(units, request, request.observers.front(), std::nullopt);
   result.request = request;
   Stopwatch watch;
   progress.report("scene", 0);
-  result.grid = cells_of(request, ground.bounds());
+  result.grid = cells_of(request, lattice != nullptr ? lattice->bounds() : tin->bounds());
   const RasterGrid tiles = grid_of_tiles(result.grid);
-  const Tin* const bare = request.targets_on_surface ? nullptr : ground.bare;
-  const FullSurface surface = ground.lattice != nullptr
-                                  ? FullSurface(*ground.lattice, request.earth, result.grid, tiles)
-                                  : FullSurface(*ground.tin, bare, request.earth, result.grid, tiles);
+  const FullSurface surface = lattice != nullptr ? FullSurface(*lattice, request.earth, result.grid, tiles)
+                                                 : FullSurface(*tin, request.targets_on_surface ? nullptr : bare,
+                                                               request.earth, result.grid, tiles);
   std::vector<Eye> eyes;
   for (const Observer& observer : request.observers) {
-    const bool raised = request.observers_on_surface || ground.bare == nullptr;
-    const auto height = raised ? surface.height(observer.position) : height_on(*ground.bare, observer.position);
-    eyes.push_back(eye_of(ground.units(), request, observer, height));
+    const bool raised = request.observers_on_surface || bare == nullptr;
+    const auto height = raised ? surface.height(observer.position) : height_on(*bare, observer.position);
+    eyes.push_back(eye_of(units, request, observer, height));
     result.ground_m.push_back(*height);
   }
-  look_for_voids(ground.units(), surface.rim(), result);
-  result.statistics.retrieval = ground.lattice != nullptr ? ground.lattice->statistics : ground.tin->statistics;
+  look_for_voids(units, surface.rim(), result);
   result.statistics.scene_seconds = watch.lap();
-  look_around(surface, observations_over(ground, request), eyes, result, progress);
-  if (request.mode == Mode::kBlocker) name_blockers(*ground.tin, result);
+  const Observations observations = lattice != nullptr ? Observations(request) : Observations(request, *tin);
+  look_around(surface, observations, eyes, result, progress);
+  if (request.mode == Mode::kBlocker) name_blockers(*tin, result);
   result.statistics.rays_seconds = watch.lap();
   return result;
 }
@@ -68,15 +57,15 @@ Result compute_on(const Ground& ground, const Request& request, Progress& progre
 }  // namespace
 
 Result compute(const Tin& tin, const Request& request, Progress& progress) {
-  return compute_on({.tin = &tin}, request, progress);
-}
-
-Result compute(const LatticeTin& lattice, const Request& request, Progress& progress) {
-  return compute_on({.lattice = &lattice}, request, progress);
+  return compute_on(&tin, nullptr, nullptr, request, progress);
 }
 
 Result compute(const Tin& tin, const Tin& ground, const Request& request, Progress& progress) {
-  return compute_on({.tin = &tin, .bare = &ground}, request, progress);
+  return compute_on(&tin, nullptr, &ground, request, progress);
+}
+
+Result compute(const Surface& surface, const Tin* ground, const Request& request, Progress& progress) {
+  return compute_on(&surface.tin, surface.lattice ? &*surface.lattice : nullptr, ground, request, progress);
 }
 
 }  // namespace itin::viewshed

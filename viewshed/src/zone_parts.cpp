@@ -107,13 +107,11 @@ class Partition {
         tiles_(grid_of_tiles(zone.grid)),
         points_(store, level_within(store.metadata(), zone.request.detail.coarsest()), box) {}
 
-  /// Bytes. As measured on OS Terrain 50: 160 a triangle of one surface, another 60 of a second one at rest; and what a
+  /// Bytes. As measured on OS Terrain 50: 160 a triangle of one surface, and another 110 of a second one; and what a
   /// cell's results take.
   double memory(const std::vector<Point2>& window) const {
     const double triangles = 2 * static_cast<double>(points_.within(window));
-    const double results = 36 + 4 * static_cast<double>(zone_.words);
-    return (screened_ ? 220 : 160) * triangles +
-           (screened_ ? 2 : 1) * results * static_cast<double>(zone_.grid.cell_count());
+    return (screened_ ? 270 : 160) * triangles + (screened_ ? 2 : 1) * static_cast<double>(bytes_of_results(zone_));
   }
 
   /// Those in reach of a turbine, from the south clockwise about the middle of all turbines.
@@ -204,9 +202,18 @@ Window window_of(const ZoneRequest& request) {
   return Window::polygons(std::move(parts));
 }
 
-std::vector<ZonePart> zone_parts(const Store& store, const Zone& zone, bool screened) {
+ZonePart whole_zone(const Zone& zone) {
   ZonePart whole{window_of(zone.request), std::vector<std::size_t>(grid_of_tiles(zone.grid).cell_count())};
   std::iota(whole.tiles.begin(), whole.tiles.end(), std::size_t{0});
+  return whole;
+}
+
+std::uint64_t bytes_of_results(const Zone& zone) {
+  return (36 + 4 * zone.words) * zone.grid.cell_count();
+}
+
+std::vector<ZonePart> zone_parts(const Store& store, const Zone& zone, bool screened) {
+  const ZonePart whole = whole_zone(zone);
   if (!zone.request.memory_bytes) return {whole};
   const Box box = whole.window.bounds();
   const Partition partition(store, zone, screened, box);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <itin/store.hpp>
@@ -20,6 +21,11 @@ struct ZonePart {
 
 /// Holds all lines to every turbine, and to the radar.
 Window window_of(const ZoneRequest& request);
+
+ZonePart whole_zone(const Zone& zone);
+
+/// Of what is told of the cells, over the bare ground.
+std::uint64_t bytes_of_results(const Zone& zone);
 
 /// One part of all tiles where the zone's memory_bytes hold that, or are not given; else tiles in order of their
 /// azimuth, as many together as they hold. Throws InputError where that is impossible, saying about how much is needed.

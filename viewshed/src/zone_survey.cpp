@@ -20,17 +20,18 @@ std::size_t cell_of(std::int64_t row, std::int64_t column) {
 
 /// What is known of a tile's cells so far.
 struct ZoneSurvey::TileWork {
-  TileWork(const Grid& units, const RasterGrid& grid, const Tile& t, std::size_t words)
-      : tile(t), centres(units, grid, t), seen(words) {
+  TileWork(const FullSurface& surface, std::size_t number, std::size_t words)
+      : place(surface.begin(number)), tile(place->tile), centres(place->centres), ground(place->ground), seen(words) {
     hubs.fill(kCountOutside), tips.fill(kCountOutside);
     height.fill(0), angle.fill(0), angle_sum.fill(0);
     nearest.fill(std::numeric_limits<double>::infinity());
     for (auto& word : seen) word.fill(0);
   }
-  Tile tile;
-  TileCentres centres;
-  TileValues<double> ground, eyes;  ///< grid units
-  AxisSweep::Scratch scratch;
+  const std::unique_ptr<FullSurface::TileWork> place;
+  const Tile& tile;
+  const TileCentres& centres;
+  const TileValues<double>& ground;  ///< grid units
+  TileValues<double> eyes;
   AxisSweep::Heights least;  ///< of the turbine at hand
   TileValues<std::uint16_t> hubs, tips;
   TileValues<double> height, angle, angle_sum, nearest;
@@ -38,13 +39,13 @@ struct ZoneSurvey::TileWork {
   std::uint64_t lines = 0;
 };
 
-ZoneSurvey::ZoneSurvey(const Tin& ground, const TriangleBins& bins, const RasterGrid& tiles, const Zone& zone)
-    : ground_(ground), bins_(bins), tiles_(tiles), zone_(zone) {
-  const double per_metre = 1 / ground.grid.resolution;
+ZoneSurvey::ZoneSurvey(const FullSurface& ground, const Zone& zone) : ground_(ground), zone_(zone) {
+  const Grid& units = ground.units();
+  const double per_metre = 1 / units.resolution;
   for (std::size_t k = 0; k < zone.request.turbines.size(); ++k) {
     const Turbine& t = zone.request.turbines[k];
     Axis& axis = axes_.emplace_back();
-    axis.x = easting_in_units(ground.grid, t.position.x), axis.y = northing_in_units(ground.grid, t.position.y);
+    axis.x = easting_in_units(units, t.position.x), axis.y = northing_in_units(units, t.position.y);
     axis.base = zone.ground_m[k] * per_metre;
     axis.tip = (zone.ground_m[k] + t.tip_height) * per_metre;
     axis.hub = t.hub_height ? (zone.ground_m[k] + *t.hub_height) * per_metre : -std::numeric_limits<double>::infinity();
@@ -53,14 +54,14 @@ ZoneSurvey::ZoneSurvey(const Tin& ground, const TriangleBins& bins, const Raster
   }
 }
 
-std::uint64_t ZoneSurvey::run(const Surface& surface, std::span<const std::size_t> tiles, const std::string& stage,
+std::uint64_t ZoneSurvey::run(const Screen& screen, std::span<const std::size_t> tiles, const std::string& stage,
                               Visibility& result, Progress& progress) const {
-  const Views views = views_over(surface.sweep);
+  const Views views = views_over(screen.sweep);
   std::atomic<std::size_t> done = 0;
   std::atomic<std::uint64_t> lines = 0;
   parallel_for(tiles.size(), [&](std::size_t i) {
     progress.throw_if_cancelled();
-    lines += decide(tiles[i], surface, views, result);
+    lines += decide(tiles[i], screen, views, result);
     const std::size_t now = ++done;
     if (now % 16 == 0 || now == tiles.size())
       progress.report(stage, static_cast<double>(now) / static_cast<double>(tiles.size()));
@@ -73,24 +74,22 @@ ZoneSurvey::Views ZoneSurvey::views_over(const AxisSweep& sweep) const {
   parallel_for(views.size(), [&](std::size_t k) {
     const Axis& axis = axes_[k];
     // Which cells lie within the radius is decided in metres.
-    const double reach = zone_.request.turbines[k].radius / ground_.grid.resolution + 1;
+    const double reach = zone_.request.turbines[k].radius / ground_.units().resolution + 1;
     views[k].emplace(sweep.view_of({axis.x, axis.y, axis.base, axis.tip, reach}));
   });
   return views;
 }
 
-std::uint64_t ZoneSurvey::decide(std::size_t tile, const Surface& surface, const Views& views,
-                                 Visibility& result) const {
-  const Tile place = tile_at(zone_.grid, tiles_, tile);
+std::uint64_t ZoneSurvey::decide(std::size_t tile, const Screen& screen, const Views& views, Visibility& result) const {
+  const Tile place = tile_at(zone_.grid, ground_.tiles(), tile);
   std::vector<std::size_t> near;
   for (std::size_t k = 0; k < axes_.size(); ++k)
     if (in_reach(axes_[k], place)) near.push_back(k);
   if (near.empty()) return 0;
-  const auto work = std::make_unique<TileWork>(ground_.grid, zone_.grid, place, zone_.words);
-  scan_convert(ground_, bins_.triangles(tile), place, work->centres, work->ground);
-  const double eye_height = zone_.request.observer_height / ground_.grid.resolution;
+  const auto work = std::make_unique<TileWork>(ground_, tile, zone_.words);
+  const double eye_height = zone_.request.observer_height / ground_.units().resolution;
   for (std::size_t i = 0; i < work->ground.size(); ++i) work->eyes[i] = work->ground[i] + eye_height;
-  for (const std::size_t k : near) look_at(k, surface, *views[k], *work);
+  for (const std::size_t k : near) look_at(k, screen, *views[k], *work);
   store(*work, result);
   return work->lines;
 }
@@ -104,10 +103,9 @@ bool ZoneSurvey::in_reach(const Axis& axis, const Tile& tile) const {
   return dx * dx + dy * dy <= axis.radius_squared;
 }
 
-void ZoneSurvey::look_at(std::size_t turbine, const Surface& surface, const AxisSweep::View& view,
-                         TileWork& work) const {
+void ZoneSurvey::look_at(std::size_t turbine, const Screen& screen, const AxisSweep::View& view, TileWork& work) const {
   const Axis& axis = axes_[turbine];
-  surface.sweep.run(view, {work.tile, work.centres, work.eyes}, work.scratch, work.least);
+  screen.sweep.run(view, {work.tile, work.centres, work.eyes}, work.place->scratch, work.least);
   for (std::int64_t r = 0; r < work.tile.rows; ++r) {
     const double dy = zone_.grid.centre_y(work.tile.row + r) - axis.position_y;
     for (std::int64_t c = 0; c < work.tile.columns; ++c) {
@@ -119,8 +117,8 @@ void ZoneSurvey::look_at(std::size_t turbine, const Surface& surface, const Axis
       const bool beneath = std::isinf(least);
       work.lines += beneath ? 0 : 1;
       if (std::isnan(least)) continue;
-      if (!surface.shadows.empty() && surface.shadows[turbine].holds(work.centres.x[static_cast<std::size_t>(c)],
-                                                                     work.centres.y[static_cast<std::size_t>(r)]))
+      if (!screen.shadows.empty() && screen.shadows[turbine].holds(work.centres.x[static_cast<std::size_t>(c)],
+                                                                   work.centres.y[static_cast<std::size_t>(r)]))
         continue;
       record(turbine, cell, std::sqrt(squared), beneath ? axis.base : least, work);
     }
@@ -130,7 +128,7 @@ void ZoneSurvey::look_at(std::size_t turbine, const Surface& surface, const Axis
 /// The turbine is seen from the cell, down to `least` grid units of elevation.
 void ZoneSurvey::record(std::size_t turbine, std::size_t cell, double distance, double least, TileWork& work) const {
   const Axis& axis = axes_[turbine];
-  const double resolution = ground_.grid.resolution;
+  const double resolution = ground_.units().resolution;
   ++work.tips[cell];
   if (least <= axis.hub) ++work.hubs[cell];
   const TurbineBit bit = turbine_bit(zone_.request.turbines[turbine].number);

@@ -7,12 +7,11 @@
 #include <string>
 #include <vector>
 
-#include <itin/tin.hpp>
 #include <viewshed/turbines.hpp>
 
 #include "axis_sweep.hpp"
+#include "full_surface.hpp"
 #include "surface_heights.hpp"
-#include "triangle_bins.hpp"
 #include "turbine_view.hpp"
 #include "void_shadow.hpp"
 
@@ -20,17 +19,16 @@ namespace itin::viewshed {
 
 class ZoneSurvey {
  public:
-  /// `zone` has its request, grid and ground; eyes stand on `ground`, whose triangles are in `bins` by tiles of the
-  /// grid. All must outlive it.
-  ZoneSurvey(const Tin& ground, const TriangleBins& bins, const RasterGrid& tiles, const Zone& zone);
+  /// `zone` has its request, grid and ground; eyes stand on `ground`, whose grid is the zone's. All must outlive it.
+  ZoneSurvey(const FullSurface& ground, const Zone& zone);
 
-  /// The surface to look over, and each turbine's shadow of voids where these hide; else none.
-  struct Surface {
+  /// What to look over, and each turbine's shadow of voids where these hide; else none.
+  struct Screen {
     const AxisSweep& sweep;
     const std::vector<VoidShadow>& shadows;
   };
   /// Enters what is seen from the cells of these tiles. Returns how many lines that took.
-  std::uint64_t run(const Surface& surface, std::span<const std::size_t> tiles, const std::string& stage,
+  std::uint64_t run(const Screen& screen, std::span<const std::size_t> tiles, const std::string& stage,
                     Visibility& result, Progress& progress) const;
 
  private:
@@ -45,17 +43,15 @@ class ZoneSurvey {
   /// The turbines over a surface.
   using Views = std::vector<std::optional<AxisSweep::View>>;
   Views views_over(const AxisSweep& sweep) const;
-  std::uint64_t decide(std::size_t tile, const Surface& surface, const Views& views, Visibility& result) const;
+  std::uint64_t decide(std::size_t tile, const Screen& screen, const Views& views, Visibility& result) const;
   bool in_reach(const Axis& axis, const Tile& tile) const;
-  void look_at(std::size_t turbine, const Surface& surface, const AxisSweep::View& view, TileWork& work) const;
+  void look_at(std::size_t turbine, const Screen& screen, const AxisSweep::View& view, TileWork& work) const;
   void record(std::size_t turbine, std::size_t cell, double distance, double least, TileWork& work) const;
   void store(const TileWork& work, Visibility& result) const;
   void store_horizon(const TileWork& work, std::size_t from_cell, std::size_t to_cell, Point2 eye, Visibility& result,
                      std::vector<Arc>& arcs) const;
 
-  const Tin& ground_;
-  const TriangleBins& bins_;
-  RasterGrid tiles_;
+  const FullSurface& ground_;
   const Zone& zone_;
   std::vector<Axis> axes_;
 };

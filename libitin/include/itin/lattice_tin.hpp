@@ -110,6 +110,9 @@ inline std::array<GridPoint, 3> LatticeTin::corners(std::uint32_t triangle) cons
 std::optional<LatticeTin> triangulate_lattice(const Store& store, const Window& window, const ThemeChoice& themes,
                                               std::uint64_t most_posts, Progress& progress);
 
+/// Whether that may be one: what a few blocks tell.
+bool looks_like_lattice(const Store& store, const Window& window, const ThemeChoice& themes, std::uint64_t most_posts);
+
 /// A Tin that is one. Nothing where it is not, or covers so little of a lattice that that would be mostly empty. O(n);
 /// what is none is most often found out by the first few triangles.
 std::optional<LatticeTin> lattice_of(const Tin& tin);

@@ -81,6 +81,8 @@ class LatticeReader {
 
   std::optional<LatticeTin> run(std::uint64_t most_posts) {
     if (!find_lattice(most_posts)) return std::nullopt;
+    lattice_.heights.assign(std::size_t{lattice_.columns} * lattice_.rows, LatticeTin::kNoPost);
+    lattice_.halves.assign(lattice_.heights.size(), 0);
     mark_cells();
     if (!read_posts()) return std::nullopt;
     join_posts();
@@ -89,14 +91,7 @@ class LatticeReader {
     return std::move(lattice_);
   }
 
- private:
-  /// Of points and of lines that are no outline.
-  bool find_leaves(double margin) {
-    leaves_.clear();
-    selected_leaves(index_, selection_, expanded(window_.bounds(), margin), leaves_);
-    return !leaves_.empty() && std::none_of(leaves_.begin(), leaves_.end(), [](const Leaf& l) { return l.theme != 0; });
-  }
-
+  /// Where it would be; no heights yet.
   bool find_lattice(std::uint64_t most_posts) {
     if (!find_leaves(0)) return false;
     std::vector<Leaf> fullest(std::min(kSamples, leaves_.size()));
@@ -132,9 +127,14 @@ class LatticeReader {
     lattice_.west = static_cast<std::int32_t>(origin.x + west);
     lattice_.north = static_cast<std::int32_t>(origin.y + north);
     lattice_.columns = static_cast<std::uint32_t>(columns), lattice_.rows = static_cast<std::uint32_t>(rows);
-    lattice_.heights.assign(columns * rows, LatticeTin::kNoPost);
-    lattice_.halves.assign(columns * rows, 0);
     return true;
+  }
+
+ private:
+  bool find_leaves(double margin) {
+    leaves_.clear();
+    selected_leaves(index_, selection_, expanded(window_.bounds(), margin), leaves_);
+    return !leaves_.empty() && std::none_of(leaves_.begin(), leaves_.end(), [](const Leaf& l) { return l.theme != 0; });
   }
 
   GridBox box_of(std::uint32_t column, std::uint32_t row, std::uint32_t end_column, std::uint32_t end_row) const {
@@ -365,6 +365,14 @@ std::optional<LatticeTin> triangulate_lattice(const Store& store, const Window& 
   const Selection selection = selection_of(metadata, Detail::tolerance(0), themes);
   const StandingIndex index(store, selection);
   return LatticeReader(index, selection, window, metadata.grid, progress).run(most_posts);
+}
+
+bool looks_like_lattice(const Store& store, const Window& window, const ThemeChoice& themes, std::uint64_t most_posts) {
+  const StoreMetadata& metadata = store.metadata();
+  const Selection selection = selection_of(metadata, Detail::tolerance(0), themes);
+  const StandingIndex index(store, selection);
+  NoProgress progress;
+  return LatticeReader(index, selection, window, metadata.grid, progress).find_lattice(most_posts);
 }
 
 }  // namespace itin

@@ -127,7 +127,7 @@ TEST_F(Sites, BoundsHoldAndTheLastLookIsPrecise) {
 TEST_F(Sites, TheMemoryChangesNothingExact) {
   make_terrain(100, 200, false);
   make_survey(8);
-  survey_.memory_bytes = 4000000;
+  survey_.memory_bytes = 110000;
   SiteCoverage coverage(*store_, survey_, progress_);
   expect_bounds_at_every_stage(coverage, all_precise());
 }

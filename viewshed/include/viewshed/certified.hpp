@@ -25,13 +25,16 @@ inline constexpr std::uint8_t kCertainlyVisible = 2;
 /// surface lies between two envelopes of the level asked for. Finer levels, as small as they are, stand in about every
 /// observer, for coarse ground there would hide everything. With several observers a cell is certainly visible when it
 /// is to one of them, and certainly hidden when it is to all. Under NoData::kUnknown a line across a void and back is
-/// never certainly visible. Cost: as a plain viewshed twice over. With themes that stand on the ground, and where the
-/// level has half of all points or more, or over a million and a half, every cell is decided, but for such lines across
-/// voids, as by compute_precise() and at its cost. Throws as compute() does.
+/// never certainly visible. Cost: as a plain viewshed twice over. Where exact answers cost
+/// no more, every cell is decided, but for such lines across voids, as by compute_precise(): with themes that stand on
+/// the ground, where the level has half of all points or more, or an eighth of those of a large raster, or over a
+/// million and a half. Throws as compute() does.
 Surveyed compute_certified(const Store& store, const Request& request, Progress& progress);
 
 struct PreciseOptions {
-  std::uint64_t memory_bytes = std::uint64_t{1} << 30;  ///< changes the speed, never the answer
+  // Change the speed, never the answer.
+  std::uint64_t memory_bytes = std::uint64_t{1} << 30;
+  bool lattices = true;  ///< a raster is swept over its posts alone, where these fit into the memory
 };
 
 /// Exact for the full surface, in every mode but kCertified: as compute() at tolerance 0, with the same answer. Where
@@ -39,9 +42,9 @@ struct PreciseOptions {
 /// places where their lines come near the ground, and no more, are read at full detail and swept, as many at a time as
 /// the memory allows. With themes that stand on the ground, and for heights and angles, that is all ground under the
 /// lines. Request::detail is not used. NoData::kUnknown counts as clear, with a warning. Cost, on one core: about a
-/// microsecond a point; a third of that for rasters. Throws as compute() does, and, where the window is too large for
-/// the memory, InputError in modes kBlocker and kProbability and where NoData::kBlock and voids come together with such
-/// themes or modes.
+/// microsecond a point; a fifth of that for rasters, and 9 bytes a post. Throws as compute() does, and, where the
+/// window is too large for the memory, InputError in modes kBlocker and kProbability and where NoData::kBlock and voids
+/// come together with such themes or modes.
 Surveyed compute_precise(const Store& store, const Request& request, const PreciseOptions& options, Progress& progress);
 
 }  // namespace itin::viewshed

@@ -13,11 +13,11 @@ namespace itin::viewshed {
 namespace {
 
 struct FullGround {
-  FullGround(const SiteSurvey& s, Tin tin, std::optional<Tin> bare_ground)
+  FullGround(const SiteSurvey& s, Surface of, std::optional<Tin> bare_ground)
       : survey(s),
         tiles(grid_of_tiles(*survey.targets.grid)),
-        surface(std::move(tin), std::move(bare_ground), survey.earth, *survey.targets.grid, tiles) {
-    if (survey.fresnel) zone.emplace(surface.tin, nullptr, survey.earth, *survey.fresnel);
+        surface(std::move(of), std::move(bare_ground), survey.earth, *survey.targets.grid, tiles) {
+    if (survey.fresnel) zone.emplace(surface.surface.tin, nullptr, survey.earth, *survey.fresnel);
   }
 
   const SiteSurvey& survey;
@@ -73,7 +73,7 @@ class ExactJudge final : public TileJudge {
 
 class ExactCells final : public GroupSurvey {
  public:
-  ExactCells(const SiteSurvey& survey, Tin surface, std::optional<Tin> bare_ground)
+  ExactCells(const SiteSurvey& survey, Surface surface, std::optional<Tin> bare_ground)
       : ground_(survey, std::move(surface), std::move(bare_ground)) {}
 
   std::vector<CoverageBounds> judge(const SiteLooks& looks, Progress& progress, Statistics& statistics) const override {
@@ -88,7 +88,7 @@ class ExactCells final : public GroupSurvey {
 
 }  // namespace
 
-std::unique_ptr<GroupSurvey> survey_cells_exactly(const SiteSurvey& survey, Tin surface,
+std::unique_ptr<GroupSurvey> survey_cells_exactly(const SiteSurvey& survey, Surface surface,
                                                   std::optional<Tin> bare_ground) {
   return std::make_unique<ExactCells>(survey, std::move(surface), std::move(bare_ground));
 }

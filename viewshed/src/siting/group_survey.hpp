@@ -38,7 +38,7 @@ class GroupSurvey {
 std::unique_ptr<GroupSurvey> survey_cells(const SiteSurvey& survey, const Request& request, Envelope envelope,
                                           bool zones);
 /// Of cells, exact: what hides them, and the bare ground that they stand on where it is another.
-std::unique_ptr<GroupSurvey> survey_cells_exactly(const SiteSurvey& survey, Tin surface,
+std::unique_ptr<GroupSurvey> survey_cells_exactly(const SiteSurvey& survey, Surface surface,
                                                   std::optional<Tin> bare_ground);
 /// Of points; exact over an envelope of level 0.
 std::unique_ptr<GroupSurvey> survey_points(const SiteSurvey& survey, const Request& request, Envelope envelope,

@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -176,7 +177,7 @@ class SiteCoverage::Impl {
  private:
   void choose_levels(const Box& box) {
     const std::uint64_t all = store_.points_about(0, box);
-    whole_fits_ = all * (themed_ ? 3 : 1) <= budget(0);
+    whole_fits_ = all * (themed_ ? 3 : 1) <= budget(0) || read_whole_lattice();
     // To look at cells exactly takes no longer than to look at them coarsely.
     const bool exact_at_once = all <= kFewPoints || (survey_.targets.grid && whole_fits_);
     const int first = survey_.tolerance ? level_within(store_.metadata(), *survey_.tolerance)
@@ -186,18 +187,28 @@ class SiteCoverage::Impl {
     if (first > 0) levels_.push_back(0);
   }
 
+  /// Takes little memory, but whether it is one is known only then.
+  bool read_whole_lattice() {
+    if (themed_ || survey_.fresnel || !survey_.targets.grid) return false;
+    Stopwatch watch;
+    whole_lattice_ = retrieve_lattice(store_, window_of(all_options()), Detail::tolerance(0), ThemeChoice::none(),
+                                      memory() / kBytesAPost, progress_);
+    statistics_.retrieval_seconds += watch.lap();
+    return whole_lattice_.has_value();
+  }
+
   std::vector<std::size_t> all_options() const {
-    std::vector<std::size_t> all(states_.size());
+    std::vector<std::size_t> all(survey_.stands.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     return all;
   }
 
   /// Cells of the full surface are swept; everything else is judged over envelopes.
   bool sweeps(int level) const { return level == 0 && survey_.targets.grid; }
-  /// Points to look at together; what is left is for the rest of the program.
-  std::uint64_t budget(int level) const {
-    return survey_.memory_bytes / 4 * 3 / (sweeps(level) ? kBytesASweptPoint : kBytesAPoint);
-  }
+  /// What is left is for the rest of the program.
+  std::uint64_t memory() const { return survey_.memory_bytes / 4 * 3; }
+  /// Points to look at together.
+  std::uint64_t budget(int level) const { return memory() / (sweeps(level) ? kBytesASweptPoint : kBytesAPoint); }
 
   std::uint64_t points_of(const std::vector<std::size_t>& options, int level) const {
     Box box;
@@ -246,14 +257,19 @@ class SiteCoverage::Impl {
   std::unique_ptr<GroupSurvey> swept(const std::vector<std::size_t>& group, bool themed) {
     Stopwatch watch;
     const Window window = window_of(group);
-    const auto triangulated = [&](const ThemeChoice& themes) {
-      Tin tin = triangulate(store_, window, Detail::tolerance(0), progress_, themes);
-      count(tin);
-      return tin;
-    };
-    Tin surface = triangulated(themed ? survey_.themes : ThemeChoice::none());
+    const Detail full = Detail::tolerance(0);
+    // Zones are cut by triangles one by one.
+    const std::uint64_t most_posts = survey_.fresnel ? 0 : kAnyLattice;
+    Surface surface = whole_lattice_
+                          ? std::move(*std::exchange(whole_lattice_, std::nullopt))
+                          : retrieve_surface(store_, window, full, themed ? survey_.themes : ThemeChoice::none(),
+                                             most_posts, progress_);
+    count(surface.statistics(), surface.triangle_count());
     std::optional<Tin> bare_ground;
-    if (themed && !survey_.targets.on_surface) bare_ground = triangulated(ThemeChoice::none());
+    if (themed && !survey_.targets.on_surface) {
+      bare_ground = triangulate(store_, window, full, progress_, ThemeChoice::none());
+      count(bare_ground->statistics, bare_ground->triangles.size());
+    }
     statistics_.retrieval_seconds += watch.lap();
     auto survey = survey_cells_exactly(survey_, std::move(surface), std::move(bare_ground));
     statistics_.scene_seconds += watch.lap();
@@ -269,7 +285,7 @@ class SiteCoverage::Impl {
       if (!survey_.targets.on_surface) read.bare_ground = read.window;
     }
     Envelope envelope = envelop(store_, read, progress_);
-    count(envelope.lower);
+    count(envelope.lower.statistics, envelope.lower.triangles.size());
     statistics_.retrieval_seconds += watch.lap();
     const bool zones = survey_.fresnel && zones_at(level);
     const auto survey = survey_.targets.grid ? survey_cells : survey_points;
@@ -278,9 +294,9 @@ class SiteCoverage::Impl {
     return result;
   }
 
-  void count(const Tin& tin) {
-    statistics_.retrieval += tin.statistics;
-    statistics_.triangles += tin.triangles.size();
+  void count(const RetrievalStatistics& retrieval, std::size_t triangles) {
+    statistics_.retrieval += retrieval;
+    statistics_.triangles += triangles;
   }
 
   /// The full surface about all sites, once and for all, where the memory holds it: bare, and then with the themes.
@@ -344,6 +360,7 @@ class SiteCoverage::Impl {
   bool themed_;
   double raise_ = 0;
   bool whole_fits_ = false;
+  std::optional<Surface> whole_lattice_;  ///< until it is looked at
   std::array<std::unique_ptr<GroupSurvey>, 2> whole_;
   std::vector<int> levels_;  ///< of the looks at the bare terrain
   std::vector<State> states_;

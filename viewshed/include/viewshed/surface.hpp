@@ -1,0 +1,46 @@
+// What sight lines are looked at over: a Tin or, where a raster's full surface was asked for, its posts alone.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <itin/detail.hpp>
+#include <itin/lattice_tin.hpp>
+#include <itin/progress.hpp>
+#include <itin/store.hpp>
+#include <itin/theme.hpp>
+#include <itin/tin.hpp>
+#include <itin/window.hpp>
+
+namespace itin::viewshed {
+
+struct Surface {
+  Tin tin;                            ///< empty where the surface is a lattice, until it is listed
+  std::optional<LatticeTin> lattice;  ///< else nothing
+
+  const Grid& units() const { return lattice ? lattice->grid : tin.grid; }
+  /// The smallest box of all triangles, metres.
+  Box bounds() const { return lattice ? lattice->bounds() : tin.bounds(); }
+  std::size_t triangle_count() const { return lattice ? lattice->triangle_count() : tin.triangles.size(); }
+  const RetrievalStatistics& statistics() const { return lattice ? lattice->statistics : tin.statistics; }
+  /// Every triangle, also of a lattice.
+  const Tin& listed() {
+    if (lattice && tin.triangles.empty()) tin = lattice->tin();
+    return tin;
+  }
+};
+
+/// Every lattice, however large.
+inline constexpr std::uint64_t kAnyLattice = std::uint64_t{1} << 31;
+/// Of a lattice that is swept.
+inline constexpr std::uint64_t kBytesAPost = 9;
+
+/// That of triangulate(). A lattice if it is one of at most so many posts, at full detail.
+Surface retrieve_surface(const Store& store, const Window& window, const Detail& detail, const ThemeChoice& themes,
+                         std::uint64_t most_posts, Progress& progress);
+
+/// The same, or nothing where it is no such lattice.
+std::optional<Surface> retrieve_lattice(const Store& store, const Window& window, const Detail& detail,
+                                        const ThemeChoice& themes, std::uint64_t most_posts, Progress& progress);
+
+}  // namespace itin::viewshed
