@@ -11,6 +11,7 @@
 #include <benchmark/benchmark.h>
 
 #include <itin/import.hpp>
+#include <itin/lattice_tin.hpp>
 #include <itin/parallel.hpp>
 #include <itin/store.hpp>
 #include <itin/triangulate.hpp>
@@ -71,6 +72,28 @@ BENCHMARK(window_of_a_million)
     ->ArgsProduct({{0, 1}, {1, 0}})
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
+
+/// The same window where only its posts are wanted.
+void posts_of_a_million(benchmark::State& state) {
+  const std::string path = make_store(false);
+  itin::set_thread_count(static_cast<int>(state.range(0)));
+  itin::NoProgress progress;
+  std::int64_t posts = 0;
+  for (auto _ : state) {
+    const itin::Store store(path);
+    const auto lattice =
+        itin::triangulate_lattice(store, itin::Window::all(), itin::ThemeChoice::none(), 2 * kSide * kSide, progress);
+    if (!lattice) {
+      state.SkipWithError("this is no lattice");
+      break;
+    }
+    benchmark::DoNotOptimize(lattice->heights.data());
+    posts += static_cast<std::int64_t>(kSide) * kSide;
+  }
+  state.SetItemsProcessed(posts);
+  itin::set_thread_count(0);
+}
+BENCHMARK(posts_of_a_million)->ArgName("threads")->Arg(1)->Arg(0)->UseRealTime()->Unit(benchmark::kMillisecond);
 
 void cgal_of_a_million(benchmark::State& state) {
   using Triangulation = CGAL::Delaunay_triangulation_2<CGAL::Exact_predicates_inexact_constructions_kernel>;

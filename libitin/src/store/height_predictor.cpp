@@ -86,9 +86,9 @@ HeightPredictor::HeightPredictor(std::uint32_t width, std::uint32_t height, std:
 
 std::int64_t HeightPredictor::predict(std::uint32_t x, std::uint32_t y) const {
   const double limit = 2.0 * kHeightLimit;
-  const double offset = shift_ == 0 ? offset_on_lattice(x, y) : offset_among(x, y);
-  return samples_.back().z + static_cast<std::int64_t>(std::clamp(offset, -limit, limit) + limit + 0.5) -
-         2 * kHeightLimit;
+  const double above = shift_ == 0 ? offset_on_lattice(x, y) : offset_among(x, y);
+  const double offset = std::clamp(above, -limit, limit) + limit + 0.5;
+  return samples_.back().z + static_cast<std::int64_t>(offset) - 2 * kHeightLimit;
 }
 
 double HeightPredictor::offset_on_lattice(std::uint32_t x, std::uint32_t y) const {

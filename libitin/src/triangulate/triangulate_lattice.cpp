@@ -245,14 +245,14 @@ class LatticeReader {
         if ((*cell & kHalves) == 0 || (full(cell) && full(cell - 1) && full(cell + 1) &&
                                        full(cell - lattice_.columns) && full(cell + lattice_.columns)))
           continue;
-        for (std::uint8_t direction = 0; direction < kSteps.size(); ++direction) {
+        for (unsigned direction = 0; direction < kSteps.size(); ++direction) {
           const Step& step = kSteps[direction];
           if ((*cell & step.left_halves) == 0) continue;
           const std::uint32_t from_column = column - static_cast<std::uint32_t>(step.left_dx),
                               from_row = row - static_cast<std::uint32_t>(step.left_dy);
           const std::uint8_t* const beyond = known_cell(from_column, from_row, step.right_dx, step.right_dy);
           if (beyond != nullptr && (*beyond & step.right_halves) == 0)
-            of_rows[r].emplace_back(lattice_.index(from_column, from_row), direction);
+            of_rows[r].emplace_back(lattice_.index(from_column, from_row), static_cast<std::uint8_t>(direction));
         }
       }
     });
