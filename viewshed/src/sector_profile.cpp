@@ -51,27 +51,30 @@ double Sector::greatest_drop(std::size_t slab) const {
 void SectorProfile::survey(const Sector& sector, const Sector::Hidden& known, std::size_t nearest, std::size_t count) {
   sector_.emplace(sector);
   nearest_ = nearest, count_ = count;
-  highs_known_ = false;
+  const std::size_t blocks = (count + kBlock - 1) / kBlock;
+  high_.resize(count), group_high_.resize(blocks * kBlock / kGroup), block_high_.resize(blocks);
+  highs_known_.assign(blocks, false);
   hidden_below_.resize(count - nearest);
   sector.look_on(known, count, [&](const Sector::Hidden& hidden) {
     if (hidden.slab >= nearest) hidden_below_[hidden.slab - nearest] = hidden.below;
   });
 }
 
-void SectorProfile::survey_highs() {
-  highs_known_ = true;
-  high_.resize(count_);
-  group_high_.assign((count_ + kGroup - 1) / kGroup, -kInfinity);
-  block_high_.assign((count_ + kBlock - 1) / kBlock, -kInfinity);
+/// Of a block's slabs, when they are asked for: most lines are decided by those before them.
+void SectorProfile::survey_highs(std::size_t block) {
+  highs_known_[block] = true;
+  block_high_[block] = -kInfinity;
+  std::fill_n(group_high_.begin() + static_cast<std::ptrdiff_t>(block * kBlock / kGroup), kBlock / kGroup, -kInfinity);
   const Quadrant& quadrant = sector_->quadrant();
   const float* const highs = quadrant.runs().high.data();
-  sector_->for_each_slab(0, count_, [&](std::size_t k, std::int64_t first, std::int64_t last, bool) {
+  const std::size_t end = std::min(count_, (block + 1) * kBlock);
+  sector_->for_each_slab(block * kBlock, end, [&](std::size_t k, std::int64_t first, std::int64_t last, bool) {
     // Ground that is bare beyond the bins counts for nothing, and a float's rounding is within the margin.
     float high = -kInfinity;
     for (std::int64_t line = first; line <= last; ++line) high = std::max(high, highs[quadrant.run(k, line)]);
     high_[k] = static_cast<float>(high - sector_->least_drop(k));
     group_high_[k / kGroup] = std::max(group_high_[k / kGroup], high_[k]);
-    block_high_[k / kBlock] = std::max(block_high_[k / kBlock], high_[k]);
+    block_high_[block] = std::max(block_high_[block], high_[k]);
   });
 }
 

@@ -138,12 +138,12 @@ class SectorProfile {
  private:
   static constexpr std::size_t kGroup = 8, kBlock = 64;
 
-  void survey_highs();
+  void survey_highs(std::size_t block);
 
   std::optional<Sector> sector_;
   std::size_t nearest_ = 0, count_ = 0;
-  bool highs_known_ = false;
   std::vector<float> high_, group_high_, block_high_;  ///< of a slab, of 8, of 64
+  std::vector<bool> highs_known_;                      ///< of a block of 64
   std::vector<double> hidden_below_;                   ///< by what lies nearer than slab nearest_ + i
 };
 
@@ -194,7 +194,6 @@ Sector::Hidden Sector::look_on(Hidden hidden, std::size_t end, const Visit& visi
 
 template <class Line, class Visit>
 void SectorProfile::search(std::size_t last, const Line& line, const Visit& visit) {
-  if (!highs_known_) survey_highs();
   const Quadrant& quadrant = sector_->quadrant();
   // The lowest point of the line over the slabs from first to last.
   const auto lowest = [&](std::size_t from, std::size_t to) {
@@ -203,6 +202,7 @@ void SectorProfile::search(std::size_t last, const Line& line, const Visit& visi
   };
   for (std::size_t block = last / kBlock + 1; block-- > 0;) {
     const std::size_t block_first = block * kBlock, block_last = std::min(last, block_first + kBlock - 1);
+    if (!highs_known_[block]) survey_highs(block);
     if (block_high_[block] <= lowest(block_first, block_last)) continue;
     for (std::size_t group = block_last / kGroup + 1; group-- > block_first / kGroup;) {
       const std::size_t group_first = group * kGroup, group_last = std::min(last, group_first + kGroup - 1);

@@ -59,10 +59,13 @@ struct LatticeTin {
 
   /// The height of the post at a position, grid units, where that is one of a whole cell's.
   std::optional<std::int32_t> post_at(double at_x, double at_y) const {
-    const double column = (at_x - west) / spacing, row = (north - at_y) / spacing;
-    if (!(column >= 1 && row >= 1 && column < columns && row < rows)) return std::nullopt;
-    const auto c = static_cast<std::uint32_t>(column), r = static_cast<std::uint32_t>(row);
-    if (c != column || r != row) return std::nullopt;
+    const double east = at_x - west, south = north - at_y, a_unit = 1.0 / spacing;
+    if (!(east >= spacing && south >= spacing && east < 1.0 * spacing * columns && south < 1.0 * spacing * rows))
+      return std::nullopt;
+    // The nearest post: is it there?
+    const auto c = static_cast<std::uint32_t>(east * a_unit + 0.5),
+               r = static_cast<std::uint32_t>(south * a_unit + 0.5);
+    if (1.0 * c * spacing != east || 1.0 * r * spacing != south) return std::nullopt;
     const std::size_t post = index(c, r);
     if (!whole(post) && !whole(post - columns - 1)) return std::nullopt;
     return heights[post];
