@@ -62,9 +62,9 @@ struct LatticeTin {
     const double east = at_x - west, south = north - at_y, a_unit = 1.0 / spacing;
     if (!(east >= spacing && south >= spacing && east < 1.0 * spacing * columns && south < 1.0 * spacing * rows))
       return std::nullopt;
-    // The nearest post: is it there?
-    const auto c = static_cast<std::uint32_t>(east * a_unit + 0.5),
-               r = static_cast<std::uint32_t>(south * a_unit + 0.5);
+    // Whole numbers but for rounding, which the quarter swallows.
+    const auto c = static_cast<std::uint32_t>(east * a_unit + 0.25),
+               r = static_cast<std::uint32_t>(south * a_unit + 0.25);
     if (1.0 * c * spacing != east || 1.0 * r * spacing != south) return std::nullopt;
     const std::size_t post = index(c, r);
     if (!whole(post) && !whole(post - columns - 1)) return std::nullopt;
