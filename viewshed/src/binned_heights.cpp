@@ -8,6 +8,7 @@
 
 #include <itin/parallel.hpp>
 
+#include "rounded_outwards.hpp"
 #include "surface_heights.hpp"
 
 namespace itin::viewshed {
@@ -25,14 +26,6 @@ RasterGrid bin_grid(const Tin& tin) {
   // Half a bin more than needed all around, so that the edges lie inside.
   const auto count = [&](double length) { return static_cast<std::int64_t>(std::ceil(length / bin)) + 1; };
   return {{box.xmin - bin / 2, box.ymax + bin / 2}, bin, bin, count(width), count(height)};
-}
-
-float rounded_down(double v) {
-  const auto near = static_cast<float>(v);
-  return near <= v ? near : std::nextafter(near, -kInfinity);
-}
-float rounded_up(double v) {
-  return -rounded_down(-v);
 }
 
 /// A square with some slack, grid units.

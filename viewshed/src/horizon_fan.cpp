@@ -1,10 +1,10 @@
 #include "horizon_fan.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include <itin/parallel.hpp>
+
+#include "rounded_outwards.hpp"
 
 namespace itin::viewshed {
 
@@ -14,11 +14,6 @@ constexpr std::size_t kFirstRing = 16;  ///< slabs
 /// So many sectors a slab: they are a bin wide at the end of their ring, and each lies in one of the ring before.
 constexpr std::size_t kSectorsASlab = 2 * Quadrant::kRun;
 constexpr std::size_t kSectorsATask = 64;
-
-float rounded_down(double v) {
-  const auto near = static_cast<float>(v);
-  return near <= v ? near : std::nextafter(near, -std::numeric_limits<float>::infinity());
-}
 
 }  // namespace
 

@@ -78,7 +78,7 @@ class InSegments {
 
  private:
   void require_mode() const {
-    if (request_.mode == Mode::kBlocker || request_.mode == Mode::kProbability)
+    if (needs_tin(request_))
       throw InputError(
           "blockers and probabilities need the whole window in memory: give more --memory or a smaller --radius");
   }

@@ -29,23 +29,22 @@ void survey_tile(const AxisSweep::View& radar, const FullSurface& surface, const
 
 }  // namespace
 
-std::vector<float> radar_heights(const Eye& radar, const FullSurface& surface, const VoidShadow* shadow,
+std::vector<float> radar_heights(const AxisSweep::View& radar, const FullSurface& surface, const VoidShadow* shadow,
                                  Progress& progress) {
   std::vector<float> result(surface.grid().cell_count(), std::numeric_limits<float>::quiet_NaN());
   progress.report("radar", 0);
-  const AxisSweep::View view = surface.view_from(radar);
   parallel_for(surface.tiles().cell_count(), [&](std::size_t tile) {
     progress.throw_if_cancelled();
-    survey_tile(view, surface, shadow, *surface.begin(tile), result);
+    survey_tile(radar, surface, shadow, *surface.begin(tile), result);
   });
   return result;
 }
 
-double radar_sees(const Eye& radar, const FullSurface& surface, const VoidShadow* shadow, const Turbine& turbine,
-                  double ground_m) {
+double radar_sees(const AxisSweep::View& radar, const FullSurface& surface, const VoidShadow* shadow,
+                  const Turbine& turbine, double ground_m) {
   const Grid& units = surface.units();
   const double tip = (ground_m + turbine.tip_height) / units.resolution;
-  const double least = surface.raise_from(surface.view_from(radar), turbine.position, ground_m / units.resolution, tip);
+  const double least = surface.raise_from(radar, turbine.position, ground_m / units.resolution, tip);
   if (std::isinf(least)) return turbine.tip_height;
   const bool shaded = shadow != nullptr && shadow->holds(easting_in_units(units, turbine.position.x),
                                                          northing_in_units(units, turbine.position.y));

@@ -12,14 +12,15 @@
 
 namespace itin::viewshed {
 
-/// For every cell of the surface's grid, metres above its ground, up to kRadarCeiling: NaN above that, and without
-/// ground. `shadow` is what ground without data hides from the radar; may be null.
+/// `radar` is the surface's view from it. For every cell of the surface's grid, metres above its ground, up to
+/// kRadarCeiling: NaN above that, and without ground. `shadow` is what ground without data hides from the radar; may be
+/// null.
 inline constexpr double kRadarCeiling = 1000;
-std::vector<float> radar_heights(const Eye& radar, const FullSurface& surface, const VoidShadow* shadow,
+std::vector<float> radar_heights(const AxisSweep::View& radar, const FullSurface& surface, const VoidShadow* shadow,
                                  Progress& progress);
 
 /// What the radar sees of one turbine, metres from its tip down; 0: hidden.
-double radar_sees(const Eye& radar, const FullSurface& surface, const VoidShadow* shadow, const Turbine& turbine,
-                  double ground_m);
+double radar_sees(const AxisSweep::View& radar, const FullSurface& surface, const VoidShadow* shadow,
+                  const Turbine& turbine, double ground_m);
 
 }  // namespace itin::viewshed

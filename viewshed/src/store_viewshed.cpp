@@ -1,6 +1,5 @@
 #include "store_viewshed.hpp"
 
-#include <itin/error.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/viewshed.hpp>
 
@@ -12,11 +11,6 @@ namespace itin::viewshed {
 
 namespace {
 
-/// These ask more of the surface than sight lines.
-bool needs_tin(const Request& request) {
-  return request.mode == Mode::kBlocker || request.mode == Mode::kProbability;
-}
-
 Surveyed survey(const Store& store, const Request& request, Surveyed surveyed, double seconds, Progress& progress) {
   surveyed.result = compute_on_surface(store, surveyed, request, progress);
   surveyed.result.statistics.retrieval_seconds = seconds;
@@ -24,6 +18,10 @@ Surveyed survey(const Store& store, const Request& request, Surveyed surveyed, d
 }
 
 }  // namespace
+
+bool needs_tin(const Request& request) {
+  return request.mode == Mode::kBlocker || request.mode == Mode::kProbability;
+}
 
 std::optional<Surveyed> compute_over_lattice(const Store& store, const Request& request, std::uint64_t most_posts,
                                              Progress& progress) {

@@ -10,6 +10,9 @@
 
 namespace itin::viewshed {
 
+/// Whether its mode asks more of the surface than sight lines.
+bool needs_tin(const Request& request);
+
 /// Where the surface is a lattice of at most so many posts, and the mode and the detail are such that it will do. The
 /// request is valid.
 std::optional<Surveyed> compute_over_lattice(const Store& store, const Request& request, std::uint64_t most_posts,

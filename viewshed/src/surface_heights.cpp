@@ -144,11 +144,7 @@ void scan_convert_highest(const Tin& tin, std::span<const std::uint32_t> triangl
 }
 
 std::optional<double> surface_height(const Tin& tin, std::span<const std::uint32_t> triangles, Point2 position) {
-  return surface_height_at(tin, triangles,
-                           {easting_in_units(tin.grid, position.x), northing_in_units(tin.grid, position.y)});
-}
-
-std::optional<double> surface_height_at(const Tin& tin, std::span<const std::uint32_t> triangles, Point2 units) {
+  const Point2 units{easting_in_units(tin.grid, position.x), northing_in_units(tin.grid, position.y)};
   for (const std::uint32_t t : triangles)
     if (const auto height = height_over(tin.corners(t), units)) return height;
   return std::nullopt;

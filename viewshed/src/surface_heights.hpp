@@ -56,10 +56,7 @@ void scan_convert_highest(const Tin& tin, std::span<const std::uint32_t> triangl
 /// Height in grid units at a position in metres, if one of `triangles` holds it.
 std::optional<double> surface_height(const Tin& tin, std::span<const std::uint32_t> triangles, Point2 position);
 
-/// The same at a position in grid units.
-std::optional<double> surface_height_at(const Tin& tin, std::span<const std::uint32_t> triangles, Point2 units);
-
-/// The same over a single triangle, if it holds the position.
+/// The same over a single triangle, at a position in grid units, if it holds that.
 std::optional<double> height_over(const std::array<GridPoint, 3>& triangle, Point2 units);
 
 /// Height in metres at a position in metres, by looking at every triangle of the Tin.

@@ -76,11 +76,12 @@ class ZoneWork {
     std::optional<VoidShadow> behind_voids;
     if (zone_.request.nodata == NoData::kBlock) behind_voids.emplace(surface.rim(), eye.units);
     const VoidShadow* const shadow = behind_voids ? &*behind_voids : nullptr;
-    RadarView& view = zone_.radar.emplace();
-    view.ground_m = *height;
-    view.height_m = radar_heights(eye, surface, shadow, progress_);
+    const AxisSweep::View view = surface.view_from(eye);
+    RadarView& seen = zone_.radar.emplace();
+    seen.ground_m = *height;
+    seen.height_m = radar_heights(view, surface, shadow, progress_);
     for (std::size_t k = 0; k < zone_.request.turbines.size(); ++k)
-      view.turbine_m.push_back(radar_sees(eye, surface, shadow, zone_.request.turbines[k], zone_.ground_m[k]));
+      seen.turbine_m.push_back(radar_sees(view, surface, shadow, zone_.request.turbines[k], zone_.ground_m[k]));
     zone_.statistics.lines_seconds += watch.lap();
   }
 

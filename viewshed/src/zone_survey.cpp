@@ -27,12 +27,10 @@ struct ZoneSurvey::TileWork {
     nearest.fill(std::numeric_limits<double>::infinity());
     for (auto& word : seen) word.fill(0);
   }
-  const std::unique_ptr<FullSurface::TileWork> place;
+  const std::unique_ptr<FullSurface::TileWork> place;  ///< its targets are eyes, seen of the turbine at hand
   const Tile& tile;
   const TileCentres& centres;
   const TileValues<double>& ground;  ///< grid units
-  TileValues<double> eyes;
-  AxisSweep::Heights least;  ///< of the turbine at hand
   TileValues<std::uint16_t> hubs, tips;
   TileValues<double> height, angle, angle_sum, nearest;
   std::vector<TileValues<std::uint32_t>> seen;
@@ -88,7 +86,7 @@ std::uint64_t ZoneSurvey::decide(std::size_t tile, const Screen& screen, const V
   if (near.empty()) return 0;
   const auto work = std::make_unique<TileWork>(ground_, tile, zone_.words);
   const double eye_height = zone_.request.observer_height / ground_.units().resolution;
-  for (std::size_t i = 0; i < work->ground.size(); ++i) work->eyes[i] = work->ground[i] + eye_height;
+  for (std::size_t i = 0; i < work->ground.size(); ++i) work->place->targets[i] = work->ground[i] + eye_height;
   for (const std::size_t k : near) look_at(k, screen, *views[k], *work);
   store(*work, result);
   return work->lines;
@@ -105,7 +103,7 @@ bool ZoneSurvey::in_reach(const Axis& axis, const Tile& tile) const {
 
 void ZoneSurvey::look_at(std::size_t turbine, const Screen& screen, const AxisSweep::View& view, TileWork& work) const {
   const Axis& axis = axes_[turbine];
-  screen.sweep.run(view, {work.tile, work.centres, work.eyes}, work.place->scratch, work.least);
+  screen.sweep.run(view, {work.tile, work.centres, work.place->targets}, work.place->scratch, work.place->seen);
   for (std::int64_t r = 0; r < work.tile.rows; ++r) {
     const double dy = zone_.grid.centre_y(work.tile.row + r) - axis.position_y;
     for (std::int64_t c = 0; c < work.tile.columns; ++c) {
@@ -113,7 +111,7 @@ void ZoneSurvey::look_at(std::size_t turbine, const Screen& screen, const AxisSw
       const double dx = zone_.grid.centre_x(work.tile.column + c) - axis.position_x, squared = dx * dx + dy * dy;
       if (squared > axis.radius_squared || std::isnan(work.ground[cell])) continue;
       if (work.tips[cell] == kCountOutside) work.tips[cell] = work.hubs[cell] = 0;
-      const double least = work.least[cell];
+      const double least = work.place->seen[cell];
       const bool beneath = std::isinf(least);
       work.lines += beneath ? 0 : 1;
       if (std::isnan(least)) continue;

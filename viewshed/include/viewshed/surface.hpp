@@ -18,9 +18,6 @@ struct Surface {
   Tin tin;                            ///< empty where the surface is a lattice, until it is listed
   std::optional<LatticeTin> lattice;  ///< else nothing
 
-  const Grid& units() const { return lattice ? lattice->grid : tin.grid; }
-  /// The smallest box of all triangles, metres.
-  Box bounds() const { return lattice ? lattice->bounds() : tin.bounds(); }
   std::size_t triangle_count() const { return lattice ? lattice->triangle_count() : tin.triangles.size(); }
   const RetrievalStatistics& statistics() const { return lattice ? lattice->statistics : tin.statistics; }
   /// Every triangle, also of a lattice.
