@@ -124,7 +124,9 @@ class ViewshedVerb final : public Verb {
   }
 
   Result execute(Progress& progress) override {
-    const Store store(store_);
+    // A budget holds for what is kept of the store as well.
+    const std::uint64_t cache = std::min(StoreOptions().cache_bytes, precise_options_.memory_bytes / 4);
+    const Store store(store_, {cache});
     const StoreMetadata& metadata = store.metadata();
     complete_request(metadata);
     request_.themes.check(metadata.themes);

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <atomic>
-#include <numeric>
 
 #include <itin/lattice_tin.hpp>
 #include <itin/parallel.hpp>
 
 #include "store/cell.hpp"
+#include "triangulate/lattice_edges.hpp"
 
 namespace itin {
 
@@ -44,54 +44,65 @@ std::uint8_t half_of(const Tin& tin, const Triangle& t, const GridBox& box) {
   }
 }
 
+/// How many triangles these are.
+std::uint64_t count_of(std::uint8_t halves) {
+  return ((halves & LatticeTin::kFirst) != 0 ? 1U : 0U) + ((halves & LatticeTin::kSecond) != 0 ? 1U : 0U);
+}
+
 }  // namespace
 
-std::size_t LatticeTin::triangle_count() const {
-  return std::accumulate(halves.begin(), halves.end(), std::size_t{0}, [](std::size_t sum, std::uint8_t cell) {
-    return sum + ((cell & kFirst) != 0 ? 1 : 0) + ((cell & kSecond) != 0 ? 1 : 0);
-  });
+void LatticeTin::settle(std::uint32_t tile) {
+  Tile& t = tiles[tile];
+  const auto all = [&](std::uint8_t halves) {
+    return std::all_of(t.halves->begin(), t.halves->end(), [&](std::uint8_t cell) { return cell == halves; });
+  };
+  t.ground = all(0) ? Ground::kNone : all(kFalling) ? Ground::kWhole : Ground::kPartly;
+  if (t.ground != Ground::kPartly) t.halves.reset();
+  if (t.ground == Ground::kNone) t.heights.reset();
+}
+
+std::uint64_t LatticeTin::triangle_count() const {
+  std::uint64_t count = 0;
+  for (const Tile& tile : tiles) {
+    if (tile.ground == Ground::kWhole) count += 2 * kCells;
+    if (tile.ground != Ground::kPartly) continue;
+    for (const std::uint8_t halves : *tile.halves) count += count_of(halves);
+  }
+  return count;
 }
 
 std::vector<RimEdge> LatticeTin::rim() const {
-  std::vector<std::vector<RimEdge>> of_rows(rows);
-  parallel_for(rows, [&](std::size_t r) {
-    const auto row = static_cast<std::uint32_t>(r);
-    for (std::uint32_t column = 0; column < columns; ++column) {
-      const std::size_t cell = index(column, row);
-      const std::uint8_t there = halves[cell];
-      if (there == 0 ||
-          (whole(cell) && whole(cell - 1) && whole(cell + 1) && whole(cell - columns) && whole(cell + columns)))
-        continue;
-      const GridPoint nw = post(column, row), ne = post(column + 1, row), sw = post(column, row + 1),
-                      se = post(column + 1, row + 1);
-      const auto add = [&](std::uint8_t here, std::uint8_t beyond, const GridPoint& from, const GridPoint& to) {
-        if ((there & here) != 0 && beyond == 0) of_rows[r].push_back({from, to});
-      };
-      add(kSouthWest | kSouthEast, halves[cell + columns] & (kNorthWest | kNorthEast), sw, se);
-      add(kNorthEast | kSouthEast, halves[cell + 1] & (kNorthWest | kSouthWest), se, ne);
-      add(kNorthWest | kNorthEast, halves[cell - columns] & (kSouthWest | kSouthEast), ne, nw);
-      add(kNorthWest | kSouthWest, halves[cell - 1] & (kNorthEast | kSouthEast), nw, sw);
-      add(kSouthWest, there & kNorthEast, se, nw);
-      add(kNorthEast, there & kSouthWest, nw, se);
-      add(kNorthWest, there & kSouthEast, sw, ne);
-      add(kSouthEast, there & kNorthWest, ne, sw);
-    }
+  std::vector<std::vector<RimEdge>> of_tiles(tiles.size());
+  parallel_for(tiles.size(), [&](std::size_t tile) {
+    const auto there = [&](std::int64_t column, std::int64_t row) {
+      return int{halves(cell(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row)))};
+    };
+    for_each_open_edge_of(*this, static_cast<std::uint32_t>(tile), there,
+                          [&](std::int64_t column, std::int64_t row, std::size_t direction) {
+                            const LatticeStep& step = kLatticeSteps[direction];
+                            const auto place = [&](std::int64_t c, std::int64_t r) {
+                              return GridPlace{x(static_cast<std::uint32_t>(c)), y(static_cast<std::uint32_t>(r))};
+                            };
+                            of_tiles[tile].push_back({place(column, row), place(column + step.dx, row - step.dy)});
+                          });
   });
   std::vector<RimEdge> result;
-  for (const std::vector<RimEdge>& row : of_rows) result.insert(result.end(), row.begin(), row.end());
+  for (const std::vector<RimEdge>& edges : of_tiles) result.insert(result.end(), edges.begin(), edges.end());
   return result;
 }
 
 Box LatticeTin::bounds() const {
   GridBox box;
-  const auto there = [](std::uint8_t cell) { return cell != 0; };
-  for (std::uint32_t row = 0; row < rows; ++row) {
-    const auto first = halves.begin() + static_cast<std::ptrdiff_t>(index(0, row)), end = first + columns;
-    const auto west_most = std::find_if(first, end, there);
-    if (west_most == end) continue;
-    const auto east_most = std::find_if(std::reverse_iterator(end), std::reverse_iterator(first), there);
-    box.extend(x(static_cast<std::uint32_t>(west_most - first)), y(row));
-    box.extend(x(static_cast<std::uint32_t>(east_most.base() - first)), y(row + 1));
+  const auto extend = [&](std::uint32_t first_column, std::uint32_t first_row, std::uint32_t side) {
+    box.extend(x(first_column), y(first_row));
+    box.extend(x(first_column + side), y(first_row + side));
+  };
+  for (std::uint32_t t = 0; t < tiles.size(); ++t) {
+    const std::uint32_t first = t << 2 * kBits;
+    if (tiles[t].ground == Ground::kWhole) extend(column_of(first), row_of(first), kSide);
+    if (tiles[t].ground != Ground::kPartly) continue;
+    for (std::uint32_t cell = first; cell < first + kCells; ++cell)
+      if (halves(cell) != 0) extend(column_of(cell), row_of(cell), 1);
   }
   return grid.box(box);
 }
@@ -100,23 +111,28 @@ Tin LatticeTin::tin() const {
   struct Used {
     std::uint64_t code;
     std::size_t post;
+    std::int32_t height;
   };
   std::vector<Used> used;
-  std::vector<std::uint32_t> number(heights.size(), 0);
+  std::vector<std::uint32_t> number(std::size_t{columns} * rows, 0);
   const auto index_of = [&](const GridPoint& p) {
-    return index(static_cast<std::uint32_t>((p.x - west) / spacing),
-                 static_cast<std::uint32_t>((north - p.y) / spacing));
+    return static_cast<std::size_t>((north - p.y) / spacing) * columns +
+           static_cast<std::size_t>((p.x - west) / spacing);
   };
-  for (std::size_t cell = 0; cell < halves.size(); ++cell) {
-    for_each_triangle(cell, [&](std::uint32_t t) {
-      for (const GridPoint& p : corners(t)) {
-        const std::size_t post = index_of(p);
-        if (number[post] == 0) used.push_back({code_of(p), post});
-        number[post] = 1;
-      }
-      return true;
-    });
-  }
+  const auto for_each = [&](const auto& visit) {
+    for (std::uint32_t cell = 0; cell < tiles.size() << 2 * kBits; ++cell)
+      for_each_triangle(cell, [&](std::uint32_t t) {
+        visit(corners(t));
+        return true;
+      });
+  };
+  for_each([&](const std::array<GridPoint, 3>& triangle) {
+    for (const GridPoint& p : triangle) {
+      const std::size_t post = index_of(p);
+      if (number[post] == 0) used.push_back({code_of(p), post, p.z});
+      number[post] = 1;
+    }
+  });
   std::sort(used.begin(), used.end(), [](const Used& a, const Used& b) { return a.code < b.code; });
   Tin result;
   result.grid = grid;
@@ -124,17 +140,14 @@ Tin LatticeTin::tin() const {
   for (const Used& u : used) {
     number[u.post] = static_cast<std::uint32_t>(result.vertices.size());
     result.vertices.push_back(
-        post(static_cast<std::uint32_t>(u.post % columns), static_cast<std::uint32_t>(u.post / columns)));
+        {x(static_cast<std::uint32_t>(u.post % columns)), y(static_cast<std::uint32_t>(u.post / columns)), u.height});
   }
-  for (std::size_t cell = 0; cell < halves.size(); ++cell) {
-    for_each_triangle(cell, [&](std::uint32_t t) {
-      const auto [a, b, c] = corners(t);
-      Triangle triangle{number[index_of(a)], number[index_of(b)], number[index_of(c)]};
-      std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
-      result.triangles.push_back(triangle);
-      return true;
-    });
-  }
+  for_each([&](const std::array<GridPoint, 3>& corners) {
+    const auto& [a, b, c] = corners;
+    Triangle triangle{number[index_of(a)], number[index_of(b)], number[index_of(c)]};
+    std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+    result.triangles.push_back(triangle);
+  });
   std::sort(result.triangles.begin(), result.triangles.end());
   return result;
 }
@@ -150,18 +163,20 @@ std::optional<LatticeTin> lattice_of(const Tin& tin) {
   const std::int64_t west = all.xmin - spacing, north = all.ymax + spacing;
   const std::int64_t columns = (all.xmax - west) / spacing + 1, rows = (north - all.ymin) / spacing + 1;
   if (columns * rows > kEmptiest * static_cast<std::int64_t>(count) / 2 + 4 * (columns + rows)) return std::nullopt;
-  LatticeTin lattice{tin.grid,
-                     static_cast<std::int32_t>(west),
-                     static_cast<std::int32_t>(north),
-                     static_cast<std::int32_t>(spacing),
-                     static_cast<std::uint32_t>(columns),
-                     static_cast<std::uint32_t>(rows),
-                     {},
-                     std::vector<std::uint8_t>(static_cast<std::size_t>(columns * rows)),
-                     tin.statistics};
+  LatticeTin lattice;
+  lattice.grid = tin.grid, lattice.statistics = tin.statistics;
+  lattice.west = static_cast<std::int32_t>(west), lattice.north = static_cast<std::int32_t>(north);
+  lattice.spacing = static_cast<std::int32_t>(spacing);
+  lattice.columns = static_cast<std::uint32_t>(columns), lattice.rows = static_cast<std::uint32_t>(rows);
+  lattice.tiles.resize(std::size_t{lattice.tile_columns()} * lattice.tile_rows());
+  for (std::uint32_t t = 0; t < lattice.tiles.size(); ++t) {
+    lattice.tiles[t].halves = std::make_unique<std::array<std::uint8_t, LatticeTin::kCells>>();
+    lattice.make_heights(t);
+  }
   // Triangles of one cell may be dealt with by two threads.
-  const auto add = [&](std::size_t cell, std::uint8_t half) {
-    std::atomic_ref(lattice.halves[cell]).fetch_or(half, std::memory_order_relaxed);
+  const auto add = [&](std::uint32_t cell, std::uint8_t half) {
+    std::uint8_t& halves = (*lattice.tiles[cell / LatticeTin::kCells].halves)[cell % LatticeTin::kCells];
+    std::atomic_ref(halves).fetch_or(half, std::memory_order_relaxed);
   };
   std::atomic<bool> odd = false;
   parallel_for((count + kChunk - 1) / kChunk, [&](std::size_t chunk) {
@@ -175,13 +190,18 @@ std::optional<LatticeTin> lattice_of(const Tin& tin) {
         odd = true;
         return;
       }
-      add(static_cast<std::size_t>(row * columns + column), half);
+      add(lattice.cell(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row)), half);
     }
   });
   if (odd) return std::nullopt;
-  lattice.heights.assign(lattice.halves.size(), LatticeTin::kNoPost);
+  const auto [lowest, highest] = std::minmax_element(tin.vertices.begin(), tin.vertices.end(),
+                                                     [](const GridPoint& a, const GridPoint& b) { return a.z < b.z; });
+  lattice.lowest = lowest->z, lattice.highest = highest->z;
   for (const GridPoint& v : tin.vertices)
-    lattice.heights[static_cast<std::size_t>((north - v.y) / spacing * columns + (v.x - west) / spacing)] = v.z;
+    lattice.for_each_tile_of(
+        static_cast<std::uint32_t>((v.x - west) / spacing), static_cast<std::uint32_t>((north - v.y) / spacing),
+        [&](std::uint32_t tile, std::uint32_t post) { (*lattice.tiles[tile].heights)[post] = v.z; });
+  for (std::uint32_t t = 0; t < lattice.tiles.size(); ++t) lattice.settle(t);
   return lattice;
 }
 

@@ -236,7 +236,7 @@ class LookingAround {
   /// Metres above the ground.
   Tally see(const Point3& eye, double target_height) {
     Tally tally;
-    const AxisSweep::View view = sweep_.view_from(eye, INFINITY);
+    const AxisSweep::View view = sweep_.view_of(sweep_.axis_at(eye, INFINITY));
     ground_.for_each_tile(target_height, [&](const AxisSweep::Ends& targets) {
       sweep_.look_from(view, targets, work_->scratch, work_->found);
       for_each_line(eye, targets, [&](std::size_t cell, const SightLine& line) {
@@ -252,7 +252,7 @@ class LookingAround {
   Tally raise(const Point3& eye, double wanted, double highest) {
     Tally tally;
     const double metre = 1 / tin_.grid.resolution;
-    const AxisSweep::View view = sweep_.view_from(eye, INFINITY);
+    const AxisSweep::View view = sweep_.view_of(sweep_.axis_at(eye, INFINITY));
     ground_.for_each_tile(0, [&](const AxisSweep::Ends& ground) {
       for (std::size_t i = 0; i < ground.elevation.size(); ++i) {
         work_->wanted[i] = ground.elevation[i] + wanted * metre;
@@ -398,11 +398,11 @@ void expect_bounds(const Tin& tin, std::mt19937& random) {
     const double column = bins.column_at((p.x - tin.grid.origin.x) / unit);
     const double row = bins.row_at((p.y - tin.grid.origin.y) / unit);
     const RasterGrid::Cell bin{static_cast<std::int64_t>(column), static_cast<std::int64_t>(row)};
-    const auto& east = bins.eastwards();
-    const auto run = static_cast<std::size_t>(bin.row * east.a_line + bin.column / BinnedHeights::kRun);
+    const auto east = bins.runs().eastwards();
+    const std::int64_t run = bin.column / RunBounds::kRun;
     const auto height = exact.height(p);
     if (!height) {
-      EXPECT_EQ(east.low[run], -INFINITY);
+      EXPECT_EQ(east.low(run, bin.row), -INFINITY);
       continue;
     }
     ++looked;
@@ -410,12 +410,12 @@ void expect_bounds(const Tin& tin, std::mt19937& random) {
     EXPECT_LE(
         z, bins.lid(bin).at(column - static_cast<double>(bin.column) - 0.5, row - static_cast<double>(bin.row) - 0.5) +
                1e-6);
-    EXPECT_LE(z, east.high[run] + 1e-6);
-    EXPECT_GE(z, east.low[run] - 1e-6);
-    const auto& south = bins.southwards();
-    const auto down = static_cast<std::size_t>(bin.column * south.a_line + bin.row / BinnedHeights::kRun);
-    EXPECT_LE(z, south.high[down] + 1e-6);
-    EXPECT_GE(z, south.low[down] - 1e-6);
+    EXPECT_LE(z, east.high(run, bin.row) + 1e-6);
+    EXPECT_GE(z, east.low(run, bin.row) - 1e-6);
+    const auto south = bins.runs().southwards();
+    const std::int64_t down = bin.row / RunBounds::kRun;
+    EXPECT_LE(z, south.high(down, bin.column) + 1e-6);
+    EXPECT_GE(z, south.low(down, bin.column) - 1e-6);
   }
   EXPECT_GT(looked, 1000);
 }

@@ -54,7 +54,9 @@ class AxisSweep::Task {
     if (from > to) return;
     // A hair more, against rounding.
     from -= 1e-9, to += 1e-9;
-    if (hides_all(quadrant, fan, from, to)) {
+    // What lies before the tile may hide even the highest of its ends.
+    if (view_.hides(fan.known(from, to, quadrant.slab_at(nearest_)), {from, to, nearest_, farthest_, least_drop()},
+                    highest_)) {
       for_each_cell(quadrant, from, to, [&](const Cell& cell) { heights_[cell.index] = kHidden; });
       return;
     }
@@ -97,17 +99,16 @@ class AxisSweep::Task {
     return {std::max(from, -1.0), std::min(to, 1.0)};
   }
 
-  /// Whether what lies before the tile hides even the highest of its ends.
-  bool hides_all(const Quadrant& quadrant, const HorizonFan& fan, double from, double to) const {
-    const double below = fan.known(from, to, quadrant.slab_at(nearest_)).below, drop = sweep_.drop_;
+  /// Of the tile's ends.
+  double least_drop() const {
     const auto ends = [](const auto& of, std::int64_t count) {
       return std::minmax_element(of.begin(), of.begin() + count);
     };
+    const double drop = sweep_.drop_;
     const auto [near_along, far_along] = ends(along_squared_, majors_);
     const auto [near_across, far_across] = ends(across_squared_, minors_);
     // Cells amid a row or a column may lie nearer than those at its ends, but not farther.
-    const double least_drop = drop > 0 ? drop * (*near_along + *near_across) : drop * (*far_along + *far_across);
-    return highest_ < axis_.top + std::min(below * nearest_, below * farthest_) + least_drop;
+    return drop > 0 ? drop * (*near_along + *near_across) : drop * (*far_along + *far_across);
   }
 
   /// Calls visit(cell) for those with slopes in [from, to) whose ends are looked at, nearest first.
@@ -315,7 +316,8 @@ AxisSweep::AxisSweep(const Earth& earth, const BinnedHeights& surface)
       drop_(earth.drop_coefficient() * surface.units().resolution),
       grazing_(kGrazing / surface.units().resolution) {}
 
-AxisSweep::View::View(const BinnedHeights& bins, const Axis& axis, double drop, double grazing) : axis_(axis) {
+AxisSweep::View::View(const BinnedHeights& bins, const Axis& axis, double drop, double grazing)
+    : axis_(axis), column_(bins.column_at(axis.x)), row_(bins.row_at(axis.y)), bin_(bins.bin_size()) {
   const double bin = bins.bin_size();
   sector_axis_.top = axis.top;
   sector_axis_.drop = drop * bin * bin;
@@ -323,20 +325,85 @@ AxisSweep::View::View(const BinnedHeights& bins, const Axis& axis, double drop, 
   const double greatest =
       bins.greatest_magnitude() + std::abs(axis.top) + 4 * std::abs(drop) * axis.radius * axis.radius;
   sector_axis_.margin = 100 * grazing + greatest * 0x1p-21;
-  const double column = bins.column_at(axis.x), row = bins.row_at(axis.y);
   for (const Quadrant::Side side : {Quadrant::kEast, Quadrant::kWest, Quadrant::kSouth, Quadrant::kNorth})
-    quadrants_.emplace_back(bins, column, row, side);
-  for (const Quadrant& quadrant : quadrants_)
-    fans_.emplace_back(quadrant, sector_axis_,
-                       quadrant.slabs() == 0 ? 0 : quadrant.slab_at(axis.radius / bin) + std::size_t{1});
+    quadrants_.emplace_back(bins, column_, row_, side);
+  fans_.resize(quadrants_.size());
 }
 
-AxisSweep::View AxisSweep::view_of(const Axis& axis) const {
+bool AxisSweep::View::reaches(const BinBox& box) const {
+  const double east = column_ - std::clamp(column_, box.west, box.east),
+               south = row_ - std::clamp(row_, box.north, box.south);
+  return std::hypot(east, south) * bin_ <= axis_.radius * (1 + 1e-9);
+}
+
+double AxisSweep::View::distance(const BinBox& box) const {
+  return std::max(std::abs(column_ - std::clamp(column_, box.west, box.east)),
+                  std::abs(row_ - std::clamp(row_, box.north, box.south)));
+}
+
+/// What of a box lies in a quadrant, with slopes from -1 to 1; nothing where none does.
+std::optional<AxisSweep::View::Extent> AxisSweep::View::extent(const Quadrant& quadrant, const BinBox& box) const {
+  const auto range = [](double a, double b) { return std::pair(std::min(a, b), std::max(a, b)); };
+  const auto [near, far] = range(quadrant.along(box.west, box.north), quadrant.along(box.east, box.south));
+  const auto [low, high] = range(quadrant.across(box.west, box.north), quadrant.across(box.east, box.south));
+  const double across = std::max({low, -high, 0.0}), nearest = std::max(near, across);
+  if (quadrant.slabs() == 0 || far <= 0 || nearest > far) return std::nullopt;
+  // A hair more, against rounding.
+  Extent ends{std::max(low / (low < 0 ? nearest : far), -1.0) - 1e-9,
+              std::min(high / (high > 0 ? nearest : far), 1.0) + 1e-9, nearest, far, 0};
+  const double drop = sector_axis_.drop, farthest = std::max(-low, high);
+  ends.least_drop = drop * (drop > 0 ? nearest * nearest + across * across : far * far + farthest * farthest);
+  return ends;
+}
+
+void AxisSweep::View::narrow(std::span<const BinBox> boxes) {
+  // Boxes nearby may lie in all directions.
+  constexpr double kNearby = 256;
+  for (std::size_t i = 0; i < quadrants_.size(); ++i) {
+    double from = 1, to = -1;
+    for (const BinBox& box : boxes) {
+      const auto ends = distance(box) < kNearby ? std::nullopt : extent(quadrants_[i], box);
+      if (ends) from = std::min(from, ends->from), to = std::max(to, ends->to);
+    }
+    fans_[i].narrow(from, to);
+  }
+}
+
+void AxisSweep::View::advance(double reach) {
+  for (std::size_t i = 0; i < quadrants_.size(); ++i) {
+    const Quadrant& quadrant = quadrants_[i];
+    if (quadrant.slabs() == 0) continue;
+    // What is farther away begins in that slab or beyond.
+    fans_[i].advance(quadrant, sector_axis_, quadrant.slab_at(std::min(reach, axis_.radius / bin_)));
+  }
+}
+
+bool AxisSweep::View::hides(const BinBox& box, double elevation) const {
+  if (distance(box) == 0) return false;
+  for (std::size_t i = 0; i < quadrants_.size(); ++i) {
+    const auto ends = extent(quadrants_[i], box);
+    if (ends && !hides(fans_[i].known(ends->from, ends->to, quadrants_[i].slab_at(ends->nearest)), *ends, elevation))
+      return false;
+  }
+  return true;
+}
+
+bool AxisSweep::View::hides(const Sector::Hidden& known, const Extent& ends, double elevation) const {
+  return elevation < axis_.top + std::min(known.below * ends.nearest, known.below * ends.farthest) + ends.least_drop;
+}
+
+AxisSweep::View AxisSweep::beginning(const Axis& axis) const {
   return {bins_, axis, drop_, grazing_};
 }
 
-AxisSweep::View AxisSweep::view_from(const Point3& eye, double radius) const {
-  return view_of({eye.x, eye.y, eye.z, eye.z, std::min(radius, bins_.farthest_from(eye.x, eye.y) + 1)});
+AxisSweep::View AxisSweep::view_of(const Axis& axis) const {
+  View view = beginning(axis);
+  view.advance(kInfinity);
+  return view;
+}
+
+AxisSweep::Axis AxisSweep::axis_at(const Point3& eye, double radius) const {
+  return {eye.x, eye.y, eye.z, eye.z, std::min(radius, bins_.farthest_from(eye.x, eye.y) + 1)};
 }
 
 void AxisSweep::run(const View& axis, const Ends& eyes, Scratch& scratch, Heights& heights) const {

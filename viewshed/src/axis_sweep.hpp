@@ -20,6 +20,8 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include <itin/earth.hpp>
@@ -56,8 +58,10 @@ class AxisSweep {
   /// What the tiles about an axis share. Refers to the sweep's surface.
   class View;
   View view_of(const Axis& axis) const;
-  /// The same of an eye that looks as far as there is surface, but no farther than `radius` grid units.
-  View view_from(const Point3& eye, double radius) const;
+  /// The same, to be advanced.
+  View beginning(const Axis& axis) const;
+  /// An eye that looks as far as there is surface, but no farther than `radius` grid units.
+  Axis axis_at(const Point3& eye, double radius) const;
 
   /// Memory to use again.
   using Scratch = SectorProfile;
@@ -89,16 +93,44 @@ class AxisSweep {
   double grazing_;  ///< grid units
 };
 
+/// Closed, in bins.
+struct BinBox {
+  double west = 0, north = 0, east = 0, south = 0;
+};
+
 class AxisSweep::View {
  public:
+  /// At first it knows of nothing that hides.
   View(const BinnedHeights& bins, const Axis& axis, double drop, double grazing);
+
+  /// Whether a box lies within the axis' radius, at least in part.
+  bool reaches(const BinBox& box) const;
+  /// How far a box is away from the axis, in bins along columns or rows.
+  double distance(const BinBox& box) const;
+  /// Ends will be asked about in these boxes only, and near the axis.
+  void narrow(std::span<const BinBox> boxes);
+  /// Looks on at what hides up to so many bins away along columns and rows; what is farther away will be asked about
+  /// later. Infinity completes it.
+  void advance(double reach);
+  /// Whether every end in the box up to an elevation, grid units, is certainly hidden, by what has been looked at.
+  bool hides(const BinBox& box, double elevation) const;
 
  private:
   friend class AxisSweep;
+  /// Ends within a quadrant: between slopes, and as far along.
+  struct Extent {
+    double from = 0, to = 0;
+    double nearest = 0, farthest = 0;
+    double least_drop = 0;  ///< grid units
+  };
+  bool hides(const Sector::Hidden& known, const Extent& ends, double elevation) const;
+  std::optional<Extent> extent(const Quadrant& quadrant, const BinBox& box) const;
+
   Axis axis_;
   Sector::Axis sector_axis_;
   std::vector<Quadrant> quadrants_;
   std::vector<HorizonFan> fans_;  ///< of each quadrant
+  double column_, row_, bin_;     ///< where the axis is, in bins, and how wide these are, grid units
 };
 
 }  // namespace itin::viewshed

@@ -95,20 +95,58 @@ BinnedHeights::BinnedHeights(const Tin& tin, std::optional<LatticeTin> lattice)
       own_(std::move(lattice)),
       lattice_(own_ ? &*own_ : nullptr),
       units_(tin.grid),
-      grid_(own_ ? bin_grid(*own_) : bin_grid(tin)) {
+      grid_(own_ ? bin_grid(*own_) : bin_grid(tin)),
+      runs_(grid_.columns(), grid_.rows()) {
   own_ ? bound_lattice() : bound_tin();
 }
 
 BinnedHeights::BinnedHeights(const LatticeTin& lattice)
-    : lattice_(&lattice), units_(lattice.grid), grid_(bin_grid(lattice)) {
+    : lattice_(&lattice), units_(lattice.grid), grid_(bin_grid(lattice)), runs_(grid_.columns(), grid_.rows()) {
   bound_lattice();
 }
 
 void BinnedHeights::bound_lattice() {
   rim_ = lattice_->rim();
-  for (const std::int32_t z : lattice_->heights)
-    if (z != LatticeTin::kNoPost) greatest_magnitude_ = greatest_magnitude_of(z, greatest_magnitude_);
-  bound_runs([&](std::size_t cell) { return range_of_cell(*lattice_, cell); });
+  greatest_magnitude_ = std::max(std::abs(double{1} * lattice_->lowest), std::abs(double{1} * lattice_->highest));
+  parallel_for(lattice_->tiles.size(), [&](std::size_t tile) {
+    if (lattice_->tiles[tile].heights) bound_tile(static_cast<std::uint32_t>(tile));
+  });
+}
+
+void BinnedHeights::add(std::span<const std::uint32_t> tiles) {
+  // Runs at the ends of those to the west and to the north have their neighbours here.
+  std::vector<std::uint32_t> touched;
+  const std::uint32_t columns = lattice_->tile_columns();
+  for (const std::uint32_t tile : tiles) {
+    touched.push_back(tile);
+    if (tile % columns > 0) touched.push_back(tile - 1);
+    if (tile >= columns) touched.push_back(tile - columns);
+  }
+  std::sort(touched.begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  parallel_for(touched.size(), [&](std::size_t i) {
+    if (lattice_->tiles[touched[i]].heights) bound_tile(touched[i]);
+  });
+}
+
+/// Of a cell with one triangle nothing is known where that is not.
+void BinnedHeights::bound_tile(std::uint32_t tile) {
+  constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::lowest();
+  using HeightRange = RunBounds::Range<std::int32_t>;
+  const LatticeTin& lattice = *lattice_;
+  const auto range_of = [&](std::int64_t column, std::int64_t row) {
+    const std::uint32_t cell = this->cell({column, row});
+    const std::uint8_t there = lattice.read(cell) ? lattice.halves(cell) : std::uint8_t{0};
+    if (there == 0) return HeightRange{kNone, kNone};
+    const std::int32_t* const upper = lattice.posts(cell);
+    const std::int32_t* const lower = upper + LatticeTin::kPosts;
+    const std::int32_t high = std::max(std::max(upper[0], upper[1]), std::max(lower[0], lower[1]));
+    if (!LatticeTin::whole(there)) return HeightRange{kNone, high};
+    return HeightRange{std::min(std::min(upper[0], upper[1]), std::min(lower[0], lower[1])), high};
+  };
+  const auto low = [](std::int32_t z) { return z == kNone ? -kInfinity : rounded_down(z); };
+  const auto high = [](std::int32_t z) { return z == kNone ? -kInfinity : rounded_up(z); };
+  runs_.bound<std::int32_t>(tile, range_of, low, high);
 }
 
 void BinnedHeights::bound_tin() {
@@ -129,7 +167,9 @@ void BinnedHeights::bound_tin() {
   const std::vector<BoundaryEdge> boundary = boundary_edges(tin);
   rim_ = rim_of(tin, boundary);
   forget_depth_at_boundary(boundary, ranges);
-  bound_runs([&](std::size_t bin) { return ranges[bin]; });
+  const auto range_of = [&](std::int64_t column, std::int64_t row) { return ranges[grid_.index({column, row})]; };
+  const auto same = [](float z) { return z; };
+  parallel_for(runs_.tile_count(), [&](std::size_t tile) { runs_.bound<float>(tile, range_of, same, same); });
 }
 
 BinnedHeights::Range BinnedHeights::bound_bin(RasterGrid::Cell bin) {
@@ -155,23 +195,15 @@ BinnedHeights::Range BinnedHeights::bound_bin(RasterGrid::Cell bin) {
   return {rounded_down(low), rounded_up(high)};
 }
 
-/// Of a cell with one triangle nothing is known where that is not.
-BinnedHeights::Range BinnedHeights::range_of_cell(const LatticeTin& lattice, std::size_t cell) {
-  if (lattice.halves[cell] == 0) return {-kInfinity, -kInfinity};
-  const std::int32_t* const upper = lattice.heights.data() + cell;
-  const std::int32_t* const lower = upper + lattice.columns;
-  const float high = rounded_up(std::max(std::max(upper[0], upper[1]), std::max(lower[0], lower[1])));
-  if (!lattice.whole(cell)) return {-kInfinity, high};
-  return {rounded_down(std::min(std::min(upper[0], upper[1]), std::min(lower[0], lower[1]))), high};
-}
-
 /// Sums and halves of whole numbers, all exact.
-BinnedHeights::Lid BinnedHeights::lid_of_cell(const LatticeTin& lattice, std::size_t cell) {
-  if (lattice.halves[cell] == 0) return {};
-  const std::int32_t* const upper = lattice.heights.data() + cell;
-  const std::int32_t* const lower = upper + lattice.columns;
+BinnedHeights::Lid BinnedHeights::lid_of_cell(const LatticeTin& lattice, std::uint32_t cell) {
+  if (!lattice.read(cell)) return {};
+  const std::uint8_t there = lattice.halves(cell);
+  if (there == 0) return {};
+  const std::int32_t* const upper = lattice.posts(cell);
+  const std::int32_t* const lower = upper + LatticeTin::kPosts;
   const double nw = upper[0], ne = upper[1], sw = lower[0], se = lower[1];
-  if (!lattice.whole(cell)) return {std::max(std::max(nw, ne), std::max(sw, se)), 0, 0};
+  if (!LatticeTin::whole(there)) return {std::max(std::max(nw, ne), std::max(sw, se)), 0, 0};
   const double per_column = (ne - nw + se - sw) / 2, per_row = (sw - nw + se - ne) / 2;
   // Both pairs of opposite corners are as far above the plane through the middle of all four.
   return {(nw + ne + sw + se) / 4 + std::abs(nw - ne - sw + se) / 4, per_column, per_row};
@@ -192,49 +224,6 @@ void BinnedHeights::forget_depth_at_boundary(const std::vector<BoundaryEdge>& bo
   });
 }
 
-/// In blocks that stay in the cache, each with the bins beside it.
-template <class RangeOf>
-void BinnedHeights::bound_runs(const RangeOf& range_of) {
-  const auto make = [](Runs& runs, std::int64_t lines, std::int64_t length) {
-    runs.a_line = (length + kRun - 1) / kRun;
-    runs.low.resize(static_cast<std::size_t>(lines * runs.a_line)), runs.high.resize(runs.low.size());
-  };
-  make(eastwards_, rows(), columns()), make(southwards_, columns(), rows());
-  constexpr std::int64_t kBlockRows = 64, kBlockColumns = 256, kStride = kBlockColumns + 1;
-  parallel_for(static_cast<std::size_t>((rows() + kBlockRows - 1) / kBlockRows), [&](std::size_t strip) {
-    std::vector<Range> ranges(static_cast<std::size_t>((kBlockRows + 1) * kStride));
-    const std::int64_t first_row = static_cast<std::int64_t>(strip) * kBlockRows,
-                       end_row = std::min(rows(), first_row + kBlockRows), last_row = std::min(rows() - 1, end_row);
-    for (std::int64_t first = 0; first < columns(); first += kBlockColumns) {
-      const std::int64_t end = std::min(columns(), first + kBlockColumns), last = std::min(columns() - 1, end);
-      const auto at = [&](std::int64_t row, std::int64_t column) -> Range& {
-        return ranges[static_cast<std::size_t>((row - first_row) * kStride + column - first)];
-      };
-      for (std::int64_t row = first_row; row <= last_row; ++row)
-        for (std::int64_t column = first; column <= last; ++column)
-          at(row, column) = range_of(grid_.index({column, row}));
-      const auto bound = [](Runs& runs, std::int64_t line, std::int64_t from, std::int64_t to, const auto& bin,
-                            const auto& beside) {
-        float low = kInfinity, high = -kInfinity;
-        for (std::int64_t i = from; i < to; ++i)
-          low = std::min(low, std::min(bin(i).low, beside(i).low)), high = std::max(high, bin(i).high);
-        const auto place = static_cast<std::size_t>(line * runs.a_line + from / kRun);
-        runs.low[place] = low, runs.high[place] = high;
-      };
-      for (std::int64_t row = first_row; row < end_row; ++row)
-        for (std::int64_t from = first; from < end; from += kRun)
-          bound(
-              eastwards_, row, from, std::min(end, from + kRun), [&](std::int64_t i) { return at(row, i); },
-              [&](std::int64_t i) { return at(std::min(row + 1, last_row), i); });
-      for (std::int64_t column = first; column < end; ++column)
-        for (std::int64_t from = first_row; from < end_row; from += kRun)
-          bound(
-              southwards_, column, from, std::min(end_row, from + kRun), [&](std::int64_t i) { return at(i, column); },
-              [&](std::int64_t i) { return at(i, std::min(column + 1, last)); });
-    }
-  });
-}
-
 std::optional<double> BinnedHeights::height_at(Point2 units) const {
   if (lattice_ != nullptr)
     if (const auto post = lattice_->post_at(units.x, units.y)) return *post;
@@ -244,14 +233,43 @@ std::optional<double> BinnedHeights::height_at(Point2 units) const {
   };
   std::optional<double> height;
   // One bin, or up to four at its edges.
-  for (std::int64_t r = at(row - kSlack, rows()); r <= at(row + kSlack, rows()); ++r)
-    for (std::int64_t c = at(column - kSlack, columns()); c <= at(column + kSlack, columns()); ++c)
-      if (!for_each_triangle({c, r}, -kInfinity, [&](std::uint32_t t) {
-            height = height_over(corners(t), units);
-            return !height;
-          }))
+  for (std::int64_t r = at(row - kSlack, rows()); r <= at(row + kSlack, rows()); ++r) {
+    for (std::int64_t c = at(column - kSlack, columns()); c <= at(column + kSlack, columns()); ++c) {
+      if (lattice_ != nullptr && !lattice_->read(cell({c, r}))) {
+        if (unread_at({c, r}, units)) return kUnread;
+      } else if (!for_each_triangle({c, r}, -kInfinity, [&](std::uint32_t t) {
+                   height = height_over(corners(t), units);
+                   return !height;
+                 })) {
         return height;
+      }
+    }
+  }
   return std::nullopt;
+}
+
+bool BinnedHeights::all_unread(Point2 north_west, Point2 south_east) const {
+  const double west = column_at(north_west.x), north = row_at(north_west.y), east = column_at(south_east.x),
+               south = row_at(south_east.y);
+  if (lattice_ == nullptr || west < 0 || north < 0 || east >= static_cast<double>(columns()) ||
+      south >= static_cast<double>(rows()))
+    return false;
+  const auto tile_at = [](double bin) { return static_cast<std::uint32_t>(bin) / LatticeTin::kSide; };
+  for (std::uint32_t row = tile_at(north); row <= tile_at(south); ++row) {
+    for (std::uint32_t column = tile_at(west); column <= tile_at(east); ++column) {
+      const LatticeTin::Tile& tile = lattice_->tiles[row * lattice_->tile_columns() + column];
+      if (tile.ground != LatticeTin::Ground::kWhole || tile.heights) return false;
+    }
+  }
+  return true;
+}
+
+/// Whether a bin that has not been read has ground at a position.
+bool BinnedHeights::unread_at(RasterGrid::Cell bin, Point2 units) const {
+  const std::uint32_t number = cell(bin);
+  if (lattice_->tiles[number / LatticeTin::kCells].ground == LatticeTin::Ground::kWhole) return true;
+  return !lattice_->for_each_triangle(number,
+                                      [&](std::uint32_t t) { return !height_over(lattice_->outline(t), units); });
 }
 
 }  // namespace itin::viewshed

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <itin/lattice_tin.hpp>
@@ -21,6 +22,7 @@
 #include <itin/tin.hpp>
 
 #include "boundary.hpp"
+#include "run_bounds.hpp"
 #include "triangle_bins.hpp"
 
 namespace itin::viewshed {
@@ -50,16 +52,10 @@ class BinnedHeights {
                                    std::max(std::abs(row), std::abs(row - static_cast<double>(rows()))));
   }
 
-  /// Bounds of runs of kRun bins, eastwards or southwards: as many lines of runs as there are rows, or columns. Grid
-  /// units, in single precision rounded outwards.
-  struct Runs {
-    std::int64_t a_line = 0;
-    std::vector<float> low;   ///< of a run and of the one beside it in the next line; -infinity where a part is bare
-    std::vector<float> high;  ///< of a run; -infinity where all is bare
-  };
-  static constexpr std::int64_t kRun = 4;
-  const Runs& eastwards() const { return eastwards_; }
-  const Runs& southwards() const { return southwards_; }
+  /// Rounded outwards. What has not been read is bare.
+  const RunBounds& runs() const { return runs_; }
+  /// After heights of these tiles of the lattice have been read: they count from now on.
+  void add(std::span<const std::uint32_t> tiles);
   bool holds(RasterGrid::Cell bin) const { return bin.column < columns() && bin.row < rows(); }
 
   /// A plane that the surface within one bin does not rise above.
@@ -70,16 +66,14 @@ class BinnedHeights {
     double at(double east, double south) const { return middle + per_column * east + per_row * south; }
   };
   Lid lid(RasterGrid::Cell bin) const {
-    const std::size_t number = grid_.index(bin);
-    return lattice_ != nullptr ? lid_of_cell(*lattice_, number) : listed_->lids[number];
+    return lattice_ != nullptr ? lid_of_cell(*lattice_, cell(bin)) : listed_->lids[grid_.index(bin)];
   }
   /// Calls visit(triangle) for those that meet the bin, or nearly meet it, kSlack bins away at least, and may rise
   /// above a height, grid units. Ends when one call returns false, and returns whether none did.
   template <class Visit>
   bool for_each_triangle(RasterGrid::Cell bin, double above, const Visit& visit) const {
-    const std::size_t number = grid_.index(bin);
-    if (lattice_ != nullptr) return lattice_->for_each_triangle(number, visit);
-    const auto triangles = listed_->bins.triangles(number);
+    if (lattice_ != nullptr) return !lattice_->read(cell(bin)) || lattice_->for_each_triangle(cell(bin), visit);
+    const auto triangles = listed_->bins.triangles(grid_.index(bin));
     return std::all_of(triangles.begin(), triangles.end(),
                        [&](std::uint32_t t) { return listed_->tops[t] <= above || visit(t); });
   }
@@ -91,39 +85,40 @@ class BinnedHeights {
   const std::vector<RimEdge>& rim() const { return rim_; }
   /// Whether each triangle lies in one bin alone.
   bool partition() const { return lattice_ != nullptr; }
-  /// Of the surface at a position, if it is there; grid units.
+  /// Of the surface at a position, if it is there; grid units. kUnread where it has not been read.
   std::optional<double> height_at(Point2 units) const;
+  /// Whether there is ground at every position between two corners, and none of it has been read.
+  bool all_unread(Point2 north_west, Point2 south_east) const;
   /// Of the surface, grid units.
   double greatest_magnitude() const { return greatest_magnitude_; }
 
  private:
   BinnedHeights(const Tin& tin, std::optional<LatticeTin> lattice);
 
-  struct Range {
-    float low, high;
-  };
+  using Range = RunBounds::Range<float>;
   /// What of a Tin that is no lattice is worked out once.
   struct Listed {
     TriangleBins bins;
     std::vector<Lid> lids;           ///< a bin
     std::vector<std::int32_t> tops;  ///< a triangle: its highest vertex
   };
-  static Lid lid_of_cell(const LatticeTin& lattice, std::size_t cell);
-  static Range range_of_cell(const LatticeTin& lattice, std::size_t cell);
+  std::uint32_t cell(RasterGrid::Cell bin) const {
+    return lattice_->cell(static_cast<std::uint32_t>(bin.column), static_cast<std::uint32_t>(bin.row));
+  }
+  static Lid lid_of_cell(const LatticeTin& lattice, std::uint32_t cell);
   void bound_lattice();
+  void bound_tile(std::uint32_t tile);
+  bool unread_at(RasterGrid::Cell bin, Point2 units) const;
   void bound_tin();
   Range bound_bin(RasterGrid::Cell bin);
   void forget_depth_at_boundary(const std::vector<BoundaryEdge>& boundary, std::vector<Range>& ranges) const;
-  template <class RangeOf>
-  void bound_runs(const RangeOf& range_of);
-
   const Tin* tin_ = nullptr;
   std::optional<LatticeTin> own_;        ///< made of the Tin
   const LatticeTin* lattice_ = nullptr;  ///< else it is the Tin
   Grid units_;
   RasterGrid grid_;
   std::optional<Listed> listed_;
-  Runs eastwards_, southwards_;
+  RunBounds runs_;
   double greatest_magnitude_ = 0;
   std::vector<RimEdge> rim_;
 };

@@ -32,7 +32,8 @@ std::vector<BoundaryEdge> boundary_edges(const Tin& tin) {
 std::vector<RimEdge> rim_of(const Tin& tin, const std::vector<BoundaryEdge>& boundary) {
   std::vector<RimEdge> rim;
   rim.reserve(boundary.size());
-  for (const BoundaryEdge& edge : boundary) rim.push_back({tin.vertices[edge.from], tin.vertices[edge.to]});
+  const auto place = [&](std::uint32_t vertex) { return GridPlace{tin.vertices[vertex].x, tin.vertices[vertex].y}; };
+  for (const BoundaryEdge& edge : boundary) rim.push_back({place(edge.from), place(edge.to)});
   return rim;
 }
 

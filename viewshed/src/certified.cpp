@@ -2,6 +2,7 @@
 #include <atomic>
 #include <cmath>
 
+#include <itin/lattice_reader.hpp>
 #include <itin/parallel.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/certified.hpp>
@@ -119,9 +120,9 @@ bool exact_is_as_cheap(const Store& store, const Request& request) {
   const Box box = box_of_window(store, request);
   const std::uint64_t points = store.points_about(level, box), all = store.points_about(0, box);
   if (points > kMostEnvelopePoints || kEnvelopeCosts * points >= all) return true;
-  return all > kFewPosts && kEnvelopeCostsInPosts * points >= all &&
-         looks_like_lattice(store, window_of(request), ThemeChoice::none(),
-                            PreciseOptions().memory_bytes / kBytesAPost);
+  const std::uint64_t most_posts = PreciseOptions().memory_bytes / kBytesAPost;
+  return all > kFewPosts && kEnvelopeCostsInPosts * points >= all && all <= most_posts &&
+         LatticeReader::may_open(store, window_of(request), ThemeChoice::none(), most_posts);
 }
 
 /// The exact answer, but where ground without data leaves it open.

@@ -73,7 +73,11 @@ void FullSurface::find_ground(std::size_t index, TileWork& work) const {
     scan_convert(*targets_on_, of_tiles_->triangles(index), work.tile, work.centres, work.ground);
     return;
   }
-  work.ground.fill(kNoSurface);
+  const auto last = [](std::int64_t count) { return static_cast<std::size_t>(count - 1); };
+  const TileCentres& at = work.centres;
+  work.unread = heights_.all_unread({at.x[0], at.y[0]}, {at.x[last(work.tile.columns)], at.y[last(work.tile.rows)]});
+  work.ground.fill(work.unread ? kUnread : kNoSurface);
+  if (work.unread) return;
   for_each_cell(work.tile, [&](std::int64_t r, std::int64_t c, std::size_t cell) {
     const auto height =
         heights_.height_at({work.centres.x[static_cast<std::size_t>(c)], work.centres.y[static_cast<std::size_t>(r)]});
@@ -94,7 +98,7 @@ void FullSurface::raise_targets(const Eye& eye, TileValues<std::uint8_t>& values
     const double target = eye.target(ground * resolution);
     const Point2 centre = grid_.centre(work.tile.column + c, work.tile.row + r);
     if (!eye.view.contains(centre.x - eye.position.x, centre.y - eye.position.y, target - eye.elevation)) return;
-    const bool below = target * metre < ground - grazing;
+    const bool below = ground == kUnread || target * metre < ground - grazing;
     const bool at_eye = work.centres.x[static_cast<std::size_t>(c)] == eye.units.x &&
                         work.centres.y[static_cast<std::size_t>(r)] == eye.units.y;
     value = below ? kCertainlyHidden : kCertainlyVisible;

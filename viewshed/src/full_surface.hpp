@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -53,7 +54,8 @@ class FullSurface {
     TileWork(const Grid& units, const RasterGrid& grid, const Tile& t) : tile(t), centres(units, grid, t) {}
     Tile tile;
     TileCentres centres;
-    TileValues<double> ground;   ///< grid units; kNoSurface where none is
+    TileValues<double> ground;   ///< grid units; kNoSurface where none is, kUnread where no eye sees it
+    bool unread = false;         ///< all of the ground
     TileValues<double> targets;  ///< of the last eye's lines; kNoSurface where none was needed
     AxisSweep::Heights seen;
     AxisSweep::Scratch scratch;
@@ -64,9 +66,11 @@ class FullSurface {
   std::unique_ptr<TileWork> begin(std::size_t tile) const;
 
   /// What all tiles share of an eye.
-  AxisSweep::View view_from(const Eye& eye) const {
-    return sweep_.view_from(eye.units, eye.view.farthest() / units().resolution + 1);
-  }
+  AxisSweep::View view_from(const Eye& eye) const { return sweep_.view_of(axis_of(eye)); }
+  /// The same, to be advanced.
+  AxisSweep::View look_out(const Eye& eye) const { return sweep_.beginning(axis_of(eye)); }
+  /// After heights of tiles of the lattice have been read: they count from now on.
+  void add(std::span<const std::uint32_t> tiles) { heights_.add(tiles); }
 
   /// kUndecided cells become kCertainlyVisible, kCertainlyHidden, or kOutside where there is no ground or the eye does
   /// not look. Returns how many sight lines that took.
@@ -81,6 +85,9 @@ class FullSurface {
   double raise_from(const AxisSweep::View& view, Point2 position, double lowest, double highest) const;
 
  private:
+  AxisSweep::Axis axis_of(const Eye& eye) const {
+    return sweep_.axis_at(eye.units, eye.view.farthest() / units().resolution + 1);
+  }
   void raise_targets(const Eye& eye, TileValues<std::uint8_t>& values, TileWork& work) const;
   void find_ground(std::size_t index, TileWork& work) const;
 
@@ -98,7 +105,7 @@ struct OwnedSurface {
                const RasterGrid& tiles)
       : surface(std::move(of)),
         ground(std::move(bare_ground)),
-        full(surface.lattice ? FullSurface(*surface.lattice, earth, grid, tiles)
+        full(surface.lattice ? FullSurface(surface.lattice->lattice(), earth, grid, tiles)
                              : FullSurface(surface.tin, ground ? &*ground : nullptr, earth, grid, tiles)) {}
 
   const Surface surface;

@@ -1,6 +1,7 @@
 #include "horizon_fan.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include <itin/parallel.hpp>
 
@@ -17,33 +18,61 @@ constexpr std::size_t kSectorsATask = 64;
 
 }  // namespace
 
-HorizonFan::HorizonFan(const Quadrant& quadrant, const Sector::Axis& axis, std::size_t slabs) {
-  for (std::size_t slab = kFirstRing; slab < slabs; slab *= 2) {
-    const std::size_t count = kSectorsASlab * slab;
-    Ring ring{slab, std::vector<float>(count)};
-    parallel_for((count + kSectorsATask - 1) / kSectorsATask, [&](std::size_t task) {
-      for (std::size_t i = task * kSectorsATask; i < std::min(count, (task + 1) * kSectorsATask); ++i) {
-        const double width = 2 / static_cast<double>(count), from = static_cast<double>(i) * width - 1;
-        const Sector::Hidden nearer =
-            rings_.empty() ? Sector::Hidden{} : Sector::Hidden{rings_.back().slab, rings_.back().below[i / 2]};
+void HorizonFan::advance(const Quadrant& quadrant, const Sector::Axis& axis, std::size_t slab) {
+  while (front_.slab < slab) {
+    const std::size_t ring = rings_.empty() ? kFirstRing : 2 * rings_.back().slab;
+    if (front_.below.size() < kSectorsASlab * ring) widen();
+    const std::size_t end = std::min(slab, ring);
+    const auto [first, last] = sectors();
+    const double width = 2 / static_cast<double>(front_.below.size());
+    parallel_for((last - first + kSectorsATask - 1) / kSectorsATask, [&, first = first, last = last](std::size_t task) {
+      const std::size_t begin = first + task * kSectorsATask;
+      for (std::size_t i = begin; i < std::min(last, begin + kSectorsATask); ++i) {
+        const double from = static_cast<double>(i) * width - 1;
         const Sector sector(quadrant, from, from + width, axis);
-        ring.below[i] = rounded_down(sector.look_on(nearer, slab, [](const Sector::Hidden&) {}).below);
+        const auto hidden = sector.look_on({front_.slab, front_.below[i]}, end, [](const Sector::Hidden&) {});
+        front_.below[i] = rounded_down(hidden.below);
       }
     });
-    rings_.push_back(std::move(ring));
+    front_.slab = end;
+    if (end == ring) rings_.push_back(front_);
   }
 }
 
-Sector::Hidden HorizonFan::known(double from, double to, std::size_t nearest) const {
-  const auto ring = std::find_if(rings_.rbegin(), rings_.rend(), [&](const Ring& r) { return r.slab <= nearest; });
-  if (ring == rings_.rend()) return {};
+/// Twice as many sectors, or the first ones.
+void HorizonFan::widen() {
+  if (rings_.empty()) {
+    front_.below.assign(kSectorsASlab * kFirstRing, -std::numeric_limits<float>::infinity());
+    return;
+  }
+  const std::vector<float>& wide = rings_.back().below;
+  front_.below.resize(2 * wide.size());
+  for (std::size_t i = 0; i < front_.below.size(); ++i) front_.below[i] = wide[i / 2];
+}
+
+/// The first of the front's sectors that lines may lie in, and the end of them: a few more, against rounding.
+std::pair<std::size_t, std::size_t> HorizonFan::sectors() const {
+  const auto count = static_cast<double>(front_.below.size());
+  const auto at = [&](double slope, double more) {
+    return static_cast<std::size_t>(std::clamp((slope + 1) * count / 2 + more, 0.0, count));
+  };
+  const std::size_t first = at(slopes_.first, -2);
+  return {first, std::max(first, at(slopes_.second, 3))};
+}
+
+Sector::Hidden HorizonFan::Ring::known(double from, double to) const {
   // Rounding may make it one sector less: by far less than sectors look at beside them.
   const auto sector_at = [&](double slope) {
-    const double at = (slope + 1) * static_cast<double>(ring->below.size()) / 2;
-    return ring->below.begin() +
-           static_cast<std::ptrdiff_t>(std::clamp(at, 0.0, static_cast<double>(ring->below.size() - 1)));
+    const double at = (slope + 1) * static_cast<double>(below.size()) / 2;
+    return below.begin() + static_cast<std::ptrdiff_t>(std::clamp(at, 0.0, static_cast<double>(below.size() - 1)));
   };
-  return {ring->slab, *std::min_element(sector_at(from), sector_at(to) + 1)};
+  return {slab, *std::min_element(sector_at(from), sector_at(to) + 1)};
+}
+
+Sector::Hidden HorizonFan::known(double from, double to, std::size_t nearest) const {
+  if (front_.slab > 0 && front_.slab <= nearest) return front_.known(from, to);
+  const auto ring = std::find_if(rings_.rbegin(), rings_.rend(), [&](const Ring& r) { return r.slab <= nearest; });
+  return ring == rings_.rend() ? Sector::Hidden{} : ring->known(from, to);
 }
 
 }  // namespace itin::viewshed

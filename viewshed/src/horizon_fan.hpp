@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "sector_profile.hpp"
@@ -15,19 +16,29 @@ namespace itin::viewshed {
 
 class HorizonFan {
  public:
-  /// About the quadrant's slabs before `slabs`. Memory: at most 64 bytes a slab. Uses all threads.
-  HorizonFan(const Quadrant& quadrant, const Sector::Axis& axis, std::size_t slabs);
+  /// Only lines within these slopes will be asked about.
+  void narrow(double from, double to) { slopes_ = {from, to}; }
 
-  /// What is known for lines within slopes [from, to] that begin in slab `nearest`: of the farthest slab up to there.
+  /// Looks on up to a slab, if it has not come as far yet. Memory: at most 96 bytes a slab. Uses all threads.
+  void advance(const Quadrant& quadrant, const Sector::Axis& axis, std::size_t slab);
+
+  /// What is known by now for lines within slopes [from, to] that begin in slab `nearest`: of the farthest slab up to
+  /// there.
   Sector::Hidden known(double from, double to, std::size_t nearest) const;
 
  private:
-  /// Sectors of equal slopes from -1 to 1, which end where slab `slab` begins.
+  /// Sectors of equal slopes from -1 to 1, looked along up to where slab `slab` begins.
   struct Ring {
-    std::size_t slab;
+    std::size_t slab = 0;
     std::vector<float> below;  ///< a sector, rounded down
+    Sector::Hidden known(double from, double to) const;
   };
-  std::vector<Ring> rings_;
+  void widen();
+  std::pair<std::size_t, std::size_t> sectors() const;
+
+  std::pair<double, double> slopes_{-1, 1};
+  std::vector<Ring> rings_;  ///< complete ones
+  Ring front_;               ///< on its way to be the next
 };
 
 }  // namespace itin::viewshed

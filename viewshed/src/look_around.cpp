@@ -18,14 +18,14 @@ struct Tally {
 
 class LookAround {
  public:
-  LookAround(const FullSurface& surface, const Observations& observations, const std::vector<Eye>& eyes, Result& result)
+  LookAround(const FullSurface& surface, const Observations& observations, const std::vector<Eye>& eyes,
+             const std::vector<AxisSweep::View>& views, Result& result)
       : surface_(surface),
         eyes_(eyes),
+        views_(views),
         result_(result),
         observations_(observations),
-        views_(eyes.size()),
         shadows_(eyes.size()) {
-    parallel_for(eyes.size(), [&](std::size_t i) { views_[i].emplace(surface.view_from(eyes[i])); });
     if (result.request.nodata != NoData::kBlock || !result.crosses_voids) return;
     parallel_for(eyes.size(), [&](std::size_t i) { shadows_[i].emplace(surface.rim(), eyes[i].units); });
   }
@@ -36,7 +36,7 @@ class LookAround {
     Tally tally;
     for (const std::uint32_t i : eyes_near(work->tile)) {
       const VoidShadow* const shadow = shadows_[i] ? &*shadows_[i] : nullptr;
-      tally.lines += observation->look({surface_, eyes_[i], *views_[i], i, shadow, *work});
+      tally.lines += observation->look({surface_, eyes_[i], views_[i], i, shadow, *work});
     }
     observation->store(work->tile, result_, tally.cells);
     return tally;
@@ -61,18 +61,18 @@ class LookAround {
 
   const FullSurface& surface_;
   const std::vector<Eye>& eyes_;
+  const std::vector<AxisSweep::View>& views_;  ///< each eye's
   Result& result_;
   const Observations& observations_;
-  std::vector<std::optional<AxisSweep::View>> views_;  ///< each eye's
-  std::vector<std::optional<VoidShadow>> shadows_;     ///< of each eye, where ground without data hides
+  std::vector<std::optional<VoidShadow>> shadows_;  ///< of each eye, where ground without data hides
 };
 
 }  // namespace
 
 void look_around(const FullSurface& surface, const Observations& observations, const std::vector<Eye>& eyes,
-                 Result& result, Progress& progress) {
+                 const std::vector<AxisSweep::View>& views, Result& result, Progress& progress) {
   Observation::prepare(result);
-  const LookAround looks(surface, observations, eyes, result);
+  const LookAround looks(surface, observations, eyes, views, result);
   const std::size_t count = surface.tiles().cell_count();
   std::atomic<std::size_t> done = 0;
   std::vector<Tally> tallies(count);

@@ -12,10 +12,10 @@
 
 namespace itin::viewshed {
 
-/// Fills the result's rasters and counts; its request, of which the observations are, says in what mode, its grid is
-/// the surface's, and `crosses_voids` tells whether NoData::kBlock matters. Memory: 36 kB a thread and, where it does,
-/// what edges of voids each eye sees from behind. Throws Cancelled.
+/// `views` are the eyes'. Fills the result's rasters and counts; its request, of which the observations are, says in
+/// what mode, its grid is the surface's, and `crosses_voids` tells whether NoData::kBlock matters. Memory: 36 kB a
+/// thread and, where it does, what edges of voids each eye sees from behind. Throws Cancelled.
 void look_around(const FullSurface& surface, const Observations& observations, const std::vector<Eye>& eyes,
-                 Result& result, Progress& progress);
+                 const std::vector<AxisSweep::View>& views, Result& result, Progress& progress);
 
 }  // namespace itin::viewshed

@@ -104,6 +104,12 @@ class NearestObserver final : public Observation {
 
 std::uint64_t Observation::look(const TileLook& tile) {
   FullSurface::TileWork& work = tile.work;
+  if (work.unread) {
+    tile.for_each_cell([&](const Look& look) {
+      if (tile.eye.view.contains(look.dx, look.dy, look.dz)) enter(look.cell);
+    });
+    return 0;
+  }
   TileValues<std::uint8_t> values;
   values.fill(kOutside);
   tile.for_each_cell([&](const Look& look) {

@@ -13,6 +13,7 @@
 #include "certified_pass.hpp"
 #include "full_surface.hpp"
 #include "ground_tiles.hpp"
+#include "lattice_segments.hpp"
 #include "near_ground.hpp"
 #include "observation.hpp"
 #include "observer_raster.hpp"
@@ -30,6 +31,8 @@ constexpr std::uint64_t kBytesAPoint = 400;
 constexpr std::uint64_t kBytesAnEnvelopePoint = 2400;
 /// Of the rasters that hold what is known of every cell.
 constexpr std::uint64_t kBytesACell = 6;
+/// The rest is for the store's cache, and for what is freed but not given back.
+constexpr std::uint64_t kSegmentShare = 2;
 /// The coarse pass reads so much less than the full surface.
 constexpr std::uint64_t kCoarseShare = 12;
 
@@ -112,7 +115,7 @@ class InSegments {
     if (features_ && !request_.targets_on_surface) ground = triangulated(targets, ThemeChoice::none());
     Result& result = surveyed_.result;
     result.statistics.triangles += tin.triangles.size();
-    return {{std::move(tin), std::nullopt}, std::move(ground), request_.earth, result.grid, tiles_};
+    return {{std::move(tin), nullptr}, std::move(ground), request_.earth, result.grid, tiles_};
   }
 
   void retrieve_coarse() {
@@ -314,11 +317,14 @@ Surveyed compute_precise(const Store& store, const Request& request, const Preci
   whole.detail = Detail::tolerance(0);
   const Box box = box_of_window(store, request);
   const std::uint64_t memory = memory_beside_rasters(options.memory_bytes, cells_of(request, box).cell_count());
-  if (options.lattices)
+  const std::uint64_t points = store.points_about(0, box);
+  if (options.lattices && points <= memory / kBytesAPost)
     if (auto surveyed = compute_over_lattice(store, whole, memory / kBytesAPost, progress)) return std::move(*surveyed);
-  if (store.points_about(0, box) > options.memory_bytes / kBytesAPoint)
-    return InSegments(store, request, options, progress).run();
-  return compute_over_tin(store, whole, progress);
+  if (points <= options.memory_bytes / kBytesAPoint) return compute_over_tin(store, whole, progress);
+  if (options.lattices)
+    if (auto surveyed = compute_in_lattice_segments(store, whole, memory / kSegmentShare, progress))
+      return std::move(*surveyed);
+  return InSegments(store, request, options, progress).run();
 }
 
 }  // namespace itin::viewshed

@@ -14,17 +14,17 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 Quadrant::Quadrant(const BinnedHeights& bins, double axis_column, double axis_row, Side side)
     : bins_(bins),
       along_columns_(side == kEast || side == kWest),
-      runs_(along_columns_ ? bins.eastwards() : bins.southwards()),
+      runs_(along_columns_ ? bins.runs().eastwards() : bins.runs().southwards()),
       outward_(side == kEast || side == kSouth ? 1 : -1),
       major_(along_columns_ ? axis_column : axis_row),
       minor_(along_columns_ ? axis_row : axis_column),
       first_run_(static_cast<std::int64_t>(std::floor(major_ / static_cast<double>(kRun)))),
       lines_(along_columns_ ? bins.rows() : bins.columns()) {
   // From an axis beside the bins, those in front of it.
-  first_run_ = outward_ > 0 ? std::max<std::int64_t>(0, first_run_) : std::min(runs_.a_line - 1, first_run_);
+  first_run_ = outward_ > 0 ? std::max<std::int64_t>(0, first_run_) : std::min(runs_.a_line() - 1, first_run_);
   const double inside = major_ - static_cast<double>(first_run_) * static_cast<double>(kRun);
   first_end_ = outward_ > 0 ? static_cast<double>(kRun) - inside : inside;
-  const std::int64_t slabs = outward_ > 0 ? runs_.a_line - first_run_ : first_run_ + 1;
+  const std::int64_t slabs = outward_ > 0 ? runs_.a_line() - first_run_ : first_run_ + 1;
   per_end_.resize(static_cast<std::size_t>(std::max<std::int64_t>(0, slabs)));
   for (std::size_t k = 0; k < per_end_.size(); ++k) per_end_[k] = 1 / end(k);
 }
@@ -66,12 +66,11 @@ void SectorProfile::survey_highs(std::size_t block) {
   block_high_[block] = -kInfinity;
   std::fill_n(group_high_.begin() + static_cast<std::ptrdiff_t>(block * kBlock / kGroup), kBlock / kGroup, -kInfinity);
   const Quadrant& quadrant = sector_->quadrant();
-  const float* const highs = quadrant.runs().high.data();
   const std::size_t end = std::min(count_, (block + 1) * kBlock);
   sector_->for_each_slab(block * kBlock, end, [&](std::size_t k, std::int64_t first, std::int64_t last, bool) {
     // Ground that is bare beyond the bins counts for nothing, and a float's rounding is within the margin.
     float high = -kInfinity;
-    for (std::int64_t line = first; line <= last; ++line) high = std::max(high, highs[quadrant.run(k, line)]);
+    for (std::int64_t line = first; line <= last; ++line) high = std::max(high, quadrant.high(k, line));
     high_[k] = static_cast<float>(high - sector_->least_drop(k));
     group_high_[k / kGroup] = std::max(group_high_[k / kGroup], high_[k]);
     block_high_[block] = std::max(block_high_[block], high_[k]);

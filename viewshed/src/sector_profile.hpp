@@ -50,11 +50,10 @@ class Quadrant {
   /// Across a slab bins are numbered as columns or rows are; the axis itself stands at `minor()`.
   double minor() const { return minor_; }
   std::int64_t lines() const { return lines_; }
-  static constexpr std::size_t kRun = BinnedHeights::kRun;
-  const BinnedHeights::Runs& runs() const { return runs_; }
-  std::size_t run(std::size_t slab, std::int64_t line) const {
-    return static_cast<std::size_t>(line * runs_.a_line + run_of(slab));
-  }
+  static constexpr std::size_t kRun = RunBounds::kRun;
+  /// As RunBounds::Lines has them.
+  float low(std::size_t slab, std::int64_t line) const { return runs_.low(run_of(slab), line); }
+  float high(std::size_t slab, std::int64_t line) const { return runs_.high(run_of(slab), line); }
   /// The i-th bin of a run, nearest first; it reaches from begin(slab) + i one bin along. May lie just outside all
   /// bins.
   RasterGrid::Cell bin(std::size_t slab, std::size_t i, std::int64_t line) const {
@@ -69,7 +68,7 @@ class Quadrant {
 
   const BinnedHeights& bins_;
   bool along_columns_;
-  const BinnedHeights::Runs& runs_;
+  RunBounds::Lines runs_;
   std::int64_t outward_;
   double major_, minor_;
   std::int64_t first_run_, lines_;
@@ -173,7 +172,6 @@ void Sector::for_each_slab(std::size_t first_slab, std::size_t end, const Visit&
 
 template <class Visit>
 Sector::Hidden Sector::look_on(Hidden hidden, std::size_t end, const Visit& visit) const {
-  const float* const lows = quadrant_.runs().low.data();
   double per_begin = hidden.slab == 0 ? 0 : quadrant_.per_end(hidden.slab - 1);
   for_each_slab(hidden.slab, end, [&](std::size_t k, std::int64_t first, std::int64_t last, bool inside) {
     hidden.slab = k;
@@ -181,8 +179,8 @@ Sector::Hidden Sector::look_on(Hidden hidden, std::size_t end, const Visit& visi
     float low = inside ? std::numeric_limits<float>::infinity() : -std::numeric_limits<float>::infinity();
     // Each covers two lines.
     const std::int64_t last_pair = std::max(first, last - 1);
-    for (std::int64_t line = first + 2; line < last_pair; line += 2) low = std::min(low, lows[quadrant_.run(k, line)]);
-    low = std::min({low, lows[quadrant_.run(k, first)], lows[quadrant_.run(k, last_pair)]});
+    for (std::int64_t line = first + 2; line < last_pair; line += 2) low = std::min(low, quadrant_.low(k, line));
+    low = std::min({low, quadrant_.low(k, first), quadrant_.low(k, last_pair)});
     const double per_end = quadrant_.per_end(k);
     const double rise = low - greatest_drop(k) - axis_.margin - axis_.top;
     hidden.below = std::max(hidden.below, rise * (rise < 0 ? per_end : per_begin));

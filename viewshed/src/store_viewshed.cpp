@@ -4,7 +4,9 @@
 #include <viewshed/viewshed.hpp>
 
 #include "blocked_features.hpp"
+#include "near_ground.hpp"
 #include "request.hpp"
+#include "reveal.hpp"
 #include "stopwatch.hpp"
 
 namespace itin::viewshed {
@@ -27,7 +29,9 @@ std::optional<Surveyed> compute_over_lattice(const Store& store, const Request& 
                                              Progress& progress) {
   if (needs_tin(request)) return std::nullopt;
   Stopwatch watch;
-  auto surface = retrieve_lattice(store, window_of(request), request.detail, request.themes, most_posts, progress);
+  auto surface = retrieve_lattice(store, window_of(request), request.detail, request.themes,
+                                  heights_for(request, store.points_about(0, box_of_window(store, request))),
+                                  most_posts, progress);
   if (!surface) return std::nullopt;
   return survey(store, request, {std::move(*surface), std::nullopt, {}}, watch.lap(), progress);
 }

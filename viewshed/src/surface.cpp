@@ -8,16 +8,19 @@
 namespace itin::viewshed {
 
 std::optional<Surface> retrieve_lattice(const Store& store, const Window& window, const Detail& detail,
-                                        const ThemeChoice& themes, std::uint64_t most_posts, Progress& progress) {
+                                        const ThemeChoice& themes, LatticeReader::Heights heights,
+                                        std::uint64_t most_posts, Progress& progress) {
   if (level_within(store.metadata(), detail.coarsest()) != 0) return std::nullopt;
-  auto lattice = triangulate_lattice(store, window, themes, most_posts, progress);
+  auto lattice = LatticeReader::open(store, window, themes, heights, most_posts, progress);
   return lattice ? std::optional(Surface{{}, std::move(lattice)}) : std::nullopt;
 }
 
 Surface retrieve_surface(const Store& store, const Window& window, const Detail& detail, const ThemeChoice& themes,
                          std::uint64_t most_posts, Progress& progress) {
-  if (auto lattice = retrieve_lattice(store, window, detail, themes, most_posts, progress)) return std::move(*lattice);
-  return {triangulate(store, window, detail, progress, themes), std::nullopt};
+  if (auto lattice =
+          retrieve_lattice(store, window, detail, themes, LatticeReader::Heights::kAll, most_posts, progress))
+    return std::move(*lattice);
+  return {triangulate(store, window, detail, progress, themes), nullptr};
 }
 
 }  // namespace itin::viewshed

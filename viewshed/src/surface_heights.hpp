@@ -43,6 +43,8 @@ template <class T>
 using TileValues = std::array<T, Tile::kSide * Tile::kSide>;
 
 inline constexpr double kNoSurface = std::numeric_limits<double>::quiet_NaN();
+/// There is ground, but its height was not read, since no eye sees it.
+inline constexpr double kUnread = -std::numeric_limits<double>::infinity();
 
 /// Heights in grid units at the tile's cell centres, kNoSurface where no triangle lies. Each centre is given its height
 /// by the first of `triangles` that holds it; triangles are closed, so none falls between two.

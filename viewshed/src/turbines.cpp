@@ -94,8 +94,8 @@ std::optional<Surface> lattice_under(const Store& store, const Zone& zone, Progr
   std::uint64_t most_posts = kAnyLattice;
   if (const auto memory = zone.request.memory_bytes)
     most_posts = (*memory - std::min(*memory, bytes_of_results(zone))) / kBytesAPost;
-  return retrieve_lattice(store, window_of(zone.request), zone.request.detail, ThemeChoice::none(), most_posts,
-                          progress);
+  return retrieve_lattice(store, window_of(zone.request), zone.request.detail, ThemeChoice::none(),
+                          LatticeReader::Heights::kAll, most_posts, progress);
 }
 
 }  // namespace

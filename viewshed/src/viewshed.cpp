@@ -7,6 +7,7 @@
 #include "full_surface.hpp"
 #include "look_around.hpp"
 #include "request.hpp"
+#include "reveal.hpp"
 #include "stopwatch.hpp"
 #include "surface_heights.hpp"
 
@@ -22,10 +23,10 @@ void name_blockers(const Tin& tin, Result& result) {
 }
 
 /// One of the two is there; `bare` is null where ends stand on that.
-Result compute_on(const Tin* tin, const LatticeTin* lattice, const Tin* bare, const Request& request,
-                  Progress& progress) {
+Result compute_on(const Tin* tin, LatticeReader* reader, const Tin* bare, const Request& request, Progress& progress) {
   validate(request);
   Result result;
+  const LatticeTin* const lattice = reader != nullptr ? &reader->lattice() : nullptr;
   const Grid& units = lattice != nullptr ? lattice->grid : tin->grid;
   result.statistics.triangles = lattice != nullptr ? lattice->triangle_count() : tin->triangles.size();
   result.statistics.retrieval = lattice != nullptr ? lattice->statistics : tin->statistics;
@@ -35,12 +36,14 @@ Result compute_on(const Tin* tin, const LatticeTin* lattice, const Tin* bare, co
   progress.report("scene", 0);
   result.grid = cells_of(request, lattice != nullptr ? lattice->bounds() : tin->bounds());
   const RasterGrid tiles = grid_of_tiles(result.grid);
-  const FullSurface surface = lattice != nullptr ? FullSurface(*lattice, request.earth, result.grid, tiles)
-                                                 : FullSurface(*tin, request.targets_on_surface ? nullptr : bare,
-                                                               request.earth, result.grid, tiles);
+  if (reader != nullptr && asks_for_all_heights(request)) reader->read_all();
+  FullSurface surface = lattice != nullptr ? FullSurface(*lattice, request.earth, result.grid, tiles)
+                                           : FullSurface(*tin, request.targets_on_surface ? nullptr : bare,
+                                                         request.earth, result.grid, tiles);
   std::vector<Eye> eyes;
   for (const Observer& observer : request.observers) {
     const bool raised = request.observers_on_surface || bare == nullptr;
+    if (reader != nullptr) reveal_place(observer.position, *reader, surface);
     const auto height = raised ? surface.height(observer.position) : height_on(*bare, observer.position);
     eyes.push_back(eye_of(units, request, observer, height));
     result.ground_m.push_back(*height);
@@ -48,7 +51,10 @@ Result compute_on(const Tin* tin, const LatticeTin* lattice, const Tin* bare, co
   look_for_voids(units, surface.rim(), result);
   result.statistics.scene_seconds = watch.lap();
   const Observations observations = lattice != nullptr ? Observations(request) : Observations(request, *tin);
-  look_around(surface, observations, eyes, result, progress);
+  std::vector<AxisSweep::View> views;
+  for (const Eye& eye : eyes)
+    views.push_back(reader != nullptr ? reveal(eye, *reader, surface).value() : surface.view_from(eye));
+  look_around(surface, observations, eyes, views, result, progress);
   if (request.mode == Mode::kBlocker) name_blockers(*tin, result);
   result.statistics.rays_seconds = watch.lap();
   return result;
@@ -65,7 +71,7 @@ Result compute(const Tin& tin, const Tin& ground, const Request& request, Progre
 }
 
 Result compute(const Surface& surface, const Tin* ground, const Request& request, Progress& progress) {
-  return compute_on(&surface.tin, surface.lattice ? &*surface.lattice : nullptr, ground, request, progress);
+  return compute_on(&surface.tin, surface.lattice.get(), ground, request, progress);
 }
 
 }  // namespace itin::viewshed

@@ -29,7 +29,7 @@ bool VoidShadow::reaches(const Vector& line, const Vector& place) {
 }
 
 VoidShadow::VoidShadow(const std::vector<RimEdge>& rim, const Point3& eye) : eye_(eye) {
-  const auto from_eye = [&](const GridPoint& p) { return Vector{p.x - eye.x, p.y - eye.y}; };
+  const auto from_eye = [&](const GridPlace& p) { return Vector{p.x - eye.x, p.y - eye.y}; };
   // The surface lies to the left: seen from its right side it begins here.
   const auto faces_away = [](const Edge& edge) { return cross(edge.from, edge.to) < 0; };
   for (const RimEdge& edge : rim) edges_.push_back({from_eye(edge.from), from_eye(edge.to)});

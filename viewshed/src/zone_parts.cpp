@@ -11,10 +11,10 @@
 
 #include <fmt/format.h>
 
-#include <itin/convex_hull.hpp>
 #include <itin/error.hpp>
 
 #include "envelope.hpp"
+#include "hulls.hpp"
 #include "request.hpp"
 #include "surface_heights.hpp"
 
@@ -41,21 +41,6 @@ Window::Polygon box_about(const std::vector<Window::Polygon>& parts, Point2 rada
   for (const Window::Polygon& part : parts)
     for (const Point2& p : part.outer) box.extend(p);
   return {{{box.xmin, box.ymin}, {box.xmax, box.ymin}, {box.xmax, box.ymax}, {box.xmin, box.ymax}}, {}};
-}
-
-double left_of(Point2 a, Point2 b, Point2 p) {
-  return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
-}
-
-std::vector<Point2> hull_of(std::vector<Point2> points) {
-  return convex_hull(
-      std::move(points), [](Point2 a, Point2 b) { return std::pair(a.x, a.y) < std::pair(b.x, b.y); },
-      [](Point2 a, Point2 b, Point2 c) { return left_of(a, b, c) > 0; });
-}
-
-void add_corners(const Box& box, std::vector<Point2>& points) {
-  for (const double x : {box.xmin, box.xmax})
-    for (const double y : {box.ymin, box.ymax}) points.push_back({x, y});
 }
 
 /// How many points a query reads of convex polygons, about.

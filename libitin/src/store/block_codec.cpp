@@ -5,6 +5,8 @@
 #include <bit>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "store/bit_stream.hpp"
 #include "store/byte_stream.hpp"
@@ -304,38 +306,69 @@ std::vector<std::uint8_t> encode_block(const Cell& cell, std::span<const GridPoi
   return out;
 }
 
-Block decode_block(const Cell& cell, std::span<const std::uint8_t> bytes, BlockOrder order) {
+namespace {
+
+// What a block is coded by, and where its points are.
+struct Plan {
+  Lattice lattice;
+  std::uint64_t step_z;
+  std::int64_t first_z;
+  int first_rice;
+  std::vector<std::uint16_t> sources;
+  std::vector<std::uint8_t> padded;
+  std::vector<Local> positions;
+  std::optional<BitReader> heights;  // of `padded`, before the first residual
+};
+
+Plan read_plan(const Cell& cell, std::span<const std::uint8_t> bytes) {
   ByteReader header(bytes);
   const auto count = static_cast<std::size_t>(header.varint(1, kMaxBlockPoints));
-  Lattice lattice = read_lattice(header, cell);
-  const std::uint64_t step_z = header.varint(1, std::uint64_t{1} << 32);
-  read_lattice_origin(header, cell, lattice);
-  const std::int64_t first_z = checked_height(header.signed_varint());
+  Plan plan{read_lattice(header, cell), 0, 0, 0, {}, {}, {}, {}};
+  plan.step_z = header.varint(1, std::uint64_t{1} << 32);
+  read_lattice_origin(header, cell, plan.lattice);
+  plan.first_z = checked_height(header.signed_varint());
   const auto gap_rice = static_cast<int>(header.varint(0, kMaxRiceParameter));
-  const auto first_rice = static_cast<int>(header.varint(0, kMaxRiceParameter));
-  Block block;
-  block.sources = read_sources(header, count);
+  plan.first_rice = static_cast<int>(header.varint(0, kMaxRiceParameter));
+  plan.sources = read_sources(header, count);
+  plan.padded.reserve(header.rest().size() + BitReader::kPadding);
+  plan.padded.assign(header.rest().begin(), header.rest().end());
+  plan.padded.resize(plan.padded.size() + BitReader::kPadding);
+  BitReader bits(plan.padded);
+  plan.positions = read_positions(bits, count, gap_rice, cell, plan.lattice);
+  plan.heights = bits;
+  return plan;
+}
 
-  std::vector<std::uint8_t> padded(header.rest().begin(), header.rest().end());
-  padded.resize(padded.size() + BitReader::kPadding);
-  BitReader bits(padded);
-  std::vector<Local> positions = read_positions(bits, count, gap_rice, cell, lattice);
-  block.points = plan_points(cell, lattice, positions);
-  block.points[0].z = static_cast<std::int32_t>(first_z);
-  const std::int64_t most_steps = (std::int64_t{1} << 32) / static_cast<std::int64_t>(step_z);
-  ResidualScale scale(first_rice);
-  for_each_prediction(std::move(positions), [&](std::size_t i, std::int64_t prediction) {
+}  // namespace
+
+Block decode_plan(const Cell& cell, std::span<const std::uint8_t> bytes) {
+  const Plan plan = read_plan(cell, bytes);
+  Block block;
+  block.points = plan_points(cell, plan.lattice, plan.positions);
+  return block;
+}
+
+Block decode_block(const Cell& cell, std::span<const std::uint8_t> bytes, BlockOrder order) {
+  Plan plan = read_plan(cell, bytes);
+  BitReader bits = *plan.heights;
+  Block block;
+  block.sources = std::move(plan.sources);
+  block.points = plan_points(cell, plan.lattice, plan.positions);
+  block.points[0].z = static_cast<std::int32_t>(plan.first_z);
+  const std::int64_t most_steps = (std::int64_t{1} << 32) / static_cast<std::int64_t>(plan.step_z);
+  ResidualScale scale(plan.first_rice);
+  for_each_prediction(std::move(plan.positions), [&](std::size_t i, std::int64_t prediction) {
     const std::uint64_t residual = bits.rice(scale.parameter());
     scale.add(residual);
     // Only heights whose product with the step is a 32-bit difference may be multiplied.
     const auto height = static_cast<std::int64_t>(static_cast<std::uint64_t>(prediction) +
                                                   static_cast<std::uint64_t>(unzigzag(residual)));
     if (height < -most_steps || height > most_steps) throw DecodeError("a height is out of range");
-    block.points[i].z = checked_height(first_z + height * static_cast<std::int64_t>(step_z));
+    block.points[i].z = checked_height(plan.first_z + height * static_cast<std::int64_t>(plan.step_z));
     return height;
   });
   if (!bits.finished_cleanly()) throw DecodeError("points end too early or too late");
-  if (order == BlockOrder::kMorton && !lattice.scattered()) sort_lattice_points(cell, lattice, block.points);
+  if (order == BlockOrder::kMorton && !plan.lattice.scattered()) sort_lattice_points(cell, plan.lattice, block.points);
   return block;
 }
 

@@ -78,6 +78,8 @@ class PointIndex {
   virtual std::shared_ptr<const Block> block(const Leaf& leaf) const = 0;
   /// The same in any order, for those who will not ask again: nothing is kept for the next time.
   virtual std::shared_ptr<const Block> block_once(const Leaf& leaf) const { return block(leaf); }
+  /// The same, of its points only where they are in the plane: what their heights come out as does not count.
+  virtual std::shared_ptr<const Block> plan_once(const Leaf& leaf) const { return block_once(leaf); }
 
   /// Appends every segment that meets `box`, of the coverage and of all themes, at all levels, and perhaps others
   /// nearby; the same one may come twice.

@@ -134,6 +134,14 @@ std::shared_ptr<const Block> StoreFile::block_once(const Leaf& leaf) const {
   return std::make_shared<const Block>(read_block(leaf, BlockOrder::kAny));
 }
 
+std::shared_ptr<const Block> StoreFile::plan_once(const Leaf& leaf) const {
+  return at_place(rows_.path(), format::place("block", leaf.key), [&] {
+    auto block = std::make_shared<const Block>(decode_plan(leaf.cell, rows_.read(BlobKind::Block, leaf.key)));
+    if (block->points.size() != leaf.points) throw DecodeError("does not agree with its directory");
+    return block;
+  });
+}
+
 void StoreFile::segments(const GridBox& box, std::vector<Segment>& out) const {
   for (auto tree = chunks_.lower_bound(format::kFirstEdgeTree); tree != chunks_.end(); ++tree)
     segments(tree->first, box, out);

@@ -27,6 +27,7 @@ class StoreFile final : public PointIndex {
   void leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const override;
   std::shared_ptr<const Block> block(const Leaf& leaf) const override;
   std::shared_ptr<const Block> block_once(const Leaf& leaf) const override;
+  std::shared_ptr<const Block> plan_once(const Leaf& leaf) const override;
   void segments(const GridBox& box, std::vector<Segment>& out) const override;
 
   /// One of the theme's footprint blocks.

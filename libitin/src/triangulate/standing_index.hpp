@@ -29,6 +29,9 @@ class StandingIndex final : public PointIndex {
   std::shared_ptr<const Block> block_once(const Leaf& leaf) const override {
     return any_ ? block(leaf) : base_.block_once(leaf);
   }
+  std::shared_ptr<const Block> plan_once(const Leaf& leaf) const override {
+    return any_ ? block(leaf) : base_.plan_once(leaf);
+  }
   void segments(const GridBox& box, std::vector<Segment>& out) const override;
 
  private:

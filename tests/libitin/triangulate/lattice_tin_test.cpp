@@ -9,6 +9,7 @@
 
 #include <itin/error.hpp>
 #include <itin/import.hpp>
+#include <itin/lattice_reader.hpp>
 #include <itin/lattice_tin.hpp>
 #include <itin/store.hpp>
 #include <itin/topology.hpp>
@@ -49,7 +50,7 @@ std::vector<Corners> triangles_of(const Tin& tin) {
 
 std::vector<Corners> triangles_of(const LatticeTin& lattice) {
   std::vector<std::uint32_t> numbers;
-  for (std::size_t cell = 0; cell < lattice.halves.size(); ++cell)
+  for (std::uint32_t cell = 0; cell < lattice.tiles.size() * LatticeTin::kCells; ++cell)
     lattice.for_each_triangle(cell, [&](std::uint32_t t) {
       EXPECT_EQ(t / 2, cell);
       numbers.push_back(t);
@@ -59,7 +60,7 @@ std::vector<Corners> triangles_of(const LatticeTin& lattice) {
   return sorted_triangles(lattice, numbers);
 }
 
-using Edge = std::pair<GridPoint, GridPoint>;
+using Edge = std::pair<GridPlace, GridPlace>;
 
 std::vector<Edge> rim_of(const LatticeTin& lattice) {
   std::vector<Edge> edges;
@@ -68,13 +69,17 @@ std::vector<Edge> rim_of(const LatticeTin& lattice) {
   return edges;
 }
 
+GridPlace place_of(const GridPoint& p) {
+  return {p.x, p.y};
+}
+
 std::vector<Edge> rim_of(const Tin& tin) {
   std::vector<Edge> edges;
   const auto adjacent = adjacent_triangles(tin);
   for (std::uint32_t t = 0; t < adjacent.size(); ++t) {
     const Corners corners = tin.corners(t);
     for (std::size_t i = 0; i < 3; ++i)
-      if (adjacent[t][i] == kNoNeighbour) edges.emplace_back(corners[i], corners[(i + 1) % 3]);
+      if (adjacent[t][i] == kNoNeighbour) edges.emplace_back(place_of(corners[i]), place_of(corners[(i + 1) % 3]));
   }
   std::sort(edges.begin(), edges.end());
   return edges;
@@ -148,10 +153,30 @@ class TriangulateLattice : public testing::Test {
     EXPECT_EQ(triangles_of(*lattice), triangles_of(tin));
     EXPECT_EQ(rim_of(*lattice), rim_of(tin));
     EXPECT_EQ(lattice->bounds(), tin.bounds());
+    read_in_parts(store, window, themes, tin);
     const Tin listed = lattice->tin();
     EXPECT_EQ(listed.vertices, tin.vertices);
     EXPECT_EQ(listed.triangles, tin.triangles);
     return true;
+  }
+
+  /// Heights that are read later come out the same, and bounds tell no less.
+  void read_in_parts(const Store& store, const Window& window, const ThemeChoice& themes, const Tin& tin) {
+    const auto reader = LatticeReader::open(store, window, themes, LatticeReader::Heights::kNone, kAny, progress_);
+    ASSERT_TRUE(reader);
+    const LatticeTin& lattice = reader->lattice();
+    EXPECT_EQ(lattice.triangle_count(), tin.triangles.size());
+    EXPECT_EQ(rim_of(lattice), rim_of(tin));
+    const auto tile = static_cast<std::uint32_t>(random_() % lattice.tiles.size());
+    reader->read(std::vector{tile});
+    EXPECT_EQ(lattice.tiles[tile].heights != nullptr, lattice.tiles[tile].ground != LatticeTin::Ground::kNone);
+    reader->read_all();
+    EXPECT_EQ(triangles_of(lattice), triangles_of(tin));
+    for (std::uint32_t cell = 0; cell < lattice.tiles.size() * LatticeTin::kCells; ++cell)
+      lattice.for_each_triangle(cell, [&](std::uint32_t t) {
+        for (const GridPoint& p : lattice.corners(t)) EXPECT_LE(p.z, reader->highest(cell / LatticeTin::kCells));
+        return true;
+      });
   }
 
   Point2 place(double extent) {
@@ -192,12 +217,12 @@ TEST_F(TriangulateLattice, IsTheTriangulationOfEveryWindowOfARaster) {
   for (const double share : {0.0, 0.03, 0.3}) {
     std::filesystem::remove(path("s.itin"));
     std::bernoulli_distribution absent(share);
-    add_raster({kWest, kNorth, kStep, 60, 60, 27700}, [&](int c, int r) {
-      const bool hole = std::hypot(c - 20, r - 33) < 9 || absent(random_);
+    add_raster({kWest, kNorth, kStep, 150, 150, 27700}, [&](int c, int r) {
+      const bool hole = std::hypot(c - 70, r - 80) < 9 || absent(random_);
       return share > 0 && hole ? NAN : noise(c, r);
     });
     int lattices = 0;
-    for (int i = 0; i < 40; ++i) lattices += compare(random_window(60 * kStep)) ? 1 : 0;
+    for (int i = 0; i < 40; ++i) lattices += compare(random_window(150 * kStep)) ? 1 : 0;
     EXPECT_TRUE(compare(Window::all()));
     EXPECT_GE(lattices, 12) << share;
   }

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include <itin/detail.hpp>
-#include <itin/lattice_tin.hpp>
+#include <itin/lattice_reader.hpp>
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
 #include <itin/theme.hpp>
@@ -15,14 +16,17 @@
 namespace itin::viewshed {
 
 struct Surface {
-  Tin tin;                            ///< empty where the surface is a lattice, until it is listed
-  std::optional<LatticeTin> lattice;  ///< else nothing
+  Tin tin;                                 ///< empty where the surface is a lattice, until it is listed
+  std::unique_ptr<LatticeReader> lattice;  ///< else null
 
-  std::size_t triangle_count() const { return lattice ? lattice->triangle_count() : tin.triangles.size(); }
-  const RetrievalStatistics& statistics() const { return lattice ? lattice->statistics : tin.statistics; }
+  std::size_t triangle_count() const { return lattice ? lattice->lattice().triangle_count() : tin.triangles.size(); }
+  const RetrievalStatistics& statistics() const { return lattice ? lattice->lattice().statistics : tin.statistics; }
   /// Every triangle, also of a lattice.
   const Tin& listed() {
-    if (lattice && tin.triangles.empty()) tin = lattice->tin();
+    if (lattice && tin.triangles.empty()) {
+      lattice->read_all();
+      tin = lattice->lattice().tin();
+    }
     return tin;
   }
 };
@@ -36,8 +40,9 @@ inline constexpr std::uint64_t kBytesAPost = 9;
 Surface retrieve_surface(const Store& store, const Window& window, const Detail& detail, const ThemeChoice& themes,
                          std::uint64_t most_posts, Progress& progress);
 
-/// The same, or nothing where it is no such lattice.
+/// The same, or nothing where it is no such lattice. Without heights they are read later on, while the store is open.
 std::optional<Surface> retrieve_lattice(const Store& store, const Window& window, const Detail& detail,
-                                        const ThemeChoice& themes, std::uint64_t most_posts, Progress& progress);
+                                        const ThemeChoice& themes, LatticeReader::Heights heights,
+                                        std::uint64_t most_posts, Progress& progress);
 
 }  // namespace itin::viewshed

@@ -192,7 +192,7 @@ class SiteCoverage::Impl {
     if (themed_ || survey_.fresnel || !survey_.targets.grid) return false;
     Stopwatch watch;
     whole_lattice_ = retrieve_lattice(store_, window_of(all_options()), Detail::tolerance(0), ThemeChoice::none(),
-                                      memory() / kBytesAPost, progress_);
+                                      LatticeReader::Heights::kAll, memory() / kBytesAPost, progress_);
     statistics_.retrieval_seconds += watch.lap();
     return whole_lattice_.has_value();
   }

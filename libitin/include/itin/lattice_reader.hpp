@@ -1,0 +1,59 @@
+// The surface of a window that is a lattice (lattice_tin.hpp), whose heights are read where they are asked for.
+//
+//   if (const auto reader = LatticeReader::open(store, window, themes, LatticeReader::Heights::kNone, most, progress))
+//   {
+//     reader->read(tiles);                       // by their number in reader->lattice().tiles
+//     ...
+//   }
+//
+// That it is a lattice, and where ground is, is known and proved from the first; and of each tile how high its posts
+// are at most.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include <itin/lattice_tin.hpp>
+#include <itin/progress.hpp>
+#include <itin/store.hpp>
+#include <itin/theme.hpp>
+#include <itin/window.hpp>
+
+namespace itin {
+
+class LatticeReader {
+ public:
+  /// Of tiles with ground.
+  enum class Heights : std::uint8_t { kNone, kAll };
+
+  /// As triangulate_lattice(): nothing where that is none. The store must outlive it. Cost: all heights about twice
+  /// what it takes to do without them.
+  static std::unique_ptr<LatticeReader> open(const Store& store, const Window& window, const ThemeChoice& themes,
+                                             Heights heights, std::uint64_t most_posts, Progress& progress);
+  /// Whether that may be one: what a few blocks tell.
+  static bool may_open(const Store& store, const Window& window, const ThemeChoice& themes, std::uint64_t most_posts);
+  ~LatticeReader();
+  LatticeReader(const LatticeReader&) = delete;
+  LatticeReader& operator=(const LatticeReader&) = delete;
+
+  const LatticeTin& lattice() const;
+  /// Ends it.
+  LatticeTin take();
+
+  /// No post of the tile is higher, grid units. Told where it was opened without heights.
+  std::int32_t highest(std::uint32_t tile) const;
+
+  /// Reads the heights of tiles with ground that have none yet. Cost: their blocks, of which those at their borders may
+  /// have been read before. Not for several threads at once; uses all itself.
+  void read(std::span<const std::uint32_t> tiles);
+  /// All that are left.
+  void read_all();
+
+ private:
+  class Work;
+  explicit LatticeReader(std::unique_ptr<Work> work);
+  std::unique_ptr<Work> work_;
+};
+
+}  // namespace itin

@@ -1,0 +1,332 @@
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <itin/lattice_reader.hpp>
+#include <itin/parallel.hpp>
+
+#include "triangulate/grid_window.hpp"
+#include "triangulate/lattice_cover.hpp"
+#include "triangulate/selection.hpp"
+#include "triangulate/standing_index.hpp"
+
+namespace itin {
+
+namespace {
+
+/// Of a lattice's posts at least one in so many is there; what has no heights takes less.
+constexpr std::uint64_t kEmptiest = 4, kEmptiestWithoutHeights = 64;
+/// So many of the fullest leaves tell the lattice.
+constexpr std::size_t kSamples = 8;
+constexpr std::size_t kLeavesATask = 64;
+constexpr std::int64_t kStrips = 32;
+/// Of leaves, posts. Those of wider ones are looked at when it is told how high a tile is: they say little about it.
+constexpr std::int64_t kWidestToBound = LatticeTin::kSide / 2;
+constexpr std::uint32_t kMostTiles = (std::uint32_t{1} << 31) / LatticeTin::kCells - 1;
+
+}  // namespace
+
+class LatticeReader::Work {
+ public:
+  /// Refers to the store.
+  Work(const Store& store, const Window& window, const ThemeChoice& themes)
+      : selection_(selection_of(store.metadata(), Detail::tolerance(0), themes)),
+        index_(store, selection_),
+        whole_(window),
+        window_(whole_, store.metadata().grid, index_.bounds()) {
+    lattice_.grid = store.metadata().grid;
+  }
+
+  /// Where it would be; of no ground yet.
+  bool find_lattice(Heights heights, std::uint64_t most_posts);
+  bool open(Heights heights, std::uint64_t most_posts, Progress& progress);
+  void read(std::span<const std::uint32_t> tiles);
+
+  LatticeTin lattice_;
+  std::vector<std::int32_t> highest_;  ///< of tiles; none where all heights were read at once
+
+ private:
+  std::vector<Leaf> leaves_about(double margin) const;
+  bool read_posts(Heights heights, Progress& progress);
+  bool place(const Leaf& leaf, Heights heights);
+  bool bounded() const;
+  bool bounds_well(const Leaf& leaf) const {
+    return std::int64_t{1} << leaf.cell.log2_side <= kWidestToBound * lattice_.spacing;
+  }
+  template <class Visit>
+  void for_each_tile(const Leaf& leaf, const Visit& visit) const;
+  void list_leaves_of_tiles();
+
+  /// Column and row of the place on the lattice at a point, or to its north-west; nothing beyond the lattice.
+  struct Place {
+    std::uint32_t column, row;
+    bool post;  ///< it lies there itself
+  };
+  std::optional<Place> place_of(const GridPoint& p) const {
+    const auto spacing = static_cast<std::uint32_t>(lattice_.spacing);
+    // What lies beyond the lattice comes out as far too much.
+    const auto east = static_cast<std::uint32_t>(p.x - lattice_.west),
+               south = static_cast<std::uint32_t>(lattice_.north - p.y);
+    const std::uint32_t column = east / spacing, row = south / spacing;
+    if (column >= lattice_.columns || row >= lattice_.rows) return std::nullopt;
+    return Place{column, row, column * spacing == east && row * spacing == south};
+  }
+
+  Selection selection_;
+  StandingIndex index_;
+  Window whole_;
+  GridWindow window_;
+  std::vector<Leaf> leaves_;
+  std::optional<LatticeCover> cover_;  ///< while it is being opened
+  std::vector<bool> being_read_;       ///< of tiles
+  // Of tile t: leaves_[leaf_of_tile_[i]] with i in [first_leaf_[t], first_leaf_[t + 1]).
+  std::vector<std::uint32_t> first_leaf_, leaf_of_tile_;
+};
+
+/// Those that may have points within a margin of the window. By strips, for the box of a window has more.
+std::vector<Leaf> LatticeReader::Work::leaves_about(double margin) const {
+  const GridBox all = expanded(window_.bounds(), margin);
+  std::vector<Leaf> leaves, of_strip;
+  const std::int64_t height = (std::int64_t{all.ymax} - all.ymin) / kStrips + 1;
+  for (std::int64_t first = all.ymin; first <= all.ymax; first += height) {
+    GridBox strip = all;
+    strip.ymin = static_cast<std::int32_t>(first);
+    strip.ymax = static_cast<std::int32_t>(std::min<std::int64_t>(all.ymax, first + height - 1));
+    of_strip.clear();
+    selected_leaves(index_, selection_, strip, of_strip);
+    for (const Leaf& leaf : of_strip) {
+      const bool new_here = first == all.ymin || leaf.cell.box().ymin >= first;
+      if (new_here && (whole_.is_all() || window_.meets(expanded(leaf.cell.box(), margin)))) leaves.push_back(leaf);
+    }
+  }
+  return leaves;
+}
+
+bool LatticeReader::Work::find_lattice(Heights heights, std::uint64_t most_posts) {
+  const auto is_terrain = [](const Leaf& leaf) { return leaf.theme == 0; };
+  std::vector<Leaf> leaves = leaves_about(0);
+  if (leaves.empty() || !std::all_of(leaves.begin(), leaves.end(), is_terrain)) return false;
+  std::vector<Leaf> fullest(std::min(kSamples, leaves.size()));
+  std::partial_sort_copy(leaves.begin(), leaves.end(), fullest.begin(), fullest.end(),
+                         [](const Leaf& a, const Leaf& b) { return a.points > b.points; });
+  std::int64_t spacing = 0;
+  std::optional<GridPoint> first;
+  for (const Leaf& leaf : fullest) {
+    for (const GridPoint& p : index_.block(leaf)->points) {
+      if (!window_.bounds().contains(p.x, p.y)) continue;
+      if (!first) first = p;
+      spacing = std::gcd(std::gcd(spacing, std::int64_t{p.x} - first->x), std::int64_t{p.y} - first->y);
+    }
+  }
+  if (spacing == 0) return false;
+  const GridPoint origin = *first;
+  const auto margin = static_cast<double>(spacing);
+  leaves = leaves_about(margin);
+  if (!std::all_of(leaves.begin(), leaves.end(), is_terrain)) return false;
+  // Whole cells about what there is, and a bare one all around.
+  const GridBox box = intersection(expanded(window_.bounds(), margin), index_.bounds());
+  if (box.empty()) return false;
+  const auto floor_of = [&](std::int64_t v) { return v - ((v % spacing) + spacing) % spacing; };
+  const std::int64_t west = floor_of(std::int64_t{box.xmin} - origin.x) - spacing,
+                     east = -floor_of(origin.x - std::int64_t{box.xmax}) + spacing,
+                     south = floor_of(std::int64_t{box.ymin} - origin.y) - spacing,
+                     north = -floor_of(origin.y - std::int64_t{box.ymax}) + spacing;
+  lattice_.spacing = static_cast<std::int32_t>(spacing);
+  lattice_.west = static_cast<std::int32_t>(origin.x + west);
+  lattice_.north = static_cast<std::int32_t>(origin.y + north);
+  lattice_.columns = static_cast<std::uint32_t>((east - west) / spacing + 1);
+  lattice_.rows = static_cast<std::uint32_t>((north - south) / spacing + 1);
+  const std::uint64_t tiles = std::uint64_t{lattice_.tile_columns()} * lattice_.tile_rows();
+  if (tiles > kMostTiles) return false;
+  std::uint64_t points = 0;
+  for (const Leaf& leaf : leaves) points += leaf.points;
+  lattice_.tiles.resize(tiles);
+  cover_.emplace(lattice_, window_, whole_.is_all());
+  const std::uint64_t emptiest = heights == Heights::kAll ? kEmptiest : kEmptiestWithoutHeights;
+  if (cover_->most_posts() >
+      std::min(most_posts, emptiest * points + 4 * (std::uint64_t{lattice_.columns} + lattice_.rows)))
+    return false;
+  leaves_ = std::move(leaves);
+  return true;
+}
+
+bool LatticeReader::Work::open(Heights heights, std::uint64_t most_posts, Progress& progress) {
+  if (!find_lattice(heights, most_posts)) return false;
+  if (heights == Heights::kAll) {
+    for (std::uint32_t t = 0; t < lattice_.tiles.size(); ++t)
+      if (cover_->reaches(t)) lattice_.make_heights(t);
+  } else {
+    highest_.assign(lattice_.tiles.size(), std::numeric_limits<std::int32_t>::min());
+  }
+  if (!read_posts(heights, progress)) return false;
+  cover_->join();
+  if (!bounded()) return false;
+  cover_->cut();
+  cover_.reset();
+  if (heights == Heights::kNone) list_leaves_of_tiles();
+  return true;
+}
+
+/// False where one among them lies off the lattice.
+bool LatticeReader::Work::read_posts(Heights heights, Progress& progress) {
+  const std::size_t tasks = (leaves_.size() + kLeavesATask - 1) / kLeavesATask;
+  std::atomic<bool> odd = false;
+  std::atomic<std::size_t> done = 0;
+  parallel_for(tasks, [&](std::size_t task) {
+    progress.throw_if_cancelled();
+    const std::size_t end = std::min(leaves_.size(), (task + 1) * kLeavesATask);
+    for (std::size_t i = task * kLeavesATask; i < end && !odd; ++i)
+      if (!place(leaves_[i], heights)) odd = true;
+    progress.report("reading", static_cast<double>(++done) / static_cast<double>(tasks));
+  });
+  lattice_.lowest = std::numeric_limits<std::int32_t>::max(), lattice_.highest = -lattice_.lowest;
+  for (const Leaf& leaf : leaves_) {
+    lattice_.statistics += {leaf.points, 1};
+    lattice_.lowest = std::min(lattice_.lowest, leaf.zmin), lattice_.highest = std::max(lattice_.highest, leaf.zmax);
+  }
+  return !odd;
+}
+
+bool LatticeReader::Work::place(const Leaf& leaf, Heights heights) {
+  const auto rise = [&](std::uint32_t tile, std::int32_t z) {
+    const std::atomic_ref<std::int32_t> highest(highest_[tile]);
+    for (std::int32_t now = highest; now < z && !highest.compare_exchange_weak(now, z);) continue;
+  };
+  const bool plan = heights == Heights::kNone && bounds_well(leaf);
+  if (plan) for_each_tile(leaf, [&](std::uint32_t tile) { rise(tile, leaf.zmax); });
+  const auto block = plan                        ? index_.plan_once(leaf)
+                     : heights == Heights::kNone ? index_.block(leaf)
+                                                 : index_.block_once(leaf);
+  for (const GridPoint& p : block->points) {
+    const auto place = place_of(p);
+    if (!place) continue;
+    if (!place->post) {
+      if (cover_->near_known(place->column, place->row)) return false;
+      continue;
+    }
+    cover_->add(place->column, place->row);
+    if (heights == Heights::kAll) {
+      lattice_.for_each_tile_of(place->column, place->row, [&](std::uint32_t tile, std::uint32_t post) {
+        if (cover_->reaches(tile)) (*lattice_.tiles[tile].heights)[post] = p.z;
+      });
+    } else if (!plan) {
+      lattice_.for_each_tile_of(place->column, place->row, [&](std::uint32_t tile, std::uint32_t) { rise(tile, p.z); });
+    }
+  }
+  return true;
+}
+
+bool LatticeReader::Work::bounded() const {
+  std::vector<Segment> segments;
+  index_.segments(expanded(window_.bounds(), lattice_.spacing), segments);
+  std::erase_if(segments, [&](const Segment& s) { return !selection_.selects(s); });
+  if (std::any_of(segments.begin(), segments.end(), [](const Segment& s) { return s.theme != kCoverage; }) ||
+      !cover_->ends_at(segments))
+    return false;
+  // What is known of each part hangs together with halves that are there.
+  if (whole_.parts().size() < 2) return cover_->any();
+  return std::all_of(whole_.parts().begin(), whole_.parts().end(), [&](const Window::Polygon& polygon) {
+    return cover_->reaches(GridWindow(Window::polygons({polygon}), lattice_.grid, index_.bounds()));
+  });
+}
+
+/// Calls visit(tile) for every tile that may have posts of the leaf.
+template <class Visit>
+void LatticeReader::Work::for_each_tile(const Leaf& leaf, const Visit& visit) const {
+  const GridBox box = leaf.cell.box();
+  // The tile of a post reaches up to the post itself, from the west and the north.
+  const auto first = [&](std::int64_t units) {
+    return std::max<std::int64_t>(0, (units - 1) / lattice_.spacing) / LatticeTin::kSide;
+  };
+  const auto last = [&](std::int64_t units, std::uint32_t count) {
+    return std::min<std::int64_t>(units / lattice_.spacing / LatticeTin::kSide, std::int64_t{count} - 1);
+  };
+  if (std::int64_t{box.xmax} < lattice_.west || std::int64_t{box.ymin} > lattice_.north) return;
+  const std::int64_t first_column = first(std::int64_t{box.xmin} - lattice_.west),
+                     last_column = last(std::int64_t{box.xmax} - lattice_.west, lattice_.tile_columns()),
+                     last_row = last(std::int64_t{lattice_.north} - box.ymin, lattice_.tile_rows());
+  for (std::int64_t row = first(std::int64_t{lattice_.north} - box.ymax); row <= last_row; ++row)
+    for (std::int64_t column = first_column; column <= last_column; ++column)
+      visit(static_cast<std::uint32_t>(row * lattice_.tile_columns() + column));
+}
+
+void LatticeReader::Work::list_leaves_of_tiles() {
+  first_leaf_.assign(lattice_.tiles.size() + 1, 0);
+  for (const Leaf& leaf : leaves_) for_each_tile(leaf, [&](std::uint32_t tile) { ++first_leaf_[tile + 1]; });
+  std::partial_sum(first_leaf_.begin(), first_leaf_.end(), first_leaf_.begin());
+  leaf_of_tile_.resize(first_leaf_.back());
+  std::vector<std::uint32_t> next(first_leaf_.begin(), first_leaf_.end() - 1);
+  for (std::uint32_t i = 0; i < leaves_.size(); ++i)
+    for_each_tile(leaves_[i], [&](std::uint32_t tile) { leaf_of_tile_[next[tile]++] = i; });
+}
+
+void LatticeReader::Work::read(std::span<const std::uint32_t> tiles) {
+  being_read_.assign(lattice_.tiles.size(), false);
+  std::vector<std::uint32_t> leaves;
+  for (const std::uint32_t t : tiles) {
+    if (lattice_.tiles[t].ground == LatticeTin::Ground::kNone || lattice_.tiles[t].heights) continue;
+    lattice_.make_heights(t);
+    being_read_[t] = true;
+    leaves.insert(leaves.end(), leaf_of_tile_.begin() + first_leaf_[t], leaf_of_tile_.begin() + first_leaf_[t + 1]);
+  }
+  std::sort(leaves.begin(), leaves.end());
+  leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+  parallel_for((leaves.size() + kLeavesATask - 1) / kLeavesATask, [&](std::size_t task) {
+    for (std::size_t i = task * kLeavesATask; i < std::min(leaves.size(), (task + 1) * kLeavesATask); ++i) {
+      const Leaf& leaf = leaves_[leaves[i]];
+      // Wide ones are asked for time and again.
+      const auto block = bounds_well(leaf) ? index_.block_once(leaf) : index_.block(leaf);
+      for (const GridPoint& p : block->points) {
+        const auto place = place_of(p);
+        if (!place || !place->post) continue;
+        lattice_.for_each_tile_of(place->column, place->row, [&](std::uint32_t tile, std::uint32_t post) {
+          if (being_read_[tile]) (*lattice_.tiles[tile].heights)[post] = p.z;
+        });
+      }
+    }
+  });
+}
+
+std::unique_ptr<LatticeReader> LatticeReader::open(const Store& store, const Window& window, const ThemeChoice& themes,
+                                                   Heights heights, std::uint64_t most_posts, Progress& progress) {
+  auto work = std::make_unique<Work>(store, window, themes);
+  if (!work->open(heights, most_posts, progress)) return nullptr;
+  return std::unique_ptr<LatticeReader>(new LatticeReader(std::move(work)));
+}
+
+bool LatticeReader::may_open(const Store& store, const Window& window, const ThemeChoice& themes,
+                             std::uint64_t most_posts) {
+  return Work(store, window, themes).find_lattice(Heights::kAll, most_posts);
+}
+
+LatticeReader::LatticeReader(std::unique_ptr<Work> work) : work_(std::move(work)) {}
+LatticeReader::~LatticeReader() = default;
+
+const LatticeTin& LatticeReader::lattice() const {
+  return work_->lattice_;
+}
+LatticeTin LatticeReader::take() {
+  return std::move(work_->lattice_);
+}
+std::int32_t LatticeReader::highest(std::uint32_t tile) const {
+  return work_->highest_[tile];
+}
+void LatticeReader::read(std::span<const std::uint32_t> tiles) {
+  work_->read(tiles);
+}
+void LatticeReader::read_all() {
+  std::vector<std::uint32_t> all(work_->lattice_.tiles.size());
+  std::iota(all.begin(), all.end(), 0U);
+  work_->read(all);
+}
+
+std::optional<LatticeTin> triangulate_lattice(const Store& store, const Window& window, const ThemeChoice& themes,
+                                              std::uint64_t most_posts, Progress& progress) {
+  const auto reader = LatticeReader::open(store, window, themes, LatticeReader::Heights::kAll, most_posts, progress);
+  return reader ? std::optional(reader->take()) : std::nullopt;
+}
+
+}  // namespace itin

@@ -1,0 +1,161 @@
+// What is read of a raster because an eye may see it, and rasters read sector by sector, against the whole.
+#include "reveal.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <itin/error.hpp>
+#include <itin/import.hpp>
+#include <viewshed/certified.hpp>
+#include <viewshed/surface.hpp>
+
+#include "lattice_segments.hpp"
+#include "support/raster_file.hpp"
+#include "support/seed.hpp"
+#include "support/temporary_directory.hpp"
+#include "support/terrain_tin.hpp"
+
+namespace itin::viewshed {
+namespace {
+
+using Heights = LatticeReader::Heights;
+
+class Reveal : public testing::Test {
+ protected:
+  static constexpr int kSide = 513;
+  static constexpr double kStep = 25, kWest = 300000, kNorth = 200000;
+
+  /// A fractal with a void, or none.
+  void make(double relief, double void_radius) {
+    store_.reset();
+    std::filesystem::remove(directory_.file("t.itin"));
+    const std::vector<double> z = test::fractal_heights(kSide, relief, 0.7, random_());
+    test::write_raster(directory_.file("t.tif"), {kWest, kNorth, kStep, kSide, kSide, 27700}, [&](int c, int r) {
+      const bool missing = std::hypot(c - 0.4 * kSide, r - 0.55 * kSide) < void_radius;
+      return missing ? NAN : z[static_cast<std::size_t>(r) * kSide + static_cast<std::size_t>(c)];
+    });
+    ImportOptions options;
+    options.sources = {directory_.file("t.tif")};
+    import_terrain(directory_.file("t.itin"), options, progress_);
+    store_.emplace(directory_.file("t.itin"));
+  }
+
+  /// From places near the north-eastern corner, where no void is.
+  Request look(std::size_t observers) {
+    std::uniform_real_distribution<double> share(0.7, 0.95);
+    Request request;
+    for (std::size_t i = 0; i < observers; ++i) {
+      Observer observer;
+      observer.position = {kWest + share(random_) * kSide * kStep, kNorth - (1 - share(random_)) * kSide * kStep};
+      observer.height = 5;
+      request.observers.push_back(observer);
+    }
+    request.target_height = 2;
+    request.cell_size = 40;
+    return request;
+  }
+
+  Surface surface(Heights heights) {
+    return *retrieve_lattice(*store_, Window::all(), Detail::tolerance(0), ThemeChoice::none(), heights, kAnyLattice,
+                             progress_);
+  }
+
+  static bool same(const std::vector<float>& a, const std::vector<float>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](float x, float y) { return x == y || (std::isnan(x) && std::isnan(y)); });
+  }
+
+  static void expect_same(const Result& a, const Result& b) {
+    EXPECT_EQ(a.grid.cell_count(), b.grid.cell_count());
+    EXPECT_EQ(a.ground_m, b.ground_m);
+    EXPECT_TRUE(a.visible == b.visible);
+    EXPECT_TRUE(a.count == b.count);
+    EXPECT_TRUE(a.which == b.which);
+    EXPECT_TRUE(a.nearest == b.nearest);
+    EXPECT_TRUE(same(a.angle_deg, b.angle_deg));
+    EXPECT_TRUE(same(a.distance_m, b.distance_m));
+    EXPECT_EQ(a.cells.visible, b.cells.visible);
+    EXPECT_EQ(a.cells.hidden, b.cells.hidden);
+    EXPECT_EQ(a.cells.outside, b.cells.outside);
+    EXPECT_EQ(a.warnings, b.warnings);
+  }
+
+  std::mt19937 random_{test::seed()};
+  NoProgress progress_;
+  std::optional<Store> store_;
+
+ private:
+  test::TemporaryDirectory directory_;
+};
+
+constexpr Mode kModes[] = {Mode::kVisible, Mode::kCount, Mode::kWhich, Mode::kAngle, Mode::kNearest, Mode::kHeight};
+
+TEST_F(Reveal, ChangesNothingAndLeavesOutWhatNobodySees) {
+  for (const double void_radius : {0.0, 60.0}) {
+    make(700, void_radius);
+    for (const Mode mode : kModes) {
+      Request request = look(mode == Mode::kVisible ? 1 : 3);
+      request.mode = mode;
+      if (void_radius > 0) request.nodata = mode == Mode::kAngle ? NoData::kBlock : NoData::kClear;
+      if (mode == Mode::kCount) request.observers[1].radius = 4000, request.observers[2].azimuth = AngleRange{200, 300};
+      if (mode == Mode::kNearest) request.earth.refraction = 0.9;
+      const Surface whole = surface(Heights::kAll), revealed = surface(Heights::kNone);
+      const Result result = compute(revealed, nullptr, request, progress_);
+      expect_same(compute(whole, nullptr, request, progress_), result);
+      std::size_t unread = 0;
+      for (const LatticeTin::Tile& tile : revealed.lattice->lattice().tiles)
+        unread += tile.ground != LatticeTin::Ground::kNone && !tile.heights ? 1 : 0;
+      if (mode == Mode::kHeight) {
+        EXPECT_EQ(unread, 0U);
+      } else if (mode == Mode::kVisible) {
+        EXPECT_GT(unread, 4U);
+      }
+    }
+  }
+}
+
+TEST_F(Reveal, ElevationsAreThoseOfAllGround) {
+  make(700, 0);
+  Request request = look(1);
+  request.elevation = AngleRange{-2, 1};
+  const Surface whole = surface(Heights::kAll), revealed = surface(Heights::kNone);
+  expect_same(compute(whole, nullptr, request, progress_), compute(revealed, nullptr, request, progress_));
+}
+
+TEST_F(Reveal, SegmentsMakeTheWhole) {
+  for (const double void_radius : {0.0, 60.0}) {
+    make(400, void_radius);
+    for (const Mode mode : kModes) {
+      Request request = look(2);
+      request.mode = mode;
+      if (void_radius > 0) request.nodata = mode == Mode::kWhich ? NoData::kUnknown : NoData::kBlock;
+      if (mode == Mode::kAngle) request.radius = 5000;
+      const Result whole = compute(*store_, request, progress_);
+      EXPECT_EQ(whole.crosses_voids, void_radius > 0 && mode != Mode::kAngle);
+      for (const std::uint64_t memory : {2000000, 1400000}) {
+        const auto parts = compute_in_lattice_segments(*store_, request, memory, progress_);
+        ASSERT_TRUE(parts);
+        expect_same(whole, parts->result);
+        EXPECT_GT(parts->result.statistics.triangles, whole.statistics.triangles) << "not in segments";
+        ASSERT_EQ(whole.least_height_m.size(), parts->result.least_height_m.size());
+        for (std::size_t i = 0; i < whole.least_height_m.size(); ++i) {
+          const float a = whole.least_height_m[i], b = parts->result.least_height_m[i];
+          ASSERT_TRUE(a == b || (std::isnan(a) && std::isnan(b)) || std::abs(a - b) < 1e-5 * a) << a << ", " << b;
+        }
+      }
+    }
+  }
+}
+
+TEST_F(Reveal, TooLittleMemoryIsRefused) {
+  make(400, 0);
+  EXPECT_THROW(compute_in_lattice_segments(*store_, look(1), 20000, progress_), InputError);
+}
+
+}  // namespace
+}  // namespace itin::viewshed
