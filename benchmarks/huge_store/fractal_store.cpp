@@ -15,6 +15,7 @@
 #include "huge_store/square.hpp"
 #include "import/crs.hpp"
 #include "import/source_context.hpp"
+#include "store/lattice_sort.hpp"
 #include "store/store_writer.hpp"
 
 namespace itin::huge {
@@ -80,8 +81,8 @@ class FractalWriter {
           points.push_back(square_.post(level.stage, column, row, *heights.at(column, row)));
       }
     }
-    std::sort(points.begin(), points.end(),
-              [](const GridPoint& a, const GridPoint& b) { return code_of(a) < code_of(b); });
+    const std::uint64_t spacing = std::uint64_t{Square::kSpacing} << level.stage;
+    sort_along_curve(cell, spacing, spacing, points);
     const std::vector<std::uint16_t> sources(points.size(), 0);
     const HeightBounds bounds = number == 0 ? HeightBounds{} : deviation_.over(cell);
     return encode_leaf(number, cell, points, sources, bounds.lo, bounds.hi);
