@@ -2,8 +2,8 @@
 // and on the posts' places alone.
 //
 // Stage k has the posts whose columns and rows are multiples of 2^k. Those of stage kTopStage have random heights; one
-// that is new at a finer stage lies amid an edge of the next coarser one, and has the mean of its ends' heights, rounded
-// to a decimetre, and a displacement of at most amplitude(k).
+// that is new at a finer stage lies amid an edge of the next coarser one, and has the mean of its ends' heights,
+// rounded to a decimetre, and a displacement of at most amplitude(k).
 #pragma once
 
 #include <cstdint>

@@ -31,11 +31,13 @@ using Leaves = std::vector<EncodedLeaf>;
 
 class FractalWriter {
  public:
-  FractalWriter(StoreWriter& writer, const Square& square, const Fractal& fractal)
-      : writer_(writer), square_(square), fractal_(fractal), deviation_(square) {}
+  FractalWriter(StoreWriter& writer, const Square& square, const Fractal& fractal,
+                const std::vector<FractalLevel>& levels)
+      : writer_(writer), square_(square), fractal_(fractal), levels_(levels), deviation_(square, fractal, levels) {}
 
   /// Finest first.
-  void write_level(int number, const FractalLevel& level, Progress& progress) {
+  void write_level(int number, Progress& progress) {
+    const FractalLevel& level = levels_[static_cast<std::size_t>(number)];
     std::vector<Cell> tiles;
     for_each_leaf(level, square_, Cell{}, kTilePosts, [&](const Cell& cell) { tiles.push_back(cell); });
     const std::string stage = fmt::format("writing level {}", number);
@@ -61,13 +63,12 @@ class FractalWriter {
 
  private:
   Leaves make(int number, const FractalLevel& level, const Cell& tile) {
-    // Whole triangles of the next level.
-    const PostBox box = square_.about(tile, level.stage).coarser(level.steps).finer(level.steps);
-    const Posts heights = fractal_.heights(level.stage, box);
+    const Posts heights = fractal_.heights(level.stage, square_.about(tile, level.stage));
+    // The full surface comes first.
+    if (number == 0) deviation_.find(tile, heights);
     Leaves leaves;
     for_each_leaf(level, square_, tile, kLeafCapacity,
                   [&](const Cell& cell) { leaves.push_back(encoded(number, level, cell, heights)); });
-    if (level.steps > 0) deviation_.add(tile, level.stage, level.steps, heights);
     return leaves;
   }
 
@@ -84,7 +85,7 @@ class FractalWriter {
     const std::uint64_t spacing = std::uint64_t{Square::kSpacing} << level.stage;
     sort_along_curve(cell, spacing, spacing, points);
     const std::vector<std::uint16_t> sources(points.size(), 0);
-    const HeightBounds bounds = number == 0 ? HeightBounds{} : deviation_.over(cell);
+    const HeightBounds bounds = deviation_.over(cell, number);
     return encode_leaf(number, cell, points, sources, bounds.lo, bounds.hi);
   }
 
@@ -103,9 +104,9 @@ class FractalWriter {
   StoreWriter& writer_;
   const Square& square_;
   const Fractal& fractal_;
+  const std::vector<FractalLevel>& levels_;
   Deviation deviation_;
-  FractalStoreReport report_{
-      0, 0, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  FractalStoreReport report_{0, 0, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
 };
 
 /// Ground to the left.
@@ -148,9 +149,8 @@ FractalStoreReport write_fractal_store(const std::string& path, const FractalSto
   const Square square(side_m);
   const Fractal fractal(options.seed);
   StoreWriter writer(path, parse_crs(Square::kCrs, Square::kCrs).wkt, Square::kGrid, tolerances);
-  FractalWriter fractal_writer(writer, square, fractal);
-  for (std::size_t k = 0; k < levels.size(); ++k)
-    fractal_writer.write_level(static_cast<int>(k), levels[k], progress);
+  FractalWriter fractal_writer(writer, square, fractal, levels);
+  for (std::size_t k = 0; k < levels.size(); ++k) fractal_writer.write_level(static_cast<int>(k), progress);
   writer.add_segments(outline(square.ground()));
   FractalStoreReport report = fractal_writer.report();
   report.side_m = side_m;

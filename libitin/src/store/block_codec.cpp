@@ -72,8 +72,8 @@ std::uint64_t rank_on(const Cell& cell, const Lattice& lattice, const GridPoint&
 }
 
 void sort_by_rows(const Cell& cell, const Lattice& lattice, std::vector<GridPoint>& points) {
-  const auto highest = std::max_element(points.begin(), points.end(),
-                                        [](const GridPoint& a, const GridPoint& b) { return a.y < b.y; });
+  const auto highest =
+      std::max_element(points.begin(), points.end(), [](const GridPoint& a, const GridPoint& b) { return a.y < b.y; });
   radix_sort(points, std::bit_width(rank_on(cell, lattice, *highest) + lattice.width),
              [&](const GridPoint& p) { return rank_on(cell, lattice, p); });
 }
@@ -326,7 +326,8 @@ Block decode_block(const Cell& cell, std::span<const std::uint8_t> bytes, BlockO
     return height;
   });
   if (!bits.finished_cleanly()) throw DecodeError("points end too early or too late");
-  if (order == BlockOrder::kMorton && !lattice.scattered()) sort_along_curve(cell, lattice.step_x, lattice.step_y, block.points);
+  if (order == BlockOrder::kMorton && !lattice.scattered())
+    sort_along_curve(cell, lattice.step_x, lattice.step_y, block.points);
   return block;
 }
 
