@@ -1,5 +1,5 @@
-// Writes a store of a fractal surface as an importer would, only that it knows every level and every certificate
-// beforehand: at the rate of the encoder, in memory that does not grow with the store.
+// Writes a store of a fractal surface as an importer would, only that it knows every level beforehand: nearly at the
+// rate of the encoder, in about 75 MB and 64 bytes for each 82 m by 82 m of ground.
 #pragma once
 
 #include <cstdint>

@@ -40,7 +40,7 @@ int run(int argc, char** argv) {
   itin::huge::FractalStoreOptions options;
   int threads = 0;
   app.add_option("STORE", path, "The store to write, replaced where it exists")->required();
-  app.add_option("SIDE_KM", options.side_km, "The side of its square; rounded up to 512 m")->required();
+  app.add_option("SIDE_KM", options.side_km, "The side of its square; rounded up to a multiple of 512 m")->required();
   app.add_option("--seed", options.seed, "Of the surface")->capture_default_str();
   app.add_option("--threads", threads, "0: all cores")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
