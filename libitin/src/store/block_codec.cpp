@@ -1,7 +1,6 @@
 #include "store/block_codec.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <limits>
 #include <numeric>
@@ -11,6 +10,8 @@
 #include "store/bit_stream.hpp"
 #include "store/byte_stream.hpp"
 #include "store/height_predictor.hpp"
+#include "store/lattice_sort.hpp"
+#include "store/radix_sort.hpp"
 
 namespace itin {
 
@@ -42,13 +43,19 @@ class ResidualScale {
   std::uint64_t mean_;  // times 16
 };
 
+/// The greatest common divisor of all differences so far and one more. Most are multiples of it already.
+void include(std::uint64_t& divisor, std::int64_t difference) {
+  const auto d = static_cast<std::uint64_t>(std::abs(difference));
+  if (divisor == 0 || d % divisor != 0) divisor = std::gcd(divisor, d);
+}
+
 Lattice find_lattice(const Cell& cell, std::span<const GridPoint> points) {
   const GridBox box = cell.box();
   GridBox extent;
   Lattice lattice{0, 0, 0, 0, 1};
   for (const GridPoint& p : points) {
-    lattice.step_x = std::gcd(lattice.step_x, static_cast<std::uint64_t>(std::abs(p.x - points[0].x)));
-    lattice.step_y = std::gcd(lattice.step_y, static_cast<std::uint64_t>(std::abs(p.y - points[0].y)));
+    include(lattice.step_x, p.x - points[0].x);
+    include(lattice.step_y, p.y - points[0].y);
     extent.extend(p.x, p.y);
   }
   lattice.step_x = std::max<std::uint64_t>(lattice.step_x, 1);
@@ -60,17 +67,26 @@ Lattice find_lattice(const Cell& cell, std::span<const GridPoint> points) {
   return lattice;
 }
 
+std::uint64_t rank_on(const Cell& cell, const Lattice& lattice, const GridPoint& p) {
+  const GridBox box = cell.box();
+  const auto x = static_cast<std::uint64_t>(p.x - box.xmin), y = static_cast<std::uint64_t>(p.y - box.ymin);
+  return (y - lattice.y0) / lattice.step_y * lattice.width + (x - lattice.x0) / lattice.step_x;
+}
+
+void sort_by_rows(const Cell& cell, const Lattice& lattice, std::vector<GridPoint>& points) {
+  const auto highest =
+      std::max_element(points.begin(), points.end(), [](const GridPoint& a, const GridPoint& b) { return a.y < b.y; });
+  radix_sort(points, std::bit_width(rank_on(cell, lattice, *highest) + lattice.width),
+             [&](const GridPoint& p) { return rank_on(cell, lattice, p); });
+}
+
 // The rank of each point in the order of coding, less that of its predecessor, less 1.
 std::vector<std::uint64_t> gaps_of(const Cell& cell, const Lattice& lattice, std::span<const GridPoint> points) {
-  const GridBox box = cell.box();
   std::vector<std::uint64_t> gaps;
   gaps.reserve(points.size());
   std::uint64_t next = 0;
   for (const GridPoint& p : points) {
-    const auto x = static_cast<std::uint64_t>(p.x - box.xmin), y = static_cast<std::uint64_t>(p.y - box.ymin);
-    const std::uint64_t rank =
-        lattice.scattered() ? morton(p.x, p.y) - cell.code
-                            : (y - lattice.y0) / lattice.step_y * lattice.width + (x - lattice.x0) / lattice.step_x;
+    const std::uint64_t rank = lattice.scattered() ? code_of(p) - cell.code : rank_on(cell, lattice, p);
     gaps.push_back(rank - next);
     next = rank + 1;
   }
@@ -150,28 +166,6 @@ std::vector<Local> read_positions(BitReader& in, std::size_t count, int rice, co
   return positions;
 }
 
-// Sorts by Morton code. All codes differ already without the bits that the lattice step leaves free, so few bytes of
-// key are enough for a radix sort.
-void sort_lattice_points(const Cell& cell, const Lattice& lattice, std::vector<GridPoint>& points) {
-  const int low_bits = 2 * (std::bit_width(std::min(lattice.step_x, lattice.step_y)) - 1);
-  const int key_bits = std::max(0, 2 * cell.log2_side - low_bits);
-  struct Keyed {
-    std::uint64_t key;
-    GridPoint point;
-  };
-  std::vector<Keyed> from, to(points.size());
-  from.reserve(points.size());
-  for (const GridPoint& p : points) from.push_back({(morton(p.x, p.y) - cell.code) >> low_bits, p});
-  for (int shift = 0; shift < key_bits; shift += 8) {
-    std::array<std::uint32_t, 257> first{};
-    for (const Keyed& k : from) ++first[(k.key >> shift & 0xff) + 1];
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    for (const Keyed& k : from) to[first[k.key >> shift & 0xff]++] = k;
-    from.swap(to);
-  }
-  for (std::size_t i = 0; i < points.size(); ++i) points[i] = from[i].point;
-}
-
 // Heights in steps from the first one, in the order of coding.
 std::vector<std::int64_t> heights_of(std::span<const GridPoint> points, std::uint64_t step) {
   std::vector<std::int64_t> heights;
@@ -215,7 +209,7 @@ std::vector<Local> local_positions(const Cell& cell, const Lattice& lattice, std
 std::uint64_t height_step(std::span<const GridPoint> points) {
   std::uint64_t step = 0;
   for (const GridPoint& p : points) {
-    step = std::gcd(step, static_cast<std::uint64_t>(std::abs(std::int64_t{p.z} - points[0].z)));
+    include(step, std::int64_t{p.z} - points[0].z);
   }
   return std::max<std::uint64_t>(step, 1);
 }
@@ -274,10 +268,7 @@ std::vector<std::uint8_t> encode_block(const Cell& cell, std::span<const GridPoi
                                        std::span<const std::uint16_t> sources) {
   const Lattice lattice = find_lattice(cell, points);
   std::vector<GridPoint> ordered(points.begin(), points.end());
-  if (!lattice.scattered()) {
-    std::sort(ordered.begin(), ordered.end(),
-              [](const GridPoint& a, const GridPoint& b) { return std::pair(a.y, a.x) < std::pair(b.y, b.x); });
-  }
+  if (!lattice.scattered()) sort_by_rows(cell, lattice, ordered);
   const std::uint64_t step_z = height_step(ordered);
   const std::vector<std::uint64_t> gaps = gaps_of(cell, lattice, ordered);
   const std::vector<std::int64_t> heights = heights_of(ordered, step_z);
@@ -368,7 +359,8 @@ Block decode_block(const Cell& cell, std::span<const std::uint8_t> bytes, BlockO
     return height;
   });
   if (!bits.finished_cleanly()) throw DecodeError("points end too early or too late");
-  if (order == BlockOrder::kMorton && !plan.lattice.scattered()) sort_lattice_points(cell, plan.lattice, block.points);
+  if (order == BlockOrder::kMorton && !plan.lattice.scattered())
+    sort_along_curve(cell, plan.lattice.step_x, plan.lattice.step_y, block.points);
   return block;
 }
 

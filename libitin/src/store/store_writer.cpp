@@ -42,8 +42,7 @@ class StoreWriter::Impl {
  public:
   Impl(const std::string& path, const std::string& crs_wkt, const Grid& grid, const std::vector<double>& tolerances);
 
-  void add_point_leaf(int level, const Cell& cell, std::span<const GridPoint> points,
-                      std::span<const std::uint16_t> sources, std::int32_t lo, std::int32_t hi);
+  void add_point_leaf(const EncodedLeaf& encoded);
   void add_theme_vertices(std::uint16_t theme, std::span<const GridPoint> points,
                           std::span<const std::uint16_t> sources);
   void add_part_vertices(std::uint16_t part, std::span<const GridPoint> points, std::span<const std::uint16_t> sources,
@@ -53,8 +52,7 @@ class StoreWriter::Impl {
   void commit(std::vector<SourceInfo> sources, std::vector<ThemeInfo> themes, std::vector<ThemePart> parts);
 
  private:
-  void add_points(int tree, const Cell& cell, std::span<const GridPoint> points, std::span<const std::uint16_t> sources,
-                  std::int32_t lo, std::int32_t hi);
+  void add_points(const EncodedLeaf& encoded);
   void add_edges(std::uint16_t theme, std::vector<Segment> segments);
   void add_leaf(const Leaf& leaf, std::span<const std::uint8_t> block);
   void flush_chunk();
@@ -121,32 +119,22 @@ void StoreWriter::Impl::widen(LevelInfo& level, std::int32_t lo, std::int32_t hi
   level.certified_error.hi = std::max(level.certified_error.hi, hi * metadata_.grid.resolution);
 }
 
-void StoreWriter::Impl::add_point_leaf(int level, const Cell& cell, std::span<const GridPoint> points,
-                                       std::span<const std::uint16_t> sources, std::int32_t lo, std::int32_t hi) {
-  if (level < 0 || static_cast<std::size_t>(level) >= metadata_.levels.size() || points.size() > kLeafCapacity ||
-      points.size() != sources.size()) {
+void StoreWriter::Impl::add_point_leaf(const EncodedLeaf& encoded) {
+  const Leaf& leaf = encoded.leaf;
+  if (leaf.level < 0 || static_cast<std::size_t>(leaf.level) >= metadata_.levels.size() ||
+      leaf.points > kLeafCapacity) {
     throw std::invalid_argument("not a leaf of this store");
   }
-  LevelInfo& info = metadata_.levels[static_cast<std::size_t>(level)];
-  info.vertices += points.size();
-  widen(info, lo, hi);
-  add_points(level, cell, points, sources, lo, hi);
+  LevelInfo& info = metadata_.levels[static_cast<std::size_t>(leaf.level)];
+  info.vertices += leaf.points;
+  widen(info, leaf.lo, leaf.hi);
+  add_points(encoded);
 }
 
-void StoreWriter::Impl::add_points(int tree, const Cell& cell, std::span<const GridPoint> points,
-                                   std::span<const std::uint16_t> sources, std::int32_t lo, std::int32_t hi) {
-  Leaf leaf{cell, tree, static_cast<std::uint32_t>(points.size()), 0, 0, lo, hi, format::key(tree, cell.code)};
-  std::vector<std::uint8_t> block;
-  if (!points.empty()) {
-    const auto [low, high] = std::minmax_element(points.begin(), points.end(),
-                                                 [](const GridPoint& a, const GridPoint& b) { return a.z < b.z; });
-    leaf.zmin = low->z, leaf.zmax = high->z;
-    block = encode_block(cell, points, sources);
-  }
-  for (const GridPoint& p : points) metadata_.bounds.extend(p.x, p.y);
-  metadata_.vertices +=
-      points.size() - static_cast<std::size_t>(std::count(sources.begin(), sources.end(), format::kMask));
-  add_leaf(leaf, block);
+void StoreWriter::Impl::add_points(const EncodedLeaf& encoded) {
+  metadata_.bounds.extend(encoded.bounds);
+  metadata_.vertices += encoded.vertices;
+  add_leaf(encoded.leaf, encoded.block);
 }
 
 void StoreWriter::Impl::add_theme_vertices(std::uint16_t theme, std::span<const GridPoint> points,
@@ -157,7 +145,8 @@ void StoreWriter::Impl::add_theme_vertices(std::uint16_t theme, std::span<const 
   std::size_t first = 0;
   LeafCutter cutter(kLeafCapacity, [&](const Cell& cell, std::uint32_t count) {
     if (count > 0) {
-      add_points(format::vertex_tree(theme), cell, points.subspan(first, count), sources.subspan(first, count), 0, 0);
+      add_points(encode_leaf(format::vertex_tree(theme), cell, points.subspan(first, count),
+                             sources.subspan(first, count), 0, 0));
     }
     first += count;
   });
@@ -188,8 +177,8 @@ void StoreWriter::Impl::add_part_vertices(std::uint16_t part, std::span<const Gr
   std::size_t first = 0;
   for (const Leaf& leaf : leaves) {
     if (leaf.points > 0 || leaf.hi > 0) {
-      add_points(format::vertex_tree(part), leaf.cell, points.subspan(first, leaf.points),
-                 sources.subspan(first, leaf.points), 0, leaf.hi);
+      add_points(encode_leaf(format::vertex_tree(part), leaf.cell, points.subspan(first, leaf.points),
+                             sources.subspan(first, leaf.points), 0, leaf.hi));
     }
     first += leaf.points;
   }
@@ -242,7 +231,13 @@ StoreWriter::~StoreWriter() = default;
 
 void StoreWriter::add_leaf(int level, const Cell& cell, std::span<const GridPoint> points,
                            std::span<const std::uint16_t> sources, std::int32_t lo, std::int32_t hi) {
-  impl_->add_point_leaf(level, cell, points, sources, lo, hi);
+  // The encoder takes more, and as many sources, for granted.
+  if (points.size() > kLeafCapacity || points.size() != sources.size())
+    throw std::invalid_argument("not a leaf of this store");
+  add_leaf(encode_leaf(level, cell, points, sources, lo, hi));
+}
+void StoreWriter::add_leaf(const EncodedLeaf& leaf) {
+  impl_->add_point_leaf(leaf);
 }
 void StoreWriter::add_segments(const std::vector<Segment>& segments) {
   impl_->add_segments(segments);

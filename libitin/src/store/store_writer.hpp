@@ -20,6 +20,7 @@
 
 #include <itin/store.hpp>
 
+#include "store/encoded_leaf.hpp"
 #include "store/footprint_codec.hpp"
 #include "store/point_index.hpp"
 
@@ -45,6 +46,8 @@ class StoreWriter {
   /// derived from the points.
   void add_leaf(int level, const Cell& cell, std::span<const GridPoint> points, std::span<const std::uint16_t> sources,
                 std::int32_t lo, std::int32_t hi);
+  /// The same, encoded before.
+  void add_leaf(const EncodedLeaf& leaf);
   /// The vertices that are not part of the full surface, but of this theme's lines on it; in Morton order.
   void add_theme_vertices(std::uint16_t theme, std::span<const GridPoint> points,
                           std::span<const std::uint16_t> sources);

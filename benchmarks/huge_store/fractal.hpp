@@ -1,0 +1,36 @@
+// A fractal surface by nested midpoint displacement. Any part of it can be computed by itself: it depends on the seed
+// and on the posts' places alone.
+//
+// Stage k has the posts whose columns and rows are multiples of 2^k. Those of stage kTopStage have random heights; one
+// that is new at a finer stage lies amid an edge of the next coarser one, and has the mean of its ends' heights,
+// rounded to a decimetre, and a displacement of at most amplitude(k).
+#pragma once
+
+#include <cstdint>
+
+#include "huge_store/posts.hpp"
+
+namespace itin::huge {
+
+class Fractal {
+ public:
+  static constexpr int kTopStage = 13;
+
+  explicit Fractal(std::uint64_t seed) : seed_(seed) {}
+
+  /// Decimetres: of stage 0 1, then 2^0.85 times as much a stage.
+  static std::int32_t amplitude(int stage);
+  /// Decimetres: no more lies between the surface and the one of this stage's posts alone.
+  static double greatest_deviation(int stage);
+
+  /// The heights of all posts of the box, in decimetres, and perhaps of some about it. Columns and rows are the
+  /// stage's own, at least 0. Cost: 2 ns a post.
+  Posts heights(int stage, const PostBox& box) const;
+
+ private:
+  std::uint64_t row_key(int stage, std::int32_t row) const;
+
+  std::uint64_t seed_;
+};
+
+}  // namespace itin::huge
