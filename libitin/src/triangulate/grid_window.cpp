@@ -316,13 +316,8 @@ bool GridWindow::boundary_meets(const Figure& figure, const CellRange& range) co
 bool GridWindow::holds(const GridBox& box) const {
   if (!extent_.contains(box)) return false;
   if (is_box()) return true;
-  const CellRange range = cells(box);
-  for (std::uint32_t row = range.row0; row <= range.row1; ++row) {
-    const auto first = states_.begin() + static_cast<std::ptrdiff_t>(cell(range.column0, row));
-    const auto last = states_.begin() + static_cast<std::ptrdiff_t>(cell(range.column1, row)) + 1;
-    if (std::any_of(first, last, [](State s) { return s != State::Inside; })) return false;
-  }
-  return true;
+  // As in meets().
+  return contains(box.xmin, box.ymin) && !boundary_meets(Figure(box), cells(box));
 }
 
 bool GridWindow::meets(const GridBox& box) const {

@@ -31,8 +31,7 @@ class GridWindow {
   const GridBox& bounds() const { return bounds_; }
   /// Boundary included.
   bool contains(std::int32_t x, std::int32_t y) const;
-  /// Whether every position of the box is in the window, as far as that shows in cells of the index. Never true
-  /// otherwise.
+  /// Whether the boundary does not meet the closed box, and every position of that is in the window.
   bool holds(const GridBox& box) const;
   /// Closed box, touching counts.
   bool meets(const GridBox& box) const;
