@@ -51,8 +51,9 @@ double height_at(const LatticeTin& lattice, std::int32_t x, std::int32_t y) {
   const auto row = std::min(static_cast<std::uint32_t>((lattice.north - y) / lattice.spacing), lattice.rows - 2);
   const double east = 1.0 * (x - lattice.x(column)) / lattice.spacing,
                south = 1.0 * (lattice.y(row) - y) / lattice.spacing;
-  const double nw = lattice.post(column, row).z, ne = lattice.post(column + 1, row).z,
-               sw = lattice.post(column, row + 1).z, se = lattice.post(column + 1, row + 1).z;
+  const std::int32_t* const upper = lattice.posts(lattice.cell(column, row));
+  const std::int32_t* const lower = upper + LatticeTin::kPosts;
+  const double nw = upper[0], ne = upper[1], sw = lower[0], se = lower[1];
   return east <= south ? nw + south * (sw - nw) + east * (se - sw) : nw + east * (ne - nw) + south * (se - ne);
 }
 
@@ -71,8 +72,9 @@ TEST_F(FractalStoreTest, HasTheSurfaceThatAnImportOfItsPostsHas) {
   const Box box = full.grid.box(Square(kSide).ground());
   // The lattice has a bare column and row about it.
   test::write_raster(raster, {box.xmin - 0.5, box.ymax + 0.5, 1, kPosts, kPosts, 32630}, [&](int column, int row) {
-    return full.post(static_cast<std::uint32_t>(column + 1), static_cast<std::uint32_t>(row + 1)).z *
-           full.grid.resolution;
+    const std::int32_t x = full.x(static_cast<std::uint32_t>(column + 1)),
+                       y = full.y(static_cast<std::uint32_t>(row + 1));
+    return full.post_at(x, y).value() * full.grid.resolution;
   });
   ImportOptions options;
   options.sources = {raster};
@@ -102,7 +104,8 @@ TEST_F(FractalStoreTest, HasCertificatesThatHold) {
     EXPECT_GE(level.certified_error.lo, -level.tolerance);
     EXPECT_LE(level.certified_error.hi, level.tolerance);
     const LatticeTin coarse = lattice(level.tolerance);
-    for (const std::uint8_t cell : coarse.halves) ASSERT_TRUE(cell == 0 || cell == LatticeTin::kFalling);
+    for (std::uint32_t cell = 0; cell < coarse.tiles.size() * LatticeTin::kCells; ++cell)
+      ASSERT_TRUE(coarse.halves(cell) == 0 || coarse.halves(cell) == LatticeTin::kFalling);
     const Certificate certificate = store.certificate(static_cast<int>(k), full.grid.box(ground));
     double lo = 0, hi = 0;
     for (std::int32_t y = ground.ymin; y <= ground.ymax; y += step) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -39,6 +40,17 @@ constexpr std::uint64_t kCoarsePoints = 200000;
 
 using Tiles = std::span<const std::size_t>;
 
+/// Passes on that a call is to end, and nothing of how far it has come.
+class Unreported final : public Progress {
+ public:
+  explicit Unreported(const Progress& whole) : whole_(whole) {}
+  void report(std::string_view, double) override {}
+  bool cancelled() const override { return whole_.cancelled(); }
+
+ private:
+  const Progress& whole_;
+};
+
 class LatticeSegments {
  public:
   LatticeSegments(const Store& store, const Request& request, std::uint64_t memory, Progress& progress)
@@ -46,7 +58,8 @@ class LatticeSegments {
         request_(request),
         memory_(memory),
         all_heights_(asks_for_all_heights(request)),
-        progress_(progress) {}
+        progress_(progress),
+        reading_(progress) {}
 
   std::optional<Surveyed> run() {
     Result& result = surveyed_.result;
@@ -124,7 +137,7 @@ class LatticeSegments {
     if (share < (tiles.size() == 1 ? 2 : 1)) {
       const auto reader = LatticeReader::open(
           store_, Window::polygons({{hull, {}}}), ThemeChoice::none(),
-          all_heights_ ? LatticeReader::Heights::kAll : LatticeReader::Heights::kNone, kAnyLattice, progress_);
+          all_heights_ ? LatticeReader::Heights::kAll : LatticeReader::Heights::kNone, kAnyLattice, reading_);
       if (!reader) return false;
       if (look_over(*reader, eye, observer, tiles)) return true;
     }
@@ -178,6 +191,7 @@ class LatticeSegments {
   std::uint64_t memory_;
   bool all_heights_;
   Progress& progress_;
+  Unreported reading_;  ///< of a segment
   Stopwatch watch_;
   Surveyed surveyed_;
   RasterGrid tiles_;

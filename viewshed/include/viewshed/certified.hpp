@@ -34,17 +34,18 @@ Surveyed compute_certified(const Store& store, const Request& request, Progress&
 struct PreciseOptions {
   // Change the speed, never the answer.
   std::uint64_t memory_bytes = std::uint64_t{1} << 30;
-  bool lattices = true;  ///< a raster is swept over its posts alone, where these fit into the memory
+  bool lattices = true;  ///< a raster is swept over its posts alone
 };
 
-/// Exact for the full surface, in every mode but kCertified: as compute() at tolerance 0, with the same answer. Where
-/// the surface does not fit into the memory, a certified pass at a coarse level decides most cells; for the others the
-/// places where their lines come near the ground, and no more, are read at full detail and swept, as many at a time as
-/// the memory allows. With themes that stand on the ground, and for heights and angles, that is all ground under the
-/// lines. Request::detail is not used. NoData::kUnknown counts as clear, with a warning. Cost, on one core: about a
-/// microsecond a point; a fifth of that for rasters, and 9 bytes a post. Throws as compute() does, and, where the
-/// window is too large for the memory, InputError in modes kBlocker and kProbability and where NoData::kBlock and voids
-/// come together with such themes or modes.
+/// Exact for the full surface, in every mode but kCertified: as compute() at tolerance 0, with the same answer. Of a
+/// large raster only those heights are read that an observer may see; where these do not fit into the memory, sector by
+/// sector about each observer. Where another surface does not fit, a certified pass at a coarse level decides most
+/// cells; for the others the places where their lines come near the ground, and no more, are read at full detail and
+/// swept, as many at a time as the memory allows. With themes that stand on the ground, and for heights and angles,
+/// that is all ground under the lines. Request::detail is not used. NoData::kUnknown counts as clear, with a warning.
+/// Cost, on one core: about a microsecond a point; a fifth of that for rasters, and 9 bytes a post. Throws as compute()
+/// does, and, where the window is too large for the memory, InputError in modes kBlocker and kProbability and where
+/// NoData::kBlock and voids come together with such themes or modes.
 Surveyed compute_precise(const Store& store, const Request& request, const PreciseOptions& options, Progress& progress);
 
 }  // namespace itin::viewshed

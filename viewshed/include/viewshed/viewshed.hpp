@@ -182,7 +182,8 @@ constexpr std::size_t which_grids(std::size_t observers) {
 Result compute(const Tin& tin, const Request& request, Progress& progress);
 
 /// The same on a surface that may be a lattice, if the mode is neither kBlocker nor kProbability: then for a tenth of
-/// the memory and a third of the time. `ground` may be null.
+/// the memory and a third of the time. `ground` may be null. Reads those heights of the lattice that are asked for and
+/// have not been read, so it is not for several threads at once.
 Result compute(const Surface& surface, const Tin* ground, const Request& request, Progress& progress);
 
 /// The same on a Tin, with the ground on which ends stand that are not on the surface. It must cover what the surface
@@ -193,7 +194,7 @@ Result compute(const Tin& tin, const Tin& ground, const Request& request, Progre
 /// triangulate() throws.
 Result compute(const Store& store, const Request& request, Progress& progress);
 
-/// The same, keeping the surface for further use (maps, single observers).
+/// The same, keeping the surface for further use (maps, single observers), while the store is open.
 struct Surveyed {
   Surface surface;
   std::optional<Tin> ground;  ///< what ends stand on, where that is not the surface
