@@ -35,7 +35,7 @@ class FractalStoreTest : public testing::Test {
     const Tin tin = triangulate(Store(path_), Window::all(), Detail::tolerance(tolerance), progress_);
     auto found = lattice_of(tin);
     EXPECT_TRUE(found.has_value()) << tolerance;
-    return *found;
+    return std::move(*found);
   }
 
   const test::TemporaryDirectory directory_;
