@@ -74,7 +74,7 @@ TEST_F(FractalStoreTest, HasTheSurfaceThatAnImportOfItsPostsHas) {
   test::write_raster(raster, {box.xmin - 0.5, box.ymax + 0.5, 1, kPosts, kPosts, 32630}, [&](int column, int row) {
     const std::int32_t x = full.x(static_cast<std::uint32_t>(column + 1)),
                        y = full.y(static_cast<std::uint32_t>(row + 1));
-    return full.post_at(x, y).value() * full.grid.resolution;
+    return height_at(full, x, y) * full.grid.resolution;
   });
   ImportOptions options;
   options.sources = {raster};
