@@ -17,6 +17,7 @@
 #include <viewshed/surface.hpp>
 
 #include "boundary.hpp"
+#include "cell_box.hpp"
 #include "full_surface.hpp"
 #include "hulls.hpp"
 #include "near_ground.hpp"
@@ -66,13 +67,10 @@ class LatticeSegments {
     result.request = request_;
     const std::vector<Eye> eyes = eyes_on_full_surface(store_, request_, result.ground_m, progress_);
     retrieve_coarse();
-    for (std::size_t tile = 0; tile < tiles_.cell_count(); ++tile)
-      observations_.push_back(Observations(request_).of_tile());
+    observations_ = Observations(request_).of_tiles(tiles_);
     for (std::uint32_t i = 0; i < eyes.size(); ++i)
       if (!look(eyes[i], i, by_azimuth(eyes[i]))) return std::nullopt;
-    Observation::prepare(result);
-    for (std::size_t i = 0; i < observations_.size(); ++i)
-      observations_[i]->store(tile_at(result.grid, tiles_, i), result, result.cells);
+    store_all(observations_, tiles_, result);
     result.statistics.rays_seconds += watch_.lap();
     return std::move(surveyed_);
   }
@@ -103,7 +101,7 @@ class LatticeSegments {
     };
     std::vector<Place> places;
     for (std::size_t tile = 0; tile < tiles_.cell_count(); ++tile) {
-      const Box box = box_of(tile);
+      const Box box = cell_box(tiles_, tile);
       const double dx = eye.position.x - std::clamp(eye.position.x, box.xmin, box.xmax),
                    dy = eye.position.y - std::clamp(eye.position.y, box.ymin, box.ymax);
       if (!eye.view.reaches(dx * dx + dy * dy)) continue;
@@ -117,13 +115,6 @@ class LatticeSegments {
     std::vector<std::size_t> tiles;
     for (const Place& place : places) tiles.push_back(place.tile);
     return tiles;
-  }
-
-  Box box_of(std::size_t tile) const {
-    const Point2 c = tiles_.centre(static_cast<std::int64_t>(tile) % tiles_.columns(),
-                                   static_cast<std::int64_t>(tile) / tiles_.columns());
-    const double w = tiles_.cell_width() / 2, h = tiles_.cell_height() / 2;
-    return {c.x - w, c.y - h, c.x + w, c.y + h};
   }
 
   /// False where the surface is no lattice.
@@ -176,7 +167,7 @@ class LatticeSegments {
 
   std::vector<Point2> hull_of(const Eye& eye, Tiles tiles) const {
     std::vector<Point2> corners{eye.position};
-    for (const std::size_t tile : tiles) add_corners(box_of(tile), corners);
+    for (const std::size_t tile : tiles) add_corners(cell_box(tiles_, tile), corners);
     return viewshed::hull_of(std::move(corners));
   }
 

@@ -162,6 +162,18 @@ Observations::Observations(const Request& request, const Tin& tin) : request_(re
   if (request.mode == Mode::kProbability) odds_.emplace(tin, request.earth, request.vertical_error);
 }
 
+std::vector<std::unique_ptr<Observation>> Observations::of_tiles(const RasterGrid& tiles) const {
+  std::vector<std::unique_ptr<Observation>> all(tiles.cell_count());
+  for (auto& observation : all) observation = of_tile();
+  return all;
+}
+
+void store_all(const std::vector<std::unique_ptr<Observation>>& observations, const RasterGrid& tiles, Result& result) {
+  Observation::prepare(result);
+  for (std::size_t i = 0; i < observations.size(); ++i)
+    observations[i]->store(tile_at(result.grid, tiles, i), result, result.cells);
+}
+
 std::unique_ptr<Observation> Observations::of_tile() const {
   switch (request_.mode) {
     case Mode::kCount:

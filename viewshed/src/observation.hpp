@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include <viewshed/viewshed.hpp>
 
@@ -101,12 +102,17 @@ class Observations {
   Observations(const Request& request, const Tin& tin);
 
   std::unique_ptr<Observation> of_tile() const;
+  /// One of each.
+  std::vector<std::unique_ptr<Observation>> of_tiles(const RasterGrid& tiles) const;
 
  private:
   const Request& request_;
   std::optional<FirstBlocker> blockers_;
   std::optional<VerticalOdds> odds_;
 };
+
+/// Makes room in the result and writes all tiles' observations and counts to it.
+void store_all(const std::vector<std::unique_ptr<Observation>>& observations, const RasterGrid& tiles, Result& result);
 
 template <class Visit>
 void TileLook::for_each_cell(const Visit& visit) const {

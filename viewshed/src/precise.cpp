@@ -10,6 +10,7 @@
 #include <itin/triangulate.hpp>
 #include <viewshed/certified.hpp>
 
+#include "cell_box.hpp"
 #include "certified_pass.hpp"
 #include "full_surface.hpp"
 #include "ground_tiles.hpp"
@@ -69,12 +70,9 @@ class InSegments {
     result.request = request_;
     const std::vector<Eye> eyes = eyes_on_full_surface(store_, request_, result.ground_m, progress_);
     retrieve_coarse();
-    for (std::size_t tile = 0; tile < tiles_.cell_count(); ++tile)
-      observations_.push_back(Observations(request_).of_tile());
+    observations_ = Observations(request_).of_tiles(tiles_);
     for (std::uint32_t i = 0; i < eyes.size(); ++i) look(eyes[i], i);
-    Observation::prepare(result);
-    for (std::size_t i = 0; i < observations_.size(); ++i)
-      observations_[i]->store(tile_at(result.grid, tiles_, i), result, result.cells);
+    store_all(observations_, tiles_, result);
     result.statistics.rays_seconds += watch_.lap();
     return std::move(surveyed_);
   }
@@ -285,10 +283,8 @@ class InSegments {
   Window window_over(const std::vector<std::size_t>& cells) const {
     std::vector<Window::Polygon> parts;
     for (const std::size_t i : cells) {
-      const Point2 c = tiles_.centre(static_cast<std::int64_t>(i) % tiles_.columns(),
-                                     static_cast<std::int64_t>(i) / tiles_.columns());
-      const double w = tiles_.cell_width() / 2, h = tiles_.cell_height() / 2;
-      parts.push_back({{{c.x - w, c.y - h}, {c.x + w, c.y - h}, {c.x + w, c.y + h}, {c.x - w, c.y + h}}, {}});
+      const Box b = cell_box(tiles_, i);
+      parts.push_back({{{b.xmin, b.ymin}, {b.xmax, b.ymin}, {b.xmax, b.ymax}, {b.xmin, b.ymax}}, {}});
     }
     return Window::polygons(std::move(parts));
   }

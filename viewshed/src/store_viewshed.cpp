@@ -27,7 +27,8 @@ bool needs_tin(const Request& request) {
 
 std::optional<Surveyed> compute_over_lattice(const Store& store, const Request& request, std::uint64_t most_posts,
                                              Progress& progress) {
-  if (needs_tin(request)) return std::nullopt;
+  // At coarser levels nothing of the full one is looked at.
+  if (needs_tin(request) || level_within(store.metadata(), request.detail.coarsest()) != 0) return std::nullopt;
   Stopwatch watch;
   auto surface = retrieve_lattice(store, window_of(request), request.detail, request.themes,
                                   heights_for(request, store.points_about(0, box_of_window(store, request))),

@@ -13,6 +13,7 @@
 
 #include <itin/error.hpp>
 
+#include "cell_box.hpp"
 #include "envelope.hpp"
 #include "hulls.hpp"
 #include "request.hpp"
@@ -61,12 +62,7 @@ class PointCounts {
  private:
   static constexpr double kSide = 48;
 
-  Box cell(std::size_t i) const {
-    const auto n = static_cast<std::int64_t>(i);
-    const Point2 c = cells_.centre(n % cells_.columns(), n / cells_.columns());
-    const double w = cells_.cell_width() / 2, h = cells_.cell_height() / 2;
-    return {c.x - w, c.y - h, c.x + w, c.y + h};
-  }
+  Box cell(std::size_t i) const { return cell_box(cells_, i); }
 
   /// Or may meet it.
   static bool meets(const std::vector<Point2>& polygon, const Box& box) {

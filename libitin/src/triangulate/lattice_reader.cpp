@@ -75,6 +75,17 @@ class LatticeReader::Work {
     return Place{column, row, column * spacing == east && row * spacing == south};
   }
 
+  void begin_reading(std::uint32_t tile) {
+    lattice_.make_heights(tile);
+    being_read_[tile] = true;
+  }
+  /// In the tiles that are being read.
+  void set_height(const Place& place, std::int32_t z) {
+    lattice_.for_each_tile_of(place.column, place.row, [&](std::uint32_t tile, std::uint32_t post) {
+      if (being_read_[tile]) (*lattice_.tiles[tile].heights)[post] = z;
+    });
+  }
+
   Selection selection_;
   StandingIndex index_;
   Window whole_;
@@ -156,8 +167,9 @@ bool LatticeReader::Work::find_lattice(Heights heights, std::uint64_t most_posts
 bool LatticeReader::Work::open(Heights heights, std::uint64_t most_posts, Progress& progress) {
   if (!find_lattice(heights, most_posts)) return false;
   if (heights == Heights::kAll) {
+    being_read_.assign(lattice_.tiles.size(), false);
     for (std::uint32_t t = 0; t < lattice_.tiles.size(); ++t)
-      if (cover_->reaches(t)) lattice_.make_heights(t);
+      if (cover_->reaches(t)) begin_reading(t);
   } else {
     highest_.assign(lattice_.tiles.size(), std::numeric_limits<std::int32_t>::min());
   }
@@ -209,9 +221,7 @@ bool LatticeReader::Work::place(const Leaf& leaf, Heights heights) {
     }
     cover_->add(place->column, place->row);
     if (heights == Heights::kAll) {
-      lattice_.for_each_tile_of(place->column, place->row, [&](std::uint32_t tile, std::uint32_t post) {
-        if (cover_->reaches(tile)) (*lattice_.tiles[tile].heights)[post] = p.z;
-      });
+      set_height(*place, p.z);
     } else if (!plan) {
       lattice_.for_each_tile_of(place->column, place->row, [&](std::uint32_t tile, std::uint32_t) { rise(tile, p.z); });
     }
@@ -268,8 +278,7 @@ void LatticeReader::Work::read(std::span<const std::uint32_t> tiles) {
   std::vector<std::uint32_t> leaves;
   for (const std::uint32_t t : tiles) {
     if (lattice_.tiles[t].ground == LatticeTin::Ground::kNone || lattice_.tiles[t].heights) continue;
-    lattice_.make_heights(t);
-    being_read_[t] = true;
+    begin_reading(t);
     leaves.insert(leaves.end(), leaf_of_tile_.begin() + first_leaf_[t], leaf_of_tile_.begin() + first_leaf_[t + 1]);
   }
   std::sort(leaves.begin(), leaves.end());
@@ -281,10 +290,7 @@ void LatticeReader::Work::read(std::span<const std::uint32_t> tiles) {
       const auto block = bounds_well(leaf) ? index_.block_once(leaf) : index_.block(leaf);
       for (const GridPoint& p : block->points) {
         const auto place = place_of(p);
-        if (!place || !place->post) continue;
-        lattice_.for_each_tile_of(place->column, place->row, [&](std::uint32_t tile, std::uint32_t post) {
-          if (being_read_[tile]) (*lattice_.tiles[tile].heights)[post] = p.z;
-        });
+        if (place && place->post) set_height(*place, p.z);
       }
     }
   });
