@@ -41,7 +41,17 @@ std::optional<double> FullSurface::height(Point2 position) const {
 
 std::unique_ptr<FullSurface::TileWork> FullSurface::begin(std::size_t tile) const {
   auto work = std::make_unique<TileWork>(units(), grid_, tile_at(grid_, tiles_, tile));
-  find_ground(tile, *work);
+  if (of_tiles_) {
+    scan_convert(*targets_on_, of_tiles_->triangles(tile), work->tile, work->centres, work->ground);
+  } else {
+    find_ground({&work->tile, 1}, *work);
+  }
+  return work;
+}
+
+std::unique_ptr<FullSurface::TileWork> FullSurface::begin(std::size_t tile, std::span<const Tile> parts) const {
+  auto work = std::make_unique<TileWork>(units(), grid_, tile_at(grid_, tiles_, tile));
+  find_ground(parts, *work);
   return work;
 }
 
@@ -68,21 +78,24 @@ double FullSurface::raise_from(const AxisSweep::View& view, Point2 position, dou
   return work->seen[0];
 }
 
-void FullSurface::find_ground(std::size_t index, TileWork& work) const {
-  if (of_tiles_) {
-    scan_convert(*targets_on_, of_tiles_->triangles(index), work.tile, work.centres, work.ground);
-    return;
-  }
-  const auto last = [](std::int64_t count) { return static_cast<std::size_t>(count - 1); };
+void FullSurface::find_ground(std::span<const Tile> parts, TileWork& work) const {
   const TileCentres& at = work.centres;
-  work.unread = heights_.all_unread({at.x[0], at.y[0]}, {at.x[last(work.tile.columns)], at.y[last(work.tile.rows)]});
-  work.ground.fill(work.unread ? kUnread : kNoSurface);
-  if (work.unread) return;
-  for_each_cell(work.tile, [&](std::int64_t r, std::int64_t c, std::size_t cell) {
-    const auto height =
-        heights_.height_at({work.centres.x[static_cast<std::size_t>(c)], work.centres.y[static_cast<std::size_t>(r)]});
-    if (height) work.ground[cell] = *height;
-  });
+  work.ground.fill(kNoSurface);
+  work.unread = true;
+  for (const Tile& part : parts) {
+    const auto west = static_cast<std::size_t>(part.column - work.tile.column),
+               north = static_cast<std::size_t>(part.row - work.tile.row);
+    const std::size_t east = west + static_cast<std::size_t>(part.columns),
+                      south = north + static_cast<std::size_t>(part.rows);
+    const bool unread = heights_.all_unread({at.x[west], at.y[north]}, {at.x[east - 1], at.y[south - 1]});
+    work.unread = work.unread && unread;
+    for (std::size_t r = north; r < south; ++r) {
+      for (std::size_t c = west; c < east; ++c) {
+        const auto height = unread ? kUnread : heights_.height_at({at.x[c], at.y[r]});
+        if (height) work.ground[r * Tile::kSide + c] = *height;
+      }
+    }
+  }
 }
 
 /// Where undecided cells have their targets; those that need no line are decided.

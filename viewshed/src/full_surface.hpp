@@ -64,6 +64,8 @@ class FullSurface {
     }
   };
   std::unique_ptr<TileWork> begin(std::size_t tile) const;
+  /// Of the cells in these parts of the tile alone. Precondition: the surface is a lattice.
+  std::unique_ptr<TileWork> begin(std::size_t tile, std::span<const Tile> parts) const;
 
   /// What all tiles share of an eye.
   AxisSweep::View view_from(const Eye& eye) const { return sweep_.view_of(axis_of(eye)); }
@@ -89,7 +91,7 @@ class FullSurface {
     return sweep_.axis_at(eye.units, eye.view.farthest() / units().resolution + 1);
   }
   void raise_targets(const Eye& eye, TileValues<std::uint8_t>& values, TileWork& work) const;
-  void find_ground(std::size_t index, TileWork& work) const;
+  void find_ground(std::span<const Tile> parts, TileWork& work) const;
 
   const Tin* targets_on_ = nullptr;  ///< what targets stand on, where that is a Tin
   const RasterGrid& grid_;

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <memory>
+#include <numbers>
 #include <span>
 #include <string_view>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -17,13 +19,12 @@
 #include <viewshed/surface.hpp>
 
 #include "boundary.hpp"
-#include "cell_box.hpp"
 #include "full_surface.hpp"
-#include "hulls.hpp"
 #include "near_ground.hpp"
 #include "observation.hpp"
 #include "request.hpp"
 #include "reveal.hpp"
+#include "sight_sectors.hpp"
 #include "stopwatch.hpp"
 #include "store_viewshed.hpp"
 #include "void_shadow.hpp"
@@ -33,13 +34,11 @@ namespace itin::viewshed {
 namespace {
 
 /// Of a post whose height is not read: a bit, and its share of a leaf and of a tile.
-constexpr std::uint64_t kBytesAnUnreadPost = 1;
-/// Posts of a segment that is begun take at least so much: some of them will be read.
-constexpr std::uint64_t kLeastBytesAPost = 3;
+constexpr double kBytesAnUnreadPost = 0.5;
+/// Of a sector's tiles, before one has been looked at.
+constexpr double kFirstShareSeen = 0.25;
 /// Of the surface that maps are drawn over, at most.
 constexpr std::uint64_t kCoarsePoints = 200000;
-
-using Tiles = std::span<const std::size_t>;
 
 /// Passes on that a call is to end, and nothing of how far it has come.
 class Unreported final : public Progress {
@@ -59,6 +58,7 @@ class LatticeSegments {
         request_(request),
         memory_(memory),
         all_heights_(asks_for_all_heights(request)),
+        share_seen_(all_heights_ ? 1 : kFirstShareSeen),
         progress_(progress),
         reading_(progress) {}
 
@@ -69,7 +69,7 @@ class LatticeSegments {
     retrieve_coarse();
     observations_ = Observations(request_).of_tiles(tiles_);
     for (std::uint32_t i = 0; i < eyes.size(); ++i)
-      if (!look(eyes[i], i, by_azimuth(eyes[i]))) return std::nullopt;
+      if (!look(eyes[i], i)) return std::nullopt;
     store_all(observations_, tiles_, result);
     result.statistics.rays_seconds += watch_.lap();
     return std::move(surveyed_);
@@ -92,102 +92,108 @@ class LatticeSegments {
     result.statistics.retrieval_seconds += watch_.lap();
   }
 
-  /// The tiles of cells that an eye looks at. By rings of doubling distances, for the nearer ones span wide sectors.
-  std::vector<std::size_t> by_azimuth(const Eye& eye) const {
-    struct Place {
-      int ring;
-      double azimuth;
-      std::size_t tile;
-    };
-    std::vector<Place> places;
-    for (std::size_t tile = 0; tile < tiles_.cell_count(); ++tile) {
-      const Box box = cell_box(tiles_, tile);
-      const double dx = eye.position.x - std::clamp(eye.position.x, box.xmin, box.xmax),
-                   dy = eye.position.y - std::clamp(eye.position.y, box.ymin, box.ymax);
-      if (!eye.view.reaches(dx * dx + dy * dy)) continue;
-      const double azimuth =
-          std::atan2((box.xmin + box.xmax) / 2 - eye.position.x, (box.ymin + box.ymax) / 2 - eye.position.y);
-      places.push_back({std::ilogb(std::max(1.0, std::hypot(dx, dy) / tiles_.cell_width())), azimuth, tile});
-    }
-    std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
-      return std::tie(a.ring, a.azimuth, a.tile) < std::tie(b.ring, b.azimuth, b.tile);
-    });
-    std::vector<std::size_t> tiles;
-    for (const Place& place : places) tiles.push_back(place.tile);
-    return tiles;
-  }
-
   /// False where the surface is no lattice.
-  bool look(const Eye& eye, std::uint32_t observer, Tiles tiles) {
-    if (tiles.empty()) return true;
-    const std::vector<Point2> hull = hull_of(eye, tiles);
-    const std::uint64_t least = all_heights_ ? kBytesAPost : kLeastBytesAPost;
-    const double share =
-        area_of(hull) * posts_a_square_metre_ * static_cast<double>(least) / static_cast<double>(memory_);
-    // Of what cannot be divided any more the estimate may be wrong.
-    if (share < (tiles.size() == 1 ? 2 : 1)) {
-      const auto reader = LatticeReader::open(
-          store_, Window::polygons({{hull, {}}}), ThemeChoice::none(),
-          all_heights_ ? LatticeReader::Heights::kAll : LatticeReader::Heights::kNone, kAnyLattice, reading_);
-      if (!reader) return false;
-      if (look_over(*reader, eye, observer, tiles)) return true;
+  bool look(const Eye& eye, std::uint32_t observer) {
+    SightSectors sectors(surveyed_.result.grid, eye);
+    while (!sectors.empty()) {
+      const SightSectors::Sector sector = sectors.next(
+          [&](const std::vector<Point2>& hull) { return bytes_of(hull, share_seen_) <= static_cast<double>(memory_); });
+      double reach = 0;
+      // The estimate may be wrong, but not by as much.
+      if (bytes_of(sector.hull, all_heights_ ? 1 : 0) <= 2 * static_cast<double>(memory_)) {
+        const auto reader = LatticeReader::open(
+            store_, Window::polygons({{sector.hull, {}}}), ThemeChoice::none(),
+            all_heights_ ? LatticeReader::Heights::kAll : LatticeReader::Heights::kNone, kAnyLattice, reading_);
+        if (!reader) return false;
+        reach = look_over(*reader, eye, observer, sectors, sector.parts);
+        learn(reader->lattice(), std::isinf(reach));
+      }
+      sectors.settle(sector, reach);
     }
-    if (tiles.size() == 1)
-      throw InputError("the sight lines to some cells do not fit into the memory: give more --memory or smaller cells");
-    const std::size_t half = tiles.size() / 2;
-    return look(eye, observer, tiles.first(half)) && look(eye, observer, tiles.subspan(half));
+    return true;
   }
 
-  /// False where what the eye may see does not fit into the memory.
-  bool look_over(LatticeReader& reader, const Eye& eye, std::uint32_t observer, Tiles tiles) {
+  /// Of a sector of whose tiles such a share is seen.
+  double bytes_of(const std::vector<Point2>& hull, double share) const {
+    const double posts = area_of(hull) * posts_a_square_metre_;
+    // Of the tiles of a lattice a convex shape meets so many on average, however it is turned.
+    const double side = LatticeTin::kSide / std::sqrt(posts_a_square_metre_);
+    const double tiles = area_of(hull) / (side * side) + 2 * length_of(hull) / (std::numbers::pi * side) + 1;
+    return kBytesAnUnreadPost * posts + share * tiles * LatticeTin::kCells * kBytesAPost;
+  }
+
+  /// The next sector will be like it, but not quite.
+  void learn(const LatticeTin& lattice, bool fits) {
+    if (all_heights_) return;
+    double tiles = 0, seen = 0;
+    for (const LatticeTin::Tile& tile : lattice.tiles) {
+      if (tile.ground == LatticeTin::Ground::kNone) continue;
+      tiles += 1, seen += tile.heights ? 1 : 0;
+    }
+    share_seen_ =
+        std::min(1.0, fits ? (share_seen_ + 1.1 * seen / tiles) / 2 : 1.5 * std::max(share_seen_, seen / tiles));
+  }
+
+  /// Decides the cells within a reach, metres, as far as what the eye may see fits into the memory.
+  double look_over(LatticeReader& reader, const Eye& eye, std::uint32_t observer, const SightSectors& sectors,
+                   std::span<const Tile> parts) {
     Result& result = surveyed_.result;
     FullSurface surface(reader.lattice(), request_.earth, result.grid, tiles_);
-    const std::uint64_t unread = kBytesAnUnreadPost * reader.lattice().triangle_count() / 2;
-    const auto view =
-        reveal(eye, reader, surface, (memory_ - std::min(memory_, unread)) / (kBytesAPost * LatticeTin::kCells));
-    if (!view) return false;
+    const double unread = kBytesAnUnreadPost * static_cast<double>(reader.lattice().triangle_count()) / 2;
+    const double tiles =
+        (static_cast<double>(memory_) - unread) / static_cast<double>(kBytesAPost * LatticeTin::kCells);
+    const Revealed revealed = reveal(eye, reader, surface, static_cast<std::uint64_t>(std::max(0.0, tiles)));
+    // A bin less, against rounding.
+    const double reach = (revealed.reach - 1) * reader.lattice().spacing * reader.lattice().grid.resolution;
     std::optional<VoidShadow> shadow;
     if (request_.nodata == NoData::kBlock && result.crosses_voids) shadow.emplace(surface.rim(), eye.units);
     result.statistics.retrieval += reader.lattice().statistics;
     result.statistics.triangles += reader.lattice().triangle_count();
     result.statistics.retrieval_seconds += watch_.lap();
+    std::vector<Tile> decided;
+    std::copy_if(parts.begin(), parts.end(), std::back_inserter(decided),
+                 [&](const Tile& part) { return sectors.within(reach, part); });
+    const std::vector<PartsOfTile> cells = by_tile(decided);
     std::atomic<std::uint64_t> lines = 0;
-    parallel_for(tiles.size(), [&](std::size_t i) {
+    parallel_for(cells.size(), [&](std::size_t i) {
       progress_.throw_if_cancelled();
-      const auto work = surface.begin(tiles[i]);
-      lines += observations_[tiles[i]]->look({surface, eye, *view, observer, shadow ? &*shadow : nullptr, *work});
+      const auto work = surface.begin(cells[i].tile, cells[i].parts);
+      lines += observations_[cells[i].tile]->look(
+          {surface, eye, revealed.view, observer, shadow ? &*shadow : nullptr, *work});
     });
     result.statistics.rays += lines;
     result.statistics.rays_seconds += watch_.lap();
-    done_ += tiles.size();
-    progress_.report("cells decided",
-                     static_cast<double>(done_) / static_cast<double>(tiles_.cell_count() * request_.observers.size()));
-    return true;
+    for (const Tile& part : decided) done_ += static_cast<std::size_t>(part.columns * part.rows);
+    progress_.report("cells decided", static_cast<double>(done_) /
+                                          static_cast<double>(result.grid.cell_count() * request_.observers.size()));
+    return reach;
   }
 
-  std::vector<Point2> hull_of(const Eye& eye, Tiles tiles) const {
-    std::vector<Point2> corners{eye.position};
-    for (const std::size_t tile : tiles) add_corners(cell_box(tiles_, tile), corners);
-    return viewshed::hull_of(std::move(corners));
-  }
-
-  static double area_of(const std::vector<Point2>& ring) {
-    double doubled = 0;
-    for (std::size_t i = 2; i < ring.size(); ++i) doubled += left_of(ring[0], ring[i - 1], ring[i]);
-    return doubled / 2;
+  struct PartsOfTile {
+    std::size_t tile;
+    std::vector<Tile> parts;
+  };
+  std::vector<PartsOfTile> by_tile(std::span<const Tile> parts) const {
+    std::map<std::size_t, std::vector<Tile>> of_tiles;
+    for (const Tile& part : parts)
+      of_tiles[tiles_.index({part.column / Tile::kSide, part.row / Tile::kSide})].push_back(part);
+    std::vector<PartsOfTile> all;
+    for (auto& [tile, some] : of_tiles) all.push_back({tile, std::move(some)});
+    return all;
   }
 
   const Store& store_;
   const Request& request_;
   std::uint64_t memory_;
   bool all_heights_;
+  double share_seen_;  ///< of a sector's tiles, as far as it is known
   Progress& progress_;
-  Unreported reading_;  ///< of a segment
+  Unreported reading_;  ///< of a sector
   Stopwatch watch_;
   Surveyed surveyed_;
   RasterGrid tiles_;
   double posts_a_square_metre_ = 0;
-  std::size_t done_ = 0;                                    ///< tiles, of all observers
+  std::size_t done_ = 0;                                    ///< cells, of all observers
   std::vector<std::unique_ptr<Observation>> observations_;  ///< a tile
 };
 

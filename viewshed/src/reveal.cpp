@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -39,8 +40,7 @@ void read(const Tiles& tiles, LatticeReader& reader, FullSurface& surface) {
 
 }  // namespace
 
-std::optional<AxisSweep::View> reveal(const Eye& eye, LatticeReader& reader, FullSurface& surface,
-                                      std::uint64_t most_tiles) {
+Revealed reveal(const Eye& eye, LatticeReader& reader, FullSurface& surface, std::uint64_t most_tiles) {
   const LatticeTin& lattice = reader.lattice();
   AxisSweep::View view = surface.look_out(eye);
   std::vector<std::pair<double, std::uint32_t>> left;  // the nearest last
@@ -68,12 +68,13 @@ std::optional<AxisSweep::View> reveal(const Eye& eye, LatticeReader& reader, Ful
     Tiles wanted;
     for (std::size_t i = 0; i < near.size(); ++i)
       if (hidden[i] == 0) wanted.push_back(near[i]);
-    if (wanted.size() > most_tiles) return std::nullopt;
+    if (wanted.size() > most_tiles) return {std::move(view), reach};
     most_tiles -= wanted.size();
     read(wanted, reader, surface);
   }
-  view.advance(std::numeric_limits<double>::infinity());
-  return view;
+  constexpr double kAll = std::numeric_limits<double>::infinity();
+  view.advance(kAll);
+  return {std::move(view), kAll};
 }
 
 bool asks_for_all_heights(const Request& request) {

@@ -1,7 +1,7 @@
 // Reads what an eye may see of a lattice, and no more.
 //
 //   reveal_place(observer.position, reader, surface);         // so that its height is known
-//   const AxisSweep::View view = reveal(eye, reader, surface);
+//   const AxisSweep::View view = reveal(eye, reader, surface).view;
 //
 // From the eye outwards, as far each time as what has been read tells what is hidden: a tile that does not rise above
 // the horizon before it, even with targets on its highest post, is left alone. To the eye it is bare: no line passes
@@ -11,7 +11,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <optional>
 
 #include <itin/geometry.hpp>
 #include <itin/lattice_reader.hpp>
@@ -23,10 +22,13 @@
 namespace itin::viewshed {
 
 inline constexpr std::uint64_t kAnyTiles = std::numeric_limits<std::uint64_t>::max();
-/// `surface` is the reader's. Cost: the tiles, and the view. Nothing where it would have to read more than
+struct Revealed {
+  AxisSweep::View view;
+  double reach;  ///< ends that are not as far away along columns or rows may be looked at; bins
+};
+/// `surface` is the reader's. Cost: the tiles, and the view. Ends short of all where it would have to read more than
 /// `most_tiles`.
-std::optional<AxisSweep::View> reveal(const Eye& eye, LatticeReader& reader, FullSurface& surface,
-                                      std::uint64_t most_tiles = kAnyTiles);
+Revealed reveal(const Eye& eye, LatticeReader& reader, FullSurface& surface, std::uint64_t most_tiles = kAnyTiles);
 
 /// Which heights to read at once of about so many posts: all where it matters how high ground is that nobody sees, and
 /// where leaving some out would save little, since there are many observers or few tiles.

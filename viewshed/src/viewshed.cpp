@@ -53,7 +53,7 @@ Result compute_on(const Tin* tin, LatticeReader* reader, const Tin* bare, const 
   const Observations observations = lattice != nullptr ? Observations(request) : Observations(request, *tin);
   std::vector<AxisSweep::View> views;
   for (const Eye& eye : eyes)
-    views.push_back(reader != nullptr ? reveal(eye, *reader, surface).value() : surface.view_from(eye));
+    views.push_back(reader != nullptr ? reveal(eye, *reader, surface).view : surface.view_from(eye));
   look_around(surface, observations, eyes, views, result, progress);
   if (request.mode == Mode::kBlocker) name_blockers(*tin, result);
   result.statistics.rays_seconds = watch.lap();

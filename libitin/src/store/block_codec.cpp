@@ -299,6 +299,23 @@ std::vector<std::uint8_t> encode_block(const Cell& cell, std::span<const GridPoi
 
 namespace {
 
+// The beginning of a block.
+struct Header {
+  std::size_t count;
+  Lattice lattice;
+  std::uint64_t step_z;
+  ByteReader rest;
+};
+
+Header read_header(const Cell& cell, std::span<const std::uint8_t> bytes) {
+  ByteReader in(bytes);
+  const auto count = static_cast<std::size_t>(in.varint(1, kMaxBlockPoints));
+  Lattice lattice = read_lattice(in, cell);
+  const std::uint64_t step_z = in.varint(1, std::uint64_t{1} << 32);
+  read_lattice_origin(in, cell, lattice);
+  return {count, lattice, step_z, in};
+}
+
 // What a block is coded by, and where its points are.
 struct Plan {
   Lattice lattice;
@@ -312,11 +329,8 @@ struct Plan {
 };
 
 Plan read_plan(const Cell& cell, std::span<const std::uint8_t> bytes) {
-  ByteReader header(bytes);
-  const auto count = static_cast<std::size_t>(header.varint(1, kMaxBlockPoints));
-  Plan plan{read_lattice(header, cell), 0, 0, 0, {}, {}, {}, {}};
-  plan.step_z = header.varint(1, std::uint64_t{1} << 32);
-  read_lattice_origin(header, cell, plan.lattice);
+  auto [count, lattice, step_z, header] = read_header(cell, bytes);
+  Plan plan{lattice, step_z, 0, 0, {}, {}, {}, {}};
   plan.first_z = checked_height(header.signed_varint());
   const auto gap_rice = static_cast<int>(header.varint(0, kMaxRiceParameter));
   plan.first_rice = static_cast<int>(header.varint(0, kMaxRiceParameter));
@@ -331,6 +345,15 @@ Plan read_plan(const Cell& cell, std::span<const std::uint8_t> bytes) {
 }
 
 }  // namespace
+
+BlockLattice decode_lattice(const Cell& cell, std::span<const std::uint8_t> bytes) {
+  const GridBox box = cell.box();
+  const Header header = read_header(cell, bytes);
+  const Lattice& lattice = header.lattice;
+  return {static_cast<std::uint32_t>(header.count), static_cast<std::int32_t>(box.xmin + lattice.x0),
+          static_cast<std::int32_t>(box.ymin + lattice.y0), static_cast<std::int64_t>(lattice.step_x),
+          static_cast<std::int64_t>(lattice.step_y)};
+}
 
 Block decode_plan(const Cell& cell, std::span<const std::uint8_t> bytes) {
   const Plan plan = read_plan(cell, bytes);

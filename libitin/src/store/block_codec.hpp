@@ -25,6 +25,9 @@ Block decode_block(const Cell& cell, std::span<const std::uint8_t> bytes, BlockO
 /// point.
 Block decode_plan(const Cell& cell, std::span<const std::uint8_t> bytes);
 
+/// Its header alone: what all of its points lie on. Throws DecodeError as far as that needs it.
+BlockLattice decode_lattice(const Cell& cell, std::span<const std::uint8_t> bytes);
+
 inline constexpr std::uint32_t kMaxBlockPoints = 4096;
 
 }  // namespace itin

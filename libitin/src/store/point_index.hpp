@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <itin/geometry.hpp>
@@ -25,7 +26,7 @@ struct Leaf {
   std::int32_t zmax = 0;
   std::int32_t lo = 0;  ///< T_level + lo <= T_0 <= T_level + hi over the cell, grid units
   std::int32_t hi = 0;
-  std::uint64_t key = 0;    ///< private to the index
+  std::uint64_t key = 0;    ///< the index's own, of each leaf another
   std::uint16_t theme = 0;  ///< whose vertices, 0 for terrain; a theme's vertices are there at every level
 };
 
@@ -41,6 +42,13 @@ struct Block {
   std::uint16_t theme(std::size_t k) const {
     return static_cast<std::uint16_t>(standing != 0 && outline[k] == 0 ? standing : 0);
   }
+};
+
+/// What all points of a block lie on: (x + i step_x, y + j step_y), grid units.
+struct BlockLattice {
+  std::uint32_t points = 0;  ///< so many of its places have one
+  std::int32_t x = 0, y = 0;
+  std::int64_t step_x = 1, step_y = 1;
 };
 
 /// The level of a leaf's point k.
@@ -80,6 +88,9 @@ class PointIndex {
   virtual std::shared_ptr<const Block> block_once(const Leaf& leaf) const { return block(leaf); }
   /// The same, of its points only where they are in the plane: what their heights come out as does not count.
   virtual std::shared_ptr<const Block> plan_once(const Leaf& leaf) const { return block_once(leaf); }
+
+  /// What the points lie on, where that is known without reading where they are.
+  virtual std::optional<BlockLattice> lattice_of(const Leaf&) const { return std::nullopt; }
 
   /// Appends every segment that meets `box`, of the coverage and of all themes, at all levels, and perhaps others
   /// nearby; the same one may come twice.

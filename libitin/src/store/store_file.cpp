@@ -80,8 +80,8 @@ std::shared_ptr<const DirectoryChunk> StoreFile::chunk(int tree, const ChunkEntr
   return chunk;
 }
 
-template <typename Visit>
-void StoreFile::for_each_leaf(int tree, const GridBox& box, const Visit& visit) const {
+template <typename Visit, typename Skip>
+void StoreFile::for_each_leaf(int tree, const GridBox& box, const Visit& visit, const Skip& skip) const {
   const auto found = chunks_.find(tree);
   if (found == chunks_.end() || !MortonRange::exists(box)) return;
   const std::vector<ChunkEntry>& entries = found->second;
@@ -93,6 +93,10 @@ void StoreFile::for_each_leaf(int tree, const GridBox& box, const Visit& visit) 
     if (entry == entries.end()) return;
     if (entry->code > *code) code = range.next(entry->code);
     if (!code || *code >= entry->end) continue;
+    if (skip(*entry)) {
+      code = range.next(entry->end);
+      continue;
+    }
     const std::shared_ptr<const DirectoryChunk> leaves = chunk(tree, *entry);
     // Invariant: *code is in the box, and no leaf below it is left to visit.
     for (auto leaf = leaves->begin(); code && *code < entry->end;) {
@@ -142,6 +146,14 @@ std::shared_ptr<const Block> StoreFile::plan_once(const Leaf& leaf) const {
   });
 }
 
+std::optional<BlockLattice> StoreFile::lattice_of(const Leaf& leaf) const {
+  return at_place(rows_.path(), format::place("block", leaf.key), [&] {
+    const BlockLattice lattice = decode_lattice(leaf.cell, rows_.read(BlobKind::Block, leaf.key));
+    if (lattice.points != leaf.points) throw DecodeError("does not agree with its directory");
+    return lattice;
+  });
+}
+
 void StoreFile::segments(const GridBox& box, std::vector<Segment>& out) const {
   for (auto tree = chunks_.lower_bound(format::kFirstEdgeTree); tree != chunks_.end(); ++tree)
     segments(tree->first, box, out);
@@ -176,6 +188,21 @@ std::int32_t StoreFile::greatest_height(std::uint16_t part, const GridBox& box) 
 
 namespace {
 
+/// Whether the box has all that a chunk may hold, which lies within `bounds`.
+bool holds(const GridBox& box, const ChunkEntry& chunk, const GridBox& bounds) {
+  for (Cell cell{chunk.code, 0}; cell.code < chunk.end; cell = {cell.end(), 0}) {
+    while (cell.parent().code == cell.code && cell.parent().end() <= chunk.end) cell = cell.parent();
+    if (!box.contains(intersection(cell.box(), bounds))) return false;
+  }
+  return true;
+}
+
+/// So many positions has a box.
+double positions_of(const GridBox& box) {
+  if (box.empty()) return 0;
+  return (double{1} * box.xmax - box.xmin + 1) * (double{1} * box.ymax - box.ymin + 1);
+}
+
 void require_level(int level, int count) {
   if (level < 0 || level >= count) throw InputError("level " + std::to_string(level) + ": the store has none");
 }
@@ -187,13 +214,16 @@ std::uint64_t StoreFile::points_about(int level, const Box& box) const {
   const GridBox units = metadata_.grid.enclosing(box);
   double points = 0;
   for (int k = level; k < level_count(); ++k) {
-    for_each_leaf(k, units, [&](const Leaf& leaf) {
-      const GridBox square = square_of(leaf.cell);
-      const double width = double{1} * std::min(square.xmax, units.xmax) - std::max(square.xmin, units.xmin);
-      const double height = double{1} * std::min(square.ymax, units.ymax) - std::max(square.ymin, units.ymin);
-      const double share = std::max(width, 0.0) * std::max(height, 0.0) / std::ldexp(1.0, 2 * leaf.cell.log2_side);
-      points += leaf.points * share;
-    });
+    const auto add_leaf = [&](const Leaf& leaf) {
+      const GridBox there = intersection(leaf.cell.box(), metadata_.bounds);
+      if (leaf.points > 0) points += leaf.points * positions_of(intersection(there, units)) / positions_of(there);
+    };
+    const auto add_whole = [&](const ChunkEntry& chunk) {
+      const bool whole = holds(units, chunk, metadata_.bounds);
+      if (whole) points += static_cast<double>(chunk.points);
+      return whole;
+    };
+    for_each_leaf(k, units, add_leaf, add_whole);
   }
   return static_cast<std::uint64_t>(points);
 }

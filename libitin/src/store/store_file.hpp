@@ -28,6 +28,7 @@ class StoreFile final : public PointIndex {
   std::shared_ptr<const Block> block(const Leaf& leaf) const override;
   std::shared_ptr<const Block> block_once(const Leaf& leaf) const override;
   std::shared_ptr<const Block> plan_once(const Leaf& leaf) const override;
+  std::optional<BlockLattice> lattice_of(const Leaf& leaf) const override;
   void segments(const GridBox& box, std::vector<Segment>& out) const override;
 
   /// One of the theme's footprint blocks.
@@ -48,9 +49,11 @@ class StoreFile final : public PointIndex {
   std::vector<Segment> read_edges(const Leaf& leaf) const;
 
  private:
-  /// Calls visit(leaf) for every leaf of the tree, empty ones too, that meets the box, along the curve.
-  template <typename Visit>
-  void for_each_leaf(int tree, const GridBox& box, const Visit& visit) const;
+  static constexpr auto kSkipNone = [](const ChunkEntry&) { return false; };
+  /// Calls visit(leaf) for every leaf of the tree, empty ones too, that meets the box, along the curve; but for those
+  /// of chunks that skip(chunk) is true of.
+  template <typename Visit, typename Skip = decltype(kSkipNone)>
+  void for_each_leaf(int tree, const GridBox& box, const Visit& visit, const Skip& skip = kSkipNone) const;
   std::shared_ptr<const DirectoryChunk> chunk(int tree, const ChunkEntry& entry) const;
   void segments(int tree, const GridBox& box, std::vector<Segment>& out) const;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 
 #include <itin/parallel.hpp>
@@ -67,6 +68,37 @@ std::uint64_t LatticeCover::most_posts() const {
 void LatticeCover::add(std::uint32_t column, std::uint32_t row) {
   if (Posts* const posts = posts_[lattice_.tile_of(column, row)].get())
     std::atomic_ref((*posts)[row % kSide]).fetch_or(Word{1} << column % kSide, std::memory_order_relaxed);
+}
+
+/// Calls visit(posts of a tile, row of them, mask) for every row of a tile with some of the places; the posts are null
+/// where they are out of reach.
+template <class Visit>
+void LatticeCover::for_each_word(const PlaceBox& places, const Visit& visit) const {
+  for (std::uint32_t row = places.north; row <= places.south; ++row) {
+    for (std::uint32_t column = places.west; column <= places.east; column = (column / kSide + 1) * kSide) {
+      const std::uint32_t count = std::min(places.east - column + 1, kSide - column % kSide);
+      const Word mask = (count == kSide ? ~Word{0} : (Word{1} << count) - 1) << column % kSide;
+      visit(posts_[lattice_.tile_of(column, row)].get(), row % kSide, mask);
+    }
+  }
+}
+
+std::uint64_t LatticeCover::lacks(const PlaceBox& places) const {
+  std::uint64_t count = 0;
+  bool in_reach = true;
+  for_each_word(places, [&](Posts* posts, std::uint32_t row, Word mask) {
+    in_reach = in_reach && posts != nullptr;
+    if (in_reach)
+      count += static_cast<std::uint64_t>(
+          std::popcount(mask & ~std::atomic_ref((*posts)[row]).load(std::memory_order_relaxed)));
+  });
+  return in_reach ? count : 0;
+}
+
+void LatticeCover::fill(const PlaceBox& places) {
+  for_each_word(places, [](Posts* posts, std::uint32_t row, Word mask) {
+    std::atomic_ref((*posts)[row]).fetch_or(mask, std::memory_order_relaxed);
+  });
 }
 
 bool LatticeCover::near_known(std::uint32_t column, std::uint32_t row) const {

@@ -27,6 +27,11 @@
 
 namespace itin {
 
+/// Places of a lattice from a first to a last one, both included.
+struct PlaceBox {
+  std::uint32_t west = 0, north = 0, east = 0, south = 0;
+};
+
 class LatticeCover {
  public:
   /// `lattice` has its place and its tiles, which know of no ground yet. `everything`: whatever is there, and not only
@@ -40,6 +45,11 @@ class LatticeCover {
 
   /// A post is there. Safe for concurrent use.
   void add(std::uint32_t column, std::uint32_t row);
+  /// How many of these places have no post yet; 0 where some of them are out of reach. Neither this nor fill() is safe
+  /// while posts are added to the same places.
+  std::uint64_t lacks(const PlaceBox& places) const;
+  /// All of them have one. Precondition: they are within reach.
+  void fill(const PlaceBox& places);
   /// Whether a place amid posts, to the south-east of this one, may lie in the circle about a cell that counts.
   bool near_known(std::uint32_t column, std::uint32_t row) const;
 
@@ -61,6 +71,8 @@ class LatticeCover {
   /// An edge of a cell or a diagonal, by its first post and its direction.
   using Edge = std::pair<std::uint64_t, std::size_t>;
 
+  template <class Visit>
+  void for_each_word(const PlaceBox& places, const Visit& visit) const;
   GridBox box_of(std::int64_t column, std::int64_t row, std::int64_t end_column, std::int64_t end_row) const;
   Reach reach_of(std::int64_t column, std::int64_t row, std::int64_t side) const;
   bool known(std::int64_t column, std::int64_t row, Reach reach) const;

@@ -1,7 +1,11 @@
 #include <algorithm>
 #include <atomic>
+#include <bit>
+#include <cmath>
 #include <numeric>
 #include <optional>
+#include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -12,6 +16,7 @@
 #include "triangulate/lattice_cover.hpp"
 #include "triangulate/selection.hpp"
 #include "triangulate/standing_index.hpp"
+#include "triangulate/window_leaves.hpp"
 
 namespace itin {
 
@@ -22,7 +27,6 @@ constexpr std::uint64_t kEmptiest = 4, kEmptiestWithoutHeights = 64;
 /// So many of the fullest leaves tell the lattice.
 constexpr std::size_t kSamples = 8;
 constexpr std::size_t kLeavesATask = 64;
-constexpr std::int64_t kStrips = 32;
 /// Of leaves, posts. Those of wider ones are looked at when it is told how high a tile is: they say little about it.
 constexpr std::int64_t kWidestToBound = LatticeTin::kSide / 2;
 constexpr std::uint32_t kMostTiles = (std::uint32_t{1} << 31) / LatticeTin::kCells - 1;
@@ -36,8 +40,11 @@ class LatticeReader::Work {
       : selection_(selection_of(store.metadata(), Detail::tolerance(0), themes)),
         index_(store, selection_),
         whole_(window),
-        window_(whole_, store.metadata().grid, index_.bounds()) {
+        window_(whole_, store.metadata().grid, index_.bounds()),
+        everything_(whole_.is_all() || window_.holds(index_.bounds())) {
     lattice_.grid = store.metadata().grid;
+    for (const SourceInfo& source : store.metadata().sources)
+      widest_spacing_ = std::max(widest_spacing_, std::ceil(source.spacing / lattice_.grid.resolution));
   }
 
   /// Where it would be; of no ground yet.
@@ -49,13 +56,29 @@ class LatticeReader::Work {
   std::vector<std::int32_t> highest_;  ///< of tiles; none where all heights were read at once
 
  private:
-  std::vector<Leaf> leaves_about(double margin) const;
+  std::vector<Leaf> leaves_within(double margin) const { return leaves_about(index_, selection_, window_, margin); }
   bool read_posts(Heights heights, Progress& progress);
+  /// Leaves whose posts are placed together: one, or all small ones of a square.
+  using Group = std::span<const Leaf>;
+  bool place_all(const std::vector<Group>& groups, std::size_t begin, std::size_t end, Heights heights,
+                 Progress& progress);
   bool place(const Leaf& leaf, Heights heights);
+  bool place_square(Group leaves);
+  std::optional<PlaceBox> places_of(const GridBox& box) const;
+  bool on_lattice(const Leaf& leaf) const;
   bool bounded() const;
-  bool bounds_well(const Leaf& leaf) const {
-    return std::int64_t{1} << leaf.cell.log2_side <= kWidestToBound * lattice_.spacing;
+  int log2_square() const { return std::bit_width(static_cast<std::uint64_t>(kWidestToBound * lattice_.spacing)) - 1; }
+  Cell square_of(const Leaf& leaf) const {
+    const int log2_side = log2_square();
+    return {leaf.cell.code >> 2 * log2_side << 2 * log2_side, log2_side};
   }
+  bool bounds_well(const Leaf& leaf) const { return leaf.cell.log2_side <= log2_square(); }
+  void rise(std::uint32_t tile, std::int32_t z) {
+    const std::atomic_ref<std::int32_t> highest(highest_[tile]);
+    for (std::int32_t now = highest; now < z && !highest.compare_exchange_weak(now, z);) continue;
+  }
+  template <class Visit>
+  bool for_each_post(const Block& block, const Visit& visit);
   template <class Visit>
   void for_each_tile(const Leaf& leaf, const Visit& visit) const;
   void list_leaves_of_tiles();
@@ -90,6 +113,8 @@ class LatticeReader::Work {
   StandingIndex index_;
   Window whole_;
   GridWindow window_;
+  bool everything_;
+  double widest_spacing_ = 0;  ///< of what was imported, grid units
   std::vector<Leaf> leaves_;
   std::optional<LatticeCover> cover_;  ///< while it is being opened
   std::vector<bool> being_read_;       ///< of tiles
@@ -97,29 +122,8 @@ class LatticeReader::Work {
   std::vector<std::uint32_t> first_leaf_, leaf_of_tile_;
 };
 
-/// Those that may have points within a margin of the window. By strips, for the box of a window has more.
-std::vector<Leaf> LatticeReader::Work::leaves_about(double margin) const {
-  const GridBox all = expanded(window_.bounds(), margin);
-  std::vector<Leaf> leaves, of_strip;
-  const std::int64_t height = (std::int64_t{all.ymax} - all.ymin) / kStrips + 1;
-  for (std::int64_t first = all.ymin; first <= all.ymax; first += height) {
-    GridBox strip = all;
-    strip.ymin = static_cast<std::int32_t>(first);
-    strip.ymax = static_cast<std::int32_t>(std::min<std::int64_t>(all.ymax, first + height - 1));
-    of_strip.clear();
-    selected_leaves(index_, selection_, strip, of_strip);
-    for (const Leaf& leaf : of_strip) {
-      const bool new_here = first == all.ymin || leaf.cell.box().ymin >= first;
-      if (new_here && (whole_.is_all() || window_.meets(expanded(leaf.cell.box(), margin)))) leaves.push_back(leaf);
-    }
-  }
-  return leaves;
-}
-
 bool LatticeReader::Work::find_lattice(Heights heights, std::uint64_t most_posts) {
-  const auto is_terrain = [](const Leaf& leaf) { return leaf.theme == 0; };
-  std::vector<Leaf> leaves = leaves_about(0);
-  if (leaves.empty() || !std::all_of(leaves.begin(), leaves.end(), is_terrain)) return false;
+  std::vector<Leaf> leaves = leaves_within(widest_spacing_);
   std::vector<Leaf> fullest(std::min(kSamples, leaves.size()));
   std::partial_sort_copy(leaves.begin(), leaves.end(), fullest.begin(), fullest.end(),
                          [](const Leaf& a, const Leaf& b) { return a.points > b.points; });
@@ -135,8 +139,12 @@ bool LatticeReader::Work::find_lattice(Heights heights, std::uint64_t most_posts
   if (spacing == 0) return false;
   const GridPoint origin = *first;
   const auto margin = static_cast<double>(spacing);
-  leaves = leaves_about(margin);
-  if (!std::all_of(leaves.begin(), leaves.end(), is_terrain)) return false;
+  if (margin > widest_spacing_) {
+    leaves = leaves_within(margin);
+  } else if (margin < widest_spacing_) {
+    keep_leaves_about(window_, margin, leaves);
+  }
+  if (!std::all_of(leaves.begin(), leaves.end(), [](const Leaf& leaf) { return leaf.theme == 0; })) return false;
   // Whole cells about what there is, and a bare one all around.
   const GridBox box = intersection(expanded(window_.bounds(), margin), index_.bounds());
   if (box.empty()) return false;
@@ -155,7 +163,7 @@ bool LatticeReader::Work::find_lattice(Heights heights, std::uint64_t most_posts
   std::uint64_t points = 0;
   for (const Leaf& leaf : leaves) points += leaf.points;
   lattice_.tiles.resize(tiles);
-  cover_.emplace(lattice_, window_, whole_.is_all());
+  cover_.emplace(lattice_, window_, everything_);
   const std::uint64_t emptiest = heights == Heights::kAll ? kEmptiest : kEmptiestWithoutHeights;
   if (cover_->most_posts() >
       std::min(most_posts, emptiest * points + 4 * (std::uint64_t{lattice_.columns} + lattice_.rows)))
@@ -184,35 +192,104 @@ bool LatticeReader::Work::open(Heights heights, std::uint64_t most_posts, Progre
 
 /// False where one among them lies off the lattice.
 bool LatticeReader::Work::read_posts(Heights heights, Progress& progress) {
-  const std::size_t tasks = (leaves_.size() + kLeavesATask - 1) / kLeavesATask;
-  std::atomic<bool> odd = false;
-  std::atomic<std::size_t> done = 0;
-  parallel_for(tasks, [&](std::size_t task) {
-    progress.throw_if_cancelled();
-    const std::size_t end = std::min(leaves_.size(), (task + 1) * kLeavesATask);
-    for (std::size_t i = task * kLeavesATask; i < end && !odd; ++i)
-      if (!place(leaves_[i], heights)) odd = true;
-    progress.report("reading", static_cast<double>(++done) / static_cast<double>(tasks));
-  });
   lattice_.lowest = std::numeric_limits<std::int32_t>::max(), lattice_.highest = -lattice_.lowest;
   for (const Leaf& leaf : leaves_) {
     lattice_.statistics += {leaf.points, 1};
     lattice_.lowest = std::min(lattice_.lowest, leaf.zmin), lattice_.highest = std::max(lattice_.highest, leaf.zmax);
   }
+  const auto alone = [&](const Leaf& leaf) { return heights == Heights::kAll || !bounds_well(leaf); };
+  const auto squares = std::stable_partition(leaves_.begin(), leaves_.end(), alone);
+  std::sort(squares, leaves_.end(), [](const Leaf& a, const Leaf& b) {
+    return std::tie(a.cell.code, a.level) < std::tie(b.cell.code, b.level);
+  });
+  std::vector<Group> groups;
+  for (auto leaf = leaves_.begin(); leaf != squares; ++leaf) groups.emplace_back(leaf, 1);
+  const std::size_t single = groups.size();
+  for (auto first = squares; first != leaves_.end();) {
+    const auto end =
+        std::find_if_not(first, leaves_.end(), [&](const Leaf& leaf) { return square_of(leaf) == square_of(*first); });
+    groups.emplace_back(first, end);
+    first = end;
+  }
+  return place_all(groups, 0, single, heights, progress) && place_all(groups, single, groups.size(), heights, progress);
+}
+
+/// Those from `begin` to `end`.
+bool LatticeReader::Work::place_all(const std::vector<Group>& groups, std::size_t begin, std::size_t end,
+                                    Heights heights, Progress& progress) {
+  std::atomic<bool> odd = false;
+  std::atomic<std::size_t> done = begin;
+  parallel_for((end - begin + kLeavesATask - 1) / kLeavesATask, [&](std::size_t task) {
+    progress.throw_if_cancelled();
+    const std::size_t first = begin + task * kLeavesATask, last = std::min(end, first + kLeavesATask);
+    for (std::size_t i = first; i < last && !odd; ++i) {
+      const Leaf& leaf = groups[i].front();
+      const bool square = heights == Heights::kNone && bounds_well(leaf);
+      if (!(square ? place_square(groups[i]) : place(leaf, heights))) odd = true;
+    }
+    progress.report("reading", static_cast<double>(done += last - first) / static_cast<double>(groups.size()));
+  });
   return !odd;
 }
 
 bool LatticeReader::Work::place(const Leaf& leaf, Heights heights) {
-  const auto rise = [&](std::uint32_t tile, std::int32_t z) {
-    const std::atomic_ref<std::int32_t> highest(highest_[tile]);
-    for (std::int32_t now = highest; now < z && !highest.compare_exchange_weak(now, z);) continue;
-  };
-  const bool plan = heights == Heights::kNone && bounds_well(leaf);
-  if (plan) for_each_tile(leaf, [&](std::uint32_t tile) { rise(tile, leaf.zmax); });
-  const auto block = plan                        ? index_.plan_once(leaf)
-                     : heights == Heights::kNone ? index_.block(leaf)
-                                                 : index_.block_once(leaf);
-  for (const GridPoint& p : block->points) {
+  const auto block = heights == Heights::kNone ? index_.block(leaf) : index_.block_once(leaf);
+  return for_each_post(*block, [&](const Place& place, std::int32_t z) {
+    if (heights == Heights::kAll) {
+      set_height(place, z);
+    } else {
+      lattice_.for_each_tile_of(place.column, place.row, [&](std::uint32_t tile, std::uint32_t) { rise(tile, z); });
+    }
+  });
+}
+
+/// After all wider leaves. If so many posts lie on the lattice within the square as places are left there, they take
+/// all of them, and need not be read.
+bool LatticeReader::Work::place_square(Group leaves) {
+  std::uint64_t posts = 0;
+  for (const Leaf& leaf : leaves) {
+    posts += leaf.points;
+    for_each_tile(leaf, [&](std::uint32_t tile) { rise(tile, leaf.zmax); });
+  }
+  const auto places = places_of(square_of(leaves.front()).box());
+  if (places && cover_->lacks(*places) == posts &&
+      std::all_of(leaves.begin(), leaves.end(), [&](const Leaf& leaf) { return on_lattice(leaf); })) {
+    cover_->fill(*places);
+    return true;
+  }
+  return std::all_of(leaves.begin(), leaves.end(), [&](const Leaf& leaf) {
+    return for_each_post(*index_.plan_once(leaf), [](const Place&, std::int32_t) {});
+  });
+}
+
+/// Nothing where the box reaches beyond the lattice, or lies between places.
+std::optional<PlaceBox> LatticeReader::Work::places_of(const GridBox& box) const {
+  const std::int64_t spacing = lattice_.spacing;
+  const auto first = [&](std::int64_t units) { return (units + spacing - 1) / spacing; };
+  const std::int64_t west = std::int64_t{box.xmin} - lattice_.west, north = std::int64_t{lattice_.north} - box.ymax,
+                     east = (std::int64_t{box.xmax} - lattice_.west) / spacing,
+                     south = (std::int64_t{lattice_.north} - box.ymin) / spacing;
+  if (west < 0 || north < 0 || east >= lattice_.columns || south >= lattice_.rows || first(west) > east ||
+      first(north) > south)
+    return std::nullopt;
+  return PlaceBox{static_cast<std::uint32_t>(first(west)), static_cast<std::uint32_t>(first(north)),
+                  static_cast<std::uint32_t>(east), static_cast<std::uint32_t>(south)};
+}
+
+/// Whether all of its points do.
+bool LatticeReader::Work::on_lattice(const Leaf& leaf) const {
+  const auto lattice = index_.lattice_of(leaf);
+  const std::int64_t spacing = lattice_.spacing;
+  return lattice && lattice->step_x % spacing == 0 && lattice->step_y % spacing == 0 &&
+         (std::int64_t{lattice->x} - lattice_.west) % spacing == 0 &&
+         (std::int64_t{lattice->y} - lattice_.north) % spacing == 0;
+}
+
+/// Adds the block's posts to the cover and calls visit(place, height) for each, until one of its points lies off the
+/// lattice: false then.
+template <class Visit>
+bool LatticeReader::Work::for_each_post(const Block& block, const Visit& visit) {
+  for (const GridPoint& p : block.points) {
     const auto place = place_of(p);
     if (!place) continue;
     if (!place->post) {
@@ -220,11 +297,7 @@ bool LatticeReader::Work::place(const Leaf& leaf, Heights heights) {
       continue;
     }
     cover_->add(place->column, place->row);
-    if (heights == Heights::kAll) {
-      set_height(*place, p.z);
-    } else if (!plan) {
-      lattice_.for_each_tile_of(place->column, place->row, [&](std::uint32_t tile, std::uint32_t) { rise(tile, p.z); });
-    }
+    visit(*place, p.z);
   }
   return true;
 }

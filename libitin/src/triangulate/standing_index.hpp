@@ -7,6 +7,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <itin/store.hpp>
@@ -31,6 +32,9 @@ class StandingIndex final : public PointIndex {
   }
   std::shared_ptr<const Block> plan_once(const Leaf& leaf) const override {
     return any_ ? block(leaf) : base_.plan_once(leaf);
+  }
+  std::optional<BlockLattice> lattice_of(const Leaf& leaf) const override {
+    return any_ ? std::nullopt : base_.lattice_of(leaf);
   }
   void segments(const GridBox& box, std::vector<Segment>& out) const override;
 

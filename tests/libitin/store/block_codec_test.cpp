@@ -76,6 +76,25 @@ TEST(BlockCodec, CommonStepsAndSmoothHeightsVanish) {
   EXPECT_LT(bytes.size(), 250u);  // five bits a point: one for the position, the rest for the height
 }
 
+TEST(BlockCodec, TheHeaderTellsALatticeOfAllPoints) {
+  std::mt19937_64 random(test::seed());
+  for (const Scatter how : {Scatter::Uniform, Scatter::Lattice, Scatter::SparseLattice, Scatter::Clustered}) {
+    for (const Cell cell : {Cell{morton(0, 0), 16}, Cell{morton(-65536, 131072), 15}}) {
+      const auto points = test::scatter(how, cell, 200, random);
+      const auto bytes = encode_block(cell, points, std::vector<std::uint16_t>(points.size(), 1));
+      const BlockLattice lattice = decode_lattice(cell, bytes);
+      EXPECT_EQ(lattice.points, points.size());
+      for (const GridPoint& p : points) {
+        EXPECT_EQ((std::int64_t{p.x} - lattice.x) % lattice.step_x, 0);
+        EXPECT_EQ((std::int64_t{p.y} - lattice.y) % lattice.step_y, 0);
+      }
+      if (how == Scatter::Lattice) {
+        EXPECT_GT(lattice.step_x, 1);
+      }
+    }
+  }
+}
+
 RC_GTEST_PROP(BlockCodec, AnyPointsRoundTrip, ()) {
   const Cell cell{morton(0, 0), 12};
   std::vector<GridPoint> points = {{0, 0, 0}};
@@ -91,6 +110,11 @@ RC_GTEST_PROP(BlockCodec, AnyPointsRoundTrip, ()) {
 
 // Whatever the bytes: an error, or a block that keeps its promises.
 void expect_error_or_valid(const Cell& cell, const std::vector<std::uint8_t>& bytes) {
+  try {
+    const BlockLattice lattice = decode_lattice(cell, bytes);
+    ASSERT_TRUE(lattice.step_x >= 1 && lattice.step_y >= 1 && cell.box().contains(lattice.x, lattice.y));
+  } catch (const DecodeError&) {
+  }
   try {
     const Block block = decode_block(cell, bytes);
     ASSERT_FALSE(block.points.empty());

@@ -159,6 +159,32 @@ TEST_F(StoreTest, CertifiedErrorIsTheWidestOfTheCellsMet) {
   EXPECT_THROW(store.certified_error(-1, {}), InputError);
 }
 
+TEST_F(StoreTest, PointsAboutAreTheSharesOfTheCellsMet) {
+  const Store store(path_);
+  std::mt19937_64 random(seed_);
+  for (int i = 0; i < 300; ++i) {
+    // Every tenth box holds whole chunks of the directory.
+    const GridBox grid_box = i % 10 == 0 ? GridBox{-1000000, -1000000, 1000000, 1000000} : random_box(random);
+    for (int level = 0; level < 4; ++level) {
+      double expected = 0;
+      for (const GivenLeaf& leaf : given_.leaves) {
+        const GridBox there = intersection(leaf.cell.box(), store.metadata().bounds),
+                      shared = intersection(there, grid_box);
+        if (leaf.level < level || leaf.points.empty() || shared.empty()) continue;
+        const auto positions = [](const GridBox& b) {
+          return (double{1} * b.xmax - b.xmin + 1) * (double{1} * b.ymax - b.ymin + 1);
+        };
+        expected += static_cast<double>(leaf.points.size()) * positions(shared) / positions(there);
+      }
+      // Metres are not exact: the box may be a unit wider.
+      const std::uint64_t about = store.points_about(level, given_.grid.box(grid_box));
+      const double slack = 1 + 0.001 * expected + 2 * std::sqrt(expected);
+      ASSERT_NEAR(static_cast<double>(about), expected, i % 10 == 0 ? 1 : slack);
+    }
+  }
+  EXPECT_THROW(store.points_about(4, {}), InputError);
+}
+
 TEST_F(StoreTest, ThreadsShareATinyCache) {
   for (const std::uint64_t cache_bytes : {0u, 200000u, 100000000u}) {
     const Store store(path_, {cache_bytes});

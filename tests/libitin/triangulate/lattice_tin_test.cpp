@@ -256,6 +256,19 @@ TEST_F(TriangulateLattice, OtherGroundBesideIsNoneOrTheSame) {
   }
 }
 
+TEST_F(TriangulateLattice, AsManyPostsBetweenItsPlacesAreNone) {
+  const auto absent = [](int c, int r) { return c >= 20 && c < 25 && r >= 30 && r < 35; };
+  add_raster({kWest, kNorth, kStep, 60, 60, 27700}, [&](int c, int r) { return absent(c, r) ? NAN : noise(c, r); });
+  add_raster({kWest + 20 * kStep + 5, kNorth - 30 * kStep - 5, kStep, 5, 5, 27700},
+             [&](int c, int r) { return noise(c + 20, r + 30); });
+  const Store store(path("s.itin"));
+  for (const auto heights : {LatticeReader::Heights::kNone, LatticeReader::Heights::kAll}) {
+    EXPECT_FALSE(LatticeReader::open(store, Window::all(), ThemeChoice::none(), heights, kAny, progress_));
+    EXPECT_TRUE(LatticeReader::open(store, Window::disc({kWest + 700, kNorth - 500}, 300), ThemeChoice::none(), heights,
+                                    kAny, progress_));
+  }
+}
+
 TEST_F(TriangulateLattice, GroundWithLinesIsNone) {
   add_raster({kWest, kNorth, kStep, 30, 30, 27700}, [&](int c, int r) { return noise(c, r); });
   ImportOptions options;

@@ -1,0 +1,19 @@
+// The leaves of an index that a window may need, where its box has many more.
+#pragma once
+
+#include <vector>
+
+#include "store/point_index.hpp"
+#include "triangulate/grid_window.hpp"
+#include "triangulate/selection.hpp"
+
+namespace itin {
+
+/// Those that may hold something selected within a margin of the window, grid units; each once. Uses all threads.
+std::vector<Leaf> leaves_about(const PointIndex& index, const Selection& selection, const GridWindow& window,
+                               double margin);
+
+/// Leaves out those that are farther away.
+void keep_leaves_about(const GridWindow& window, double margin, std::vector<Leaf>& leaves);
+
+}  // namespace itin
