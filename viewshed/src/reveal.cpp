@@ -23,9 +23,10 @@ constexpr std::uint64_t kFewPosts = 6000000;
 
 /// A tile of the lattice, in bins.
 BinBox box_of(const LatticeTin& lattice, std::uint32_t tile) {
-  const double column = tile % lattice.tile_columns() * LatticeTin::kSide,
-               row = tile / lattice.tile_columns() * LatticeTin::kSide;
-  return {column, row, column + LatticeTin::kSide, row + LatticeTin::kSide};
+  const std::uint32_t column = tile % lattice.tile_columns() * LatticeTin::kSide,
+                      row = tile / lattice.tile_columns() * LatticeTin::kSide;
+  const double west = column, north = row;
+  return {west, north, west + LatticeTin::kSide, north + LatticeTin::kSide};
 }
 
 bool unread(const LatticeTin::Tile& tile) {
