@@ -1,7 +1,9 @@
 #include "horizon_fan.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 #include <itin/parallel.hpp>
 
@@ -11,18 +13,19 @@ namespace itin::viewshed {
 
 namespace {
 
-constexpr std::size_t kFirstRing = 16;  ///< slabs
-/// So many sectors a slab: they are a bin wide at the end of their ring, and each lies in one of the ring before.
+constexpr std::size_t kFirst = 16;  ///< slabs up to where sectors are twice as many for the first time
+/// So many sectors a slab: they are a bin wide where they become twice as many.
 constexpr std::size_t kSectorsASlab = 2 * Quadrant::kRun;
+constexpr std::size_t kRings = 8;  ///< up to there
+static_assert(kFirst % kRings == 0);
 constexpr std::size_t kSectorsATask = 64;
 
 }  // namespace
 
 void HorizonFan::advance(const Quadrant& quadrant, const Sector::Axis& axis, std::size_t slab) {
   while (front_.slab < slab) {
-    const std::size_t ring = rings_.empty() ? kFirstRing : 2 * rings_.back().slab;
-    if (front_.below.size() < kSectorsASlab * ring) widen();
-    const std::size_t end = std::min(slab, ring);
+    if (front_.slab == widest_) widen();
+    const std::size_t step = widest_ / kRings, ring = (front_.slab / step + 1) * step, end = std::min(slab, ring);
     const auto [first, last] = sectors();
     const double width = 2 / static_cast<double>(front_.below.size());
     parallel_for((last - first + kSectorsATask - 1) / kSectorsATask, [&, first = first, last = last](std::size_t task) {
@@ -41,11 +44,12 @@ void HorizonFan::advance(const Quadrant& quadrant, const Sector::Axis& axis, std
 
 /// Twice as many sectors, or the first ones.
 void HorizonFan::widen() {
-  if (rings_.empty()) {
-    front_.below.assign(kSectorsASlab * kFirstRing, -std::numeric_limits<float>::infinity());
+  widest_ = widest_ == 0 ? kFirst : 2 * widest_;
+  if (front_.below.empty()) {
+    front_.below.assign(kSectorsASlab * widest_, -std::numeric_limits<float>::infinity());
     return;
   }
-  const std::vector<float>& wide = rings_.back().below;
+  const std::vector<float> wide = std::move(front_.below);
   front_.below.resize(2 * wide.size());
   for (std::size_t i = 0; i < front_.below.size(); ++i) front_.below[i] = wide[i / 2];
 }
@@ -71,8 +75,9 @@ Sector::Hidden HorizonFan::Ring::known(double from, double to) const {
 
 Sector::Hidden HorizonFan::known(double from, double to, std::size_t nearest) const {
   if (front_.slab > 0 && front_.slab <= nearest) return front_.known(from, to);
-  const auto ring = std::find_if(rings_.rbegin(), rings_.rend(), [&](const Ring& r) { return r.slab <= nearest; });
-  return ring == rings_.rend() ? Sector::Hidden{} : ring->known(from, to);
+  const auto farther = std::upper_bound(rings_.begin(), rings_.end(), nearest,
+                                        [](std::size_t slab, const Ring& r) { return slab < r.slab; });
+  return farther == rings_.begin() ? Sector::Hidden{} : std::prev(farther)->known(from, to);
 }
 
 }  // namespace itin::viewshed

@@ -2,8 +2,9 @@
 // sectors need not be looked along from the axis.
 //
 // A sector one bin wide at some distance spans hardly more lines of bins nearer by than one that is one bin wide there.
-// So a fan knows, for every distance, sectors about a bin wide at their ends, each looked along from where the wider
-// one of half the distance ends: every slab is looked at about twice.
+// So a fan knows, for every distance, sectors one to two bins wide at their ends, each looked along from where the
+// wider one of half the distance ends: every slab is looked at about twice. It remembers what it knew at eighths of
+// each of these distances.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +20,7 @@ class HorizonFan {
   /// Only lines within these slopes will be asked about.
   void narrow(double from, double to) { slopes_ = {from, to}; }
 
-  /// Looks on up to a slab, if it has not come as far yet. Memory: at most 96 bytes a slab. Uses all threads.
+  /// Looks on up to a slab, if it has not come as far yet. Memory: at most 640 bytes a slab. Uses all threads.
   void advance(const Quadrant& quadrant, const Sector::Axis& axis, std::size_t slab);
 
   /// What is known by now for lines within slopes [from, to] that begin in slab `nearest`: of the farthest slab up to
@@ -39,6 +40,7 @@ class HorizonFan {
   std::pair<double, double> slopes_{-1, 1};
   std::vector<Ring> rings_;  ///< complete ones
   Ring front_;               ///< on its way to be the next
+  std::size_t widest_ = 0;   ///< slabs: up to there the front's sectors are narrow enough
 };
 
 }  // namespace itin::viewshed

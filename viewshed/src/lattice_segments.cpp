@@ -89,6 +89,7 @@ class LatticeSegments {
     tiles_ = grid_of_tiles(result.grid);
     look_for_voids(coarse.grid, rim_of(coarse, boundary_edges(coarse)), result);
     posts_a_square_metre_ = static_cast<double>(store_.points_about(0, box)) / (box.width() * box.height());
+    tile_side_m_ = LatticeTin::kSide / std::sqrt(posts_a_square_metre_);
     result.statistics.retrieval_seconds += watch_.lap();
   }
 
@@ -96,34 +97,48 @@ class LatticeSegments {
   bool look(const Eye& eye, std::uint32_t observer) {
     SightSectors sectors(surveyed_.result.grid, eye);
     while (!sectors.empty()) {
-      const SightSectors::Sector sector = sectors.next(
-          [&](const std::vector<Point2>& hull) { return bytes_of(hull, share_seen_) <= static_cast<double>(memory_); });
+      const SightSectors::Sector sector = sectors.next([&](const std::vector<Point2>& hull) {
+        return bytes_of(hull, share_seen_) <= static_cast<double>(memory_) && has_numbers(hull);
+      });
       double reach = 0;
       // The estimate may be wrong, but not by as much.
       if (bytes_of(sector.hull, all_heights_ ? 1 : 0) <= 2 * static_cast<double>(memory_)) {
         const auto reader = LatticeReader::open(
             store_, Window::polygons({{sector.hull, {}}}), ThemeChoice::none(),
             all_heights_ ? LatticeReader::Heights::kAll : LatticeReader::Heights::kNone, kAnyLattice, reading_);
-        if (!reader) return false;
-        reach = look_over(*reader, eye, observer, sectors, sector.parts);
-        learn(reader->lattice(), std::isinf(reach));
+        // Later ones may be of too many tiles.
+        if (!reader && (!is_lattice_ || sector.parts.size() == 1)) return false;
+        if (reader) {
+          is_lattice_ = true;
+          reach = look_over(*reader, eye, observer, sectors, sector.parts);
+          learn(reader->lattice(), std::isinf(reach));
+        }
       }
       sectors.settle(sector, reach);
     }
     return true;
   }
 
+  /// Whether the lattice about it has no more tiles than can be counted.
+  bool has_numbers(const std::vector<Point2>& hull) const {
+    Box box;
+    for (const Point2& p : hull) box.extend(p);
+    const double side = tile_side_m_;
+    return (box.width() / side + 2) * (box.height() / side + 2) < LatticeTin::kMostTiles;
+  }
+
   /// Of a sector of whose tiles such a share is seen.
   double bytes_of(const std::vector<Point2>& hull, double share) const {
     const double posts = area_of(hull) * posts_a_square_metre_;
     // Of the tiles of a lattice a convex shape meets so many on average, however it is turned.
-    const double side = LatticeTin::kSide / std::sqrt(posts_a_square_metre_);
+    const double side = tile_side_m_;
     const double tiles = area_of(hull) / (side * side) + 2 * length_of(hull) / (std::numbers::pi * side) + 1;
     return kBytesAnUnreadPost * posts + share * tiles * LatticeTin::kCells * kBytesAPost;
   }
 
   /// The next sector will be like it, but not quite.
   void learn(const LatticeTin& lattice, bool fits) {
+    tile_side_m_ = LatticeTin::kSide * lattice.spacing * lattice.grid.resolution;
     if (all_heights_) return;
     double tiles = 0, seen = 0;
     for (const LatticeTin::Tile& tile : lattice.tiles) {
@@ -193,6 +208,8 @@ class LatticeSegments {
   Surveyed surveyed_;
   RasterGrid tiles_;
   double posts_a_square_metre_ = 0;
+  double tile_side_m_ = 0;                                  ///< of a tile of the lattice, as far as it is known
+  bool is_lattice_ = false;                                 ///< as far as has been read
   std::size_t done_ = 0;                                    ///< cells, of all observers
   std::vector<std::unique_ptr<Observation>> observations_;  ///< a tile
 };

@@ -66,7 +66,8 @@ struct LatticeTin {
   };
   std::vector<Tile> tiles;  ///< row by row; those at the eastern and southern ends reach beyond the lattice
 
-  // Cells have numbers: tile by tile, row by row. There are fewer than 2^31.
+  // Cells have numbers: tile by tile, row by row. There are fewer than 2^31, so that triangles have numbers as well.
+  static constexpr std::uint32_t kMostTiles = (std::uint32_t{1} << 31) / kCells - 1;
   static constexpr std::uint32_t kBits = 6;
   static_assert(kSide == 1U << kBits);
   std::uint32_t tile_columns() const { return (columns + kSide - 1) >> kBits; }

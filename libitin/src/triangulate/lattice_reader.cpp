@@ -29,7 +29,6 @@ constexpr std::size_t kSamples = 8;
 constexpr std::size_t kLeavesATask = 64;
 /// Of leaves, posts. Those of wider ones are looked at when it is told how high a tile is: they say little about it.
 constexpr std::int64_t kWidestToBound = LatticeTin::kSide / 2;
-constexpr std::uint32_t kMostTiles = (std::uint32_t{1} << 31) / LatticeTin::kCells - 1;
 
 }  // namespace
 
@@ -159,7 +158,7 @@ bool LatticeReader::Work::find_lattice(Heights heights, std::uint64_t most_posts
   lattice_.columns = static_cast<std::uint32_t>((east - west) / spacing + 1);
   lattice_.rows = static_cast<std::uint32_t>((north - south) / spacing + 1);
   const std::uint64_t tiles = std::uint64_t{lattice_.tile_columns()} * lattice_.tile_rows();
-  if (tiles > kMostTiles) return false;
+  if (tiles > LatticeTin::kMostTiles) return false;
   std::uint64_t points = 0;
   for (const Leaf& leaf : leaves) points += leaf.points;
   lattice_.tiles.resize(tiles);
