@@ -8,49 +8,15 @@
 #include <viewshed/certified.hpp>
 
 #include "certified_pass.hpp"
+#include "certified_sectors.hpp"
 #include "near_ground.hpp"
 #include "request.hpp"
 #include "stopwatch.hpp"
+#include "verdicts.hpp"
 
 namespace itin::viewshed {
 
 namespace {
-
-/// Every observer's verdict on a cell, made one.
-class Verdicts {
- public:
-  Verdicts() { values.fill(kOutside); }
-
-  void add(const TileValues<std::uint8_t>& of_observer) {
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const std::uint8_t v = of_observer[i];
-      if (v == kOutside || values[i] == kCertainlyVisible) continue;
-      if (values[i] == kOutside || v == kCertainlyVisible) {
-        values[i] = v;
-      } else if (v == kUndecided) {
-        values[i] = kUndecided;
-      }
-    }
-  }
-
-  TileValues<std::uint8_t> values;
-};
-
-void count(std::uint8_t value, CellCounts& cells) {
-  switch (value) {
-    case kCertainlyVisible:
-      ++cells.visible;
-      break;
-    case kCertainlyHidden:
-      ++cells.hidden;
-      break;
-    case kUndecided:
-      ++cells.undecided;
-      break;
-    default:
-      ++cells.outside;
-  }
-}
 
 struct Tally {
   CellCounts cells;
@@ -63,22 +29,13 @@ Tally decide(const CertifiedPass& pass, std::size_t tile, const std::vector<Enve
   Verdicts verdicts;
   for (const EnvelopeScene::Look& look : looks) {
     TileValues<std::uint8_t> values;
-    // What one observer certainly sees need not be asked of the others.
-    std::transform(verdicts.values.begin(), verdicts.values.end(), values.begin(),
-                   [](std::uint8_t v) { return v == kCertainlyVisible ? kOutside : kUndecided; });
+    for (std::size_t cell = 0; cell < values.size(); ++cell) values[cell] = verdicts.open(cell);
     pass.judge(look, values, *work, nullptr);
     verdicts.add(values);
   }
   Tally tally;
   tally.rays = work->rays;
-  for (std::int64_t r = 0; r < work->tile.rows; ++r) {
-    const std::size_t first = result.grid.index({work->tile.column, work->tile.row + r});
-    for (std::int64_t c = 0; c < work->tile.columns; ++c) {
-      const std::uint8_t value = verdicts.values[static_cast<std::size_t>(r * Tile::kSide + c)];
-      result.visible[first + static_cast<std::size_t>(c)] = value;
-      count(value, tally.cells);
-    }
-  }
+  verdicts.store(work->tile, result, tally.cells);
   return tally;
 }
 
@@ -112,14 +69,21 @@ constexpr std::uint64_t kEnvelopeCosts = 2, kEnvelopeCostsInPosts = 8;
 constexpr std::uint64_t kFewPosts = 100000;
 /// More take over a gigabyte, which the full surface, read by segments, does not.
 constexpr std::uint64_t kMostEnvelopePoints = 1500000;
+/// Larger levels are looked at in sectors of so many, and each point in several.
+constexpr std::uint64_t kPointsOfSector = 750000, kPointOfSectorsCosts = 64;
+
+bool is_too_large(std::uint64_t points) {
+  return points > kMostEnvelopePoints;
+}
 
 /// Whether the level asked for is no cheaper than the full surface: level 0 itself, others that leave out little, and
-/// those that are too large for the memory.
+/// those that are too large for the memory, but for a small share of a vast surface.
 bool exact_is_as_cheap(const Store& store, const Request& request) {
   const int level = level_within(store.metadata(), request.detail.coarsest());
   const Box box = box_of_window(store, request);
   const std::uint64_t points = store.points_about(level, box), all = store.points_about(0, box);
-  if (points > kMostEnvelopePoints || kEnvelopeCosts * points >= all) return true;
+  if (kEnvelopeCosts * points >= all) return true;
+  if (is_too_large(points)) return kPointOfSectorsCosts * points >= all;
   const std::uint64_t most_posts = PreciseOptions().memory_bytes / kBytesAPost;
   return all > kFewPosts && kEnvelopeCostsInPosts * points >= all && all <= most_posts &&
          LatticeReader::may_open(store, window_of(request), ThemeChoice::none(), most_posts);
@@ -153,6 +117,9 @@ Surveyed compute_certified(const Store& store, const Request& request, Progress&
   // Certificates know nothing of features on the ground.
   if (features_stand(store, request) || exact_is_as_cheap(store, request))
     return decide_exactly(store, request, progress);
+  const int level = level_within(store.metadata(), request.detail.coarsest());
+  if (is_too_large(store.points_about(level, box_of_window(store, request))))
+    return certify_by_sectors(store, request, voids_of(request.nodata), kPointsOfSector, progress);
   Surveyed surveyed;
   Result& result = surveyed.result;
   result.request = request;

@@ -4,11 +4,9 @@
 #include <atomic>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <memory>
 #include <numbers>
 #include <span>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -27,6 +25,7 @@
 #include "sight_sectors.hpp"
 #include "stopwatch.hpp"
 #include "store_viewshed.hpp"
+#include "unreported.hpp"
 #include "void_shadow.hpp"
 
 namespace itin::viewshed {
@@ -39,17 +38,6 @@ constexpr double kBytesAnUnreadPost = 0.5;
 constexpr double kFirstShareSeen = 0.25;
 /// Of the surface that maps are drawn over, at most.
 constexpr std::uint64_t kCoarsePoints = 200000;
-
-/// Passes on that a call is to end, and nothing of how far it has come.
-class Unreported final : public Progress {
- public:
-  explicit Unreported(const Progress& whole) : whole_(whole) {}
-  void report(std::string_view, double) override {}
-  bool cancelled() const override { return whole_.cancelled(); }
-
- private:
-  const Progress& whole_;
-};
 
 class LatticeSegments {
  public:
@@ -168,7 +156,7 @@ class LatticeSegments {
     std::vector<Tile> decided;
     std::copy_if(parts.begin(), parts.end(), std::back_inserter(decided),
                  [&](const Tile& part) { return sectors.within(reach, part); });
-    const std::vector<PartsOfTile> cells = by_tile(decided);
+    const std::vector<PartsOfTile> cells = by_tile(decided, tiles_);
     std::atomic<std::uint64_t> lines = 0;
     parallel_for(cells.size(), [&](std::size_t i) {
       progress_.throw_if_cancelled();
@@ -182,19 +170,6 @@ class LatticeSegments {
     progress_.report("cells decided", static_cast<double>(done_) /
                                           static_cast<double>(result.grid.cell_count() * request_.observers.size()));
     return reach;
-  }
-
-  struct PartsOfTile {
-    std::size_t tile;
-    std::vector<Tile> parts;
-  };
-  std::vector<PartsOfTile> by_tile(std::span<const Tile> parts) const {
-    std::map<std::size_t, std::vector<Tile>> of_tiles;
-    for (const Tile& part : parts)
-      of_tiles[tiles_.index({part.column / Tile::kSide, part.row / Tile::kSide})].push_back(part);
-    std::vector<PartsOfTile> all;
-    for (auto& [tile, some] : of_tiles) all.push_back({tile, std::move(some)});
-    return all;
   }
 
   const Store& store_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -97,6 +98,15 @@ void SightSectors::divide_next() {
   }
   parts_.back() = rest;
   parts_.push_back(first);
+}
+
+std::vector<PartsOfTile> by_tile(std::span<const Tile> parts, const RasterGrid& tiles) {
+  std::map<std::size_t, std::vector<Tile>> of_tiles;
+  for (const Tile& part : parts)
+    of_tiles[tiles.index({part.column / Tile::kSide, part.row / Tile::kSide})].push_back(part);
+  std::vector<PartsOfTile> all;
+  for (auto& [tile, some] : of_tiles) all.push_back({tile, std::move(some)});
+  return all;
 }
 
 double area_of(const std::vector<Point2>& ring) {

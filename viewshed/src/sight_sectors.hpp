@@ -53,6 +53,22 @@ class SightSectors {
   std::size_t most_;         ///< parts of the next sector
 };
 
+/// Those of a tile, which are parts of it.
+struct PartsOfTile {
+  std::size_t tile;
+  std::vector<Tile> parts;
+};
+std::vector<PartsOfTile> by_tile(std::span<const Tile> parts, const RasterGrid& tiles);
+
+/// Calls visit(cell in the tile) for each cell of the parts.
+template <class Visit>
+void for_each_cell(const PartsOfTile& cells, const Tile& tile, const Visit& visit) {
+  for (const Tile& part : cells.parts)
+    for (std::int64_t r = part.row - tile.row; r < part.row - tile.row + part.rows; ++r)
+      for (std::int64_t c = part.column - tile.column; c < part.column - tile.column + part.columns; ++c)
+        visit(static_cast<std::size_t>(r * Tile::kSide + c));
+}
+
 /// Square metres.
 double area_of(const std::vector<Point2>& ring);
 /// Metres, all around.

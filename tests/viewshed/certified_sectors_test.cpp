@@ -1,0 +1,96 @@
+// Certified viewsheds sector by sector, against the level as a whole and the exact answer.
+#include "certified_sectors.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <itin/import.hpp>
+#include <itin/store.hpp>
+#include <viewshed/certified.hpp>
+
+#include "support/raster_file.hpp"
+#include "support/seed.hpp"
+#include "support/temporary_directory.hpp"
+#include "support/terrain_tin.hpp"
+
+namespace itin::viewshed {
+namespace {
+
+constexpr int kSide = 257;
+constexpr double kStep = 25, kWest = 300000, kNorth = 200000;
+
+TEST(CertifiedSectors, SayWhatTheLevelSaysAndNothingWrong) {
+  std::mt19937 random(test::seed());
+  NoProgress progress;
+  const test::TemporaryDirectory directory;
+  std::size_t certain = 0, differ = 0;
+  for (const double void_radius : {0.0, 30.0}) {
+    std::filesystem::remove(directory.file("t.itin"));
+    const std::vector<double> z = test::fractal_heights(kSide, 300, 0.6, random());
+    test::write_raster(directory.file("t.tif"), {kWest, kNorth, kStep, kSide, kSide, 27700}, [&](int c, int r) {
+      const bool missing = std::hypot(c - 100, r - 140) < void_radius;
+      return missing ? NAN : z[static_cast<std::size_t>(r) * kSide + static_cast<std::size_t>(c)];
+    });
+    ImportOptions options;
+    options.sources = {directory.file("t.tif")};
+    import_terrain(directory.file("t.itin"), options, progress);
+    const Store store(directory.file("t.itin"));
+    for (const NoData rule : {NoData::kClear, NoData::kBlock, NoData::kUnknown}) {
+      Request request;
+      std::uniform_real_distribution<double> share(0.7, 0.95);
+      for (int i = 0; i < 2; ++i) {
+        Observer observer;
+        observer.position = {kWest + share(random) * kSide * kStep, kNorth - (1 - share(random)) * kSide * kStep};
+        observer.height = 80;
+        request.observers.push_back(observer);
+      }
+      request.observers[0].radius = 3000;
+      request.target_height = 30;
+      request.cell_size = 40;
+      request.nodata = rule;
+      request.mode = Mode::kVisible;
+      const Result exact = compute_precise(store, request, {}, progress).result;
+      request.mode = Mode::kCertified;
+      request.detail = Detail::tolerance(16);
+      const Result whole = compute_certified(store, request, progress).result;
+      ASSERT_GT(whole.cells.undecided, 0U) << "not of the level";
+      const Voids voids = rule == NoData::kUnknown ? Voids::kDoubt : voids_without_doubt(rule);
+      const Result parts = certify_by_sectors(store, request, voids, 700, progress).result;
+      ASSERT_EQ(parts.visible.size(), exact.visible.size());
+      ASSERT_EQ(parts.visible.size(), whole.visible.size());
+      CellCounts cells;
+      for (std::size_t i = 0; i < parts.visible.size(); ++i) {
+        const std::uint8_t value = parts.visible[i];
+        ASSERT_EQ(value == kOutside, exact.visible[i] == kOutside) << i;
+        // What the exact answer takes for clear may be open.
+        if (value == kCertainlyVisible) {
+          ASSERT_EQ(exact.visible[i], kVisible) << i;
+        } else if (value == kCertainlyHidden) {
+          ASSERT_EQ(exact.visible[i], kHidden) << i;
+        }
+        certain += value == kCertainlyVisible || value == kCertainlyHidden ? 1 : 0;
+        if (value != whole.visible[i]) {
+          ASSERT_TRUE(value == kUndecided || whole.visible[i] == kUndecided) << i;
+          ++differ;
+        }
+        ++(value == kOutside            ? cells.outside
+           : value == kUndecided        ? cells.undecided
+           : value == kCertainlyVisible ? cells.visible
+                                        : cells.hidden);
+      }
+      EXPECT_EQ(parts.cells.visible, cells.visible);
+      EXPECT_EQ(parts.cells.hidden, cells.hidden);
+      EXPECT_EQ(parts.cells.undecided, cells.undecided);
+      EXPECT_EQ(parts.cells.outside, cells.outside);
+      EXPECT_GT(parts.statistics.retrieval.points_read, 2 * whole.statistics.retrieval.points_read) << "not in sectors";
+    }
+  }
+  EXPECT_GT(certain, 10000U);
+  EXPECT_LT(200 * differ, certain);
+}
+
+}  // namespace
+}  // namespace itin::viewshed

@@ -1,0 +1,64 @@
+// What certified viewsheds say of a tile's cells.
+#pragma once
+
+#include <viewshed/certified.hpp>
+#include <viewshed/viewshed.hpp>
+
+#include "surface_heights.hpp"
+
+namespace itin::viewshed {
+
+/// Adds a cell of this value.
+inline void count(std::uint8_t value, CellCounts& cells) {
+  switch (value) {
+    case kCertainlyVisible:
+      ++cells.visible;
+      break;
+    case kCertainlyHidden:
+      ++cells.hidden;
+      break;
+    case kUndecided:
+      ++cells.undecided;
+      break;
+    default:
+      ++cells.outside;
+  }
+}
+
+/// Every observer's verdict on a cell, made one. At first nobody looks.
+class Verdicts {
+ public:
+  Verdicts() { values_.fill(kOutside); }
+
+  /// What a cell is to be judged as next: what one observer certainly sees need not be asked of the others.
+  std::uint8_t open(std::size_t cell) const { return values_[cell] == kCertainlyVisible ? kOutside : kUndecided; }
+
+  void add(const TileValues<std::uint8_t>& of_observer) {
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      const std::uint8_t v = of_observer[i];
+      if (v == kOutside || values_[i] == kCertainlyVisible) continue;
+      if (values_[i] == kOutside || v == kCertainlyVisible) {
+        values_[i] = v;
+      } else if (v == kUndecided) {
+        values_[i] = kUndecided;
+      }
+    }
+  }
+
+  /// Counts the cells, and writes them to their places in the result.
+  void store(const Tile& tile, Result& result, CellCounts& cells) const {
+    for (std::int64_t r = 0; r < tile.rows; ++r) {
+      const std::size_t first = result.grid.index({tile.column, tile.row + r});
+      for (std::int64_t c = 0; c < tile.columns; ++c) {
+        const std::uint8_t value = values_[static_cast<std::size_t>(r * Tile::kSide + c)];
+        result.visible[first + static_cast<std::size_t>(c)] = value;
+        count(value, cells);
+      }
+    }
+  }
+
+ private:
+  TileValues<std::uint8_t> values_;
+};
+
+}  // namespace itin::viewshed
