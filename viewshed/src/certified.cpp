@@ -64,13 +64,11 @@ Voids voids_of(NoData rule) {
 }
 
 /// A point of an envelope costs about as much as two of the full surface, or as so many posts of a lattice.
-constexpr std::uint64_t kEnvelopeCosts = 2, kEnvelopeCostsInPosts = 8;
+constexpr std::uint64_t kEnvelopeCosts = 2, kEnvelopeCostsInPosts = 128;
 /// So few posts are looked at in a moment, whatever way is asked for.
 constexpr std::uint64_t kFewPosts = 100000;
-/// More take over a gigabyte, which the full surface, read by segments, does not.
-constexpr std::uint64_t kMostEnvelopePoints = 1500000;
-/// Larger levels are looked at in sectors of so many, and each point in several.
-constexpr std::uint64_t kPointsOfSector = 750000, kPointOfSectorsCosts = 64;
+/// More take over a gigabyte: larger levels are looked at in sectors.
+constexpr std::uint64_t kMostEnvelopePoints = 1500000, kPointsOfSector = 750000;
 
 bool is_too_large(std::uint64_t points) {
   return points > kMostEnvelopePoints;
@@ -83,10 +81,10 @@ bool exact_is_as_cheap(const Store& store, const Request& request) {
   const Box box = box_of_window(store, request);
   const std::uint64_t points = store.points_about(level, box), all = store.points_about(0, box);
   if (kEnvelopeCosts * points >= all) return true;
-  if (is_too_large(points)) return kPointOfSectorsCosts * points >= all;
+  if (kEnvelopeCostsInPosts * points < all) return false;
   const std::uint64_t most_posts = PreciseOptions().memory_bytes / kBytesAPost;
-  return all > kFewPosts && kEnvelopeCostsInPosts * points >= all && all <= most_posts &&
-         LatticeReader::may_open(store, window_of(request), ThemeChoice::none(), most_posts);
+  return is_too_large(points) || (all > kFewPosts && all <= most_posts &&
+                                  LatticeReader::may_open(store, window_of(request), ThemeChoice::none(), most_posts));
 }
 
 /// The exact answer, but where ground without data leaves it open.

@@ -27,9 +27,9 @@ inline constexpr std::uint8_t kCertainlyVisible = 2;
 /// is to one of them, and certainly hidden when it is to all. Under NoData::kUnknown a line across a void and back is
 /// never certainly visible. Cost: as a plain viewshed twice over. Where exact answers cost
 /// no more, every cell is decided, but for such lines across voids, as by compute_precise(): with themes that stand on
-/// the ground, where the level has half of all points or more, or an eighth of those of a large raster, or over a
-/// million and a half and a sixty-fourth of all. Other levels of more than a million and a half points are looked at
-/// sector by sector about each observer. Throws as compute() does.
+/// the ground, where the level has half of all points or more, or a hundred-and-twenty-eighth of those of a large
+/// raster, or of any surface if that is over a million and a half. Other levels of more than a million and a half
+/// points are looked at sector by sector about each observer. Throws as compute() does.
 Surveyed compute_certified(const Store& store, const Request& request, Progress& progress);
 
 struct PreciseOptions {
