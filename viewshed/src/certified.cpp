@@ -70,21 +70,23 @@ constexpr std::uint64_t kFewPosts = 100000;
 /// More take over a gigabyte: larger levels are looked at in sectors.
 constexpr std::uint64_t kMostEnvelopePoints = 1500000, kPointsOfSector = 750000;
 
-bool is_too_large(std::uint64_t points) {
-  return points > kMostEnvelopePoints;
-}
+enum class Way { kExactly, kBySectors, kAtOnce };
 
-/// Whether the level asked for is no cheaper than the full surface: level 0 itself, others that leave out little, and
-/// those that are too large for the memory, but for a small share of a vast surface.
-bool exact_is_as_cheap(const Store& store, const Request& request) {
+/// Exactly where the level asked for is no cheaper than the full surface: level 0 itself, others that leave out little,
+/// and those that are too large for the memory, but for a small share of a vast surface.
+Way way_of(const Store& store, const Request& request) {
+  // Certificates know nothing of features on the ground.
+  if (features_stand(store, request)) return Way::kExactly;
   const int level = level_within(store.metadata(), request.detail.coarsest());
   const Box box = box_of_window(store, request);
   const std::uint64_t points = store.points_about(level, box), all = store.points_about(0, box);
-  if (kEnvelopeCosts * points >= all) return true;
-  if (kEnvelopeCostsInPosts * points < all) return false;
+  if (kEnvelopeCosts * points >= all) return Way::kExactly;
+  const bool large = points > kMostEnvelopePoints;
+  if (kEnvelopeCostsInPosts * points < all) return large ? Way::kBySectors : Way::kAtOnce;
   const std::uint64_t most_posts = PreciseOptions().memory_bytes / kBytesAPost;
-  return is_too_large(points) || (all > kFewPosts && all <= most_posts &&
-                                  LatticeReader::may_open(store, window_of(request), ThemeChoice::none(), most_posts));
+  const bool exactly = large || (all > kFewPosts && all <= most_posts &&
+                                 LatticeReader::may_open(store, window_of(request), ThemeChoice::none(), most_posts));
+  return exactly ? Way::kExactly : Way::kAtOnce;
 }
 
 /// The exact answer, but where ground without data leaves it open.
@@ -112,11 +114,9 @@ Surveyed decide_exactly(const Store& store, const Request& request, Progress& pr
 
 Surveyed compute_certified(const Store& store, const Request& request, Progress& progress) {
   validate(request);
-  // Certificates know nothing of features on the ground.
-  if (features_stand(store, request) || exact_is_as_cheap(store, request))
-    return decide_exactly(store, request, progress);
-  const int level = level_within(store.metadata(), request.detail.coarsest());
-  if (is_too_large(store.points_about(level, box_of_window(store, request))))
+  const Way way = way_of(store, request);
+  if (way == Way::kExactly) return decide_exactly(store, request, progress);
+  if (way == Way::kBySectors)
     return certify_by_sectors(store, request, voids_of(request.nodata), kPointsOfSector, progress);
   Surveyed surveyed;
   Result& result = surveyed.result;

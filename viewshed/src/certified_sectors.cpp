@@ -28,6 +28,8 @@ class CertifiedSectors {
         request_(request),
         voids_(voids),
         most_points_(static_cast<double>(most_points)),
+        whole_(certified_request(store, request)),
+        points_a_square_metre_(points_a_square_metre(store, whole_.level, request)),
         progress_(progress),
         reading_(progress) {}
 
@@ -49,15 +51,11 @@ class CertifiedSectors {
 
  private:
   void look(const Eye& eye) {
-    const EnvelopeRequest whole = certified_request(store_, request_);
-    const Box box = box_of_window(store_, request_);
-    const double points_a_square_metre =
-        static_cast<double>(store_.points_about(whole.level, box)) / (box.width() * box.height());
     SightSectors sectors(surveyed_.result.grid, eye);
     while (!sectors.empty()) {
       const SightSectors::Sector sector = sectors.next(
-          [&](const std::vector<Point2>& hull) { return area_of(hull) * points_a_square_metre <= most_points_; });
-      judge(eye, envelop(store_, within(sector.hull, eye, whole), reading_), sector.parts);
+          [&](const std::vector<Point2>& hull) { return area_of(hull) * points_a_square_metre_ <= most_points_; });
+      judge(eye, envelop(store_, within(sector.hull, eye, whole_), reading_), sector.parts);
       sectors.settle(sector, std::numeric_limits<double>::infinity());
     }
   }
@@ -97,7 +95,7 @@ class CertifiedSectors {
     });
     result.statistics.rays += rays;
     result.statistics.rays_seconds += watch_.lap();
-    for (const Tile& part : parts) done_ += static_cast<std::size_t>(part.columns * part.rows);
+    done_ += cell_count(parts);
     progress_.report("cells judged", static_cast<double>(done_) /
                                          static_cast<double>(result.grid.cell_count() * request_.observers.size()));
   }
@@ -106,6 +104,8 @@ class CertifiedSectors {
   const Request& request_;
   Voids voids_;
   double most_points_;
+  EnvelopeRequest whole_;  ///< of all sectors together
+  double points_a_square_metre_;
   Progress& progress_;
   Unreported reading_;  ///< of a sector
   Stopwatch watch_;

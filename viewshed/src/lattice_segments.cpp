@@ -76,7 +76,7 @@ class LatticeSegments {
     result.grid = cells_of(request_, coarse.bounds());
     tiles_ = grid_of_tiles(result.grid);
     look_for_voids(coarse.grid, rim_of(coarse, boundary_edges(coarse)), result);
-    posts_a_square_metre_ = static_cast<double>(store_.points_about(0, box)) / (box.width() * box.height());
+    posts_a_square_metre_ = points_a_square_metre(store_, 0, request_);
     tile_side_m_ = LatticeTin::kSide / std::sqrt(posts_a_square_metre_);
     result.statistics.retrieval_seconds += watch_.lap();
   }
@@ -111,8 +111,7 @@ class LatticeSegments {
   bool has_numbers(const std::vector<Point2>& hull) const {
     Box box;
     for (const Point2& p : hull) box.extend(p);
-    const double side = tile_side_m_;
-    return (box.width() / side + 2) * (box.height() / side + 2) < LatticeTin::kMostTiles;
+    return (box.width() / tile_side_m_ + 2) * (box.height() / tile_side_m_ + 2) < LatticeTin::kMostTiles;
   }
 
   /// Of a sector of whose tiles such a share is seen.
@@ -166,7 +165,7 @@ class LatticeSegments {
     });
     result.statistics.rays += lines;
     result.statistics.rays_seconds += watch_.lap();
-    for (const Tile& part : decided) done_ += static_cast<std::size_t>(part.columns * part.rows);
+    done_ += cell_count(decided);
     progress_.report("cells decided", static_cast<double>(done_) /
                                           static_cast<double>(result.grid.cell_count() * request_.observers.size()));
     return reach;

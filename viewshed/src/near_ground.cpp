@@ -60,6 +60,11 @@ Box box_of_window(const Store& store, const Request& request) {
   return window.is_all() ? store.metadata().grid.box(store.metadata().bounds) : window.bounds();
 }
 
+double points_a_square_metre(const Store& store, int level, const Request& request) {
+  const Box box = box_of_window(store, request);
+  return static_cast<double>(store.points_about(level, box)) / (box.width() * box.height());
+}
+
 EnvelopeRequest certified_request(const Store& store, const Request& request, int level) {
   EnvelopeRequest result;
   result.window = window_of(request);

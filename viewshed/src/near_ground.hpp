@@ -32,6 +32,9 @@ bool features_stand(const Store& store, const Request& request);
 /// About all that the request's window may hold of the store.
 Box box_of_window(const Store& store, const Request& request);
 
+/// How densely points of this level and coarser ones lie there, about.
+double points_a_square_metre(const Store& store, int level, const Request& request);
+
 /// For request.detail.
 EnvelopeRequest certified_request(const Store& store, const Request& request);
 

@@ -100,6 +100,12 @@ void SightSectors::divide_next() {
   parts_.push_back(first);
 }
 
+std::size_t cell_count(std::span<const Tile> parts) {
+  std::size_t count = 0;
+  for (const Tile& part : parts) count += static_cast<std::size_t>(part.columns * part.rows);
+  return count;
+}
+
 std::vector<PartsOfTile> by_tile(std::span<const Tile> parts, const RasterGrid& tiles) {
   std::map<std::size_t, std::vector<Tile>> of_tiles;
   for (const Tile& part : parts)

@@ -53,6 +53,9 @@ class SightSectors {
   std::size_t most_;         ///< parts of the next sector
 };
 
+/// Of all parts.
+std::size_t cell_count(std::span<const Tile> parts);
+
 /// Those of a tile, which are parts of it.
 struct PartsOfTile {
   std::size_t tile;
