@@ -16,13 +16,22 @@ namespace itin {
 
 namespace {
 
-// Runs `decode`, naming the place of what it throws.
+// Reads a row and runs `decode` on its bytes, naming the place of what it throws.
 template <typename Decode>
-auto at_place(const std::string& path, const std::string& place, const Decode& decode) {
+auto decoded(const StoreRows& rows, BlobKind kind, std::uint64_t key, const Decode& decode) {
+  const std::vector<std::uint8_t> bytes = rows.read(kind, key);
   try {
-    return decode();
+    return decode(bytes);
   } catch (const DecodeError& e) {
-    throw CorruptStore(path, place, e.what());
+    throw CorruptStore(rows.path(), format::place(table_name(kind), key), e.what());
+  }
+}
+
+StoreMetadata read_metadata(const StoreRows& rows) {
+  try {
+    return metadata_from_json(rows.read_metadata());
+  } catch (const DecodeError& e) {
+    throw CorruptStore(rows.path(), "metadata", e.what());
   }
 }
 
@@ -38,22 +47,20 @@ std::size_t bytes_of(const Block& block) {
 }  // namespace
 
 StoreFile::StoreFile(const std::string& path, const StoreOptions& options) : rows_(path), cache_(options.cache_bytes) {
-  metadata_ = at_place(path, "metadata", [&] { return metadata_from_json(rows_.read_metadata()); });
+  metadata_ = read_metadata(rows_);
   metadata_.format_version = rows_.version();
-  const std::uint64_t key = format::kChunkListKey;
-  chunks_ = at_place(path, format::place("directory", key),
-                     [&] { return decode_chunk_list(rows_.read(BlobKind::Directory, key)); });
+  chunks_ = decoded(rows_, BlobKind::Directory, format::kChunkListKey,
+                    [](const auto& bytes) { return decode_chunk_list(bytes); });
 }
 
 DirectoryChunk StoreFile::read_chunk(int tree, const ChunkEntry& entry) const {
-  const std::uint64_t key = format::key(tree, entry.code);
-  return at_place(rows_.path(), format::place("directory", key),
-                  [&] { return decode_chunk(rows_.read(BlobKind::Directory, key), tree, entry); });
+  return decoded(rows_, BlobKind::Directory, format::key(tree, entry.code),
+                 [&](const auto& bytes) { return decode_chunk(bytes, tree, entry); });
 }
 
 Block StoreFile::read_block(const Leaf& leaf, BlockOrder order) const {
-  return at_place(rows_.path(), format::place("block", leaf.key), [&] {
-    Block block = decode_block(leaf.cell, rows_.read(BlobKind::Block, leaf.key), order);
+  return decoded(rows_, BlobKind::Block, leaf.key, [&](const auto& bytes) {
+    Block block = decode_block(leaf.cell, bytes, order);
     const auto [low, high] = std::minmax_element(block.points.begin(), block.points.end(),
                                                  [](const GridPoint& a, const GridPoint& b) { return a.z < b.z; });
     if (block.points.size() != leaf.points || low->z != leaf.zmin || high->z != leaf.zmax) {
@@ -64,9 +71,8 @@ Block StoreFile::read_block(const Leaf& leaf, BlockOrder order) const {
 }
 
 std::vector<Segment> StoreFile::read_edges(const Leaf& leaf) const {
-  return at_place(rows_.path(), format::place("block", leaf.key), [&] {
+  return decoded(rows_, BlobKind::Block, leaf.key, [&](const auto& bytes) {
     const std::uint16_t theme = format::theme_of(leaf.level);
-    const auto bytes = rows_.read(BlobKind::Block, leaf.key);
     return theme == kCoverage ? decode_outline(leaf.cell, leaf.points, bytes)
                               : decode_lines(leaf.cell, theme, leaf.points, bytes);
   });
@@ -139,16 +145,16 @@ std::shared_ptr<const Block> StoreFile::block_once(const Leaf& leaf) const {
 }
 
 std::shared_ptr<const Block> StoreFile::plan_once(const Leaf& leaf) const {
-  return at_place(rows_.path(), format::place("block", leaf.key), [&] {
-    auto block = std::make_shared<const Block>(decode_plan(leaf.cell, rows_.read(BlobKind::Block, leaf.key)));
+  return decoded(rows_, BlobKind::Block, leaf.key, [&](const auto& bytes) {
+    auto block = std::make_shared<const Block>(decode_plan(leaf.cell, bytes));
     if (block->points.size() != leaf.points) throw DecodeError("does not agree with its directory");
     return block;
   });
 }
 
 std::optional<BlockLattice> StoreFile::lattice_of(const Leaf& leaf) const {
-  return at_place(rows_.path(), format::place("block", leaf.key), [&] {
-    const BlockLattice lattice = decode_lattice(leaf.cell, rows_.read(BlobKind::Block, leaf.key));
+  return decoded(rows_, BlobKind::Block, leaf.key, [&](const auto& bytes) {
+    const BlockLattice lattice = decode_lattice(leaf.cell, bytes);
     if (lattice.points != leaf.points) throw DecodeError("does not agree with its directory");
     return lattice;
   });
@@ -175,9 +181,8 @@ void StoreFile::segments(int tree, const GridBox& box, std::vector<Segment>& out
 }
 
 std::vector<StoredFootprint> StoreFile::read_footprints(std::uint16_t theme, std::uint32_t number) const {
-  const std::uint64_t key = format::footprint_key(theme, number);
-  return at_place(rows_.path(), format::place("block", key),
-                  [&] { return decode_footprints(rows_.read(BlobKind::Block, key)); });
+  return decoded(rows_, BlobKind::Block, format::footprint_key(theme, number),
+                 [](const auto& bytes) { return decode_footprints(bytes); });
 }
 
 std::int32_t StoreFile::greatest_height(std::uint16_t part, const GridBox& box) const {
