@@ -55,8 +55,8 @@ class AxisSweep::Task {
     // A hair more, against rounding.
     from -= 1e-9, to += 1e-9;
     // What lies before the tile may hide even the highest of its ends.
-    if (view_.hides(fan.known(from, to, quadrant.slab_at(nearest_)), {from, to, nearest_, farthest_, least_drop()},
-                    highest_)) {
+    if (view_.hides(fan.known(from, to, quadrant.slab_at(nearest_)).hidden,
+                    {from, to, nearest_, farthest_, least_drop()}, highest_)) {
       for_each_cell(quadrant, from, to, [&](const Cell& cell) { heights_[cell.index] = kHidden; });
       return;
     }
@@ -382,7 +382,8 @@ bool AxisSweep::View::hides(const BinBox& box, double elevation) const {
   if (distance(box) == 0) return false;
   for (std::size_t i = 0; i < quadrants_.size(); ++i) {
     const auto ends = extent(quadrants_[i], box);
-    if (ends && !hides(fans_[i].known(ends->from, ends->to, quadrants_[i].slab_at(ends->nearest)), *ends, elevation))
+    if (ends &&
+        !hides(fans_[i].known(ends->from, ends->to, quadrants_[i].slab_at(ends->nearest)).hidden, *ends, elevation))
       return false;
   }
   return true;

@@ -13,6 +13,7 @@ namespace itin::viewshed {
 
 namespace {
 
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr std::size_t kFirst = 16;  ///< slabs up to where sectors are twice as many for the first time
 /// So many sectors a slab: they are a bin wide where they become twice as many.
 constexpr std::size_t kSectorsASlab = 2 * Quadrant::kRun;
@@ -28,13 +29,16 @@ void HorizonFan::advance(const Quadrant& quadrant, const Sector::Axis& axis, std
     const std::size_t step = widest_ / kRings, ring = (front_.slab / step + 1) * step, end = std::min(slab, ring);
     const auto [first, last] = sectors();
     const double width = 2 / static_cast<double>(front_.below.size());
+    // What is not looked at may rise.
+    std::fill_n(front_.above.begin(), first, kInfinity);
+    std::fill_n(front_.above.rbegin(), front_.above.size() - last, kInfinity);
     parallel_for((last - first + kSectorsATask - 1) / kSectorsATask, [&, first = first, last = last](std::size_t task) {
       const std::size_t begin = first + task * kSectorsATask;
       for (std::size_t i = begin; i < std::min(last, begin + kSectorsATask); ++i) {
         const double from = static_cast<double>(i) * width - 1;
         const Sector sector(quadrant, from, from + width, axis);
-        const auto hidden = sector.look_on({front_.slab, front_.below[i]}, end, [](const Sector::Hidden&) {});
-        front_.below[i] = rounded_down(hidden.below);
+        const auto [hidden, above] = sector.look_on({{front_.slab, front_.below[i]}, front_.above[i]}, end);
+        front_.below[i] = rounded_down(hidden.below), front_.above[i] = rounded_up(above);
       }
     });
     front_.slab = end;
@@ -45,13 +49,11 @@ void HorizonFan::advance(const Quadrant& quadrant, const Sector::Axis& axis, std
 /// Twice as many sectors, or the first ones.
 void HorizonFan::widen() {
   widest_ = widest_ == 0 ? kFirst : 2 * widest_;
-  if (front_.below.empty()) {
-    front_.below.assign(kSectorsASlab * widest_, -std::numeric_limits<float>::infinity());
-    return;
+  for (std::vector<float>* const of : {&front_.below, &front_.above}) {
+    const std::vector<float> wide = std::move(*of);
+    of->assign(kSectorsASlab * widest_, -kInfinity);
+    for (std::size_t i = 0; i < 2 * wide.size(); ++i) (*of)[i] = wide[i / 2];
   }
-  const std::vector<float> wide = std::move(front_.below);
-  front_.below.resize(2 * wide.size());
-  for (std::size_t i = 0; i < front_.below.size(); ++i) front_.below[i] = wide[i / 2];
 }
 
 /// The first of the front's sectors that lines may lie in, and the end of them: a few more, against rounding.
@@ -64,20 +66,22 @@ std::pair<std::size_t, std::size_t> HorizonFan::sectors() const {
   return {first, std::max(first, at(slopes_.second, 3))};
 }
 
-Sector::Hidden HorizonFan::Ring::known(double from, double to) const {
+Sector::Horizon HorizonFan::Ring::known(double from, double to) const {
   // Rounding may make it one sector less: by far less than sectors look at beside them.
   const auto sector_at = [&](double slope) {
     const double at = (slope + 1) * static_cast<double>(below.size()) / 2;
-    return below.begin() + static_cast<std::ptrdiff_t>(std::clamp(at, 0.0, static_cast<double>(below.size() - 1)));
+    return static_cast<std::ptrdiff_t>(std::clamp(at, 0.0, static_cast<double>(below.size() - 1)));
   };
-  return {slab, *std::min_element(sector_at(from), sector_at(to) + 1)};
+  const std::ptrdiff_t first = sector_at(from), end = sector_at(to) + 1;
+  return {{slab, *std::min_element(below.begin() + first, below.begin() + end)},
+          *std::max_element(above.begin() + first, above.begin() + end)};
 }
 
-Sector::Hidden HorizonFan::known(double from, double to, std::size_t nearest) const {
+Sector::Horizon HorizonFan::known(double from, double to, std::size_t nearest) const {
   if (front_.slab > 0 && front_.slab <= nearest) return front_.known(from, to);
   const auto farther = std::upper_bound(rings_.begin(), rings_.end(), nearest,
                                         [](std::size_t slab, const Ring& r) { return slab < r.slab; });
-  return farther == rings_.begin() ? Sector::Hidden{} : std::prev(farther)->known(from, to);
+  return farther == rings_.begin() ? Sector::Horizon{} : std::prev(farther)->known(from, to);
 }
 
 }  // namespace itin::viewshed

@@ -1,5 +1,5 @@
-// What hides lines up to an axis, in all directions of a quadrant and up to distances that double, so that far away
-// sectors need not be looked along from the axis.
+// What hides lines up to an axis, and above what nothing does, in all directions of a quadrant and up to distances that
+// double, so that far away sectors need not be looked along from the axis.
 //
 // A sector one bin wide at some distance spans hardly more lines of bins nearer by than one that is one bin wide there.
 // So a fan knows, for every distance, sectors one to two bins wide at their ends, each looked along from where the
@@ -20,19 +20,19 @@ class HorizonFan {
   /// Only lines within these slopes will be asked about.
   void narrow(double from, double to) { slopes_ = {from, to}; }
 
-  /// Looks on up to a slab, if it has not come as far yet. Memory: at most 640 bytes a slab. Uses all threads.
+  /// Looks on up to a slab, if it has not come as far yet. Memory: at most 1280 bytes a slab. Uses all threads.
   void advance(const Quadrant& quadrant, const Sector::Axis& axis, std::size_t slab);
 
   /// What is known by now for lines within slopes [from, to] that begin in slab `nearest`: of the farthest slab up to
   /// there.
-  Sector::Hidden known(double from, double to, std::size_t nearest) const;
+  Sector::Horizon known(double from, double to, std::size_t nearest) const;
 
  private:
   /// Sectors of equal slopes from -1 to 1, looked along up to where slab `slab` begins.
   struct Ring {
     std::size_t slab = 0;
-    std::vector<float> below;  ///< a sector, rounded down
-    Sector::Hidden known(double from, double to) const;
+    std::vector<float> below, above;  ///< of lines in a sector hidden and clear, rounded away from each other
+    Sector::Horizon known(double from, double to) const;
   };
   void widen();
   std::pair<std::size_t, std::size_t> sectors() const;

@@ -48,15 +48,29 @@ double Sector::greatest_drop(std::size_t slab) const {
                         : drop_at(std::max(0.0, quadrant_.begin(slab)), least_);
 }
 
-void SectorProfile::survey(const Sector& sector, const Sector::Hidden& known, std::size_t nearest, std::size_t count) {
+Sector::Horizon Sector::look_on(Horizon horizon, std::size_t end) const {
+  for_each_slab(horizon.hidden.slab, end, [&](std::size_t k, std::int64_t first, std::int64_t last, bool inside) {
+    pass(horizon.hidden, first, last, inside);
+    const double rise = highest(k, first, last) + axis_.margin - axis_.top;
+    // What rises above the axis in its own slab may hide any line.
+    const double steepest = rise <= 0 ? rise * quadrant_.per_end(k)
+                            : k == 0  ? kInfinity
+                                      : rise * quadrant_.per_end(k - 1);
+    horizon.above = std::max(horizon.above, steepest);
+  });
+  return horizon;
+}
+
+void SectorProfile::survey(const Sector& sector, const Sector::Horizon& known, std::size_t nearest, std::size_t count) {
   sector_.emplace(sector);
+  known_ = known;
   nearest_ = nearest, count_ = count;
   const std::size_t blocks = (count + kBlock - 1) / kBlock;
   high_.resize(count), group_high_.resize(blocks * kBlock / kGroup), block_high_.resize(blocks);
   highs_known_.assign(blocks, false);
   hidden_below_.resize(count - nearest);
-  sector.look_on(known, count, [&](const Sector::Hidden& hidden) {
-    if (hidden.slab >= nearest) hidden_below_[hidden.slab - nearest] = hidden.below;
+  sector.look_on(known.hidden, count, [&](const Sector::Hidden& at) {
+    if (at.slab >= nearest) hidden_below_[at.slab - nearest] = at.below;
   });
 }
 
@@ -65,13 +79,9 @@ void SectorProfile::survey_highs(std::size_t block) {
   highs_known_[block] = true;
   block_high_[block] = -kInfinity;
   std::fill_n(group_high_.begin() + static_cast<std::ptrdiff_t>(block * kBlock / kGroup), kBlock / kGroup, -kInfinity);
-  const Quadrant& quadrant = sector_->quadrant();
   const std::size_t end = std::min(count_, (block + 1) * kBlock);
   sector_->for_each_slab(block * kBlock, end, [&](std::size_t k, std::int64_t first, std::int64_t last, bool) {
-    // Ground that is bare beyond the bins counts for nothing, and a float's rounding is within the margin.
-    float high = -kInfinity;
-    for (std::int64_t line = first; line <= last; ++line) high = std::max(high, quadrant.high(k, line));
-    high_[k] = static_cast<float>(high - sector_->least_drop(k));
+    high_[k] = sector_->highest(k, first, last);
     group_high_[k / kGroup] = std::max(group_high_[k / kGroup], high_[k]);
     block_high_[block] = std::max(block_high_[block], high_[k]);
   });

@@ -100,17 +100,33 @@ class Sector {
   template <class Visit>
   Hidden look_on(Hidden hidden, std::size_t end, const Visit& visit) const;
 
+  /// And of those to the top itself that rise by at least `above` it certainly hides none.
+  struct Horizon {
+    Hidden hidden;
+    double above = -std::numeric_limits<double>::infinity();
+  };
+  Horizon look_on(Horizon horizon, std::size_t end) const;
+
   /// Calls visit(slab, first line, last line, whether all of them lie within the bins) from slab `first` on, before
   /// `end`.
   template <class Visit>
   void for_each_slab(std::size_t first, std::size_t end, const Visit& visit) const;
 
+  /// The highest of a slab between two lines, less the drop; grid units. Ground that is bare counts for nothing.
+  float highest(std::size_t slab, std::int64_t first, std::int64_t last) const {
+    // Rounding is within the margin.
+    float high = -std::numeric_limits<float>::infinity();
+    for (std::int64_t line = first; line <= last; ++line) high = std::max(high, quadrant_.high(slab, line));
+    return static_cast<float>(high - least_drop(slab));
+  }
+
+ private:
   // Within a slab, grid units.
   double least_drop(std::size_t slab) const;
   double greatest_drop(std::size_t slab) const;
-
- private:
   double drop_at(double along, double squared) const { return axis_.drop * squared * along * along; }
+  /// Past the next slab.
+  void pass(Hidden& hidden, std::int64_t first, std::int64_t last, bool inside) const;
 
   const Quadrant& quadrant_;
   double from_, to_;
@@ -121,9 +137,9 @@ class Sector {
 /// How low and how high a sector is, slab by slab.
 class SectorProfile {
  public:
-  /// Of the slabs before `count`; hidden_below() is asked about those from `nearest` on. `known` is of one of those up
+  /// Of the slabs before `count`; hidden_below() is asked about those from `nearest` on. What is known is of slabs up
   /// to there. Reuses what memory it has.
-  void survey(const Sector& sector, const Sector::Hidden& known, std::size_t nearest, std::size_t count);
+  void survey(const Sector& sector, const Sector::Horizon& known, std::size_t nearest, std::size_t count);
 
   /// Lines up to the axis' top that rise by less than this outward a bin, and begin in this slab, are certainly hidden.
   double hidden_below(std::size_t slab) const { return hidden_below_[slab - nearest_]; }
@@ -140,6 +156,7 @@ class SectorProfile {
   void survey_highs(std::size_t block);
 
   std::optional<Sector> sector_;
+  Sector::Horizon known_;
   std::size_t nearest_ = 0, count_ = 0;
   std::vector<float> high_, group_high_, block_high_;  ///< of a slab, of 8, of 64
   std::vector<bool> highs_known_;                      ///< of a block of 64
@@ -170,23 +187,25 @@ void Sector::for_each_slab(std::size_t first_slab, std::size_t end, const Visit&
   }
 }
 
+inline void Sector::pass(Hidden& hidden, std::int64_t first, std::int64_t last, bool inside) const {
+  const std::size_t k = hidden.slab++;
+  float low = inside ? std::numeric_limits<float>::infinity() : -std::numeric_limits<float>::infinity();
+  // Each covers two lines.
+  const std::int64_t last_pair = std::max(first, last - 1);
+  for (std::int64_t line = first + 2; line < last_pair; line += 2) low = std::min(low, quadrant_.low(k, line));
+  low = std::min({low, quadrant_.low(k, first), quadrant_.low(k, last_pair)});
+  const double rise = low - greatest_drop(k) - axis_.margin - axis_.top;
+  hidden.below = std::max(hidden.below, rise * (rise < 0 ? quadrant_.per_end(k)
+                                                : k == 0 ? 0
+                                                         : quadrant_.per_end(k - 1)));
+}
+
 template <class Visit>
 Sector::Hidden Sector::look_on(Hidden hidden, std::size_t end, const Visit& visit) const {
-  double per_begin = hidden.slab == 0 ? 0 : quadrant_.per_end(hidden.slab - 1);
-  for_each_slab(hidden.slab, end, [&](std::size_t k, std::int64_t first, std::int64_t last, bool inside) {
-    hidden.slab = k;
+  for_each_slab(hidden.slab, end, [&](std::size_t, std::int64_t first, std::int64_t last, bool inside) {
     visit(hidden);
-    float low = inside ? std::numeric_limits<float>::infinity() : -std::numeric_limits<float>::infinity();
-    // Each covers two lines.
-    const std::int64_t last_pair = std::max(first, last - 1);
-    for (std::int64_t line = first + 2; line < last_pair; line += 2) low = std::min(low, quadrant_.low(k, line));
-    low = std::min({low, quadrant_.low(k, first), quadrant_.low(k, last_pair)});
-    const double per_end = quadrant_.per_end(k);
-    const double rise = low - greatest_drop(k) - axis_.margin - axis_.top;
-    hidden.below = std::max(hidden.below, rise * (rise < 0 ? per_end : per_begin));
-    per_begin = per_end;
+    pass(hidden, first, last, inside);
   });
-  hidden.slab = end;
   return hidden;
 }
 
@@ -198,12 +217,16 @@ void SectorProfile::search(std::size_t last, const Line& line, const Visit& visi
     const double s = line.slope();
     return line.at_axis() - sector_->axis().margin + s * (s < 0 ? quadrant.end(to) : quadrant.begin(from));
   };
-  for (std::size_t block = last / kBlock + 1; block-- > 0;) {
-    const std::size_t block_first = block * kBlock, block_last = std::min(last, block_first + kBlock - 1);
+  const bool clear = line.slope() >= known_.above && line.at_axis() >= sector_->axis().top;
+  const std::size_t first = clear ? known_.hidden.slab : 0;
+  for (std::size_t block = last / kBlock + 1; block-- > first / kBlock;) {
+    const std::size_t block_first = std::max(first, block * kBlock),
+                      block_last = std::min(last, (block + 1) * kBlock - 1);
     if (!highs_known_[block]) survey_highs(block);
     if (block_high_[block] <= lowest(block_first, block_last)) continue;
     for (std::size_t group = block_last / kGroup + 1; group-- > block_first / kGroup;) {
-      const std::size_t group_first = group * kGroup, group_last = std::min(last, group_first + kGroup - 1);
+      const std::size_t group_first = std::max(first, group * kGroup),
+                        group_last = std::min(last, (group + 1) * kGroup - 1);
       if (group_high_[group] <= lowest(group_first, group_last)) continue;
       for (std::size_t slab = group_last + 1; slab-- > group_first;)
         if (high_[slab] > lowest(slab, slab) && !visit(slab)) return;
