@@ -54,7 +54,8 @@ Database Database::open(const std::string& path) {
   Database database(path, true);
   const std::string authority = path.starts_with('/') ? "file://" : "file:";
   database.open_handle(authority + percent_encoded(path) + "?immutable=1", SQLITE_OPEN_READONLY | SQLITE_OPEN_URI);
-  database.execute("PRAGMA cache_size=-1024; PRAGMA cell_size_check=ON; PRAGMA trusted_schema=OFF;");
+  // All reads are one transaction, for each would begin and end its own.
+  database.execute("PRAGMA cache_size=-1024; PRAGMA cell_size_check=ON; PRAGMA trusted_schema=OFF; BEGIN;");
   return database;
 }
 
