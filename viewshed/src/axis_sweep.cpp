@@ -179,7 +179,7 @@ class AxisSweep::Task {
       }
       case Kind::kPoint: {
         const SightLine line = line_between(top, other_end(cell, elevation));
-        return look(quadrant, cell, PointSight(line, end, view_.sector_axis_.margin));
+        return look(quadrant, cell, PointSight(line, end));
       }
       case Kind::kHeight: {
         const HeightSight::Range range{lowest_->end[cell.index], elevation, cell.hidden_below};
@@ -215,7 +215,7 @@ class AxisSweep::Task {
           sight.hides(bins_.corners(sight.silhouette()), end))
         continue;
       const SightLine line = line_between({axis_.x, axis_.y, axis_.top}, other_end(cell, end));
-      PointSight lower(line, {cell.along, sweep_.drop_ * cell.squared}, view_.sector_axis_.margin);
+      PointSight lower(line, {cell.along, sweep_.drop_ * cell.squared});
       if (decide(quadrant, cell, lower)) least = end;
     }
     return least;

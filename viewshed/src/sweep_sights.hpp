@@ -85,10 +85,8 @@ class AxisSight : public RaisedEnd {
 /// From a point to a target: whether it is seen.
 class PointSight {
  public:
-  PointSight(const SightLine& to_target, const SweptEnd& target, double margin)
-      : line_(to_target),
-        slope_((to_target.to_z() - target.drop - to_target.from().z) / target.along),
-        margin_(margin) {}
+  PointSight(const SightLine& to_target, const SweptEnd& target)
+      : line_(to_target), slope_((to_target.to_z() - target.drop - to_target.from().z) / target.along) {}
 
   double at_axis() const { return line_.from().z; }
   double slope() const { return slope_; }
@@ -97,14 +95,14 @@ class PointSight {
 
   bool clears(std::uint32_t triangle, const Corners& corners) {
     const auto& [a, b, c] = corners;
-    if (line_.apart(a, b, c, line_.to_z(), margin_) || !line_.hidden_by(a, b, c)) return true;
+    if (!line_.hidden_by(a, b, c)) return true;
     silhouette_ = triangle;
     return false;
   }
 
  private:
   const SightLine& line_;
-  double slope_, margin_;
+  double slope_;
   std::uint32_t silhouette_ = kNoSilhouette;
 };
 
