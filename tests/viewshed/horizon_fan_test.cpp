@@ -56,21 +56,21 @@ class Lookout {
   double between(double a, double b) { return std::uniform_real_distribution<double>(a, b)(random_); }
 
   void expect(const Sector::Horizon& known, const Quadrant& quadrant, double slope) {
-    const double along = quadrant.begin(known.hidden.slab), metres = bins_.bin_size() * unit_;
-    const Point2 at = quadrant.position(along, slope * along);
-    const double east = (at.x - column_) * metres, north = (row_ - at.y) * metres;
-    // To where the slab begins, rising so much a bin.
-    const auto clearance = [&](double rise) {
+    // To where the slab begins, or a hair nearer: the ground may begin with it. Rising so much a bin.
+    const auto clearance = [&](double rise, double share) {
+      const double along = share * quadrant.begin(known.hidden.slab), metres = bins_.bin_size() * unit_;
+      const Point2 at = quadrant.position(along, slope * along);
+      const double east = (at.x - column_) * metres, north = (row_ - at.y) * metres;
       const double drop = earth_.drop_coefficient() * (east * east + north * north);
       return exact_.clearance(eye_, {eye_.x + east, eye_.y + north, eye_.z + rise * along * unit_ + drop});
     };
     EXPECT_LE(known.hidden.below, known.above);
     if (std::isfinite(known.hidden.below)) {
-      EXPECT_LT(clearance(known.hidden.below), 0);
+      EXPECT_LT(clearance(known.hidden.below, 1), 0);
       ++hidden_;
     }
     if (std::isfinite(known.above)) {
-      EXPECT_GE(clearance(known.above), 0);
+      EXPECT_GE(clearance(known.above, 1 - 1e-9), 0);
       ++clear_;
     }
   }
