@@ -138,7 +138,7 @@ Document HorizonOutput::write(viewshed::Surveyed& surveyed, const StoreMetadata&
                               bool overwrite, Progress& progress) const {
   if (paths_.empty()) return nullptr;
   const viewshed::Request& request = surveyed.result.request;
-  const Tin& surface = surveyed.surface.listed();
+  const Tin& surface = surveyed.surface.listed(progress);
   const viewshed::Horizon horizon = viewshed::horizon(surface, surveyed.ground ? *surveyed.ground : surface, request,
                                                       {step_deg_, targets(request, metadata)}, progress);
   for (const std::string& path : paths_) {

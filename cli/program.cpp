@@ -114,6 +114,15 @@ void print(const std::string& text) {
   if (!std::cout) throw FileError("standard output", "could not be written; check the disk or pipe behind it");
 }
 
+/// Most often an unset variable of a script's: it must not stand for the default.
+void require_values(const CLI::App& verb) {
+  for (const CLI::Option* option : verb.get_options()) {
+    const std::vector<std::string>& values = option->results();
+    if (std::find(values.begin(), values.end(), "") != values.end())
+      throw InputError(fmt::format("{}: its value is empty; give one, or leave it out", option->get_name()));
+  }
+}
+
 void run_verb(Verb& verb, const Everywhere& everywhere) {
   const auto start = std::chrono::steady_clock::now();
   everywhere.apply();
@@ -155,6 +164,7 @@ void parse_and_run(const std::vector<std::string>& arguments) {
     const std::string verb = app.get_subcommands().empty() ? "" : app.get_subcommands().front()->get_name() + " ";
     throw InputError(fmt::format("{}; see itin {}--help", error.what(), verb));
   }
+  require_values(*app.get_subcommands().front());
   const std::string chosen = app.get_subcommands().front()->get_name();
   const auto verb = std::find_if(verbs.begin(), verbs.end(), [&](const auto& v) { return v->name() == chosen; });
   run_verb(**verb, everywhere);

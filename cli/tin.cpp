@@ -50,6 +50,7 @@ class TinVerb final : public Verb {
     if (output_.empty() && image_.empty()) throw InputError("give an output: --output FILE, or --image FILE.png");
     if (output_.empty() && !topology_.empty()) throw InputError("--topology: give --output FILE.json with it");
     if (!output_.empty() && output_ == image_) throw InputError("--output and --image name the same file");
+    if (!image_.empty()) viewshed::require_image_format(image_);
     if (!look_.empty()) {
       const std::vector<double> look = parse_tuple("--look", look_, 2, "azimuth,elevation");
       view_.azimuth = look[0], view_.elevation = look[1];

@@ -136,10 +136,14 @@ class ViewshedVerb final : public Verb {
     outputs_.prepare(request_);
     viewshed::Surveyed surveyed = survey(store, request_, progress);
     const ViewshedOutputs::Context context{metadata.crs_wkt,
-                                           surface_document(metadata, request_.detail, request_.themes)};
+                                           surface_document(metadata, request_.detail, request_.themes),
+                                           {{"mode", kModes[static_cast<std::size_t>(request_.mode)]},
+                                            {"precise", precise_ ? "yes" : "no"},
+                                            {"observer_on", request_.observers_on_surface ? "surface" : "ground"},
+                                            {"target_on", target_on_}}};
     Result result;
     result.warnings = surveyed.result.warnings;
-    outputs_.write(surveyed, context, result.warnings);
+    outputs_.write(surveyed, context, result.warnings, progress);
     outputs_.write_each([&](std::size_t i) { return survey_alone(store, surveyed, i, progress); }, context);
     const Document targets = horizon_.write(surveyed, metadata, earth_.document(), outputs_.overwrite(), progress);
     // What is certain or exact is so of the full surface.

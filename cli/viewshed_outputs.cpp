@@ -47,6 +47,7 @@ void ViewshedOutputs::validate(const std::vector<std::string>& others) {
     if (!names.insert(path).second) throw InputError(fmt::format("--output '{}' is given twice", path));
   }
   if (names.contains(image_)) throw InputError("--output and --image name the same file");
+  if (!image_.empty()) viewshed::require_image_format(image_);
   names.insert(image_);
   for (const std::string& path : others)
     if (!names.insert(path).second) throw InputError(fmt::format("'{}' is named for two outputs", path));
@@ -75,15 +76,16 @@ void ViewshedOutputs::write_raster(const std::string& path, const viewshed::Resu
   viewshed::GeotiffOptions options;
   options.crs_wkt = context.crs_wkt;
   options.metadata = {{"itin", ITIN_VERSION}, {"surface", context.surface.dump()}};
+  options.metadata.insert(options.metadata.end(), context.parameters.begin(), context.parameters.end());
   options.overwrite = policy_.overwrite;
   viewshed::write_geotiff(path, result, options);
 }
 
-void ViewshedOutputs::write(viewshed::Surveyed& surveyed, const Context& context,
-                            std::vector<std::string>& warnings) const {
+void ViewshedOutputs::write(viewshed::Surveyed& surveyed, const Context& context, std::vector<std::string>& warnings,
+                            Progress& progress) const {
   std::optional<viewshed::MapImage> map;
   if (!image_.empty()) {
-    map = viewshed::draw_map(surveyed.surface.listed(), surveyed.result);
+    map = viewshed::draw_map(surveyed.surface, surveyed.result, progress);
     warnings.insert(warnings.end(), map->warnings.begin(), map->warnings.end());
   }
   for (const std::string& path : outputs_) {

@@ -25,8 +25,10 @@ class ViewshedOutputs {
   struct Context {
     std::string crs_wkt;
     Document surface;
+    std::vector<std::pair<std::string, std::string>> parameters;  ///< that a result does not tell
   };
-  void write(viewshed::Surveyed& surveyed, const Context& context, std::vector<std::string>& warnings) const;
+  void write(viewshed::Surveyed& surveyed, const Context& context, std::vector<std::string>& warnings,
+             Progress& progress) const;
   /// Calls compute(observer) for every observer whose own raster is wanted.
   using Compute = std::function<viewshed::Result(std::size_t)>;
   void write_each(const Compute& compute, const Context& context) const;

@@ -32,14 +32,18 @@ class Reveal : public testing::Test {
 
   /// A fractal with a void, or none, and a ridge that hides the west from the east.
   void make(double relief, double void_radius) {
-    store_.reset();
-    std::filesystem::remove(directory_.file("t.itin"));
     const std::vector<double> z = test::fractal_heights(kSide, relief, 0.7, random_());
-    test::write_raster(directory_.file("t.tif"), {kWest, kNorth, kStep, kSide, kSide, 27700}, [&](int c, int r) {
+    import([&](int c, int r) {
       const bool missing = std::hypot(c - 0.4 * kSide, r - 0.55 * kSide) < void_radius;
       const double ridge = c >= 240 && c < 264 ? 4000 : 0;
       return missing ? NAN : ridge + z[static_cast<std::size_t>(r) * kSide + static_cast<std::size_t>(c)];
     });
+  }
+  template <class HeightAt>
+  void import(const HeightAt& height_at) {
+    store_.reset();
+    std::filesystem::remove(directory_.file("t.itin"));
+    test::write_raster(directory_.file("t.tif"), {kWest, kNorth, kStep, kSide, kSide, 27700}, height_at);
     ImportOptions options;
     options.sources = {directory_.file("t.tif")};
     import_terrain(directory_.file("t.itin"), options, progress_);
@@ -120,6 +124,23 @@ TEST_F(Reveal, ChangesNothingAndLeavesOutWhatNobodySees) {
   }
 }
 
+TEST_F(Reveal, GroundHidesThoughTargetsWithinItAreHidden) {
+  // From 100 m, targets at 50 m are hidden by the eastern ridge up to 7 km away, and farther away by the western one,
+  // which rises among hidden targets.
+  import([&](int c, int) { return c >= 412 && c < 420 ? 85.0 : c >= 265 && c < 310 ? 200.0 : 0.01 * (c % 7); });
+  Request request = look(1);
+  request.observers[0].position = {kWest + 500 * kStep, kNorth - 250 * kStep};
+  request.observers[0].height = 100;
+  request.target_absolute = true, request.target_height = 50;
+  const Result whole = compute(surface(Heights::kAll), nullptr, request, progress_);
+  EXPECT_GT(whole.cells.visible, 0U);
+  EXPECT_EQ(whole.visible[whole.grid.index({10, whole.grid.rows() / 2})], kHidden);
+  expect_same(whole, compute(surface(Heights::kNone), nullptr, request, progress_));
+  const auto parts = compute_in_lattice_segments(*store_, request, 800000, progress_);
+  ASSERT_TRUE(parts);
+  expect_same(whole, parts->result);
+}
+
 TEST_F(Reveal, ElevationsAreThoseOfAllGround) {
   make(700, 0);
   Request request = look(1);
@@ -153,6 +174,16 @@ TEST_F(Reveal, SegmentsMakeTheWhole) {
       }
     }
   }
+}
+
+TEST_F(Reveal, ARadiusBeyondTheDataIsOfTheData) {
+  make(400, 0);
+  Request request = look(1);
+  const Result whole = compute(*store_, request, progress_);
+  request.radius = 5e6;
+  const Result found = compute_precise(*store_, request, {}, progress_).result;
+  EXPECT_EQ(found.grid.cell_count(), whole.grid.cell_count());
+  EXPECT_TRUE(found.visible == whole.visible);
 }
 
 TEST_F(Reveal, TooLittleMemoryIsRefused) {

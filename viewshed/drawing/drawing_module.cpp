@@ -1,6 +1,7 @@
 // The only part that sees OpenImageIO.
 #include <string>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
@@ -33,12 +34,17 @@ bool knows_format(const char* path) {
   return known;
 }
 
-const char* write(const Picture& picture, const char* path) {
+// Into memory: several of the libraries beneath take no notice of a full disk, and libjpeg ends the program.
+const char* encode(const Picture& picture, const char* path, void* to, Append append) {
   static thread_local std::string reason;
   const auto output = OIIO::ImageOutput::create(path);
-  const bool written = output && output->open(path, spec_of(picture)) &&
+  OIIO::Filesystem::IOVecOutput bytes;
+  const bool encoded = output && output->set_ioproxy(&bytes) && output->open(path, spec_of(picture)) &&
                        output->write_image(OIIO::TypeDesc::UINT8, picture.rgb) && output->close();
-  if (written) return nullptr;
+  if (encoded) {
+    append(to, bytes.buffer().data(), bytes.buffer().size());
+    return nullptr;
+  }
   reason = output ? output->geterror() : OIIO::geterror();
   return reason.c_str();
 }
@@ -46,6 +52,6 @@ const char* write(const Picture& picture, const char* path) {
 }  // namespace
 
 extern "C" __attribute__((visibility("default")))
-const Drawing itin_drawing{draw_text, text_width, knows_format, write};
+const Drawing itin_drawing{draw_text, text_width, knows_format, encode};
 
 }  // namespace itin::viewshed

@@ -6,6 +6,7 @@
 // The module (viewshed/drawing) knows nothing of itin but this header; plain types alone pass between the two.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace itin::viewshed {
@@ -22,6 +23,8 @@ struct Font {
   int size;
 };
 
+using Append = void (*)(void* to, const void* bytes, std::size_t count);
+
 struct Drawing {
   /// From (x, y), or about it, or up to it, for align 0, 1, 2.
   void (*draw_text)(const Picture& picture, const char* text, const Font& font, int x, int y, int align,
@@ -29,8 +32,8 @@ struct Drawing {
   int (*text_width)(const char* text, const Font& font);
   /// Whether the path's ending names a format.
   bool (*knows_format)(const char* path);
-  /// Null, or why it failed: until the thread's next call.
-  const char* (*write)(const Picture& picture, const char* path);
+  /// A file's bytes, of the format that the path's ending names. Null, or why it failed: until the thread's next call.
+  const char* (*encode)(const Picture& picture, const char* path, void* to, Append append);
 };
 
 /// The table that the module exports as `itin_drawing`; loads it. Throws FileError where it is missing or broken.

@@ -32,7 +32,7 @@ class FieldOfView {
     return !azimuth_ && !elevation_ && nearest >= nearest_ && farthest <= farthest_;
   }
 
-  /// Metres from the observer to the target. An observer's own position has every azimuth.
+  /// Metres from the observer to the target. An observer's own position has every azimuth, and the eye every elevation.
   bool contains(double dx, double dy, double dz) const { return contains(dx, dy, dz, dz).value(); }
   bool looks_towards(double azimuth_deg) const { return !azimuth_ || azimuth_within(azimuth_deg); }
   /// From how far to how far above the eye a target at this squared distance is in view, metres; nothing: any.
@@ -50,8 +50,8 @@ class FieldOfView {
   std::optional<bool> contains(double dx, double dy, double low, double high) const {
     const double squared = dx * dx + dy * dy;
     if (squared > farthest_ || squared < nearest_) return false;
-    if (squared == 0) return true;
-    if (azimuth_ && !azimuth_within(std::atan2(dx, dy) * kDegrees)) return false;
+    if (squared == 0 && low <= 0 && high >= 0) return true;
+    if (squared > 0 && azimuth_ && !azimuth_within(std::atan2(dx, dy) * kDegrees)) return false;
     if (!elevation_) return true;
     const double lowest = elevation_at(squared, low), highest = elevation_at(squared, high);
     if (lowest >= elevation_->from && highest <= elevation_->to) return true;

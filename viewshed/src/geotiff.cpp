@@ -1,6 +1,9 @@
+#include <algorithm>
+#include <functional>
 #include <limits>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <viewshed/certified.hpp>
 #include <viewshed/viewshed.hpp>
@@ -30,18 +33,43 @@ std::string nodata_text(NoData rule) {
   return {};
 }
 
-std::vector<std::pair<std::string, std::string>> metadata_of(const Result& result) {
+std::string text_of(double v) {
+  return fmt::format("{:.12g}", v);
+}
+std::string text_of(const AngleRange& range) {
+  return fmt::format("{:.12g},{:.12g}", range.from, range.to);
+}
+
+using Metadata = std::vector<std::pair<std::string, std::string>>;
+
+/// What each observer has of its own or, where it has none, all have: once where that is the same for all, else one by
+/// one, `-` for none.
+template <class Value>
+void add_of_observers(const std::string& name, const Request& request, std::optional<Value> Observer::*own,
+                      const std::optional<Value>& of_all, Metadata& items) {
+  std::vector<std::string> texts;
+  for (const Observer& observer : request.observers) {
+    const std::optional<Value>& value = observer.*own ? observer.*own : of_all;
+    texts.push_back(value ? text_of(*value) : "-");
+  }
+  if (std::adjacent_find(texts.begin(), texts.end(), std::not_equal_to<>()) == texts.end()) texts.resize(1);
+  if (texts != std::vector<std::string>{"-"}) items.emplace_back(name, fmt::format("{}", fmt::join(texts, " ")));
+}
+
+Metadata metadata_of(const Result& result) {
   const Request& r = result.request;
-  std::vector<std::pair<std::string, std::string>> items{{"observers", observers_text(r.observers)},
-                                                         {"target_height_m", fmt::format("{:.12g}", r.target_height)},
-                                                         {"nodata_rule", nodata_text(r.nodata)},
-                                                         {"refraction", r.earth.convention()},
-                                                         {"cells", "decided at their centres"}};
-  if (r.radius) items.emplace_back("radius_m", fmt::format("{:.12g}", *r.radius));
-  if (r.min_radius > 0) items.emplace_back("min_radius_m", fmt::format("{:.12g}", r.min_radius));
-  if (r.azimuth) items.emplace_back("azimuth_deg", fmt::format("{:.12g},{:.12g}", r.azimuth->from, r.azimuth->to));
-  if (r.elevation)
-    items.emplace_back("elevation_deg", fmt::format("{:.12g},{:.12g}", r.elevation->from, r.elevation->to));
+  Metadata items{{"observers", observers_text(r.observers)},
+                 {"nodata_rule", nodata_text(r.nodata)},
+                 {"refraction", r.earth.convention()},
+                 {"cells", "decided at their centres"}};
+  if (r.observers.front().absolute) items.emplace_back("observer_heights", "elevations");
+  add_of_observers(r.target_absolute ? "target_elevation_m" : "target_height_m", r, &Observer::target_height,
+                   std::optional(r.target_height), items);
+  add_of_observers("radius_m", r, &Observer::radius, r.radius, items);
+  add_of_observers("min_radius_m", r, &Observer::min_radius,
+                   r.min_radius > 0 ? std::optional(r.min_radius) : std::nullopt, items);
+  add_of_observers("azimuth_deg", r, &Observer::azimuth, r.azimuth, items);
+  add_of_observers("elevation_deg", r, &Observer::elevation, r.elevation, items);
   if (r.mode == Mode::kProbability) {
     items.emplace_back("vertical_error_m", fmt::format("{:.12g}", r.vertical_error.sigma));
     items.emplace_back("error_correlation_m", fmt::format("{:.12g}", r.vertical_error.correlation_length));
@@ -80,7 +108,8 @@ class Writer {
   }
 
   void heights() {
-    write<float>({"least height above the ground at which a target is seen, metres"}, kNaN, result_.least_height_m);
+    write<float>({"least height above the ground at which a target is seen, metres; infinite: at none"}, kNaN,
+                 result_.least_height_m);
   }
   void probabilities() {
     std::vector<float> values = result_.probability;

@@ -7,31 +7,11 @@
 
 #include <itin/parallel.hpp>
 
-#include "surface_heights.hpp"
-
 namespace itin::viewshed {
 
 namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
-
-std::vector<float> heights_in_metres(const Tin& tin, const RasterGrid& pixels) {
-  std::vector<float> heights(pixels.cell_count());
-  const RasterGrid tiles = grid_of_tiles(pixels);
-  const TriangleBins bins(tin, tiles);
-  parallel_for(tiles.cell_count(), [&](std::size_t i) {
-    const Tile tile = tile_at(pixels, tiles, i);
-    TileValues<double> values;
-    scan_convert(tin, bins.triangles(i), tile, TileCentres(tin.grid, pixels, tile), values);
-    for (std::int64_t r = 0; r < tile.rows; ++r) {
-      for (std::int64_t c = 0; c < tile.columns; ++c) {
-        heights[pixels.index({tile.column + c, tile.row + r})] =
-            static_cast<float>(values[static_cast<std::size_t>(r * Tile::kSide + c)] * tin.grid.resolution);
-      }
-    }
-  });
-  return heights;
-}
 
 struct Light {
   double azimuth;  ///< degrees
@@ -55,8 +35,7 @@ double shade(double east, double north) {
 
 }  // namespace
 
-std::vector<float> hillshade(const Tin& tin, const RasterGrid& pixels) {
-  const std::vector<float> heights = heights_in_metres(tin, pixels);
+std::vector<float> hillshade(std::span<const float> heights, const RasterGrid& pixels) {
   float low = std::numeric_limits<float>::infinity(), high = -low;
   for (const float z : heights) {
     if (!std::isnan(z)) low = std::min(low, z), high = std::max(high, z);

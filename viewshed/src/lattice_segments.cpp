@@ -144,7 +144,7 @@ class LatticeSegments {
     const double unread = kBytesAnUnreadPost * static_cast<double>(reader.lattice().triangle_count()) / 2;
     const double tiles =
         (static_cast<double>(memory_) - unread) / static_cast<double>(kBytesAPost * LatticeTin::kCells);
-    const Revealed revealed = reveal(eye, reader, surface, static_cast<std::uint64_t>(std::max(0.0, tiles)));
+    const Revealed revealed = reveal(eye, reader, surface, static_cast<std::uint64_t>(std::max(0.0, tiles)), progress_);
     // A bin less, against rounding.
     const double reach = (revealed.reach - 1) * reader.lattice().spacing * reader.lattice().grid.resolution;
     std::optional<VoidShadow> shadow;

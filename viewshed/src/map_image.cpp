@@ -11,6 +11,7 @@
 #include "hillshade.hpp"
 #include "lettering.hpp"
 #include "map_overlay.hpp"
+#include "pixel_heights.hpp"
 
 namespace itin::viewshed {
 
@@ -35,6 +36,11 @@ std::string area_text(double square_metres) {
   return fmt::format("{:.0f} sq m", square_metres);
 }
 
+void require_possible(const MapOptions& options) {
+  if (options.map_pixels < 200 || options.map_pixels > 16000)
+    throw InputError(fmt::format("map of {} pixels: give 200 to 16000", options.map_pixels));
+}
+
 /// 1, 2 or 5 times a power of ten, at most v.
 double round_length(double v) {
   const double decade = std::pow(10, std::floor(std::log10(v)));
@@ -45,11 +51,13 @@ double round_length(double v) {
 
 class MapDrawing {
  public:
-  MapDrawing(const Tin& tin, const Result& result, const MapOptions& options)
-      : tin_(tin),
-        result_(result),
+  /// heights_of(pixels) are those of the ground.
+  template <class HeightsOf>
+  MapDrawing(const HeightsOf& heights_of, const Result& result, const MapOptions& options)
+      : result_(result),
         options_(options),
         pixels_(pixel_grid(result.grid, options.map_pixels)),
+        shades_(hillshade(heights_of(pixels_), pixels_)),
         width_(static_cast<int>(pixels_.columns())),
         height_(static_cast<int>(pixels_.rows())),
         unit_(std::max(10, static_cast<int>(std::lround(std::max(width_, height_) / 80.0)))),
@@ -123,10 +131,9 @@ class MapDrawing {
   }
 
   void draw_ground() {
-    const std::vector<float> shades = hillshade(tin_, pixels_);
     for (int y = 0; y < height_; ++y) {
       for (int x = 0; x < width_; ++x) {
-        const float shade = shades[pixels_.index({x, y})];
+        const float shade = shades_[pixels_.index({x, y})];
         const int px = left_ + x, py = top_ + y;
         if (std::isnan(shade)) {
           canvas_.blend(px, py, kVoid, 1);
@@ -272,12 +279,12 @@ class MapDrawing {
     }
   }
 
-  const Tin& tin_;
   const Result& result_;
   const MapOptions& options_;
   RasterGrid pixels_;
-  int width_, height_;  ///< of the map proper, pixels
-  int unit_;            ///< everything else is measured in this, pixels
+  std::vector<float> shades_;  ///< of the ground, a pixel
+  int width_, height_;         ///< of the map proper, pixels
+  int unit_;                   ///< everything else is measured in this, pixels
   Canvas canvas_;
   int left_, top_;  ///< of the map proper on the canvas
   MapOverlay overlay_;
@@ -287,9 +294,16 @@ class MapDrawing {
 }  // namespace
 
 MapImage draw_map(const Tin& tin, const Result& result, const MapOptions& options) {
-  if (options.map_pixels < 200 || options.map_pixels > 16000)
-    throw InputError(fmt::format("map of {} pixels: give 200 to 16000", options.map_pixels));
-  return MapDrawing(tin, result, options).draw();
+  require_possible(options);
+  return MapDrawing([&](const RasterGrid& pixels) { return heights_at(tin, pixels); }, result, options).draw();
+}
+
+MapImage draw_map(Surface& surface, const Result& result, Progress& progress, const MapOptions& options) {
+  if (!surface.lattice) return draw_map(surface.tin, result, options);
+  require_possible(options);
+  surface.lattice->read_all(progress);
+  const LatticeTin& lattice = surface.lattice->lattice();
+  return MapDrawing([&](const RasterGrid& pixels) { return heights_at(lattice, pixels); }, result, options).draw();
 }
 
 }  // namespace itin::viewshed

@@ -4,11 +4,11 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
-#include <unistd.h>
 
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/output_file.hpp>
 #include <viewshed/map_image.hpp>
 
 #include "drawing.hpp"
@@ -67,23 +67,23 @@ int Lettering::width(const std::string& text, int size) const {
   return available() ? drawing().text_width(plain_text(text).c_str(), {font_.c_str(), size}) : 0;
 }
 
+void require_image_format(const std::string& path) {
+  if (!drawing().knows_format(path.c_str()))
+    throw InputError(fmt::format("{}: no image format for the ending '{}'; use .png or .jpg", path,
+                                 fs::path(path).extension().string()));
+}
+
 void write_image(const std::string& path, const MapImage& image, bool overwrite) {
-  std::error_code error;
-  if (fs::is_directory(path, error)) throw FileError(path, "is a directory; name a file");
-  if (fs::exists(path, error) && !overwrite)
-    throw FileError(path, "exists already; allow overwriting or name another file");
-  const fs::path ending = fs::path(path).extension();
-  const std::string temporary = fmt::format("{}.{}.tmp{}", path, getpid(), ending.string());
-  if (!drawing().knows_format(temporary.c_str()))
-    throw InputError(fmt::format("{}: no image format for the ending '{}'; use .png", path, ending.string()));
-  // The module does not change what it writes.
+  require_image_format(path);
+  // The module does not change what it encodes.
   const Picture picture{const_cast<std::uint8_t*>(image.rgb.data()), image.width, image.height};
-  const char* const failed = drawing().write(picture, temporary.c_str());
-  if (failed == nullptr) fs::rename(temporary, path, error);
-  if (failed == nullptr && !error) return;
-  const std::string reason = failed == nullptr ? error.message() : failed;
-  fs::remove(temporary, error);
-  throw FileError(path, "cannot be written: " + reason);
+  std::string bytes;
+  const char* const failed =
+      drawing().encode(picture, path.c_str(), &bytes, [](void* to, const void* from, std::size_t count) {
+        static_cast<std::string*>(to)->assign(static_cast<const char*>(from), count);
+      });
+  if (failed != nullptr) throw FileError(path, std::string("cannot be written: ") + failed);
+  write_file(path, bytes, overwrite);
 }
 
 }  // namespace itin::viewshed

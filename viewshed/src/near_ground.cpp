@@ -57,7 +57,11 @@ bool features_stand(const Store& store, const Request& request) {
 
 Box box_of_window(const Store& store, const Request& request) {
   const Window window = window_of(request);
-  return window.is_all() ? store.metadata().grid.box(store.metadata().bounds) : window.bounds();
+  const Box all = store.metadata().grid.box(store.metadata().bounds);
+  if (window.is_all()) return all;
+  // An observer outside the data is told so later on.
+  const Box within = intersection(window.bounds(), all);
+  return within.empty() ? window.bounds() : within;
 }
 
 double points_a_square_metre(const Store& store, int level, const Request& request) {

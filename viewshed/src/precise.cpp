@@ -316,7 +316,7 @@ Surveyed compute_precise(const Store& store, const Request& request, const Preci
   const std::uint64_t points = store.points_about(0, box);
   if (options.lattices && points <= memory / kBytesAPost)
     if (auto surveyed = compute_over_lattice(store, whole, memory / kBytesAPost, progress)) return std::move(*surveyed);
-  if (points <= options.memory_bytes / kBytesAPoint) return compute_over_tin(store, whole, progress);
+  if (points <= memory / kBytesAPoint) return compute_over_tin(store, whole, progress);
   if (options.lattices)
     if (auto surveyed = compute_in_lattice_segments(store, whole, memory / kSegmentShare, progress))
       return std::move(*surveyed);

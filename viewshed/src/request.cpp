@@ -7,6 +7,8 @@
 
 #include <itin/error.hpp>
 
+#include "eye.hpp"
+
 namespace itin::viewshed {
 
 namespace {
@@ -37,13 +39,10 @@ void validate_view(const Request& request, const Observer& observer) {
 }
 
 void validate_observer(const Request& request, const Observer& observer) {
-  const auto refuse = [&](const std::string& what) {
-    throw InputError(fmt::format("observer {} at {:.10g},{:.10g}: {}", observer.name, observer.position.x,
-                                 observer.position.y, what));
-  };
-  if (!std::isfinite(observer.position.x) || !std::isfinite(observer.position.y)) refuse("its position is not finite");
-  if (!std::isfinite(observer.height)) refuse("its height is not a finite number");
-  if (!observer.absolute && observer.height < 0) refuse("its height is below the ground; give 0 or more");
+  if (!std::isfinite(observer.position.x) || !std::isfinite(observer.position.y))
+    refuse(observer, "its position is not finite");
+  if (!std::isfinite(observer.height)) refuse(observer, "its height is not a finite number");
+  if (!observer.absolute && observer.height < 0) refuse(observer, "its height is below the ground; give 0 or more");
   try {
     validate_view(request, observer);
   } catch (const InputError& error) {
@@ -51,7 +50,7 @@ void validate_observer(const Request& request, const Observer& observer) {
     const bool own =
         observer.target_height || observer.radius || observer.min_radius || observer.azimuth || observer.elevation;
     if (!own) throw;
-    refuse(error.what());
+    refuse(observer, error.what());
   }
 }
 
@@ -76,10 +75,6 @@ double default_cell_size(const Box& box) {
   for (const double step : {1.0, 2.0, 5.0})
     if (step * decade >= least) return step * decade;
   return 10 * decade;
-}
-
-Box intersection(const Box& a, const Box& b) {
-  return {std::max(a.xmin, b.xmin), std::max(a.ymin, b.ymin), std::min(a.xmax, b.xmax), std::min(a.ymax, b.ymax)};
 }
 
 Window::Polygon rectangle(const Box& b) {
@@ -125,6 +120,10 @@ RasterGrid cells_of(const Request& request, const Box& coverage) {
   }
   if (area.empty()) throw InputError("no observer's radius reaches any data");
   return RasterGrid::aligned(area, request.cell_size ? *request.cell_size : default_cell_size(area));
+}
+
+Box intersection(const Box& a, const Box& b) {
+  return {std::max(a.xmin, b.xmin), std::max(a.ymin, b.ymin), std::min(a.xmax, b.xmax), std::min(a.ymax, b.ymax)};
 }
 
 Box disc_box(Point2 centre, double radius) {

@@ -24,6 +24,7 @@ std::optional<double> radius_of(const Request& request, const Observer& observer
 /// the radius of an observer, where each has one. Throws InputError if there is none.
 RasterGrid cells_of(const Request& request, const Box& coverage);
 
+Box intersection(const Box& a, const Box& b);
 /// About a disc, metres.
 Box disc_box(Point2 centre, double radius);
 

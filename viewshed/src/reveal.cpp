@@ -33,15 +33,16 @@ bool unread(const LatticeTin::Tile& tile) {
   return tile.ground != LatticeTin::Ground::kNone && !tile.heights;
 }
 
-void read(const Tiles& tiles, LatticeReader& reader, FullSurface& surface) {
+void read(const Tiles& tiles, LatticeReader& reader, FullSurface& surface, Progress& progress) {
   if (tiles.empty()) return;
-  reader.read(tiles);
+  reader.read(tiles, progress);
   surface.add(tiles);
 }
 
 }  // namespace
 
-Revealed reveal(const Eye& eye, LatticeReader& reader, FullSurface& surface, std::uint64_t most_tiles) {
+Revealed reveal(const Eye& eye, LatticeReader& reader, FullSurface& surface, std::uint64_t most_tiles,
+                Progress& progress) {
   const LatticeTin& lattice = reader.lattice();
   AxisSweep::View view = surface.look_out(eye);
   std::vector<std::pair<double, std::uint32_t>> left;  // the nearest last
@@ -57,13 +58,16 @@ Revealed reveal(const Eye& eye, LatticeReader& reader, FullSurface& surface, std
   const double resolution = lattice.grid.resolution;
   // Each tile after those before it.
   for (double reach = 0; !left.empty(); reach += LatticeTin::kSide) {
+    progress.throw_if_cancelled();
     view.advance(reach);
     Tiles near;
     for (; !left.empty() && left.back().first < reach + LatticeTin::kSide; left.pop_back())
       near.push_back(left.back().second);
     std::vector<std::uint8_t> hidden(near.size());
     parallel_for(near.size(), [&](std::size_t i) {
-      const double highest = eye.target(reader.highest(near[i]) * resolution) / resolution;
+      // Ground that is not hidden itself may hide what lies beyond, however low its targets are.
+      const double ground = reader.highest(near[i]) * resolution;
+      const double highest = std::max(ground, eye.target(ground)) / resolution;
       hidden[i] = view.hides(box_of(lattice, near[i]), highest) ? 1 : 0;
     });
     Tiles wanted;
@@ -71,7 +75,7 @@ Revealed reveal(const Eye& eye, LatticeReader& reader, FullSurface& surface, std
       if (hidden[i] == 0) wanted.push_back(near[i]);
     if (wanted.size() > most_tiles) return {std::move(view), reach};
     most_tiles -= wanted.size();
-    read(wanted, reader, surface);
+    read(wanted, reader, surface, progress);
   }
   constexpr double kAll = std::numeric_limits<double>::infinity();
   view.advance(kAll);
@@ -89,7 +93,7 @@ LatticeReader::Heights heights_for(const Request& request, std::uint64_t posts) 
   return all ? LatticeReader::Heights::kAll : LatticeReader::Heights::kNone;
 }
 
-void reveal_place(Point2 position, LatticeReader& reader, FullSurface& surface) {
+void reveal_place(Point2 position, LatticeReader& reader, FullSurface& surface, Progress& progress) {
   const LatticeTin& lattice = reader.lattice();
   const double column = (easting_in_units(lattice.grid, position.x) - lattice.west) / lattice.spacing,
                row = (lattice.north - northing_in_units(lattice.grid, position.y)) / lattice.spacing;
@@ -100,7 +104,7 @@ void reveal_place(Point2 position, LatticeReader& reader, FullSurface& surface) 
         row < box.south + 1)
       about.push_back(t);
   }
-  read(about, reader, surface);
+  read(about, reader, surface, progress);
 }
 
 }  // namespace itin::viewshed

@@ -1,10 +1,10 @@
 // Reads what an eye may see of a lattice, and no more.
 //
-//   reveal_place(observer.position, reader, surface);         // so that its height is known
-//   const AxisSweep::View view = reveal(eye, reader, surface).view;
+//   reveal_place(observer.position, reader, surface, progress);         // so that its height is known
+//   const AxisSweep::View view = reveal(eye, reader, surface, kAnyTiles, progress).view;
 //
 // From the eye outwards, as far each time as what has been read tells what is hidden: a tile that does not rise above
-// the horizon before it, even with targets on its highest post, is left alone. To the eye it is bare: no line passes
+// the horizon before it, nor do targets on its highest post, is left alone. To the eye it is bare: no line passes
 // into it that does not end on the way, by far more than rounding, so that every answer is what it would be with the
 // tile.
 #pragma once
@@ -14,6 +14,7 @@
 
 #include <itin/geometry.hpp>
 #include <itin/lattice_reader.hpp>
+#include <itin/progress.hpp>
 
 #include "axis_sweep.hpp"
 #include "eye.hpp"
@@ -28,7 +29,8 @@ struct Revealed {
 };
 /// `surface` is the reader's. Cost: the tiles, and the view. Ends short of all where it would have to read more than
 /// `most_tiles`.
-Revealed reveal(const Eye& eye, LatticeReader& reader, FullSurface& surface, std::uint64_t most_tiles = kAnyTiles);
+Revealed reveal(const Eye& eye, LatticeReader& reader, FullSurface& surface, std::uint64_t most_tiles,
+                Progress& progress);
 
 /// Which heights to read at once of about so many posts: all where it matters how high ground is that nobody sees, and
 /// where leaving some out would save little, since there are many observers or few tiles.
@@ -37,6 +39,6 @@ LatticeReader::Heights heights_for(const Request& request, std::uint64_t posts);
 bool asks_for_all_heights(const Request& request);
 
 /// What lies about a position in metres.
-void reveal_place(Point2 position, LatticeReader& reader, FullSurface& surface);
+void reveal_place(Point2 position, LatticeReader& reader, FullSurface& surface, Progress& progress);
 
 }  // namespace itin::viewshed

@@ -36,14 +36,14 @@ Result compute_on(const Tin* tin, LatticeReader* reader, const Tin* bare, const 
   progress.report("scene", 0);
   result.grid = cells_of(request, lattice != nullptr ? lattice->bounds() : tin->bounds());
   const RasterGrid tiles = grid_of_tiles(result.grid);
-  if (reader != nullptr && asks_for_all_heights(request)) reader->read_all();
+  if (reader != nullptr && asks_for_all_heights(request)) reader->read_all(progress);
   FullSurface surface = lattice != nullptr ? FullSurface(*lattice, request.earth, result.grid, tiles)
                                            : FullSurface(*tin, request.targets_on_surface ? nullptr : bare,
                                                          request.earth, result.grid, tiles);
   std::vector<Eye> eyes;
   for (const Observer& observer : request.observers) {
     const bool raised = request.observers_on_surface || bare == nullptr;
-    if (reader != nullptr) reveal_place(observer.position, *reader, surface);
+    if (reader != nullptr) reveal_place(observer.position, *reader, surface, progress);
     const auto height = raised ? surface.height(observer.position) : height_on(*bare, observer.position);
     eyes.push_back(eye_of(units, request, observer, height));
     result.ground_m.push_back(*height);
@@ -53,7 +53,8 @@ Result compute_on(const Tin* tin, LatticeReader* reader, const Tin* bare, const 
   const Observations observations = lattice != nullptr ? Observations(request) : Observations(request, *tin);
   std::vector<AxisSweep::View> views;
   for (const Eye& eye : eyes)
-    views.push_back(reader != nullptr ? reveal(eye, *reader, surface).view : surface.view_from(eye));
+    views.push_back(reader != nullptr ? reveal(eye, *reader, surface, kAnyTiles, progress).view
+                                      : surface.view_from(eye));
   look_around(surface, observations, eyes, views, result, progress);
   if (request.mode == Mode::kBlocker) name_blockers(*tin, result);
   result.statistics.rays_seconds = watch.lap();

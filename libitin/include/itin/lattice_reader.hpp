@@ -2,7 +2,7 @@
 //
 //   if (const auto reader = LatticeReader::open(store, window, themes, LatticeReader::Heights::kNone, most, progress))
 //   {
-//     reader->read(tiles);                       // by their number in reader->lattice().tiles
+//     reader->read(tiles, progress);             // by their number in reader->lattice().tiles
 //     ...
 //   }
 //
@@ -44,11 +44,12 @@ class LatticeReader {
   /// No post of the tile is higher, grid units. Told where it was opened without heights.
   std::int32_t highest(std::uint32_t tile) const;
 
-  /// Reads the heights of tiles with ground that have none yet. Cost: their blocks, of which those at their borders may
-  /// have been read before. Not for several threads at once; uses all itself.
-  void read(std::span<const std::uint32_t> tiles);
+  /// Reads the heights of tiles with ground that have none yet: all of them, or none where it throws. Reports nothing.
+  /// Cost: their blocks, of which those at their borders may have been read before. Not for several threads at once;
+  /// uses all itself.
+  void read(std::span<const std::uint32_t> tiles, Progress& progress);
   /// All that are left.
-  void read_all();
+  void read_all(Progress& progress);
 
  private:
   class Work;

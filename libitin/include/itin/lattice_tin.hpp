@@ -146,9 +146,9 @@ struct LatticeTin {
   Tin tin() const;
 
   // To fill it.
-  /// Makes room for the heights of a tile, which are not set.
+  /// Makes room for the heights of a tile.
   void make_heights(std::uint32_t tile) {
-    tiles[tile].heights = std::make_unique_for_overwrite<std::array<std::int32_t, kPosts * kPosts>>();
+    tiles[tile].heights = std::make_unique<std::array<std::int32_t, kPosts * kPosts>>();
   }
   /// Calls visit(tile, place in its heights) for the up to four tiles that a post belongs to.
   template <class Visit>

@@ -49,7 +49,7 @@ class LatticeReader::Work {
   /// Where it would be; of no ground yet.
   bool find_lattice(Heights heights, std::uint64_t most_posts);
   bool open(Heights heights, std::uint64_t most_posts, Progress& progress);
-  void read(std::span<const std::uint32_t> tiles);
+  void read(std::span<const std::uint32_t> tiles, Progress& progress);
 
   LatticeTin lattice_;
   std::vector<std::int32_t> highest_;  ///< of tiles; none where all heights were read at once
@@ -81,6 +81,7 @@ class LatticeReader::Work {
   template <class Visit>
   void for_each_tile(const Leaf& leaf, const Visit& visit) const;
   void list_leaves_of_tiles();
+  void read_leaves(std::span<const std::uint32_t> leaves, Progress& progress);
 
   /// Column and row of the place on the lattice at a point, or to its north-west; nothing beyond the lattice.
   struct Place {
@@ -345,7 +346,7 @@ void LatticeReader::Work::list_leaves_of_tiles() {
     for_each_tile(leaves_[i], [&](std::uint32_t tile) { leaf_of_tile_[next[tile]++] = i; });
 }
 
-void LatticeReader::Work::read(std::span<const std::uint32_t> tiles) {
+void LatticeReader::Work::read(std::span<const std::uint32_t> tiles, Progress& progress) {
   being_read_.assign(lattice_.tiles.size(), false);
   std::vector<std::uint32_t> leaves;
   for (const std::uint32_t t : tiles) {
@@ -355,7 +356,19 @@ void LatticeReader::Work::read(std::span<const std::uint32_t> tiles) {
   }
   std::sort(leaves.begin(), leaves.end());
   leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+  try {
+    read_leaves(leaves, progress);
+  } catch (...) {
+    for (std::size_t t = 0; t < being_read_.size(); ++t)
+      if (being_read_[t]) lattice_.tiles[t].heights.reset();
+    throw;
+  }
+}
+
+/// Into the tiles that are being read.
+void LatticeReader::Work::read_leaves(std::span<const std::uint32_t> leaves, Progress& progress) {
   parallel_for((leaves.size() + kLeavesATask - 1) / kLeavesATask, [&](std::size_t task) {
+    progress.throw_if_cancelled();
     for (std::size_t i = task * kLeavesATask; i < std::min(leaves.size(), (task + 1) * kLeavesATask); ++i) {
       const Leaf& leaf = leaves_[leaves[i]];
       // Wide ones are asked for time and again.
@@ -392,13 +405,13 @@ LatticeTin LatticeReader::take() {
 std::int32_t LatticeReader::highest(std::uint32_t tile) const {
   return work_->highest_[tile];
 }
-void LatticeReader::read(std::span<const std::uint32_t> tiles) {
-  work_->read(tiles);
+void LatticeReader::read(std::span<const std::uint32_t> tiles, Progress& progress) {
+  work_->read(tiles, progress);
 }
-void LatticeReader::read_all() {
+void LatticeReader::read_all(Progress& progress) {
   std::vector<std::uint32_t> all(work_->lattice_.tiles.size());
   std::iota(all.begin(), all.end(), 0U);
-  work_->read(all);
+  work_->read(all, progress);
 }
 
 std::optional<LatticeTin> triangulate_lattice(const Store& store, const Window& window, const ThemeChoice& themes,

@@ -168,9 +168,17 @@ class TriangulateLattice : public testing::Test {
     EXPECT_EQ(lattice.triangle_count(), tin.triangles.size());
     EXPECT_EQ(rim_of(lattice), rim_of(tin));
     const auto tile = static_cast<std::uint32_t>(random_() % lattice.tiles.size());
-    reader->read(std::vector{tile});
+    struct : Progress {
+      void report(std::string_view, double) override {}
+      bool cancelled() const override { return true; }
+    } stopped;
+    if (lattice.tiles[tile].ground != LatticeTin::Ground::kNone) {
+      EXPECT_THROW(reader->read(std::vector{tile}, stopped), Cancelled);
+    }
+    EXPECT_FALSE(lattice.tiles[tile].heights) << "heights that were not read";
+    reader->read(std::vector{tile}, progress_);
     EXPECT_EQ(lattice.tiles[tile].heights != nullptr, lattice.tiles[tile].ground != LatticeTin::Ground::kNone);
-    reader->read_all();
+    reader->read_all(progress_);
     EXPECT_EQ(triangles_of(lattice), triangles_of(tin));
     for (std::uint32_t cell = 0; cell < lattice.tiles.size() * LatticeTin::kCells; ++cell)
       lattice.for_each_triangle(cell, [&](std::uint32_t t) {

@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include <itin/progress.hpp>
 #include <itin/tin.hpp>
+#include <viewshed/surface.hpp>
 #include <viewshed/viewshed.hpp>
 
 namespace itin::viewshed {
@@ -31,10 +33,14 @@ struct MapImage {
 /// `result` must come from `tin`. Colours can be told apart by colour-blind readers and in grey print. Throws
 /// InputError for a size out of range.
 MapImage draw_map(const Tin& tin, const Result& result, const MapOptions& options = {});
+/// The same over a surface; what of it has not been read is.
+MapImage draw_map(Surface& surface, const Result& result, Progress& progress, const MapOptions& options = {});
 
-/// The format follows the ending (png, jpg, tif, ...). The file appears only when complete. Throws InputError if
-/// OpenImageIO knows no such format, FileError if the place cannot be written, or if the file exists and `overwrite`
-/// is false.
+/// Throws InputError if OpenImageIO knows no format for the path's ending (png, jpg, tif, ...).
+void require_image_format(const std::string& path);
+
+/// The file appears only when complete. Throws as require_image_format() does, and FileError if the place cannot be
+/// written, or if the file exists and `overwrite` is false.
 void write_image(const std::string& path, const MapImage& image, bool overwrite);
 
 }  // namespace itin::viewshed

@@ -22,9 +22,9 @@ struct Surface {
   std::size_t triangle_count() const { return lattice ? lattice->lattice().triangle_count() : tin.triangles.size(); }
   const RetrievalStatistics& statistics() const { return lattice ? lattice->lattice().statistics : tin.statistics; }
   /// Every triangle, also of a lattice.
-  const Tin& listed() {
+  const Tin& listed(Progress& progress) {
     if (lattice && tin.triangles.empty()) {
-      lattice->read_all();
+      lattice->read_all(progress);
       tin = lattice->lattice().tin();
     }
     return tin;
