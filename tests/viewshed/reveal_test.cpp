@@ -33,14 +33,14 @@ class Reveal : public testing::Test {
   /// A fractal with a void, or none, and a ridge that hides the west from the east.
   void make(double relief, double void_radius) {
     const std::vector<double> z = test::fractal_heights(kSide, relief, 0.7, random_());
-    import([&](int c, int r) {
+    make_of([&](int c, int r) {
       const bool missing = std::hypot(c - 0.4 * kSide, r - 0.55 * kSide) < void_radius;
       const double ridge = c >= 240 && c < 264 ? 4000 : 0;
       return missing ? NAN : ridge + z[static_cast<std::size_t>(r) * kSide + static_cast<std::size_t>(c)];
     });
   }
   template <class HeightAt>
-  void import(const HeightAt& height_at) {
+  void make_of(const HeightAt& height_at) {
     store_.reset();
     std::filesystem::remove(directory_.file("t.itin"));
     test::write_raster(directory_.file("t.tif"), {kWest, kNorth, kStep, kSide, kSide, 27700}, height_at);
@@ -127,7 +127,7 @@ TEST_F(Reveal, ChangesNothingAndLeavesOutWhatNobodySees) {
 TEST_F(Reveal, GroundHidesThoughTargetsWithinItAreHidden) {
   // From 100 m, targets at 50 m are hidden by the eastern ridge up to 7 km away, and farther away by the western one,
   // which rises among hidden targets.
-  import([&](int c, int) { return c >= 412 && c < 420 ? 85.0 : c >= 265 && c < 310 ? 200.0 : 0.01 * (c % 7); });
+  make_of([&](int c, int) { return c >= 412 && c < 420 ? 85.0 : c >= 265 && c < 310 ? 200.0 : 0.01 * (c % 7); });
   Request request = look(1);
   request.observers[0].position = {kWest + 500 * kStep, kNorth - 250 * kStep};
   request.observers[0].height = 100;
