@@ -186,6 +186,24 @@ TEST_F(Reveal, ARadiusBeyondTheDataIsOfTheData) {
   EXPECT_TRUE(found.visible == whole.visible);
 }
 
+TEST_F(Reveal, CellsDoNotDependOnWhatIsRead) {
+  // West of the coast there is land in a corner beside the disc alone.
+  make_of([](int c, int r) { return c < 300 && r > 60 ? NAN : 50 * std::sin(0.03 * c) + 40 * std::cos(0.05 * r); });
+  Request request = look(1);
+  request.observers[0].position = {kWest + 460 * kStep, kNorth - 250 * kStep};
+  request.radius = 200 * kStep;
+  request.nodata = NoData::kClear;
+  const Result whole = compute(*store_, request, progress_);
+  EXPECT_NEAR(whole.grid.bounds().xmin, request.observers[0].position.x - 5000, 40);
+  const auto parts = compute_in_lattice_segments(*store_, request, 800000, progress_);
+  ASSERT_TRUE(parts);
+  EXPECT_EQ(parts->result.grid.bounds(), whole.grid.bounds());
+  expect_same(whole, parts->result);
+  Request certified = request;
+  certified.mode = Mode::kCertified, certified.detail = Detail::tolerance(16);
+  EXPECT_EQ(compute_certified(*store_, certified, progress_).result.grid.bounds(), whole.grid.bounds());
+}
+
 TEST_F(Reveal, TooLittleMemoryIsRefused) {
   make(400, 0);
   for (const Mode mode : {Mode::kVisible, Mode::kHeight}) {

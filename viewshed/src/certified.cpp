@@ -129,7 +129,7 @@ Surveyed compute_certified(const Store& store, const Request& request, Progress&
   result.statistics.retrieval_seconds = watch.lap();
 
   progress.report("scene", 0);
-  result.grid = cells_of(request, envelope.lower.bounds());
+  result.grid = cells_of(request, extent_of(store));
   const RasterGrid tiles = grid_of_tiles(result.grid);
   const EnvelopeScene scene(std::move(envelope), request, tiles, voids_of(request.nodata));
   std::vector<EnvelopeScene::Look> looks;

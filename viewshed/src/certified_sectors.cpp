@@ -38,7 +38,7 @@ class CertifiedSectors {
     result.request = request_;
     const std::vector<Eye> eyes = eyes_on_full_surface(store_, request_, result.ground_m, progress_);
     surveyed_.surface.tin = coverage_of(store_, window_of(request_), progress_);
-    result.grid = cells_of(request_, surveyed_.surface.tin.bounds());
+    result.grid = cells_of(request_, extent_of(store_));
     tiles_ = grid_of_tiles(result.grid);
     verdicts_.resize(tiles_.cell_count());
     for (const Eye& eye : eyes) look(eye);

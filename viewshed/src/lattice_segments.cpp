@@ -73,7 +73,7 @@ class LatticeSegments {
     coarse = triangulate(store_, window_of(request_),
                          Detail::tolerance(store_.metadata().levels[static_cast<std::size_t>(level)].tolerance),
                          progress_, ThemeChoice::none());
-    result.grid = cells_of(request_, coarse.bounds());
+    result.grid = cells_of(request_, extent_of(store_));
     tiles_ = grid_of_tiles(result.grid);
     look_for_voids(coarse.grid, rim_of(coarse, boundary_edges(coarse)), result);
     posts_a_square_metre_ = points_a_square_metre(store_, 0, request_);

@@ -17,7 +17,7 @@ constexpr double kNearPoints = 16000, kAllNearPoints = 400000, kNearShare = 1.0 
 
 /// The greatest radius, in steps of a square root of 2, within which a level has no more points than that.
 double radius_with(const Store& store, int level, Point2 centre, double points) {
-  const Box all = store.metadata().grid.box(store.metadata().bounds);
+  const Box all = extent_of(store);
   const double greatest = std::max(all.width(), all.height());
   double radius = store.metadata().grid.resolution;
   while (radius < greatest &&
@@ -57,7 +57,7 @@ bool features_stand(const Store& store, const Request& request) {
 
 Box box_of_window(const Store& store, const Request& request) {
   const Window window = window_of(request);
-  const Box all = store.metadata().grid.box(store.metadata().bounds);
+  const Box all = extent_of(store);
   if (window.is_all()) return all;
   // An observer outside the data is told so later on.
   const Box within = intersection(window.bounds(), all);

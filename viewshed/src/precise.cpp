@@ -61,7 +61,7 @@ class InSegments {
         request_(request),
         features_(features_stand(store, request)),
         box_(box_of_window(store, request)),
-        memory_(memory_beside_rasters(options.memory_bytes, cells_of(request, box_).cell_count())),
+        memory_(memory_beside_rasters(options.memory_bytes, cells_of(request, extent_of(store)).cell_count())),
         progress_(progress) {}
 
   Surveyed run() {
@@ -113,7 +113,7 @@ class InSegments {
     if (features_ && !request_.targets_on_surface) ground = triangulated(targets, ThemeChoice::none());
     Result& result = surveyed_.result;
     result.statistics.triangles += tin.triangles.size();
-    return {{std::move(tin), nullptr}, std::move(ground), request_.earth, result.grid, tiles_};
+    return {{std::move(tin), nullptr, {}}, std::move(ground), request_.earth, result.grid, tiles_};
   }
 
   void retrieve_coarse() {
@@ -122,7 +122,7 @@ class InSegments {
     result.statistics.retrieval += envelope.lower.statistics;
     result.statistics.triangles += envelope.lower.triangles.size();
     result.statistics.retrieval_seconds += watch_.lap();
-    result.grid = cells_of(request_, envelope.lower.bounds());
+    result.grid = cells_of(request_, extent_of(store_));
     tiles_ = grid_of_tiles(result.grid);
     look_for_voids(envelope.lower.grid, rim_of(envelope.lower, envelope.outline), result);
     ground_.emplace(store_, envelope.lower.bounds());
@@ -312,7 +312,8 @@ Surveyed compute_precise(const Store& store, const Request& request, const Preci
   Request whole = request;
   whole.detail = Detail::tolerance(0);
   const Box box = box_of_window(store, request);
-  const std::uint64_t memory = memory_beside_rasters(options.memory_bytes, cells_of(request, box).cell_count());
+  const std::uint64_t memory =
+      memory_beside_rasters(options.memory_bytes, cells_of(request, extent_of(store)).cell_count());
   const std::uint64_t points = store.points_about(0, box);
   if (options.lattices && points <= memory / kBytesAPost)
     if (auto surveyed = compute_over_lattice(store, whole, memory / kBytesAPost, progress)) return std::move(*surveyed);

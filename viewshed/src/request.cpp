@@ -110,13 +110,13 @@ void validate(const Request& request) {
   request.earth.validate();
 }
 
-RasterGrid cells_of(const Request& request, const Box& coverage) {
+RasterGrid cells_of(const Request& request, const Box& extent) {
   if (request.grid) return *request.grid;
-  Box area = coverage;
+  Box area = extent;
   if (all_bounded(request)) {
     area = {};
     for (const Observer& observer : request.observers)
-      area.extend(intersection(disc_box(observer.position, *radius_of(request, observer)), coverage));
+      area.extend(intersection(disc_box(observer.position, *radius_of(request, observer)), extent));
   }
   if (area.empty()) throw InputError("no observer's radius reaches any data");
   return RasterGrid::aligned(area, request.cell_size ? *request.cell_size : default_cell_size(area));

@@ -20,9 +20,10 @@ void validate(const Request& request);
 /// How far the observer looks; nothing: as far as there is ground.
 std::optional<double> radius_of(const Request& request, const Observer& observer);
 
-/// The cells to decide, on a surface that covers `coverage`: as given; or aligned, over the part of the coverage within
-/// the radius of an observer, where each has one. Throws InputError if there is none.
-RasterGrid cells_of(const Request& request, const Box& coverage);
+/// The cells to decide: as given; or aligned, over the extent of all data, or the part of it about the discs within the
+/// observers' radii, where each has one. So they do not depend on what is read of the data. Throws InputError if there
+/// are none.
+RasterGrid cells_of(const Request& request, const Box& extent);
 
 Box intersection(const Box& a, const Box& b);
 /// About a disc, metres.

@@ -42,6 +42,7 @@ Surveyed compute_over_tin(const Store& store, const Request& request, Progress& 
   Surveyed surveyed;
   Tin& tin = surveyed.surface.tin;
   tin = triangulate(store, window_of(request), request.detail, progress, request.themes);
+  surveyed.surface.extent = extent_of(store);
   const double seconds = watch.lap();
   if (!tin.standing.empty() && !(request.observers_on_surface && request.targets_on_surface))
     surveyed.ground = triangulate(store, window_of(request), request.detail, progress, ThemeChoice::none());

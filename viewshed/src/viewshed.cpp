@@ -22,8 +22,9 @@ void name_blockers(const Tin& tin, Result& result) {
   });
 }
 
-/// One of the two is there; `bare` is null where ends stand on that.
-Result compute_on(const Tin* tin, LatticeReader* reader, const Tin* bare, const Request& request, Progress& progress) {
+/// One of the two is there; `bare` is null where ends stand on that. Cells are laid over `extent`.
+Result compute_on(const Tin* tin, LatticeReader* reader, const Tin* bare, const Box& extent, const Request& request,
+                  Progress& progress) {
   validate(request);
   Result result;
   const LatticeTin* const lattice = reader != nullptr ? &reader->lattice() : nullptr;
@@ -34,7 +35,7 @@ Result compute_on(const Tin* tin, LatticeReader* reader, const Tin* bare, const 
   result.request = request;
   Stopwatch watch;
   progress.report("scene", 0);
-  result.grid = cells_of(request, lattice != nullptr ? lattice->bounds() : tin->bounds());
+  result.grid = cells_of(request, extent);
   const RasterGrid tiles = grid_of_tiles(result.grid);
   if (reader != nullptr && asks_for_all_heights(request)) reader->read_all(progress);
   FullSurface surface = lattice != nullptr ? FullSurface(*lattice, request.earth, result.grid, tiles)
@@ -64,15 +65,18 @@ Result compute_on(const Tin* tin, LatticeReader* reader, const Tin* bare, const 
 }  // namespace
 
 Result compute(const Tin& tin, const Request& request, Progress& progress) {
-  return compute_on(&tin, nullptr, nullptr, request, progress);
+  return compute_on(&tin, nullptr, nullptr, tin.bounds(), request, progress);
 }
 
 Result compute(const Tin& tin, const Tin& ground, const Request& request, Progress& progress) {
-  return compute_on(&tin, nullptr, &ground, request, progress);
+  return compute_on(&tin, nullptr, &ground, tin.bounds(), request, progress);
 }
 
 Result compute(const Surface& surface, const Tin* ground, const Request& request, Progress& progress) {
-  return compute_on(&surface.tin, surface.lattice.get(), ground, request, progress);
+  const Box extent = !surface.extent.empty() ? surface.extent
+                     : surface.lattice       ? surface.lattice->lattice().bounds()
+                                             : surface.tin.bounds();
+  return compute_on(&surface.tin, surface.lattice.get(), ground, extent, request, progress);
 }
 
 }  // namespace itin::viewshed

@@ -18,6 +18,7 @@ namespace itin::viewshed {
 struct Surface {
   Tin tin;                                 ///< empty where the surface is a lattice, until it is listed
   std::unique_ptr<LatticeReader> lattice;  ///< else null
+  Box extent;                              ///< of all the data that it is a part of, metres; empty: of itself
 
   std::size_t triangle_count() const { return lattice ? lattice->lattice().triangle_count() : tin.triangles.size(); }
   const RetrievalStatistics& statistics() const { return lattice ? lattice->lattice().statistics : tin.statistics; }
@@ -35,6 +36,9 @@ struct Surface {
 inline constexpr std::uint64_t kAnyLattice = std::uint64_t{1} << 31;
 /// Of a lattice that is swept.
 inline constexpr std::uint64_t kBytesAPost = 9;
+
+/// Of all its data, metres.
+Box extent_of(const Store& store);
 
 /// That of triangulate(). A lattice if it is one of at most so many posts, at full detail.
 Surface retrieve_surface(const Store& store, const Window& window, const Detail& detail, const ThemeChoice& themes,

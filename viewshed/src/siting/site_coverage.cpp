@@ -96,7 +96,7 @@ RasterGrid grid_of_reach(const Store& store, const std::vector<SiteStand>& stand
   for (const SiteStand& stand : stands) request.observers.push_back({stand.name, stand.position, stand.height});
   request.radius = radius;
   request.cell_size = cell_size;
-  return cells_of(request, store.metadata().grid.box(store.metadata().bounds));
+  return cells_of(request, extent_of(store));
 }
 
 std::size_t element_count(const RasterGrid& grid) {
