@@ -72,7 +72,9 @@ class ViewshedVerb final : public Verb {
         ->type_name("unknown|block|clear");
     app.add_flag("--precise", precise_,
                  "Exact for the full surface, of which more than --memory holds is read only where it decides");
-    app.add_option("--memory", memory_text_, "Memory for --precise to work in; it changes the speed only (default: 1G)")
+    app.add_option(
+           "--memory", memory_text_,
+           "Memory for --precise to work in: it changes the speed only, and too little is refused (default: 1G)")
         ->type_name("SIZE");
   }
 

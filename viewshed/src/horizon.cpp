@@ -92,8 +92,8 @@ SightedTarget sighted(const HorizonTarget& target, const Tin& surface, const Tin
                       const Eye& eye, const FirstBlocker& blockers) {
   const auto ground = height_on(base, target.position);
   if (!ground)
-    throw InputError(fmt::format("target {} at {:.10g},{:.10g}: there is no data there", target.name, target.position.x,
-                                 target.position.y));
+    throw InputError(fmt::format("target {} at {:.10g},{:.10g}: there is no data there, or it lies beyond the radius",
+                                 target.name, target.position.x, target.position.y));
   SightedTarget result{target};
   result.elevation_m = request.target_absolute ? target.height : *ground + target.height;
   const double dx = target.position.x - eye.position.x, dy = target.position.y - eye.position.y;

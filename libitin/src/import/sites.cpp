@@ -10,42 +10,17 @@
 #include <itin/sites.hpp>
 
 #include "import/crs.hpp"
+#include "import/place_file.hpp"
 #include "import/quiet_gdal.hpp"
+#include "import/vector_layer.hpp"
 
 namespace itin {
 
 namespace {
 
-GDALDatasetUniquePtr opened(const std::string& path) {
-  // Only the CSV driver knows these names; other drivers pass them over.
-  const char* const options[] = {"X_POSSIBLE_NAMES=x,easting,lon,longitude", "Y_POSSIBLE_NAMES=y,northing,lat,latitude",
-                                 "AUTODETECT_TYPE=YES", nullptr};
-  GDALDatasetUniquePtr dataset(
-      GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, options, nullptr));
-  if (!dataset) {
-    throw FileError(path, "not readable as a vector file (" + QuietGdal::message("GDAL knows no such format") + ")");
-  }
-  return dataset;
-}
-
-OGRLayer& chosen_layer(GDALDataset& dataset, const SiteQuery& query) {
-  if (!query.layer.empty()) {
-    OGRLayer* layer = dataset.GetLayerByName(query.layer.c_str());
-    if (layer == nullptr) throw FileError(query.path, fmt::format("no layer '{}'; see ogrinfo", query.layer));
-    return *layer;
-  }
-  if (dataset.GetLayerCount() != 1) {
-    throw FileError(query.path, fmt::format("has {} layers; choose one with --layer", dataset.GetLayerCount()));
-  }
-  return *dataset.GetLayer(0);
-}
-
 /// The index of a field, or -1 if none is asked for.
 int field_index(OGRLayer& layer, const std::string& path, const std::string& name) {
-  if (name.empty()) return -1;
-  const int index = layer.GetLayerDefn()->GetFieldIndex(name.c_str());
-  if (index < 0) throw FileError(path, fmt::format("layer '{}' has no field '{}'", layer.GetName(), name));
-  return index;
+  return name.empty() ? -1 : field_of_layer(layer, path, name);
 }
 
 /// Empty when the layer is in the wanted CRS already.
@@ -97,32 +72,19 @@ std::vector<std::optional<double>> numbers_of(const OGRFeature& feature, const s
   return numbers;
 }
 
-Point2 position_of(const OGRFeature& feature, const std::string& place) {
-  const OGRGeometry* geometry = feature.GetGeometryRef();
-  if (geometry == nullptr || geometry->IsEmpty()) {
-    throw FileError(place, "has no point; a CSV file needs columns named x and y");
-  }
-  const OGRPoint* point = nullptr;
-  if (wkbFlatten(geometry->getGeometryType()) == wkbPoint) point = geometry->toPoint();
-  if (wkbFlatten(geometry->getGeometryType()) == wkbMultiPoint && geometry->toMultiPoint()->getNumGeometries() == 1) {
-    point = geometry->toMultiPoint()->getGeometryRef(0);
-  }
-  if (point == nullptr) throw FileError(place, fmt::format("is a {}, not a point", geometry->getGeometryName()));
-  return {point->getX(), point->getY()};
-}
-
 /// The fields of a layer that sites take their values from; -1: none is asked for.
 struct SiteFields {
   int height, name;
   std::vector<int> numbers;
 };
 
-Site site_of(const OGRFeature& feature, const SiteFields& fields, const std::string& place,
+Site site_of(GDALDataset& file, const OGRFeature& feature, const SiteFields& fields, const std::string& place,
              const std::optional<CoordinateTransform>& transform) {
   Site site;
   site.feature = feature.GetFID();
   site.name = fields.name < 0 ? std::to_string(site.feature) : feature.GetFieldAsString(fields.name);
-  site.position = position_of(feature, place);
+  const std::string wrong = read_place(file, feature, site.position);
+  if (!wrong.empty()) throw FileError(place, wrong);
   if (fields.height >= 0) site.height = height_of(feature, fields.height, place);
   site.numbers = numbers_of(feature, fields.numbers, place);
   try {
@@ -136,13 +98,11 @@ Site site_of(const OGRFeature& feature, const SiteFields& fields, const std::str
 /// `rejected` is null where the first feature that is not understood ends it.
 std::vector<Site> read(const SiteQuery& query, const std::string& to_crs, std::vector<std::string>* rejected) {
   const QuietGdal quiet;
-  const GDALDatasetUniquePtr dataset = opened(query.path);
-  OGRLayer& layer = chosen_layer(*dataset, query);
+  const GDALDatasetUniquePtr dataset = open_place_file(query.path, ColumnTypes::kTold);
+  OGRLayer& layer = choose_layer(*dataset, query.path, query.layer);
   const SiteFields fields{field_index(layer, query.path, query.height_field),
                           field_index(layer, query.path, query.name_field), number_fields(layer, query)};
-  if (!query.where.empty() && layer.SetAttributeFilter(query.where.c_str()) != OGRERR_NONE) {
-    throw FileError(query.path, fmt::format("--where '{}': {}", query.where, QuietGdal::message("not understood")));
-  }
+  if (!query.where.empty()) select_features(layer, query.path, query.where);
   const std::optional<CoordinateTransform> transform = transform_from(layer, query, to_crs);
 
   std::vector<Site> sites;
@@ -150,7 +110,7 @@ std::vector<Site> read(const SiteQuery& query, const std::string& to_crs, std::v
   for (const OGRFeatureUniquePtr& feature : layer) {
     const std::string place = fmt::format("{}: feature {}", query.path, feature->GetFID());
     try {
-      sites.push_back(site_of(*feature, fields, place, transform));
+      sites.push_back(site_of(*dataset, *feature, fields, place, transform));
       sites.back().row = row++;
     } catch (const FileError& error) {
       if (rejected == nullptr) throw;
