@@ -129,6 +129,9 @@ void BinnedHeights::add(std::span<const std::uint32_t> tiles) {
   });
 }
 
+// So that the tiles of both have the same numbers.
+static_assert(RunBounds::kSide == LatticeTin::kSide);
+
 /// Of a cell with one triangle nothing is known where that is not.
 void BinnedHeights::bound_tile(std::uint32_t tile) {
   constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::lowest();

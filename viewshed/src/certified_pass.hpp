@@ -2,8 +2,8 @@
 //
 //   const EnvelopeScene scene(envelop(...), request, tiles, Voids::kDoubt);
 //   const CertifiedPass pass(scene, grid, tiles);
-//   CertifiedPass::TileWork work = pass.begin(tile_index);
-//   pass.judge(scene.look_from(eye), values, work, [](const Doubtful& d) { ... });
+//   const auto work = pass.begin(tile_index);
+//   pass.judge(scene.look_from(eye), values, *work, [](const Doubtful& d) { ... });
 //
 // The target stands between the lower and the upper surface at its cell's centre. A line to the lowest target that
 // clears the upper surface sees whatever the full surface is; one to the highest target that the lower surface hides

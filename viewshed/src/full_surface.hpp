@@ -4,8 +4,7 @@
 //   const FullSurface surface(tin, nullptr, request.earth, grid, tiles);
 //   const auto work = surface.begin(tile);
 //   const auto view = surface.view_from(eye);
-//   surface.judge(eye, view, values, *work);   // every kUndecided cell becomes visible, hidden or outside; other eyes
-//   follow
+//   surface.judge(eye, view, values, *work);   // every kUndecided cell becomes visible, hidden or outside
 #pragma once
 
 #include <cstdint>

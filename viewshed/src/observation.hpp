@@ -2,8 +2,9 @@
 //
 //   const Observations observations(request, tin);
 //   const std::unique_ptr<Observation> observation = observations.of_tile();
-//   lines += observation->look({surface, eye, view, observer, nullptr, *surface.begin(tile)});   // one observer after
-//   another observation->store(surface.tile(i), result, cells);
+//   // One observer after another.
+//   lines += observation->look({surface, eye, view, observer, nullptr, *surface.begin(i)});
+//   observation->store(tile_at(grid, tiles, i), result, cells);
 //
 // The result does not depend on the order of the looks.
 #pragma once

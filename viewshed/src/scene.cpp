@@ -122,16 +122,13 @@ class Scene::Impl {
     return height ? std::optional(*height * tin_.grid.resolution) : std::nullopt;
   }
 
-  const std::vector<BoundaryEdge>& boundary() const { return boundary_; }
+ private:
+  using ExactLines = std::array<SightLine, SightLines::kSize>;
+
+  /// e(l) in metres for a line of `length` metres.
   double error_bound(double length) const {
     return sag_ + rounding_error(tessellation_.half_height * tin_.grid.resolution, length);
   }
-  double lateral_error_bound(double length) const {
-    return rounding_error(tessellation_.half_width * tin_.grid.resolution, length);
-  }
-
- private:
-  using ExactLines = std::array<SightLine, SightLines::kSize>;
 
   /// The lines of `active` that Embree finds hidden.
   unsigned cast(const SightLines& lines, unsigned active, const ExactLines& exact, PacketContext& packet) const {
@@ -290,15 +287,6 @@ bool Scene::hidden_between(const SightLines& lines, unsigned line, double from, 
 }
 std::optional<double> Scene::ground(Point2 position) const {
   return impl_->ground(position);
-}
-const std::vector<BoundaryEdge>& Scene::boundary() const {
-  return impl_->boundary();
-}
-double Scene::error_bound(double length) const {
-  return impl_->error_bound(length);
-}
-double Scene::lateral_error_bound(double length) const {
-  return impl_->lateral_error_bound(length);
 }
 
 }  // namespace itin::viewshed

@@ -62,12 +62,6 @@ class Scene {
   bool hidden_between(const SightLines& lines, unsigned line, double from, double to) const;
   /// Height of the surface in metres, if there is any at that position.
   std::optional<double> ground(Point2 position) const;
-  /// Where the surface ends.
-  const std::vector<BoundaryEdge>& boundary() const;
-  /// e(l) in metres for a line of `length` metres.
-  double error_bound(double length) const;
-  /// delta(l) in metres.
-  double lateral_error_bound(double length) const;
 
  private:
   class Impl;

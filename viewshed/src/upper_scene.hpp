@@ -1,6 +1,6 @@
 // Which sight lines certainly clear a surface, and where those that do not come near it.
 //
-//   UpperScene scene(upper, {}, earth, std::nullopt);
+//   UpperScene scene(upper, {}, earth);
 //   unsigned doubtful = scene.touched(lines);      // a line whose bit is 0 clears the surface
 //
 // Accuracy. Rays are cast in single precision with both ends lowered by e(l) of scene.hpp, so that heights need no
