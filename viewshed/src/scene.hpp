@@ -29,7 +29,6 @@
 #include <itin/tin.hpp>
 #include <viewshed/viewshed.hpp>
 
-#include "boundary.hpp"
 #include "sight_line.hpp"
 #include "sight_lines.hpp"
 
