@@ -98,11 +98,14 @@ class VisibilityVerb final : public Verb {
     request_.detail = detail_.detail({});
     request_.themes.check(metadata.themes);
     const viewshed::VisibilityIndex index = viewshed::visibility_index(store, request_, progress);
-    viewshed::write_geotiff(output_, index, request_, metadata.crs_wkt, policy_.overwrite);
+    const Document surface = surface_document(metadata, request_.detail, request_.themes);
+    viewshed::write_geotiff(
+        output_, index, request_,
+        {metadata.crs_wkt, {{"itin", ITIN_VERSION}, {"surface", surface.dump()}}, policy_.overwrite});
     Result result;
     Document& document = result.document;
     document["crs"] = crs_identifier(metadata.crs_wkt);
-    document["surface"] = surface_document(metadata, request_.detail, request_.themes);
+    document["surface"] = surface;
     document["refraction"] = earth_.document();
     document["observers"] = index.observers;
     document["mean_share"] = index.mean;

@@ -1,3 +1,4 @@
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -70,6 +71,7 @@ VisibilityIndex visibility_index(const Store& store, const IndexRequest& request
   index.retrieval = surface.statistics;
   const VisibilitySampler sampler(scene, ground, surface.grid, request.radius, request.target_height, request.targets);
   std::vector<std::uint64_t> rays(static_cast<std::size_t>(index.grid.rows()));
+  std::atomic<std::size_t> done = 0;
   parallel_for(rays.size(), [&](std::size_t row) {
     progress.throw_if_cancelled();
     for (std::int64_t column = 0; column < index.grid.columns(); ++column) {
@@ -86,7 +88,7 @@ VisibilityIndex visibility_index(const Store& store, const IndexRequest& request
       index.share[index.grid.index(cell)] = static_cast<float>(tally.seen) / static_cast<float>(tally.on_ground);
       index.standard_error[index.grid.index(cell)] = static_cast<float>(standard_error(tally));
     }
-    progress.report("observers", static_cast<double>(row + 1) / static_cast<double>(rays.size()));
+    progress.report("observers", static_cast<double>(++done) / static_cast<double>(rays.size()));
   });
   double variance = 0;
   for (std::size_t i = 0; i < index.share.size(); ++i) {
@@ -103,11 +105,11 @@ VisibilityIndex visibility_index(const Store& store, const IndexRequest& request
 }
 
 void write_geotiff(const std::string& path, const VisibilityIndex& index, const IndexRequest& request,
-                   const std::string& crs_wkt, bool overwrite) {
+                   const GeotiffOptions& options) {
   std::vector<float> values = index.share;
   values.insert(values.end(), index.standard_error.begin(), index.standard_error.end());
   RasterDescription description;
-  description.crs_wkt = crs_wkt;
+  description.crs_wkt = options.crs_wkt;
   description.nodata = std::numeric_limits<double>::quiet_NaN();
   description.band_name = "share of the ground within the radius that is seen";
   description.further_bands = {"standard error of the share"};
@@ -115,8 +117,10 @@ void write_geotiff(const std::string& path, const VisibilityIndex& index, const 
                           {"observer_height_m", fmt::format("{:g}", request.height)},
                           {"target_height_m", fmt::format("{:g}", request.target_height)},
                           {"targets", fmt::format("{}", request.targets)},
+                          {"nodata_rule", request.nodata == NoData::kBlock ? "block" : "clear"},
                           {"refraction", request.earth.convention()}};
-  description.overwrite = overwrite;
+  description.metadata.insert(description.metadata.end(), options.metadata.begin(), options.metadata.end());
+  description.overwrite = options.overwrite;
   write_raster(path, index.grid, values, description);
 }
 

@@ -2,7 +2,7 @@
 //
 //   viewshed::IndexRequest request{.area = Window::box(box), .cell_size = 250, .radius = 5000};
 //   viewshed::VisibilityIndex index = viewshed::visibility_index(store, request, progress);
-//   viewshed::write_geotiff("index.tif", index, request, crs_wkt, overwrite);
+//   viewshed::write_geotiff("index.tif", index, request, {.crs_wkt = crs_wkt});
 //
 // Every cell's centre is an observer's place, and of the ground within the radius a share is seen: its estimate from
 // targets at random, evenly spread over the disc, comes with its standard error. Both ends stand on the ground, and
@@ -50,6 +50,6 @@ VisibilityIndex visibility_index(const Store& store, const IndexRequest& request
 
 /// Two bands, Float32: the share and its standard error; nodata NaN. Throws FileError.
 void write_geotiff(const std::string& path, const VisibilityIndex& index, const IndexRequest& request,
-                   const std::string& crs_wkt, bool overwrite);
+                   const GeotiffOptions& options);
 
 }  // namespace itin::viewshed
