@@ -8,6 +8,8 @@
 #include <viewshed/certified.hpp>
 #include <viewshed/viewshed.hpp>
 
+#include "request.hpp"
+
 namespace itin::viewshed {
 
 namespace {
@@ -19,18 +21,6 @@ std::string observers_text(const std::vector<Observer>& observers) {
     text += fmt::format("{:.12g},{:.12g},{:.12g}", o.position.x, o.position.y, o.height);
   }
   return text;
-}
-
-std::string nodata_text(NoData rule) {
-  switch (rule) {
-    case NoData::kUnknown:
-      return "unknown";
-    case NoData::kBlock:
-      return "block";
-    case NoData::kClear:
-      return "clear";
-  }
-  return {};
 }
 
 std::string text_of(double v) {

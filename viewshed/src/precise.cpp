@@ -56,12 +56,13 @@ void for_each_line(unsigned active, const Visit& visit) {
 /// Where the surface does not fit into the memory.
 class InSegments {
  public:
-  InSegments(const Store& store, const Request& request, const PreciseOptions& options, Progress& progress)
+  /// `memory` in bytes, without the rasters.
+  InSegments(const Store& store, const Request& request, std::uint64_t memory, Progress& progress)
       : store_(store),
         request_(request),
         features_(features_stand(store, request)),
         box_(box_of_window(store, request)),
-        memory_(memory_beside_rasters(options.memory_bytes, cells_of(request, extent_of(store)).cell_count())),
+        memory_(memory),
         progress_(progress) {}
 
   Surveyed run() {
@@ -321,7 +322,7 @@ Surveyed compute_precise(const Store& store, const Request& request, const Preci
   if (options.lattices)
     if (auto surveyed = compute_in_lattice_segments(store, whole, memory / kSegmentShare, progress))
       return std::move(*surveyed);
-  return InSegments(store, request, options, progress).run();
+  return InSegments(store, request, memory, progress).run();
 }
 
 }  // namespace itin::viewshed

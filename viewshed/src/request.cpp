@@ -122,6 +122,18 @@ RasterGrid cells_of(const Request& request, const Box& extent) {
   return RasterGrid::aligned(area, request.cell_size ? *request.cell_size : default_cell_size(area));
 }
 
+std::string nodata_text(NoData rule) {
+  switch (rule) {
+    case NoData::kUnknown:
+      return "unknown";
+    case NoData::kBlock:
+      return "block";
+    case NoData::kClear:
+      return "clear";
+  }
+  return {};
+}
+
 Box intersection(const Box& a, const Box& b) {
   return {std::max(a.xmin, b.xmin), std::max(a.ymin, b.ymin), std::min(a.xmax, b.xmax), std::min(a.ymax, b.ymax)};
 }

@@ -1,6 +1,8 @@
 // What a Request means: its checks, and the cells it asks for.
 #pragma once
 
+#include <string>
+
 #include <itin/window.hpp>
 #include <viewshed/viewshed.hpp>
 
@@ -24,6 +26,9 @@ std::optional<double> radius_of(const Request& request, const Observer& observer
 /// observers' radii, where each has one. So they do not depend on what is read of the data. Throws InputError if there
 /// are none.
 RasterGrid cells_of(const Request& request, const Box& extent);
+
+/// As options and metadata have it.
+std::string nodata_text(NoData rule);
 
 Box intersection(const Box& a, const Box& b);
 /// About a disc, metres.

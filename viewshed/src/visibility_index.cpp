@@ -117,7 +117,7 @@ void write_geotiff(const std::string& path, const VisibilityIndex& index, const 
                           {"observer_height_m", fmt::format("{:g}", request.height)},
                           {"target_height_m", fmt::format("{:g}", request.target_height)},
                           {"targets", fmt::format("{}", request.targets)},
-                          {"nodata_rule", request.nodata == NoData::kBlock ? "block" : "clear"},
+                          {"nodata_rule", nodata_text(request.nodata)},
                           {"refraction", request.earth.convention()}};
   description.metadata.insert(description.metadata.end(), options.metadata.begin(), options.metadata.end());
   description.overwrite = options.overwrite;

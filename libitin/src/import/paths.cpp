@@ -10,6 +10,7 @@
 
 #include "import/crs.hpp"
 #include "import/quiet_gdal.hpp"
+#include "import/vector_layer.hpp"
 
 namespace itin {
 
@@ -51,10 +52,7 @@ Path path_of(const OGRFeature& feature, const std::string& place, const Coordina
 
 std::vector<Path> read_paths(const std::string& path, const std::string& to_crs) {
   const QuietGdal quiet;
-  const GDALDatasetUniquePtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
-  if (!dataset) {
-    throw FileError(path, "not readable as a vector file (" + QuietGdal::message("GDAL knows no such format") + ")");
-  }
+  const GDALDatasetUniquePtr dataset = open_vector_file(path, nullptr);
   std::vector<Path> paths;
   for (OGRLayer* layer : dataset->GetLayers()) {
     std::optional<CoordinateTransform> transform;

@@ -3,23 +3,14 @@
 #include <array>
 #include <cmath>
 
-#include <cpl_vsi.h>
 #include <fmt/format.h>
 
-#include <itin/error.hpp>
-
-#include "import/quiet_gdal.hpp"
+#include "import/crs.hpp"
+#include "import/vector_layer.hpp"
 
 namespace itin {
 
 namespace {
-
-std::string why_not_open(const std::string& path) {
-  VSIStatBufL status;
-  if (VSIStatL(path.c_str(), &status) != 0) return "there is no such file";
-  if (status.st_size == 0) return "is empty";
-  return "not readable as a vector file (" + QuietGdal::message("GDAL knows no such format") + ")";
-}
 
 /// GDAL reads a coordinate that is no number as 0, or leaves the point out.
 std::string wrong_coordinate(const OGRFeature& feature) {
@@ -47,10 +38,15 @@ GDALDatasetUniquePtr open_place_file(const std::string& path, ColumnTypes types)
   // Only the CSV driver knows these names; other drivers pass them over.
   const char* const options[] = {"X_POSSIBLE_NAMES=x,easting,lon,longitude", "Y_POSSIBLE_NAMES=y,northing,lat,latitude",
                                  types == ColumnTypes::kTold ? "AUTODETECT_TYPE=YES" : nullptr, nullptr};
-  GDALDatasetUniquePtr file(
-      GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, options, nullptr));
-  if (!file) throw FileError(path, why_not_open(path));
-  return file;
+  return open_vector_file(path, options);
+}
+
+std::optional<CoordinateTransform> transform_of_places(OGRLayer& layer, const std::string& given_crs,
+                                                       const std::string& to_crs) {
+  const OGRSpatialReference* own = layer.GetSpatialRef();
+  const std::string from_crs = own != nullptr ? wkt_of(*own) : given_crs;
+  if (from_crs.empty() || from_crs == to_crs) return std::nullopt;
+  return CoordinateTransform(from_crs, to_crs);
 }
 
 std::string read_place(GDALDataset& file, const OGRFeature& feature, Point2& place) {

@@ -5,7 +5,6 @@
 #include <itin/error.hpp>
 #include <itin/site_table.hpp>
 
-#include "import/crs.hpp"
 #include "import/place_file.hpp"
 #include "import/quiet_gdal.hpp"
 #include "import/vector_layer.hpp"
@@ -18,11 +17,8 @@ class RowReader {
  public:
   RowReader(GDALDataset& file, OGRLayer& layer, const SiteQuery& query, const std::vector<std::string>& fields,
             const std::string& to_crs)
-      : file_(file) {
+      : file_(file), transform_(transform_of_places(layer, query.crs, to_crs)) {
     for (const std::string& name : fields) fields_.push_back(layer.GetLayerDefn()->GetFieldIndex(name.c_str()));
-    std::string from_crs = query.crs;
-    if (const OGRSpatialReference* own = layer.GetSpatialRef()) from_crs = wkt_of(*own);
-    if (!from_crs.empty() && from_crs != to_crs) transform_.emplace(from_crs, to_crs);
   }
 
   SiteRow read(const OGRFeature& feature) const {

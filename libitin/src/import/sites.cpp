@@ -9,7 +9,6 @@
 #include <itin/error.hpp>
 #include <itin/sites.hpp>
 
-#include "import/crs.hpp"
 #include "import/place_file.hpp"
 #include "import/quiet_gdal.hpp"
 #include "import/vector_layer.hpp"
@@ -21,14 +20,6 @@ namespace {
 /// The index of a field, or -1 if none is asked for.
 int field_index(OGRLayer& layer, const std::string& path, const std::string& name) {
   return name.empty() ? -1 : field_of_layer(layer, path, name);
-}
-
-/// Empty when the layer is in the wanted CRS already.
-std::optional<CoordinateTransform> transform_from(OGRLayer& layer, const SiteQuery& query, const std::string& to_crs) {
-  std::string from_crs = query.crs;
-  if (const OGRSpatialReference* own = layer.GetSpatialRef()) from_crs = wkt_of(*own);
-  if (from_crs.empty() || from_crs == to_crs) return std::nullopt;
-  return CoordinateTransform(from_crs, to_crs);
 }
 
 /// Nothing for an empty field; not a number for one that holds something else.
@@ -103,7 +94,7 @@ std::vector<Site> read(const SiteQuery& query, const std::string& to_crs, std::v
   const SiteFields fields{field_index(layer, query.path, query.height_field),
                           field_index(layer, query.path, query.name_field), number_fields(layer, query)};
   if (!query.where.empty()) select_features(layer, query.path, query.where);
-  const std::optional<CoordinateTransform> transform = transform_from(layer, query, to_crs);
+  const std::optional<CoordinateTransform> transform = transform_of_places(layer, query.crs, to_crs);
 
   std::vector<Site> sites;
   std::int64_t row = 0;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <cpl_conv.h>
+#include <cpl_vsi.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -16,6 +17,24 @@
 #include "import/quiet_gdal.hpp"
 
 namespace itin {
+
+namespace {
+
+std::string why_not_open(const std::string& path) {
+  VSIStatBufL status;
+  if (VSIStatL(path.c_str(), &status) != 0) return "there is no such file";
+  if (status.st_size == 0) return "is empty";
+  return "not readable as a vector file (" + QuietGdal::message("GDAL knows no such format") + ")";
+}
+
+}  // namespace
+
+GDALDatasetUniquePtr open_vector_file(const std::string& path, const char* const* options) {
+  GDALDatasetUniquePtr file(
+      GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, options, nullptr));
+  if (!file) throw FileError(path, why_not_open(path));
+  return file;
+}
 
 OGRLayer& choose_layer(GDALDataset& dataset, const std::string& path, const std::string& name) {
   std::vector<std::string> names;

@@ -11,6 +11,10 @@
 
 namespace itin {
 
+/// With these open options, which may be null. Throws FileError, also where the file is missing or empty. Within the
+/// life of a QuietGdal.
+GDALDatasetUniquePtr open_vector_file(const std::string& path, const char* const* options);
+
 /// The layer of that name; for an empty name the only one. Throws FileError.
 OGRLayer& choose_layer(GDALDataset& dataset, const std::string& path, const std::string& name);
 
