@@ -22,6 +22,7 @@ Eye eye_of(const Grid& grid, const Request& request, const Observer& observer, s
           elevation,
           {easting_in_units(grid, observer.position.x), northing_in_units(grid, observer.position.y),
            elevation / grid.resolution},
+          observer.absolute,
           FieldOfView(request, observer),
           observer.target_height.value_or(request.target_height),
           request.target_absolute};

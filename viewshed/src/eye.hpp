@@ -12,8 +12,9 @@ namespace itin::viewshed {
 
 struct Eye {
   Point2 position;
-  double elevation = 0;  ///< metres
-  Point3 units;          ///< the same in grid units
+  double elevation = 0;   ///< metres
+  Point3 units;           ///< the same in grid units
+  bool absolute = false;  ///< that elevation was given, not a height above the ground
   FieldOfView view;
   double target_height = 0;  ///< metres above the ground, or an elevation when `target_absolute`
   bool target_absolute = false;

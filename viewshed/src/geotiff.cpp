@@ -106,9 +106,8 @@ class Writer {
     values.reserve(2 * values.size());
     for (const std::uint8_t v : result_.visible)
       values.push_back(v == kOutside ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(v));
-    write<float>(
-        {"probability of being visible, at most: of clearing the line's critical place", "visible as the heights are"},
-        kNaN, values);
+    write<float>({"probability of being visible, in 512 simulated surfaces", "visible as the heights are"}, kNaN,
+                 values);
   }
   void blockers() {
     std::vector<std::string> bands{"theme of what hides the cell, 0: terrain"};

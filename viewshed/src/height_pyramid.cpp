@@ -6,6 +6,8 @@
 
 #include <itin/parallel.hpp>
 
+#include "surface_heights.hpp"
+
 namespace itin::viewshed {
 
 namespace {
@@ -29,7 +31,8 @@ double reciprocal(double d) {
 }  // namespace
 
 HeightPyramid::HeightPyramid(const Tin& tin)
-    : bin_grid_(bin_grid(tin)),
+    : tin_(tin),
+      bin_grid_(bin_grid(tin)),
       bins_(tin, bin_grid_),
       side_(static_cast<std::uint32_t>(bin_grid_.rows())),
       tops_(tin.triangles.size()),
@@ -52,6 +55,15 @@ HeightPyramid::HeightPyramid(const Tin& tin)
     }
     highest_.push_back(std::move(coarser));
   }
+}
+
+std::optional<std::uint32_t> HeightPyramid::triangle_at(Point2 units) const {
+  const auto bin =
+      bin_grid_.cell_at({grid_.origin.x + units.x * grid_.resolution, grid_.origin.y + units.y * grid_.resolution});
+  if (!bin) return std::nullopt;
+  for (const std::uint32_t t : bins_.triangles(bin_grid_.index(*bin)))
+    if (height_over(tin_.corners(t), units)) return t;
+  return std::nullopt;
 }
 
 HeightPyramid::Track HeightPyramid::track_of(const Sheaf& sheaf) const {

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include <itin/raster.hpp>
@@ -74,6 +75,9 @@ class HeightPyramid {
   template <class Lines, class Visit>
   void search(const Lines& sheaf, const Visit& visit) const;
 
+  /// A triangle that holds a position in grid units, if there is one.
+  std::optional<std::uint32_t> triangle_at(Point2 units) const;
+
  private:
   struct Block {
     std::uint32_t level = 0;  ///< 2^level bins a side
@@ -108,6 +112,7 @@ class HeightPyramid {
 
   static constexpr std::size_t kMaxLevels = 12;
 
+  const Tin& tin_;
   RasterGrid bin_grid_;
   TriangleBins bins_;
   std::uint32_t side_;

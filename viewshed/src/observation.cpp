@@ -124,7 +124,7 @@ std::uint64_t Observation::look(const TileLook& tile) {
     const bool seen = values[look.cell] == kCertainlyVisible;
     look.dz = tile.eye.target(work.ground[look.cell] * resolution) - tile.eye.elevation;
     if (!std::isnan(work.targets[look.cell])) {
-      judge(look, {tile.eye.units, work.target(look.cell), seen});
+      judge(look, {tile.eye, tile.eye.units, work.target(look.cell), seen});
     } else if (seen) {
       see(look);
     }

@@ -49,6 +49,7 @@ struct TileLook {
 
 /// What became of a line between places that differ horizontally; grid units.
 struct Sight {
+  const Eye& eye;
   Point3 from, to;
   bool seen = false;
 };

@@ -5,28 +5,29 @@
 
 namespace itin::viewshed {
 
-ProbabilityObservation::ProbabilityObservation(const VerticalOdds& odds, NoData nodata) : odds_(odds), nodata_(nodata) {
-  margins_.fill(-std::numeric_limits<double>::infinity());
+ProbabilityObservation::ProbabilityObservation(const VerticalOdds& odds, NoData nodata)
+    : odds_(odds), nodata_(nodata), scratch_(odds) {
+  probabilities_.fill(0);
 }
 
 /// At the eye itself, where nothing can come between.
 void ProbabilityObservation::keep(const Look& look) {
-  margins_[look.cell] = VerticalOdds::kSure;
+  probabilities_[look.cell] = 1;
 }
 
 void ProbabilityObservation::judge(const Look& look, const Sight& sight) {
   if (sight.seen) mark_visible(look.cell);
-  const double margin = odds_.least_margin(sight.from, sight.to, memory_);
+  const VerticalOdds::Odds odds =
+      odds_.of_line({sight.from, sight.to, !sight.eye.absolute, !sight.eye.target_absolute}, scratch_);
   // What no ground hides is behind missing ground that blocks.
-  if (!sight.seen && margin > 0 && nodata_ == NoData::kBlock) return;
-  margins_[look.cell] = std::max(margins_[look.cell], margin);
+  if (!sight.seen && odds.clear && nodata_ == NoData::kBlock) return;
+  probabilities_[look.cell] = std::max(probabilities_[look.cell], static_cast<float>(odds.probability));
 }
 
 void ProbabilityObservation::store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const {
   for (std::size_t i = 0; i < columns; ++i)
-    result.probability[place + i] = value(cell + i) == kOutside
-                                        ? std::numeric_limits<float>::quiet_NaN()
-                                        : static_cast<float>(VerticalOdds::probability(margins_[cell + i]));
+    result.probability[place + i] =
+        value(cell + i) == kOutside ? std::numeric_limits<float>::quiet_NaN() : probabilities_[cell + i];
 }
 
 }  // namespace itin::viewshed

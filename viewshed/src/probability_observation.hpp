@@ -18,8 +18,8 @@ class ProbabilityObservation final : public Observation {
 
   const VerticalOdds& odds_;
   NoData nodata_;
-  VerticalOdds::Memory memory_;
-  TileValues<double> margins_;  ///< of several observers the greatest
+  VerticalOdds::Scratch scratch_;
+  TileValues<float> probabilities_;  ///< of several observers the greatest
 };
 
 }  // namespace itin::viewshed

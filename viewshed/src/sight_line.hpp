@@ -53,17 +53,25 @@ class SightLine {
     return std::clamp(2 * missing / (q + root), first, last);
   }
 
-  /// Calls visit(fraction of the length, rise above the line) where the ground over the triangle, as far as it lies
-  /// between the ends, begins, ends and bulges most.
+  /// Calls visit(i, j, weight, fraction of the length, rise of the curved ground above the line) for every edge of a
+  /// triangle that the line crosses between the ends, from corner i to j > i, where j has that weight, and for every
+  /// corner that it passes over, with j = i.
   template <class Visit>
-  void for_each_crest(const GridPoint& a, const GridPoint& b, const GridPoint& c, const Visit& visit) const {
-    const Section under = section(a, b, c);
-    if (!under.meets_line()) return;
-    const double first = std::max(under.low, 0.0), last = std::min(under.high, 1.0);
-    const auto at = [&](double s) { visit(s, rise(under, s)); };
-    at(first);
-    at(last);
-    if (bulge_ > 0) at(std::clamp(0.5 + under.slope() / (2 * bulge_), first, last));
+  void for_each_crossing(const std::array<GridPoint, 3>& triangle, const Visit& visit) const {
+    const std::array<Corner, 3> corners{corner(triangle[0]), corner(triangle[1]), corner(triangle[2])};
+    const auto at = [&](std::size_t i, std::size_t j, double weight) {
+      const double s = corners[i].along + weight * (corners[j].along - corners[i].along);
+      const double rise = corners[i].rise + weight * (corners[j].rise - corners[i].rise);
+      if (s >= 0 && s <= 1) visit(i, j, weight, s, rise + bulge_ * s * (1 - s));
+    };
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double side = corners[i].side;
+      if (side == 0) at(i, i, 0);
+      for (std::size_t j = i + 1; j < 3; ++j) {
+        const double other = corners[j].side;
+        if ((side < 0 && other > 0) || (side > 0 && other < 0)) at(i, j, side / (side - other));
+      }
+    }
   }
 
   /// Whether the triangle lies wholly to one side of the line.

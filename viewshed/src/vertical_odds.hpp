@@ -1,21 +1,33 @@
 // How probable it is that a sight line is clear where heights are uncertain.
 //
-// Model. Every height of the surface has a normal error of standard deviation sigma; the errors of two places x metres
-// apart have the correlation exp(-x / L), none for L = 0. Both ends of a line stand on the surface and move with it. At
-// the fraction s of a line of length d the clearance c(s) then has the variance
-//     sigma^2 (1 + (1 - s)^2 + s^2 - 2 (1 - s) r(s d) - 2 s r((1 - s) d) + 2 s (1 - s) r(d)),   r(x) = exp(-x / L).
-// The probability given is that of the line's critical place: the least of Phi(c(s) / deviation(s)) along it, looked
-// for at the ends and at the crest of every triangle's section. It is an upper bound, for the rest of the line must be
-// clear too; the nearer, the more the critical place stands out.
+//   const VerticalOdds odds(tin, earth, {2.0, 0});
+//   VerticalOdds::Scratch scratch(odds);  // for many lines
+//   odds.of_line({eye, target}, scratch).probability
+//
+// Model. The height of every vertex has a normal error of standard deviation sigma; those of two vertices x metres
+// apart have the correlation exp(-x / L), none for L = 0. Between vertices errors are as heights are, linear over each
+// triangle. Ends of a line that stand on the surface move with it; those at a given elevation do not.
+//
+// Method. Share of simulated worlds (error_worlds.hpp) in which the line passes above every edge that it crosses, their
+// errors drawn along it (errors_along_line.hpp). So the probability is joint: that of the whole line, not of its worst
+// place. What lies kSure standard deviations below a line counts for nothing, nor does the Earth's bulge within a
+// single triangle.
+//
+// Accuracy. The share's standard error is at most 0.022, that of independent draws; the same worlds serve all lines,
+// so that neighbours err alike.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include <itin/earth.hpp>
 #include <itin/tin.hpp>
 #include <viewshed/viewshed.hpp>
 
+#include "error_worlds.hpp"
+#include "errors_along_line.hpp"
 #include "height_pyramid.hpp"
 
 namespace itin::viewshed {
@@ -23,25 +35,65 @@ namespace itin::viewshed {
 /// Safe for concurrent use.
 class VerticalOdds {
  public:
-  /// The Tin must outlive it. Cost and memory: HeightPyramid's.
+  /// The Tin must outlive it. Cost and memory: HeightPyramid's, and 1 MB.
   VerticalOdds(const Tin& tin, const Earth& earth, const VerticalError& error);
 
-  /// The triangle of the last line's critical place: it most often is near the next one's too.
-  using Memory = std::optional<std::uint32_t>;
-  /// The least clearance of a line in standard deviations, from -kSure to kSure; negative where it is hidden. Ends in
-  /// grid units.
-  double least_margin(const Point3& from, const Point3& to, Memory& memory) const;
-  static constexpr double kSure = 6;
-  /// Phi: that of a margin; 1 from kSure on, 0 from -kSure down.
-  static double probability(double margin);
+  /// Grid units; they differ horizontally.
+  struct Line {
+    Point3 from, to;
+    bool from_stands = true, to_stands = true;  ///< on the surface, and moves with it
+  };
+  struct Odds {
+    double probability = 0;
+    bool clear = false;  ///< of ground, as the heights are
+  };
+  class Scratch;
+  /// Cost: about half a microsecond an edge that comes near the line.
+  Odds of_line(const Line& line, Scratch& scratch) const;
 
  private:
+  static constexpr double kSure = 4;
+
+  /// Where a line crosses an edge, or passes over a vertex, which is then both of the edge's.
+  struct Crossing {
+    double at = 0;    ///< fraction of its length
+    double rise = 0;  ///< above it, grid units
+    std::uint32_t a = 0, b = 0;
+    double weight_b = 0;
+    friend auto operator<=>(const Crossing&, const Crossing&) = default;
+  };
+  /// The ground under an end.
+  struct Footing {
+    ErrorSum error;
+    double above = 0;  ///< how far the end is, grid units
+  };
+  using Margins = std::array<float, ErrorWorlds::kCount>;  ///< by which a line is clear, in sigmas
+
+  bool cross(const Line& line, Scratch& scratch) const;
+  Footing under(const Point3& end) const;
+  void narrow(Margins& least, double above, const ErrorsAlongLine::Errors& ground) const;
+  void narrow(Margins& least, const Line& line, const Crossing& c, ErrorsAlongLine& errors) const;
+
   const Tin& tin_;
   double drop_;         ///< grid units of drop a squared grid unit
   double grazing_;      ///< grid units
   double sigma_;        ///< grid units
   double correlation_;  ///< L in grid units
   HeightPyramid pyramid_;
+  ErrorWorlds worlds_;
+};
+
+/// Memory to use again, for one thread; fastest for lines from one eye to neighbours.
+class VerticalOdds::Scratch {
+ public:
+  /// For lines of those odds, which must outlive it.
+  explicit Scratch(const VerticalOdds& odds) : errors_(odds.tin_, odds.correlation_, odds.worlds_) {}
+
+ private:
+  friend class VerticalOdds;
+  std::vector<Crossing> crossings_;
+  std::optional<std::uint32_t> highest_;  ///< triangle, of the last line: most often near the next one's too
+  ErrorsAlongLine errors_;
 };
 
 }  // namespace itin::viewshed

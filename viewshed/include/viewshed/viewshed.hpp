@@ -74,8 +74,9 @@ enum class Mode {
   kProbability  ///< how probably any of them does where heights are uncertain: the greatest of theirs
 };
 
-/// What is known of the errors of heights: normal, with this standard deviation; those of places x apart are correlated
-/// as exp(-x / correlation_length), or not at all where that is 0. See src/vertical_odds.hpp for what follows from it.
+/// What is known of the errors of the surface's vertices: normal, with this standard deviation; those of vertices x
+/// apart are correlated as exp(-x / correlation_length), or not at all where that is 0. Between vertices they are
+/// linear, and what stands on the surface moves with it. See src/vertical_odds.hpp for what follows from it.
 struct VerticalError {
   double sigma = 0;               ///< metres, positive
   double correlation_length = 0;  ///< metres
@@ -151,7 +152,8 @@ struct Result {
   /// kHeight: 0 where the ground is seen, infinity where no height is (beyond the field of view, or behind missing
   /// ground that blocks), NaN outside. Exact: the sight line to it touches the surface within a micrometre.
   std::vector<float> least_height_m;
-  /// kProbability: of the line's critical place, an upper bound; NaN outside.
+  /// kProbability: that the whole line is clear, with a standard error of at most 0.022, alike in neighbouring cells; 0
+  /// for a target at an elevation below the ground; NaN outside.
   std::vector<float> probability;
   std::vector<std::string> theme_names;  ///< from a store: of theme 1 and so on
   CellCounts cells;                      ///< areas are these times grid.cell_area()

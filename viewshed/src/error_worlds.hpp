@@ -1,0 +1,35 @@
+// Normal errors in many simulated worlds, to count in how many of them something holds.
+//
+//   const ErrorWorlds worlds;
+//   const std::span<const float, ErrorWorlds::kCount> errors = worlds.of(vertex);  // errors[w]: in world w
+//
+// A Latin hypercube: in its kCount worlds everything takes each of as many equally probable values once, in an order
+// of its own, so that shares vary less than those of independent draws (McKay, Beckman and Conover 1979). The orders
+// are a table's rows, each begun anywhere: two things have the same one by a chance of 1 in 131,072.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace itin::viewshed {
+
+/// Safe for concurrent use. 1 MB.
+class ErrorWorlds {
+ public:
+  static constexpr std::size_t kCount = 512;
+
+  /// The same in every process.
+  ErrorWorlds();
+
+  /// Of mean 0 and standard deviation 1, independent of those of other numbers.
+  std::span<const float, kCount> of(std::uint64_t number) const;
+
+ private:
+  static constexpr std::size_t kRows = 256;
+
+  std::vector<float> rows_;  ///< each twice, so that it may begin anywhere
+};
+
+}  // namespace itin::viewshed
