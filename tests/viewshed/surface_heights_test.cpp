@@ -52,6 +52,22 @@ TEST(SurfaceHeights, OnALatticeWhoseEdgesRunThroughTheCentres) {
   compare(tin, RasterGrid({box.xmin - 33.3, box.ymax + 7.7}, 3.7, 6.1, 110, 60));
 }
 
+TEST(SurfaceHeights, OverASquareAreThoseOverItsTriangles) {
+  std::mt19937 random(test::seed());
+  std::uniform_int_distribution<std::int32_t> place(-2'000'000, 2'000'000), height(-500'000, 500'000), side(1, 9000);
+  std::uniform_real_distribution<double> part(1e-6, 1 - 1e-6);
+  for (int i = 0; i < 20000; ++i) {
+    const FallingSquare s{place(random),  place(random),  side(random),  height(random),
+                          height(random), height(random), height(random)};
+    const Point2 p{s.west + part(random) * s.side, s.south + part(random) * s.side};
+    const std::int32_t east = s.west + s.side, north = s.south + s.side;
+    const GridPoint sw{s.west, s.south, s.sw}, se{east, s.south, s.se}, ne{east, north, s.ne}, nw{s.west, north, s.nw};
+    const auto first = height_over(std::array{sw, se, nw}, p), second = height_over(std::array{se, ne, nw}, p);
+    ASSERT_TRUE(first || second);
+    EXPECT_EQ(height_over(s, p), first ? *first : *second);
+  }
+}
+
 TEST(SurfaceHeights, OnRandomTinsWithHoles) {
   std::mt19937 random(test::seed());
   for (int i = 0; i < 5; ++i) {

@@ -137,15 +137,22 @@ void BinnedHeights::bound_tile(std::uint32_t tile) {
   constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::lowest();
   using HeightRange = RunBounds::Range<std::int32_t>;
   const LatticeTin& lattice = *lattice_;
-  const auto range_of = [&](std::int64_t column, std::int64_t row) {
-    const std::uint32_t cell = this->cell({column, row});
-    const std::uint8_t there = lattice.read(cell) ? lattice.halves(cell) : std::uint8_t{0};
-    if (there == 0) return HeightRange{kNone, kNone};
-    const std::int32_t* const upper = lattice.posts(cell);
+  const auto range_of_square = [](const std::int32_t* upper, bool whole) {
     const std::int32_t* const lower = upper + LatticeTin::kPosts;
     const std::int32_t high = std::max(std::max(upper[0], upper[1]), std::max(lower[0], lower[1]));
-    if (!LatticeTin::whole(there)) return HeightRange{kNone, high};
+    if (!whole) return HeightRange{kNone, high};
     return HeightRange{std::min(std::min(upper[0], upper[1]), std::min(lower[0], lower[1])), high};
+  };
+  const std::uint32_t first = tile * LatticeTin::kCells;
+  const std::int64_t first_column = lattice.column_of(first), first_row = lattice.row_of(first);
+  const bool all_whole = lattice.tiles[tile].ground == LatticeTin::Ground::kWhole;
+  const auto range_of = [&](std::int64_t column, std::int64_t row) {
+    const std::int64_t c = column - first_column, r = row - first_row;
+    if (all_whole && c < RunBounds::kSide && r < RunBounds::kSide)
+      return range_of_square(lattice.tiles[tile].heights->data() + r * LatticeTin::kPosts + c, true);
+    const std::uint32_t cell = this->cell({column, row});
+    const std::uint8_t there = lattice.read(cell) ? lattice.halves(cell) : std::uint8_t{0};
+    return there == 0 ? HeightRange{kNone, kNone} : range_of_square(lattice.posts(cell), LatticeTin::whole(there));
   };
   const auto low = [](std::int32_t z) { return z == kNone ? -kInfinity : rounded_down(z); };
   const auto high = [](std::int32_t z) { return z == kNone ? -kInfinity : rounded_up(z); };
@@ -231,6 +238,7 @@ std::optional<double> BinnedHeights::height_at(Point2 units) const {
   if (lattice_ != nullptr)
     if (const auto post = lattice_->post_at(units.x, units.y)) return *post;
   const double column = column_at(units.x), row = row_at(units.y);
+  if (const auto height = height_amid_square(column, row, units)) return height;
   const auto at = [](double v, std::int64_t count) {
     return static_cast<std::int64_t>(std::clamp(v, 0.0, static_cast<double>(count - 1)));
   };
@@ -249,6 +257,26 @@ std::optional<double> BinnedHeights::height_at(Point2 units) const {
     }
   }
   return std::nullopt;
+}
+
+/// Where the surface is a lattice, and the position lies within a whole square that has been read, but not on its
+/// sides.
+std::optional<double> BinnedHeights::height_amid_square(double column, double row, Point2 units) const {
+  if (lattice_ == nullptr || !(column > 0 && row > 0)) return std::nullopt;
+  const auto c = static_cast<std::int64_t>(column), r = static_cast<std::int64_t>(row);
+  const auto amid = [](double v, std::int64_t n) {
+    const double part = v - static_cast<double>(n);
+    return part > kSlack && part < 1 - kSlack;
+  };
+  if (c >= columns() || r >= rows() || !amid(column, c) || !amid(row, r)) return std::nullopt;
+  const std::uint32_t number = cell({c, r});
+  if (!lattice_->read(number) || lattice_->halves(number) != LatticeTin::kFalling) return std::nullopt;
+  const std::int32_t* const upper = lattice_->posts(number);
+  const std::int32_t* const lower = upper + LatticeTin::kPosts;
+  return height_over(
+      FallingSquare{lattice_->x(static_cast<std::uint32_t>(c)), lattice_->y(static_cast<std::uint32_t>(r + 1)),
+                    lattice_->spacing, lower[0], lower[1], upper[0], upper[1]},
+      units);
 }
 
 bool BinnedHeights::all_unread(Point2 north_west, Point2 south_east) const {

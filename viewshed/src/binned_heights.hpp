@@ -108,6 +108,7 @@ class BinnedHeights {
   static Lid lid_of_cell(const LatticeTin& lattice, std::uint32_t cell);
   void bound_lattice();
   void bound_tile(std::uint32_t tile);
+  std::optional<double> height_amid_square(double column, double row, Point2 units) const;
   bool unread_at(RasterGrid::Cell bin, Point2 units) const;
   void bound_tin();
   Range bound_bin(RasterGrid::Cell bin);

@@ -159,6 +159,17 @@ std::optional<double> height_over(const std::array<GridPoint, 3>& triangle, Poin
   return RowSections::height(west, east, x);
 }
 
+double height_over(const FallingSquare& square, Point2 units) {
+  const double west = square.west, east = west + square.side, south = square.south;
+  const double w = (units.y - south) / square.side;
+  const auto at = [&](double x, std::int32_t lower, std::int32_t upper) {
+    return Crossing{x, lower + w * (static_cast<double>(upper) - lower)};
+  };
+  const Crossing diagonal = at(east + w * (west - east), square.se, square.nw);
+  return units.x <= diagonal.x ? RowSections::height(at(west, square.sw, square.nw), diagonal, units.x)
+                               : RowSections::height(diagonal, at(east, square.se, square.ne), units.x);
+}
+
 std::optional<double> height_on(const Tin& tin, Point2 position) {
   const Point2 units{easting_in_units(tin.grid, position.x), northing_in_units(tin.grid, position.y)};
   const auto beside = [&](const std::array<GridPoint, 3>& corners) {

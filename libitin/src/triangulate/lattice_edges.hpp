@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include <itin/lattice_tin.hpp>
 
@@ -51,6 +52,28 @@ void for_each_open_edge(std::int64_t column, std::int64_t row, const Halves& hal
   }
 }
 
+namespace detail_lattice {
+/// Cells side by side that are told together.
+inline constexpr std::uint32_t kAlike = 8;
+
+/// Whether so many cells of a row, from this one on, all are whole, and those beside them in the tile are like them.
+/// Precondition: the row is neither the first nor the last of the tile.
+inline bool whole_and_alike(const std::array<std::uint8_t, LatticeTin::kCells>& halves, std::uint32_t first) {
+  const auto eight = [&](std::uint32_t from) {
+    std::uint64_t word;
+    std::memcpy(&word, halves.data() + from, kAlike);
+    return word;
+  };
+  const std::uint8_t one = halves[first];
+  const std::uint64_t alike = one * 0x0101010101010101U;
+  const std::uint32_t end = first + kAlike;
+  return LatticeTin::whole(one & (LatticeTin::kFalling | LatticeTin::kRising)) && eight(first) == alike &&
+         eight(first - LatticeTin::kSide) == alike && eight(first + LatticeTin::kSide) == alike &&
+         (first % LatticeTin::kSide == 0 || halves[first - 1] == one) &&
+         (end % LatticeTin::kSide == 0 || halves[end] == one);
+}
+}  // namespace detail_lattice
+
 /// The same for all cells of a tile.
 template <class Halves, class Visit>
 void for_each_open_edge_of(const LatticeTin& lattice, std::uint32_t tile, const Halves& halves, const Visit& visit) {
@@ -61,12 +84,17 @@ void for_each_open_edge_of(const LatticeTin& lattice, std::uint32_t tile, const 
   const bool all_whole = whole(tile) && column > 0 && row > 0 && whole(tile - 1) && whole(tile + 1) &&
                          whole(tile - tile_columns) && whole(tile + tile_columns);
   if (all_whole || lattice.tiles[tile].ground == Ground::kNone) return;
-  constexpr std::uint32_t kSide = LatticeTin::kSide;
+  constexpr std::uint32_t kSide = LatticeTin::kSide, kAlike = detail_lattice::kAlike;
   for (std::uint32_t r = 0; r < kSide; ++r) {
-    // Amid a whole tile there is none.
-    const bool amid = whole(tile) && r > 0 && r + 1 < kSide;
-    for (std::uint32_t c = 0; c < kSide; c += amid ? kSide - 1 : 1)
-      for_each_open_edge(column * kSide + c, row * kSide + r, halves, visit);
+    const bool amid = r > 0 && r + 1 < kSide;
+    for (std::uint32_t first = 0; first < kSide; first += kAlike) {
+      // Among whole cells that are alike there is none, but at the tile's ends.
+      const bool alike =
+          amid && (whole(tile) || detail_lattice::whole_and_alike(*lattice.tiles[tile].halves, r * kSide + first));
+      const std::uint32_t last = first + kAlike - 1;
+      for (std::uint32_t c = first; c <= last; ++c)
+        if (!alike || c == 0 || c + 1 == kSide) for_each_open_edge(column * kSide + c, row * kSide + r, halves, visit);
+    }
   }
 }
 
