@@ -78,6 +78,19 @@ void TurbineOptions::validate() {
   if (!rotor_text_.empty()) rotor_ = parse_number("--rotor-diameter", rotor_text_, Range::kPositive);
   if (!tip_text_.empty()) tip_ = parse_number("--tip-height", tip_text_, Range::kPositive);
   query_.crs = in_crs_.crs;
+  require_options_of_one_turbine();
+}
+
+void TurbineOptions::require_options_of_one_turbine() const {
+  if (!tip_ || !(hub_ || rotor_)) return;
+  std::optional<double> hub = hub_, rotor = rotor_, tip = tip_;
+  try {
+    complete(hub, rotor, tip);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format(
+        "--hub-height, --rotor-diameter, --tip-height: no turbine is like that, {}; leave out or correct one of them",
+        error.what()));
+  }
 }
 
 viewshed::Turbine TurbineOptions::turbine_of(const SiteRow& row) const {

@@ -48,6 +48,7 @@ class TurbineOptions {
   Document parameters() const;
 
  private:
+  void require_options_of_one_turbine() const;
   /// Throws InputError with what is wrong with the row.
   viewshed::Turbine turbine_of(const SiteRow& row) const;
 
