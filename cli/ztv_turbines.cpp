@@ -1,5 +1,6 @@
 #include "ztv_turbines.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -53,6 +54,11 @@ Document bad_rows_document(const std::string& file, std::size_t rows, std::size_
 
 std::string bad_row_warning(const std::string& file, const BadRow& row) {
   return fmt::format("{}: row {} (feature {}) is not used: {}", file, row.number, row.feature, row.message);
+}
+
+std::size_t known_hubs(const std::vector<viewshed::Turbine>& turbines) {
+  return static_cast<std::size_t>(std::count_if(turbines.begin(), turbines.end(),
+                                                [](const viewshed::Turbine& t) { return t.hub_height.has_value(); }));
 }
 
 void TurbineOptions::declare(CLI::App& app) {

@@ -28,6 +28,9 @@ struct BadRow {
 Document bad_rows_document(const std::string& file, std::size_t rows, std::size_t used, const std::vector<BadRow>& bad);
 std::string bad_row_warning(const std::string& file, const BadRow& row);
 
+/// How many have a hub that is known.
+std::size_t known_hubs(const std::vector<viewshed::Turbine>& turbines);
+
 struct TurbineList {
   std::size_t rows = 0;
   std::vector<viewshed::Turbine> turbines;
