@@ -7,6 +7,8 @@
 
 #include <itin/error.hpp>
 
+#include "values.hpp"
+
 namespace itin::cli {
 
 namespace {
@@ -111,6 +113,7 @@ ViewFields::View ViewFields::view(const std::vector<std::optional<double>>& numb
         // ArcGIS writes horizontal distances with a minus sign.
         const double metres = arcgis_ ? std::abs(value) : value;
         if (field.role == Role::kRadius && !(metres > 0)) refuse(field, value, "a positive number of metres");
+        if (metres > kFarthest) refuse(field, value, "at most 1000000000 metres");
         if (metres < 0) refuse(field, value, "0 or a positive number of metres");
         (field.role == Role::kRadius ? view.radius : view.min_radius) = metres;
         break;

@@ -206,7 +206,7 @@ class ViewshedVerb final : public Verb {
     parse_choice("--target-on", target_on_, {"ground", "surface"});
     request_.targets_on_surface = target_on_ == "surface";
     request_.observers_on_surface = observers_.on_surface();
-    if (!radius_text_.empty()) request_.radius = parse_number("--radius", radius_text_, Range::kPositive);
+    if (!radius_text_.empty()) request_.radius = parse_radius("--radius", radius_text_);
     if (!min_radius_text_.empty()) {
       request_.min_radius = parse_number("--min-radius", min_radius_text_, Range::kNotNegative);
     }
