@@ -1,5 +1,7 @@
 #include "earth_options.hpp"
 
+#include <fmt/format.h>
+
 #include <itin/error.hpp>
 
 #include "values.hpp"
@@ -20,6 +22,17 @@ void EarthOptions::declare_radius(CLI::App& app) {
       ->type_name("KM");
 }
 
+void EarthOptions::require_no_refraction() const {
+  const auto refuse = [](const std::string& value, const char* option) {
+    if (!value.empty())
+      throw InputError(fmt::format(
+          "{} and --curvature off exclude each other: a flat Earth has no refraction; leave out one of them", option));
+  };
+  refuse(refraction_text_, "--refraction");
+  refuse(effective_text_, "--effective-earth");
+  refuse(effective_km_text_, "--effective-earth-km");
+}
+
 void EarthOptions::validate() {
   if (!effective_km_text_.empty() && !(refraction_text_.empty() && effective_text_.empty())) {
     throw InputError("--effective-earth-km excludes --effective-earth and --refraction: they state the same");
@@ -28,6 +41,7 @@ void EarthOptions::validate() {
     throw InputError("--refraction and --effective-earth exclude each other: they state the same in two conventions");
   }
   if (!curvature_text_.empty()) earth_.curvature = parse_switch("--curvature", curvature_text_);
+  if (!earth_.curvature) require_no_refraction();
   if (!refraction_text_.empty()) earth_.refraction = parse_number("--refraction", refraction_text_);
   if (!radius_text_.empty()) earth_.radius = parse_number("--earth-radius", radius_text_, Range::kPositive);
   if (!effective_text_.empty()) earth_.effective_factor = parse_ratio("--effective-earth", effective_text_);

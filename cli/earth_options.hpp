@@ -25,6 +25,8 @@ class EarthOptions {
   Document document() const;
 
  private:
+  void require_no_refraction() const;
+
   std::string curvature_text_, refraction_text_, radius_text_, effective_text_, effective_km_text_;
   Earth earth_;
 };

@@ -4,7 +4,8 @@
 
 namespace itin::cli {
 
-/// Catches SIGINT, SIGTERM and SIGHUP from now on; a closed pipe becomes a write error instead of a signal.
+/// Catches SIGINT, SIGTERM and SIGHUP from now on; a closed pipe and a file beyond the shell's limit become
+/// write errors instead of signals.
 void catch_interruptions();
 
 bool interrupted();

@@ -26,9 +26,10 @@ void ObserverOptions::declare(CLI::App& app) {
 }
 
 void ObserverOptions::validate() {
-  if (observers_.empty() == sites_.path.empty()) {
+  if (observers_.empty() && sites_.path.empty())
     throw InputError("give observers by --observer x,y,h or by --observers FILE");
-  }
+  if (!observers_.empty() && !sites_.path.empty())
+    throw InputError("--observer and --observers exclude each other; give all observers in one way");
   if (sites_.path.empty()) {
     const auto refuse = [](const std::string& value, const char* option) {
       if (!value.empty()) throw InputError(fmt::format("{} is of use with --observers only", option));

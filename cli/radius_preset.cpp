@@ -33,7 +33,7 @@ void RadiusOptions::declare(CLI::App& app) {
 void RadiusOptions::validate() {
   if (!radius_text_.empty() && !preset_path_.empty())
     throw InputError("--radius and --radius-preset exclude each other");
-  if (!radius_text_.empty()) fixed_ = parse_number("--radius", radius_text_, Range::kPositive);
+  if (!radius_text_.empty()) fixed_ = parse_radius("--radius", radius_text_);
   source_ = kBuiltinSource;
   steps_ = {
       {50, 15}, {70, 20}, {85, 25}, {100, 30}, {130, 35}, {150, 40}, {std::numeric_limits<double>::infinity(), 45}};

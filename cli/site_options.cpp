@@ -184,7 +184,7 @@ void SiteOptions::validate_demand() {
   if (!target_height_text_.empty())
     target_height = parse_number("--target-height", target_height_text_, Range::kNotNegative);
   targets_on_surface = parse_choice("--target-on", target_on_, {"ground", "surface"}) == 1;
-  radius = number("--radius", radius_text_, Range::kPositive).value_or(radius);
+  if (!radius_text_.empty()) radius = parse_radius("--radius", radius_text_);
   cell = number("--cell", cell_text_, Range::kPositive);
   if (cell.value_or(0) > radius) throw InputError(fmt::format("--cell '{}': larger than the radius", cell_text_));
   if (demand == "cells" && !weight_field.empty()) throw InputError("--weight-field is of use with points only");

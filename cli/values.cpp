@@ -49,6 +49,13 @@ double parse_number(std::string_view option, std::string_view text, Range range)
   return *value;
 }
 
+double parse_radius(std::string_view option, std::string_view text) {
+  const double radius = parse_number(option, text, Range::kPositive);
+  if (radius > kFarthest)
+    refuse(option, text, fmt::format("farther than any ground; give at most {:.0f} metres", kFarthest));
+  return radius;
+}
+
 double parse_ratio(std::string_view option, std::string_view text) {
   const std::size_t slash = text.find('/');
   if (slash == std::string_view::npos) return parse_number(option, text, Range::kPositive);

@@ -22,6 +22,12 @@ enum class Range { kAny, kNotNegative, kPositive };
 /// A finite decimal number and nothing else.
 double parse_number(std::string_view option, std::string_view text, Range range = Range::kAny);
 
+/// Farther than any ground reaches, metres.
+inline constexpr double kFarthest = 1e9;
+
+/// How far to look: a positive number of metres, at most kFarthest.
+double parse_radius(std::string_view option, std::string_view text);
+
 /// A ratio `a/b`, or a number; positive.
 double parse_ratio(std::string_view option, std::string_view text);
 

@@ -7,7 +7,25 @@
 
 #include <itin/error.hpp>
 
+#include "values.hpp"
+
 namespace itin::cli {
+
+namespace {
+
+/// Throws InputError where nothing can be in view.
+void require_view(const ViewFields::View& view, const std::string& where) {
+  const auto refuse = [&](const char* what, const ViewFields::Angles& angles, const char* advice) {
+    throw InputError(
+        fmt::format("{}: its {} run from {:g} to {:g}: {}", where, what, angles.first, angles.second, advice));
+  };
+  if (view.elevation && view.elevation->first >= view.elevation->second)
+    refuse("elevations", *view.elevation, "give a lower and then a higher one");
+  if (view.azimuth && view.azimuth->first == view.azimuth->second)
+    refuse("azimuths", *view.azimuth, "for the whole circle leave them empty");
+}
+
+}  // namespace
 
 void ViewFields::declare(CLI::App& app) {
   const auto field = [&](const char* option, std::string& to, const char* help, const char* type) {
@@ -95,6 +113,7 @@ ViewFields::View ViewFields::view(const std::vector<std::optional<double>>& numb
         // ArcGIS writes horizontal distances with a minus sign.
         const double metres = arcgis_ ? std::abs(value) : value;
         if (field.role == Role::kRadius && !(metres > 0)) refuse(field, value, "a positive number of metres");
+        if (metres > kFarthest) refuse(field, value, "at most 1000000000 metres");
         if (metres < 0) refuse(field, value, "0 or a positive number of metres");
         (field.role == Role::kRadius ? view.radius : view.min_radius) = metres;
         break;
@@ -113,9 +132,7 @@ ViewFields::View ViewFields::view(const std::vector<std::optional<double>>& numb
         break;
     }
   }
-  if (view.elevation && view.elevation->first > view.elevation->second)
-    throw InputError(fmt::format("{}: its elevations run from {:g} to {:g}: give the lower first", where,
-                                 view.elevation->first, view.elevation->second));
+  require_view(view, where);
   return view;
 }
 

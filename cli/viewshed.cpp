@@ -37,6 +37,20 @@ std::optional<viewshed::AngleRange> parse_angles(std::string_view option, const 
   return viewshed::AngleRange{v[0], v[1]};
 }
 
+std::optional<viewshed::AngleRange> parse_azimuths(const std::string& text) {
+  const auto range = parse_angles("--azimuth", text, -360, 360);
+  if (range && range->from == range->to)
+    throw InputError(fmt::format("--azimuth '{}': from and to are the same; for the whole circle leave it out", text));
+  return range;
+}
+
+std::optional<viewshed::AngleRange> parse_elevations(const std::string& text) {
+  const auto range = parse_angles("--elevation", text, -90, 90);
+  if (range && range->from >= range->to)
+    throw InputError(fmt::format("--elevation '{}': expected from,to with from < to", text));
+  return range;
+}
+
 class ViewshedVerb final : public Verb {
  public:
   std::string name() const override { return "viewshed"; }
@@ -192,15 +206,15 @@ class ViewshedVerb final : public Verb {
     parse_choice("--target-on", target_on_, {"ground", "surface"});
     request_.targets_on_surface = target_on_ == "surface";
     request_.observers_on_surface = observers_.on_surface();
-    if (!radius_text_.empty()) request_.radius = parse_number("--radius", radius_text_, Range::kPositive);
+    if (!radius_text_.empty()) request_.radius = parse_radius("--radius", radius_text_);
     if (!min_radius_text_.empty()) {
       request_.min_radius = parse_number("--min-radius", min_radius_text_, Range::kNotNegative);
     }
     if (request_.radius && request_.min_radius >= *request_.radius) {
       throw InputError("--min-radius: must be less than --radius");
     }
-    request_.azimuth = parse_angles("--azimuth", azimuth_text_, -360, 360);
-    request_.elevation = parse_angles("--elevation", elevation_text_, -90, 90);
+    request_.azimuth = parse_azimuths(azimuth_text_);
+    request_.elevation = parse_elevations(elevation_text_);
     if (!cell_text_.empty() && !like_.empty()) throw InputError("--cell and --like exclude each other");
     if (!cell_text_.empty()) request_.cell_size = parse_number("--cell", cell_text_, Range::kPositive);
     if (request_.cell_size && request_.radius && *request_.cell_size > *request_.radius) {

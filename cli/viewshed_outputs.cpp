@@ -20,6 +20,13 @@ bool is_polygons(const std::string& path) {
 
 }  // namespace
 
+ViewshedOutputs::~ViewshedOutputs() {
+  if (!incomplete_) return;
+  std::error_code ignored;
+  for (const std::string& path : single_) std::filesystem::remove(path, ignored);
+  std::filesystem::remove(each_, ignored);
+}
+
 void ViewshedOutputs::declare(CLI::App& app) {
   app.add_option(
          "-o,--output", outputs_,
@@ -57,7 +64,7 @@ void ViewshedOutputs::prepare(const viewshed::Request& request) {
   namespace fs = std::filesystem;
   if (!each_.empty()) {
     std::error_code error;
-    fs::create_directory(each_, error);
+    incomplete_ = fs::create_directory(each_, error);
     if (!fs::is_directory(each_)) throw FileError(each_, "cannot be made a directory; name another place");
     std::set<std::string> taken;
     for (std::size_t i = 0; i < request.observers.size(); ++i) {
@@ -98,8 +105,9 @@ void ViewshedOutputs::write(viewshed::Surveyed& surveyed, const Context& context
   if (map) viewshed::write_image(image_, *map, policy_.overwrite);
 }
 
-void ViewshedOutputs::write_each(const Compute& compute, const Context& context) const {
+void ViewshedOutputs::write_each(const Compute& compute, const Context& context) {
   for (std::size_t i = 0; i < single_.size(); ++i) write_raster(single_[i], compute(i), context);
+  incomplete_ = false;
 }
 
 std::vector<std::string> ViewshedOutputs::paths() const {

@@ -16,6 +16,12 @@ namespace itin::cli {
 
 class ViewshedOutputs {
  public:
+  ViewshedOutputs() = default;
+  /// Leaves nothing of a directory of single observers that was made but not completed.
+  ~ViewshedOutputs();
+  ViewshedOutputs(const ViewshedOutputs&) = delete;
+  ViewshedOutputs& operator=(const ViewshedOutputs&) = delete;
+
   void declare(CLI::App& app);
   /// `others` are files that something else writes. Throws InputError.
   void validate(const std::vector<std::string>& others);
@@ -31,7 +37,7 @@ class ViewshedOutputs {
              Progress& progress) const;
   /// Calls compute(observer) for every observer whose own raster is wanted.
   using Compute = std::function<viewshed::Result(std::size_t)>;
-  void write_each(const Compute& compute, const Context& context) const;
+  void write_each(const Compute& compute, const Context& context);
 
   /// In the order of the options, the others last.
   std::vector<std::string> paths() const;
@@ -44,6 +50,7 @@ class ViewshedOutputs {
   std::string image_, each_;
   std::vector<std::string> others_;
   std::vector<std::string> single_;  ///< a path an observer, with --each
+  bool incomplete_ = false;          ///< their directory was made by prepare(), and does not hold all of them
   OutputPolicy policy_;
 };
 

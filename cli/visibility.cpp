@@ -56,7 +56,7 @@ class VisibilityVerb final : public Verb {
 
   void validate() override {
     request_.cell_size = parse_number("--cell", cell_text_, Range::kPositive);
-    request_.radius = parse_number("--radius", radius_text_, Range::kPositive);
+    request_.radius = parse_radius("--radius", radius_text_);
     if (!height_text_.empty()) request_.height = parse_number("--observer-height", height_text_, Range::kNotNegative);
     if (!target_text_.empty())
       request_.target_height = parse_number("--target-height", target_text_, Range::kNotNegative);

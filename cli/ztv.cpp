@@ -251,7 +251,17 @@ class ZtvVerb final : public Verb {
       ++all, hubs += v.hub_count[i] > 0 ? 1U : 0U, tips += v.tip_count[i] > 0 ? 1U : 0U;
     }
     const auto km2 = [&](std::uint64_t cells) { return static_cast<double>(cells) * zone.grid.cell_area() / 1e6; };
-    return {{"any_tip_seen", km2(tips)}, {"any_hub_seen", km2(hubs)}, {"studied", km2(all)}};
+    Document areas{{"any_tip_seen", km2(tips)}, {"any_hub_seen", nullptr}, {"studied", km2(all)}};
+    if (known_hubs(zone.request.turbines) > 0) areas["any_hub_seen"] = km2(hubs);
+    return areas;
+  }
+
+  /// Of what areas() says.
+  static std::string seen_from(const Document& areas) {
+    std::string text = fmt::format("from {:.1f} km2", areas["any_tip_seen"].get<double>());
+    if (!areas["any_hub_seen"].is_null())
+      text += fmt::format(", a hub from {:.1f}", areas["any_hub_seen"].get<double>());
+    return text;
   }
 
   std::vector<std::string> warnings(const Zone& zone) const {
@@ -276,14 +286,9 @@ class ZtvVerb final : public Verb {
   std::string text(const Zone& zone) const {
     const Document bare = areas(zone, zone.bare);
     std::string text =
-        fmt::format("{}: {} of {} turbines; a tip is seen from {:.1f} km2, a hub from {:.1f}, of {:.1f}\n", output_,
-                    zone.request.turbines.size(), list_.rows, bare["any_tip_seen"].get<double>(),
-                    bare["any_hub_seen"].get<double>(), bare["studied"].get<double>());
-    if (zone.screened) {
-      const Document screened = areas(zone, *zone.screened);
-      text += fmt::format("screened: a tip from {:.1f} km2, a hub from {:.1f}\n",
-                          screened["any_tip_seen"].get<double>(), screened["any_hub_seen"].get<double>());
-    }
+        fmt::format("{}: {} of {} turbines; a tip is seen {}, of {:.1f}\n", output_, zone.request.turbines.size(),
+                    list_.rows, seen_from(bare), bare["studied"].get<double>());
+    if (zone.screened) text += fmt::format("screened: a tip {}\n", seen_from(areas(zone, *zone.screened)));
     text += fmt::format("{} triangles, {} sight lines; {}\n", grouped(zone.statistics.triangles),
                         grouped(zone.statistics.lines), request_.earth.convention());
     return text;

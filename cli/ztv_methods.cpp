@@ -7,6 +7,8 @@
 
 #include <viewshed/zone_files.hpp>
 
+#include "ztv_turbines.hpp"
+
 namespace itin::cli {
 
 namespace {
@@ -19,12 +21,11 @@ std::string turbines_in_words(const viewshed::Zone& zone, const ZtvMethods& fact
   const auto& turbines = zone.request.turbines;
   const auto [least, most] = std::minmax_element(
       turbines.begin(), turbines.end(), [](const auto& a, const auto& b) { return a.tip_height < b.tip_height; });
-  const auto hubs =
-      std::count_if(turbines.begin(), turbines.end(), [](const auto& t) { return t.hub_height.has_value(); });
+  const std::size_t hubs = known_hubs(turbines);
   std::string text =
       fmt::format("{} turbines of {} rows in `{}` (SHA-256 {}); tips {} above the ground.", turbines.size(), facts.rows,
                   facts.turbines_file, facts.turbines_sha256, range(least->tip_height, most->tip_height, "m"));
-  if (static_cast<std::size_t>(hubs) < turbines.size())
+  if (hubs < turbines.size())
     text += fmt::format(" The hub's height is known of {} of them; the others are not counted among hubs.", hubs);
   if (facts.bad > 0) text += fmt::format(" {} rows could not be used and are named in `turbines.csv`.", facts.bad);
   const std::vector<std::string> farms = viewshed::farms_of(zone);

@@ -1,5 +1,6 @@
 #include "ztv_turbines.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -55,6 +56,11 @@ std::string bad_row_warning(const std::string& file, const BadRow& row) {
   return fmt::format("{}: row {} (feature {}) is not used: {}", file, row.number, row.feature, row.message);
 }
 
+std::size_t known_hubs(const std::vector<viewshed::Turbine>& turbines) {
+  return static_cast<std::size_t>(std::count_if(turbines.begin(), turbines.end(),
+                                                [](const viewshed::Turbine& t) { return t.hub_height.has_value(); }));
+}
+
 void TurbineOptions::declare(CLI::App& app) {
   app.add_option("--turbines", query_.path,
                  "The turbines, from a vector file of points, or CSV with columns x,y. Fields hub_height and "
@@ -78,6 +84,19 @@ void TurbineOptions::validate() {
   if (!rotor_text_.empty()) rotor_ = parse_number("--rotor-diameter", rotor_text_, Range::kPositive);
   if (!tip_text_.empty()) tip_ = parse_number("--tip-height", tip_text_, Range::kPositive);
   query_.crs = in_crs_.crs;
+  require_options_of_one_turbine();
+}
+
+void TurbineOptions::require_options_of_one_turbine() const {
+  if (!tip_ || !(hub_ || rotor_)) return;
+  std::optional<double> hub = hub_, rotor = rotor_, tip = tip_;
+  try {
+    complete(hub, rotor, tip);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format(
+        "--hub-height, --rotor-diameter, --tip-height: no turbine is like that, {}; leave out or correct one of them",
+        error.what()));
+  }
 }
 
 viewshed::Turbine TurbineOptions::turbine_of(const SiteRow& row) const {

@@ -28,6 +28,9 @@ struct BadRow {
 Document bad_rows_document(const std::string& file, std::size_t rows, std::size_t used, const std::vector<BadRow>& bad);
 std::string bad_row_warning(const std::string& file, const BadRow& row);
 
+/// How many have a hub that is known.
+std::size_t known_hubs(const std::vector<viewshed::Turbine>& turbines);
+
 struct TurbineList {
   std::size_t rows = 0;
   std::vector<viewshed::Turbine> turbines;
@@ -48,6 +51,7 @@ class TurbineOptions {
   Document parameters() const;
 
  private:
+  void require_options_of_one_turbine() const;
   /// Throws InputError with what is wrong with the row.
   viewshed::Turbine turbine_of(const SiteRow& row) const;
 

@@ -139,10 +139,13 @@ profile::WirelineQuery wireline_of(const Viewpoint& v, const Zone& zone, const s
   const auto hubs = std::count_if(sights.begin(), sights.end(), [](const Sight& s) { return s.hub.value_or(false); });
   const auto nearest = std::min_element(sights.begin(), sights.end(),
                                         [](const Sight& a, const Sight& b) { return a.distance < b.distance; });
+  const std::string of_hubs =
+      known_hubs(zone.request.turbines) > 0 ? fmt::format(" and {} their hub", hubs) : std::string();
   query.notes = {
-      fmt::format("{:.0f}, {:.0f}; ground {:.1f} m, eye {:g} m above it. Of {} turbines {} have their tip seen "
-                  "and {} their hub; the nearest stands {:.2f} km away.",
-                  v.position.x, v.position.y, v.ground, v.height, sights.size(), tips, hubs, nearest->distance / 1000),
+      fmt::format("{:.0f}, {:.0f}; ground {:.1f} m, eye {:g} m above it. Of {} turbines {} have their tip seen"
+                  "{}; the nearest stands {:.2f} km away.",
+                  v.position.x, v.position.y, v.ground, v.height, sights.size(), tips, of_hubs,
+                  nearest->distance / 1000),
       surface + "; " + zone.request.earth.convention()};
   double reach = 20000;
   for (std::size_t k = 0; k < sights.size(); ++k) {

@@ -72,6 +72,7 @@ VisibilityIndex visibility_index(const Store& store, const IndexRequest& request
   const VisibilitySampler sampler(scene, ground, surface.grid, request.radius, request.target_height, request.targets);
   std::vector<std::uint64_t> rays(static_cast<std::size_t>(index.grid.rows()));
   std::atomic<std::size_t> done = 0;
+  std::atomic<bool> stands = false;
   parallel_for(rays.size(), [&](std::size_t row) {
     progress.throw_if_cancelled();
     for (std::int64_t column = 0; column < index.grid.columns(); ++column) {
@@ -79,6 +80,7 @@ VisibilityIndex visibility_index(const Store& store, const IndexRequest& request
       const Point2 place = index.grid.centre(cell.column, cell.row);
       const auto height = lies_in(request.area, place) ? ground.ground(place) : std::nullopt;
       if (!height) continue;
+      stands = true;
       const GridPoint seed = surface.grid.quantise({place.x, place.y, 0});
       const VisibilitySampler::Tally tally = sampler.look(
           place, *height + request.height,
@@ -98,7 +100,9 @@ VisibilityIndex visibility_index(const Store& store, const IndexRequest& request
     variance += double{index.standard_error[i]} * index.standard_error[i];
   }
   for (const std::uint64_t r : rays) index.rays += r;
-  if (index.observers == 0) throw InputError("no cell's centre lies on ground in the area; give smaller cells");
+  if (!stands) throw InputError("no cell's centre lies on ground in the area; give smaller cells");
+  if (index.observers == 0)
+    throw InputError("no target fell on ground: the radius reaches far beyond it; give a smaller one, or more targets");
   index.mean /= static_cast<double>(index.observers);
   index.mean_error = std::sqrt(variance) / static_cast<double>(index.observers);
   return index;

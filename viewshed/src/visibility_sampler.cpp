@@ -1,5 +1,6 @@
 #include "visibility_sampler.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numbers>
@@ -36,7 +37,8 @@ VisibilitySampler::Tally VisibilitySampler::look(Point2 eye, double elevation, s
   while (tally.asked < targets_) {
     SightLines lines;
     lines.start_at(from);
-    for (unsigned i = 0; i < SightLines::kSize; ++i) {
+    const unsigned packet = std::min<unsigned>(SightLines::kSize, targets_ - tally.asked);
+    for (unsigned i = 0; i < packet; ++i) {
       const double distance = radius_ * std::sqrt(random.next());
       const double azimuth = 2 * std::numbers::pi * random.next();
       const Point2 target{eye.x + distance * std::sin(azimuth), eye.y + distance * std::cos(azimuth)};
@@ -47,7 +49,7 @@ VisibilitySampler::Tally VisibilitySampler::look(Point2 eye, double elevation, s
       lines.to_z[i] = (*ground + target_height_) / grid_.resolution;
       lines.active |= 1U << i;
     }
-    tally.asked += SightLines::kSize;
+    tally.asked += packet;
     tally.on_ground += static_cast<unsigned>(std::popcount(lines.active));
     if (lines.active != 0)
       tally.seen += static_cast<unsigned>(std::popcount(lines.active & ~scene_.hidden(lines, occluder)));

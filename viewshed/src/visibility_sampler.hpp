@@ -17,8 +17,7 @@ class VisibilitySampler {
     unsigned seen = 0;       ///< of those
   };
 
-  /// Metres. Targets stand on `ground`, which may be `scene` itself; both must outlive the sampler. `targets` is
-  /// rounded up to whole packets.
+  /// Metres. Targets stand on `ground`, which may be `scene` itself; both must outlive the sampler.
   VisibilitySampler(const Scene& scene, const Scene& ground, const Grid& grid, double radius, double target_height,
                     unsigned targets)
       : scene_(scene),

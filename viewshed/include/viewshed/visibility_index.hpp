@@ -24,7 +24,7 @@ struct IndexRequest {
   double height = 2;       ///< of observers above the ground, metres
   double target_height = 0;
   double radius = 5000;    ///< metres
-  unsigned targets = 128;  ///< an observer, rounded up to a multiple of 16
+  unsigned targets = 128;  ///< an observer
   Earth earth = {};
   Detail detail = Detail::tolerance(0);
   ThemeChoice themes = ThemeChoice::none();

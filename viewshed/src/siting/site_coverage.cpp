@@ -42,14 +42,16 @@ Window window_about(const std::vector<SiteStand>& stands, const std::vector<std:
   std::vector<bool> met(cells.cell_count());
   for (const std::size_t option : options) {
     const Box disc = disc_box(stands[option].position, radius);
-    const auto last_of = [](double at, std::int64_t count) {
-      return std::min(count - 1, static_cast<std::int64_t>(std::floor(at)));
+    // Aligned cells may end a hair within the box.
+    const auto within = [](double at, std::int64_t count) {
+      return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(at)), 0, count - 1);
     };
-    const std::int64_t east = last_of(cells.column_at(disc.xmax), cells.columns()),
-                       south = last_of(cells.row_at(disc.ymin), cells.rows());
-    for (auto row = static_cast<std::int64_t>(std::floor(cells.row_at(disc.ymax))); row <= south; ++row)
-      for (auto column = static_cast<std::int64_t>(std::floor(cells.column_at(disc.xmin))); column <= east; ++column)
-        met[cells.index({column, row})] = true;
+    const std::int64_t west = within(cells.column_at(disc.xmin), cells.columns()),
+                       east = within(cells.column_at(disc.xmax), cells.columns()),
+                       north = within(cells.row_at(disc.ymax), cells.rows()),
+                       south = within(cells.row_at(disc.ymin), cells.rows());
+    for (std::int64_t row = north; row <= south; ++row)
+      for (std::int64_t column = west; column <= east; ++column) met[cells.index({column, row})] = true;
   }
   std::vector<Window::Polygon> runs;
   const Point2 corner = cells.north_west();
