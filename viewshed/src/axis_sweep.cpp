@@ -277,6 +277,7 @@ class AxisSweep::Task {
              view_.sector_axis_.margin;
     };
     const double near = height(stretch.begin), far = height(stretch.end);
+    if (bins_.lies_below(bin, std::min(near, far))) return true;
     const BinnedHeights::Lid lid = bins_.lid(bin);
     const auto lid_at = [&](double along) {
       const Point2 p = quadrant.position(along, stretch.slope * along);

@@ -205,20 +205,6 @@ BinnedHeights::Range BinnedHeights::bound_bin(RasterGrid::Cell bin) {
   return {rounded_down(low), rounded_up(high)};
 }
 
-/// Sums and halves of whole numbers, all exact.
-BinnedHeights::Lid BinnedHeights::lid_of_cell(const LatticeTin& lattice, std::uint32_t cell) {
-  if (!lattice.read(cell)) return {};
-  const std::uint8_t there = lattice.halves(cell);
-  if (there == 0) return {};
-  const std::int32_t* const upper = lattice.posts(cell);
-  const std::int32_t* const lower = upper + LatticeTin::kPosts;
-  const double nw = upper[0], ne = upper[1], sw = lower[0], se = lower[1];
-  if (!LatticeTin::whole(there)) return {std::max(std::max(nw, ne), std::max(sw, se)), 0, 0};
-  const double per_column = (ne - nw + se - sw) / 2, per_row = (sw - nw + se - ne) / 2;
-  // Both pairs of opposite corners are as far above the plane through the middle of all four.
-  return {(nw + ne + sw + se) / 4 + std::abs(nw - ne - sw + se) / 4, per_column, per_row};
-}
-
 /// A bin that a triangle meets and no boundary crosses is covered throughout; elsewhere nothing is known of how low the
 /// ground is.
 void BinnedHeights::forget_depth_at_boundary(const std::vector<BoundaryEdge>& boundary,

@@ -65,6 +65,13 @@ class BinnedHeights {
     /// At a position as far from the bin's middle, in bins; grid units.
     double at(double east, double south) const { return middle + per_column * east + per_row * south; }
   };
+  /// Whether no post of a lattice's bin, if it has been read, is above a height, grid units: told sooner than a lid.
+  bool lies_below(RasterGrid::Cell bin, double height) const {
+    if (lattice_ == nullptr || !lattice_->read(cell(bin))) return false;
+    const std::int32_t* const upper = lattice_->posts(cell(bin));
+    const std::int32_t* const lower = upper + LatticeTin::kPosts;
+    return std::max(std::max(upper[0], upper[1]), std::max(lower[0], lower[1])) <= height;
+  }
   Lid lid(RasterGrid::Cell bin) const {
     return lattice_ != nullptr ? lid_of_cell(*lattice_, cell(bin)) : listed_->lids[grid_.index(bin)];
   }
@@ -123,5 +130,19 @@ class BinnedHeights {
   double greatest_magnitude_ = 0;
   std::vector<RimEdge> rim_;
 };
+
+/// Sums and halves of whole numbers, all exact.
+inline BinnedHeights::Lid BinnedHeights::lid_of_cell(const LatticeTin& lattice, std::uint32_t cell) {
+  if (!lattice.read(cell)) return {};
+  const std::uint8_t there = lattice.halves(cell);
+  if (there == 0) return {};
+  const std::int32_t* const upper = lattice.posts(cell);
+  const std::int32_t* const lower = upper + LatticeTin::kPosts;
+  const double nw = upper[0], ne = upper[1], sw = lower[0], se = lower[1];
+  if (!LatticeTin::whole(there)) return {std::max(std::max(nw, ne), std::max(sw, se)), 0, 0};
+  const double per_column = (ne - nw + se - sw) / 2, per_row = (sw - nw + se - ne) / 2;
+  // Both pairs of opposite corners are as far above the plane through the middle of all four.
+  return {(nw + ne + sw + se) / 4 + std::abs(nw - ne - sw + se) / 4, per_column, per_row};
+}
 
 }  // namespace itin::viewshed
