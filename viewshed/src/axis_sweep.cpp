@@ -199,7 +199,7 @@ class AxisSweep::Task {
   template <class Sight>
   void look(const Quadrant& quadrant, const Cell& cell, Sight sight) {
     if (decide(quadrant, cell, sight)) heights_[cell.index] = least(quadrant, cell, sight);
-    if (sight.silhouette() != kNoSilhouette) last_ = silhouettes_[cell.major] = sight.silhouette();
+    last_ = silhouettes_[cell.major] = sight.silhouette();
   }
 
   template <class Sight>

@@ -24,13 +24,9 @@
 
 #include "store/point_index.hpp"
 #include "triangulate/grid_window.hpp"
+#include "triangulate/lattice_frame.hpp"
 
 namespace itin {
-
-/// Places of a lattice from a first to a last one, both included.
-struct PlaceBox {
-  std::uint32_t west = 0, north = 0, east = 0, south = 0;
-};
 
 class LatticeCover {
  public:

@@ -63,7 +63,6 @@ class LatticeReader::Work {
                  Progress& progress);
   bool place(const Leaf& leaf, Heights heights);
   bool place_square(Group leaves);
-  std::optional<PlaceBox> places_of(const GridBox& box) const;
   bool on_lattice(const Leaf& leaf) const;
   bool bounded() const;
   int log2_square() const { return std::bit_width(static_cast<std::uint64_t>(kWidestToBound * lattice_.spacing)) - 1; }
@@ -83,27 +82,12 @@ class LatticeReader::Work {
   void list_leaves_of_tiles();
   void read_leaves(std::span<const std::uint32_t> leaves, Progress& progress);
 
-  /// Column and row of the place on the lattice at a point, or to its north-west; nothing beyond the lattice.
-  struct Place {
-    std::uint32_t column, row;
-    bool post;  ///< it lies there itself
-  };
-  std::optional<Place> place_of(const GridPoint& p) const {
-    const auto spacing = static_cast<std::uint32_t>(lattice_.spacing);
-    // What lies beyond the lattice comes out as far too much.
-    const auto east = static_cast<std::uint32_t>(p.x - lattice_.west),
-               south = static_cast<std::uint32_t>(lattice_.north - p.y);
-    const std::uint32_t column = east / spacing, row = south / spacing;
-    if (column >= lattice_.columns || row >= lattice_.rows) return std::nullopt;
-    return Place{column, row, column * spacing == east && row * spacing == south};
-  }
-
   void begin_reading(std::uint32_t tile) {
     lattice_.make_heights(tile);
     being_read_[tile] = true;
   }
   /// In the tiles that are being read.
-  void set_height(const Place& place, std::int32_t z) {
+  void set_height(const LatticePlace& place, std::int32_t z) {
     lattice_.for_each_tile_of(place.column, place.row, [&](std::uint32_t tile, std::uint32_t post) {
       if (being_read_[tile]) (*lattice_.tiles[tile].heights)[post] = z;
     });
@@ -127,42 +111,22 @@ bool LatticeReader::Work::find_lattice(Heights heights, std::uint64_t most_posts
   std::vector<Leaf> fullest(std::min(kSamples, leaves.size()));
   std::partial_sort_copy(leaves.begin(), leaves.end(), fullest.begin(), fullest.end(),
                          [](const Leaf& a, const Leaf& b) { return a.points > b.points; });
-  std::int64_t spacing = 0;
-  std::optional<GridPoint> first;
-  for (const Leaf& leaf : fullest) {
-    for (const GridPoint& p : index_.block(leaf)->points) {
-      if (!window_.bounds().contains(p.x, p.y)) continue;
-      if (!first) first = p;
-      spacing = std::gcd(std::gcd(spacing, std::int64_t{p.x} - first->x), std::int64_t{p.y} - first->y);
-    }
-  }
-  if (spacing == 0) return false;
-  const GridPoint origin = *first;
-  const auto margin = static_cast<double>(spacing);
+  PostSpacing posts;
+  for (const Leaf& leaf : fullest)
+    for (const GridPoint& p : index_.block(leaf)->points)
+      if (window_.bounds().contains(p.x, p.y)) posts.add(p);
+  if (!posts.found()) return false;
+  const auto margin = static_cast<double>(posts.spacing());
   if (margin > widest_spacing_) {
     leaves = leaves_within(margin);
   } else if (margin < widest_spacing_) {
     keep_leaves_about(window_, margin, leaves);
   }
   if (!std::all_of(leaves.begin(), leaves.end(), [](const Leaf& leaf) { return leaf.theme == 0; })) return false;
-  // Whole cells about what there is, and a bare one all around.
   const GridBox box = intersection(expanded(window_.bounds(), margin), index_.bounds());
-  if (box.empty()) return false;
-  const auto floor_of = [&](std::int64_t v) { return v - ((v % spacing) + spacing) % spacing; };
-  const std::int64_t west = floor_of(std::int64_t{box.xmin} - origin.x) - spacing,
-                     east = -floor_of(origin.x - std::int64_t{box.xmax}) + spacing,
-                     south = floor_of(std::int64_t{box.ymin} - origin.y) - spacing,
-                     north = -floor_of(origin.y - std::int64_t{box.ymax}) + spacing;
-  lattice_.spacing = static_cast<std::int32_t>(spacing);
-  lattice_.west = static_cast<std::int32_t>(origin.x + west);
-  lattice_.north = static_cast<std::int32_t>(origin.y + north);
-  lattice_.columns = static_cast<std::uint32_t>((east - west) / spacing + 1);
-  lattice_.rows = static_cast<std::uint32_t>((north - south) / spacing + 1);
-  const std::uint64_t tiles = std::uint64_t{lattice_.tile_columns()} * lattice_.tile_rows();
-  if (tiles > LatticeTin::kMostTiles) return false;
+  if (box.empty() || !lay(posts, box, lattice_)) return false;
   std::uint64_t points = 0;
   for (const Leaf& leaf : leaves) points += leaf.points;
-  lattice_.tiles.resize(tiles);
   cover_.emplace(lattice_, window_, everything_);
   const std::uint64_t emptiest = heights == Heights::kAll ? kEmptiest : kEmptiestWithoutHeights;
   if (cover_->most_posts() >
@@ -234,7 +198,7 @@ bool LatticeReader::Work::place_all(const std::vector<Group>& groups, std::size_
 
 bool LatticeReader::Work::place(const Leaf& leaf, Heights heights) {
   const auto block = heights == Heights::kNone ? index_.block(leaf) : index_.block_once(leaf);
-  return for_each_post(*block, [&](const Place& place, std::int32_t z) {
+  return for_each_post(*block, [&](const LatticePlace& place, std::int32_t z) {
     if (heights == Heights::kAll) {
       set_height(place, z);
     } else {
@@ -251,29 +215,15 @@ bool LatticeReader::Work::place_square(Group leaves) {
     posts += leaf.points;
     for_each_tile(leaf, [&](std::uint32_t tile) { rise(tile, leaf.zmax); });
   }
-  const auto places = places_of(square_of(leaves.front()).box());
+  const auto places = places_of(lattice_, square_of(leaves.front()).box());
   if (places && cover_->lacks(*places) == posts &&
       std::all_of(leaves.begin(), leaves.end(), [&](const Leaf& leaf) { return on_lattice(leaf); })) {
     cover_->fill(*places);
     return true;
   }
   return std::all_of(leaves.begin(), leaves.end(), [&](const Leaf& leaf) {
-    return for_each_post(*index_.plan_once(leaf), [](const Place&, std::int32_t) {});
+    return for_each_post(*index_.plan_once(leaf), [](const LatticePlace&, std::int32_t) {});
   });
-}
-
-/// Nothing where the box reaches beyond the lattice, or lies between places.
-std::optional<PlaceBox> LatticeReader::Work::places_of(const GridBox& box) const {
-  const std::int64_t spacing = lattice_.spacing;
-  const auto first = [&](std::int64_t units) { return (units + spacing - 1) / spacing; };
-  const std::int64_t west = std::int64_t{box.xmin} - lattice_.west, north = std::int64_t{lattice_.north} - box.ymax,
-                     east = (std::int64_t{box.xmax} - lattice_.west) / spacing,
-                     south = (std::int64_t{lattice_.north} - box.ymin) / spacing;
-  if (west < 0 || north < 0 || east >= lattice_.columns || south >= lattice_.rows || first(west) > east ||
-      first(north) > south)
-    return std::nullopt;
-  return PlaceBox{static_cast<std::uint32_t>(first(west)), static_cast<std::uint32_t>(first(north)),
-                  static_cast<std::uint32_t>(east), static_cast<std::uint32_t>(south)};
 }
 
 /// Whether all of its points do.
@@ -290,7 +240,7 @@ bool LatticeReader::Work::on_lattice(const Leaf& leaf) const {
 template <class Visit>
 bool LatticeReader::Work::for_each_post(const Block& block, const Visit& visit) {
   for (const GridPoint& p : block.points) {
-    const auto place = place_of(p);
+    const auto place = place_of(lattice_, p);
     if (!place) continue;
     if (!place->post) {
       if (cover_->near_known(place->column, place->row)) return false;
@@ -374,7 +324,7 @@ void LatticeReader::Work::read_leaves(std::span<const std::uint32_t> leaves, Pro
       // Wide ones are asked for time and again.
       const auto block = bounds_well(leaf) ? index_.block_once(leaf) : index_.block(leaf);
       for (const GridPoint& p : block->points) {
-        const auto place = place_of(p);
+        const auto place = place_of(lattice_, p);
         if (place && place->post) set_height(*place, p.z);
       }
     }
