@@ -11,6 +11,7 @@
 #include <viewshed/site_coverage.hpp>
 #include <viewshed/siting.hpp>
 
+#include "new_folder.hpp"
 #include "output_path.hpp"
 #include "site_inputs.hpp"
 #include "site_links.hpp"
@@ -43,6 +44,7 @@ class SiteVerb final : public Verb {
   Result execute(Progress& progress) override {
     // What a killed run has written already is its own.
     policy_.overwrite = options_.overwrite || (options_.resume && std::filesystem::exists(place("site.work")));
+    const NewFolder folder(options_.directory);
     outputs_ = site_outputs(options_.directory, policy_);
     const Store store(options_.store);
     options_.themes.choice().check(store.metadata().themes);

@@ -165,13 +165,6 @@ Document interval(const CoverageSummary& summary) {
 }  // namespace
 
 std::vector<SiteOutput> site_outputs(const std::string& directory, const OutputPolicy& policy) {
-  namespace fs = std::filesystem;
-  std::error_code failed;
-  if (!fs::is_directory(directory, failed)) {
-    if (fs::exists(directory, failed)) throw FileError(directory, "is no folder; name another place");
-    fs::create_directory(directory, failed);
-    if (failed) throw FileError(directory, "cannot be made (" + failed.message() + "); name another place");
-  }
   std::vector<SiteOutput> outputs;
   for (const auto& [name, what] :
        {std::pair("sites.gpkg", "chosen sites, candidates, links between sites"),

@@ -18,7 +18,7 @@ struct SiteOutput {
   std::string what;
 };
 
-/// Every file of the folder. Throws FileError where one may not be written; makes the folder.
+/// Every file of the folder, which is there. Throws FileError where one may not be written.
 std::vector<SiteOutput> site_outputs(const std::string& directory, const OutputPolicy& policy);
 
 /// `value`, `upper_bound`, `chosen` and the rest of the contract's document, without what the program adds.

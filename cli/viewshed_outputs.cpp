@@ -21,10 +21,9 @@ bool is_polygons(const std::string& path) {
 }  // namespace
 
 ViewshedOutputs::~ViewshedOutputs() {
-  if (!incomplete_) return;
+  if (!folder_ || !folder_->made() || complete_) return;
   std::error_code ignored;
   for (const std::string& path : single_) std::filesystem::remove(path, ignored);
-  std::filesystem::remove(each_, ignored);
 }
 
 void ViewshedOutputs::declare(CLI::App& app) {
@@ -63,9 +62,7 @@ void ViewshedOutputs::validate(const std::vector<std::string>& others) {
 void ViewshedOutputs::prepare(const viewshed::Request& request) {
   namespace fs = std::filesystem;
   if (!each_.empty()) {
-    std::error_code error;
-    incomplete_ = fs::create_directory(each_, error);
-    if (!fs::is_directory(each_)) throw FileError(each_, "cannot be made a directory; name another place");
+    folder_.emplace(each_);
     std::set<std::string> taken;
     for (std::size_t i = 0; i < request.observers.size(); ++i) {
       const std::string& given = request.observers[i].name;
@@ -107,7 +104,7 @@ void ViewshedOutputs::write(viewshed::Surveyed& surveyed, const Context& context
 
 void ViewshedOutputs::write_each(const Compute& compute, const Context& context) {
   for (std::size_t i = 0; i < single_.size(); ++i) write_raster(single_[i], compute(i), context);
-  incomplete_ = false;
+  complete_ = true;
 }
 
 std::vector<std::string> ViewshedOutputs::paths() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 
 #include <viewshed/viewshed.hpp>
 
+#include "new_folder.hpp"
 #include "output_path.hpp"
 #include "verb.hpp"
 
@@ -50,7 +52,8 @@ class ViewshedOutputs {
   std::string image_, each_;
   std::vector<std::string> others_;
   std::vector<std::string> single_;  ///< a path an observer, with --each
-  bool incomplete_ = false;          ///< their directory was made by prepare(), and does not hold all of them
+  std::optional<NewFolder> folder_;  ///< of these
+  bool complete_ = false;
   OutputPolicy policy_;
 };
 
