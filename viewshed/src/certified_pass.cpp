@@ -12,10 +12,6 @@
 
 namespace itin::viewshed {
 
-Voids voids_without_doubt(NoData rule) {
-  return rule == NoData::kBlock ? Voids::kBlock : Voids::kPass;
-}
-
 EnvelopeScene::EnvelopeScene(Envelope e, const Request& request, const RasterGrid& tiles, Voids v)
     : envelope(std::move(e)),
       lower(envelope.lower, request.earth, NoData::kClear, 0),
@@ -46,7 +42,7 @@ EnvelopeScene::Look EnvelopeScene::look_from(const Eye& eye, std::span<const std
     if (const auto height = surface_height(tin, {&t, 1}, eye.position)) highest = std::max(highest, *height);
   }
   Look look{eye, highest};
-  if (voids != Voids::kPass) look.shadow.emplace(rim_of(tin, envelope.outline), eye.units);
+  if (voids != Voids::kPass) look.shadow.emplace(rim_of(tin, envelope.outline), eye.units, voids);
   return look;
 }
 

@@ -28,11 +28,6 @@
 
 namespace itin::viewshed {
 
-/// What becomes of lines that cross ground without data and come back.
-enum class Voids { kPass, kBlock, kDoubt };
-/// For answers that leave nothing open: what is not known hides nothing.
-Voids voids_without_doubt(NoData rule);
-
 class EnvelopeScene {
  public:
   EnvelopeScene(Envelope envelope, const Request& request, const RasterGrid& tiles, Voids voids);

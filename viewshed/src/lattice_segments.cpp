@@ -147,8 +147,7 @@ class LatticeSegments {
     const Revealed revealed = reveal(eye, reader, surface, static_cast<std::uint64_t>(std::max(0.0, tiles)), progress_);
     // A bin less, against rounding.
     const double reach = (revealed.reach - 1) * reader.lattice().spacing * reader.lattice().grid.resolution;
-    std::optional<VoidShadow> shadow;
-    if (request_.nodata == NoData::kBlock && result.crosses_voids) shadow.emplace(surface.rim(), eye.units);
+    const std::optional<VoidShadow> shadow = shadow_of(eye, surface, result);
     result.statistics.retrieval += reader.lattice().statistics;
     result.statistics.triangles += reader.lattice().triangle_count();
     result.statistics.retrieval_seconds += watch_.lap();

@@ -26,8 +26,7 @@ class LookAround {
         result_(result),
         observations_(observations),
         shadows_(eyes.size()) {
-    if (result.request.nodata != NoData::kBlock || !result.crosses_voids) return;
-    parallel_for(eyes.size(), [&](std::size_t i) { shadows_[i].emplace(surface.rim(), eyes[i].units); });
+    parallel_for(eyes.size(), [&](std::size_t i) { shadows_[i] = shadow_of(eyes[i], surface, result); });
   }
 
   Tally decide(std::size_t tile) const {
@@ -64,7 +63,7 @@ class LookAround {
   const std::vector<AxisSweep::View>& views_;  ///< each eye's
   Result& result_;
   const Observations& observations_;
-  std::vector<std::optional<VoidShadow>> shadows_;  ///< of each eye, where ground without data hides
+  std::vector<std::optional<VoidShadow>> shadows_;  ///< each eye's
 };
 
 }  // namespace
@@ -84,9 +83,7 @@ void look_around(const FullSurface& surface, const Observations& observations, c
       progress.report("sight lines", static_cast<double>(now) / static_cast<double>(count));
   });
   for (const Tally& tally : tallies) {
-    result.cells.visible += tally.cells.visible;
-    result.cells.hidden += tally.cells.hidden;
-    result.cells.outside += tally.cells.outside;
+    result.cells += tally.cells;
     result.statistics.rays += tally.lines;
   }
 }

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <viewshed/viewshed.hpp>
@@ -39,7 +40,7 @@ struct TileLook {
   const Eye& eye;
   const AxisSweep::View& view;  ///< the eye's
   std::uint32_t observer;
-  const VoidShadow* shadow;  ///< what ground without data hides; may be null
+  const VoidShadow* shadow;  ///< shadow_of() the eye; may be null
   FullSurface::TileWork& work;
 
   /// Calls visit(look) for every cell that has ground; the looks lead to the ground.
@@ -71,6 +72,8 @@ class Observation {
     mark_visible(look.cell);
     keep(look);
   }
+  /// The target is seen across ground without data, which may hide it.
+  virtual void doubt(std::size_t) {}
   /// Looks at every cell that is open. Returns how many sight lines that took.
   virtual std::uint64_t look(const TileLook& tile);
   /// Counts the cells, and writes them to their places in the result.
@@ -90,11 +93,15 @@ class Observation {
   }
   /// A row of `columns` cells, from `cell` in the tile to `place` in the grid.
   virtual void store_row(std::size_t, std::size_t, std::size_t, Result&) const {}
+  virtual void count_row(std::size_t cell, std::size_t columns, CellCounts& cells) const;
 
   TileValues<std::uint8_t> values_;  ///< kOutside, kHidden, kVisible
 };
 
-/// Makes the Observations of a request's mode, which is not kCertified. All that it is given must outlive it and them.
+/// What ground without data hides from the eye, or leaves in doubt, where that changes the result.
+std::optional<VoidShadow> shadow_of(const Eye& eye, const FullSurface& surface, const Result& result);
+
+/// Makes the Observations of a request's mode. All that it is given must outlive it and them.
 class Observations {
  public:
   /// For modes that need no more than sight lines.

@@ -1,9 +1,13 @@
+#include "precise.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <bit>
 #include <cmath>
 #include <numeric>
 #include <optional>
+
+#include <fmt/format.h>
 
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
@@ -85,6 +89,17 @@ class InSegments {
           "blockers and probabilities need the whole window in memory: give more --memory or a smaller --radius");
   }
 
+  [[noreturn]] void refuse_voids() const {
+    if (request_.mode == Mode::kCertified)
+      throw InputError(fmt::format(
+          "with --themes, --mode certified under --nodata {} needs the whole window in memory, and that is too large: "
+          "give --nodata clear or a smaller --radius",
+          nodata_text(request_.nodata)));
+    throw InputError(
+        "with --themes, or for heights and angles, --nodata block needs the whole window in memory: give more --memory "
+        "or a smaller --radius");
+  }
+
   /// Certificates know nothing of what stands on the ground, and cells that a coarse level decides have no exact height
   /// of ground.
   bool whole_lines() const { return features_ || request_.mode == Mode::kHeight || request_.mode == Mode::kAngle; }
@@ -127,12 +142,9 @@ class InSegments {
     tiles_ = grid_of_tiles(result.grid);
     look_for_voids(envelope.lower.grid, rim_of(envelope.lower, envelope.outline), result);
     ground_.emplace(store_, envelope.lower.bounds());
-    if (whole_lines() && result.crosses_voids && request_.nodata == NoData::kBlock)
-      throw InputError(
-          "with --themes, or for heights and angles, --nodata block needs the whole window in memory: give more "
-          "--memory or a smaller --radius");
+    if (whole_lines() && result.crosses_voids && voids_of(request_) != Voids::kPass) refuse_voids();
     surveyed_.surface.tin = envelope.lower;
-    if (!whole_lines()) coarse_.emplace(std::move(envelope), request_, tiles_, voids_without_doubt(request_.nodata));
+    if (!whole_lines()) coarse_.emplace(std::move(envelope), request_, tiles_, voids_of(request_));
     result.statistics.scene_seconds += watch_.lap();
   }
 
@@ -178,15 +190,17 @@ class InSegments {
         const auto work = segment.full.begin(cells[i]);
         const std::uint64_t lines = segment.full.judge(eye, view, values, *work);
         // The edges of the window are no voids.
-        if (coarse_look.shadow) coarse_look.shadow->hide(work->centres, values);
+        if (coarse_look.shadow) coarse_look.shadow->fall_on(work->centres, values);
         return lines;
       });
     }
     surveyed_.result.statistics.rays += raster.rays();
     for_each_look(eye, observer, [&](std::size_t tile, const Look& look, std::size_t place) {
       const std::uint8_t value = raster.values()[place];
-      if (value != kOutside) observations_[tile]->enter(look.cell);
+      if (value == kOutside) return;
+      observations_[tile]->enter(look.cell);
       if (value == kCertainlyVisible) observations_[tile]->see(look);
+      if (value == kUndecided) observations_[tile]->doubt(look.cell);
     });
   }
 
@@ -308,8 +322,13 @@ class InSegments {
 
 Surveyed compute_precise(const Store& store, const Request& request, const PreciseOptions& options,
                          Progress& progress) {
-  validate(request);
   if (request.mode == Mode::kCertified) throw InputError("precise viewsheds leave nothing undecided");
+  return compute_exactly(store, request, options, progress);
+}
+
+Surveyed compute_exactly(const Store& store, const Request& request, const PreciseOptions& options,
+                         Progress& progress) {
+  validate(request);
   Request whole = request;
   whole.detail = Detail::tolerance(0);
   const Box box = box_of_window(store, request);
