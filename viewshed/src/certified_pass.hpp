@@ -18,10 +18,10 @@
 
 #include <viewshed/viewshed.hpp>
 
+#include "cell_tiles.hpp"
 #include "envelope.hpp"
 #include "eye.hpp"
 #include "scene.hpp"
-#include "surface_heights.hpp"
 #include "triangle_bins.hpp"
 #include "upper_scene.hpp"
 #include "void_shadow.hpp"

@@ -11,6 +11,7 @@
 
 #include "eye.hpp"
 #include "first_blocker.hpp"
+#include "grid_units.hpp"
 #include "height_pyramid.hpp"
 #include "request.hpp"
 #include "sight_line.hpp"

@@ -44,13 +44,11 @@ class LookAround {
  private:
   /// The eyes that reach the tile, the nearest first: they most often settle what is asked of the others.
   std::vector<std::uint32_t> eyes_near(const Tile& tile) const {
-    const Point2 nw = surface_.grid().centre(tile.column, tile.row);
-    const Point2 se = surface_.grid().centre(tile.column + tile.columns - 1, tile.row + tile.rows - 1);
+    const Box centres = box_of_centres(surface_.grid(), tile);
     std::vector<std::pair<double, std::uint32_t>> order;
     for (std::uint32_t i = 0; i < eyes_.size(); ++i) {
-      const Point2 p = eyes_[i].position;
-      const double dx = p.x - std::clamp(p.x, nw.x, se.x), dy = p.y - std::clamp(p.y, se.y, nw.y);
-      if (const double squared = dx * dx + dy * dy; eyes_[i].view.reaches(squared)) order.emplace_back(squared, i);
+      const double squared = squared_distance(eyes_[i].position, centres);
+      if (eyes_[i].view.reaches(squared)) order.emplace_back(squared, i);
     }
     std::sort(order.begin(), order.end());
     std::vector<std::uint32_t> observers;

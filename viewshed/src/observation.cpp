@@ -136,13 +136,12 @@ std::uint64_t Observation::look(const TileLook& tile) {
 
 void Observation::store(const Tile& tile, Result& result, CellCounts& cells) const {
   const auto columns = static_cast<std::size_t>(tile.columns);
-  for (std::int64_t r = 0; r < tile.rows; ++r) {
-    const auto cell = static_cast<std::size_t>(r * Tile::kSide);
-    const std::size_t place = result.grid.index({tile.column, tile.row + r});
+  for_each_row(tile, [&](std::size_t cell, RasterGrid::Cell first) {
+    const std::size_t place = result.grid.index(first);
     copy_row(values_, cell, columns, result.visible.data() + place);
     store_row(cell, columns, place, result);
     count_row(cell, columns, cells);
-  }
+  });
 }
 
 void Observation::count_row(std::size_t cell, std::size_t columns, CellCounts& cells) const {

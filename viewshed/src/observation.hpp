@@ -17,10 +17,10 @@
 
 #include <viewshed/viewshed.hpp>
 
+#include "cell_tiles.hpp"
 #include "eye.hpp"
 #include "first_blocker.hpp"
 #include "full_surface.hpp"
-#include "surface_heights.hpp"
 #include "vertical_odds.hpp"
 #include "void_shadow.hpp"
 
@@ -125,15 +125,14 @@ void store_all(const std::vector<std::unique_ptr<Observation>>& observations, co
 template <class Visit>
 void TileLook::for_each_cell(const Visit& visit) const {
   const Grid& units = surface.units();
-  for (std::int64_t r = 0; r < work.tile.rows; ++r) {
-    const double dy = surface.grid().centre_y(work.tile.row + r) - eye.position.y;
-    for (std::int64_t c = 0; c < work.tile.columns; ++c) {
-      const auto cell = static_cast<std::size_t>(r * Tile::kSide + c);
+  for_each_row(work.tile, [&](std::size_t first, RasterGrid::Cell place) {
+    const double dy = surface.grid().centre_y(place.row) - eye.position.y;
+    for (std::size_t cell = first; place.column < work.tile.column + work.tile.columns; ++cell, ++place.column) {
       if (std::isnan(work.ground[cell])) continue;
-      const double dx = surface.grid().centre_x(work.tile.column + c) - eye.position.x;
+      const double dx = surface.grid().centre_x(place.column) - eye.position.x;
       visit(Look{cell, observer, dx, dy, work.ground[cell] * units.resolution - eye.elevation});
     }
-  }
+  });
 }
 
 }  // namespace itin::viewshed

@@ -13,7 +13,7 @@
 #include <itin/raster.hpp>
 #include <viewshed/certified.hpp>
 
-#include "surface_heights.hpp"
+#include "cell_tiles.hpp"
 
 namespace itin::viewshed {
 
@@ -35,30 +35,24 @@ class ObserverRaster {
       const Tile tile = tile_at(grid_, tiles_, tiles[i]);
       TileValues<std::uint8_t> values;
       values.fill(kOutside);
-      for_each_row(tile, [&](std::size_t in_tile, std::size_t in_grid, std::size_t n) {
-        std::copy_n(values_.data() + in_grid, n, values.data() + in_tile);
+      const auto columns = static_cast<std::size_t>(tile.columns);
+      for_each_row(tile, [&](std::size_t cell, RasterGrid::Cell place) {
+        std::copy_n(values_.data() + grid_.index(place), columns, values.data() + cell);
       });
       rays_ += decide(i, values);
-      for_each_row(tile, [&](std::size_t in_tile, std::size_t in_grid, std::size_t n) {
-        std::copy_n(values.data() + in_tile, n, values_.data() + in_grid);
+      for_each_row(tile, [&](std::size_t cell, RasterGrid::Cell place) {
+        std::copy_n(values.data() + cell, columns, values_.data() + grid_.index(place));
       });
       report(tile);
     });
   }
 
  private:
-  template <class Visit>
-  void for_each_row(const Tile& tile, const Visit& visit) const {
-    for (std::int64_t r = 0; r < tile.rows; ++r)
-      visit(static_cast<std::size_t>(r * Tile::kSide), grid_.index({tile.column, tile.row + r}),
-            static_cast<std::size_t>(tile.columns));
-  }
-
   void report(const Tile& tile) {
     std::uint64_t now = 0;
-    for_each_row(tile, [&](std::size_t, std::size_t in_grid, std::size_t n) {
-      now += static_cast<std::uint64_t>(
-          n - static_cast<std::size_t>(std::count(values_.data() + in_grid, values_.data() + in_grid + n, kUndecided)));
+    for_each_row(tile, [&](std::size_t, RasterGrid::Cell place) {
+      const auto first = values_.begin() + static_cast<std::ptrdiff_t>(grid_.index(place));
+      now += static_cast<std::uint64_t>(tile.columns - std::count(first, first + tile.columns, kUndecided));
     });
     const std::lock_guard lock(mutex_);
     std::uint64_t& before = decided_[grid_.index({tile.column, tile.row})];

@@ -14,7 +14,7 @@
 #include <itin/triangulate.hpp>
 #include <viewshed/certified.hpp>
 
-#include "cell_box.hpp"
+#include "cell_tiles.hpp"
 #include "certified_pass.hpp"
 #include "full_surface.hpp"
 #include "ground_tiles.hpp"
@@ -209,15 +209,10 @@ class InSegments {
   void for_each_look(const Eye& eye, std::uint32_t observer, const Visit& visit) const {
     const RasterGrid& grid = surveyed_.result.grid;
     parallel_for(observations_.size(), [&](std::size_t i) {
-      const Tile tile = tile_at(grid, tiles_, i);
-      for (std::int64_t r = 0; r < tile.rows; ++r) {
-        for (std::int64_t c = 0; c < tile.columns; ++c) {
-          const Point2 centre = grid.centre(tile.column + c, tile.row + r);
-          const auto cell = static_cast<std::size_t>(r * Tile::kSide + c);
-          visit(i, Look{cell, observer, centre.x - eye.position.x, centre.y - eye.position.y, 0},
-                grid.index({tile.column + c, tile.row + r}));
-        }
-      }
+      for_each_cell(tile_at(grid, tiles_, i), [&](std::size_t cell, RasterGrid::Cell place) {
+        const Point2 centre = grid.centre(place.column, place.row);
+        visit(i, Look{cell, observer, centre.x - eye.position.x, centre.y - eye.position.y, 0}, grid.index(place));
+      });
     });
   }
 
@@ -266,8 +261,7 @@ class InSegments {
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t tile = 0; tile < needed.size(); ++tile) {
       if (needed[tile].empty()) continue;
-      const RasterGrid::Cell cell{static_cast<std::int64_t>(tile) % tiles_.columns(),
-                                  static_cast<std::int64_t>(tile) / tiles_.columns()};
+      const RasterGrid::Cell cell = place_of(tiles_, tile);
       const Point2 centre = tiles_.centre(cell.column, cell.row);
       order.emplace_back(std::atan2(centre.x - eye.position.x, centre.y - eye.position.y), tile);
     }
@@ -298,7 +292,7 @@ class InSegments {
   Window window_over(const std::vector<std::size_t>& cells) const {
     std::vector<Window::Polygon> parts;
     for (const std::size_t i : cells) {
-      const Box b = cell_box(tiles_, i);
+      const Box b = box_of_cell(tiles_, place_of(tiles_, i));
       parts.push_back({{{b.xmin, b.ymin}, {b.xmax, b.ymin}, {b.xmax, b.ymax}, {b.xmin, b.ymax}}, {}});
     }
     return Window::polygons(std::move(parts));

@@ -5,6 +5,8 @@
 
 #include <itin/parallel.hpp>
 
+#include "grid_units.hpp"
+
 namespace itin::viewshed {
 
 namespace {
@@ -14,17 +16,14 @@ void survey_tile(const AxisSweep::View& radar, const FullSurface& surface, const
   const double resolution = surface.units().resolution;
   for (std::size_t i = 0; i < work.ground.size(); ++i) work.targets[i] = work.ground[i] + kRadarCeiling / resolution;
   surface.raise_from(radar, {work.ground, work.ground}, work);
-  for (std::int64_t r = 0; r < work.tile.rows; ++r) {
-    for (std::int64_t c = 0; c < work.tile.columns; ++c) {
-      const auto cell = static_cast<std::size_t>(r * Tile::kSide + c);
-      if (std::isnan(work.ground[cell]) || std::isnan(work.seen[cell])) continue;
-      const Point3 top = work.target(cell);
-      if (shadow != nullptr && shadow->holds(top.x, top.y)) continue;
-      const bool at_radar = std::isinf(work.seen[cell]);
-      result[surface.grid().index({work.tile.column + c, work.tile.row + r})] =
-          at_radar ? 0 : static_cast<float>((work.seen[cell] - work.ground[cell]) * resolution);
-    }
-  }
+  for_each_cell(work.tile, [&](std::size_t cell, RasterGrid::Cell place) {
+    if (std::isnan(work.ground[cell]) || std::isnan(work.seen[cell])) return;
+    const Point2 top = work.centres.at(cell);
+    if (shadow != nullptr && shadow->holds(top.x, top.y)) return;
+    const bool at_radar = std::isinf(work.seen[cell]);
+    result[surface.grid().index(place)] =
+        at_radar ? 0 : static_cast<float>((work.seen[cell] - work.ground[cell]) * resolution);
+  });
 }
 
 }  // namespace

@@ -97,8 +97,8 @@ bool VoidShadow::comes_from_void(const Numbers& edges, const Vector& corner) con
 void VoidShadow::fall_on(const TileCentres& centres, TileValues<std::uint8_t>& values) const {
   if (sectors_.empty()) return;
   for (std::size_t cell = 0; cell < values.size(); ++cell) {
-    if (values[cell] == kCertainlyVisible && holds(centres.x[cell % Tile::kSide], centres.y[cell / Tile::kSide]))
-      values[cell] = shaded_;
+    const Point2 place = centres.at(cell);
+    if (values[cell] == kCertainlyVisible && holds(place.x, place.y)) values[cell] = shaded_;
   }
 }
 

@@ -11,7 +11,7 @@
 #include <itin/lattice_tin.hpp>
 #include <viewshed/viewshed.hpp>
 
-#include "surface_heights.hpp"
+#include "cell_tiles.hpp"
 
 namespace itin::viewshed {
 

@@ -7,7 +7,9 @@
 #include <itin/parallel.hpp>
 
 #include "../certified_pass.hpp"
+#include "../grid_units.hpp"
 #include "../sight_line.hpp"
+#include "../surface_heights.hpp"
 #include "clear_zone.hpp"
 #include "group_survey.hpp"
 #include "point_bins.hpp"
