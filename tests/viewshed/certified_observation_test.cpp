@@ -20,6 +20,7 @@
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/terrain_tin.hpp"
+#include "support/told_progress.hpp"
 #include "support/vector_file.hpp"
 
 namespace itin::viewshed {
@@ -130,6 +131,23 @@ TEST_F(CertifiedOverVoids, NothingIsOpenUnderTheOtherRules) {
       EXPECT_EQ(found.cells.visible, expected.cells.visible);
       EXPECT_EQ(found.cells.hidden, expected.cells.hidden);
     }
+  }
+}
+
+TEST_F(CertifiedOverVoids, ProgressOnlyGrowsAndReachesTheEnd) {
+  const Store store(path());
+  const Request request = look();
+  // The observers see a part of the cells alone.
+  for (const Mode mode : {Mode::kCertified, Mode::kAngle}) {
+    Request of_mode = request;
+    of_mode.mode = mode;
+    test::ToldProgress whole, segments, sectors;
+    compute_exactly(store, of_mode, {kMuch, false}, whole);
+    whole.expect_whole("sight lines");
+    compute_exactly(store, of_mode, {4000000, false}, segments);
+    segments.expect_whole("cells decided");
+    ASSERT_TRUE(compute_in_lattice_segments(store, of_mode, 400000, sectors));
+    sectors.expect_whole("cells decided");
   }
 }
 

@@ -1,9 +1,4 @@
-#include <algorithm>
-#include <atomic>
-#include <cmath>
-
 #include <itin/lattice_reader.hpp>
-#include <itin/parallel.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/certified.hpp>
 
@@ -12,6 +7,7 @@
 #include "near_ground.hpp"
 #include "precise.hpp"
 #include "request.hpp"
+#include "stage.hpp"
 #include "stopwatch.hpp"
 #include "verdicts.hpp"
 
@@ -43,14 +39,8 @@ Tally decide(const CertifiedPass& pass, std::size_t tile, const std::vector<Enve
 void decide_all(const CertifiedPass& pass, const RasterGrid& tiles, const std::vector<EnvelopeScene::Look>& looks,
                 Result& result, Progress& progress) {
   std::vector<Tally> tallies(tiles.cell_count());
-  std::atomic<std::size_t> done = 0;
-  parallel_for(tallies.size(), [&](std::size_t i) {
-    progress.throw_if_cancelled();
-    tallies[i] = decide(pass, i, looks, result);
-    const std::size_t now = ++done;
-    if (now % 64 == 0 || now == tallies.size())
-      progress.report("sight lines", static_cast<double>(now) / static_cast<double>(tallies.size()));
-  });
+  for_each_step(tallies.size(), "sight lines", progress,
+                [&](std::size_t i) { tallies[i] = decide(pass, i, looks, result); });
   for (const Tally& tally : tallies) {
     result.cells += tally.cells;
     result.statistics.rays += tally.rays;

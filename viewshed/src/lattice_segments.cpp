@@ -12,7 +12,6 @@
 
 #include <itin/error.hpp>
 #include <itin/lattice_reader.hpp>
-#include <itin/parallel.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/surface.hpp>
 
@@ -23,6 +22,7 @@
 #include "request.hpp"
 #include "reveal.hpp"
 #include "sight_sectors.hpp"
+#include "stage.hpp"
 #include "stopwatch.hpp"
 #include "store_viewshed.hpp"
 #include "unreported.hpp"
@@ -56,6 +56,7 @@ class LatticeSegments {
     const std::vector<Eye> eyes = eyes_on_full_surface(store_, request_, result.ground_m, progress_);
     retrieve_coarse();
     observations_ = Observations(request_).of_tiles(tiles_);
+    stage_.emplace("cells decided", eyes.size() * result.grid.cell_count(), progress_);
     for (std::uint32_t i = 0; i < eyes.size(); ++i)
       if (!look(eyes[i], i)) return std::nullopt;
     store_all(observations_, tiles_, result);
@@ -104,6 +105,7 @@ class LatticeSegments {
       }
       sectors.settle(sector, reach);
     }
+    stage_->advance_to((observer + 1) * surveyed_.result.grid.cell_count());
     return true;
   }
 
@@ -144,7 +146,7 @@ class LatticeSegments {
     const double unread = kBytesAnUnreadPost * static_cast<double>(reader.lattice().triangle_count()) / 2;
     const double tiles =
         (static_cast<double>(memory_) - unread) / static_cast<double>(kBytesAPost * LatticeTin::kCells);
-    const Revealed revealed = reveal(eye, reader, surface, static_cast<std::uint64_t>(std::max(0.0, tiles)), progress_);
+    const Revealed revealed = reveal(eye, reader, surface, static_cast<std::uint64_t>(std::max(0.0, tiles)), reading_);
     // A bin less, against rounding.
     const double reach = (revealed.reach - 1) * reader.lattice().spacing * reader.lattice().grid.resolution;
     const std::optional<VoidShadow> shadow = shadow_of(eye, surface, result);
@@ -156,17 +158,14 @@ class LatticeSegments {
                  [&](const Tile& part) { return sectors.within(reach, part); });
     const std::vector<PartsOfTile> cells = by_tile(decided, tiles_);
     std::atomic<std::uint64_t> lines = 0;
-    parallel_for(cells.size(), [&](std::size_t i) {
-      progress_.throw_if_cancelled();
+    stage_->for_each(cells.size(), [&](std::size_t i) {
       const auto work = surface.begin(cells[i].tile, cells[i].parts);
       lines += observations_[cells[i].tile]->look(
           {surface, eye, revealed.view, observer, shadow ? &*shadow : nullptr, *work});
+      return cell_count(cells[i].parts);
     });
     result.statistics.rays += lines;
     result.statistics.rays_seconds += watch_.lap();
-    done_ += cell_count(decided);
-    progress_.report("cells decided", static_cast<double>(done_) /
-                                          static_cast<double>(result.grid.cell_count() * request_.observers.size()));
     return reach;
   }
 
@@ -183,7 +182,7 @@ class LatticeSegments {
   double posts_a_square_metre_ = 0;
   double tile_side_m_ = 0;                                  ///< of a tile of the lattice, as far as it is known
   bool is_lattice_ = false;                                 ///< as far as has been read
-  std::size_t done_ = 0;                                    ///< cells, of all observers
+  std::optional<Stage> stage_;                              ///< its steps are cells, of all observers
   std::vector<std::unique_ptr<Observation>> observations_;  ///< a tile
 };
 

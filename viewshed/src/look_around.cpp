@@ -1,11 +1,12 @@
 #include "look_around.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <optional>
 #include <utility>
 
 #include <itin/parallel.hpp>
+
+#include "stage.hpp"
 
 namespace itin::viewshed {
 
@@ -70,16 +71,8 @@ void look_around(const FullSurface& surface, const Observations& observations, c
                  const std::vector<AxisSweep::View>& views, Result& result, Progress& progress) {
   Observation::prepare(result);
   const LookAround looks(surface, observations, eyes, views, result);
-  const std::size_t count = surface.tiles().cell_count();
-  std::atomic<std::size_t> done = 0;
-  std::vector<Tally> tallies(count);
-  parallel_for(count, [&](std::size_t i) {
-    progress.throw_if_cancelled();
-    tallies[i] = looks.decide(i);
-    const std::size_t now = ++done;
-    if (now % 64 == 0 || now == count)
-      progress.report("sight lines", static_cast<double>(now) / static_cast<double>(count));
-  });
+  std::vector<Tally> tallies(surface.tiles().cell_count());
+  for_each_step(tallies.size(), "sight lines", progress, [&](std::size_t i) { tallies[i] = looks.decide(i); });
   for (const Tally& tally : tallies) {
     result.cells += tally.cells;
     result.statistics.rays += tally.lines;

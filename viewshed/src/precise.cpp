@@ -23,8 +23,10 @@
 #include "observation.hpp"
 #include "observer_raster.hpp"
 #include "request.hpp"
+#include "stage.hpp"
 #include "stopwatch.hpp"
 #include "store_viewshed.hpp"
+#include "unreported.hpp"
 
 namespace itin::viewshed {
 
@@ -67,7 +69,8 @@ class InSegments {
         features_(features_stand(store, request)),
         box_(box_of_window(store, request)),
         memory_(memory),
-        progress_(progress) {}
+        progress_(progress),
+        reading_(progress) {}
 
   Surveyed run() {
     require_mode();
@@ -76,6 +79,7 @@ class InSegments {
     const std::vector<Eye> eyes = eyes_on_full_surface(store_, request_, result.ground_m, progress_);
     retrieve_coarse();
     observations_ = Observations(request_).of_tiles(tiles_);
+    stage_.emplace("cells decided", eyes.size() * result.grid.cell_count(), progress_);
     for (std::uint32_t i = 0; i < eyes.size(); ++i) look(eyes[i], i);
     store_all(observations_, tiles_, result);
     result.statistics.rays_seconds += watch_.lap();
@@ -115,7 +119,7 @@ class InSegments {
   }
 
   Tin triangulated(const Window& window, const ThemeChoice& themes) {
-    Tin tin = triangulate(store_, window, Detail::tolerance(0), progress_, themes);
+    Tin tin = triangulate(store_, window, Detail::tolerance(0), reading_, themes);
     Statistics& statistics = surveyed_.result.statistics;
     statistics.retrieval += tin.statistics;
     statistics.retrieval_seconds += watch_.lap();
@@ -154,28 +158,27 @@ class InSegments {
     } else {
       look_certified(eye, observer);
     }
+    stage_->advance_to((observer + 1) * surveyed_.result.grid.cell_count());
   }
 
   /// All ground under all lines.
   void look_over(const Eye& eye, std::uint32_t observer) {
     const std::vector<TileSet> needed = under_lines(eye, observer);
     std::atomic<std::uint64_t> lines = 0;
-    std::atomic<std::size_t> done = 0;
     for (const std::vector<std::size_t>& cells : segments(eye, needed)) {
       const OwnedSurface segment = refine(cells, needed);
       const AxisSweep::View view = segment.full.view_from(eye);
-      parallel_for(cells.size(), [&](std::size_t i) {
-        progress_.throw_if_cancelled();
-        lines +=
-            observations_[cells[i]]->look({segment.full, eye, view, observer, nullptr, *segment.full.begin(cells[i])});
-        progress_.report("cells decided", static_cast<double>(++done) / static_cast<double>(needed.size()));
+      stage_->for_each(cells.size(), [&](std::size_t i) {
+        const auto work = segment.full.begin(cells[i]);
+        lines += observations_[cells[i]]->look({segment.full, eye, view, observer, nullptr, *work});
+        return static_cast<std::size_t>(work->tile.columns * work->tile.rows);
       });
     }
     surveyed_.result.statistics.rays += lines;
   }
 
   void look_certified(const Eye& eye, std::uint32_t observer) {
-    ObserverRaster raster(surveyed_.result.grid, tiles_, progress_);
+    ObserverRaster raster(surveyed_.result.grid, tiles_, *stage_);
     for_each_look(eye, observer, [&](std::size_t tile, const Look& look, std::size_t place) {
       if (!observations_[tile]->open(look)) raster.values()[place] = kOutside;
     });
@@ -304,11 +307,13 @@ class InSegments {
   Box box_;
   std::uint64_t memory_;  ///< bytes, without the rasters
   Progress& progress_;
+  Unreported reading_;  ///< of a segment
   Stopwatch watch_;
   Surveyed surveyed_;
   RasterGrid tiles_;
   std::optional<GroundTiles> ground_;
   std::optional<EnvelopeScene> coarse_;                     ///< unless whole lines are needed
+  std::optional<Stage> stage_;                              ///< its steps are cells, of all observers
   std::vector<std::unique_ptr<Observation>> observations_;  ///< a tile
 };
 

@@ -3,9 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include <itin/parallel.hpp>
-
 #include "grid_units.hpp"
+#include "stage.hpp"
 
 namespace itin::viewshed {
 
@@ -31,11 +30,8 @@ void survey_tile(const AxisSweep::View& radar, const FullSurface& surface, const
 std::vector<float> radar_heights(const AxisSweep::View& radar, const FullSurface& surface, const VoidShadow* shadow,
                                  Progress& progress) {
   std::vector<float> result(surface.grid().cell_count(), std::numeric_limits<float>::quiet_NaN());
-  progress.report("radar", 0);
-  parallel_for(surface.tiles().cell_count(), [&](std::size_t tile) {
-    progress.throw_if_cancelled();
-    survey_tile(radar, surface, shadow, *surface.begin(tile), result);
-  });
+  for_each_step(surface.tiles().cell_count(), "radar", progress,
+                [&](std::size_t tile) { survey_tile(radar, surface, shadow, *surface.begin(tile), result); });
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include <itin/parallel.hpp>
 
 #include "grid_units.hpp"
+#include "stage.hpp"
 
 namespace itin::viewshed {
 
@@ -49,15 +50,9 @@ ZoneSurvey::ZoneSurvey(const FullSurface& ground, const Zone& zone) : ground_(gr
 std::uint64_t ZoneSurvey::run(const Screen& screen, std::span<const std::size_t> tiles, const std::string& stage,
                               Visibility& result, Progress& progress) const {
   const Views views = views_over(screen.sweep);
-  std::atomic<std::size_t> done = 0;
   std::atomic<std::uint64_t> lines = 0;
-  parallel_for(tiles.size(), [&](std::size_t i) {
-    progress.throw_if_cancelled();
-    lines += decide(tiles[i], screen, views, result);
-    const std::size_t now = ++done;
-    if (now % 16 == 0 || now == tiles.size())
-      progress.report(stage, static_cast<double>(now) / static_cast<double>(tiles.size()));
-  });
+  for_each_step(tiles.size(), stage, progress,
+                [&](std::size_t i) { lines += decide(tiles[i], screen, views, result); });
   return lines;
 }
 

@@ -8,6 +8,7 @@
 #include <itin/parallel.hpp>
 #include <viewshed/certified.hpp>
 
+#include "../stage.hpp"
 #include "cell_blocks.hpp"
 
 namespace itin::viewshed {
@@ -143,14 +144,8 @@ std::vector<CoverageBounds> judge_tiles(const TileJudge& judge, const SiteSurvey
   const RasterGrid tiles = grid_of_tiles(*survey.targets.grid);
   std::vector<std::vector<TileCover>> covers(tiles.cell_count());
   std::atomic<std::uint64_t> rays = 0;
-  std::atomic<std::size_t> done = 0;
-  parallel_for(covers.size(), [&](std::size_t t) {
-    progress.throw_if_cancelled();
-    rays += judge_tile(judge, survey, looks, tiles, t, covers[t]);
-    const std::size_t now = ++done;
-    if (now % 16 == 0 || now == covers.size())
-      progress.report("sight lines of candidates", static_cast<double>(now) / static_cast<double>(covers.size()));
-  });
+  for_each_step(covers.size(), "sight lines of candidates", progress,
+                [&](std::size_t t) { rays += judge_tile(judge, survey, looks, tiles, t, covers[t]); });
   statistics.rays += rays;
   return gather(survey, tiles, looks.options.size(), covers);
 }
