@@ -14,7 +14,7 @@
 #include <itin/import.hpp>
 #include <viewshed/certified.hpp>
 
-#include "lattice_segments.hpp"
+#include "lattice_sectors.hpp"
 #include "precise.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
@@ -111,7 +111,7 @@ TEST_F(CertifiedOverVoids, OneRunIsTwoInAnyMemory) {
     SCOPED_TRACE(options.memory_bytes);
     expect_same(expected, compute_exactly(store, request, options, progress_).result);
   }
-  const auto sectors = compute_in_lattice_segments(store, request, 400000, progress_);
+  const auto sectors = compute_by_lattice_sectors(store, request, 400000, progress_);
   ASSERT_TRUE(sectors);
   expect_same(expected, sectors->result);
   EXPECT_GT(sectors->result.statistics.triangles, std::uint64_t{2 * kSide * kSide}) << "not in sectors";
@@ -146,7 +146,7 @@ TEST_F(CertifiedOverVoids, ProgressOnlyGrowsAndReachesTheEnd) {
     whole.expect_whole("sight lines");
     compute_exactly(store, of_mode, {4000000, false}, segments);
     segments.expect_whole("cells decided");
-    ASSERT_TRUE(compute_in_lattice_segments(store, of_mode, 400000, sectors));
+    ASSERT_TRUE(compute_by_lattice_sectors(store, of_mode, 400000, sectors));
     sectors.expect_whole("cells decided");
   }
 }

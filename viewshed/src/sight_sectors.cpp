@@ -108,19 +108,4 @@ std::vector<PartsOfTile> by_tile(std::span<const Tile> parts, const RasterGrid& 
   return all;
 }
 
-double area_of(const std::vector<Point2>& ring) {
-  double doubled = 0;
-  for (std::size_t i = 2; i < ring.size(); ++i) doubled += left_of(ring[0], ring[i - 1], ring[i]);
-  return doubled / 2;
-}
-
-double length_of(const std::vector<Point2>& ring) {
-  double length = 0;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Point2 &a = ring[i], &b = ring[(i + 1) % ring.size()];
-    length += std::hypot(b.x - a.x, b.y - a.y);
-  }
-  return length;
-}
-
 }  // namespace itin::viewshed

@@ -69,9 +69,4 @@ void for_each_cell(const PartsOfTile& cells, const Tile& tile, const Visit& visi
     for_each_cell(part, [&](std::size_t, RasterGrid::Cell place) { visit(tile.cell(place)); });
 }
 
-/// Square metres.
-double area_of(const std::vector<Point2>& ring);
-/// Metres, all around.
-double length_of(const std::vector<Point2>& ring);
-
 }  // namespace itin::viewshed

@@ -1,4 +1,4 @@
-#include "lattice_segments.hpp"
+#include "lattice_sectors.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -17,6 +17,7 @@
 
 #include "boundary.hpp"
 #include "full_surface.hpp"
+#include "hulls.hpp"
 #include "near_ground.hpp"
 #include "observation.hpp"
 #include "request.hpp"
@@ -39,9 +40,9 @@ constexpr double kFirstShareSeen = 0.25;
 /// Of the surface that maps are drawn over, at most.
 constexpr std::uint64_t kCoarsePoints = 200000;
 
-class LatticeSegments {
+class LatticeSectors {
  public:
-  LatticeSegments(const Store& store, const Request& request, std::uint64_t memory, Progress& progress)
+  LatticeSectors(const Store& store, const Request& request, std::uint64_t memory, Progress& progress)
       : store_(store),
         request_(request),
         memory_(memory),
@@ -188,10 +189,10 @@ class LatticeSegments {
 
 }  // namespace
 
-std::optional<Surveyed> compute_in_lattice_segments(const Store& store, const Request& request, std::uint64_t memory,
-                                                    Progress& progress) {
+std::optional<Surveyed> compute_by_lattice_sectors(const Store& store, const Request& request, std::uint64_t memory,
+                                                   Progress& progress) {
   if (needs_tin(request) || features_stand(store, request)) return std::nullopt;
-  return LatticeSegments(store, request, memory, progress).run();
+  return LatticeSectors(store, request, memory, progress).run();
 }
 
 }  // namespace itin::viewshed
