@@ -9,9 +9,9 @@
 
 #include "eye.hpp"
 #include "field_of_view.hpp"
+#include "grid_units.hpp"
 #include "scene.hpp"
 #include "sight_line.hpp"
-#include "surface_heights.hpp"
 
 namespace itin::test {
 

@@ -11,11 +11,13 @@
 #include <gtest/gtest.h>
 
 #include "boundary.hpp"
+#include "grid_units.hpp"
 #include "support/delaunay_tin.hpp"
 #include "support/exact_line_of_sight.hpp"
 #include "support/real_terrain.hpp"
 #include "support/seed.hpp"
 #include "support/terrain_tin.hpp"
+#include "surface_heights.hpp"
 
 namespace itin::viewshed {
 namespace {

@@ -13,6 +13,7 @@
 #include <viewshed/certified.hpp>
 
 #include "eye.hpp"
+#include "grid_units.hpp"
 #include "scene.hpp"
 #include "support/brute_force_viewshed.hpp"
 #include "support/exact_line_of_sight.hpp"
@@ -20,7 +21,6 @@
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/terrain_tin.hpp"
-#include "surface_heights.hpp"
 
 namespace itin::viewshed {
 namespace {

@@ -9,10 +9,10 @@
 
 #include <itin/earth.hpp>
 
+#include "grid_units.hpp"
 #include "support/exact_line_of_sight.hpp"
 #include "support/seed.hpp"
 #include "support/terrain_tin.hpp"
-#include "surface_heights.hpp"
 
 namespace itin::viewshed {
 namespace {

@@ -14,7 +14,7 @@
 #include <viewshed/certified.hpp>
 #include <viewshed/surface.hpp>
 
-#include "lattice_segments.hpp"
+#include "lattice_sectors.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
@@ -136,7 +136,7 @@ TEST_F(Reveal, GroundHidesThoughTargetsWithinItAreHidden) {
   EXPECT_GT(whole.cells.visible, 0U);
   EXPECT_EQ(whole.visible[whole.grid.index({10, whole.grid.rows() / 2})], kHidden);
   expect_same(whole, compute(surface(Heights::kNone), nullptr, request, progress_));
-  const auto parts = compute_in_lattice_segments(*store_, request, 800000, progress_);
+  const auto parts = compute_by_lattice_sectors(*store_, request, 800000, progress_);
   ASSERT_TRUE(parts);
   expect_same(whole, parts->result);
 }
@@ -149,7 +149,7 @@ TEST_F(Reveal, ElevationsAreThoseOfAllGround) {
   expect_same(compute(whole, nullptr, request, progress_), compute(revealed, nullptr, request, progress_));
 }
 
-TEST_F(Reveal, SegmentsMakeTheWhole) {
+TEST_F(Reveal, SectorsMakeTheWhole) {
   for (const double void_radius : {0.0, 60.0}) {
     make(400, void_radius);
     for (const Mode mode : kModes) {
@@ -162,10 +162,10 @@ TEST_F(Reveal, SegmentsMakeTheWhole) {
         EXPECT_EQ(whole.crosses_voids, void_radius > 0);
       }
       for (const std::uint64_t memory : {2000000, 800000}) {
-        const auto parts = compute_in_lattice_segments(*store_, request, memory, progress_);
+        const auto parts = compute_by_lattice_sectors(*store_, request, memory, progress_);
         ASSERT_TRUE(parts);
         expect_same(whole, parts->result);
-        EXPECT_GT(parts->result.statistics.triangles, whole.statistics.triangles) << "not in segments";
+        EXPECT_GT(parts->result.statistics.triangles, whole.statistics.triangles) << "not in sectors";
         ASSERT_EQ(whole.least_height_m.size(), parts->result.least_height_m.size());
         for (std::size_t i = 0; i < whole.least_height_m.size(); ++i) {
           const float a = whole.least_height_m[i], b = parts->result.least_height_m[i];
@@ -195,7 +195,7 @@ TEST_F(Reveal, CellsDoNotDependOnWhatIsRead) {
   request.nodata = NoData::kClear;
   const Result whole = compute(*store_, request, progress_);
   EXPECT_NEAR(whole.grid.bounds().xmin, request.observers[0].position.x - 5000, 40);
-  const auto parts = compute_in_lattice_segments(*store_, request, 800000, progress_);
+  const auto parts = compute_by_lattice_sectors(*store_, request, 800000, progress_);
   ASSERT_TRUE(parts);
   EXPECT_EQ(parts->result.grid.bounds(), whole.grid.bounds());
   expect_same(whole, parts->result);
@@ -209,7 +209,7 @@ TEST_F(Reveal, TooLittleMemoryIsRefused) {
   for (const Mode mode : {Mode::kVisible, Mode::kHeight}) {
     Request request = look(1);
     request.mode = mode;
-    EXPECT_THROW(compute_in_lattice_segments(*store_, request, 20000, progress_), InputError);
+    EXPECT_THROW(compute_by_lattice_sectors(*store_, request, 20000, progress_), InputError);
   }
 }
 

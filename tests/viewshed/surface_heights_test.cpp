@@ -11,6 +11,7 @@
 #include "support/exact_line_of_sight.hpp"
 #include "support/seed.hpp"
 #include "support/terrain_tin.hpp"
+#include "triangle_bins.hpp"
 
 namespace itin::viewshed {
 namespace {

@@ -190,7 +190,8 @@ class AxisSweep::Task {
   }
 
   Point3 other_end(const Cell& cell, double elevation) const {
-    return {ends_.centres.x[cell.index % Tile::kSide], ends_.centres.y[cell.index / Tile::kSide], elevation};
+    const Point2 p = ends_.centres.at(cell.index);
+    return {p.x, p.y, elevation};
   }
   SightLine line_between(const Point3& from, const Point3& to) const {
     return {from, to, sweep_.drop_, sweep_.grazing_};

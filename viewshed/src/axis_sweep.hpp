@@ -27,10 +27,10 @@
 #include <itin/earth.hpp>
 
 #include "binned_heights.hpp"
+#include "cell_tiles.hpp"
 #include "horizon_fan.hpp"
 #include "sector_profile.hpp"
 #include "sight_line.hpp"
-#include "surface_heights.hpp"
 
 namespace itin::viewshed {
 

@@ -1,16 +1,13 @@
-#include <algorithm>
-#include <atomic>
-#include <cmath>
-
 #include <itin/lattice_reader.hpp>
-#include <itin/parallel.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/certified.hpp>
 
 #include "certified_pass.hpp"
 #include "certified_sectors.hpp"
 #include "near_ground.hpp"
+#include "precise.hpp"
 #include "request.hpp"
+#include "stage.hpp"
 #include "stopwatch.hpp"
 #include "verdicts.hpp"
 
@@ -42,25 +39,12 @@ Tally decide(const CertifiedPass& pass, std::size_t tile, const std::vector<Enve
 void decide_all(const CertifiedPass& pass, const RasterGrid& tiles, const std::vector<EnvelopeScene::Look>& looks,
                 Result& result, Progress& progress) {
   std::vector<Tally> tallies(tiles.cell_count());
-  std::atomic<std::size_t> done = 0;
-  parallel_for(tallies.size(), [&](std::size_t i) {
-    progress.throw_if_cancelled();
-    tallies[i] = decide(pass, i, looks, result);
-    const std::size_t now = ++done;
-    if (now % 64 == 0 || now == tallies.size())
-      progress.report("sight lines", static_cast<double>(now) / static_cast<double>(tallies.size()));
-  });
+  for_each_step(tallies.size(), "sight lines", progress,
+                [&](std::size_t i) { tallies[i] = decide(pass, i, looks, result); });
   for (const Tally& tally : tallies) {
-    result.cells.visible += tally.cells.visible;
-    result.cells.hidden += tally.cells.hidden;
-    result.cells.undecided += tally.cells.undecided;
-    result.cells.outside += tally.cells.outside;
+    result.cells += tally.cells;
     result.statistics.rays += tally.rays;
   }
-}
-
-Voids voids_of(NoData rule) {
-  return rule == NoData::kUnknown ? Voids::kDoubt : voids_without_doubt(rule);
 }
 
 /// A point of an envelope costs about as much as two of the full surface, or as so many posts of a lattice.
@@ -91,22 +75,8 @@ Way way_of(const Store& store, const Request& request) {
 
 /// The exact answer, but where ground without data leaves it open.
 Surveyed decide_exactly(const Store& store, const Request& request, Progress& progress) {
-  Request open = request, closed = request;
-  open.mode = closed.mode = Mode::kVisible;
-  if (request.nodata == NoData::kUnknown) open.nodata = NoData::kClear, closed.nodata = NoData::kBlock;
-  Surveyed surveyed = compute_precise(store, open, {}, progress);
-  Result& result = surveyed.result;
-  const bool doubtful = request.nodata == NoData::kUnknown && result.crosses_voids;
-  const std::vector<std::uint8_t> blocked =
-      doubtful ? compute_precise(store, closed, {}, progress).result.visible : result.visible;
-  result.request = request;
-  result.cells = {};
-  for (std::size_t i = 0; i < blocked.size(); ++i) {
-    std::uint8_t& value = result.visible[i];
-    if (value != kOutside)
-      value = value == kHidden ? kCertainlyHidden : blocked[i] == kVisible ? kCertainlyVisible : kUndecided;
-    count(value, result.cells);
-  }
+  Surveyed surveyed = compute_exactly(store, request, {}, progress);
+  surveyed.result.request = request;
   return surveyed;
 }
 
@@ -116,8 +86,7 @@ Surveyed compute_certified(const Store& store, const Request& request, Progress&
   validate(request);
   const Way way = way_of(store, request);
   if (way == Way::kExactly) return decide_exactly(store, request, progress);
-  if (way == Way::kBySectors)
-    return certify_by_sectors(store, request, voids_of(request.nodata), kPointsOfSector, progress);
+  if (way == Way::kBySectors) return certify_by_sectors(store, request, voids_of(request), kPointsOfSector, progress);
   Surveyed surveyed;
   Result& result = surveyed.result;
   result.request = request;
@@ -131,7 +100,7 @@ Surveyed compute_certified(const Store& store, const Request& request, Progress&
   progress.report("scene", 0);
   result.grid = cells_of(request, extent_of(store));
   const RasterGrid tiles = grid_of_tiles(result.grid);
-  const EnvelopeScene scene(std::move(envelope), request, tiles, voids_of(request.nodata));
+  const EnvelopeScene scene(std::move(envelope), request, tiles, voids_of(request));
   std::vector<EnvelopeScene::Look> looks;
   for (const Eye& eye : eyes) looks.push_back(scene.look_from(eye));
   result.statistics.scene_seconds = watch.lap();

@@ -9,12 +9,9 @@
 #include <viewshed/certified.hpp>
 
 #include "request.hpp"
+#include "surface_heights.hpp"
 
 namespace itin::viewshed {
-
-Voids voids_without_doubt(NoData rule) {
-  return rule == NoData::kBlock ? Voids::kBlock : Voids::kPass;
-}
 
 EnvelopeScene::EnvelopeScene(Envelope e, const Request& request, const RasterGrid& tiles, Voids v)
     : envelope(std::move(e)),
@@ -46,7 +43,7 @@ EnvelopeScene::Look EnvelopeScene::look_from(const Eye& eye, std::span<const std
     if (const auto height = surface_height(tin, {&t, 1}, eye.position)) highest = std::max(highest, *height);
   }
   Look look{eye, highest};
-  if (voids != Voids::kPass) look.shadow.emplace(rim_of(tin, envelope.outline), eye.units);
+  if (voids != Voids::kPass) look.shadow.emplace(rim_of(tin, envelope.outline), eye.units, voids);
   return look;
 }
 
@@ -58,13 +55,12 @@ namespace {
 CertifiedPass::BlockValues highest_by_block(const TileValues<double>& heights, const Tile& tile) {
   CertifiedPass::BlockValues highest;
   highest.fill(-std::numeric_limits<double>::infinity());
-  for (std::size_t r = 0; r < static_cast<std::size_t>(tile.rows); ++r) {
-    for (std::size_t c = 0; c < static_cast<std::size_t>(tile.columns); ++c) {
-      const std::size_t block = r / CertifiedPass::kBlockSide * CertifiedPass::kBlocks + c / CertifiedPass::kBlockSide;
-      // Not a number where there is no surface: then nothing is higher.
-      if (heights[r * Tile::kSide + c] > highest[block]) highest[block] = heights[r * Tile::kSide + c];
-    }
-  }
+  for_each_cell(tile, [&](std::size_t cell, RasterGrid::Cell) {
+    const std::size_t r = cell / Tile::kSide, c = cell % Tile::kSide;
+    const std::size_t block = r / CertifiedPass::kBlockSide * CertifiedPass::kBlocks + c / CertifiedPass::kBlockSide;
+    // Not a number where there is no surface: then nothing is higher.
+    if (heights[cell] > highest[block]) highest[block] = heights[cell];
+  });
   return highest;
 }
 

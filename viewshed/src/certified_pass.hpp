@@ -18,20 +18,15 @@
 
 #include <viewshed/viewshed.hpp>
 
+#include "cell_tiles.hpp"
 #include "envelope.hpp"
 #include "eye.hpp"
 #include "scene.hpp"
-#include "surface_heights.hpp"
 #include "triangle_bins.hpp"
 #include "upper_scene.hpp"
 #include "void_shadow.hpp"
 
 namespace itin::viewshed {
-
-/// What becomes of lines that cross ground without data and come back.
-enum class Voids { kPass, kBlock, kDoubt };
-/// For answers that leave nothing open: what is not known hides nothing.
-Voids voids_without_doubt(NoData rule);
 
 class EnvelopeScene {
  public:

@@ -2,16 +2,16 @@
 
 #include <atomic>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
-
-#include <itin/parallel.hpp>
 
 #include "hulls.hpp"
 #include "near_ground.hpp"
 #include "request.hpp"
 #include "sight_sectors.hpp"
+#include "stage.hpp"
 #include "stopwatch.hpp"
 #include "unreported.hpp"
 #include "verdicts.hpp"
@@ -41,7 +41,12 @@ class CertifiedSectors {
     result.grid = cells_of(request_, extent_of(store_));
     tiles_ = grid_of_tiles(result.grid);
     verdicts_.resize(tiles_.cell_count());
-    for (const Eye& eye : eyes) look(eye);
+    const std::size_t cells = result.grid.cell_count();
+    stage_.emplace("cells judged", eyes.size() * cells, progress_);
+    for (std::size_t i = 0; i < eyes.size(); ++i) {
+      look(eyes[i]);
+      stage_->advance_to((i + 1) * cells);
+    }
     result.visible.resize(result.grid.cell_count());
     for (std::size_t tile = 0; tile < verdicts_.size(); ++tile)
       verdicts_[tile].store(tile_at(result.grid, tiles_, tile), result, result.cells);
@@ -82,8 +87,7 @@ class CertifiedSectors {
     const CertifiedPass pass(scene, result.grid, tiles_);
     const std::vector<PartsOfTile> cells = by_tile(parts, tiles_);
     std::atomic<std::uint64_t> rays = 0;
-    parallel_for(cells.size(), [&](std::size_t i) {
-      progress_.throw_if_cancelled();
+    stage_->for_each(cells.size(), [&](std::size_t i) {
       const auto work = pass.begin(cells[i].tile);
       Verdicts& verdicts = verdicts_[cells[i].tile];
       TileValues<std::uint8_t> values;
@@ -92,12 +96,10 @@ class CertifiedSectors {
       pass.judge(look, values, *work, nullptr);
       verdicts.add(values);
       rays += work->rays;
+      return cell_count(cells[i].parts);
     });
     result.statistics.rays += rays;
     result.statistics.rays_seconds += watch_.lap();
-    done_ += cell_count(parts);
-    progress_.report("cells judged", static_cast<double>(done_) /
-                                         static_cast<double>(result.grid.cell_count() * request_.observers.size()));
   }
 
   const Store& store_;
@@ -111,8 +113,8 @@ class CertifiedSectors {
   Stopwatch watch_;
   Surveyed surveyed_;
   RasterGrid tiles_;
+  std::optional<Stage> stage_;      ///< its steps are cells, of all observers
   std::vector<Verdicts> verdicts_;  ///< a tile
-  std::size_t done_ = 0;            ///< cells, of all observers
 };
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include <itin/error.hpp>
 
-#include "surface_heights.hpp"
+#include "grid_units.hpp"
 
 namespace itin::viewshed {
 

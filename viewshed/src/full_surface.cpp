@@ -5,18 +5,9 @@
 
 #include <itin/grazing.hpp>
 
+#include "grid_units.hpp"
+
 namespace itin::viewshed {
-
-namespace {
-
-/// Calls visit(row, column, cell) for each of a tile's cells.
-template <class Visit>
-void for_each_cell(const Tile& tile, const Visit& visit) {
-  for (std::int64_t r = 0; r < tile.rows; ++r)
-    for (std::int64_t c = 0; c < tile.columns; ++c) visit(r, c, static_cast<std::size_t>(r * Tile::kSide + c));
-}
-
-}  // namespace
 
 FullSurface::FullSurface(const Tin& surface, const Tin* bare_ground, const Earth& earth, const RasterGrid& grid,
                          const RasterGrid& tiles)
@@ -60,7 +51,7 @@ std::uint64_t FullSurface::judge(const Eye& eye, const AxisSweep::View& view, Ti
   raise_targets(eye, values, work);
   sweep_.look_from(view, {work.tile, work.centres, work.targets}, work.scratch, work.seen);
   std::uint64_t lines = 0;
-  for_each_cell(work.tile, [&](std::int64_t, std::int64_t, std::size_t cell) {
+  for_each_cell(work.tile, [&](std::size_t cell, RasterGrid::Cell) {
     if (std::isnan(work.targets[cell])) return;
     ++lines;
     values[cell] = std::isnan(work.seen[cell]) ? kCertainlyHidden : kCertainlyVisible;
@@ -102,18 +93,18 @@ void FullSurface::find_ground(std::span<const Tile> parts, TileWork& work) const
 void FullSurface::raise_targets(const Eye& eye, TileValues<std::uint8_t>& values, TileWork& work) const {
   const double resolution = units().resolution, metre = 1 / resolution, grazing = kGrazing / resolution;
   work.targets.fill(kNoSurface);
-  for_each_cell(work.tile, [&](std::int64_t r, std::int64_t c, std::size_t cell) {
+  for_each_cell(work.tile, [&](std::size_t cell, RasterGrid::Cell place) {
     std::uint8_t& value = values[cell];
     if (value != kUndecided) return;
     value = kOutside;
     const double ground = work.ground[cell];
     if (std::isnan(ground)) return;
     const double target = eye.target(ground * resolution);
-    const Point2 centre = grid_.centre(work.tile.column + c, work.tile.row + r);
+    const Point2 centre = grid_.centre(place.column, place.row);
     if (!eye.view.contains(centre.x - eye.position.x, centre.y - eye.position.y, target - eye.elevation)) return;
     const bool below = ground == kUnread || target * metre < ground - grazing;
-    const bool at_eye = work.centres.x[static_cast<std::size_t>(c)] == eye.units.x &&
-                        work.centres.y[static_cast<std::size_t>(r)] == eye.units.y;
+    const Point2 units = work.centres.at(cell);
+    const bool at_eye = units.x == eye.units.x && units.y == eye.units.y;
     value = below ? kCertainlyHidden : kCertainlyVisible;
     if (!below && !at_eye) work.targets[cell] = target * metre;
   });

@@ -23,6 +23,7 @@
 
 #include "axis_sweep.hpp"
 #include "binned_heights.hpp"
+#include "cell_tiles.hpp"
 #include "eye.hpp"
 #include "surface_heights.hpp"
 #include "triangle_bins.hpp"
@@ -59,7 +60,8 @@ class FullSurface {
     AxisSweep::Heights seen;
     AxisSweep::Scratch scratch;
     Point3 target(std::size_t cell) const {
-      return {centres.x[cell % Tile::kSide], centres.y[cell / Tile::kSide], targets[cell]};
+      const Point2 p = centres.at(cell);
+      return {p.x, p.y, targets[cell]};
     }
   };
   std::unique_ptr<TileWork> begin(std::size_t tile) const;

@@ -5,6 +5,8 @@
 
 #include <itin/parallel.hpp>
 
+#include "cell_tiles.hpp"
+
 namespace itin::viewshed {
 
 namespace {
@@ -24,13 +26,6 @@ RasterGrid tiles_over(const Store& store, const Box& box) {
           static_cast<std::int64_t>(std::floor(box.height() / size)) + 1};
 }
 
-Box box_of(const RasterGrid& grid, std::int64_t column, std::int64_t first_row, std::int64_t end_row) {
-  const Point2 nw = grid.north_west();
-  const auto at = [](std::int64_t n, double size) { return static_cast<double>(n) * size; };
-  return {nw.x + at(column, grid.cell_width()), nw.y - at(end_row, grid.cell_height()),
-          nw.x + at(column + 1, grid.cell_width()), nw.y - at(first_row, grid.cell_height())};
-}
-
 }  // namespace
 
 bool TileSet::empty() const {
@@ -45,9 +40,7 @@ TileSet& TileSet::operator|=(const TileSet& other) {
 GroundTiles::GroundTiles(const Store& store, const Box& box)
     : grid_(tiles_over(store, box)), margin_(1 + store.metadata().grid.resolution), points_(grid_.cell_count()) {
   parallel_for(points_.size(), [&](std::size_t tile) {
-    const auto column = static_cast<std::int64_t>(tile) % grid_.columns();
-    const auto row = static_cast<std::int64_t>(tile) / grid_.columns();
-    points_[tile] = static_cast<std::uint32_t>(store.points_about(0, box_of(grid_, column, row, row + 1)));
+    points_[tile] = static_cast<std::uint32_t>(store.points_about(0, box_of_cell(grid_, place_of(grid_, tile))));
   });
 }
 
@@ -85,7 +78,8 @@ Window GroundTiles::window(const TileSet& tiles) const {
       if (!tiles.contains(grid_.index({column, row}))) continue;
       const std::int64_t first = row;
       while (row < grid_.rows() && tiles.contains(grid_.index({column, row}))) ++row;
-      const Box b = box_of(grid_, column, first, row);
+      Box b = box_of_cell(grid_, {column, first});
+      b.extend(box_of_cell(grid_, {column, row - 1}));
       parts.push_back({{{b.xmin, b.ymin}, {b.xmax, b.ymin}, {b.xmax, b.ymax}, {b.xmin, b.ymax}}, {}});
     }
   }

@@ -6,14 +6,15 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
-#include <itin/parallel.hpp>
 #include <viewshed/horizon.hpp>
 
 #include "eye.hpp"
 #include "first_blocker.hpp"
+#include "grid_units.hpp"
 #include "height_pyramid.hpp"
 #include "request.hpp"
 #include "sight_line.hpp"
+#include "stage.hpp"
 #include "surface_heights.hpp"
 
 namespace itin::viewshed {
@@ -126,10 +127,8 @@ Horizon horizon(const Tin& surface, const Tin& ground, const Request& request, c
     if (eye.view.looks_towards(azimuth)) result.points.push_back({azimuth, std::nullopt});
   }
   const Panorama panorama(surface, request, eye);
-  parallel_for(result.points.size(), [&](std::size_t i) {
-    progress.throw_if_cancelled();
-    result.points[i].sky = panorama.sky(result.points[i].azimuth_deg);
-  });
+  for_each_step(result.points.size(), "horizon", progress,
+                [&](std::size_t i) { result.points[i].sky = panorama.sky(result.points[i].azimuth_deg); });
   if (options.targets.empty()) return result;
   const FirstBlocker blockers(surface, request.earth);
   for (const HorizonTarget& target : options.targets)

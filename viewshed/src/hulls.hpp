@@ -1,6 +1,8 @@
 // Convex hulls of places in the plane.
 #pragma once
 
+#include <cmath>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -19,6 +21,22 @@ inline std::vector<Point2> hull_of(std::vector<Point2> points) {
   return convex_hull(
       std::move(points), [](Point2 a, Point2 b) { return std::pair(a.x, a.y) < std::pair(b.x, b.y); },
       [](Point2 a, Point2 b, Point2 c) { return left_of(a, b, c) > 0; });
+}
+
+inline double area_of(const std::vector<Point2>& hull) {
+  double doubled = 0;
+  for (std::size_t i = 2; i < hull.size(); ++i) doubled += left_of(hull[0], hull[i - 1], hull[i]);
+  return doubled / 2;
+}
+
+/// All around.
+inline double length_of(const std::vector<Point2>& hull) {
+  double length = 0;
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Point2 &a = hull[i], &b = hull[(i + 1) % hull.size()];
+    length += std::hypot(b.x - a.x, b.y - a.y);
+  }
+  return length;
 }
 
 inline void add_corners(const Box& box, std::vector<Point2>& points) {

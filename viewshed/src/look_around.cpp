@@ -1,11 +1,12 @@
 #include "look_around.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <optional>
 #include <utility>
 
 #include <itin/parallel.hpp>
+
+#include "stage.hpp"
 
 namespace itin::viewshed {
 
@@ -26,8 +27,7 @@ class LookAround {
         result_(result),
         observations_(observations),
         shadows_(eyes.size()) {
-    if (result.request.nodata != NoData::kBlock || !result.crosses_voids) return;
-    parallel_for(eyes.size(), [&](std::size_t i) { shadows_[i].emplace(surface.rim(), eyes[i].units); });
+    parallel_for(eyes.size(), [&](std::size_t i) { shadows_[i] = shadow_of(eyes[i], surface, result); });
   }
 
   Tally decide(std::size_t tile) const {
@@ -45,13 +45,11 @@ class LookAround {
  private:
   /// The eyes that reach the tile, the nearest first: they most often settle what is asked of the others.
   std::vector<std::uint32_t> eyes_near(const Tile& tile) const {
-    const Point2 nw = surface_.grid().centre(tile.column, tile.row);
-    const Point2 se = surface_.grid().centre(tile.column + tile.columns - 1, tile.row + tile.rows - 1);
+    const Box centres = box_of_centres(surface_.grid(), tile);
     std::vector<std::pair<double, std::uint32_t>> order;
     for (std::uint32_t i = 0; i < eyes_.size(); ++i) {
-      const Point2 p = eyes_[i].position;
-      const double dx = p.x - std::clamp(p.x, nw.x, se.x), dy = p.y - std::clamp(p.y, se.y, nw.y);
-      if (const double squared = dx * dx + dy * dy; eyes_[i].view.reaches(squared)) order.emplace_back(squared, i);
+      const double squared = squared_distance(eyes_[i].position, centres);
+      if (eyes_[i].view.reaches(squared)) order.emplace_back(squared, i);
     }
     std::sort(order.begin(), order.end());
     std::vector<std::uint32_t> observers;
@@ -64,7 +62,7 @@ class LookAround {
   const std::vector<AxisSweep::View>& views_;  ///< each eye's
   Result& result_;
   const Observations& observations_;
-  std::vector<std::optional<VoidShadow>> shadows_;  ///< of each eye, where ground without data hides
+  std::vector<std::optional<VoidShadow>> shadows_;  ///< each eye's
 };
 
 }  // namespace
@@ -73,20 +71,10 @@ void look_around(const FullSurface& surface, const Observations& observations, c
                  const std::vector<AxisSweep::View>& views, Result& result, Progress& progress) {
   Observation::prepare(result);
   const LookAround looks(surface, observations, eyes, views, result);
-  const std::size_t count = surface.tiles().cell_count();
-  std::atomic<std::size_t> done = 0;
-  std::vector<Tally> tallies(count);
-  parallel_for(count, [&](std::size_t i) {
-    progress.throw_if_cancelled();
-    tallies[i] = looks.decide(i);
-    const std::size_t now = ++done;
-    if (now % 64 == 0 || now == count)
-      progress.report("sight lines", static_cast<double>(now) / static_cast<double>(count));
-  });
+  std::vector<Tally> tallies(surface.tiles().cell_count());
+  for_each_step(tallies.size(), "sight lines", progress, [&](std::size_t i) { tallies[i] = looks.decide(i); });
   for (const Tally& tally : tallies) {
-    result.cells.visible += tally.cells.visible;
-    result.cells.hidden += tally.cells.hidden;
-    result.cells.outside += tally.cells.outside;
+    result.cells += tally.cells;
     result.statistics.rays += tally.lines;
   }
 }

@@ -7,6 +7,7 @@
 #include <viewshed/certified.hpp>
 
 #include "blocker_observation.hpp"
+#include "certified_observation.hpp"
 #include "field_of_view.hpp"
 #include "least_height_observation.hpp"
 #include "probability_observation.hpp"
@@ -116,11 +117,12 @@ std::uint64_t Observation::look(const TileLook& tile) {
     if (open(look)) values[look.cell] = kUndecided;
   });
   const std::uint64_t lines = tile.surface.judge(tile.eye, tile.view, values, work);
-  if (tile.shadow != nullptr) tile.shadow->hide(work.centres, values);
+  if (tile.shadow != nullptr) tile.shadow->fall_on(work.centres, values);
   const double resolution = tile.surface.units().resolution;
   tile.for_each_cell([&](Look look) {
     if (values[look.cell] == kOutside) return;
     enter(look.cell);
+    if (values[look.cell] == kUndecided) return doubt(look.cell);
     const bool seen = values[look.cell] == kCertainlyVisible;
     look.dz = tile.eye.target(work.ground[look.cell] * resolution) - tile.eye.elevation;
     if (!std::isnan(work.targets[look.cell])) {
@@ -134,14 +136,17 @@ std::uint64_t Observation::look(const TileLook& tile) {
 
 void Observation::store(const Tile& tile, Result& result, CellCounts& cells) const {
   const auto columns = static_cast<std::size_t>(tile.columns);
-  for (std::int64_t r = 0; r < tile.rows; ++r) {
-    const auto cell = static_cast<std::size_t>(r * Tile::kSide);
-    const std::size_t place = result.grid.index({tile.column, tile.row + r});
+  for_each_row(tile, [&](std::size_t cell, RasterGrid::Cell first) {
+    const std::size_t place = result.grid.index(first);
     copy_row(values_, cell, columns, result.visible.data() + place);
-    for (std::size_t i = cell; i < cell + columns; ++i)
-      ++(values_[i] == kOutside ? cells.outside : values_[i] == kVisible ? cells.visible : cells.hidden);
     store_row(cell, columns, place, result);
-  }
+    count_row(cell, columns, cells);
+  });
+}
+
+void Observation::count_row(std::size_t cell, std::size_t columns, CellCounts& cells) const {
+  for (std::size_t i = cell; i < cell + columns; ++i)
+    ++(values_[i] == kOutside ? cells.outside : values_[i] == kVisible ? cells.visible : cells.hidden);
 }
 
 void Observation::prepare(Result& result) {
@@ -155,6 +160,12 @@ void Observation::prepare(Result& result) {
   if (mode == Mode::kProbability) result.probability.resize(cells);
   if (mode == Mode::kHeight) result.least_height_m.resize(cells);
   if (mode == Mode::kNearest) result.nearest.resize(cells), result.distance_m.resize(cells);
+}
+
+std::optional<VoidShadow> shadow_of(const Eye& eye, const FullSurface& surface, const Result& result) {
+  const Voids voids = voids_of(result.request);
+  if (voids == Voids::kPass || !result.crosses_voids) return std::nullopt;
+  return VoidShadow(surface.rim(), eye.units, voids);
 }
 
 Observations::Observations(const Request& request, const Tin& tin) : request_(request) {
@@ -190,8 +201,9 @@ std::unique_ptr<Observation> Observations::of_tile() const {
       return std::make_unique<LeastHeightObservation>();
     case Mode::kProbability:
       return std::make_unique<ProbabilityObservation>(*odds_, request_.nodata);
-    case Mode::kVisible:
     case Mode::kCertified:
+      return std::make_unique<CertifiedObservation>();
+    case Mode::kVisible:
       break;
   }
   return std::make_unique<AnyObserver>();

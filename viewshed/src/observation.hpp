@@ -12,14 +12,15 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <viewshed/viewshed.hpp>
 
+#include "cell_tiles.hpp"
 #include "eye.hpp"
 #include "first_blocker.hpp"
 #include "full_surface.hpp"
-#include "surface_heights.hpp"
 #include "vertical_odds.hpp"
 #include "void_shadow.hpp"
 
@@ -39,7 +40,7 @@ struct TileLook {
   const Eye& eye;
   const AxisSweep::View& view;  ///< the eye's
   std::uint32_t observer;
-  const VoidShadow* shadow;  ///< what ground without data hides; may be null
+  const VoidShadow* shadow;  ///< shadow_of() the eye; may be null
   FullSurface::TileWork& work;
 
   /// Calls visit(look) for every cell that has ground; the looks lead to the ground.
@@ -72,6 +73,8 @@ class Observation {
     mark_visible(look.cell);
     keep(look);
   }
+  /// The target is seen across ground without data, which may hide it.
+  virtual void doubt(std::size_t) {}
   /// Looks at every cell that is open. Returns how many sight lines that took.
   virtual std::uint64_t look(const TileLook& tile);
   /// Counts the cells, and writes them to their places in the result.
@@ -91,11 +94,15 @@ class Observation {
   }
   /// A row of `columns` cells, from `cell` in the tile to `place` in the grid.
   virtual void store_row(std::size_t, std::size_t, std::size_t, Result&) const {}
+  virtual void count_row(std::size_t cell, std::size_t columns, CellCounts& cells) const;
 
   TileValues<std::uint8_t> values_;  ///< kOutside, kHidden, kVisible
 };
 
-/// Makes the Observations of a request's mode, which is not kCertified. All that it is given must outlive it and them.
+/// What ground without data hides from the eye, or leaves in doubt, where that changes the result.
+std::optional<VoidShadow> shadow_of(const Eye& eye, const FullSurface& surface, const Result& result);
+
+/// Makes the Observations of a request's mode. All that it is given must outlive it and them.
 class Observations {
  public:
   /// For modes that need no more than sight lines.
@@ -119,15 +126,14 @@ void store_all(const std::vector<std::unique_ptr<Observation>>& observations, co
 template <class Visit>
 void TileLook::for_each_cell(const Visit& visit) const {
   const Grid& units = surface.units();
-  for (std::int64_t r = 0; r < work.tile.rows; ++r) {
-    const double dy = surface.grid().centre_y(work.tile.row + r) - eye.position.y;
-    for (std::int64_t c = 0; c < work.tile.columns; ++c) {
-      const auto cell = static_cast<std::size_t>(r * Tile::kSide + c);
+  for_each_row(work.tile, [&](std::size_t first, RasterGrid::Cell place) {
+    const double dy = surface.grid().centre_y(place.row) - eye.position.y;
+    for (std::size_t cell = first; place.column < work.tile.column + work.tile.columns; ++cell, ++place.column) {
       if (std::isnan(work.ground[cell])) continue;
-      const double dx = surface.grid().centre_x(work.tile.column + c) - eye.position.x;
+      const double dx = surface.grid().centre_x(place.column) - eye.position.x;
       visit(Look{cell, observer, dx, dy, work.ground[cell] * units.resolution - eye.elevation});
     }
-  }
+  });
 }
 
 }  // namespace itin::viewshed

@@ -4,24 +4,21 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
-#include <map>
-#include <mutex>
 #include <vector>
 
-#include <itin/parallel.hpp>
-#include <itin/progress.hpp>
 #include <itin/raster.hpp>
 #include <viewshed/certified.hpp>
 
-#include "surface_heights.hpp"
+#include "cell_tiles.hpp"
+#include "stage.hpp"
 
 namespace itin::viewshed {
 
 class ObserverRaster {
  public:
-  /// All kUndecided. `tiles` are those of `grid`; all must outlive it.
-  ObserverRaster(const RasterGrid& grid, const RasterGrid& tiles, Progress& progress)
-      : grid_(grid), tiles_(tiles), progress_(progress), values_(grid.cell_count(), kUndecided) {}
+  /// All kUndecided. `tiles` are those of `grid`; every cell decided is a step of `stage`. All must outlive it.
+  ObserverRaster(const RasterGrid& grid, const RasterGrid& tiles, Stage& stage)
+      : grid_(grid), tiles_(tiles), stage_(stage), values_(grid.cell_count(), kUndecided) {}
 
   std::vector<std::uint8_t>& values() { return values_; }
   std::uint64_t rays() const { return rays_; }
@@ -30,51 +27,33 @@ class ObserverRaster {
   /// becomes of them. Throws Cancelled.
   template <class Decide>
   void judge(const std::vector<std::size_t>& tiles, const Decide& decide) {
-    parallel_for(tiles.size(), [&](std::size_t i) {
-      progress_.throw_if_cancelled();
+    stage_.for_each(tiles.size(), [&](std::size_t i) {
       const Tile tile = tile_at(grid_, tiles_, tiles[i]);
+      const auto columns = static_cast<std::size_t>(tile.columns);
       TileValues<std::uint8_t> values;
       values.fill(kOutside);
-      for_each_row(tile, [&](std::size_t in_tile, std::size_t in_grid, std::size_t n) {
-        std::copy_n(values_.data() + in_grid, n, values.data() + in_tile);
+      for_each_row(tile, [&](std::size_t cell, RasterGrid::Cell place) {
+        std::copy_n(values_.data() + grid_.index(place), columns, values.data() + cell);
       });
+      const std::size_t before = undecided(values);
       rays_ += decide(i, values);
-      for_each_row(tile, [&](std::size_t in_tile, std::size_t in_grid, std::size_t n) {
-        std::copy_n(values.data() + in_tile, n, values_.data() + in_grid);
+      for_each_row(tile, [&](std::size_t cell, RasterGrid::Cell place) {
+        std::copy_n(values.data() + cell, columns, values_.data() + grid_.index(place));
       });
-      report(tile);
+      return before - undecided(values);
     });
   }
 
  private:
-  template <class Visit>
-  void for_each_row(const Tile& tile, const Visit& visit) const {
-    for (std::int64_t r = 0; r < tile.rows; ++r)
-      visit(static_cast<std::size_t>(r * Tile::kSide), grid_.index({tile.column, tile.row + r}),
-            static_cast<std::size_t>(tile.columns));
-  }
-
-  void report(const Tile& tile) {
-    std::uint64_t now = 0;
-    for_each_row(tile, [&](std::size_t, std::size_t in_grid, std::size_t n) {
-      now += static_cast<std::uint64_t>(
-          n - static_cast<std::size_t>(std::count(values_.data() + in_grid, values_.data() + in_grid + n, kUndecided)));
-    });
-    const std::lock_guard lock(mutex_);
-    std::uint64_t& before = decided_[grid_.index({tile.column, tile.row})];
-    done_ += now - before;
-    before = now;
-    progress_.report("cells decided", static_cast<double>(done_) / static_cast<double>(values_.size()));
+  static std::size_t undecided(const TileValues<std::uint8_t>& values) {
+    return static_cast<std::size_t>(std::count(values.begin(), values.end(), kUndecided));
   }
 
   const RasterGrid& grid_;
   const RasterGrid& tiles_;
-  Progress& progress_;
+  Stage& stage_;
   std::vector<std::uint8_t> values_;
   std::atomic<std::uint64_t> rays_ = 0;
-  std::mutex mutex_;
-  std::map<std::size_t, std::uint64_t> decided_;  ///< cells of each tile
-  std::uint64_t done_ = 0;
 };
 
 }  // namespace itin::viewshed

@@ -5,6 +5,7 @@
 
 #include <itin/parallel.hpp>
 
+#include "grid_units.hpp"
 #include "surface_heights.hpp"
 #include "triangle_bins.hpp"
 
@@ -37,12 +38,9 @@ std::vector<float> heights_at(const Tin& tin, const RasterGrid& pixels) {
     const Tile tile = tile_at(pixels, tiles, i);
     TileValues<double> values;
     scan_convert(tin, bins.triangles(i), tile, TileCentres(tin.grid, pixels, tile), values);
-    for (std::int64_t r = 0; r < tile.rows; ++r) {
-      for (std::int64_t c = 0; c < tile.columns; ++c) {
-        heights[pixels.index({tile.column + c, tile.row + r})] =
-            static_cast<float>(values[static_cast<std::size_t>(r * Tile::kSide + c)] * tin.grid.resolution);
-      }
-    }
+    for_each_cell(tile, [&](std::size_t cell, RasterGrid::Cell place) {
+      heights[pixels.index(place)] = static_cast<float>(values[cell] * tin.grid.resolution);
+    });
   });
   return heights;
 }

@@ -3,7 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include <itin/parallel.hpp>
+#include "grid_units.hpp"
+#include "stage.hpp"
 
 namespace itin::viewshed {
 
@@ -14,17 +15,14 @@ void survey_tile(const AxisSweep::View& radar, const FullSurface& surface, const
   const double resolution = surface.units().resolution;
   for (std::size_t i = 0; i < work.ground.size(); ++i) work.targets[i] = work.ground[i] + kRadarCeiling / resolution;
   surface.raise_from(radar, {work.ground, work.ground}, work);
-  for (std::int64_t r = 0; r < work.tile.rows; ++r) {
-    for (std::int64_t c = 0; c < work.tile.columns; ++c) {
-      const auto cell = static_cast<std::size_t>(r * Tile::kSide + c);
-      if (std::isnan(work.ground[cell]) || std::isnan(work.seen[cell])) continue;
-      const Point3 top = work.target(cell);
-      if (shadow != nullptr && shadow->holds(top.x, top.y)) continue;
-      const bool at_radar = std::isinf(work.seen[cell]);
-      result[surface.grid().index({work.tile.column + c, work.tile.row + r})] =
-          at_radar ? 0 : static_cast<float>((work.seen[cell] - work.ground[cell]) * resolution);
-    }
-  }
+  for_each_cell(work.tile, [&](std::size_t cell, RasterGrid::Cell place) {
+    if (std::isnan(work.ground[cell]) || std::isnan(work.seen[cell])) return;
+    const Point2 top = work.centres.at(cell);
+    if (shadow != nullptr && shadow->holds(top.x, top.y)) return;
+    const bool at_radar = std::isinf(work.seen[cell]);
+    result[surface.grid().index(place)] =
+        at_radar ? 0 : static_cast<float>((work.seen[cell] - work.ground[cell]) * resolution);
+  });
 }
 
 }  // namespace
@@ -32,11 +30,8 @@ void survey_tile(const AxisSweep::View& radar, const FullSurface& surface, const
 std::vector<float> radar_heights(const AxisSweep::View& radar, const FullSurface& surface, const VoidShadow* shadow,
                                  Progress& progress) {
   std::vector<float> result(surface.grid().cell_count(), std::numeric_limits<float>::quiet_NaN());
-  progress.report("radar", 0);
-  parallel_for(surface.tiles().cell_count(), [&](std::size_t tile) {
-    progress.throw_if_cancelled();
-    survey_tile(radar, surface, shadow, *surface.begin(tile), result);
-  });
+  for_each_step(surface.tiles().cell_count(), "radar", progress,
+                [&](std::size_t tile) { survey_tile(radar, surface, shadow, *surface.begin(tile), result); });
   return result;
 }
 

@@ -165,7 +165,9 @@ void look_for_voids(const Grid& units, const std::vector<RimEdge>& rim, Result& 
     const double reach = radius_of(result.request, observer).value_or(std::numeric_limits<double>::infinity());
     result.crosses_voids = result.crosses_voids || surface_resumes(units, rim, observer.position, reach);
   }
-  if (result.crosses_voids && result.request.nodata == NoData::kUnknown) result.warnings.emplace_back(kVoidsWarning);
+  const Request& request = result.request;
+  if (result.crosses_voids && request.nodata == NoData::kUnknown && request.mode != Mode::kCertified)
+    result.warnings.emplace_back(kVoidsWarning);
 }
 
 double ceiling_of(const Tin& tin, const Request& request) {

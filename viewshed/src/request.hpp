@@ -37,8 +37,8 @@ Box disc_box(Point2 centre, double radius);
 /// The region that holds every sight line of the request.
 Window window_of(const Request& request);
 
-/// Whether sight lines of the result's request may cross ground without data, with a warning where the request does not
-/// say what becomes of them. `rim` is where the surface ends, in these units.
+/// Whether sight lines of the result's request may cross ground without data, with a warning where neither the request
+/// nor its answer says what becomes of them. `rim` is where the surface ends, in these units.
 void look_for_voids(const Grid& units, const std::vector<RimEdge>& rim, Result& result);
 
 /// Above every end of every sight line over this surface, metres.

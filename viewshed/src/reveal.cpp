@@ -9,7 +9,7 @@
 
 #include <itin/parallel.hpp>
 
-#include "surface_heights.hpp"
+#include "grid_units.hpp"
 
 namespace itin::viewshed {
 

@@ -32,11 +32,10 @@ SightSectors::SightSectors(const RasterGrid& cells, const Eye& eye) : cells_(cel
   for (std::int64_t row = 0; row < cells.rows(); row += kSide) {
     for (std::int64_t column = 0; column < cells.columns(); column += kSide) {
       const Tile part{column, row, std::min(kSide, cells.columns() - column), std::min(kSide, cells.rows() - row)};
-      const Box box = box_of(part);
-      const double dx = eye.position.x - std::clamp(eye.position.x, box.xmin, box.xmax),
-                   dy = eye.position.y - std::clamp(eye.position.y, box.ymin, box.ymax);
-      if (!eye.view.reaches(dx * dx + dy * dy)) continue;
-      const int ring = std::ilogb(std::max(1.0, std::hypot(dx, dy) / (Tile::kSide * cells.cell_width())));
+      const Box box = box_of(cells, part);
+      const double squared = squared_distance(eye.position, box);
+      if (!eye.view.reaches(squared)) continue;
+      const int ring = std::ilogb(std::max(1.0, std::sqrt(squared) / (Tile::kSide * cells.cell_width())));
       const double azimuth =
           std::atan2((box.xmin + box.xmax) / 2 - eye.position.x, (box.ymin + box.ymax) / 2 - eye.position.y);
       places.push_back({ring, azimuth, part});
@@ -55,7 +54,7 @@ SightSectors::Sector SightSectors::next(const Fits& fits) const {
   Sector sector{{}, {eye_.position}};
   while (sector.parts.size() < most_) {
     std::vector<Point2> corners = sector.hull;
-    add_corners(box_of(parts[parts.size() - sector.parts.size() - 1]), corners);
+    add_corners(box_of(cells_, parts[parts.size() - sector.parts.size() - 1]), corners);
     std::vector<Point2> wider = hull_of(std::move(corners));
     if (!sector.parts.empty() && !fits(wider)) break;
     sector = {parts.last(sector.parts.size() + 1), std::move(wider)};
@@ -64,7 +63,7 @@ SightSectors::Sector SightSectors::next(const Fits& fits) const {
 }
 
 bool SightSectors::within(double reach, const Tile& part) const {
-  const Box box = box_of(part);
+  const Box box = box_of(cells_, part);
   return std::max({box.xmax - eye_.position.x, eye_.position.x - box.xmin, box.ymax - eye_.position.y,
                    eye_.position.y - box.ymin}) < reach;
 }
@@ -77,12 +76,6 @@ void SightSectors::settle(const Sector& sector, double reach) {
   const std::size_t left = parts_.size() - after;
   if (count == 1 && left == 1) divide_next();
   most_ = left == 0 ? parts_.size() : std::max<std::size_t>(1, left / 2);
-}
-
-Box SightSectors::box_of(const Tile& part) const {
-  const double half_width = cells_.cell_width() / 2, half_height = cells_.cell_height() / 2;
-  return {cells_.centre_x(part.column) - half_width, cells_.centre_y(part.row + part.rows - 1) - half_height,
-          cells_.centre_x(part.column + part.columns - 1) + half_width, cells_.centre_y(part.row) + half_height};
 }
 
 void SightSectors::divide_next() {
@@ -113,21 +106,6 @@ std::vector<PartsOfTile> by_tile(std::span<const Tile> parts, const RasterGrid& 
   std::vector<PartsOfTile> all;
   for (auto& [tile, some] : of_tiles) all.push_back({tile, std::move(some)});
   return all;
-}
-
-double area_of(const std::vector<Point2>& ring) {
-  double doubled = 0;
-  for (std::size_t i = 2; i < ring.size(); ++i) doubled += left_of(ring[0], ring[i - 1], ring[i]);
-  return doubled / 2;
-}
-
-double length_of(const std::vector<Point2>& ring) {
-  double length = 0;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Point2 &a = ring[i], &b = ring[(i + 1) % ring.size()];
-    length += std::hypot(b.x - a.x, b.y - a.y);
-  }
-  return length;
 }
 
 }  // namespace itin::viewshed

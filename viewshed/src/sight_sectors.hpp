@@ -18,8 +18,8 @@
 #include <itin/geometry.hpp>
 #include <itin/raster.hpp>
 
+#include "cell_tiles.hpp"
 #include "eye.hpp"
-#include "surface_heights.hpp"
 
 namespace itin::viewshed {
 
@@ -44,7 +44,6 @@ class SightSectors {
   void settle(const Sector& sector, double reach);
 
  private:
-  Box box_of(const Tile& part) const;
   void divide_next();
 
   const RasterGrid& cells_;
@@ -67,14 +66,7 @@ std::vector<PartsOfTile> by_tile(std::span<const Tile> parts, const RasterGrid& 
 template <class Visit>
 void for_each_cell(const PartsOfTile& cells, const Tile& tile, const Visit& visit) {
   for (const Tile& part : cells.parts)
-    for (std::int64_t r = part.row - tile.row; r < part.row - tile.row + part.rows; ++r)
-      for (std::int64_t c = part.column - tile.column; c < part.column - tile.column + part.columns; ++c)
-        visit(static_cast<std::size_t>(r * Tile::kSide + c));
+    for_each_cell(part, [&](std::size_t, RasterGrid::Cell place) { visit(tile.cell(place)); });
 }
-
-/// Square metres.
-double area_of(const std::vector<Point2>& ring);
-/// Metres, all around.
-double length_of(const std::vector<Point2>& ring);
 
 }  // namespace itin::viewshed

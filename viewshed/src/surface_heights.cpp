@@ -4,14 +4,11 @@
 #include <cmath>
 #include <utility>
 
+#include "grid_units.hpp"
+
 namespace itin::viewshed {
 
 namespace {
-
-double snapped(double units) {
-  const double whole = std::round(units);
-  return std::abs(units - whole) < 1e-4 ? whole : units;
-}
 
 struct Crossing {
   double x = 0;
@@ -61,36 +58,6 @@ class RowSections {
 
   std::array<Point3, 3> corners_;
 };
-
-}  // namespace
-
-double easting_in_units(const Grid& grid, double x) {
-  return snapped((x - grid.origin.x) / grid.resolution);
-}
-double northing_in_units(const Grid& grid, double y) {
-  return snapped((y - grid.origin.y) / grid.resolution);
-}
-
-RasterGrid grid_of_tiles(const RasterGrid& cells) {
-  constexpr auto kSide = static_cast<double>(Tile::kSide);
-  return {cells.north_west(), cells.cell_width() * kSide, cells.cell_height() * kSide,
-          (cells.columns() + Tile::kSide - 1) / Tile::kSide, (cells.rows() + Tile::kSide - 1) / Tile::kSide};
-}
-
-Tile tile_at(const RasterGrid& cells, const RasterGrid& tiles, std::size_t index) {
-  const std::int64_t column = static_cast<std::int64_t>(index) % tiles.columns() * Tile::kSide;
-  const std::int64_t row = static_cast<std::int64_t>(index) / tiles.columns() * Tile::kSide;
-  return {column, row, std::min(Tile::kSide, cells.columns() - column), std::min(Tile::kSide, cells.rows() - row)};
-}
-
-TileCentres::TileCentres(const Grid& units, const RasterGrid& grid, const Tile& tile) {
-  for (std::int64_t c = 0; c < tile.columns; ++c)
-    x[static_cast<std::size_t>(c)] = easting_in_units(units, grid.centre_x(tile.column + c));
-  for (std::int64_t r = 0; r < tile.rows; ++r)
-    y[static_cast<std::size_t>(r)] = northing_in_units(units, grid.centre_y(tile.row + r));
-}
-
-namespace {
 
 /// Calls visit(cell, height function) for every cell centre in every triangle.
 template <class Visit>

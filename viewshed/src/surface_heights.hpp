@@ -6,41 +6,11 @@
 #include <optional>
 #include <span>
 
-#include <itin/raster.hpp>
 #include <itin/tin.hpp>
 
-#include "triangle_bins.hpp"
+#include "cell_tiles.hpp"
 
 namespace itin::viewshed {
-
-/// Metres to grid units. What lies within a ten-thousandth of a unit of a whole number is meant to be there: sites and
-/// cell centres often are vertices, also at the edge of the data, where rounding would put them outside.
-double easting_in_units(const Grid& grid, double x);
-double northing_in_units(const Grid& grid, double y);
-
-/// A square block of cells, decided together.
-struct Tile {
-  static constexpr std::int64_t kSide = 64;
-  std::int64_t column = 0;  ///< of its north-west cell
-  std::int64_t row = 0;
-  std::int64_t columns = 0;
-  std::int64_t rows = 0;
-};
-
-/// The tiles of a grid as the cells of a coarser one, and the tile that is cell `index` of it.
-RasterGrid grid_of_tiles(const RasterGrid& cells);
-Tile tile_at(const RasterGrid& cells, const RasterGrid& tiles, std::size_t index);
-
-/// Where a tile's cell centres lie, in grid units.
-struct TileCentres {
-  TileCentres(const Grid& units, const RasterGrid& grid, const Tile& tile);
-  std::array<double, Tile::kSide> x{};  ///< a column
-  std::array<double, Tile::kSide> y{};  ///< a row
-};
-
-/// One value a cell of a tile, row by row, kSide to a row.
-template <class T>
-using TileValues = std::array<T, Tile::kSide * Tile::kSide>;
 
 inline constexpr double kNoSurface = std::numeric_limits<double>::quiet_NaN();
 /// There is ground, but its height was not read, since no eye sees it.

@@ -11,6 +11,7 @@
 #include "boundary.hpp"
 #include "eye.hpp"
 #include "full_surface.hpp"
+#include "grid_units.hpp"
 #include "near_ground.hpp"
 #include "radar_survey.hpp"
 #include "request.hpp"

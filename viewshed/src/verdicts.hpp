@@ -4,7 +4,7 @@
 #include <viewshed/certified.hpp>
 #include <viewshed/viewshed.hpp>
 
-#include "surface_heights.hpp"
+#include "cell_tiles.hpp"
 
 namespace itin::viewshed {
 
@@ -47,14 +47,10 @@ class Verdicts {
 
   /// Counts the cells, and writes them to their places in the result.
   void store(const Tile& tile, Result& result, CellCounts& cells) const {
-    for (std::int64_t r = 0; r < tile.rows; ++r) {
-      const std::size_t first = result.grid.index({tile.column, tile.row + r});
-      for (std::int64_t c = 0; c < tile.columns; ++c) {
-        const std::uint8_t value = values_[static_cast<std::size_t>(r * Tile::kSide + c)];
-        result.visible[first + static_cast<std::size_t>(c)] = value;
-        count(value, cells);
-      }
-    }
+    for_each_cell(tile, [&](std::size_t cell, RasterGrid::Cell place) {
+      result.visible[result.grid.index(place)] = values_[cell];
+      count(values_[cell], cells);
+    });
   }
 
  private:

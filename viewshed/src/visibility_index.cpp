@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
-#include <itin/parallel.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/site_proposal.hpp>
 #include <viewshed/visibility_index.hpp>
 
 #include "request.hpp"
 #include "scene.hpp"
+#include "stage.hpp"
 #include "visibility_sampler.hpp"
 
 namespace itin::viewshed {
@@ -71,10 +71,8 @@ VisibilityIndex visibility_index(const Store& store, const IndexRequest& request
   index.retrieval = surface.statistics;
   const VisibilitySampler sampler(scene, ground, surface.grid, request.radius, request.target_height, request.targets);
   std::vector<std::uint64_t> rays(static_cast<std::size_t>(index.grid.rows()));
-  std::atomic<std::size_t> done = 0;
   std::atomic<bool> stands = false;
-  parallel_for(rays.size(), [&](std::size_t row) {
-    progress.throw_if_cancelled();
+  for_each_step(rays.size(), "observers", progress, [&](std::size_t row) {
     for (std::int64_t column = 0; column < index.grid.columns(); ++column) {
       const RasterGrid::Cell cell{column, static_cast<std::int64_t>(row)};
       const Point2 place = index.grid.centre(cell.column, cell.row);
@@ -90,7 +88,6 @@ VisibilityIndex visibility_index(const Store& store, const IndexRequest& request
       index.share[index.grid.index(cell)] = static_cast<float>(tally.seen) / static_cast<float>(tally.on_ground);
       index.standard_error[index.grid.index(cell)] = static_cast<float>(standard_error(tally));
     }
-    progress.report("observers", static_cast<double>(++done) / static_cast<double>(rays.size()));
   });
   double variance = 0;
   for (std::size_t i = 0; i < index.share.size(); ++i) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "surface_heights.hpp"
+#include "grid_units.hpp"
 
 namespace itin::viewshed {
 

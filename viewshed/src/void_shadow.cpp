@@ -15,6 +15,15 @@ constexpr double kTurn = 2 * std::numbers::pi;
 
 }  // namespace
 
+Voids voids_of(const Request& request) {
+  const bool doubt = request.mode == Mode::kCertified && request.nodata == NoData::kUnknown;
+  return doubt ? Voids::kDoubt : voids_without_doubt(request.nodata);
+}
+
+Voids voids_without_doubt(NoData rule) {
+  return rule == NoData::kBlock ? Voids::kBlock : Voids::kPass;
+}
+
 double VoidShadow::cross(const Vector& a, const Vector& b) {
   return a.x * b.y - a.y * b.x;
 }
@@ -28,7 +37,8 @@ bool VoidShadow::reaches(const Vector& line, const Vector& place) {
   return dot(line, place) > 0 && dot(place, place) <= dot(line, line);
 }
 
-VoidShadow::VoidShadow(const std::vector<RimEdge>& rim, const Point3& eye) : eye_(eye) {
+VoidShadow::VoidShadow(const std::vector<RimEdge>& rim, const Point3& eye, Voids voids)
+    : eye_(eye), shaded_(voids == Voids::kDoubt ? kUndecided : kCertainlyHidden) {
   const auto from_eye = [&](const GridPlace& p) { return Vector{p.x - eye.x, p.y - eye.y}; };
   // The surface lies to the left: seen from its right side it begins here.
   const auto faces_away = [](const Edge& edge) { return cross(edge.from, edge.to) < 0; };
@@ -84,11 +94,11 @@ bool VoidShadow::comes_from_void(const Numbers& edges, const Vector& corner) con
   return from_void;
 }
 
-void VoidShadow::hide(const TileCentres& centres, TileValues<std::uint8_t>& values) const {
+void VoidShadow::fall_on(const TileCentres& centres, TileValues<std::uint8_t>& values) const {
   if (sectors_.empty()) return;
   for (std::size_t cell = 0; cell < values.size(); ++cell) {
-    if (values[cell] == kCertainlyVisible && holds(centres.x[cell % Tile::kSide], centres.y[cell / Tile::kSide]))
-      values[cell] = kCertainlyHidden;
+    const Point2 place = centres.at(cell);
+    if (values[cell] == kCertainlyVisible && holds(place.x, place.y)) values[cell] = shaded_;
   }
 }
 

@@ -1,7 +1,7 @@
 // What lies behind ground without data as an eye sees it: beyond an edge where the surface begins anew.
 //
 //   const VoidShadow shadow(surface.rim(), eye.units);
-//   if (shadow.holds(target)) ...                       // hidden under NoData::kBlock
+//   if (shadow.holds(target.x, target.y)) ...           // hidden under NoData::kBlock
 #pragma once
 
 #include <cstdint>
@@ -9,22 +9,31 @@
 
 #include <itin/geometry.hpp>
 #include <itin/lattice_tin.hpp>
+#include <viewshed/viewshed.hpp>
 
-#include "surface_heights.hpp"
+#include "cell_tiles.hpp"
 
 namespace itin::viewshed {
 
+/// What becomes of lines that cross ground without data and come back.
+enum class Voids { kPass, kBlock, kDoubt };
+/// Of the request's lines: where its rule is kUnknown, Mode::kCertified alone leaves anything open.
+Voids voids_of(const Request& request);
+/// For answers that leave nothing open: what is not known hides nothing.
+Voids voids_without_doubt(NoData rule);
+
 class VoidShadow {
  public:
-  /// Grid units. Cost: the edges, each as often as the sectors of the horizon it spans, if any faces away from the eye.
-  VoidShadow(const std::vector<RimEdge>& rim, const Point3& eye);
+  /// Grid units; `voids` is what lies in it: hidden or in doubt. Cost: the edges, each as often as the sectors of the
+  /// horizon it spans, if any faces away from the eye.
+  VoidShadow(const std::vector<RimEdge>& rim, const Point3& eye, Voids voids = Voids::kBlock);
 
   /// Whether the line from the eye to a place comes back to the surface, be it at the place itself. Both lie on the
   /// surface. Cost: the edges of one sector.
   bool holds(double x, double y) const;
 
-  /// Of a tile's cells, what is kCertainlyVisible and lies in it becomes kCertainlyHidden.
-  void hide(const TileCentres& centres, TileValues<std::uint8_t>& values) const;
+  /// Of a tile's cells, what is kCertainlyVisible and lies in it becomes kCertainlyHidden, or kUndecided under kDoubt.
+  void fall_on(const TileCentres& centres, TileValues<std::uint8_t>& values) const;
 
  private:
   /// From the eye, grid units.
@@ -45,6 +54,7 @@ class VoidShadow {
   bool comes_from_void(const Numbers& edges, const Vector& corner) const;
 
   Point3 eye_;
+  std::uint8_t shaded_;           ///< what it makes of a visible cell
   std::vector<Edge> edges_;       ///< none where no edge faces away
   std::vector<Numbers> sectors_;  ///< clockwise from the south; as edges_
 };

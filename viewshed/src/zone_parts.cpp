@@ -13,11 +13,10 @@
 
 #include <itin/error.hpp>
 
-#include "cell_box.hpp"
+#include "cell_tiles.hpp"
 #include "envelope.hpp"
 #include "hulls.hpp"
 #include "request.hpp"
-#include "surface_heights.hpp"
 
 namespace itin::viewshed {
 
@@ -62,7 +61,7 @@ class PointCounts {
  private:
   static constexpr double kSide = 48;
 
-  Box cell(std::size_t i) const { return cell_box(cells_, i); }
+  Box cell(std::size_t i) const { return box_of_cell(cells_, place_of(cells_, i)); }
 
   /// Or may meet it.
   static bool meets(const std::vector<Point2>& polygon, const Box& box) {
@@ -102,7 +101,7 @@ class Partition {
     const Point2 middle{(farm.xmin + farm.xmax) / 2, (farm.ymin + farm.ymax) / 2};
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t i = 0; i < tiles_.cell_count(); ++i) {
-      const Box box = box_of(i);
+      const Box box = box_about(i);
       if (std::none_of(zone_.request.turbines.begin(), zone_.request.turbines.end(),
                        [&](const Turbine& t) { return in_reach(t, box); }))
         continue;
@@ -136,17 +135,13 @@ class Partition {
   }
 
  private:
-  Box box_of(std::size_t tile) const {
-    const Tile t = tile_at(zone_.grid, tiles_, tile);
-    const Point2 first = zone_.grid.centre(t.column, t.row),
-                 last = zone_.grid.centre(t.column + t.columns - 1, t.row + t.rows - 1);
-    return {first.x - margin_, last.y - margin_, last.x + margin_, first.y + margin_};
+  Box box_about(std::size_t tile) const {
+    const Box centres = box_of_centres(zone_.grid, tile_at(zone_.grid, tiles_, tile));
+    return {centres.xmin - margin_, centres.ymin - margin_, centres.xmax + margin_, centres.ymax + margin_};
   }
 
   static bool in_reach(const Turbine& t, const Box& box) {
-    const double dx = t.position.x - std::clamp(t.position.x, box.xmin, box.xmax),
-                 dy = t.position.y - std::clamp(t.position.y, box.ymin, box.ymax);
-    return dx * dx + dy * dy <= t.radius * t.radius;
+    return squared_distance(t.position, box) <= t.radius * t.radius;
   }
 
   /// Convex about the tiles' cells and all turbines in their reach.
@@ -154,7 +149,7 @@ class Partition {
     std::vector<Point2> points;
     std::vector<bool> met(zone_.request.turbines.size());
     for (const std::size_t tile : tiles) {
-      const Box box = box_of(tile);
+      const Box box = box_about(tile);
       add_corners(box, points);
       for (std::size_t k = 0; k < met.size(); ++k) met[k] = met[k] || in_reach(zone_.request.turbines[k], box);
     }

@@ -8,15 +8,10 @@
 
 #include <itin/parallel.hpp>
 
+#include "grid_units.hpp"
+#include "stage.hpp"
+
 namespace itin::viewshed {
-
-namespace {
-
-std::size_t cell_of(std::int64_t row, std::int64_t column) {
-  return static_cast<std::size_t>(row * Tile::kSide + column);
-}
-
-}  // namespace
 
 /// What is known of a tile's cells so far.
 struct ZoneSurvey::TileWork {
@@ -47,7 +42,7 @@ ZoneSurvey::ZoneSurvey(const FullSurface& ground, const Zone& zone) : ground_(gr
     axis.base = zone.ground_m[k] * per_metre;
     axis.tip = (zone.ground_m[k] + t.tip_height) * per_metre;
     axis.hub = t.hub_height ? (zone.ground_m[k] + *t.hub_height) * per_metre : -std::numeric_limits<double>::infinity();
-    axis.position_x = t.position.x, axis.position_y = t.position.y;
+    axis.position = t.position;
     axis.radius_squared = t.radius * t.radius;
   }
 }
@@ -55,15 +50,9 @@ ZoneSurvey::ZoneSurvey(const FullSurface& ground, const Zone& zone) : ground_(gr
 std::uint64_t ZoneSurvey::run(const Screen& screen, std::span<const std::size_t> tiles, const std::string& stage,
                               Visibility& result, Progress& progress) const {
   const Views views = views_over(screen.sweep);
-  std::atomic<std::size_t> done = 0;
   std::atomic<std::uint64_t> lines = 0;
-  parallel_for(tiles.size(), [&](std::size_t i) {
-    progress.throw_if_cancelled();
-    lines += decide(tiles[i], screen, views, result);
-    const std::size_t now = ++done;
-    if (now % 16 == 0 || now == tiles.size())
-      progress.report(stage, static_cast<double>(now) / static_cast<double>(tiles.size()));
-  });
+  for_each_step(tiles.size(), stage, progress,
+                [&](std::size_t i) { lines += decide(tiles[i], screen, views, result); });
   return lines;
 }
 
@@ -94,33 +83,25 @@ std::uint64_t ZoneSurvey::decide(std::size_t tile, const Screen& screen, const V
 
 /// Whether a cell's centre may lie within the radius.
 bool ZoneSurvey::in_reach(const Axis& axis, const Tile& tile) const {
-  const Point2 north_west = zone_.grid.centre(tile.column, tile.row);
-  const Point2 south_east = zone_.grid.centre(tile.column + tile.columns - 1, tile.row + tile.rows - 1);
-  const double dx = axis.position_x - std::clamp(axis.position_x, north_west.x, south_east.x);
-  const double dy = axis.position_y - std::clamp(axis.position_y, south_east.y, north_west.y);
-  return dx * dx + dy * dy <= axis.radius_squared;
+  return squared_distance(axis.position, box_of_centres(zone_.grid, tile)) <= axis.radius_squared;
 }
 
 void ZoneSurvey::look_at(std::size_t turbine, const Screen& screen, const AxisSweep::View& view, TileWork& work) const {
   const Axis& axis = axes_[turbine];
   screen.sweep.run(view, {work.tile, work.centres, work.place->targets}, work.place->scratch, work.place->seen);
-  for (std::int64_t r = 0; r < work.tile.rows; ++r) {
-    const double dy = zone_.grid.centre_y(work.tile.row + r) - axis.position_y;
-    for (std::int64_t c = 0; c < work.tile.columns; ++c) {
-      const std::size_t cell = cell_of(r, c);
-      const double dx = zone_.grid.centre_x(work.tile.column + c) - axis.position_x, squared = dx * dx + dy * dy;
-      if (squared > axis.radius_squared || std::isnan(work.ground[cell])) continue;
-      if (work.tips[cell] == kCountOutside) work.tips[cell] = work.hubs[cell] = 0;
-      const double least = work.place->seen[cell];
-      const bool beneath = std::isinf(least);
-      work.lines += beneath ? 0 : 1;
-      if (std::isnan(least)) continue;
-      if (!screen.shadows.empty() && screen.shadows[turbine].holds(work.centres.x[static_cast<std::size_t>(c)],
-                                                                   work.centres.y[static_cast<std::size_t>(r)]))
-        continue;
-      record(turbine, cell, std::sqrt(squared), beneath ? axis.base : least, work);
-    }
-  }
+  for_each_cell(work.tile, [&](std::size_t cell, RasterGrid::Cell place) {
+    const double dx = zone_.grid.centre_x(place.column) - axis.position.x,
+                 dy = zone_.grid.centre_y(place.row) - axis.position.y, squared = dx * dx + dy * dy;
+    if (squared > axis.radius_squared || std::isnan(work.ground[cell])) return;
+    if (work.tips[cell] == kCountOutside) work.tips[cell] = work.hubs[cell] = 0;
+    const double least = work.place->seen[cell];
+    const bool beneath = std::isinf(least);
+    work.lines += beneath ? 0 : 1;
+    if (std::isnan(least)) return;
+    const Point2 eye = work.centres.at(cell);
+    if (!screen.shadows.empty() && screen.shadows[turbine].holds(eye.x, eye.y)) return;
+    record(turbine, cell, std::sqrt(squared), beneath ? axis.base : least, work);
+  });
 }
 
 /// The turbine is seen from the cell, down to `least` grid units of elevation.
@@ -143,25 +124,22 @@ void ZoneSurvey::record(std::size_t turbine, std::size_t cell, double distance, 
 void ZoneSurvey::store(const TileWork& work, Visibility& result) const {
   const double all = static_cast<double>(zone_.request.turbines.size());
   std::vector<Arc> arcs;
-  for (std::int64_t r = 0; r < work.tile.rows; ++r) {
-    for (std::int64_t c = 0; c < work.tile.columns; ++c) {
-      const std::size_t from = cell_of(r, c);
-      if (work.tips[from] == kCountOutside) continue;
-      const std::size_t to = zone_.grid.index({work.tile.column + c, work.tile.row + r});
-      result.hub_count[to] = work.hubs[from];
-      result.tip_count[to] = work.tips[from];
-      for (std::size_t w = 0; w < zone_.words; ++w)
-        result.turbines[w * zone_.grid.cell_count() + to] = work.seen[w][from];
-      result.visible_height_m[to] = static_cast<float>(work.height[from]);
-      result.vertical_angle_deg[to] = static_cast<float>(work.angle[from]);
-      result.vertical_angle_sum_deg[to] = static_cast<float>(work.angle_sum[from]);
-      result.share[to] = static_cast<float>(work.tips[from] / all);
-      result.horizontal_angle_deg[to] = result.horizontal_occupied_deg[to] = 0;
-      if (work.tips[from] == 0) continue;
-      result.nearest_m[to] = static_cast<float>(work.nearest[from]);
-      store_horizon(work, from, to, zone_.grid.centre(work.tile.column + c, work.tile.row + r), result, arcs);
-    }
-  }
+  for_each_cell(work.tile, [&](std::size_t from, RasterGrid::Cell place) {
+    if (work.tips[from] == kCountOutside) return;
+    const std::size_t to = zone_.grid.index(place);
+    result.hub_count[to] = work.hubs[from];
+    result.tip_count[to] = work.tips[from];
+    for (std::size_t w = 0; w < zone_.words; ++w)
+      result.turbines[w * zone_.grid.cell_count() + to] = work.seen[w][from];
+    result.visible_height_m[to] = static_cast<float>(work.height[from]);
+    result.vertical_angle_deg[to] = static_cast<float>(work.angle[from]);
+    result.vertical_angle_sum_deg[to] = static_cast<float>(work.angle_sum[from]);
+    result.share[to] = static_cast<float>(work.tips[from] / all);
+    result.horizontal_angle_deg[to] = result.horizontal_occupied_deg[to] = 0;
+    if (work.tips[from] == 0) return;
+    result.nearest_m[to] = static_cast<float>(work.nearest[from]);
+    store_horizon(work, from, to, zone_.grid.centre(place.column, place.row), result, arcs);
+  });
 }
 
 void ZoneSurvey::store_horizon(const TileWork& work, std::size_t from_cell, std::size_t to_cell, Point2 eye,

@@ -10,8 +10,8 @@
 #include <viewshed/turbines.hpp>
 
 #include "axis_sweep.hpp"
+#include "cell_tiles.hpp"
 #include "full_surface.hpp"
-#include "surface_heights.hpp"
 #include "turbine_view.hpp"
 #include "void_shadow.hpp"
 
@@ -33,10 +33,11 @@ class ZoneSurvey {
 
  private:
   struct Axis {
-    double x = 0, y = 0;                                        ///< grid units
-    double base = 0, tip = 0;                                   ///< elevation, grid units
-    double hub = 0;                                             ///< -infinity where it is not known
-    double position_x = 0, position_y = 0, radius_squared = 0;  ///< metres
+    double x = 0, y = 0;       ///< grid units
+    double base = 0, tip = 0;  ///< elevation, grid units
+    double hub = 0;            ///< -infinity where it is not known
+    Point2 position;
+    double radius_squared = 0;  ///< metres squared
   };
   struct TileWork;
 

@@ -29,7 +29,8 @@ inline constexpr std::uint8_t kCertainlyVisible = 2;
 /// no more, every cell is decided, but for such lines across voids, as by compute_precise(): with themes that stand on
 /// the ground, where the level has half of all points or more, or a hundred-and-twenty-eighth of those of a large
 /// raster, or of any surface if that is over a million and a half. Other levels of more than a million and a half
-/// points are looked at sector by sector about each observer. Throws as compute() does.
+/// points are looked at sector by sector about each observer. Throws as compute() does, and InputError where such
+/// themes and voids come together, under another rule than NoData::kClear, in a window that takes more than a gigabyte.
 Surveyed compute_certified(const Store& store, const Request& request, Progress& progress);
 
 struct PreciseOptions {

@@ -123,6 +123,11 @@ struct CellCounts {
   std::uint64_t hidden = 0;
   std::uint64_t undecided = 0;  ///< Mode::kCertified
   std::uint64_t outside = 0;
+
+  CellCounts& operator+=(const CellCounts& c) {
+    visible += c.visible, hidden += c.hidden, undecided += c.undecided, outside += c.outside;
+    return *this;
+  }
 };
 
 struct Statistics {

@@ -7,7 +7,10 @@
 #include <itin/parallel.hpp>
 
 #include "../certified_pass.hpp"
+#include "../grid_units.hpp"
 #include "../sight_line.hpp"
+#include "../stage.hpp"
+#include "../surface_heights.hpp"
 #include "clear_zone.hpp"
 #include "group_survey.hpp"
 #include "point_bins.hpp"
@@ -192,13 +195,10 @@ class PointSurvey final : public GroupSurvey {
     const PointPass pass(scene_, zone_, survey_, looks.request, grounds_);
     std::vector<CoverageBounds> result(looks.options.size());
     std::atomic<std::uint64_t> rays = 0;
-    std::atomic<std::size_t> done = 0;
-    parallel_for(result.size(), [&](std::size_t i) {
-      progress.throw_if_cancelled();
+    for_each_step(result.size(), "sight lines of candidates", progress, [&](std::size_t i) {
       const EnvelopeScene::Look look =
           scene_.look_from(eye_at(scene_.envelope.lower.grid, looks.request, survey_.stands[looks.options[i]]));
       rays += judge(pass, look, *looks.bounds[i], result[i]);
-      progress.report("sight lines of candidates", static_cast<double>(++done) / static_cast<double>(result.size()));
     });
     statistics.rays += rays;
     return result;

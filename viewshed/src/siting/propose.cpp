@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
-#include <itin/parallel.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/site_proposal.hpp>
 
 #include "../request.hpp"
 #include "../scene.hpp"
+#include "../stage.hpp"
 #include "../visibility_sampler.hpp"
 
 namespace itin::viewshed {
@@ -67,11 +67,7 @@ class Proposer {
   std::vector<Proposal> run(Progress& progress) const {
     const std::vector<std::vector<std::uint32_t>> posts = by_square();
     std::vector<std::vector<Proposal>> of_square(posts.size());
-    parallel_for(posts.size(), [&](std::size_t i) {
-      progress.throw_if_cancelled();
-      of_square[i] = propose(posts[i]);
-      progress.report("candidates", static_cast<double>(i) / static_cast<double>(posts.size()));
-    });
+    for_each_step(posts.size(), "candidates", progress, [&](std::size_t i) { of_square[i] = propose(posts[i]); });
     std::vector<Proposal> all;
     for (const auto& some : of_square) all.insert(all.end(), some.begin(), some.end());
     return all;

@@ -72,13 +72,9 @@ DemandSet cells_with_ground(const Store& store, const RasterGrid& grid, Progress
     const Tile tile = tile_at(grid, tiles, t);
     const auto heights = std::make_unique<TileValues<double>>();
     scan_convert(tin, bins.triangles(t), tile, TileCentres(tin.grid, grid, tile), *heights);
-    for (std::int64_t r = 0; r < tile.rows; ++r) {
-      for (std::int64_t c = 0; c < tile.columns; ++c) {
-        if (std::isnan((*heights)[static_cast<std::size_t>(r * Tile::kSide + c)])) continue;
-        const RasterGrid::Cell cell{tile.column + c, tile.row + r};
-        members[blocks.block(cell)] |= std::uint64_t{1} << CellBlocks::bit(cell);
-      }
-    }
+    for_each_cell(tile, [&](std::size_t cell, RasterGrid::Cell place) {
+      if (!std::isnan((*heights)[cell])) members[blocks.block(place)] |= std::uint64_t{1} << CellBlocks::bit(place);
+    });
   });
   DemandSet set;
   for (std::size_t b = 0; b < members.size(); ++b) set.add(static_cast<std::uint32_t>(b), members[b]);

@@ -4,11 +4,11 @@
 #include <array>
 #include <atomic>
 #include <bit>
-#include <cmath>
 
 #include <itin/parallel.hpp>
 #include <viewshed/certified.hpp>
 
+#include "../stage.hpp"
 #include "cell_blocks.hpp"
 
 namespace itin::viewshed {
@@ -91,15 +91,6 @@ DemandSet set_of(std::vector<DemandSet::Block>& blocks) {
   return set;
 }
 
-bool in_reach(const RasterGrid& tiles, std::size_t tile, Point2 p, double radius) {
-  const auto column = static_cast<std::int64_t>(tile) % tiles.columns(),
-             row = static_cast<std::int64_t>(tile) / tiles.columns();
-  const Point2 c = tiles.centre(column, row);
-  const double dx = std::max(0.0, std::abs(p.x - c.x) - tiles.cell_width() / 2);
-  const double dy = std::max(0.0, std::abs(p.y - c.y) - tiles.cell_height() / 2);
-  return dx * dx + dy * dy <= radius * radius;
-}
-
 /// What every option serves of one tile. Returns how many sight lines that took.
 std::uint64_t judge_tile(const TileJudge& judge, const SiteSurvey& survey, const SiteLooks& looks,
                          const RasterGrid& tiles, std::size_t t, std::vector<TileCover>& covers) {
@@ -108,8 +99,9 @@ std::uint64_t judge_tile(const TileJudge& judge, const SiteSurvey& survey, const
   const Tile tile = tile_at(grid, tiles, t);
   std::unique_ptr<TileJudge::Work> work;
   std::uint64_t rays = 0;
+  const Box box = box_of(grid, tile);
   for (std::size_t i = 0; i < looks.options.size(); ++i) {
-    if (!in_reach(tiles, t, survey.stands[looks.options[i]].position, survey.radius)) continue;
+    if (squared_distance(survey.stands[looks.options[i]].position, box) > survey.radius * survey.radius) continue;
     TileCover cover{.entry = i};
     TileValues<std::uint8_t> values;
     if (open(blocks, tile, *looks.bounds[i], cover, values)) {
@@ -152,14 +144,8 @@ std::vector<CoverageBounds> judge_tiles(const TileJudge& judge, const SiteSurvey
   const RasterGrid tiles = grid_of_tiles(*survey.targets.grid);
   std::vector<std::vector<TileCover>> covers(tiles.cell_count());
   std::atomic<std::uint64_t> rays = 0;
-  std::atomic<std::size_t> done = 0;
-  parallel_for(covers.size(), [&](std::size_t t) {
-    progress.throw_if_cancelled();
-    rays += judge_tile(judge, survey, looks, tiles, t, covers[t]);
-    const std::size_t now = ++done;
-    if (now % 16 == 0 || now == covers.size())
-      progress.report("sight lines of candidates", static_cast<double>(now) / static_cast<double>(covers.size()));
-  });
+  for_each_step(covers.size(), "sight lines of candidates", progress,
+                [&](std::size_t t) { rays += judge_tile(judge, survey, looks, tiles, t, covers[t]); });
   statistics.rays += rays;
   return gather(survey, tiles, looks.options.size(), covers);
 }

@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "../surface_heights.hpp"
+#include "../cell_tiles.hpp"
 #include "group_survey.hpp"
 
 namespace itin::viewshed {

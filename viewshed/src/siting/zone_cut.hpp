@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
+#include "../cell_tiles.hpp"
 #include "../eye.hpp"
-#include "../surface_heights.hpp"
 #include "clear_zone.hpp"
 
 namespace itin::viewshed {

@@ -1,4 +1,4 @@
-#include "lattice_segments.hpp"
+#include "lattice_sectors.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -12,17 +12,18 @@
 
 #include <itin/error.hpp>
 #include <itin/lattice_reader.hpp>
-#include <itin/parallel.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/surface.hpp>
 
 #include "boundary.hpp"
 #include "full_surface.hpp"
+#include "hulls.hpp"
 #include "near_ground.hpp"
 #include "observation.hpp"
 #include "request.hpp"
 #include "reveal.hpp"
 #include "sight_sectors.hpp"
+#include "stage.hpp"
 #include "stopwatch.hpp"
 #include "store_viewshed.hpp"
 #include "unreported.hpp"
@@ -39,9 +40,9 @@ constexpr double kFirstShareSeen = 0.25;
 /// Of the surface that maps are drawn over, at most.
 constexpr std::uint64_t kCoarsePoints = 200000;
 
-class LatticeSegments {
+class LatticeSectors {
  public:
-  LatticeSegments(const Store& store, const Request& request, std::uint64_t memory, Progress& progress)
+  LatticeSectors(const Store& store, const Request& request, std::uint64_t memory, Progress& progress)
       : store_(store),
         request_(request),
         memory_(memory),
@@ -56,6 +57,7 @@ class LatticeSegments {
     const std::vector<Eye> eyes = eyes_on_full_surface(store_, request_, result.ground_m, progress_);
     retrieve_coarse();
     observations_ = Observations(request_).of_tiles(tiles_);
+    stage_.emplace("cells decided", eyes.size() * result.grid.cell_count(), progress_);
     for (std::uint32_t i = 0; i < eyes.size(); ++i)
       if (!look(eyes[i], i)) return std::nullopt;
     store_all(observations_, tiles_, result);
@@ -104,6 +106,7 @@ class LatticeSegments {
       }
       sectors.settle(sector, reach);
     }
+    stage_->advance_to((observer + 1) * surveyed_.result.grid.cell_count());
     return true;
   }
 
@@ -144,11 +147,10 @@ class LatticeSegments {
     const double unread = kBytesAnUnreadPost * static_cast<double>(reader.lattice().triangle_count()) / 2;
     const double tiles =
         (static_cast<double>(memory_) - unread) / static_cast<double>(kBytesAPost * LatticeTin::kCells);
-    const Revealed revealed = reveal(eye, reader, surface, static_cast<std::uint64_t>(std::max(0.0, tiles)), progress_);
+    const Revealed revealed = reveal(eye, reader, surface, static_cast<std::uint64_t>(std::max(0.0, tiles)), reading_);
     // A bin less, against rounding.
     const double reach = (revealed.reach - 1) * reader.lattice().spacing * reader.lattice().grid.resolution;
-    std::optional<VoidShadow> shadow;
-    if (request_.nodata == NoData::kBlock && result.crosses_voids) shadow.emplace(surface.rim(), eye.units);
+    const std::optional<VoidShadow> shadow = shadow_of(eye, surface, result);
     result.statistics.retrieval += reader.lattice().statistics;
     result.statistics.triangles += reader.lattice().triangle_count();
     result.statistics.retrieval_seconds += watch_.lap();
@@ -157,17 +159,14 @@ class LatticeSegments {
                  [&](const Tile& part) { return sectors.within(reach, part); });
     const std::vector<PartsOfTile> cells = by_tile(decided, tiles_);
     std::atomic<std::uint64_t> lines = 0;
-    parallel_for(cells.size(), [&](std::size_t i) {
-      progress_.throw_if_cancelled();
+    stage_->for_each(cells.size(), [&](std::size_t i) {
       const auto work = surface.begin(cells[i].tile, cells[i].parts);
       lines += observations_[cells[i].tile]->look(
           {surface, eye, revealed.view, observer, shadow ? &*shadow : nullptr, *work});
+      return cell_count(cells[i].parts);
     });
     result.statistics.rays += lines;
     result.statistics.rays_seconds += watch_.lap();
-    done_ += cell_count(decided);
-    progress_.report("cells decided", static_cast<double>(done_) /
-                                          static_cast<double>(result.grid.cell_count() * request_.observers.size()));
     return reach;
   }
 
@@ -184,16 +183,16 @@ class LatticeSegments {
   double posts_a_square_metre_ = 0;
   double tile_side_m_ = 0;                                  ///< of a tile of the lattice, as far as it is known
   bool is_lattice_ = false;                                 ///< as far as has been read
-  std::size_t done_ = 0;                                    ///< cells, of all observers
+  std::optional<Stage> stage_;                              ///< its steps are cells, of all observers
   std::vector<std::unique_ptr<Observation>> observations_;  ///< a tile
 };
 
 }  // namespace
 
-std::optional<Surveyed> compute_in_lattice_segments(const Store& store, const Request& request, std::uint64_t memory,
-                                                    Progress& progress) {
+std::optional<Surveyed> compute_by_lattice_sectors(const Store& store, const Request& request, std::uint64_t memory,
+                                                   Progress& progress) {
   if (needs_tin(request) || features_stand(store, request)) return std::nullopt;
-  return LatticeSegments(store, request, memory, progress).run();
+  return LatticeSectors(store, request, memory, progress).run();
 }
 
 }  // namespace itin::viewshed

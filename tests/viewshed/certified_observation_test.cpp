@@ -1,0 +1,175 @@
+// The one run that leaves lines across missing ground open, against the two in which these pass and are blocked.
+#include "certified_observation.hpp"
+
+#include <cmath>
+#include <gmock/gmock.h>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <itin/error.hpp>
+#include <itin/import.hpp>
+#include <viewshed/certified.hpp>
+
+#include "lattice_sectors.hpp"
+#include "precise.hpp"
+#include "support/raster_file.hpp"
+#include "support/seed.hpp"
+#include "support/temporary_directory.hpp"
+#include "support/terrain_tin.hpp"
+#include "support/told_progress.hpp"
+#include "support/vector_file.hpp"
+
+namespace itin::viewshed {
+namespace {
+
+constexpr std::uint64_t kMuch = 1 << 30;
+
+class CertifiedOverVoids : public testing::Test {
+ protected:
+  static constexpr int kSide = 193;
+  static constexpr double kStep = 25, kWest = 300000, kNorth = 200000;
+
+  void SetUp() override {
+    const std::vector<double> z = test::fractal_heights(257, 300, 0.6, random_());
+    test::write_raster(directory_.file("t.tif"), {kWest, kNorth, kStep, kSide, kSide, 27700}, [&](int c, int r) {
+      const bool missing = std::hypot(c - 60, r - 110) < 25 || std::hypot(c - 120, r - 60) < 12;
+      return missing ? NAN : z[static_cast<std::size_t>(r) * 257 + static_cast<std::size_t>(c)];
+    });
+    ImportOptions options;
+    options.sources = {directory_.file("t.tif")};
+    import_terrain(path(), options, progress_);
+  }
+
+  std::string path() const { return directory_.file("t.itin"); }
+
+  /// From the eastern edge, the middle and the southern edge, where no void is.
+  Request look() {
+    std::uniform_real_distribution<double> nudge(-100, 100);
+    Request request;
+    for (const auto& [c, r] : {std::pair{180, 90}, {96, 96}, {100, 180}}) {
+      Observer observer;
+      observer.position = {kWest + c * kStep + nudge(random_), kNorth - r * kStep + nudge(random_)};
+      observer.height = 60;
+      request.observers.push_back(observer);
+    }
+    request.observers[1].radius = 1500;
+    request.target_height = 20;
+    request.cell_size = 30;
+    request.mode = Mode::kCertified;
+    return request;
+  }
+
+  /// Made of the answers where missing ground hides nothing and where it hides.
+  Result of_two_runs(const Store& store, const Request& request) {
+    const auto run = [&](NoData rule) {
+      Request exact = request;
+      exact.mode = Mode::kVisible;
+      exact.nodata = rule;
+      return compute_precise(store, exact, {}, progress_).result;
+    };
+    Result open = run(NoData::kClear);
+    const Result closed = run(NoData::kBlock);
+    open.cells = {};
+    for (std::size_t i = 0; i < open.visible.size(); ++i) {
+      std::uint8_t& value = open.visible[i];
+      ++(value == kOutside              ? open.cells.outside
+         : value == kHidden             ? open.cells.hidden
+         : closed.visible[i] == kHidden ? open.cells.undecided
+                                        : open.cells.visible);
+      if (value != kOutside)
+        value = value == kHidden ? kCertainlyHidden : closed.visible[i] == kHidden ? kUndecided : kCertainlyVisible;
+    }
+    return open;
+  }
+
+  static void expect_same(const Result& expected, const Result& found) {
+    EXPECT_TRUE(found.visible == expected.visible);
+    EXPECT_EQ(found.cells.visible, expected.cells.visible);
+    EXPECT_EQ(found.cells.hidden, expected.cells.hidden);
+    EXPECT_EQ(found.cells.undecided, expected.cells.undecided);
+    EXPECT_EQ(found.cells.outside, expected.cells.outside);
+    EXPECT_TRUE(found.warnings.empty());
+  }
+
+  const test::TemporaryDirectory directory_;
+  std::mt19937 random_{test::seed()};
+  NoProgress progress_;
+};
+
+TEST_F(CertifiedOverVoids, OneRunIsTwoInAnyMemory) {
+  const Store store(path());
+  const Request request = look();
+  const Result expected = of_two_runs(store, request);
+  ASSERT_GT(expected.cells.undecided, 100U);
+  ASSERT_GT(expected.cells.visible, 100U);
+  // By its posts; the whole at once; a coarse pass and segments.
+  for (const PreciseOptions& options : {PreciseOptions{kMuch, true}, {kMuch, false}, {4000000, false}}) {
+    SCOPED_TRACE(options.memory_bytes);
+    expect_same(expected, compute_exactly(store, request, options, progress_).result);
+  }
+  const auto sectors = compute_by_lattice_sectors(store, request, 400000, progress_);
+  ASSERT_TRUE(sectors);
+  expect_same(expected, sectors->result);
+  EXPECT_GT(sectors->result.statistics.triangles, std::uint64_t{2 * kSide * kSide}) << "not in sectors";
+}
+
+TEST_F(CertifiedOverVoids, NothingIsOpenUnderTheOtherRules) {
+  const Store store(path());
+  Request request = look();
+  for (const NoData rule : {NoData::kClear, NoData::kBlock}) {
+    request.nodata = rule;
+    Request exact = request;
+    exact.mode = Mode::kVisible;
+    const Result expected = compute_precise(store, exact, {}, progress_).result;
+    for (const std::uint64_t memory : {kMuch, std::uint64_t{4000000}}) {
+      const Result found = compute_exactly(store, request, {memory, false}, progress_).result;
+      EXPECT_EQ(found.cells.undecided, 0U);
+      EXPECT_EQ(found.cells.visible, expected.cells.visible);
+      EXPECT_EQ(found.cells.hidden, expected.cells.hidden);
+    }
+  }
+}
+
+TEST_F(CertifiedOverVoids, ProgressOnlyGrowsAndReachesTheEnd) {
+  const Store store(path());
+  const Request request = look();
+  // The observers see a part of the cells alone.
+  for (const Mode mode : {Mode::kCertified, Mode::kAngle}) {
+    Request of_mode = request;
+    of_mode.mode = mode;
+    test::ToldProgress whole, segments, sectors;
+    compute_exactly(store, of_mode, {kMuch, false}, whole);
+    whole.expect_whole("sight lines");
+    compute_exactly(store, of_mode, {4000000, false}, segments);
+    segments.expect_whole("cells decided");
+    ASSERT_TRUE(compute_by_lattice_sectors(store, of_mode, 400000, sectors));
+    sectors.expect_whole("cells decided");
+  }
+}
+
+TEST_F(CertifiedOverVoids, WithFeaturesTooLargeASurfaceIsRefusedInTheModesOwnWords) {
+  test::write_lines(directory_.file("b.geojson"), {test::box(kWest + 500, kNorth - 600, kWest + 600, kNorth - 500, 20)},
+                    true);
+  ImportOptions options;
+  options.sources = {directory_.file("b.geojson")};
+  options.kind = ThemeKind::Buildings;
+  options.height_field = "h";
+  import_lines(path(), options, progress_);
+  const Store store(path());
+  Request request = look();
+  request.themes = ThemeChoice::all();
+  try {
+    compute_exactly(store, request, {4000000, false}, progress_);
+    FAIL() << "not refused";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("--mode certified under --nodata unknown"));
+    EXPECT_THAT(error.what(), testing::Not(testing::HasSubstr("--memory")));
+  }
+}
+
+}  // namespace
+}  // namespace itin::viewshed

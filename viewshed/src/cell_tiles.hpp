@@ -1,0 +1,81 @@
+// The cells of a raster in tiles: square blocks of cells that are decided together, each by one thread.
+//
+//   const RasterGrid tiles = grid_of_tiles(grid);
+//   for (std::size_t i = 0; i < tiles.cell_count(); ++i) {
+//     const Tile tile = tile_at(grid, tiles, i);
+//     TileValues<double> values;
+//     ...
+//     for_each_cell(tile, [&](std::size_t cell, RasterGrid::Cell place) { raster[grid.index(place)] = values[cell]; });
+//   }
+//
+// `cell` is always a cell's index in its tile, and a place one of the whole grid. Boxes are in metres.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include <itin/geometry.hpp>
+#include <itin/raster.hpp>
+
+namespace itin::viewshed {
+
+struct Tile {
+  static constexpr std::int64_t kSide = 64;
+  std::int64_t column = 0;  ///< of its north-west cell
+  std::int64_t row = 0;
+  std::int64_t columns = 0;  ///< at most kSide
+  std::int64_t rows = 0;
+
+  /// The index of one of its cells.
+  std::size_t cell(RasterGrid::Cell place) const {
+    return static_cast<std::size_t>((place.row - row) * kSide + place.column - column);
+  }
+};
+
+/// One value a cell of a tile, row by row, kSide to a row.
+template <class T>
+using TileValues = std::array<T, Tile::kSide * Tile::kSide>;
+
+/// The tiles of a grid as the cells of a coarser one, and the tile that is cell `index` of it.
+RasterGrid grid_of_tiles(const RasterGrid& cells);
+Tile tile_at(const RasterGrid& cells, const RasterGrid& tiles, std::size_t index);
+
+/// The inverse of RasterGrid::index().
+RasterGrid::Cell place_of(const RasterGrid& grid, std::size_t index);
+
+/// Calls visit(cell, place) for each of a tile's cells, row by row.
+template <class Visit>
+void for_each_cell(const Tile& tile, const Visit& visit) {
+  for (std::int64_t r = 0; r < tile.rows; ++r)
+    for (std::int64_t c = 0; c < tile.columns; ++c)
+      visit(static_cast<std::size_t>(r * Tile::kSide + c), RasterGrid::Cell{tile.column + c, tile.row + r});
+}
+
+/// Calls visit(cell, place) for the first cell of each of a tile's rows, in which its tile.columns cells lie one after
+/// the other.
+template <class Visit>
+void for_each_row(const Tile& tile, const Visit& visit) {
+  for (std::int64_t r = 0; r < tile.rows; ++r)
+    visit(static_cast<std::size_t>(r * Tile::kSide), RasterGrid::Cell{tile.column, tile.row + r});
+}
+
+/// Where a tile's cell centres lie, in grid units.
+struct TileCentres {
+  TileCentres(const Grid& units, const RasterGrid& grid, const Tile& tile);
+  Point2 at(std::size_t cell) const { return {x[cell % Tile::kSide], y[cell / Tile::kSide]}; }
+
+  std::array<double, Tile::kSide> x{};  ///< a column
+  std::array<double, Tile::kSide> y{};  ///< a row
+};
+
+/// About a tile's cells, or about their centres alone.
+Box box_of(const RasterGrid& grid, const Tile& tile);
+Box box_of_centres(const RasterGrid& grid, const Tile& tile);
+/// About a single cell.
+Box box_of_cell(const RasterGrid& grid, RasterGrid::Cell cell);
+
+/// From a position to the nearest place of a box, metres squared; 0 within it.
+double squared_distance(Point2 position, const Box& box);
+
+}  // namespace itin::viewshed

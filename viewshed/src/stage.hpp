@@ -1,0 +1,49 @@
+// A stage of a long call: how far it has come, and its loops on all threads.
+//
+//   for_each_step(tiles.cell_count(), "sight lines", progress, [&](std::size_t tile) { ... });
+//
+//   Stage stage("cells decided", observers * cells, progress);              // of several loops
+//   stage.for_each(tiles.size(), [&](std::size_t i) { ...; return cells_in(tiles[i]); });
+//   stage.advance_to(cells);
+//
+// What is reported only grows, whatever threads do, and reaches 1 with the last step.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+#include <itin/progress.hpp>
+
+namespace itin::viewshed {
+
+class Stage {
+ public:
+  /// Of so many steps. `progress` must outlive it.
+  Stage(std::string_view name, std::size_t steps, Progress& progress);
+
+  /// So many more are done, or as many as that in all. From any thread.
+  void advance(std::size_t steps);
+  void advance_to(std::size_t step);
+
+  /// Runs body(i) for i in [0, count) on all threads; it returns how many steps it has made. Throws Cancelled.
+  void for_each(std::size_t count, const std::function<std::size_t(std::size_t)>& body);
+
+ private:
+  void report();
+
+  const std::string name_;
+  const std::size_t steps_;
+  Progress& progress_;
+  std::mutex mutex_;
+  std::size_t done_ = 0;
+  int reported_ = -1;  ///< thousandths
+};
+
+/// Runs body(i) for i in [0, count) on all threads, as a stage of so many steps. Throws Cancelled.
+void for_each_step(std::size_t count, std::string_view stage, Progress& progress,
+                   const std::function<void(std::size_t)>& body);
+
+}  // namespace itin::viewshed
