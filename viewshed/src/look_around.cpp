@@ -31,14 +31,12 @@ class LookAround {
   }
 
   Tally decide(std::size_t tile) const {
-    const auto work = surface_.begin(tile);
+    const Tile cells = tile_at(surface_.grid(), surface_.tiles(), tile);
     const auto observation = observations_.of_tile();
     Tally tally;
-    for (const std::uint32_t i : eyes_near(work->tile)) {
-      const VoidShadow* const shadow = shadows_[i] ? &*shadows_[i] : nullptr;
-      tally.lines += observation->look({surface_, eyes_[i], views_[i], i, shadow, *work});
-    }
-    observation->store(work->tile, result_, tally.cells);
+    if (const std::vector<std::uint32_t> eyes = eyes_near(cells); !eyes.empty())
+      tally.lines = look(eyes, *surface_.begin(tile), *observation);
+    observation->store(cells, result_, tally.cells);
     return tally;
   }
 
@@ -55,6 +53,16 @@ class LookAround {
     std::vector<std::uint32_t> observers;
     for (const auto& [squared, observer] : order) observers.push_back(observer);
     return observers;
+  }
+
+  std::uint64_t look(const std::vector<std::uint32_t>& eyes, FullSurface::TileWork& work,
+                     Observation& observation) const {
+    std::uint64_t lines = 0;
+    for (const std::uint32_t i : eyes) {
+      const VoidShadow* const shadow = shadows_[i] ? &*shadows_[i] : nullptr;
+      lines += observation.look({surface_, eyes_[i], views_[i], i, shadow, work});
+    }
+    return lines;
   }
 
   const FullSurface& surface_;
