@@ -100,6 +100,18 @@ void BM_Viewshed(benchmark::State& state) {
 }
 BENCHMARK(BM_Viewshed)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond)->UseRealTime();
 
+/// Simulated surfaces, whose errors are independent or correlated over so many metres.
+void BM_Probability(benchmark::State& state) {
+  Request request = whole(128);
+  request.mode = Mode::kProbability;
+  request.vertical_error = {2, static_cast<double>(state.range(0))};
+  NoProgress progress;
+  Result result;
+  for (auto _ : state) result = compute(terrain(), request, progress);
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(result.statistics.rays));
+}
+BENCHMARK(BM_Probability)->Arg(0)->Arg(1000)->Unit(benchmark::kMillisecond)->UseRealTime();
+
 std::string output() {
   return (std::filesystem::temp_directory_path() / ("itin-benchmark-" + std::to_string(getpid()) + ".tif")).string();
 }
