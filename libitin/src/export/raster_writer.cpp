@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <memory>
 #include <tuple>
-#include <unistd.h>
 
 #include <cpl_conv.h>
 #include <cpl_error.h>
@@ -14,6 +13,8 @@
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
 #include <itin/raster.hpp>
+
+#include "export/pending_file.hpp"
 
 namespace itin {
 
@@ -42,33 +43,6 @@ class GdalCall {
     if (error_class >= CE_Failure && self.failure_.empty()) self.failure_ = message;
   }
   std::string failure_;
-};
-
-/// A name beside the target that is removed unless it was renamed to the target.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::string& target)
-      : target_(target), name_(fmt::format("{}.{}.tmp", target, getpid())) {}
-  ~TemporaryFile() {
-    std::error_code ignored;
-    if (!kept_) std::filesystem::remove(name_, ignored);
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  const std::string& name() const { return name_; }
-  void rename_to_target() {
-    std::error_code error;
-    std::filesystem::rename(name_, target_, error);
-    if (error) throw FileError(target_, "cannot be written: " + error.message());
-    kept_ = true;
-    // It would describe the raster that was replaced.
-    std::filesystem::remove(target_ + ".aux.xml", error);
-  }
-
- private:
-  std::string target_;
-  std::string name_;
-  bool kept_ = false;
 };
 
 template <class T>
@@ -195,28 +169,19 @@ CPLStringList creation_options(bool floating) {
   return options;
 }
 
-void require_place(const std::string& path, bool overwrite) {
-  namespace fs = std::filesystem;
-  std::error_code ignored;
-  const fs::file_status status = fs::status(path, ignored);
-  if (fs::is_directory(status)) throw FileError(path, "is a directory; name a file");
-  if (fs::exists(status) && !overwrite) throw FileError(path, "exists already; allow overwriting or name another file");
-}
-
 template <class T>
 void write(const std::string& path, const RasterGrid& grid, std::span<const T> values, GDALDataType type,
            const RasterDescription& description) {
-  require_place(path, description.overwrite);
+  PendingFile file(path, description.overwrite);
   GDALAllRegister();
   GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("COG");
   if (!driver) throw FileError(path, "GDAL here cannot write cloud-optimised GeoTIFFs; install GDAL 3.1 or later");
-  TemporaryFile file(path);
   {
     const GdalCall call;
     const GDALDatasetUniquePtr source = wrap(values, grid, type);
     attach_overviews(*source, values, grid, !description.classes.empty(), type);
     describe(*source, grid, description);
-    GDALDatasetUniquePtr written(driver->CreateCopy(file.name().c_str(), source.get(), false,
+    GDALDatasetUniquePtr written(driver->CreateCopy(file.temporary_path().c_str(), source.get(), false,
                                                     creation_options(std::is_floating_point_v<T>).List(), nullptr,
                                                     nullptr));
     const bool created = written != nullptr;
@@ -224,7 +189,10 @@ void write(const std::string& path, const RasterGrid& grid, std::span<const T> v
     if (!created || !call.failure().empty())
       throw FileError(path, "cannot be written: " + (call.failure().empty() ? "unknown reason" : call.failure()));
   }
-  file.rename_to_target();
+  file.commit();
+  // It would describe the raster that was replaced.
+  std::error_code ignored;
+  std::filesystem::remove(path + ".aux.xml", ignored);
 }
 
 }  // namespace
