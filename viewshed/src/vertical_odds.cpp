@@ -43,9 +43,16 @@ VerticalOdds::Odds VerticalOdds::of_line(const Line& line, Scratch& scratch) con
   least.fill(std::numeric_limits<float>::max());
   if (!line.from_stands) narrow(least, from.above, errors.from());
   if (!line.to_stands) narrow(least, to.above, errors.to());
-  for (const Crossing& c : crossings) narrow(least, line, c, errors);
+  for (std::size_t i = 0; i < crossings.size(); ++i) {
+    narrow(least, line, crossings[i], errors);
+    if (i % kCrossingsACount == 0 && share_seen(least) == 0) break;
+  }
+  return {share_seen(least), clear};
+}
+
+double VerticalOdds::share_seen(const Margins& least) {
   const auto seen = std::count_if(least.begin(), least.end(), [](float margin) { return margin >= 0; });
-  return {static_cast<double>(seen) / static_cast<double>(least.size()), clear};
+  return static_cast<double>(seen) / static_cast<double>(least.size());
 }
 
 /// By how far a fixed end is above ground, grid units.
@@ -70,8 +77,13 @@ void VerticalOdds::narrow(Margins& least, const Line& line, const Crossing& c, E
 
 /// Finds the edges that come near the line, in order. False where one surely hides.
 bool VerticalOdds::cross(const Line& line, Scratch& scratch) const {
-  // No clearance varies by more than twice a vertex' variance.
-  const double sure = kSure * std::numbers::sqrt2 * sigma_;
+  // No clearance varies by more than twice a vertex' variance; nor, as correlations fall with distance, by more than if
+  // there were none.
+  const double sure = kSure * std::numbers::sqrt2 * sigma_, hidden = kHidden * std::numbers::sqrt2 * sigma_;
+  const auto surely_below = [&](double rise, double at) {
+    const double rest = 1 - at;
+    return rise <= 0 && rise * rise >= kSure * kSure * sigma_ * sigma_ * (1 + at * at + rest * rest);
+  };
   const SightLine sight(line.from, line.to, drop_, grazing_);
   std::vector<Crossing>& crossings = scratch.crossings_;
   crossings.clear();
@@ -84,16 +96,16 @@ bool VerticalOdds::cross(const Line& line, Scratch& scratch) const {
     std::sort(t.begin(), t.end());
     sight.for_each_crossing({tin_.vertices[t[0]], tin_.vertices[t[1]], tin_.vertices[t[2]]},
                             [&](std::size_t i, std::size_t j, double weight, double at, double rise) {
-                              if (rise <= -sure) return;
+                              if (surely_below(rise, at)) return;
                               crossings.push_back({at, rise, t[i], t[j], weight});
                               if (rise > highest) highest = rise, scratch.highest_ = triangle;
                             });
     // Nothing more needs to be looked at.
-    if (highest >= sure) sheaf.margin = -std::numeric_limits<double>::infinity();
+    if (highest >= hidden) sheaf.margin = -std::numeric_limits<double>::infinity();
   };
   if (const auto last = scratch.highest_) add(*last);
-  if (highest < sure) pyramid_.search(sheaf, add);
-  if (highest >= sure) return false;
+  if (highest < hidden) pyramid_.search(sheaf, add);
+  if (highest >= hidden) return false;
   std::sort(crossings.begin(), crossings.end());
   crossings.erase(std::unique(crossings.begin(), crossings.end()), crossings.end());
   return true;

@@ -52,7 +52,10 @@ class VerticalOdds {
   Odds of_line(const Line& line, Scratch& scratch) const;
 
  private:
-  static constexpr double kSure = 4;
+  /// Standard deviations: what lies farther below a line hides it in no world, and what rises farther above it hides it
+  /// in all worlds but at most one.
+  static constexpr double kSure = 4, kHidden = 3.1;
+  static constexpr std::size_t kCrossingsACount = 8;
 
   /// Where a line crosses an edge, or passes over a vertex, which is then both of the edge's.
   struct Crossing {
@@ -71,6 +74,7 @@ class VerticalOdds {
 
   bool cross(const Line& line, Scratch& scratch) const;
   Footing under(const Point3& end) const;
+  static double share_seen(const Margins& least);
   void narrow(Margins& least, double above, const ErrorsAlongLine::Errors& ground) const;
   void narrow(Margins& least, const Line& line, const Crossing& c, ErrorsAlongLine& errors) const;
 
