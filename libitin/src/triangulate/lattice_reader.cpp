@@ -112,9 +112,11 @@ bool LatticeReader::Work::find_lattice(Heights heights, std::uint64_t most_posts
   std::partial_sort_copy(leaves.begin(), leaves.end(), fullest.begin(), fullest.end(),
                          [](const Leaf& a, const Leaf& b) { return a.points > b.points; });
   PostSpacing posts;
-  for (const Leaf& leaf : fullest)
-    for (const GridPoint& p : index_.block(leaf)->points)
+  for (const Leaf& leaf : fullest) {
+    const auto block = index_.block(leaf);
+    for (const GridPoint& p : block->points)
       if (window_.bounds().contains(p.x, p.y)) posts.add(p);
+  }
   if (!posts.found()) return false;
   const auto margin = static_cast<double>(posts.spacing());
   if (margin > widest_spacing_) {

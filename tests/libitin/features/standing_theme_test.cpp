@@ -300,6 +300,17 @@ TEST_F(StandingThemes, AHouseHasItsHeightAndTheGroundItsOwn) {
   EXPECT_EQ(store.metadata().themes[0].vertices, 8u);
 }
 
+/// Blocks are gone as soon as nobody holds them; sanitizers tell whether somebody should have.
+TEST_F(StandingThemes, AreTheSameWithoutACache) {
+  ground(10, [](int c, int r) { return 50.0 + (c * 7 + r * 5) % 4; });
+  raise(ThemeKind::Buildings, "houses",
+        {box(300102, 199702, 300142, 199732, 9), box(300042, 199642, 300062, 199662, 6)});
+  const Store uncached(path("s.itin"), {0});
+  NoProgress progress;
+  EXPECT_EQ(triangles_of(triangulate(uncached, Window::all(), Detail::tolerance(0), progress, ThemeChoice::all())),
+            triangles_of(whole(ThemeChoice::all())));
+}
+
 TEST_F(StandingThemes, ACourtyardIsGround) {
   ground(10, [](int c, int r) { return 50 + 0.1 * c + 0.05 * r; });
   LineFeature ring = box(300100, 199700, 300160, 199760, 12);
