@@ -81,7 +81,7 @@ std::vector<NumberField> ViewFields::numbers() const {
 
 ViewFields::View ViewFields::view(const std::vector<std::optional<double>>& numbers, const std::string& where) const {
   View view;
-  const auto refuse = [&](const Field& field, double value, const char* expected) {
+  const auto refuse = [&](const Field& field, double value, const std::string& expected) {
     throw InputError(fmt::format("{}: field '{}' holds {:.10g}: expected {}", where, field.name, value, expected));
   };
   const auto angle = [&](const Field& field, double value, double most) {
@@ -113,7 +113,7 @@ ViewFields::View ViewFields::view(const std::vector<std::optional<double>>& numb
         // ArcGIS writes horizontal distances with a minus sign.
         const double metres = arcgis_ ? std::abs(value) : value;
         if (field.role == Role::kRadius && !(metres > 0)) refuse(field, value, "a positive number of metres");
-        if (metres > kFarthest) refuse(field, value, "at most 1000000000 metres");
+        if (metres > kFarthest) refuse(field, value, fmt::format("at most {:.0f} metres", kFarthest));
         if (metres < 0) refuse(field, value, "0 or a positive number of metres");
         (field.role == Role::kRadius ? view.radius : view.min_radius) = metres;
         break;

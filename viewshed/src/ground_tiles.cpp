@@ -6,6 +6,7 @@
 #include <itin/parallel.hpp>
 
 #include "cell_tiles.hpp"
+#include "request.hpp"
 
 namespace itin::viewshed {
 
@@ -80,7 +81,7 @@ Window GroundTiles::window(const TileSet& tiles) const {
       while (row < grid_.rows() && tiles.contains(grid_.index({column, row}))) ++row;
       Box b = box_of_cell(grid_, {column, first});
       b.extend(box_of_cell(grid_, {column, row - 1}));
-      parts.push_back({{{b.xmin, b.ymin}, {b.xmax, b.ymin}, {b.xmax, b.ymax}, {b.xmin, b.ymax}}, {}});
+      parts.push_back(rectangle(b));
     }
   }
   return Window::polygons(std::move(parts));

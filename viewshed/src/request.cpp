@@ -77,10 +77,6 @@ double default_cell_size(const Box& box) {
   return 10 * decade;
 }
 
-Window::Polygon rectangle(const Box& b) {
-  return {{{b.xmin, b.ymin}, {b.xmax, b.ymin}, {b.xmax, b.ymax}, {b.xmin, b.ymax}}, {}};
-}
-
 bool all_bounded(const Request& request) {
   return std::all_of(request.observers.begin(), request.observers.end(),
                      [&](const Observer& o) { return radius_of(request, o).has_value(); });
@@ -132,6 +128,10 @@ std::string nodata_text(NoData rule) {
       return "clear";
   }
   return {};
+}
+
+Window::Polygon rectangle(const Box& b) {
+  return {{{b.xmin, b.ymin}, {b.xmax, b.ymin}, {b.xmax, b.ymax}, {b.xmin, b.ymax}}, {}};
 }
 
 Box intersection(const Box& a, const Box& b) {

@@ -31,6 +31,8 @@ RasterGrid cells_of(const Request& request, const Box& extent);
 std::string nodata_text(NoData rule);
 
 Box intersection(const Box& a, const Box& b);
+/// As a part of a window; unlike Window::box(), also of one without area.
+Window::Polygon rectangle(const Box& box);
 /// About a disc, metres.
 Box disc_box(Point2 centre, double radius);
 

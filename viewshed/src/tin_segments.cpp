@@ -279,10 +279,7 @@ class TinSegments {
 
   Window window_over(const std::vector<std::size_t>& cells) const {
     std::vector<Window::Polygon> parts;
-    for (const std::size_t i : cells) {
-      const Box b = box_of_cell(tiles_, place_of(tiles_, i));
-      parts.push_back({{{b.xmin, b.ymin}, {b.xmax, b.ymin}, {b.xmax, b.ymax}, {b.xmin, b.ymax}}, {}});
-    }
+    for (const std::size_t i : cells) parts.push_back(rectangle(box_of_cell(tiles_, place_of(tiles_, i))));
     return Window::polygons(std::move(parts));
   }
 

@@ -40,7 +40,7 @@ Window::Polygon box_about(const std::vector<Window::Polygon>& parts, Point2 rada
   box.extend(Point2{radar.x + 1, radar.y + 1});
   for (const Window::Polygon& part : parts)
     for (const Point2& p : part.outer) box.extend(p);
-  return {{{box.xmin, box.ymin}, {box.xmax, box.ymin}, {box.xmax, box.ymax}, {box.xmin, box.ymax}}, {}};
+  return rectangle(box);
 }
 
 /// How many points a query reads of convex polygons, about.
