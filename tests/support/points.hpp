@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <random>
@@ -24,7 +25,7 @@ struct LevelPoint {
   int level = 0;
 };
 
-enum class Pattern { kRandom, kLattice, kClusters, kContours, kCollinear, kCocircular, kGappyLattice };
+enum class Pattern { kRandom, kLattice, kClusters, kContours, kCollinear, kCocircular, kGappyLattice, kTurnedLattice };
 
 inline std::vector<GridPoint> make_points(Pattern pattern, int count, std::mt19937& random) {
   const auto below = [&](int n) { return static_cast<std::int32_t>(random() % static_cast<unsigned>(n)); };
@@ -44,6 +45,13 @@ inline std::vector<GridPoint> make_points(Pattern pattern, int count, std::mt199
         const int column = i % side, row = i / side;
         p = {column * 50 + column / 3, row * 70 + row / 2, 0};
         if (below(40) == 0) p = {below(50 * side), below(70 * side), 0};
+        break;
+      }
+      case Pattern::kTurnedLattice: {
+        // Rounded to the grid, so that posts along the border are only nearly in line.
+        const double column = i % side * 50.0, row = i / side * 50.0;
+        p = {static_cast<std::int32_t>(std::lround(column * 0.956 - row * 0.292)),
+             static_cast<std::int32_t>(std::lround(column * 0.292 + row * 0.956)), 0};
         break;
       }
       case Pattern::kClusters: {

@@ -6,6 +6,7 @@
 
 #include <itin/detail.hpp>
 
+#include "pyramid/gap_rule.hpp"
 #include "triangulate/region.hpp"
 
 namespace itin {
@@ -14,27 +15,6 @@ namespace {
 
 /// Mean spacings. A wider fringe leaves less to mend along the tiles' borders, and costs more here.
 constexpr double kFringe = 16;
-
-/// Decides whether an edge may be ground, by the gap bases of its ends' sources.
-class GapRule {
- public:
-  explicit GapRule(const std::vector<std::array<double, 4>>& bases) : bases_(bases) {}
-
-  bool bridges(const SelectedVertex& p, const SelectedVertex& q) const {
-    const double x = static_cast<double>(q.point.x) - p.point.x, y = static_cast<double>(q.point.y) - p.point.y;
-    return within(bases_[p.source], x, y) || (p.source != q.source && within(bases_[q.source], x, y));
-  }
-
- private:
-  /// e = a u + b v with |a| <= 1 and |b| <= 1, by Cramer's rule without the division.
-  static bool within(const std::array<double, 4>& basis, double x, double y) {
-    const auto& [ux, uy, vx, vy] = basis;
-    const double determinant = std::abs(ux * vy - uy * vx);
-    return std::abs(x * vy - y * vx) <= determinant && std::abs(ux * y - uy * x) <= determinant;
-  }
-
-  const std::vector<std::array<double, 4>>& bases_;
-};
 
 GridBox box_of(const std::vector<RawPoint>& points) {
   GridBox box;
@@ -78,23 +58,12 @@ GridBox reach_of(const CurveRange& tile) {
   return tile.count == 0 ? square : widened(square, fringe(square, tile.count));
 }
 
-std::vector<std::uint8_t> ground_triangles(const RegionMesh& region,
-                                           const std::vector<std::array<double, 4>>& gap_bases) {
-  const GapRule gaps(gap_bases);
-  std::vector<std::uint8_t> ground;
-  for (const auto& [a, b, c] : region.mesh.triangles) {
-    const SelectedVertex &va = region.vertices[a], &vb = region.vertices[b], &vc = region.vertices[c];
-    ground.push_back(gaps.bridges(va, vb) && gaps.bridges(vb, vc) && gaps.bridges(vc, va));
-  }
-  return ground;
-}
-
 TileSurvey survey_tile(const WorkingIndex& index, const CurveRange& tile,
-                       const std::vector<std::array<double, 4>>& gap_bases, const Sources* ground_sources) {
+                       const std::vector<std::array<double, 4>>& gap_bases, const SourceIndex* ground_points) {
   TileSurvey survey;
   std::vector<RawPoint> own = index.read(tile);
   std::erase_if(own, [&](const RawPoint& p) {
-    return p.level == kDropped || (ground_sources != nullptr && !ground_sources->contains(p.source));
+    return p.level == kDropped || (ground_points != nullptr && !ground_points->sources().contains(p.source));
   });
   const Selection everything(Detail::tolerance(0), {0.0}, Grid{});
   const GridBox points = box_of(own);
@@ -102,10 +71,13 @@ TileSurvey survey_tile(const WorkingIndex& index, const CurveRange& tile,
   const double margin = fringe(points, tile.count);
   const GridBox box = widened(points, margin);
   survey.verge = widened(points, margin / 2);
-  survey.surface = ground_sources == nullptr ? triangulate_region(index, everything, box)
-                                             : triangulate_region(SourceIndex(index, *ground_sources), everything, box);
+  survey.surface = ground_points == nullptr ? triangulate_region(index, everything, box)
+                                            : triangulate_region(*ground_points, everything, box);
   const RegionMesh& region = survey.surface;
-  const std::vector<std::uint8_t> ground = ground_triangles(region, gap_bases);
+  const GapRule gaps(gap_bases);
+  std::vector<std::uint8_t> ground;
+  for (const auto& [a, b, c] : region.mesh.triangles)
+    ground.push_back(gaps.ground(region.vertices[a], region.vertices[b], region.vertices[c]));
 
   std::vector<std::uint8_t> touched(region.vertices.size(), 0);
   const auto in_box = [&](std::uint32_t v) {

@@ -26,14 +26,10 @@ struct TileSurvey {
 /// A box that holds all that the survey of a tile depends on, but for the positions of far away points.
 GridBox reach_of(const CurveRange& tile);
 
-/// Which triangles of a plain Delaunay triangulation are ground. `gap_bases` per source, grid units.
-std::vector<std::uint8_t> ground_triangles(const RegionMesh& region,
-                                           const std::vector<std::array<double, 4>>& gap_bases);
-
-/// `gap_bases` per source, grid units. Points of other sources than `ground`, if given, are passed over: they are
-/// neither ground nor isolated. The index must have no segments yet, and nothing dropped meanwhile.
+/// `gap_bases` per source, grid units. Points other than those of `ground`, if given, are passed over: they are neither
+/// ground nor isolated. The index must have no segments yet, and nothing dropped meanwhile.
 TileSurvey survey_tile(const WorkingIndex& index, const CurveRange& tile,
-                       const std::vector<std::array<double, 4>>& gap_bases, const Sources* ground = nullptr);
+                       const std::vector<std::array<double, 4>>& gap_bases, const SourceIndex* ground = nullptr);
 
 /// The full surface about one tile where lines are part of it, and its points are known to be ground: without outline.
 /// There are triangles across voids, for greedy insertion walks straight.

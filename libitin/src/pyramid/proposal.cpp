@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <optional>
 
 #include <itin/parallel.hpp>
 
@@ -113,11 +114,13 @@ Proposal propose_levels(WorkingIndex& index, const std::vector<CurveRange>& tile
 
 Proposal find_ground(const WorkingIndex& index, const std::vector<CurveRange>& tiles,
                      const std::vector<std::array<double, 4>>& gap_bases, const Sources* ground, Progress& progress) {
+  std::optional<SourceIndex> points;
+  if (ground != nullptr) points.emplace(index, *ground);
   std::vector<TileProposal> proposals(tiles.size());
   std::atomic<std::size_t> done = 0;
   parallel_for(tiles.size(), [&](std::size_t i) {
     progress.throw_if_cancelled();
-    TileSurvey survey = survey_tile(index, tiles[i], gap_bases, ground);
+    TileSurvey survey = survey_tile(index, tiles[i], gap_bases, points ? &*points : nullptr);
     proposals[i].coverage = {std::move(survey.outline), std::move(survey.isolated)};
     progress.report("finding the ground", static_cast<double>(++done) / static_cast<double>(tiles.size()));
   });

@@ -6,35 +6,30 @@
 #include <set>
 #include <vector>
 
-#include "store/point_index.hpp"
+#include "pyramid/working_index.hpp"
 
 namespace itin {
 
 using Sources = std::set<std::uint16_t>;
 
+/// Knows which leaves hold such points, so that searches pass over all others: O(points) to make.
 class SourceIndex final : public PointIndex {
  public:
-  /// Both must outlive it.
-  SourceIndex(const PointIndex& base, const Sources& sources) : base_(base), sources_(sources) {}
+  /// Both must outlive it. What is dropped from the base later has to be asked for no more.
+  SourceIndex(const WorkingIndex& base, const Sources& sources);
+  const Sources& sources() const { return sources_; }
+
   int level_count() const override { return base_.level_count(); }
-  GridBox bounds() const override { return base_.bounds(); }
-  void leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const override { base_.leaves(finest, box, out); }
+  GridBox bounds() const override { return bounds_; }
+  void leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const override;
+  std::shared_ptr<const Block> block(const Leaf& leaf) const override;
   void segments(const GridBox&, std::vector<Segment>&) const override {}
-  std::shared_ptr<const Block> block(const Leaf& leaf) const override {
-    const auto all = base_.block(leaf);
-    auto block = std::make_shared<Block>();
-    for (std::size_t i = 0; i < all->points.size(); ++i) {
-      if (!sources_.contains(all->sources[i])) continue;
-      block->points.push_back(all->points[i]);
-      block->sources.push_back(all->sources[i]);
-      block->levels.push_back(all->levels[i]);
-    }
-    return block;
-  }
 
  private:
-  const PointIndex& base_;
+  const WorkingIndex& base_;
   const Sources& sources_;
+  GridBox bounds_;
+  std::vector<std::uint32_t> points_;  ///< by leaf of the base
 };
 
 }  // namespace itin

@@ -10,6 +10,8 @@
 
 #include "features/hot_pixel.hpp"
 #include "pyramid/coverage.hpp"
+#include "pyramid/grounded.hpp"
+#include "pyramid/points_in_triangles.hpp"
 #include "store/edge_quadtree.hpp"
 #include "triangulate/region.hpp"
 
@@ -27,25 +29,6 @@ using Codes = std::vector<std::uint64_t>;
 std::span<const std::uint64_t> in_cell(const Codes& codes, const Cell& cell) {
   const auto first = std::lower_bound(codes.begin(), codes.end(), cell.code);
   return {first, std::lower_bound(first, codes.end(), cell.end())};
-}
-
-/// Calls visit(triangle, position) for every triangle of the region and every position in it, borders included.
-template <class Visit>
-void for_each_inside(const RegionMesh& region, std::span<const std::uint64_t> codes, const Visit& visit) {
-  std::vector<Position> by_x;
-  for (const std::uint64_t code : codes) by_x.push_back({morton_x(code), morton_y(code)});
-  std::sort(by_x.begin(), by_x.end());
-  for (std::size_t t = 0; t < region.mesh.triangles.size(); ++t) {
-    const auto& corners = region.mesh.triangles[t];
-    const Position a = region.vertices[corners[0]].position(), b = region.vertices[corners[1]].position();
-    const Position c = region.vertices[corners[2]].position();
-    const std::int32_t last = std::max({a.x, b.x, c.x});
-    auto p = std::lower_bound(by_x.begin(), by_x.end(), std::min({a.x, b.x, c.x}),
-                              [](Position q, std::int32_t x) { return q.x < x; });
-    for (; p != by_x.end() && p->x <= last; ++p) {
-      if (orientation(a, b, *p) >= 0 && orientation(b, c, *p) >= 0 && orientation(c, a, *p) >= 0) visit(t, *p);
-    }
-  }
 }
 
 GridBox box_of(std::span<const std::uint64_t> codes) {
@@ -69,20 +52,6 @@ std::vector<T> by_tile(const Codes& codes, const std::vector<CurveRange>& tiles,
   std::vector<T> all;
   for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
   return all;
-}
-
-/// Those of the codes, ascending, that lie in a ground triangle.
-Codes grounded(std::span<const std::uint64_t> codes, const PointIndex& ground,
-               const std::vector<std::array<double, 4>>& gap_bases) {
-  const RegionMesh region = triangulate_region(ground, everything(), box_of(codes));
-  const std::vector<std::uint8_t> is_ground = ground_triangles(region, gap_bases);
-  Codes result;
-  for_each_inside(region, codes, [&](std::size_t t, Position p) {
-    if (is_ground[t]) result.push_back(morton(p.x, p.y));
-  });
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
-  return result;
 }
 
 /// How segments whose ends lie on the ground stand to its outline.
@@ -250,7 +219,11 @@ std::vector<GridPoint> drape(const std::vector<std::uint64_t>& codes, const Work
   return by_tile<GridPoint>(codes, tiles, "draping lines", progress, [&](std::span<const std::uint64_t> own) {
     const RegionMesh region = triangulate_region(index, everything(), box_of(own));
     std::map<std::uint64_t, GridPoint> draped;
-    for_each_inside(region, own, [&](std::size_t t, Position p) {
+    const auto corners = [&](std::size_t t) {
+      const auto& [a, b, c] = region.mesh.triangles[t];
+      return std::array{region.vertices[a].position(), region.vertices[b].position(), region.vertices[c].position()};
+    };
+    for_each_inside(region.mesh.triangles.size(), corners, own, [&](std::size_t t, Position p) {
       const auto& [a, b, c] = region.mesh.triangles[t];
       const GridPoint &pa = region.vertices[a].point, &pb = region.vertices[b].point, &pc = region.vertices[c].point;
       const std::int64_t wa = doubled_area(p, pb, pc), wb = doubled_area(pa, p, pc), wc = doubled_area(pa, pb, p);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <queue>
 #include <tuple>
 
 #include "triangulate/apex_frame.hpp"
@@ -17,9 +16,8 @@ namespace {
 constexpr std::ptrdiff_t kNearSegments = 16;
 /// For less it is not worth sorting segments by direction.
 constexpr std::size_t kFewSegments = 64, kFewQuestions = 4;
-/// A circle is wide when its centre is so many times half the edge's length away; and so is a box.
+/// A circle is wide when its centre is more than so many times half the edge's length away. Less wide ones come first.
 constexpr double kWide = 4;
-constexpr int kHalvings = 12;
 
 double width(const GridBox& b) {
   return static_cast<double>(b.xmax) - b.xmin;
@@ -93,17 +91,26 @@ struct ApexSearch::Search {
   GridBox known;
   const Position* beyond;  ///< on the circle that the search must improve on, or null
   double reach;            ///< no circle larger than this matters any more
+  Segments segments;       ///< whether they hide anything
   std::optional<SelectedVertex> best = std::nullopt;
-  bool segments_known = false;  ///< whether segments_ are those of box
-  std::size_t asked = 0;        ///< how often it was asked what segments hide
+  GridBox with_segments = {};  ///< segments_ are those that meet this part of box
+  std::size_t asked = 0;       ///< how often it was asked what they hide
   std::optional<SightFan> from_a = std::nullopt, from_b = std::nullopt;
 };
 
-/// The segments in the box that may come between ab and what lies left of it. Those near by, which hide most, are
-/// first.
-void ApexSearch::read_segments(const ApexFrame& frame, const GridBox& box) {
+/// Those that may come between ab and what lies left of it in a part of the search's box, and perhaps more. Those near
+/// by, which hide most, are first.
+void ApexSearch::read_segments(const GridBox& part, Search& search) {
+  if (search.segments == Segments::kPassed || search.with_segments.contains(part)) return;
+  const ApexFrame& frame = search.frame;
+  search.with_segments.extend(part);
+  // Parts asked for grow; so few of them are read.
+  const double margin = std::max(width(search.with_segments), height(search.with_segments)) / 2;
+  search.with_segments = intersection(expanded(search.with_segments, margin), search.box);
+  search.asked = 0;
+  search.from_a.reset(), search.from_b.reset();
   segments_.clear();
-  index_.segments(box, segments_);
+  index_.segments(search.with_segments, segments_);
   std::erase_if(segments_, [&](const Segment& s) {
     const bool beside = orientation(frame.a, frame.b, Position{s.ax, s.ay}) <= 0 &&
                         orientation(frame.a, frame.b, Position{s.bx, s.by}) <= 0;
@@ -120,8 +127,11 @@ void ApexSearch::read_segments(const ApexFrame& frame, const GridBox& box) {
 }
 
 /// Whether a segment hides c from an end of the edge.
-bool ApexSearch::hidden(Position c, Search& search) const {
+bool ApexSearch::hidden(Position c, Search& search) {
   const Position a = search.frame.a, b = search.frame.b;
+  GridBox between;
+  for (const Position p : {a, b, c}) between.extend(p.x, p.y);
+  read_segments(intersection(between, search.box), search);
   if (segments_.size() < kFewSegments || ++search.asked < kFewQuestions) {
     return std::any_of(segments_.begin(), segments_.end(),
                        [&](const Segment& s) { return crosses(s, a, c) || crosses(s, b, c); });
@@ -133,56 +143,48 @@ bool ApexSearch::hidden(Position c, Search& search) const {
   return search.from_a->blocked(c) || search.from_b->blocked(c);
 }
 
+std::optional<SelectedVertex> ApexSearch::least_circle(const ApexFrame& frame, double lambda, const Position* beyond,
+                                                       const GridBox& known, Segments segments) {
+  const GridBox all = index_.bounds();
+  const double span = frame.r + std::hypot(width(all), height(all));
+  // Where there is much it is near, and where there is nothing even a wide circle is soon looked through.
+  for (double part = frame.r; part < std::min(lambda / kWide, span); part *= kWide) {
+    const auto best = nearest_circle(frame, part, nullptr, known, segments);
+    // What lies on the searched circle itself may have rivals that rounding left out.
+    if (best && frame.lambda(best->position()) < 0.999 * part) return best;
+  }
+  return nearest_circle(frame, lambda, beyond, known, segments);
+}
+
 std::optional<SelectedVertex> ApexSearch::nearest_circle(const ApexFrame& frame, double lambda, const Position* beyond,
                                                          const GridBox& known, Segments segments) {
-  Search search{frame, frame.cap_box(lambda, index_.bounds()), known, beyond, lambda};
+  Search search{frame, frame.cap_box(lambda, index_.bounds()), known, beyond, lambda, segments};
   if (search.box.empty()) return std::nullopt;
-  if (segments == Segments::kPassed) {
-    segments_.clear();
-    search.segments_known = true;
+  segments_.clear();
+  leaves_.clear();
+  for_each_part_beyond(search.box, known,
+                       [&](const GridBox& part) { selected_leaves(index_, selection_, part, leaves_); });
+  std::vector<std::tuple<double, std::uint64_t, std::uint32_t>> order;
+  for (std::uint32_t i = 0; i < leaves_.size(); ++i) {
+    const GridBox box = leaves_[i].cell.box();
+    if (frame.cap_meets(lambda, box)) order.emplace_back(frame.key(box), leaves_[i].key, i);
   }
-  // Best first, by halves of a wide box's longer side: what is near has the answer, and may have none of the points.
-  using Piece = std::tuple<double, int, GridBox>;
-  const auto later = [](const Piece& p, const Piece& q) { return std::get<0>(p) > std::get<0>(q); };
-  std::priority_queue<Piece, std::vector<Piece>, decltype(later)> pieces(later);
-  const int halvings = lambda > kWide * frame.r ? kHalvings : 0;
-  const auto push = [&](const GridBox& box, int depth) {
-    if (frame.cap_meets(search.reach, box)) pieces.emplace(frame.key(box), depth, box);
-  };
-  for_each_part_beyond(search.box, known, [&](const GridBox& part) { push(part, 0); });
-  while (!pieces.empty()) {
-    const auto [key, depth, box] = pieces.top();
-    pieces.pop();
-    if (!frame.cap_meets(search.reach, box)) continue;
-    if (depth == halvings || std::max(width(box), height(box)) <= kWide * frame.r) {
-      look_in(box, search);
-      continue;
-    }
-    const auto [first, second] = halves(box);
-    push(first, depth + 1);
-    push(second, depth + 1);
+  std::sort(order.begin(), order.end());
+  const Leaf* last = nullptr;
+  for (const auto& [key, leaf_key, i] : order) {
+    if (last != nullptr && last->key == leaf_key) continue;  // it meets several parts
+    last = &leaves_[i];
+    if (frame.cap_meets(search.reach, last->cell.box()) && !hidden(*last, search)) look_in(*last, search);
   }
   return search.best;
 }
 
-void ApexSearch::look_in(const GridBox& piece, Search& search) {
-  const ApexFrame& frame = search.frame;
-  leaves_.clear();
-  selected_leaves(index_, selection_, piece, leaves_);
-  std::erase_if(leaves_, [&](const Leaf& leaf) { return !frame.cap_meets(search.reach, leaf.cell.box()); });
-  if (leaves_.empty()) return;
-  if (!search.segments_known) read_segments(frame, search.box);
-  search.segments_known = true;
-  std::vector<std::pair<double, std::uint32_t>> order(leaves_.size());
-  for (std::uint32_t i = 0; i < leaves_.size(); ++i) order[i] = {frame.key(leaves_[i].cell.box()), i};
-  std::sort(order.begin(), order.end());
+/// Whether it is certain, without reading the leaf, that segments near by hide all of it.
+bool ApexSearch::hidden(const Leaf& leaf, Search& search) {
+  if (blocks_.has_read(leaf)) return false;
+  read_segments(search.box, search);
   const std::span nearest(segments_.data(), std::min(segments_.size(), std::size_t{kNearSegments}));
-  for (const auto& [key, i] : order) {
-    const GridBox box = intersection(leaves_[i].cell.box(), search.box);
-    if (!frame.cap_meets(search.reach, leaves_[i].cell.box())) continue;
-    if (!blocks_.has_read(leaves_[i]) && hide(nearest, frame.a, frame.b, box)) continue;
-    look_in(leaves_[i], search);
-  }
+  return hide(nearest, search.frame.a, search.frame.b, intersection(leaf.cell.box(), search.box));
 }
 
 void ApexSearch::look_in(const Leaf& leaf, Search& search) {
@@ -209,7 +211,7 @@ void ApexSearch::look_in(const Leaf& leaf, Search& search) {
 
 std::optional<SelectedVertex> ApexSearch::intruder(Position a, Position b, Position c) {
   const ApexFrame frame(a, b);
-  return nearest_circle(frame, frame.lambda(c), &c, known_, Segments::kHide);
+  return least_circle(frame, frame.lambda(c), &c, known_, Segments::kHide);
 }
 
 std::optional<SelectedVertex> ApexSearch::apex(Position a, Position b) {
@@ -226,15 +228,9 @@ std::optional<SelectedVertex> ApexSearch::left_of(Position a, Position b, Segmen
   const Position farthest{b.y > a.y ? all.xmin : all.xmax, b.x > a.x ? all.ymax : all.ymin};
   if (orientation(a, b, farthest) <= 0) return std::nullopt;
   const ApexFrame frame(a, b);
-  const double span =
-      frame.r + std::hypot(static_cast<double>(all.xmax) - all.xmin, static_cast<double>(all.ymax) - all.ymin);
-  for (double lambda = frame.r; lambda < span; lambda *= 4) {
-    const auto best = nearest_circle(frame, lambda, nullptr, {}, segments);
-    // What lies on the searched circle itself may have rivals that rounding left out.
-    if (best && frame.lambda(best->position()) < 0.999 * lambda) return best;
-  }
+  const double span = frame.r + std::hypot(width(all), height(all));
   // A grid position left of ab is at least 1 / |ab| away from it, so no circle is larger than this.
-  return nearest_circle(frame, span * span * (frame.r + 1), nullptr, {}, segments);
+  return least_circle(frame, span * span * (frame.r + 1), nullptr, {}, segments);
 }
 
 std::optional<SelectedVertex> ApexSearch::inside(Position a, Position b, Position c) {

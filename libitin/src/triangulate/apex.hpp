@@ -71,13 +71,15 @@ class ApexSearch {
 
  private:
   struct Search;
-  void read_segments(const ApexFrame& frame, const GridBox& box);
-  bool hidden(Position c, Search& search) const;
   enum class Segments { kHide, kPassed };
+  void read_segments(const GridBox& part, Search& search);
+  bool hidden(Position c, Search& search);
+  bool hidden(const Leaf& leaf, Search& search);
   std::optional<SelectedVertex> left_of(Position a, Position b, Segments segments);
+  std::optional<SelectedVertex> least_circle(const ApexFrame& frame, double lambda, const Position* beyond,
+                                             const GridBox& known, Segments segments);
   std::optional<SelectedVertex> nearest_circle(const ApexFrame& frame, double lambda, const Position* beyond,
                                                const GridBox& known, Segments segments);
-  void look_in(const GridBox& piece, Search& search);
   void look_in(const Leaf& leaf, Search& search);
 
   const PointIndex& index_;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
+#include "triangulate/circumdisc.hpp"
 #include "triangulate/cut_out.hpp"
 #include "triangulate/enclosure.hpp"
 #include "triangulate/growing_mesh.hpp"
@@ -27,28 +27,6 @@ constexpr std::uint64_t kManyPoints = 1 << 16, kFewPoints = 4096;
 constexpr double kCellSide = 8;
 /// In points: what reading a cell costs besides. Over open water cells are empty, and no few.
 constexpr std::uint64_t kCellCost = 16;
-
-/// The sides of a box at which the bounds end moved far away.
-GridBox with_all_beyond(GridBox box, const GridBox& bounds) {
-  constexpr std::int32_t kFar = std::numeric_limits<std::int32_t>::max();
-  if (box.xmin <= bounds.xmin) box.xmin = -kFar;
-  if (box.ymin <= bounds.ymin) box.ymin = -kFar;
-  if (box.xmax >= bounds.xmax) box.xmax = kFar;
-  if (box.ymax >= bounds.ymax) box.ymax = kFar;
-  return box;
-}
-
-/// Whether the circumdisc of the counterclockwise abc surely lies in `box`.
-bool circumdisc_in(Position a, Position b, Position c, const GridBox& box) {
-  const double bx = static_cast<double>(b.x) - a.x, by = static_cast<double>(b.y) - a.y;
-  const double cx = static_cast<double>(c.x) - a.x, cy = static_cast<double>(c.y) - a.y;
-  const double b2 = bx * bx + by * by, c2 = cx * cx + cy * cy, d = 2 * (bx * cy - by * cx);
-  const double ux = (cy * b2 - by * c2) / d, uy = (bx * c2 - cx * b2) / d, radius = std::sqrt(ux * ux + uy * uy);
-  // The numerators lose at most 2^-50 of |b|^2 |c| + |c|^2 |b|; the area is exact to an ulp.
-  const double slack = 1 + 1e-14 * (b2 * std::sqrt(c2) + c2 * std::sqrt(b2)) / std::abs(d) + 1e-14 * radius;
-  const double x = a.x + ux, y = a.y + uy, reach = radius + slack;
-  return x - reach >= box.xmin && x + reach <= box.xmax && y - reach >= box.ymin && y + reach <= box.ymax;
-}
 
 class RegionTriangulation {
  public:
@@ -311,6 +289,9 @@ class RegionTriangulation {
   }
 
   void prove(std::uint32_t t, std::vector<SelectedVertex>& intruders, std::vector<Segment>& fresh) {
+    // Where one vertex is missing it is so for many triangles. What is left of them then is asked the next time.
+    if (std::any_of(intruders.begin(), intruders.end(), [&](const SelectedVertex& v) { return disturbs(v, t); }))
+      return;
     if (!box_.contains(box_of(t))) {
       const std::vector<Segment> crossing = read_.fresh_segments(box_of(t));
       fresh.insert(fresh.end(), crossing.begin(), crossing.end());
@@ -327,6 +308,11 @@ class RegionTriangulation {
     } else {
       grown_.settle(t);
     }
+  }
+
+  /// Whether a vertex lies in the circumcircle of t.
+  bool disturbs(const SelectedVertex& v, std::uint32_t t) const {
+    return in_circle_perturbed(corner(t, 0), corner(t, 1), corner(t, 2), v.position()) > 0;
   }
 
   void look_beyond_hull(std::uint32_t t, std::vector<SelectedVertex>& intruders) {

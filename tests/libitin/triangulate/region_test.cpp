@@ -146,7 +146,8 @@ TEST_P(RegionPatterns, WindowEqualsWhole) {
 
 INSTANTIATE_TEST_SUITE_P(Region, RegionPatterns,
                          testing::Values(Pattern::kRandom, Pattern::kLattice, Pattern::kClusters, Pattern::kContours,
-                                         Pattern::kCollinear, Pattern::kCocircular, Pattern::kGappyLattice));
+                                         Pattern::kCollinear, Pattern::kCocircular, Pattern::kGappyLattice,
+                                         Pattern::kTurnedLattice));
 
 /// Whether three times the centroid of abc lies in a triangle of `ground`, scaled likewise.
 bool centroid_in(const std::vector<std::array<GridPoint, 3>>& ground, const GridPoint& a, const GridPoint& b,
@@ -272,7 +273,7 @@ TEST_P(RegionCoverage, WindowBehindAnOutlineEqualsTheWhole) {
 
 INSTANTIATE_TEST_SUITE_P(Region, RegionCoverage,
                          testing::Values(Pattern::kRandom, Pattern::kLattice, Pattern::kClusters, Pattern::kContours,
-                                         Pattern::kGappyLattice));
+                                         Pattern::kGappyLattice, Pattern::kTurnedLattice));
 
 class RegionLines : public testing::TestWithParam<Pattern> {};
 
@@ -390,7 +391,8 @@ TEST_P(RegionLines, WindowEqualsWholeAlongStreets) {
 
 INSTANTIATE_TEST_SUITE_P(Region, RegionLines,
                          testing::Values(Pattern::kRandom, Pattern::kLattice, Pattern::kClusters, Pattern::kContours,
-                                         Pattern::kCollinear, Pattern::kCocircular, Pattern::kGappyLattice));
+                                         Pattern::kCollinear, Pattern::kCocircular, Pattern::kGappyLattice,
+                                         Pattern::kTurnedLattice));
 
 }  // namespace
 }  // namespace itin
