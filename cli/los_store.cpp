@@ -218,7 +218,7 @@ LosStoreOptions::Result LosStoreOptions::run(const Store& store, profile::LosQue
   profile::LosReport& report = result.report;
   report.crs_wkt = metadata.crs_wkt;
   name_features(store, report);
-  if (query.radio && !report.losses && report.profile.length_m > 0) {
+  if (query.radio && !report.losses && report.profile.has_length()) {
     result.warnings.emplace_back("an antenna is within a feature; no losses are given");
   }
   auto [from_site, to_site] = sites(from, to, metadata.crs_wkt);

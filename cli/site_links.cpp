@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <itin/same_place.hpp>
 #include <itin/triangulate.hpp>
 
 namespace itin::cli {
@@ -17,9 +18,12 @@ double distance(const SiteStand& a, const SiteStand& b) {
 
 }  // namespace
 
+bool SiteLinks::at_one_place(const SiteStand& a, const SiteStand& b) const {
+  return same_place(store_.metadata().grid, a.position, b.position);
+}
+
 profile::SightLine SiteLinks::between(const SiteStand& a, const SiteStand& b) const {
-  const double length = distance(a, b);
-  if (length == 0) return {};
+  if (at_one_place(a, b)) return {};
   const Window window = Window::corridor(a.position, b.position, 4 * store_.metadata().grid.resolution);
   const Tin tin = triangulate(store_, window, Detail::tolerance(0), progress_, rules_.themes);
   const std::optional<double> wavelength = rules_.fresnel ? std::optional(rules_.fresnel->wavelength) : std::nullopt;
@@ -51,7 +55,7 @@ bool SiteRules::sees_another_candidate(std::size_t option) const {
   if (known != sees_another_.end()) return known->second;
   std::vector<std::size_t> others;
   for (std::size_t other = 0; other < options_; ++other)
-    if (distance(stands_[option], stands_[other]) > 0 && spaced(option, other)) others.push_back(other);
+    if (!links_.at_one_place(stands_[option], stands_[other]) && spaced(option, other)) others.push_back(other);
   // Near ones first: they are the likeliest.
   std::sort(others.begin(), others.end(), [&](std::size_t a, std::size_t b) {
     const double da = distance(stands_[option], stands_[a]), db = distance(stands_[option], stands_[b]);

@@ -29,6 +29,7 @@ class SiteLinks {
   SiteLinks(const Store& store, LinkRules rules, Progress& progress)
       : store_(store), rules_(std::move(rules)), progress_(progress) {}
 
+  bool at_one_place(const viewshed::SiteStand& a, const viewshed::SiteStand& b) const;
   profile::SightLine between(const viewshed::SiteStand& a, const viewshed::SiteStand& b) const;
   bool connect(const viewshed::SiteStand& a, const viewshed::SiteStand& b) const {
     return rules_.met_by(between(a, b));

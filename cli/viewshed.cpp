@@ -65,12 +65,12 @@ class ViewshedVerb final : public Verb {
            "--mode", mode_text_,
            "visible (to any observer; the default); count (how many see it); certified (certainly visible, "
            "certainly hidden, or undecided at this tolerance); which (one bit an observer, in UInt32 bands of "
-           "32); angle (elevation angle of the sight line, degrees, the greatest of several observers); "
+           "32); angle (elevation angle of the sight line, degrees, the greatest of several observers; of an "
+           "observer's own place -90 or 90, or 0 of the eye); "
            "nearest (two bands: distance and number of the nearest visible observer); blocker (two bands: theme and "
            "feature of what first hides the cell from the nearest observer); height (the least height above the "
-           "ground at which a target is seen, metres); probability (two bands: of being visible, with "
-           "--vertical-error, "
-           "and visible as the heights are)")
+           "ground at which a target is seen, metres, no value where none is); probability (two bands: of being "
+           "visible, with --vertical-error, and visible as the heights are)")
         ->type_name("MODE");
     observers_.declare(app);
     declare_targets(app);

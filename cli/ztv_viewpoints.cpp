@@ -55,10 +55,11 @@ struct Sight {
 Sight look(const SectionSurface& surface, const Viewpoint& from, const Turbine& turbine, double ground,
            const Earth& earth) {
   Sight sight;
-  const double dx = turbine.position.x - from.position.x, dy = turbine.position.y - from.position.y;
+  const CrossSection section = surface.between(from.position, turbine.position);
+  const Point2 foot = section.one_place ? from.position : turbine.position;
+  const double dx = foot.x - from.position.x, dy = foot.y - from.position.y;
   sight.distance = std::hypot(dx, dy);
   sight.azimuth = std::fmod(std::atan2(dx, dy) * kDegrees + 360, 360);
-  const CrossSection section = surface.between(from.position, turbine.position);
   sight.gaps = !section.gaps.empty();
   const profile::Profile profile = profile::from_section(section);
   const double hub = turbine.hub_height.value_or(turbine.tip_height);

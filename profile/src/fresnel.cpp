@@ -14,7 +14,7 @@ double fresnel_radius_m(double d1_m, double d2_m, double wavelength) {
 std::optional<FresnelClearance> fresnel_clearance(const Profile& profile, const Antennas& antennas, const Earth& earth,
                                                   double wavelength) {
   const double length = profile.length_m;
-  if (length <= 0) return std::nullopt;
+  if (!profile.has_length()) return std::nullopt;
   LeastFraction tightest(std::sqrt(wavelength * length));
   const RayOverGround ray{antennas.from_m, antennas.to_m, earth.drop_coefficient() * length * length};
   for (const ProfilePoint& p : profile.points) {

@@ -41,6 +41,7 @@ class Walk {
 
   std::optional<LineClearance> run() {
     if (profile_.points.empty()) return std::nullopt;
+    if (!profile_.has_length()) return over_ends();
     for (const ProfilePoint& p : profile_.points) consider(p, clearance_over(p));
     for_each_piece(profile_, antennas_, drop_, [&](const RayPiece& piece, std::size_t i) { take(piece, i); });
     settle();
@@ -53,6 +54,13 @@ class Walk {
     if (profile.points.empty()) return false;
     const ProfilePoint &a = profile.points.front(), &b = profile.points.back();
     return std::tie(b.x, b.y) < std::tie(a.x, a.y);
+  }
+
+  /// Of one place there is nothing between them.
+  std::optional<LineClearance> over_ends() {
+    for (const ProfilePoint* p : {&profile_.points.front(), &profile_.points.back()})
+      if (p->distance_m == 0 || p->distance_m == profile_.length_m) consider(*p, clearance_over(*p));
+    return found_ ? std::optional(result_) : std::nullopt;
   }
 
   GroundPoint seen(const ProfilePoint& p) const {

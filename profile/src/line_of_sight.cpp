@@ -53,8 +53,12 @@ class SightLines::Impl {
       if (!chord) continue;
       const std::optional<SectionPiece> piece = line.clip(chord->from, chord->to);
       if (!piece) continue;
+      if (line.is_one_place()) {
+        consider_ends(ray, *piece, least);
+        continue;
+      }
       least.consider(ray, {piece->from.distance, piece->from.position.z}, {piece->to.distance, piece->to.position.z});
-      if (wavelength_ && length > 0) consider(over_ground, length, *piece, tightest);
+      if (wavelength_) consider(over_ground, length, *piece, tightest);
     }
     SightLine result;
     result.length = length;
@@ -65,6 +69,12 @@ class SightLines::Impl {
   }
 
  private:
+  /// Of one place there is nothing between them.
+  static void consider_ends(const Ray& ray, const SectionPiece& piece, LeastClearance& least) {
+    for (const SectionCrossing* c : {&piece.from, &piece.to})
+      if (c->t == 0 || c->t == 1) least.consider(ray, GroundPoint{c->distance, c->position.z});
+  }
+
   static void consider(const RayOverGround& ray, double length, const SectionPiece& piece, LeastFraction& tightest) {
     const double from = piece.from.distance / length, to = piece.to.distance / length;
     const double from_z = piece.from.position.z, to_z = piece.to.position.z;

@@ -52,7 +52,7 @@ class Surfaces {
       const auto& [hub, tip] = *query_.object;
       result.visible = visible_height(profile, link.from_height, hub, tip, query_.earth, grounds);
     }
-    if (query_.radio && profile.length_m > 0) add_radio(profile, bare ? &*bare : nullptr, antennas, result);
+    if (query_.radio && profile.has_length()) add_radio(profile, bare ? &*bare : nullptr, antennas, result);
     return result;
   }
 

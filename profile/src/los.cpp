@@ -70,6 +70,7 @@ Margin margin(const LosReport& report, const Earth& earth, double shift) {
 
 /// Certain verdicts hold whatever the surface's certified error hides.
 CriterionVerdict criterion_verdict(const LosReport& report, const Criterion& criterion, const Earth& earth) {
+  if (!report.profile.has_length()) return CriterionVerdict::kClear;
   const double error = report.query.clearance_error_m;
   const Margin least = margin(report, earth, -error), most = margin(report, earth, error);
   if (most.cut()) return CriterionVerdict::kObstructed;
@@ -88,7 +89,7 @@ std::string criterion_name(const Criterion& c) {
 }
 
 void add_required(LosReport& report) {
-  if (report.profile.length_m == 0) return;
+  if (!report.profile.has_length()) return;
   const PlannedHeights planned{report.query.from_height_m, report.query.to_height_m};
   const auto add = [&](std::string name, const Earth& earth, double fraction) {
     const Requirement requirement{earth, fraction, wavelength_of(report.query)};
@@ -106,15 +107,16 @@ bool above_surface(const Profile& profile, const Antennas& antennas) {
   return antennas.from_m >= profile.points.front().ground_m && antennas.to_m >= profile.points.back().ground_m;
 }
 
-/// The elevation angle at which something `rise` higher appears at `distance`.
-double elevation_deg(double rise, double distance, const Earth& earth) {
-  if (distance == 0) return rise == 0 ? 0 : std::copysign(90.0, rise);
+/// The elevation angle at which something `rise` higher appears at the other end.
+double elevation_deg(double rise, const Profile& profile, const Earth& earth) {
+  if (!profile.has_length()) return std::abs(rise) <= kGrazing ? 0 : std::copysign(90.0, rise);
+  const double distance = profile.length_m;
   return degrees(std::atan((rise - earth.drop(distance)) / distance));
 }
 
 void add_radio(LosReport& report) {
   const LosQuery& query = report.query;
-  if (!query.radio || report.profile.length_m == 0) return;
+  if (!query.radio || !report.profile.has_length()) return;
   report.fresnel = fresnel_clearance(report.profile, report.antennas, query.earth, wavelength_of(query));
   if (!above_surface(report.profile, report.antennas)) return;
   const double spacing = std::min(kMostSpacingM, report.profile.length_m / kLeastPoints);
@@ -157,8 +159,8 @@ LosReport analyse(Profile profile, const LosQuery& query, Profile ground) {
   }
   report.verdict = sight_verdict(report.profile, report.clearance_m, {query.clearance_error_m, query.gaps_block});
   const double rise = report.antennas.to_m - report.antennas.from_m;
-  report.elevation_angle_from_deg = elevation_deg(rise, report.profile.length_m, query.earth);
-  report.elevation_angle_to_deg = elevation_deg(-rise, report.profile.length_m, query.earth);
+  report.elevation_angle_from_deg = elevation_deg(rise, report.profile, query.earth);
+  report.elevation_angle_to_deg = elevation_deg(-rise, report.profile, query.earth);
   for (const Criterion& c : query.criteria) report.criteria.push_back(judge(report, c));
   add_required(report);
   add_radio(report);

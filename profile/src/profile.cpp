@@ -61,6 +61,7 @@ bool has_ground_at_ends(const Profile& profile) {
 Profile from_section(const CrossSection& section) {
   Profile profile;
   profile.length_m = section.length;
+  profile.one_place = section.one_place;
   profile.points.reserve(section.breakpoints.size());
   for (const Breakpoint& b : section.breakpoints) {
     profile.points.push_back({b.distance, b.position.x, b.position.y, b.position.z, 0, b.theme});

@@ -146,7 +146,7 @@ RequiredHeights required_heights(const Profile& profile, const PlannedHeights& p
 VisibleHeight visible_height(const Profile& profile, double eye_m, double hub_m, double tip_m, const Earth& earth,
                              const std::optional<EndGrounds>& grounds) {
   VisibleHeight seen;
-  if (profile.length_m > 0) {
+  if (profile.has_length()) {
     const auto least = HeightDemand(profile, Requirement{earth}, grounds.value_or(ends_of(profile))).to_alone(eye_m);
     seen.from_m = least ? *least : tip_m;
   }

@@ -16,8 +16,9 @@ struct VerdictTerms {
 
 inline SightVerdict sight_verdict(const Profile& profile, const std::optional<double>& clearance_m,
                                   const VerdictTerms& terms) {
+  if (!profile.has_length()) return SightVerdict::kVisible;
   if (terms.gaps_block && !profile.gaps.empty()) return SightVerdict::kHidden;
-  if (!clearance_m || profile.length_m == 0) return SightVerdict::kVisible;
+  if (!clearance_m) return SightVerdict::kVisible;
   if (std::abs(*clearance_m) < terms.clearance_error_m) return SightVerdict::kUndecided;
   return *clearance_m >= -kGrazing ? SightVerdict::kVisible : SightVerdict::kHidden;
 }

@@ -5,7 +5,9 @@ turbines, coverage of sites, and sight lines.
     tests/fuzz/agreement.py FIRST_SEED COUNT      with build/dev/bin/itin, or ITIN_PROGRAM; needs gdal-bin python3-gdal
 
 Every seed imports terrain (raster, contours or scattered points) and features in a random order, checks the store, looks
-from three places, at turbines, and from the best of three sites. What disagrees, fails or takes ten minutes is printed; its folder in build/fuzz is kept.
+from three places, at turbines, and from the best of three sites, and in every mode from cell centres, posts, corners of
+what stands and the data's edge, or a little beside them. What disagrees, fails or takes ten minutes is printed; its
+folder in build/fuzz is kept.
 """
 import csv
 import json
@@ -24,7 +26,11 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 ITIN = os.environ.get("ITIN_PROGRAM", ROOT + "/build/dev/bin/itin")
 X0, Y0 = 300000, 200000
 VISIBLE, OUTSIDE, CERTAINLY_HIDDEN, CERTAINLY_VISIBLE = 1, 255, 1, 2
+COUNT_OUTSIDE, NO_BLOCKER = 65535, 0xffffffff
 ROUNDING_M = 2e-6
+GRID_STEP_M = 0.01
+SAME_PLACE_M = 0.999 * GRID_STEP_M
+STEPS_BESIDE = [0, 0, 1e-9, 1e-5, 0.4, 0.9, 1.1, 3]
 
 
 class Failure(Exception):
@@ -84,7 +90,7 @@ class Trial:
         self.folder = f"{ROOT}/build/fuzz/{seed}"
         shutil.rmtree(self.folder, ignore_errors=True)
         os.makedirs(self.folder)
-        self.store, self.standing, self.faults = self.path("s.itin"), [], []
+        self.store, self.standing, self.faults, self.corners = self.path("s.itin"), [], [], []
         r = self.random
         self.step, self.posts = r.choice([1, 2, 5, 10, 50]), r.choice([33, 50, 80, 120])
         self.side = self.step * self.posts
@@ -101,6 +107,15 @@ class Trial:
     def place(self, margin=0.12):
         within = lambda: self.side * self.random.uniform(margin, 1 - margin)
         return round(X0 + within(), 3), round(Y0 + within(), 3)
+
+    def beside(self, place):
+        """Nearer than a step of the store's grid, or a little more."""
+        distance, turn = GRID_STEP_M * self.random.choice(STEPS_BESIDE), self.random.uniform(0, 2 * math.pi)
+        return place[0] + distance * math.sin(turn), place[1] + distance * math.cos(turn)
+
+    def centred(self, place, cell):
+        """Beside the centre of the cell that holds a place."""
+        return self.beside(tuple((math.floor(v / float(cell)) + 0.5) * float(cell) for v in place))
 
     def import_terrain(self):
         r, n = self.random, self.posts
@@ -165,12 +180,23 @@ class Trial:
             options += r.choice([["--replace"], []])
         else:
             write_features(path, "LineString", [(self.line(what != "roads"), 0) for _ in many])
+        self.corners += self.corners_in(path)
         try:
             itin("import", self.store, path, *([] if what == "replace" else ["--kind", what]), *options)
         except Refusal as refusal:
             self.log("refused:", refusal)
         else:
             self.standing += [what] if what in ("buildings", "vegetation", "walls") else []
+
+    def corners_in(self, path):
+        """Of walls, houses and other lines the corners and the middles between them."""
+        if not path.endswith("json"):
+            return []
+        with open(path, encoding="ascii") as file:
+            shapes = [feature["geometry"]["coordinates"] for feature in json.load(file)["features"]]
+        lines = [shape[0] if isinstance(shape[0][0], list) else shape for shape in shapes]
+        pairs = [(a, b) for line in lines for a, b in zip(line, line[1:])]
+        return [(a[0], a[1]) for a, _ in pairs] + [((a[0] + b[0]) / 2, (a[1] + b[1]) / 2) for a, b in pairs]
 
     def raster(self, name):
         return gdal.Open(self.path(name)).ReadAsArray()
@@ -232,19 +258,87 @@ class Trial:
         if not np.allclose(heights[0], heights[-1], 1e-6, 1e-5, equal_nan=True):
             self.faults.append("heights differ with the memory")
 
+    def place_of_a_kind(self):
+        """Anywhere, on a post, on the data's edge, or on what has been added."""
+        r, bounds = self.random, json.loads(itin("info", self.store, "--json"))["bounds"]
+        post = lambda: (r.randrange(self.posts) + 0.5) * self.step
+        kind = r.choice(["anywhere", "post", "edge", "rim", "feature", "feature"])
+        if kind == "edge":
+            return r.choice([bounds["xmin"], bounds["xmax"]]), Y0 + post()
+        if kind == "rim" and np.isnan(self.z).any():
+            empty = np.isnan(self.z)
+            rows, columns = np.nonzero(~empty & (np.roll(empty, 1, 0) | np.roll(empty, 1, 1)))
+            if len(rows):
+                i = r.randrange(len(rows))
+                return X0 + (columns[i] + 0.5) * self.step, Y0 + self.side - (rows[i] + 0.5) * self.step
+        if kind == "feature" and self.corners:
+            return r.choice(self.corners)
+        return (X0 + post(), Y0 + post()) if kind == "post" else self.place()
+
+    def look_closely(self):
+        """In every mode on a few cells about the observer, who stands on the middle one's centre or a little beside."""
+        r, place = self.random, self.place_of_a_kind()
+        eye, height, target = self.beside(place), r.choice([0, 1.5, 2, 30]), r.choice([0, 0, 1.5, 10])
+        cell, side = r.choice([GRID_STEP_M, 0.13, 3.37, 7.93, self.step]), 15
+        north_west = place[0] - side / 2 * cell, place[1] + side / 2 * cell
+        write_raster(self.path("like.tif"), np.zeros((side, side)), north_west, cell)
+        ends = {"--target-on": r.choice(["ground", "surface"]), "--observer-on": r.choice(["ground", "surface"])}
+        shared = self.shared_options()
+        call = ["viewshed", self.store, "--observer", f"{eye[0]!r},{eye[1]!r},{height}", "--target-height", target, "--like",
+                self.path("like.tif"), "--overwrite", "--quiet", *shared, *sum(ends.items(), ())]
+        self.log(*call)
+
+        def seen(name, *options):
+            itin(*call, *options, "-o", self.path(name))
+            return self.raster(name)
+
+        precise = seen("precise.tif", "--precise", "--memory", r.choice(["4M", "20M", "1G"]))
+        visible, hidden, outside = precise == VISIBLE, precise == 0, precise == OUTSIDE
+        certified = seen("certified.tif", "--mode", "certified", "--tolerance", r.choice([0, 0.5, 2, 8]))
+        angle, height_seen = seen("angle.tif", "--mode", "angle"), seen("height.tif", "--mode", "height")
+        (distance, number), blocker = seen("nearest.tif", "--mode", "nearest"), seen("blocker.tif", "--mode", "blocker")[0]
+        probability, as_is = seen("probability.tif", "--mode", "probability", "--vertical-error", 0.001)
+        count, which = seen("count.tif", "--mode", "count"), seen("which.tif", "--mode", "which")
+        lower, near = height_seen < target, abs(height_seen - target) <= 1e-4 * (1 + target)
+        unseen = np.isnan(height_seen)
+        agree = {
+            "plain": seen("plain.tif", "--tolerance", 0) == precise,
+            "certified": ~((certified == CERTAINLY_VISIBLE) & ~visible | (certified == CERTAINLY_HIDDEN) & visible),
+            "count": count == np.where(outside, COUNT_OUTSIDE, visible), "which": which == visible,
+            "angle": np.isfinite(angle) == visible, "nearest": np.isfinite(distance) == visible,
+            "number": (number == 1) == visible, "blocker": (blocker != NO_BLOCKER) == hidden,
+            "probability": np.isfinite(probability) == ~outside, "probability's": (as_is == VISIBLE) == visible,
+            "height": ~np.isinf(height_seen) & (near | np.where(unseen, ~visible, lower == visible)),
+        }
+        own = np.array([[math.dist(eye, at) < SAME_PLACE_M - 1e-7 for at in row] for row in self.centre_rows("like.tif", side)])
+        own &= ~outside
+        agree["own place"] = ~own | visible & (height_seen == 0) & (distance == 0) & (probability == 1)
+        agree["own angle"] = ~own | (angle == 0) | (abs(angle) == 90)
+        self.faults += [f"{name} about {place}: {(~a).sum()} cells" for name, a in agree.items() if not a.all()]
+        cells = self.drawn(np.argwhere(~outside), 120)
+        targets = self.centres("like.tif", cells)
+        there = self.lines([(eye, height, t, target) for t in targets], [*shared, *sum(ends.items(), ())])
+        back = self.lines([(t, target, eye, height) for t in targets],
+                          [*shared, "--target-on", ends["--observer-on"], "--observer-on", ends["--target-on"]])
+        for at, line, mirrored in zip(cells, there, back):
+            if line is None or mirrored is None or not line[0] == mirrored[0] == visible[tuple(at)]:
+                self.faults.append(f"cell {at} about {place}: precise {precise[tuple(at)]}, los {line}, back {mirrored}")
+
     def look_at_turbines(self):
         r = self.random
-        turbines = [(self.place(0.05), r.choice([2, 30, 120])) for _ in range(r.choice([1, 3, 40]))]
+        cell = self.cell_size()
+        turbines = [(self.centred(self.place(0.05), cell) if r.random() < 0.5 else self.place(0.05), r.choice([2, 30, 120]))
+                    for _ in range(r.choice([1, 3, 40]))]
         self.write_sites("turbines.csv", "x,y,tip_height", [(*place, tip) for place, tip in turbines])
         radius, shared = self.side * r.choice([0.2, 0.6, 2]), self.shared_options()
-        call = ["ztv", self.store, "--turbines", self.path("turbines.csv"), "--radius", radius, "--cell", self.cell_size(),
+        call = ["ztv", self.store, "--turbines", self.path("turbines.csv"), "--radius", radius, "--cell", cell,
                 "--observer-height", 2, "--memory", r.choice(["5M", "20M", "2G"]), "-o", self.path("ztv"), "--overwrite",
                 "--quiet", *shared]
         self.log(*call)
         itin(*call)
         name = "ztv/turbines.tif" if shared[1] == "none" else "ztv/turbines-screened.tif"
         seen, counted = np.atleast_3d(self.raster(name).T).T, self.raster("ztv/tip-count.tif")
-        cells = self.drawn(np.argwhere(counted != 65535), 60)
+        cells = self.drawn(np.argwhere(counted != COUNT_OUTSIDE), 60)
         lines, where = [], []
         for (row, column), eye in zip(cells, self.centres(name, cells)):
             for k in r.sample(range(len(turbines)), min(len(turbines), 4)):
@@ -260,12 +354,13 @@ class Trial:
 
     def choose_site(self):
         r = self.random
-        self.write_sites("candidates.csv", "name,x,y", [(f"c{i}", *self.place(0.05)) for i in range(3)])
+        cell = self.cell_size()
+        self.write_sites("candidates.csv", "name,x,y", [(f"c{i}", *self.centred(self.place(0.05), cell)) for i in range(3)])
         shared = [*self.shared_options(), "--target-on", r.choice(["ground", "surface"])]
         looks = ["--target-height", r.choice([0, 1.5, 10]), "--radius", self.side * r.choice([0.2, 0.6]), "--overwrite",
                  "--quiet", *shared]
         call = ["site", self.store, "--candidates", self.path("candidates.csv"), "--name-field", "name", "--mast-height", 15,
-                "--count", 1, "--cell", self.cell_size(), "--memory", r.choice(["5M", "1G"]), *looks, "-o", self.path("site")]
+                "--count", 1, "--cell", cell, "--memory", r.choice(["5M", "1G"]), *looks, "-o", self.path("site")]
         call += r.choice([[], ["--tolerance", r.choice([0, 2])]])
         self.log(*call)
         itin(*call)
@@ -282,6 +377,9 @@ class Trial:
         with open(self.path(name), "w", encoding="ascii") as file:
             print(header, *(",".join(map(str, row)) for row in rows), sep="\n",
                   file=file)
+
+    def centre_rows(self, name, side):
+        return [self.centres(name, [(row, column) for column in range(side)]) for row in range(side)]
 
     def centres(self, name, cells):
         west, size, _, north, _, down = gdal.Open(self.path(name)).GetGeoTransform()
@@ -309,7 +407,7 @@ class Trial:
         for what in self.random.sample(kinds, self.random.randint(0, 5)):
             self.add(what)
         itin("check", self.store, "--quiet")
-        for ask in [self.look] * 3 + [self.look_at_turbines, self.choose_site]:
+        for ask in [self.look] * 3 + [self.look_closely] * 3 + [self.look_at_turbines, self.choose_site]:
             try:
                 ask()
             except Refusal as refusal:

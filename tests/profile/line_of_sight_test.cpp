@@ -106,6 +106,17 @@ TEST(LineOfSight, OfLengthZeroLooksDown) {
   EXPECT_FALSE(sight_lines.between({25, 30, 4}, {25, 30, 4}).visible());
 }
 
+TEST(LineOfSight, WithinAStepOfTheGridOnlyTheEndsMatter) {
+  // A wall of 50 m between two posts that are neighbours on the grid.
+  const Tin tin = lattice(3, 3, 0.01, [](int c, int) { return c == 1 ? 50.0 : 0.0; });
+  const SightLines sight_lines(tin, Earth::flat());
+  const Point3 low{0.0005, 0.01, 3}, high{0.0095, 0.01, 48};
+  EXPECT_TRUE(sight_lines.between(low, high).visible());
+  EXPECT_NEAR(*sight_lines.between(low, high).clearance, 0.5, 1e-6);
+  EXPECT_EQ(sight_lines.between(low, high).clearance, sight_lines.between(high, low).clearance);
+  EXPECT_FALSE(sight_lines.between({0.0005, 0.01, 3}, {0.0195, 0.01, 3}).visible());
+}
+
 /// Rough ground, and ends of all kinds on and beside it.
 class RandomSights : public ::testing::Test {
  protected:

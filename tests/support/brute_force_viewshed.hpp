@@ -44,13 +44,13 @@ inline std::vector<std::uint8_t> brute_force(const Tin& surface, const Tin& grou
       const auto base = (request.targets_on_surface ? above : below).ground(centre);
       if (!base) continue;
       const double target = *base + request.target_height;
-      const double dx = centre.x - eye.position.x, dy = centre.y - eye.position.y;
-      if (!view.contains(dx, dy, target - eye.elevation)) continue;
       const Point3 to{easting_in_units(surface.grid, centre.x), northing_in_units(surface.grid, centre.y),
                       target / resolution};
+      const auto [dx, dy] = eye.offset_to(centre, {to.x, to.y});
+      if (!view.contains(dx, dy, target - eye.elevation)) continue;
       std::uint8_t& value = values[cells.index({column, row})];
       value = kVisible;
-      if (to.x == eye.units.x && to.y == eye.units.y) continue;
+      if (eye.stands_at({to.x, to.y})) continue;
       const SightLine line(eye.units, to, request.earth.drop_coefficient() * resolution, kGrazing / resolution);
       const bool hidden = std::any_of(surface.triangles.begin(), surface.triangles.end(), [&](const Triangle& t) {
         return line.hidden_by(surface.vertices[t[0]], surface.vertices[t[1]], surface.vertices[t[2]]);

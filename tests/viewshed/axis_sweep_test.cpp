@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include <itin/same_place.hpp>
+
 #include "boundary.hpp"
 #include "grid_units.hpp"
 #include "support/delaunay_tin.hpp"
@@ -99,7 +101,7 @@ class Sweeping {
     const double x = eyes.centres.x[static_cast<std::size_t>(column)],
                  y = eyes.centres.y[static_cast<std::size_t>(row)];
     const double distance = std::hypot(x - axis.x, y - axis.y), found = heights[cell];
-    if (distance == 0 || distance > axis.radius * (1 + 1e-9)) {
+    if (same_place(distance, 0) || distance > axis.radius * (1 + 1e-9)) {
       EXPECT_TRUE(std::isinf(found)) << "an eye that does not look";
       return;
     }
@@ -173,6 +175,20 @@ TEST(AxisSweep, FractalTerrainWithCellsOfEverySize) {
     }
   }
   EXPECT_GT(hidden, 0);
+}
+
+TEST(AxisSweep, AxesOnCellCentresAndWithinStepsOfThem) {
+  std::mt19937 random(test::seed());
+  const Tin tin = test::fractal_tin(33, 50, 150, 0.55, random());
+  constexpr double kCell = 7.93;
+  Sweeping sweeping(tin, {}, kCell);
+  for (const double steps : {0.0, 1e-9, 0.4, 0.9, 1.1, 3.0}) {
+    const auto centre = [&](double corner) {
+      const double cell = std::floor(corner / kCell) + 40 + static_cast<double>(random() % 100);
+      return (cell + 0.5) * kCell + steps * tin.grid.resolution;
+    };
+    EXPECT_GT(sweeping.compare({centre(300000), centre(200000)}, 60, steps == 0 ? 0 : 2, 200).seen, 0);
+  }
 }
 
 TEST(AxisSweep, GroundWithVoids) {
@@ -288,7 +304,7 @@ class LookingAround {
     for (std::size_t k = 0; k < ends.elevation.size(); ++k) {
       const Point3 end{ends.centres.x[k % Tile::kSide], ends.centres.y[k / Tile::kSide], ends.elevation[k]};
       if (std::isnan(end.z)) continue;
-      if (end.x == eye.x && end.y == eye.y) {
+      if (same_place(end.x - eye.x, end.y - eye.y)) {
         EXPECT_TRUE(std::isinf(work_->found[k]));
       } else {
         visit(k, SightLine(eye, end, drop_, kGrazing / tin_.grid.resolution));

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <itin/cross_section.hpp>
+#include <itin/error.hpp>
 #include <itin/grazing.hpp>
 #include <itin/import.hpp>
 #include <itin/store.hpp>
@@ -96,6 +97,30 @@ class OneAnswer : public testing::Test {
     EXPECT_GT(agreement.hidden, wanted / 50);
   }
 
+  /// Plain, precise and certified, on cells about a place, one of whose centres it is; the eye stands there or within
+  /// three steps of the store's grid.
+  void expect_one_answer_about(const Store& store, Request request, Point2 place) {
+    NoProgress progress;
+    const double step = store.metadata().grid.resolution;
+    const double cells[] = {step, 0.37, 3.37, 7.93}, steps[] = {0, 0, 1e-9, 1e-5, 0.4, 0.9, 1.1, 3};
+    const double cell = cells[random_() % 4], off = step * steps[random_() % 8];
+    const Point2 eye{place.x + off * (random_() % 2 == 0 ? 1 : -1), place.y};
+    SCOPED_TRACE(fmt::format("{},{} by {} on cells of {}", place.x, place.y, eye.x - place.x, cell));
+    request.observers = {{"eye", eye, in(0, 20) < 5 ? 0.0 : 2.0}};
+    request.cell_size.reset();
+    request.grid.emplace(Point2{place.x - 7.5 * cell, place.y + 7.5 * cell}, cell, cell, 15, 15);
+    const Result plain = viewshed::compute(store, request, progress);
+    EXPECT_EQ(viewshed::compute_precise(store, request, {}, progress).result.visible, plain.visible);
+    const std::size_t own = plain.grid.index({7, 7});
+    if (plain.visible[own] != viewshed::kOutside) {
+      EXPECT_TRUE(plain.visible[own] == viewshed::kVisible || off >= step);
+    }
+    ask_again(store, plain, 40);
+    request.mode = viewshed::Mode::kCertified;
+    request.detail = Detail::tolerance(4);
+    ask_again(store, viewshed::compute_certified(store, request, progress).result, 40);
+  }
+
   test::TemporaryDirectory directory_;
   std::mt19937 random_{test::seed()};
 };
@@ -112,7 +137,8 @@ class InATown : public OneAnswer {
     options.sources = {directory_.file("t.tif")};
     NoProgress progress;
     import_terrain(directory_.file("s.itin"), options, progress);
-    std::vector<LineFeature> houses, woods;
+    std::vector<LineFeature>& houses = houses_;
+    std::vector<LineFeature> woods;
     for (int i = 0; i < 40; ++i) {
       const double x = in(300020, 300540), y = in(199440, 199940);
       houses.push_back(test::box(x, y, x + in(6, 30), y + in(6, 30), in(3, 12)));
@@ -143,7 +169,30 @@ class InATown : public OneAnswer {
 
   std::optional<Store> store_;
   Request request_;
+  std::vector<LineFeature> houses_;
 };
+
+TEST_F(InATown, AboutHousesCornersAndWallsPostsAndTheDatasEdge) {
+  for (int i = 0; i < 30; ++i) {
+    const LineFeature& house = houses_[random_() % houses_.size()];
+    const Point3 &a = house.vertices[0], &b = house.vertices[1];
+    const auto post = [&] { return 5 + 10 * std::floor(in(0, 59)); };
+    const Point2 places[] = {{a.x, a.y},
+                             {(a.x + b.x) / 2, a.y},
+                             {(a.x + b.x) / 2, a.y + 0.01},
+                             {300000 + post(), 199400 + post()},
+                             {300005, 199400 + post()},
+                             {300595, 199995},
+                             {in(300020, 300580), in(199420, 199980)}};
+    const std::size_t count = sizeof places / sizeof *places;
+    request_.observers_on_surface = random_() % 2 == 0, request_.targets_on_surface = random_() % 2 == 0;
+    request_.themes = random_() % 3 == 0 ? ThemeChoice::none() : ThemeChoice::all();
+    try {
+      expect_one_answer_about(*store_, request_, places[random_() % count]);
+    } catch (const InputError&) {  // the eye beyond the data's edge
+    }
+  }
+}
 
 TEST_F(InATown, OfBareGround) {
   request_.themes = ThemeChoice::none();
@@ -250,6 +299,15 @@ TEST_F(InWales, PlainAtEveryTolerance) {
     SCOPED_TRACE(tolerance);
     request_.detail = Detail::tolerance(tolerance);
     expect_plain_agrees(*store_, request_, 1500);
+  }
+}
+
+TEST_F(InWales, AboutCellCentresAndPosts) {
+  for (int i = 0; i < 20; ++i) {
+    const Point2 place{std::round(in(305000, 315000) * 1000) / 1000, std::round(in(175000, 185000) * 1000) / 1000};
+    const Point2 post{std::floor(place.x / 50) * 50 + 25, std::floor(place.y / 50) * 50 + 25};
+    request_.target_height = i % 3;
+    expect_one_answer_about(*store_, request_, i % 4 == 0 ? post : place);
   }
 }
 

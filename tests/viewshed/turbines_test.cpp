@@ -94,6 +94,25 @@ Expected expected(const test::ExactLineOfSight& exact, const Zone& zone, Point2 
   return e;
 }
 
+TEST(Turbines, AreSeenWholeFromTheirOwnPlace) {
+  const Tin tin = test::fractal_tin(33, 50, 150, 0.5, test::seed());
+  for (const double steps : {0.0, 1e-9, 1e-5, 0.4, 0.9}) {
+    ZoneRequest request;
+    request.cell_size = 3.37;
+    const Point2 corner{std::floor(300700 / 3.37) * 3.37 + 1.685, std::floor(200900 / 3.37) * 3.37 + 1.685};
+    request.turbines = {turbine(1, 0, 0)};
+    request.turbines[0].position = {corner.x + steps * tin.grid.resolution, corner.y};
+    request.turbines[0].radius = 100;
+    const Zone zone = survey(tin, request);
+    const std::size_t own = zone.grid.index(*zone.grid.cell_at(corner));
+    EXPECT_EQ(zone.bare.tip_count[own], 1U) << steps;
+    EXPECT_EQ(zone.bare.hub_count[own], 1U) << steps;
+    EXPECT_FLOAT_EQ(zone.bare.visible_height_m[own], static_cast<float>(request.turbines[0].tip_height));
+    EXPECT_EQ(zone.bare.vertical_angle_deg[own], 180);
+    EXPECT_EQ(zone.bare.nearest_m[own], 0);
+  }
+}
+
 TEST(Turbines, EveryValueFollowsFromSingleLinesOfSight) {
   const std::uint32_t seed = test::seed();
   const Tin tin = test::fractal_tin(33, 50, 150, 0.5, seed);

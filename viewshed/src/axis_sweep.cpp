@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include <itin/same_place.hpp>
+
 #include "sweep_sights.hpp"
 
 namespace itin::viewshed {
@@ -44,9 +46,19 @@ class AxisSweep::Task {
     for (const double elevation : ends_.elevation)
       if (elevation > highest_) highest_ = elevation;
     for (std::size_t i = 0; i < view_.quadrants_.size(); ++i) look_from(view_.quadrants_[i], view_.fans_[i]);
+    leave_out_own_place();
   }
 
  private:
+  void leave_out_own_place() {
+    for (std::size_t r = 0; r < number(ends_.tile.rows); ++r) {
+      const double south = axis_.y - ends_.centres.y[r];
+      if (!same_place(0, south)) continue;
+      for (std::size_t c = 0; c < number(ends_.tile.columns); ++c)
+        if (same_place(ends_.centres.x[c] - axis_.x, south)) heights_[r * Tile::kSide + c] = kInfinity;
+    }
+  }
+
   void look_from(const Quadrant& quadrant, const HorizonFan& fan) {
     place_cells(quadrant);
     if (farthest_ <= 0 || quadrant.slabs() == 0) return;

@@ -52,7 +52,7 @@ class AxisSweep {
     const TileValues<double>& elevation;  ///< grid units
   };
   /// Of each cell: where a sight line to its top is hidden NaN, else the least height seen, from base to top. Eyes at
-  /// the axis itself, and beyond its radius, are left out: infinity.
+  /// the axis' own place (itin/same_place.hpp), and beyond its radius, are left out: infinity.
   using Heights = TileValues<double>;
 
   /// What the tiles about an axis share. Refers to the sweep's surface.
@@ -70,7 +70,7 @@ class AxisSweep {
   void run(const View& axis, const Ends& eyes, Scratch& scratch, Heights& heights) const;
 
   /// The other way round, from an eye to targets, exact to the last bit as the line from the eye over every triangle:
-  /// NaN where hidden, infinity for a target at the eye itself, else the eye's height.
+  /// NaN where hidden, infinity for a target at the eye's own place, else the eye's height.
   void look_from(const View& eye, const Ends& targets, Scratch& scratch, Heights& seen) const;
 
   /// Of each cell's ends the lowest that counts, and one that is asked for besides: it need not lie within the range.
@@ -79,9 +79,9 @@ class AxisSweep {
     const TileValues<double>& wanted;
   };
   /// How high a cell's end must be for the eye to see it: from the lowest up to `highest`; NaN where that is hidden,
-  /// infinity for a cell at the eye itself. The line to a height found touches the surface, or the height is one of the
-  /// three given: it is at most one of them just where look_from() sees that. Cost: some tenths of a microsecond a cell
-  /// that does not see the lowest.
+  /// infinity for a cell at the eye's own place. The line to a height found touches the surface, or the height is one
+  /// of the three given: it is at most one of them just where look_from() sees that. Cost: some tenths of a microsecond
+  /// a cell that does not see the lowest.
   void raise_from(const View& eye, const Ends& highest, const Lowest& lowest, Scratch& scratch, Heights& least) const;
 
  private:

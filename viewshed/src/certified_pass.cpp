@@ -105,7 +105,8 @@ void CertifiedPass::fill(const EnvelopeScene::Look& look, TileValues<std::uint8_
     const double low = low_m * metre, high = high_m * metre;
     const Point2 centre =
         grid_.centre(work.tile.column + static_cast<std::int64_t>(c), work.tile.row + static_cast<std::int64_t>(r));
-    const double dx = centre.x - eye.position.x, dy = centre.y - eye.position.y;
+    const double x = work.centres.x[c], y = work.centres.y[r];
+    const auto [dx, dy] = eye.offset_to(centre, {x, y});
     const std::optional<bool> in_view = eye.view.contains(dx, dy, low_m - eye.elevation, high_m - eye.elevation);
     if (in_view == false) {
       value = kOutside;
@@ -115,9 +116,8 @@ void CertifiedPass::fill(const EnvelopeScene::Look& look, TileValues<std::uint8_
       value = kCertainlyHidden;
       continue;
     }
-    const double x = work.centres.x[c], y = work.centres.y[r];
-    if (x == eye.units.x && y == eye.units.y) {
-      if (in_view) value = kCertainlyVisible;
+    if (in_view && eye.stands_at({x, y})) {
+      value = kCertainlyVisible;
       continue;
     }
     const unsigned bit = 1U << i;
@@ -157,7 +157,8 @@ bool CertifiedPass::aim(const EnvelopeScene::Look& look, const TileWork& work, c
   const auto squared = [&](double x, double y) {
     return (x - eye.units.x) * (x - eye.units.x) + (y - eye.units.y) * (y - eye.units.y);
   };
-  const double nearest = squared(std::clamp(eye.units.x, west, east), std::clamp(eye.units.y, south, north));
+  const Point2 near{std::clamp(eye.units.x, west, east), std::clamp(eye.units.y, south, north)};
+  const double nearest = squared(near.x, near.y);
   double farthest = 0;
   for (unsigned i = 0; i < 4; ++i) {
     const double x = i % 2 == 0 ? west : east, y = i < 2 ? north : south, distance = squared(x, y);
@@ -170,7 +171,7 @@ bool CertifiedPass::aim(const EnvelopeScene::Look& look, const TileWork& work, c
         (eye.target(highest * resolution) + 4 * kGrazing) / resolution + scene_.drop * (distance - nearest);
   }
   const double squared_metre = resolution * resolution;
-  if (nearest == 0 || !eye.view.holds(nearest * squared_metre, farthest * squared_metre)) return false;
+  if (eye.stands_at(near) || !eye.view.holds(nearest * squared_metre, farthest * squared_metre)) return false;
   lines.active |= 0xfU << first;
   return true;
 }

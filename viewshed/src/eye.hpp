@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include <itin/same_place.hpp>
 #include <viewshed/viewshed.hpp>
 
 #include "field_of_view.hpp"
@@ -18,6 +19,13 @@ struct Eye {
   FieldOfView view;
   double target_height = 0;  ///< metres above the ground, or an elevation when `target_absolute`
   bool target_absolute = false;
+
+  /// Whether a place in grid units is the eye's own.
+  bool stands_at(Point2 place) const { return same_place(place.x - units.x, place.y - units.y); }
+  /// From the eye to a place, metres; nothing to its own, which lies straight above or below.
+  Point2 offset_to(Point2 metres, Point2 place) const {
+    return stands_at(place) ? Point2{} : Point2{metres.x - position.x, metres.y - position.y};
+  }
 
   /// The elevation of the target on ground of this elevation, metres.
   double target(double ground) const { return target_absolute ? target_height : ground + target_height; }

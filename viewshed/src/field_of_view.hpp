@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include <itin/grazing.hpp>
 #include <viewshed/viewshed.hpp>
 
 namespace itin::viewshed {
@@ -32,25 +33,26 @@ class FieldOfView {
     return !azimuth_ && !elevation_ && nearest >= nearest_ && farthest <= farthest_;
   }
 
-  /// Metres from the observer to the target. An observer's own position has every azimuth, and the eye every elevation.
+  /// Metres from the observer to the target (Eye::offset_to). An observer's own place has every azimuth; of it the eye
+  /// has every elevation, and the rest is straight above or below.
   bool contains(double dx, double dy, double dz) const { return contains(dx, dy, dz, dz).value(); }
   bool looks_towards(double azimuth_deg) const { return !azimuth_ || azimuth_within(azimuth_deg); }
   /// From how far to how far above the eye a target at this squared distance is in view, metres; nothing: any.
   std::optional<std::pair<double, double>> heights_at(double squared) const {
-    if (!elevation_ || squared == 0) return std::nullopt;
-    const double distance = std::sqrt(squared), drop = drop_ * squared;
+    if (!elevation_) return std::nullopt;
+    const double distance = std::sqrt(squared), drop = drop_ * squared, slack = squared == 0 ? kGrazing : 0;
     const auto height = [&](double degrees) { return std::tan(degrees / kDegrees) * distance + drop; };
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    return std::pair(elevation_->from <= -90 ? -kInfinity : height(elevation_->from),
-                     elevation_->to >= 90 ? kInfinity : height(elevation_->to));
+    return std::pair(elevation_->from <= -90 ? -kInfinity : height(elevation_->from) - slack,
+                     elevation_->to >= 90 ? kInfinity : height(elevation_->to) + slack);
   }
-  /// Degrees.
+  /// Degrees; of an observer's own place -90 or 90, and 0 of the eye.
   double elevation(double dx, double dy, double dz) const { return elevation_at(dx * dx + dy * dy, dz); }
   /// A target somewhere from `low` to `high` above the observer; nothing where that decides.
   std::optional<bool> contains(double dx, double dy, double low, double high) const {
     const double squared = dx * dx + dy * dy;
     if (squared > farthest_ || squared < nearest_) return false;
-    if (squared == 0 && low <= 0 && high >= 0) return true;
+    if (squared == 0 && low <= kGrazing && high >= -kGrazing) return true;
     if (squared > 0 && azimuth_ && !azimuth_within(std::atan2(dx, dy) * kDegrees)) return false;
     if (!elevation_) return true;
     const double lowest = elevation_at(squared, low), highest = elevation_at(squared, high);
@@ -69,6 +71,7 @@ class FieldOfView {
     return turn(degrees - azimuth_->from) <= width;
   }
   double elevation_at(double squared, double dz) const {
+    if (squared == 0 && std::abs(dz) <= kGrazing) return 0;
     return std::atan2(dz - drop_ * squared, std::sqrt(squared)) * kDegrees;
   }
   static double turn(double degrees) {

@@ -93,20 +93,17 @@ void FullSurface::find_ground(std::span<const Tile> parts, TileWork& work) const
 void FullSurface::raise_targets(const Eye& eye, TileValues<std::uint8_t>& values, TileWork& work) const {
   const double resolution = units().resolution, metre = 1 / resolution, grazing = kGrazing / resolution;
   work.targets.fill(kNoSurface);
-  for_each_cell(work.tile, [&](std::size_t cell, RasterGrid::Cell place) {
+  for_each_offset(eye, work, [&](std::size_t cell, const Point2& offset) {
     std::uint8_t& value = values[cell];
     if (value != kUndecided) return;
     value = kOutside;
     const double ground = work.ground[cell];
     if (std::isnan(ground)) return;
     const double target = eye.target(ground * resolution);
-    const Point2 centre = grid_.centre(place.column, place.row);
-    if (!eye.view.contains(centre.x - eye.position.x, centre.y - eye.position.y, target - eye.elevation)) return;
+    if (!eye.view.contains(offset.x, offset.y, target - eye.elevation)) return;
     const bool below = ground == kUnread || target * metre < ground - grazing;
-    const Point2 units = work.centres.at(cell);
-    const bool at_eye = units.x == eye.units.x && units.y == eye.units.y;
     value = below ? kCertainlyHidden : kCertainlyVisible;
-    if (!below && !at_eye) work.targets[cell] = target * metre;
+    if (!below && offset != Point2{}) work.targets[cell] = target * metre;
   });
 }
 

@@ -68,6 +68,10 @@ class FullSurface {
   /// Of the cells in these parts of the tile alone. Precondition: the surface is a lattice.
   std::unique_ptr<TileWork> begin(std::size_t tile, std::span<const Tile> parts) const;
 
+  /// Calls visit(cell, Eye::offset_to() it) for every cell.
+  template <class Visit>
+  void for_each_offset(const Eye& eye, const TileWork& work, const Visit& visit) const;
+
   /// What all tiles share of an eye.
   AxisSweep::View view_from(const Eye& eye) const { return sweep_.view_of(axis_of(eye)); }
   /// The same, to be advanced.
@@ -101,6 +105,20 @@ class FullSurface {
   std::optional<TriangleBins> of_tiles_;  ///< of that Tin, where `heights_` does not tell its heights well
   AxisSweep sweep_;
 };
+
+template <class Visit>
+void FullSurface::for_each_offset(const Eye& eye, const TileWork& work, const Visit& visit) const {
+  for_each_row(work.tile, [&](std::size_t cell, RasterGrid::Cell place) {
+    const double dy = grid_.centre_y(place.row) - eye.position.y;
+    // Few rows come near the eye.
+    const bool near = same_place(0, work.centres.at(cell).y - eye.units.y);
+    const std::int64_t end = place.column + work.tile.columns;
+    for (; place.column < end; ++place.column, ++cell) {
+      const bool own = near && eye.stands_at(work.centres.at(cell));
+      visit(cell, own ? Point2{} : Point2{grid_.centre_x(place.column) - eye.position.x, dy});
+    }
+  });
+}
 
 /// Together with what it is made of.
 struct OwnedSurface {

@@ -98,7 +98,7 @@ class Writer {
   }
 
   void heights() {
-    write<float>({"least height above the ground at which a target is seen, metres; infinite: at none"}, kNaN,
+    write<float>({"least height above the ground at which a target is seen, metres; no value: at none"}, kNaN,
                  result_.least_height_m);
   }
   void probabilities() {

@@ -97,14 +97,13 @@ SightedTarget sighted(const HorizonTarget& target, const Tin& surface, const Tin
                                  target.name, target.position.x, target.position.y));
   SightedTarget result{target};
   result.elevation_m = request.target_absolute ? target.height : *ground + target.height;
-  const double dx = target.position.x - eye.position.x, dy = target.position.y - eye.position.y;
+  const Point3 to{easting_in_units(surface.grid, target.position.x), northing_in_units(surface.grid, target.position.y),
+                  result.elevation_m / surface.grid.resolution};
+  const auto [dx, dy] = eye.offset_to(target.position, {to.x, to.y});
   result.distance_m = std::hypot(dx, dy);
   result.azimuth_deg = std::fmod(std::atan2(dx, dy) * kDegrees + 360, 360);
   result.elevation_deg = eye.view.elevation(dx, dy, result.elevation_m - eye.elevation);
-  const Point3 to{easting_in_units(surface.grid, target.position.x), northing_in_units(surface.grid, target.position.y),
-                  result.elevation_m / surface.grid.resolution};
-  const bool same_place = to.x == eye.units.x && to.y == eye.units.y;
-  result.visible = same_place || !blockers.find(eye.units, to);
+  result.visible = eye.stands_at({to.x, to.y}) || !blockers.find(eye.units, to);
   return result;
 }
 

@@ -16,10 +16,6 @@ bool LeastHeightObservation::open(const Look& look) const {
   return least_[look.cell] > 0 || value(look.cell) != kVisible;
 }
 
-void LeastHeightObservation::keep(const Look& look) {
-  least_[look.cell] = 0;
-}
-
 std::uint64_t LeastHeightObservation::look(const TileLook& tile) {
   FullSurface::TileWork& work = tile.work;
   work.targets.fill(kNoSurface);
@@ -40,11 +36,6 @@ bool LeastHeightObservation::raise(const TileLook& tile, const Look& look) {
   FullSurface::TileWork& work = tile.work;
   if (eye.view.contains(look.dx, look.dy, look.dz, kSky) == false) return false;
   enter(look.cell);
-  const Point3 end = work.target(look.cell);
-  if (end.x == eye.units.x && end.y == eye.units.y) {
-    see(look);
-    return false;
-  }
   const double resolution = tile.surface.units().resolution, ground = work.ground[look.cell];
   // A target on the ground ends exactly there.
   const double wanted = ground + (eye.target(ground * resolution) - ground * resolution) / resolution;
@@ -64,16 +55,20 @@ void LeastHeightObservation::settle(const TileLook& tile, const Look& look) {
   const FullSurface::TileWork& work = tile.work;
   const Point3 highest = work.target(look.cell);
   if (tile.shadow != nullptr && tile.shadow->holds(highest.x, highest.y)) return;
-  const double ground = work.ground[look.cell], seen = work.seen[look.cell], wanted = wanted_[look.cell];
+  // At the eye's own place nothing hides.
+  const double found = work.seen[look.cell], seen = std::isinf(found) ? lowest_[look.cell] : found;
+  const double ground = work.ground[look.cell], wanted = wanted_[look.cell];
   const double height = seen <= ground ? 0 : (seen - ground) * tile.surface.units().resolution;
   least_[look.cell] = std::min(least_[look.cell], height);
   if (wanted >= lowest_[look.cell] && wanted <= highest.z && seen <= wanted) mark_visible(look.cell);
 }
 
 void LeastHeightObservation::store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const {
-  for (std::size_t i = 0; i < columns; ++i)
+  for (std::size_t i = 0; i < columns; ++i) {
+    const double least = least_[cell + i];
     result.least_height_m[place + i] =
-        value(cell + i) == kOutside ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(least_[cell + i]);
+        std::isinf(least) ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(least);
+  }
 }
 
 }  // namespace itin::viewshed

@@ -14,7 +14,6 @@ class LeastHeightObservation final : public Observation {
   std::uint64_t look(const TileLook& tile) override;
 
  private:
-  void keep(const Look& look) override;
   void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override;
   bool raise(const TileLook& tile, const Look& look);
   void settle(const TileLook& tile, const Look& look);

@@ -69,7 +69,6 @@ std::optional<Tint> MapOverlay::at(std::size_t cell) const {
   const double v = value(cell);
   if (std::isnan(v)) return Tint{};
   const auto step = std::lower_bound(most_.begin(), most_.end(), v);
-  if (std::isinf(v)) return Tint{};
   const auto i = std::min(static_cast<std::size_t>(step - most_.begin()), steps_.size() - 1);
   return steps_[i].tint;
 }

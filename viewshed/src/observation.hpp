@@ -30,7 +30,7 @@ namespace itin::viewshed {
 struct Look {
   std::size_t cell = 0;           ///< in the tile
   std::uint32_t observer = 0;     ///< from 0
-  double dx = 0, dy = 0, dz = 0;  ///< metres from the eye to the target
+  double dx = 0, dy = 0, dz = 0;  ///< metres from the eye to the target, as Eye::offset_to()
   double squared_distance() const { return dx * dx + dy * dy; }
 };
 
@@ -125,14 +125,10 @@ void store_all(const std::vector<std::unique_ptr<Observation>>& observations, co
 
 template <class Visit>
 void TileLook::for_each_cell(const Visit& visit) const {
-  const Grid& units = surface.units();
-  for_each_row(work.tile, [&](std::size_t first, RasterGrid::Cell place) {
-    const double dy = surface.grid().centre_y(place.row) - eye.position.y;
-    for (std::size_t cell = first; place.column < work.tile.column + work.tile.columns; ++cell, ++place.column) {
-      if (std::isnan(work.ground[cell])) continue;
-      const double dx = surface.grid().centre_x(place.column) - eye.position.x;
-      visit(Look{cell, observer, dx, dy, work.ground[cell] * units.resolution - eye.elevation});
-    }
+  surface.for_each_offset(eye, work, [&](std::size_t cell, const Point2& offset) {
+    if (std::isnan(work.ground[cell])) return;
+    const double ground = work.ground[cell] * surface.units().resolution;
+    visit(Look{cell, observer, offset.x, offset.y, ground - eye.elevation});
   });
 }
 

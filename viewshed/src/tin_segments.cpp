@@ -197,9 +197,11 @@ class TinSegments {
   void for_each_look(const Eye& eye, std::uint32_t observer, const Visit& visit) const {
     const RasterGrid& grid = surveyed_.result.grid;
     parallel_for(observations_.size(), [&](std::size_t i) {
-      for_each_cell(tile_at(grid, tiles_, i), [&](std::size_t cell, RasterGrid::Cell place) {
-        const Point2 centre = grid.centre(place.column, place.row);
-        visit(i, Look{cell, observer, centre.x - eye.position.x, centre.y - eye.position.y, 0}, grid.index(place));
+      const Tile tile = tile_at(grid, tiles_, i);
+      const TileCentres centres(store_.metadata().grid, grid, tile);
+      for_each_cell(tile, [&](std::size_t cell, RasterGrid::Cell place) {
+        const auto [dx, dy] = eye.offset_to(grid.centre(place.column, place.row), centres.at(cell));
+        visit(i, Look{cell, observer, dx, dy, 0}, grid.index(place));
       });
     });
   }

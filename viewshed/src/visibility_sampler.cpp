@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <itin/same_place.hpp>
+
 #include "grid_units.hpp"
 
 namespace itin::viewshed {
@@ -43,9 +45,13 @@ VisibilitySampler::Tally VisibilitySampler::look(Point2 eye, double elevation, s
       const double azimuth = 2 * std::numbers::pi * random.next();
       const Point2 target{eye.x + distance * std::sin(azimuth), eye.y + distance * std::cos(azimuth)};
       const auto ground = ground_.ground(target);
-      if (!ground || distance < grid_.resolution) continue;
+      if (!ground) continue;
       lines.to_x[i] = easting_in_units(grid_, target.x);
       lines.to_y[i] = northing_in_units(grid_, target.y);
+      if (same_place(lines.to_x[i] - from.x, lines.to_y[i] - from.y)) {
+        ++tally.on_ground, ++tally.seen;
+        continue;
+      }
       lines.to_z[i] = (*ground + target_height_) / grid_.resolution;
       lines.active |= 1U << i;
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <itin/same_place.hpp>
 #include <viewshed/certified.hpp>
 
 namespace itin::viewshed {
@@ -63,6 +64,7 @@ VoidShadow::VoidShadow(const std::vector<RimEdge>& rim, const Point3& eye, Voids
 bool VoidShadow::holds(double x, double y) const {
   if (sectors_.empty()) return false;
   const Vector line{x - eye_.x, y - eye_.y};
+  if (same_place(line.x, line.y)) return false;
   const Numbers& edges = sectors_[sector_of(line)];
   return std::any_of(edges.begin(), edges.end(), [&](std::uint32_t i) {
     const auto& [a, b] = edges_[i];

@@ -28,8 +28,8 @@ class VoidShadow {
   /// horizon it spans, if any faces away from the eye.
   VoidShadow(const std::vector<RimEdge>& rim, const Point3& eye, Voids voids = Voids::kBlock);
 
-  /// Whether the line from the eye to a place comes back to the surface, be it at the place itself. Both lie on the
-  /// surface. Cost: the edges of one sector.
+  /// Whether the line from the eye to a place comes back to the surface, be it at the place itself, but not at the
+  /// eye's own. Both lie on the surface. Cost: the edges of one sector.
   bool holds(double x, double y) const;
 
   /// Of a tile's cells, what is kCertainlyVisible and lies in it becomes kCertainlyHidden, or kUndecided under kDoubt.

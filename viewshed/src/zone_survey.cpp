@@ -7,6 +7,7 @@
 #include <memory>
 
 #include <itin/parallel.hpp>
+#include <itin/same_place.hpp>
 
 #include "grid_units.hpp"
 #include "stage.hpp"
@@ -95,12 +96,12 @@ void ZoneSurvey::look_at(std::size_t turbine, const Screen& screen, const AxisSw
     if (squared > axis.radius_squared || std::isnan(work.ground[cell])) return;
     if (work.tips[cell] == kCountOutside) work.tips[cell] = work.hubs[cell] = 0;
     const double least = work.place->seen[cell];
-    const bool beneath = std::isinf(least);
+    const bool beneath = std::isinf(least);  // at the turbine's own place
     work.lines += beneath ? 0 : 1;
     if (std::isnan(least)) return;
     const Point2 eye = work.centres.at(cell);
     if (!screen.shadows.empty() && screen.shadows[turbine].holds(eye.x, eye.y)) return;
-    record(turbine, cell, std::sqrt(squared), beneath ? axis.base : least, work);
+    record(turbine, cell, beneath ? 0 : std::sqrt(squared), beneath ? axis.base : least, work);
   });
 }
 
@@ -147,8 +148,9 @@ void ZoneSurvey::store_horizon(const TileWork& work, std::size_t from_cell, std:
   arcs.clear();
   for (const Turbine& t : zone_.request.turbines) {
     const TurbineBit bit = turbine_bit(t.number);
-    if ((work.seen[bit.grid][from_cell] & bit.mask) != 0)
-      arcs.push_back(rotor_arc(eye, t.position, t.rotor_diameter.value_or(0)));
+    if ((work.seen[bit.grid][from_cell] & bit.mask) == 0) continue;
+    const Point2 towards = same_place(ground_.units(), eye, t.position) ? eye : t.position;
+    arcs.push_back(rotor_arc(eye, towards, t.rotor_diameter.value_or(0)));
   }
   const RotorHorizon horizon = rotor_horizon(arcs);
   result.horizontal_angle_deg[to_cell] = static_cast<float>(horizon.held.width);

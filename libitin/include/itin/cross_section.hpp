@@ -45,7 +45,8 @@ struct SectionGap {
 };
 
 struct CrossSection {
-  double length = 0;  ///< metres
+  double length = 0;       ///< metres
+  bool one_place = false;  ///< the ends are, as same_place.hpp has it
   /// In order of distance. Over ground the first and last are the line's ends; two breakpoints with no gap between them
   /// are joined by a straight piece of the surface. A line of length 0 has one. Where the line merely touches the
   /// ground there is one breakpoint between two gaps.

@@ -48,6 +48,8 @@ class SectionLine {
   double length() const { return length_; }
   /// Whether both ends are one. It still has a direction, due east.
   bool is_point() const { return is_point_; }
+  /// Whether they are one place (same_place.hpp), though perhaps not one point.
+  bool is_one_place() const;
   /// Whether the ends were given in the other order.
   bool is_mirrored() const { return mirrored_; }
   Point2 start() const { return start_point_; }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/same_place.hpp>
 #include <itin/section_line.hpp>
 
 namespace itin {
@@ -33,6 +34,11 @@ SectionLine::SectionLine(const Grid& grid, Point2 a, Point2 b) : grid_(grid) {
                              static_cast<double>(kSubgrid));
   is_point_ = dx_ == 0 && dy_ == 0;
   if (is_point_) dx_ = kSubgrid;
+}
+
+bool SectionLine::is_one_place() const {
+  const double unit = static_cast<double>(kSubgrid);
+  return is_point_ || same_place(static_cast<double>(dx_) / unit, static_cast<double>(dy_) / unit);
 }
 
 GridBox SectionLine::start_box() const {

@@ -184,6 +184,7 @@ std::vector<Stretch> united(std::vector<Stretch> stretches) {
 CrossSection section_of(const SectionLine& line, const std::vector<Stretch>& stretches) {
   CrossSection section;
   section.length = line.length();
+  section.one_place = line.is_one_place();
   double covered = 0;
   bool started = false;
   for (const Stretch& s : stretches) {

@@ -25,7 +25,7 @@ namespace itin::profile {
 struct SightLine {
   double length = 0;  ///< metres, horizontal
   /// Metres, the least height of the ray above the surface between the ends, both included; nothing where no ground
-  /// lies between them.
+  /// lies between them. At one place (itin/same_place.hpp) of the ends alone.
   std::optional<double> clearance;
   /// The least clearance / F1 between the ends, as fresnel_clearance() has it; nothing without a wavelength, and where
   /// no ground lies between them.

@@ -30,7 +30,10 @@ struct Profile {
   std::vector<ProfilePoint> points;
   std::vector<std::pair<double, double>> gaps;  ///< metres from, to; in order
   double length_m = 0;
+  bool one_place = false;  ///< the ends are, as itin/same_place.hpp has it
 
+  /// Whether anything lies between the ends.
+  bool has_length() const { return length_m > 0 && !one_place; }
   /// Whether the ground is continuous from point i to point i + 1.
   bool joined(std::size_t i) const;
   /// The theme of what is between point i and point i + 1.

@@ -154,8 +154,8 @@ struct Result {
   std::vector<std::uint32_t> blocker_theme;
   /// kBlocker, from a store: which feature of that theme it is part of, by features_at(); kNoBlocker: of none.
   std::vector<std::uint32_t> blocker_feature;
-  /// kHeight: 0 where the ground is seen, infinity where no height is (beyond the field of view, or behind missing
-  /// ground that blocks), NaN outside. Exact: the sight line to it touches the surface within a micrometre.
+  /// kHeight: 0 where the ground is seen, NaN where no height is (outside, beyond the elevations in view, or behind
+  /// missing ground that blocks). Exact: the sight line to it touches the surface within a micrometre.
   std::vector<float> least_height_m;
   /// kProbability: that the whole line is clear, with a standard error of at most 0.022, alike in neighbouring cells; 0
   /// for a target at an elevation below the ground; NaN outside.

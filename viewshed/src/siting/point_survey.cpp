@@ -138,7 +138,7 @@ class PointPass {
       return;
     }
     const double x = easting_in_units(grid, p.x), y = northing_in_units(grid, p.y);
-    if (x == look.eye.units.x && y == look.eye.units.y) {
+    if (look.eye.stands_at({x, y})) {
       verdict.visible |= bit;
       return;
     }

@@ -40,7 +40,7 @@ class ZonePacket {
   void aim(unsigned i, std::size_t r, std::size_t c) {
     const double x = targets_.centres.x[c], y = targets_.centres.y[r];
     const std::size_t cell = r * Tile::kSide + c;
-    if ((x == eye_.units.x && y == eye_.units.y) || std::isnan(targets_.low[cell])) return;
+    if (eye_.stands_at({x, y}) || std::isnan(targets_.low[cell])) return;
     low_.to_x[i] = high_.to_x[i] = x;
     low_.to_y[i] = high_.to_y[i] = y;
     low_.to_z[i] = targets_.low[cell];

@@ -1,0 +1,22 @@
+// When two places are one, for every answer alike (law 4): nothing stands between them, so that each sees the other,
+// straight up, straight down or level.
+#pragma once
+
+#include <itin/geometry.hpp>
+
+namespace itin {
+
+/// Steps of the store's grid: no finer does it tell positions apart. A thousandth less than one, so that neighbours on
+/// the grid stay two places however they are rounded.
+inline constexpr double kSamePlace = 0.999;
+
+/// Of places so far apart in plan, grid units.
+constexpr bool same_place(double dx, double dy) {
+  return dx * dx + dy * dy < kSamePlace * kSamePlace;
+}
+/// Of places in metres.
+constexpr bool same_place(const Grid& grid, Point2 a, Point2 b) {
+  return same_place((a.x - b.x) / grid.resolution, (a.y - b.y) / grid.resolution);
+}
+
+}  // namespace itin
