@@ -7,13 +7,14 @@
 #include <utility>
 #include <vector>
 
+#include <itin/unreported.hpp>
+
 #include "hulls.hpp"
 #include "near_ground.hpp"
 #include "request.hpp"
 #include "sight_sectors.hpp"
 #include "stage.hpp"
 #include "stopwatch.hpp"
-#include "unreported.hpp"
 #include "verdicts.hpp"
 
 namespace itin::viewshed {

@@ -13,6 +13,7 @@
 #include <itin/error.hpp>
 #include <itin/lattice_reader.hpp>
 #include <itin/triangulate.hpp>
+#include <itin/unreported.hpp>
 #include <viewshed/surface.hpp>
 
 #include "boundary.hpp"
@@ -26,7 +27,6 @@
 #include "stage.hpp"
 #include "stopwatch.hpp"
 #include "store_viewshed.hpp"
-#include "unreported.hpp"
 #include "void_shadow.hpp"
 
 namespace itin::viewshed {

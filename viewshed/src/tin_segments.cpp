@@ -12,6 +12,7 @@
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
 #include <itin/triangulate.hpp>
+#include <itin/unreported.hpp>
 #include <viewshed/certified.hpp>
 
 #include "cell_tiles.hpp"
@@ -25,7 +26,6 @@
 #include "stage.hpp"
 #include "stopwatch.hpp"
 #include "store_viewshed.hpp"
-#include "unreported.hpp"
 
 namespace itin::viewshed {
 

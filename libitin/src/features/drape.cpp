@@ -4,6 +4,7 @@
 
 #include "features/feature_group.hpp"
 #include "features/planar.hpp"
+#include "features/polygon_sides.hpp"
 
 namespace itin {
 
@@ -27,7 +28,8 @@ std::set<TerrainEdge> edges_at_rings(const GridPolygon& plan, const TerrainHeigh
   return edges;
 }
 
-PlanarLines plan_lines(const GridPolygon& plan, const TerrainHeights& terrain) {
+PlanarLines plan_lines(const GridPolygon& plan, const PolygonSides& sides, const TerrainHeights& terrain,
+                       const Progress& progress) {
   constexpr std::uint32_t kEaves = 0, kCrease = 1;
   const auto at = [](Point2 p) {
     return GridPoint{static_cast<std::int32_t>(std::llround(p.x)), static_cast<std::int32_t>(std::llround(p.y)), 0};
@@ -36,17 +38,18 @@ PlanarLines plan_lines(const GridPolygon& plan, const TerrainHeights& terrain) {
   for_each_edge(plan, [&](Position a, Position b) { segments.push_back({{a.x, a.y, 0}, {b.x, b.y, 0}, kEaves}); });
   for (const auto& [v, w] : edges_at_rings(plan, terrain)) {
     const GridPoint &p = terrain.vertex(v), &q = terrain.vertex(w);
-    for (const auto& [from, to] : inside_parts(plan, {1.0 * p.x, 1.0 * p.y}, {1.0 * q.x, 1.0 * q.y}))
+    for (const auto& [from, to] : sides.inside_parts({1.0 * p.x, 1.0 * p.y}, {1.0 * q.x, 1.0 * q.y}))
       segments.push_back({at(from), at(to), kCrease});
   }
-  return make_planar(std::move(segments));
+  return make_planar(std::move(segments), &progress);
 }
 
 }  // namespace
 
 bool drape(const GridPolygon& plan, double above, const TerrainHeights& terrain, std::vector<RoofLine>& lines,
-           std::vector<GridPoint>& loose) {
-  PlanarLines planar = plan_lines(plan, terrain);
+           std::vector<GridPoint>& loose, const Progress& progress) {
+  const PolygonSides sides(plan);
+  PlanarLines planar = plan_lines(plan, sides, terrain, progress);
   std::set<Position> taken;
   for (GridPoint& p : planar.vertices) {
     const auto ground = terrain.height_at({p.x, p.y});
@@ -59,7 +62,7 @@ bool drape(const GridPolygon& plan, double above, const TerrainHeights& terrain,
   for (const std::uint32_t t : terrain.triangles_near(bounds_of({plan}))) {
     for (const std::uint32_t v : terrain.triangle(t)) {
       const GridPoint& p = terrain.vertex(v);
-      if (side_of(plan, {p.x, p.y}) != Side::inside || !taken.insert({p.x, p.y}).second) continue;
+      if (sides.at({p.x, p.y}) != Side::inside || !taken.insert({p.x, p.y}).second) continue;
       loose.push_back({p.x, p.y, static_cast<std::int32_t>(std::llround(p.z + above))});
     }
   }

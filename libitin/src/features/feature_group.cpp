@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "features/entangled.hpp"
 #include "features/planar.hpp"
 #include "features/planarity.hpp"
 #include "features/terrain_overlay.hpp"
@@ -15,6 +16,8 @@
 namespace itin {
 
 namespace {
+
+constexpr std::size_t kOften = 1 << 12;  // edges between two looks at cancellation
 
 std::int32_t whole(double z) {
   return static_cast<std::int32_t>(std::llround(z));
@@ -28,8 +31,9 @@ GridEdge plan_of(const PlacedSegment& s) {
 /// neighbours' walls and feet depend on it.
 class GroupBuilder {
  public:
-  GroupBuilder(const std::vector<PreparedFeature>& features, double offset, const TerrainHeights* terrain)
-      : features_(features), offset_(offset), terrain_(terrain) {}
+  GroupBuilder(const std::vector<PreparedFeature>& features, double offset, const TerrainHeights* terrain,
+               const Progress& progress)
+      : features_(features), offset_(offset), terrain_(terrain), progress_(progress) {}
 
   /// The features that cannot stand, by their index here, and why; none if the attempt succeeded.
   std::map<std::uint32_t, std::string> run() {
@@ -40,7 +44,9 @@ class GroupBuilder {
         feature_of_.push_back(f);
       }
     }
-    arrangement_ = arrange(patches, offset_);
+    objections_ = entangled(patches, feature_of_);
+    if (!objections_.empty()) return objections_;
+    arrangement_ = arrange(patches, offset_, &progress_);
     refuse_what_has_no_top();
     if (!objections_.empty()) return objections_;
     add_feet();
@@ -128,7 +134,9 @@ class GroupBuilder {
     std::map<Position, std::int32_t> heights;
     std::vector<std::pair<GridEdge, std::uint32_t>> pieces;
     const bool level = ground_is_level();
+    std::size_t done = 0;
     for (const auto& [edge, patch] : arrangement_.feet) {
+      if (++done % kOften == 0) progress_.throw_if_cancelled();
       const std::uint32_t f = feature_of_[patch];
       std::vector<Position> way{edge.first};
       if (terrain_ && !level) {
@@ -161,7 +169,7 @@ class GroupBuilder {
         const std::uint32_t f = feature_of_[i];
         std::vector<RoofLine> lines;
         if (features_[f].drapes()) {
-          if (!drape(plan, features_[f].above_terrain, *terrain_, lines, mesh_.loose))
+          if (!drape(plan, features_[f].above_terrain, *terrain_, lines, mesh_.loose, progress_))
             objections_[f] = "left out: reaches beyond the terrain";
         } else if (features_[f].measured) {
           lines = plane_roof(plan, patches[i].top);
@@ -216,7 +224,7 @@ class GroupBuilder {
     }
     std::vector<OwnedSegment> segments;
     for (const PlacedSegment& s : mesh_.segments) segments.push_back({s.a, s.b, owners.at({s.kind, s.feature})});
-    const PlanarLines planar = make_planar(std::move(segments));
+    const PlanarLines planar = make_planar(std::move(segments), &progress_);
     mesh_.segments.clear();
     const PlanarEdge* last = nullptr;
     for (const PlanarEdge& e : planar.edges) {
@@ -237,7 +245,7 @@ class GroupBuilder {
       covered.push_back({f.number, f.drapes() ? std::optional(f.above_terrain) : std::nullopt,
                          std::move(patch.footprint), std::move(patch.top)});
     }
-    OverlaidLines laid = lay_over(*terrain_, std::move(mesh_.segments), covered);
+    OverlaidLines laid = lay_over(*terrain_, std::move(mesh_.segments), covered, progress_);
     mesh_.segments = std::move(laid.segments);
     mesh_.ground = std::move(laid.ground);
     for (const auto& [number, depth] : laid.pierced) {
@@ -251,6 +259,7 @@ class GroupBuilder {
   const std::vector<PreparedFeature>& features_;
   const double offset_;
   const TerrainHeights* terrain_;
+  const Progress& progress_;
   std::vector<std::uint32_t> feature_of_;  ///< by patch
   Arrangement arrangement_;
   std::map<GridEdge, std::vector<Position>> between_;  ///< of feet on the terrain, by edge
@@ -273,11 +282,13 @@ std::map<std::uint32_t, std::string> attempt(GroupBuilder& builder, std::size_t 
 
 }  // namespace
 
-GroupMesh build_group(std::vector<PreparedFeature> features, double offset, const TerrainHeights* terrain) {
+GroupMesh build_group(std::vector<PreparedFeature> features, double offset, const TerrainHeights* terrain,
+                      const Progress& progress) {
   std::vector<Finding> refusals;
   std::vector<std::uint32_t> refused;
   for (;;) {
-    GroupBuilder builder(features, offset, terrain);
+    progress.throw_if_cancelled();
+    GroupBuilder builder(features, offset, terrain, progress);
     const std::map<std::uint32_t, std::string> objections = attempt(builder, features.size());
     if (objections.empty()) {
       GroupMesh mesh = std::move(builder.mesh());

@@ -47,13 +47,14 @@ struct GroupMesh {
   std::uint64_t flat_instead = 0;
 };
 
-/// `offset` in grid units.
-GroupMesh build_group(std::vector<PreparedFeature> features, double offset, const TerrainHeights* terrain);
+/// `offset` in grid units. Throws Cancelled.
+GroupMesh build_group(std::vector<PreparedFeature> features, double offset, const TerrainHeights* terrain,
+                      const Progress& progress);
 
 /// Lines of the terrain raised over a plan: its rings as eaves, and the terrain's edges near them as creases, so that
 /// the terrain's triangles inside come out as they are. Appends the vertices that stand by themselves.
 /// False, with nothing appended, where the plan reaches beyond the terrain.
 bool drape(const GridPolygon& plan, double above, const TerrainHeights& terrain, std::vector<RoofLine>& lines,
-           std::vector<GridPoint>& loose);
+           std::vector<GridPoint>& loose, const Progress& progress);
 
 }  // namespace itin

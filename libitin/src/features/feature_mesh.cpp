@@ -77,6 +77,8 @@ FeatureMesh build_feature_mesh(std::span<const FootprintFeature> features, const
   check(options, terrain);
   std::vector<Preparation> prepared(features.size());
   parallel_for(features.size(), [&](std::size_t i) {
+    progress.throw_if_cancelled();
+    const OverlayCancellation cancellation(progress);
     prepared[i] = prepare(features[i], static_cast<std::uint32_t>(i), options, terrain);
   });
   std::vector<GridBox> boxes;
@@ -86,11 +88,12 @@ FeatureMesh build_feature_mesh(std::span<const FootprintFeature> features, const
   std::atomic<std::size_t> done = 0;
   parallel_for(groups.size(), [&](std::size_t g) {
     progress.throw_if_cancelled();
+    const OverlayCancellation cancellation(progress);
     std::vector<PreparedFeature> members;
     for (const std::uint32_t i : groups[g])
       if (prepared[i].stands) members.push_back(std::move(prepared[i].feature));
     if (!members.empty())
-      meshes[g] = build_group(std::move(members), options.wall_offset / options.grid.resolution, terrain);
+      meshes[g] = build_group(std::move(members), options.wall_offset / options.grid.resolution, terrain, progress);
     progress.report("features", static_cast<double>(++done) / static_cast<double>(groups.size()));
   });
   Assembly assembly(options.grid);

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <set>
 
+#include "features/mask_index.hpp"
 #include "features/planar.hpp"
 #include "features/terrain_heights.hpp"
 
@@ -15,13 +16,13 @@ namespace {
 
 constexpr std::uint32_t kNobody = 0xffffffff;
 
-std::vector<GridEdge> noded_outlines(const std::vector<Patch>& patches) {
+std::vector<GridEdge> noded_outlines(const std::vector<Patch>& patches, const Progress* progress) {
   std::vector<OwnedSegment> segments;
   for (const Patch& patch : patches) {
     for (const GridPolygon& polygon : patch.plan)
       for_each_edge(polygon, [&](Position a, Position b) { segments.push_back({{a.x, a.y, 0}, {b.x, b.y, 0}, 0}); });
   }
-  const PlanarLines lines = make_planar(std::move(segments));
+  const PlanarLines lines = make_planar(std::move(segments), progress);
   std::vector<GridEdge> edges;
   edges.reserve(lines.edges.size());
   const auto position = [&](std::uint32_t v) { return Position{lines.vertices[v].x, lines.vertices[v].y}; };
@@ -60,7 +61,8 @@ class BoxCells {
 
 class Arranging {
  public:
-  Arranging(const std::vector<Patch>& patches, double offset) : patches_(patches), offset_(offset) {}
+  Arranging(const std::vector<Patch>& patches, double offset, const Progress* progress)
+      : patches_(patches), offset_(offset), progress_(progress) {}
 
   Arrangement run() {
     share_out();
@@ -79,7 +81,7 @@ class Arranging {
   std::uint32_t owner_at(const BoxCells& cells, Point2 p) const {
     std::uint32_t owner = kNobody;
     for (const std::uint32_t i : cells.at(p)) {
-      if (!covers(patches_[i].plan, p)) continue;
+      if (!plans_[i].encloses(p)) continue;
       if (owner == kNobody || patches_[i].top.at(p) > patches_[owner].top.at(p)) owner = i;
     }
     return owner;
@@ -87,10 +89,13 @@ class Arranging {
 
   void share_out() {
     std::vector<GridBox> boxes;
-    for (const Patch& patch : patches_) boxes.push_back(bounds_of(patch.plan));
+    for (const Patch& patch : patches_) {
+      boxes.push_back(bounds_of(patch.plan));
+      plans_.emplace_back(patch.plan);
+    }
     const BoxCells cells(boxes);
     std::vector<GridPolygons> faces(patches_.size());
-    for (PlanFace& face : faces_of(noded_outlines(patches_))) {
+    for (PlanFace& face : faces_of(noded_outlines(patches_, progress_))) {
       const std::uint32_t owner = owner_at(cells, face.inside);
       if (owner == kNobody) continue;
       for_each_edge(face.polygon, [&](Position a, Position b) { left_of_[{a, b}] = owner; });
@@ -130,6 +135,8 @@ class Arranging {
 
   const std::vector<Patch>& patches_;
   const double offset_;
+  const Progress* progress_;
+  std::vector<MaskIndex> plans_;  ///< by patch
   std::map<GridEdge, std::uint32_t> left_of_;
   std::vector<std::set<std::uint32_t>> neighbours_;
   Arrangement result_;
@@ -154,8 +161,8 @@ class Groups {
 
 }  // namespace
 
-Arrangement arrange(const std::vector<Patch>& patches, double offset) {
-  return Arranging(patches, offset).run();
+Arrangement arrange(const std::vector<Patch>& patches, double offset, const Progress* progress) {
+  return Arranging(patches, offset, progress).run();
 }
 
 std::vector<std::vector<std::uint32_t>> groups_of(const std::vector<GridBox>& boxes) {

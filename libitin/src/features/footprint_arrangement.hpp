@@ -44,8 +44,8 @@ struct Arrangement {
       feet;  ///< edges with ground to their right, and the patch to the left
 };
 
-/// Precondition: offset >= 2 grid units.
-Arrangement arrange(const std::vector<Patch>& patches, double offset);
+/// Precondition: offset >= 2 grid units. Throws Cancelled where a progress is given and cancelled.
+Arrangement arrange(const std::vector<Patch>& patches, double offset, const Progress* progress = nullptr);
 
 /// Groups of patches whose boxes hang together, each ascending; groups in order of their first. What lies in different
 /// groups never meets, on the grid or off it.

@@ -8,33 +8,36 @@
 #include <vector>
 
 #include "features/plan_overlay.hpp"
+#include "features/polygon_sides.hpp"
 
 namespace itin {
 
-/// Refers to the polygons, which must outlive it. Safe for concurrent use. A look-up costs O(1) away from borders and
-/// O(n) of a polygon's n edges at them.
+/// Independent of the polygons once made. Safe for concurrent use. A look-up costs O(1) away from borders, and time
+/// proportional to the edges nearby at them.
 class MaskIndex {
  public:
   explicit MaskIndex(std::span<const GridPolygon> polygons);
 
   /// The first polygon that has the position inside or on its border.
   std::optional<std::uint32_t> at(Position p) const;
-  /// The first polygon that has the middle between two positions strictly inside, as floating point has it.
+  /// Whether a polygon has the position inside, not on its border.
+  bool strictly_inside(Position p) const;
+  /// Whether a polygon has the place inside, as PolygonSides has it.
+  bool encloses(Point2 p) const;
+  /// The first polygon that has the middle between two positions inside, as PolygonSides has it.
   std::optional<std::uint32_t> about_middle(Position a, Position b) const;
   bool middle_inside(Position a, Position b) const { return about_middle(a, b).has_value(); }
 
  private:
-  struct Entry {
-    std::uint32_t polygon;
-    bool whole;  ///< the bucket lies in the polygon, far from its border
-  };
   std::uint64_t bucket(std::int64_t x, std::int64_t y) const;
-  void add(std::uint32_t polygon);
-  const std::vector<Entry>* entries(std::int64_t x, std::int64_t y) const;
+  void add(std::uint32_t number, const GridBox& box);
+  /// The first polygon near (x, y), floored to the grid, that the test holds for.
+  template <class Test>
+  std::optional<std::uint32_t> first_near(std::int64_t x, std::int64_t y, const Test& test) const;
 
-  std::span<const GridPolygon> polygons_;
+  std::vector<PolygonSides> polygons_;
   std::int64_t side_ = 64;
-  std::unordered_map<std::uint64_t, std::vector<Entry>> buckets_;
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> buckets_;  ///< the polygons whose boxes meet them
 };
 
 GridBox box_about(const GridPolygon& polygon);

@@ -7,6 +7,12 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "features/odd_faces.hpp"
+#include "features/planarity.hpp"
 
 namespace itin {
 
@@ -14,6 +20,14 @@ namespace {
 
 constexpr double kGridSize = 1;
 constexpr double kMitreLimit = 5;
+
+/// What may cancel this thread's overlays.
+thread_local const Progress* watched = nullptr;
+
+/// GEOS calls it from within its loops.
+void interrupt_if_cancelled() {
+  if (watched != nullptr && watched->cancelled()) GEOS_interruptRequest();
+}
 
 /// GEOS keeps its state in a handle; one a thread.
 class Geos {
@@ -23,6 +37,7 @@ class Geos {
         handle_, [](const char* message, void* text) { *static_cast<std::string*>(text) = message; }, &error_);
     GEOSContext_setNoticeMessageHandler_r(
         handle_, [](const char*, void*) {}, nullptr);
+    GEOS_interruptRegisterCallback(interrupt_if_cancelled);
   }
   ~Geos() { GEOS_finish_r(handle_); }
   Geos(const Geos&) = delete;
@@ -46,8 +61,14 @@ struct Destroy {
 };
 using Geometry = std::unique_ptr<GEOSGeometry, Destroy>;
 
+[[noreturn]] void fail() {
+  // A request may also reach the overlay of another thread that is about to look for one.
+  if (geos().error().starts_with("InterruptedException")) throw Cancelled();
+  throw OverlayError("polygon overlay: " + geos().error());
+}
+
 Geometry checked(GEOSGeometry* g) {
-  if (!g) throw OverlayError("polygon overlay: " + geos().error());
+  if (!g) fail();
   return Geometry(g);
 }
 
@@ -146,6 +167,12 @@ Geometry buffered(const Geometry& g, double distance, int cap) {
 
 }  // namespace
 
+OverlayCancellation::OverlayCancellation(const Progress& progress) : before_(std::exchange(watched, &progress)) {}
+
+OverlayCancellation::~OverlayCancellation() {
+  watched = before_;
+}
+
 double area(const GridPolygon& polygon) {
   std::int64_t sum = 0;
   for_each_ring(polygon, [&](const GridRing& ring) { sum += doubled_area(ring); });
@@ -180,37 +207,47 @@ bool covers(const GridPolygons& polygons, Point2 p) {
   return inside;
 }
 
-std::vector<std::pair<Point2, Point2>> inside_parts(const GridPolygon& polygon, Point2 p, Point2 q) {
-  const double dx = q.x - p.x, dy = q.y - p.y;
-  std::vector<double> cuts{0, 1};
-  for_each_edge(polygon, [&](Position a, Position b) {
-    const double sa = dx * (a.y - p.y) - dy * (a.x - p.x), sb = dx * (b.y - p.y) - dy * (b.x - p.x);
-    if ((sa > 0) == (sb > 0)) return;
-    const double s = sa / (sa - sb);
-    const double x = a.x + s * (double{1} * b.x - a.x) - p.x, y = a.y + s * (double{1} * b.y - a.y) - p.y;
-    const double t = (x * dx + y * dy) / (dx * dx + dy * dy);
-    if (t > 0 && t < 1) cuts.push_back(t);
-  });
-  std::sort(cuts.begin(), cuts.end());
-  const auto position = [&](double t) { return Point2{p.x + t * dx, p.y + t * dy}; };
-  std::vector<std::pair<Point2, Point2>> parts;
-  for (std::size_t i = 1; i < cuts.size(); ++i)
-    if (covers({polygon}, position((cuts[i - 1] + cuts[i]) / 2)))
-      parts.emplace_back(position(cuts[i - 1]), position(cuts[i]));
-  return parts;
-}
+namespace {
 
-EvenOdd even_odd(const std::vector<GridRing>& rings) {
-  std::vector<Geometry> shells;
+/// Without repetitions; nothing of what encloses no area in any case.
+std::vector<GridRing> bare_rings(const std::vector<GridRing>& rings) {
+  std::vector<GridRing> result;
   for (GridRing ring : rings) {
     ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
     while (ring.size() > 1 && ring.back() == ring.front()) ring.pop_back();
-    if (ring.size() >= 3) shells.push_back(to_geos(GridPolygon{std::move(ring), {}}));
+    if (ring.size() >= 3) result.push_back(std::move(ring));
   }
+  return result;
+}
+
+void require_few_crossings(const std::vector<GridEdge>& edges) {
+  const std::uint64_t most = most_conflicts(edges.size()), found = count_conflicts(edges, kCountedConflicts);
+  if (found <= most) return;
+  throw OverlayError(fmt::format(
+      "crosses itself {}{} times, and more than {} crossings of {} edges are not taken apart",
+      found > kCountedConflicts ? "more than " : "", std::min(found, kCountedConflicts), most, edges.size()));
+}
+
+bool valid(const Geometry& g) {
+  const char answer = GEOSisValid_r(geos(), g.get());
+  if (answer == 2) fail();
+  return answer == 1;
+}
+
+}  // namespace
+
+EvenOdd even_odd(const std::vector<GridRing>& rings) {
+  const std::vector<GridRing> bare = bare_rings(rings);
+  std::vector<GridEdge> edges;
+  for (const GridRing& ring : bare)
+    for_each_edge(GridPolygon{ring, {}}, [&](Position a, Position b) { edges.emplace_back(a, b); });
+  require_few_crossings(edges);
+  std::vector<Geometry> shells;
   EvenOdd result;
-  for (Geometry& shell : shells) {
-    if (GEOSisValid_r(geos(), shell.get()) == 1) continue;
-    shell = checked(GEOSMakeValid_r(geos(), shell.get()));
+  for (const GridRing& ring : bare) {
+    shells.push_back(to_geos(GridPolygon{ring, {}}));
+    if (valid(shells.back())) continue;
+    shells.back() = to_geos(odd_faces(ring));
     result.repaired = true;
   }
   // Parity: what two rings both enclose is outside. In pairs, for many rings.
@@ -281,6 +318,9 @@ GridPolygons thickened(const std::vector<Position>& line, double thickness) {
   GridRing bare = line;
   bare.erase(std::unique(bare.begin(), bare.end()), bare.end());
   if (bare.size() < 2) return {};
+  std::vector<GridEdge> edges;
+  for (std::size_t i = 1; i < bare.size(); ++i) edges.emplace_back(bare[i - 1], bare[i]);
+  require_few_crossings(edges);
   const Geometry g = checked(GEOSGeom_createLineString_r(geos(), sequence(bare, false)));
   return from_geos(buffered(g, thickness / 2, GEOSBUF_CAP_FLAT));
 }

@@ -10,15 +10,30 @@
 
 #include <itin/error.hpp>
 #include <itin/geometry.hpp>
+#include <itin/progress.hpp>
 
 #include "triangulate/predicates.hpp"
 
 namespace itin {
 
-/// GEOS gave up, as it does on a few outlines about as small as the grid. The functions below may throw it.
+/// GEOS gave up, as it does on a few outlines about as small as the grid, or lines cross too often. The functions below
+/// may throw it.
 class OverlayError : public Error {
  public:
   using Error::Error;
+};
+
+/// While one lives, the functions below throw Cancelled in this thread soon after `progress`, which must outlive it, is
+/// cancelled.
+class OverlayCancellation {
+ public:
+  explicit OverlayCancellation(const Progress& progress);
+  ~OverlayCancellation();
+  OverlayCancellation(const OverlayCancellation&) = delete;
+  OverlayCancellation& operator=(const OverlayCancellation&) = delete;
+
+ private:
+  const Progress* before_;
 };
 
 /// Open: the first position is not repeated.
@@ -54,17 +69,15 @@ double area(const GridPolygons& polygons);
 enum class Side { outside, border, inside };
 /// Exact.
 Side side_of(const GridPolygon& polygon, Position p);
-/// By the even-odd rule; p anywhere, borders as floating point has it.
+/// By the even-odd rule; p anywhere, borders as floating point has it. For many positions see polygon_sides.hpp.
 bool covers(const GridPolygons& polygons, Point2 p);
-
-/// The pieces of the segment pq inside a polygon, in order from p, as floating point has it.
-std::vector<std::pair<Point2, Point2>> inside_parts(const GridPolygon& polygon, Point2 p, Point2 q);
 
 struct EvenOdd {
   GridPolygons polygons;
   bool repaired = false;  ///< the rings crossed or touched themselves or each other
 };
-/// What rings enclose. Empty where they enclose nothing.
+/// What rings enclose. Empty where they enclose nothing. Throws OverlayError where they cross more often than
+/// most_conflicts() (planarity.hpp), before any memory is spent on it.
 EvenOdd even_odd(const std::vector<GridRing>& rings);
 
 /// A bounded face of an arrangement, with a position inside it.
@@ -83,7 +96,7 @@ GridPolygons merged(const GridPolygons& polygons);
 GridPolygons eroded(const GridPolygons& polygons, double distance);
 GridPolygons common_part(const GridPolygons& a, const GridPolygons& b);
 
-/// A line as a band, square at its ends.
+/// A line as a band, square at its ends. Throws OverlayError where it crosses itself too often, as even_odd() does.
 GridPolygons thickened(const std::vector<Position>& line, double thickness);
 
 /// The smallest rectangle about a ring, as its centre, half sides and the direction (a unit vector) of the longer.

@@ -81,7 +81,8 @@ class SortedPositions {
 
 class SnapRounding {
  public:
-  explicit SnapRounding(std::vector<OwnedSegment> segments) : segments_(std::move(segments)) {
+  SnapRounding(std::vector<OwnedSegment> segments, const Progress* progress)
+      : segments_(std::move(segments)), progress_(progress) {
     for (OwnedSegment& s : segments_) {
       if (s.b < s.a) std::swap(s.a, s.b);
     }
@@ -92,13 +93,21 @@ class SnapRounding {
   PlanarLines run() && {
     find_hot_pixels();
     const SortedPositions hot(std::move(hot_));
-    for (const OwnedSegment& s : segments_) round(s, hot);
+    for (const OwnedSegment& s : segments_) {
+      look_up();
+      round(s, hot);
+    }
     settle_heights();
     split_at_vertices();
     return number();
   }
 
  private:
+  /// Whether to go on: costs next to nothing.
+  void look_up() {
+    if (progress_ != nullptr && ++steps_ % 1024 == 0) progress_->throw_if_cancelled();
+  }
+
   struct Piece {
     Position from, to;
     std::uint32_t owner;
@@ -114,6 +123,7 @@ class SnapRounding {
     }
     std::set<std::pair<Segment, Segment>> crossing;
     for_each_edge_leaf(std::move(plain), [&](const Cell&, const std::vector<Segment>& near) {
+      look_up();
       // Ascending by ax, and ax <= bx: what begins right of s's end does not meet it.
       for (std::size_t i = 0; i < near.size(); ++i) {
         for (std::size_t j = i + 1; j < near.size() && near[j].ax <= near[i].bx; ++j) {
@@ -184,6 +194,7 @@ class SnapRounding {
     const SortedPositions vertices(std::move(ends));
     const std::vector<Piece> whole = std::exchange(pieces_, {});
     for (const Piece& piece : whole) {
+      look_up();
       std::vector<Position> way{piece.from, piece.to};
       vertices.along(piece.from, piece.to, [&](Position p) {
         if (p != piece.from && p != piece.to && on_segment(piece.from, piece.to, p)) way.push_back(p);
@@ -225,12 +236,14 @@ class SnapRounding {
   std::vector<Height> heights_;
   std::vector<Piece> pieces_;
   std::uint64_t crossings_ = 0;
+  const Progress* progress_;
+  std::uint64_t steps_ = 0;
 };
 
 }  // namespace
 
-PlanarLines make_planar(std::vector<OwnedSegment> segments) {
-  return SnapRounding(std::move(segments)).run();
+PlanarLines make_planar(std::vector<OwnedSegment> segments, const Progress* progress) {
+  return SnapRounding(std::move(segments), progress).run();
 }
 
 }  // namespace itin

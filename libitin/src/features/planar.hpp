@@ -19,6 +19,7 @@
 #include <vector>
 
 #include <itin/geometry.hpp>
+#include <itin/progress.hpp>
 
 namespace itin {
 
@@ -42,6 +43,7 @@ struct PlanarLines {
 };
 
 /// O((n + k) log n) for n segments and k crossings, as long as segments are not much denser than 64 in 256 grid steps.
-PlanarLines make_planar(std::vector<OwnedSegment> segments);
+/// Throws Cancelled where a progress is given and cancelled.
+PlanarLines make_planar(std::vector<OwnedSegment> segments, const Progress* progress = nullptr);
 
 }  // namespace itin

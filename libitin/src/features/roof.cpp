@@ -7,6 +7,7 @@
 
 #include "features/planar.hpp"
 #include "features/planarity.hpp"
+#include "features/polygon_sides.hpp"
 
 namespace itin {
 
@@ -76,8 +77,8 @@ void add_rings(const GridPolygon& plan, const HeightAt& height, std::vector<Roof
   for_each_edge(plan, [&](Position a, Position b) { lines.push_back({point(a), point(b), true}); });
 }
 
-void add_crease(const GridPolygon& plan, Point2 p, Point2 q, const HeightAt& height, std::vector<RoofLine>& lines) {
-  for (const auto& [from, to] : inside_parts(plan, p, q))
+void add_crease(const PolygonSides& plan, Point2 p, Point2 q, const HeightAt& height, std::vector<RoofLine>& lines) {
+  for (const auto& [from, to] : plan.inside_parts(p, q))
     lines.push_back({rounded(from, height(from)), rounded(to, height(to)), false});
 }
 
@@ -107,7 +108,8 @@ std::vector<RoofLine> rectangle_roof(const GridPolygon& plan, const RoofHeights&
   const HeightAt height = [&](Point2 p) { return pitch.at(rise.at(p)); };
   std::vector<RoofLine> lines;
   add_rings(plan, height, lines);
-  for (const auto& [p, q] : rise.creases()) add_crease(plan, p, q, height, lines);
+  const PolygonSides sides(plan);
+  for (const auto& [p, q] : rise.creases()) add_crease(sides, p, q, height, lines);
   return made_planar(lines);
 }
 

@@ -8,8 +8,12 @@
 #include <optional>
 #include <set>
 
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
 #include <itin/parallel.hpp>
 #include <itin/triangulate.hpp>
+#include <itin/unreported.hpp>
 
 #include "features/feature_mesh.hpp"
 #include "features/footprint_arrangement.hpp"
@@ -28,6 +32,10 @@ namespace {
 constexpr double kPiece = 1000;
 /// Metres, or two grid steps where those are more.
 constexpr double kWallOffset = 0.05;
+/// Of the ground's triangulation, while features are raised on it. Measured, rounded up.
+constexpr std::uint64_t kBytesPerPoint = 400;
+/// Of ground that is triangulated for several groups of features at once.
+constexpr std::uint64_t kMostPoints = 500'000;
 
 GridBox box_of(const FootprintFeature& feature, const Grid& grid) {
   GridBox box;
@@ -98,8 +106,8 @@ class Blocks {
 
 class Standing {
  public:
-  Standing(const Store& ground, std::span<const StoredFootprint> footprints)
-      : ground_(ground), footprints_(footprints), grid_(ground.metadata().grid) {
+  Standing(const Store& ground, std::span<const StoredFootprint> footprints, std::uint64_t memory_bytes)
+      : ground_(ground), footprints_(footprints), memory_bytes_(memory_bytes), grid_(ground.metadata().grid) {
     options_.grid = grid_;
     options_.wall_offset = std::max(kWallOffset, 2 * grid_.resolution);
     for (const LevelInfo& level : ground.metadata().levels)
@@ -109,10 +117,9 @@ class Standing {
   StandingTheme run(Progress& progress) {
     const auto pieces = cut_into_pieces();
     std::size_t done = 0;
-    for (const auto& [place, numbers] : pieces) {
-      progress.throw_if_cancelled();
+    for (const auto& [place, groups] : pieces) {
       progress.report("raising features", static_cast<double>(done++) / static_cast<double>(pieces.size()));
-      build(numbers);
+      build(groups, progress);
     }
     for (auto& [level, part] : parts_) {
       const auto code = [](const GridPoint& p) { return morton(p.x, p.y); };
@@ -125,37 +132,77 @@ class Standing {
 
  private:
   using Numbers = std::vector<std::uint32_t>;
+  /// Features whose boxes hang together.
+  struct Group {
+    Numbers numbers;
+    GridBox box;
+  };
+  using Groups = std::vector<Group>;
 
-  /// By place: features whose boxes hang together stay together.
-  std::map<std::pair<std::int64_t, std::int64_t>, Numbers> cut_into_pieces() const {
+  /// By place.
+  std::map<std::pair<std::int64_t, std::int64_t>, Groups> cut_into_pieces() const {
     std::vector<GridBox> boxes;
     for (const StoredFootprint& f : footprints_) {
       const GridBox box = box_of(f.feature, grid_);
       boxes.push_back(box.empty() ? GridBox{0, 0, 0, 0} : widened(box, 2));
     }
     const double side = kPiece / grid_.resolution;
-    std::map<std::pair<std::int64_t, std::int64_t>, Numbers> pieces;
-    for (const auto& group : groups_of(boxes)) {
-      const GridBox& box = boxes[group.front()];
-      Numbers& piece = pieces[{static_cast<std::int64_t>(std::floor(box.xmin / side)),
-                               static_cast<std::int64_t>(std::floor(box.ymin / side))}];
-      piece.insert(piece.end(), group.begin(), group.end());
+    std::map<std::pair<std::int64_t, std::int64_t>, Groups> pieces;
+    for (auto& numbers : groups_of(boxes)) {
+      const GridBox& first = boxes[numbers.front()];
+      Group group{std::move(numbers), {}};
+      for (const std::uint32_t i : group.numbers) group.box.extend(boxes[i]);
+      pieces[{static_cast<std::int64_t>(std::floor(first.xmin / side)),
+              static_cast<std::int64_t>(std::floor(first.ymin / side))}]
+          .push_back(std::move(group));
     }
-    for (auto& [place, numbers] : pieces) std::sort(numbers.begin(), numbers.end());
     return pieces;
   }
 
-  void build(const Numbers& numbers) {
-    std::vector<FootprintFeature> features;
+  /// In halves as long as there is much ground about several groups.
+  void build(Groups groups, const Progress& progress) {
+    progress.throw_if_cancelled();
     GridBox box;
-    for (const std::uint32_t i : numbers) {
-      features.push_back(footprints_[i].feature);
-      const GridBox own = box_of(features.back(), grid_);
-      if (!own.empty()) box.extend(own);
+    for (const Group& group : groups) box.extend(group.box);
+    const std::uint64_t points = points_in(box);
+    if (groups.size() == 1 || points <= kMostPoints) {
+      require_room(groups, points);
+      return build(groups, box, progress);
     }
-    if (box.empty()) box = {0, 0, 0, 0};
-    NoProgress quiet;
-    const Box window = grid_.box(widened(box, 2));
+    const bool wide = box.xmax - box.xmin > box.ymax - box.ymin;
+    std::sort(groups.begin(), groups.end(), [&](const Group& a, const Group& b) {
+      const auto place = [&](const Group& g) { return std::pair(wide ? g.box.xmin : g.box.ymin, g.numbers.front()); };
+      return place(a) < place(b);
+    });
+    const auto middle = groups.begin() + static_cast<std::ptrdiff_t>(groups.size() / 2);
+    build(Groups(groups.begin(), middle), progress);
+    build(Groups(middle, groups.end()), progress);
+  }
+
+  std::uint64_t points_in(const GridBox& box) const {
+    std::vector<Leaf> leaves;
+    ground_.points().leaves(0, box, leaves);
+    return std::accumulate(leaves.begin(), leaves.end(), std::uint64_t{0},
+                           [](std::uint64_t sum, const Leaf& leaf) { return sum + leaf.points; });
+  }
+
+  void require_room(const Groups& groups, std::uint64_t points) const {
+    if (points * kBytesPerPoint <= memory_bytes_) return;
+    throw InputError(fmt::format(
+        "{}: the ground under it and its neighbours has some {} points, for which {} MB of memory are too little; give "
+        "more than {} MB, or cut it into parts",
+        footprints_[groups.front().numbers.front()].feature.name, points, memory_bytes_ >> 20,
+        points * kBytesPerPoint >> 20));
+  }
+
+  void build(const Groups& groups, const GridBox& box, const Progress& progress) {
+    Numbers numbers;
+    for (const Group& group : groups) numbers.insert(numbers.end(), group.numbers.begin(), group.numbers.end());
+    std::sort(numbers.begin(), numbers.end());
+    std::vector<FootprintFeature> features;
+    for (const std::uint32_t i : numbers) features.push_back(footprints_[i].feature);
+    Unreported quiet(progress);
+    const Box window = grid_.box(box);
     const Tin tin = triangulate(ground_, Window::box(window), Detail::tolerance(0), quiet, ThemeChoice::none());
     const TerrainHeights terrain(tin);
     const std::vector<Segment> outline = outline_near(ground_, box);
@@ -267,6 +314,7 @@ class Standing {
 
   const Store& ground_;
   std::span<const StoredFootprint> footprints_;
+  std::uint64_t memory_bytes_;
   Grid grid_;
   FeatureOptions options_;
   std::vector<double> lateral_;
@@ -276,8 +324,9 @@ class Standing {
 
 }  // namespace
 
-StandingTheme stand(const Store& ground, std::span<const StoredFootprint> footprints, Progress& progress) {
-  return Standing(ground, footprints).run(progress);
+StandingTheme stand(const Store& ground, std::span<const StoredFootprint> footprints, std::uint64_t memory_bytes,
+                    Progress& progress) {
+  return Standing(ground, footprints, memory_bytes).run(progress);
 }
 
 }  // namespace itin

@@ -42,7 +42,9 @@ struct StandingTheme {
 };
 
 /// Footprints that reach beyond the ground are refused. Reads the ground in pieces of about a square kilometre; memory
-/// follows these and the features. Throws Cancelled, and what triangulate() throws.
-StandingTheme stand(const Store& ground, std::span<const StoredFootprint> footprints, Progress& progress);
+/// follows these and the features. Throws InputError where the ground about features that hang together takes more than
+/// `memory_bytes`, Cancelled, and what triangulate() throws.
+StandingTheme stand(const Store& ground, std::span<const StoredFootprint> footprints, std::uint64_t memory_bytes,
+                    Progress& progress);
 
 }  // namespace itin

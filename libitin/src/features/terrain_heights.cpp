@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "features/mask_index.hpp"
+
 namespace itin {
 
 namespace {
@@ -245,30 +247,92 @@ std::vector<Position> TerrainHeights::crossings(Position a, Position b) const {
   return ordered;
 }
 
-std::optional<double> TerrainHeights::mean_height(const GridPolygons& footprint,
-                                                  const std::vector<std::uint32_t>& near) const {
-  double area = 0, volume = 0;
-  for (const std::uint32_t t : near) {
-    const Triangle& v = tin_->triangles[t];
-    const GridPoint &a = vertex(v[0]), &b = vertex(v[1]), &c = vertex(v[2]);
-    const std::array<Point2, 3> corner{Point2{1.0 * a.x, 1.0 * a.y}, {1.0 * b.x, 1.0 * b.y}, {1.0 * c.x, 1.0 * c.y}};
-    Integral part;
-    for (const GridPolygon& polygon : footprint) {
-      for_each_ring(polygon, [&](const GridRing& outline) {
-        std::vector<Point2> ring;
-        for (const Position& p : outline) ring.push_back({1.0 * p.x, 1.0 * p.y});
-        for (std::size_t i = 0; i < 3 && !ring.empty(); ++i) clip_to_half_plane(ring, corner[i], corner[(i + 1) % 3]);
+/// The integral of the triangulation over a footprint. Where both are large, quarter by quarter of their box, so that a
+/// triangle meets no edges but those near it.
+class TerrainHeights::FootprintIntegral {
+ public:
+  using Rings = std::vector<std::vector<Point2>>;
+  explicit FootprintIntegral(const TerrainHeights& terrain) : terrain_(terrain) {}
+
+  void add(const GridBox& box, const Rings& rings, const std::vector<std::uint32_t>& triangles) {
+    std::size_t corners = 0;
+    for (const auto& ring : rings) corners += ring.size();
+    const bool small = box.xmax - box.xmin <= 1 || box.ymax - box.ymin <= 1;
+    if (corners <= kFewCorners || triangles.size() <= kFewTriangles || small) return add(rings, triangles);
+    const std::int32_t x = box.xmin + (box.xmax - box.xmin) / 2, y = box.ymin + (box.ymax - box.ymin) / 2;
+    for (const GridBox& part : {GridBox{box.xmin, box.ymin, x, y}, GridBox{x, box.ymin, box.xmax, y},
+                                GridBox{box.xmin, y, x, box.ymax}, GridBox{x, y, box.xmax, box.ymax}})
+      add_part(part, rings, triangles);
+  }
+
+  /// Metres.
+  std::optional<double> mean() const {
+    if (area_ <= 0) return std::nullopt;
+    return volume_ / area_ * terrain_.grid().resolution;
+  }
+
+ private:
+  static constexpr std::size_t kFewCorners = 256, kFewTriangles = 8;
+
+  static std::array<Point2, 4> corners_of(const GridBox& box) {
+    const Point2 low{1.0 * box.xmin, 1.0 * box.ymin}, high{1.0 * box.xmax, 1.0 * box.ymax};
+    return {low, {high.x, low.y}, high, {low.x, high.y}};
+  }
+
+  template <std::size_t N>
+  static void clip(std::vector<Point2>& ring, const std::array<Point2, N>& corners) {
+    for (std::size_t i = 0; i < N && !ring.empty(); ++i) clip_to_half_plane(ring, corners[i], corners[(i + 1) % N]);
+  }
+
+  void add_part(const GridBox& part, const Rings& rings, const std::vector<std::uint32_t>& triangles) {
+    Rings clipped;
+    for (std::vector<Point2> ring : rings) {
+      clip(ring, corners_of(part));
+      if (!ring.empty()) clipped.push_back(std::move(ring));
+    }
+    if (clipped.empty()) return;
+    std::vector<std::uint32_t> met;
+    for (const std::uint32_t t : triangles) {
+      const Triangle& v = terrain_.triangle(t);
+      if (box_of(terrain_.vertex(v[0]), terrain_.vertex(v[1]), terrain_.vertex(v[2])).meets(part)) met.push_back(t);
+    }
+    add(part, clipped, met);
+  }
+
+  void add(const Rings& rings, const std::vector<std::uint32_t>& triangles) {
+    for (const std::uint32_t t : triangles) {
+      const Triangle& v = terrain_.triangle(t);
+      const GridPoint &a = terrain_.vertex(v[0]), &b = terrain_.vertex(v[1]), &c = terrain_.vertex(v[2]);
+      const std::array<Point2, 3> corner{Point2{1.0 * a.x, 1.0 * a.y}, {1.0 * b.x, 1.0 * b.y}, {1.0 * c.x, 1.0 * c.y}};
+      Integral part;
+      for (std::vector<Point2> ring : rings) {
+        clip(ring, corner);
         const Integral piece = integral(ring, corner[0]);
         part.area += piece.area, part.x += piece.x, part.y += piece.y;
-      });
+      }
+      if (part.area <= 0) continue;
+      area_ += part.area;
+      // The integral of a linear function is the area times its value at the centroid.
+      volume_ += part.area * plane_height(a, b, c, corner[0].x + part.x / part.area, corner[0].y + part.y / part.area);
     }
-    if (part.area <= 0) continue;
-    area += part.area;
-    // The integral of a linear function is the area times its value at the centroid.
-    volume += part.area * plane_height(a, b, c, corner[0].x + part.x / part.area, corner[0].y + part.y / part.area);
   }
-  if (area <= 0) return std::nullopt;
-  return volume / area * grid().resolution;
+
+  const TerrainHeights& terrain_;
+  double area_ = 0, volume_ = 0;
+};
+
+std::optional<double> TerrainHeights::mean_height(const GridPolygons& footprint,
+                                                  const std::vector<std::uint32_t>& near) const {
+  FootprintIntegral::Rings rings;
+  for (const GridPolygon& polygon : footprint) {
+    for_each_ring(polygon, [&](const GridRing& outline) {
+      std::vector<Point2>& ring = rings.emplace_back();
+      for (const Position& p : outline) ring.push_back({1.0 * p.x, 1.0 * p.y});
+    });
+  }
+  FootprintIntegral integral(*this);
+  integral.add(bounds_of(footprint), rings, near);
+  return integral.mean();
 }
 
 void TerrainHeights::add_outline(const GridPolygons& footprint, Extremes& extremes) const {
@@ -285,14 +349,13 @@ std::optional<double> TerrainHeights::base_height(const GridPolygons& footprint,
   if (rule == BaseRule::mean || rule == BaseRule::terrain_following) return mean_height(footprint, near);
   Extremes extremes;
   add_outline(footprint, extremes);
-  for (const std::uint32_t t : near) {
-    for (const std::uint32_t v : tin_->triangles[t]) {
-      const Position p{vertex(v).x, vertex(v).y};
-      const bool inside = std::any_of(footprint.begin(), footprint.end(),
-                                      [&](const GridPolygon& g) { return side_of(g, p) == Side::inside; });
-      if (inside) extremes.add(vertex(v).z * grid().resolution);
-    }
-  }
+  std::vector<std::uint32_t> vertices;
+  for (const std::uint32_t t : near) vertices.insert(vertices.end(), triangle(t).begin(), triangle(t).end());
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  const MaskIndex inside(footprint);
+  for (const std::uint32_t v : vertices)
+    if (inside.strictly_inside({vertex(v).x, vertex(v).y})) extremes.add(vertex(v).z * grid().resolution);
   if (extremes.low > extremes.high) return std::nullopt;
   return rule == BaseRule::minimum ? extremes.low : extremes.high;
 }

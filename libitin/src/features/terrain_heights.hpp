@@ -46,6 +46,7 @@ class TerrainHeights {
 
  private:
   struct Extremes;
+  class FootprintIntegral;
   struct Crossing {
     double along;  ///< 0 to 1
     Position at;

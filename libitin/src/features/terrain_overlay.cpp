@@ -20,6 +20,24 @@ using TerrainEdge = std::pair<std::uint32_t, std::uint32_t>;
 class TopSurface {
  public:
   TopSurface(const Grid& grid, const std::vector<PlacedSegment>& lines) {
+    const std::int32_t z = lines.front().a.z;
+    if (std::all_of(lines.begin(), lines.end(), [&](const PlacedSegment& s) { return s.a.z == z && s.b.z == z; }))
+      level_ = z;
+    else
+      triangulate(grid, lines);
+  }
+  TopSurface(const TopSurface&) = delete;
+  TopSurface& operator=(const TopSurface&) = delete;
+
+  /// Grid units; nothing beyond the top, as far as it is not level.
+  std::optional<double> at(Position p) const {
+    if (level_) return *level_;
+    const auto z = heights_->height_at(p);
+    return z ? std::optional(*z / tin_.grid.resolution) : std::nullopt;
+  }
+
+ private:
+  void triangulate(const Grid& grid, const std::vector<PlacedSegment>& lines) {
     tin_.grid = grid;
     std::map<Position, std::uint32_t> numbers;
     std::vector<Position> positions;
@@ -39,16 +57,8 @@ class TopSurface {
     for (const auto& t : delaunay.mesh().triangles) tin_.triangles.push_back({t[0], t[1], t[2]});
     heights_.emplace(tin_);
   }
-  TopSurface(const TopSurface&) = delete;
-  TopSurface& operator=(const TopSurface&) = delete;
 
-  /// Grid units; nothing beyond the top.
-  std::optional<double> at(Position p) const {
-    const auto z = heights_->height_at(p);
-    return z ? std::optional(*z / tin_.grid.resolution) : std::nullopt;
-  }
-
- private:
+  std::optional<std::int32_t> level_;  ///< a flat roof needs no triangles
   Tin tin_;
   std::optional<TerrainHeights> heights_;
 };
@@ -80,8 +90,8 @@ class Ownership {
 
 class Overlaying {
  public:
-  Overlaying(const TerrainHeights& terrain, const std::vector<CoveredGround>& covered)
-      : terrain_(terrain), covered_(covered) {
+  Overlaying(const TerrainHeights& terrain, const std::vector<CoveredGround>& covered, const Progress& progress)
+      : terrain_(terrain), covered_(covered), progress_(progress) {
     for (std::uint32_t i = 0; i < covered.size(); ++i) {
       footprints_.add(covered[i].footprint, i);
       tops_.add(covered[i].top, i);
@@ -96,7 +106,7 @@ class Overlaying {
     const std::set<TerrainEdge> edges = edges_about(segments);
     if (flat(edges)) return raised(std::move(segments));
     segments_ = std::move(segments);
-    lines_ = make_planar(owned(edges));
+    lines_ = make_planar(owned(edges), &progress_);
     classify();
     raise();
     return collected();
@@ -307,6 +317,7 @@ class Overlaying {
 
   const TerrainHeights& terrain_;
   const std::vector<CoveredGround>& covered_;
+  const Progress& progress_;
   Ownership footprints_, tops_;
   std::map<std::uint32_t, double> above_;                          ///< of features that drape
   std::map<std::uint32_t, std::unique_ptr<TopSurface>> surfaces_;  ///< of tops that the terrain may pierce
@@ -325,8 +336,8 @@ class Overlaying {
 }  // namespace
 
 OverlaidLines lay_over(const TerrainHeights& terrain, std::vector<PlacedSegment> segments,
-                       const std::vector<CoveredGround>& covered) {
-  return Overlaying(terrain, covered).run(std::move(segments));
+                       const std::vector<CoveredGround>& covered, const Progress& progress) {
+  return Overlaying(terrain, covered, progress).run(std::move(segments));
 }
 
 }  // namespace itin

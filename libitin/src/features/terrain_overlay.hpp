@@ -35,6 +35,6 @@ struct OverlaidLines {
 
 /// `segments` must be planar, feet first, and lie on the terrain.
 OverlaidLines lay_over(const TerrainHeights& terrain, std::vector<PlacedSegment> segments,
-                       const std::vector<CoveredGround>& covered);
+                       const std::vector<CoveredGround>& covered, const Progress& progress);
 
 }  // namespace itin

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <map>
@@ -41,10 +42,12 @@ struct SurfacePlane {
 constexpr double kSameDirection = 1e-3, kSamePlace = 0.02;
 /// The least upward part of a unit normal for a surface that is no wall.
 constexpr double kUpright = 0.05;
+/// Bytes of memory that a byte of text takes while it is read.
+constexpr std::uint64_t kMemoryPerByte = 16;
 
 class CityModel {
  public:
-  CityModel(const CityJsonQuery& query, const std::string& to_crs) : query_(query), model_(parse(query.path)) {
+  CityModel(const CityJsonQuery& query, const std::string& to_crs) : query_(query), model_(parse(query)) {
     place_vertices(to_crs);
   }
 
@@ -66,9 +69,17 @@ class CityModel {
   }
 
  private:
-  static Json parse(const std::string& path) {
+  static Json parse(const CityJsonQuery& query) {
+    const std::string& path = query.path;
     std::ifstream file(path);
     if (!file) throw FileError(path, "cannot be read");
+    std::error_code unknown;
+    const std::uintmax_t bytes = std::filesystem::file_size(path, unknown);
+    if (!unknown && bytes > query.memory_bytes / kMemoryPerByte)
+      throw InputError(
+          fmt::format("{}: {} MB of CityJSON take some {} MB of memory to read, more than the {} MB there "
+                      "are to work in; give more, or cut the model into parts",
+                      path, bytes >> 20, bytes * kMemoryPerByte >> 20, query.memory_bytes >> 20));
     Json model = Json::parse(file);
     if (model.value("type", "") != "CityJSON") throw FileError(path, "is not CityJSON");
     return model;

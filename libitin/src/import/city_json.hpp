@@ -5,6 +5,7 @@
 // (triangulated roofs) are joined.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "import/footprint_reader.hpp"
@@ -13,13 +14,14 @@ namespace itin {
 
 struct CityJsonQuery {
   std::string path;
-  std::string crs;             ///< overrides the file's own
+  std::string crs;  ///< overrides the file's own
+  std::uint64_t memory_bytes = std::uint64_t{4} << 30;
   bool ground_as_base = true;  ///< the least elevation of the ground surfaces, or of all; else the terrain's
 };
 
 /// In the CRS `to_crs` (WKT). What cannot be used is passed over with a warning: a line an object, or a line a type for
 /// objects that are no buildings. Throws FileError for a file that is not readable or no CityJSON, InputError for a CRS
-/// that is missing or unknown.
+/// that is missing or unknown and, before it is read, for a file that takes more than the memory.
 FootprintSource read_city_json(const CityJsonQuery& query, const std::string& to_crs);
 
 }  // namespace itin

@@ -38,10 +38,12 @@ FootprintSource read_model(const std::string& path, const ImportOptions& options
   query.path = path;
   query.crs = options.crs;
   query.ground_as_base = !options.base;
+  query.memory_bytes = options.memory_bytes;
   return read_city_json(query, store.crs_wkt);
 }
 
-FootprintSource read_layer(const std::string& path, const ImportOptions& options, const StoreMetadata& store) {
+FootprintSource read_layer(const std::string& path, const ImportOptions& options, const StoreMetadata& store,
+                           Progress& progress) {
   FootprintQuery query;
   query.path = path;
   query.layer = options.layer;
@@ -55,7 +57,7 @@ FootprintSource read_layer(const std::string& path, const ImportOptions& options
   query.kind = feature_kind(*options.kind);
   query.roof = options.roof;
   query.thickness = options.thickness;
-  return read_footprints(query, store.crs_wkt, store.grid);
+  return read_footprints(query, store.crs_wkt, store.grid, progress);
 }
 
 }  // namespace
@@ -67,12 +69,13 @@ bool stands(const ImportOptions& options) {
          std::any_of(options.sources.begin(), options.sources.end(), is_city_json);
 }
 
-std::vector<FootprintFile> read_footprint_files(const ImportOptions& options, const StoreMetadata& store) {
+std::vector<FootprintFile> read_footprint_files(const ImportOptions& options, const StoreMetadata& store,
+                                                Progress& progress) {
   std::vector<FootprintFile> files;
-  NoProgress quiet;
   for (const std::string& path : options.sources) {
     FootprintFile& file = files.emplace_back();
-    file.footprints = is_city_json(path) ? read_model(path, options, store) : read_layer(path, options, store);
+    file.footprints =
+        is_city_json(path) ? read_model(path, options, store) : read_layer(path, options, store, progress);
     if (file.footprints.features.empty())
       throw FileError(path,
                       file.footprints.filtered > 0 ? "holds no features that match --where" : "holds no features");
@@ -82,7 +85,7 @@ std::vector<FootprintFile> read_footprint_files(const ImportOptions& options, co
     file.info.kind = name_of(*options.kind);
     file.info.theme = options.theme;
     file.info.source_crs = file.footprints.crs;
-    file.info.sha256 = path.starts_with("/vsi") ? std::string() : file_sha256(path, quiet);
+    file.info.sha256 = path.starts_with("/vsi") ? std::string() : file_sha256(path, progress);
     file.info.imported = utc_now();
   }
   return files;

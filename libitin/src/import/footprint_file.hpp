@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <itin/import.hpp>
+#include <itin/progress.hpp>
 
 #include "import/footprint_reader.hpp"
 
@@ -14,7 +15,8 @@ struct FootprintFile {
   SourceInfo info;
 };
 
-/// Reads options.sources: CityJSON, or vector layers. Throws FileError, InputError.
-std::vector<FootprintFile> read_footprint_files(const ImportOptions& options, const StoreMetadata& store);
+/// Reads options.sources: CityJSON, or vector layers. Throws FileError, InputError, Cancelled.
+std::vector<FootprintFile> read_footprint_files(const ImportOptions& options, const StoreMetadata& store,
+                                                Progress& progress);
 
 }  // namespace itin

@@ -45,9 +45,14 @@ class FootprintLayer {
     if (heights_used && !unit.warning.empty()) source_.warnings.push_back(unit.warning);
   }
 
-  FootprintSource read() {
+  FootprintSource read(Progress& progress) {
+    const std::string stage = "reading " + query_.path;
+    const auto all = static_cast<double>(std::max<GIntBig>(1, layer_->GetFeatureCount()));
+    std::uint64_t done = 0;
     layer_->ResetReading();
     for (;;) {
+      progress.throw_if_cancelled();
+      progress.report(stage, std::min(1.0, static_cast<double>(done++) / all));
       CPLErrorReset();
       const OGRFeatureUniquePtr feature(layer_->GetNextFeature());
       if (!feature) break;
@@ -83,6 +88,8 @@ class FootprintLayer {
       if (!linear || !add_rings(*linear, footprint))
         return pass_over(footprint.name, std::string("is a ") + geometry->getGeometryName());
     } catch (const InputError& error) {
+      return pass_over(footprint.name, error.what());
+    } catch (const OverlayError& error) {
       return pass_over(footprint.name, error.what());
     }
     add_heights(feature, footprint);
@@ -169,9 +176,11 @@ class FootprintLayer {
 
 }  // namespace
 
-FootprintSource read_footprints(const FootprintQuery& query, const std::string& to_crs, const Grid& grid) {
+FootprintSource read_footprints(const FootprintQuery& query, const std::string& to_crs, const Grid& grid,
+                                Progress& progress) {
   const QuietGdal quiet;
-  return FootprintLayer(query, to_crs, grid).read();
+  const OverlayCancellation cancellation(progress);
+  return FootprintLayer(query, to_crs, grid).read(progress);
 }
 
 }  // namespace itin

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <itin/geometry.hpp>
+#include <itin/progress.hpp>
 
 #include "features/footprint.hpp"
 
@@ -49,7 +50,8 @@ struct FootprintSource {
 
 /// In the CRS `to_crs` (WKT). Heights are in the unit of the CRS's vertical part or axes, feet where those are feet.
 /// A feature whose height is null has none. Throws FileError for a file, layer, field or filter that is missing or not
-/// readable, InputError for a CRS that is missing or unknown.
-FootprintSource read_footprints(const FootprintQuery& query, const std::string& to_crs, const Grid& grid);
+/// readable, InputError for a CRS that is missing or unknown, Cancelled.
+FootprintSource read_footprints(const FootprintQuery& query, const std::string& to_crs, const Grid& grid,
+                                Progress& progress);
 
 }  // namespace itin

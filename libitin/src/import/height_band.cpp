@@ -16,8 +16,6 @@ namespace itin {
 
 namespace {
 
-constexpr int kStripPosts = 1 << 22;  // posts read at a time
-
 GDALRasterBand* first_band(GDALDataset& dataset, const std::string& path) {
   if (dataset.GetRasterCount() == 0) {
     const char* subdataset = dataset.GetMetadataItem("SUBDATASET_1_NAME", "SUBDATASETS");
@@ -30,10 +28,10 @@ GDALRasterBand* first_band(GDALDataset& dataset, const std::string& path) {
   return band;
 }
 
-void read_rows(GDALRasterBand& band, const std::string& path, int first_row, int rows, void* out, GDALDataType type) {
-  const int columns = band.GetXSize();
-  if (band.RasterIO(GF_Read, 0, first_row, columns, rows, out, columns, rows, type, 0, 0, nullptr) != CE_None)
-    throw FileError(path, fmt::format("rows {} to {} cannot be read: {}", first_row, first_row + rows - 1,
+void read_posts(GDALRasterBand& band, const std::string& path, const RasterWindow& w, void* out, GDALDataType type) {
+  if (band.RasterIO(GF_Read, w.column, w.row, w.columns, w.rows, out, w.columns, w.rows, type, 0, 0, nullptr) !=
+      CE_None)
+    throw FileError(path, fmt::format("rows {} to {} cannot be read: {}", w.row, w.row + w.rows - 1,
                                       QuietGdal::message("unknown error")));
 }
 
@@ -72,19 +70,21 @@ std::optional<double> HeightBand::stated_unit(std::vector<std::string>& warnings
   return 1;
 }
 
-int HeightBand::strip_rows() const {
-  int block_columns = 0, block_rows = 0;
-  band_->GetBlockSize(&block_columns, &block_rows);
-  return std::clamp(block_rows, 1, std::max(1, kStripPosts / band_->GetXSize()));
+int HeightBand::columns() const {
+  return band_->GetXSize();
 }
 
-void HeightBand::read(int first_row, int rows, std::vector<double>& heights) {
+int HeightBand::rows() const {
+  return band_->GetYSize();
+}
+
+void HeightBand::read(const RasterWindow& window, std::vector<double>& heights) {
   const QuietGdal quiet;
-  heights.resize(static_cast<std::size_t>(band_->GetXSize()) * static_cast<std::size_t>(rows));
-  read_rows(*band_, path_, first_row, rows, heights.data(), GDT_Float64);
+  heights.resize(window.posts());
+  read_posts(*band_, path_, window, heights.data(), GDT_Float64);
   if (mask_) {
     valid_.resize(heights.size());
-    read_rows(*mask_, path_, first_row, rows, valid_.data(), GDT_Byte);
+    read_posts(*mask_, path_, window, valid_.data(), GDT_Byte);
   }
   for (std::size_t i = 0; i < heights.size(); ++i) heights[i] = height(heights[i], !mask_ || valid_[i] != 0);
 }

@@ -11,6 +11,11 @@ class GDALRasterBand;
 
 namespace itin {
 
+struct RasterWindow {
+  int column = 0, row = 0, columns = 0, rows = 0;
+  std::uint64_t posts() const { return static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows); }
+};
+
 /// Band 1 with everything that makes its numbers heights: scale, offset, nodata, mask. The dataset must outlive it.
 class HeightBand {
  public:
@@ -21,14 +26,18 @@ class HeightBand {
   /// warning line.
   std::optional<double> stated_unit(std::vector<std::string>& warnings) const;
 
-  /// How many rows to read at a time: whole rows of blocks where memory allows.
-  int strip_rows() const;
+  int columns() const;
+  int rows() const;
+  bool declares_nodata() const { return declares_nodata_; }
 
   /// Heights in the band's unit, row by row, NaN where there is none. Throws FileError.
-  void read(int first_row, int rows, std::vector<double>& heights);
+  void read(const RasterWindow& window, std::vector<double>& heights);
 
   /// How many posts read so far held what customarily stands for missing data though the file does not declare it.
   std::uint64_t undeclared_voids() const { return undeclared_voids_; }
+
+  const std::string& path() const { return path_; }
+  GDALRasterBand& band() const { return *band_; }
 
  private:
   double height(double raw, bool valid);

@@ -136,7 +136,12 @@ void add_lines(LineLayer& layer, std::uint16_t number, const ImportPlan& plan, c
                LineCollection& lines, ImportReport& report, Progress& progress) {
   const std::uint32_t theme = lines.theme(options.theme, *options.kind, false);
   const ReadCounts counts = layer.read(
-      {plan.grid, plan.crs_wkt}, [&](std::span<const GridPoint> line) { lines.add(theme, number, line); }, progress);
+      {plan.grid, plan.crs_wkt},
+      [&](std::span<const GridPoint> line) {
+        lines.add(theme, number, line);
+        lines.require_room(layer.path());
+      },
+      progress);
   lines.add_features(theme, layer.features());
   report.read += counts.read;
   report.voids += counts.voids;
@@ -194,6 +199,7 @@ void add_footprints(FootprintFile& file, std::uint16_t number, const ImportOptio
   report.read += file.footprints.features.size();
   report.filtered += file.footprints.filtered;
   for (FootprintFeature& feature : file.footprints.features) lines.add_footprint(theme, {std::move(feature), number});
+  lines.require_room(file.info.path);
 }
 
 /// Sums over the parts of each theme.
@@ -231,7 +237,7 @@ bool write_store(const Target& target, const Store* base, Additions& additions, 
   if (sources.size() + plan.sources.size() + plan.lines.size() + additions.footprints.size() >= format::kMaxSources)
     throw InputError("a store holds at most 32,766 sources; merge some of them first");
   PointSorter sorter(directory_of(target.passing), options.memory_bytes / 2);
-  LineCollection collection;
+  LineCollection collection(options.memory_bytes);
   std::vector<GridPoint> inferred;
   std::uint64_t offered = base != nullptr ? add_stored(*base, sorter, collection, inferred, progress) : 0;
   for (const auto& source : plan.sources) {
@@ -253,7 +259,7 @@ bool write_store(const Target& target, const Store* base, Additions& additions, 
   if (offered == 0) throw InputError("nothing to import: the sources hold no point with a height");
   if (ground != nullptr) collection.raise(*ground, raised, progress);
 
-  const ThemeLines lines = collection.finish(ground);
+  const ThemeLines lines = collection.finish(ground, progress);
   report.crossings = std::max(report.crossings, lines.lines.crossings);
   add_line_vertices(lines, sorter);
   const bool done = target.last || !collection.stands() || (ground != nullptr && !collection.changes_terrain(lines));
@@ -305,10 +311,10 @@ class PassingStore {
   std::string path_;
 };
 
-Additions plan_additions(const ImportOptions& options, const Store* store) {
+Additions plan_additions(const ImportOptions& options, const Store* store, Progress& progress) {
   Additions additions;
   if (stands(options)) {
-    additions.footprints = read_footprint_files(options, store->metadata());
+    additions.footprints = read_footprint_files(options, store->metadata(), progress);
     additions.plan = plan_nothing(store->metadata());
     for (FootprintFile& file : additions.footprints) {
       std::vector<std::string>& warnings = file.footprints.warnings;
@@ -355,7 +361,7 @@ ImportReport import_sources(const std::string& store_path, const ImportOptions& 
   const Store* const store = existing ? &*existing : nullptr;
   check_resolution(options, store);
   const std::vector<double> tolerances = tolerances_of(options, store);
-  Additions additions = plan_additions(options, store);
+  Additions additions = plan_additions(options, store, progress);
 
   ImportReport report;
   report.crs_name = additions.plan.crs_name;

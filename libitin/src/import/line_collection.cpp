@@ -19,6 +19,17 @@ namespace {
 /// A city has thousands of odd footprints; the first ones tell what is the matter.
 constexpr std::size_t kMostFindings = 20;
 
+/// Measured at the peak of imports, rounded up: of lines while they are simplified, of features while they are raised.
+constexpr std::uint64_t kBytesPerLineVertex = 800, kBytesPerFeatureVertex = 3000;
+
+std::uint64_t vertices_of(const FootprintFeature& feature) {
+  std::uint64_t count = 0;
+  for (const PlanRing& ring : feature.rings) count += ring.size();
+  for (const RoofSurface& surface : feature.surfaces)
+    for (const auto& ring : surface.rings) count += ring.size();
+  return count;
+}
+
 void add_findings(const std::string& theme, const std::vector<std::string>& findings,
                   std::vector<std::string>& warnings) {
   for (std::size_t i = 0; i < std::min(findings.size(), kMostFindings); ++i)
@@ -52,6 +63,16 @@ const GridPoint* vertex_at(const StandingPart& part, Position p) {
 
 }  // namespace
 
+void LineCollection::require_room(const std::string& source) const {
+  const std::uint64_t needed = line_vertices_ * kBytesPerLineVertex + feature_vertices_ * kBytesPerFeatureVertex;
+  if (needed <= memory_bytes_) return;
+  throw InputError(
+      fmt::format("{}: the lines and features of the store have now more than {} vertices, for which {} MB of memory "
+                  "are too little; "
+                  "give more than {} MB, or import them into several stores",
+                  source, line_vertices_ + feature_vertices_, memory_bytes_ >> 20, needed >> 20));
+}
+
 void LineCollection::take_themes(const StoreMetadata& metadata) {
   themes_ = metadata.themes;
   first_source_.assign(themes_.size(), 0);
@@ -71,6 +92,7 @@ void LineCollection::take_segments(const PointIndex& index) {
   std::erase_if(stored_, [&](const Segment& s) {
     return s.theme == kCoverage || s.finest > 0 || s.theme > themes_.size() || stands_[s.theme - std::size_t{1}];
   });
+  line_vertices_ += stored_.size();
   std::sort(stored_.begin(), stored_.end());
   stored_.erase(std::unique(stored_.begin(), stored_.end()), stored_.end());
   for (const Segment& s : stored_) {
@@ -104,7 +126,8 @@ void LineCollection::add_stored() {
 
 void LineCollection::take_footprints(const Store& store) {
   for (std::size_t t = 0; t < store.metadata().themes.size(); ++t)
-    footprints_[t] = stored_footprints(store, static_cast<std::uint16_t>(t + 1));
+    for (StoredFootprint& footprint : stored_footprints(store, static_cast<std::uint16_t>(t + 1)))
+      add_footprint(static_cast<std::uint32_t>(t), std::move(footprint));
 }
 
 std::uint32_t LineCollection::theme(const std::string& name, ThemeKind kind, bool stands) {
@@ -131,6 +154,7 @@ std::uint32_t LineCollection::theme(const std::string& name, ThemeKind kind, boo
 
 void LineCollection::add(std::uint32_t theme, std::uint16_t source, std::span<const GridPoint> line) {
   if (themes_[theme].features == 0 && first_source_[theme] == 0) first_source_[theme] = source;
+  line_vertices_ += line.size();
   for (const GridPoint& p : line) {
     // Of several sources the first one counts, whatever their order in memory.
     const auto [at, fresh] = vertices_.try_emplace(morton(p.x, p.y), Vertex{p.z, source});
@@ -140,6 +164,7 @@ void LineCollection::add(std::uint32_t theme, std::uint16_t source, std::span<co
 }
 
 void LineCollection::add_footprint(std::uint32_t theme, StoredFootprint footprint) {
+  feature_vertices_ += vertices_of(footprint.feature);
   footprints_[theme].push_back(std::move(footprint));
 }
 
@@ -152,7 +177,7 @@ void LineCollection::raise(const Store& ground, RaisedFeatures& report, Progress
   changed_.resize(themes_.size());
   for (std::uint32_t t = 0; t < themes_.size(); ++t) {
     if (footprints_[t].empty()) continue;
-    StandingTheme standing = stand(ground, footprints_[t], progress);
+    StandingTheme standing = stand(ground, footprints_[t], memory_bytes_, progress);
     themes_[t].features = standing.built;
     report.features += standing.built;
     report.refused += standing.refused;
@@ -212,7 +237,7 @@ void LineCollection::keep_or_raise(const OwnedSegment& ground_line, const std::v
 }
 
 /// Puts all segments into one plane, with what keeps the ground about features.
-void LineCollection::make_lines(ThemeLines& result, const Store* ground) {
+void LineCollection::make_lines(ThemeLines& result, const Store* ground, const Progress& progress) {
   GroundBorder border(themes_.size());
   for (std::uint32_t t = 0; t < changed_.size(); ++t) border.add(t, changed_[t]);
   std::vector<MaskIndex> masks;
@@ -224,7 +249,8 @@ void LineCollection::make_lines(ThemeLines& result, const Store* ground) {
   for (const PlacedPart& part : result.parts) owners.theme.push_back(part.part.theme - 1u);
   const auto apex = [&](Position from, Position to) { return apex_of(*ground, from, to); };
   for (;;) {
-    result.lines = make_planar(segments_);
+    progress.throw_if_cancelled();
+    result.lines = make_planar(segments_, &progress);
     GroundBorder::Fit fit = border.fit(result.lines, owners, apex);
     result.borders = std::move(fit.placed);
     if (fit.lines.empty()) break;
@@ -242,7 +268,7 @@ bool LineCollection::changes_terrain(const ThemeLines& lines) const {
                      [&](std::uint32_t v) { return !vertices_.contains(code_of(lines.lines.vertices[v])); });
 }
 
-ThemeLines LineCollection::finish(const Store* ground) {
+ThemeLines LineCollection::finish(const Store* ground, const Progress& progress) {
   add_stored();
   std::vector<std::uint32_t> order(themes_.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -277,7 +303,7 @@ ThemeLines LineCollection::finish(const Store* ground) {
   std::vector<ChangedGround> changed(order.size());
   for (std::size_t t = 0; t < changed_.size(); ++t) changed[number[t]] = std::move(changed_[t]);
   changed_ = std::move(changed);
-  make_lines(result, ground);
+  make_lines(result, ground, progress);
   std::vector<std::uint32_t> owner(result.lines.vertices.size(), std::numeric_limits<std::uint32_t>::max());
   std::vector<std::vector<Position>> ends(parts_.size());
   for (const PlanarEdge& e : result.lines.edges) {

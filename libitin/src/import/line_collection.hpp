@@ -27,6 +27,12 @@ struct RaisedFeatures {
 
 class LineCollection {
  public:
+  explicit LineCollection(std::uint64_t memory_bytes) : memory_bytes_(memory_bytes) {}
+
+  /// Throws InputError, naming the source at hand, where lines and features so far take more than the memory until
+  /// they are in the store.
+  void require_room(const std::string& source) const;
+
   /// Takes a store's themes over, then its lines, then their vertices: in this order.
   void take_themes(const StoreMetadata& metadata);
   void take_segments(const PointIndex& index);
@@ -47,11 +53,11 @@ class LineCollection {
   void add_footprint(std::uint32_t theme, StoredFootprint footprint);
   /// Whether any theme stands.
   bool stands() const;
-  /// Builds all standing themes on a store's ground.
+  /// Builds all standing themes on a store's ground. Throws InputError where that takes more than the memory.
   void raise(const Store& ground, RaisedFeatures& report, Progress& progress);
 
   /// Puts the themes in order and the lines of all of them into one plane. `ground` as in raise(), if it was called.
-  ThemeLines finish(const Store* ground);
+  ThemeLines finish(const Store* ground, const Progress& progress);
   /// After finish(): whether crossing each other, or what stands, has given lines of the terrain vertices that they did
   /// not bring along.
   bool changes_terrain(const ThemeLines& lines) const;
@@ -72,9 +78,11 @@ class LineCollection {
   void place_parts(ThemeLines& result);
   void keep(const OwnedSegment& ground_line);
   void keep_or_raise(const OwnedSegment& ground_line, const std::vector<MaskIndex>& masks);
-  void make_lines(ThemeLines& result, const Store* ground);
+  void make_lines(ThemeLines& result, const Store* ground, const Progress& progress);
   std::uint16_t source_of(const GridPoint& p, std::uint32_t owner) const;
 
+  std::uint64_t memory_bytes_;
+  std::uint64_t line_vertices_ = 0, feature_vertices_ = 0;  ///< so far
   std::vector<ThemeInfo> themes_;
   std::vector<std::uint16_t> first_source_;               ///< by theme
   std::vector<bool> stands_;                              ///< by theme

@@ -17,6 +17,7 @@
 
 #include "import/height_band.hpp"
 #include "import/quiet_gdal.hpp"
+#include "import/raster_windows.hpp"
 
 namespace itin {
 
@@ -140,15 +141,14 @@ class RasterTerrain final : public TerrainSource {
     const BlockCacheLimit limit(memory_bytes_ / kCacheShare);
     const GDALDatasetUniquePtr dataset = open_dataset(path_);
     HeightBand band(*dataset, path_);
-    const int strip = band.strip_rows();
     std::vector<double> heights;
     Batch batch;  // not a member: thousands of sources may be planned at once
-    for (int row = 0; row < lattice_.rows; row += strip) {
+    voids_ += RasterWindows(band, memory_bytes_).for_each([&](const RasterWindow& window) {
       progress.throw_if_cancelled();
-      progress.report(stage, static_cast<double>(row) / lattice_.rows);
-      band.read(row, std::min(strip, lattice_.rows - row), heights);
-      place_rows(row, heights, batch, sink);
-    }
+      progress.report(stage, static_cast<double>(window.row) / lattice_.rows);
+      band.read(window, heights);
+      place_window(window, heights, batch, sink);
+    });
     hand_on(batch, sink);
     info_.sha256 = file_sha256(path_, progress);
     info_.imported = utc_now();
@@ -157,7 +157,7 @@ class RasterTerrain final : public TerrainSource {
 
  private:
   void measure_steps();
-  void place_rows(int first_row, const std::vector<double>& heights, Batch& batch, const Sink& sink);
+  void place_window(const RasterWindow& window, const std::vector<double>& heights, Batch& batch, const Sink& sink);
   void hand_on(Batch& batch, const Sink& sink);
   ReadCounts counts(std::uint64_t undeclared_voids) const;
 
@@ -197,15 +197,17 @@ void RasterTerrain::measure_steps() {
         path_, variation));
 }
 
-void RasterTerrain::place_rows(int first_row, const std::vector<double>& heights, Batch& batch, const Sink& sink) {
-  const auto columns = static_cast<std::size_t>(lattice_.columns);
+void RasterTerrain::place_window(const RasterWindow& window, const std::vector<double>& heights, Batch& batch,
+                                 const Sink& sink) {
+  const auto columns = static_cast<std::size_t>(window.columns);
   for (std::size_t i = 0; i < heights.size(); ++i) {
     if (std::isnan(heights[i])) {
       ++voids_;
       continue;
     }
     const std::size_t row = i / columns;
-    const Point2 p = lattice_.post(static_cast<double>(i - row * columns), first_row + static_cast<double>(row));
+    const Point2 p =
+        lattice_.post(window.column + static_cast<double>(i - row * columns), window.row + static_cast<double>(row));
     batch.x.push_back(p.x), batch.y.push_back(p.y), batch.z.push_back(heights[i]);
     if (batch.x.size() == kBatch) hand_on(batch, sink);
   }
@@ -239,6 +241,8 @@ class RasterFile final : public SourceFile {
     const GDALDatasetUniquePtr dataset = open_dataset(path);
     const QuietGdal quiet;
     const HeightBand band(*dataset, path);
+    RasterWindows(band, memory_bytes_).require_small_blocks(*dataset);
+    present_ = RasterWindows::present(band);
     lattice_ = lattice_of(*dataset, path);
     crs_ = source_crs(path, options.crs, crs_text(*dataset));
     const HeightUnit unit = height_unit(path, band.stated_unit(warnings_), crs_);
@@ -250,7 +254,9 @@ class RasterFile final : public SourceFile {
 
   Crs crs() const override { return crs_; }
   const std::string& path() const override { return path_; }
-  Point2 centre() const override { return lattice_.post((lattice_.columns - 1) / 2.0, (lattice_.rows - 1) / 2.0); }
+  Point2 centre() const override {
+    return lattice_.post(present_.column + (present_.columns - 1) / 2.0, present_.row + (present_.rows - 1) / 2.0);
+  }
   std::vector<std::string> warnings() const override { return warnings_; }
   std::unique_ptr<TerrainSource> bind(const SourceContext& context) override {
     return std::make_unique<RasterTerrain>(path_, lattice_, crs_, metres_per_height_, memory_bytes_, context);
@@ -260,6 +266,7 @@ class RasterFile final : public SourceFile {
   std::string path_;
   std::uint64_t memory_bytes_;
   Lattice lattice_;
+  RasterWindow present_;
   Crs crs_;
   double metres_per_height_ = 1;
   std::vector<std::string> warnings_;

@@ -9,21 +9,21 @@ namespace itin {
 
 namespace {
 
-using Visit = std::function<void(const Cell&, const std::vector<Segment>&)>;
+using Visit = std::function<bool(const Cell&, const std::vector<Segment>&)>;
 
-void split(const Cell& cell, const std::vector<Segment>& segments, const Visit& visit) {
-  if (segments.empty()) return;
-  if (segments.size() <= kEdgeLeafCapacity || cell.log2_side <= kMinEdgeLeafLog2Side) {
-    visit(cell, segments);
-    return;
-  }
-  for (int i = 0; i < 4; ++i) {
+/// Whether to go on.
+bool split(const Cell& cell, const std::vector<Segment>& segments, const Visit& visit) {
+  if (segments.empty()) return true;
+  if (segments.size() <= kEdgeLeafCapacity || cell.log2_side <= kMinEdgeLeafLog2Side) return visit(cell, segments);
+  bool go_on = true;
+  for (int i = 0; i < 4 && go_on; ++i) {
     const Cell child = cell.child(i);
     std::vector<Segment> part;
     std::copy_if(segments.begin(), segments.end(), std::back_inserter(part),
                  [&](const Segment& s) { return crosses(s, child); });
-    split(child, part, visit);
+    go_on = split(child, part, visit);
   }
+  return go_on;
 }
 
 std::int32_t checked_coordinate(std::int64_t v) {
@@ -46,7 +46,15 @@ bool crosses(const Segment& s, const Cell& cell) {
   return low <= 0 && high >= 0;
 }
 
-void for_each_edge_leaf(std::vector<Segment> segments, const Visit& visit) {
+void for_each_edge_leaf(std::vector<Segment> segments,
+                        const std::function<void(const Cell&, const std::vector<Segment>&)>& visit) {
+  visit_edge_leaves(std::move(segments), [&](const Cell& cell, const std::vector<Segment>& near) {
+    visit(cell, near);
+    return true;
+  });
+}
+
+void visit_edge_leaves(std::vector<Segment> segments, const Visit& visit) {
   std::sort(segments.begin(), segments.end());
   segments.erase(std::unique(segments.begin(), segments.end()), segments.end());
   split(Cell{}, segments, visit);

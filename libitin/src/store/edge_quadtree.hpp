@@ -24,6 +24,10 @@ bool crosses(const Segment& segment, const Cell& cell);
 void for_each_edge_leaf(std::vector<Segment> segments,
                         const std::function<void(const Cell&, const std::vector<Segment>&)>& visit);
 
+/// The same, until visit(cell, segments) returns false.
+void visit_edge_leaves(std::vector<Segment> segments,
+                       const std::function<bool(const Cell&, const std::vector<Segment>&)>& visit);
+
 /// Blocks of the coverage outline; those of themes are in line_codec.hpp. Precondition: in ascending order.
 std::vector<std::uint8_t> encode_outline(const Cell& cell, const std::vector<Segment>& segments);
 /// Throws DecodeError unless the bytes are `count` segments in ascending order, each crossing the cell.

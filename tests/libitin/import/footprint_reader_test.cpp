@@ -41,9 +41,10 @@ class FootprintReader : public testing::Test {
     return write("f.geojson", R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:27700"}},
       "features":[)" + features + "]}");
   }
-  FootprintSource read(FootprintQuery query) { return read_footprints(query, wkt("EPSG:27700"), grid_); }
+  FootprintSource read(FootprintQuery query) { return read_footprints(query, wkt("EPSG:27700"), grid_, quiet_); }
 
   test::TemporaryDirectory directory_;
+  NoProgress quiet_;
   Grid grid_{{300000, 200000}, 0.01};
 };
 
@@ -113,7 +114,7 @@ TEST_F(FootprintReader, TakesFeetForFeet) {
       write("f.csv", "id,h,WKT\n1,100,\"POLYGON((1000000 200000,1000030 200000,1000030 200030,1000000 200000))\"\n");
   query.crs = "EPSG:2263";  // New York, US survey feet
   query.height_field = "h";
-  const FootprintSource source = read_footprints(query, wkt("EPSG:26918"), {{585000, 4511000}, 0.01});
+  const FootprintSource source = read_footprints(query, wkt("EPSG:26918"), {{585000, 4511000}, 0.01}, quiet_);
   ASSERT_EQ(source.features.size(), 1U);
   EXPECT_NEAR(*source.features[0].height, 30.48006, 1e-4);
 }
@@ -187,7 +188,7 @@ TEST(RealFootprints, Alexandria) {
     query.path = path;
     query.height_field = "HEIGHT";
     query.roof = roof;
-    const FootprintSource source = read_footprints(query, wkt("EPSG:26918"), tin.grid);
+    const FootprintSource source = read_footprints(query, wkt("EPSG:26918"), tin.grid, quiet_);
     ASSERT_EQ(source.features.size(), 84U);
     const FeatureMesh mesh = test::meshed(source.features, &terrain);
     print("Alexandria, roof " + std::to_string(static_cast<int>(roof)), source, mesh);
@@ -211,7 +212,7 @@ TEST(RealFootprints, DelftOutlinesWithThePeersHeights) {
   FootprintQuery query;
   query.path = path;
   query.name_field = "lokaalid";
-  FootprintSource source = read_footprints(query, wkt("EPSG:28992"), {{84900, 447500}, 0.01});
+  FootprintSource source = read_footprints(query, wkt("EPSG:28992"), {{84900, 447500}, 0.01}, quiet_);
   ASSERT_EQ(source.features.size(), 160U);
   for (FootprintFeature& f : source.features) {
     f.height = measured.at(f.name);
@@ -240,7 +241,7 @@ TEST(RealFootprints, DelftPlantsAndFences) {
   query.path = plants;
   query.kind = FeatureKind::vegetation;
   query.height = 3;
-  FootprintSource source = read_footprints(query, wkt("EPSG:28992"), tin.grid);
+  FootprintSource source = read_footprints(query, wkt("EPSG:28992"), tin.grid, quiet_);
   FeatureMesh mesh = test::meshed(source.features, &terrain);
   print("Delft plants", source, mesh);
   EXPECT_EQ(mesh.built + mesh.refused, 126U);
@@ -248,7 +249,7 @@ TEST(RealFootprints, DelftPlantsAndFences) {
   expect_sound(mesh);
   query.path = data("ahn3-bgt-delft/bgt/bgt_scheiding.sqlite");
   query.kind = FeatureKind::wall;
-  source = read_footprints(query, wkt("EPSG:28992"), tin.grid);
+  source = read_footprints(query, wkt("EPSG:28992"), tin.grid, quiet_);
   mesh = test::meshed(source.features, &terrain);
   print("Delft fences", source, mesh);
   EXPECT_EQ(mesh.built + mesh.refused, 57U);

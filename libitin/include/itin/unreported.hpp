@@ -1,11 +1,14 @@
 // Progress of what is but a part of a call.
+//
+//   Unreported quiet(progress);
+//   const Tin tin = triangulate(store, window, detail, quiet);   // ends when the call is cancelled, and shows nothing
 #pragma once
 
 #include <string_view>
 
 #include <itin/progress.hpp>
 
-namespace itin::viewshed {
+namespace itin {
 
 /// Passes on that the call is to end, and nothing of how far its part has come.
 class Unreported final : public Progress {
@@ -18,4 +21,4 @@ class Unreported final : public Progress {
   const Progress& whole_;
 };
 
-}  // namespace itin::viewshed
+}  // namespace itin

@@ -1,0 +1,62 @@
+// Where positions lie relative to one polygon, however many corners it has.
+//
+//   const PolygonSides sides(polygon);
+//   if (sides.at(p) == Side::inside) ...
+//
+// A grid of cells over the polygon's box: each knows the edges that meet it, and whether a reference place in it is
+// inside. A look-up walks from there, and crosses only edges of the cell. Everything is decided in integers.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "features/plan_overlay.hpp"
+
+namespace itin {
+
+/// Independent of the polygon once made. Some 40 bytes an edge; a look-up takes time proportional to the edges nearby.
+/// Safe for concurrent use.
+class PolygonSides {
+ public:
+  explicit PolygonSides(const GridPolygon& polygon);
+
+  /// As side_of().
+  Side at(Position p) const;
+  /// Whether the middle between two positions is inside. On the border, whether what lies next to it to the right (and
+  /// a little above) is.
+  bool encloses_middle(Position a, Position b) const;
+  /// The same for any place, to 2^-16 grid steps.
+  bool encloses(Point2 p) const;
+  /// The pieces of the segment pq inside, in order from p, as floating point has it.
+  std::vector<std::pair<Point2, Point2>> inside_parts(Point2 p, Point2 q) const;
+
+ private:
+  /// Grid units times kScale, from the lower left corner of the box.
+  struct Place {
+    std::int64_t x, y;
+  };
+  static constexpr std::int64_t kScale = std::int64_t{1} << 16;
+
+  Place place(Position p) const;
+  std::int64_t reference(std::int64_t cell) const;
+  bool in_box(const Place& p) const;
+  std::size_t cell_of(const Place& p) const;
+  void choose_cells(const GridBox& box);
+  void fill_cells();
+  void find_references();
+  bool encloses(const Place& p) const;
+  /// Calls visit(cell) for all cells that the segment meets, and perhaps some beside it.
+  template <class Visit>
+  void for_each_cell(Point2 p, Point2 q, const Visit& visit) const;
+
+  std::vector<GridEdge> edges_;
+  Position origin_;
+  Place extent_{-1, -1};   ///< of the box
+  std::int64_t side_ = 0;  ///< of a cell
+  std::int64_t columns_ = 0, rows_ = 0;
+  std::vector<std::uint32_t> first_, list_;  ///< the edges of cell i: list_[first_[i], first_[i + 1])
+  std::vector<bool> inside_;                 ///< by cell: whether the reference place is
+};
+
+}  // namespace itin

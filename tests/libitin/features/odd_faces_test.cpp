@@ -1,0 +1,171 @@
+// What rings that cross themselves enclose, against the number of their edges on the way to the outside; and how many
+// crossings are taken apart.
+#include "features/odd_faces.hpp"
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "features/entangled.hpp"
+#include "features/hot_pixel.hpp"
+#include "features/planarity.hpp"
+#include "libitin/features/feature_fixture.hpp"
+#include "support/seed.hpp"
+
+namespace itin {
+namespace {
+
+using test::house;
+using test::kFeatureGrid;
+using test::meshed;
+using test::reported;
+
+GridRing random_ring(std::mt19937& random, std::int32_t side, unsigned corners) {
+  const auto in = [&] { return static_cast<std::int32_t>(random() % static_cast<unsigned>(side)) - side / 2; };
+  GridRing ring;
+  for (unsigned i = 0; i < corners; ++i) ring.push_back({in(), in()});
+  return ring;
+}
+
+PlanRing in_metres(const GridRing& ring) {
+  PlanRing result;
+  for (const Position& p : ring) result.push_back(kFeatureGrid.position(p.x, p.y));
+  return result;
+}
+
+double distance(Position p, Position a, Position b) {
+  const double dx = 1.0 * b.x - a.x, dy = 1.0 * b.y - a.y, px = 1.0 * p.x - a.x, py = 1.0 * p.y - a.y;
+  const double squared = dx * dx + dy * dy;
+  const double t = squared > 0 ? std::clamp((px * dx + py * dy) / squared, 0.0, 1.0) : 0;
+  return std::hypot(px - t * dx, py - t * dy);
+}
+
+bool near(const GridRing& ring, Position p, double reach) {
+  bool found = false;
+  for_each_edge({ring, {}}, [&](Position a, Position b) { found = found || distance(p, a, b) <= reach; });
+  return found;
+}
+
+TEST(OddFaces, AreWhereAWayOutsideCrossesOddlyManyEdges) {
+  std::mt19937 random(test::seed());
+  int inside = 0, outside = 0;
+  for (int run = 0; run < 200; ++run) {
+    const std::int32_t side = 20 << (random() % 18);
+    GridRing ring = random_ring(random, side, 3 + random() % 30);
+    if (random() % 3 == 0) ring.insert(ring.begin() + 1, {ring[1], ring[0]});  // there and back, and there again
+    const GridPolygons faces = odd_faces(ring);
+    for (int i = 0; i < 50; ++i) {
+      const Position p = random_ring(random, side + side / 4, 1).front();
+      if (near(ring, p, 2)) continue;  // edges were rounded
+      const bool odd = covers({{ring, {}}}, {1.0 * p.x, 1.0 * p.y});
+      (odd ? inside : outside) += 1;
+      ASSERT_EQ(covers(faces, {1.0 * p.x, 1.0 * p.y}), odd) << "run " << run << ": " << p.x << ' ' << p.y;
+    }
+  }
+  EXPECT_GT(inside, 500);
+  EXPECT_GT(outside, 500);
+}
+
+TEST(OddFaces, NothingWhereTheWayBackIsTheWayThere) {
+  EXPECT_TRUE(odd_faces({{0, 0}, {10, 0}, {10, 10}, {10, 0}}).empty());
+  EXPECT_TRUE(odd_faces({{0, 0}, {7, 0}, {3, 0}}).empty());
+}
+
+TEST(Planarity, CountsWhereEdgesMeet) {
+  std::mt19937 random(test::seed());
+  for (int run = 0; run < 100; ++run) {
+    const GridRing ring = random_ring(random, 6 << (random() % 24), 3 + random() % 60);
+    std::vector<GridEdge> edges;
+    for_each_edge({ring, {}}, [&](Position a, Position b) { edges.push_back(std::minmax(a, b)); });
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    std::erase_if(edges, [](const GridEdge& e) { return e.first == e.second; });
+    std::uint64_t expected = 0;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      for (std::size_t j = i + 1; j < edges.size(); ++j) {
+        const auto& [a, b] = edges[i];
+        const auto& [c, d] = edges[j];
+        const auto within = [](Position from, Position to, Position p) {
+          return p != from && p != to && on_segment(from, to, p) ? 1U : 0U;
+        };
+        expected += within(a, b, c) + within(a, b, d) + within(c, d, a) + within(c, d, b);
+        expected += orientation(a, b, c) * orientation(a, b, d) < 0 && orientation(c, d, a) * orientation(c, d, b) < 0;
+      }
+    }
+    ASSERT_EQ(count_conflicts(edges, 1'000'000), expected) << "run " << run;
+    if (expected > 0) {
+      ASSERT_EQ(count_conflicts(edges, expected - 1), expected) << "run " << run;
+    }
+  }
+}
+
+TEST(FeatureMesh, LeavesOutWhatCrossesItselfTooOften) {
+  std::mt19937 random(test::seed());
+  const FeatureMesh mesh = meshed({house("knot", {in_metres(random_ring(random, 50000, 2000))}, 0, 5),
+                                   house("beside", {test::box_ring(600, 600, 610, 610)}, 0, 5)});
+  EXPECT_EQ(mesh.built, 1U);
+  EXPECT_EQ(mesh.refused, 1U);
+  EXPECT_TRUE(reported(mesh, "knot: left out: crosses itself ")) << mesh.reports.at(0);
+  EXPECT_TRUE(reported(mesh, " times, and more than 20000 crossings of 2000 edges are not taken apart"));
+}
+
+TEST(FeatureMesh, LeavesOutMeasuredRoofsThatCrossTooOften) {
+  std::mt19937 random(test::seed());
+  FootprintFeature model = house("model", {}, 0, 5);
+  for (int i = 0; i < 40; ++i) {
+    RoofSurface& surface = model.surfaces.emplace_back();
+    surface.rings.emplace_back();
+    for (const Point2& p : in_metres(random_ring(random, 5000, 50))) surface.rings[0].push_back({p.x, p.y, 5});
+  }
+  const FeatureMesh mesh = meshed({model});
+  EXPECT_EQ(mesh.refused, 1U);
+  EXPECT_TRUE(reported(mesh, "model: left out: its outline crosses itself and its neighbours ")) << mesh.reports.at(0);
+}
+
+TEST(FeatureMesh, LeavesOutNeighboursThatCrossTooOften) {
+  std::vector<FootprintFeature> bands;
+  constexpr int kBands = 110;
+  for (int i = 0; i < kBands; ++i) bands.push_back(house("row", {test::box_ring(0, i, 500, i + 0.5)}, 0, 5));
+  for (int i = 0; i < kBands; ++i) bands.push_back(house("column", {test::box_ring(i, -1, i + 0.5, 400)}, 0, 5));
+  const FeatureMesh mesh = meshed(bands);
+  EXPECT_GT(mesh.built, 100U);
+  EXPECT_GT(mesh.refused, 20U);
+  EXPECT_TRUE(reported(mesh,
+                       "left out: its outline crosses itself and its neighbours 440 times, where no more than "
+                       "20000 crossings of 880 edges are taken apart"));
+}
+
+TEST(FeatureMesh, ALineThatCrossesItselfTooOftenIsNoWall) {
+  std::mt19937 random(test::seed());
+  EXPECT_THROW(band_about(in_metres(random_ring(random, 50000, 2000)), 0.3, kFeatureGrid), OverlayError);
+}
+
+/// Cancelled after some looks at it.
+class Impatient final : public Progress {
+ public:
+  explicit Impatient(int looks) : looks_(looks) {}
+  void report(std::string_view, double) override {}
+  bool cancelled() const override { return ++asked_ > looks_; }
+  int asked() const { return asked_; }
+
+ private:
+  int looks_;
+  mutable std::atomic<int> asked_ = 0;
+};
+
+TEST(FeatureMesh, IsCancelledInTheMidstOfOneFeature) {
+  std::mt19937 random(test::seed());
+  const std::vector<FootprintFeature> knot{house("knot", {in_metres(random_ring(random, 50000, 250))}, 0, 5)};
+  FeatureOptions options;
+  options.grid = kFeatureGrid;
+  Impatient patient(1 << 30);
+  build_feature_mesh(knot, options, nullptr, patient);
+  EXPECT_GT(patient.asked(), 100) << "few looks within one feature";
+  for (int looks = 0; looks < patient.asked(); looks += 1 + patient.asked() / 20) {
+    Impatient impatient(looks);
+    EXPECT_THROW(build_feature_mesh(knot, options, nullptr, impatient), Cancelled) << looks;
+  }
+}
+
+}  // namespace
+}  // namespace itin
