@@ -36,7 +36,9 @@ class ImportVerb final : public Verb {
     app.add_option("--to-crs", options_.to_crs,
                    "CRS of a new store: projected, in metres (default: the sources' own, else their UTM zone)")
         ->type_name("CRS");
-    app.add_option("--z-field", options_.z_field, "The field or column that holds heights")->type_name("FIELD");
+    app.add_option("--z-field", options_.z_field,
+                   "The field or column that holds heights, of points and of lines that are part of the terrain")
+        ->type_name("FIELD");
     app.add_option("--height-field", options_.height_field,
                    "Buildings, walls, vegetation: the field of their height above the base, in the unit of the CRS's "
                    "heights (metres or feet)")
@@ -56,9 +58,11 @@ class ImportVerb final : public Verb {
         ->type_name("METRES");
     app.add_option("--name-field", options_.name_field, "What messages call a building, wall or wood")
         ->type_name("FIELD");
-    app.add_option("--layer", options_.layer, "The layer to read")->type_name("NAME");
-    app.add_option("--where", options_.where, "Only features that this SQL condition holds for")->type_name("SQL");
-    app.add_option("--class", classes_, "Only these LAS classes (default: all but noise, 7 and 18)")
+    app.add_option("--layer", options_.layer, "Vector files: the layer to read")->type_name("NAME");
+    app.add_option("--where", options_.where, "Vector files: only features that this SQL condition holds for")
+        ->type_name("SQL");
+    app.add_option("--band", band_, "The band of rasters that holds heights (default: their only one)")->type_name("N");
+    app.add_option("--class", classes_, "LAS: only these classes (default: all but noise, 7 and 18)")
         ->type_name("C,C...");
     app.add_option("--max-gap", max_gap_,
                    "Scattered points and contours: no ground across wider gaps (default: 100 times their mean spacing)")
@@ -68,7 +72,9 @@ class ImportVerb final : public Verb {
     app.add_flag("--no-repair", no_repair_,
                  "Contours: infer no points where the triangles of a contour would be flat, in the whole store");
     app.add_flag("--replace", options_.replace, "Take the place of coarser terrain within the sources' coverage");
-    app.add_option("--levels", levels_, "Tolerances of a new store's levels (default: 0.5,1,2,4,8,16,32)")
+    app.add_option("--levels", levels_,
+                   "Tolerances of a new store's levels (default: those of 0.5,1,2,4,8,16,32 that are no less than "
+                   "--resolution)")
         ->type_name("T,T...");
     app.add_option("--resolution", resolution_, "Grid of a new store's coordinates (default: 0.01)")
         ->type_name("METRES");
@@ -82,14 +88,13 @@ class ImportVerb final : public Verb {
     if (kind_ != "terrain") {
       options_.kind = theme_kind(kind_);
       if (options_.theme.empty()) options_.theme = kind_;
-      validate_lines();
     } else if (!options_.theme.empty()) {
       throw InputError("--theme: terrain has no theme; leave it out");
     }
     validate_standing();
-    if (no_repair_ && kind_ != "contours") throw InputError("--no-repair: is for contours; leave it out");
     options_.repair = !no_repair_;
     if (!classes_.empty()) options_.classes = parse_wholes("--class", classes_, 0, 255);
+    if (!band_.empty()) options_.band = parse_whole("--band", band_, 1, 65535);
     if (!max_gap_.empty()) options_.max_gap = parse_number("--max-gap", max_gap_, Range::kPositive);
     if (!levels_.empty()) options_.tolerances = growing_levels();
     if (!resolution_.empty()) options_.resolution = parse_number("--resolution", resolution_, Range::kPositive);
@@ -111,7 +116,8 @@ class ImportVerb final : public Verb {
     given("base_field", options_.base_field);
     given("base", base_);
     given("roof", roof_);
-    if (!thickness_.empty()) parameters["thickness_m"] = options_.thickness;
+    if (options_.thickness) parameters["thickness_m"] = *options_.thickness;
+    if (options_.band) parameters["band"] = *options_.band;
     given("name_field", options_.name_field);
     given("layer", options_.layer);
     given("where", options_.where);
@@ -124,6 +130,10 @@ class ImportVerb final : public Verb {
     return parameters;
   }
 
+  std::string advice_for_less_memory() const override {
+    return "give a smaller --memory, or import fewer sources at once";
+  }
+
   Result execute(Progress& progress) override {
     const ImportReport report =
         options_.kind ? import_lines(store_, options_, progress) : import_terrain(store_, options_, progress);
@@ -132,22 +142,8 @@ class ImportVerb final : public Verb {
   }
 
  private:
-  void validate_lines() const {
-    if (!classes_.empty()) throw InputError("--class: is for LAS, which holds no lines");
-    if (options_.replace) throw InputError("--replace: is for terrain; lines replace nothing");
-  }
-
   void validate_standing() {
-    const bool may_stand = kind_ == "buildings" || kind_ == "walls" || kind_ == "vegetation";
-    for (const auto& [option, value] :
-         {std::pair("--height-field", options_.height_field), std::pair("--height", height_),
-          std::pair("--eaves-field", options_.eaves_field), std::pair("--base-field", options_.base_field),
-          std::pair("--base", base_), std::pair("--roof", roof_), std::pair("--thickness", thickness_),
-          std::pair("--name-field", options_.name_field)}) {
-      if (!value.empty() && !may_stand)
-        throw InputError(fmt::format("{}: is for buildings, walls and vegetation; {} have none", option, kind_));
-    }
-    if (!height_.empty()) options_.height = parse_number("--height", height_, Range::kPositive);
+    if (!height_.empty()) options_.height = parse_height("--height", height_, Range::kPositive);
     if (!thickness_.empty()) options_.thickness = parse_number("--thickness", thickness_, Range::kPositive);
     parse_choice("--roof", roof_.empty() ? "flat" : roof_, {"flat", "gabled", "hipped", "skeleton"});
     if (!roof_.empty()) options_.roof = roof_kind(roof_);
@@ -168,6 +164,7 @@ class ImportVerb final : public Verb {
     document["crs"] = crs_identifier(metadata.crs_wkt);
     document["crs_chosen"] = report.crs_chosen;
     document["read"] = report.read;
+    document["read_features"] = report.read_features;
     document["voids"] = report.voids;
     document["filtered"] = report.filtered;
     document["duplicates"] = report.duplicates;
@@ -193,7 +190,7 @@ class ImportVerb final : public Verb {
         fmt::format("{}: {} vertices in {}, {:.2f} bytes a vertex, {}{}\n", store_, grouped(report.vertices),
                     readable_bytes(report.store_bytes), bytes_per_vertex(report), report.crs_name,
                     report.crs_chosen ? " (chosen; see --to-crs)" : "");
-    text += fmt::format("read {} points in {:.1f} s", grouped(report.read), report.seconds);
+    text += fmt::format("read {} in {:.1f} s", text_of_read(report), report.seconds);
     const auto mention = [&](std::uint64_t count, const char* what) {
       if (count > 0) text += fmt::format(", {} {}", grouped(count), what);
     };
@@ -210,6 +207,12 @@ class ImportVerb final : public Verb {
     return text + levels_table(metadata);
   }
 
+  static std::string text_of_read(const ImportReport& report) {
+    if (report.read_features == 0) return counted(report.read, "point");
+    return fmt::format("{} with {}", counted(report.read_features, "feature"),
+                       counted(report.read, "vertex", "vertices"));
+  }
+
   static std::string flat_text(const ImportReport& report) {
     if (report.flat_before == 0) return "";
     if (report.inferred == 0) return fmt::format("\n{} flat triangles of contours", grouped(report.flat_before));
@@ -224,7 +227,7 @@ class ImportVerb final : public Verb {
   std::string store_;
   std::string kind_ = "terrain";
   bool no_repair_ = false;
-  std::string classes_, max_gap_, levels_, resolution_, memory_;
+  std::string classes_, band_, max_gap_, levels_, resolution_, memory_;
   std::string height_, base_, roof_, thickness_;
   ImportOptions options_;
 };

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/height_limit.hpp>
 #include <itin/store.hpp>
 #include <profile/los.hpp>
 #include <profile/profile_csv.hpp>
@@ -91,6 +92,7 @@ class LosVerb final : public Verb {
       if (line_.given()) throw InputError("--from and --to take a STORE; with --profile-csv give --heights h1,h2");
       if (heights_text_.empty()) throw InputError("--profile-csv takes --heights h1,h2");
       heights_ = parse_tuple("--heights", heights_text_, 2, "h1,h2");
+      for (const double height : heights_) require_height(height, "--heights");
       if (heights_[0] < 0 || heights_[1] < 0) throw InputError("--heights: a height must not be negative");
     } else {
       if (!heights_text_.empty())

@@ -99,7 +99,8 @@ Counts counts_of(const LinkTable& table, const std::vector<LinkResult>& results)
 }  // namespace
 
 void LosLinks::declare(CLI::App& app) {
-  app.add_option("--links", path_, "Many links: a table id,x1,y1,h1,x2,y2,h2 (.csv), or a file of lines")
+  app.add_option("--links", path_,
+                 "Many links: a table id,x1,y1,h1,x2,y2,h2 (.csv; also lon1,lat1,lon2,lat2), or a file of lines")
       ->type_name("FILE");
   app.add_option("--link-height", height_text_,
                  "Height of both ends of the lines of a file (default: 2, and at the second end the tip of "
@@ -112,7 +113,7 @@ void LosLinks::validate(const std::optional<profile::TallObject>& object) {
   if (!output_.ends_with(".csv")) throw InputError(fmt::format("-o '{}': --links writes a table, .csv", output_));
   if (object) heights_.to_m = object->tip_m;
   if (height_text_.empty()) return;
-  heights_.from_m = heights_.to_m = parse_number("--link-height", height_text_, Range::kNotNegative);
+  heights_.from_m = heights_.to_m = parse_height("--link-height", height_text_, Range::kNotNegative);
 }
 
 void LosLinks::require_none() const {

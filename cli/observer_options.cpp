@@ -11,7 +11,7 @@ void ObserverOptions::declare(CLI::App& app) {
       ->type_name("x,y[,h]")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_option("--observers", sites_.path, "Observers from a vector file, or from CSV with columns x,y")
+  app.add_option("--observers", sites_.path, "Observers from a vector file, or from CSV with columns x,y or lon,lat")
       ->type_name("FILE");
   app.add_option("--layer", sites_.layer, "The layer of that file")->type_name("NAME");
   app.add_option("--where", sites_.where, "Only observers that this SQL condition holds for")->type_name("SQL");
@@ -44,7 +44,7 @@ void ObserverOptions::validate() {
   if (views_.arcgis() && !sites_.height_field.empty())
     throw InputError("--arcgis-fields takes heights from OFFSETA; leave out --height-field");
   parse_choice("--observer-on", observer_on_, {"ground", "surface"});
-  if (!height_text_.empty()) height_ = parse_number("--observer-height", height_text_);
+  if (!height_text_.empty()) height_ = parse_height("--observer-height", height_text_);
   require_above_ground("--observer-height", height_);
   for (const std::string& text : observers_) {
     given_.push_back(parse_place("--observer", text));

@@ -217,8 +217,8 @@ class ProfileVerb final : public Verb {
       text += "\n";
     }
     for (const std::string& output : outputs_) text += output + "\n";
-    return text + fmt::format("read {} points in {} blocks\n", grouped(statistics.points_read),
-                              grouped(statistics.blocks_read));
+    return text + fmt::format("read {} in {}\n", counted(statistics.points_read, "point"),
+                              counted(statistics.blocks_read, "block"));
   }
 
   std::string store_, from_text_, to_text_, path_, rings_text_;

@@ -130,7 +130,11 @@ void run_verb(Verb& verb, const Everywhere& everywhere) {
   Result result;
   {
     StderrProgress progress(StderrProgress::style_for(everywhere.quiet));
-    result = verb.execute(progress);
+    try {
+      result = verb.execute(progress);
+    } catch (const std::bad_alloc&) {
+      throw Error("out of memory; " + verb.advice_for_less_memory());
+    }
   }
   for (const std::string& warning : result.warnings) std::cerr << "itin: warning: " << warning << "\n";
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
@@ -188,7 +192,7 @@ int run(int argc, char** argv) {
   } catch (const InputError& error) {
     return report(error.what(), kWrongCall);
   } catch (const std::bad_alloc&) {
-    return report("out of memory; ask for a smaller window, a coarser tolerance or larger cells", kFailed);
+    return report("out of memory", kFailed);
   } catch (const std::exception& error) {
     return report(error.what(), kFailed);
   } catch (...) {

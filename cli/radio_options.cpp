@@ -21,7 +21,7 @@ profile::Criterion parse_criterion(const std::string& text) {
 }
 
 profile::TallObject parse_object(const std::string& text) {
-  const std::vector<double> heights = parse_numbers("--visible-height", text, Range::kPositive);
+  const std::vector<double> heights = parse_heights("--visible-height", text, Range::kPositive);
   if (heights.size() > 2 || heights.front() > heights.back()) {
     throw InputError(fmt::format("--visible-height '{}': expected TIP, or HUB,TIP with the hub below the tip", text));
   }

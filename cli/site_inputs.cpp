@@ -143,21 +143,12 @@ class Reader {
     inputs_.targets.on_surface = options_.targets_on_surface;
     if (options_.demand == "cells") {
       read_cells();
-    } else if (std::optional<RasterValues> weights = raster()) {
-      read_weights(std::move(*weights));
+    } else if (is_raster(options_.demand)) {
+      read_weights(read_raster_values(options_.demand, crs_));
     } else {
       read_points();
     }
     if (inputs_.total == 0) throw InputError("there is no demand within the data: nothing to serve");
-  }
-
-  /// Nothing where the file is no raster.
-  std::optional<RasterValues> raster() const {
-    try {
-      return read_raster_values(options_.demand, crs_);
-    } catch (const FileError&) {
-      return std::nullopt;
-    }
   }
 
   void read_cells() {

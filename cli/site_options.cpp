@@ -53,7 +53,8 @@ void SiteOptions::declare(CLI::App& app) {
 }
 
 void SiteOptions::declare_candidates(CLI::App& app) {
-  app.add_option("--candidates", candidates.path, "Candidates from a vector file, or from CSV with columns x,y")
+  app.add_option("--candidates", candidates.path,
+                 "Candidates from a vector file, or from CSV with columns x,y or lon,lat")
       ->type_name("FILE");
   app.add_option("--layer", candidates.layer, "The layer of that file")->type_name("NAME");
   app.add_option("--where", candidates.where, "Only candidates that this SQL condition holds for")->type_name("SQL");
@@ -171,7 +172,7 @@ void SiteOptions::validate_masts() {
     throw InputError("--height-field and --mast-height exclude each other");
   const std::vector<double> heights = mast_height_text_.empty()
                                           ? std::vector<double>{20}
-                                          : parse_numbers("--mast-height", mast_height_text_, Range::kNotNegative);
+                                          : parse_heights("--mast-height", mast_height_text_, Range::kNotNegative);
   // Where places have costs, a mast has none unless it says so.
   std::vector<double> costs(heights.size(), cost_field.empty() ? 1 : 0);
   if (!mast_cost_text_.empty()) costs = parse_numbers("--mast-cost", mast_cost_text_, Range::kNotNegative);
@@ -182,7 +183,7 @@ void SiteOptions::validate_masts() {
 
 void SiteOptions::validate_demand() {
   if (!target_height_text_.empty())
-    target_height = parse_number("--target-height", target_height_text_, Range::kNotNegative);
+    target_height = parse_height("--target-height", target_height_text_, Range::kNotNegative);
   targets_on_surface = parse_choice("--target-on", target_on_, {"ground", "surface"}) == 1;
   if (!radius_text_.empty()) radius = parse_radius("--radius", radius_text_);
   cell = number("--cell", cell_text_, Range::kPositive);

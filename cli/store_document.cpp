@@ -68,9 +68,10 @@ std::string themes_table(const StoreMetadata& metadata) {
   if (metadata.themes.empty()) return fmt::format("{:<12}none\n", "themes");
   std::string table;
   for (const ThemeInfo& theme : metadata.themes) {
-    table += fmt::format("{:<12}{} ({}{}): {} features, {} vertices, {} segments\n", table.empty() ? "themes" : "",
-                         theme.name, name_of(theme.kind), is_terrain(theme.kind) ? ", part of the terrain" : "",
-                         grouped(theme.features), grouped(theme.vertices), grouped(theme.segments));
+    table +=
+        fmt::format("{:<12}{} ({}{}): {}, {}, {}\n", table.empty() ? "themes" : "", theme.name, name_of(theme.kind),
+                    is_terrain(theme.kind) ? ", part of the terrain" : "", counted(theme.features, "feature"),
+                    counted(theme.vertices, "vertex", "vertices"), counted(theme.segments, "segment"));
   }
   return table;
 }
@@ -109,6 +110,11 @@ std::string grouped(std::uint64_t number) {
   std::string digits = fmt::format("{}", number);
   for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, 1, ',');
   return digits;
+}
+
+std::string counted(std::uint64_t number, const std::string& one, const std::string& several) {
+  const std::string plural = several.empty() ? one + "s" : several;
+  return grouped(number) + " " + (number == 1 ? one : plural);
 }
 
 std::string readable_bytes(std::uint64_t bytes) {

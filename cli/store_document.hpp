@@ -38,6 +38,9 @@ Document box_document(const Box& box);
 /// 1234567 as "1,234,567".
 std::string grouped(std::uint64_t number);
 
+/// "1 block", "2 blocks"; `several` where more than one are called otherwise than with an s.
+std::string counted(std::uint64_t number, const std::string& one, const std::string& several = "");
+
 /// 1234567 as "1.2 MB".
 std::string readable_bytes(std::uint64_t bytes);
 

@@ -129,8 +129,8 @@ class TinVerb final : public Verb {
       text += fmt::format("{}: {} vertices, {} triangles, {}\n", path, grouped(tin.vertices.size()),
                           grouped(tin.triangles.size()), readable_bytes(std::filesystem::file_size(path)));
     }
-    return text + fmt::format("read {} points in {} blocks\n", grouped(tin.statistics.points_read),
-                              grouped(tin.statistics.blocks_read));
+    return text + fmt::format("read {} in {}\n", counted(tin.statistics.points_read, "point"),
+                              counted(tin.statistics.blocks_read, "block"));
   }
 
   std::vector<std::string> outputs() const {

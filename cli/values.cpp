@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <itin/error.hpp>
+#include <itin/height_limit.hpp>
 
 namespace itin::cli {
 
@@ -49,6 +50,12 @@ double parse_number(std::string_view option, std::string_view text, Range range)
   return *value;
 }
 
+double parse_height(std::string_view option, std::string_view text, Range range) {
+  const double height = parse_number(option, text, range);
+  require_height(height, fmt::format("{} '{}'", option, text));
+  return height;
+}
+
 double parse_radius(std::string_view option, std::string_view text) {
   const double radius = parse_number(option, text, Range::kPositive);
   if (radius > kFarthest)
@@ -76,6 +83,12 @@ int parse_whole(std::string_view option, std::string_view text, int least, int m
 std::vector<double> parse_numbers(std::string_view option, std::string_view text, Range range) {
   std::vector<double> values;
   for (const std::string_view part : split(text, ',')) values.push_back(parse_number(option, part, range));
+  return values;
+}
+
+std::vector<double> parse_heights(std::string_view option, std::string_view text, Range range) {
+  std::vector<double> values;
+  for (const std::string_view part : split(text, ',')) values.push_back(parse_height(option, part, range));
   return values;
 }
 
@@ -160,6 +173,7 @@ Place parse_place(std::string_view option, std::string_view text) {
   const std::vector<double> v = parse_tuple(option, text, with_height ? 3 : 2, kShape);
   Place place{{v[0], v[1]}, std::nullopt};
   if (with_height) place.height = v[2];
+  require_height(place.height.value_or(0), fmt::format("{} '{}'", option, text));
   return place;
 }
 

@@ -22,6 +22,9 @@ enum class Range { kAny, kNotNegative, kPositive };
 /// A finite decimal number and nothing else.
 double parse_number(std::string_view option, std::string_view text, Range range = Range::kAny);
 
+/// Metres up to kFarthestHeight.
+double parse_height(std::string_view option, std::string_view text, Range range = Range::kAny);
+
 /// Farther than any ground reaches, metres.
 inline constexpr double kFarthest = 1e9;
 
@@ -36,6 +39,9 @@ int parse_whole(std::string_view option, std::string_view text, int least, int m
 
 /// Numbers separated by commas, at least one.
 std::vector<double> parse_numbers(std::string_view option, std::string_view text, Range range = Range::kAny);
+
+/// Such metres separated by commas, at least one.
+std::vector<double> parse_heights(std::string_view option, std::string_view text, Range range = Range::kAny);
 
 /// Exactly `names.size()` numbers separated by commas; `shape` is the expected form, for instance "x,y,r".
 std::vector<double> parse_tuple(std::string_view option, std::string_view text, std::size_t count,
@@ -59,7 +65,7 @@ Box parse_box(std::string_view option, std::string_view text);
 /// `radius:tolerance,...`, nearest first.
 std::vector<Ring> parse_rings(std::string_view option, std::string_view text);
 
-/// `x,y` or `x,y,h`.
+/// `x,y` or `x,y,h` with h as parse_height() has it.
 struct Place {
   Point2 position;
   std::optional<double> height;

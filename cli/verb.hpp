@@ -36,6 +36,10 @@ class Verb {
   virtual Document parameters() const = 0;
   /// Throws itin::Error.
   virtual Result execute(Progress& progress) = 0;
+  /// What to do where there is not memory enough.
+  virtual std::string advice_for_less_memory() const {
+    return "ask for a smaller window, a coarser tolerance or larger cells";
+  }
 };
 
 std::unique_ptr<Verb> make_import_verb();

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/height_limit.hpp>
 
 #include "values.hpp"
 
@@ -97,6 +98,8 @@ ViewFields::View ViewFields::view(const std::vector<std::optional<double>>& numb
     const Field& field = fields_[i];
     if (!numbers[i]) continue;
     const double value = *numbers[i];
+    if (field.role == Role::kHeight || field.role == Role::kSpot || field.role == Role::kTargetHeight)
+      require_height(value, fmt::format("{}: field '{}'", where, field.name));
     switch (field.role) {
       case Role::kHeight:
         if (value < 0) refuse(field, value, "0 or a positive number of metres");

@@ -198,7 +198,7 @@ class ViewshedVerb final : public Verb {
   }
 
   void validate_targets() {
-    if (!target_height_text_.empty()) request_.target_height = parse_number("--target-height", target_height_text_);
+    if (!target_height_text_.empty()) request_.target_height = parse_height("--target-height", target_height_text_);
     request_.target_absolute = observers_.absolute_heights();
     if (!request_.target_absolute && request_.target_height < 0) {
       throw InputError("--target-height: a height must not be negative; for an elevation give --absolute-heights");

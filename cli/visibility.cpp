@@ -57,9 +57,9 @@ class VisibilityVerb final : public Verb {
   void validate() override {
     request_.cell_size = parse_number("--cell", cell_text_, Range::kPositive);
     request_.radius = parse_radius("--radius", radius_text_);
-    if (!height_text_.empty()) request_.height = parse_number("--observer-height", height_text_, Range::kNotNegative);
+    if (!height_text_.empty()) request_.height = parse_height("--observer-height", height_text_, Range::kNotNegative);
     if (!target_text_.empty())
-      request_.target_height = parse_number("--target-height", target_text_, Range::kNotNegative);
+      request_.target_height = parse_height("--target-height", target_text_, Range::kNotNegative);
     if (!targets_text_.empty())
       request_.targets = static_cast<unsigned>(parse_whole("--targets", targets_text_, 1, kMostTargets));
     if (std::filesystem::path(output_).extension() != ".tif")

@@ -76,7 +76,7 @@ class ZtvVerb final : public Verb {
     earth_.validate();
     request_.earth = earth_.earth();
     if (!observer_text_.empty())
-      request_.observer_height = parse_number("--observer-height", observer_text_, Range::kNotNegative);
+      request_.observer_height = parse_height("--observer-height", observer_text_, Range::kNotNegative);
     if (!cell_text_.empty() && !like_.empty()) throw InputError("--cell and --like exclude each other");
     if (like_.empty())
       request_.cell_size = cell_text_.empty() ? kDefaultCell : parse_number("--cell", cell_text_, Range::kPositive);

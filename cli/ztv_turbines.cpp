@@ -19,7 +19,7 @@ enum Field : std::size_t { kHub, kRotor, kTip, kFarm, kName };
 
 std::optional<double> number(const char* name, const std::optional<std::string>& text,
                              const std::optional<double>& otherwise) {
-  return text ? parse_number(name, *text, Range::kPositive) : otherwise;
+  return text ? parse_height(name, *text, Range::kPositive) : otherwise;
 }
 
 /// What two of hub, rotor and tip say about the third.
@@ -62,9 +62,10 @@ std::size_t known_hubs(const std::vector<viewshed::Turbine>& turbines) {
 }
 
 void TurbineOptions::declare(CLI::App& app) {
-  app.add_option("--turbines", query_.path,
-                 "The turbines, from a vector file of points, or CSV with columns x,y. Fields hub_height and "
-                 "rotor_diameter, or tip_height; farm; name. Turbine k has bit k - 1")
+  app.add_option(
+         "--turbines", query_.path,
+         "The turbines, from a vector file of points, or CSV with columns x,y or lon,lat. Fields hub_height and "
+         "rotor_diameter, or tip_height; farm; name. Turbine k has bit k - 1")
       ->required()
       ->type_name("FILE");
   app.add_option("--layer", query_.layer, "The layer of that file")->type_name("NAME");
@@ -80,9 +81,9 @@ void TurbineOptions::declare(CLI::App& app) {
 }
 
 void TurbineOptions::validate() {
-  if (!hub_text_.empty()) hub_ = parse_number("--hub-height", hub_text_, Range::kPositive);
-  if (!rotor_text_.empty()) rotor_ = parse_number("--rotor-diameter", rotor_text_, Range::kPositive);
-  if (!tip_text_.empty()) tip_ = parse_number("--tip-height", tip_text_, Range::kPositive);
+  if (!hub_text_.empty()) hub_ = parse_height("--hub-height", hub_text_, Range::kPositive);
+  if (!rotor_text_.empty()) rotor_ = parse_height("--rotor-diameter", rotor_text_, Range::kPositive);
+  if (!tip_text_.empty()) tip_ = parse_height("--tip-height", tip_text_, Range::kPositive);
   query_.crs = in_crs_.crs;
   require_options_of_one_turbine();
 }

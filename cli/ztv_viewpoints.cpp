@@ -163,7 +163,8 @@ profile::WirelineQuery wireline_of(const Viewpoint& v, const Zone& zone, const s
 
 void ViewpointOptions::declare(CLI::App& app) {
   app.add_option("--viewpoints", query_.path,
-                 "Viewpoints for a table and wirelines, from a vector file of points, or CSV with columns x,y; fields "
+                 "Viewpoints for a table and wirelines, from a vector file of points, or CSV with columns x,y or "
+                 "lon,lat; fields "
                  "name, and height for eyes that stand higher or lower than --observer-height")
       ->type_name("FILE");
   app.add_option("--wireline-field", field_text_, "Least width of a wireline (default: 53.5)")->type_name("DEGREES");
@@ -206,7 +207,7 @@ Viewpoint viewpoint_of(const SiteRow& row, std::size_t number, const SectionSurf
   v.number = number;
   v.position = *row.position;
   v.name = row.values[0].value_or(fmt::format("{}", number));
-  v.height = row.values[1] ? parse_number("its height", *row.values[1], Range::kNotNegative) : usual_height;
+  v.height = row.values[1] ? parse_height("its height", *row.values[1], Range::kNotNegative) : usual_height;
   const CrossSection here = ground.between(v.position, v.position);
   if (here.breakpoints.empty())
     throw InputError(fmt::format("there is no data at {:.10g},{:.10g}", v.position.x, v.position.y));

@@ -1,7 +1,6 @@
 // Links from files.
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -11,7 +10,9 @@
 
 #include <itin/coordinates.hpp>
 #include <itin/error.hpp>
+#include <itin/height_limit.hpp>
 #include <itin/paths.hpp>
+#include <itin/position_columns.hpp>
 #include <profile/links.hpp>
 
 namespace itin::profile {
@@ -55,25 +56,31 @@ std::optional<double> number(const std::string& text) {
   return value;
 }
 
-/// Which cell each of kNames is in.
-using Columns = std::array<std::size_t, kColumns>;
+/// Where a row has what.
+struct Columns {
+  std::array<std::size_t, kColumns> of{0, 1, 2, 3, 4, 5, 6};  ///< the cell that each of kNames is in
+  bool geographic = false;                                    ///< positions are longitude and latitude
+};
 
-/// Where a header has all the names they tell; else the columns are in the usual order.
-Columns columns_of(const std::vector<std::string>& header) {
-  std::vector<std::string> names;
-  for (const std::string& cell : header) {
-    std::string name = trimmed(cell);
-    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
-    names.push_back(name);
-  }
-  Columns usual{}, named{};
-  for (std::size_t i = 0; i < kColumns; ++i) usual[i] = i;
-  for (std::size_t i = 0; i < kColumns; ++i) {
-    const auto found = std::find(names.begin(), names.end(), kNames[i]);
-    if (found == names.end()) return usual;
-    named[i] = static_cast<std::size_t>(found - names.begin());
-  }
-  return named;
+std::optional<std::size_t> column_of(const std::vector<std::string>& names, const char* name) {
+  const auto found =
+      std::find_if(names.begin(), names.end(), [&](const std::string& n) { return same_column_name(n, name); });
+  if (found == names.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+/// By name where a header has all of them, x1 and y1 or what position_columns() has in place of them; else the columns
+/// are in the usual order.
+Columns columns_of(std::vector<std::string> names, const std::string& path) {
+  for (std::string& name : names) name = trimmed(name);
+  const auto from = position_columns(names, "1"), to = position_columns(names, "2");
+  Columns columns;
+  columns.geographic = from && from->geographic;
+  if (columns.geographic != (to && to->geographic))
+    throw InputError(path + ": its header names longitude and latitude for one end only; give both ends alike");
+  const auto id = column_of(names, "id"), h1 = column_of(names, "h1"), h2 = column_of(names, "h2");
+  if (from && to && id && h1 && h2) columns.of = {*id, from->x, from->y, *h1, to->x, to->y, *h2};
+  return columns;
 }
 
 /// A first line with no number where the coordinates are is a header.
@@ -83,9 +90,9 @@ bool is_header(const std::vector<std::string>& cells) {
 
 class TableReader {
  public:
-  TableReader(const std::string& path, const std::string& to_crs, const std::string& csv_crs) : file_(path) {
+  TableReader(const std::string& path, const std::string& to_crs, const std::string& csv_crs)
+      : path_(path), to_crs_(to_crs), csv_crs_(csv_crs), file_(path) {
     if (!file_) throw FileError(path, "cannot be opened");
-    if (!csv_crs.empty()) transform_.emplace(csv_crs, to_crs);
   }
 
   /// Calls take(link) or refuse(row, number of its line, id, what is wrong) for each row.
@@ -99,37 +106,46 @@ class TableReader {
       const std::vector<std::string> cells = cells_of(line);
       if (number == 1) {
         const bool header = is_header(cells);
-        columns_ = columns_of(header ? cells : std::vector<std::string>());
-        width_ = header ? std::max(cells.size(), kColumns) : kColumns;
+        understand(header ? cells : std::vector<std::string>());
         if (header) continue;
       }
       ++row;
       try {
         take(link_of(cells));
       } catch (const InputError& error) {
-        refuse(row, number, columns_[0] < cells.size() ? cells[columns_[0]] : "", error.what());
+        refuse(row, number, columns_.of[0] < cells.size() ? cells[columns_.of[0]] : "", error.what());
       }
     }
   }
 
  private:
+  /// `header` is empty where there is none.
+  void understand(const std::vector<std::string>& header) {
+    columns_ = columns_of(header, path_);
+    width_ = std::max(header.size(), kColumns);
+    const std::string crs = csv_crs_.empty() && columns_.geographic ? kGeographicColumnsCrs : csv_crs_;
+    if (!crs.empty()) transform_.emplace(crs, to_crs_);
+  }
+
   Link link_of(const std::vector<std::string>& cells) const {
     if (cells.size() != width_)
       throw InputError(fmt::format("has {} columns instead of {}: id,x1,y1,h1,x2,y2,h2", cells.size(), width_));
     std::array<double, kColumns> v{};
     for (std::size_t i = 1; i < kColumns; ++i) {
-      const auto value = number(cells[columns_[i]]);
-      if (!value) throw InputError(fmt::format("{} '{}' is no number", kNames[i], cells[columns_[i]]));
+      const auto value = number(cells[columns_.of[i]]);
+      if (!value) throw InputError(fmt::format("{} '{}' is no number", kNames[i], cells[columns_.of[i]]));
       v[i] = *value;
     }
-    Link link{cells[columns_[0]], {v[1], v[2]}, v[3], {v[4], v[5]}, v[6]};
+    for (const std::size_t h : {std::size_t{3}, std::size_t{6}}) require_height(v[h], kNames[h]);
+    Link link{cells[columns_.of[0]], {v[1], v[2]}, v[3], {v[4], v[5]}, v[6]};
     if (transform_) link.from = (*transform_)(link.from), link.to = (*transform_)(link.to);
     return link;
   }
 
+  std::string path_, to_crs_, csv_crs_;
   std::ifstream file_;
   std::optional<CoordinateTransform> transform_;
-  Columns columns_{};
+  Columns columns_;
   std::size_t width_ = kColumns;
 };
 

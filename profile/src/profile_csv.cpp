@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/height_limit.hpp>
 #include <profile/profile_csv.hpp>
 
 namespace itin::profile {
@@ -102,6 +103,8 @@ class Reader {
     point.ground_m = value(fields, 1);
     if (columns_ == 3) point.clutter_m = value(fields, 2);
     if (point.clutter_m < 0) fail("clutter_m is negative");
+    for (const double height : {point.ground_m, point.clutter_m})
+      require_height(height, fmt::format("{}, line {}", name_, line_));
     if (!profile_.points.empty() && point.distance_m < profile_.points.back().distance_m) {
       fail(fmt::format("d_km {} is less than in the row before; distances must ascend", fields[0]));
     }

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <itin/cross_section.hpp>
+#include <itin/error.hpp>
 #include <itin/import.hpp>
 #include <itin/store.hpp>
 #include <profile/clearance_error.hpp>
@@ -150,6 +151,21 @@ TEST(LinkTable, TakesItsColumnsByNameWhereItHasThemAll) {
     EXPECT_EQ(link.from_height, 3);
     EXPECT_EQ(link.to_height, 6);
   }
+}
+
+TEST(LinkTable, InLongitudeAndLatitudeIsGeographic) {
+  const LinkTable table = table_of("id,lon1,lat1,h1,lon2,lat2,h2\na,-3.2934,51.5437,3,-3.1,51.6,6\n");
+  ASSERT_EQ(table.links.size(), 1U);
+  EXPECT_NEAR(table.links[0].from.x, 310375, 200);
+  EXPECT_NEAR(table.links[0].from.y, 183525, 200);
+  EXPECT_EQ(table.links[0].to_height, 6);
+  EXPECT_THROW(table_of("id,lon1,lat1,h1,x2,y2,h2\na,-3,51,3,4,5,6\n"), InputError);
+}
+
+TEST(LinkTable, NamesRowsOfHeightsBeyondAll) {
+  const LinkTable table = table_of("id,x1,y1,h1,x2,y2,h2\na,1,2,3,4,5,2e6\n");
+  ASSERT_EQ(table.bad.size(), 1U);
+  EXPECT_EQ(table.bad[0].message.substr(0, 19), "h2: a height of 2e+");
 }
 
 TEST(LinkTable, NamesTheRowsThatItDoesNotUnderstand) {

@@ -33,16 +33,17 @@ struct ImportOptions {
       z_field;  ///< the height attribute of point layers and CSV; default: Z of the geometry, or the third column
   std::string layer;
   std::string where;
+  std::optional<int> band;  ///< of rasters: the one that holds heights, from 1; default: their only one
 
   // Of buildings, vegetation and walls that stand on the ground: those with one of the first three, and CityJSON.
-  std::string height_field;      ///< of the highest point above the base
-  std::string eaves_field;       ///< of the eaves above the base
-  std::optional<double> height;  ///< metres; of features that have none in the fields
-  std::string base_field;        ///< elevation of the base
-  std::string name_field;        ///< what messages call a feature
-  std::optional<BaseRule> base;  ///< of buildings without base_field; default: minimum, or the floors of CityJSON
-  RoofKind roof = RoofKind::flat;
-  double thickness = 0.3;  ///< metres; of what stands on lines
+  std::string height_field;         ///< of the highest point above the base
+  std::string eaves_field;          ///< of the eaves above the base
+  std::optional<double> height;     ///< metres; of features that have none in the fields
+  std::string base_field;           ///< elevation of the base
+  std::string name_field;           ///< what messages call a feature
+  std::optional<BaseRule> base;     ///< of buildings without base_field; default: minimum, or the floors of CityJSON
+  std::optional<RoofKind> roof;     ///< default: flat
+  std::optional<double> thickness;  ///< metres; of what stands on lines; default: 0.3
 
   std::vector<int> classes;           ///< LAS classes to keep; empty: all but noise (7, 18)
   double max_gap = 0;                 ///< metres, scattered points: ground is not triangulated over longer edges;
@@ -50,7 +51,8 @@ struct ImportOptions {
   bool allow_mixed_vertical = false;  ///< take heights as they are, though they refer to different vertical datums
   bool repair = true;                 ///< import_lines() of contours: infer points where their triangles are flat
   bool replace = false;               ///< these sources take the place of coarser ones within their coverage
-  std::vector<double> tolerances;     ///< metres; default 0.5,1,2,4,8,16,32. An existing store keeps its own.
+  std::vector<double> tolerances;     ///< metres; default: those of 0.5,1,2,4,8,16,32 that are no less than the
+                                      ///< resolution. An existing store keeps its own.
   double resolution = 0.01;           ///< metres; an existing store keeps its own
 
   // Changes the speed only.
@@ -58,30 +60,31 @@ struct ImportOptions {
 };
 
 struct ImportReport {
-  std::string crs_name;           ///< of the store
-  bool crs_chosen = false;        ///< a UTM zone was chosen, because the source is not metric
-  std::uint64_t read = 0;         ///< posts and points read with a height
-  std::uint64_t voids = 0;        ///< posts without data
-  std::uint64_t filtered = 0;     ///< points left out by class or where
-  std::uint64_t duplicates = 0;   ///< positions that were there already
-  std::uint64_t replaced = 0;     ///< coarser points that made room
-  std::uint64_t isolated = 0;     ///< points left out because no ground could be triangulated about them
-  std::uint64_t features = 0;     ///< of lines read, or of those that stand now
-  std::uint64_t refused = 0;      ///< features that could not stand, of all imports so far; warnings say why
-  std::uint64_t crossings = 0;    ///< pairs of segments that crossed, of any themes, and were given a vertex
-  std::uint64_t left_out = 0;     ///< segments, of any theme, that do not lie wholly on the ground
-  std::uint64_t flat_before = 0;  ///< triangles that are level because their corners lie on contours
-  std::uint64_t flat_after = 0;   ///< of them, those that are left
-  std::uint64_t inferred = 0;     ///< points of the store inferred from contours
-  std::uint64_t vertices = 0;     ///< of the store now
+  std::string crs_name;             ///< of the store
+  bool crs_chosen = false;          ///< a UTM zone was chosen, because the source is not metric
+  std::uint64_t read = 0;           ///< posts, points and vertices read with a height
+  std::uint64_t read_features = 0;  ///< lines, polygons and other features that these vertices are of
+  std::uint64_t voids = 0;          ///< posts without data
+  std::uint64_t filtered = 0;       ///< points and features left out by class or where
+  std::uint64_t duplicates = 0;     ///< positions that were there already
+  std::uint64_t replaced = 0;       ///< coarser points that made room
+  std::uint64_t isolated = 0;       ///< points left out because no ground could be triangulated about them
+  std::uint64_t features = 0;       ///< of lines read, or of those that stand now
+  std::uint64_t refused = 0;        ///< features that could not stand, of all imports so far; warnings say why
+  std::uint64_t crossings = 0;      ///< pairs of segments that crossed, of any themes, and were given a vertex
+  std::uint64_t left_out = 0;       ///< segments, of any theme, that do not lie wholly on the ground
+  std::uint64_t flat_before = 0;    ///< triangles that are level because their corners lie on contours
+  std::uint64_t flat_after = 0;     ///< of them, those that are left
+  std::uint64_t inferred = 0;       ///< points of the store inferred from contours
+  std::uint64_t vertices = 0;       ///< of the store now
   std::uint64_t store_bytes = 0;
   double seconds = 0;
   std::vector<LevelInfo> levels;
   std::vector<std::string> warnings;  ///< one line each
 };
 
-/// Throws InputError, FileError, StoreFormatError, CorruptStore, Cancelled. Whatever is thrown, the store stays as it
-/// was.
+/// Throws InputError (also for an option that none of the sources makes use of), FileError, StoreFormatError,
+/// CorruptStore, Cancelled. Whatever is thrown, the store stays as it was.
 ImportReport import_terrain(const std::string& store_path, const ImportOptions& options, Progress& progress);
 
 /// Where contours are imported, options.repair decides for all contours of the store, also when something is added

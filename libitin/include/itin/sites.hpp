@@ -22,13 +22,15 @@ struct NumberField {
 };
 
 struct SiteQuery {
-  std::string path;          ///< GeoPackage, GeoJSON, Shapefile, CSV with columns x,y; whatever GDAL reads
+  std::string path;          ///< GeoPackage, GeoJSON, Shapefile, CSV with columns of x and y; whatever GDAL reads
   std::string layer;         ///< default: the file's only layer
   std::string where;         ///< an attribute filter in OGR's SQL; default: all features
   std::string height_field;  ///< metres; default: no heights
   std::string name_field;    ///< default: the feature's number
   std::vector<NumberField> numbers;
-  std::string crs;  ///< of a file that does not say; default: the one asked for. Overrides nothing.
+  /// Of a file that does not say. Default: longitude and latitude where the columns of a CSV file are called so
+  /// (position_columns.hpp), else the one asked for. Overrides no file's own.
+  std::string crs;
 };
 
 struct Site {
@@ -41,7 +43,8 @@ struct Site {
 };
 
 /// All sites in the file's order, in the CRS `to_crs` (WKT). Throws FileError for a file, layer, field, filter or
-/// feature that is missing or not understood (naming it), InputError for a CRS that is unknown.
+/// feature that is missing or not understood (naming it), InputError for a CRS that is unknown, a height beyond
+/// kFarthestHeight, and a filter that leaves nothing.
 std::vector<Site> read_sites(const SiteQuery& query, const std::string& to_crs);
 
 /// The same, but features that are not understood are left out, each with a line in `rejected` that names it.

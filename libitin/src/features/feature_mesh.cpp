@@ -110,7 +110,8 @@ FeatureMesh build_feature_mesh(std::span<const FootprintFeature> features, const
   }
   FeatureMesh mesh = std::move(assembly).finish();
   for (std::size_t i = 0; i < features.size(); ++i)
-    for (const std::string& text : findings[i]) mesh.reports.push_back(features[i].name + ": " + text);
+    for (const std::string& text : findings[i])
+      mesh.reports.push_back({static_cast<std::uint32_t>(i), features[i].name + ": " + text});
   mesh.refused = refused;
   mesh.built = features.size() - refused;
   return mesh;

@@ -47,16 +47,22 @@ struct FeatureMask {
   GridPolygon polygon;
 };
 
+/// A finding about a feature.
+struct FeatureReport {
+  std::uint32_t feature;
+  std::string text;  ///< one line, "NAME: ..."
+};
+
 struct FeatureMesh {
   Grid grid;
   std::vector<GridPoint> vertices;  ///< in Morton order
   std::vector<FeatureSegment> segments;
-  std::vector<FeatureMask> masks;    ///< disjoint but for their borders
-  ChangedGround ground;              ///< outside of masks or nearly, and under what drapes (terrain_overlay.hpp)
-  std::vector<std::string> reports;  ///< one line a feature and finding, "NAME: ..."
-  std::uint64_t built = 0;           ///< features that stand
-  std::uint64_t refused = 0;         ///< features that do not, each reported
-  std::uint64_t flat_instead = 0;    ///< roofs that were refused, each reported
+  std::vector<FeatureMask> masks;  ///< disjoint but for their borders
+  ChangedGround ground;            ///< outside of masks or nearly, and under what drapes (terrain_overlay.hpp)
+  std::vector<FeatureReport> reports;
+  std::uint64_t built = 0;         ///< features that stand
+  std::uint64_t refused = 0;       ///< features that do not, each reported
+  std::uint64_t flat_instead = 0;  ///< roofs that were refused, each reported
 };
 
 struct FeatureOptions {

@@ -4,6 +4,7 @@
 // rule: a ring inside another is a courtyard, one inside that is solid again.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,5 +34,13 @@ struct FootprintFeature {
   RoofKind roof = RoofKind::flat;
   std::vector<RoofSurface> surfaces;  ///< a measured roof; takes the place of height, eaves and roof
 };
+
+inline std::uint64_t vertex_count(const FootprintFeature& feature) {
+  std::uint64_t count = 0;
+  for (const PlanRing& ring : feature.rings) count += ring.size();
+  for (const RoofSurface& surface : feature.surfaces)
+    for (const auto& ring : surface.rings) count += ring.size();
+  return count;
+}
 
 }  // namespace itin

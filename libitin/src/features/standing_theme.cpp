@@ -212,21 +212,22 @@ class Standing {
     for (auto beyond = beyond_ground(mesh, outline, terrain); !beyond.empty();
          beyond = beyond_ground(mesh, outline, terrain)) {
       for (const std::uint32_t f : beyond) {
-        theme_.reports.push_back(features[f].name + ": left out: reaches beyond the ground");
+        report(numbers[f], features[f].name + ": left out: reaches beyond the ground");
         features[f].rings.clear();
         features[f].surfaces.clear();
       }
       left_out.merge(beyond);
       mesh = build_feature_mesh(features, options_, &terrain, quiet);
     }
-    std::erase_if(mesh.reports, [&](const std::string& report) {
-      return std::any_of(left_out.begin(), left_out.end(),
-                         [&](std::uint32_t f) { return report.starts_with(features[f].name + ": "); });
-    });
-    theme_.reports.insert(theme_.reports.end(), mesh.reports.begin(), mesh.reports.end());
+    for (const FeatureReport& r : mesh.reports)
+      if (!left_out.contains(r.feature)) report(numbers[r.feature], r.text);
     theme_.built += mesh.built;
     theme_.refused += mesh.refused;
     add(mesh, terrain, numbers);
+  }
+
+  void report(std::uint32_t footprint, std::string text) {
+    theme_.reports.push_back({footprints_[footprint].source, std::move(text)});
   }
 
   static std::set<std::uint32_t> beyond_ground(const FeatureMesh& mesh, const std::vector<Segment>& outline,

@@ -34,10 +34,16 @@ struct StandingPart {
   std::vector<FeatureReach> reaches;
 };
 
+/// A finding about a feature.
+struct StandingReport {
+  std::uint16_t source;  ///< the feature's
+  std::string text;      ///< one line
+};
+
 struct StandingTheme {
   ChangedGround ground;
-  std::vector<StandingPart> parts;   ///< the finest first, none without features
-  std::vector<std::string> reports;  ///< one line a feature and finding
+  std::vector<StandingPart> parts;  ///< the finest first, none without features
+  std::vector<StandingReport> reports;
   std::uint64_t built = 0, refused = 0;
 };
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -14,8 +13,11 @@
 #include <nlohmann/json.hpp>
 
 #include <itin/error.hpp>
+#include <itin/height_limit.hpp>
 
+#include "import/city_json_values.hpp"
 #include "import/crs.hpp"
+#include "import/findings.hpp"
 #include "import/quiet_gdal.hpp"
 #include "import/source_context.hpp"
 
@@ -47,47 +49,67 @@ constexpr std::uint64_t kMemoryPerByte = 16;
 
 class CityModel {
  public:
-  CityModel(const CityJsonQuery& query, const std::string& to_crs) : query_(query), model_(parse(query)) {
-    place_vertices(to_crs);
+  CityModel(const CityJsonQuery& query, const std::string& to_crs)
+      : query_(query), findings_(query.path), model_(parse(query)) {
+    in_place({}, [&] { place_vertices(to_crs); });
   }
 
   FootprintSource read() {
+    using enum Json::value_t;
     std::map<std::string, int> others;
-    for (const auto& [name, object] : model_.at("CityObjects").items()) {
-      const std::string type = object.at("type");
-      if (type != "Building" && type != "BuildingPart") {
-        ++others[type];
-      } else if (object.contains("geometry") && !object.at("geometry").empty()) {
-        add(name, object.at("geometry"));
-      } else if (!object.contains("children")) {
-        pass_over(name, "has no geometry");
-      }
-    }
+    in_place({}, [&] {
+      const CityJsonCounts counts(model_);
+      check_templates(model_, counts);
+      for (const auto& [name, value] : member_or_empty(model_, "CityObjects", object).items())
+        in_place(name, [&, &title = name, &city_object = value] { read(title, city_object, counts, others); });
+    });
     for (const auto& [type, count] : others)
       source_.warnings.push_back(fmt::format("{}: {} objects of type {} passed over", query_.path, count, type));
+    for (std::string& line : findings_.lines()) source_.warnings.push_back(std::move(line));
     return std::move(source_);
   }
 
  private:
   static Json parse(const CityJsonQuery& query) {
-    const std::string& path = query.path;
-    std::ifstream file(path);
-    if (!file) throw FileError(path, "cannot be read");
     std::error_code unknown;
-    const std::uintmax_t bytes = std::filesystem::file_size(path, unknown);
+    const std::uintmax_t bytes = std::filesystem::file_size(query.path, unknown);
     if (!unknown && bytes > query.memory_bytes / kMemoryPerByte)
       throw InputError(
           fmt::format("{}: {} MB of CityJSON take some {} MB of memory to read, more than the {} MB there "
                       "are to work in; give more, or cut the model into parts",
-                      path, bytes >> 20, bytes * kMemoryPerByte >> 20, query.memory_bytes >> 20));
-    Json model = Json::parse(file);
-    if (model.value("type", "") != "CityJSON") throw FileError(path, "is not CityJSON");
-    return model;
+                      query.path, bytes >> 20, bytes * kMemoryPerByte >> 20, query.memory_bytes >> 20));
+    return parse_city_json(query.path);
+  }
+
+  /// What `read` finds wrong is said to be in this object of the file; in the file where there is no name.
+  template <class Read>
+  void in_place(const std::string& name, const Read& read) const {
+    try {
+      read();
+    } catch (const BadCityJson& error) {
+      throw FileError(query_.path, name.empty() ? error.what() : fmt::format("{}: {}", name, error.what()));
+    }
+  }
+
+  void read(const std::string& name, const Json& city_object, const CityJsonCounts& counts,
+            std::map<std::string, int>& others) {
+    const std::string type = text_member(city_object, "type");
+    const Json& geometries = member_or_empty(city_object, "geometry", Json::value_t::array);
+    for (const Json& geometry : geometries) check_indices(geometry, counts);
+    if (type != "Building" && type != "BuildingPart") {
+      ++others[type];
+    } else if (!geometries.empty()) {
+      add(name, geometries);
+    } else if (!city_object.contains("children")) {
+      pass_over(name, "has no geometry");
+    }
   }
 
   /// "EPSG:7415" of "urn:ogc:def:crs:EPSG::7415" and of "https://www.opengis.net/def/crs/EPSG/0/7415".
   std::string reference_system() const {
-    const std::string text = model_.value("/metadata/referenceSystem"_json_pointer, std::string());
+    const Json& metadata = member_or_empty(model_, "metadata", Json::value_t::object);
+    if (!metadata.contains("referenceSystem") || metadata.at("referenceSystem").is_null()) return {};
+    const std::string text = text_member(metadata, "referenceSystem");
     const std::size_t at = text.find_last_not_of("0123456789");
     if (text.find("EPSG") == std::string::npos || at == std::string::npos || at + 1 == text.size()) return text;
     return "EPSG:" + text.substr(at + 1);
@@ -96,15 +118,15 @@ class CityModel {
   void place_vertices(const std::string& to_crs) {
     std::array<double, 3> scale{1, 1, 1}, shift{0, 0, 0};
     if (model_.contains("transform")) {
-      scale = model_.at("transform").at("scale");
-      shift = model_.at("transform").at("translate");
+      scale = coordinates(member(model_.at("transform"), "scale"), "scale of the transform");
+      shift = coordinates(member(model_.at("transform"), "translate"), "translate of the transform");
     }
     const Crs crs = source_crs(query_.path, query_.crs, reference_system());
     source_.crs = crs.whole;
     const double metres = height_unit(query_.path, std::nullopt, crs).metres;
     std::vector<double> x, y;
-    for (const Json& vertex : model_.at("vertices")) {
-      const std::array<double, 3> v = vertex;
+    for (const Json& vertex : items_of(member(model_, "vertices"), "vertices")) {
+      const std::array<double, 3> v = coordinates(vertex, "vertices");
       x.push_back(v[0] * scale[0] + shift[0]);
       y.push_back(v[1] * scale[1] + shift[1]);
       vertices_.push_back({0, 0, (v[2] * scale[2] + shift[2]) * metres});
@@ -114,7 +136,7 @@ class CityModel {
   }
 
   void pass_over(const std::string& name, const std::string& why) {
-    source_.warnings.push_back(fmt::format("{}: {}: passed over: {}", query_.path, name, why));
+    findings_.add(fmt::format("{}: passed over: {}", name, why));
   }
 
   void add(const std::string& name, const Json& geometries) {
@@ -122,54 +144,67 @@ class CityModel {
     double finest = -1;
     for (const Json& geometry : geometries) {
       const double detail = level_of_detail(geometry);
-      if (depth_of(geometry.at("type")) == 0 || detail >= 3 || detail <= finest) continue;
+      if (depth_of(text_member(geometry, "type")) == 0 || detail >= 3 || detail <= finest) continue;
       best = &geometry;
       finest = detail;
     }
     if (!best)
       return pass_over(name, fmt::format("none of its geometries ({} ...) is a surface or solid of LoD 1 or 2",
-                                         geometries.front().at("type").get<std::string>()));
+                                         text_member(geometries.front(), "type")));
     std::vector<Surface> surfaces;
-    const Json semantics = best->value("semantics", Json::object());
-    collect(best->at("boundaries"), semantics.value("values", Json()), semantics, depth_of(best->at("type")), surfaces);
+    const Json& semantics = member_or_empty(*best, "semantics", Json::value_t::object);
+    collect(member(*best, "boundaries"), semantics.value("values", Json()), semantics,
+            depth_of(text_member(*best, "type")), surfaces);
+    if (!std::all_of(surfaces.begin(), surfaces.end(), [&](const Surface& s) { return has_place(name, s); }))
+      return pass_over(name, "a vertex has no place in the CRS of the store");
     add(name, surfaces);
   }
 
-  static double level_of_detail(const Json& geometry) {
-    const Json lod = geometry.value("lod", Json("0"));
-    return lod.is_string() ? std::strtod(lod.get_ref<const std::string&>().c_str(), nullptr) : lod.get<double>();
-  }
-
-  /// How many arrays enclose a surface; 0 for geometries without surfaces.
-  static int depth_of(const std::string& type) {
-    if (type == "MultiSurface" || type == "CompositeSurface") return 1;
-    if (type == "Solid") return 2;
-    if (type == "MultiSolid" || type == "CompositeSolid") return 3;
-    return 0;
-  }
-
   void collect(const Json& boundaries, const Json& values, const Json& semantics, int depth,
-               std::vector<Surface>& out) {
-    for (std::size_t i = 0; i < boundaries.size(); ++i) {
+               std::vector<Surface>& out) const {
+    const auto& items = items_of(boundaries, depth > 1 ? "shells or surfaces" : "surfaces");
+    for (std::size_t i = 0; i < items.size(); ++i) {
       const Json value = values.is_array() && i < values.size() ? values[i] : Json();
       if (depth > 1) {
-        collect(boundaries[i], value, semantics, depth - 1, out);
+        collect(items[i], value, semantics, depth - 1, out);
         continue;
       }
-      Surface surface{boundaries[i].get<std::vector<std::vector<Index>>>(), Facing::other};
+      Surface surface{rings_of(items[i]), Facing::other};
       if (surface.rings.empty() || surface.rings.front().size() < 3) continue;
-      for (const auto& ring : surface.rings)
-        for (const Index v : ring)
-          if (v >= vertices_.size())
-            throw FileError(query_.path, fmt::format("vertex {} of {} does not exist", v, vertices_.size()));
-      surface.facing = value.is_number_integer() ? named_facing(semantics.at("surfaces").at(value.get<std::size_t>()))
-                                                 : facing(surface);
+      surface.facing = value.is_number() ? named_facing(semantic(semantics, value)) : facing(surface);
       out.push_back(std::move(surface));
     }
   }
 
+  std::vector<std::vector<Index>> rings_of(const Json& surface) const {
+    std::vector<std::vector<Index>> rings;
+    for (const Json& ring : items_of(surface, "rings")) {
+      auto& indices = rings.emplace_back();
+      for (const Json& number : items_of(ring, "vertex indices"))
+        indices.push_back(static_cast<Index>(index_of(number, vertices_.size(), "vertices")));
+    }
+    return rings;
+  }
+
+  /// Throws InputError for a height beyond all heights.
+  bool has_place(const std::string& name, const Surface& surface) const {
+    bool all = true;
+    for (const auto& ring : surface.rings) {
+      for (const Index v : ring) {
+        if (!is_height(vertices_[v].z)) require_height(vertices_[v].z, query_.path + ": " + name);
+        all = all && std::isfinite(vertices_[v].x) && std::isfinite(vertices_[v].y);
+      }
+    }
+    return all;
+  }
+
+  static const Json& semantic(const Json& semantics, const Json& number) {
+    const auto& surfaces = items_of(member(semantics, "surfaces"), "semantic surfaces");
+    return surfaces[index_of(number, surfaces.size(), "semantic surfaces")];
+  }
+
   static Facing named_facing(const Json& semantic) {
-    const std::string type = semantic.value("type", "");
+    const std::string type = text_member(semantic, "type");
     return type == "RoofSurface" ? Facing::up : type == "GroundSurface" ? Facing::down : Facing::other;
   }
 
@@ -292,6 +327,7 @@ class CityModel {
   }
 
   const CityJsonQuery& query_;
+  Findings findings_;
   const Json model_;
   std::vector<Point3> vertices_;
   FootprintSource source_;
@@ -301,11 +337,7 @@ class CityModel {
 
 FootprintSource read_city_json(const CityJsonQuery& query, const std::string& to_crs) {
   const QuietGdal quiet;
-  try {
-    return CityModel(query, to_crs).read();
-  } catch (const Json::exception& error) {
-    throw FileError(query.path, std::string("is not understood as CityJSON: ") + error.what());
-  }
+  return CityModel(query, to_crs).read();
 }
 
 }  // namespace itin

@@ -20,8 +20,9 @@ struct CityJsonQuery {
 };
 
 /// In the CRS `to_crs` (WKT). What cannot be used is passed over with a warning: a line an object, or a line a type for
-/// objects that are no buildings. Throws FileError for a file that is not readable or no CityJSON, InputError for a CRS
-/// that is missing or unknown and, before it is read, for a file that takes more than the memory.
+/// objects that are no buildings. Throws FileError for a file that is not readable, no CityJSON, or holds an index that
+/// is no whole number in range (naming the object), InputError for a CRS that is missing or unknown, for heights beyond
+/// kFarthestHeight and, before it is read, for a file that takes more than the memory.
 FootprintSource read_city_json(const CityJsonQuery& query, const std::string& to_crs);
 
 }  // namespace itin

@@ -1,7 +1,6 @@
 #include "import/delimited_text.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -13,24 +12,13 @@
 #include <fmt/ranges.h>
 
 #include <itin/error.hpp>
+#include <itin/position_columns.hpp>
 
 #include "import/line_reader.hpp"
 
 namespace itin {
 
 namespace {
-
-struct PositionNames {
-  std::string_view x, y;
-  bool geographic = false;
-};
-
-// Found in pairs, the first pair wins, so that x is never taken with latitude.
-constexpr PositionNames kPositionNames[] = {
-    {"x", "y"},           {"easting", "northing"}, {"eastings", "northings"}, {"east", "north"},
-    {"e", "n"},           {"x_coord", "y_coord"},  {"xcoord", "ycoord"},      {"point_x", "point_y"},
-    {"lon", "lat", true}, {"long", "lat", true},   {"lng", "lat", true},      {"longitude", "latitude", true},
-};
 
 constexpr std::string_view kHeightNames[] = {"z",   "height", "elevation", "elev",    "altitude",
                                              "alt", "h",      "point_z",   "z_coord", "zcoord"};
@@ -43,11 +31,6 @@ std::string_view trimmed(std::string_view text) {
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
   while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
   return text;
-}
-
-bool same_name(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](unsigned char p, unsigned char q) { return std::tolower(p) == std::tolower(q); });
 }
 
 /// No point, just a remark or nothing.
@@ -108,15 +91,15 @@ bool looks_numeric(std::string_view text) {
 }
 
 /// Fit for one line of a message.
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string shown(text.substr(0, 60));
   std::replace_if(
       shown.begin(), shown.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
   return fmt::format("'{}{}'", shown, text.size() > 60 ? "..." : "");
 }
 
-std::optional<std::size_t> index_of(const std::vector<std::string_view>& names, std::string_view name) {
-  const auto found = std::find_if(names.begin(), names.end(), [&](auto n) { return same_name(n, name); });
+std::optional<std::size_t> index_of(const std::vector<std::string>& names, std::string_view name) {
+  const auto found = std::find_if(names.begin(), names.end(), [&](const auto& n) { return same_column_name(n, name); });
   if (found == names.end()) return std::nullopt;
   return static_cast<std::size_t>(found - names.begin());
 }
@@ -147,12 +130,12 @@ class RowParser {
   double coordinate(std::size_t axis, std::string_view line, std::uint64_t line_number) const {
     const std::string_view field = fields_[columns_[axis]];
     const auto value = number(field);
-    if (!value) fail(line, line_number, fmt::format("{} is not a number", quoted(field)));
+    if (!value) fail(line, line_number, fmt::format("{} is not a number", in_quotes(field)));
     return *value;
   }
 
   [[noreturn]] void fail(std::string_view line, std::uint64_t line_number, const std::string& what) const {
-    throw InputError(fmt::format("{}: line {}: {} in {}", path_, line_number, what, quoted(line)));
+    throw InputError(fmt::format("{}: line {}: {} in {}", path_, line_number, what, in_quotes(line)));
   }
 
   const std::string& path_;
@@ -190,18 +173,15 @@ void DelimitedText::understand(std::string_view line, const std::string& z_field
   split(line, separator_, std::numeric_limits<std::size_t>::max(), fields);
   has_header_ = std::none_of(fields.begin(), fields.end(), looks_numeric);
   if (has_header_)
-    choose_columns(fields, z_field);
+    choose_columns({fields.begin(), fields.end()}, z_field);
   else if (!z_field.empty())
     throw FileError(path_, fmt::format("has no header line to find the column '{}' in", z_field));
 }
 
-void DelimitedText::choose_columns(const std::vector<std::string_view>& names, const std::string& z_field) {
-  const auto found = std::find_if(std::begin(kPositionNames), std::end(kPositionNames), [&](const PositionNames& pair) {
-    return index_of(names, pair.x) && index_of(names, pair.y);
-  });
-  if (found != std::end(kPositionNames)) {
-    columns_ = {*index_of(names, found->x), *index_of(names, found->y), 0};
-    geographic_ = found->geographic;
+void DelimitedText::choose_columns(const std::vector<std::string>& names, const std::string& z_field) {
+  if (const auto position = position_columns(names)) {
+    columns_ = {position->x, position->y, 0};
+    geographic_ = position->geographic;
     columns_[2] = height_column(names, z_field);
     return;
   }
@@ -210,11 +190,11 @@ void DelimitedText::choose_columns(const std::vector<std::string_view>& names, c
   columns_[2] = height_column(names, z_field);
   warnings_.push_back(
       fmt::format("{}: x, y and height are taken from the columns {}, {} and {}; the header has no x and y", path_,
-                  quoted(names[columns_[0]]), quoted(names[columns_[1]]), quoted(names[columns_[2]])));
+                  in_quotes(names[columns_[0]]), in_quotes(names[columns_[1]]), in_quotes(names[columns_[2]])));
 }
 
 /// Once the columns of x and y are chosen.
-std::size_t DelimitedText::height_column(const std::vector<std::string_view>& names, const std::string& z_field) const {
+std::size_t DelimitedText::height_column(const std::vector<std::string>& names, const std::string& z_field) const {
   const auto is_position = [&](std::size_t column) { return column == columns_[0] || column == columns_[1]; };
   if (!z_field.empty()) {
     if (const auto column = index_of(names, z_field)) return *column;

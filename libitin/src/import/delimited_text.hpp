@@ -4,9 +4,9 @@
 //   DelimitedText text("survey.csv", "height_od");
 //   text.read([](PointBatch& points, double fraction) { ... });
 //
-// A first line without anything like a number is a header, and the columns are taken by name, in any case of letters:
-// x, y, z, or easting, northing, height and the like. Otherwise the first three columns are x, y and height. Numbers
-// are decimal with a point, whatever the locale; an empty height is a void.
+// A first line without anything like a number is a header, and the columns are taken by name: those of the position as
+// position_columns() has it, that of the height likewise (z, height, elevation, ...). Otherwise the first three columns
+// are x, y and height. Numbers are decimal with a point, whatever the locale; an empty height is a void.
 #pragma once
 
 #include <array>
@@ -14,6 +14,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <itin/position_columns.hpp>
 
 #include "import/point_reader.hpp"
 
@@ -27,7 +29,7 @@ class DelimitedText final : public PointReader {
 
   const std::string& path() const override { return path_; }
   /// EPSG:4326 where the columns are called longitude and latitude.
-  std::string crs() const override { return geographic_ ? "EPSG:4326" : ""; }
+  std::string crs() const override { return geographic_ ? kGeographicColumnsCrs : ""; }
   std::vector<std::string> warnings() const override { return warnings_; }
   /// The first point's position.
   Point2 centre() const override { return first_; }
@@ -37,8 +39,8 @@ class DelimitedText final : public PointReader {
 
  private:
   void understand(std::string_view line, const std::string& z_field);
-  void choose_columns(const std::vector<std::string_view>& names, const std::string& z_field);
-  std::size_t height_column(const std::vector<std::string_view>& names, const std::string& z_field) const;
+  void choose_columns(const std::vector<std::string>& names, const std::string& z_field);
+  std::size_t height_column(const std::vector<std::string>& names, const std::string& z_field) const;
 
   std::string path_;
   double size_ = 0;  ///< bytes

@@ -1,6 +1,7 @@
 #include "import/footprint_file.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -11,6 +12,7 @@
 
 #include "import/city_json.hpp"
 #include "import/scattered_source.hpp"
+#include "import/source_options.hpp"
 
 namespace itin {
 
@@ -19,6 +21,8 @@ namespace {
 /// By its name, and a word that the format asks for near the beginning: members come in any order.
 bool is_city_json(const std::string& path) {
   if (!path.ends_with(".json") && !path.ends_with(".cityjson")) return false;
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;
   std::ifstream file(path, std::ios::binary);
   std::string beginning(std::size_t{1} << 16, '\0');
   file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
@@ -29,6 +33,15 @@ bool is_city_json(const std::string& path) {
 FeatureKind feature_kind(ThemeKind kind) {
   if (kind == ThemeKind::Walls) return FeatureKind::wall;
   return kind == ThemeKind::Vegetation ? FeatureKind::vegetation : FeatureKind::building;
+}
+
+std::vector<SourceKind> kinds_of(const ImportOptions& options) {
+  std::vector<SourceKind> kinds;
+  for (const std::string& path : options.sources)
+    kinds.push_back(is_city_json(path)                     ? SourceKind::city_model
+                    : options.kind == ThemeKind::Buildings ? SourceKind::buildings
+                                                           : SourceKind::walls);
+  return kinds;
 }
 
 FootprintSource read_model(const std::string& path, const ImportOptions& options, const StoreMetadata& store) {
@@ -55,9 +68,16 @@ FootprintSource read_layer(const std::string& path, const ImportOptions& options
   query.crs = options.crs;
   query.height = options.height;
   query.kind = feature_kind(*options.kind);
-  query.roof = options.roof;
-  query.thickness = options.thickness;
+  query.roof = options.roof.value_or(query.roof);
+  query.thickness = options.thickness.value_or(query.thickness);
   return read_footprints(query, store.crs_wkt, store.grid, progress);
+}
+
+std::string why_empty(const std::vector<std::string>& warnings) {
+  const auto passed_over = std::find_if(warnings.begin(), warnings.end(), [](const std::string& line) {
+    return line.find("passed over") != std::string::npos;
+  });
+  return passed_over == warnings.end() ? "holds no features" : "holds no feature that could stand; " + *passed_over;
 }
 
 }  // namespace
@@ -71,16 +91,17 @@ bool stands(const ImportOptions& options) {
 
 std::vector<FootprintFile> read_footprint_files(const ImportOptions& options, const StoreMetadata& store,
                                                 Progress& progress) {
+  require_useful_options(options, kinds_of(options));
   std::vector<FootprintFile> files;
   for (const std::string& path : options.sources) {
     FootprintFile& file = files.emplace_back();
     file.footprints =
         is_city_json(path) ? read_model(path, options, store) : read_layer(path, options, store, progress);
-    if (file.footprints.features.empty())
-      throw FileError(path,
-                      file.footprints.filtered > 0 ? "holds no features that match --where" : "holds no features");
-    for (FootprintFeature& feature : file.footprints.features)
+    if (file.footprints.features.empty()) throw FileError(path, why_empty(file.footprints.warnings));
+    for (FootprintFeature& feature : file.footprints.features) {
       feature.base_rule = options.base.value_or(BaseRule::minimum);
+      file.vertices += vertex_count(feature);
+    }
     file.info.path = path;
     file.info.kind = name_of(*options.kind);
     file.info.theme = options.theme;

@@ -12,6 +12,7 @@ namespace itin {
 
 struct FootprintFile {
   FootprintSource footprints;
+  std::uint64_t vertices = 0;  ///< of all footprints and roofs
   SourceInfo info;
 };
 

@@ -11,9 +11,11 @@
 #include <ogrsf_frmts.h>
 
 #include <itin/error.hpp>
+#include <itin/height_limit.hpp>
 
 #include "features/feature_mesh.hpp"
 #include "import/crs.hpp"
+#include "import/findings.hpp"
 #include "import/quiet_gdal.hpp"
 #include "import/source_context.hpp"
 #include "import/vector_layer.hpp"
@@ -29,12 +31,13 @@ struct Fields {
 class FootprintLayer {
  public:
   FootprintLayer(const FootprintQuery& query, const std::string& to_crs, const Grid& grid)
-      : query_(query), grid_(grid), dataset_(open(query.path)) {
+      : query_(query),
+        grid_(grid),
+        findings_(query.path),
+        dataset_(open_vector_file(query.path, nullptr, "a layer of polygons or lines")) {
     layer_ = &choose_layer(*dataset_, query.path, query.layer);
     fields_ = {field(query.height_field), field(query.eaves_field), field(query.base_field), field(query.name_field)};
-    const GIntBig all = layer_->GetFeatureCount();
-    if (!query.where.empty()) select_features(*layer_, query.path, query.where);
-    source_.filtered = static_cast<std::uint64_t>(std::max<GIntBig>(0, all - layer_->GetFeatureCount()));
+    source_.filtered = select_features(*layer_, query.path, query.where);
     const OGRSpatialReference* own = layer_->GetSpatialRef();
     const Crs crs = source_crs(query.path, query.crs, own ? wkt_of(*own) : std::string());
     source_.crs = crs.whole;
@@ -53,24 +56,17 @@ class FootprintLayer {
     for (;;) {
       progress.throw_if_cancelled();
       progress.report(stage, std::min(1.0, static_cast<double>(done++) / all));
-      CPLErrorReset();
-      const OGRFeatureUniquePtr feature(layer_->GetNextFeature());
+      const OGRFeatureUniquePtr feature = next_feature(*layer_, query_.path);
       if (!feature) break;
       add(*feature);
     }
-    if (QuietGdal::failed()) throw FileError(query_.path, QuietGdal::message("unknown error"));
+    for (std::string& line : findings_.lines()) source_.warnings.push_back(std::move(line));
     if (unused_z_)
       source_.warnings.push_back(query_.path + ": Z of the footprints is not used; say whether it is base or top");
     return std::move(source_);
   }
 
  private:
-  static GDALDatasetUniquePtr open(const std::string& path) {
-    GDALDatasetUniquePtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
-    if (!dataset) throw FileError(path, "cannot be read as a vector layer: " + QuietGdal::message("unknown error"));
-    return dataset;
-  }
-
   int field(const std::string& name) { return name.empty() ? -1 : field_of_layer(*layer_, query_.path, name); }
 
   void add(const OGRFeature& feature) {
@@ -97,7 +93,7 @@ class FootprintLayer {
   }
 
   void pass_over(const std::string& name, const std::string& why) {
-    source_.warnings.push_back(fmt::format("{}: {}: passed over: {}", query_.path, name, why));
+    findings_.add(fmt::format("{}: passed over: {}", name, why));
   }
 
   /// False for a kind of geometry that has no footprint.
@@ -141,12 +137,15 @@ class FootprintLayer {
     const OGRFieldDefn& definition = *feature.GetFieldDefnRef(index);
     const bool text = definition.GetType() == OFTString;
     const double value = feature.GetFieldAsDouble(index);
-    if ((text && CPLGetValueType(feature.GetFieldAsString(index)) == CPL_VALUE_STRING) || !std::isfinite(value)) {
-      source_.warnings.push_back(fmt::format("{}: feature {}: {} '{}' is not a number; taken as missing", query_.path,
-                                             feature.GetFID(), definition.GetNameRef(),
-                                             feature.GetFieldAsString(index)));
+    const bool number = !text || CPLGetValueType(feature.GetFieldAsString(index)) != CPL_VALUE_STRING;
+    if (!number || std::isnan(value) || is_missing_mark(value)) {
+      findings_.add(fmt::format("feature {}: {} '{}' is not a number; taken as missing", feature.GetFID(),
+                                definition.GetNameRef(), feature.GetFieldAsString(index)));
       return std::nullopt;
     }
+    if (!is_height(value * metres_))
+      require_height(value * metres_,
+                     fmt::format("{}: feature {}: {}", query_.path, feature.GetFID(), definition.GetNameRef()));
     return value * metres_;
   }
 
@@ -164,6 +163,7 @@ class FootprintLayer {
 
   const FootprintQuery& query_;
   const Grid& grid_;
+  Findings findings_;
   GDALDatasetUniquePtr dataset_;
   OGRLayer* layer_ = nullptr;
   Fields fields_;

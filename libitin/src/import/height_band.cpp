@@ -11,34 +11,26 @@
 #include <itin/error.hpp>
 
 #include "import/quiet_gdal.hpp"
+#include "import/value_band.hpp"
 
 namespace itin {
 
 namespace {
 
-GDALRasterBand* first_band(GDALDataset& dataset, const std::string& path) {
-  if (dataset.GetRasterCount() == 0) {
-    const char* subdataset = dataset.GetMetadataItem("SUBDATASET_1_NAME", "SUBDATASETS");
-    throw FileError(path, subdataset ? fmt::format("holds several rasters; name one of them, such as {}", subdataset)
-                                     : std::string("holds no raster band"));
-  }
-  GDALRasterBand* band = dataset.GetRasterBand(1);
-  if (GDALDataTypeIsComplex(band->GetRasterDataType())) throw FileError(path, "holds complex numbers, not heights");
-  if (band->GetColorTable()) throw FileError(path, "holds colours, not heights; give the elevation model itself");
-  return band;
-}
-
 void read_posts(GDALRasterBand& band, const std::string& path, const RasterWindow& w, void* out, GDALDataType type) {
   if (band.RasterIO(GF_Read, w.column, w.row, w.columns, w.rows, out, w.columns, w.rows, type, 0, 0, nullptr) !=
       CE_None)
     throw FileError(path, fmt::format("rows {} to {} cannot be read: {}", w.row, w.row + w.rows - 1,
-                                      QuietGdal::message("unknown error")));
+                                      QuietGdal::message("GDAL does not say why")));
 }
 
 }  // namespace
 
-HeightBand::HeightBand(GDALDataset& dataset, const std::string& path)
-    : path_(path), band_(first_band(dataset, path)), scale_(band_->GetScale()), offset_(band_->GetOffset()) {
+HeightBand::HeightBand(GDALDataset& dataset, const std::string& path, std::optional<int> number)
+    : path_(path),
+      band_(&value_band(dataset, path, {.number = number})),
+      scale_(band_->GetScale()),
+      offset_(band_->GetOffset()) {
   int has_nodata = 0;
   const double nodata = band_->GetNoDataValue(&has_nodata);
   const int flags = band_->GetMaskFlags();

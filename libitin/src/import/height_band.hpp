@@ -16,11 +16,12 @@ struct RasterWindow {
   std::uint64_t posts() const { return static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows); }
 };
 
-/// Band 1 with everything that makes its numbers heights: scale, offset, nodata, mask. The dataset must outlive it.
+/// A band with everything that makes its numbers heights: scale, offset, nodata, mask. The dataset must outlive it.
 class HeightBand {
  public:
-  /// Throws FileError where the raster holds no heights.
-  HeightBand(GDALDataset& dataset, const std::string& path);
+  /// The band as value_band() chooses it. Throws FileError where the raster holds no heights, InputError where it is
+  /// not clear which band does.
+  HeightBand(GDALDataset& dataset, const std::string& path, std::optional<int> number);
 
   /// The unit the band states, in metres; nothing where it states none. One it cannot make sense of is a metre, with a
   /// warning line.

@@ -11,11 +11,13 @@
 #include <itin/import.hpp>
 #include <itin/store.hpp>
 
+#include "import/empty_import.hpp"
 #include "import/footprint_file.hpp"
 #include "import/line_collection.hpp"
 #include "import/line_layer.hpp"
 #include "import/sorted_points.hpp"
 #include "import/source_context.hpp"
+#include "import/standing_warnings.hpp"
 #include "import/terrain_source.hpp"
 #include "pyramid/pyramid.hpp"
 #include "store/point_index.hpp"
@@ -40,7 +42,12 @@ std::vector<double> tolerances_of(const ImportOptions& options, const Store* exi
     return stored;
   }
   std::vector<double> tolerances{0.0};
-  for (const double t : options.tolerances.empty() ? kDefaultTolerances : options.tolerances) {
+  if (options.tolerances.empty()) {
+    std::copy_if(kDefaultTolerances.begin(), kDefaultTolerances.end(), std::back_inserter(tolerances),
+                 [&](double t) { return t >= options.resolution; });
+    return tolerances;
+  }
+  for (const double t : options.tolerances) {
     if (!std::isfinite(t) || t <= tolerances.back())
       throw InputError("--levels: tolerances must be positive and ascending");
     if (t < options.resolution)
@@ -144,6 +151,7 @@ void add_lines(LineLayer& layer, std::uint16_t number, const ImportPlan& plan, c
       progress);
   lines.add_features(theme, layer.features());
   report.read += counts.read;
+  report.read_features += layer.features();
   report.voids += counts.voids;
   report.filtered += counts.filtered;
   report.features += layer.features();
@@ -162,15 +170,6 @@ bool may_stand(ThemeKind kind) {
   return kind == ThemeKind::Buildings || kind == ThemeKind::Vegetation || kind == ThemeKind::Walls;
 }
 
-/// Heights of what does not stand are a mistake.
-void refuse_heights(const ImportOptions& options) {
-  if (options.height || !options.height_field.empty() || !options.eaves_field.empty())
-    throw InputError(
-        fmt::format("{}: --height, --height-field and --eaves-field are for buildings, vegetation and "
-                    "walls; name the field of elevations with --z-field",
-                    name_of(*options.kind)));
-}
-
 /// Names stand in lists with commas, beside `all` and `none`.
 void require_theme_name(const std::string& name) {
   if (name == "all" || name == "none" || name.find(',') != std::string::npos)
@@ -187,6 +186,8 @@ struct Additions {
   ImportPlan plan;
   std::vector<FootprintFile> footprints;
 
+  /// As in turns after the first.
+  bool empty() const { return plan.sources.empty() && plan.lines.empty() && footprints.empty(); }
   /// Whether the full surface will be another.
   bool change_terrain(const ImportOptions& options) const {
     return !plan.sources.empty() || (!plan.lines.empty() && is_terrain(*options.kind));
@@ -196,7 +197,8 @@ struct Additions {
 void add_footprints(FootprintFile& file, std::uint16_t number, const ImportOptions& options, LineCollection& lines,
                     ImportReport& report) {
   const std::uint32_t theme = lines.theme(options.theme, *options.kind, true);
-  report.read += file.footprints.features.size();
+  report.read_features += file.footprints.features.size();
+  report.read += file.vertices;
   report.filtered += file.footprints.filtered;
   for (FootprintFeature& feature : file.footprints.features) lines.add_footprint(theme, {std::move(feature), number});
   lines.require_room(file.info.path);
@@ -239,7 +241,7 @@ bool write_store(const Target& target, const Store* base, Additions& additions, 
   PointSorter sorter(directory_of(target.passing), options.memory_bytes / 2);
   LineCollection collection(options.memory_bytes);
   std::vector<GridPoint> inferred;
-  std::uint64_t offered = base != nullptr ? add_stored(*base, sorter, collection, inferred, progress) : 0;
+  const bool stored = base != nullptr && add_stored(*base, sorter, collection, inferred, progress) > 0;
   for (const auto& source : plan.sources) {
     add_source(*source, static_cast<std::uint16_t>(sources.size()), sorter, report, progress);
     sources.push_back(source->info());
@@ -255,8 +257,7 @@ bool write_store(const Target& target, const Store* base, Additions& additions, 
   }
   const bool repair = options.kind == ThemeKind::Contours ? options.repair : repairs(base);
   if (repair) sources.push_back(inferred_source());
-  offered += report.read;
-  if (offered == 0) throw InputError("nothing to import: the sources hold no point with a height");
+  if (!additions.empty()) require_points(report, options, stored);
   if (ground != nullptr) collection.raise(*ground, raised, progress);
 
   const ThemeLines lines = collection.finish(ground, progress);
@@ -285,8 +286,7 @@ bool write_store(const Target& target, const Store* base, Additions& additions, 
     sources[s].vertices = pyramid.vertices_of_source[s];
     report.vertices += sources[s].vertices;
   }
-  if (report.vertices == 0)
-    throw InputError("nothing to import: no three points are near enough to each other to be ground (see --max-gap)");
+  require_ground(report, options);
   std::vector<ThemeInfo> themes = counted_themes(collection, lines, pyramid);
   writer.add_footprints(themes, collection.footprints());
   std::vector<ThemePart> parts;
@@ -350,7 +350,9 @@ void write_in_turns(const std::string& store_path, StoreWriter& writer, const st
   }
   report.features += raised.features;
   report.refused += raised.refused;
-  report.warnings.insert(report.warnings.end(), raised.warnings.begin(), raised.warnings.end());
+  const std::vector<std::string> warnings = standing_warnings(raised, existing ? &existing->metadata() : nullptr,
+                                                              imported_sources(existing ? &*existing : nullptr).size());
+  report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
 }
 
 ImportReport import_sources(const std::string& store_path, const ImportOptions& options, Progress& progress) {
@@ -392,7 +394,6 @@ ImportReport import_lines(const std::string& store_path, const ImportOptions& op
   ImportOptions lines = options;
   if (lines.theme.empty()) lines.theme = name_of(*options.kind);
   require_theme_name(lines.theme);
-  if (!stands(options)) refuse_heights(options);
   if (options.kind != ThemeKind::Contours && !std::filesystem::exists(store_path)) {
     throw InputError(fmt::format("{}: there is no such store; {} need ground to lie on, so import terrain first",
                                  store_path, name_of(*options.kind)));

@@ -248,6 +248,15 @@ LasFile::LasFile(std::string path) : path_(std::move(path)) {
   check_room(header_, bytes);
 }
 
+std::uint64_t LasFile::records_not_promised() const {
+  // Of files with waveforms these may follow the points.
+  const bool waveforms = header_.point_format == 4 || header_.point_format == 5 || header_.point_format >= 9;
+  if (header_.compressed || waveforms) return 0;
+  const std::uint64_t end = header_.evlr_count > 0 ? std::min(header_.evlr_offset, file_size_) : file_size_;
+  const std::uint64_t promised_end = header_.point_offset + header_.point_count * header_.record_length;
+  return end > promised_end ? (end - promised_end) / header_.record_length : 0;
+}
+
 LasPoint LasFile::first_point() const {
   Bytes bytes(path_);
   std::array<char, 20> record{};

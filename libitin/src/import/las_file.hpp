@@ -58,6 +58,8 @@ class LasFile {
   const LasHeader& header() const { return header_; }
   const LasProjectionRecords& projection() const { return projection_; }
   std::uint64_t file_size() const { return file_size_; }
+  /// Records between the points that the header promises and whatever follows them: 0, unless its count is wrong.
+  std::uint64_t records_not_promised() const;
   /// The first point, without its attributes. Precondition: not compressed, and at least one point.
   LasPoint first_point() const;
   /// All points in the file's order. Precondition: not compressed. Throws FileError, and what the sink throws.

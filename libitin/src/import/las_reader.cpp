@@ -56,6 +56,12 @@ class LasReader final : public PointReader {
   const std::string& path() const override { return file_.path(); }
   std::string crs() const override { return projection_.crs; }
   std::optional<double> metres_per_height() const override { return projection_.metres_per_height; }
+  std::vector<std::string> warnings() const override {
+    const std::uint64_t more = file_.records_not_promised();
+    if (more == 0) return {};
+    return {fmt::format("{}: the header promises {} points, but the file has room for {}; the others were not read",
+                        path(), file_.header().point_count, file_.header().point_count + more)};
+  }
   Point2 centre() const override { return centre_; }
   double size_hint() const override { return static_cast<double>(file_.header().point_count); }
 

@@ -16,28 +16,8 @@ namespace itin {
 
 namespace {
 
-/// A city has thousands of odd footprints; the first ones tell what is the matter.
-constexpr std::size_t kMostFindings = 20;
-
 /// Measured at the peak of imports, rounded up: of lines while they are simplified, of features while they are raised.
 constexpr std::uint64_t kBytesPerLineVertex = 800, kBytesPerFeatureVertex = 3000;
-
-std::uint64_t vertices_of(const FootprintFeature& feature) {
-  std::uint64_t count = 0;
-  for (const PlanRing& ring : feature.rings) count += ring.size();
-  for (const RoofSurface& surface : feature.surfaces)
-    for (const auto& ring : surface.rings) count += ring.size();
-  return count;
-}
-
-void add_findings(const std::string& theme, const std::vector<std::string>& findings,
-                  std::vector<std::string>& warnings) {
-  for (std::size_t i = 0; i < std::min(findings.size(), kMostFindings); ++i)
-    warnings.push_back(fmt::format("theme '{}': {}", theme, findings[i]));
-  if (findings.size() > kMostFindings)
-    warnings.push_back(fmt::format("theme '{}': {} more like these", theme, findings.size() - kMostFindings));
-}
-
 /// The full surface's third vertex left of an edge of it.
 std::optional<Position> apex_of(const Store& ground, Position from, Position to) {
   const Grid& grid = ground.metadata().grid;
@@ -164,7 +144,7 @@ void LineCollection::add(std::uint32_t theme, std::uint16_t source, std::span<co
 }
 
 void LineCollection::add_footprint(std::uint32_t theme, StoredFootprint footprint) {
-  feature_vertices_ += vertices_of(footprint.feature);
+  feature_vertices_ += vertex_count(footprint.feature);
   footprints_[theme].push_back(std::move(footprint));
 }
 
@@ -181,7 +161,7 @@ void LineCollection::raise(const Store& ground, RaisedFeatures& report, Progress
     themes_[t].features = standing.built;
     report.features += standing.built;
     report.refused += standing.refused;
-    add_findings(themes_[t].name, standing.reports, report.warnings);
+    report.themes.push_back({themes_[t].name, standing.built, std::move(standing.reports)});
     for (StandingPart& part : standing.parts) parts_.push_back({t, std::move(part)});
     for (const auto& [a, b] : standing.ground.pieces) keep({{a.x, a.y, 0}, {b.x, b.y, 0}, t});
     changed_[t] = std::move(standing.ground);

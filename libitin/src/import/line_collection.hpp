@@ -18,11 +18,17 @@
 
 namespace itin {
 
+struct RaisedTheme {
+  std::string name;
+  std::uint64_t built = 0;  ///< features that stand
+  std::vector<StandingReport> reports;
+};
+
 /// Of all imports so far.
 struct RaisedFeatures {
   std::uint64_t features = 0;  ///< that stand
   std::uint64_t refused = 0;
-  std::vector<std::string> warnings;
+  std::vector<RaisedTheme> themes;  ///< that stand
 };
 
 class LineCollection {

@@ -9,6 +9,7 @@
 
 #include <itin/error.hpp>
 #include <itin/file_digest.hpp>
+#include <itin/height_limit.hpp>
 
 #include "import/quiet_gdal.hpp"
 #include "import/scattered_source.hpp"
@@ -39,7 +40,7 @@ void LineLayer::find_centre() {
     centre_ = {lines.front().x.front(), lines.front().y.front()};
     return;
   }
-  throw FileError(path(), fmt::format("layer '{}' holds no lines{}", layer_.name(),
+  throw FileError(path(), fmt::format("layer '{}' holds no lines or polygons of two or more vertices{}", layer_.name(),
                                       layer_.filtered() > 0 ? " that match --where" : ""));
 }
 
@@ -82,8 +83,10 @@ void LineLayer::add(const OGRSimpleCurve& curve, const OGRFeature& feature, std:
   Line line;
   for (int i = 0; i < count; ++i) {
     const double z = needs_height && !layer_.has_height_field() ? curve.getZ(i) : of_feature;
-    if (!std::isfinite(curve.getX(i)) || !std::isfinite(curve.getY(i)) || std::isinf(z))
+    if (!std::isfinite(curve.getX(i)) || !std::isfinite(curve.getY(i)))
       throw InputError(fmt::format("{}: a coordinate is not a finite number", layer_.place(feature)));
+    if (const double metres = z * metres_per_height_; !is_height(metres) && !std::isnan(z) && !is_missing_mark(z))
+      require_height(metres, layer_.place(feature));
     line.x.push_back(curve.getX(i));
     line.y.push_back(curve.getY(i));
     line.z.push_back(z);

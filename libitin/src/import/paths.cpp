@@ -57,7 +57,7 @@ std::vector<Path> read_paths(const std::string& path, const std::string& to_crs)
   for (OGRLayer* layer : dataset->GetLayers()) {
     std::optional<CoordinateTransform> transform;
     if (const OGRSpatialReference* own = layer->GetSpatialRef()) transform.emplace(wkt_of(*own), to_crs);
-    for (const OGRFeatureUniquePtr& feature : *layer) {
+    while (const OGRFeatureUniquePtr feature = next_feature(*layer, path)) {
       const std::string place = fmt::format("{}: feature {}", path, feature->GetFID());
       paths.push_back(path_of(*feature, place, transform ? &*transform : nullptr));
     }

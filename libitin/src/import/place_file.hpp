@@ -3,26 +3,39 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
 #include <itin/coordinates.hpp>
 #include <itin/geometry.hpp>
+#include <itin/sites.hpp>
 
 namespace itin {
 
-/// Whether the types of a CSV file's columns are told by their values, or all are texts.
+/// Whether the types of a CSV file's columns are told by their values, or all but those of the position are texts.
 enum class ColumnTypes { kTexts, kTold };
 
 /// Throws FileError. Within the life of a QuietGdal.
 GDALDatasetUniquePtr open_place_file(const std::string& path, ColumnTypes types);
 
-/// From the layer's own CRS or, where it says none, the given one; nothing where that is the wanted one or unknown.
-std::optional<CoordinateTransform> transform_of_places(OGRLayer& layer, const std::string& given_crs,
-                                                       const std::string& to_crs);
+/// Where the features of a layer of such a file lie, in the CRS asked for.
+class Places {
+ public:
+  /// The file must outlive it. From the layer's own CRS or, where it says none, query.crs, else for a CSV file headed
+  /// longitude and latitude kGeographicColumnsCrs, else the wanted one. Throws InputError for a CRS that is unknown.
+  Places(GDALDataset& file, OGRLayer& layer, const SiteQuery& query, const std::string& to_crs);
 
-/// Where a feature of the file lies, in its own CRS; or, in place of nothing, what is wrong with that.
-std::string read_place(GDALDataset& file, const OGRFeature& feature, Point2& place);
+  /// Empty, or what is wrong with the place of the feature.
+  std::string find(const OGRFeature& feature, Point2& place) const;
+
+ private:
+  std::string wrong_coordinate(const OGRFeature& feature) const;
+
+  bool csv_;
+  std::vector<int> columns_;  ///< of x and y in a CSV file; none where its header names no position
+  std::optional<CoordinateTransform> transform_;
+};
 
 }  // namespace itin

@@ -1,10 +1,8 @@
 #include <array>
-#include <cerrno>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,6 +13,8 @@
 #include "import/point_source.hpp"
 #include "import/raster_source.hpp"
 #include "import/source_context.hpp"
+#include "import/source_options.hpp"
+#include "import/source_path.hpp"
 #include "import/terrain_source.hpp"
 
 namespace itin {
@@ -33,24 +33,45 @@ bool is_las(const std::string& path) {
   return std::string_view(magic.data(), magic.size()) == "LASF";
 }
 
-void require_readable(const std::string& path) {
-  errno = 0;
-  if (!std::ifstream(path, std::ios::binary)) {
-    throw FileError(path, "cannot be opened: " + std::generic_category().message(errno));
-  }
+/// The files that a source stands for: those in an archive, or itself.
+struct Identified {
+  std::vector<std::string> paths;
+  SourceKind kind;
+};
+
+Identified identify(const std::string& path) {
+  require_plain_file(path);
+  if (is_las(path)) return {{path}, SourceKind::las};
+  if (std::vector<std::string> rasters = find_rasters(path); !rasters.empty())
+    return {std::move(rasters), SourceKind::raster};
+  if (is_missing(path)) throw FileError(path, "there is no such file");
+  if (path.ends_with(".zip")) throw FileError(path, "holds no raster that can be read; unpack other files first");
+  return {{path}, is_delimited_text(path) ? SourceKind::text : SourceKind::points};
 }
 
-void open_sources(const std::string& path, const ImportOptions& options, SourceFiles& opened) {
-  if (is_las(path)) {
-    opened.push_back(open_las_source(path, options));
-    return;
+SourceFiles open_terrain(const ImportOptions& options) {
+  std::vector<Identified> files;
+  std::vector<SourceKind> kinds;
+  for (const std::string& path : options.sources) {
+    files.push_back(identify(path));
+    kinds.push_back(files.back().kind);
   }
-  const std::vector<std::string> rasters = find_rasters(path);
-  for (const std::string& raster : rasters) opened.push_back(open_raster_source(raster, options));
-  if (!rasters.empty()) return;
-  if (!path.starts_with("/vsi")) require_readable(path);
-  if (path.ends_with(".zip")) throw FileError(path, "holds no raster that can be read; unpack other files first");
-  opened.push_back(open_point_source(path, options));
+  require_useful_options(options, kinds);
+  SourceFiles opened;
+  for (const auto& [paths, kind] : files) {
+    for (const std::string& path : paths)
+      opened.push_back(kind == SourceKind::las      ? open_las_source(path, options)
+                       : kind == SourceKind::raster ? open_raster_source(path, options)
+                                                    : open_point_source(path, options));
+  }
+  return opened;
+}
+
+std::vector<std::unique_ptr<LineLayer>> open_lines(const ImportOptions& options) {
+  require_useful_options(options, std::array{kind_of_lines(*options.kind)});
+  std::vector<std::unique_ptr<LineLayer>> layers;
+  for (const std::string& path : options.sources) layers.push_back(std::make_unique<LineLayer>(path, options));
+  return layers;
 }
 
 Crs metric_crs(const std::string& text, const std::string& place) {
@@ -138,13 +159,10 @@ ImportPlan plan_import(const ImportOptions& options, const StoreMetadata* existi
   if (options.sources.empty()) throw InputError("import: name at least one source");
   ImportPlan plan;
   SourceFiles points;
-  for (const std::string& path : options.sources) {
-    if (options.kind) {
-      if (!path.starts_with("/vsi")) require_readable(path);
-      plan.lines.push_back(std::make_unique<LineLayer>(path, options));
-    } else {
-      open_sources(path, options, points);
-    }
+  if (options.kind) {
+    plan.lines = open_lines(options);
+  } else {
+    points = open_terrain(options);
   }
   OpenedFiles opened;
   for (const auto& file : points) opened.push_back(file.get());

@@ -44,7 +44,8 @@ class PointLayer final : public PointReader {
   Point2 centre_;
 };
 
-PointLayer::PointLayer(const std::string& path, const ImportOptions& options) : layer_(path, options, "a point layer") {
+PointLayer::PointLayer(const std::string& path, const ImportOptions& options)
+    : layer_(path, options, "a layer of points") {
   check_geometry_type();
   layer_.select(options);
   centre_ = find_centre();

@@ -21,9 +21,6 @@ bool is_delimited_text(const std::string& path) {
 
 std::unique_ptr<SourceFile> open_point_source(const std::string& path, const ImportOptions& options) {
   if (!is_delimited_text(path)) return scattered_source(open_point_layer(path, options), options);
-  for (const auto& [value, name] : {std::pair{&options.layer, "--layer"}, std::pair{&options.where, "--where"}})
-    if (!value->empty())
-      throw InputError(path + ": " + name + " applies to vector layers, not to delimited text; import it by itself");
   return scattered_source(std::make_unique<DelimitedText>(path, options.z_field), options);
 }
 

@@ -13,8 +13,7 @@ namespace itin {
 /// Whether the name ends like delimited text: .csv, .xyz, .txt, .tsv.
 bool is_delimited_text(const std::string& path);
 
-/// Delimited text by its name's ending, otherwise a layer of points through GDAL. Throws FileError, InputError; also
-/// InputError where options ask for a layer or an attribute filter of delimited text, which has neither.
+/// Delimited text by its name's ending, otherwise a layer of points through GDAL. Throws FileError, InputError.
 std::unique_ptr<SourceFile> open_point_source(const std::string& path, const ImportOptions& options);
 
 /// LAS or LAZ; see las_reader.hpp. Throws FileError, InputError.

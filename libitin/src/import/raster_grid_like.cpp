@@ -8,6 +8,7 @@
 #include <itin/raster.hpp>
 
 #include "import/quiet_gdal.hpp"
+#include "import/raster_file.hpp"
 
 namespace itin {
 
@@ -25,8 +26,7 @@ bool same_crs(const OGRSpatialReference& crs, const std::string& wkt) {
 
 RasterGrid raster_grid_like(const std::string& path, const std::string& crs_wkt) {
   const QuietGdal quiet;
-  const GDALDatasetUniquePtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
-  if (!dataset) throw FileError(path, "no raster that can be read; name one for its grid");
+  const GDALDatasetUniquePtr dataset = open_raster_file(path);
   std::array<double, 6> affine{};
   if (dataset->GetGeoTransform(affine.data()) != CE_None)
     throw InputError(path + ": has no georeference, so its grid is unknown");

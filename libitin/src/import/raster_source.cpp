@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include <cpl_conv.h>
@@ -14,9 +15,11 @@
 #include <ogr_spatialref.h>
 
 #include <itin/error.hpp>
+#include <itin/raster_values.hpp>
 
 #include "import/height_band.hpp"
 #include "import/quiet_gdal.hpp"
+#include "import/raster_file.hpp"
 #include "import/raster_windows.hpp"
 
 namespace itin {
@@ -38,19 +41,6 @@ struct Lattice {
   }
 };
 
-bool is_text_of_points(GDALDriver& driver) {
-  return EQUAL(driver.GetDescription(), "XYZ");
-}
-
-bool is_raster(const std::string& path) {
-  auto* driver = static_cast<GDALDriver*>(GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, nullptr, nullptr));
-  if (!driver || is_text_of_points(*driver)) return false;
-  if (!driver->GetMetadataItem(GDAL_DCAP_VECTOR)) return true;
-  // A GeoPackage, say, holds either; only opening it tells.
-  const QuietGdal quiet;
-  return GDALDatasetUniquePtr(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY)) != nullptr;
-}
-
 std::vector<std::string> rasters_in_archive(const std::string& archive) {
   std::vector<std::string> found;
   const CPLStringList entries(VSIReadDirRecursive(archive.c_str()));
@@ -58,13 +48,6 @@ std::vector<std::string> rasters_in_archive(const std::string& archive) {
     if (const std::string path = archive + "/" + entries[i]; is_raster(path)) found.push_back(path);
   std::sort(found.begin(), found.end());
   return found;
-}
-
-GDALDatasetUniquePtr open_dataset(const std::string& path) {
-  const QuietGdal quiet;
-  GDALDatasetUniquePtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
-  if (!dataset) throw FileError(path, "cannot be read as a raster: " + QuietGdal::message("unknown error"));
-  return dataset;
 }
 
 Lattice lattice_of(GDALDataset& dataset, const std::string& path) {
@@ -119,17 +102,27 @@ struct Batch {
   std::vector<GridPoint> points;
 };
 
+/// What is known of a raster before its posts are read.
+struct OpenedRaster {
+  std::string path;
+  std::optional<int> band;  ///< as the call says
+  std::uint64_t memory_bytes = 0;
+  Lattice lattice;
+  Crs crs;
+  double metres_per_height = 1;
+};
+
 class RasterTerrain final : public TerrainSource {
  public:
-  RasterTerrain(std::string path, const Lattice& lattice, const Crs& crs, double metres_per_height,
-                std::uint64_t memory_bytes, const SourceContext& context)
-      : path_(std::move(path)),
-        lattice_(lattice),
-        memory_bytes_(memory_bytes),
-        placement_(path_, crs, metres_per_height, context) {
+  RasterTerrain(const OpenedRaster& raster, const SourceContext& context)
+      : path_(raster.path),
+        band_(raster.band),
+        lattice_(raster.lattice),
+        memory_bytes_(raster.memory_bytes),
+        placement_(path_, raster.crs, raster.metres_per_height, context) {
     info_.path = path_;
     info_.kind = "terrain";
-    info_.source_crs = crs.whole;
+    info_.source_crs = raster.crs.whole;
     measure_steps();
   }
 
@@ -139,8 +132,9 @@ class RasterTerrain final : public TerrainSource {
   ReadCounts read(const Sink& sink, Progress& progress) override {
     const std::string stage = "reading " + path_;
     const BlockCacheLimit limit(memory_bytes_ / kCacheShare);
-    const GDALDatasetUniquePtr dataset = open_dataset(path_);
-    HeightBand band(*dataset, path_);
+    const QuietGdal quiet;
+    const GDALDatasetUniquePtr dataset = open_raster_file(path_);
+    HeightBand band(*dataset, path_, band_);
     std::vector<double> heights;
     Batch batch;  // not a member: thousands of sources may be planned at once
     voids_ += RasterWindows(band, memory_bytes_).for_each([&](const RasterWindow& window) {
@@ -162,6 +156,7 @@ class RasterTerrain final : public TerrainSource {
   ReadCounts counts(std::uint64_t undeclared_voids) const;
 
   std::string path_;
+  std::optional<int> band_;
   Lattice lattice_;
   std::uint64_t memory_bytes_;
   Placement placement_;
@@ -233,42 +228,32 @@ ReadCounts RasterTerrain::counts(std::uint64_t undeclared_voids) const {
 
 class RasterFile final : public SourceFile {
  public:
-  RasterFile(const std::string& path, const ImportOptions& options) : path_(path), memory_bytes_(options.memory_bytes) {
-    for (const auto& [value, name] : {std::pair{&options.layer, "--layer"}, std::pair{&options.where, "--where"},
-                                      std::pair{&options.z_field, "--z-field"}})
-      if (!value->empty())
-        throw InputError(fmt::format("{}: {} has no meaning for a raster; import it by itself", path, name));
-    const GDALDatasetUniquePtr dataset = open_dataset(path);
+  RasterFile(const std::string& path, const ImportOptions& options) {
     const QuietGdal quiet;
-    const HeightBand band(*dataset, path);
-    RasterWindows(band, memory_bytes_).require_small_blocks(*dataset);
+    const HeightBand band(*dataset, path, options.band);
+    RasterWindows(band, options.memory_bytes).require_small_blocks(*dataset);
     present_ = RasterWindows::present(band);
-    lattice_ = lattice_of(*dataset, path);
-    crs_ = source_crs(path, options.crs, crs_text(*dataset));
-    const HeightUnit unit = height_unit(path, band.stated_unit(warnings_), crs_);
-    metres_per_height_ = unit.metres;
+    raster_ = {path, options.band, options.memory_bytes, lattice_of(*dataset, path), {}, 1};
+    raster_.crs = source_crs(path, options.crs, crs_text(*dataset));
+    const HeightUnit unit = height_unit(path, band.stated_unit(warnings_), raster_.crs);
+    raster_.metres_per_height = unit.metres;
     if (!unit.warning.empty()) warnings_.push_back(unit.warning);
-    if (const int bands = dataset->GetRasterCount(); bands > 1)
-      warnings_.push_back(fmt::format("{}: has {} bands; heights are taken from the first", path, bands));
   }
 
-  Crs crs() const override { return crs_; }
-  const std::string& path() const override { return path_; }
+  Crs crs() const override { return raster_.crs; }
+  const std::string& path() const override { return raster_.path; }
   Point2 centre() const override {
-    return lattice_.post(present_.column + (present_.columns - 1) / 2.0, present_.row + (present_.rows - 1) / 2.0);
+    return raster_.lattice.post(present_.column + (present_.columns - 1) / 2.0,
+                                present_.row + (present_.rows - 1) / 2.0);
   }
   std::vector<std::string> warnings() const override { return warnings_; }
   std::unique_ptr<TerrainSource> bind(const SourceContext& context) override {
-    return std::make_unique<RasterTerrain>(path_, lattice_, crs_, metres_per_height_, memory_bytes_, context);
+    return std::make_unique<RasterTerrain>(raster_, context);
   }
 
  private:
-  std::string path_;
-  std::uint64_t memory_bytes_;
-  Lattice lattice_;
+  OpenedRaster raster_;
   RasterWindow present_;
-  Crs crs_;
-  double metres_per_height_ = 1;
   std::vector<std::string> warnings_;
 };
 

@@ -15,13 +15,13 @@ namespace itin {
 /// it. Text of scattered points is no raster, even where GDAL would grid it.
 std::vector<std::string> find_rasters(const std::string& path);
 
-/// Band 1 with its scale, offset, nodata and mask. Heights keep their exact values: nothing is resampled. Nodata,
-/// masked posts and NaN are voids; so are, with a warning, values that customarily stand for missing data though the
-/// file does not declare them.
+/// The band options.band, else the only one (value_band.hpp), with its scale, offset, nodata and mask. Heights keep
+/// their exact values: nothing is resampled. Nodata, masked posts and NaN are voids; so are, with a warning, values
+/// that customarily stand for missing data though the file does not declare them.
 ///
 /// After reading, SourceInfo::gap_basis holds 1.5 times the longest steps between posts met at the raster's corners and
-/// centre. Throws FileError (unreadable, damaged, several datasets), InputError (no georeference, no CRS, --layer,
-/// --where or --z-field, which have no meaning here).
+/// centre. Throws FileError (unreadable, damaged, several datasets), InputError (no georeference, no CRS, several
+/// bands).
 std::unique_ptr<SourceFile> open_raster_source(const std::string& path, const ImportOptions& options);
 
 }  // namespace itin

@@ -1,8 +1,6 @@
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
-#include <itin/coordinates.hpp>
-#include <itin/error.hpp>
 #include <itin/site_table.hpp>
 
 #include "import/place_file.hpp"
@@ -17,7 +15,7 @@ class RowReader {
  public:
   RowReader(GDALDataset& file, OGRLayer& layer, const SiteQuery& query, const std::vector<std::string>& fields,
             const std::string& to_crs)
-      : file_(file), transform_(transform_of_places(layer, query.crs, to_crs)) {
+      : places_(file, layer, query, to_crs) {
     for (const std::string& name : fields) fields_.push_back(layer.GetLayerDefn()->GetFieldIndex(name.c_str()));
   }
 
@@ -30,26 +28,14 @@ class RowReader {
       row.values.push_back(present ? std::optional<std::string>(feature.GetFieldAsString(field)) : std::nullopt);
     }
     Point2 place;
-    row.error = placed(feature, place);
+    row.error = places_.find(feature, place);
     if (row.error.empty()) row.position = place;
     return row;
   }
 
  private:
-  /// Empty, or what is wrong with the place.
-  std::string placed(const OGRFeature& feature, Point2& place) const {
-    if (std::string wrong = read_place(file_, feature, place); !wrong.empty()) return wrong;
-    try {
-      if (transform_) place = (*transform_)(place);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return {};
-  }
-
-  GDALDataset& file_;
+  Places places_;
   std::vector<int> fields_;
-  std::optional<CoordinateTransform> transform_;
 };
 
 }  // namespace
@@ -59,10 +45,10 @@ std::vector<SiteRow> read_site_rows(const SiteQuery& query, const std::vector<st
   const QuietGdal quiet;
   const GDALDatasetUniquePtr dataset = open_place_file(query.path, ColumnTypes::kTexts);
   OGRLayer& layer = choose_layer(*dataset, query.path, query.layer);
-  if (!query.where.empty()) select_features(layer, query.path, query.where);
+  select_features(layer, query.path, query.where);
   const RowReader reader(*dataset, layer, query, fields, to_crs);
   std::vector<SiteRow> rows;
-  for (const OGRFeatureUniquePtr& feature : layer) rows.push_back(reader.read(*feature));
+  while (const OGRFeatureUniquePtr feature = next_feature(layer, query.path)) rows.push_back(reader.read(*feature));
   return rows;
 }
 

@@ -5,8 +5,8 @@
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
-#include <itin/coordinates.hpp>
 #include <itin/error.hpp>
+#include <itin/height_limit.hpp>
 #include <itin/sites.hpp>
 
 #include "import/place_file.hpp"
@@ -39,6 +39,7 @@ double height_of(const OGRFeature& feature, int field, const std::string& place)
   if (!height || !std::isfinite(*height))
     throw FileError(place,
                     fmt::format("its height field '{}' holds no number", feature.GetFieldDefnRef(field)->GetNameRef()));
+  require_height(*height, place);
   return *height;
 }
 
@@ -69,20 +70,14 @@ struct SiteFields {
   std::vector<int> numbers;
 };
 
-Site site_of(GDALDataset& file, const OGRFeature& feature, const SiteFields& fields, const std::string& place,
-             const std::optional<CoordinateTransform>& transform) {
+Site site_of(const Places& places, const OGRFeature& feature, const SiteFields& fields, const std::string& place) {
   Site site;
   site.feature = feature.GetFID();
   site.name = fields.name < 0 ? std::to_string(site.feature) : feature.GetFieldAsString(fields.name);
-  const std::string wrong = read_place(file, feature, site.position);
+  const std::string wrong = places.find(feature, site.position);
   if (!wrong.empty()) throw FileError(place, wrong);
   if (fields.height >= 0) site.height = height_of(feature, fields.height, place);
   site.numbers = numbers_of(feature, fields.numbers, place);
-  try {
-    if (transform) site.position = (*transform)(site.position);
-  } catch (const InputError& error) {
-    throw FileError(place, error.what());
-  }
   return site;
 }
 
@@ -93,17 +88,17 @@ std::vector<Site> read(const SiteQuery& query, const std::string& to_crs, std::v
   OGRLayer& layer = choose_layer(*dataset, query.path, query.layer);
   const SiteFields fields{field_index(layer, query.path, query.height_field),
                           field_index(layer, query.path, query.name_field), number_fields(layer, query)};
-  if (!query.where.empty()) select_features(layer, query.path, query.where);
-  const std::optional<CoordinateTransform> transform = transform_of_places(layer, query.crs, to_crs);
+  select_features(layer, query.path, query.where);
+  const Places places(*dataset, layer, query, to_crs);
 
   std::vector<Site> sites;
   std::int64_t row = 0;
-  for (const OGRFeatureUniquePtr& feature : layer) {
+  while (const OGRFeatureUniquePtr feature = next_feature(layer, query.path)) {
     const std::string place = fmt::format("{}: feature {}", query.path, feature->GetFID());
     try {
-      sites.push_back(site_of(*dataset, *feature, fields, place, transform));
+      sites.push_back(site_of(places, *feature, fields, place));
       sites.back().row = row++;
-    } catch (const FileError& error) {
+    } catch (const Error& error) {
       if (rejected == nullptr) throw;
       rejected->push_back(error.what());
       ++row;

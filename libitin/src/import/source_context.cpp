@@ -1,13 +1,16 @@
 #include "import/source_context.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/height_limit.hpp>
 
 namespace itin {
 
@@ -15,6 +18,21 @@ namespace {
 
 // No ground lies beyond these; what does is a marker for missing data, or a height in the wrong unit.
 constexpr double kLowest = -12000, kHighest = 20000;
+
+// The least and greatest numbers of common types, and what netCDF and Surfer fill in.
+constexpr double kMissingMarks[] = {-3.4028234663852886e38,
+                                    3.4028234663852886e38,
+                                    -1.7976931348623157e308,
+                                    1.7976931348623157e308,
+                                    -2147483648.0,
+                                    2147483647.0,
+                                    4294967295.0,
+                                    1e20,
+                                    9.969209968386869e36,
+                                    1.70141e38,
+                                    1.7014118346046923e38};
+// Some were written as single precision, or with few digits.
+constexpr double kMarkShare = 1e-6;
 
 }  // namespace
 
@@ -37,20 +55,36 @@ HeightUnit height_unit(const std::string& path, std::optional<double> stated, co
                   path, *crs.metres_per_axis, crs.name)};
 }
 
+bool is_missing_mark(double height) {
+  return std::any_of(std::begin(kMissingMarks), std::end(kMissingMarks),
+                     [&](double mark) { return std::abs(height - mark) <= kMarkShare * std::abs(mark); });
+}
+
 Placement::Placement(std::string path, const Crs& crs, double metres_per_height, const SourceContext& context)
     : path_(std::move(path)),
       transform_(crs.wkt, context.crs_wkt, path_),
       metres_per_height_(metres_per_height),
       grid_(context.grid) {}
 
+void Placement::require_heights(std::span<const double> x, std::span<const double> y, std::span<const double> z) const {
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    const double height = z[i] * metres_per_height_;
+    if (is_height(height) || std::isnan(height) || is_missing_mark(z[i])) continue;
+    require_height(height, fmt::format("{}: at {:.10g},{:.10g}", path_, x[i], y[i]));
+  }
+}
+
 void Placement::place(std::span<double> x, std::span<double> y, std::span<const double> z,
                       std::vector<GridPoint>& points) {
   points.clear();
+  require_heights(x, y, z);
   transform_.transform(x, y);
   for (std::size_t i = 0; i < z.size(); ++i) {
     const double height = z[i] * metres_per_height_;
     if (std::isnan(height)) {
       ++voids_;
+    } else if (!is_height(height)) {
+      ++marks_;
     } else if (!(height >= kLowest && height <= kHighest)) {
       ++out_of_range_;
     } else if (std::isnan(x[i]) || std::isnan(y[i])) {
@@ -58,18 +92,24 @@ void Placement::place(std::span<double> x, std::span<double> y, std::span<const 
     } else if (grid_.covers({x[i], y[i]})) {
       points.push_back(grid_.quantise({x[i], y[i], height}));
     } else {
-      throw InputError(fmt::format(
-          "{}: position {:.2f}, {:.2f} lies beyond the {:.0f} km about {:.2f}, {:.2f} that the store's grid holds at "
-          "{} m; import it into a store of its own, or give a coarser --resolution",
-          path_, x[i], y[i], kGridHalfSide * grid_.resolution / 1000, grid_.origin.x, grid_.origin.y,
-          grid_.resolution));
+      throw InputError(
+          fmt::format("{}: position {:.12g}, {:.12g} lies beyond the {:.0f} km about {:.12g}, {:.12g} that the store's "
+                      "grid holds at "
+                      "{} m; import it into a store of its own, or give a coarser --resolution",
+                      path_, x[i], y[i], kGridHalfSide * grid_.resolution / 1000, grid_.origin.x, grid_.origin.y,
+                      grid_.resolution));
     }
   }
   placed_ += points.size();
 }
 
 ReadCounts Placement::counts() const {
-  ReadCounts counts{placed_, voids_ + out_of_range_ + unmapped_, 0, {}};
+  ReadCounts counts{placed_, voids_ + marks_ + out_of_range_ + unmapped_, 0, {}};
+  if (marks_ > 0)
+    counts.warnings.push_back(fmt::format(
+        "{}: {} heights of what customarily marks missing data, such as {:g}, were taken as missing, though "
+        "the file does not declare it",
+        path_, marks_, kMissingMarks[0]));
   if (out_of_range_ > 0)
     counts.warnings.push_back(
         fmt::format("{}: {} heights below {} m or above {} m were taken as missing; check their "

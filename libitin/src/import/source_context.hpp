@@ -60,6 +60,9 @@ struct HeightUnit {
 /// the CRS's own axes, for a survey in feet has its heights in feet though few files say so, else metres.
 HeightUnit height_unit(const std::string& path, std::optional<double> stated, const Crs& crs);
 
+/// Whether a number is one that customarily stands for a missing height, and is none for sure.
+bool is_missing_mark(double height);
+
 /// Takes points from a source's coordinates to the grid, a batch at a time; the last step of every kind of source.
 class Placement {
  public:
@@ -67,8 +70,8 @@ class Placement {
   Placement(std::string path, const Crs& crs, double metres_per_height, const SourceContext& context);
 
   /// Transforms x and y in place, and replaces `points` by those that have a position and a height. Points whose height
-  /// is NaN, below -12,000 m or above 20,000 m, or whose position has no image are counted as voids. Throws InputError
-  /// for a position the grid cannot hold.
+  /// is NaN, is_missing_mark(), below -12,000 m or above 20,000 m, or whose position has no image are counted as voids.
+  /// Throws InputError for a position the grid cannot hold, and for a height beyond kFarthestHeight.
   void place(std::span<double> x, std::span<double> y, std::span<const double> z, std::vector<GridPoint>& points);
   /// Positions only: of the corners of a lattice step, say. NaN where there is no image.
   void transform(std::span<double> x, std::span<double> y) const { transform_.transform(x, y); }
@@ -77,11 +80,13 @@ class Placement {
   ReadCounts counts() const;
 
  private:
+  void require_heights(std::span<const double> x, std::span<const double> y, std::span<const double> z) const;
+
   std::string path_;
   PointTransform transform_;
   double metres_per_height_;
   Grid grid_;
-  std::uint64_t placed_ = 0, voids_ = 0, out_of_range_ = 0, unmapped_ = 0;
+  std::uint64_t placed_ = 0, voids_ = 0, marks_ = 0, out_of_range_ = 0, unmapped_ = 0;
 };
 
 /// "2024-05-31T12:00:00Z", now.

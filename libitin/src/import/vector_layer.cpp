@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <cpl_conv.h>
-#include <cpl_vsi.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -15,25 +14,23 @@
 
 #include "import/crs.hpp"
 #include "import/quiet_gdal.hpp"
+#include "import/source_path.hpp"
 
 namespace itin {
 
-namespace {
-
-std::string why_not_open(const std::string& path) {
-  VSIStatBufL status;
-  if (VSIStatL(path.c_str(), &status) != 0) return "there is no such file";
-  if (status.st_size == 0) return "is empty";
-  return "not readable as a vector file (" + QuietGdal::message("GDAL knows no such format") + ")";
-}
-
-}  // namespace
-
-GDALDatasetUniquePtr open_vector_file(const std::string& path, const char* const* options) {
+GDALDatasetUniquePtr open_vector_file(const std::string& path, const char* const* options, const std::string& what) {
+  require_plain_file(path);
   GDALDatasetUniquePtr file(
       GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, options, nullptr));
-  if (!file) throw FileError(path, why_not_open(path));
+  if (!file) throw FileError(path, why_not_read(path, what));
   return file;
+}
+
+std::vector<std::string> field_names(OGRLayer& layer) {
+  const OGRFeatureDefn& definition = *layer.GetLayerDefn();
+  std::vector<std::string> names;
+  for (int i = 0; i < definition.GetFieldCount(); ++i) names.emplace_back(definition.GetFieldDefn(i)->GetNameRef());
+  return names;
 }
 
 OGRLayer& choose_layer(GDALDataset& dataset, const std::string& path, const std::string& name) {
@@ -49,20 +46,16 @@ OGRLayer& choose_layer(GDALDataset& dataset, const std::string& path, const std:
 }
 
 int field_of_layer(OGRLayer& layer, const std::string& path, const std::string& name) {
-  const OGRFeatureDefn& definition = *layer.GetLayerDefn();
-  const int index = definition.GetFieldIndex(name.c_str());
+  const int index = layer.GetLayerDefn()->GetFieldIndex(name.c_str());
   if (index >= 0) return index;
-  std::vector<std::string> names;
-  for (int i = 0; i < definition.GetFieldCount(); ++i) names.emplace_back(definition.GetFieldDefn(i)->GetNameRef());
-  throw FileError(path, fmt::format("layer '{}' has no field '{}'; it has {}", layer.GetName(), name, names));
+  throw FileError(path,
+                  fmt::format("layer '{}' has no field '{}'; it has {}", layer.GetName(), name, field_names(layer)));
 }
 
-void select_features(OGRLayer& layer, const std::string& path, const std::string& where) {
-  // Databases look at the clause only when they count or read.
-  const bool understood = layer.SetAttributeFilter(where.c_str()) == OGRERR_NONE && layer.GetFeatureCount() >= 0 &&
-                          CPLGetLastErrorType() < CE_Failure;
-  if (understood) return;
-  const std::string reason = QuietGdal::message("unknown error");
+namespace {
+
+[[noreturn]] void refuse_clause(OGRLayer& layer, const std::string& path, const std::string& where) {
+  const std::string reason = QuietGdal::message("GDAL does not say why");
   // OGR's own SQL, then SQLite's: the contract tells an unknown field from a clause that makes no sense.
   if (reason.find("not recognised as an available field") != std::string::npos ||
       reason.find("no such column") != std::string::npos)
@@ -71,36 +64,49 @@ void select_features(OGRLayer& layer, const std::string& path, const std::string
   throw InputError(fmt::format("{}: --where {} is not understood: {}", path, where, reason));
 }
 
+}  // namespace
+
+std::uint64_t select_features(OGRLayer& layer, const std::string& path, const std::string& where) {
+  if (where.empty()) return 0;
+  const GIntBig all = layer.GetFeatureCount();
+  CPLErrorReset();
+  // Databases look at the clause only when they count or read.
+  const bool understood = layer.SetAttributeFilter(where.c_str()) == OGRERR_NONE;
+  const GIntBig left = layer.GetFeatureCount();
+  if (!understood || left < 0 || QuietGdal::failed()) refuse_clause(layer, path, where);
+  if (left == 0 && all > 0)
+    throw InputError(fmt::format("{}: --where {} leaves none of {} feature{} of layer '{}'", path, where, all,
+                                 all == 1 ? "" : "s", layer.GetName()));
+  return static_cast<std::uint64_t>(std::max<GIntBig>(0, all - left));
+}
+
+/// GDAL tells an end from a failure only by its error state, which others may leave set between two calls.
+OGRFeatureUniquePtr next_feature(OGRLayer& layer, const std::string& path) {
+  const QuietGdal quiet;
+  OGRFeatureUniquePtr feature(layer.GetNextFeature());
+  // A damaged geometry comes as none.
+  if (QuietGdal::failed() && (!feature || feature->GetGeometryRef() == nullptr))
+    throw FileError(path, "a feature cannot be read: " + QuietGdal::message("GDAL does not say why"));
+  return feature;
+}
+
 VectorLayer::VectorLayer(std::string path, const ImportOptions& options, const std::string& what)
     : path_(std::move(path)) {
   const QuietGdal quiet;
-  dataset_.reset(GDALDataset::Open(path_.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
-  if (!dataset_) throw FileError(path_, "cannot be read as " + what + ": " + QuietGdal::message("unknown error"));
+  dataset_ = open_vector_file(path_, nullptr, what);
   layer_ = &choose_layer(*dataset_, path_, options.layer);
 }
 
 void VectorLayer::select(const ImportOptions& options) {
   const QuietGdal quiet;
   if (!options.z_field.empty()) height_field_ = field_of_layer(*layer_, path_, options.z_field);
-  const GIntBig all = layer_->GetFeatureCount();
-  if (!options.where.empty()) select_features(*layer_, path_, options.where);
-  const GIntBig matching = layer_->GetFeatureCount();
-  matching_ = static_cast<std::uint64_t>(std::max<GIntBig>(0, matching));
-  filtered_ = static_cast<std::uint64_t>(std::max<GIntBig>(0, all - matching));
+  filtered_ = select_features(*layer_, path_, options.where);
+  matching_ = static_cast<std::uint64_t>(std::max<GIntBig>(0, layer_->GetFeatureCount()));
 }
 
 std::string VectorLayer::crs() const {
   const OGRSpatialReference* reference = layer_->GetSpatialRef();
   return reference ? wkt_of(*reference) : std::string();
-}
-
-/// The next feature; null at the end. GDAL tells an end from a failure only by its error state, which others may leave
-/// set between two calls.
-OGRFeatureUniquePtr VectorLayer::next() {
-  const QuietGdal quiet;
-  OGRFeatureUniquePtr feature(layer_->GetNextFeature());
-  if (!feature && QuietGdal::failed()) throw FileError(path_, QuietGdal::message("unknown error"));
-  return feature;
 }
 
 double VectorLayer::height(const OGRFeature& feature) const {

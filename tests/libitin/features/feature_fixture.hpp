@@ -120,7 +120,7 @@ inline double mask_area(const FeatureMesh& mesh, std::uint32_t feature) {
 }
 
 inline bool reported(const FeatureMesh& mesh, const std::string& text) {
-  for (const std::string& line : mesh.reports)
+  for (const auto& [feature, line] : mesh.reports)
     if (line.find(text) != std::string::npos) return true;
   return false;
 }

@@ -119,6 +119,74 @@ TEST_F(FootprintReader, TakesFeetForFeet) {
   EXPECT_NEAR(*source.features[0].height, 30.48006, 1e-4);
 }
 
+/// A cube of a building, in which the text `from` became `to`.
+std::string cube_with(const std::string& from, const std::string& to) {
+  std::string text = R"({"type":"CityJSON","version":"2.0","transform":{"scale":[1,1,1],"translate":[0,0,0]},
+    "appearance":{"materials":[{"name":"brick"}]},
+    "geometry-templates":{"templates":[{"type":"MultiSurface","lod":"2","boundaries":[[[0,1,2]]]}],
+      "vertices-templates":[[0,0,0],[1,0,0],[0,1,0]]},
+    "CityObjects":{"hut":{"type":"Building","geometry":[
+      {"type":"GeometryInstance","template":0,"boundaries":[0],
+       "transformationMatrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]},
+      {"type":"MultiSurface","lod":"2","boundaries":[[[0,3,2,1]],[[4,5,6,7]]],
+       "semantics":{"surfaces":[{"type":"GroundSurface"},{"type":"RoofSurface"}],"values":[0,1]},
+       "material":{"":{"values":[0,null]}}}]}},
+    "vertices":[[0,0,0],[9,0,0],[9,9,0],[0,9,0],[0,0,5],[9,0,5],[9,9,5],[0,9,5]]})";
+  return text.replace(text.find(from), from.size(), to);
+}
+
+TEST_F(FootprintReader, RefusesIndicesThatAreNoWholeNumbersInRange) {
+  const auto read_text = [&](const std::string& text) {
+    CityJsonQuery query;
+    query.path = write("cube.json", text);
+    query.crs = "EPSG:28992";
+    return read_city_json(query, wkt("EPSG:28992"));
+  };
+  EXPECT_EQ(read_text(cube_with("5]", "5]")).features.size(), 1U);
+  EXPECT_EQ(read_text(cube_with("[4,5,6,7]", "[4,5,6,7.0]")).features.size(), 1U);
+  struct Damage {
+    std::string from, to, said;
+  };
+  std::vector<Damage> damages;
+  for (const std::string bad : {"-1", "1.5", "8", "4294967296", "4294967300", "1e300", "\"1\"", "true", "{}"}) {
+    damages.push_back({"[4,5,6,7]", "[4,5,6," + bad + "]", "is no index of one of 8 vertices"});
+    damages.push_back({"\"boundaries\":[0]", "\"boundaries\":[" + bad + "]", "is no index of one of 8 vertices"});
+    damages.push_back({"\"values\":[0,1]", "\"values\":[0," + bad + "]", "is no index of one of 2 semantic surfaces"});
+    damages.push_back({"[0,null]", "[" + bad + ",null]", "is no index of one of 1 materials"});
+    damages.push_back({"\"template\":0", "\"template\":" + bad, "is no index of one of 1 geometry templates"});
+    damages.push_back({"[0,1,2]", "[0,1," + bad + "]", "is no index of one of 3 vertices"});
+  }
+  for (const std::string bad : {"[1,1]", "[1,1,\"1\"]", "1", "[1,1,null]"}) {
+    damages.push_back({"\"scale\":[1,1,1]", "\"scale\":" + bad, "scale of the transform"});
+    damages.push_back({"[9,9,5]", bad, "vertices"});
+  }
+  damages.push_back({"[4,5,6,7]", "[[[[[[4,5,6,7]]]]]]", "nested more than 5 deep"});
+  // No deeper recursion than that.
+  damages.push_back({"[4,5,6,7]", std::string(200000, '[') + std::string(200000, ']'), "nested more than 5 deep"});
+  damages.push_back({"[4,5,6,7]", "7", "an array of vertex indices belongs"});
+  damages.push_back({"\"type\":\"Building\",", "", "hut: has no 'type'"});
+  damages.push_back({"\"lod\":\"2\",\"boundaries\":[[[0,3", "\"lod\":[],\"boundaries\":[[[0,3", "'lod' is an array"});
+  damages.push_back({"[9,9,5]", "[9,9,1e999]", "holds a number beyond all bounds"});
+  damages.push_back({"[9,9,5]", "[9,9,", "is no JSON"});
+  for (const Damage& damage : damages) {
+    const std::string text = cube_with(damage.from, damage.to);
+    EXPECT_THAT([&] { read_text(text); },
+                ThrowsMessage<FileError>(AllOf(HasSubstr("cube.json: "), HasSubstr(damage.said))))
+        << damage.to;
+  }
+  EXPECT_THAT([&] { read_text(cube_with("[9,9,5]", "[9,9,5e6]")); },
+              ThrowsMessage<InputError>(HasSubstr("cube.json: hut: a height of 5e+06 m is beyond 1000000 m")));
+}
+
+TEST_F(FootprintReader, RefusesHeightsBeyondAllAndNamesTheFeature) {
+  FootprintQuery query;
+  query.path =
+      layer(feature(R"("h":5e6)", "Polygon", "[[[300000,200000],[300010,200000],[300010,200010],[300000,200000]]]"));
+  query.height_field = "h";
+  EXPECT_THAT([&] { read(query); },
+              ThrowsMessage<InputError>(HasSubstr("feature 0: h: a height of 5e+06 m is beyond")));
+}
+
 TEST_F(FootprintReader, RefusesBrokenCityJson) {
   CityJsonQuery query;
   query.path = write("a.json", R"({"type":"CityJSON","version":"2.0","CityObjects":{"x":{"type":"Building","geometry":[
@@ -139,7 +207,7 @@ void print(const std::string& what, const FootprintSource& source, const Feature
             << " %), " << mesh.flat_instead << " flat instead, " << mesh.vertices.size() << " vertices, "
             << mesh.reports.size() << " reports\n";
   for (std::size_t i = 0; i < std::min<std::size_t>(mesh.reports.size(), 12); ++i)
-    std::cout << "  " << mesh.reports[i] << "\n";
+    std::cout << "  " << mesh.reports[i].text << "\n";
 }
 
 Grid grid_about(const FootprintSource& source) {

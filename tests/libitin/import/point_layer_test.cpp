@@ -166,7 +166,8 @@ TEST_F(PointLayer, UnknownNamesAreAnsweredWithTheKnown) {
   options.where = "elevation > 100";
   EXPECT_THAT(refusal<FileError>(path, options), HasSubstr("a field that layer 'spots' has not"));
   options.where = "h > 100";
-  EXPECT_THAT(refusal<FileError>(path, options), HasSubstr("match --where"));
+  EXPECT_THAT(refusal<InputError>(path, options),
+              HasSubstr("--where h > 100 leaves none of 2 features of layer 'spots'"));
 }
 
 TEST_F(PointLayer, NonFiniteNumbersNameTheFeature) {
@@ -181,7 +182,7 @@ TEST_F(PointLayer, NonFiniteNumbersNameTheFeature) {
 }
 
 TEST_F(PointLayer, FilesThatAreNotLayers) {
-  EXPECT_THAT(refusal<FileError>("/nowhere/a.gpkg"), HasSubstr("cannot be read"));
+  EXPECT_THAT(refusal<FileError>("/nowhere/a.gpkg"), HasSubstr("there is no such file"));
   EXPECT_THAT(refusal<FileError>(directory_.write("a.gpkg", "nonsense")), HasSubstr("cannot be read"));
   EXPECT_THAT(refusal<FileError>(write({TestLayer{"empty", wkbPoint25D, {}}}, "GPKG", "b.gpkg")),
               HasSubstr("holds no points"));

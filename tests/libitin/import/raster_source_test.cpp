@@ -243,12 +243,57 @@ TEST_F(RasterSource, TakesUndeclaredMarkersForVoids) {
   expect_exact(directory_.file("b.tif"), {1, "", [](double raw) { return raw < -12000 || raw > 20000; }});
 }
 
-TEST_F(RasterSource, SaysThatItTakesTheFirstOfSeveralBands) {
+TEST_F(RasterSource, AsksWhichOfSeveralBands) {
   MadeRaster made = hills(30, 20);
   made.bands = 3;
   test::write_raster(directory_.file("a.tif"), made);
-  expect_exact(directory_.file("a.tif"));
-  EXPECT_THAT(plan_.warnings, ElementsAre(HasSubstr("has 3 bands; heights are taken from the first")));
+  EXPECT_THAT(refusal<InputError>(directory_.file("a.tif")), HasSubstr("has 3 bands, 1, 2, 3; say with --band N"));
+  ImportOptions options;
+  options.band = 1;
+  expect_exact(directory_.file("a.tif"), {}, options);
+  EXPECT_THAT(plan_.warnings, ElementsAre());
+  options.band = 4;
+  EXPECT_THAT(refusal<InputError>(directory_.file("a.tif"), options), HasSubstr("has no band 4, only bands 1 to 3"));
+}
+
+TEST_F(RasterSource, TakesAnAlphaBandForAMask) {
+  const std::string path = directory_.file("a.tif");
+  {
+    const char* const options[] = {"ALPHA=YES", nullptr};
+    const GDALDatasetUniquePtr made(test::driver("GTiff").Create(path.c_str(), 8, 8, 2, GDT_Float32, options));
+    std::array<double, 6> transform{300000, 50, 0, 200000, 0, -50};
+    made->SetGeoTransform(transform.data());
+    OGRSpatialReference crs;
+    crs.SetFromUserInput("EPSG:27700");
+    made->SetSpatialRef(&crs);
+    made->GetRasterBand(1)->Fill(7);
+    made->GetRasterBand(2)->Fill(255);
+    float hidden = 0;
+    ASSERT_EQ(made->GetRasterBand(2)->RasterIO(GF_Write, 3, 3, 1, 1, &hidden, 1, 1, GDT_Float32, 0, 0, nullptr),
+              CE_None);
+    made->GetRasterBand(2)->SetColorInterpretation(GCI_AlphaBand);
+  }
+  const ImportPlan plan = plan_of(path, {});
+  const test::Reading reading = test::read(*plan.sources.at(0));
+  EXPECT_EQ(reading.points.size(), 63U);
+  ImportOptions options;
+  options.band = 2;
+  EXPECT_THAT(refusal<FileError>(path, options), HasSubstr("band 2 is a mask, and holds no heights"));
+}
+
+TEST_F(RasterSource, RefusesHeightsBeyondAll) {
+  MadeRaster made = hills(8, 8);
+  made.posts[9] = 1.5e6;
+  test::write_raster(directory_.file("a.tif"), made);
+  EXPECT_THAT(refusal<InputError>(directory_.file("a.tif")),
+              HasSubstr("a.tif: at 300075,199925: a height of 1.5e+06 m is beyond 1000000 m"));
+  // What marks missing data is none, though the file does not declare it.
+  made.posts[9] = -3.4028234663852886e38;
+  test::write_raster(directory_.file("b.tif"), made);
+  const ImportPlan plan = plan_of(directory_.file("b.tif"), {});
+  const test::Reading reading = test::read(*plan.sources.at(0));
+  EXPECT_EQ(reading.points.size(), 63U);
+  EXPECT_THAT(reading.counts.warnings, ElementsAre(HasSubstr("customarily marks missing data")));
 }
 
 TEST_F(RasterSource, GivesItsLatticeSteps) {
@@ -354,14 +399,7 @@ TEST_F(RasterSource, RefusesWhatHoldsNoHeights) {
   colours.SetColorEntry(0, &green);
   picture->GetRasterBand(1)->SetColorTable(&colours);
   picture->FlushCache();
-  EXPECT_THAT(refusal<FileError>(directory_.file("map.tif")), HasSubstr("holds colours, not heights"));
-}
-
-TEST_F(RasterSource, RefusesOptionsOfPointLayers) {
-  test::write_raster(directory_.file("a.tif"), hills(8, 8));
-  ImportOptions options;
-  options.where = "z > 0";
-  EXPECT_THAT(refusal<InputError>(directory_.file("a.tif"), options), HasSubstr("--where has no meaning for a raster"));
+  EXPECT_THAT(refusal<FileError>(directory_.file("map.tif")), HasSubstr("holds colours of a palette, not heights"));
 }
 
 TEST_F(RasterSource, RefusesDamagedFiles) {

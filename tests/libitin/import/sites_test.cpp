@@ -1,12 +1,19 @@
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
+#include <random>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <itin/coordinates.hpp>
 #include <itin/error.hpp>
 #include <itin/sites.hpp>
+
+#include "import/delimited_text.hpp"
+#include "support/seed.hpp"
 
 namespace itin {
 
@@ -65,6 +72,69 @@ TEST_F(Sites, CarryFurtherNumbers) {
               ThrowsMessage<FileError>(HasSubstr("feature 1: its field 'note' holds no number")));
   query.numbers = {{"to"}};
   EXPECT_THAT([&] { read_sites(query, ""); }, ThrowsMessage<FileError>(HasSubstr("no field 'to'")));
+}
+
+TEST_F(Sites, InCsvHeadedLongitudeAndLatitudeAreGeographic) {
+  for (const char* header : {"lon,lat", "Longitude,LATITUDE", "lng,lat", "long,lat"}) {
+    const SiteQuery query = file("masts.csv", std::string(header) + "\n-3.2934,51.5437\n");
+    const std::vector<Site> sites = read_sites(query, "EPSG:27700");
+    ASSERT_EQ(sites.size(), 1u) << header;
+    EXPECT_NEAR(sites[0].position.x, 310375, 200) << header;
+    EXPECT_NEAR(sites[0].position.y, 183525, 200) << header;
+  }
+  // What the call says of the CRS comes before what a header says.
+  SiteQuery query = file("masts.csv", "lon,lat\n310375,183525\n");
+  query.crs = "EPSG:27700";
+  EXPECT_EQ(read_sites(query, "EPSG:27700").front().position, (Point2{310375, 183525}));
+  EXPECT_THAT([&] { read_sites(file("m.csv", "lon,lat\n310375,183525\n"), "EPSG:27700"); },
+              ThrowsMessage<FileError>(HasSubstr("cannot be transformed")));
+}
+
+TEST_F(Sites, TakeTheColumnsOfOnePair) {
+  EXPECT_EQ(read_sites(file("a.csv", "lat,lon,easting,northing\n51,-3,7,8\n"), "EPSG:27700").front().position,
+            (Point2{7, 8}));
+  EXPECT_EQ(read_sites(file("b.csv", "lat,y,x\n51,8,7\n"), "EPSG:27700").front().position, (Point2{7, 8}));
+  EXPECT_EQ(read_sites(file("c.csv", "\xEF\xBB\xBFx;y\r\n7;8\r\n"), "EPSG:27700").front().position, (Point2{7, 8}));
+  EXPECT_THAT([&] { read_sites(file("d.csv", "x,lat\n7,8\n"), "EPSG:27700"); },
+              ThrowsMessage<FileError>(HasSubstr("must name x and y, easting and northing, or lon and lat")));
+}
+
+TEST_F(Sites, AreReadFromCsvAsPointsToImportAre) {
+  const std::vector<std::string> names{"x",        "y",       "lon",      "lat", "Longitude",
+                                       "LATITUDE", "easting", "northing", "e",   "n"};
+  std::mt19937 random(test::seed());
+  for (int turn = 0; turn < 60; ++turn) {
+    std::vector<std::string> columns = names;
+    std::shuffle(columns.begin(), columns.end(), random);
+    columns.resize(2 + random() % 5);
+    columns.push_back("z");
+    std::string header, row;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      header += (i == 0 ? "" : ",") + columns[i];
+      row += fmt::format("{}{}", i == 0 ? "" : ",", 0.5 + static_cast<double>(i));
+    }
+    SCOPED_TRACE(header);
+    const SiteQuery query = file("p.csv", header + "\n" + row + "\n");
+    const DelimitedText points(query.path, "");
+    std::vector<std::string> rejected;
+    const std::vector<Site> sites = read_sites(query, "EPSG:32630", rejected);
+    // Without columns of a pair points have the first ones, with a warning.
+    EXPECT_EQ(sites.empty(), !points.warnings().empty());
+    if (sites.empty()) continue;
+    const Point2 expected =
+        points.crs().empty() ? points.centre() : CoordinateTransform(points.crs(), "EPSG:32630")(points.centre());
+    EXPECT_EQ(sites[0].position, expected);
+  }
+}
+
+TEST_F(Sites, RefuseHeightsBeyondAll) {
+  SiteQuery query = file("masts.csv", "x,y,h\n1,2,3\n1,2,-2e6\n");
+  query.height_field = "h";
+  EXPECT_THAT([&] { read_sites(query, ""); },
+              ThrowsMessage<InputError>(HasSubstr("feature 2: a height of -2e+06 m is beyond 1000000 m")));
+  std::vector<std::string> rejected;
+  EXPECT_EQ(read_sites(query, "", rejected).size(), 1u);
+  EXPECT_EQ(rejected.size(), 1u);
 }
 
 TEST_F(Sites, HaveNoHeightUnlessAsked) {

@@ -1,0 +1,51 @@
+#include "import/empty_import.hpp"
+
+#include <string>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+
+namespace itin {
+
+namespace {
+
+std::string filters_of(const ImportOptions& options) {
+  if (!options.classes.empty() && !options.where.empty()) return "--class and --where leave";
+  if (!options.classes.empty()) return "--class leaves";
+  return "--where leaves";
+}
+
+/// What became of all that was read.
+std::string what_became(const ImportReport& report, const ImportOptions& options) {
+  std::string text;
+  if (report.filtered > 0 && options.classes.empty() && options.where.empty()) {
+    text =
+        fmt::format("{} points are noise (classes 7, 18) or withheld, unless --class asks for them", report.filtered);
+  } else if (report.filtered > 0) {
+    text = fmt::format("{} out {} points or features", filters_of(options), report.filtered);
+  }
+  if (report.voids > 0)
+    text += fmt::format("{}{} posts, points or lines have no height", text.empty() ? "" : ", ", report.voids);
+  return text.empty() ? "the sources hold no point with a height" : text;
+}
+
+}  // namespace
+
+void require_points(ImportReport& report, const ImportOptions& options, bool may_be_void) {
+  if (report.read > 0 || report.read_features > 0) return;
+  const std::string why = what_became(report, options);
+  if (report.filtered > 0 || !may_be_void) throw InputError("nothing to import: " + why);
+  report.warnings.push_back("nothing was added: " + why);
+}
+
+void require_ground(const ImportReport& report, const ImportOptions& options) {
+  if (report.vertices > 0) return;
+  throw InputError(
+      fmt::format("nothing to import: {} read, but no three of them span ground: they lie on one line, or "
+                  "too far apart{}",
+                  report.read == 1 ? "1 point was" : fmt::format("{} points were", report.read),
+                  options.max_gap > 0 ? "; give a larger --max-gap" : ""));
+}
+
+}  // namespace itin

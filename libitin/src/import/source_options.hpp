@@ -1,0 +1,31 @@
+// Which options of an import mean something for which kinds of source.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include <itin/import.hpp>
+
+namespace itin {
+
+/// What a source is, as far as options depend on it.
+enum class SourceKind : std::uint16_t {
+  raster,
+  las,
+  text,           ///< delimited text of points
+  points,         ///< a layer of points
+  contours,       ///< a layer of lines that are ground by themselves
+  terrain_lines,  ///< of others with heights that are part of the ground
+  ground_lines,   ///< of lines and outlines that lie on it
+  buildings,      ///< a layer of footprints that stand
+  walls,          ///< likewise; vegetation too
+  city_model      ///< CityJSON
+};
+
+/// Throws InputError, naming the option, where one is given that none of the sources makes use of.
+void require_useful_options(const ImportOptions& options, std::span<const SourceKind> sources);
+
+/// What the lines of a kind are, where they do not stand.
+SourceKind kind_of_lines(ThemeKind kind);
+
+}  // namespace itin
