@@ -9,6 +9,7 @@
 #include <itin/import.hpp>
 
 #include "store_document.hpp"
+#include "store_scale.hpp"
 #include "values.hpp"
 #include "verb.hpp"
 
@@ -32,9 +33,15 @@ class ImportVerb final : public Verb {
            "stand on it where they have heights (--height-field, --height, CityJSON), and else are lines on it")
         ->type_name("KIND");
     app.add_option("--theme", options_.theme, "Name of the lines' theme (default: the kind)")->type_name("NAME");
-    app.add_option("--crs", options_.crs, "CRS of the sources, whatever they say themselves")->type_name("CRS");
-    app.add_option("--to-crs", options_.to_crs,
-                   "CRS of a new store: projected, in metres (default: the sources' own, else their UTM zone)")
+    app.add_option(
+           "--crs", options_.crs,
+           "CRS of the sources, whatever they say themselves; a part that it has not, horizontal or vertical, stays "
+           "theirs")
+        ->type_name("CRS");
+    app.add_option(
+           "--to-crs", options_.to_crs,
+           "CRS of a new store: projected, in metres, with lengths true to 0.5 % where the sources lie (default: their "
+           "own if it is such a one, else their UTM zone)")
         ->type_name("CRS");
     app.add_option("--z-field", options_.z_field,
                    "The field or column that holds heights, of points and of lines that are part of the terrain")
@@ -138,7 +145,9 @@ class ImportVerb final : public Verb {
     const ImportReport report =
         options_.kind ? import_lines(store_, options_, progress) : import_terrain(store_, options_, progress);
     const Store store(store_);
-    return {document(report, store.metadata()), text(report, store.metadata()), report.warnings, {}};
+    Result result{document(report, store.metadata()), text(report, store.metadata()), report.warnings, {}};
+    warn_of_scale(store.metadata(), result.warnings);
+    return result;
   }
 
  private:

@@ -17,6 +17,7 @@
 #include "los_store.hpp"
 #include "output_path.hpp"
 #include "radio_options.hpp"
+#include "store_scale.hpp"
 #include "values.hpp"
 #include "verb.hpp"
 
@@ -132,7 +133,9 @@ class LosVerb final : public Verb {
 
   LosCase run_store() {
     const Store store(store_);
-    return los_case(store, line_.run(store, query_), header());
+    LosCase one = los_case(store, line_.run(store, query_), header());
+    warn_of_scale(store.metadata(), one.result.warnings);
+    return one;
   }
 
   Result run_links(Progress& progress) {
@@ -143,6 +146,7 @@ class LosVerb final : public Verb {
     LosLinks::Survey survey = links_.run(store, table, line_, query_, policy_.overwrite, progress);
     survey.result.document["refraction"] = earth_.document();
     add_warnings(survey.result);
+    warn_of_scale(store.metadata(), survey.result.warnings);
     // A link without a verdict has no report; the table says why.
     std::erase_if(jobs, [&](const LosReports::Job& job) { return !survey.computed[job.link]; });
     const auto work = [&](std::size_t i) {

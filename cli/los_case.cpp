@@ -61,6 +61,9 @@ std::string text_of(const profile::LosReport& report) {
                         cause_of(report, report.critical->theme, report.critical->feature));
   }
   text += "\n";
+  if (report.geodesic_m)
+    text +=
+        fmt::format("{:.1f} m on the grid, {:.1f} m geodesic (WGS 84)\n", report.profile.length_m, *report.geodesic_m);
   for (const profile::Obstruction& o : report.obstructions) {
     text += fmt::format("obstructed from {:.1f} to {:.1f} m, {:.2f} m deep at {:.1f} m ({})\n", o.from_m, o.to_m,
                         o.depth_m, o.peak_at_m, cause_of(report, o.theme, o.feature));

@@ -151,6 +151,7 @@ Document end_document(const LosEnd& end) {
 Document los_document(const LosReport& report) {
   Document document;
   document["distance_m"] = report.profile.length_m;
+  document["geodesic_distance_m"] = number(report.geodesic_m);
   document["verdict"] = name_of(report.verdict);
   document["clearance_m"] = number(report.clearance_m);
   document["critical"] = critical_document(report);

@@ -6,6 +6,7 @@
 
 #include <itin/coordinates.hpp>
 #include <itin/error.hpp>
+#include <itin/geodesic.hpp>
 #include <itin/output_file.hpp>
 
 #include "csv_cell.hpp"
@@ -24,7 +25,7 @@ std::string cell(const std::optional<double>& value) {
   return value ? fmt::format("{}", *value) : "";
 }
 
-/// The columns behind those that every table has.
+/// The columns behind those that every table has; the last is geodesic_distance_m, which came to them later.
 struct Columns {
   bool radio = false, object = false, errors = false;
 };
@@ -36,10 +37,11 @@ class TableWriter {
     text_ = "id,distance_m,verdict,clearance_m,critical_m";
     if (columns.radio) text_ += ",fresnel_fraction,ld_db";
     if (columns.object) text_ += ",hidden_below_m,hub_visible_m,hub_fraction,tip_visible_m,tip_fraction";
-    text_ += columns.errors ? ",message\n" : "\n";
+    if (columns.errors) text_ += ",message";
+    text_ += ",geodesic_distance_m\n";
   }
 
-  void add(const std::string& id, const LinkResult& r) {
+  void add(const std::string& id, const LinkResult& r, const std::optional<double>& geodesic_m) {
     const auto out = std::back_inserter(text_);
     const std::string distance = r.verdict || r.distance_m > 0 ? fmt::format("{}", r.distance_m) : "";
     fmt::format_to(out, "{},{},{},{},{}", csv_cell(id), distance, r.verdict ? name_of(*r.verdict) : "error",
@@ -52,7 +54,7 @@ class TableWriter {
       text_ += ",,,,,";
     }
     if (columns_.errors) text_ += "," + csv_cell(r.message);
-    text_ += "\n";
+    text_ += "," + cell(geodesic_m) + "\n";
   }
 
   const std::string& text() const { return text_; }
@@ -62,17 +64,36 @@ class TableWriter {
   std::string text_;
 };
 
-std::string table_text(const LinkTable& table, const std::vector<LinkResult>& results, const Columns& columns) {
+/// Between a link's ends on WGS 84.
+class GeodesicDistance {
+ public:
+  explicit GeodesicDistance(const std::string& crs_wkt) : to_geographic_(crs_wkt, "EPSG:4326") {}
+
+  std::optional<double> operator()(const profile::Link& link) const {
+    try {
+      return geodesic(to_geographic_(link.from), to_geographic_(link.to)).distance_m;
+    } catch (const InputError&) {
+      return std::nullopt;  // an end is no place on the ground
+    }
+  }
+
+ private:
+  CoordinateTransform to_geographic_;
+};
+
+std::string table_text(const LinkTable& table, const std::vector<LinkResult>& results, const Columns& columns,
+                       const std::string& crs_wkt) {
+  const GeodesicDistance geodesic_m(crs_wkt);
   TableWriter writer(columns);
   auto bad = table.bad.begin();
   for (std::size_t row = 1, i = 0; i < results.size() || bad != table.bad.end(); ++row) {
     if (bad != table.bad.end() && bad->row == row) {
       LinkResult error;
       error.message = fmt::format("line {}: {}", bad->line, bad->message);
-      writer.add(bad->id, error);
+      writer.add(bad->id, error, std::nullopt);
       ++bad;
     } else {
-      writer.add(table.links[i].id, results[i]);
+      writer.add(table.links[i].id, results[i], results[i].verdict ? geodesic_m(table.links[i]) : std::nullopt);
       ++i;
     }
   }
@@ -144,8 +165,8 @@ LosLinks::Survey LosLinks::run(const Store& store, const LinkTable& table, const
                                                                  .gaps_block = surface.gaps_block()},
                                                                 progress);
   const Counts counts = counts_of(table, results);
-  write_file(output_, table_text(table, results, {query.radio.has_value(), query.object.has_value(), counts.error > 0}),
-             overwrite);
+  const Columns columns{query.radio.has_value(), query.object.has_value(), counts.error > 0};
+  write_file(output_, table_text(table, results, columns, metadata.crs_wkt), overwrite);
   Survey survey;
   for (const LinkResult& r : results) survey.computed.push_back(r.verdict.has_value());
   Result& result = survey.result;

@@ -25,13 +25,19 @@ double grid_azimuth_deg(Point2 from, Point2 to) {
   return degrees < 0 ? degrees + 360 : degrees;
 }
 
-/// Both sites, each with its direction to the other.
-std::pair<LosEnd::Site, LosEnd::Site> sites(Point2 from, Point2 to, const std::string& crs_wkt) {
+/// Each with its direction to the other, and their distance on the ellipsoid.
+struct Sites {
+  LosEnd::Site from, to;
+  double geodesic_m = 0;
+};
+
+Sites sites(Point2 from, Point2 to, const std::string& crs_wkt) {
   const CoordinateTransform to_geographic(crs_wkt, "EPSG:4326");
   const Point2 a = to_geographic(from), b = to_geographic(to);
-  const Geodesic direction = geodesic(a, b);
-  return {{from, a, grid_azimuth_deg(from, to), direction.azimuth_deg},
-          {to, b, grid_azimuth_deg(to, from), direction.back_azimuth_deg}};
+  const Geodesic line = geodesic(a, b);
+  return {{from, a, grid_azimuth_deg(from, to), line.azimuth_deg},
+          {to, b, grid_azimuth_deg(to, from), line.back_azimuth_deg},
+          line.distance_m};
 }
 
 std::string angle(double degrees) {
@@ -221,7 +227,8 @@ LosStoreOptions::Result LosStoreOptions::run(const Store& store, profile::LosQue
   if (query.radio && !report.losses && report.profile.has_length()) {
     result.warnings.emplace_back("an antenna is within a feature; no losses are given");
   }
-  auto [from_site, to_site] = sites(from, to, metadata.crs_wkt);
+  auto [from_site, to_site, geodesic_m] = sites(from, to, metadata.crs_wkt);
+  report.geodesic_m = geodesic_m;
   const profile::EndGrounds bare = report.ground.points.empty() ? stands_on : profile::ends_of(report.ground);
   const profile::EndGrounds top = profile::ends_of(report.profile);
   result.from = {bare.from_m, query.from_height_m,   report.elevation_angle_from_deg,

@@ -15,6 +15,7 @@
 #include "output_path.hpp"
 #include "profile_output.hpp"
 #include "store_document.hpp"
+#include "store_scale.hpp"
 #include "surface_options.hpp"
 #include "values.hpp"
 #include "verb.hpp"
@@ -132,6 +133,7 @@ class ProfileVerb final : public Verb {
     if (profiles.front().profile.points.empty()) {
       result.warnings.emplace_back("the line lies wholly outside the data; the profile is empty");
     }
+    warn_of_scale(store.metadata(), result.warnings);
     result.document["crs"] = crs_identifier(store.metadata().crs_wkt);
     result.document["surface"] = surface_document(store.metadata(), profiles.front().detail, themes_.choice());
     result.document.update(profile_document(profiles, store.metadata()));

@@ -21,6 +21,7 @@
 #include "site_result.hpp"
 #include "site_work.hpp"
 #include "store_document.hpp"
+#include "store_scale.hpp"
 #include "verb.hpp"
 
 namespace itin::cli {
@@ -141,6 +142,7 @@ class SiteVerb final : public Verb {
     const std::string& crs = store.metadata().crs_wkt;
     Result result;
     warn(site, result.warnings);
+    warn_of_scale(store.metadata(), result.warnings);
     result.document = site_document(site, store.metadata());
     for (const SiteOutput& output : outputs_)
       result.document["outputs"].push_back({{"path", output.path}, {"what", output.what}});

@@ -14,6 +14,7 @@
 #include "detail_options.hpp"
 #include "output_path.hpp"
 #include "store_document.hpp"
+#include "store_scale.hpp"
 #include "surface_options.hpp"
 #include "values.hpp"
 #include "verb.hpp"
@@ -82,7 +83,9 @@ class TinVerb final : public Verb {
     const Document surface = surface_document(store.metadata(), detail, themes);
     if (!output_.empty()) write(tin, store.metadata(), surface, progress);
     if (!image_.empty()) viewshed::write_image(image_, viewshed::draw_oblique(tin, view_), policy_.overwrite);
-    return {document(tin, store.metadata(), surface), text(tin), {}, {}};
+    Result result{document(tin, store.metadata(), surface), text(tin), {}, {}};
+    warn_of_scale(store.metadata(), result.warnings);
+    return result;
   }
 
  private:

@@ -17,6 +17,7 @@
 #include "horizon_output.hpp"
 #include "observer_options.hpp"
 #include "store_document.hpp"
+#include "store_scale.hpp"
 #include "surface_options.hpp"
 #include "verb.hpp"
 #include "viewshed_outputs.hpp"
@@ -159,6 +160,7 @@ class ViewshedVerb final : public Verb {
                                             {"target_on", target_on_}}};
     Result result;
     result.warnings = surveyed.result.warnings;
+    warn_of_scale(metadata, result.warnings);
     outputs_.write(surveyed, context, result.warnings, progress);
     outputs_.write_each([&](std::size_t i) { return survey_alone(store, surveyed, i, progress); }, context);
     const Document targets = horizon_.write(surveyed, metadata, earth_.document(), outputs_.overwrite(), progress);

@@ -12,6 +12,7 @@
 #include "earth_options.hpp"
 #include "output_path.hpp"
 #include "store_document.hpp"
+#include "store_scale.hpp"
 #include "surface_options.hpp"
 #include "values.hpp"
 #include "verb.hpp"
@@ -103,6 +104,7 @@ class VisibilityVerb final : public Verb {
         output_, index, request_,
         {metadata.crs_wkt, {{"itin", ITIN_VERSION}, {"surface", surface.dump()}}, policy_.overwrite});
     Result result;
+    warn_of_scale(metadata, result.warnings);
     Document& document = result.document;
     document["crs"] = crs_identifier(metadata.crs_wkt);
     document["surface"] = surface;

@@ -19,6 +19,7 @@
 #include "output_folder.hpp"
 #include "radius_preset.hpp"
 #include "store_document.hpp"
+#include "store_scale.hpp"
 #include "surface_options.hpp"
 #include "values.hpp"
 #include "verb.hpp"
@@ -117,6 +118,7 @@ class ZtvVerb final : public Verb {
     result.document = document(zone, metadata);
     write(store, zone, folder.working(), result.document, progress);
     result.warnings = warnings(zone);
+    warn_of_scale(metadata, result.warnings);
     write_manifest(folder.working(), result);
     folder.publish();
     result.text = text(zone);

@@ -8,8 +8,6 @@ namespace itin {
 
 namespace {
 
-constexpr double kMajor = 6378137, kFlattening = 1 / 298.257223563, kMinor = kMajor * (1 - kFlattening);
-
 double radians(double degrees) {
   return degrees * std::numbers::pi / 180;
 }
@@ -41,41 +39,44 @@ Arc arc_for(const Reduced& r, double lambda) {
   return a;
 }
 
-double next_lambda(const Arc& a, double longitude_difference) {
-  const double c = kFlattening / 16 * a.cos2_alpha * (4 + kFlattening * (4 - 3 * a.cos2_alpha));
+double next_lambda(const Arc& a, double longitude_difference, double flattening) {
+  const double c = flattening / 16 * a.cos2_alpha * (4 + flattening * (4 - 3 * a.cos2_alpha));
   const double m = a.cos_2sigma_m;
   return longitude_difference +
-         (1 - c) * kFlattening * a.sin_alpha * (a.sigma + c * a.sin_sigma * (m + c * a.cos_sigma * (2 * m * m - 1)));
+         (1 - c) * flattening * a.sin_alpha * (a.sigma + c * a.sin_sigma * (m + c * a.cos_sigma * (2 * m * m - 1)));
 }
 
-double length_of(const Arc& arc) {
-  const double u2 = arc.cos2_alpha * (kMajor * kMajor - kMinor * kMinor) / (kMinor * kMinor), m = arc.cos_2sigma_m;
+double length_of(const Arc& arc, const Ellipsoid& ellipsoid) {
+  const double major = ellipsoid.major_m, minor = major * (1 - ellipsoid.flattening);
+  const double u2 = arc.cos2_alpha * (major * major - minor * minor) / (minor * minor), m = arc.cos_2sigma_m;
   const double a = 1 + u2 / 16384 * (4096 + u2 * (-768 + u2 * (320 - 175 * u2)));
   const double b = u2 / 1024 * (256 + u2 * (-128 + u2 * (74 - 47 * u2)));
   const double correction = b * arc.sin_sigma *
                             (m + b / 4 *
                                      (arc.cos_sigma * (2 * m * m - 1) -
                                       b / 6 * m * (4 * arc.sin_sigma * arc.sin_sigma - 3) * (4 * m * m - 3)));
-  return kMinor * a * (arc.sigma - correction);
+  return minor * a * (arc.sigma - correction);
 }
 
 }  // namespace
 
-Geodesic geodesic(Point2 from, Point2 to) {
+Geodesic geodesic(Point2 from, Point2 to, const Ellipsoid& ellipsoid) {
   if (from == to) return {};
-  const double u1 = std::atan((1 - kFlattening) * std::tan(radians(from.y)));
-  const double u2 = std::atan((1 - kFlattening) * std::tan(radians(to.y)));
+  const double flat = 1 - ellipsoid.flattening;
+  const double u1 = std::atan(flat * std::tan(radians(from.y)));
+  const double u2 = std::atan(flat * std::tan(radians(to.y)));
   const Reduced r{std::sin(u1), std::cos(u1), std::sin(u2), std::cos(u2)};
   const double difference = radians(to.x - from.x);
   double lambda = difference;
   for (int i = 0; i < 100; ++i) {
     const Arc arc = arc_for(r, lambda);
-    const double next = next_lambda(arc, difference);
+    const double next = next_lambda(arc, difference, ellipsoid.flattening);
     const bool settled = std::abs(next - lambda) < 1e-13;
     lambda = next;
     if (!settled) continue;
     const double sine = std::sin(lambda), cosine = std::cos(lambda);
-    return {length_of(arc_for(r, lambda)), azimuth(r.cos_u2 * sine, r.cos_u1 * r.sin_u2 - r.sin_u1 * r.cos_u2 * cosine),
+    return {length_of(arc_for(r, lambda), ellipsoid),
+            azimuth(r.cos_u2 * sine, r.cos_u1 * r.sin_u2 - r.sin_u1 * r.cos_u2 * cosine),
             azimuth(-r.cos_u1 * sine, r.sin_u2 * r.cos_u1 * -cosine + r.cos_u2 * r.sin_u1)};
   }
   throw InputError("no direction between nearly antipodal points");

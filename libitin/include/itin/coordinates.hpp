@@ -16,8 +16,8 @@ namespace itin {
 /// Not thread-safe; make one a thread.
 class CoordinateTransform {
  public:
-  /// CRSs as authority:code, WKT, PROJ string or anything else GDAL understands. Throws InputError for one that is
-  /// unknown or for a pair without a transformation between them.
+  /// CRSs as authority:code, WKT, PROJ string or anything else GDAL understands; the identity where both are one, by
+  /// the import's rule. Throws InputError for one that is unknown or for a pair without a transformation between them.
   CoordinateTransform(const std::string& from_crs, const std::string& to_crs);
   CoordinateTransform(CoordinateTransform&&) noexcept;
   CoordinateTransform& operator=(CoordinateTransform&&) noexcept;

@@ -122,8 +122,9 @@ class CityModel {
       shift = coordinates(member(model_.at("transform"), "translate"), "translate of the transform");
     }
     const Crs crs = source_crs(query_.path, query_.crs, reference_system());
-    source_.crs = crs.whole;
-    const double metres = height_unit(query_.path, std::nullopt, crs).metres;
+    const SourceHeights heights = source_heights(query_.path, std::nullopt, crs);
+    source_.crs = heights.crs;
+    const double metres = heights.axis.factor();
     std::vector<double> x, y;
     for (const Json& vertex : items_of(member(model_, "vertices"), "vertices")) {
       const std::array<double, 3> v = coordinates(vertex, "vertices");

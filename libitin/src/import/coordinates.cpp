@@ -1,4 +1,5 @@
 #include <cmath>
+#include <span>
 
 #include <fmt/format.h>
 #include <ogr_spatialref.h>
@@ -6,54 +7,38 @@
 #include <itin/coordinates.hpp>
 #include <itin/error.hpp>
 
+#include "import/crs.hpp"
 #include "import/quiet_gdal.hpp"
 
 namespace itin {
 
 namespace {
 
-OGRSpatialReference understood(const std::string& crs) {
-  const QuietGdal quiet;
-  OGRSpatialReference reference;
-  if (crs.empty() || reference.SetFromUserInput(crs.c_str()) != OGRERR_NONE) {
-    throw InputError(fmt::format("unknown coordinate reference system '{}'; give a code such as EPSG:4326", crs));
-  }
-  reference.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  return reference;
-}
+constexpr const char* kPlace = "coordinates";
 
 }  // namespace
 
 class CoordinateTransform::Impl {
  public:
-  Impl(const std::string& from_crs, const std::string& to_crs) : from_(understood(from_crs)), to_(understood(to_crs)) {
-    const QuietGdal quiet;
-    transformation_.reset(OGRCreateCoordinateTransformation(&from_, &to_));
-    if (!transformation_) {
-      throw InputError(fmt::format("no transformation from {} to {}", from_.GetName(), to_.GetName()));
-    }
-  }
+  Impl(const Crs& from, const Crs& to) : from_(from.name), to_(to.name), transform_(from.wkt, to.wkt, kPlace) {}
 
   Point2 transform(Point2 p) const {
-    const QuietGdal quiet;
     Point2 q = p;
-    if (!transformation_->Transform(1, &q.x, &q.y) || !std::isfinite(q.x) || !std::isfinite(q.y)) {
+    transform_.transform(std::span(&q.x, 1), std::span(&q.y, 1));
+    if (!std::isfinite(q.x) || !std::isfinite(q.y)) {
       throw InputError(fmt::format("{},{} in {} cannot be transformed to {}; check the order of the coordinates", p.x,
-                                   p.y, from_.GetName(), to_.GetName()));
+                                   p.y, from_, to_));
     }
     return q;
   }
 
  private:
-  struct Destroy {
-    void operator()(OGRCoordinateTransformation* t) const { OGRCoordinateTransformation::DestroyCT(t); }
-  };
-  OGRSpatialReference from_, to_;
-  std::unique_ptr<OGRCoordinateTransformation, Destroy> transformation_;
+  std::string from_, to_;
+  PointTransform transform_;
 };
 
 CoordinateTransform::CoordinateTransform(const std::string& from_crs, const std::string& to_crs)
-    : impl_(std::make_unique<Impl>(from_crs, to_crs)) {}
+    : impl_(std::make_unique<Impl>(parse_crs(from_crs, kPlace), parse_crs(to_crs, kPlace))) {}
 CoordinateTransform::CoordinateTransform(CoordinateTransform&&) noexcept = default;
 CoordinateTransform& CoordinateTransform::operator=(CoordinateTransform&&) noexcept = default;
 CoordinateTransform::~CoordinateTransform() = default;

@@ -15,6 +15,7 @@
 #include <itin/parallel.hpp>
 
 #include "import/quiet_gdal.hpp"
+#include "import/vertical_axis.hpp"
 
 namespace itin {
 
@@ -81,17 +82,11 @@ void replace_by_authority(OGRSpatialReference& reference) {
   }
 }
 
-bool same(const OGRSpatialReference& a, const OGRSpatialReference& b) {
-  constexpr const char* kOptions[] = {"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES",
-                                      "CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS", nullptr};
-  return a.IsSame(&b, kOptions);
-}
-
-/// Empty where it is not known. The datum rather than the vertical CRS: NAVD88 in feet and in metres are one.
-std::string vertical_datum_of(const OGRSpatialReference& compound) {
-  const char* datum = compound.GetAttrValue("VERT_DATUM");
-  // Files give these names to what they do not know.
-  return !datum || EQUALN(datum, "unknown", 7) || EQUALN(datum, "unnamed", 7) ? "" : datum;
+/// The horizontal part remains.
+void strip_heights(OGRSpatialReference& reference) {
+  if (reference.IsCompound()) reference.StripVertical();
+  if (reference.GetAxesCount() == 3) reference.DemoteTo2D(nullptr);
+  replace_by_authority(reference);
 }
 
 /// authority:code, else WKT 2: a name alone would not be understood again.
@@ -128,33 +123,43 @@ std::string wkt_of(const OGRSpatialReference& reference) {
   return result;
 }
 
+OGRSpatialReference horizontal_crs(const std::string& text, const std::string& place) {
+  const QuietGdal quiet;
+  OGRSpatialReference reference = understood(text, place);
+  strip_heights(reference);
+  return reference;
+}
+
+bool same_crs(const OGRSpatialReference& a, const OGRSpatialReference& b) {
+  constexpr const char* kOptions[] = {"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES",
+                                      "CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS", nullptr};
+  return a.IsSame(&b, kOptions);
+}
+
 Crs parse_crs(const std::string& text, const std::string& place) {
+  Crs crs = parse_any_crs(text, place);
+  if (crs.wkt.empty())
+    throw InputError(fmt::format("{}: the CRS {} is only vertical; a horizontal one is needed", place, crs.name));
+  return crs;
+}
+
+Crs parse_any_crs(const std::string& text, const std::string& place) {
   const QuietGdal quiet;
   OGRSpatialReference reference = understood(text, place);
   Crs crs;
+  crs.name = name_of(reference);
   crs.whole = text_of(reference);
+  crs.heights = vertical_axis(reference);
+  if (reference.IsVertical() && !reference.IsCompound()) return crs;
   const bool has_code = reference.GetAuthorityCode(nullptr) != nullptr;
-  std::string vertical_code;
-  if (reference.IsCompound()) {
-    crs.metres_per_height = reference.GetTargetLinearUnits("VERT_CS");
-    crs.vertical_datum = vertical_datum_of(reference);
-    vertical_code = epsg_code(reference, "VERT_CS");
-    reference.StripVertical();
-  } else if (reference.IsVertical()) {
-    throw InputError(
-        fmt::format("{}: the CRS {} is only vertical; a horizontal one is needed", place, name_of(reference)));
-  }
-  if (reference.GetAxesCount() == 3) {
-    crs.vertical_datum = "the ellipsoid";
-    reference.DemoteTo2D(nullptr);
-  }
-  replace_by_authority(reference);
+  const std::string vertical_code = reference.IsCompound() ? epsg_code(reference, "VERT_CS") : "";
+  strip_heights(reference);
   if (!reference.IsProjected() && !reference.IsGeographic())
     throw InputError(fmt::format("{}: the CRS {} is neither projected nor geographic", place, name_of(reference)));
   crs.wkt = wkt_of(reference);
   crs.name = name_of(reference);
   // The parts may have codes where the whole has none.
-  if (crs.vertical_datum.empty()) crs.whole = text_of(reference);
+  if (!crs.heights || crs.heights->datum.empty()) crs.whole = text_of(reference);
   const std::string horizontal_code = epsg_code(reference, nullptr);
   if (!has_code && !horizontal_code.empty() && !vertical_code.empty())
     crs.whole = fmt::format("EPSG:{}+{}", horizontal_code, vertical_code);
@@ -186,13 +191,15 @@ class PointTransform::Impl {
     const std::size_t chunks = (x.size() + kChunk - 1) / kChunk;
     const std::size_t workers = std::min<std::size_t>(chunks, static_cast<std::size_t>(thread_count()));
     while (copies_.size() < workers) copies_.emplace_back(copies_.front()->Clone());
-    parallel_for(workers, [&](std::size_t worker) {
+    const auto work = [&](std::size_t worker) {
       const QuietGdal quiet;
       for (std::size_t chunk = worker; chunk < chunks; chunk += workers) {
         const std::size_t first = chunk * kChunk, count = std::min(kChunk, x.size() - first);
         transform_chunk(*copies_[worker], x.subspan(first, count), y.subspan(first, count));
       }
-    });
+    };
+    // Single points are common, and threads dear.
+    workers == 1 ? work(0) : parallel_for(workers, work);
   }
 
  private:
@@ -213,9 +220,10 @@ class PointTransform::Impl {
 };
 
 PointTransform::PointTransform(const std::string& source_wkt, const std::string& target_wkt, const std::string& place) {
+  if (source_wkt == target_wkt) return;
   const QuietGdal quiet;
-  const OGRSpatialReference source = understood(source_wkt, place), target = understood(target_wkt, place);
-  if (same(source, target)) return;
+  const OGRSpatialReference source = horizontal_crs(source_wkt, place), target = horizontal_crs(target_wkt, place);
+  if (same_crs(source, target)) return;
   Transformation transformation(OGRCreateCoordinateTransformation(&source, &target));
   if (!transformation)
     throw InputError(

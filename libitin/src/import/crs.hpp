@@ -8,19 +8,20 @@
 #include <string>
 
 #include <itin/geometry.hpp>
+#include <itin/height_axis.hpp>
 
 class OGRSpatialReference;
 
 namespace itin {
 
-/// A CRS that was understood. Horizontal only: the vertical part of a compound CRS leaves but its unit and datum.
+/// A CRS that was understood. Horizontal only: the vertical part of a compound CRS leaves but what its heights mean.
 struct Crs {
-  std::string wkt;                          ///< WKT 2
-  std::string name;                         ///< "EPSG:27700" where an authority knows it, otherwise its name
-  std::optional<double> metres_per_axis;    ///< of a projected CRS; angles have none
-  std::optional<double> metres_per_height;  ///< of a vertical part, where there is one
-  std::string vertical_datum;               ///< its name; empty where it is not known
-  std::string whole;                        ///< authority:code or WKT 2, vertical part included
+  std::string wkt;                        ///< WKT 2; empty where there is but a vertical part
+  std::string name;                       ///< "EPSG:27700" where an authority knows it, otherwise its name
+  std::optional<double> metres_per_axis;  ///< of a projected CRS; angles have none
+  std::optional<HeightAxis> heights;      ///< of a vertical part, where there is one
+  bool heights_given = false;             ///< by --crs, whatever the source says itself
+  std::string whole;                      ///< authority:code or WKT 2, vertical part included
 
   /// Projected, axes in metres: fit for a store.
   bool metric() const { return metres_per_axis == 1.0; }
@@ -29,6 +30,14 @@ struct Crs {
 /// `text` is authority:code, WKT, PROJ or whatever else GDAL understands. What agrees to a millimetre with a CRS that
 /// an authority knows is taken for that. Throws InputError, which begins with `place` (a file or an option).
 Crs parse_crs(const std::string& text, const std::string& place);
+/// Likewise, but it may have a vertical part only.
+Crs parse_any_crs(const std::string& text, const std::string& place);
+
+/// The horizontal part, as parse_crs() takes it. Throws likewise.
+OGRSpatialReference horizontal_crs(const std::string& text, const std::string& place);
+/// Whether coordinates in both are the same: the one rule wherever something is compared with a store's CRS. Names,
+/// codes, dialects and the order of axes do not matter. Both are of horizontal_crs().
+bool same_crs(const OGRSpatialReference& a, const OGRSpatialReference& b);
 
 /// WKT 2.
 std::string wkt_of(const OGRSpatialReference& reference);
@@ -40,7 +49,7 @@ Crs utm_zone(const Crs& crs, Point2 position, const std::string& place);
 /// How a source's coordinates become the store's. One thread at a time.
 class PointTransform {
  public:
-  /// The identity when both are equivalent. Throws InputError for what cannot be transformed.
+  /// The identity where both are the same_crs(). Throws InputError for what cannot be transformed.
   PointTransform(const std::string& source_wkt, const std::string& target_wkt, const std::string& place);
   PointTransform(PointTransform&&) noexcept;
   PointTransform& operator=(PointTransform&&) noexcept;

@@ -40,12 +40,12 @@ class FootprintLayer {
     source_.filtered = select_features(*layer_, query.path, query.where);
     const OGRSpatialReference* own = layer_->GetSpatialRef();
     const Crs crs = source_crs(query.path, query.crs, own ? wkt_of(*own) : std::string());
-    source_.crs = crs.whole;
     transform_.emplace(crs.wkt, to_crs, query.path);
-    const HeightUnit unit = height_unit(query.path, std::nullopt, crs);
-    metres_ = unit.metres;
+    SourceHeights heights = source_heights(query.path, std::nullopt, crs);
+    axis_ = std::move(heights.axis);
+    source_.crs = std::move(heights.crs);
     const bool heights_used = fields_.height >= 0 || fields_.eaves >= 0 || fields_.base >= 0;
-    if (heights_used && !unit.warning.empty()) source_.warnings.push_back(unit.warning);
+    if (heights_used && !heights.warning.empty()) source_.warnings.push_back(std::move(heights.warning));
   }
 
   FootprintSource read(Progress& progress) {
@@ -120,7 +120,9 @@ class FootprintLayer {
     for (std::size_t i = 0; i < count; ++i) {
       const int at = static_cast<int>(i);
       x[i] = line.getX(at), y[i] = line.getY(at);
-      if (line.Is3D()) lowest_ = std::min(lowest_, line.getZ(at)), highest_ = std::max(highest_, line.getZ(at));
+      if (!line.Is3D()) continue;
+      const double z = line.getZ(at) * axis_.factor();
+      lowest_ = std::min(lowest_, z), highest_ = std::max(highest_, z);
     }
     transform_->transform(x, y);
     PlanRing ring;
@@ -132,7 +134,7 @@ class FootprintLayer {
     return ring;
   }
 
-  std::optional<double> metres(const OGRFeature& feature, int index) {
+  std::optional<double> number(const OGRFeature& feature, int index) {
     if (index < 0 || !feature.IsFieldSetAndNotNull(index)) return std::nullopt;
     const OGRFieldDefn& definition = *feature.GetFieldDefnRef(index);
     const bool text = definition.GetType() == OFTString;
@@ -143,21 +145,25 @@ class FootprintLayer {
                                 definition.GetNameRef(), feature.GetFieldAsString(index)));
       return std::nullopt;
     }
-    if (!is_height(value * metres_))
-      require_height(value * metres_,
+    if (!is_height(value * axis_.metres))
+      require_height(value * axis_.metres,
                      fmt::format("{}: feature {}: {}", query_.path, feature.GetFID(), definition.GetNameRef()));
-    return value * metres_;
+    return value;
   }
 
   void add_heights(const OGRFeature& feature, FootprintFeature& footprint) {
-    footprint.height = metres(feature, fields_.height);
-    footprint.eaves = metres(feature, fields_.eaves);
-    footprint.base = metres(feature, fields_.base);
+    const auto times = [](std::optional<double> value, double factor) {
+      if (value) *value *= factor;
+      return value;
+    };
+    footprint.height = times(number(feature, fields_.height), axis_.metres);
+    footprint.eaves = times(number(feature, fields_.eaves), axis_.metres);
+    footprint.base = times(number(feature, fields_.base), axis_.factor());
     const bool has_z = lowest_ <= highest_ && (lowest_ != 0 || highest_ != 0);
     if (has_z && query_.z == FootprintZ::ignored) unused_z_ = true;
-    if (has_z && query_.z == FootprintZ::base && !footprint.base) footprint.base = lowest_ * metres_;
+    if (has_z && query_.z == FootprintZ::base && !footprint.base) footprint.base = lowest_;
     if (has_z && query_.z == FootprintZ::top && !footprint.height && footprint.base)
-      footprint.height = highest_ * metres_ - *footprint.base;
+      footprint.height = highest_ - *footprint.base;
     if (!footprint.height && !footprint.eaves) footprint.height = query_.height;
   }
 
@@ -168,8 +174,8 @@ class FootprintLayer {
   OGRLayer* layer_ = nullptr;
   Fields fields_;
   std::optional<PointTransform> transform_;
-  double metres_ = 1;
-  double lowest_ = 0, highest_ = 0;  ///< Z of the feature at hand
+  HeightAxis axis_;
+  double lowest_ = 0, highest_ = 0;  ///< elevations that Z of the feature at hand has, metres
   bool unused_z_ = false;
   FootprintSource source_;
 };

@@ -48,9 +48,10 @@ struct FootprintSource {
   std::vector<std::string> warnings;       ///< one line each: features that were passed over, units assumed
 };
 
-/// In the CRS `to_crs` (WKT). Heights are in the unit of the CRS's vertical part or axes, feet where those are feet.
-/// A feature whose height is null has none. Throws FileError for a file, layer, field or filter that is missing or not
-/// readable, InputError for a CRS that is missing or unknown, Cancelled.
+/// In the CRS `to_crs` (WKT). Heights are in the unit of the CRS's vertical part or axes, feet where those are feet;
+/// the base is a depth where the vertical part has depths, heights above it never are. A feature whose height is null
+/// has none. Throws FileError for a file, layer, field or filter that is missing or not readable, InputError for a CRS
+/// that is missing or unknown, Cancelled.
 FootprintSource read_footprints(const FootprintQuery& query, const std::string& to_crs, const Grid& grid,
                                 Progress& progress);
 

@@ -1,7 +1,6 @@
 #include "import/height_band.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -40,26 +39,14 @@ HeightBand::HeightBand(GDALDataset& dataset, const std::string& path, std::optio
   if (declares_nodata_ && !(flags & GMF_NODATA)) nodata_ = nodata;
 }
 
-std::optional<double> HeightBand::stated_unit(std::vector<std::string>& warnings) const {
-  struct Unit {
-    std::array<const char*, 6> names;
-    double metres;
-  };
-  static constexpr std::array kUnits{
-      Unit{{"m", "metre", "metres", "meter", "meters", "1 metre"}, 1},
-      Unit{{"ft", "foot", "feet", "international foot", "international feet", "ift"}, 0.3048},
-      Unit{{"us-ft", "us survey foot", "us survey feet", "foot_us", "sfoot", "ftus"}, 1200.0 / 3937},
-      Unit{{"km", "kilometre", "kilometer", "kilometres", "kilometers", "1 km"}, 1000},
-      Unit{{"dm", "decimetre", "decimeter", "decimetres", "decimeters", "0.1 m"}, 0.1},
-      Unit{{"cm", "centimetre", "centimeter", "centimetres", "centimeters", "0.01 m"}, 0.01},
-      Unit{{"mm", "millimetre", "millimeter", "millimetres", "millimeters", "0.001 m"}, 0.001}};
+std::optional<LinearUnit> HeightBand::stated_unit() const {
   const std::string text = band_->GetUnitType();
   if (text.empty()) return std::nullopt;
-  for (const Unit& unit : kUnits)
-    if (std::any_of(unit.names.begin(), unit.names.end(), [&](const char* name) { return EQUAL(text.c_str(), name); }))
-      return unit.metres;
-  warnings.push_back(fmt::format("{}: the unit of heights, '{}', is not understood; taken as metres", path_, text));
-  return 1;
+  if (auto unit = linear_unit(text)) return unit;
+  throw InputError(
+      fmt::format("{}: the unit of heights, '{}', is not understood; give --crs the CRS of heights in the right unit, "
+                  "such as EPSG:5703 for metres",
+                  path_, text));
 }
 
 int HeightBand::columns() const {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "import/linear_unit.hpp"
+
 class GDALDataset;
 class GDALRasterBand;
 
@@ -23,9 +25,8 @@ class HeightBand {
   /// not clear which band does.
   HeightBand(GDALDataset& dataset, const std::string& path, std::optional<int> number);
 
-  /// The unit the band states, in metres; nothing where it states none. One it cannot make sense of is a metre, with a
-  /// warning line.
-  std::optional<double> stated_unit(std::vector<std::string>& warnings) const;
+  /// The unit the band states; nothing where it states none. Throws InputError for one that is not known.
+  std::optional<LinearUnit> stated_unit() const;
 
   int columns() const;
   int rows() const;

@@ -19,6 +19,7 @@
 #include "import/source_context.hpp"
 #include "import/standing_warnings.hpp"
 #include "import/terrain_source.hpp"
+#include "import/true_scale.hpp"
 #include "pyramid/pyramid.hpp"
 #include "store/point_index.hpp"
 #include "store/store_format.hpp"
@@ -123,8 +124,13 @@ std::uint64_t add_stored(const Store& store, PointSorter& sorter, LineCollection
   return count;
 }
 
-void add_source(TerrainSource& source, std::uint16_t number, PointSorter& sorter, ImportReport& report,
-                Progress& progress) {
+/// Files may not say how far they reach, or say it wrongly.
+void require_true_scale(const ImportPlan& plan, const std::string& path, const GridBox& bounds) {
+  if (!bounds.empty()) plan.scale->require(path, plan.grid.box(bounds));
+}
+
+void add_source(TerrainSource& source, std::uint16_t number, const ImportPlan& plan, PointSorter& sorter,
+                ImportReport& report, Progress& progress) {
   std::vector<RawPoint> raw;
   const ReadCounts counts = source.read(
       [&](std::span<const GridPoint> points) {
@@ -133,6 +139,7 @@ void add_source(TerrainSource& source, std::uint16_t number, PointSorter& sorter
         sorter.add(raw);
       },
       progress);
+  require_true_scale(plan, source.info().path, counts.bounds);
   report.read += counts.read;
   report.voids += counts.voids;
   report.filtered += counts.filtered;
@@ -149,6 +156,7 @@ void add_lines(LineLayer& layer, std::uint16_t number, const ImportPlan& plan, c
         lines.require_room(layer.path());
       },
       progress);
+  require_true_scale(plan, layer.path(), counts.bounds);
   lines.add_features(theme, layer.features());
   report.read += counts.read;
   report.read_features += layer.features();
@@ -243,7 +251,7 @@ bool write_store(const Target& target, const Store* base, Additions& additions, 
   std::vector<GridPoint> inferred;
   const bool stored = base != nullptr && add_stored(*base, sorter, collection, inferred, progress) > 0;
   for (const auto& source : plan.sources) {
-    add_source(*source, static_cast<std::uint16_t>(sources.size()), sorter, report, progress);
+    add_source(*source, static_cast<std::uint16_t>(sources.size()), plan, sorter, report, progress);
     sources.push_back(source->info());
     sources.back().replaces = options.replace;
   }

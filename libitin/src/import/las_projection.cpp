@@ -27,48 +27,23 @@ std::optional<std::uint16_t> code(const LasFile& file, std::uint16_t key) {
   return found->second;
 }
 
-std::optional<double> metres_per_unit(const LasFile& file, std::uint16_t key) {
-  const auto unit = code(file, key);
-  if (!unit) return std::nullopt;
-  // EPSG units of measure.
-  switch (*unit) {
-    case 9001:
-      return 1.0;
-    case 9002:
-      return 0.3048;
-    case 9003:
-      return 1200.0 / 3937.0;
-    case 9005:
-      return 0.3047972654;  // Clarke's foot
-    case 9036:
-      return 1000.0;
-    case 9041:
-      return 0.3047994715386762;  // British foot (Sears 1922)
-    case 9070:
-      return 0.3048007491;  // British foot (1936)
-    case 9080:
-      return 0.3047995102481469;  // Indian foot
-    default:
-      throw FileError(file.path(), fmt::format("GeoTIFF key {}: the linear unit EPSG:{} is not known; rewrite the file "
-                                               "in metres or feet",
-                                               key, *unit));
-  }
-}
-
-std::optional<double> unit_of_vertical_crs(std::uint16_t epsg) {
-  OGRSpatialReference crs;
-  if (crs.importFromEPSG(epsg) != OGRERR_NONE || !crs.IsVertical()) return std::nullopt;
-  return crs.GetTargetLinearUnits("VERT_CS");
+std::optional<LinearUnit> unit_of(const LasFile& file, std::uint16_t key) {
+  const auto stated = code(file, key);
+  if (!stated) return std::nullopt;
+  if (auto unit = linear_unit(*stated)) return unit;
+  throw FileError(file.path(),
+                  fmt::format("GeoTIFF key {}: EPSG:{} is no unit of length that is known; rewrite the file in metres",
+                              key, *stated));
 }
 
 std::string projected_crs(const LasFile& file, std::uint16_t epsg) {
   std::string name = fmt::format("EPSG:{}", epsg);
-  const auto unit = metres_per_unit(file, kProjectedUnit);
+  const auto unit = unit_of(file, kProjectedUnit);
   OGRSpatialReference crs;
   // A code that PROJ does not know is reported where the CRS is parsed.
   if (!unit || crs.importFromEPSG(epsg) != OGRERR_NONE) return name;
-  if (std::abs(crs.GetLinearUnits() - *unit) <= 1e-9 * *unit) return name;
-  crs.SetLinearUnitsAndUpdateParameters(fmt::format("{} m", *unit).c_str(), *unit);
+  if (std::abs(crs.GetLinearUnits() - unit->metres) <= 1e-9 * unit->metres) return name;
+  crs.SetLinearUnitsAndUpdateParameters(unit->name.c_str(), unit->metres);
   return wkt_of(crs);
 }
 
@@ -82,21 +57,27 @@ std::string crs_of_keys(const LasFile& file) {
   return {};
 }
 
+/// The CRS with the vertical one that the keys name, if PROJ knows that.
+std::string with_heights(const LasFile& file, const std::string& horizontal) {
+  const auto epsg = code(file, kVerticalType);
+  OGRSpatialReference plan, vertical, compound;
+  if (!epsg || vertical.importFromEPSG(*epsg) != OGRERR_NONE || !vertical.IsVertical()) return horizontal;
+  if (horizontal.empty()) return fmt::format("EPSG:{}", *epsg);
+  // A horizontal CRS that PROJ does not know is reported where it is parsed.
+  if (plan.SetFromUserInput(horizontal.c_str()) != OGRERR_NONE) return horizontal;
+  compound.SetCompoundCS(fmt::format("{} + {}", plan.GetName(), vertical.GetName()).c_str(), &plan, &vertical);
+  return wkt_of(compound);
+}
+
 }  // namespace
 
 LasProjection las_projection(const LasFile& file) {
   const std::string& wkt = file.projection().wkt;
   const QuietGdal quiet;
-  LasProjection result;
-  if (wkt.empty() || !file.header().prefers_wkt) result.crs = crs_of_keys(file);
-  if (result.crs.empty()) {
-    result.crs = wkt;
-    return result;
-  }
-  result.metres_per_height = metres_per_unit(file, kVerticalUnit);
-  if (const auto vertical = code(file, kVerticalType); vertical && !result.metres_per_height)
-    result.metres_per_height = unit_of_vertical_crs(*vertical);
-  return result;
+  const bool keys_count = wkt.empty() || !file.header().prefers_wkt;
+  const std::string horizontal = keys_count ? crs_of_keys(file) : "";
+  if (horizontal.empty() && !wkt.empty()) return {wkt, std::nullopt};
+  return {with_heights(file, horizontal), unit_of(file, kVerticalUnit)};
 }
 
 }  // namespace itin

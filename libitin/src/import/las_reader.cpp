@@ -50,12 +50,13 @@ class LasReader final : public PointReader {
       : file_(path), projection_(las_projection(file_)), kept_(kept_classes(path, options.classes)) {
     if (file_.header().point_count == 0) throw FileError(path, "holds no points");
     refuse_unreadable(file_);
-    centre_ = find_centre();
+    extent_ = find_extent();
+    centre_ = {extent_.xmin + extent_.width() / 2, extent_.ymin + extent_.height() / 2};
   }
 
   const std::string& path() const override { return file_.path(); }
   std::string crs() const override { return projection_.crs; }
-  std::optional<double> metres_per_height() const override { return projection_.metres_per_height; }
+  std::optional<LinearUnit> height_unit() const override { return projection_.height_unit; }
   std::vector<std::string> warnings() const override {
     const std::uint64_t more = file_.records_not_promised();
     if (more == 0) return {};
@@ -63,6 +64,7 @@ class LasReader final : public PointReader {
                         path(), file_.header().point_count, file_.header().point_count + more)};
   }
   Point2 centre() const override { return centre_; }
+  Box extent() const override { return extent_; }
   double size_hint() const override { return static_cast<double>(file_.header().point_count); }
 
   std::uint64_t read(const Sink& sink) override {
@@ -84,22 +86,22 @@ class LasReader final : public PointReader {
 
  private:
   /// The header's box is a claim; a writer that leaves it empty must not move the store's grid to (0, 0).
-  Point2 find_centre() const {
+  Box find_extent() const {
     const Box& claimed = file_.header().bounds;
-    const Point2 centre{claimed.xmin + claimed.width() / 2, claimed.ymin + claimed.height() / 2};
-    const bool finite = std::isfinite(centre.x) && std::isfinite(centre.y) && !claimed.empty();
+    const bool finite = std::isfinite(claimed.width()) && std::isfinite(claimed.height()) && !claimed.empty();
     if (!file_.header().compressed) {
       const LasPoint first = file_.first_point();
-      if (!finite || !claimed.contains({first.x, first.y})) return {first.x, first.y};
+      if (!finite || !claimed.contains({first.x, first.y})) return {first.x, first.y, first.x, first.y};
     } else if (!finite) {
       throw FileError(file_.path(), "offset 179: the header's bounding box makes no sense");
     }
-    return centre;
+    return claimed;
   }
 
   LasFile file_;
   LasProjection projection_;
   Classes kept_;
+  Box extent_;
   Point2 centre_;
 };
 

@@ -22,14 +22,13 @@ LineLayer::LineLayer(const std::string& path, const ImportOptions& options)
       max_gap_(options.max_gap),
       crs_(source_crs(path, options.crs, layer_.crs())) {
   layer_.select(options);
-  HeightUnit unit = height_unit(path, std::nullopt, crs_);
-  metres_per_height_ = unit.metres;
-  if (!unit.warning.empty() && is_terrain(kind_)) warnings_.push_back(std::move(unit.warning));
+  heights_ = source_heights(path, std::nullopt, crs_);
+  if (!heights_.warning.empty() && is_terrain(kind_)) warnings_.push_back(heights_.warning);
   find_centre();
   info_.path = path;
   info_.kind = name_of(kind_);
   info_.theme = options.theme;
-  info_.source_crs = crs_.whole;
+  info_.source_crs = heights_.crs;
 }
 
 void LineLayer::find_centre() {
@@ -96,8 +95,7 @@ void LineLayer::add(const OGRSimpleCurve& curve, const OGRFeature& feature, std:
 
 ReadCounts LineLayer::read(const SourceContext& context, const Sink& sink, Progress& progress) {
   const std::string stage = "reading " + path();
-  Placement placement(path(), crs_, metres_per_height_, context);
-  GridBox bounds;
+  Placement placement(path(), crs_, heights_.axis, context);
   std::vector<GridPoint> points;
   std::uint64_t done = 0, vertices = 0;
   layer_.rewind();
@@ -108,7 +106,6 @@ ReadCounts LineLayer::read(const SourceContext& context, const Sink& sink, Progr
     for (Line& line : lines_of(*feature)) {
       placement.place(line.x, line.y, line.z, points);
       if (points.size() != line.z.size()) continue;
-      for (const GridPoint& p : points) bounds.extend(p.x, p.y);
       vertices += points.size();
       sink(points);
       any = true;
@@ -117,17 +114,17 @@ ReadCounts LineLayer::read(const SourceContext& context, const Sink& sink, Progr
     progress.report(stage,
                     static_cast<double>(++done) / static_cast<double>(std::max<std::uint64_t>(1, layer_.matching())));
   }
-  describe(bounds, vertices, context.grid, progress);
   ReadCounts counts = placement.counts();
   counts.read = vertices;
   counts.filtered = layer_.filtered();
+  describe(counts, context.grid, progress);
   return counts;
 }
 
-void LineLayer::describe(const GridBox& bounds, std::uint64_t vertices, const Grid& grid, Progress& progress) {
+void LineLayer::describe(const ReadCounts& counts, const Grid& grid, Progress& progress) {
   // Contours are ground by themselves, as scattered points are; other lines only add to it.
   if (kind_ == ThemeKind::Contours) {
-    const double gap = max_gap_ > 0 ? max_gap_ : default_gap(grid.box(bounds), vertices);
+    const double gap = max_gap_ > 0 ? max_gap_ : default_gap(grid.box(counts.bounds), counts.read);
     info_.gap_basis = {gap, 0, 0, gap};
   }
   info_.sha256 = file_sha256(path(), progress);

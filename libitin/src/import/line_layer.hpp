@@ -46,13 +46,13 @@ class LineLayer final : public OpenedFile {
   void add(const OGRSimpleCurve& curve, const OGRFeature& feature, std::vector<Line>& lines) const;
   std::vector<Line> lines_of(const OGRFeature& feature) const;
   void find_centre();
-  void describe(const GridBox& bounds, std::uint64_t vertices, const Grid& grid, Progress& progress);
+  void describe(const ReadCounts& counts, const Grid& grid, Progress& progress);
 
   VectorLayer layer_;
   ThemeKind kind_;
   double max_gap_;
   Crs crs_;
-  double metres_per_height_ = 1;
+  SourceHeights heights_;
   Point2 centre_;
   std::vector<std::string> warnings_;
   SourceInfo info_;

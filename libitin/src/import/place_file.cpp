@@ -55,7 +55,7 @@ Places::Places(GDALDataset& file, OGRLayer& layer, const SiteQuery& query, const
   const OGRSpatialReference* own = layer.GetSpatialRef();
   std::string from_crs = own != nullptr ? wkt_of(*own) : query.crs;
   if (from_crs.empty() && columns && columns->geographic) from_crs = kGeographicColumnsCrs;
-  if (!from_crs.empty() && !to_crs.empty() && from_crs != to_crs) transform_.emplace(from_crs, to_crs);
+  if (!from_crs.empty() && !to_crs.empty()) transform_.emplace(from_crs, to_crs);
 }
 
 /// GDAL reads a coordinate that is no number as 0, or leaves the point out.

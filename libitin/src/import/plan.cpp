@@ -16,6 +16,7 @@
 #include "import/source_options.hpp"
 #include "import/source_path.hpp"
 #include "import/terrain_source.hpp"
+#include "import/true_scale.hpp"
 
 namespace itin {
 
@@ -87,6 +88,7 @@ Crs metric_crs(const std::string& text, const std::string& place) {
 struct StoreCrs {
   Crs crs;
   bool chosen = false;
+  std::string why = {};  ///< it was chosen, though the source's own is metric
 };
 
 StoreCrs settle_crs(const ImportOptions& options, const StoreMetadata* existing, const OpenedFile& first) {
@@ -102,8 +104,13 @@ StoreCrs settle_crs(const ImportOptions& options, const StoreMetadata* existing,
   }
   if (!options.to_crs.empty()) return {metric_crs(options.to_crs, "--to-crs")};
   const Crs crs = first.crs();
-  if (crs.metric()) return {crs};
-  return {utm_zone(crs, first.centre(), options.sources.front()), true};
+  if (!crs.metric()) return {utm_zone(crs, first.centre(), first.path()), true};
+  const GridScale scale = TrueScale(crs, false).of(first);
+  if (scale.is_true()) return {crs};
+  const Crs zone = utm_zone(crs, first.centre(), first.path());
+  return {zone, true,
+          fmt::format("{}: lengths in its CRS, {}, are {}; the store's is {} instead", first.path(), crs.name,
+                      error_in_words(scale), zone.name)};
 }
 
 /// Heights on different datums differ by metres, which no CRS of a store would show. Unknown datums are trusted.
@@ -123,13 +130,17 @@ class VerticalDatums {
   std::string datum_, place_;
 };
 
+std::string datum_of(const Crs& crs) {
+  return crs.heights ? crs.heights->datum : "";
+}
+
 void check_vertical_datums(const OpenedFiles& opened, const ImportOptions& options, const StoreMetadata* existing) {
   VerticalDatums datums;
   if (existing)
     for (const SourceInfo& source : existing->sources)
-      if (!source.source_crs.empty()) datums.add(parse_crs(source.source_crs, source.path).vertical_datum, source.path);
-  if (!options.to_crs.empty()) datums.add(parse_crs(options.to_crs, "--to-crs").vertical_datum, "--to-crs");
-  for (const OpenedFile* file : opened) datums.add(file->crs().vertical_datum, file->path());
+      if (!source.source_crs.empty()) datums.add(datum_of(parse_crs(source.source_crs, source.path)), source.path);
+  if (!options.to_crs.empty()) datums.add(datum_of(parse_crs(options.to_crs, "--to-crs")), "--to-crs");
+  for (const OpenedFile* file : opened) datums.add(datum_of(file->crs()), file->path());
 }
 
 Grid settle_grid(const ImportOptions& options, const StoreMetadata* existing, const OpenedFile& first, const Crs& crs) {
@@ -168,7 +179,10 @@ ImportPlan plan_import(const ImportOptions& options, const StoreMetadata* existi
   for (const auto& file : points) opened.push_back(file.get());
   for (const auto& file : plan.lines) opened.push_back(file.get());
   if (!options.allow_mixed_vertical) check_vertical_datums(opened, options, existing);
-  const auto [crs, chosen] = settle_crs(options, existing, *opened.front());
+  const auto [crs, chosen, why] = settle_crs(options, existing, *opened.front());
+  if (!why.empty()) plan.warnings.push_back(why);
+  plan.scale = std::make_unique<TrueScale>(crs, existing != nullptr);
+  for (const OpenedFile* file : opened) plan.scale->require(*file);
   plan.crs_wkt = crs.wkt;
   plan.crs_name = crs.name;
   plan.crs_chosen = chosen;

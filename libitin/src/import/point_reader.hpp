@@ -10,6 +10,8 @@
 
 #include <itin/geometry.hpp>
 
+#include "import/linear_unit.hpp"
+
 namespace itin {
 
 /// Some points in the file's own coordinates and units, axes easting (or longitude), northing (or latitude), height.
@@ -38,11 +40,13 @@ class PointReader {
   /// What the file says of its CRS: authority:code or WKT; empty if it says nothing.
   virtual std::string crs() const = 0;
   /// The unit of the heights, where the file states it apart from its CRS.
-  virtual std::optional<double> metres_per_height() const { return std::nullopt; }
+  virtual std::optional<LinearUnit> height_unit() const { return std::nullopt; }
   /// One line each: assumptions made on opening.
   virtual std::vector<std::string> warnings() const { return {}; }
   /// A position amid the points.
   virtual Point2 centre() const = 0;
+  /// Of the points, as far as it is known without reading them: at least the centre.
+  virtual Box extent() const { return {centre().x, centre().y, centre().x, centre().y}; }
   /// Bytes or points, whatever is at hand.
   virtual double size_hint() const = 0;
   /// Streams all points in bounded memory, and returns how many were left out by class or attribute filter. What the

@@ -7,22 +7,12 @@
 #include <itin/error.hpp>
 #include <itin/raster.hpp>
 
+#include "import/crs.hpp"
 #include "import/quiet_gdal.hpp"
 #include "import/raster_file.hpp"
+#include "import/raster_source.hpp"
 
 namespace itin {
-
-namespace {
-
-bool same_crs(const OGRSpatialReference& crs, const std::string& wkt) {
-  OGRSpatialReference other;
-  if (other.SetFromUserInput(wkt.c_str()) != OGRERR_NONE) throw InputError("the store's CRS is not understood");
-  // Files spell one CRS in several ways; only what changes positions matters.
-  constexpr const char* kOptions[] = {"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES", "CRITERION=EQUIVALENT", nullptr};
-  return crs.IsSame(&other, kOptions);
-}
-
-}  // namespace
 
 RasterGrid raster_grid_like(const std::string& path, const std::string& crs_wkt) {
   const QuietGdal quiet;
@@ -32,8 +22,9 @@ RasterGrid raster_grid_like(const std::string& path, const std::string& crs_wkt)
     throw InputError(path + ": has no georeference, so its grid is unknown");
   if (affine[2] != 0 || affine[4] != 0 || affine[1] <= 0 || affine[5] >= 0)
     throw InputError(path + ": its rows do not run from west to east and north to south; warp it north-up first");
-  const OGRSpatialReference* crs = dataset->GetSpatialRef();
-  if (crs && !crs_wkt.empty() && !same_crs(*crs, crs_wkt))
+  const std::string crs = crs_text(*dataset);
+  if (!crs.empty() && !crs_wkt.empty() &&
+      !same_crs(horizontal_crs(crs, path), horizontal_crs(crs_wkt, "the store's CRS")))
     throw InputError(path + ": its CRS is not the store's; warp it to the store's CRS first");
   return {{affine[0], affine[3]}, affine[1], -affine[5], dataset->GetRasterXSize(), dataset->GetRasterYSize()};
 }

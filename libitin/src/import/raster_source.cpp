@@ -39,6 +39,12 @@ struct Lattice {
   Point2 post(double column, double row) const {
     return {origin.x + column * u.x + row * v.x, origin.y + column * u.y + row * v.y};
   }
+  Box box(const RasterWindow& part) const {
+    Box box;
+    for (const int column : {part.column, part.column + part.columns - 1})
+      for (const int row : {part.row, part.row + part.rows - 1}) box.extend(post(column, row));
+    return box;
+  }
 };
 
 std::vector<std::string> rasters_in_archive(const std::string& archive) {
@@ -59,12 +65,6 @@ Lattice lattice_of(GDALDataset& dataset, const std::string& path) {
           {t[0] + (t[1] + t[2]) / 2, t[3] + (t[4] + t[5]) / 2},
           {t[1], t[4]},
           {t[2], t[5]}};
-}
-
-std::string crs_text(const GDALDataset& dataset) {
-  const OGRSpatialReference* reference = dataset.GetSpatialRef();
-  // A local system is how some formats say "none".
-  return reference && !reference->IsLocal() ? wkt_of(*reference) : std::string();
 }
 
 /// Lends GDAL's cache of blocks, which the whole process shares, no more than this source may take.
@@ -109,7 +109,7 @@ struct OpenedRaster {
   std::uint64_t memory_bytes = 0;
   Lattice lattice;
   Crs crs;
-  double metres_per_height = 1;
+  SourceHeights heights;
 };
 
 class RasterTerrain final : public TerrainSource {
@@ -119,10 +119,10 @@ class RasterTerrain final : public TerrainSource {
         band_(raster.band),
         lattice_(raster.lattice),
         memory_bytes_(raster.memory_bytes),
-        placement_(path_, raster.crs, raster.metres_per_height, context) {
+        placement_(path_, raster.crs, raster.heights.axis, context) {
     info_.path = path_;
     info_.kind = "terrain";
-    info_.source_crs = raster.crs.whole;
+    info_.source_crs = raster.heights.crs;
     measure_steps();
   }
 
@@ -229,15 +229,18 @@ ReadCounts RasterTerrain::counts(std::uint64_t undeclared_voids) const {
 class RasterFile final : public SourceFile {
  public:
   RasterFile(const std::string& path, const ImportOptions& options) {
+    // Files of GeoTIFF 1.0 tell their vertical part only when asked to.
+    const CPLConfigOptionSetter whole_crs("GTIFF_REPORT_COMPD_CS", "YES", true);
     const QuietGdal quiet;
+    const GDALDatasetUniquePtr dataset = open_raster_file(path);
     const HeightBand band(*dataset, path, options.band);
     RasterWindows(band, options.memory_bytes).require_small_blocks(*dataset);
     present_ = RasterWindows::present(band);
-    raster_ = {path, options.band, options.memory_bytes, lattice_of(*dataset, path), {}, 1};
+    raster_ = {path, options.band, options.memory_bytes, lattice_of(*dataset, path), {}, {}};
     raster_.crs = source_crs(path, options.crs, crs_text(*dataset));
-    const HeightUnit unit = height_unit(path, band.stated_unit(warnings_), raster_.crs);
-    raster_.metres_per_height = unit.metres;
-    if (!unit.warning.empty()) warnings_.push_back(unit.warning);
+    raster_.heights =
+        source_heights(path, raster_.crs.heights_given ? std::nullopt : band.stated_unit(), raster_.crs);
+    if (!raster_.heights.warning.empty()) warnings_.push_back(raster_.heights.warning);
   }
 
   Crs crs() const override { return raster_.crs; }
@@ -246,6 +249,7 @@ class RasterFile final : public SourceFile {
     return raster_.lattice.post(present_.column + (present_.columns - 1) / 2.0,
                                 present_.row + (present_.rows - 1) / 2.0);
   }
+  Box extent() const override { return raster_.lattice.box(present_); }
   std::vector<std::string> warnings() const override { return warnings_; }
   std::unique_ptr<TerrainSource> bind(const SourceContext& context) override {
     return std::make_unique<RasterTerrain>(raster_, context);
@@ -264,6 +268,12 @@ std::vector<std::string> find_rasters(const std::string& path) {
   if (EQUAL(CPLGetExtension(path.c_str()), "zip"))
     return rasters_in_archive(path.starts_with("/vsizip/") ? path : "/vsizip/" + path);
   return is_raster(path) ? std::vector{path} : std::vector<std::string>{};
+}
+
+std::string crs_text(const GDALDataset& dataset) {
+  const OGRSpatialReference* reference = dataset.GetSpatialRef();
+  // A local system is how some formats say "none".
+  return reference && !reference->IsLocal() ? wkt_of(*reference) : std::string();
 }
 
 std::unique_ptr<SourceFile> open_raster_source(const std::string& path, const ImportOptions& options) {

@@ -9,7 +9,12 @@
 
 #include "import/source_context.hpp"
 
+class GDALDataset;
+
 namespace itin {
+
+/// WKT 2; empty where the raster does not say its CRS.
+std::string crs_text(const GDALDataset& dataset);
 
 /// The rasters `path` stands for: itself, or those inside a .zip in order of name; none where GDAL sees no raster in
 /// it. Text of scattered points is no raster, even where GDAL would grid it.

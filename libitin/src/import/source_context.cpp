@@ -34,25 +34,29 @@ constexpr double kMissingMarks[] = {-3.4028234663852886e38,
 // Some were written as single precision, or with few digits.
 constexpr double kMarkShare = 1e-6;
 
+/// What a file says of itself. Where --crs has a horizontal part, it need not be understood.
+Crs own_crs(const std::string& path, const std::string& found, bool needed) {
+  if (found.empty()) return {};
+  try {
+    return parse_any_crs(found, path);
+  } catch (const InputError&) {
+    if (needed) throw;
+    return {};
+  }
+}
+
 }  // namespace
 
 Crs source_crs(const std::string& path, const std::string& option_crs, const std::string& found) {
-  if (!option_crs.empty()) return parse_crs(option_crs, "--crs");
-  if (found.empty()) throw InputError(path + ": does not say its CRS; give it with --crs EPSG:xxxx");
-  return parse_crs(found, path);
-}
-
-HeightUnit height_unit(const std::string& path, std::optional<double> stated, const Crs& crs) {
-  const auto differs = [](double metres) { return std::abs(metres - 1) > 1e-9; };
-  if (!stated) stated = crs.metres_per_height;
-  if (stated && differs(*stated))
-    return {*stated, fmt::format("{}: heights are in units of {:.9g} m, and were converted to metres", path, *stated)};
-  if (stated || !crs.metres_per_axis || !differs(*crs.metres_per_axis)) return {};
-  return {
-      *crs.metres_per_axis,
-      fmt::format("{}: the unit of heights is not stated; taken as that of the coordinates, {:.9g} m. If they are in "
-                  "metres, give --crs a compound CRS, such as {}+5703",
-                  path, *crs.metres_per_axis, crs.name)};
+  const Crs given = option_crs.empty() ? Crs{} : parse_any_crs(option_crs, "--crs");
+  const Crs own = own_crs(path, found, given.wkt.empty());
+  Crs crs = given.wkt.empty() ? own : given;
+  if (crs.wkt.empty())
+    throw InputError(fmt::format("{}: does not say its {}CRS; give it with --crs EPSG:xxxx", path,
+                                 given.heights || own.heights ? "horizontal " : ""));
+  crs.heights_given = given.heights.has_value();
+  crs.heights = crs.heights_given ? given.heights : own.heights;
+  return crs;
 }
 
 bool is_missing_mark(double height) {
@@ -60,15 +64,15 @@ bool is_missing_mark(double height) {
                      [&](double mark) { return std::abs(height - mark) <= kMarkShare * std::abs(mark); });
 }
 
-Placement::Placement(std::string path, const Crs& crs, double metres_per_height, const SourceContext& context)
+Placement::Placement(std::string path, const Crs& crs, const HeightAxis& heights, const SourceContext& context)
     : path_(std::move(path)),
       transform_(crs.wkt, context.crs_wkt, path_),
-      metres_per_height_(metres_per_height),
+      height_factor_(heights.factor()),
       grid_(context.grid) {}
 
 void Placement::require_heights(std::span<const double> x, std::span<const double> y, std::span<const double> z) const {
   for (std::size_t i = 0; i < z.size(); ++i) {
-    const double height = z[i] * metres_per_height_;
+    const double height = z[i] * height_factor_;
     if (is_height(height) || std::isnan(height) || is_missing_mark(z[i])) continue;
     require_height(height, fmt::format("{}: at {:.10g},{:.10g}", path_, x[i], y[i]));
   }
@@ -80,7 +84,7 @@ void Placement::place(std::span<double> x, std::span<double> y, std::span<const 
   require_heights(x, y, z);
   transform_.transform(x, y);
   for (std::size_t i = 0; i < z.size(); ++i) {
-    const double height = z[i] * metres_per_height_;
+    const double height = z[i] * height_factor_;
     if (std::isnan(height)) {
       ++voids_;
     } else if (!is_height(height)) {
@@ -91,6 +95,7 @@ void Placement::place(std::span<double> x, std::span<double> y, std::span<const 
       ++unmapped_;
     } else if (grid_.covers({x[i], y[i]})) {
       points.push_back(grid_.quantise({x[i], y[i], height}));
+      bounds_.extend(points.back().x, points.back().y);
     } else {
       throw InputError(
           fmt::format("{}: position {:.12g}, {:.12g} lies beyond the {:.0f} km about {:.12g}, {:.12g} that the store's "
@@ -104,7 +109,7 @@ void Placement::place(std::span<double> x, std::span<double> y, std::span<const 
 }
 
 ReadCounts Placement::counts() const {
-  ReadCounts counts{placed_, voids_ + marks_ + out_of_range_ + unmapped_, 0, {}};
+  ReadCounts counts{placed_, voids_ + marks_ + out_of_range_ + unmapped_, 0, bounds_, {}};
   if (marks_ > 0)
     counts.warnings.push_back(fmt::format(
         "{}: {} heights of what customarily marks missing data, such as {:g}, were taken as missing, though "

@@ -17,6 +17,7 @@
 #include <itin/geometry.hpp>
 
 #include "import/crs.hpp"
+#include "import/source_heights.hpp"
 #include "import/terrain_source.hpp"
 
 namespace itin {
@@ -36,6 +37,8 @@ class OpenedFile {
   virtual Crs crs() const = 0;
   /// A position amid the file's points, in its own CRS.
   virtual Point2 centre() const = 0;
+  /// Of the file's points in its own CRS, as far as it is known without reading them: at least the centre.
+  virtual Box extent() const { return {centre().x, centre().y, centre().x, centre().y}; }
   /// One line each: assumptions made on opening.
   virtual std::vector<std::string> warnings() const { return {}; }
 };
@@ -47,27 +50,16 @@ class SourceFile : public OpenedFile {
   virtual std::unique_ptr<TerrainSource> bind(const SourceContext& context) = 0;
 };
 
-/// The CRS of a source: --crs, else `found`, the text the file holds. Throws InputError that says `--crs EPSG:xxxx`
-/// where both are empty.
+/// The CRS of a source: --crs, and what that leaves open (the horizontal or the vertical part) as `found`, the text the
+/// file holds. Throws InputError that says `--crs EPSG:xxxx` where neither has a horizontal part.
 Crs source_crs(const std::string& path, const std::string& option_crs, const std::string& found);
-
-struct HeightUnit {
-  double metres = 1;
-  std::string warning;  ///< empty when there is nothing to say
-};
-
-/// The unit of a source's heights: `stated` by the file (in metres), else the vertical part's of its CRS, else that of
-/// the CRS's own axes, for a survey in feet has its heights in feet though few files say so, else metres.
-HeightUnit height_unit(const std::string& path, std::optional<double> stated, const Crs& crs);
 
 /// Whether a number is one that customarily stands for a missing height, and is none for sure.
 bool is_missing_mark(double height);
-
 /// Takes points from a source's coordinates to the grid, a batch at a time; the last step of every kind of source.
 class Placement {
  public:
-  /// `metres_per_height` converts the source's heights.
-  Placement(std::string path, const Crs& crs, double metres_per_height, const SourceContext& context);
+  Placement(std::string path, const Crs& crs, const HeightAxis& heights, const SourceContext& context);
 
   /// Transforms x and y in place, and replaces `points` by those that have a position and a height. Points whose height
   /// is NaN, is_missing_mark(), below -12,000 m or above 20,000 m, or whose position has no image are counted as voids.
@@ -84,8 +76,9 @@ class Placement {
 
   std::string path_;
   PointTransform transform_;
-  double metres_per_height_;
+  double height_factor_;
   Grid grid_;
+  GridBox bounds_;
   std::uint64_t placed_ = 0, voids_ = 0, marks_ = 0, out_of_range_ = 0, unmapped_ = 0;
 };
 

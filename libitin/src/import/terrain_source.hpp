@@ -18,6 +18,7 @@ struct ReadCounts {
   std::uint64_t read = 0;             ///< points handed on
   std::uint64_t voids = 0;            ///< posts without data
   std::uint64_t filtered = 0;         ///< left out by class or where
+  GridBox bounds;                     ///< of the points handed on
   std::vector<std::string> warnings;  ///< one line each
 };
 
@@ -35,12 +36,14 @@ class TerrainSource {
 };
 
 class LineLayer;  // line_layer.hpp
+class TrueScale;  // true_scale.hpp
 
 struct ImportPlan {
   std::string crs_wkt;  ///< of the store: projected, metres
   std::string crs_name;
   bool crs_chosen = false;  ///< a UTM zone was chosen
   Grid grid;
+  std::unique_ptr<TrueScale> scale;  ///< of that CRS; null where the plan adds neither points nor lines
   ImportPlan();
   ImportPlan(ImportPlan&&) noexcept;
   ImportPlan& operator=(ImportPlan&&) noexcept;
@@ -50,7 +53,9 @@ struct ImportPlan {
   std::vector<std::string> warnings;
 };
 
-/// Opens all sources and settles CRS and grid; `existing` (may be null) fixes both. Nothing is written.
+/// Opens all sources and settles CRS and grid; `existing` (may be null) fixes both. Nothing is written. A new store has
+/// the CRS of options.to_crs, else that of the first source if it is metric and lengths in it are true there, else the
+/// UTM zone there. Lengths must be true in it wherever the sources say that they lie.
 /// The grid's origin is the centre of the first source, rounded to a multiple of 2^29 resolutions in each axis: (0, 0)
 /// for nearly every CRS at 1 cm. Throws InputError, FileError.
 ImportPlan plan_import(const ImportOptions& options, const StoreMetadata* existing);

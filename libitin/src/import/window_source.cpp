@@ -12,6 +12,7 @@
 #include <itin/error.hpp>
 #include <itin/window_source.hpp>
 
+#include "import/crs.hpp"
 #include "import/quiet_gdal.hpp"
 
 namespace itin {
@@ -32,23 +33,13 @@ bool is_well_known_text(const std::string& text) {
   return bracketed && std::find(std::begin(kWords), std::end(kWords), word) != std::end(kWords);
 }
 
-OGRSpatialReference reference_system(const std::string& crs) {
-  OGRSpatialReference result;
-  if (result.SetFromUserInput(crs.c_str()) != OGRERR_NONE)
-    throw InputError(fmt::format("polygon: the CRS '{}' is not understood", crs));
-  result.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  return result;
-}
-
-void transform(OGRGeometry& geometry, const OGRSpatialReference& from, const OGRSpatialReference& to) {
-  if (from.IsSame(&to)) return;
-  OGRSpatialReference source(from);
-  source.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  const std::unique_ptr<OGRCoordinateTransformation> transformation(OGRCreateCoordinateTransformation(&source, &to));
+void transform(OGRGeometry& geometry, const std::string& from_crs, const std::string& to_crs) {
+  const OGRSpatialReference from = horizontal_crs(from_crs, "polygon"), to = horizontal_crs(to_crs, "polygon");
+  if (same_crs(from, to)) return;
+  const std::unique_ptr<OGRCoordinateTransformation> transformation(OGRCreateCoordinateTransformation(&from, &to));
   if (!transformation || geometry.transform(transformation.get()) != OGRERR_NONE)
     throw InputError(fmt::format("polygon: its coordinates cannot be transformed from {} to {}",
-                                 source.GetName() ? source.GetName() : "its CRS",
-                                 to.GetName() ? to.GetName() : "the CRS"));
+                                 from.GetName() ? from.GetName() : "its CRS", to.GetName() ? to.GetName() : "the CRS"));
 }
 
 Window::Ring ring_of(const OGRLinearRing& ring) {
@@ -82,8 +73,7 @@ Geometry geometry_from_text(const std::string& text, const std::string& target_c
     throw InputError(
         fmt::format("polygon: '{}' is not well-known text; check brackets and numbers", text.substr(0, 60)));
   geometry.reset(geometry->getLinearGeometry());
-  if (!wkt_crs.empty() && !target_crs.empty())
-    transform(*geometry, reference_system(wkt_crs), reference_system(target_crs));
+  if (!wkt_crs.empty() && !target_crs.empty()) transform(*geometry, wkt_crs, target_crs);
   return geometry;
 }
 
@@ -92,7 +82,7 @@ void append_layer(OGRLayer& layer, const std::string& target_crs, std::vector<Wi
   for (const auto& feature : layer) {
     if (!feature->GetGeometryRef()) continue;
     const Geometry geometry(feature->GetGeometryRef()->getLinearGeometry());
-    if (crs && !target_crs.empty()) transform(*geometry, *crs, reference_system(target_crs));
+    if (crs && !target_crs.empty()) transform(*geometry, wkt_of(*crs), target_crs);
     append_polygons(*geometry, parts);
   }
 }

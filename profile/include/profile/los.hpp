@@ -102,6 +102,7 @@ struct LosReport {
   std::vector<std::pair<std::string, std::string>> facts;  ///< what was asked of what: name, value
   std::vector<std::string> from_lines, to_lines;           ///< about the ends
   std::string crs_wkt;                                     ///< empty: the profile has no positions
+  std::optional<double> geodesic_m;                        ///< between the ends on WGS 84, where they have positions
   std::vector<std::string> themes;                         ///< names by ProfilePoint::theme; 0 is the terrain
   std::map<std::pair<std::uint16_t, std::int64_t>, std::string> features;  ///< names by theme and feature
 };

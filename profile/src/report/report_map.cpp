@@ -165,12 +165,14 @@ std::vector<VectorLayer> report_layers(const LosReport& report) {
                     {"distance_m", kNumber},
                     {"clearance_m", kNumber},
                     {"fresnel_fraction", kNumber},
-                    {"ld_db", kNumber}},
+                    {"ld_db", kNumber},
+                    {"geodesic_distance_m", kNumber}},
                    {}};
-  line.features.push_back({path.ray_line(),
-                           {std::string(name_of(report.verdict)), report.profile.length_m, metres(report.clearance_m),
-                            metres(report.fresnel ? std::optional(report.fresnel->fraction) : std::nullopt),
-                            metres(report.losses ? std::optional(report.losses->ld_db) : std::nullopt)}});
+  line.features.push_back(
+      {path.ray_line(),
+       {std::string(name_of(report.verdict)), report.profile.length_m, metres(report.clearance_m),
+        metres(report.fresnel ? std::optional(report.fresnel->fraction) : std::nullopt),
+        metres(report.losses ? std::optional(report.losses->ld_db) : std::nullopt), metres(report.geodesic_m)}});
   VectorLayer ends{"points", Shape::kPoints, {{"what", kText}, {"distance_m", kNumber}, {"height_m", kNumber}}, {}};
   ends.features.push_back({{path.ray(0)}, {std::string("from"), 0.0, report.query.from_height_m}});
   ends.features.push_back(

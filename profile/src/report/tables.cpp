@@ -177,8 +177,10 @@ std::string critical_line(const LosReport& report) {
 }
 
 std::string verdict_line(const LosReport& report) {
-  return fmt::format("{}. Distance {}; critical point at {}.", capitalised(name_of(report.verdict)),
-                     distance_text(report.profile.length_m), critical_line(report));
+  std::string distance = distance_text(report.profile.length_m);
+  if (report.geodesic_m) distance += fmt::format(" on the grid, {} geodesic", distance_text(*report.geodesic_m));
+  return fmt::format("{}. Distance {}; critical point at {}.", capitalised(name_of(report.verdict)), distance,
+                     critical_line(report));
 }
 
 Table facts_table(const LosReport& report) {

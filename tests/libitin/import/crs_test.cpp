@@ -6,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include <cpl_conv.h>
 #include <gtest/gtest.h>
 #include <ogr_spatialref.h>
 
@@ -32,10 +33,61 @@ TEST(Crs, KeepsOnlyTheHorizontalPart) {
   const Crs crs = parse_crs("EPSG:32617+6360", "a");
   EXPECT_EQ(crs.name, "EPSG:32617");
   EXPECT_TRUE(PointTransform(crs.wkt, "EPSG:32617", "a").identity());
-  EXPECT_NEAR(crs.metres_per_height.value(), 1200.0 / 3937, 1e-12);
-  EXPECT_DOUBLE_EQ(parse_crs("EPSG:27700+5701", "a").metres_per_height.value(), 1);
-  EXPECT_FALSE(parse_crs("EPSG:27700", "a").metres_per_height);
+  EXPECT_NEAR(crs.heights.value().metres, 1200.0 / 3937, 1e-12);
+  EXPECT_FALSE(parse_crs("EPSG:27700", "a").heights);
   EXPECT_EQ(parse_crs("EPSG:4979", "a").metres_per_axis, std::nullopt);  // 3D
+}
+
+TEST(Crs, TellsWhatItsHeightsMean) {
+  const auto heights = [](const std::string& crs) { return parse_crs(crs, "a").heights.value(); };
+  EXPECT_EQ(heights("EPSG:27700+5701"), (HeightAxis{"Ordnance Datum Newlyn", "metre", 1, false}));
+  EXPECT_EQ(heights("EPSG:32630+5715"), (HeightAxis{"Mean Sea Level", "metre", 1, true}));
+  EXPECT_EQ(heights("EPSG:4979"), (HeightAxis{"the ellipsoid", "metre", 1, false}));
+  const HeightAxis depth = heights("EPSG:26917+6358");  // NAVD88 depth (ftUS)
+  EXPECT_EQ(depth.datum, "North American Vertical Datum 1988");
+  EXPECT_EQ(depth.unit, "US survey foot");
+  EXPECT_NEAR(depth.factor(), -1200.0 / 3937, 1e-12);
+  const HeightAxis fathoms = heights(
+      "COMPOUNDCRS[\"soundings\"," + parse_crs("EPSG:32630", "a").wkt +
+      R"wkt(,VERTCRS["chart",VDATUM["Chart datum"],CS[vertical,1],AXIS["depth (D)",down],LENGTHUNIT["fathom",1.8288]]])wkt");
+  EXPECT_EQ(fathoms, (HeightAxis{"Chart datum", "fathom", 1.8288, true}));
+}
+
+/// Every dialect that recognises a CRS must recognise what it made of it, and no other.
+TEST(Crs, IsTheSameInEveryDialect) {
+  const std::vector<std::string> texts{
+      "EPSG:27700",
+      "EPSG:28992",
+      "EPSG:2154",
+      "EPSG:5514",
+      "EPSG:2180",
+      "EPSG:4326",
+      "EPSG:3857",
+      "+proj=utm +zone=30 +datum=WGS84 +units=m",
+      "+proj=utm +zone=55 +south +ellps=GRS80 +units=m",
+      "+proj=tmerc +lat_0=49 +lon_0=-2 +k=0.9996012717 +x_0=400000 +y_0=-100000 +ellps=airy +units=m",
+      "+proj=laea +lat_0=-89 +lon_0=0 +datum=WGS84 +units=m",
+      "+proj=lcc +lat_1=49 +lat_2=44 +lat_0=46.5 +lon_0=3 +x_0=700000 +y_0=6600000 +ellps=GRS80 +units=m"};
+  constexpr const char* kDialects[] = {"WKT1_GDAL", "WKT1_ESRI", "WKT2_2015", "WKT2_2018"};
+  for (const std::string& text : texts) {
+    const OGRSpatialReference understood = horizontal_crs(text, "a");
+    EXPECT_TRUE(same_crs(understood, horizontal_crs(parse_crs(text, "a").wkt, "a"))) << text;
+    for (const char* dialect : kDialects) {
+      OGRSpatialReference nameless = understood;
+      nameless.SetFromUserInput(text.c_str());
+      nameless.SetProjCS("unnamed");
+      char* wkt = nullptr;
+      const std::string format = std::string("FORMAT=") + dialect;
+      const char* const options[] = {format.c_str(), nullptr};
+      if (text != "EPSG:4326") nameless.exportToWkt(&wkt, options);
+      const std::string dialect_text = wkt ? wkt : text;
+      CPLFree(wkt);
+      const Crs made = parse_crs(dialect_text, "a");
+      EXPECT_TRUE(same_crs(horizontal_crs(dialect_text, "a"), horizontal_crs(made.wkt, "a"))) << dialect_text;
+    }
+    for (const std::string& other : texts)
+      EXPECT_EQ(same_crs(understood, horizontal_crs(other, "a")), text == other) << text << "\n" << other;
+  }
 }
 
 TEST(Crs, RecognisesDialectsWithoutCodes) {

@@ -11,6 +11,7 @@
 
 #include <itin/error.hpp>
 
+#include "import/crs.hpp"
 #include "import/las_file.hpp"
 #include "import/las_projection.hpp"
 #include "support/las_writer.hpp"
@@ -142,15 +143,32 @@ TEST(LasProjection, ReadsGeoKeys) {
   EXPECT_EQ(projection_of(with_keys({{1024, 2}, {2048, 4326}})).crs, "EPSG:4326");
   EXPECT_EQ(projection_of(with_keys({{1024, 1}, {2048, 4326}, {3072, 32767}})).crs, "");
   EXPECT_EQ(projection_of(with_keys({})).crs, "");
-  EXPECT_EQ(projection_of(with_keys({{3072, 27700}})).metres_per_height, std::nullopt);
+  EXPECT_FALSE(projection_of(with_keys({{3072, 27700}})).height_unit);
+}
+
+TEST(LasProjection, ReadsTheVerticalPart) {
+  const auto heights = [](const std::vector<std::array<std::uint16_t, 2>>& keys) {
+    return parse_any_crs(projection_of(with_keys(keys)).crs, "a").heights.value();
+  };
+  EXPECT_EQ(heights({{3072, 27700}, {4096, 5701}}), (HeightAxis{"Ordnance Datum Newlyn", "metre", 1, false}));
+  EXPECT_EQ(heights({{3072, 32630}, {4096, 5715}}), (HeightAxis{"Mean Sea Level", "metre", 1, true}));
+  EXPECT_TRUE(heights({{3072, 26917}, {4096, 6358}}).down);
+  EXPECT_EQ(heights({{3072, 26912}, {3076, 9002}, {4096, 5703}}).datum, "North American Vertical Datum 1988");
+  EXPECT_EQ(heights({{4096, 5703}}).unit, "metre");  // of no horizontal CRS
+  EXPECT_EQ(parse_crs(projection_of(with_keys({{3072, 27700}, {4096, 5701}})).crs, "a").whole, "EPSG:27700+5701");
+  EXPECT_EQ(projection_of(with_keys({{3072, 27700}, {4096, 5103}})).crs, "EPSG:27700");  // not known as a CRS
 }
 
 TEST(LasProjection, ReadsUnits) {
-  EXPECT_EQ(projection_of(with_keys({{3072, 26912}, {3076, 9001}, {4099, 9003}})).metres_per_height, 1200.0 / 3937.0);
-  EXPECT_EQ(projection_of(with_keys({{3072, 26912}, {4099, 9002}})).metres_per_height, 0.3048);
-  // EPSG:6360 is NAVD88 in US survey feet; the CRS's own unit, unless 4099 says otherwise.
-  EXPECT_NEAR(projection_of(with_keys({{3072, 2229}, {4096, 6360}})).metres_per_height.value(), 1200.0 / 3937.0, 1e-12);
-  EXPECT_EQ(projection_of(with_keys({{3072, 2229}, {4096, 5703}, {4099, 9002}})).metres_per_height, 0.3048);
+  const auto unit = [](const std::vector<std::array<std::uint16_t, 2>>& keys) {
+    return projection_of(with_keys(keys)).height_unit.value().metres;
+  };
+  EXPECT_EQ(unit({{3072, 26912}, {3076, 9001}, {4099, 9003}}), 1200.0 / 3937.0);
+  EXPECT_EQ(unit({{3072, 26912}, {4099, 9002}}), 0.3048);
+  EXPECT_EQ(unit({{3072, 26912}, {4099, 9014}}), 1.8288);
+  EXPECT_EQ(unit({{3072, 26912}, {4099, 1033}}), 0.01);
+  EXPECT_NEAR(unit({{3072, 26912}, {4099, 9070}}), 0.3048008333, 1e-10);  // of 1865, not 1936
+  EXPECT_EQ(unit({{3072, 2229}, {4096, 5703}, {4099, 9002}}), 0.3048);
   EXPECT_EQ(projection_of(with_keys({{3072, 26912}, {3076, 9001}})).crs, "EPSG:26912");
   const std::string feet = projection_of(with_keys({{3072, 26912}, {3076, 9002}})).crs;
   EXPECT_THAT(feet, HasSubstr("0.3048"));

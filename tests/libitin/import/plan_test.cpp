@@ -1,12 +1,19 @@
 // What an import settles before it reads a point: kinds, CRS, grid, and every refusal.
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
+#include <random>
+#include <tuple>
 
+#include <itin/coordinates.hpp>
 #include <itin/error.hpp>
+#include <itin/geodesic.hpp>
+#include <itin/grid_scale.hpp>
 
 #include "import/crs.hpp"
 #include "libitin/import/raster_fixture.hpp"
+#include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
 
 namespace itin {
@@ -34,6 +41,10 @@ class Plan : public ::testing::Test {
   std::string alpine(const std::string& name = "alps.tif") {
     return raster(name, "EPSG:4326", {8.5, 0.001, 0, 46.5, 0, -0.001});
   }
+  /// Beside british().
+  std::string welsh(const std::string& name = "wales.tif") {
+    return raster(name, "EPSG:4326", {-3.2, 0.001, 0, 51.5, 0, -0.001});
+  }
 
   ImportPlan plan(std::vector<std::string> sources, const StoreMetadata* existing = nullptr) {
     options_.sources = std::move(sources);
@@ -57,7 +68,7 @@ class Plan : public ::testing::Test {
 };
 
 TEST_F(Plan, KeepsAMetricCrs) {
-  const ImportPlan made = plan({british(), alpine()});
+  const ImportPlan made = plan({british(), welsh()});
   EXPECT_EQ(made.crs_name, "EPSG:27700");
   EXPECT_FALSE(made.crs_chosen);
   EXPECT_TRUE(PointTransform(made.crs_wkt, "EPSG:27700", "a").identity());
@@ -69,9 +80,89 @@ TEST_F(Plan, KeepsAMetricCrs) {
 }
 
 TEST_F(Plan, ChoosesTheUtmZoneOfTheFirstSource) {
-  const ImportPlan made = plan({alpine(), british()});
-  EXPECT_EQ(made.crs_name, "EPSG:32632");
+  const ImportPlan made = plan({welsh(), british()});
+  EXPECT_EQ(made.crs_name, "EPSG:32630");
   EXPECT_TRUE(made.crs_chosen);
+  EXPECT_THAT(made.warnings, IsEmpty());
+}
+
+TEST_F(Plan, ChoosesTheUtmZoneWhereLengthsWouldBeWrong) {
+  for (const auto& [crs, x, y] :
+       {std::tuple("EPSG:3857", -356000.0, 6700000.0), std::tuple("EPSG:4087", -356000.0, 5700000.0),
+        std::tuple("EPSG:3395", -356000.0, 6700000.0), std::tuple("EPSG:32632", -350000.0, 5740000.0)}) {
+    const ImportPlan made = plan({raster("m.tif", crs, {x, 50, 0, y, 0, -50})});
+    EXPECT_EQ(made.crs_name, "EPSG:32630") << crs;
+    EXPECT_TRUE(made.crs_chosen);
+    ASSERT_EQ(made.warnings.size(), 1U) << crs;
+    EXPECT_THAT(made.warnings.front(), HasSubstr("; the store's is EPSG:32630 instead"));
+    EXPECT_THAT(made.warnings.front(), HasSubstr(crs));
+  }
+}
+
+TEST_F(Plan, KeepsNationalGrids) {
+  const std::tuple<const char*, double, double> grids[] = {
+      {"EPSG:27700", 5000, 900000},     {"EPSG:27700", 650000, 310000},   {"EPSG:28992", 85000, 446000},
+      {"EPSG:2154", 1220000, 6080000},  {"EPSG:2154", 650000, 7110000},   {"EPSG:25832", 300000, 5500000},
+      {"EPSG:32630", 170000, 100000},   {"EPSG:26918", 322000, 4297000},  {"EPSG:3067", 83000, 6710000},
+      {"EPSG:2193", 2080000, 5820000},  {"EPSG:3006", 900000, 7350000},   {"EPSG:5514", -740000, -1040000},
+      {"EPSG:25833", 1100000, 7880000}, {"EPSG:25830", 1115000, 4440000}, {"EPSG:2056", 2600000, 1200000},
+      {"EPSG:31370", 150000, 170000},   {"EPSG:26986", 236000, 900000}};
+  for (const auto& [crs, x, y] : grids) {
+    const ImportPlan made = plan({raster("n.tif", crs, {x, 50, 0, y, 0, -50})});
+    EXPECT_EQ(made.crs_name, crs);
+    EXPECT_THAT(made.warnings, IsEmpty());
+  }
+}
+
+TEST_F(Plan, RefusesACrsWhoseLengthsAreWrongWhereItIsAskedFor) {
+  options_.to_crs = "EPSG:3857";
+  EXPECT_EQ(refusal<InputError>({british()}),
+            british() +
+                ": lengths in EPSG:3857, the store's CRS, are up to 60.6 % too long there, where 0.5 % are "
+                "allowed; give --to-crs one made for that place, such as 'EPSG:32630', or import it into a store "
+                "of its own, in pieces where it is wide");
+  options_.to_crs = "EPSG:32633";
+  EXPECT_THAT(refusal<InputError>({british()}), HasSubstr("such as 'EPSG:32630'"));
+  options_.to_crs.clear();
+  EXPECT_THAT(refusal<InputError>({alpine(), british()}), HasSubstr("gb.tif: lengths in EPSG:32632"));
+  const std::string wide = raster("wide.tif", "EPSG:4326", {5, 4, 0, 5, 0, -4});
+  EXPECT_THAT(refusal<InputError>({wide}), HasSubstr("+proj=laea +lat_0=-1 +lon_0=11 +datum=WGS84 +units=m"));
+  options_.to_crs = "+proj=laea +lat_0=-1 +lon_0=11 +datum=WGS84 +units=m";
+  EXPECT_EQ(plan({wide}).sources.size(), 1U);
+}
+
+TEST_F(Plan, RefusesToAddWhereLengthsInTheStoreAreWrong) {
+  StoreMetadata existing;
+  existing.crs_wkt = parse_crs("EPSG:27700", "a").wkt;
+  existing.grid = {{0, 0}, 0.01};
+  EXPECT_EQ(plan({welsh()}, &existing).sources.size(), 1U);
+  EXPECT_THAT(
+      refusal<InputError>({alpine()}, &existing),
+      HasSubstr("alps.tif: lengths in EPSG:27700, the store's CRS, are up to 0.76 % too long there, where 0.5 % "
+                "are allowed; import it into a store of its own"));
+}
+
+TEST_F(Plan, HelpsAtThePoles) {
+  const std::string pole = raster("pole.tif", "EPSG:3031", {-100, 50, 0, 100, 0, -50});
+  EXPECT_THAT(refusal<InputError>({pole}), HasSubstr("give --to-crs"));
+  options_.to_crs = "+proj=laea +lat_0=-90 +lon_0=0 +datum=WGS84 +units=m";
+  EXPECT_EQ(plan({pole}).sources.size(), 1U);
+}
+
+/// Whatever web Mercator's tile, distances in the store are those on the ground.
+TEST_F(Plan, KeepsLengthsAllOverTheWorld) {
+  std::mt19937 random(test::seed());
+  for (int i = 0; i < 30; ++i) {
+    const double lon = std::uniform_real_distribution(-179.5, 179.5)(random);
+    const double lat = std::uniform_real_distribution(-79.0, 83.0)(random);
+    const Point2 place = CoordinateTransform("EPSG:4326", "EPSG:3857")({lon, lat});
+    const ImportPlan made = plan({raster("m.tif", "EPSG:3857", {place.x, 1000, 0, place.y, 0, -1000})});
+    const CoordinateTransform to_store("EPSG:4326", made.crs_wkt);
+    const Point2 there{lon + 0.03, lat + 0.02}, a = to_store({lon, lat}), b = to_store(there);
+    EXPECT_NEAR(std::hypot(b.x - a.x, b.y - a.y) / geodesic({lon, lat}, there).distance_m, 1,
+                std::abs(lat) < 5 ? kGreatestScaleError : 0.002)
+        << lon << ", " << lat << ": " << made.crs_name;
+  }
 }
 
 TEST_F(Plan, ObeysToCrs) {

@@ -198,8 +198,10 @@ TEST_F(RasterSource, FollowsRotatedRasters) {
 }
 
 TEST_F(RasterSource, ConvertsStatedFeet) {
-  for (const auto& [unit, metres] : {std::pair{"ft", 0.3048}, std::pair{"US survey foot", 1200.0 / 3937},
-                                     std::pair{"dm", 0.1}, std::pair{"metre", 1.0}}) {
+  for (const auto& [unit, metres] :
+       {std::pair{"ft", 0.3048}, std::pair{"US survey foot", 1200.0 / 3937}, std::pair{"dm", 0.1},
+        std::pair{"centimetres", 0.01}, std::pair{"Fathom", 1.8288}, std::pair{"Foot_US", 1200.0 / 3937},
+        std::pair{"[m]", 1.0}, std::pair{"metre", 1.0}}) {
     MadeRaster made = hills(30, 20);
     made.unit = unit;
     test::write_raster(directory_.file("a.tif"), made);
@@ -221,12 +223,59 @@ TEST_F(RasterSource, TakesTheUnitOfACompoundCrs) {
   EXPECT_THAT(plan_.warnings, ElementsAre(HasSubstr("converted to metres")));
 }
 
-TEST_F(RasterSource, SaysWhenAUnitIsNotUnderstood) {
+TEST_F(RasterSource, RefusesAUnitThatIsNotUnderstood) {
   MadeRaster made = hills(30, 20);
-  made.unit = "furlong";
+  made.unit = "cubit";
   test::write_raster(directory_.file("a.tif"), made);
-  expect_exact(directory_.file("a.tif"));
-  EXPECT_THAT(plan_.warnings, ElementsAre(HasSubstr("'furlong', is not understood; taken as metres")));
+  EXPECT_THAT(refusal<InputError>(directory_.file("a.tif")),
+              HasSubstr("a.tif: the unit of heights, 'cubit', is not understood; give --crs the CRS of heights"));
+  ImportOptions options;
+  options.crs = "EPSG:5703";
+  const test::Reading reading = expect_exact(directory_.file("a.tif"), {}, options);
+  EXPECT_EQ(plan_.crs_name, "EPSG:27700");
+  EXPECT_EQ(height_axis(reading.info.source_crs),
+            (HeightAxis{"North American Vertical Datum 1988", "metre", 1, false}));
+}
+
+TEST_F(RasterSource, TurnsDepthsOver) {
+  MadeRaster made = hills(30, 20);
+  made.crs = "EPSG:27700+5715";
+  test::write_raster(directory_.file("a.tif"), made);
+  test::copy_raster("GTiff", directory_.file("a.tif"), directory_.file("old.tif"), {"GEOTIFF_VERSION=1.0"});
+  for (const char* name : {"a.tif", "old.tif"}) {
+    const test::Reading reading = expect_exact(directory_.file(name), {.metres_per_height = -1});
+    EXPECT_THAT(plan_.warnings, ElementsAre(HasSubstr("heights are depths"))) << name;
+    EXPECT_EQ(height_axis(reading.info.source_crs), (HeightAxis{"Mean Sea Level", "metre", 1, true})) << name;
+  }
+  made.crs = "EPSG:27700+6358";
+  test::write_raster(directory_.file("b.tif"), made);
+  expect_exact(directory_.file("b.tif"), {.metres_per_height = -1200.0 / 3937});
+}
+
+/// What was understood is found again in the store, whichever part of the file it came from.
+TEST_F(RasterSource, KeepsWhatHeightsMean) {
+  struct Said {
+    const char *crs, *unit, *option;
+    HeightAxis axis;
+  };
+  for (const Said& said :
+       {Said{"EPSG:27700", "", "", {}}, Said{"EPSG:27700", "ft", "", {"", "foot", 0.3048, false}},
+        Said{"EPSG:27700", "", "EPSG:27700+5701", {"Ordnance Datum Newlyn", "metre", 1, false}},
+        Said{"EPSG:27700", "ft", "EPSG:5715", {"Mean Sea Level", "metre", 1, true}},
+        Said{"EPSG:27700+5715", "", "EPSG:27700", {"Mean Sea Level", "metre", 1, true}},
+        Said{"EPSG:2229", "", "", {"", "US survey foot", 1200.0 / 3937, false}}, Said{"EPSG:2229", "m", "", {}}}) {
+    MadeRaster made = hills(3, 2);
+    made.crs = said.crs, made.unit = said.unit;
+    made.transform = {6561000, 50, 0, 2000000, 0, -50};
+    if (made.crs.find("27700") != std::string::npos) made.transform = {300000, 50, 0, 200000, 0, -50};
+    test::write_raster(directory_.file("a.tif"), made);
+    ImportOptions options;
+    options.crs = said.option;
+    const HeightAxis axis = height_axis(plan_of(directory_.file("a.tif"), options).sources.at(0)->info().source_crs);
+    EXPECT_EQ(axis.datum, said.axis.datum) << said.crs;
+    EXPECT_EQ(axis.unit, said.axis.unit) << said.crs;
+    EXPECT_NEAR(axis.factor(), said.axis.factor(), 1e-12) << said.crs;
+  }
 }
 
 TEST_F(RasterSource, TakesUndeclaredMarkersForVoids) {

@@ -1,0 +1,23 @@
+// Units of length, by their EPSG codes and by the names that files have for them.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace itin {
+
+struct LinearUnit {
+  std::string name;
+  double metres = 1;  ///< that one has
+};
+
+/// EPSG's code, as GeoTIFF keys have it: 9002 is the foot.
+std::optional<LinearUnit> linear_unit(int epsg_code);
+
+/// Upper and lower case, underscores, hyphens and brackets about the name do not matter: "ft", "US_survey_foot", "[m]".
+std::optional<LinearUnit> linear_unit(const std::string& name);
+
+/// What a unit of so many metres is called, `otherwise` where it is none of those known.
+std::string unit_name(double metres, const std::string& otherwise);
+
+}  // namespace itin

@@ -1,0 +1,15 @@
+// The vertical part of a CRS, as GDAL understands it.
+#pragma once
+
+#include <optional>
+
+#include <itin/height_axis.hpp>
+
+class OGRSpatialReference;
+
+namespace itin {
+
+/// Of a compound, a vertical or a three-dimensional CRS; nothing where it has no vertical part.
+std::optional<HeightAxis> vertical_axis(const OGRSpatialReference& reference);
+
+}  // namespace itin
