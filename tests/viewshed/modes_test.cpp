@@ -144,6 +144,82 @@ TEST(Modes, WhichHasABitAnObserver) {
   }
 }
 
+/// More observers than are looked from at a time: what all of them see is what each sees alone.
+TEST(Modes, ManyObserversSeeWhatEachSeesAlone) {
+  const Tin tin = hills();
+  Request request;
+  request.target_height = 1;
+  // Two tiles, some way off for most.
+  request.grid = RasterGrid({kCorner.x + 1000, kCorner.y + 1200}, 8, 8, 70, 12);
+  for (std::size_t i = 0; i < 600; ++i) {
+    const double turn = 2.4 * static_cast<double>(i), out = 31 * std::sqrt(static_cast<double>(i));
+    request.observers.push_back(
+        {"", {kCorner.x + 803 + out * std::cos(turn), kCorner.y + 798 + out * std::sin(turn)}, 2});
+    if (i % 5 == 0) request.observers.back().radius = 300 + static_cast<double>(i);
+  }
+  const auto in_mode = [&](Mode mode) {
+    Request of_all = request;
+    of_all.mode = mode;
+    return run(tin, of_all);
+  };
+  const Result which = in_mode(Mode::kWhich), count = in_mode(Mode::kCount), nearest = in_mode(Mode::kNearest),
+               angle = in_mode(Mode::kAngle), height = in_mode(Mode::kHeight), visible = in_mode(Mode::kVisible);
+  const std::size_t cells = request.grid->cell_count();
+  std::vector<std::uint16_t> counted(cells, kCountOutside);
+  std::vector<float> distance(cells, std::numeric_limits<float>::infinity());
+  std::vector<float> greatest(cells, -std::numeric_limits<float>::infinity());
+  std::vector<float> least(cells, std::numeric_limits<float>::infinity());
+  for (std::size_t i = 0; i < request.observers.size(); ++i) {
+    Request alone = request;
+    alone.observers = {request.observers[i]};
+    alone.mode = Mode::kAngle;
+    const Result one = run(tin, alone);
+    alone.mode = Mode::kNearest;
+    const Result near = run(tin, alone);
+    alone.mode = Mode::kHeight;
+    const Result high = run(tin, alone);
+    for (std::size_t cell = 0; cell < cells; ++cell) {
+      const bool seen = one.visible[cell] == kVisible;
+      ASSERT_EQ(sees(which, cell, i), seen) << "observer " << i << " cell " << cell;
+      if (one.visible[cell] == kOutside) continue;
+      if (counted[cell] == kCountOutside) counted[cell] = 0;
+      least[cell] = std::min(least[cell], high.least_height_m[cell]);
+      if (!seen) continue;
+      ++counted[cell];
+      greatest[cell] = std::max(greatest[cell], one.angle_deg[cell]);
+      distance[cell] = std::min(distance[cell], near.distance_m[cell]);
+    }
+  }
+  EXPECT_EQ(count.count, counted);
+  std::size_t seen_cells = 0;
+  for (std::size_t cell = 0; cell < cells; ++cell) {
+    const bool seen = counted[cell] != kCountOutside && counted[cell] > 0;
+    seen_cells += seen ? 1 : 0;
+    EXPECT_EQ(visible.visible[cell] == kVisible, seen);
+    if (counted[cell] != kCountOutside) {
+      EXPECT_EQ(height.least_height_m[cell], least[cell]);
+    }
+    if (!seen) continue;
+    EXPECT_EQ(angle.angle_deg[cell], greatest[cell]);
+    EXPECT_EQ(nearest.distance_m[cell], distance[cell]);
+  }
+  EXPECT_GT(seen_cells, cells / 4);
+}
+
+TEST(Modes, WhichIsRefusedWhereItsBandsAreTooMany) {
+  Request request;
+  request.mode = Mode::kWhich;
+  request.observers.assign(65535, {"", kCorner, 2});
+  request.grid = RasterGrid(kCorner, 1, 1, 5000, 5000);
+  try {
+    run(hills(), request);
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(),
+                testing::StartsWith("25000000 cells in 2048 bands, one for every 32 observers, are more"));
+  }
+}
+
 TEST(Modes, AngleIsTheGreatestOfTheSightLines) {
   const Tin tin = hills();
   const Request request = strewn(5, Mode::kAngle);

@@ -340,7 +340,7 @@ AxisSweep::View::View(const BinnedHeights& bins, const Axis& axis, double drop, 
       bins.greatest_magnitude() + std::abs(axis.top) + 4 * std::abs(drop) * axis.radius * axis.radius;
   sector_axis_.margin = 100 * grazing + greatest * 0x1p-21;
   for (const Quadrant::Side side : {Quadrant::kEast, Quadrant::kWest, Quadrant::kSouth, Quadrant::kNorth})
-    quadrants_.emplace_back(bins, column_, row_, side);
+    quadrants_.emplace_back(bins, column_, row_, side, axis.radius / bin + 1);
   fans_.resize(quadrants_.size());
 }
 
@@ -374,12 +374,14 @@ void AxisSweep::View::narrow(std::span<const BinBox> boxes) {
   // Boxes nearby may lie in all directions.
   constexpr double kNearby = 256;
   for (std::size_t i = 0; i < quadrants_.size(); ++i) {
-    double from = 1, to = -1;
+    double from = 1, to = -1, farthest = 0;
     for (const BinBox& box : boxes) {
       const auto ends = distance(box) < kNearby ? std::nullopt : extent(quadrants_[i], box);
-      if (ends) from = std::min(from, ends->from), to = std::max(to, ends->to);
+      if (!ends) continue;
+      from = std::min(from, ends->from), to = std::max(to, ends->to);
+      farthest = std::max(farthest, ends->nearest);
     }
-    fans_[i].narrow(from, to);
+    fans_[i].narrow(from, to, from <= to ? quadrants_[i].slab_at(farthest) : 0);
   }
 }
 

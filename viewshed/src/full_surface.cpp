@@ -1,6 +1,9 @@
 #include "full_surface.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <utility>
 
 #include <itin/grazing.hpp>
@@ -15,14 +18,43 @@ FullSurface::FullSurface(const Tin& surface, const Tin* bare_ground, const Earth
       grid_(grid),
       tiles_(tiles),
       heights_(surface),
-      sweep_(earth, heights_) {
+      sweep_(earth, heights_),
+      cells_(boxes_of_tiles()) {
   // Cells much smaller than triangles are filled triangle by triangle.
   const bool small = 2 * grid.cell_width() < heights_.bin_size() * units().resolution;
   if (bare_ground != nullptr || small || !heights_.partition()) of_tiles_.emplace(*targets_on_, tiles);
 }
 
 FullSurface::FullSurface(const LatticeTin& surface, const Earth& earth, const RasterGrid& grid, const RasterGrid& tiles)
-    : grid_(grid), tiles_(tiles), heights_(surface), sweep_(earth, heights_) {}
+    : grid_(grid), tiles_(tiles), heights_(surface), sweep_(earth, heights_), cells_(boxes_of_tiles()) {}
+
+std::vector<BinBox> FullSurface::boxes_of_tiles() const {
+  const auto column = [&](double x) { return heights_.column_at(easting_in_units(units(), x)); };
+  const auto row = [&](double y) { return heights_.row_at(northing_in_units(units(), y)); };
+  std::vector<BinBox> boxes(tiles_.cell_count());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const Box centres = box_of_centres(grid_, tile_at(grid_, tiles_, i));
+    boxes[i] = {column(centres.xmin), row(centres.ymax), column(centres.xmax), row(centres.ymin)};
+  }
+  return boxes;
+}
+
+AxisSweep::View FullSurface::view_of_cells(const Eye& eye) const {
+  AxisSweep::Axis axis = axis_of(eye);
+  double farthest = 0;
+  const Box cells = grid_.bounds();
+  for (const Point2 corner : {Point2{cells.xmin, cells.ymin}, Point2{cells.xmax, cells.ymin},
+                              Point2{cells.xmin, cells.ymax}, Point2{cells.xmax, cells.ymax}})
+    farthest = std::max(farthest, std::hypot(corner.x - eye.position.x, corner.y - eye.position.y));
+  axis.radius = std::min(axis.radius, farthest / units().resolution + 1);
+  AxisSweep::View view = sweep_.beginning(axis);
+  std::vector<BinBox> reached;
+  std::copy_if(cells_.begin(), cells_.end(), std::back_inserter(reached),
+               [&](const BinBox& box) { return view.reaches(box); });
+  view.narrow(reached);
+  view.advance(std::numeric_limits<double>::infinity());
+  return view;
+}
 
 std::optional<double> FullSurface::height(Point2 position) const {
   const auto height =

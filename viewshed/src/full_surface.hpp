@@ -74,6 +74,8 @@ class FullSurface {
 
   /// What all tiles share of an eye.
   AxisSweep::View view_from(const Eye& eye) const { return sweep_.view_of(axis_of(eye)); }
+  /// The same, for the cells alone: what is beyond and beside them costs nothing.
+  AxisSweep::View view_of_cells(const Eye& eye) const;
   /// The same, to be advanced.
   AxisSweep::View look_out(const Eye& eye) const { return sweep_.beginning(axis_of(eye)); }
   /// After heights of tiles of the lattice have been read: they count from now on.
@@ -97,6 +99,7 @@ class FullSurface {
   }
   void raise_targets(const Eye& eye, TileValues<std::uint8_t>& values, TileWork& work) const;
   void find_ground(std::span<const Tile> parts, TileWork& work) const;
+  std::vector<BinBox> boxes_of_tiles() const;
 
   const Tin* targets_on_ = nullptr;  ///< what targets stand on, where that is a Tin
   const RasterGrid& grid_;
@@ -104,6 +107,7 @@ class FullSurface {
   BinnedHeights heights_;
   std::optional<TriangleBins> of_tiles_;  ///< of that Tin, where `heights_` does not tell its heights well
   AxisSweep sweep_;
+  const std::vector<BinBox> cells_;  ///< of each tile, about their centres
 };
 
 template <class Visit>

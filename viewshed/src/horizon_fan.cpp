@@ -24,6 +24,7 @@ constexpr std::size_t kSectorsATask = 64;
 }  // namespace
 
 void HorizonFan::advance(const Quadrant& quadrant, const Sector::Axis& axis, std::size_t slab) {
+  slab = std::min(slab, farthest_);
   while (front_.slab < slab) {
     if (front_.slab == widest_) widen();
     const std::size_t step = widest_ / kRings, ring = (front_.slab / step + 1) * step, end = std::min(slab, ring);

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -17,8 +18,11 @@ namespace itin::viewshed {
 
 class HorizonFan {
  public:
-  /// Only lines within these slopes will be asked about.
-  void narrow(double from, double to) { slopes_ = {from, to}; }
+  /// Only lines within these slopes that begin up to this slab will be asked about; none if `from` exceeds `to`.
+  void narrow(double from, double to, std::size_t slab = std::numeric_limits<std::size_t>::max()) {
+    slopes_ = {from, to};
+    farthest_ = from <= to ? slab : 0;
+  }
 
   /// Looks on up to a slab, if it has not come as far yet. Memory: at most 1280 bytes a slab. Uses all threads.
   void advance(const Quadrant& quadrant, const Sector::Axis& axis, std::size_t slab);
@@ -38,9 +42,10 @@ class HorizonFan {
   std::pair<std::size_t, std::size_t> sectors() const;
 
   std::pair<double, double> slopes_{-1, 1};
-  std::vector<Ring> rings_;  ///< complete ones
-  Ring front_;               ///< on its way to be the next
-  std::size_t widest_ = 0;   ///< slabs: up to there the front's sectors are narrow enough
+  std::size_t farthest_ = std::numeric_limits<std::size_t>::max();  ///< slab
+  std::vector<Ring> rings_;                                         ///< complete ones
+  Ring front_;                                                      ///< on its way to be the next
+  std::size_t widest_ = 0;  ///< slabs: up to there the front's sectors are narrow enough
 };
 
 }  // namespace itin::viewshed

@@ -1,6 +1,7 @@
 #include "observation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -43,18 +44,26 @@ class ObserverCount final : public Observation {
 
 class ObserverBits final : public Observation {
  public:
-  explicit ObserverBits(std::size_t observers) : words_(which_grids(observers)) {}
+  explicit ObserverBits(std::size_t observers) : grids_(which_grids(observers)) {}
 
  private:
   void keep(const Look& look) override {
     const ObserverBit bit = observer_bit(look.observer);
-    words_[bit.grid][look.cell] |= bit.mask;
+    std::vector<std::uint32_t>& row = rows_[look.cell / Tile::kSide];
+    const std::size_t words = look.cell % Tile::kSide * grids_;
+    if (row.size() <= words) row.resize(words + grids_);
+    row[words + bit.grid] |= bit.mask;
   }
   void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override {
-    for (std::size_t grid = 0; grid < words_.size(); ++grid)
-      copy_row(words_[grid], cell, columns, result.which.data() + grid * result.grid.cell_count() + place);
+    const std::vector<std::uint32_t>& row = rows_[cell / Tile::kSide];
+    const std::size_t seen = std::min(columns, row.size() / grids_);  // beyond, the result's words are 0
+    for (std::size_t i = 0; i < seen; ++i)
+      for (std::size_t grid = 0; grid < grids_; ++grid)
+        result.which[grid * result.grid.cell_count() + place + i] = row[i * grids_ + grid];
   }
-  std::vector<TileValues<std::uint32_t>> words_;
+  std::size_t grids_;
+  /// Of each of the tile's rows the words of its cells, cell by cell, up to the last that is seen.
+  std::array<std::vector<std::uint32_t>, Tile::kSide> rows_;
 };
 
 class GreatestAngle final : public Observation {

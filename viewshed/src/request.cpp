@@ -1,7 +1,9 @@
 #include "request.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -77,6 +79,30 @@ double default_cell_size(const Box& box) {
   return 10 * decade;
 }
 
+/// So many a GeoTIFF can have.
+constexpr std::size_t kMostBands = 65535;
+
+/// Every 32 observers take a band.
+void validate_bands(const Request& request) {
+  const std::size_t bands = request.mode == Mode::kWhich ? which_grids(request.observers.size()) : 1;
+  if (bands > kMostBands)
+    throw InputError(
+        fmt::format("{} observers take {} bands to tell apart, and a raster has at most {}: give at most {} observers, "
+                    "or count them",
+                    request.observers.size(), bands, kMostBands, 32 * kMostBands));
+}
+
+RasterGrid with_room_for_bands(const Request& request, RasterGrid grid) {
+  const std::size_t bands = request.mode == Mode::kWhich ? which_grids(request.observers.size()) : 1;
+  const auto most = static_cast<std::size_t>(RasterGrid::kMaxCells);
+  if (grid.cell_count() > most / bands)
+    throw InputError(
+        fmt::format("{} cells in {} bands, one for every 32 observers, are more than {} values: give "
+                    "larger cells or fewer observers, or count them",
+                    grid.cell_count(), bands, most));
+  return grid;
+}
+
 bool all_bounded(const Request& request) {
   return std::all_of(request.observers.begin(), request.observers.end(),
                      [&](const Observer& o) { return radius_of(request, o).has_value(); });
@@ -93,6 +119,7 @@ void validate(const Request& request) {
   if (request.mode == Mode::kCount && request.observers.size() >= kCountOutside)
     throw InputError(fmt::format("{} observers are too many to count: give at most {}", request.observers.size(),
                                  kCountOutside - 1));
+  validate_bands(request);
   for (const Observer& observer : request.observers) validate_observer(request, observer);
   validate_cells(request);
   if (request.mode == Mode::kProbability) {
@@ -107,7 +134,7 @@ void validate(const Request& request) {
 }
 
 RasterGrid cells_of(const Request& request, const Box& extent) {
-  if (request.grid) return *request.grid;
+  if (request.grid) return with_room_for_bands(request, *request.grid);
   Box area = extent;
   if (all_bounded(request)) {
     area = {};
@@ -115,7 +142,8 @@ RasterGrid cells_of(const Request& request, const Box& extent) {
       area.extend(intersection(disc_box(observer.position, *radius_of(request, observer)), extent));
   }
   if (area.empty()) throw InputError("no observer's radius reaches any data");
-  return RasterGrid::aligned(area, request.cell_size ? *request.cell_size : default_cell_size(area));
+  const double size = request.cell_size ? *request.cell_size : default_cell_size(area);
+  return with_room_for_bands(request, RasterGrid::aligned(area, size));
 }
 
 std::string nodata_text(NoData rule) {
@@ -142,20 +170,50 @@ Box disc_box(Point2 centre, double radius) {
   return {centre.x - radius, centre.y - radius, centre.x + radius, centre.y + radius};
 }
 
-Window window_of(const Request& request) {
-  if (!all_bounded(request) && !request.grid) return Window::all();
-  // Each part is convex (or a wedge about the observer) and holds the observer, so that it holds the sight lines too.
-  std::vector<Window::Polygon> parts;
+namespace {
+
+/// Convex and around the observer (or a wedge about it), so that it holds the sight lines too.
+Window::Polygon part_of(const Request& request, const Observer& observer) {
+  const std::optional<double> radius = radius_of(request, observer);
+  if (!request.grid) return Window::disc(observer.position, *radius).parts().front();
+  Box box = request.grid->bounds();
+  box.extend(observer.position);
+  return rectangle(radius ? intersection(box, disc_box(observer.position, *radius)) : box);
+}
+
+/// From so many observers on, those that stand within half a radius of each other share a part of the window.
+constexpr std::size_t kCrowd = 256;
+
+/// Observers of about the same radius in the same square of a grid, whose side is about half of it.
+std::map<std::array<double, 3>, std::vector<const Observer*>> crowds_of(const Request& request) {
+  std::map<std::array<double, 3>, std::vector<const Observer*>> crowds;
   for (const Observer& observer : request.observers) {
     const std::optional<double> radius = radius_of(request, observer);
-    if (request.grid) {
-      Box box = request.grid->bounds();
-      box.extend(observer.position);
-      if (radius) box = intersection(box, disc_box(observer.position, *radius));
-      parts.push_back(rectangle(box));
-    } else {
-      parts.push_back(Window::disc(observer.position, *radius).parts().front());
+    const double side = radius ? std::exp2(std::floor(std::log2(*radius)) - 1) : 0;
+    const auto square = [&](double v) { return radius ? std::floor(v / side) : 0; };
+    crowds[{side, square(observer.position.x), square(observer.position.y)}].push_back(&observer);
+  }
+  return crowds;
+}
+
+}  // namespace
+
+Window window_of(const Request& request) {
+  if (!all_bounded(request) && !request.grid) return Window::all();
+  std::vector<Window::Polygon> parts;
+  if (request.observers.size() < kCrowd) {
+    for (const Observer& observer : request.observers) parts.push_back(part_of(request, observer));
+    return Window::polygons(std::move(parts));
+  }
+  for (const auto& [square, crowd] : crowds_of(request)) {
+    if (crowd.size() == 1) {
+      parts.push_back(part_of(request, *crowd.front()));
+      continue;
     }
+    Box box;
+    for (const Observer* const observer : crowd)
+      for (const Point2& corner : part_of(request, *observer).outer) box.extend(corner);
+    parts.push_back(rectangle(box));
   }
   return Window::polygons(std::move(parts));
 }

@@ -93,6 +93,10 @@ LatticeReader::Heights heights_for(const Request& request, std::uint64_t posts) 
   return all ? LatticeReader::Heights::kAll : LatticeReader::Heights::kNone;
 }
 
+bool all_read(const LatticeReader& reader) {
+  return std::none_of(reader.lattice().tiles.begin(), reader.lattice().tiles.end(), unread);
+}
+
 void reveal_place(Point2 position, LatticeReader& reader, FullSurface& surface, Progress& progress) {
   const LatticeTin& lattice = reader.lattice();
   const double column = (easting_in_units(lattice.grid, position.x) - lattice.west) / lattice.spacing,

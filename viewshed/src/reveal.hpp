@@ -38,6 +38,9 @@ LatticeReader::Heights heights_for(const Request& request, std::uint64_t posts);
 /// Whether it matters how high ground is that nobody sees.
 bool asks_for_all_heights(const Request& request);
 
+/// Whether no tile with ground is left to read.
+bool all_read(const LatticeReader& reader);
+
 /// What lies about a position in metres.
 void reveal_place(Point2 position, LatticeReader& reader, FullSurface& surface, Progress& progress);
 

@@ -11,7 +11,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 }  // namespace
 
-Quadrant::Quadrant(const BinnedHeights& bins, double axis_column, double axis_row, Side side)
+Quadrant::Quadrant(const BinnedHeights& bins, double axis_column, double axis_row, Side side, double reach)
     : bins_(bins),
       along_columns_(side == kEast || side == kWest),
       runs_(along_columns_ ? bins.runs().eastwards() : bins.runs().southwards()),
@@ -24,8 +24,9 @@ Quadrant::Quadrant(const BinnedHeights& bins, double axis_column, double axis_ro
   first_run_ = outward_ > 0 ? std::max<std::int64_t>(0, first_run_) : std::min(runs_.a_line() - 1, first_run_);
   const double inside = major_ - static_cast<double>(first_run_) * static_cast<double>(kRun);
   first_end_ = outward_ > 0 ? static_cast<double>(kRun) - inside : inside;
-  const std::int64_t slabs = outward_ > 0 ? runs_.a_line() - first_run_ : first_run_ + 1;
-  per_end_.resize(static_cast<std::size_t>(std::max<std::int64_t>(0, slabs)));
+  const auto slabs = static_cast<double>(outward_ > 0 ? runs_.a_line() - first_run_ : first_run_ + 1);
+  const double reached = std::floor(std::max(0.0, reach - first_end_) / static_cast<double>(kRun)) + 2;
+  per_end_.resize(static_cast<std::size_t>(std::max(0.0, std::min(slabs, reached))));
   for (std::size_t k = 0; k < per_end_.size(); ++k) per_end_[k] = 1 / end(k);
 }
 

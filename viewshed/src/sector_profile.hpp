@@ -23,7 +23,9 @@ class Quadrant {
  public:
   enum Side : std::uint8_t { kEast, kWest, kSouth, kNorth };
 
-  Quadrant(const BinnedHeights& bins, double axis_column, double axis_row, Side side);
+  /// Of what lies no farther along than `reach`, in bins.
+  Quadrant(const BinnedHeights& bins, double axis_column, double axis_row, Side side,
+           double reach = std::numeric_limits<double>::infinity());
 
   bool along_columns() const { return along_columns_; }
   double along(double column, double row) const { return ((along_columns_ ? column : row) - major_) * outward_; }
@@ -38,7 +40,7 @@ class Quadrant {
   /// where the bins do.
   double begin(std::size_t slab) const { return end(slab) - static_cast<double>(kRun); }
   double end(std::size_t slab) const { return first_end_ + static_cast<double>(slab * kRun); }
-  /// The last one beyond the bins. Preconditions: along >= 0, and there are slabs.
+  /// The last one beyond the bins, or the reach. Preconditions: along >= 0, and there are slabs.
   std::size_t slab_at(double along) const {
     if (along <= first_end_) return 0;
     return std::min(slabs() - 1, static_cast<std::size_t>((along - first_end_) / static_cast<double>(kRun)) + 1);

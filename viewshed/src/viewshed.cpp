@@ -53,9 +53,8 @@ Result compute_on(const Tin* tin, LatticeReader* reader, const Tin* bare, const 
   result.statistics.scene_seconds = watch.lap();
   const Observations observations = lattice != nullptr ? Observations(request) : Observations(request, *tin);
   std::vector<AxisSweep::View> views;
-  for (const Eye& eye : eyes)
-    views.push_back(reader != nullptr ? reveal(eye, *reader, surface, kAnyTiles, progress).view
-                                      : surface.view_from(eye));
+  if (reader != nullptr && !all_read(*reader))
+    for (const Eye& eye : eyes) views.push_back(reveal(eye, *reader, surface, kAnyTiles, progress).view);
   look_around(surface, observations, eyes, views, result, progress);
   if (request.mode == Mode::kBlocker) name_blockers(*tin, result);
   result.statistics.rays_seconds = watch.lap();

@@ -40,7 +40,7 @@ struct LevelInfo {
 
 /// One imported file.
 struct SourceInfo {
-  std::string path;            ///< as given to the import
+  std::string path;            ///< its name, without folders
   std::string kind;            ///< "terrain", or a theme's kind (theme.hpp)
   std::string theme;           ///< name of the theme; empty for terrain
   std::string imported;        ///< UTC, ISO 8601
@@ -111,7 +111,7 @@ class Store {
 };
 
 /// Reads every byte of the store and verifies checksums, index, order and counts, and that certificates are present
-/// wherever there is ground, and in a sound store that features rise no higher above it than the index says. Returns an
+/// wherever there is ground. Whether what is written there is true as well, verify() finds out (verify.hpp). Returns an
 /// empty vector for a sound store. Throws FileError when reading itself fails, and Cancelled.
 std::vector<Damage> check(const Store& store, Progress& progress);
 

@@ -21,6 +21,17 @@ namespace itin {
 namespace {
 
 constexpr int kTileSide = 512;
+/// A tile holds all bands, and GDAL some tiles at a time: with many bands they are smaller.
+constexpr std::size_t kMostTileBytes = std::size_t{64} << 20;
+constexpr int kLeastTileSide = 16;
+
+int tile_side(std::size_t bytes_per_cell) {
+  int side = kTileSide;
+  while (side > kLeastTileSide &&
+         static_cast<std::size_t>(side) * static_cast<std::size_t>(side) * bytes_per_cell > kMostTileBytes)
+    side /= 2;
+  return side;
+}
 
 /// Collects GDAL's first failure on this thread in place of printing it, and keeps GDAL from leaving side files.
 class GdalCall {
@@ -159,12 +170,13 @@ void describe(GDALDataset& dataset, const RasterGrid& grid, const RasterDescript
   band.SetColorInterpretation(GCI_PaletteIndex);
 }
 
-CPLStringList creation_options(bool floating) {
+CPLStringList creation_options(bool floating, int tile_side) {
   CPLStringList options;
   options.SetNameValue("COMPRESS", "DEFLATE");
   options.SetNameValue("LEVEL", "1");
   options.SetNameValue("PREDICTOR", floating ? "YES" : "NO");
-  options.SetNameValue("BLOCKSIZE", std::to_string(kTileSide).c_str());
+  options.SetNameValue("BLOCKSIZE", std::to_string(tile_side).c_str());
+  options.SetNameValue("OVERVIEWS", "FORCE_USE_EXISTING");  // GDAL would make its own for smaller tiles
   options.SetNameValue("NUM_THREADS", std::to_string(thread_count()).c_str());
   return options;
 }
@@ -181,9 +193,10 @@ void write(const std::string& path, const RasterGrid& grid, std::span<const T> v
     const GDALDatasetUniquePtr source = wrap(values, grid, type);
     attach_overviews(*source, values, grid, !description.classes.empty(), type);
     describe(*source, grid, description);
-    GDALDatasetUniquePtr written(driver->CreateCopy(file.temporary_path().c_str(), source.get(), false,
-                                                    creation_options(std::is_floating_point_v<T>).List(), nullptr,
-                                                    nullptr));
+    const std::size_t bands = values.size() / grid.cell_count();
+    const CPLStringList options = creation_options(std::is_floating_point_v<T>, tile_side(bands * sizeof(T)));
+    GDALDatasetUniquePtr written(
+        driver->CreateCopy(file.temporary_path().c_str(), source.get(), false, options.List(), nullptr, nullptr));
     const bool created = written != nullptr;
     written.reset();  // the last bytes are written on closing
     if (!created || !call.failure().empty())

@@ -73,6 +73,13 @@ bool repairs(const Store* store) {
   return store != nullptr && !store->metadata().sources.empty() && store->metadata().sources.back().kind == kInferred;
 }
 
+/// As the store names it: without the folder, which says nothing of the data, nor anything to whoever gets the store.
+SourceInfo recorded(SourceInfo source) {
+  const std::filesystem::path path(source.path);
+  source.path = (path.has_filename() ? path : path.parent_path()).filename().string();
+  return source;
+}
+
 SourceInfo inferred_source() {
   SourceInfo source;
   source.path = "inferred from contours";
@@ -252,16 +259,16 @@ bool write_store(const Target& target, const Store* base, Additions& additions, 
   const bool stored = base != nullptr && add_stored(*base, sorter, collection, inferred, progress) > 0;
   for (const auto& source : plan.sources) {
     add_source(*source, static_cast<std::uint16_t>(sources.size()), plan, sorter, report, progress);
-    sources.push_back(source->info());
+    sources.push_back(recorded(source->info()));
     sources.back().replaces = options.replace;
   }
   for (const auto& layer : plan.lines) {
     add_lines(*layer, static_cast<std::uint16_t>(sources.size()), plan, options, collection, report, progress);
-    sources.push_back(layer->info());
+    sources.push_back(recorded(layer->info()));
   }
   for (FootprintFile& file : additions.footprints) {
     add_footprints(file, static_cast<std::uint16_t>(sources.size()), options, collection, report);
-    sources.push_back(file.info);
+    sources.push_back(recorded(file.info));
   }
   const bool repair = options.kind == ThemeKind::Contours ? options.repair : repairs(base);
   if (repair) sources.push_back(inferred_source());
@@ -366,6 +373,7 @@ void write_in_turns(const std::string& store_path, StoreWriter& writer, const st
 ImportReport import_sources(const std::string& store_path, const ImportOptions& options, Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
   if (options.sources.empty()) throw InputError("no source given: name at least one file to import");
+  static_cast<void>(utc_now());  // what keeps it from being told is known before hours of work
   std::optional<Store> existing;
   if (std::filesystem::exists(store_path)) existing.emplace(store_path);
   const Store* const store = existing ? &*existing : nullptr;

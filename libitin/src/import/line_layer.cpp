@@ -84,7 +84,7 @@ void LineLayer::add(const OGRSimpleCurve& curve, const OGRFeature& feature, std:
     const double z = needs_height && !layer_.has_height_field() ? curve.getZ(i) : of_feature;
     if (!std::isfinite(curve.getX(i)) || !std::isfinite(curve.getY(i)))
       throw InputError(fmt::format("{}: a coordinate is not a finite number", layer_.place(feature)));
-    if (const double metres = z * metres_per_height_; !is_height(metres) && !std::isnan(z) && !is_missing_mark(z))
+    if (const double metres = z * heights_.axis.metres; !is_height(metres) && !std::isnan(z) && !is_missing_mark(z))
       require_height(metres, layer_.place(feature));
     line.x.push_back(curve.getX(i));
     line.y.push_back(curve.getY(i));

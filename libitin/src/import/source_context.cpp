@@ -1,9 +1,13 @@
 #include "import/source_context.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
+#include <ctime>
 #include <iterator>
+#include <string_view>
 #include <utility>
 
 #include <fmt/chrono.h>
@@ -127,8 +131,16 @@ ReadCounts Placement::counts() const {
 }
 
 std::string utc_now() {
-  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
-                     fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
+  std::time_t seconds = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  if (const char* const given = std::getenv("SOURCE_DATE_EPOCH")) {
+    constexpr std::time_t kLast = 253402300799;  // of the year 9999
+    const std::string_view text = given;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
+    if (error != std::errc() || end != text.data() + text.size() || seconds < 0 || seconds > kLast)
+      throw InputError(
+          fmt::format("SOURCE_DATE_EPOCH '{}': give a whole number of seconds since 1970, or unset it", text));
+  }
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(seconds));
 }
 
 }  // namespace itin

@@ -82,7 +82,8 @@ class Placement {
   std::uint64_t placed_ = 0, voids_ = 0, marks_ = 0, out_of_range_ = 0, unmapped_ = 0;
 };
 
-/// "2024-05-31T12:00:00Z", now.
+/// "2024-05-31T12:00:00Z": now, or the time that SOURCE_DATE_EPOCH gives (reproducible-builds.org). Throws InputError
+/// where that is none.
 std::string utc_now();
 
 }  // namespace itin

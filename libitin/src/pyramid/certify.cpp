@@ -208,12 +208,7 @@ class CellVerification {
 
   /// Every leaf that a fine triangle may meet takes the triangle's range.
   void record(int k, const Difference& d, LeafBounds& bounds) const {
-    std::vector<DifferenceRange> of_triangle(fine_.mesh.triangles.size());
-    for (std::uint32_t e = 0; e < d.along_edge.size(); ++e) {
-      const FineEdges::Edge& edge = edges_->edges()[e];
-      of_triangle[edge.triangle].add(d.along_edge[e]);
-      if (edge.other != kNoTriangle) of_triangle[edge.other].add(d.along_edge[e]);
-    }
+    const std::vector<DifferenceRange> of_triangle = over_triangles(fine_, *edges_, d);
     for (const auto& [t, leaf] : triangles_of_leaves_) bounds.at(leaf, k).add(of_triangle[t]);
   }
 

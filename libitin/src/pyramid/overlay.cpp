@@ -305,4 +305,15 @@ Difference difference(const RegionMesh& fine, const FineEdges& edges, const Regi
   return DifferenceSweep(fine, edges, coarse, allowed).run();
 }
 
+std::vector<DifferenceRange> over_triangles(const RegionMesh& fine, const FineEdges& edges,
+                                            const Difference& difference) {
+  std::vector<DifferenceRange> ranges(fine.mesh.triangles.size());
+  for (std::uint32_t e = 0; e < difference.along_edge.size(); ++e) {
+    const FineEdges::Edge& edge = edges.edges()[e];
+    ranges[edge.triangle].add(difference.along_edge[e]);
+    if (edge.other != kNoTriangle) ranges[edge.other].add(difference.along_edge[e]);
+  }
+  return ranges;
+}
+
 }  // namespace itin

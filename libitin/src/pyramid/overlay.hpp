@@ -64,4 +64,8 @@ struct Difference {
 /// Crossings with differences above `allowed` are listed.
 Difference difference(const RegionMesh& fine, const FineEdges& edges, const RegionMesh& coarse, std::int32_t allowed);
 
+/// The difference over each fine triangle.
+std::vector<DifferenceRange> over_triangles(const RegionMesh& fine, const FineEdges& edges,
+                                            const Difference& difference);
+
 }  // namespace itin

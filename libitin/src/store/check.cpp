@@ -6,7 +6,6 @@
 #include <itin/error.hpp>
 #include <itin/store.hpp>
 
-#include "features/feature_heights.hpp"
 #include "store/store_file.hpp"
 #include "store/store_format.hpp"
 
@@ -170,10 +169,7 @@ class Inspection {
 }  // namespace
 
 std::vector<Damage> check(const Store& store, Progress& progress) {
-  std::vector<Damage> damage = Inspection(*store.file_, progress).run();
-  if (!damage.empty() || store.metadata().parts.empty()) return damage;
-  // Only what can be read can be triangulated.
-  return features_above_their_heights(store, progress);
+  return Inspection(*store.file_, progress).run();
 }
 
 }  // namespace itin

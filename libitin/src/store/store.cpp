@@ -26,6 +26,10 @@ const PointIndex& Store::points() const {
   return *file_;
 }
 
+const StoreFile& file_of(const Store& store) {
+  return static_cast<const StoreFile&>(store.points());
+}
+
 std::optional<CertifiedError> Store::certified_error(int level, const Box& box) const {
   return file_->certified_error(level, box);
 }

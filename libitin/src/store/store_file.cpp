@@ -132,6 +132,10 @@ void StoreFile::leaves(int finest, const GridBox& box, std::vector<Leaf>& out) c
   }
 }
 
+void StoreFile::leaves_of(int tree, const GridBox& box, std::vector<Leaf>& out) const {
+  for_each_leaf(tree, box, [&](const Leaf& leaf) { out.push_back(leaf); });
+}
+
 std::shared_ptr<const Block> StoreFile::block(const Leaf& leaf) const {
   const std::uint64_t key = cache_key(BlobKind::Block, leaf.key);
   if (auto cached = cache_.find(key)) return std::static_pointer_cast<const Block>(std::move(cached));

@@ -31,6 +31,13 @@ class StoreFile final : public PointIndex {
   std::optional<BlockLattice> lattice_of(const Leaf& leaf) const override;
   void segments(const GridBox& box, std::vector<Segment>& out) const override;
 
+  /// Appends every leaf of one tree that meets the box, empty ones too, along the curve.
+  void leaves_of(int tree, const GridBox& box, std::vector<Leaf>& out) const;
+
+  /// Calls visit(leaf) for every leaf of one tree, empty ones too.
+  template <typename Visit>
+  void for_each_leaf_of(int tree, const Visit& visit) const;
+
   /// One of the theme's footprint blocks.
   std::vector<StoredFootprint> read_footprints(std::uint16_t theme, std::uint32_t number) const;
   /// Of the part's features about the box above the full surface, grid units; 0 where there are none.
@@ -62,5 +69,16 @@ class StoreFile final : public PointIndex {
   ChunkList chunks_;
   mutable BlockCache cache_;
 };
+
+template <typename Visit>
+void StoreFile::for_each_leaf_of(int tree, const Visit& visit) const {
+  const auto found = chunks_.find(tree);
+  if (found == chunks_.end()) return;
+  for (const ChunkEntry& entry : found->second)
+    for (const Leaf& leaf : read_chunk(tree, entry)) visit(leaf);
+}
+
+/// The file of an open store, for what looks behind its public face.
+const StoreFile& file_of(const Store& store);
 
 }  // namespace itin

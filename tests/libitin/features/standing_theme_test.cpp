@@ -14,7 +14,6 @@
 #include <gdal_priv.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <sqlite3.h>
 
 #include <itin/error.hpp>
 #include <itin/import.hpp>
@@ -23,12 +22,11 @@
 
 #include "features/terrain_heights.hpp"
 #include "libitin/features/surface_comparison.hpp"
-#include "store/directory.hpp"
 #include "store/point_index.hpp"
-#include "store/seal.hpp"
 #include "store/store_format.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
+#include "support/sound_store.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/vector_file.hpp"
 #include "triangulate/delaunay.hpp"
@@ -174,11 +172,7 @@ class StandingThemes : public testing::Test {
     return z ? *z : std::nan("");
   }
 
-  void expect_sound() const {
-    NoProgress progress;
-    for (const Damage& damage : check(Store(path("s.itin")), progress))
-      ADD_FAILURE() << damage.place << ": " << damage.what;
-  }
+  void expect_sound() const { test::expect_sound(Store(path("s.itin"))); }
 
   static void expect_only_raised(const Tin& bare, const Tin& tin) {
     std::mt19937 random(test::seed());
@@ -427,51 +421,6 @@ TEST_F(StandingThemes, NothingRisesAboveTheGreatestHeight) {
     }
     EXPECT_GT(greatest, 3);
   }
-}
-
-/// The directory says of the houses that they are a metre lower than they are, with checksums that fit.
-TEST_F(StandingThemes, CheckFindsHeightsThatAreTooLow) {
-  ground(10, rolling);
-  raise(ThemeKind::Buildings, "houses", {box(300102, 199702, 300142, 199732, 9)});
-  expect_sound();
-  const int tree = format::vertex_tree(2);
-  sqlite3* database = nullptr;
-  ASSERT_EQ(sqlite3_open(path("s.itin").c_str(), &database), SQLITE_OK);
-  const std::uint64_t first = format::key(tree, 0), last = format::key(tree + 1, 0);
-  sqlite3_stmt* select = nullptr;
-  sqlite3_prepare_v2(database, "SELECT key, data FROM directory WHERE key >= ? AND key < ?", -1, &select, nullptr);
-  sqlite3_bind_int64(select, 1, static_cast<sqlite3_int64>(first));
-  sqlite3_bind_int64(select, 2, static_cast<sqlite3_int64>(last));
-  ASSERT_EQ(sqlite3_step(select), SQLITE_ROW);
-  const auto key = static_cast<std::uint64_t>(sqlite3_column_int64(select, 0));
-  const auto* data = static_cast<const std::uint8_t*>(sqlite3_column_blob(select, 1));
-  const std::vector<std::uint8_t> sealed(data, data + sqlite3_column_bytes(select, 1));
-  ASSERT_EQ(sqlite3_step(select), SQLITE_DONE) << "one chunk";
-  sqlite3_finalize(select);
-  const auto bytes = unseal(BlobKind::Directory, key, sealed);
-  std::vector<Leaf> leaves;
-  const Store before(path("s.itin"));
-  before.points().leaves(before.points().level_count(), before.metadata().bounds, leaves);
-  ChunkEntry entry;
-  entry.code = (key - first) * 256, entry.leaves = 0;
-  for (const Leaf& leaf : leaves)
-    if (leaf.theme == 2)
-      entry.leaves += 1, entry.points += leaf.points, entry.end = std::max(entry.end, leaf.cell.end());
-  DirectoryChunk chunk = decode_chunk(bytes, tree, entry);
-  for (Leaf& leaf : chunk) leaf.hi = std::max(0, leaf.hi - 100);
-  const std::vector<std::uint8_t> lowered = seal(BlobKind::Directory, key, encode_chunk(chunk));
-  sqlite3_stmt* update = nullptr;
-  sqlite3_prepare_v2(database, "UPDATE directory SET data = ? WHERE key = ?", -1, &update, nullptr);
-  sqlite3_bind_blob(update, 1, lowered.data(), static_cast<int>(lowered.size()), SQLITE_TRANSIENT);
-  sqlite3_bind_int64(update, 2, static_cast<sqlite3_int64>(key));
-  ASSERT_EQ(sqlite3_step(update), SQLITE_DONE);
-  sqlite3_finalize(update);
-  sqlite3_close(database);
-  NoProgress progress;
-  const std::vector<Damage> damage = check(Store(path("s.itin")), progress);
-  ASSERT_EQ(damage.size(), 1u);
-  EXPECT_EQ(damage[0].place, "theme 'houses'");
-  EXPECT_THAT(damage[0].what, testing::HasSubstr("m above the ground at 3001"));
 }
 
 /// A surface model made by others: what stands brings the terrain closer to it within the footprints, and leaves it

@@ -1,0 +1,24 @@
+// Whether the certificates of a store hold: law 2, looked at from the written store.
+#pragma once
+
+#include <vector>
+
+#include "store/store_file.hpp"
+#include "triangulate/selection.hpp"
+#include "verify/false_cell.hpp"
+
+namespace itin {
+
+/// What a store selects of its terrain at each level.
+std::vector<Selection> selections_of_levels(const StoreMetadata& metadata);
+
+/// Compares all levels with the full surface in one tile. Throws Error where there are no surfaces.
+std::vector<FalseCell> false_certificates(const StoreFile& file, const std::vector<Selection>& levels,
+                                          const Cell& tile);
+
+Damage false_certificate(const FalseCell& cell, const Grid& grid);
+
+/// Whether what the metadata says of levels agrees with the certificates of their cells.
+std::vector<Damage> false_levels(const StoreFile& file);
+
+}  // namespace itin

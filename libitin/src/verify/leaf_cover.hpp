@@ -1,0 +1,75 @@
+// Which leaves of a quadtree a triangle lies in, decided exactly.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "store/point_index.hpp"
+#include "triangulate/region.hpp"
+
+namespace itin {
+
+using Corners = std::array<Position, 3>;  ///< counterclockwise
+Corners corners_of(const RegionMesh& mesh, std::uint32_t triangle);
+
+/// Whether a triangle and a closed box share more than a border.
+bool shares_area(const Corners& triangle, const GridBox& box);
+
+class LeafCover {
+ public:
+  /// Leaves of one tree along the curve. They must include all that meet the triangles which are asked about.
+  explicit LeafCover(std::vector<Leaf> leaves) : leaves_(std::move(leaves)) {}
+
+  const std::vector<Leaf>& leaves() const { return leaves_; }
+
+  /// Calls on_leaf(i) for each leaf whose square shares area with the triangle, and on_gap(cell) for cells that do and
+  /// have no leaf.
+  template <class OnLeaf, class OnGap>
+  void visit(const Corners& triangle, const OnLeaf& on_leaf, const OnGap& on_gap) const;
+
+ private:
+  using Number = std::ptrdiff_t;
+  /// The first leaf that ends after a code.
+  Number first_after(std::uint64_t code) const {
+    const auto ends_by = [](const Leaf& leaf, std::uint64_t c) { return leaf.cell.end() <= c; };
+    return std::lower_bound(leaves_.begin(), leaves_.end(), code, ends_by) - leaves_.begin();
+  }
+  /// Among the leaves [first, last), which lie in the cell, or of which the only one holds it.
+  template <class OnLeaf, class OnGap>
+  void visit_in(const Cell& cell, Number first, Number last, const Corners& triangle, const OnLeaf& on_leaf,
+                const OnGap& on_gap) const;
+
+  std::vector<Leaf> leaves_;
+};
+
+/// The least cell with all positions of a box.
+Cell cell_about(const GridBox& box);
+
+template <class OnLeaf, class OnGap>
+void LeafCover::visit(const Corners& triangle, const OnLeaf& on_leaf, const OnGap& on_gap) const {
+  GridBox box;
+  for (const Position p : triangle) box.extend(p.x, p.y);
+  const Cell cell = cell_about(box);
+  const Number first = first_after(cell.code);
+  const bool within =
+      first < static_cast<Number>(leaves_.size()) && leaves_[static_cast<std::size_t>(first)].cell.contains(cell);
+  visit_in(cell, first, within ? first + 1 : first_after(cell.end()), triangle, on_leaf, on_gap);
+}
+
+template <class OnLeaf, class OnGap>
+void LeafCover::visit_in(const Cell& cell, Number first, Number last, const Corners& triangle, const OnLeaf& on_leaf,
+                         const OnGap& on_gap) const {
+  if (!shares_area(triangle, square_of(cell))) return;
+  if (first == last) return on_gap(cell);
+  if (leaves_[static_cast<std::size_t>(first)].cell.contains(cell)) return on_leaf(static_cast<std::size_t>(first));
+  for (int i = 0; i < 4; ++i) {
+    const Cell child = cell.child(i);
+    const Number end = i == 3 ? last : std::min(last, first_after(child.end()));
+    visit_in(child, first, end, triangle, on_leaf, on_gap);
+    first = end;
+  }
+}
+
+}  // namespace itin
