@@ -8,6 +8,7 @@
 #include <itin/store.hpp>
 #include <itin/verify.hpp>
 
+#include "call_files.hpp"
 #include "store_document.hpp"
 #include "verb.hpp"
 
@@ -23,7 +24,7 @@ class CheckVerb final : public Verb {
   std::string name() const override { return "check"; }
   std::string summary() const override { return "Verify checksums, index, levels and certificates of a store"; }
   void declare(CLI::App& app) override {
-    app.add_option("STORE", store_, "The store")->required();
+    reads(app.add_option("STORE", store_, "The store")->required());
     app.add_flag("--quick", quick_,
                  fmt::format("Compare surfaces with what certificates and heights of features say in {} tiles spread "
                              "over the store, not everywhere; all bytes are read all the same",
@@ -55,9 +56,8 @@ class CheckVerb final : public Verb {
       result.text = fmt::format("sound: {} vertices, {}; surfaces verified {}\n", grouped(store.metadata().vertices),
                                 readable_bytes(store.file_bytes()), extent_text(*surfaces));
     } else {
-      result.failure =
-          fmt::format("{}: damaged in {} place{}, first {}: {}; restore it from a copy or import again", store_,
-                      damages.size(), damages.size() == 1 ? "" : "s", damages.front().place, damages.front().what);
+      result.failure = fmt::format("{}: damaged in {}, first {}: {}; restore it from a copy or import again", store_,
+                                   counted(damages.size(), "place"), damages.front().place, damages.front().what);
     }
     return result;
   }

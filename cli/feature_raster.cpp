@@ -10,6 +10,8 @@
 #include <itin/error.hpp>
 #include <itin/triangulate.hpp>
 
+#include "call_files.hpp"
+#include "json_text.hpp"
 #include "store_document.hpp"
 
 namespace itin::cli {
@@ -98,9 +100,9 @@ RasterClass class_of(int number, const std::string& name) {
 }  // namespace
 
 void FeatureRaster::declare(CLI::App& app) {
-  app.add_option("--features", path_,
-                 "Also write which of --themes is under each cell's centre, by number, 0 for none (.tif)")
-      ->type_name("FILE");
+  writes(app.add_option("--features", path_,
+                        "Also write which of --themes is under each cell's centre, by number, 0 for none (.tif)")
+             ->type_name("FILE"));
 }
 
 void FeatureRaster::validate() const {
@@ -135,7 +137,7 @@ Document FeatureRaster::write(const Store& store, const RasterGrid& grid, const 
   description.overwrite = overwrite;
   description.classes = {{0, "none", 255, 255, 255, 0}};
   description.metadata = {{"itin", ITIN_VERSION},
-                          {"surface", surface_document(metadata, surface.detail, surface.themes).dump()}};
+                          {"surface", json_text(surface_document(metadata, surface.detail, surface.themes))}};
   Document found = Document::array();
   for (std::size_t i = 0; i < metadata.themes.size(); ++i) {
     const ThemeInfo& theme = metadata.themes[i];

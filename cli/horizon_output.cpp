@@ -9,6 +9,9 @@
 #include <itin/output_file.hpp>
 #include <profile/panorama.hpp>
 
+#include "call_files.hpp"
+#include "json_text.hpp"
+#include "site_list.hpp"
 #include "values.hpp"
 
 namespace itin::cli {
@@ -95,15 +98,16 @@ profile::Panorama panorama(const viewshed::Horizon& horizon, const viewshed::Req
 }  // namespace
 
 void HorizonOutput::declare(CLI::App& app) {
-  app.add_option("--horizon", paths_,
-                 "Write the observer's sky line: azimuth, elevation and distance (.csv, .json), or drawn as a panorama "
-                 "(.svg, .png, .pdf); may be given again")
-      ->type_name("FILE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  writes(app.add_option(
+                "--horizon", paths_,
+                "Write the observer's sky line: azimuth, elevation and distance (.csv, .json), or drawn as a panorama "
+                "(.svg, .png, .pdf); may be given again")
+             ->type_name("FILE")
+             ->expected(1)
+             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll));
   app.add_option("--horizon-step", step_text_, "Between the sky line's azimuths (default: 0.1)")->type_name("DEGREES");
-  app.add_option("--horizon-targets", sites_.path, "Places to mark on the horizon, in line of sight or not")
-      ->type_name("FILE");
+  reads(app.add_option("--horizon-targets", sites_.path, "Places to mark on the horizon, in line of sight or not")
+            ->type_name("FILE"));
   app.add_option("--horizon-name-field", sites_.name_field, "The field of that file that holds names")
       ->type_name("FIELD");
   app.add_option("--horizon-height-field", sites_.height_field,
@@ -131,6 +135,7 @@ std::vector<viewshed::HorizonTarget> HorizonOutput::targets(const viewshed::Requ
   if (sites_.path.empty()) return targets;
   for (const Site& site : read_sites(sites_, metadata.crs_wkt))
     targets.push_back({site.name, site.position, site.height.value_or(request.target_height)});
+  if (targets.empty()) throw InputError(none_in(sites_, "place"));
   return targets;
 }
 
@@ -143,9 +148,10 @@ Document HorizonOutput::write(viewshed::Surveyed& surveyed, const StoreMetadata&
                                                       {step_deg_, targets(request, metadata)}, progress);
   for (const std::string& path : paths_) {
     const std::string ending = ending_of(path);
-    const std::string bytes = ending == ".csv"    ? table(horizon, metadata)
-                              : ending == ".json" ? document(horizon, request, metadata, refraction).dump(2) + "\n"
-                                                  : profile::draw_panorama(panorama(horizon, request), path);
+    const std::string bytes = ending == ".csv" ? table(horizon, metadata)
+                              : ending == ".json"
+                                  ? json_text(document(horizon, request, metadata, refraction), 2) + "\n"
+                                  : profile::draw_panorama(panorama(horizon, request), path);
     write_file(path, bytes, overwrite);
   }
   return targets_document(horizon);

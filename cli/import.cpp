@@ -8,6 +8,7 @@
 #include <itin/coordinates.hpp>
 #include <itin/import.hpp>
 
+#include "call_files.hpp"
 #include "store_document.hpp"
 #include "store_scale.hpp"
 #include "values.hpp"
@@ -23,9 +24,9 @@ class ImportVerb final : public Verb {
   std::string summary() const override { return "Create a store from terrain, or add terrain and lines to it"; }
 
   void declare(CLI::App& app) override {
-    app.add_option("STORE", store_, "The store, created if there is none")->required();
-    app.add_option("SOURCE", options_.sources, "Rasters, point files, LAS, or layers of lines and polygons")
-        ->required();
+    writes(app.add_option("STORE", store_, "The store, created if there is none")->required());
+    reads(app.add_option("SOURCE", options_.sources, "Rasters, point files, LAS, or layers of lines and polygons")
+              ->required());
     app.add_option(
            "--kind", kind_,
            "What the sources are: terrain (default); contours, breaklines or water, which are lines with heights "

@@ -11,6 +11,7 @@
 #include <itin/height_axis.hpp>
 #include <itin/store.hpp>
 
+#include "call_files.hpp"
 #include "store_document.hpp"
 #include "store_scale.hpp"
 #include "verb.hpp"
@@ -139,7 +140,7 @@ class InfoVerb final : public Verb {
  public:
   std::string name() const override { return "info"; }
   std::string summary() const override { return "Show what a store holds"; }
-  void declare(CLI::App& app) override { app.add_option("STORE", store_, "The store")->required(); }
+  void declare(CLI::App& app) override { reads(app.add_option("STORE", store_, "The store")->required()); }
   void validate() override {}
   Document parameters() const override { return {{"store", store_}}; }
   Result execute(Progress&) override {

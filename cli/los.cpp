@@ -10,6 +10,7 @@
 #include <profile/los.hpp>
 #include <profile/profile_csv.hpp>
 
+#include "call_files.hpp"
 #include "earth_options.hpp"
 #include "los_case.hpp"
 #include "los_links.hpp"
@@ -17,6 +18,7 @@
 #include "los_store.hpp"
 #include "output_path.hpp"
 #include "radio_options.hpp"
+#include "store_document.hpp"
 #include "store_scale.hpp"
 #include "values.hpp"
 #include "verb.hpp"
@@ -31,10 +33,10 @@ class LosVerb final : public Verb {
   std::string summary() const override { return "Say whether two points see each other, and report why"; }
 
   void declare(CLI::App& app) override {
-    app.add_option("STORE", store_, "The store (not with --profile-csv)");
+    reads(app.add_option("STORE", store_, "The store (not with --profile-csv)"));
     line_.declare(app);
-    app.add_option("--profile-csv", profile_csv_, "Work on this profile instead of a store: d_km,h_m[,clutter_m]")
-        ->type_name("FILE");
+    reads(app.add_option("--profile-csv", profile_csv_, "Work on this profile instead of a store: d_km,h_m[,clutter_m]")
+              ->type_name("FILE"));
     app.add_option("--heights", heights_text_, "Heights of the two ends above that profile")->type_name("h1,h2");
     links_.declare(app);
     earth_.declare(app);
@@ -121,8 +123,8 @@ class LosVerb final : public Verb {
     from.height_m = heights_[0], to.height_m = heights_[1];
     from.elevation_angle_deg = report.elevation_angle_from_deg;
     to.elevation_angle_deg = report.elevation_angle_to_deg;
-    report.facts = {{"Profile", fmt::format("{}, {} points", std::filesystem::path(profile_csv_).filename().string(),
-                                            report.profile.points.size())}};
+    report.facts = {{"Profile", fmt::format("{}, {}", std::filesystem::path(profile_csv_).filename().string(),
+                                            counted(report.profile.points.size(), "point"))}};
     for (const auto& [end, lines] : {std::pair(from, &report.from_lines), std::pair(to, &report.to_lines)}) {
       *lines = {fmt::format("ground {:.2f} m, height {:.2f} m, elevation {:.2f} m", end.ground_m, end.height_m,
                             end.ground_m + end.height_m),

@@ -1,5 +1,6 @@
 #include "los_links.hpp"
 
+#include <algorithm>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -9,7 +10,9 @@
 #include <itin/geodesic.hpp>
 #include <itin/output_file.hpp>
 
+#include "call_files.hpp"
 #include "csv_cell.hpp"
+#include "off_the_data.hpp"
 #include "store_document.hpp"
 #include "values.hpp"
 
@@ -17,6 +20,7 @@ namespace itin::cli {
 
 namespace {
 
+using profile::Link;
 using profile::LinkResult;
 using profile::LinkTable;
 
@@ -117,17 +121,26 @@ Counts counts_of(const LinkTable& table, const std::vector<LinkResult>& results)
   return counts;
 }
 
+/// Of rows that cannot be read, else of links.
+std::string first_error(const LinkTable& table, const std::vector<LinkResult>& results, const StoreMetadata& metadata) {
+  if (!table.bad.empty()) return fmt::format("line {}: {}", table.bad.front().line, table.bad.front().message);
+  const auto first = std::find_if(results.begin(), results.end(), [](const LinkResult& r) { return !r.verdict; });
+  const Link& link = table.links[static_cast<std::size_t>(first - results.begin())];
+  const bool on = is_on_the_data(link.from, metadata) && is_on_the_data(link.to, metadata);
+  return fmt::format("{}: {}{}", link.id, first->message, on ? "" : "; the data is " + extent_of(metadata));
+}
+
 }  // namespace
 
 void LosLinks::declare(CLI::App& app) {
-  app.add_option("--links", path_,
-                 "Many links: a table id,x1,y1,h1,x2,y2,h2 (.csv; also lon1,lat1,lon2,lat2), or a file of lines")
-      ->type_name("FILE");
+  reads(app.add_option("--links", path_,
+                       "Many links: a table id,x1,y1,h1,x2,y2,h2 (.csv; also lon1,lat1,lon2,lat2), or a file of lines")
+            ->type_name("FILE"));
   app.add_option("--link-height", height_text_,
                  "Height of both ends of the lines of a file (default: 2, and at the second end the tip of "
                  "--visible-height)")
       ->type_name("METRES");
-  app.add_option("-o,--output", output_, "With --links: the table to write (.csv)")->type_name("FILE");
+  writes(app.add_option("-o,--output", output_, "With --links: the table to write (.csv)")->type_name("FILE"));
 }
 
 void LosLinks::validate(const std::optional<profile::TallObject>& object) {
@@ -176,16 +189,17 @@ LosLinks::Survey LosLinks::run(const Store& store, const LinkTable& table, const
       {"visible", counts.visible}, {"hidden", counts.hidden}, {"undecided", counts.undecided}, {"error", counts.error}};
   result.document["outputs"] = Document::array({output_});
   const std::size_t all = results.size() + table.bad.size();
-  result.text = fmt::format("{}: {} links, {} visible", output_, grouped(all), grouped(counts.visible));
+  result.text = fmt::format("{}: {}, {} visible", output_, counted(all, "link"), grouped(counts.visible));
   if (counts.undecided > 0) result.text += fmt::format(", {} undecided at this tolerance", grouped(counts.undecided));
   result.text += "\n";
   if (counts.gaps > 0 && !surface.gaps_clear()) {
-    result.warnings.push_back(fmt::format("{} of {} links cross ground without data, which {}; see --nodata",
-                                          counts.gaps, all, surface.gaps_block() ? "blocks them" : "counts as clear"));
+    result.warnings.push_back(fmt::format("{} of {} cross ground without data, which {}; see --nodata", counts.gaps,
+                                          counted(all, "link"),
+                                          surface.gaps_block() ? "blocks them" : "counts as clear"));
   }
   if (counts.error > 0)
-    result.failure =
-        fmt::format("{}: {} of {} links could not be computed; see the column message", output_, counts.error, all);
+    result.failure = fmt::format("{}: {} of {} could not be computed; see the column message; the first: {}", output_,
+                                 counts.error, counted(all, "link"), first_error(table, results, metadata));
   return survey;
 }
 

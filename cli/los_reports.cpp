@@ -10,6 +10,10 @@
 #include <itin/parallel.hpp>
 #include <profile/report.hpp>
 
+#include "call_files.hpp"
+#include "json_text.hpp"
+#include "store_document.hpp"
+
 namespace itin::cli {
 
 namespace {
@@ -31,19 +35,19 @@ std::string failure_of(const std::vector<Written>& all) {
     if (failed++ == 0) first = one.failure;
   }
   if (failed < 2) return first;
-  return fmt::format("{}; so of {} of {} links", first, failed, all.size());
+  return fmt::format("{}; so of {} of {}", first, failed, counted(all.size(), "link"));
 }
 
 }  // namespace
 
 void LosReports::declare(CLI::App& app) {
-  app.add_option(
-         "--report", paths_,
-         "Write the report, as its ending says: .json .csv .svg .pdf .png .html .kml .gpkg; may be given again. With "
-         "--links one for each: {id} in the name stands for the link's")
-      ->type_name("FILE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  writes(app.add_option("--report", paths_,
+                        "Write the report, as its ending says: .json .csv .svg .pdf .png .html .kml .gpkg; may be "
+                        "given again. With "
+                        "--links one for each: {id} in the name stands for the link's")
+             ->type_name("FILE")
+             ->expected(1)
+             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll));
   app.add_option("--title", title_, "The report's title")->type_name("TEXT");
 }
 
@@ -74,12 +78,11 @@ void LosReports::write(const LosCase& one, const Document& command, const std::v
   Document whole{{"itin", ITIN_VERSION}, {"command", command}};
   whole.update(one.result.document);
   whole["warnings"] = one.result.warnings;
-  const std::string json = whole.dump(2) + "\n";
+  const std::string json = json_text(whole, 2) + "\n";
   for (const std::string& path : paths) profile::write_report(one.report, json, path, overwrite);
 }
 
-std::vector<LosReports::Job> LosReports::jobs(const std::vector<profile::Link>& links,
-                                              const OutputPolicy& policy) const {
+std::vector<LosReports::Job> LosReports::jobs(const std::vector<profile::Link>& links, OutputPolicy& policy) const {
   std::vector<Job> jobs;
   std::set<std::string> names;
   for (std::size_t i = 0; i < links.size() && given(); ++i) {
@@ -88,7 +91,7 @@ std::vector<LosReports::Job> LosReports::jobs(const std::vector<profile::Link>& 
       path.replace(path.find(kId), kId.size(), file_name(links[i].id));
       if (!names.insert(path).second)
         throw InputError(fmt::format("--report: two links' reports would be {}; give links different ids", path));
-      policy.require_writable(path);
+      policy.claim(path);
       job.paths.push_back(std::move(path));
     }
   }

@@ -14,6 +14,7 @@
 #include <itin/geodesic.hpp>
 #include <profile/clearance_error.hpp>
 
+#include "off_the_data.hpp"
 #include "store_document.hpp"
 
 namespace itin::cli {
@@ -184,8 +185,11 @@ double LosStoreOptions::height_above(const char* option, double ground_m, double
 }
 
 LosStoreOptions::Result LosStoreOptions::run(const Store& store, profile::LosQuery query) const {
-  const auto transform = in_crs_.transform_to(store.metadata().crs_wkt);
-  return run(store, std::move(query), {transform(from_.position), transform(to_.position), from_height_, to_height_});
+  const auto end = [&](const char* option, const std::string& text, const Place& place) {
+    return on_the_data(fmt::format("{} '{}'", option, text), place.position, in_crs_, store.metadata());
+  };
+  const Ends ends{end("--from", from_text_, from_), end("--to", to_text_, to_), from_height_, to_height_};
+  return run(store, std::move(query), ends);
 }
 
 LosStoreOptions::Result LosStoreOptions::run(const Store& store, profile::LosQuery query, const Ends& ends) const {

@@ -4,6 +4,10 @@
 
 #include <itin/error.hpp>
 
+#include "call_files.hpp"
+#include "off_the_data.hpp"
+#include "site_list.hpp"
+
 namespace itin::cli {
 
 void ObserverOptions::declare(CLI::App& app) {
@@ -11,8 +15,9 @@ void ObserverOptions::declare(CLI::App& app) {
       ->type_name("x,y[,h]")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_option("--observers", sites_.path, "Observers from a vector file, or from CSV with columns x,y or lon,lat")
-      ->type_name("FILE");
+  reads(app.add_option("--observers", sites_.path,
+                       "Observers from a vector file, or from CSV with columns x,y or lon,lat")
+            ->type_name("FILE"));
   app.add_option("--layer", sites_.layer, "The layer of that file")->type_name("NAME");
   app.add_option("--where", sites_.where, "Only observers that this SQL condition holds for")->type_name("SQL");
   app.add_option("--height-field", sites_.height_field, "The field of that file that holds h")->type_name("FIELD");
@@ -63,12 +68,12 @@ std::vector<ObserverPlace> ObserverOptions::places(const StoreMetadata& metadata
 }
 
 std::vector<ObserverPlace> ObserverOptions::places_given(const StoreMetadata& metadata) const {
-  const auto transform = in_crs_.transform_to(metadata.crs_wkt);
   std::vector<ObserverPlace> places;
-  for (const Place& place : given_) {
-    places.push_back({fmt::format("{}", places.size() + 1),
-                      transform(place.position),
-                      place.height.value_or(height_),
+  for (std::size_t i = 0; i < given_.size(); ++i) {
+    const std::string what = fmt::format("--observer '{}'", observers_[i]);
+    places.push_back({fmt::format("{}", i + 1),
+                      on_the_data(what, given_[i].position, in_crs_, metadata),
+                      given_[i].height.value_or(height_),
                       absolute_heights_,
                       {}});
   }
@@ -82,6 +87,7 @@ std::vector<ObserverPlace> ObserverOptions::places_of_file(const StoreMetadata& 
   std::vector<ObserverPlace> places;
   for (const Site& site : read_sites(query, metadata.crs_wkt)) {
     const std::string where = fmt::format("{}: feature {}", query.path, site.feature);
+    require_on_the_data(where, site.position, in_crs_, metadata);
     ObserverPlace place{site.name, site.position, site.height.value_or(height_), absolute_heights_,
                         views_.view(site.numbers, where)};
     if (place.view.height) place.height = *place.view.height;
@@ -89,7 +95,7 @@ std::vector<ObserverPlace> ObserverOptions::places_of_file(const StoreMetadata& 
     if (!place.absolute) require_above_ground(where, place.height);
     places.push_back(std::move(place));
   }
-  if (places.empty()) throw InputError(query.path + ": holds no observer that was asked for; see --layer and --where");
+  if (places.empty()) throw InputError(none_in(query, "observer"));
   return places;
 }
 

@@ -8,7 +8,14 @@
 namespace itin::cli {
 
 void OutputPolicy::declare(CLI::App& app) {
+  app_ = &app;
   app.add_flag("--overwrite", overwrite, "Replace existing outputs");
+}
+
+void OutputPolicy::claim(const std::string& path) {
+  if (!files_) files_.emplace(*app_);
+  files_->add_output(path);
+  require_writable(path);
 }
 
 void OutputPolicy::require_writable(const std::string& path) const {

@@ -11,7 +11,9 @@
 #include <itin/paths.hpp>
 #include <itin/store.hpp>
 
+#include "call_files.hpp"
 #include "in_crs.hpp"
+#include "off_the_data.hpp"
 #include "output_path.hpp"
 #include "profile_output.hpp"
 #include "store_document.hpp"
@@ -52,14 +54,14 @@ class ProfileVerb final : public Verb {
   std::string summary() const override { return "Write the cross-section of the surface along a line or a path"; }
 
   void declare(CLI::App& app) override {
-    app.add_option("STORE", store_, "The store")->required();
+    reads(app.add_option("STORE", store_, "The store")->required());
     app.add_option("--from", from_text_, "Where the line begins")->type_name("x,y");
     const auto repeated = [](CLI::Option* option) {
       return option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     };
     repeated(app.add_option("--via", via_text_, "A corner on the way; may be given again")->type_name("x,y"));
     app.add_option("--to", to_text_, "Where it ends")->type_name("x,y");
-    app.add_option("--path", path_, "Follow the one line of this vector file instead")->type_name("FILE");
+    reads(app.add_option("--path", path_, "Follow the one line of this vector file instead")->type_name("FILE"));
     in_crs_.declare(app);
     repeated(app.add_option("--tolerance", tolerance_texts_,
                             "Vertical tolerance of the surface; 0: every stored point (default: 0); may be given again "
@@ -67,9 +69,10 @@ class ProfileVerb final : public Verb {
                  ->type_name("METRES"));
     app.add_option("--rings", rings_text_, "Tolerances that grow with the distance from --from, nearest ring first")
         ->type_name("RADIUS:TOLERANCE,...");
-    repeated(app.add_option("-o,--output", outputs_,
-                            "What to write: .csv, .json, .geojson, or a chart: .svg, .pdf, .png; may be given again")
-                 ->type_name("FILE"));
+    repeated(
+        writes(app.add_option("-o,--output", outputs_,
+                              "What to write: .csv, .json, .geojson, or a chart: .svg, .pdf, .png; may be given again")
+                   ->type_name("FILE")));
     themes_.declare(app);
     policy_.declare(app);
   }
@@ -131,7 +134,8 @@ class ProfileVerb final : public Verb {
       ground = along(store, corners, profiles.front().detail, ThemeChoice::none(), cost, progress);
     }
     if (profiles.front().profile.points.empty()) {
-      result.warnings.emplace_back("the line lies wholly outside the data; the profile is empty");
+      result.warnings.push_back("the line lies wholly outside the data; the profile is empty" +
+                                where_it_begins(store.metadata()));
     }
     warn_of_scale(store.metadata(), result.warnings);
     result.document["crs"] = crs_identifier(store.metadata().crs_wkt);
@@ -166,12 +170,19 @@ class ProfileVerb final : public Verb {
   std::vector<Point2> corners_in(const StoreMetadata& metadata) const {
     if (!path_.empty()) {
       const std::vector<Path> paths = read_paths(path_, metadata.crs_wkt);
-      if (paths.size() != 1) throw FileError(path_, fmt::format("has {} lines; a profile follows one", paths.size()));
+      if (paths.size() != 1)
+        throw FileError(path_, fmt::format("has {}; a profile follows one", counted(paths.size(), "line")));
       return paths.front().corners;
     }
     std::vector<Point2> corners(given_.size());
     std::transform(given_.begin(), given_.end(), corners.begin(), in_crs_.transform_to(metadata.crs_wkt));
     return corners;
+  }
+
+  std::string where_it_begins(const StoreMetadata& metadata) const {
+    if (given_.empty()) return fmt::format("; the data is {}", extent_of(metadata));
+    const auto off = off_the_data(given_.front(), in_crs_, metadata);
+    return off ? fmt::format("; --from '{}' {}", from_text_, *off) : "";
   }
 
   std::vector<std::pair<Detail, std::string>> details(Point2 centre) const {
@@ -213,7 +224,7 @@ class ProfileVerb final : public Verb {
       const auto [low, high] = std::minmax_element(
           points.begin(), points.end(), [](const auto& a, const auto& b) { return a.ground_m < b.ground_m; });
       text +=
-          fmt::format("{}: {:.2f} m, {} breakpoints", surface.name, surface.profile.length_m, grouped(points.size()));
+          fmt::format("{}: {:.2f} m, {}", surface.name, surface.profile.length_m, counted(points.size(), "breakpoint"));
       if (!points.empty()) text += fmt::format(", {:.2f} to {:.2f} m", low->ground_m, high->ground_m);
       for (const auto& [from, to] : surface.profile.gaps) text += fmt::format(", no data {:.2f} to {:.2f} m", from, to);
       text += "\n";

@@ -13,6 +13,7 @@
 #include <itin/output_file.hpp>
 #include <profile/chart.hpp>
 
+#include "json_text.hpp"
 #include "store_document.hpp"
 
 namespace itin::cli {
@@ -94,7 +95,7 @@ std::string geojson(const ProfileOutput& output) {
       document["features"].push_back(std::move(feature));
     }
   }
-  return document.dump() + "\n";
+  return json_text(document) + "\n";
 }
 
 std::string chart(const ProfileOutput& output, const std::string& path) {
@@ -113,7 +114,7 @@ std::string chart(const ProfileOutput& output, const std::string& path) {
 std::string bytes_of(const ProfileOutput& output, const std::string& path) {
   const std::string ending = ending_of(path);
   if (ending == ".csv") return csv(output.profiles, output.metadata);
-  if (ending == ".json") return output.document.dump(2) + "\n";
+  if (ending == ".json") return json_text(output.document, 2) + "\n";
   if (ending == ".geojson") return geojson(output);
   return chart(output, path);
 }

@@ -8,6 +8,7 @@
 #include <new>
 #include <string>
 #include <sys/resource.h>
+#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -17,8 +18,13 @@
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
 
+#include "call_error.hpp"
+#include "call_files.hpp"
 #include "interruption.hpp"
+#include "json_text.hpp"
+#include "likely_meant.hpp"
 #include "stderr_progress.hpp"
+#include "thread_limit.hpp"
 #include "values.hpp"
 #include "verb.hpp"
 
@@ -68,7 +74,8 @@ void require_known_verb(const std::vector<std::string>& arguments, const std::ve
   const std::string& first = arguments.front();
   const bool option = !first.empty() && first.front() == '-';
   if (!option && std::find(names.begin(), names.end(), first) == names.end()) {
-    throw InputError(fmt::format("unknown verb '{}'; the verbs are {}", first, fmt::join(names, ", ")));
+    throw InputError(fmt::format("unknown verb '{}'{}; the verbs are {}", first, did_you_mean(first, names),
+                                 fmt::join(names, ", ")));
   }
 }
 
@@ -123,10 +130,14 @@ void require_values(const CLI::App& verb) {
   }
 }
 
-void run_verb(Verb& verb, const Everywhere& everywhere) {
+void run_verb(Verb& verb, CLI::App& options, const Everywhere& everywhere) {
   const auto start = std::chrono::steady_clock::now();
+  verb.complete();
+  require_values(options);
+  CallFiles{options};  // throws where one of them would be lost
   everywhere.apply();
   verb.validate();
+  require_threads();
   Result result;
   {
     StderrProgress progress(StderrProgress::style_for(everywhere.quiet));
@@ -138,7 +149,7 @@ void run_verb(Verb& verb, const Everywhere& everywhere) {
   }
   for (const std::string& warning : result.warnings) std::cerr << "itin: warning: " << warning << "\n";
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  print(everywhere.json ? complete_document(verb, result, elapsed.count()).dump(2) + "\n" : result.text);
+  print(everywhere.json ? json_text(complete_document(verb, result, elapsed.count()), 2) + "\n" : result.text);
   if (!result.failure.empty()) throw Error(result.failure);
 }
 
@@ -154,6 +165,7 @@ void parse_and_run(const std::vector<std::string>& arguments) {
     CLI::App* subcommand = app.add_subcommand(verb->name(), verb->summary());
     verb->declare(*subcommand);
     everywhere.declare(*subcommand);
+    require_roles(*subcommand);
   }
 
   std::vector<std::string> reversed = repeat_observer(arguments);
@@ -165,13 +177,19 @@ void parse_and_run(const std::vector<std::string>& arguments) {
   } catch (const CLI::CallForVersion&) {
     return print(app.version() + "\n");
   } catch (const CLI::ParseError& error) {
-    const std::string verb = app.get_subcommands().empty() ? "" : app.get_subcommands().front()->get_name() + " ";
-    throw InputError(fmt::format("{}; see itin {}--help", error.what(), verb));
+    const bool chosen = !app.get_subcommands().empty();
+    const std::string wrong = call_error(chosen ? *app.get_subcommands().front() : app, error);
+    throw InputError(
+        fmt::format("{}; see itin {}--help", wrong, chosen ? app.get_subcommands().front()->get_name() + " " : ""));
   }
-  require_values(*app.get_subcommands().front());
-  const std::string chosen = app.get_subcommands().front()->get_name();
-  const auto verb = std::find_if(verbs.begin(), verbs.end(), [&](const auto& v) { return v->name() == chosen; });
-  run_verb(**verb, everywhere);
+  CLI::App& chosen = *app.get_subcommands().front();
+  const auto verb =
+      std::find_if(verbs.begin(), verbs.end(), [&](const auto& v) { return v->name() == chosen.get_name(); });
+  try {
+    run_verb(**verb, chosen, everywhere);
+  } catch (const std::bad_alloc&) {
+    throw Error(out_of_memory(chosen));
+  }
 }
 
 int report(std::string message, Status status) {
@@ -191,12 +209,18 @@ int run(int argc, char** argv) {
     return report(error.what(), kInterrupted);
   } catch (const InputError& error) {
     return report(error.what(), kWrongCall);
-  } catch (const std::bad_alloc&) {
-    return report("out of memory", kFailed);
-  } catch (const std::exception& error) {
+  } catch (const Error& error) {
     return report(error.what(), kFailed);
+  } catch (const std::bad_alloc&) {
+    return report("out of memory; free some", kFailed);
+  } catch (const std::system_error& error) {
+    return report(error.what(), kFailed);
+  } catch (const std::exception& error) {
+    return report(
+        fmt::format("a mistake of itin's own ({}); please report it with the command that led to it", error.what()),
+        kFailed);
   } catch (...) {
-    return report("a failure of unknown kind; please report it with the command that led to it", kFailed);
+    return report("a mistake of itin's own; please report it with the command that led to it", kFailed);
   }
 }
 

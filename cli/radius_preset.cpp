@@ -7,6 +7,7 @@
 
 #include <itin/error.hpp>
 
+#include "call_files.hpp"
 #include "values.hpp"
 
 namespace itin::cli {
@@ -23,11 +24,12 @@ constexpr const char* kBuiltinSource =
 void RadiusOptions::declare(CLI::App& app) {
   app.add_option("--radius", radius_text_, "How far every turbine is looked for (default: by its tip height)")
       ->type_name("METRES");
-  app.add_option("--radius-preset", preset_path_,
-                 "Radius by tip height from this file: {\"source\": ..., \"radii\": [{\"tip_up_to_m\": 50, "
-                 "\"radius_km\": 15}, ..., {\"radius_km\": 45}]}; a run writes the one it used (default: built in, 15 "
-                 "to 45 km)")
-      ->type_name("FILE");
+  reads(app.add_option(
+               "--radius-preset", preset_path_,
+               "Radius by tip height from this file: {\"source\": ..., \"radii\": [{\"tip_up_to_m\": 50, "
+               "\"radius_km\": 15}, ..., {\"radius_km\": 45}]}; a run writes the one it used (default: built in, 15 "
+               "to 45 km)")
+            ->type_name("FILE"));
 }
 
 void RadiusOptions::validate() {

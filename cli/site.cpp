@@ -11,7 +11,9 @@
 #include <viewshed/site_coverage.hpp>
 #include <viewshed/siting.hpp>
 
+#include "json_text.hpp"
 #include "new_folder.hpp"
+#include "off_the_data.hpp"
 #include "output_path.hpp"
 #include "site_inputs.hpp"
 #include "site_links.hpp"
@@ -35,6 +37,7 @@ class SiteVerb final : public Verb {
   std::string name() const override { return "site"; }
   std::string summary() const override { return "Choose the few best of many sites, with proof"; }
   void declare(CLI::App& app) override { options_.declare(app); }
+  void complete() override { options_.apply_parameter_file(); }
   void validate() override { options_.validate(); }
   Document parameters() const override {
     Document parameters = options_.parameters();
@@ -44,7 +47,8 @@ class SiteVerb final : public Verb {
 
   Result execute(Progress& progress) override {
     // What a killed run has written already is its own.
-    policy_.overwrite = options_.overwrite || (options_.resume && std::filesystem::exists(place("site.work")));
+    policy_ = options_.policy;
+    policy_.overwrite = policy_.overwrite || (options_.resume && std::filesystem::exists(place("site.work")));
     const NewFolder folder(options_.directory);
     outputs_ = site_outputs(options_.directory, policy_);
     const Store store(options_.store);
@@ -64,7 +68,7 @@ class SiteVerb final : public Verb {
     site.rasters = site_rasters(store, options_, inputs, coverage, site.choice, progress);
     Result result = write(store, site, hub_stand, progress);
     if (work.restored() > 0)
-      result.text += fmt::format("{} results of an earlier run were used\n", grouped(work.restored()));
+      result.text += fmt::format("used of an earlier run: {}\n", counted(work.restored(), "result"));
     work.remove();
     return result;
   }
@@ -88,13 +92,13 @@ class SiteVerb final : public Verb {
   std::string key() const {
     Document hashes = Document::array();
     for (const Document& input : inputs_document_) hashes.push_back(input.at("sha256"));
-    return fmt::format("{} {} {} {}", ITIN_VERSION, hashes.dump(), options_.parameters().dump(),
-                       options_.earth.document().dump());
+    return fmt::format("{} {} {} {}", ITIN_VERSION, json_text(hashes), json_text(options_.parameters()),
+                       json_text(options_.earth.document()));
   }
 
   std::optional<viewshed::SiteStand> hub(const Store& store, Progress& progress) const {
     if (!options_.hub) return std::nullopt;
-    const Point2 p = options_.in_crs.transform_to(store.metadata().crs_wkt)(options_.hub->position);
+    const Point2 p = on_the_data("--hub", options_.hub->position, options_.in_crs, store.metadata());
     const auto ground = viewshed::ground_under(
         store, {p}, options_.on_surface ? options_.themes.choice() : ThemeChoice::none(), progress);
     if (!ground.front()) throw InputError("--hub: there is no data there; move it onto the data");
@@ -147,7 +151,7 @@ class SiteVerb final : public Verb {
     for (const SiteOutput& output : outputs_)
       result.document["outputs"].push_back({{"path", output.path}, {"what", output.what}});
     write_site_maps(store, site, options_.directory, policy_.overwrite, progress, result.warnings);
-    write_site_rasters(site, options_.directory, crs, parameters().dump(), policy_.overwrite);
+    write_site_rasters(site, options_.directory, crs, json_text(parameters()), policy_.overwrite);
     write_site_tables(site, options_.directory, policy_.overwrite);
     write_site_layers(site, options_.directory, crs, policy_.overwrite);
     const auto profiles = write_site_profiles(store, site, hub_stand, options_.directory, policy_.overwrite, progress);
@@ -157,10 +161,10 @@ class SiteVerb final : public Verb {
     Document whole{{"itin", ITIN_VERSION}, {"command", {{"verb", name()}}}};
     whole["command"].update(parameters());
     whole.update(result.document);
-    write_file(place("site.json"), whole.dump(2) + "\n", policy_.overwrite);
+    write_file(place("site.json"), json_text(whole, 2) + "\n", policy_.overwrite);
     Document given = options_.given();
     given["inputs"] = inputs_document_;
-    write_file(place("parameters.json"), given.dump(2) + "\n", policy_.overwrite);
+    write_file(place("parameters.json"), json_text(given, 2) + "\n", policy_.overwrite);
     const viewshed::Statistics& statistics = site.coverage.statistics();
     result.document["statistics"] = {{"points_read", statistics.retrieval.points_read},
                                      {"blocks_read", statistics.retrieval.blocks_read},
@@ -180,11 +184,11 @@ class SiteVerb final : public Verb {
       warnings.push_back(
           fmt::format("left out: {} more; all are listed in {}", rejected.size() - kMostWarnings, place("site.json")));
     if (site.inputs.demand_without_ground > 0)
-      warnings.push_back(fmt::format("{} points of the demand have no ground under them and cannot be served",
-                                     site.inputs.demand_without_ground));
+      warnings.push_back(fmt::format("no ground is under {} of the demand, which cannot be served",
+                                     counted(site.inputs.demand_without_ground, "point")));
     if (options_.count && site.choice.chosen.size() < *options_.count)
-      warnings.push_back(fmt::format("{} sites chosen, not {}: no other that may be taken gains anything",
-                                     site.choice.chosen.size(), *options_.count));
+      warnings.push_back(fmt::format("{} chosen, not {}: no other that may be taken gains anything",
+                                     counted(site.choice.chosen.size(), "site"), *options_.count));
     if (options_.share && site.inputs.demand.in_metric(site.choice.value + site.choice.existing) <
                               *options_.share * site.inputs.demand.in_metric(site.inputs.total))
       warnings.emplace_back("the wanted share is not reached: no further site that may be taken gains anything");
@@ -203,10 +207,10 @@ class SiteVerb final : public Verb {
                         site.in_metric(site.choice.value), total,
                         total == 0 ? 0 : 100 * site.in_metric(site.choice.value) / total,
                         site.in_metric(site.choice.upper_bound), viewshed::gap_percent(site.choice));
-    text += fmt::format("{} candidates, {} options, {} looked at again; {} left out\n",
-                        grouped(site.inputs.candidates.size()), grouped(site.inputs.options.size()),
-                        grouped(site.refined()), grouped(site.inputs.rejected.size()));
-    return text + fmt::format("{}: {} files; open report.html\n", options_.directory, files);
+    text += fmt::format(
+        "{}, {}, {} looked at again; {} left out\n", counted(site.inputs.candidates.size(), "candidate"),
+        counted(site.inputs.options.size(), "option"), grouped(site.refined()), grouped(site.inputs.rejected.size()));
+    return text + fmt::format("{}: {}; open report.html\n", options_.directory, counted(files, "file"));
   }
 
   SiteOptions options_;

@@ -11,6 +11,9 @@
 #include <itin/window_source.hpp>
 #include <viewshed/site_proposal.hpp>
 
+#include "off_the_data.hpp"
+#include "site_list.hpp"
+
 namespace itin::cli {
 
 namespace {
@@ -40,8 +43,11 @@ class Reader {
   void reject(const std::string& line) { inputs_.rejected.push_back(line); }
 
   std::string nothing_left() const {
-    return fmt::format("no candidate is left to choose from{}",
-                       inputs_.rejected.empty() ? "" : "; the first left out: " + inputs_.rejected.front());
+    if (inputs_.rejected.empty())
+      return options_.candidates.path.empty() ? "no candidate is left to choose from"
+                                              : none_in(options_.candidates, "candidate");
+    return fmt::format("no candidate is left to choose from; the first left out: {}; the data is {}",
+                       inputs_.rejected.front(), extent_of(store_.metadata()));
   }
 
   void propose() {
@@ -95,13 +101,16 @@ class Reader {
   void stand() {
     std::vector<Point2> positions;
     for (const Candidate& candidate : inputs_.candidates) positions.push_back(candidate.position);
+    require_any_on_the_data(options_.candidates.path + ": the first candidate", positions, options_.in_crs,
+                            store_.metadata());
     const auto ground = viewshed::ground_under(store_, positions, ground_themes(), progress_);
     std::vector<Candidate> kept;
     for (std::size_t i = 0; i < ground.size(); ++i) {
       const Candidate& candidate = inputs_.candidates[i];
       if (!ground[i]) {
-        reject(fmt::format("candidate {} at {:.10g},{:.10g}: there is no data there", candidate.id,
-                           candidate.position.x, candidate.position.y));
+        const bool on = is_on_the_data(candidate.position, store_.metadata());
+        reject(fmt::format("candidate {} at {:.10g},{:.10g}: {}", candidate.id, candidate.position.x,
+                           candidate.position.y, on ? "there is no data there" : "it lies off the data"));
         continue;
       }
       std::vector<Mast> masts = options_.masts;
@@ -123,7 +132,9 @@ class Reader {
     query.path = options_.existing;
     query.height_field = options_.candidates.height_field;
     query.crs = options_.in_crs.crs;
+    const std::size_t rejected = inputs_.rejected.size();
     const std::vector<Site> sites = read_sites(query, crs_, inputs_.rejected);
+    if (sites.empty() && inputs_.rejected.size() == rejected) throw InputError(none_in(query, "site"));
     std::vector<Point2> positions;
     for (const Site& site : sites) positions.push_back(site.position);
     const auto ground = viewshed::ground_under(store_, positions, ground_themes(), progress_);

@@ -6,6 +6,7 @@
 #include <viewshed/map_image.hpp>
 
 #include "site_report.hpp"
+#include "store_document.hpp"
 
 namespace itin::cli {
 
@@ -53,7 +54,7 @@ void write_site_maps(const Store& store, const SiteResult& r, const std::string&
   viewshed::MapOptions options;
   options.map_pixels = kMapPixels;
   options.seen = "Served", options.unseen = "Not served";
-  options.title = fmt::format("Served by {} sites", r.choice.chosen.size());
+  options.title = fmt::format("Served by {}", counted(r.choice.chosen.size(), "site"));
   options.subtitle = fmt::format(
       "radius {:g} km, targets {:g} m up{}{}", r.options.radius / 1000, r.options.target_height,
       r.options.frequency_ghz ? fmt::format(", {:g} F1 clear at {:g} GHz", r.options.fresnel, *r.options.frequency_ghz)

@@ -9,6 +9,10 @@
 #include <itin/error.hpp>
 #include <profile/fresnel.hpp>
 
+#include "call_files.hpp"
+#include "json_text.hpp"
+#include "store_document.hpp"
+
 namespace itin::cli {
 
 namespace {
@@ -20,7 +24,7 @@ std::optional<double> number(const char* option, const std::string& text, Range 
 std::string text_of(const std::string& key, const Document& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
-  if (value.is_number()) return value.dump();
+  if (value.is_number()) return json_text(value);
   if (value.is_array()) {
     std::string list;
     for (const Document& item : value) list += (list.empty() ? "" : ",") + text_of(key, item);
@@ -40,12 +44,12 @@ bool is_parameter(const std::string& name) {
 
 void SiteOptions::declare(CLI::App& app) {
   app_ = &app;
-  app.add_option("STORE", store, "The store")->required();
-  app.add_option("-o,--output", directory, "The folder to write into; made where it is not there")
-      ->type_name("DIR")
-      ->required();
-  app.add_option("--params", params_, "Options from a JSON file, by name; those of the call come before them")
-      ->type_name("FILE");
+  reads(app.add_option("STORE", store, "The store")->required());
+  writes(app.add_option("-o,--output", directory, "The folder to write into; made where it is not there")
+             ->type_name("DIR")
+             ->required());
+  reads(app.add_option("--params", params_, "Options from a JSON file, by name; those of the call come before them")
+            ->type_name("FILE"));
   declare_candidates(app);
   declare_demand(app);
   declare_choice(app);
@@ -53,9 +57,9 @@ void SiteOptions::declare(CLI::App& app) {
 }
 
 void SiteOptions::declare_candidates(CLI::App& app) {
-  app.add_option("--candidates", candidates.path,
-                 "Candidates from a vector file, or from CSV with columns x,y or lon,lat")
-      ->type_name("FILE");
+  reads(app.add_option("--candidates", candidates.path,
+                       "Candidates from a vector file, or from CSV with columns x,y or lon,lat")
+            ->type_name("FILE"));
   app.add_option("--layer", candidates.layer, "The layer of that file")->type_name("NAME");
   app.add_option("--where", candidates.where, "Only candidates that this SQL condition holds for")->type_name("SQL");
   app.add_option("--name-field", candidates.name_field, "The field that holds names (default: the row's number from 0)")
@@ -64,8 +68,9 @@ void SiteOptions::declare_candidates(CLI::App& app) {
       ->type_name("FIELD");
   app.add_option("--cost-field", cost_field, "The field that holds each place's cost (default: no costs)")
       ->type_name("FIELD");
-  app.add_option("--search-area", search_area, "Propose candidates in these polygons (a file, or WKT) from the terrain")
-      ->type_name("AREA");
+  reads(app.add_option("--search-area", search_area,
+                       "Propose candidates in these polygons (a file, or WKT) from the terrain")
+            ->type_name("AREA"));
   app.add_option("--spacing", spacing_text_, "Of proposed candidates: about two for each square of this side")
       ->type_name("METRES");
   app.add_option("--mast-height", mast_height_text_, "Height of the masts, or several to choose from (default: 20)")
@@ -78,9 +83,9 @@ void SiteOptions::declare_candidates(CLI::App& app) {
 }
 
 void SiteOptions::declare_demand(CLI::App& app) {
-  app.add_option("--demand", demand,
-                 "What is to be served: cells (default), a raster of weights, or a vector file of points")
-      ->type_name("cells|FILE");
+  reads(app.add_option("--demand", demand,
+                       "What is to be served: cells (default), a raster of weights, or a vector file of points")
+            ->type_name("cells|FILE"));
   app.add_option("--weight-field", weight_field, "The field of the points that holds weights (default: 1 each)")
       ->type_name("FIELD");
   app.add_option("--target-height", target_height_text_, "h of the targets (default: 2)")->type_name("METRES");
@@ -102,8 +107,8 @@ void SiteOptions::declare_choice(CLI::App& app) {
       ->type_name("SHARE");
   app.add_option("--min-spacing", min_spacing_text_, "No two chosen sites are nearer to each other")
       ->type_name("METRES");
-  app.add_option("--existing", existing, "Sites that serve already, from a vector file")->type_name("FILE");
-  app.add_option("--forbidden", forbidden, "No site in these polygons (a file, or WKT)")->type_name("AREA");
+  reads(app.add_option("--existing", existing, "Sites that serve already, from a vector file")->type_name("FILE"));
+  reads(app.add_option("--forbidden", forbidden, "No site in these polygons (a file, or WKT)")->type_name("AREA"));
   app.add_option("--k-cover", cover_text_, "What fewer sites serve counts for nothing (default: 1)")->type_name("N");
   app.add_flag("--intervisible", intervisible, "Every chosen site sees another one, or the hub");
   app.add_option("--hub", hub_text_, "A given end of the links between sites (implies --intervisible)")
@@ -124,7 +129,7 @@ void SiteOptions::declare_work(CLI::App& app) {
   app.add_option("--memory", memory_text_, "Memory to work in; it changes the speed only (default: 1G)")
       ->type_name("SIZE");
   app.add_flag("--resume", resume, "Go on where a run with the same parameters was killed");
-  app.add_flag("--overwrite", overwrite, "Replace existing outputs");
+  policy.declare(app);
 }
 
 void SiteOptions::apply_parameter_file() {
@@ -138,13 +143,17 @@ void SiteOptions::apply_parameter_file() {
     CLI::Option* option = app_->get_option_no_throw("--" + key);
     if (option == nullptr || !is_parameter(key)) throw InputError(fmt::format("{}: no option '{}'", params_, key));
     if (option->count() > 0) continue;
-    option->add_result(text_of(key, value));
-    option->run_callback();
+    const std::string text = text_of(key, value);
+    try {
+      option->add_result(text);
+      option->run_callback();
+    } catch (const CLI::ParseError&) {
+      throw InputError(fmt::format("{}: '{}' is no value of the option '{}'", params_, text, key));
+    }
   }
 }
 
 void SiteOptions::validate() {
-  apply_parameter_file();
   validate_candidates();
   validate_masts();
   validate_demand();
@@ -177,7 +186,8 @@ void SiteOptions::validate_masts() {
   std::vector<double> costs(heights.size(), cost_field.empty() ? 1 : 0);
   if (!mast_cost_text_.empty()) costs = parse_numbers("--mast-cost", mast_cost_text_, Range::kNotNegative);
   if (costs.size() != heights.size())
-    throw InputError(fmt::format("--mast-cost: {} costs for {} heights", costs.size(), heights.size()));
+    throw InputError(fmt::format("--mast-cost: {} for {}; give each height its cost", counted(costs.size(), "cost"),
+                                 counted(heights.size(), "height")));
   for (std::size_t i = 0; i < heights.size(); ++i) masts.push_back({heights[i], costs[i]});
 }
 

@@ -13,6 +13,7 @@
 
 #include "earth_options.hpp"
 #include "in_crs.hpp"
+#include "output_path.hpp"
 #include "surface_options.hpp"
 #include "values.hpp"
 #include "verb.hpp"
@@ -28,7 +29,9 @@ struct Mast {
 class SiteOptions {
  public:
   void declare(CLI::App& app);
-  /// Reads the parameter file, which is part of the call. Throws InputError, FileError.
+  /// Takes options from the parameter file, which is part of the call. Throws InputError, FileError.
+  void apply_parameter_file();
+  /// Throws InputError.
   void validate();
   /// What was given, by option name without dashes: what a parameter file holds.
   Document given() const;
@@ -73,14 +76,13 @@ class SiteOptions {
   viewshed::NoData nodata = viewshed::NoData::kUnknown;
   std::uint64_t memory_bytes = std::uint64_t{1} << 30;
   bool resume = false;
-  bool overwrite = false;
+  OutputPolicy policy;
 
  private:
   void declare_candidates(CLI::App& app);
   void declare_demand(CLI::App& app);
   void declare_choice(CLI::App& app);
   void declare_work(CLI::App& app);
-  void apply_parameter_file();
   void validate_candidates();
   void validate_masts();
   void validate_demand();

@@ -164,7 +164,7 @@ Document interval(const CoverageSummary& summary) {
 
 }  // namespace
 
-std::vector<SiteOutput> site_outputs(const std::string& directory, const OutputPolicy& policy) {
+std::vector<SiteOutput> site_outputs(const std::string& directory, OutputPolicy& policy) {
   std::vector<SiteOutput> outputs;
   for (const auto& [name, what] :
        {std::pair("sites.gpkg", "chosen sites, candidates, links between sites"),
@@ -179,7 +179,7 @@ std::vector<SiteOutput> site_outputs(const std::string& directory, const OutputP
         std::pair("report.html", "everything on one page"), std::pair("site.json", "the result as a document"),
         std::pair("parameters.json", "for --params: runs this again")}) {
     outputs.push_back({place(directory, name), what});
-    policy.require_writable(outputs.back().path);
+    policy.claim(outputs.back().path);
   }
   return outputs;
 }

@@ -18,8 +18,9 @@ struct SiteOutput {
   std::string what;
 };
 
-/// Every file of the folder, which is there. Throws FileError where one may not be written.
-std::vector<SiteOutput> site_outputs(const std::string& directory, const OutputPolicy& policy);
+/// Every file of the folder, which is there. Throws FileError where one may not be written, InputError where the call
+/// reads one.
+std::vector<SiteOutput> site_outputs(const std::string& directory, OutputPolicy& policy);
 
 /// `value`, `upper_bound`, `chosen` and the rest of the contract's document, without what the program adds.
 Document site_document(const SiteResult& result, const StoreMetadata& metadata);

@@ -13,6 +13,7 @@
 #include <itin/markup.hpp>
 #include <itin/output_file.hpp>
 
+#include "json_text.hpp"
 #include "store_document.hpp"
 
 namespace itin::cli {
@@ -177,7 +178,7 @@ std::string left_out(const SiteResult& r) {
 /// How few candidates had to be looked at closely, and why that was enough.
 std::string looks(const SiteResult& r) {
   const std::string options =
-      fmt::format("{} candidates, {} options", r.inputs.candidates.size(), r.inputs.options.size());
+      counted(r.inputs.candidates.size(), "candidate") + ", " + counted(r.inputs.options.size(), "option");
   if (r.coverage.last_stage() == 0) return options + "; the first look at each was exact.";
   return fmt::format(
       "{}; {} of them were looked at again after the first look. The others could be left: what they serve at most "
@@ -189,12 +190,13 @@ std::string looks(const SiteResult& r) {
 std::string summary(const SiteResult& r) {
   const double total = std::max(r.in_metric(r.inputs.total), 1e-300);
   return fmt::format(
-      "<p class=\"figure\">{} sites serve {} of a demand of {} ({:.1f} %). No choice within the same limits serves "
+      "<p class=\"figure\">Served by {}: {} of a demand of {} ({:.1f} %). No choice within the same limits serves "
       "more than {}: at most {:.1f} % were left on the table.</p>\n<p>{}{}</p>\n",
-      r.choice.chosen.size(), amount(r.in_metric(r.choice.value)), amount(r.in_metric(r.inputs.total)),
+      counted(r.choice.chosen.size(), "site"), amount(r.in_metric(r.choice.value)), amount(r.in_metric(r.inputs.total)),
       100 * r.in_metric(r.choice.value) / total, amount(r.in_metric(r.choice.upper_bound)),
       viewshed::gap_percent(r.choice), looks(r),
-      r.choice.swaps > 0 ? fmt::format(" {} exchanges after greedy gained more.", r.choice.swaps) : "");
+      r.choice.swaps > 0 ? fmt::format(" More was gained by {} after greedy.", counted(r.choice.swaps, "exchange"))
+                         : "");
 }
 
 }  // namespace
@@ -218,7 +220,7 @@ void write_site_report(const SiteResult& r, const std::vector<SiteProfile>& prof
   html +=
       fmt::format("<h2>Parameters and inputs</h2>\n<p class=\"note\">{}. {}</p>\n<pre>{}</pre>\n<pre>{}</pre>\n",
                   escaped_markup(r.options.meaning_of_served()), escaped_markup(r.options.earth.earth().convention()),
-                  escaped_markup(parameters.dump(2)), escaped_markup(inputs.dump(2)));
+                  escaped_markup(json_text(parameters, 2)), escaped_markup(json_text(inputs, 2)));
   html += fmt::format("<p class=\"note\">itin {}</p>\n</body></html>\n", ITIN_VERSION);
   write_file((std::filesystem::path(directory) / "report.html").string(), html, overwrite);
 }

@@ -8,6 +8,8 @@
 
 #include <itin/progress.hpp>
 
+#include "time_left.hpp"
+
 namespace itin::cli {
 
 class StderrProgress final : public Progress {
@@ -29,12 +31,10 @@ class StderrProgress final : public Progress {
 
  private:
   using Clock = std::chrono::steady_clock;
-  std::string line(double fraction, Clock::time_point now) const;
 
   const Style style_;
   std::mutex mutex_;
-  std::string stage_;
-  Clock::time_point stage_start_;
+  TimeLeft left_;
   Clock::time_point last_drawn_;
   bool drawn_ = false;
 };

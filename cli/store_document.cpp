@@ -112,13 +112,13 @@ std::string grouped(std::uint64_t number) {
   return digits;
 }
 
-std::string counted(std::uint64_t number, const std::string& one, const std::string& several) {
-  const std::string plural = several.empty() ? one + "s" : several;
-  return grouped(number) + " " + (number == 1 ? one : plural);
+std::string counted(std::uint64_t number, std::string_view noun, std::string_view plural) {
+  if (number == 1) return fmt::format("1 {}", noun);
+  return plural.empty() ? fmt::format("{} {}s", grouped(number), noun) : fmt::format("{} {}", grouped(number), plural);
 }
 
 std::string readable_bytes(std::uint64_t bytes) {
-  if (bytes < 1000) return fmt::format("{} bytes", bytes);
+  if (bytes < 1000) return counted(bytes, "byte");
   double amount = static_cast<double>(bytes);
   std::size_t unit = 0;
   constexpr const char* kUnits[] = {"bytes", "kB", "MB", "GB", "TB"};

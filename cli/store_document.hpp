@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <itin/detail.hpp>
@@ -38,8 +39,8 @@ Document box_document(const Box& box);
 /// 1234567 as "1,234,567".
 std::string grouped(std::uint64_t number);
 
-/// "1 block", "2 blocks"; `several` where more than one are called otherwise than with an s.
-std::string counted(std::uint64_t number, const std::string& one, const std::string& several = "");
+/// "1 block", "1,234 blocks"; `plural` where it is not made by an s.
+std::string counted(std::uint64_t number, std::string_view noun, std::string_view plural = {});
 
 /// 1234567 as "1.2 MB".
 std::string readable_bytes(std::uint64_t bytes);

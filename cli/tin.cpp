@@ -6,12 +6,15 @@
 #include <fmt/format.h>
 
 #include <itin/coordinates.hpp>
+#include <itin/error.hpp>
 #include <itin/store.hpp>
 #include <itin/tin_export.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/oblique_view.hpp>
 
+#include "call_files.hpp"
 #include "detail_options.hpp"
+#include "json_text.hpp"
 #include "output_path.hpp"
 #include "store_document.hpp"
 #include "store_scale.hpp"
@@ -30,11 +33,13 @@ class TinVerb final : public Verb {
   std::string summary() const override { return "Write the triangulation of a window"; }
 
   void declare(CLI::App& app) override {
-    app.add_option("STORE", store_, "The store")->required();
+    reads(app.add_option("STORE", store_, "The store")->required());
     window_.declare(app);
-    app.add_option("-o,--output", output_, "What to write: .ply, .obj, .glb, .gpkg or .geojson; a topology: .json")
-        ->type_name("FILE");
-    app.add_option("--image", image_, "A picture of the surface, seen obliquely (.png, .jpg, ...)")->type_name("FILE");
+    writes(
+        app.add_option("-o,--output", output_, "What to write: .ply, .obj, .glb, .gpkg or .geojson; a topology: .json")
+            ->type_name("FILE"));
+    writes(app.add_option("--image", image_, "A picture of the surface, seen obliquely (.png, .jpg, ...)")
+               ->type_name("FILE"));
     app.add_option("--look", look_, "Where the picture's viewer looks, and from how high, degrees (default: 340,40)")
         ->type_name("AZIMUTH,ELEVATION");
     app.add_option("--topology", topology_, "Write this structure of the triangulation: triangle, vertex or edge")
@@ -50,7 +55,6 @@ class TinVerb final : public Verb {
     themes_.validate();
     if (output_.empty() && image_.empty()) throw InputError("give an output: --output FILE, or --image FILE.png");
     if (output_.empty() && !topology_.empty()) throw InputError("--topology: give --output FILE.json with it");
-    if (!output_.empty() && output_ == image_) throw InputError("--output and --image name the same file");
     if (!image_.empty()) viewshed::require_image_format(image_);
     if (!look_.empty()) {
       const std::vector<double> look = parse_tuple("--look", look_, 2, "azimuth,elevation");
@@ -80,11 +84,14 @@ class TinVerb final : public Verb {
     const ThemeChoice themes = themes_.choice().with_ground_lines();
     themes.check(store.metadata().themes);
     const Tin tin = triangulate(store, window, detail, progress, themes);
+    if (tin.triangles.empty() && !image_.empty())
+      throw InputError(window_.no_ground(store.metadata()) + "; there is nothing to draw");
     const Document surface = surface_document(store.metadata(), detail, themes);
     if (!output_.empty()) write(tin, store.metadata(), surface, progress);
     if (!image_.empty()) viewshed::write_image(image_, viewshed::draw_oblique(tin, view_), policy_.overwrite);
     Result result{document(tin, store.metadata(), surface), text(tin), {}, {}};
     warn_of_scale(store.metadata(), result.warnings);
+    if (tin.triangles.empty()) result.warnings.push_back(window_.no_ground(store.metadata()));
     return result;
   }
 
@@ -103,7 +110,7 @@ class TinVerb final : public Verb {
     options.crs_wkt = metadata.crs_wkt;
     options.overwrite = policy_.overwrite;
     for (const ThemeInfo& theme : metadata.themes) options.theme_names.push_back(theme.name);
-    options.metadata_json = Document{{"itin", ITIN_VERSION}, {"command", query()}, {"surface", surface}}.dump();
+    options.metadata_json = json_text(Document{{"itin", ITIN_VERSION}, {"command", query()}, {"surface", surface}});
     if (kind_) {
       export_topology(tin, *kind_, output_, options, progress);
     } else {
@@ -129,8 +136,8 @@ class TinVerb final : public Verb {
   std::string text(const Tin& tin) const {
     std::string text;
     for (const std::string& path : outputs()) {
-      text += fmt::format("{}: {} vertices, {} triangles, {}\n", path, grouped(tin.vertices.size()),
-                          grouped(tin.triangles.size()), readable_bytes(std::filesystem::file_size(path)));
+      text += fmt::format("{}: {}, {}, {}\n", path, counted(tin.vertices.size(), "vertex", "vertices"),
+                          counted(tin.triangles.size(), "triangle"), readable_bytes(std::filesystem::file_size(path)));
     }
     return text + fmt::format("read {} in {}\n", counted(tin.statistics.points_read, "point"),
                               counted(tin.statistics.blocks_read, "block"));

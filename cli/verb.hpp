@@ -29,6 +29,8 @@ class Verb {
   virtual std::string name() const = 0;
   virtual std::string summary() const = 0;
   virtual void declare(CLI::App& app) = 0;
+  /// Takes options that a file holds, as if they were given. Throws InputError, FileError.
+  virtual void complete() {}
   /// Understands every option, touching no file. Throws InputError.
   virtual void validate() = 0;
   /// The parameters as understood, defaults included, without those that cannot change the result. Asked for after

@@ -11,6 +11,7 @@
 #include <viewshed/certified.hpp>
 #include <viewshed/viewshed.hpp>
 
+#include "call_files.hpp"
 #include "detail_options.hpp"
 #include "earth_options.hpp"
 #include "feature_raster.hpp"
@@ -58,7 +59,7 @@ class ViewshedVerb final : public Verb {
   std::string summary() const override { return "Write what observers see, as a raster and a map"; }
 
   void declare(CLI::App& app) override {
-    app.add_option("STORE", store_, "The store")->required();
+    reads(app.add_option("STORE", store_, "The store")->required());
     outputs_.declare(app);
     horizon_.declare(app);
     features_.declare(app);
@@ -196,7 +197,7 @@ class ViewshedVerb final : public Verb {
         ->type_name("FROM,TO");
     app.add_option("--cell", cell_text_, "Size of the raster's cells (default: a round size for at most 2048 a side)")
         ->type_name("METRES");
-    app.add_option("--like", like_, "Take the cells of this raster")->type_name("FILE");
+    reads(app.add_option("--like", like_, "Take the cells of this raster")->type_name("FILE"));
   }
 
   void validate_targets() {
@@ -336,15 +337,16 @@ class ViewshedVerb final : public Verb {
       text += fmt::format("{}: {}\n", path, readable_bytes(std::filesystem::file_size(path)));
     }
     if (certified()) {
-      text +=
-          fmt::format("certainly visible: {} cells; certainly hidden: {}; undecided: {} ({:.1f} % decided)\n",
-                      grouped(cells.visible), grouped(cells.hidden), grouped(cells.undecided), decided_percent(cells));
+      text += fmt::format("certainly visible: {}; certainly hidden: {}; undecided: {} ({:.1f} % decided)\n",
+                          counted(cells.visible, "cell"), grouped(cells.hidden), grouped(cells.undecided),
+                          decided_percent(cells));
     } else {
-      text += fmt::format("visible: {} of {} cells ({:.1f} %), {:.2f} km2\n", grouped(cells.visible), grouped(decided),
-                          share, static_cast<double>(cells.visible) * result.grid.cell_area() / 1e6);
+      text +=
+          fmt::format("visible: {} of {} ({:.1f} %), {:.2f} km2\n", grouped(cells.visible), counted(decided, "cell"),
+                      share, static_cast<double>(cells.visible) * result.grid.cell_area() / 1e6);
     }
-    text += fmt::format("{} triangles, {} rays; {}\n", grouped(result.statistics.triangles),
-                        grouped(result.statistics.rays), earth_.earth().convention());
+    text += fmt::format("{}, {}; {}\n", counted(result.statistics.triangles, "triangle"),
+                        counted(result.statistics.rays, "ray"), earth_.earth().convention());
     return text;
   }
 

@@ -10,6 +10,9 @@
 #include <itin/error.hpp>
 #include <viewshed/map_image.hpp>
 
+#include "call_files.hpp"
+#include "json_text.hpp"
+
 namespace itin::cli {
 
 namespace {
@@ -27,15 +30,16 @@ ViewshedOutputs::~ViewshedOutputs() {
 }
 
 void ViewshedOutputs::declare(CLI::App& app) {
-  app.add_option(
-         "-o,--output", outputs_,
-         "A raster to write, a GeoTIFF (.tif), or the regions of its classes as polygons, a GeoPackage (.gpkg); "
-         "may be given again")
-      ->type_name("FILE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_option("--image", image_, "A map to write (.png, .jpg)")->type_name("FILE");
-  app.add_option("--each", each_, "Also write the raster of every observer alone, as DIR/NAME.tif")->type_name("DIR");
+  writes(app.add_option(
+                "-o,--output", outputs_,
+                "A raster to write, a GeoTIFF (.tif), or the regions of its classes as polygons, a GeoPackage (.gpkg); "
+                "may be given again")
+             ->type_name("FILE")
+             ->expected(1)
+             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll));
+  writes(app.add_option("--image", image_, "A map to write (.png, .jpg)")->type_name("FILE"));
+  writes(app.add_option("--each", each_, "Also write the raster of every observer alone, as DIR/NAME.tif")
+             ->type_name("DIR"));
   policy_.declare(app);
 }
 
@@ -45,22 +49,17 @@ void ViewshedOutputs::validate(const std::vector<std::string>& others) {
     throw InputError(
         "give an output: --output FILE.tif or FILE.gpkg, --image FILE.png, --each DIR, --horizon FILE.csv, or "
         "--features FILE.tif");
-  std::set<std::string> names;
   for (const std::string& path : outputs_) {
     const std::string ending = std::filesystem::path(path).extension().string();
     if (ending != ".tif" && ending != ".tiff" && ending != ".gpkg")
       throw InputError(fmt::format("--output '{}': a viewshed is written as .tif or .gpkg", path));
-    if (!names.insert(path).second) throw InputError(fmt::format("--output '{}' is given twice", path));
   }
-  if (names.contains(image_)) throw InputError("--output and --image name the same file");
   if (!image_.empty()) viewshed::require_image_format(image_);
-  names.insert(image_);
-  for (const std::string& path : others)
-    if (!names.insert(path).second) throw InputError(fmt::format("'{}' is named for two outputs", path));
 }
 
 void ViewshedOutputs::prepare(const viewshed::Request& request) {
   namespace fs = std::filesystem;
+  for (const std::string& path : paths()) policy_.require_writable(path);
   if (!each_.empty()) {
     folder_.emplace(each_);
     std::set<std::string> taken;
@@ -72,14 +71,14 @@ void ViewshedOutputs::prepare(const viewshed::Request& request) {
       single_.push_back((fs::path(each_) / (name + ".tif")).string());
     }
   }
-  for (const std::string& path : paths()) policy_.require_writable(path);
+  for (const std::string& path : single_) policy_.claim(path);
 }
 
 void ViewshedOutputs::write_raster(const std::string& path, const viewshed::Result& result,
                                    const Context& context) const {
   viewshed::GeotiffOptions options;
   options.crs_wkt = context.crs_wkt;
-  options.metadata = {{"itin", ITIN_VERSION}, {"surface", context.surface.dump()}};
+  options.metadata = {{"itin", ITIN_VERSION}, {"surface", json_text(context.surface)}};
   options.metadata.insert(options.metadata.end(), context.parameters.begin(), context.parameters.end());
   options.overwrite = policy_.overwrite;
   viewshed::write_geotiff(path, result, options);

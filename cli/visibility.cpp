@@ -8,8 +8,10 @@
 #include <itin/store.hpp>
 #include <viewshed/visibility_index.hpp>
 
+#include "call_files.hpp"
 #include "detail_options.hpp"
 #include "earth_options.hpp"
+#include "json_text.hpp"
 #include "output_path.hpp"
 #include "store_document.hpp"
 #include "store_scale.hpp"
@@ -30,12 +32,13 @@ class VisibilityVerb final : public Verb {
   std::string summary() const override { return "Write how much is seen from everywhere in an area (total viewshed)"; }
 
   void declare(CLI::App& app) override {
-    app.add_option("STORE", store_, "The store")->required();
-    app.add_option("-o,--output", output_,
-                   "The raster to write (.tif), two bands: the share of the ground within the radius that an observer "
-                   "at the cell's centre sees, 0 to 1, and its standard error")
-        ->type_name("FILE")
-        ->required();
+    reads(app.add_option("STORE", store_, "The store")->required());
+    writes(app.add_option(
+                  "-o,--output", output_,
+                  "The raster to write (.tif), two bands: the share of the ground within the radius that an observer "
+                  "at the cell's centre sees, 0 to 1, and its standard error")
+               ->type_name("FILE")
+               ->required());
     app.add_option("--cell", cell_text_, "Distance of observers: the size of the raster's cells")
         ->type_name("METRES")
         ->required();
@@ -96,13 +99,15 @@ class VisibilityVerb final : public Verb {
     const Store store(store_);
     const StoreMetadata& metadata = store.metadata();
     request_.area = window_.region(metadata).window;
+    if (!request_.area.is_all() && !metadata.grid.box(metadata.bounds).meets(request_.area.bounds()))
+      throw InputError(window_.no_ground(metadata));
     request_.detail = detail_.detail({});
     request_.themes.check(metadata.themes);
     const viewshed::VisibilityIndex index = viewshed::visibility_index(store, request_, progress);
     const Document surface = surface_document(metadata, request_.detail, request_.themes);
     viewshed::write_geotiff(
         output_, index, request_,
-        {metadata.crs_wkt, {{"itin", ITIN_VERSION}, {"surface", surface.dump()}}, policy_.overwrite});
+        {metadata.crs_wkt, {{"itin", ITIN_VERSION}, {"surface", json_text(surface)}}, policy_.overwrite});
     Result result;
     warn_of_scale(metadata, result.warnings);
     Document& document = result.document;
@@ -117,12 +122,11 @@ class VisibilityVerb final : public Verb {
                               {"blocks_read", index.retrieval.blocks_read},
                               {"triangles", index.triangles},
                               {"rays", index.rays}};
-    result.text = fmt::format(
-        "{}: {}\n{} observers see {:.2f} % (+- {:.2f}) of the ground within {:g} m on average\n{} triangles, "
-        "{} rays; {}\n",
-        output_, readable_bytes(std::filesystem::file_size(output_)), grouped(index.observers), 100 * index.mean,
-        100 * index.mean_error, request_.radius, grouped(index.triangles), grouped(index.rays),
-        earth_.earth().convention());
+    result.text =
+        fmt::format("{}: {}\nseen on average by {}: {:.2f} % (+- {:.2f}) of the ground within {:g} m\n{}, {}; {}\n",
+                    output_, readable_bytes(std::filesystem::file_size(output_)), counted(index.observers, "observer"),
+                    100 * index.mean, 100 * index.mean_error, request_.radius, counted(index.triangles, "triangle"),
+                    counted(index.rays, "ray"), earth_.earth().convention());
     return result;
   }
 

@@ -5,6 +5,8 @@
 #include <itin/error.hpp>
 #include <itin/window_source.hpp>
 
+#include "call_files.hpp"
+#include "off_the_data.hpp"
 #include "values.hpp"
 
 namespace itin::cli {
@@ -44,10 +46,10 @@ Point2 middle(const Box& box) {
 
 void WindowOptions::declare(CLI::App& app) {
   const auto shape = [&](const char* name, std::string& value, const char* what, std::string_view form) {
-    app.add_option(name, value, what)->type_name(std::string(form))->group("Window, one of");
+    return app.add_option(name, value, what)->type_name(std::string(form))->group("Window, one of");
   };
   shape("--bbox", bbox_, "A box", kBoxShape);
-  shape("--polygon", polygon_, "A polygon as WKT, or a vector file of polygons", "WKT|FILE");
+  reads(shape("--polygon", polygon_, "A polygon as WKT, or a vector file of polygons", "WKT|FILE"));
   shape("--disc", disc_, "A disc", kDiscShape);
   shape("--wedge", wedge_, "A sector; azimuth of its axis and width in degrees", kWedgeShape);
   shape("--corridor", corridor_, "A strip along a line", kCorridorShape);
@@ -115,6 +117,20 @@ WindowOptions::Region WindowOptions::region(const StoreMetadata& metadata) const
       break;
   }
   return {Window::all(), middle(metadata.grid.box(metadata.bounds))};
+}
+
+std::string WindowOptions::no_ground(const StoreMetadata& metadata) const {
+  const std::vector<double>& v = numbers_;
+  std::optional<std::string> off;
+  if (shape_ == Shape::kBox) {
+    const Point2 centre = middle({v[0], v[1], v[2], v[3]});
+    if ((off = off_the_data(centre, in_crs_, metadata)))
+      off = fmt::format("its middle, {:.10g},{:.10g}, {}", centre.x, centre.y, *off);
+  } else if (!v.empty()) {
+    if ((off = off_the_data({v[0], v[1]}, in_crs_, metadata)))
+      off = fmt::format("its point {:.10g},{:.10g} {}", v[0], v[1], *off);
+  }
+  return fmt::format("the window holds no ground; {}", off.value_or("the data is " + extent_of(metadata)));
 }
 
 Document WindowOptions::parameters() const {

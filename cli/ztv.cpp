@@ -13,9 +13,12 @@
 #include <viewshed/turbines.hpp>
 #include <viewshed/zone_files.hpp>
 
+#include "call_files.hpp"
 #include "csv_cell.hpp"
 #include "detail_options.hpp"
 #include "earth_options.hpp"
+#include "json_text.hpp"
+#include "off_the_data.hpp"
 #include "output_folder.hpp"
 #include "radius_preset.hpp"
 #include "store_document.hpp"
@@ -44,11 +47,11 @@ class ZtvVerb final : public Verb {
   std::string summary() const override { return "Write where wind turbines are seen: maps, tables, wirelines"; }
 
   void declare(CLI::App& app) override {
-    app.add_option("STORE", store_, "The store")->required();
+    reads(app.add_option("STORE", store_, "The store")->required());
     turbines_.declare(app);
-    app.add_option("-o,--output", output_, "The folder to write")->required()->type_name("DIR");
+    replaces(app.add_option("-o,--output", output_, "The folder to write")->required()->type_name("DIR"));
     app.add_option("--cell", cell_text_, "Size of the rasters' cells (default: 50)")->type_name("METRES");
-    app.add_option("--like", like_, "Take the cells of this raster")->type_name("FILE");
+    reads(app.add_option("--like", like_, "Take the cells of this raster")->type_name("FILE"));
     app.add_option("--observer-height", observer_text_, "Of the eyes above the bare ground (default: 2)")
         ->type_name("METRES");
     radius_.declare(app);
@@ -129,6 +132,9 @@ class ZtvVerb final : public Verb {
   /// What takes the store to understand.
   void complete_request(const StoreMetadata& metadata) {
     list_ = turbines_.read(metadata, [&](double tip) { return radius_.radius(tip); });
+    std::vector<Point2> places;
+    for (const Turbine& turbine : list_.turbines) places.push_back(turbine.position);
+    require_any_on_the_data(turbines_.path() + ": the first turbine", places, turbines_.in_crs(), metadata);
     radio_.load(turbines_.in_crs(), metadata);
     request_.turbines = list_.turbines;
     request_.radar = radio_.radar();
@@ -157,7 +163,7 @@ class ZtvVerb final : public Verb {
     options.metadata = {{"itin", ITIN_VERSION},
                         {"observer_height_m", fmt::format("{:g}", request_.observer_height)},
                         {"refraction", request_.earth.convention()},
-                        {"surface", surface(metadata).dump()}};
+                        {"surface", json_text(surface(metadata))}};
     progress.report("rasters", 0);
     add(viewshed::write_zone_rasters(folder, zone, options));
     add(radio_.write(folder, zone, options));
@@ -173,7 +179,7 @@ class ZtvVerb final : public Verb {
     add_text("turbines.csv", "the turbines as understood, row by row, and what is wrong with those not used",
              turbine_table(zone));
     add_text("radius-preset.json", "the radii used, to edit and give by --radius-preset",
-             radius_.document().dump(2) + "\n");
+             json_text(radius_.document(), 2) + "\n");
     add_text("methods.md", "how all this was worked out, for the application", methods(zone, metadata));
     document["outputs"] = Document::array();
     for (const ZoneFile& file : files)
@@ -282,17 +288,16 @@ class ZtvVerb final : public Verb {
     manifest.update(result.document);
     manifest["warnings"] = result.warnings;
     manifest.erase("statistics");
-    write_file(folder + "/" + OutputFolder::kManifest, manifest.dump(2) + "\n", true);
+    write_file(folder + "/" + OutputFolder::kManifest, json_text(manifest, 2) + "\n", true);
   }
 
   std::string text(const Zone& zone) const {
     const Document bare = areas(zone, zone.bare);
-    std::string text =
-        fmt::format("{}: {} of {} turbines; a tip is seen {}, of {:.1f}\n", output_, zone.request.turbines.size(),
-                    list_.rows, seen_from(bare), bare["studied"].get<double>());
+    std::string text = fmt::format("{}: {} of {}; a tip is seen {}, of {:.1f}\n", output_, zone.request.turbines.size(),
+                                   counted(list_.rows, "turbine"), seen_from(bare), bare["studied"].get<double>());
     if (zone.screened) text += fmt::format("screened: a tip {}\n", seen_from(areas(zone, *zone.screened)));
-    text += fmt::format("{} triangles, {} sight lines; {}\n", grouped(zone.statistics.triangles),
-                        grouped(zone.statistics.lines), request_.earth.convention());
+    text += fmt::format("{}, {}; {}\n", counted(zone.statistics.triangles, "triangle"),
+                        counted(zone.statistics.lines, "sight line"), request_.earth.convention());
     return text;
   }
 

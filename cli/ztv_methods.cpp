@@ -7,6 +7,7 @@
 
 #include <viewshed/zone_files.hpp>
 
+#include "store_document.hpp"
 #include "ztv_turbines.hpp"
 
 namespace itin::cli {
@@ -22,12 +23,13 @@ std::string turbines_in_words(const viewshed::Zone& zone, const ZtvMethods& fact
   const auto [least, most] = std::minmax_element(
       turbines.begin(), turbines.end(), [](const auto& a, const auto& b) { return a.tip_height < b.tip_height; });
   const std::size_t hubs = known_hubs(turbines);
-  std::string text =
-      fmt::format("{} turbines of {} rows in `{}` (SHA-256 {}); tips {} above the ground.", turbines.size(), facts.rows,
-                  facts.turbines_file, facts.turbines_sha256, range(least->tip_height, most->tip_height, "m"));
+  std::string text = fmt::format("{} of {} in `{}` (SHA-256 {}); tips {} above the ground.",
+                                 counted(turbines.size(), "turbine"), counted(facts.rows, "row"), facts.turbines_file,
+                                 facts.turbines_sha256, range(least->tip_height, most->tip_height, "m"));
   if (hubs < turbines.size())
     text += fmt::format(" The hub's height is known of {} of them; the others are not counted among hubs.", hubs);
-  if (facts.bad > 0) text += fmt::format(" {} rows could not be used and are named in `turbines.csv`.", facts.bad);
+  if (facts.bad > 0)
+    text += fmt::format(" Named in `turbines.csv`, because they could not be used: {}.", counted(facts.bad, "row"));
   const std::vector<std::string> farms = viewshed::farms_of(zone);
   if (farms.size() > 1) text += fmt::format(" Farms: {}.", fmt::join(farms, ", "));
   return text;

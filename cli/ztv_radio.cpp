@@ -8,7 +8,10 @@
 #include <itin/error.hpp>
 #include <profile/links.hpp>
 
+#include "call_files.hpp"
 #include "csv_cell.hpp"
+#include "off_the_data.hpp"
+#include "store_document.hpp"
 
 namespace itin::cli {
 
@@ -16,9 +19,10 @@ using viewshed::Turbine;
 using viewshed::Zone;
 
 void ZtvRadioOptions::declare(CLI::App& app) {
-  app.add_option("--links", links_path_,
-                 "Radio links that rotors must stay clear of: a table id,x1,y1,h1,x2,y2,h2 (.csv), or a file of lines")
-      ->type_name("FILE");
+  reads(app.add_option(
+               "--links", links_path_,
+               "Radio links that rotors must stay clear of: a table id,x1,y1,h1,x2,y2,h2 (.csv), or a file of lines")
+            ->type_name("FILE"));
   app.add_option("--frequency", frequency_text_, "Of the links")->type_name("GHz");
   app.add_option("--radar", radar_text_, "A radar, h metres above the bare ground, whose horizon is looked for")
       ->type_name("x,y,h");
@@ -43,7 +47,8 @@ Document ZtvRadioOptions::parameters() const {
 
 void ZtvRadioOptions::load(const InCrs& in_crs, const StoreMetadata& metadata) {
   if (radar_place_) {
-    const Point2 position = in_crs.transform_to(metadata.crs_wkt)(radar_place_->position);
+    const std::string what = fmt::format("--radar '{}'", radar_text_);
+    const Point2 position = on_the_data(what, radar_place_->position, in_crs, metadata);
     radar_ = viewshed::Observer{"radar", position, *radar_place_->height};
   }
   if (links_path_.empty()) return;
@@ -52,9 +57,8 @@ void ZtvRadioOptions::load(const InCrs& in_crs, const StoreMetadata& metadata) {
   for (const profile::BadLink& link : table.bad)
     bad_links_.push_back({link.row, static_cast<std::int64_t>(link.row), link.message});
   if (!links_.empty()) return;
-  throw InputError(links_path_ + (bad_links_.empty() ? ": holds no links"
-                                                     : fmt::format(": none of its {} rows can be used; the first: {}",
-                                                                   bad_links_.size(), bad_links_.front().message)));
+  throw InputError(fmt::format("{}: none of its rows can be used ({} in all); the first: {}", links_path_,
+                               bad_links_.size(), bad_links_.front().message));
 }
 
 viewshed::LinkStudy ZtvRadioOptions::study(const Zone& zone) const {
@@ -144,8 +148,8 @@ std::vector<std::string> ZtvRadioOptions::warnings(const Zone& zone) const {
   const auto unknown =
       std::count_if(turbines.begin(), turbines.end(), [](const Turbine& t) { return !t.rotor_diameter; });
   if (unknown > 0)
-    warnings.push_back(
-        fmt::format("{} turbines have no rotor_diameter: links are kept clear of their axis alone", unknown));
+    warnings.push_back(fmt::format("no rotor_diameter is known of {}: links are kept clear of the axis alone",
+                                   counted(static_cast<std::uint64_t>(unknown), "turbine")));
   return warnings;
 }
 

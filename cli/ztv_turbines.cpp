@@ -9,6 +9,8 @@
 #include <itin/file_digest.hpp>
 #include <itin/progress.hpp>
 
+#include "call_files.hpp"
+#include "site_list.hpp"
 #include "values.hpp"
 
 namespace itin::cli {
@@ -62,12 +64,12 @@ std::size_t known_hubs(const std::vector<viewshed::Turbine>& turbines) {
 }
 
 void TurbineOptions::declare(CLI::App& app) {
-  app.add_option(
-         "--turbines", query_.path,
-         "The turbines, from a vector file of points, or CSV with columns x,y or lon,lat. Fields hub_height and "
-         "rotor_diameter, or tip_height; farm; name. Turbine k has bit k - 1")
-      ->required()
-      ->type_name("FILE");
+  reads(app.add_option(
+               "--turbines", query_.path,
+               "The turbines, from a vector file of points, or CSV with columns x,y or lon,lat. Fields hub_height and "
+               "rotor_diameter, or tip_height; farm; name. Turbine k has bit k - 1")
+            ->required()
+            ->type_name("FILE"));
   app.add_option("--layer", query_.layer, "The layer of that file")->type_name("NAME");
   app.add_option("--where", query_.where, "Only turbines that this SQL condition holds for")->type_name("SQL");
   app.add_option("--name-field", query_.name_field, "The field of that file that holds names (default: name)")
@@ -140,9 +142,9 @@ TurbineList TurbineOptions::read(const StoreMetadata& metadata, const std::funct
       list.bad.push_back({k, row.feature, error.what()});
     }
   }
-  if (list.rows == 0) throw InputError(query_.path + ": holds no turbine that was asked for; see --layer and --where");
+  if (list.rows == 0) throw InputError(none_in(query_, "turbine"));
   if (list.turbines.empty())
-    throw InputError(fmt::format("{}: none of its {} rows can be used; the first: {}", query_.path, list.rows,
+    throw InputError(fmt::format("{}: none of its rows can be used ({} in all); the first: {}", query_.path, list.rows,
                                  list.bad.front().message));
   return list;
 }

@@ -21,7 +21,9 @@
 #include <profile/required_heights.hpp>
 #include <profile/wireline.hpp>
 
+#include "call_files.hpp"
 #include "csv_cell.hpp"
+#include "site_list.hpp"
 #include "values.hpp"
 
 namespace itin::cli {
@@ -162,11 +164,11 @@ profile::WirelineQuery wireline_of(const Viewpoint& v, const Zone& zone, const s
 }  // namespace
 
 void ViewpointOptions::declare(CLI::App& app) {
-  app.add_option("--viewpoints", query_.path,
-                 "Viewpoints for a table and wirelines, from a vector file of points, or CSV with columns x,y or "
-                 "lon,lat; fields "
-                 "name, and height for eyes that stand higher or lower than --observer-height")
-      ->type_name("FILE");
+  reads(app.add_option("--viewpoints", query_.path,
+                       "Viewpoints for a table and wirelines, from a vector file of points, or CSV with columns x,y or "
+                       "lon,lat; fields "
+                       "name, and height for eyes that stand higher or lower than --observer-height")
+            ->type_name("FILE"));
   app.add_option("--wireline-field", field_text_, "Least width of a wireline (default: 53.5)")->type_name("DEGREES");
 }
 
@@ -261,6 +263,7 @@ ViewpointOptions::Written ViewpointOptions::write(const std::string& folder, con
       written.bad.push_back({number, row.feature, error.what()});
     }
   }
+  if (written.rows == 0) throw InputError(none_in(query_, "viewpoint"));
   write_file(folder + "/viewpoints.csv", table, true);
   written.files.insert(
       written.files.begin(),

@@ -164,13 +164,18 @@ std::vector<Link> read_lines(const std::string& path, const std::string& to_crs,
 
 LinkTable read_link_table(const std::string& path, const std::string& to_crs, const LinkHeights& heights,
                           const std::string& csv_crs) {
-  if (!is_table(path)) return {read_lines(path, to_crs, heights), {}};
   LinkTable table;
-  TableReader(path, to_crs, csv_crs)
-      .read([&](Link link) { table.links.push_back(std::move(link)); },
-            [&](std::size_t row, std::size_t line, const std::string& id, const std::string& message) {
-              table.bad.push_back({row, line, id, message});
-            });
+  if (is_table(path)) {
+    TableReader(path, to_crs, csv_crs)
+        .read([&](Link link) { table.links.push_back(std::move(link)); },
+              [&](std::size_t row, std::size_t line, const std::string& id, const std::string& message) {
+                table.bad.push_back({row, line, id, message});
+              });
+  } else {
+    table.links = read_lines(path, to_crs, heights);
+  }
+  if (table.links.empty() && table.bad.empty())
+    throw InputError(fmt::format("{}: holds no link; give rows id,x1,y1,h1,x2,y2,h2, or lines", path));
   return table;
 }
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <tuple>
 
+#include <fmt/format.h>
+
 #include <itin/cross_section.hpp>
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
@@ -35,7 +37,7 @@ class Surfaces {
     LinkResult result;
     result.distance_m = profile.length_m;
     if (!has_ground_at_ends(profile)) {
-      result.message = "no ground under an end";
+      result.message = end_without_ground(profile, link);
       return result;
     }
     std::optional<Profile> bare;
@@ -57,6 +59,12 @@ class Surfaces {
   }
 
  private:
+  static std::string end_without_ground(const Profile& profile, const Link& link) {
+    const bool first = profile.points.empty() || profile.points.front().distance_m > 0;
+    const Point2 p = first ? link.from : link.to;
+    return fmt::format("no ground under its {} end, {:.10g} {:.10g}", first ? "first" : "second", p.x, p.y);
+  }
+
   EndGrounds grounds_of(const Profile& profile, const std::optional<Profile>& bare) const {
     EndGrounds grounds = ends_of(profile);
     if (bare && !query_.from_on_surface) grounds.from_m = ends_of(*bare).from_m;

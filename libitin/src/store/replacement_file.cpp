@@ -20,6 +20,9 @@ ReplacementFile::ReplacementFile(const std::string& target) : shown_(target), ta
     std::error_code error;
     target_ = fs::weakly_canonical(target, error).string();
     if (error) fail(error.message());
+    if (!fs::exists(target, missing))
+      fail("is a symbolic link to " + fs::read_symlink(target, missing).string() +
+           ", which is not there; name that, or remove the link");
   }
   if (fs::is_directory(target_, missing)) fail("is a directory, name a file");
   temporary_ = target_ + ".writing";

@@ -52,7 +52,8 @@ struct LinkTable {
 /// surface. A table may have a header line; one with all these names may have its columns in another order and others
 /// besides; for x and y stands any pair of position_columns.hpp, each with 1 or 2 behind it. In the CRS `to_crs` (WKT);
 /// CSV tables are taken to be in `csv_crs`, if that is empty in longitude and latitude where the header calls them so,
-/// else in `to_crs`. Throws FileError naming the feature of a file of lines, InputError for an unknown CRS.
+/// else in `to_crs`. Throws FileError naming the feature of a file of lines, InputError for an unknown CRS and for a
+/// file without links.
 LinkTable read_link_table(const std::string& path, const std::string& to_crs, const LinkHeights& heights,
                           const std::string& csv_crs = {});
 

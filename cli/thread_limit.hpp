@@ -1,0 +1,10 @@
+// Whether the system lets this process have the threads that it is going to use.
+#pragma once
+
+namespace itin::cli {
+
+/// Throws Error where it does not: GDAL and oneTBB would wait for them for ever. Starts as many as parallel_for, GDAL
+/// and OpenImageIO may have at once, and ends them; none where parallel_for has but one.
+void require_threads();
+
+}  // namespace itin::cli
