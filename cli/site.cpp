@@ -169,7 +169,7 @@ class SiteVerb final : public Verb {
     result.document["statistics"] = {{"points_read", statistics.retrieval.points_read},
                                      {"blocks_read", statistics.retrieval.blocks_read},
                                      {"triangles", statistics.triangles},
-                                     {"rays", statistics.rays}};
+                                     {"lines", statistics.lines}};
     result.text = text(site, result.document["outputs"].size());
     return result;
   }

@@ -37,7 +37,9 @@ viewshed::Result as_viewshed(const SiteResult& r) {
   }
   for (const std::uint16_t n : r.rasters.redundancy) {
     const bool outside = n == SiteRasters::kNoDemand, served = !outside && n >= r.options.cover;
-    result.visible.push_back(outside ? viewshed::kOutside : served ? viewshed::kVisible : viewshed::kHidden);
+    result.visible.push_back(outside  ? viewshed::Verdict::kOutside
+                             : served ? viewshed::Verdict::kVisible
+                                      : viewshed::Verdict::kHidden);
     ++(outside ? result.cells.outside : served ? result.cells.visible : result.cells.hidden);
   }
   return result;

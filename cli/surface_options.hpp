@@ -11,24 +11,18 @@
 
 namespace itin::cli {
 
-/// `--themes all|none|name,name`.
+/// `--themes all|none|name,name`: what was imported counts, unless a call leaves it out.
 class ThemeOptions {
  public:
-  /// `otherwise`: what the help says of the default.
-  void declare(CLI::App& app, const std::string& otherwise = "default: none");
+  void declare(CLI::App& app);
   /// Throws InputError.
   void validate();
   const ThemeChoice& choice() const { return choice_; }
-  /// Whether the option was.
-  bool given() const { return !themes_.empty(); }
-  /// Whether any features were asked for.
-  bool any() const { return given() && themes_ != "none"; }
-  /// What was asked for, where it was.
-  Document parameters() const;
+  Document parameters() const { return {{"themes", themes_}}; }
 
  private:
-  std::string themes_;
-  ThemeChoice choice_ = ThemeChoice::none();
+  std::string themes_ = "all";
+  ThemeChoice choice_ = ThemeChoice::all();
 };
 
 }  // namespace itin::cli

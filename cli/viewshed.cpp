@@ -82,7 +82,7 @@ class ViewshedVerb final : public Verb {
                    "L: errors x apart are correlated as exp(-x / L) (default: 0, independent)")
         ->type_name("METRES");
     detail_.declare(app);
-    themes_.declare(app, "default: none; all with --precise");
+    themes_.declare(app);
     earth_.declare(app);
     app.add_option("--nodata", nodata_text_, "What ground without data does to sight lines (default: unknown)")
         ->type_name("unknown|block|clear");
@@ -102,10 +102,10 @@ class ViewshedVerb final : public Verb {
     validate_targets();
     detail_.validate();
     themes_.validate();
-    request_.themes = precise_ && !themes_.given() ? ThemeChoice::all() : themes_.choice();
+    request_.themes = themes_.choice();
     earth_.validate();
     request_.earth = earth_.earth();
-    if (!mode_text_.empty()) request_.mode = parse_mode();
+    if (!mode_text_.empty()) parse_mode();
     if (!nodata_text_.empty()) {
       using enum viewshed::NoData;
       constexpr viewshed::NoData kChoices[] = {kUnknown, kBlock, kClear};
@@ -117,7 +117,7 @@ class ViewshedVerb final : public Verb {
 
   Document parameters() const override {
     Document parameters{{"store", store_}, {"observers", observers_document(places_)}};
-    parameters["mode"] = kModes[static_cast<std::size_t>(request_.mode)];
+    parameters["mode"] = mode_name();
     parameters["precise"] = precise_;
     parameters[request_.target_absolute ? "target_elevation_m" : "target_height_m"] = request_.target_height;
     if (request_.radius) parameters["radius_m"] = *request_.radius;
@@ -155,7 +155,7 @@ class ViewshedVerb final : public Verb {
     viewshed::Surveyed surveyed = survey(store, request_, progress);
     const ViewshedOutputs::Context context{metadata.crs_wkt,
                                            surface_document(metadata, request_.detail, request_.themes),
-                                           {{"mode", kModes[static_cast<std::size_t>(request_.mode)]},
+                                           {{"mode", mode_name()},
                                             {"precise", precise_ ? "yes" : "no"},
                                             {"observer_on", request_.observers_on_surface ? "surface" : "ground"},
                                             {"target_on", target_on_}}};
@@ -166,7 +166,7 @@ class ViewshedVerb final : public Verb {
     outputs_.write_each([&](std::size_t i) { return survey_alone(store, surveyed, i, progress); }, context);
     const Document targets = horizon_.write(surveyed, metadata, earth_.document(), outputs_.overwrite(), progress);
     // What is certain or exact is so of the full surface.
-    const Detail detail = precise_ || certified() ? Detail::tolerance(0) : request_.detail;
+    const Detail detail = precise_ || certified_ ? Detail::tolerance(0) : request_.detail;
     const Document features =
         features_.write(store, surveyed.result.grid, {detail, request_.themes}, outputs_.overwrite(), progress);
     result.document = document(surveyed.result, metadata, context.surface);
@@ -225,12 +225,18 @@ class ViewshedVerb final : public Verb {
     }
   }
 
-  static constexpr const char* kModes[] = {"visible", "count",   "certified", "which",      "angle",
-                                           "nearest", "blocker", "height",    "probability"};
+  /// Those of viewshed::Mode, and then what tells the visible by certificates.
+  static constexpr std::string_view kModes[] = {"visible", "count",  "which",       "angle",    "nearest",
+                                                "blocker", "height", "probability", "certified"};
 
-  viewshed::Mode parse_mode() const {
-    return static_cast<viewshed::Mode>(
-        parse_choice("--mode", mode_text_, std::vector<std::string_view>(std::begin(kModes), std::end(kModes))));
+  void parse_mode() {
+    const auto mode =
+        static_cast<std::size_t>(parse_choice("--mode", mode_text_, {std::begin(kModes), std::end(kModes)}));
+    certified_ = kModes[mode] == "certified";
+    request_.mode = certified_ ? viewshed::Mode::kVisible : static_cast<viewshed::Mode>(mode);
+  }
+  std::string mode_name() const {
+    return std::string(certified_ ? "certified" : kModes[static_cast<std::size_t>(request_.mode)]);
   }
 
   void validate_vertical_error() {
@@ -246,31 +252,30 @@ class ViewshedVerb final : public Verb {
   }
 
   void validate_precise() {
-    if (!horizon_.paths().empty() && (precise_ || certified()))
+    if (!horizon_.paths().empty() && (precise_ || certified_))
       throw InputError("--horizon is that of the surface at --tolerance; leave out --precise and --mode certified");
     if (!precise_) {
       if (!memory_text_.empty()) throw InputError("--memory is of use with --precise only");
       return;
     }
-    if (certified())
+    if (certified_)
       throw InputError("--precise leaves nothing undecided: give --mode visible or count, or leave --precise out");
     if (detail_.has_rings() || request_detail_given())
       throw InputError("--precise is exact for the full surface: leave out --tolerance and --rings");
     if (!memory_text_.empty()) precise_options_.memory_bytes = parse_bytes("--memory", memory_text_);
   }
   bool request_detail_given() const { return detail_.detail({}).coarsest() > 0; }
-  bool certified() const { return request_.mode == viewshed::Mode::kCertified; }
 
   viewshed::Surveyed survey(const Store& store, const viewshed::Request& request, Progress& progress) const {
     if (precise_) return viewshed::compute_precise(store, request, precise_options_, progress);
-    if (certified()) return viewshed::compute_certified(store, request, progress);
+    if (certified_) return viewshed::compute_certified(store, request, progress);
     return viewshed::compute_with_surface(store, request, progress);
   }
   viewshed::Result survey_alone(const Store& store, const viewshed::Surveyed& all, std::size_t observer,
                                 Progress& progress) const {
     const viewshed::Request request = viewshed::alone(all.result, observer);
-    return precise_ || certified() ? survey(store, request, progress).result
-                                   : viewshed::compute_on_surface(store, all, request, progress);
+    return precise_ || certified_ ? survey(store, request, progress).result
+                                  : viewshed::compute_on_surface(store, all, request, progress);
   }
 
   static viewshed::Observer observer_of(const ObserverPlace& place) {
@@ -312,14 +317,13 @@ class ViewshedVerb final : public Verb {
                            {"hidden", static_cast<double>(cells.hidden) * area},
                            {"undecided", static_cast<double>(cells.undecided) * area},
                            {"outside", static_cast<double>(cells.outside) * area}};
-    if (certified()) document["decided_percent"] = decided_percent(cells);
-    document["ray_error_bound_m"] = 0;  // of times when verdicts were those of rays in single precision
+    if (certified_) document["decided_percent"] = decided_percent(cells);
     document["outputs"] = outputs_.paths();
     const viewshed::Statistics& statistics = result.statistics;
     document["statistics"] = {{"points_read", statistics.retrieval.points_read},
                               {"blocks_read", statistics.retrieval.blocks_read},
                               {"triangles", statistics.triangles},
-                              {"rays", statistics.rays}};
+                              {"lines", statistics.lines}};
     return document;
   }
 
@@ -336,7 +340,7 @@ class ViewshedVerb final : public Verb {
     for (const std::string& path : outputs_.paths()) {
       text += fmt::format("{}: {}\n", path, readable_bytes(std::filesystem::file_size(path)));
     }
-    if (certified()) {
+    if (certified_) {
       text += fmt::format("certainly visible: {}; certainly hidden: {}; undecided: {} ({:.1f} % decided)\n",
                           counted(cells.visible, "cell"), grouped(cells.hidden), grouped(cells.undecided),
                           decided_percent(cells));
@@ -344,9 +348,12 @@ class ViewshedVerb final : public Verb {
       text +=
           fmt::format("visible: {} of {} ({:.1f} %), {:.2f} km2\n", grouped(cells.visible), counted(decided, "cell"),
                       share, static_cast<double>(cells.visible) * result.grid.cell_area() / 1e6);
+      if (cells.undecided > 0)
+        text += fmt::format("undecided: {}, across ground without data; --nodata block or clear decides them\n",
+                            counted(cells.undecided, "cell"));
     }
     text += fmt::format("{}, {}; {}\n", counted(result.statistics.triangles, "triangle"),
-                        counted(result.statistics.rays, "ray"), earth_.earth().convention());
+                        counted(result.statistics.lines, "line"), earth_.earth().convention());
     return text;
   }
 
@@ -354,7 +361,7 @@ class ViewshedVerb final : public Verb {
   std::string sigma_text_, correlation_text_;
   std::string target_height_text_, radius_text_, min_radius_text_, azimuth_text_, elevation_text_, cell_text_;
   std::string target_on_ = "ground";
-  bool precise_ = false;
+  bool certified_ = false, precise_ = false;
   viewshed::PreciseOptions precise_options_;
   ObserverOptions observers_;
   DetailOptions detail_;

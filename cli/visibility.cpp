@@ -121,12 +121,12 @@ class VisibilityVerb final : public Verb {
     document["statistics"] = {{"points_read", index.retrieval.points_read},
                               {"blocks_read", index.retrieval.blocks_read},
                               {"triangles", index.triangles},
-                              {"rays", index.rays}};
+                              {"lines", index.lines}};
     result.text =
         fmt::format("{}: {}\nseen on average by {}: {:.2f} % (+- {:.2f}) of the ground within {:g} m\n{}, {}; {}\n",
                     output_, readable_bytes(std::filesystem::file_size(output_)), counted(index.observers, "observer"),
                     100 * index.mean, 100 * index.mean_error, request_.radius, counted(index.triangles, "triangle"),
-                    counted(index.rays, "ray"), earth_.earth().convention());
+                    counted(index.lines, "line"), earth_.earth().convention());
     return result;
   }
 

@@ -139,10 +139,8 @@ class ZtvVerb final : public Verb {
     request_.turbines = list_.turbines;
     request_.radar = radio_.radar();
     request_.detail = detail_.detail({});
-    if (themes_.any()) {
-      request_.themes = themes_.choice();
-      request_.themes->check(metadata.themes);
-    }
+    themes_.choice().check(metadata.themes);
+    if (themes_.choice().includes_standing(metadata.themes)) request_.themes = themes_.choice();
     if (!like_.empty()) request_.grid = raster_grid_like(like_, metadata.crs_wkt);
   }
 

@@ -61,8 +61,8 @@ void BM_Sweep(benchmark::State& state) {
   for (auto _ : state) {
     const AxisSweep::View view = surface.view_from(eye);
     for (std::size_t tile = 0; tile < tiles.cell_count(); ++tile) {
-      TileValues<std::uint8_t> values;
-      values.fill(kUndecided);
+      TileValues<Verdict> values;
+      values.fill(Verdict::kUndecided);
       lines += surface.judge(eye, view, values, *surface.begin(tile));
     }
   }
@@ -92,9 +92,9 @@ void BM_Viewshed(benchmark::State& state) {
   Result result;
   for (auto _ : state) result = compute(terrain(), request, progress);
   state.counters["rays_per_second"] =
-      benchmark::Counter(static_cast<double>(result.statistics.rays), benchmark::Counter::kIsIterationInvariantRate);
+      benchmark::Counter(static_cast<double>(result.statistics.lines), benchmark::Counter::kIsIterationInvariantRate);
   state.counters["scene_s"] = result.statistics.scene_seconds;
-  state.counters["rays_s"] = result.statistics.rays_seconds;
+  state.counters["rays_s"] = result.statistics.lines_seconds;
   state.counters["visible_share"] =
       static_cast<double>(result.cells.visible) / static_cast<double>(result.grid.cell_count());
 }
@@ -108,7 +108,7 @@ void BM_Probability(benchmark::State& state) {
   NoProgress progress;
   Result result;
   for (auto _ : state) result = compute(terrain(), request, progress);
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(result.statistics.rays));
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(result.statistics.lines));
 }
 BENCHMARK(BM_Probability)->Arg(0)->Arg(1000)->Unit(benchmark::kMillisecond)->UseRealTime();
 

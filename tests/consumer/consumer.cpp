@@ -6,8 +6,12 @@
 #include <itin/store.hpp>
 #include <itin/triangulate.hpp>
 #include <itin/window.hpp>
+#include <viewshed/map_image.hpp>
 
 int main() {
+  // What draws is a module that is found beside the libraries.
+  const itin::viewshed::MapImage image{2, 1, {255, 0, 0, 0, 0, 255}, {}};
+  itin::viewshed::write_image("map.png", image, true);
   try {
     const itin::Store store("no such store.itin");
     itin::NoProgress progress;

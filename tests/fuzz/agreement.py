@@ -25,7 +25,7 @@ gdal.UseExceptions()
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 ITIN = os.environ.get("ITIN_PROGRAM", ROOT + "/build/dev/bin/itin")
 X0, Y0 = 300000, 200000
-VISIBLE, OUTSIDE, CERTAINLY_HIDDEN, CERTAINLY_VISIBLE = 1, 255, 1, 2
+HIDDEN, VISIBLE, UNDECIDED, OUTSIDE = 0, 1, 2, 255
 COUNT_OUTSIDE, NO_BLOCKER = 65535, 0xffffffff
 ROUNDING_M = 2e-6
 GRID_STEP_M = 0.01
@@ -226,7 +226,7 @@ class Trial:
         itin(*call, "--tolerance", 0, "-o", self.path("plain.tif"))
         itin(*call, "--mode", "certified", "--tolerance", r.choice([0, 0.5, 2, 8]), "-o", self.path("certified.tif"))
         precise, plain, certified = map(self.raster, ("precise.tif", "plain.tif", "certified.tif"))
-        wrong = (certified == CERTAINLY_VISIBLE) & (precise != VISIBLE) | (certified == CERTAINLY_HIDDEN) & (precise == VISIBLE)
+        wrong = (certified == VISIBLE) & (precise != VISIBLE) | (certified == HIDDEN) & (precise == VISIBLE)
         if wrong.any():
             self.faults.append(f"certified: {wrong.sum()} cells")
         cells = np.argwhere(precise != OUTSIDE)
@@ -303,7 +303,7 @@ class Trial:
         unseen = np.isnan(height_seen)
         agree = {
             "plain": seen("plain.tif", "--tolerance", 0) == precise,
-            "certified": ~((certified == CERTAINLY_VISIBLE) & ~visible | (certified == CERTAINLY_HIDDEN) & visible),
+            "certified": ~((certified == VISIBLE) & ~visible | (certified == HIDDEN) & visible),
             "count": count == np.where(outside, COUNT_OUTSIDE, visible), "which": which == visible,
             "angle": np.isfinite(angle) == visible, "nearest": np.isfinite(distance) == visible,
             "number": (number == 1) == visible, "blocker": (blocker != NO_BLOCKER) == hidden,

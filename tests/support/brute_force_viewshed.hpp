@@ -27,8 +27,8 @@ inline viewshed::Request look(Point2 position, double height, double target_heig
 
 /// Values of plain viewsheds, of one observer, who stands on `ground` as the targets do, or on `surface` where the
 /// request says so.
-inline std::vector<std::uint8_t> brute_force(const Tin& surface, const Tin& ground, const viewshed::Request& request,
-                                             const RasterGrid& cells) {
+inline std::vector<viewshed::Verdict> brute_force(const Tin& surface, const Tin& ground,
+                                                  const viewshed::Request& request, const RasterGrid& cells) {
   using namespace viewshed;
   const Scene above(surface, request.earth, request.nodata, 100000),
       below(ground, request.earth, request.nodata, 100000);
@@ -37,7 +37,7 @@ inline std::vector<std::uint8_t> brute_force(const Tin& surface, const Tin& grou
       eye_of(surface.grid, request, observer, (request.observers_on_surface ? above : below).ground(observer.position));
   const double resolution = surface.grid.resolution;
   const FieldOfView view(request, observer);
-  std::vector<std::uint8_t> values(cells.cell_count(), kOutside);
+  std::vector<viewshed::Verdict> values(cells.cell_count(), Verdict::kOutside);
   for (std::int64_t row = 0; row < cells.rows(); ++row) {
     for (std::int64_t column = 0; column < cells.columns(); ++column) {
       const Point2 centre = cells.centre(column, row);
@@ -48,14 +48,14 @@ inline std::vector<std::uint8_t> brute_force(const Tin& surface, const Tin& grou
                       target / resolution};
       const auto [dx, dy] = eye.offset_to(centre, {to.x, to.y});
       if (!view.contains(dx, dy, target - eye.elevation)) continue;
-      std::uint8_t& value = values[cells.index({column, row})];
-      value = kVisible;
+      viewshed::Verdict& value = values[cells.index({column, row})];
+      value = Verdict::kVisible;
       if (eye.stands_at({to.x, to.y})) continue;
       const SightLine line(eye.units, to, request.earth.drop_coefficient() * resolution, kGrazing / resolution);
       const bool hidden = std::any_of(surface.triangles.begin(), surface.triangles.end(), [&](const Triangle& t) {
         return line.hidden_by(surface.vertices[t[0]], surface.vertices[t[1]], surface.vertices[t[2]]);
       });
-      if (hidden) value = kHidden;
+      if (hidden) value = Verdict::kHidden;
     }
   }
   return values;

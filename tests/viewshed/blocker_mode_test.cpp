@@ -34,8 +34,8 @@ void expect_first(const Tin& tin, Point2 from, double cell, const Earth& earth) 
   const Point3 eye{from.x, from.y, *exact.height(from) + 2};
   std::size_t hidden = 0;
   for (std::size_t i = 0; i < result.blocker.size(); ++i) {
-    ASSERT_EQ(result.blocker[i] != kNoBlocker, result.visible[i] == kHidden);
-    if (result.visible[i] != kHidden) continue;
+    ASSERT_EQ(result.blocker[i] != kNoBlocker, result.visible[i] == Verdict::kHidden);
+    if (result.visible[i] != Verdict::kHidden) continue;
     ++hidden;
     EXPECT_EQ(result.blocker_theme[i], 0U);
     const auto columns = result.grid.columns();

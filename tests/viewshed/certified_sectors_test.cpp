@@ -53,7 +53,6 @@ TEST(CertifiedSectors, SayWhatTheLevelSaysAndNothingWrong) {
       request.nodata = rule;
       request.mode = Mode::kVisible;
       const Result exact = compute_precise(store, request, {}, progress).result;
-      request.mode = Mode::kCertified;
       request.detail = Detail::tolerance(16);
       const Result whole = compute_certified(store, request, progress).result;
       ASSERT_GT(whole.cells.undecided, 0U) << "not of the level";
@@ -63,23 +62,23 @@ TEST(CertifiedSectors, SayWhatTheLevelSaysAndNothingWrong) {
       ASSERT_EQ(parts.visible.size(), whole.visible.size());
       CellCounts cells;
       for (std::size_t i = 0; i < parts.visible.size(); ++i) {
-        const std::uint8_t value = parts.visible[i];
-        ASSERT_EQ(value == kOutside, exact.visible[i] == kOutside) << i;
+        const Verdict value = parts.visible[i];
+        ASSERT_EQ(value == Verdict::kOutside, exact.visible[i] == Verdict::kOutside) << i;
         // What the exact answer takes for clear may be open.
-        if (value == kCertainlyVisible) {
-          ASSERT_EQ(exact.visible[i], kVisible) << i;
-        } else if (value == kCertainlyHidden) {
-          ASSERT_EQ(exact.visible[i], kHidden) << i;
+        if (value == Verdict::kVisible) {
+          ASSERT_EQ(exact.visible[i], Verdict::kVisible) << i;
+        } else if (value == Verdict::kHidden) {
+          ASSERT_EQ(exact.visible[i], Verdict::kHidden) << i;
         }
-        certain += value == kCertainlyVisible || value == kCertainlyHidden ? 1 : 0;
+        certain += value == Verdict::kVisible || value == Verdict::kHidden ? 1 : 0;
         if (value != whole.visible[i]) {
-          ASSERT_TRUE(value == kUndecided || whole.visible[i] == kUndecided) << i;
+          ASSERT_TRUE(value == Verdict::kUndecided || whole.visible[i] == Verdict::kUndecided) << i;
           ++differ;
         }
-        ++(value == kOutside            ? cells.outside
-           : value == kUndecided        ? cells.undecided
-           : value == kCertainlyVisible ? cells.visible
-                                        : cells.hidden);
+        ++(value == Verdict::kOutside     ? cells.outside
+           : value == Verdict::kUndecided ? cells.undecided
+           : value == Verdict::kVisible   ? cells.visible
+                                          : cells.hidden);
       }
       EXPECT_EQ(parts.cells.visible, cells.visible);
       EXPECT_EQ(parts.cells.hidden, cells.hidden);

@@ -72,25 +72,24 @@ Terrain cardiff(int side, double void_radius = 0) {
   });
 }
 
-std::vector<std::uint8_t> brute_force(const Terrain& terrain, const Request& request, const RasterGrid& cells) {
+std::vector<Verdict> brute_force(const Terrain& terrain, const Request& request, const RasterGrid& cells) {
   return test::brute_force(terrain.full(), terrain.full(), request, cells);
 }
 
 /// No certain cell may be wrong. Returns the share decided, of the cells in view.
-double expect_certain(const Terrain& terrain, Request request, double tolerance,
-                      const std::vector<std::uint8_t>& truth) {
-  request.mode = Mode::kCertified;
+double expect_certain(const Terrain& terrain, Request request, double tolerance, const std::vector<Verdict>& truth) {
   request.detail = Detail::tolerance(tolerance);
   NoProgress progress;
   const Result result = compute_certified(terrain.store(), request, progress).result;
   EXPECT_EQ(result.visible.size(), truth.size());
   std::uint64_t decided = 0, in_view = 0, wrong = 0;
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    const std::uint8_t value = result.visible[i];
-    wrong += (value == kCertainlyVisible && truth[i] != kVisible) ||
-             (value == kCertainlyHidden && truth[i] != kHidden) || (value == kOutside && truth[i] != kOutside);
-    in_view += value != kOutside;
-    decided += value == kCertainlyVisible || value == kCertainlyHidden;
+    const Verdict value = result.visible[i];
+    wrong += (value == Verdict::kVisible && truth[i] != Verdict::kVisible) ||
+             (value == Verdict::kHidden && truth[i] != Verdict::kHidden) ||
+             (value == Verdict::kOutside && truth[i] != Verdict::kOutside);
+    in_view += value != Verdict::kOutside;
+    decided += value == Verdict::kVisible || value == Verdict::kHidden;
   }
   EXPECT_EQ(wrong, 0U) << "tolerance " << tolerance;
   EXPECT_EQ(result.cells.visible + result.cells.hidden, decided);
@@ -98,7 +97,7 @@ double expect_certain(const Terrain& terrain, Request request, double tolerance,
   return in_view == 0 ? 1 : static_cast<double>(decided) / static_cast<double>(in_view);
 }
 
-void expect_precise(const Terrain& terrain, const Request& request, const std::vector<std::uint8_t>& truth) {
+void expect_precise(const Terrain& terrain, const Request& request, const std::vector<Verdict>& truth) {
   NoProgress progress;
   // By its posts; the whole at once; a coarse pass and a few segments; many segments.
   constexpr std::uint64_t kMemory[] = {1 << 30, 1 << 30, 500000, 160000};
@@ -116,7 +115,7 @@ void expect_precise(const Terrain& terrain, const Request& request, const std::v
 void expect_both(const Terrain& terrain, const Request& request) {
   NoProgress progress;
   const RasterGrid cells = compute(terrain.store(), request, progress).grid;
-  const std::vector<std::uint8_t> truth = brute_force(terrain, request, cells);
+  const std::vector<Verdict> truth = brute_force(terrain, request, cells);
   for (const double tolerance : {0.0, 2.0, 8.0, 32.0}) expect_certain(terrain, request, tolerance, truth);
   expect_precise(terrain, request, truth);
 }
@@ -164,8 +163,7 @@ TEST(Certified, DecidesMoreAtFinerTolerances) {
   const Terrain terrain = cardiff(60);
   const Request request = look(terrain.at(1404.2, 811.9), 10, 2, 43);
   NoProgress progress;
-  const std::vector<std::uint8_t> truth =
-      brute_force(terrain, request, compute(terrain.store(), request, progress).grid);
+  const std::vector<Verdict> truth = brute_force(terrain, request, compute(terrain.store(), request, progress).grid);
   const double fine = expect_certain(terrain, request, 0, truth), middle = expect_certain(terrain, request, 1, truth),
                coarse = expect_certain(terrain, request, 16, truth);
   EXPECT_GT(fine, 0.995);
@@ -177,7 +175,6 @@ TEST(Certified, DecidesMoreAtFinerTolerances) {
 TEST(Certified, UnknownVoidsLeaveLinesUndecided) {
   const Terrain terrain = cardiff(50, 6);
   Request request = look(terrain.at(1700, 1400), 200, 2, 41);
-  request.mode = Mode::kCertified;
   NoProgress progress;
   const Result clear = compute_certified(terrain.store(), request, progress).result;
   request.nodata = NoData::kUnknown;
@@ -187,11 +184,11 @@ TEST(Certified, UnknownVoidsLeaveLinesUndecided) {
   EXPECT_GT(unknown.cells.undecided, clear.cells.undecided);
   EXPECT_GT(block.cells.hidden, clear.cells.hidden);
   for (std::size_t i = 0; i < clear.visible.size(); ++i) {
-    if (unknown.visible[i] == kCertainlyVisible) {
-      EXPECT_EQ(block.visible[i], kCertainlyVisible);
+    if (unknown.visible[i] == Verdict::kVisible) {
+      EXPECT_EQ(block.visible[i], Verdict::kVisible);
     }
-    if (unknown.visible[i] == kCertainlyVisible) {
-      EXPECT_EQ(clear.visible[i], kCertainlyVisible);
+    if (unknown.visible[i] == Verdict::kVisible) {
+      EXPECT_EQ(clear.visible[i], Verdict::kVisible);
     }
   }
 }
@@ -201,29 +198,27 @@ TEST(Certified, RingsAndSeveralObservers) {
   const Request first = look(terrain.at(1404.2, 811.9), 10, 2, 43), second = look(terrain.at(700, 2200), 5, 2, 43);
   NoProgress progress;
   Request request = first;
-  request.mode = Mode::kCertified;
   request.detail = Detail::rings(first.observers[0].position, {{600, 0}, {1500, 0.5}, {9000, 4}});
   const Result rings = compute_certified(terrain.store(), request, progress).result;
   const auto truth = brute_force(terrain, first, rings.grid), other = brute_force(terrain, second, rings.grid);
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    if (rings.visible[i] == kCertainlyVisible) {
-      ASSERT_EQ(truth[i], kVisible);
+    if (rings.visible[i] == Verdict::kVisible) {
+      ASSERT_EQ(truth[i], Verdict::kVisible);
     }
-    if (rings.visible[i] == kCertainlyHidden) {
-      ASSERT_EQ(truth[i], kHidden);
+    if (rings.visible[i] == Verdict::kHidden) {
+      ASSERT_EQ(truth[i], Verdict::kHidden);
     }
   }
   request = first;
   request.observers.push_back(second.observers[0]);
-  request.mode = Mode::kCertified;
   request.detail = Detail::tolerance(1);
   const Result both = compute_certified(terrain.store(), request, progress).result;
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    const bool seen = truth[i] == kVisible || other[i] == kVisible;
-    if (both.visible[i] == kCertainlyVisible) {
+    const bool seen = truth[i] == Verdict::kVisible || other[i] == Verdict::kVisible;
+    if (both.visible[i] == Verdict::kVisible) {
       ASSERT_TRUE(seen);
     }
-    if (both.visible[i] == kCertainlyHidden) {
+    if (both.visible[i] == Verdict::kHidden) {
       ASSERT_FALSE(seen);
     }
   }
@@ -247,12 +242,12 @@ TEST(Certified, RingsAndSeveralObservers) {
     return std::hypot(c.x - o.x, c.y - o.y);
   };
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    if (truth[i] == kOutside) continue;
-    ASSERT_EQ(count.count[i], (truth[i] == kVisible) + (other[i] == kVisible));
-    ASSERT_EQ(any.visible[i] == kVisible, count.count[i] > 0);
-    ASSERT_EQ(which.which[i], (truth[i] == kVisible ? 1U : 0U) + (other[i] == kVisible ? 2U : 0U));
-    const bool first_nearer = other[i] != kVisible || distance(0, i) <= distance(1, i);
-    ASSERT_EQ(nearest.nearest[i], count.count[i] == 0 ? 0 : truth[i] == kVisible && first_nearer ? 1 : 2);
+    if (truth[i] == Verdict::kOutside) continue;
+    ASSERT_EQ(count.count[i], (truth[i] == Verdict::kVisible) + (other[i] == Verdict::kVisible));
+    ASSERT_EQ(any.visible[i] == Verdict::kVisible, count.count[i] > 0);
+    ASSERT_EQ(which.which[i], (truth[i] == Verdict::kVisible ? 1U : 0U) + (other[i] == Verdict::kVisible ? 2U : 0U));
+    const bool first_nearer = other[i] != Verdict::kVisible || distance(0, i) <= distance(1, i);
+    ASSERT_EQ(nearest.nearest[i], count.count[i] == 0 ? 0 : truth[i] == Verdict::kVisible && first_nearer ? 1 : 2);
   }
 }
 
@@ -302,7 +297,7 @@ TEST(Precise, TheMemoryChangesNothingOnTheWholeSample) {
     const double resolution = terrain.full().grid.resolution;
     std::uint64_t different = 0;
     for (std::size_t i = 0; i < result.visible.size(); i += 61) {
-      if (result.visible[i] == kOutside) continue;
+      if (result.visible[i] == Verdict::kOutside) continue;
       const auto columns = result.grid.columns();
       const Point2 c =
           result.grid.centre(static_cast<std::int64_t>(i) % columns, static_cast<std::int64_t>(i) / columns);
@@ -311,7 +306,7 @@ TEST(Precise, TheMemoryChangesNothingOnTheWholeSample) {
       lines.to_x[0] = easting_in_units(terrain.full().grid, c.x);
       lines.to_y[0] = northing_in_units(terrain.full().grid, c.y);
       lines.to_z[0] = (*whole.ground(c) + target) / resolution;
-      different += (result.visible[i] == kHidden) != whole.hidden_between(lines, 0, 0, 1);
+      different += (result.visible[i] == Verdict::kHidden) != whole.hidden_between(lines, 0, 0, 1);
     }
     EXPECT_EQ(different, 0U);
   }
@@ -322,7 +317,7 @@ TEST(Precise, TheBruteForceAgreesWithALineOfSightThatSharesNoCode) {
   const Request request = look(terrain.at(1004.2, 811.9), 10, 2, 97);
   NoProgress progress;
   const RasterGrid cells = compute(terrain.store(), request, progress).grid;
-  const std::vector<std::uint8_t> values = brute_force(terrain, request, cells);
+  const std::vector<Verdict> values = brute_force(terrain, request, cells);
   const test::ExactLineOfSight exact(terrain.full(), request.earth);
   const Point2 o = request.observers[0].position;
   const Point3 from{o.x, o.y, *exact.height(o) + 10};
@@ -330,10 +325,10 @@ TEST(Precise, TheBruteForceAgreesWithALineOfSightThatSharesNoCode) {
     const auto column = static_cast<std::int64_t>(i) % cells.columns(),
                row = static_cast<std::int64_t>(i) / cells.columns();
     const Point2 c = cells.centre(column, row);
-    if (values[i] == kOutside) continue;
+    if (values[i] == Verdict::kOutside) continue;
     const double clearance = exact.clearance(from, {c.x, c.y, *exact.height(c) + 2});
     if (std::abs(clearance) < 2e-6) continue;
-    ASSERT_EQ(values[i], clearance < 0 ? kHidden : kVisible);
+    ASSERT_EQ(values[i], clearance < 0 ? Verdict::kHidden : Verdict::kVisible);
   }
 }
 

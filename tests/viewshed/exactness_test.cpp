@@ -37,14 +37,14 @@ Agreement compare(const Tin& tin, const Request& request) {
   for (std::int64_t row = 0; row < result.grid.rows(); ++row) {
     for (std::int64_t column = 0; column < result.grid.columns(); ++column) {
       const Point2 centre = result.grid.centre(column, row);
-      const std::uint8_t value = result.visible[result.grid.index({column, row})];
+      const Verdict value = result.visible[result.grid.index({column, row})];
       const double distance = std::hypot(centre.x - from.x, centre.y - from.y);
       if (request.radius && distance > *request.radius) {
-        EXPECT_EQ(value, kOutside);
+        EXPECT_EQ(value, Verdict::kOutside);
         continue;
       }
       const auto ground = exact.height(centre);
-      if (value == kOutside) {
+      if (value == Verdict::kOutside) {
         EXPECT_FALSE(exact.height(centre, -1e-6)) << "no value at " << centre.x << "," << centre.y;
         continue;
       }
@@ -55,8 +55,8 @@ Agreement compare(const Tin& tin, const Request& request) {
       const Point3 to{centre.x, centre.y, *ground + request.target_height};
       const double clearance = distance == 0 ? 0 : exact.clearance(from, to);
       ++agreement.cells;
-      agreement.visible += value == kVisible ? 1U : 0U;
-      if (value == kHidden) {
+      agreement.visible += value == Verdict::kVisible ? 1U : 0U;
+      if (value == Verdict::kHidden) {
         EXPECT_LT(clearance, -kGrazing + kExactness) << "visible cell lost at " << centre.x << "," << centre.y;
       } else {
         EXPECT_GT(clearance, -kGrazing - kExactness) << "hidden cell seen at " << centre.x << "," << centre.y;
@@ -173,8 +173,8 @@ TEST(Exactness, ThinPillarsOnAPlane) {
   NoProgress progress;
   const Result result = compute(tin, request, progress);
   const auto at = [&](double x, double y) { return result.visible[result.grid.index(*result.grid.cell_at({x, y}))]; };
-  EXPECT_EQ(at(300000 + 126, 200000 + 126), kHidden);  // right behind the pillar at 150, 150
-  EXPECT_EQ(at(300000 + 150, 200000 + 130), kVisible);
+  EXPECT_EQ(at(300000 + 126, 200000 + 126), Verdict::kHidden);  // right behind the pillar at 150, 150
+  EXPECT_EQ(at(300000 + 150, 200000 + 130), Verdict::kVisible);
   // The twin tests every triangle for every cell: a smaller piece, with the same pillars.
   const Tin piece = test::lattice_tin(
       61, 61, 1, [](std::int32_t c, std::int32_t r) { return c % 20 == 10 && r % 20 == 10 ? 40.0 : 0.0; });

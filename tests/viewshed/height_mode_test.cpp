@@ -74,8 +74,8 @@ void expect_exact(const Tin& tin, const Request& request) {
       ASSERT_NEAR(result.least_height_m[i], expected, 1e-3 + 1e-6 * expected) << centre.x << "," << centre.y;
       EXPECT_EQ(result.least_height_m[i] == 0, expected == 0);
       const bool doubtful = expected > 0 && std::abs(expected - request.target_height) < 1e-3;
-      const bool visible = doubtful ? result.visible[i] == kVisible : expected <= request.target_height;
-      EXPECT_EQ(result.visible[i], visible ? kVisible : kHidden);
+      const bool visible = doubtful ? result.visible[i] == Verdict::kVisible : expected <= request.target_height;
+      EXPECT_EQ(result.visible[i], visible ? Verdict::kVisible : Verdict::kHidden);
       ++(visible ? cells.visible : cells.hidden);
       between += expected > 0 && expected <= request.target_height;
     }
@@ -107,7 +107,7 @@ TEST(HeightMode, OfSeveralObserversTheLeast) {
   const Result second = run(tin, request);
   for (std::size_t i = 0; i < result.visible.size(); ++i) {
     if (second.least_height_m[i] <= 300) {
-      EXPECT_EQ(result.visible[i], kVisible);
+      EXPECT_EQ(result.visible[i], Verdict::kVisible);
     }
   }
 }
@@ -133,7 +133,7 @@ TEST(HeightMode, ElevationLimitsRaiseItOrHideTheCell) {
   const Result down = run(plane, request);
   const std::size_t far = down.grid.index(down.grid.cell_at({kCorner.x + 305, kCorner.y + 205}).value());
   EXPECT_TRUE(std::isnan(down.least_height_m[far]));  // no target there, however high
-  EXPECT_EQ(down.visible[far], kOutside);
+  EXPECT_EQ(down.visible[far], Verdict::kOutside);
 }
 
 TEST(HeightMode, NoHeightIsSeenBehindMissingGroundThatBlocks) {
@@ -147,7 +147,7 @@ TEST(HeightMode, NoHeightIsSeenBehindMissingGroundThatBlocks) {
   };
   EXPECT_EQ(result.least_height_m[cell(155)], 0);
   EXPECT_TRUE(std::isnan(result.least_height_m[cell(305)]));
-  EXPECT_EQ(result.visible[cell(305)], kHidden);
+  EXPECT_EQ(result.visible[cell(305)], Verdict::kHidden);
 }
 
 }  // namespace

@@ -116,7 +116,9 @@ void expect_classes_agree(const Result& result, std::size_t cell, const std::vec
   const auto any = [&](auto verdict) {
     return std::any_of(sights.begin(), sights.end(), [&](const Sight& s) { return s.verdict == verdict; });
   };
-  const std::uint8_t expected = any(Sight::kSees) ? kVisible : any(Sight::kHides) ? kHidden : kOutside;
+  const Verdict expected = any(Sight::kSees)    ? Verdict::kVisible
+                           : any(Sight::kHides) ? Verdict::kHidden
+                                                : Verdict::kOutside;
   EXPECT_EQ(result.visible[cell], expected);
 }
 
@@ -179,9 +181,9 @@ TEST(Modes, ManyObserversSeeWhatEachSeesAlone) {
     alone.mode = Mode::kHeight;
     const Result high = run(tin, alone);
     for (std::size_t cell = 0; cell < cells; ++cell) {
-      const bool seen = one.visible[cell] == kVisible;
+      const bool seen = one.visible[cell] == Verdict::kVisible;
       ASSERT_EQ(sees(which, cell, i), seen) << "observer " << i << " cell " << cell;
-      if (one.visible[cell] == kOutside) continue;
+      if (one.visible[cell] == Verdict::kOutside) continue;
       if (counted[cell] == kCountOutside) counted[cell] = 0;
       least[cell] = std::min(least[cell], high.least_height_m[cell]);
       if (!seen) continue;
@@ -195,7 +197,7 @@ TEST(Modes, ManyObserversSeeWhatEachSeesAlone) {
   for (std::size_t cell = 0; cell < cells; ++cell) {
     const bool seen = counted[cell] != kCountOutside && counted[cell] > 0;
     seen_cells += seen ? 1 : 0;
-    EXPECT_EQ(visible.visible[cell] == kVisible, seen);
+    EXPECT_EQ(visible.visible[cell] == Verdict::kVisible, seen);
     if (counted[cell] != kCountOutside) {
       EXPECT_EQ(height.least_height_m[cell], least[cell]);
     }

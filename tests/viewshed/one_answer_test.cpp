@@ -59,16 +59,16 @@ class OneAnswer : public testing::Test {
 
   Agreement ask_again(const Store& store, const Result& result, int wanted) {
     using profile::SightVerdict;
-    const bool certified = result.request.mode == viewshed::Mode::kCertified;
-    const std::uint8_t yes = certified ? viewshed::kCertainlyVisible : viewshed::kVisible;
-    const std::uint8_t no = certified ? viewshed::kCertainlyHidden : viewshed::kHidden;
+    const bool certified = result.certified;
+    const viewshed::Verdict yes = viewshed::Verdict::kVisible;
+    const viewshed::Verdict no = viewshed::Verdict::kHidden;
     Request request = result.request;
     if (certified) request.detail = Detail::tolerance(0);
     Agreement agreement;
     for (int tries = 0; tries < 20 * wanted && agreement.visible + agreement.hidden < wanted; ++tries) {
       const auto column = static_cast<std::int64_t>(random_() % static_cast<unsigned>(result.grid.columns()));
       const auto row = static_cast<std::int64_t>(random_() % static_cast<unsigned>(result.grid.rows()));
-      const std::uint8_t value = result.visible[result.grid.index({column, row})];
+      const viewshed::Verdict value = result.visible[result.grid.index({column, row})];
       if (value != yes && value != no) continue;
       const profile::LosReport line = line_of_sight(store, request, result.grid.centre(column, row));
       const bool sees = line.verdict == SightVerdict::kVisible;
@@ -116,7 +116,6 @@ class OneAnswer : public testing::Test {
       EXPECT_TRUE(plain.visible[own] == viewshed::kVisible || off >= step);
     }
     ask_again(store, plain, 40);
-    request.mode = viewshed::Mode::kCertified;
     request.detail = Detail::tolerance(4);
     ask_again(store, viewshed::compute_certified(store, request, progress).result, 40);
   }
@@ -327,7 +326,6 @@ TEST_F(InWales, PreciseAgreesEntirely) {
 
 TEST_F(InWales, CertainlyIsCertain) {
   NoProgress progress;
-  request_.mode = viewshed::Mode::kCertified;
   request_.detail = Detail::tolerance(1);
   request_.target_height = 30;
   expect_exact(*store_, viewshed::compute_certified(*store_, request_, progress).result, 2000);

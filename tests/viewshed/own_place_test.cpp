@@ -150,20 +150,20 @@ struct AllModes {
   Result visible, count, which, angle, nearest, blocker, height, probability;
 
   void expect_one_verdict(std::size_t cell) const {
-    const std::uint8_t value = visible.visible[cell];
+    const Verdict value = visible.visible[cell];
     for (const Result* other : {&count, &which, &angle, &nearest, &blocker, &height, &probability})
       EXPECT_EQ(other->visible[cell], value) << mode_name(other->request.mode);
-    const bool seen = value == kVisible;
-    EXPECT_EQ(count.count[cell], value == kOutside ? kCountOutside : seen ? 1 : 0);
+    const bool seen = value == Verdict::kVisible;
+    EXPECT_EQ(count.count[cell], value == Verdict::kOutside ? kCountOutside : seen ? 1 : 0);
     EXPECT_EQ(which.which[cell], seen ? 1U : 0U);
     EXPECT_EQ(nearest.nearest[cell], seen ? 1U : 0U);
     EXPECT_EQ(std::isfinite(angle.angle_deg[cell]), seen);
     EXPECT_EQ(std::isfinite(nearest.distance_m[cell]), seen);
-    EXPECT_EQ(blocker.blocker[cell] != kNoBlocker, value == kHidden);
-    EXPECT_EQ(std::isfinite(probability.probability[cell]), value != kOutside);
+    EXPECT_EQ(blocker.blocker[cell] != kNoBlocker, value == Verdict::kHidden);
+    EXPECT_EQ(std::isfinite(probability.probability[cell]), value != Verdict::kOutside);
     const float least = height.least_height_m[cell];
     EXPECT_FALSE(std::isinf(least));
-    if (value == kOutside) {
+    if (value == Verdict::kOutside) {
       EXPECT_TRUE(std::isnan(least));
     } else if (std::abs(least - height.request.target_height) > 1e-4) {
       EXPECT_EQ(least < height.request.target_height, seen) << "least height " << least;
@@ -171,7 +171,7 @@ struct AllModes {
   }
 
   void expect_own(std::size_t cell, const Truth& truth) const {
-    EXPECT_EQ(visible.visible[cell], kVisible);
+    EXPECT_EQ(visible.visible[cell], Verdict::kVisible);
     EXPECT_EQ(height.least_height_m[cell], 0);
     EXPECT_EQ(nearest.distance_m[cell], 0);
     EXPECT_EQ(probability.probability[cell], 1);
@@ -211,16 +211,16 @@ TEST_F(WhereverTheObserverStands, AllModesAgree) {
         const std::size_t cell = grid.index({column, row});
         SCOPED_TRACE(described(request, centre));
         modes.expect_one_verdict(cell);
-        const std::uint8_t value = modes.visible.visible[cell];
+        const Verdict value = modes.visible.visible[cell];
         const auto truth = asking.of(centre);
-        if (!truth || value == kOutside) continue;
+        if (!truth || value == Verdict::kOutside) continue;
         if (truth->own) modes.expect_own(cell, *truth);
         // What missing ground hides is not the exact line's matter.
-        const bool behind_void = value == kHidden && modes.blocker.blocker[cell] == kMissingGround;
+        const bool behind_void = value == Verdict::kHidden && modes.blocker.blocker[cell] == kMissingGround;
         if (!truth->doubtful() && !behind_void) {
-          EXPECT_EQ(value == kVisible, truth->sees()) << "clearance " << truth->clearance;
+          EXPECT_EQ(value == Verdict::kVisible, truth->sees()) << "clearance " << truth->clearance;
         }
-        ++(truth->own ? own : value == kVisible ? visible : hidden);
+        ++(truth->own ? own : value == Verdict::kVisible ? visible : hidden);
       }
     }
   }
@@ -263,9 +263,9 @@ TEST_F(OwnCell, IsInViewWhereItsElevationIs) {
       SCOPED_TRACE(testing::Message() << range.from << " to " << range.to << ", target " << height);
       const bool in_view = height == 2 || (height == 0 ? range.from == -90 : range.to == 90);
       ask(Mode::kVisible, range, height);
-      EXPECT_EQ(result_.visible[cell_], in_view ? kVisible : kOutside);
+      EXPECT_EQ(result_.visible[cell_], in_view ? Verdict::kVisible : Verdict::kOutside);
       ask(Mode::kHeight, range, height);
-      EXPECT_EQ(result_.visible[cell_] == kVisible, in_view);
+      EXPECT_EQ(result_.visible[cell_] == Verdict::kVisible, in_view);
       EXPECT_NEAR(result_.least_height_m[cell_], range.from == -90 ? 0 : 2, 1e-5);
     }
   }
@@ -283,7 +283,7 @@ TEST_F(OwnCell, MayBeMany) {
     for (std::int64_t column = 0; column < 20; ++column) {
       if (!same_place(steep.grid, result.grid.centre(column, row), {300205, 200205})) continue;
       ++own;
-      EXPECT_EQ(result.visible[result.grid.index({column, row})], kVisible);
+      EXPECT_EQ(result.visible[result.grid.index({column, row})], Verdict::kVisible);
     }
   }
   EXPECT_GT(own, 60);

@@ -56,7 +56,8 @@ std::vector<double> simulated(const Tin& tin, const Request& request, int surfac
     }
     const Result result = run(erring, visible);
     share.resize(result.visible.size());
-    for (std::size_t i = 0; i < share.size(); ++i) share[i] += (result.visible[i] == kVisible ? 1.0 : 0.0) / surfaces;
+    for (std::size_t i = 0; i < share.size(); ++i)
+      share[i] += (result.visible[i] == Verdict::kVisible ? 1.0 : 0.0) / surfaces;
   }
   return share;
 }
@@ -75,7 +76,7 @@ void expect_as_simulated(const Tin& tin, const Request& request) {
   double sum = 0, most = 0;
   int between = 0;
   for (std::size_t i = 0; i < share.size(); ++i) {
-    if (result.visible[i] == kOutside || below_ground(tin, result, i)) continue;
+    if (result.visible[i] == Verdict::kOutside || below_ground(tin, result, i)) continue;
     const double difference = result.probability[i] - share[i];
     most = std::max(most, std::abs(difference));
     if (share[i] > 0.02 && share[i] < 0.98) ++between, sum += difference;
@@ -136,8 +137,8 @@ TEST(ProbabilityMode, IsAHalfAtMostWhereACellIsHidden) {
   const Result result = run(tin, request);
   std::size_t sure = 0, hidden = 0;
   for (std::size_t i = 0; i < result.probability.size(); ++i) {
-    ASSERT_EQ(result.visible[i] == kOutside, std::isnan(result.probability[i]));
-    if (result.visible[i] == kHidden) {
+    ASSERT_EQ(result.visible[i] == Verdict::kOutside, std::isnan(result.probability[i]));
+    if (result.visible[i] == Verdict::kHidden) {
       ++hidden;
       EXPECT_LE(result.probability[i], 0.57F);
     }

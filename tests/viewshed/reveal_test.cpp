@@ -134,7 +134,7 @@ TEST_F(Reveal, GroundHidesThoughTargetsWithinItAreHidden) {
   request.target_absolute = true, request.target_height = 50;
   const Result whole = compute(surface(Heights::kAll), nullptr, request, progress_);
   EXPECT_GT(whole.cells.visible, 0U);
-  EXPECT_EQ(whole.visible[whole.grid.index({10, whole.grid.rows() / 2})], kHidden);
+  EXPECT_EQ(whole.visible[whole.grid.index({10, whole.grid.rows() / 2})], Verdict::kHidden);
   expect_same(whole, compute(surface(Heights::kNone), nullptr, request, progress_));
   const auto parts = compute_by_lattice_sectors(*store_, request, 800000, progress_);
   ASSERT_TRUE(parts);
@@ -200,7 +200,7 @@ TEST_F(Reveal, CellsDoNotDependOnWhatIsRead) {
   EXPECT_EQ(parts->result.grid.bounds(), whole.grid.bounds());
   expect_same(whole, parts->result);
   Request certified = request;
-  certified.mode = Mode::kCertified, certified.detail = Detail::tolerance(16);
+  certified.detail = Detail::tolerance(16);
   EXPECT_EQ(compute_certified(*store_, certified, progress_).result.grid.bounds(), whole.grid.bounds());
 }
 

@@ -89,7 +89,7 @@ class StandingCertified : public testing::Test {
   void expect_exact(const Request& r) {
     NoProgress progress;
     const RasterGrid cells = compute(*store_, r, progress).grid;
-    const std::vector<std::uint8_t> truth = test::brute_force(surface_, ground_, r, cells);
+    const std::vector<Verdict> truth = test::brute_force(surface_, ground_, r, cells);
     for (const std::uint64_t memory : {std::uint64_t{1} << 30, std::uint64_t{160000}}) {
       const Result result = compute_precise(*store_, r, {.memory_bytes = memory}, progress).result;
       ASSERT_EQ(result.visible.size(), truth.size());
@@ -132,14 +132,13 @@ TEST_F(StandingCertified, EveryCellIsCertain) {
   Request r = request(3, 2, false, false);
   NoProgress progress;
   r.nodata = NoData::kUnknown;
-  const std::vector<std::uint8_t> truth = test::brute_force(surface_, ground_, r, compute(*store_, r, progress).grid);
-  r.mode = Mode::kCertified;
+  const std::vector<Verdict> truth = test::brute_force(surface_, ground_, r, compute(*store_, r, progress).grid);
   const Result result = compute_certified(*store_, r, progress).result;
   EXPECT_EQ(result.cells.undecided, 0U);
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    const std::uint8_t certain = truth[i] == kVisible  ? kCertainlyVisible
-                                 : truth[i] == kHidden ? kCertainlyHidden
-                                                       : kOutside;
+    const Verdict certain = truth[i] == Verdict::kVisible  ? Verdict::kVisible
+                            : truth[i] == Verdict::kHidden ? Verdict::kHidden
+                                                           : Verdict::kOutside;
     ASSERT_EQ(result.visible[i], certain) << i;
   }
 }
@@ -147,7 +146,6 @@ TEST_F(StandingCertified, EveryCellIsCertain) {
 TEST_F(StandingCertified, LinesAcrossVoidsStayOpen) {
   make(6);
   Request r = request(30, 2, false, false);
-  r.mode = Mode::kCertified;
   NoProgress progress;
   const auto decide = [&](NoData rule) {
     r.nodata = rule;
@@ -156,9 +154,9 @@ TEST_F(StandingCertified, LinesAcrossVoidsStayOpen) {
   const Result clear = decide(NoData::kClear), block = decide(NoData::kBlock), unknown = decide(NoData::kUnknown);
   EXPECT_GT(unknown.cells.undecided, 0U);
   for (std::size_t i = 0; i < clear.visible.size(); ++i) {
-    if (unknown.visible[i] == kUndecided) {
-      ASSERT_EQ(clear.visible[i], kCertainlyVisible);
-      ASSERT_EQ(block.visible[i], kCertainlyHidden);
+    if (unknown.visible[i] == Verdict::kUndecided) {
+      ASSERT_EQ(clear.visible[i], Verdict::kVisible);
+      ASSERT_EQ(block.visible[i], Verdict::kHidden);
     } else {
       ASSERT_EQ(unknown.visible[i], clear.visible[i]);
       ASSERT_EQ(unknown.visible[i], block.visible[i]);

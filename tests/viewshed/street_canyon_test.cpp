@@ -42,9 +42,9 @@ class StreetCanyon : public testing::Test {
     const viewshed::Result result = viewshed::compute(Store(directory_.file("s.itin")), request_, progress);
     const auto cell = result.grid.cell_at({300000 + to, 200140.5});
     EXPECT_TRUE(cell);
-    const std::uint8_t value = result.visible[result.grid.index(*cell)];
-    EXPECT_NE(value, viewshed::kOutside);
-    return value == viewshed::kVisible;
+    const viewshed::Verdict value = result.visible[result.grid.index(*cell)];
+    EXPECT_NE(value, viewshed::Verdict::kOutside);
+    return value == viewshed::Verdict::kVisible;
   }
 
   test::TemporaryDirectory directory_;

@@ -39,7 +39,7 @@ Request look(double dx, double dy, double height = 2) {
 
 using test::run;
 
-std::uint8_t at(const Result& result, double dx, double dy) {
+Verdict at(const Result& result, double dx, double dy) {
   return result.visible[result.grid.index(result.grid.cell_at({kCorner.x + dx, kCorner.y + dy}).value())];
 }
 
@@ -56,7 +56,7 @@ TEST(Viewshed, EverythingIsSeenOnAPlane) {
   const Result result = run(plane(), look(205, 205));
   EXPECT_EQ(result.grid.columns(), 40);
   EXPECT_EQ(result.grid.rows(), 40);
-  EXPECT_THAT(result.visible, Each(kVisible));
+  EXPECT_THAT(result.visible, Each(Verdict::kVisible));
   EXPECT_EQ(result.cells.visible, 1600U);
   EXPECT_EQ(result.cells.hidden + result.cells.outside, 0U);
   EXPECT_EQ(result.ground_m, std::vector<double>{100.0});
@@ -67,7 +67,7 @@ TEST(Viewshed, GrazingRaysSee) {
   // With both ends on the plane itself every sight line lies in it.
   Request request = look(205, 205, 0);
   request.earth = Earth::flat();
-  EXPECT_THAT(run(plane(), request).visible, Each(kVisible));
+  EXPECT_THAT(run(plane(), request).visible, Each(Verdict::kVisible));
 }
 
 TEST(Viewshed, OnACurvedPlaneTheGroundItselfHides) {
@@ -76,16 +76,16 @@ TEST(Viewshed, OnACurvedPlaneTheGroundItselfHides) {
   request.cell_size = 1000;
   // The horizon of an eye 2 m up lies at sqrt(2 R 2 / (1 - k)) = 5.4 km.
   const Result result = run(tin, request);
-  EXPECT_EQ(at(result, 25500, 20500), kVisible);
-  EXPECT_EQ(at(result, 26500, 20500), kHidden);
+  EXPECT_EQ(at(result, 25500, 20500), Verdict::kVisible);
+  EXPECT_EQ(at(result, 26500, 20500), Verdict::kHidden);
 }
 
 TEST(Viewshed, AWallHides) {
   const Result result = run(walled(), look(105, 205));
-  EXPECT_EQ(at(result, 15, 205), kVisible);
-  EXPECT_EQ(at(result, 185, 205), kVisible);
-  EXPECT_EQ(at(result, 225, 205), kHidden);
-  EXPECT_EQ(at(result, 395, 35), kHidden);
+  EXPECT_EQ(at(result, 15, 205), Verdict::kVisible);
+  EXPECT_EQ(at(result, 185, 205), Verdict::kVisible);
+  EXPECT_EQ(at(result, 225, 205), Verdict::kHidden);
+  EXPECT_EQ(at(result, 395, 35), Verdict::kHidden);
 }
 
 TEST(Viewshed, AnObserverAMillionMetresUpSeesEverything) {
@@ -94,7 +94,7 @@ TEST(Viewshed, AnObserverAMillionMetresUpSeesEverything) {
   request.observers = {{"satellite", {kCorner.x + 1600, kCorner.y + 1600}, 1000000}};
   request.cell_size = 10;
   request.earth = Earth::flat();
-  EXPECT_THAT(run(tin, request).visible, Each(kVisible));
+  EXPECT_THAT(run(tin, request).visible, Each(Verdict::kVisible));
 }
 
 TEST(Viewshed, AbsoluteHeightsAreElevations) {
@@ -103,9 +103,9 @@ TEST(Viewshed, AbsoluteHeightsAreElevations) {
   request.observers[0].absolute = true;
   request.target_height = 125;
   request.target_absolute = true;
-  EXPECT_THAT(run(walled(), request).visible, Each(kVisible));
+  EXPECT_THAT(run(walled(), request).visible, Each(Verdict::kVisible));
   request.target_height = 99;  // below the ground
-  EXPECT_THAT(run(walled(), request).visible, Each(kHidden));
+  EXPECT_THAT(run(walled(), request).visible, Each(Verdict::kHidden));
   request.observers[0].height = 90;
   EXPECT_THAT(refusal(walled(), request), HasSubstr("below the ground"));
 }
@@ -120,7 +120,9 @@ TEST(Viewshed, RadiiBoundTheFieldOfView) {
     for (std::int64_t column = 0; column < result.grid.columns(); ++column) {
       const Point2 c = result.grid.centre(column, row);
       const double d = std::hypot(c.x - request.observers[0].position.x, c.y - request.observers[0].position.y);
-      EXPECT_EQ(result.visible[result.grid.index({column, row})], d >= 30 && d <= 100 ? kVisible : kOutside) << d;
+      EXPECT_EQ(result.visible[result.grid.index({column, row})],
+                d >= 30 && d <= 100 ? Verdict::kVisible : Verdict::kOutside)
+          << d;
     }
   }
 }
@@ -129,11 +131,11 @@ TEST(Viewshed, AzimuthsMayPassThroughNorth) {
   Request request = look(200, 200);
   request.azimuth = AngleRange{315, 45};
   const Result result = run(plane(), request);
-  EXPECT_EQ(at(result, 205, 385), kVisible);
-  EXPECT_EQ(at(result, 385, 205), kOutside);
-  EXPECT_EQ(at(result, 205, 15), kOutside);
+  EXPECT_EQ(at(result, 205, 385), Verdict::kVisible);
+  EXPECT_EQ(at(result, 385, 205), Verdict::kOutside);
+  EXPECT_EQ(at(result, 205, 15), Verdict::kOutside);
   request.azimuth = AngleRange{0, 360};
-  EXPECT_THAT(run(plane(), request).visible, Each(kVisible));
+  EXPECT_THAT(run(plane(), request).visible, Each(Verdict::kVisible));
 }
 
 TEST(Viewshed, ElevationsBoundTheFieldOfView) {
@@ -141,16 +143,16 @@ TEST(Viewshed, ElevationsBoundTheFieldOfView) {
   request.earth = Earth::flat();
   request.elevation = AngleRange{-90, -45};  // within 10 m of the foot
   const Result result = run(plane(), request);
-  EXPECT_EQ(at(result, 205, 205), kVisible);
-  EXPECT_EQ(at(result, 225, 205), kOutside);
+  EXPECT_EQ(at(result, 205, 205), Verdict::kVisible);
+  EXPECT_EQ(at(result, 225, 205), Verdict::kOutside);
 }
 
 TEST(Viewshed, SeveralObserversSeeWhatAnySees) {
   Request request = look(105, 205);
   request.observers.push_back({"east", {kCorner.x + 305, kCorner.y + 205}, 2});
   const Result both = run(walled(), request);
-  EXPECT_EQ(at(both, 15, 205), kVisible);
-  EXPECT_EQ(at(both, 395, 205), kVisible);
+  EXPECT_EQ(at(both, 15, 205), Verdict::kVisible);
+  EXPECT_EQ(at(both, 395, 205), Verdict::kVisible);
   request.mode = Mode::kCount;
   request.radius = 150;
   const Result count = run(walled(), request);
@@ -161,7 +163,9 @@ TEST(Viewshed, SeveralObserversSeeWhatAnySees) {
   EXPECT_EQ(seen_by(225, 205), 1);
   EXPECT_EQ(seen_by(245, 345), kCountOutside);
   for (std::size_t i = 0; i < count.count.size(); ++i)
-    EXPECT_EQ(count.visible[i], count.count[i] == kCountOutside ? kOutside : count.count[i] > 0 ? kVisible : kHidden);
+    EXPECT_EQ(count.visible[i], count.count[i] == kCountOutside ? Verdict::kOutside
+                                : count.count[i] > 0            ? Verdict::kVisible
+                                                                : Verdict::kHidden);
   std::uint64_t counted = 0;
   for (const std::uint16_t n : count.count) counted += n != 0 && n != kCountOutside;
   EXPECT_EQ(counted, count.cells.visible);
@@ -174,7 +178,7 @@ TEST(Viewshed, SwappingTheEndsKeepsTheVerdict) {
   const Tin tin = test::fractal_tin(33, 50, 150, 0.55, 3);
   const RasterGrid grid({kCorner.x + 100, kCorner.y + 1500}, 280, 280, 5, 5);
   NoProgress progress;
-  std::vector<std::vector<std::uint8_t>> seen;
+  std::vector<std::vector<Verdict>> seen;
   for (std::size_t i = 0; i < grid.cell_count(); ++i) {
     Request request;
     request.observers = {{"o", grid.centre(static_cast<std::int64_t>(i) % 5, static_cast<std::int64_t>(i) / 5), 3}};
@@ -186,7 +190,7 @@ TEST(Viewshed, SwappingTheEndsKeepsTheVerdict) {
   for (std::size_t i = 0; i < seen.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       EXPECT_EQ(seen[i][j], seen[j][i]) << i << " and " << j;
-      hidden += seen[i][j] == kHidden;
+      hidden += seen[i][j] == Verdict::kHidden;
     }
   }
   EXPECT_GT(hidden, 20);
@@ -203,7 +207,7 @@ TEST(Viewshed, TheNumberOfThreadsDoesNotShow) {
   set_thread_count(0);
   const Result all = run(tin, request);
   EXPECT_EQ(one.count, all.count);
-  EXPECT_EQ(one.statistics.rays, all.statistics.rays);
+  EXPECT_EQ(one.statistics.lines, all.statistics.lines);
 }
 
 /// A strip without data, from south to north, 200 to 230 m from the western edge.
@@ -216,25 +220,39 @@ Tin parted() {
 TEST(Viewshed, GroundWithoutDataIsUnknownClearOrBlocks) {
   Request request = look(105, 205, 5);
   const Result unknown = run(parted(), request);
-  EXPECT_EQ(at(unknown, 395, 205), kVisible);
-  EXPECT_EQ(at(unknown, 215, 205), kOutside);
+  EXPECT_EQ(at(unknown, 395, 205), Verdict::kUndecided);
+  EXPECT_EQ(at(unknown, 215, 205), Verdict::kOutside);
+  EXPECT_EQ(at(unknown, 195, 205), Verdict::kVisible);
   EXPECT_TRUE(unknown.crosses_voids);
-  EXPECT_EQ(unknown.warnings.size(), 1U);
+  EXPECT_THAT(unknown.warnings, IsEmpty());  // the cells say so themselves
 
   request.nodata = NoData::kClear;
   const Result clear = run(parted(), request);
-  EXPECT_EQ(clear.visible, unknown.visible);
+  EXPECT_EQ(at(clear, 395, 205), Verdict::kVisible);
   EXPECT_THAT(clear.warnings, IsEmpty());
 
   request.nodata = NoData::kBlock;
   const Result block = run(parted(), request);
-  EXPECT_EQ(at(block, 395, 205), kHidden);
-  EXPECT_EQ(at(block, 235, 35), kHidden);
-  EXPECT_EQ(at(block, 195, 205), kVisible);
-  EXPECT_EQ(at(block, 5, 395), kVisible);
+  for (std::size_t i = 0; i < unknown.visible.size(); ++i) {
+    const bool open = clear.visible[i] != block.visible[i];
+    ASSERT_EQ(unknown.visible[i], open ? Verdict::kUndecided : clear.visible[i]) << i;
+  }
+  EXPECT_EQ(at(block, 395, 205), Verdict::kHidden);
+  EXPECT_EQ(at(block, 235, 35), Verdict::kHidden);
+  EXPECT_EQ(at(block, 195, 205), Verdict::kVisible);
+  EXPECT_EQ(at(block, 5, 395), Verdict::kVisible);
   EXPECT_THAT(block.warnings, IsEmpty());
   request.observers[0].height = 100000;
-  EXPECT_EQ(at(run(parted(), request), 395, 205), kHidden);
+  EXPECT_EQ(at(run(parted(), request), 395, 205), Verdict::kHidden);
+}
+
+TEST(Viewshed, ModesThatCannotSayUndecidedWarn) {
+  Request request = look(105, 205, 5);
+  request.mode = Mode::kCount;
+  const Result unknown = run(parted(), request);
+  EXPECT_EQ(unknown.warnings.size(), 1U);
+  request.nodata = NoData::kClear;
+  EXPECT_EQ(run(parted(), request).count, unknown.count);
 }
 
 TEST(Viewshed, TheEdgeOfTheDataHidesNothingOnThisSide) {
@@ -242,7 +260,7 @@ TEST(Viewshed, TheEdgeOfTheDataHidesNothingOnThisSide) {
   for (const auto& [dx, dy] : {std::pair{0.0, 0.0}, {0.0, 200.0}, {400.0, 400.0}, {200.0, 0.0}}) {
     Request request = look(dx, dy);
     request.nodata = NoData::kBlock;
-    EXPECT_THAT(run(plane(), request).visible, Each(kVisible)) << dx << " " << dy;
+    EXPECT_THAT(run(plane(), request).visible, Each(Verdict::kVisible)) << dx << " " << dy;
   }
 }
 
@@ -256,7 +274,7 @@ TEST(Viewshed, PostsAtTheEdgeOfTheDataBelongToIt) {
   for (std::uint32_t v = 0; v < tin.vertices.size(); v += 7) {
     const Point3 p = tin.point(v);
     request.observers = {{"post", {p.x, p.y}, 2}};
-    ASSERT_THAT(run(tin, request).visible, Each(kVisible)) << p.x << "," << p.y;
+    ASSERT_THAT(run(tin, request).visible, Each(Verdict::kVisible)) << p.x << "," << p.y;
   }
 }
 
@@ -273,8 +291,8 @@ TEST(Viewshed, CellsOutsideTheDataHaveNone) {
   request.grid = RasterGrid({kCorner.x - 100, kCorner.y + 500}, 10, 20, 60, 30);
   const Result result = run(plane(), request);
   EXPECT_EQ(result.grid, *request.grid);
-  EXPECT_EQ(at(result, -50, 205), kOutside);
-  EXPECT_EQ(at(result, 5, 5), kVisible);
+  EXPECT_EQ(at(result, -50, 205), Verdict::kOutside);
+  EXPECT_EQ(at(result, 5, 5), Verdict::kVisible);
   EXPECT_EQ(result.cells.visible, 40U * 20U);
 }
 

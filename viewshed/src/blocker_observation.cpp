@@ -24,7 +24,7 @@ void BlockerObservation::judge(const Look& look, const Sight& sight) {
 
 void BlockerObservation::store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const {
   for (std::size_t i = 0; i < columns; ++i)
-    result.blocker[place + i] = value(cell + i) == kHidden ? triangle_[cell + i] : kNoBlocker;
+    result.blocker[place + i] = value(cell + i) == Verdict::kHidden ? triangle_[cell + i] : kNoBlocker;
 }
 
 }  // namespace itin::viewshed

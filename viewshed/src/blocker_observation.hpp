@@ -11,7 +11,7 @@ class BlockerObservation final : public Observation {
   /// Of one tile; `blockers` must outlive it.
   explicit BlockerObservation(const FirstBlocker& blockers);
 
-  bool open(const Look& look) const override { return value(look.cell) != kVisible; }
+  bool open(const Look& look) const override { return value(look.cell) != Verdict::kVisible; }
 
  private:
   void judge(const Look& look, const Sight& sight) override;

@@ -1,3 +1,4 @@
+#include <itin/error.hpp>
 #include <itin/lattice_reader.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/certified.hpp>
@@ -5,7 +6,6 @@
 #include "certified_pass.hpp"
 #include "certified_sectors.hpp"
 #include "near_ground.hpp"
-#include "precise.hpp"
 #include "request.hpp"
 #include "stage.hpp"
 #include "stopwatch.hpp"
@@ -25,7 +25,7 @@ Tally decide(const CertifiedPass& pass, std::size_t tile, const std::vector<Enve
   const auto work = pass.begin(tile);
   Verdicts verdicts;
   for (const EnvelopeScene::Look& look : looks) {
-    TileValues<std::uint8_t> values;
+    TileValues<Verdict> values;
     for (std::size_t cell = 0; cell < values.size(); ++cell) values[cell] = verdicts.open(cell);
     pass.judge(look, values, *work, nullptr);
     verdicts.add(values);
@@ -43,7 +43,7 @@ void decide_all(const CertifiedPass& pass, const RasterGrid& tiles, const std::v
                 [&](std::size_t i) { tallies[i] = decide(pass, i, looks, result); });
   for (const Tally& tally : tallies) {
     result.cells += tally.cells;
-    result.statistics.rays += tally.rays;
+    result.statistics.lines += tally.rays;
   }
 }
 
@@ -75,8 +75,9 @@ Way way_of(const Store& store, const Request& request) {
 
 /// The exact answer, but where ground without data leaves it open.
 Surveyed decide_exactly(const Store& store, const Request& request, Progress& progress) {
-  Surveyed surveyed = compute_exactly(store, request, {}, progress);
+  Surveyed surveyed = compute_precise(store, request, {}, progress);
   surveyed.result.request = request;
+  surveyed.result.certified = true;
   return surveyed;
 }
 
@@ -84,12 +85,14 @@ Surveyed decide_exactly(const Store& store, const Request& request, Progress& pr
 
 Surveyed compute_certified(const Store& store, const Request& request, Progress& progress) {
   validate(request);
+  if (request.mode != Mode::kVisible) throw InputError("certificates tell what is visible, and nothing else");
   const Way way = way_of(store, request);
   if (way == Way::kExactly) return decide_exactly(store, request, progress);
   if (way == Way::kBySectors) return certify_by_sectors(store, request, voids_of(request), kPointsOfSector, progress);
   Surveyed surveyed;
   Result& result = surveyed.result;
   result.request = request;
+  result.certified = true;
   Stopwatch watch;
   const std::vector<Eye> eyes = eyes_on_full_surface(store, request, result.ground_m, progress);
   Envelope envelope = envelop(store, certified_request(store, request), progress);
@@ -107,7 +110,7 @@ Surveyed compute_certified(const Store& store, const Request& request, Progress&
 
   result.visible.resize(result.grid.cell_count());
   decide_all(CertifiedPass(scene, result.grid, tiles), tiles, looks, result, progress);
-  result.statistics.rays_seconds = watch.lap();
+  result.statistics.lines_seconds = watch.lap();
   surveyed.surface.tin = scene.envelope.lower;
   return surveyed;
 }

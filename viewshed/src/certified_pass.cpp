@@ -86,7 +86,7 @@ struct CertifiedPass::Packet {
   std::size_t cell(unsigned i) const { return (row + i / kPacketSide) * Tile::kSide + column + i % kPacketSide; }
 };
 
-void CertifiedPass::fill(const EnvelopeScene::Look& look, TileValues<std::uint8_t>& values, const TileWork& work,
+void CertifiedPass::fill(const EnvelopeScene::Look& look, TileValues<Verdict>& values, const TileWork& work,
                          Packet& packet) const {
   const Eye& eye = look.eye;
   // The arithmetic of plain viewsheds, to the last bit.
@@ -94,10 +94,10 @@ void CertifiedPass::fill(const EnvelopeScene::Look& look, TileValues<std::uint8_
   const double grazing = kGrazing / resolution;
   for (unsigned i = 0; i < SightLines::kSize; ++i) {
     const std::size_t r = packet.row + i / kPacketSide, c = packet.column + i % kPacketSide, cell = packet.cell(i);
-    std::uint8_t& value = values[cell];
-    if (value != kUndecided) continue;
+    Verdict& value = values[cell];
+    if (value != Verdict::kUndecided) continue;
     if (std::isnan(work.low[cell])) {
-      value = kOutside;
+      value = Verdict::kOutside;
       continue;
     }
     const double ground_low = work.low[cell], ground_high = work.high[cell];
@@ -109,21 +109,21 @@ void CertifiedPass::fill(const EnvelopeScene::Look& look, TileValues<std::uint8_
     const auto [dx, dy] = eye.offset_to(centre, {x, y});
     const std::optional<bool> in_view = eye.view.contains(dx, dy, low_m - eye.elevation, high_m - eye.elevation);
     if (in_view == false) {
-      value = kOutside;
+      value = Verdict::kOutside;
       continue;
     }
     if (high < ground_low - grazing && in_view) {  // an elevation below the ground
-      value = kCertainlyHidden;
+      value = Verdict::kHidden;
       continue;
     }
     if (in_view && eye.stands_at({x, y})) {
-      value = kCertainlyVisible;
+      value = Verdict::kVisible;
       continue;
     }
     const unsigned bit = 1U << i;
     if (look.shadow && look.shadow->holds(x, y)) {
       if (scene_.voids == Voids::kBlock && in_view) {
-        value = kCertainlyHidden;
+        value = Verdict::kHidden;
         continue;
       }
       packet.behind_void |= bit;
@@ -178,7 +178,7 @@ bool CertifiedPass::aim(const EnvelopeScene::Look& look, const TileWork& work, c
 
 /// Hides what it can of the four blocks of this side, or of their quarters: most of what an observer on the ground
 /// looks at is hidden, and a triangle nearer by hides many cells.
-void CertifiedPass::hide_quarters(const EnvelopeScene::Look& look, TileValues<std::uint8_t>& values, TileWork& work,
+void CertifiedPass::hide_quarters(const EnvelopeScene::Look& look, TileValues<Verdict>& values, TileWork& work,
                                   std::size_t row, std::size_t column, std::size_t side) const {
   const auto rows = static_cast<std::size_t>(work.tile.rows), columns = static_cast<std::size_t>(work.tile.columns);
   SightLines lines;
@@ -202,16 +202,17 @@ void CertifiedPass::hide_quarters(const EnvelopeScene::Look& look, TileValues<st
     for (std::size_t r = block.row0; r < block.row1; ++r) {
       for (std::size_t c = block.column0; c < block.column1; ++c) {
         const std::size_t cell = r * Tile::kSide + c;
-        if (values[cell] == kUndecided) values[cell] = std::isnan(work.low[cell]) ? kOutside : kCertainlyHidden;
+        if (values[cell] == Verdict::kUndecided)
+          values[cell] = std::isnan(work.low[cell]) ? Verdict::kOutside : Verdict::kHidden;
       }
     }
   }
 }
 
-void CertifiedPass::judge(const EnvelopeScene::Look& look, TileValues<std::uint8_t>& values, TileWork& work,
+void CertifiedPass::judge(const EnvelopeScene::Look& look, TileValues<Verdict>& values, TileWork& work,
                           const OnDoubtful& doubtful) const {
   const auto rows = static_cast<std::size_t>(work.tile.rows), columns = static_cast<std::size_t>(work.tile.columns);
-  if (std::find(values.begin(), values.end(), kUndecided) == values.end()) return;
+  if (std::find(values.begin(), values.end(), Verdict::kUndecided) == values.end()) return;
   hide_quarters(look, values, work, 0, 0, Tile::kSide / 2);
   for (std::size_t row = 0; row < rows; row += kPacketSide) {
     for (std::size_t column = 0; column < columns; column += kPacketSide) {
@@ -229,7 +230,7 @@ void CertifiedPass::judge(const EnvelopeScene::Look& look, TileValues<std::uint8
       work.rays += static_cast<unsigned>(std::popcount(packet.low.active) + std::popcount(packet.high.active));
       for (unsigned rest = visible | hidden; rest != 0; rest &= rest - 1) {
         const auto i = static_cast<unsigned>(std::countr_zero(rest));
-        values[packet.cell(i)] = (visible >> i & 1) != 0 ? kCertainlyVisible : kCertainlyHidden;
+        values[packet.cell(i)] = (visible >> i & 1) != 0 ? Verdict::kVisible : Verdict::kHidden;
       }
       packet.low.active = all & ~visible & ~hidden;
       if (packet.low.active != 0 && doubtful)

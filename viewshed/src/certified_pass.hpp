@@ -89,20 +89,19 @@ class CertifiedPass {
   };
   std::unique_ptr<TileWork> begin(std::size_t tile) const;
 
-  /// kUndecided cells of `values` become kCertainlyVisible, kCertainlyHidden or kOutside, or stay. `doubtful` is called
-  /// with those that stay, and may decide them in `values`.
+  /// Verdict::kUndecided cells of `values` become Verdict::kVisible, Verdict::kHidden or Verdict::kOutside, or stay.
+  /// `doubtful` is called with those that stay, and may decide them in `values`.
   using OnDoubtful = std::function<void(const Doubtful&)>;
-  void judge(const EnvelopeScene::Look& look, TileValues<std::uint8_t>& values, TileWork& work,
+  void judge(const EnvelopeScene::Look& look, TileValues<Verdict>& values, TileWork& work,
              const OnDoubtful& doubtful) const;
 
  private:
   struct Packet;
-  void hide_quarters(const EnvelopeScene::Look& look, TileValues<std::uint8_t>& values, TileWork& work, std::size_t row,
+  void hide_quarters(const EnvelopeScene::Look& look, TileValues<Verdict>& values, TileWork& work, std::size_t row,
                      std::size_t column, std::size_t side) const;
   bool aim(const EnvelopeScene::Look& look, const TileWork& work, const CellBlock& block, unsigned first,
            SightLines& lines) const;
-  void fill(const EnvelopeScene::Look& look, TileValues<std::uint8_t>& values, const TileWork& work,
-            Packet& packet) const;
+  void fill(const EnvelopeScene::Look& look, TileValues<Verdict>& values, const TileWork& work, Packet& packet) const;
 
   const EnvelopeScene& scene_;
   const RasterGrid& grid_;

@@ -37,6 +37,7 @@ class CertifiedSectors {
   Surveyed run() {
     Result& result = surveyed_.result;
     result.request = request_;
+    result.certified = true;
     const std::vector<Eye> eyes = eyes_on_full_surface(store_, request_, result.ground_m, progress_);
     surveyed_.surface.tin = coverage_of(store_, window_of(request_), progress_);
     result.grid = cells_of(request_, extent_of(store_));
@@ -51,7 +52,7 @@ class CertifiedSectors {
     result.visible.resize(result.grid.cell_count());
     for (std::size_t tile = 0; tile < verdicts_.size(); ++tile)
       verdicts_[tile].store(tile_at(result.grid, tiles_, tile), result, result.cells);
-    result.statistics.rays_seconds += watch_.lap();
+    result.statistics.lines_seconds += watch_.lap();
     return std::move(surveyed_);
   }
 
@@ -91,16 +92,16 @@ class CertifiedSectors {
     stage_->for_each(cells.size(), [&](std::size_t i) {
       const auto work = pass.begin(cells[i].tile);
       Verdicts& verdicts = verdicts_[cells[i].tile];
-      TileValues<std::uint8_t> values;
-      values.fill(kOutside);
+      TileValues<Verdict> values;
+      values.fill(Verdict::kOutside);
       for_each_cell(cells[i], work->tile, [&](std::size_t cell) { values[cell] = verdicts.open(cell); });
       pass.judge(look, values, *work, nullptr);
       verdicts.add(values);
       rays += work->rays;
       return cell_count(cells[i].parts);
     });
-    result.statistics.rays += rays;
-    result.statistics.rays_seconds += watch_.lap();
+    result.statistics.lines += rays;
+    result.statistics.lines_seconds += watch_.lap();
   }
 
   const Store& store_;

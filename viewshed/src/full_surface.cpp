@@ -78,7 +78,7 @@ std::unique_ptr<FullSurface::TileWork> FullSurface::begin(std::size_t tile, std:
   return work;
 }
 
-std::uint64_t FullSurface::judge(const Eye& eye, const AxisSweep::View& view, TileValues<std::uint8_t>& values,
+std::uint64_t FullSurface::judge(const Eye& eye, const AxisSweep::View& view, TileValues<Verdict>& values,
                                  TileWork& work) const {
   raise_targets(eye, values, work);
   sweep_.look_from(view, {work.tile, work.centres, work.targets}, work.scratch, work.seen);
@@ -86,7 +86,7 @@ std::uint64_t FullSurface::judge(const Eye& eye, const AxisSweep::View& view, Ti
   for_each_cell(work.tile, [&](std::size_t cell, RasterGrid::Cell) {
     if (std::isnan(work.targets[cell])) return;
     ++lines;
-    values[cell] = std::isnan(work.seen[cell]) ? kCertainlyHidden : kCertainlyVisible;
+    values[cell] = std::isnan(work.seen[cell]) ? Verdict::kHidden : Verdict::kVisible;
   });
   return lines;
 }
@@ -122,19 +122,19 @@ void FullSurface::find_ground(std::span<const Tile> parts, TileWork& work) const
 }
 
 /// Where undecided cells have their targets; those that need no line are decided.
-void FullSurface::raise_targets(const Eye& eye, TileValues<std::uint8_t>& values, TileWork& work) const {
+void FullSurface::raise_targets(const Eye& eye, TileValues<Verdict>& values, TileWork& work) const {
   const double resolution = units().resolution, metre = 1 / resolution, grazing = kGrazing / resolution;
   work.targets.fill(kNoSurface);
   for_each_offset(eye, work, [&](std::size_t cell, const Point2& offset) {
-    std::uint8_t& value = values[cell];
-    if (value != kUndecided) return;
-    value = kOutside;
+    Verdict& value = values[cell];
+    if (value != Verdict::kUndecided) return;
+    value = Verdict::kOutside;
     const double ground = work.ground[cell];
     if (std::isnan(ground)) return;
     const double target = eye.target(ground * resolution);
     if (!eye.view.contains(offset.x, offset.y, target - eye.elevation)) return;
     const bool below = ground == kUnread || target * metre < ground - grazing;
-    value = below ? kCertainlyHidden : kCertainlyVisible;
+    value = below ? Verdict::kHidden : Verdict::kVisible;
     if (!below && offset != Point2{}) work.targets[cell] = target * metre;
   });
 }

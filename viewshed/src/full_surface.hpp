@@ -4,7 +4,7 @@
 //   const FullSurface surface(tin, nullptr, request.earth, grid, tiles);
 //   const auto work = surface.begin(tile);
 //   const auto view = surface.view_from(eye);
-//   surface.judge(eye, view, values, *work);   // every kUndecided cell becomes visible, hidden or outside
+//   surface.judge(eye, view, values, *work);   // every Verdict::kUndecided cell becomes visible, hidden or outside
 #pragma once
 
 #include <cstdint>
@@ -81,10 +81,9 @@ class FullSurface {
   /// After heights of tiles of the lattice have been read: they count from now on.
   void add(std::span<const std::uint32_t> tiles) { heights_.add(tiles); }
 
-  /// kUndecided cells become kCertainlyVisible, kCertainlyHidden, or kOutside where there is no ground or the eye does
-  /// not look. Returns how many sight lines that took.
-  std::uint64_t judge(const Eye& eye, const AxisSweep::View& view, TileValues<std::uint8_t>& values,
-                      TileWork& work) const;
+  /// Verdict::kUndecided cells become Verdict::kVisible, Verdict::kHidden, or Verdict::kOutside where there is no
+  /// ground or the eye does not look. Returns how many sight lines that took.
+  std::uint64_t judge(const Eye& eye, const AxisSweep::View& view, TileValues<Verdict>& values, TileWork& work) const;
 
   /// AxisSweep::raise_from() up to work.targets; the heights are work.seen.
   void raise_from(const AxisSweep::View& view, const AxisSweep::Lowest& lowest, TileWork& work) const {
@@ -97,7 +96,7 @@ class FullSurface {
   AxisSweep::Axis axis_of(const Eye& eye) const {
     return sweep_.axis_at(eye.units, eye.view.farthest() / units().resolution + 1);
   }
-  void raise_targets(const Eye& eye, TileValues<std::uint8_t>& values, TileWork& work) const;
+  void raise_targets(const Eye& eye, TileValues<Verdict>& values, TileWork& work) const;
   void find_ground(std::span<const Tile> parts, TileWork& work) const;
   std::vector<BinBox> boxes_of_tiles() const;
 

@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <viewshed/certified.hpp>
 #include <viewshed/viewshed.hpp>
 
 #include "request.hpp"
+#include "verdicts.hpp"
 
 namespace itin::viewshed {
 
@@ -73,13 +73,13 @@ Metadata metadata_of(const Result& result) {
 
 using Classes = std::vector<RasterClass>;
 
-const Classes kCertaintyClasses{{kUndecided, "undecided at this tolerance", 230, 159, 0, 255},
-                                {kCertainlyHidden, "certainly hidden", 225, 225, 225, 255},
-                                {kCertainlyVisible, "certainly visible", 0, 114, 178, 255},
-                                {kOutside, "outside or no data", 0, 0, 0, 0}};
-const Classes kVisibilityClasses{{kHidden, "hidden", 225, 225, 225, 255},
-                                 {kVisible, "visible", 0, 114, 178, 255},
-                                 {kOutside, "outside or no data", 0, 0, 0, 0}};
+Classes classes_of_verdicts(bool certified) {
+  const std::string certainly = certified ? "certainly " : "";
+  return {{code_of(Verdict::kHidden), certainly + "hidden", 225, 225, 225, 255},
+          {code_of(Verdict::kVisible), certainly + "visible", 0, 114, 178, 255},
+          {code_of(Verdict::kUndecided), "undecided", 230, 159, 0, 255},
+          {code_of(Verdict::kOutside), "outside or no data", 0, 0, 0, 0}};
+}
 
 /// A result's values under one description.
 class Writer {
@@ -87,9 +87,10 @@ class Writer {
   Writer(const std::string& path, const Result& result, RasterDescription description)
       : path_(path), result_(result), description_(std::move(description)) {}
 
-  void classes(const std::string& name, const Classes& classes) {
-    description_.classes = classes;
-    write<std::uint8_t>({name}, kOutside, result_.visible);
+  void verdicts() {
+    description_.classes = classes_of_verdicts(result_.certified);
+    write<std::uint8_t>({result_.certified ? "certified" : "visible"}, code_of(Verdict::kOutside),
+                        codes_of(result_.visible));
   }
   void counts() { write<std::uint16_t>({"observers that see the cell"}, kCountOutside, result_.count); }
   void angles() {
@@ -104,8 +105,9 @@ class Writer {
   void probabilities() {
     std::vector<float> values = result_.probability;
     values.reserve(2 * values.size());
-    for (const std::uint8_t v : result_.visible)
-      values.push_back(v == kOutside ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(v));
+    for (const Verdict v : result_.visible)
+      values.push_back(v == Verdict::kOutside ? std::numeric_limits<float>::quiet_NaN()
+                                              : static_cast<float>(code_of(v)));
     write<float>({"probability of being visible, in 512 simulated surfaces", "visible as the heights are"}, kNaN,
                  values);
   }
@@ -166,9 +168,7 @@ void write_geotiff(const std::string& path, const Result& result, const GeotiffO
   Writer writer(path, result, std::move(description));
   switch (result.request.mode) {
     case Mode::kVisible:
-      return writer.classes("visible", kVisibilityClasses);
-    case Mode::kCertified:
-      return writer.classes("certified", kCertaintyClasses);
+      return writer.verdicts();
     case Mode::kCount:
       return writer.counts();
     case Mode::kWhich:

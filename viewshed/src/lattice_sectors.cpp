@@ -61,7 +61,7 @@ class LatticeSectors {
     for (std::uint32_t i = 0; i < eyes.size(); ++i)
       if (!look(eyes[i], i)) return std::nullopt;
     store_all(observations_, tiles_, result);
-    result.statistics.rays_seconds += watch_.lap();
+    result.statistics.lines_seconds += watch_.lap();
     return std::move(surveyed_);
   }
 
@@ -150,7 +150,7 @@ class LatticeSectors {
     const Revealed revealed = reveal(eye, reader, surface, static_cast<std::uint64_t>(std::max(0.0, tiles)), reading_);
     // A bin less, against rounding.
     const double reach = (revealed.reach - 1) * reader.lattice().spacing * reader.lattice().grid.resolution;
-    const std::optional<VoidShadow> shadow = shadow_of(eye, surface, result);
+    const std::optional<VoidShadow> shadow = shadow_of(eye, surface.rim(), result);
     result.statistics.retrieval += reader.lattice().statistics;
     result.statistics.triangles += reader.lattice().triangle_count();
     result.statistics.retrieval_seconds += watch_.lap();
@@ -165,8 +165,8 @@ class LatticeSectors {
           {surface, eye, revealed.view, observer, shadow ? &*shadow : nullptr, *work});
       return cell_count(cells[i].parts);
     });
-    result.statistics.rays += lines;
-    result.statistics.rays_seconds += watch_.lap();
+    result.statistics.lines += lines;
+    result.statistics.lines_seconds += watch_.lap();
     return reach;
   }
 

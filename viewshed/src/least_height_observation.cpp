@@ -13,7 +13,7 @@ LeastHeightObservation::LeastHeightObservation() {
 }
 
 bool LeastHeightObservation::open(const Look& look) const {
-  return least_[look.cell] > 0 || value(look.cell) != kVisible;
+  return least_[look.cell] > 0 || value(look.cell) != Verdict::kVisible;
 }
 
 std::uint64_t LeastHeightObservation::look(const TileLook& tile) {

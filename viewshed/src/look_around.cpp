@@ -47,7 +47,7 @@ class LookAround {
     }
     for (const Tally& tally : tallies_) {
       result_.cells += tally.cells;
-      result_.statistics.rays += tally.lines;
+      result_.statistics.lines += tally.lines;
     }
   }
 
@@ -57,7 +57,7 @@ class LookAround {
     shadows_ = decltype(shadows_)(end_ - first_);
     parallel_for(shadows_.size(), [&](std::size_t i) {
       if (given_.empty()) made_[i].emplace(surface_.view_of_cells(eyes_[first_ + i]));
-      shadows_[i] = shadow_of(eyes_[first_ + i], surface_, result_);
+      shadows_[i] = shadow_of(eyes_[first_ + i], surface_.rim(), result_);
     });
   }
   const AxisSweep::View& view_of(std::size_t eye) const { return given_.empty() ? *made_[eye - first_] : given_[eye]; }

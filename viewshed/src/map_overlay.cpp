@@ -59,13 +59,10 @@ MapOverlay::MapOverlay(const Result& result, const MapOptions& options) : result
 }
 
 std::optional<Tint> MapOverlay::at(std::size_t cell) const {
-  const std::uint8_t seen = result_.visible[cell];
-  if (seen == kOutside) return std::nullopt;
-  if (result_.request.mode == Mode::kCertified) {
-    if (seen == kUndecided) return Tint{kUndecidedColour, kOpacity};
-    return Tint{kSeenColour, seen == kCertainlyVisible ? kOpacity : 0};
-  }
-  if (steps_.empty()) return Tint{kSeenColour, seen == kVisible ? kOpacity : 0};
+  const Verdict seen = result_.visible[cell];
+  if (seen == Verdict::kOutside) return std::nullopt;
+  if (seen == Verdict::kUndecided) return Tint{kUndecidedColour, kOpacity};
+  if (steps_.empty()) return Tint{kSeenColour, seen == Verdict::kVisible ? kOpacity : 0};
   const double v = value(cell);
   if (std::isnan(v)) return Tint{};
   const auto step = std::lower_bound(most_.begin(), most_.end(), v);
@@ -90,15 +87,14 @@ double MapOverlay::value(std::size_t cell) const {
       return result_.request.observers.size() <= kPalette.size() ? positive(result_.nearest[cell])
                                                                  : result_.distance_m[cell];
     case Mode::kBlocker:
-      return result_.visible[cell] == kVisible     ? 0
-             : result_.blocker[cell] == kNoBlocker ? kNoValue
-                                                   : blocker_value(result_.blocker_theme[cell]);
+      return result_.visible[cell] == Verdict::kVisible ? 0
+             : result_.blocker[cell] == kNoBlocker      ? kNoValue
+                                                        : blocker_value(result_.blocker_theme[cell]);
     case Mode::kHeight:
       return result_.least_height_m[cell];
     case Mode::kProbability:
       return result_.probability[cell];
     case Mode::kVisible:
-    case Mode::kCertified:
       break;
   }
   return kNoValue;
@@ -131,7 +127,6 @@ void MapOverlay::make_scale() {
     case Mode::kProbability:
       return scale_probabilities();
     case Mode::kVisible:
-    case Mode::kCertified:
       return;
   }
 }
@@ -140,7 +135,7 @@ void MapOverlay::scale_counts() {
   title_ = "Seen by observers";
   int most = 1;
   for (std::size_t i = 0; i < result_.visible.size(); ++i)
-    if (const double v = result_.visible[i] == kVisible ? value(i) : 0; v > most) most = static_cast<int>(v);
+    if (const double v = result_.visible[i] == Verdict::kVisible ? value(i) : 0; v > most) most = static_cast<int>(v);
   const int steps = std::min(most, kSteps);
   for (int i = 0; i < steps; ++i) {
     const int from = most * i / steps + 1, to = most * (i + 1) / steps;
@@ -230,18 +225,15 @@ void MapOverlay::scale_probabilities() {
 
 void MapOverlay::make_keys(const MapOptions& options) {
   const CellCounts& cells = result_.cells;
-  if (result_.request.mode == Mode::kCertified) {
-    keys_ = {{{{kSeenColour, kOpacity}}, "Certainly visible", cells.visible},
-             {{}, "Certainly hidden", cells.hidden},
-             {{{kUndecidedColour, kOpacity}}, "Undecided", cells.undecided}};
-    return;
-  }
   std::vector<Tint> seen;
   const Mode mode = result_.request.mode;
   if (mode != Mode::kBlocker && mode != Mode::kHeight && mode != Mode::kProbability)
     for (const Step& step : steps_) seen.push_back(step.tint);
   if (seen.empty()) seen.push_back({kSeenColour, kOpacity});
-  keys_ = {{std::move(seen), options.seen, cells.visible}, {{}, options.unseen, cells.hidden}};
+  keys_ = {{std::move(seen), result_.certified ? "Certainly visible" : options.seen, cells.visible},
+           {{}, result_.certified ? "Certainly hidden" : options.unseen, cells.hidden}};
+  if (cells.undecided > 0 || result_.certified)
+    keys_.push_back({{{kUndecidedColour, kOpacity}}, "Undecided", cells.undecided});
 }
 
 }  // namespace itin::viewshed

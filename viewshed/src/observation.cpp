@@ -5,13 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include <viewshed/certified.hpp>
-
 #include "blocker_observation.hpp"
-#include "certified_observation.hpp"
 #include "field_of_view.hpp"
 #include "least_height_observation.hpp"
 #include "probability_observation.hpp"
+#include "verdicts.hpp"
 
 namespace itin::viewshed {
 
@@ -26,7 +24,7 @@ void copy_row(const TileValues<T>& values, std::size_t cell, std::size_t columns
 
 class AnyObserver final : public Observation {
  public:
-  bool open(const Look& look) const override { return value(look.cell) != kVisible; }
+  bool open(const Look& look) const override { return value(look.cell) != Verdict::kVisible; }
 };
 
 class ObserverCount final : public Observation {
@@ -37,7 +35,7 @@ class ObserverCount final : public Observation {
   void keep(const Look& look) override { ++counts_[look.cell]; }
   void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override {
     for (std::size_t i = 0; i < columns; ++i)
-      result.count[place + i] = value(cell + i) == kOutside ? kCountOutside : counts_[cell + i];
+      result.count[place + i] = value(cell + i) == Verdict::kOutside ? kCountOutside : counts_[cell + i];
   }
   TileValues<std::uint16_t> counts_;
 };
@@ -120,19 +118,19 @@ std::uint64_t Observation::look(const TileLook& tile) {
     });
     return 0;
   }
-  TileValues<std::uint8_t> values;
-  values.fill(kOutside);
+  TileValues<Verdict> values;
+  values.fill(Verdict::kOutside);
   tile.for_each_cell([&](const Look& look) {
-    if (open(look)) values[look.cell] = kUndecided;
+    if (open(look)) values[look.cell] = Verdict::kUndecided;
   });
   const std::uint64_t lines = tile.surface.judge(tile.eye, tile.view, values, work);
   if (tile.shadow != nullptr) tile.shadow->fall_on(work.centres, values);
   const double resolution = tile.surface.units().resolution;
   tile.for_each_cell([&](Look look) {
-    if (values[look.cell] == kOutside) return;
+    if (values[look.cell] == Verdict::kOutside) return;
     enter(look.cell);
-    if (values[look.cell] == kUndecided) return doubt(look.cell);
-    const bool seen = values[look.cell] == kCertainlyVisible;
+    if (values[look.cell] == Verdict::kUndecided) return mark_undecided(look.cell);
+    const bool seen = values[look.cell] == Verdict::kVisible;
     look.dz = tile.eye.target(work.ground[look.cell] * resolution) - tile.eye.elevation;
     if (!std::isnan(work.targets[look.cell])) {
       judge(look, {tile.eye, tile.eye.units, work.target(look.cell), seen});
@@ -149,13 +147,8 @@ void Observation::store(const Tile& tile, Result& result, CellCounts& cells) con
     const std::size_t place = result.grid.index(first);
     copy_row(values_, cell, columns, result.visible.data() + place);
     store_row(cell, columns, place, result);
-    count_row(cell, columns, cells);
+    for (std::size_t i = cell; i < cell + columns; ++i) count(values_[i], cells);
   });
-}
-
-void Observation::count_row(std::size_t cell, std::size_t columns, CellCounts& cells) const {
-  for (std::size_t i = cell; i < cell + columns; ++i)
-    ++(values_[i] == kOutside ? cells.outside : values_[i] == kVisible ? cells.visible : cells.hidden);
 }
 
 void Observation::prepare(Result& result) {
@@ -171,10 +164,10 @@ void Observation::prepare(Result& result) {
   if (mode == Mode::kNearest) result.nearest.resize(cells), result.distance_m.resize(cells);
 }
 
-std::optional<VoidShadow> shadow_of(const Eye& eye, const FullSurface& surface, const Result& result) {
+std::optional<VoidShadow> shadow_of(const Eye& eye, const std::vector<RimEdge>& rim, const Result& result) {
   const Voids voids = voids_of(result.request);
   if (voids == Voids::kPass || !result.crosses_voids) return std::nullopt;
-  return VoidShadow(surface.rim(), eye.units, voids);
+  return VoidShadow(rim, eye.units, voids);
 }
 
 Observations::Observations(const Request& request, const Tin& tin) : request_(request) {
@@ -210,8 +203,6 @@ std::unique_ptr<Observation> Observations::of_tile() const {
       return std::make_unique<LeastHeightObservation>();
     case Mode::kProbability:
       return std::make_unique<ProbabilityObservation>(*odds_, request_.nodata);
-    case Mode::kCertified:
-      return std::make_unique<CertifiedObservation>();
     case Mode::kVisible:
       break;
   }

@@ -57,14 +57,14 @@ struct Sight {
 
 class Observation {
  public:
-  Observation() { values_.fill(kOutside); }
+  Observation() { values_.fill(Verdict::kOutside); }
   virtual ~Observation() = default;
   Observation(const Observation&) = delete;
   Observation& operator=(const Observation&) = delete;
 
   /// The cell is in an observer's field of view.
   void enter(std::size_t cell) {
-    if (values_[cell] == kOutside) values_[cell] = kHidden;
+    if (values_[cell] == Verdict::kOutside) values_[cell] = Verdict::kHidden;
   }
   /// Whether it could matter that the target is seen, whatever its height.
   virtual bool open(const Look&) const { return true; }
@@ -74,7 +74,9 @@ class Observation {
     keep(look);
   }
   /// The target is seen across ground without data, which may hide it.
-  virtual void doubt(std::size_t) {}
+  void mark_undecided(std::size_t cell) {
+    if (values_[cell] != Verdict::kVisible) values_[cell] = Verdict::kUndecided;
+  }
   /// Looks at every cell that is open. Returns how many sight lines that took.
   virtual std::uint64_t look(const TileLook& tile);
   /// Counts the cells, and writes them to their places in the result.
@@ -84,8 +86,8 @@ class Observation {
   static void prepare(Result& result);
 
  protected:
-  std::uint8_t value(std::size_t cell) const { return values_[cell]; }
-  void mark_visible(std::size_t cell) { values_[cell] = kVisible; }
+  Verdict value(std::size_t cell) const { return values_[cell]; }
+  void mark_visible(std::size_t cell) { values_[cell] = Verdict::kVisible; }
 
  private:
   virtual void keep(const Look&) {}
@@ -94,13 +96,12 @@ class Observation {
   }
   /// A row of `columns` cells, from `cell` in the tile to `place` in the grid.
   virtual void store_row(std::size_t, std::size_t, std::size_t, Result&) const {}
-  virtual void count_row(std::size_t cell, std::size_t columns, CellCounts& cells) const;
 
-  TileValues<std::uint8_t> values_;  ///< kOutside, kHidden, kVisible
+  TileValues<Verdict> values_;
 };
 
-/// What ground without data hides from the eye, or leaves in doubt, where that changes the result.
-std::optional<VoidShadow> shadow_of(const Eye& eye, const FullSurface& surface, const Result& result);
+/// What ground without data, beyond this rim, hides from the eye or leaves undecided, where that changes the result.
+std::optional<VoidShadow> shadow_of(const Eye& eye, const std::vector<RimEdge>& rim, const Result& result);
 
 /// Makes the Observations of a request's mode. All that it is given must outlive it and them.
 class Observations {

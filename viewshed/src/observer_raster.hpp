@@ -16,11 +16,12 @@ namespace itin::viewshed {
 
 class ObserverRaster {
  public:
-  /// All kUndecided. `tiles` are those of `grid`; every cell decided is a step of `stage`. All must outlive it.
+  /// All Verdict::kUndecided. `tiles` are those of `grid`; every cell decided is a step of `stage`. All must outlive
+  /// it.
   ObserverRaster(const RasterGrid& grid, const RasterGrid& tiles, Stage& stage)
-      : grid_(grid), tiles_(tiles), stage_(stage), values_(grid.cell_count(), kUndecided) {}
+      : grid_(grid), tiles_(tiles), stage_(stage), values_(grid.cell_count(), Verdict::kUndecided) {}
 
-  std::vector<std::uint8_t>& values() { return values_; }
+  std::vector<Verdict>& values() { return values_; }
   std::uint64_t rays() const { return rays_; }
 
   /// Calls decide(i, values), which returns how many rays it took, with the values of tile `tiles[i]`, and keeps what
@@ -30,8 +31,8 @@ class ObserverRaster {
     stage_.for_each(tiles.size(), [&](std::size_t i) {
       const Tile tile = tile_at(grid_, tiles_, tiles[i]);
       const auto columns = static_cast<std::size_t>(tile.columns);
-      TileValues<std::uint8_t> values;
-      values.fill(kOutside);
+      TileValues<Verdict> values;
+      values.fill(Verdict::kOutside);
       for_each_row(tile, [&](std::size_t cell, RasterGrid::Cell place) {
         std::copy_n(values_.data() + grid_.index(place), columns, values.data() + cell);
       });
@@ -45,14 +46,14 @@ class ObserverRaster {
   }
 
  private:
-  static std::size_t undecided(const TileValues<std::uint8_t>& values) {
-    return static_cast<std::size_t>(std::count(values.begin(), values.end(), kUndecided));
+  static std::size_t undecided(const TileValues<Verdict>& values) {
+    return static_cast<std::size_t>(std::count(values.begin(), values.end(), Verdict::kUndecided));
   }
 
   const RasterGrid& grid_;
   const RasterGrid& tiles_;
   Stage& stage_;
-  std::vector<std::uint8_t> values_;
+  std::vector<Verdict> values_;
   std::atomic<std::uint64_t> rays_ = 0;
 };
 

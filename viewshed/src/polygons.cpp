@@ -4,14 +4,22 @@
 #include <fmt/format.h>
 
 #include <itin/raster_regions.hpp>
-#include <viewshed/certified.hpp>
 #include <viewshed/viewshed.hpp>
+
+#include "verdicts.hpp"
 
 namespace itin::viewshed {
 
 namespace {
 
 using Classes = std::vector<RegionClass>;
+
+Classes classes_of_verdicts(bool certified) {
+  const std::string certainly = certified ? "certainly " : "";
+  return {{code_of(Verdict::kVisible), certainly + "visible"},
+          {code_of(Verdict::kHidden), certainly + "hidden"},
+          {code_of(Verdict::kUndecided), "undecided"}};
+}
 
 Classes classes_of_counts(const Result& result) {
   const std::set<std::uint16_t> counts(result.count.begin(), result.count.end());
@@ -61,16 +69,12 @@ void write_polygons(const std::string& path, const Result& result, const std::st
       return write(result.nearest, classes_of_observers(result));
     case Mode::kBlocker:
       return write(result.blocker_theme, classes_of_blockers(result));
-    case Mode::kCertified:
-      return write(result.visible, {{kCertainlyVisible, "certainly visible"},
-                                    {kCertainlyHidden, "certainly hidden"},
-                                    {kUndecided, "undecided"}});
     case Mode::kVisible:
     case Mode::kWhich:
     case Mode::kAngle:
     case Mode::kHeight:
     case Mode::kProbability:
-      return write(result.visible, {{kVisible, "visible"}, {kHidden, "hidden"}});
+      return write(codes_of(result.visible), classes_of_verdicts(result.certified));
   }
 }
 

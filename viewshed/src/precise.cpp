@@ -1,9 +1,7 @@
-#include "precise.hpp"
-
 #include <algorithm>
 #include <utility>
 
-#include <itin/error.hpp>
+#include <viewshed/certified.hpp>
 
 #include "lattice_sectors.hpp"
 #include "near_ground.hpp"
@@ -29,12 +27,6 @@ std::uint64_t memory_beside_rasters(std::uint64_t memory, std::uint64_t cells) {
 }  // namespace
 
 Surveyed compute_precise(const Store& store, const Request& request, const PreciseOptions& options,
-                         Progress& progress) {
-  if (request.mode == Mode::kCertified) throw InputError("precise viewsheds leave nothing undecided");
-  return compute_exactly(store, request, options, progress);
-}
-
-Surveyed compute_exactly(const Store& store, const Request& request, const PreciseOptions& options,
                          Progress& progress) {
   validate(request);
   Request whole = request;

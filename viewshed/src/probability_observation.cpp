@@ -27,7 +27,7 @@ void ProbabilityObservation::judge(const Look& look, const Sight& sight) {
 void ProbabilityObservation::store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const {
   for (std::size_t i = 0; i < columns; ++i)
     result.probability[place + i] =
-        value(cell + i) == kOutside ? std::numeric_limits<float>::quiet_NaN() : probabilities_[cell + i];
+        value(cell + i) == Verdict::kOutside ? std::numeric_limits<float>::quiet_NaN() : probabilities_[cell + i];
 }
 
 }  // namespace itin::viewshed

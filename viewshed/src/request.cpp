@@ -224,7 +224,7 @@ void look_for_voids(const Grid& units, const std::vector<RimEdge>& rim, Result& 
     result.crosses_voids = result.crosses_voids || surface_resumes(units, rim, observer.position, reach);
   }
   const Request& request = result.request;
-  if (result.crosses_voids && request.nodata == NoData::kUnknown && request.mode != Mode::kCertified)
+  if (result.crosses_voids && request.nodata == NoData::kUnknown && request.mode != Mode::kVisible)
     result.warnings.emplace_back(kVoidsWarning);
 }
 

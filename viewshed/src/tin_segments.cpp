@@ -7,8 +7,6 @@
 #include <numeric>
 #include <optional>
 
-#include <fmt/format.h>
-
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
 #include <itin/triangulate.hpp>
@@ -67,7 +65,7 @@ class TinSegments {
     stage_.emplace("cells decided", eyes.size() * result.grid.cell_count(), progress_);
     for (std::uint32_t i = 0; i < eyes.size(); ++i) look(eyes[i], i);
     store_all(observations_, tiles_, result);
-    result.statistics.rays_seconds += watch_.lap();
+    result.statistics.lines_seconds += watch_.lap();
     return std::move(surveyed_);
   }
 
@@ -76,17 +74,6 @@ class TinSegments {
     if (needs_tin(request_))
       throw InputError(
           "blockers and probabilities need the whole window in memory: give more --memory or a smaller --radius");
-  }
-
-  [[noreturn]] void refuse_voids() const {
-    if (request_.mode == Mode::kCertified)
-      throw InputError(fmt::format(
-          "with --themes, --mode certified under --nodata {} needs the whole window in memory, and that is too large: "
-          "give --nodata clear or a smaller --radius",
-          nodata_text(request_.nodata)));
-    throw InputError(
-        "with --themes, or for heights and angles, --nodata block needs the whole window in memory: give more --memory "
-        "or a smaller --radius");
   }
 
   /// Certificates know nothing of what stands on the ground, and cells that a coarse level decides have no exact height
@@ -129,9 +116,9 @@ class TinSegments {
     result.statistics.retrieval_seconds += watch_.lap();
     result.grid = cells_of(request_, extent_of(store_));
     tiles_ = grid_of_tiles(result.grid);
-    look_for_voids(envelope.lower.grid, rim_of(envelope.lower, envelope.outline), result);
+    rim_ = rim_of(envelope.lower, envelope.outline);
+    look_for_voids(envelope.lower.grid, rim_, result);
     ground_.emplace(store_, envelope.lower.bounds());
-    if (whole_lines() && result.crosses_voids && voids_of(request_) != Voids::kPass) refuse_voids();
     surveyed_.surface.tin = envelope.lower;
     if (!whole_lines()) coarse_.emplace(std::move(envelope), request_, tiles_, voids_of(request_));
     result.statistics.scene_seconds += watch_.lap();
@@ -149,23 +136,25 @@ class TinSegments {
   /// All ground under all lines.
   void look_over(const Eye& eye, std::uint32_t observer) {
     const std::vector<TileSet> needed = under_lines(eye, observer);
+    // The edges of a segment's window are no voids, and features never reach beyond the ground.
+    const std::optional<VoidShadow> shadow = shadow_of(eye, rim_, surveyed_.result);
     std::atomic<std::uint64_t> lines = 0;
     for (const std::vector<std::size_t>& cells : segments(eye, needed)) {
       const OwnedSurface segment = refine(cells, needed);
       const AxisSweep::View view = segment.full.view_from(eye);
       stage_->for_each(cells.size(), [&](std::size_t i) {
         const auto work = segment.full.begin(cells[i]);
-        lines += observations_[cells[i]]->look({segment.full, eye, view, observer, nullptr, *work});
+        lines += observations_[cells[i]]->look({segment.full, eye, view, observer, shadow ? &*shadow : nullptr, *work});
         return static_cast<std::size_t>(work->tile.columns * work->tile.rows);
       });
     }
-    surveyed_.result.statistics.rays += lines;
+    surveyed_.result.statistics.lines += lines;
   }
 
   void look_certified(const Eye& eye, std::uint32_t observer) {
     ObserverRaster raster(surveyed_.result.grid, tiles_, *stage_);
     for_each_look(eye, observer, [&](std::size_t tile, const Look& look, std::size_t place) {
-      if (!observations_[tile]->open(look)) raster.values()[place] = kOutside;
+      if (!observations_[tile]->open(look)) raster.values()[place] = Verdict::kOutside;
     });
     const EnvelopeScene::Look coarse_look = coarse_->look_from(eye);
     const std::vector<TileSet> needed = coarse_pass(coarse_look, raster);
@@ -174,7 +163,7 @@ class TinSegments {
     for (const std::vector<std::size_t>& cells : segments(eye, needed)) {
       const OwnedSurface segment = refine(cells, needed);
       const AxisSweep::View view = segment.full.view_from(eye);
-      raster.judge(cells, [&](std::size_t i, TileValues<std::uint8_t>& values) {
+      raster.judge(cells, [&](std::size_t i, TileValues<Verdict>& values) {
         const auto work = segment.full.begin(cells[i]);
         const std::uint64_t lines = segment.full.judge(eye, view, values, *work);
         // The edges of the window are no voids.
@@ -182,13 +171,13 @@ class TinSegments {
         return lines;
       });
     }
-    surveyed_.result.statistics.rays += raster.rays();
+    surveyed_.result.statistics.lines += raster.rays();
     for_each_look(eye, observer, [&](std::size_t tile, const Look& look, std::size_t place) {
-      const std::uint8_t value = raster.values()[place];
-      if (value == kOutside) return;
+      const Verdict value = raster.values()[place];
+      if (value == Verdict::kOutside) return;
       observations_[tile]->enter(look.cell);
-      if (value == kCertainlyVisible) observations_[tile]->see(look);
-      if (value == kUndecided) observations_[tile]->doubt(look.cell);
+      if (value == Verdict::kVisible) observations_[tile]->see(look);
+      if (value == Verdict::kUndecided) observations_[tile]->mark_undecided(look.cell);
     });
   }
 
@@ -213,7 +202,7 @@ class TinSegments {
     std::vector<TileSet> needed(all.size());
     const Grid& units = store_.metadata().grid;
     const CertifiedPass pass(*coarse_, surveyed_.result.grid, tiles_);
-    raster.judge(all, [&](std::size_t tile, TileValues<std::uint8_t>& values) {
+    raster.judge(all, [&](std::size_t tile, TileValues<Verdict>& values) {
       const auto work = pass.begin(tile);
       pass.judge(look, values, *work, [&](const Doubtful& d) {
         if (needed[tile].empty()) needed[tile] = TileSet(ground_->count());
@@ -273,7 +262,7 @@ class TinSegments {
 
   /// All the ground that the cells need.
   OwnedSurface refine(const std::vector<std::size_t>& cells, const std::vector<TileSet>& needed) {
-    surveyed_.result.statistics.rays_seconds += watch_.lap();
+    surveyed_.result.statistics.lines_seconds += watch_.lap();
     TileSet ground(ground_->count());
     for (const std::size_t tile : cells) ground |= needed[tile];
     return retrieve(ground_->window(ground), window_over(cells));
@@ -295,6 +284,7 @@ class TinSegments {
   Stopwatch watch_;
   Surveyed surveyed_;
   RasterGrid tiles_;
+  std::vector<RimEdge> rim_;  ///< where ground ends
   std::optional<GroundTiles> ground_;
   std::optional<EnvelopeScene> coarse_;                     ///< unless whole lines are needed
   std::optional<Stage> stage_;                              ///< its steps are cells, of all observers

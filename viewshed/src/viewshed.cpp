@@ -57,7 +57,7 @@ Result compute_on(const Tin* tin, LatticeReader* reader, const Tin* bare, const 
     for (const Eye& eye : eyes) views.push_back(reveal(eye, *reader, surface, kAnyTiles, progress).view);
   look_around(surface, observations, eyes, views, result, progress);
   if (request.mode == Mode::kBlocker) name_blockers(*tin, result);
-  result.statistics.rays_seconds = watch.lap();
+  result.statistics.lines_seconds = watch.lap();
   return result;
 }
 

@@ -96,7 +96,7 @@ VisibilityIndex visibility_index(const Store& store, const IndexRequest& request
     index.mean += index.share[i];
     variance += double{index.standard_error[i]} * index.standard_error[i];
   }
-  for (const std::uint64_t r : rays) index.rays += r;
+  for (const std::uint64_t r : rays) index.lines += r;
   if (!stands) throw InputError("no cell's centre lies on ground in the area; give smaller cells");
   if (index.observers == 0)
     throw InputError("no target fell on ground: the radius reaches far beyond it; give a smaller one, or more targets");

@@ -5,8 +5,6 @@
 #include <numbers>
 
 #include <itin/same_place.hpp>
-#include <viewshed/certified.hpp>
-
 namespace itin::viewshed {
 
 namespace {
@@ -17,7 +15,7 @@ constexpr double kTurn = 2 * std::numbers::pi;
 }  // namespace
 
 Voids voids_of(const Request& request) {
-  const bool doubt = request.mode == Mode::kCertified && request.nodata == NoData::kUnknown;
+  const bool doubt = request.mode == Mode::kVisible && request.nodata == NoData::kUnknown;
   return doubt ? Voids::kDoubt : voids_without_doubt(request.nodata);
 }
 
@@ -39,7 +37,7 @@ bool VoidShadow::reaches(const Vector& line, const Vector& place) {
 }
 
 VoidShadow::VoidShadow(const std::vector<RimEdge>& rim, const Point3& eye, Voids voids)
-    : eye_(eye), shaded_(voids == Voids::kDoubt ? kUndecided : kCertainlyHidden) {
+    : eye_(eye), shaded_(voids == Voids::kDoubt ? Verdict::kUndecided : Verdict::kHidden) {
   const auto from_eye = [&](const GridPlace& p) { return Vector{p.x - eye.x, p.y - eye.y}; };
   // The surface lies to the left: seen from its right side it begins here.
   const auto faces_away = [](const Edge& edge) { return cross(edge.from, edge.to) < 0; };
@@ -96,11 +94,11 @@ bool VoidShadow::comes_from_void(const Numbers& edges, const Vector& corner) con
   return from_void;
 }
 
-void VoidShadow::fall_on(const TileCentres& centres, TileValues<std::uint8_t>& values) const {
+void VoidShadow::fall_on(const TileCentres& centres, TileValues<Verdict>& values) const {
   if (sectors_.empty()) return;
   for (std::size_t cell = 0; cell < values.size(); ++cell) {
     const Point2 place = centres.at(cell);
-    if (values[cell] == kCertainlyVisible && holds(place.x, place.y)) values[cell] = shaded_;
+    if (values[cell] == Verdict::kVisible && holds(place.x, place.y)) values[cell] = shaded_;
   }
 }
 

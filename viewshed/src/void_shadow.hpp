@@ -17,7 +17,7 @@ namespace itin::viewshed {
 
 /// What becomes of lines that cross ground without data and come back.
 enum class Voids { kPass, kBlock, kDoubt };
-/// Of the request's lines: where its rule is kUnknown, Mode::kCertified alone leaves anything open.
+/// Of the request's lines: where its rule is kUnknown, Mode::kVisible alone leaves anything open.
 Voids voids_of(const Request& request);
 /// For answers that leave nothing open: what is not known hides nothing.
 Voids voids_without_doubt(NoData rule);
@@ -32,8 +32,9 @@ class VoidShadow {
   /// eye's own. Both lie on the surface. Cost: the edges of one sector.
   bool holds(double x, double y) const;
 
-  /// Of a tile's cells, what is kCertainlyVisible and lies in it becomes kCertainlyHidden, or kUndecided under kDoubt.
-  void fall_on(const TileCentres& centres, TileValues<std::uint8_t>& values) const;
+  /// Of a tile's cells, what is Verdict::kVisible and lies in it becomes Verdict::kHidden, or Verdict::kUndecided under
+  /// kDoubt.
+  void fall_on(const TileCentres& centres, TileValues<Verdict>& values) const;
 
  private:
   /// From the eye, grid units.
@@ -54,7 +55,7 @@ class VoidShadow {
   bool comes_from_void(const Numbers& edges, const Vector& corner) const;
 
   Point3 eye_;
-  std::uint8_t shaded_;           ///< what it makes of a visible cell
+  Verdict shaded_;                ///< what it makes of a visible cell
   std::vector<Edge> edges_;       ///< none where no edge faces away
   std::vector<Numbers> sectors_;  ///< clockwise from the south; as edges_
 };

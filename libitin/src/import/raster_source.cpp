@@ -238,8 +238,7 @@ class RasterFile final : public SourceFile {
     present_ = RasterWindows::present(band);
     raster_ = {path, options.band, options.memory_bytes, lattice_of(*dataset, path), {}, {}};
     raster_.crs = source_crs(path, options.crs, crs_text(*dataset));
-    raster_.heights =
-        source_heights(path, raster_.crs.heights_given ? std::nullopt : band.stated_unit(), raster_.crs);
+    raster_.heights = source_heights(path, raster_.crs.heights_given ? std::nullopt : band.stated_unit(), raster_.crs);
     if (!raster_.heights.warning.empty()) warnings_.push_back(raster_.heights.warning);
   }
 

@@ -16,12 +16,7 @@
 
 namespace itin::viewshed {
 
-/// Values of certified rasters, with kOutside.
-inline constexpr std::uint8_t kUndecided = 0;
-inline constexpr std::uint8_t kCertainlyHidden = 1;
-inline constexpr std::uint8_t kCertainlyVisible = 2;
-
-/// At request.detail, in request.mode kCertified. By the certificates of the store's index cells (law 2): the full
+/// At request.detail, in request.mode kVisible. By the certificates of the store's index cells (law 2): the full
 /// surface lies between two envelopes of the level asked for. Finer levels, as small as they are, stand in about every
 /// observer, for coarse ground there would hide everything. With several observers a cell is certainly visible when it
 /// is to one of them, and certainly hidden when it is to all. Under NoData::kUnknown a line across a void and back is
@@ -39,12 +34,12 @@ struct PreciseOptions {
   bool lattices = true;  ///< a raster is swept over its posts alone
 };
 
-/// Exact for the full surface, in every mode but kCertified: as compute() at tolerance 0, with the same answer. Of a
+/// Exact for the full surface, in every mode: as compute() at tolerance 0, with the same answer. Of a
 /// large raster only those heights are read that an observer may see; where these do not fit into the memory, sector by
 /// sector about each observer. Where another surface does not fit, a certified pass at a coarse level decides most
 /// cells; for the others the places where their lines come near the ground, and no more, are read at full detail and
 /// swept, as many at a time as the memory allows. With themes that stand on the ground, and for heights and angles,
-/// that is all ground under the lines. Request::detail is not used. NoData::kUnknown counts as clear, with a warning.
+/// that is all ground under the lines. Request::detail is not used.
 /// Cost, on one core: about a microsecond a point; a fifth of that for rasters, and 9 bytes a post. Throws as compute()
 /// does, and, where the window is too large for the memory, InputError in modes kBlocker and kProbability and where
 /// NoData::kBlock and voids come together with such themes or modes.

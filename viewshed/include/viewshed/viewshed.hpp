@@ -31,6 +31,7 @@
 #include <itin/theme.hpp>
 #include <itin/tin.hpp>
 #include <viewshed/surface.hpp>
+#include <viewshed/verdict.hpp>
 
 namespace itin::viewshed {
 
@@ -56,16 +57,17 @@ struct Observer {
 
 /// What ground without data does to sight lines.
 enum class NoData {
-  kUnknown,  ///< they pass, and a warning says so if any could be concerned
-  kBlock,    ///< none passes: the edge of the surface is a curtain up to the sky
-  kClear     ///< they pass
+  /// Mode kVisible: a line that nothing known hides is undecided. Other modes: it passes, and a warning says so if any
+  /// could be concerned.
+  kUnknown,
+  kBlock,  ///< none passes: the edge of the surface is a curtain up to the sky
+  kClear   ///< they pass
 };
 
 /// What a cell is told about the observers that see it.
 enum class Mode {
   kVisible,     ///< whether any does
   kCount,       ///< how many do
-  kCertified,   ///< whether any certainly does: for compute_certified() (certified.hpp) alone
   kWhich,       ///< which do
   kAngle,       ///< the greatest elevation angle of their sight lines
   kNearest,     ///< the nearest of them, and its distance
@@ -109,9 +111,6 @@ struct Request {
 
 inline constexpr int kDefaultCells = 2048;
 
-inline constexpr std::uint8_t kHidden = 0;
-inline constexpr std::uint8_t kVisible = 1;
-inline constexpr std::uint8_t kOutside = 255;  ///< outside every field of view, or no data
 inline constexpr std::uint16_t kCountOutside = 65535;
 
 inline constexpr std::uint32_t kNoBlocker = 0xffffffff;
@@ -121,7 +120,7 @@ inline constexpr std::uint32_t kMissingGround = 0xfffffffe;
 struct CellCounts {
   std::uint64_t visible = 0;  ///< to at least one observer
   std::uint64_t hidden = 0;
-  std::uint64_t undecided = 0;  ///< Mode::kCertified
+  std::uint64_t undecided = 0;
   std::uint64_t outside = 0;
 
   CellCounts& operator+=(const CellCounts& c) {
@@ -133,16 +132,19 @@ struct CellCounts {
 struct Statistics {
   RetrievalStatistics retrieval;
   std::uint64_t triangles = 0;
-  std::uint64_t rays = 0;  ///< sight lines
+  std::uint64_t lines = 0;  ///< sight lines decided
   double retrieval_seconds = 0;
   double scene_seconds = 0;
-  double rays_seconds = 0;
+  double lines_seconds = 0;
 };
 
 struct Result {
   Request request;  ///< as understood
   RasterGrid grid;
-  std::vector<std::uint8_t> visible;   ///< one of the three values above a cell; kCertified: of certified.hpp
+  /// In every mode. Undecided in kVisible alone: what only ground without data leaves open, under NoData::kUnknown, and
+  /// in certified results what the level leaves open.
+  std::vector<Verdict> visible;
+  bool certified = false;              ///< made by compute_certified(): verdicts at a level are certain
   std::vector<std::uint16_t> count;    ///< kCount: how many observers see the cell, or kCountOutside
   std::vector<std::uint32_t> which;    ///< kWhich: see observer_bit()
   std::vector<float> angle_deg;        ///< kAngle, of the line after curvature and refraction; NaN where none sees
@@ -222,13 +224,13 @@ struct GeotiffOptions {
   bool overwrite = false;
 };
 
-/// As write_raster() writes them: Byte classes (visible 1, hidden 0, nodata 255), UInt16 counts (nodata 65535), UInt32
+/// As write_raster() writes them: Byte classes (Verdict, nodata 255), UInt16 counts (nodata 65535), UInt32
 /// bits without nodata (0 where none sees, a band for every 32 observers), Float32 angles (nodata NaN), Float32 bands
 /// of distance and number of the nearest (nodata NaN). Throws FileError.
 void write_geotiff(const std::string& path, const Result& result, const GeotiffOptions& options);
 
 /// What is seen as polygons in a GeoPackage, one a class as write_regions() writes them: visible and hidden; the
-/// certainties of kCertified; a class for every count, nearest observer or theme that hides. Throws FileError.
+/// undecided; a class for every count, nearest observer or theme that hides. Throws FileError.
 void write_polygons(const std::string& path, const Result& result, const std::string& crs_wkt, bool overwrite);
 
 }  // namespace itin::viewshed

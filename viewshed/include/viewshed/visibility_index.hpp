@@ -38,7 +38,7 @@ struct VisibilityIndex {
   double mean = 0;                    ///< over the cells
   double mean_error = 0;              ///< the standard error of that, for these cells
   std::uint64_t observers = 0;
-  std::uint64_t rays = 0;
+  std::uint64_t lines = 0;
   std::uint64_t triangles = 0;
   RetrievalStatistics retrieval;
 };

@@ -32,7 +32,7 @@ class EnvelopeTile final : public TileJudge::Work {
                std::size_t tile)
       : ground_(ground), looks_(looks), work_(ground.pass.begin(tile)) {}
 
-  std::uint64_t judge(std::size_t i, TileValues<std::uint8_t>& values) override {
+  std::uint64_t judge(std::size_t i, TileValues<Verdict>& values) override {
     const std::uint64_t before = work_->rays;
     ground_.pass.judge(*looks_[i], values, *work_, nullptr);
     if (ground_.zone) judge_zones(looks_[i]->eye, values);
@@ -40,7 +40,7 @@ class EnvelopeTile final : public TileJudge::Work {
   }
 
  private:
-  void judge_zones(const Eye& eye, TileValues<std::uint8_t>& values) {
+  void judge_zones(const Eye& eye, TileValues<Verdict>& values) {
     const double resolution = ground_.scene.envelope.lower.grid.resolution;
     for (std::size_t cell = 0; cell < values.size(); ++cell) {
       low_[cell] = eye.target(work_->low[cell] * resolution) / resolution;

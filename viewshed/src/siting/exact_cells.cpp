@@ -37,7 +37,7 @@ class ExactTile final : public TileJudge::Work {
   ExactTile(const FullGround& ground, const std::vector<std::optional<ExactLook>>& looks, std::size_t tile)
       : ground_(ground), looks_(looks), work_(ground.surface.full.begin(tile)) {}
 
-  std::uint64_t judge(std::size_t i, TileValues<std::uint8_t>& values) override {
+  std::uint64_t judge(std::size_t i, TileValues<Verdict>& values) override {
     const auto& [eye, view, shadow] = *looks_[i];
     const std::uint64_t lines = ground_.surface.full.judge(eye, view, values, *work_);
     if (shadow) shadow->fall_on(work_->centres, values);

@@ -200,7 +200,7 @@ class PointSurvey final : public GroupSurvey {
           scene_.look_from(eye_at(scene_.envelope.lower.grid, looks.request, survey_.stands[looks.options[i]]));
       rays += judge(pass, look, *looks.bounds[i], result[i]);
     });
-    statistics.rays += rays;
+    statistics.lines += rays;
     return result;
   }
 

@@ -324,7 +324,7 @@ class SiteCoverage::Impl {
       if (survey_.fresnel && !zones_at(level)) after[i].certain = {};         // or its zone is cut
       settle(options[i], stage, std::move(after[i]));
     }
-    statistics_.rays_seconds += watch.lap();
+    statistics_.lines_seconds += watch.lap();
   }
 
   Window window_of(const std::vector<std::size_t>& group) const {

@@ -56,9 +56,9 @@ std::size_t cell_in_tile(std::size_t block, unsigned bit) {
 
 /// Opens in `values` what the bounds leave open. Returns whether anything is.
 bool open(const CellBlocks& blocks, const Tile& tile, const CoverageBounds& bounds, TileCover& cover,
-          TileValues<std::uint8_t>& values) {
+          TileValues<Verdict>& values) {
   bool any = false;
-  values.fill(kOutside);
+  values.fill(Verdict::kOutside);
   for (std::size_t b = 0; b < cover.certain.size(); ++b) {
     if (!in_grid(tile, b)) continue;
     const std::uint32_t number = block_of(blocks, tile, b);
@@ -66,20 +66,20 @@ bool open(const CellBlocks& blocks, const Tile& tile, const CoverageBounds& boun
     if (cover.possible[b] == 0) continue;
     cover.certain[b] = members(bounds.certain, number);
     for (std::uint64_t rest = cover.possible[b] & ~cover.certain[b]; rest != 0; rest &= rest - 1) {
-      values[cell_in_tile(b, static_cast<unsigned>(std::countr_zero(rest)))] = kUndecided;
+      values[cell_in_tile(b, static_cast<unsigned>(std::countr_zero(rest)))] = Verdict::kUndecided;
       any = true;
     }
   }
   return any;
 }
 
-void close(const TileValues<std::uint8_t>& values, TileCover& cover) {
+void close(const TileValues<Verdict>& values, TileCover& cover) {
   for (std::size_t b = 0; b < cover.certain.size(); ++b) {
     for (std::uint64_t rest = cover.possible[b] & ~cover.certain[b]; rest != 0; rest &= rest - 1) {
       const auto bit = static_cast<unsigned>(std::countr_zero(rest));
-      const std::uint8_t value = values[cell_in_tile(b, bit)];
-      if (value == kCertainlyVisible) cover.certain[b] |= std::uint64_t{1} << bit;
-      if (value == kCertainlyHidden || value == kOutside) cover.possible[b] &= ~(std::uint64_t{1} << bit);
+      const Verdict value = values[cell_in_tile(b, bit)];
+      if (value == Verdict::kVisible) cover.certain[b] |= std::uint64_t{1} << bit;
+      if (value == Verdict::kHidden || value == Verdict::kOutside) cover.possible[b] &= ~(std::uint64_t{1} << bit);
     }
   }
 }
@@ -103,7 +103,7 @@ std::uint64_t judge_tile(const TileJudge& judge, const SiteSurvey& survey, const
   for (std::size_t i = 0; i < looks.options.size(); ++i) {
     if (squared_distance(survey.stands[looks.options[i]].position, box) > survey.radius * survey.radius) continue;
     TileCover cover{.entry = i};
-    TileValues<std::uint8_t> values;
+    TileValues<Verdict> values;
     if (open(blocks, tile, *looks.bounds[i], cover, values)) {
       if (!work) work = judge.begin(t);
       rays += work->judge(i, values);
@@ -146,7 +146,7 @@ std::vector<CoverageBounds> judge_tiles(const TileJudge& judge, const SiteSurvey
   std::atomic<std::uint64_t> rays = 0;
   for_each_step(covers.size(), "sight lines of candidates", progress,
                 [&](std::size_t t) { rays += judge_tile(judge, survey, looks, tiles, t, covers[t]); });
-  statistics.rays += rays;
+  statistics.lines += rays;
   return gather(survey, tiles, looks.options.size(), covers);
 }
 

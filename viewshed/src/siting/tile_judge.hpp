@@ -29,9 +29,9 @@ class TileJudge {
     Work& operator=(const Work&) = delete;
     virtual ~Work() = default;
 
-    /// What the looks' option number `i` sees: kUndecided cells become kCertainlyVisible, kCertainlyHidden or kOutside,
-    /// or stay. Returns how many sight lines that took.
-    virtual std::uint64_t judge(std::size_t i, TileValues<std::uint8_t>& values) = 0;
+    /// What the looks' option number `i` sees: Verdict::kUndecided cells become Verdict::kVisible, Verdict::kHidden or
+    /// Verdict::kOutside, or stay. Returns how many sight lines that took.
+    virtual std::uint64_t judge(std::size_t i, TileValues<Verdict>& values) = 0;
   };
   /// `tile` is one of those of the grid's.
   virtual std::unique_ptr<Work> begin(std::size_t tile) const = 0;

@@ -16,23 +16,23 @@ class ZonePacket {
     for (SightLines* const lines : {&low_, &high_}) lines->start_at(eye.units);
   }
 
-  void judge(std::size_t row, std::size_t column, TileValues<std::uint8_t>& values) {
+  void judge(std::size_t row, std::size_t column, TileValues<Verdict>& values) {
     unsigned visible = 0;
     high_.active = 0;
     for (unsigned i = 0; i < SightLines::kSize; ++i) {
       const std::size_t r = row + i / kPacketSide, c = column + i % kPacketSide, cell = r * Tile::kSide + c;
-      if (values[cell] != kCertainlyVisible && values[cell] != kUndecided) continue;
+      if (values[cell] != Verdict::kVisible && values[cell] != Verdict::kUndecided) continue;
       aim(i, r, c);
-      if (values[cell] == kCertainlyVisible) visible |= 1U << i;
+      if (values[cell] == Verdict::kVisible) visible |= 1U << i;
     }
     if (high_.active == 0) return;
     const unsigned cut = zone_.certainly_cut(high_);
     low_.active = targets_.exact() ? 0 : high_.active & visible & ~cut;
     const unsigned open = low_.active == 0 ? 0 : low_.active & ~zone_.certainly_clear(low_);
     for (unsigned i = 0; i < SightLines::kSize; ++i) {
-      std::uint8_t& value = values[(row + i / kPacketSide) * Tile::kSide + column + i % kPacketSide];
-      if ((cut >> i & 1) != 0) value = kCertainlyHidden;
-      if ((open >> i & 1) != 0) value = kUndecided;
+      Verdict& value = values[(row + i / kPacketSide) * Tile::kSide + column + i % kPacketSide];
+      if ((cut >> i & 1) != 0) value = Verdict::kHidden;
+      if ((open >> i & 1) != 0) value = Verdict::kUndecided;
     }
   }
 
@@ -56,7 +56,7 @@ class ZonePacket {
 
 }  // namespace
 
-void cut_zones(const ClearZone& zone, const Eye& eye, const TileTargets& targets, TileValues<std::uint8_t>& values) {
+void cut_zones(const ClearZone& zone, const Eye& eye, const TileTargets& targets, TileValues<Verdict>& values) {
   ZonePacket packet(zone, eye, targets);
   for (std::size_t row = 0; row < Tile::kSide; row += kPacketSide)
     for (std::size_t column = 0; column < Tile::kSide; column += kPacketSide) packet.judge(row, column, values);

@@ -18,8 +18,8 @@ struct TileTargets {
   bool exact() const { return &low == &high; }
 };
 
-/// Visible cells and undecided ones whose zone is certainly cut become kCertainlyHidden; visible ones become kUndecided
-/// where it is not certainly clear. A target at the eye's own place has no zone.
-void cut_zones(const ClearZone& zone, const Eye& eye, const TileTargets& targets, TileValues<std::uint8_t>& values);
+/// Visible cells and undecided ones whose zone is certainly cut become Verdict::kHidden; visible ones become
+/// Verdict::kUndecided where it is not certainly clear. A target at the eye's own place has no zone.
+void cut_zones(const ClearZone& zone, const Eye& eye, const TileTargets& targets, TileValues<Verdict>& values);
 
 }  // namespace itin::viewshed

@@ -1,6 +1,4 @@
 // The one run that leaves lines across missing ground open, against the two in which these pass and are blocked.
-#include "certified_observation.hpp"
-
 #include <cmath>
 #include <gmock/gmock.h>
 #include <optional>
@@ -15,8 +13,8 @@
 #include <viewshed/certified.hpp>
 
 #include "lattice_sectors.hpp"
-#include "precise.hpp"
 #include "support/raster_file.hpp"
+#include "support/same_bits.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/terrain_tin.hpp"
@@ -28,7 +26,12 @@ namespace {
 
 constexpr std::uint64_t kMuch = 1 << 30;
 
-class CertifiedOverVoids : public testing::Test {
+/// To the last bit; no number is the same as no number.
+bool same(const std::vector<float>& a, const std::vector<float>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](float x, float y) { return test::same_bits(x, y); });
+}
+
+class VerdictsOverVoids : public testing::Test {
  protected:
   static constexpr int kSide = 193;
   static constexpr double kStep = 25, kWest = 300000, kNorth = 200000;
@@ -59,7 +62,6 @@ class CertifiedOverVoids : public testing::Test {
     request.observers[1].radius = 1500;
     request.target_height = 20;
     request.cell_size = 30;
-    request.mode = Mode::kCertified;
     return request;
   }
 
@@ -75,13 +77,15 @@ class CertifiedOverVoids : public testing::Test {
     const Result closed = run(NoData::kBlock);
     open.cells = {};
     for (std::size_t i = 0; i < open.visible.size(); ++i) {
-      std::uint8_t& value = open.visible[i];
-      ++(value == kOutside              ? open.cells.outside
-         : value == kHidden             ? open.cells.hidden
-         : closed.visible[i] == kHidden ? open.cells.undecided
-                                        : open.cells.visible);
-      if (value != kOutside)
-        value = value == kHidden ? kCertainlyHidden : closed.visible[i] == kHidden ? kUndecided : kCertainlyVisible;
+      Verdict& value = open.visible[i];
+      ++(value == Verdict::kOutside              ? open.cells.outside
+         : value == Verdict::kHidden             ? open.cells.hidden
+         : closed.visible[i] == Verdict::kHidden ? open.cells.undecided
+                                                 : open.cells.visible);
+      if (value != Verdict::kOutside)
+        value = value == Verdict::kHidden               ? Verdict::kHidden
+                : closed.visible[i] == Verdict::kHidden ? Verdict::kUndecided
+                                                        : Verdict::kVisible;
     }
     return open;
   }
@@ -100,7 +104,7 @@ class CertifiedOverVoids : public testing::Test {
   NoProgress progress_;
 };
 
-TEST_F(CertifiedOverVoids, OneRunIsTwoInAnyMemory) {
+TEST_F(VerdictsOverVoids, OneRunIsTwoInAnyMemory) {
   const Store store(path());
   const Request request = look();
   const Result expected = of_two_runs(store, request);
@@ -109,7 +113,7 @@ TEST_F(CertifiedOverVoids, OneRunIsTwoInAnyMemory) {
   // By its posts; the whole at once; a coarse pass and segments.
   for (const PreciseOptions& options : {PreciseOptions{kMuch, true}, {kMuch, false}, {4000000, false}}) {
     SCOPED_TRACE(options.memory_bytes);
-    expect_same(expected, compute_exactly(store, request, options, progress_).result);
+    expect_same(expected, compute_precise(store, request, options, progress_).result);
   }
   const auto sectors = compute_by_lattice_sectors(store, request, 400000, progress_);
   ASSERT_TRUE(sectors);
@@ -117,7 +121,7 @@ TEST_F(CertifiedOverVoids, OneRunIsTwoInAnyMemory) {
   EXPECT_GT(sectors->result.statistics.triangles, std::uint64_t{2 * kSide * kSide}) << "not in sectors";
 }
 
-TEST_F(CertifiedOverVoids, NothingIsOpenUnderTheOtherRules) {
+TEST_F(VerdictsOverVoids, NothingIsOpenUnderTheOtherRules) {
   const Store store(path());
   Request request = look();
   for (const NoData rule : {NoData::kClear, NoData::kBlock}) {
@@ -126,7 +130,7 @@ TEST_F(CertifiedOverVoids, NothingIsOpenUnderTheOtherRules) {
     exact.mode = Mode::kVisible;
     const Result expected = compute_precise(store, exact, {}, progress_).result;
     for (const std::uint64_t memory : {kMuch, std::uint64_t{4000000}}) {
-      const Result found = compute_exactly(store, request, {memory, false}, progress_).result;
+      const Result found = compute_precise(store, request, {memory, false}, progress_).result;
       EXPECT_EQ(found.cells.undecided, 0U);
       EXPECT_EQ(found.cells.visible, expected.cells.visible);
       EXPECT_EQ(found.cells.hidden, expected.cells.hidden);
@@ -134,24 +138,25 @@ TEST_F(CertifiedOverVoids, NothingIsOpenUnderTheOtherRules) {
   }
 }
 
-TEST_F(CertifiedOverVoids, ProgressOnlyGrowsAndReachesTheEnd) {
+TEST_F(VerdictsOverVoids, ProgressOnlyGrowsAndReachesTheEnd) {
   const Store store(path());
   const Request request = look();
   // The observers see a part of the cells alone.
-  for (const Mode mode : {Mode::kCertified, Mode::kAngle}) {
+  for (const Mode mode : {Mode::kVisible, Mode::kAngle}) {
     Request of_mode = request;
     of_mode.mode = mode;
     test::ToldProgress whole, segments, sectors;
-    compute_exactly(store, of_mode, {kMuch, false}, whole);
+    compute_precise(store, of_mode, {kMuch, false}, whole);
     whole.expect_whole("sight lines");
-    compute_exactly(store, of_mode, {4000000, false}, segments);
+    compute_precise(store, of_mode, {4000000, false}, segments);
     segments.expect_whole("cells decided");
     ASSERT_TRUE(compute_by_lattice_sectors(store, of_mode, 400000, sectors));
     sectors.expect_whole("cells decided");
   }
 }
 
-TEST_F(CertifiedOverVoids, WithFeaturesTooLargeASurfaceIsRefusedInTheModesOwnWords) {
+/// Certificates know nothing of what stands on the ground: all of it under the lines is read, segment by segment.
+TEST_F(VerdictsOverVoids, FeaturesChangeNothingOfThat) {
   test::write_lines(directory_.file("b.geojson"), {test::box(kWest + 500, kNorth - 600, kWest + 600, kNorth - 500, 20)},
                     true);
   ImportOptions options;
@@ -162,12 +167,19 @@ TEST_F(CertifiedOverVoids, WithFeaturesTooLargeASurfaceIsRefusedInTheModesOwnWor
   const Store store(path());
   Request request = look();
   request.themes = ThemeChoice::all();
-  try {
-    compute_exactly(store, request, {4000000, false}, progress_);
-    FAIL() << "not refused";
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("--mode certified under --nodata unknown"));
-    EXPECT_THAT(error.what(), testing::Not(testing::HasSubstr("--memory")));
+  for (const Mode mode : {Mode::kVisible, Mode::kHeight, Mode::kAngle, Mode::kCount}) {
+    for (const NoData rule : {NoData::kUnknown, NoData::kBlock}) {
+      SCOPED_TRACE(static_cast<int>(mode));
+      request.mode = mode, request.nodata = rule;
+      const Result whole = compute_precise(store, request, {kMuch, false}, progress_).result;
+      const Result parts = compute_precise(store, request, {4000000, false}, progress_).result;
+      EXPECT_TRUE(parts.visible == whole.visible);
+      EXPECT_TRUE(same(parts.least_height_m, whole.least_height_m));
+      EXPECT_TRUE(same(parts.angle_deg, whole.angle_deg));
+      EXPECT_TRUE(parts.count == whole.count);
+      const bool undecided = mode == Mode::kVisible && rule == NoData::kUnknown;
+      EXPECT_EQ(parts.cells.undecided > 0, undecided);
+    }
   }
 }
 
