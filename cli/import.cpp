@@ -86,7 +86,8 @@ class ImportVerb final : public Verb {
         ->type_name("T,T...");
     app.add_option("--resolution", resolution_, "Grid of a new store's coordinates (default: 0.01)")
         ->type_name("METRES");
-    app.add_option("--memory", memory_, "Memory to work in; the result never depends on it (default: 4G)")
+    app.add_option("--memory", memory_,
+                   "Memory to work in; the result never depends on it, and what needs more is refused (default: 4G)")
         ->type_name("SIZE");
   }
 
@@ -201,17 +202,17 @@ class ImportVerb final : public Verb {
                     readable_bytes(report.store_bytes), bytes_per_vertex(report), report.crs_name,
                     report.crs_chosen ? " (chosen; see --to-crs)" : "");
     text += fmt::format("read {} in {:.1f} s", text_of_read(report), report.seconds);
-    const auto mention = [&](std::uint64_t count, const char* what) {
-      if (count > 0) text += fmt::format(", {} {}", grouped(count), what);
+    const auto mention = [&](std::uint64_t count, const char* noun, const char* what) {
+      if (count > 0) text += fmt::format(", {} {}", counted(count, noun), what);
     };
-    mention(report.voids, "posts without data");
-    mention(report.filtered, "filtered out");
-    mention(report.duplicates, "duplicate positions");
-    mention(report.replaced, "coarser points replaced");
-    mention(report.isolated, "isolated points left out");
-    mention(report.refused, "features that cannot stand");
-    mention(report.crossings, "crossings resolved");
-    mention(report.left_out, "segments of lines left out beyond the ground");
+    mention(report.voids, "post", "without data");
+    if (report.filtered > 0) text += fmt::format(", {} filtered out", grouped(report.filtered));
+    if (report.duplicates > 0) text += fmt::format(", {} at places of others", counted(report.duplicates, "point"));
+    mention(report.replaced, "coarser point", "replaced");
+    mention(report.isolated, "isolated point", "left out");
+    mention(report.refused, "feature", "that cannot stand");
+    mention(report.crossings, "crossing", "resolved");
+    mention(report.left_out, "segment", "of lines left out beyond the ground");
     text += flat_text(report);
     text += metadata.themes.empty() ? "\n\n" : "\n" + themes_table(metadata) + "\n";
     return text + levels_table(metadata);

@@ -19,6 +19,7 @@
 #include "huge_store/square.hpp"
 #include "store/store_rows.hpp"
 #include "support/raster_file.hpp"
+#include "support/sound_store.hpp"
 #include "support/temporary_directory.hpp"
 
 namespace itin::huge {
@@ -59,7 +60,7 @@ double height_at(const LatticeTin& lattice, std::int32_t x, std::int32_t y) {
 
 TEST_F(FractalStoreTest, IsSound) {
   const Store store(path_);
-  EXPECT_TRUE(check(store, progress_).empty());
+  test::expect_sound(store);
   EXPECT_EQ(report_.side_m, kSide);
   EXPECT_EQ(report_.posts, std::uint64_t{kPosts} * kPosts);
   EXPECT_EQ(store.metadata().vertices, report_.posts);

@@ -112,8 +112,8 @@ class OneAnswer : public testing::Test {
     const Result plain = viewshed::compute(store, request, progress);
     EXPECT_EQ(viewshed::compute_precise(store, request, {}, progress).result.visible, plain.visible);
     const std::size_t own = plain.grid.index({7, 7});
-    if (plain.visible[own] != viewshed::kOutside) {
-      EXPECT_TRUE(plain.visible[own] == viewshed::kVisible || off >= step);
+    if (plain.visible[own] != viewshed::Verdict::kOutside) {
+      EXPECT_TRUE(plain.visible[own] == viewshed::Verdict::kVisible || off >= step);
     }
     ask_again(store, plain, 40);
     request.detail = Detail::tolerance(4);

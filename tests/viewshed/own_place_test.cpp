@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <sstream>
 
 #include <gtest/gtest.h>
 
+#include <itin/grazing.hpp>
 #include <itin/same_place.hpp>
 #include <viewshed/viewshed.hpp>
 

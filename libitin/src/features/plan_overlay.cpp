@@ -63,7 +63,8 @@ using Geometry = std::unique_ptr<GEOSGeometry, Destroy>;
 
 [[noreturn]] void fail() {
   // A request may also reach the overlay of another thread that is about to look for one.
-  if (geos().error().starts_with("InterruptedException")) throw Cancelled();
+  const bool interrupted = geos().error().starts_with("InterruptedException");
+  if (interrupted || (watched != nullptr && watched->cancelled())) throw Cancelled();
   throw OverlayError("polygon overlay: " + geos().error());
 }
 

@@ -33,10 +33,12 @@ HeightBand::HeightBand(GDALDataset& dataset, const std::string& path, std::optio
   int has_nodata = 0;
   const double nodata = band_->GetNoDataValue(&has_nodata);
   const int flags = band_->GetMaskFlags();
-  if (!(flags & GMF_ALL_VALID)) mask_ = band_->GetMaskBand();
+  mask_ = alpha_band(dataset);
+  const bool own_mask = mask_ != nullptr || !(flags & GMF_NODATA);
+  if (!mask_ && !(flags & GMF_ALL_VALID)) mask_ = band_->GetMaskBand();
   declares_nodata_ = has_nodata != 0;
   // A mask of its own hides the nodata value from GDAL's.
-  if (declares_nodata_ && !(flags & GMF_NODATA)) nodata_ = nodata;
+  if (declares_nodata_ && own_mask) nodata_ = nodata;
 }
 
 std::optional<LinearUnit> HeightBand::stated_unit() const {

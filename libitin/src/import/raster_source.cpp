@@ -248,7 +248,11 @@ class RasterFile final : public SourceFile {
     return raster_.lattice.post(present_.column + (present_.columns - 1) / 2.0,
                                 present_.row + (present_.rows - 1) / 2.0);
   }
-  Box extent() const override { return raster_.lattice.box(present_); }
+  /// What a vast raster holds is known by large windows alone: only the posts tell how far it reaches.
+  Box extent() const override {
+    const bool all = present_.columns == raster_.lattice.columns && present_.rows == raster_.lattice.rows;
+    return all ? raster_.lattice.box(present_) : SourceFile::extent();
+  }
   std::vector<std::string> warnings() const override { return warnings_; }
   std::unique_ptr<TerrainSource> bind(const SourceContext& context) override {
     return std::make_unique<RasterTerrain>(raster_, context);

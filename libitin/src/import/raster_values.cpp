@@ -18,11 +18,12 @@ namespace {
 /// One row after the other.
 class RowReader {
  public:
-  RowReader(GDALRasterBand& band, const std::string& path) : band_(band), path_(path) {
+  RowReader(GDALDataset& dataset, GDALRasterBand& band, const std::string& path)
+      : band_(band), path_(path), mask_(alpha_band(dataset)) {
     int has_nodata = 0;
     nodata_ = band.GetNoDataValue(&has_nodata);
     has_nodata_ = has_nodata != 0;
-    if (!(band.GetMaskFlags() & GMF_ALL_VALID)) mask_ = band.GetMaskBand();
+    if (!mask_ && !(band.GetMaskFlags() & GMF_ALL_VALID)) mask_ = band.GetMaskBand();
     valid_.resize(static_cast<std::size_t>(band.GetXSize()), 255);
   }
 
@@ -46,7 +47,7 @@ class RowReader {
 
   GDALRasterBand& band_;
   const std::string& path_;
-  GDALRasterBand* mask_ = nullptr;
+  GDALRasterBand* mask_;  // null where all cells are valid
   double nodata_ = 0;
   bool has_nodata_ = false;
   std::vector<unsigned char> valid_;
@@ -61,7 +62,7 @@ RasterValues read_raster_values(const std::string& path, const std::string& crs_
   const QuietGdal quiet;
   const GDALDatasetUniquePtr dataset = open_raster_file(path);
   const BandQuery weights{std::nullopt, "weights", "give a raster of one, as gdal_translate -b makes it"};
-  RowReader reader(value_band(*dataset, path, weights), path);
+  RowReader reader(*dataset, value_band(*dataset, path, weights), path);
   result.values.resize(result.grid.cell_count());
   const auto columns = static_cast<std::size_t>(result.grid.columns());
   for (int row = 0; row < result.grid.rows(); ++row)

@@ -53,6 +53,12 @@ GDALRasterBand& chosen_band(GDALDataset& dataset, const std::string& path, int n
 
 }  // namespace
 
+GDALRasterBand* alpha_band(GDALDataset& dataset) {
+  for (GDALRasterBand* band : dataset.GetBands())
+    if (is_mask(*band)) return band;
+  return nullptr;
+}
+
 GDALRasterBand& value_band(GDALDataset& dataset, const std::string& path, const BandQuery& query) {
   if (dataset.GetRasterCount() == 0) {
     const char* subdataset = dataset.GetMetadataItem("SUBDATASET_1_NAME", "SUBDATASETS");

@@ -20,4 +20,8 @@ struct BandQuery {
 /// and for complex numbers, colours of a palette and masks, which are no values, and a scale that makes none.
 GDALRasterBand& value_band(GDALDataset& dataset, const std::string& path, const BandQuery& query);
 
+/// The band that masks the others; null where there is none. GDAL heeds one by itself only where it holds whole numbers
+/// of 8 or 16 bits.
+GDALRasterBand* alpha_band(GDALDataset& dataset);
+
 }  // namespace itin

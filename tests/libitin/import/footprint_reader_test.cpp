@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <gmock/gmock.h>
 #include <map>
 #include <set>
 
@@ -22,6 +23,11 @@ namespace itin {
 namespace {
 
 using test::reported;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+NoProgress quiet;
 
 std::string data(const std::string& name) {
   return std::string(ITIN_DATA_DIR) + "/" + name;
@@ -41,10 +47,9 @@ class FootprintReader : public testing::Test {
     return write("f.geojson", R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:27700"}},
       "features":[)" + features + "]}");
   }
-  FootprintSource read(FootprintQuery query) { return read_footprints(query, wkt("EPSG:27700"), grid_, quiet_); }
+  FootprintSource read(FootprintQuery query) { return read_footprints(query, wkt("EPSG:27700"), grid_, quiet); }
 
   test::TemporaryDirectory directory_;
-  NoProgress quiet_;
   Grid grid_{{300000, 200000}, 0.01};
 };
 
@@ -81,7 +86,7 @@ TEST_F(FootprintReader, SelectsAndNamesWhatIsMissing) {
   FootprintQuery query;
   query.path = layer(feature(R"("h":7.5)", "Polygon", std::string("[") + kSquare + "]"));
   query.where = "h > 10";
-  EXPECT_TRUE(read(query).features.empty());
+  EXPECT_THROW(read(query), InputError);
   query.where = "height > 10";
   EXPECT_THROW(read(query), FileError);
   query.where.clear();
@@ -114,7 +119,7 @@ TEST_F(FootprintReader, TakesFeetForFeet) {
       write("f.csv", "id,h,WKT\n1,100,\"POLYGON((1000000 200000,1000030 200000,1000030 200030,1000000 200000))\"\n");
   query.crs = "EPSG:2263";  // New York, US survey feet
   query.height_field = "h";
-  const FootprintSource source = read_footprints(query, wkt("EPSG:26918"), {{585000, 4511000}, 0.01}, quiet_);
+  const FootprintSource source = read_footprints(query, wkt("EPSG:26918"), {{585000, 4511000}, 0.01}, quiet);
   ASSERT_EQ(source.features.size(), 1U);
   EXPECT_NEAR(*source.features[0].height, 30.48006, 1e-4);
 }
@@ -256,7 +261,7 @@ TEST(RealFootprints, Alexandria) {
     query.path = path;
     query.height_field = "HEIGHT";
     query.roof = roof;
-    const FootprintSource source = read_footprints(query, wkt("EPSG:26918"), tin.grid, quiet_);
+    const FootprintSource source = read_footprints(query, wkt("EPSG:26918"), tin.grid, quiet);
     ASSERT_EQ(source.features.size(), 84U);
     const FeatureMesh mesh = test::meshed(source.features, &terrain);
     print("Alexandria, roof " + std::to_string(static_cast<int>(roof)), source, mesh);
@@ -280,7 +285,7 @@ TEST(RealFootprints, DelftOutlinesWithThePeersHeights) {
   FootprintQuery query;
   query.path = path;
   query.name_field = "lokaalid";
-  FootprintSource source = read_footprints(query, wkt("EPSG:28992"), {{84900, 447500}, 0.01}, quiet_);
+  FootprintSource source = read_footprints(query, wkt("EPSG:28992"), {{84900, 447500}, 0.01}, quiet);
   ASSERT_EQ(source.features.size(), 160U);
   for (FootprintFeature& f : source.features) {
     f.height = measured.at(f.name);
@@ -309,7 +314,7 @@ TEST(RealFootprints, DelftPlantsAndFences) {
   query.path = plants;
   query.kind = FeatureKind::vegetation;
   query.height = 3;
-  FootprintSource source = read_footprints(query, wkt("EPSG:28992"), tin.grid, quiet_);
+  FootprintSource source = read_footprints(query, wkt("EPSG:28992"), tin.grid, quiet);
   FeatureMesh mesh = test::meshed(source.features, &terrain);
   print("Delft plants", source, mesh);
   EXPECT_EQ(mesh.built + mesh.refused, 126U);
@@ -317,7 +322,7 @@ TEST(RealFootprints, DelftPlantsAndFences) {
   expect_sound(mesh);
   query.path = data("ahn3-bgt-delft/bgt/bgt_scheiding.sqlite");
   query.kind = FeatureKind::wall;
-  source = read_footprints(query, wkt("EPSG:28992"), tin.grid, quiet_);
+  source = read_footprints(query, wkt("EPSG:28992"), tin.grid, quiet);
   mesh = test::meshed(source.features, &terrain);
   print("Delft fences", source, mesh);
   EXPECT_EQ(mesh.built + mesh.refused, 57U);

@@ -6,10 +6,13 @@
 #include <gmock/gmock.h>
 #include <random>
 
+#include <fmt/format.h>
+
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
 
 #include "libitin/import/raster_fixture.hpp"
+#include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
 
 namespace itin {
@@ -162,6 +165,80 @@ TEST_F(RasterSource, DoesNotDependOnBlocksOrThreads) {
     EXPECT_TRUE(test::read(*plan_of(directory_.file("t.tif")).sources.at(0)).points == first.points);
   }
   set_thread_count(0);
+}
+
+/// A file of one block of that many rows and columns, all of it absent.
+void write_block(const std::string& path, int side) {
+  CPLStringList options;
+  for (const std::string& option : {std::string("TILED=YES"), fmt::format("BLOCKXSIZE={}", side),
+                                    fmt::format("BLOCKYSIZE={}", side), std::string("SPARSE_OK=TRUE")})
+    options.AddString(option.c_str());
+  const GDALDatasetUniquePtr made(
+      test::driver("GTiff").Create(path.c_str(), side, side, 1, GDT_Float32, options.List()));
+  ASSERT_NE(made, nullptr);
+  std::array<double, 6> transform = MadeRaster().transform;
+  made->SetGeoTransform(transform.data());
+  OGRSpatialReference crs;
+  crs.importFromEPSG(27700);
+  made->SetSpatialRef(&crs);
+  made->GetRasterBand(1)->SetNoDataValue(-9999);
+}
+
+TEST_F(RasterSource, DoesNotDependOnMemory) {
+  std::mt19937 random(test::seed());
+  MadeRaster made = hills(700, 300);
+  made.nodata = -9999;
+  for (std::size_t i = 0; i < made.posts.size(); ++i)
+    if (i % 700 / 64 % 3 == 0 && i / 700 / 32 % 2 == 0) made.posts[i] = -9999;
+  test::write_raster(directory_.file("a.tif"), made);
+  for (int run = 0; run < 12; ++run) {
+    const auto side = [&] { return std::to_string(16 * (1 + random() % 30)); };
+    std::vector<std::string> options{"SPARSE_OK=TRUE", "COMPRESS=DEFLATE"};
+    const std::string width = side(), height = side();
+    if (run % 3 != 0) options.insert(options.end(), {"TILED=YES", "BLOCKXSIZE=" + width, "BLOCKYSIZE=" + height});
+    if (run % 3 == 0) options.push_back("BLOCKYSIZE=" + std::to_string(1 + random() % 300));
+    SCOPED_TRACE(width + " by " + height);
+    test::copy_raster("GTiff", directory_.file("a.tif"), directory_.file("b.tif"), options);
+    ImportOptions little;
+    little.memory_bytes = std::uint64_t{1} << (23 + random() % 8);
+    expect_exact(directory_.file("b.tif"), {}, little);
+  }
+}
+
+TEST_F(RasterSource, PassesOverWhatAVastRasterDoesNotHold) {
+  MadeRaster made = hills(30, 20);
+  made.nodata = -9999;
+  made.posts[7] = -9999;
+  test::write_raster(directory_.file("a.tif"), made);
+  const auto part = [](int column, int row) {
+    return fmt::format(
+        R"(<SimpleSource><SourceFilename relativeToVRT="1">a.tif</SourceFilename><SourceBand>1</SourceBand>
+      <SrcRect xOff="0" yOff="0" xSize="30" ySize="20"/><DstRect xOff="{}" yOff="{}" xSize="30" ySize="20"/>
+      </SimpleSource>)",
+        column, row);
+  };
+  const auto vast = [&](const std::string& nodata) {
+    return directory_.write("vast.vrt",
+                            R"(<VRTDataset rasterXSize="2000000000" rasterYSize="2000000000"><SRS>EPSG:27700</SRS>
+      <GeoTransform>0,1,0,1000000,0,-1</GeoTransform><VRTRasterBand dataType="Float32" band="1">)" +
+                                nodata + part(1000, 900) + part(400000, 300000) + "</VRTRasterBand></VRTDataset>");
+  };
+  ImportPlan plan = plan_of(vast("<NoDataValue>-9999</NoDataValue>"));
+  const test::Reading reading = test::read(*plan.sources.at(0));
+  EXPECT_EQ(reading.points.size(), 2 * made.posts.size() - 2);
+  EXPECT_EQ(reading.counts.voids, 4'000'000'000'000'000'000U - reading.points.size());
+  EXPECT_THAT(refusal<InputError>(vast("")), HasSubstr("declare a nodata value"));
+}
+
+TEST_F(RasterSource, RefusesBlocksBeyondMemory) {
+  write_block(directory_.file("block.tif"), 16384);
+  ImportOptions little;
+  little.memory_bytes = std::uint64_t{1} << 30;
+  const std::string expected = "block.tif: is stored in blocks of 16384 by 16384 posts, 1024 MB each";
+  EXPECT_THAT(refusal<InputError>(directory_.file("block.tif"), little), HasSubstr(expected));
+  test::copy_raster("VRT", directory_.file("block.tif"), directory_.file("block.vrt"));
+  EXPECT_THAT(refusal<InputError>(directory_.file("block.vrt"), little), HasSubstr(expected));
+  EXPECT_EQ(plan_of(directory_.file("block.vrt")).sources.size(), 1U) << "more memory";
 }
 
 TEST_F(RasterSource, HonoursMaskNodataAndNanTogether) {

@@ -72,15 +72,6 @@ TEST_F(ScatteredSource, SpacingAlongALineIsNotZero) {
   EXPECT_DOUBLE_EQ(source_->info().spacing, 10);
 }
 
-TEST_F(ScatteredSource, OptionsOfLayersAreRefusedForText) {
-  ImportOptions options;
-  options.where = "z > 5";
-  EXPECT_THROW(read_text("0 0 1\n", options), InputError);
-  options = {};
-  options.layer = "spots";
-  EXPECT_THROW(read_text("0 0 1\n", options), InputError);
-}
-
 TEST_F(ScatteredSource, ACrsIsNeeded) {
   const std::string path = directory_.write("p.csv", "x,y,z\n0,0,1\n");
   try {
