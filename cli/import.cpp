@@ -77,9 +77,12 @@ class ImportVerb final : public Verb {
         ->type_name("METRES");
     app.add_flag("--allow-mixed-vertical", options_.allow_mixed_vertical,
                  "Take heights as they are, though sources refer to different vertical datums");
-    app.add_flag("--no-repair", no_repair_,
-                 "Contours: infer no points where the triangles of a contour would be flat, in the whole store");
-    app.add_flag("--replace", options_.replace, "Take the place of coarser terrain within the sources' coverage");
+    app.add_flag(
+        "--no-repair", no_repair_,
+        "Contours: infer no points where the triangles of a contour would be flat, in the whole store, whatever "
+        "other imports say");
+    app.add_flag("--replace", options_.replace,
+                 "Take the place of coarser terrain within the sources' coverage, in whatever order they come");
     app.add_option("--levels", levels_,
                    "Tolerances of a new store's levels (default: those of 0.5,1,2,4,8,16,32 that are no less than "
                    "--resolution)")

@@ -4,10 +4,13 @@
 //   options.sources = {"ST17.asc", "ST18.asc"};
 //   ImportReport report = import_terrain("cardiff.itin", options, progress);
 //
-// Importing into an existing store adds to it: the result is the same, byte for byte but for the import history, as if
-// all sources had been imported at once, in whatever order. One exception: a point that no ground triangle touches is
-// left out and counted (ImportReport::isolated), so a later import cannot find it again. Adding rebuilds the pyramid of
-// the whole store; it takes as long as importing everything anew.
+// Importing into an existing store adds to it. Vertices, triangles, levels and certificates, of terrain, lines and all
+// that stands, are a function of the set of sources and their options, whatever the order and the portions in which
+// they were imported: a store keeps what it leaves out, cuts or moves as it came (store/set_aside.hpp), and every
+// import begins with all of it. The order shows in the numbers of sources and features, and in what the first import
+// settles for a store: CRS, grid and levels. Stores of format 3 and older have kept nothing: what earlier imports made
+// of their sources counts as what was imported. Adding rebuilds the pyramid of the whole store; it takes as long as
+// importing everything anew.
 #pragma once
 
 #include <cstdint>
@@ -67,12 +70,12 @@ struct ImportReport {
   std::uint64_t voids = 0;          ///< posts without data
   std::uint64_t filtered = 0;       ///< points and features left out by class or where
   std::uint64_t duplicates = 0;     ///< positions that were there already
-  std::uint64_t replaced = 0;       ///< coarser points that made room
-  std::uint64_t isolated = 0;       ///< points left out because no ground could be triangulated about them
+  std::uint64_t replaced = 0;       ///< coarser points that made room now
+  std::uint64_t isolated = 0;       ///< points left out now because no ground could be triangulated about them
   std::uint64_t features = 0;       ///< of lines read, or of those that stand now
   std::uint64_t refused = 0;        ///< features that could not stand, of all imports so far; warnings say why
-  std::uint64_t crossings = 0;      ///< pairs of segments that crossed, of any themes, and were given a vertex
-  std::uint64_t left_out = 0;       ///< segments, of any theme, that do not lie wholly on the ground
+  std::uint64_t crossings = 0;      ///< further pairs of segments that cross, of any themes, and were given a vertex
+  std::uint64_t left_out = 0;       ///< further segments, of any theme, that do not lie wholly on the ground
   std::uint64_t flat_before = 0;    ///< triangles that are level because their corners lie on contours
   std::uint64_t flat_after = 0;     ///< of them, those that are left
   std::uint64_t inferred = 0;       ///< points of the store inferred from contours
@@ -88,9 +91,10 @@ struct ImportReport {
 ImportReport import_terrain(const std::string& store_path, const ImportOptions& options, Progress& progress);
 
 /// Where contours are imported, options.repair decides for all contours of the store, also when something is added
-/// later: points are inferred along ridges, valleys, passes, hilltops and pits (features/flat_skeleton.hpp) and have a
-/// source of their own, of kind "inferred", the last one. They depend on the terrain and the lines that were imported
-/// alone, and are inferred anew whenever such are added.
+/// later; where several imports of contours differ, they are not repaired. Then points are inferred along ridges,
+/// valleys, passes, hilltops and pits (features/flat_skeleton.hpp) and have a source of their own, of kind "inferred",
+/// the last one. They depend on the terrain and the lines that were imported alone, and are inferred anew whenever such
+/// are added.
 ///
 /// Adds lines and polygons (as their rings) to a theme, which is made if there is none of that name. Contours may make
 /// a new store; other lines need ground to lie on. All lines of the store are made planar together: crossings get a

@@ -17,11 +17,14 @@
 #include "import/line_layer.hpp"
 #include "import/sorted_points.hpp"
 #include "import/source_context.hpp"
+#include "import/source_order.hpp"
 #include "import/standing_warnings.hpp"
+#include "import/stored_sources.hpp"
 #include "import/terrain_source.hpp"
 #include "import/true_scale.hpp"
 #include "pyramid/pyramid.hpp"
-#include "store/point_index.hpp"
+#include "store/set_aside.hpp"
+#include "store/store_file.hpp"
 #include "store/store_format.hpp"
 #include "store/store_writer.hpp"
 
@@ -68,9 +71,15 @@ void check_resolution(const ImportOptions& options, const Store* existing) {
   }
 }
 
-/// Whether a store's contours are repaired.
-bool repairs(const Store* store) {
-  return store != nullptr && !store->metadata().sources.empty() && store->metadata().sources.back().kind == kInferred;
+bool has_contours(const Store& store) {
+  const std::vector<ThemeInfo>& themes = store.metadata().themes;
+  return std::any_of(themes.begin(), themes.end(), [](const auto& t) { return t.kind == ThemeKind::Contours; });
+}
+
+/// Whether contours are repaired after an import: unless any import of them said otherwise.
+bool will_repair(const ImportOptions& options, const Store* base) {
+  if (options.kind != ThemeKind::Contours) return repairs(base);
+  return options.repair && (base == nullptr || !has_contours(*base) || repairs(base));
 }
 
 /// As the store names it: without the folder, which says nothing of the data, nor anything to whoever gets the store.
@@ -86,49 +95,6 @@ SourceInfo inferred_source() {
   source.kind = kInferred;
   source.imported = utc_now();
   return source;
-}
-
-/// All but the last one if that stands for inferred points.
-std::vector<SourceInfo> imported_sources(const Store* store) {
-  if (store == nullptr) return {};
-  std::vector<SourceInfo> sources = store->metadata().sources;
-  if (repairs(store)) sources.pop_back();
-  return sources;
-}
-
-/// Adds the points that a store holds already, but for those inferred from others, which are put aside, and takes its
-/// lines over.
-std::uint64_t add_stored(const Store& store, PointSorter& sorter, LineCollection& lines,
-                         std::vector<GridPoint>& inferred_points, Progress& progress) {
-  lines.take_themes(store.metadata());
-  lines.take_segments(store.points());
-  const std::size_t inferred = imported_sources(&store).size();
-  std::vector<Leaf> leaves;
-  store.points().leaves(0, store.points().bounds(), leaves);
-  std::uint64_t count = 0;
-  std::vector<RawPoint> points;
-  for (std::size_t i = 0; i < leaves.size(); ++i) {
-    progress.throw_if_cancelled();
-    if (leaves[i].theme > store.metadata().themes.size()) continue;  // of a part, which is made again
-    const auto block = store.points().block(leaves[i]);
-    points.clear();
-    for (std::size_t k = 0; k < block->points.size(); ++k) {
-      const GridPoint& p = block->points[k];
-      if (block->sources[k] == inferred) {
-        inferred_points.push_back(p);
-        continue;
-      }
-      if (lines.take_vertex(p, block->sources[k], leaves[i].theme == 0)) continue;
-      points.push_back({morton(p.x, p.y), p.z, block->sources[k], 0});
-    }
-    sorter.add(points);
-    count += points.size();
-    progress.report("reading the store", static_cast<double>(i + 1) / static_cast<double>(leaves.size()));
-  }
-  std::sort(inferred_points.begin(), inferred_points.end(),
-            [](const GridPoint& a, const GridPoint& b) { return code_of(a) < code_of(b); });
-  lines.take_footprints(store);
-  return count;
 }
 
 /// Files may not say how far they reach, or say it wrongly.
@@ -203,10 +169,6 @@ struct Additions {
 
   /// As in turns after the first.
   bool empty() const { return plan.sources.empty() && plan.lines.empty() && footprints.empty(); }
-  /// Whether the full surface will be another.
-  bool change_terrain(const ImportOptions& options) const {
-    return !plan.sources.empty() || (!plan.lines.empty() && is_terrain(*options.kind));
-  }
 };
 
 void add_footprints(FootprintFile& file, std::uint16_t number, const ImportOptions& options, LineCollection& lines,
@@ -217,6 +179,23 @@ void add_footprints(FootprintFile& file, std::uint16_t number, const ImportOptio
   report.filtered += file.footprints.filtered;
   for (FootprintFeature& feature : file.footprints.features) lines.add_footprint(theme, {std::move(feature), number});
   lines.require_room(file.info.path);
+}
+
+std::vector<SourceRank> ranks_for_sorting(const std::vector<SourceInfo>& sources) {
+  const std::vector<std::uint32_t> order = ranks_of(sources);
+  std::vector<SourceRank> ranks;
+  for (std::size_t s = 0; s < sources.size(); ++s)
+    ranks.push_back({sources[s].spacing, is_ground(sources[s]), !sources[s].theme.empty(), order[s]});
+  return ranks;
+}
+
+void set_lines_aside(const std::vector<SetAsideLines>& of_themes, StoreWriter& writer) {
+  for (std::size_t t = 0; t < of_themes.size(); ++t) writer.set_aside(static_cast<std::uint16_t>(t + 1), of_themes[t]);
+}
+
+/// Of a store that may be null.
+SetAsideCounts counts_of(const Store* store) {
+  return store == nullptr ? SetAsideCounts{} : set_aside_list(file_of(*store).rows()).counts;
 }
 
 /// Sums over the parts of each theme.
@@ -244,8 +223,9 @@ struct Target {
 };
 
 /// Writes a store of all that `base` (may be null) holds and the additions. Standing features are raised on the ground
-/// of `ground`; without, only their footprints are kept. False where they need another turn, on the ground of the
-/// passing store that was written instead: this one has other ground than they were raised on, or they were not.
+/// of `ground`, and cut its lines there; without, lines are laid as they were imported, and footprints only kept. False
+/// where features need another turn, on the ground of the passing store that was written instead, which has no points
+/// at other levels: this one has other ground than they were raised on, or they were not.
 bool write_store(const Target& target, const Store* base, Additions& additions, const Store* ground,
                  const ImportOptions& options, ImportReport& report, RaisedFeatures& raised, Progress& progress) {
   const ImportPlan& plan = additions.plan;
@@ -254,9 +234,8 @@ bool write_store(const Target& target, const Store* base, Additions& additions, 
   if (sources.size() + plan.sources.size() + plan.lines.size() + additions.footprints.size() >= format::kMaxSources)
     throw InputError("a store holds at most 32,766 sources; merge some of them first");
   PointSorter sorter(directory_of(target.passing), options.memory_bytes / 2);
-  LineCollection collection(options.memory_bytes);
-  std::vector<GridPoint> inferred;
-  const bool stored = base != nullptr && add_stored(*base, sorter, collection, inferred, progress) > 0;
+  LineCollection collection(ground == nullptr ? LinesAs::imported : LinesAs::laid, options.memory_bytes);
+  const StoredPoints stored = base != nullptr ? add_stored(*base, sorter, collection, progress) : StoredPoints{};
   for (const auto& source : plan.sources) {
     add_source(*source, static_cast<std::uint16_t>(sources.size()), plan, sorter, report, progress);
     sources.push_back(recorded(source->info()));
@@ -270,29 +249,31 @@ bool write_store(const Target& target, const Store* base, Additions& additions, 
     add_footprints(file, static_cast<std::uint16_t>(sources.size()), options, collection, report);
     sources.push_back(recorded(file.info));
   }
-  const bool repair = options.kind == ThemeKind::Contours ? options.repair : repairs(base);
+  const bool repair = will_repair(options, base);
   if (repair) sources.push_back(inferred_source());
-  if (!additions.empty()) require_points(report, options, stored);
+  if (!additions.empty()) require_points(report, options, stored.count > 0);
   if (ground != nullptr) collection.raise(*ground, raised, progress);
 
-  const ThemeLines lines = collection.finish(ground, progress);
-  report.crossings = std::max(report.crossings, lines.lines.crossings);
+  const ThemeLines lines = collection.finish(sources, ground, progress);
   add_line_vertices(lines, sorter);
   const bool done = target.last || !collection.stands() || (ground != nullptr && !collection.changes_terrain(lines));
   std::optional<StoreWriter> passing;
   if (!done) passing.emplace(target.passing, plan.crs_wkt, plan.grid, target.tolerances);
   StoreWriter& writer = done ? target.writer : *passing;
 
-  std::vector<SourceRank> ranks;
-  for (const SourceInfo& source : sources) ranks.push_back({source.spacing, is_ground(source)});
-  SortedPoints points = sorter.finish(ranks, progress, &report.duplicates);
+  std::uint64_t duplicates = 0;
+  SortedPoints points = sorter.finish(ranks_for_sorting(sources), progress, &duplicates);
+  report.duplicates += duplicates;
   // Ground that features stand on stays as it is.
   const PyramidReport pyramid =
-      build_pyramid(points, sources, plan.grid, target.tolerances, lines,
-                    ground != nullptr && collection.stands() ? &inferred : nullptr, writer, progress);
-  report.replaced += pyramid.replaced;
-  report.isolated += pyramid.isolated;
-  report.left_out = pyramid.left_out;
+      build_pyramid(points, sources, plan.grid, done ? target.tolerances : std::vector<double>{0.0}, lines,
+                    ground != nullptr && collection.stands() ? &stored.inferred : nullptr, writer, progress);
+  set_lines_aside(set_aside_of(collection.imported(), pyramid.placed, lines), writer);
+  const SetAsideCounts before = counts_of(ground);
+  const SetAsideCounts counts{pyramid.replaced, pyramid.isolated, ground ? before.segments : pyramid.left_out,
+                              ground ? before.crossings : lines.lines.crossings};
+  writer.count_set_aside(counts);
+  if (ground != nullptr) report.crossings = std::max(report.crossings, lines.lines.crossings);
   report.flat_before = pyramid.flat_before;
   report.flat_after = pyramid.flat_after;
   if (repair) report.inferred = pyramid.vertices_of_source.back();
@@ -308,6 +289,15 @@ bool write_store(const Target& target, const Store* base, Additions& additions, 
   for (const PlacedPart& part : lines.parts) parts.push_back(part.part);
   writer.commit(std::move(sources), std::move(themes), std::move(parts));
   return done;
+}
+
+/// What has come about since.
+void report_counts(const SetAsideCounts& before, const SetAsideCounts& now, ImportReport& report) {
+  const auto more = [](std::uint64_t n, std::uint64_t than) { return n - std::min(n, than); };
+  report.replaced = more(now.replaced, before.replaced);
+  report.isolated = more(now.isolated, before.isolated);
+  report.left_out = more(now.segments, before.segments);
+  report.crossings = std::max(report.crossings, more(now.crossings, before.crossings));
 }
 
 /// A store for the time of an import only.
@@ -341,24 +331,32 @@ Additions plan_additions(const ImportOptions& options, const Store* store, Progr
   return additions;
 }
 
-/// Few vertices that what stands gives to lines of the ground, within a grid step or two of others, are left after so
-/// many turns.
-constexpr std::size_t kMostTurns = 3;
+/// So many times features are raised: few vertices that they give to lines of the ground, within a grid step or two of
+/// others, are left then.
+constexpr int kMostRaised = 3;
+
+/// Whether a store's ground, which may be null, is that of its terrain and lines alone, as they were imported: nothing
+/// that stands has cut any.
+bool may_stand_on(const Store* store) {
+  if (store == nullptr) return false;
+  const std::vector<ThemeInfo>& themes = store->metadata().themes;
+  const auto stands = [](const ThemeInfo& theme) { return theme.stands(); };
+  return std::all_of(themes.begin(), themes.end(), stands) || std::none_of(themes.begin(), themes.end(), stands);
+}
 
 /// What stands needs its ground finished first, and gives lines of the ground vertices where it crosses them.
 void write_in_turns(const std::string& store_path, StoreWriter& writer, const std::vector<double>& tolerances,
                     const std::optional<Store>& existing, Additions additions, const ImportOptions& options,
                     ImportReport& report, Progress& progress) {
   const Store* base = existing ? &*existing : nullptr;
-  // With lines among contours what is inferred from these is made anew.
-  const bool changes = additions.change_terrain(options) || (repairs(base) && !additions.plan.lines.empty());
-  const Store* ground = changes ? nullptr : base;
+  const Store* ground = may_stand_on(base) && !additions.footprints.empty() ? base : nullptr;
   std::vector<std::unique_ptr<PassingStore>> passing;
   std::optional<Store> before;
   RaisedFeatures raised;
-  for (std::size_t turn = 1;; ++turn) {
+  for (int raisings = 0;;) {
+    raisings += ground != nullptr ? 1 : 0;
     passing.push_back(std::make_unique<PassingStore>(fmt::format("{}.ground{}", store_path, passing.size())));
-    const Target target{writer, passing.back()->path(), turn == kMostTurns, tolerances};
+    const Target target{writer, passing.back()->path(), raisings == kMostRaised, tolerances};
     if (write_store(target, base, additions, ground, options, report, raised, progress)) break;
     base = ground = &before.emplace(passing.back()->path());
     additions = Additions{plan_nothing(base->metadata()), {}};
@@ -385,12 +383,17 @@ ImportReport import_sources(const std::string& store_path, const ImportOptions& 
   report.crs_name = additions.plan.crs_name;
   report.crs_chosen = additions.plan.crs_chosen;
   report.warnings = additions.plan.warnings;
+  if (options.kind == ThemeKind::Contours && options.repair && !will_repair(options, store))
+    report.warnings.push_back(
+        fmt::format("contours are left flat: {} has some that were imported with --no-repair", store_path));
 
+  const SetAsideCounts before = counts_of(store);
   // The writer comes first: it holds the lock, and a place that cannot be written is known before hours of work.
   StoreWriter writer(store_path, additions.plan.crs_wkt, additions.plan.grid, tolerances);
   write_in_turns(store_path, writer, tolerances, existing, std::move(additions), options, report, progress);
 
   const Store written(store_path);
+  report_counts(before, counts_of(&written), report);
   report.store_bytes = written.file_bytes();
   report.levels = written.metadata().levels;
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -10,6 +11,7 @@
 #include <itin/triangulate.hpp>
 
 #include "features/part_vertices.hpp"
+#include "import/source_order.hpp"
 #include "store/store_format.hpp"
 
 namespace itin {
@@ -41,6 +43,16 @@ const GridPoint* vertex_at(const StandingPart& part, Position p) {
   return at != part.vertices.end() && code_of(*at) == code ? &*at : nullptr;
 }
 
+/// Where features meet, what is built knows no order of import.
+std::vector<StoredFootprint> in_order_of_content(const std::vector<StoredFootprint>& footprints) {
+  std::vector<std::pair<std::vector<std::uint8_t>, std::size_t>> order;
+  for (std::size_t i = 0; i < footprints.size(); ++i) order.emplace_back(content_of(footprints[i].feature), i);
+  std::sort(order.begin(), order.end());
+  std::vector<StoredFootprint> result;
+  for (const auto& [content, i] : order) result.push_back(footprints[i]);
+  return result;
+}
+
 }  // namespace
 
 void LineCollection::require_room(const std::string& source) const {
@@ -55,14 +67,22 @@ void LineCollection::require_room(const std::string& source) const {
 
 void LineCollection::take_themes(const StoreMetadata& metadata) {
   themes_ = metadata.themes;
-  first_source_.assign(themes_.size(), 0);
   footprints_.resize(themes_.size());
   for (const ThemeInfo& theme : themes_) stands_.push_back(theme.stands());
-  for (std::size_t s = metadata.sources.size(); s-- > 0;) {
-    from_line_.insert(from_line_.begin(), !metadata.sources[s].theme.empty());
-    for (std::size_t t = 0; t < themes_.size(); ++t) {
-      if (themes_[t].name == metadata.sources[s].theme) first_source_[t] = static_cast<std::uint16_t>(s);
-    }
+  for (const SourceInfo& source : metadata.sources) theme_of_source_.push_back(source.theme);
+  find_first_sources(metadata.sources);
+  keeps_set_aside_ = metadata.format_version >= format::kFirstVersionThatSetsAside;
+}
+
+/// By a rule that knows no order of import.
+void LineCollection::find_first_sources(const std::vector<SourceInfo>& sources) {
+  const std::vector<std::uint32_t> ranks = ranks_of(sources);
+  first_source_.assign(themes_.size(), 0);
+  for (std::size_t t = 0; t < themes_.size(); ++t) {
+    std::optional<std::size_t> first;
+    for (std::size_t s = 0; s < sources.size(); ++s)
+      if (sources[s].theme == themes_[t].name && (!first || ranks[s] < ranks[*first])) first = s;
+    if (first) first_source_[t] = static_cast<std::uint16_t>(*first);
   }
 }
 
@@ -87,15 +107,47 @@ void LineCollection::take_segments(const PointIndex& index) {
 
 bool LineCollection::take_vertex(const GridPoint& p, std::uint16_t source, bool of_terrain) {
   const std::uint64_t code = morton(p.x, p.y);
-  const auto end = ends_.find(code);
-  if ((!from_line_[source] || of_terrain) && end == ends_.end()) return false;
-  const std::uint16_t of_line = from_line_[source] ? source : first_source_[end->second];
-  vertices_.try_emplace(code, Vertex{p.z, of_line});
-  return from_line_[source];
+  const auto end = of_terrain ? ends_.find(code) : ends_.end();
+  if (theme_of_source_[source].empty()) {
+    // Formats that set nothing aside have vertices of lines under the source of a post they cover.
+    if (end != ends_.end()) vertices_.try_emplace(code, Vertex{p.z, first_source_[end->second]});
+    return false;
+  }
+  // One whose lines left the ground comes with these where they are taken as they were imported.
+  const bool comes_with_lines = as_ == LinesAs::imported && keeps_set_aside_;
+  if (of_terrain && end == ends_.end() && !comes_with_lines) return false;
+  vertices_.try_emplace(code, Vertex{p.z, source});
+  return true;
 }
 
-/// The stored lines with their heights. A vertex of the terrain has its own, one of another line gets it anew.
-void LineCollection::add_stored() {
+std::uint16_t LineCollection::source_of_stored(const Segment& s) const {
+  const auto theme = static_cast<std::size_t>(s.theme - 1);
+  for (const std::uint64_t end : {morton(s.ax, s.ay), morton(s.bx, s.by)}) {
+    const auto found = vertices_.find(end);
+    if (found != vertices_.end() && theme_of_source_[found->second.source] == themes_[theme].name)
+      return found->second.source;
+  }
+  return first_source_[theme];
+}
+
+void LineCollection::take_set_aside(const StoreRows& rows) {
+  imported_ = imported_pieces(rows, themes_.size(), stored_, [&](const Segment& s) {
+    const bool of_terrain = is_terrain(themes_[s.theme - std::size_t{1}].kind);
+    const auto vertex = [&](std::int32_t x, std::int32_t y) {
+      const auto found = of_terrain ? vertices_.find(morton(x, y)) : vertices_.end();
+      return GridPoint{x, y, found == vertices_.end() ? 0 : found->second.z};
+    };
+    const auto [a, b] = std::minmax({vertex(s.ax, s.ay), vertex(s.bx, s.by)});
+    return ImportedSegment{a, b, source_of_stored(s)};
+  });
+}
+
+/// The lines with their heights. As they lie, a vertex of the terrain has its own, one of another line gets it anew.
+void LineCollection::add_lines() {
+  if (as_ == LinesAs::imported) {
+    for (const auto& [theme, s] : imported_) segments_.push_back({s.a, s.b, theme});
+    return;
+  }
   const auto vertex = [&](std::int32_t x, std::int32_t y) {
     const auto found = vertices_.find(morton(x, y));
     return GridPoint{x, y, found == vertices_.end() ? 0 : found->second.z};
@@ -116,7 +168,6 @@ std::uint32_t LineCollection::theme(const std::string& name, ThemeKind kind, boo
     if (themes_.size() == format::kMaxThemes)
       throw InputError(fmt::format("a store holds at most {} themes", format::kMaxThemes));
     themes_.push_back({name, kind, 0, 0, 0});
-    first_source_.push_back(0);
     stands_.push_back(stands);
     footprints_.emplace_back();
     return static_cast<std::uint32_t>(themes_.size() - 1);
@@ -133,14 +184,14 @@ std::uint32_t LineCollection::theme(const std::string& name, ThemeKind kind, boo
 }
 
 void LineCollection::add(std::uint32_t theme, std::uint16_t source, std::span<const GridPoint> line) {
-  if (themes_[theme].features == 0 && first_source_[theme] == 0) first_source_[theme] = source;
   line_vertices_ += line.size();
-  for (const GridPoint& p : line) {
-    // Of several sources the first one counts, whatever their order in memory.
-    const auto [at, fresh] = vertices_.try_emplace(morton(p.x, p.y), Vertex{p.z, source});
-    if (!fresh) at->second.source = std::min(at->second.source, source);
+  const bool of_terrain = is_terrain(themes_[theme].kind);
+  const auto vertex = [&](const GridPoint& p) { return GridPoint{p.x, p.y, of_terrain ? p.z : 0}; };
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const auto [a, b] = std::minmax({vertex(line[i - 1]), vertex(line[i])});
+    // Upright, its ends are those of its neighbours.
+    if (a.x != b.x || a.y != b.y) imported_.push_back({theme, {a, b, source}});
   }
-  for (std::size_t i = 1; i < line.size(); ++i) segments_.push_back({line[i - 1], line[i], theme});
 }
 
 void LineCollection::add_footprint(std::uint32_t theme, StoredFootprint footprint) {
@@ -157,7 +208,7 @@ void LineCollection::raise(const Store& ground, RaisedFeatures& report, Progress
   changed_.resize(themes_.size());
   for (std::uint32_t t = 0; t < themes_.size(); ++t) {
     if (footprints_[t].empty()) continue;
-    StandingTheme standing = stand(ground, footprints_[t], memory_bytes_, progress);
+    StandingTheme standing = stand(ground, in_order_of_content(footprints_[t]), memory_bytes_, progress);
     themes_[t].features = standing.built;
     report.features += standing.built;
     report.refused += standing.refused;
@@ -245,11 +296,11 @@ void LineCollection::make_lines(ThemeLines& result, const Store* ground, const P
 bool LineCollection::changes_terrain(const ThemeLines& lines) const {
   const std::vector<std::uint32_t> vertices = lines.terrain_vertices();
   return std::any_of(vertices.begin(), vertices.end(),
-                     [&](std::uint32_t v) { return !vertices_.contains(code_of(lines.lines.vertices[v])); });
+                     [&](std::uint32_t v) { return !ends_.contains(code_of(lines.lines.vertices[v])); });
 }
 
-ThemeLines LineCollection::finish(const Store* ground, const Progress& progress) {
-  add_stored();
+/// Those of the terrain before the others, then by name.
+void LineCollection::put_in_order(ThemeLines& result) {
   std::vector<std::uint32_t> order(themes_.size());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -258,31 +309,52 @@ ThemeLines LineCollection::finish(const Store* ground, const Progress& progress)
   });
   std::vector<std::uint32_t> number(order.size());
   std::vector<ThemeInfo> themes;
-  std::vector<std::uint16_t> first_source;
   std::vector<bool> stands;
   std::vector<std::vector<StoredFootprint>> footprints;
-  ThemeLines result;
+  std::vector<ChangedGround> changed(order.size());
+  changed_.resize(order.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) {
     number[order[i]] = i;
     themes.push_back(themes_[order[i]]);
-    first_source.push_back(first_source_[order[i]]);
     stands.push_back(stands_[order[i]]);
     footprints.push_back(std::move(footprints_[order[i]]));
+    changed[i] = std::move(changed_[order[i]]);
     result.terrain.push_back(is_terrain(themes.back().kind));
     result.kinds.push_back(themes.back().kind);
     result.standing.push_back(stands.back());
   }
   for (ThemeVertex& end : ground_ends_) end.theme = number[end.theme];
-  themes_ = std::move(themes);
-  first_source_ = std::move(first_source);
-  stands_ = std::move(stands);
-  footprints_ = std::move(footprints);
   for (OwnedSegment& s : segments_) s.owner = number[s.owner];
   for (OwnPart& own : parts_) own.theme = number[own.theme];
-  place_parts(result);
-  std::vector<ChangedGround> changed(order.size());
-  for (std::size_t t = 0; t < changed_.size(); ++t) changed[number[t]] = std::move(changed_[t]);
+  for (ImportedPiece& i : imported_) i.theme = number[i.theme];
+  std::sort(imported_.begin(), imported_.end());
+  imported_.erase(std::unique(imported_.begin(), imported_.end()), imported_.end());
+  themes_ = std::move(themes);
+  stands_ = std::move(stands);
+  footprints_ = std::move(footprints);
   changed_ = std::move(changed);
+}
+
+/// What brings a vertex along several times has it from the source that comes first.
+void LineCollection::find_vertices(const std::vector<SourceInfo>& sources) {
+  const std::vector<std::uint32_t> ranks = ranks_of(sources);
+  vertices_.clear();
+  for (const auto& [theme, s] : imported_) {
+    for (const GridPoint& p : {s.a, s.b}) {
+      const auto [at, fresh] = vertices_.try_emplace(code_of(p), Vertex{p.z, s.source});
+      if (!fresh && ranks[s.source] < ranks[at->second.source]) at->second.source = s.source;
+    }
+  }
+}
+
+ThemeLines LineCollection::finish(const std::vector<SourceInfo>& sources, const Store* ground,
+                                  const Progress& progress) {
+  add_lines();
+  ThemeLines result;
+  put_in_order(result);
+  find_first_sources(sources);
+  if (as_ == LinesAs::imported) find_vertices(sources);
+  place_parts(result);
   make_lines(result, ground, progress);
   std::vector<std::uint32_t> owner(result.lines.vertices.size(), std::numeric_limits<std::uint32_t>::max());
   std::vector<std::vector<Position>> ends(parts_.size());

@@ -151,6 +151,7 @@ class SortedPoints::Impl {
   TemporaryFile file;
   std::uint64_t size = 0;
   std::vector<std::uint64_t> index;  // the codes of points 0, kIndexStep, 2 kIndexStep...
+  std::vector<CoveredPoint> covered;
 };
 
 SortedPoints::SortedPoints(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -160,6 +161,10 @@ SortedPoints::~SortedPoints() = default;
 
 std::uint64_t SortedPoints::size() const {
   return impl_->size;
+}
+
+const std::vector<CoveredPoint>& SortedPoints::covered() const {
+  return impl_->covered;
 }
 
 void SortedPoints::read(std::uint64_t first, std::span<RawPoint> out) const {
@@ -230,7 +235,7 @@ class PointSorter::Impl {
     while (runs_.size() > fan_in()) merge_groups(progress);
     auto sorted = std::make_unique<SortedPoints::Impl>(directory_);
     merge_distinct(sources, progress, *sorted);
-    duplicates = total(runs_) - sorted->size;
+    duplicates = total(runs_) - sorted->size - sorted->covered.size();
     return sorted;
   }
 
@@ -289,17 +294,19 @@ class PointSorter::Impl {
 
   void merge_distinct(std::span<const SourceRank> sources, Progress& progress, SortedPoints::Impl& sorted) {
     const auto preference = [&](const RawPoint& point) {
-      return std::tuple(sources[point.source].spacing, -std::int64_t{point.z}, point.source);
+      const SourceRank& source = sources[point.source];
+      return std::tuple(!source.line, source.spacing, -std::int64_t{point.z}, source.order, point.source);
     };
     const auto prefer = [&](std::optional<RawPoint>& best, const RawPoint& point) {
       if (!best || preference(point) < preference(*best)) best = point;
     };
     const std::uint64_t buffer = merge_buffer(runs_.size()), count = total(runs_);
     RunWriter writer(sorted.file, 0, buffer);
-    std::optional<RawPoint> best, ground;  // of one position
+    std::optional<RawPoint> best, bare, ground;  // of one position: of all, of no line, ground by itself
     std::uint64_t visited = 0;
     const auto append_best = [&] {
       if (!best) return;
+      if (sources[best->source].line && bare) sorted.covered.push_back({*bare, best->source});
       if (!sources[best->source].ground && ground) best->source = ground->source;
       sorted.append(*best, writer);
     };
@@ -311,9 +318,11 @@ class PointSorter::Impl {
       if (best && best->code != point.code) {
         append_best();
         best.reset();
+        bare.reset();
         ground.reset();
       }
       prefer(best, point);
+      if (!sources[point.source].line) prefer(bare, point);
       if (sources[point.source].ground) prefer(ground, point);
     });
     append_best();

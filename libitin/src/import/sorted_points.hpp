@@ -23,6 +23,12 @@ struct RawPoint {
 };
 static_assert(sizeof(RawPoint) == 16);
 
+/// A point of the ground as it came, and the source of the line whose vertex is there instead.
+struct CoveredPoint {
+  RawPoint point;
+  std::uint16_t line = 0;
+};
+
 /// A temporary file of RawPoints in ascending order of code, all codes distinct; removed with the object.
 /// Reading is safe from any thread; writing is safe for disjoint ranges.
 class SortedPoints {
@@ -38,6 +44,9 @@ class SortedPoints {
   void write(std::uint64_t first, std::span<const RawPoint> points);
   /// The number of points whose code is below `code`. One small read, thanks to a sparse index in memory.
   std::uint64_t lower_bound(std::uint64_t code) const;
+  /// Points that are not among these because a line has a vertex at their positions; ascending by code. Known after
+  /// sorting, not of what with() makes.
+  const std::vector<CoveredPoint>& covered() const;
   /// A new file of these points without those whose level is `dropped`, and with `more`, ascending by code, where there
   /// is no point yet. Throws FileError.
   SortedPoints with(std::span<const RawPoint> more, std::uint16_t dropped) const;
@@ -51,8 +60,10 @@ class SortedPoints {
 
 /// What a source's points are worth where several lie at one position.
 struct SourceRank {
-  double spacing = 0;  ///< metres
-  bool ground = true;  ///< its points are ground by themselves, not only where others are
+  double spacing = 0;       ///< metres
+  bool ground = true;       ///< its points are ground by themselves, not only where others are
+  bool line = false;        ///< its points are vertices of lines, which come before all others
+  std::uint32_t order = 0;  ///< the least comes first, where nothing else decides
 };
 
 /// External merge sort. Temporary files are unlinked at once where the system allows, so that none outlives a kill.
@@ -64,10 +75,10 @@ class PointSorter {
   /// Not thread-safe.
   void add(const RawPoint& point);
   void add(std::span<const RawPoint> points);
-  /// Of several points at one position the one whose source has the finest spacing stays, among
-  /// equal spacings the highest, among equal heights the lowest source number: a rule on the points alone. Where it is
-  /// not ground and one of the others is, it becomes a point of that one's source, or there would be a hole.
-  /// `duplicates`, if given, receives the number dropped. Throws FileError, Cancelled.
+  /// Of several points at one position one of a line stays, then the one whose source has the finest spacing, among
+  /// equal spacings the highest, among equal heights the one whose source comes first: a rule on the points alone.
+  /// Where it is not ground and one of the others is, it becomes a point of that one's source, or there would be a
+  /// hole. `duplicates`, if given, receives the number dropped and not covered. Throws FileError, Cancelled.
   SortedPoints finish(std::span<const SourceRank> sources, Progress& progress, std::uint64_t* duplicates = nullptr);
 
  private:

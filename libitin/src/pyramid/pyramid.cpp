@@ -4,6 +4,7 @@
 #include <cmath>
 #include <deque>
 #include <optional>
+#include <utility>
 
 #include <itin/detail.hpp>
 #include <itin/parallel.hpp>
@@ -15,6 +16,7 @@
 #include "pyramid/part_masks.hpp"
 #include "pyramid/proposal.hpp"
 #include "pyramid/replacement.hpp"
+#include "pyramid/set_points_aside.hpp"
 #include "pyramid/working_index.hpp"
 #include "store/leaf_cutter.hpp"
 
@@ -176,8 +178,16 @@ class LevelWriter {
   LeafCutter<std::function<void(const Cell&, std::uint32_t)>> cutter_;
 };
 
+/// A vertex that covers a point of the ground stands for it while levels are made, and is its line's in the store.
+std::uint16_t own_source(const RawPoint& p, const std::vector<CoveredPoint>& covered) {
+  const auto at = std::lower_bound(covered.begin(), covered.end(), p.code,
+                                   [](const CoveredPoint& c, std::uint64_t code) { return c.point.code < code; });
+  return at != covered.end() && at->point.code == p.code ? at->line : p.source;
+}
+
 void write_levels(const WorkingIndex& index, LeafBounds& bounds, const std::vector<CurveRange>& tiles, int levels,
-                  StoreWriter& writer, PyramidReport& report, Progress& progress) {
+                  const std::vector<CoveredPoint>& covered, StoreWriter& writer, PyramidReport& report,
+                  Progress& progress) {
   for (std::uint32_t leaf = 0; leaf < index.ranges().size(); ++leaf) {
     // The full surface differs from itself by nothing, wherever there is ground.
     if (levels > 1 && !bounds.at(leaf, 1).empty()) bounds.at(leaf, 0) = {0, 0};
@@ -187,8 +197,9 @@ void write_levels(const WorkingIndex& index, LeafBounds& bounds, const std::vect
     LevelWriter level(index, bounds, k, writer);
     for (const CurveRange& tile : tiles) {
       progress.throw_if_cancelled();
-      for (const RawPoint& p : index.read(tile)) {
+      for (RawPoint p : index.read(tile)) {
         if (p.level != k) continue;
+        p.source = own_source(p, covered);
         level.add(p);
         report.vertices_of_source[p.source] += 1;
       }
@@ -209,6 +220,7 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
                             const std::vector<double>& tolerances, const ThemeLines& lines,
                             const std::vector<GridPoint>* inferred, StoreWriter& writer, Progress& progress) {
   const int levels = static_cast<int>(tolerances.size());
+  std::optional<SortedPoints> imported;  // all of them, where `points` has become those of the surface
   std::optional<WorkingIndex> working(std::in_place, points, levels, kLeafCapacity);
   std::vector<CurveRange> tiles = working->tiles(tile_points(points.size()));
   PyramidReport report;
@@ -241,9 +253,10 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
     report.flat_before = report.flat_after = flat.triangles();
     const auto source = std::find_if(sources.begin(), sources.end(), [](const auto& s) { return s.kind == kInferred; });
     if (source != sources.end()) {
-      points = points.with(raw_points(inferred != nullptr ? *inferred : flat.inferred(),
-                                      static_cast<std::size_t>(source - sources.begin())),
-                           kDropped);
+      SortedPoints with = points.with(raw_points(inferred != nullptr ? *inferred : flat.inferred(),
+                                                 static_cast<std::size_t>(source - sources.begin())),
+                                      kDropped);
+      imported = std::exchange(points, std::move(with));
       working.emplace(points, levels, kLeafCapacity);
       tiles = working->tiles(tile_points(points.size()));
       report.flat_after = survey_flat(*working, tiles, placed, outline, lines, progress).triangles();
@@ -281,7 +294,8 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
     return true;
   };
   LeafBounds bounds = certify(index, in_whole_units, restore, progress);
-  write_levels(index, bounds, tiles, levels, writer, report, progress);
+  const SortedPoints& whole_ground = imported ? *imported : points;
+  write_levels(index, bounds, tiles, levels, whole_ground.covered(), writer, report, progress);
   std::vector<GridPoint> draped;
   const std::vector<ThemeVertex> crossings = crossings_of_ground(lines);
   if (!placed.features.empty() || !crossings.empty()) {
@@ -304,6 +318,9 @@ PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>&
   }
   segments.insert(segments.end(), masked.begin(), masked.end());
   writer.add_segments(segments);
+  set_points_aside(whole_ground, sources, writer, progress);
+  report.placed = std::move(placed.terrain);
+  report.placed.insert(report.placed.end(), placed.features.begin(), placed.features.end());
   return report;
 }
 

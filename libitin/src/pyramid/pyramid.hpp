@@ -27,6 +27,7 @@ struct PyramidReport {
   std::uint64_t left_out = 0;                ///< segments of lines that are not wholly on the ground
   std::vector<std::uint64_t> segments;       ///< by theme and then by part, of the full surface
   std::vector<std::uint64_t> line_vertices;  ///< likewise
+  std::vector<Segment> placed;               ///< of lines on the ground, of the full surface
   std::uint64_t flat_before = 0;             ///< flat triangles of contours (features/flat_triangles.hpp)
   std::uint64_t flat_after = 0;              ///< of them, those that the repair could not mend, or did not
 };

@@ -6,6 +6,7 @@
 #include <itin/error.hpp>
 #include <itin/store.hpp>
 
+#include "store/set_aside.hpp"
 #include "store/store_file.hpp"
 #include "store/store_format.hpp"
 
@@ -24,6 +25,7 @@ class Inspection {
     }
     for (const auto& [tree, chunks] : file_.chunks()) inspect_tree(tree, chunks);
     inspect_footprints();
+    if (file_.rows().version() >= format::kFirstVersionThatSetsAside) guarded([&] { inspect_set_aside(); });
     compare_keys(BlobKind::Directory, chunk_keys_);
     compare_keys(BlobKind::Block, block_keys_);
     compare_totals();
@@ -113,6 +115,34 @@ class Inspection {
                                "names a source that the store "
                                "does not have"});
           }
+        });
+      }
+    }
+  }
+
+  void inspect_set_aside() {
+    const StoreRows& rows = file_.rows();
+    chunk_keys_.push_back(format::kSetAsideListKey);
+    const SetAsideList list = set_aside_list(rows);
+    const auto inspect = [&](std::uint64_t theme, std::uint32_t block, const auto& sources_of) {
+      const std::uint64_t key = format::set_aside_key(theme, block);
+      block_keys_.push_back(key);
+      guarded([&] {
+        for (const std::uint16_t source : sources_of()) {
+          if (source < file_.metadata().sources.size()) continue;
+          damage_.push_back({format::place("block", key), "names a source that the store does not have"});
+          return;
+        }
+      });
+    };
+    for (std::uint32_t i = 0; i < list.point_blocks; ++i)
+      inspect(0, i, [&] { return set_aside_points(rows, i).sources; });
+    for (std::uint16_t theme = 1; theme <= list.line_blocks.size(); ++theme) {
+      for (std::uint32_t i = 0; i < list.blocks_of(theme); ++i) {
+        inspect(theme, i, [&] {
+          std::vector<std::uint16_t> sources;
+          for (const ImportedSegment& s : set_aside_lines(rows, theme, i).imported) sources.push_back(s.source);
+          return sources;
         });
       }
     }

@@ -29,7 +29,7 @@ class Writer {
     whole(s.size());
     bytes_.insert(bytes_.end(), s.begin(), s.end());
   }
-  std::vector<std::uint8_t> finish() const { return compress(bytes_); }
+  const std::vector<std::uint8_t>& bytes() const { return bytes_; }
 
  private:
   std::vector<std::uint8_t> bytes_;
@@ -58,9 +58,7 @@ class Reader {
   ByteReader in_;
 };
 
-void write(Writer& out, const StoredFootprint& footprint) {
-  const FootprintFeature& f = footprint.feature;
-  out.whole(footprint.source);
+void write(Writer& out, const FootprintFeature& f) {
   out.text(f.name);
   out.whole(static_cast<std::uint64_t>(f.kind));
   out.whole(static_cast<std::uint64_t>(f.roof));
@@ -121,8 +119,17 @@ StoredFootprint read(Reader& in) {
 
 std::vector<std::uint8_t> encode_footprints(std::span<const StoredFootprint> footprints) {
   Writer out;
-  for (const StoredFootprint& footprint : footprints) write(out, footprint);
-  return out.finish();
+  for (const StoredFootprint& footprint : footprints) {
+    out.whole(footprint.source);
+    write(out, footprint.feature);
+  }
+  return compress(out.bytes());
+}
+
+std::vector<std::uint8_t> content_of(const FootprintFeature& feature) {
+  Writer out;
+  write(out, feature);
+  return out.bytes();
 }
 
 std::vector<StoredFootprint> decode_footprints(std::span<const std::uint8_t> bytes) {

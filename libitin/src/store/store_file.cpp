@@ -16,17 +16,6 @@ namespace itin {
 
 namespace {
 
-// Reads a row and runs `decode` on its bytes, naming the place of what it throws.
-template <typename Decode>
-auto decoded(const StoreRows& rows, BlobKind kind, std::uint64_t key, const Decode& decode) {
-  const std::vector<std::uint8_t> bytes = rows.read(kind, key);
-  try {
-    return decode(bytes);
-  } catch (const DecodeError& e) {
-    throw CorruptStore(rows.path(), format::place(table_name(kind), key), e.what());
-  }
-}
-
 StoreMetadata read_metadata(const StoreRows& rows) {
   try {
     return metadata_from_json(rows.read_metadata());

@@ -11,7 +11,9 @@
 namespace itin::format {
 
 inline constexpr std::uint32_t kApplicationId = 0x4954494e;  // "ITIN"
-inline constexpr std::uint32_t kVersion = 3;
+inline constexpr std::uint32_t kVersion = 4;
+/// Earlier ones kept nothing of what their surfaces left out.
+inline constexpr int kFirstVersionThatSetsAside = 4;
 inline constexpr int kPageSize = 16384;
 
 inline constexpr const char* kSchema =
@@ -28,6 +30,8 @@ inline constexpr int kLastTree = 2046;
 inline constexpr int kMaxThemes = 900;  ///< and parts of themes, which are numbered after them
 /// The footprints of standing themes as they were imported; blocks without a directory.
 inline constexpr int kFootprintTree = 2046;
+/// What was imported but is not in the surface (set_aside.hpp); blocks without a directory but for one list.
+inline constexpr int kSetAsideTree = 2045;
 /// Added to the source of a part's vertex that lies between a feature and the ground.
 inline constexpr std::uint16_t kOnOutline = 0x8000;
 inline constexpr std::size_t kMaxSources = 0x7fff;
@@ -63,6 +67,12 @@ constexpr std::uint64_t key(int tree, std::uint64_t code) {
 constexpr std::uint64_t footprint_key(std::uint64_t theme, std::uint64_t number) {
   return static_cast<std::uint64_t>(kFootprintTree) << 52 | theme << 32 | number;
 }
+/// Theme 0: the points.
+constexpr std::uint64_t set_aside_key(std::uint64_t theme, std::uint64_t number) {
+  return static_cast<std::uint64_t>(kSetAsideTree) << 52 | theme << 32 | number;
+}
+/// In the directory.
+inline constexpr std::uint64_t kSetAsideListKey = std::uint64_t{kSetAsideTree} << 52;
 constexpr int tree_of(std::uint64_t key) {
   return static_cast<int>(key >> 52);
 }

@@ -9,11 +9,6 @@
 
 #include <fmt/format.h>
 
-#include <itin/error.hpp>
-
-#include "store/byte_stream.hpp"
-#include "store/store_format.hpp"
-
 namespace itin {
 
 namespace {

@@ -8,8 +8,12 @@
 #include <string>
 #include <vector>
 
+#include <itin/error.hpp>
+
+#include "store/byte_stream.hpp"
 #include "store/database.hpp"
 #include "store/seal.hpp"
+#include "store/store_format.hpp"
 
 namespace itin {
 
@@ -46,5 +50,16 @@ class StoreRows {
 
 /// "block" or "directory".
 const char* table_name(BlobKind kind);
+
+/// Reads a row and runs `decode` on its bytes, naming the place of what it throws.
+template <typename Decode>
+auto decoded(const StoreRows& rows, BlobKind kind, std::uint64_t key, const Decode& decode) {
+  const std::vector<std::uint8_t> bytes = rows.read(kind, key);
+  try {
+    return decode(bytes);
+  } catch (const DecodeError& e) {
+    throw CorruptStore(rows.path(), format::place(table_name(kind), key), e.what());
+  }
+}
 
 }  // namespace itin

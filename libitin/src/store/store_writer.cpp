@@ -49,6 +49,9 @@ class StoreWriter::Impl {
                          std::span<const FeatureReach> reaches);
   void add_segments(const std::vector<Segment>& segments);
   std::uint32_t add_footprints(std::uint16_t theme, std::span<const StoredFootprint> footprints);
+  void set_aside(const Cell& cell, std::span<const GridPoint> points, std::span<const std::uint16_t> sources);
+  void set_aside(std::uint16_t theme, const SetAsideLines& lines);
+  void count_set_aside(const SetAsideCounts& counts) { set_aside_.counts = counts; }
   void commit(std::vector<SourceInfo> sources, std::vector<ThemeInfo> themes, std::vector<ThemePart> parts);
 
  private:
@@ -66,6 +69,7 @@ class StoreWriter::Impl {
   StoreMetadata metadata_;
   DirectoryChunk chunk_;
   ChunkList chunks_;
+  SetAsideList set_aside_;
   Leaf last_;  ///< added; only its tree and cell matter
   bool has_last_ = false;
 };
@@ -194,6 +198,28 @@ std::uint32_t StoreWriter::Impl::add_footprints(std::uint16_t theme, std::span<c
   return blocks;
 }
 
+void StoreWriter::Impl::set_aside(const Cell& cell, std::span<const GridPoint> points,
+                                  std::span<const std::uint16_t> sources) {
+  insert(*insert_block_, BlobKind::Block, format::set_aside_key(0, set_aside_.point_blocks++),
+         encode_set_aside(cell, points, sources));
+}
+
+void StoreWriter::Impl::set_aside(std::uint16_t theme, const SetAsideLines& lines) {
+  if (theme == kCoverage || theme > format::kMaxThemes) throw std::invalid_argument("not a theme");
+  if (set_aside_.line_blocks.size() < theme) set_aside_.line_blocks.resize(theme);
+  std::uint32_t& blocks = set_aside_.line_blocks[theme - std::size_t{1}];
+  const auto some = [&](auto& rest) {
+    const auto first = rest.first(std::min(rest.size(), kSetAsideInBlock));
+    rest = rest.subspan(first.size());
+    return first;
+  };
+  std::span<const ImportedSegment> imported = lines.imported;
+  std::span<const Segment> made = lines.made;
+  while (!imported.empty() || !made.empty())
+    insert(*insert_block_, BlobKind::Block, format::set_aside_key(theme, blocks++),
+           encode_set_aside(some(imported), some(made)));
+}
+
 void StoreWriter::Impl::add_edges(std::uint16_t theme, std::vector<Segment> segments) {
   if (theme > format::kMaxThemes) throw std::invalid_argument("too many themes");
   for_each_edge_leaf(std::move(segments), [&](const Cell& cell, const std::vector<Segment>& in_cell) {
@@ -206,6 +232,7 @@ void StoreWriter::Impl::add_edges(std::uint16_t theme, std::vector<Segment> segm
 void StoreWriter::Impl::commit(std::vector<SourceInfo> sources, std::vector<ThemeInfo> themes,
                                std::vector<ThemePart> parts) {
   if (!chunk_.empty()) flush_chunk();
+  insert(*insert_chunk_, BlobKind::Directory, format::kSetAsideListKey, encode_set_aside(set_aside_));
   insert(*insert_chunk_, BlobKind::Directory, format::kChunkListKey, encode_chunk_list(chunks_));
   metadata_.sources = std::move(sources);
   metadata_.themes = std::move(themes);
@@ -254,6 +281,16 @@ void StoreWriter::add_footprints(std::vector<ThemeInfo>& themes,
                                  const std::vector<std::vector<StoredFootprint>>& footprints) {
   for (std::size_t t = 0; t < footprints.size(); ++t)
     themes[t].footprint_blocks = impl_->add_footprints(static_cast<std::uint16_t>(t + 1), footprints[t]);
+}
+void StoreWriter::set_aside(const Cell& cell, std::span<const GridPoint> points,
+                            std::span<const std::uint16_t> sources) {
+  impl_->set_aside(cell, points, sources);
+}
+void StoreWriter::set_aside(std::uint16_t theme, const SetAsideLines& lines) {
+  impl_->set_aside(theme, lines);
+}
+void StoreWriter::count_set_aside(const SetAsideCounts& counts) {
+  impl_->count_set_aside(counts);
 }
 void StoreWriter::commit(std::vector<SourceInfo> sources, std::vector<ThemeInfo> themes, std::vector<ThemePart> parts) {
   impl_->commit(std::move(sources), std::move(themes), std::move(parts));

@@ -5,6 +5,7 @@
 //   for each theme with vertices of its own, ascending: writer.add_theme_vertices(...);
 //   for each part of a standing theme, ascending: writer.add_part_vertices(...);
 //   writer.add_segments(segments);
+//   for each cell and then each theme of what is not in the surface as it came: writer.set_aside(...);
 //   writer.add_footprints(themes, footprints);
 //   writer.commit(sources, themes);
 //
@@ -23,6 +24,7 @@
 #include "store/encoded_leaf.hpp"
 #include "store/footprint_codec.hpp"
 #include "store/point_index.hpp"
+#include "store/set_aside.hpp"
 
 namespace itin {
 
@@ -58,6 +60,11 @@ class StoreWriter {
                          std::span<const FeatureReach> reaches);
   /// The coverage outline and the lines of all themes, all at once, in any order; kept in an edge quadtree a theme.
   void add_segments(const std::vector<Segment>& segments);
+  /// Points of the ground that are not in it as they came; cell by cell, in Morton order.
+  void set_aside(const Cell& cell, std::span<const GridPoint> points, std::span<const std::uint16_t> sources);
+  /// The same of a theme's lines.
+  void set_aside(std::uint16_t theme, const SetAsideLines& lines);
+  void count_set_aside(const SetAsideCounts& counts);
   /// Certified error of each level = the union of its leaves'. Syncs and renames. Throws FileError (disk full, ...).
   /// `themes` gets the number of blocks of its footprints, which may be none.
   void add_footprints(std::vector<ThemeInfo>& themes, const std::vector<std::vector<StoredFootprint>>& footprints);

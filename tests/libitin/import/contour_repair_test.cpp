@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <gmock/gmock.h>
 #include <numbers>
 #include <vector>
 
@@ -250,27 +251,29 @@ TEST_F(ContourRepair, DependsOnWhatWasImportedAlone) {
   EXPECT_EQ(inferred("a.itin").size(), inferred("b.itin").size());
 }
 
-TEST_F(ContourRepair, IsAsTheLastImportOfContoursSays) {
+TEST_F(ContourRepair, IsDoneUnlessAnImportOfContoursSaysOtherwise) {
   const std::vector<LineFeature> one{horseshoe({500, 2000}, 1000, 110)}, two{horseshoe({500, 1000}, 500, 100)},
       road{polyline({{450, 100}, {550, 300}}, 0)};
-  ImportReport report = add(one, ThemeKind::Contours, false);
-  EXPECT_EQ(Store(path("s.itin")).metadata().sources.size(), 1u);
-  report = add(two, ThemeKind::Contours, false);
-  EXPECT_GT(report.flat_before, 0u);
-  EXPECT_EQ(report.flat_before, report.flat_after);
+  ImportReport report = add(one, ThemeKind::Contours, true);
   report = add(two, ThemeKind::Contours, true, "s.itin", "more");
   EXPECT_GT(report.inferred, 0u);
   // What else is added leaves it so.
   const ImportReport with_road = add(road, ThemeKind::Roads);
   EXPECT_EQ(with_road.inferred, report.inferred);
   const std::vector<SourceInfo> sources = Store(path("s.itin")).metadata().sources;
-  ASSERT_EQ(sources.size(), 5u);
+  ASSERT_EQ(sources.size(), 4u);
   EXPECT_EQ(sources.back().kind, "inferred");
   EXPECT_EQ(sources.back().path, "inferred from contours");
   EXPECT_EQ(sources.back().vertices, report.inferred);
   report = add(one, ThemeKind::Contours, false);
   EXPECT_EQ(report.inferred, 0u);
+  EXPECT_GT(report.flat_before, 0u);
   EXPECT_EQ(report.flat_before, report.flat_after);
+  EXPECT_EQ(Store(path("s.itin")).metadata().sources.size(), 4u);
+  // Whichever came first.
+  report = add(two, ThemeKind::Contours, true, "s.itin", "more");
+  EXPECT_EQ(report.inferred, 0u);
+  EXPECT_THAT(report.warnings, testing::Contains(testing::HasSubstr("--no-repair")));
 }
 
 // Truth: OS Terrain 50 has the same tile as contours and as a grid.

@@ -64,7 +64,7 @@ class StoreTest : public testing::Test {
 TEST_F(StoreTest, MetadataIsWhatWasWritten) {
   const Store store(path_);
   const StoreMetadata& m = store.metadata();
-  EXPECT_EQ(m.format_version, 3);
+  EXPECT_EQ(m.format_version, 4);
   EXPECT_EQ(m.crs_wkt, "LOCAL_CS[\"test\"]");
   EXPECT_EQ(m.grid, given_.grid);
   EXPECT_EQ(m.sources.size(), 3u);

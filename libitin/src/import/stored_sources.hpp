@@ -1,0 +1,30 @@
+// What a store was made of, read back for another import.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <itin/progress.hpp>
+#include <itin/store.hpp>
+
+#include "import/line_collection.hpp"
+#include "import/sorted_points.hpp"
+
+namespace itin {
+
+/// Whether a store's contours are repaired. The store may be null, here and below.
+bool repairs(const Store* store);
+
+/// All but the last one if that stands for inferred points.
+std::vector<SourceInfo> imported_sources(const Store* store);
+
+struct StoredPoints {
+  std::uint64_t count = 0;          ///< of the ground
+  std::vector<GridPoint> inferred;  ///< from contours; in Morton order
+};
+
+/// Adds the points of the ground that a store has imported, also those that its surface leaves out, and takes its lines
+/// and footprints over. Throws CorruptStore, Cancelled.
+StoredPoints add_stored(const Store& store, PointSorter& sorter, LineCollection& lines, Progress& progress);
+
+}  // namespace itin

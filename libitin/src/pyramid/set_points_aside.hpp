@@ -1,0 +1,19 @@
+// What of the imported points is not in the surface, on its way into the store (store/set_aside.hpp).
+#pragma once
+
+#include <vector>
+
+#include <itin/progress.hpp>
+#include <itin/store.hpp>
+
+#include "import/sorted_points.hpp"
+#include "store/store_writer.hpp"
+
+namespace itin {
+
+/// Writes the points of the ground that were dropped, and those under vertices of lines. `points` as the surface was
+/// made of them.
+void set_points_aside(const SortedPoints& points, const std::vector<SourceInfo>& sources, StoreWriter& writer,
+                      Progress& progress);
+
+}  // namespace itin

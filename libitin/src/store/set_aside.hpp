@@ -1,0 +1,60 @@
+// What was imported but is not in the surface as it came, kept so that a later import finds all of it again: points of
+// the ground that others replaced, that no ground is about, or that a line's vertex covers; and lines that were cut,
+// moved or left out. See libitin/FORMAT.md, "Set aside".
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "store/cell.hpp"
+#include "store/point_index.hpp"
+#include "store/store_rows.hpp"
+
+namespace itin {
+
+/// A piece of a line as it was imported, a before b; of themes that are not of the terrain, at height 0.
+struct ImportedSegment {
+  GridPoint a, b;
+  std::uint16_t source = 0;
+  friend auto operator<=>(const ImportedSegment&, const ImportedSegment&) = default;
+};
+
+/// A theme's imported lines are its segments of the full surface without `made` and with `imported`.
+struct SetAsideLines {
+  std::vector<ImportedSegment> imported;  ///< ascending
+  std::vector<Segment> made;              ///< ascending, as the store has them; only their ends count
+};
+
+/// What is left out of a store, and how often its lines cross.
+struct SetAsideCounts {
+  std::uint64_t replaced = 0, isolated = 0;  ///< points
+  std::uint64_t segments = 0;                ///< beyond the ground
+  std::uint64_t crossings = 0;
+};
+
+struct SetAsideList {
+  std::uint32_t point_blocks = 0;
+  std::vector<std::uint32_t> line_blocks;  ///< by theme; themes without any may be missing
+  SetAsideCounts counts;
+
+  std::uint32_t blocks_of(std::uint16_t theme) const {
+    return theme <= line_blocks.size() ? line_blocks[theme - std::size_t{1}] : 0;
+  }
+};
+
+/// Both of them at most so many in a block.
+inline constexpr std::size_t kSetAsideInBlock = 4096;
+
+/// As encode_block(), of any cell.
+std::vector<std::uint8_t> encode_set_aside(const Cell& cell, std::span<const GridPoint> points,
+                                           std::span<const std::uint16_t> sources);
+std::vector<std::uint8_t> encode_set_aside(std::span<const ImportedSegment> imported, std::span<const Segment> made);
+std::vector<std::uint8_t> encode_set_aside(const SetAsideList& list);
+
+/// Nothing of a store of a format before 4, which kept nothing. Throw CorruptStore.
+SetAsideList set_aside_list(const StoreRows& rows);
+Block set_aside_points(const StoreRows& rows, std::uint32_t block);
+SetAsideLines set_aside_lines(const StoreRows& rows, std::uint16_t theme, std::uint32_t block);
+
+}  // namespace itin
