@@ -14,13 +14,13 @@ namespace itin {
 
 namespace {
 
-constexpr std::uint64_t kBytesPerPost = 64;                  // while posts are read and placed
-constexpr int kFewestPosts = 1 << 14, kMostPosts = 1 << 22;  // in a window
-constexpr std::uint64_t kNominalMemory = std::uint64_t{4} << 30;
-constexpr std::uint64_t kVast = std::uint64_t{1} << 36;          // posts: looking for those that are there is worth it
-constexpr std::uint64_t kPostsOfStore = std::uint64_t{1} << 40;  // its tree has no more leaves
-constexpr std::uint64_t kBlockShare = 4;                         // of the memory, for the block at hand
-constexpr int kDeepest = 8;                                      // virtual rasters of virtual rasters
+constexpr std::uint64_t kBytesPerPost = 64;                       // while posts are read and placed
+constexpr int kFewestPosts = 1 << 14, kMostPosts = 1 << 22;       // in a window
+constexpr std::uint64_t kNominalMemory = std::uint64_t{1} << 22;  // in small windows, so that they tell where posts are
+constexpr std::uint64_t kVast = std::uint64_t{1} << 36;           // posts: looking for those that are there is worth it
+constexpr std::uint64_t kPostsOfStore = std::uint64_t{1} << 40;   // its tree has no more leaves
+constexpr std::uint64_t kBlockShare = 4;                          // of the memory, for the block at hand
+constexpr int kDeepest = 8;                                       // virtual rasters of virtual rasters
 
 /// What GDAL holds to read a single post.
 std::uint64_t block_bytes(GDALDataset& dataset, GDALRasterBand& band) {
