@@ -75,7 +75,7 @@ itin visibility garth.itin --bbox 309000,184000,311000,186000 --cell 100 --radiu
 printf 'x,y,hub_height,rotor_diameter,farm\n309000,185000,80,90,A\n313500,187000,60,60,B\n' >turbines.csv
 printf 'x,y,name\n310375,183525,Garth Hill\n' >viewpoints.csv
 itin ztv garth.itin --turbines turbines.csv --viewpoints viewpoints.csv --radius 4000 --cell 50 -o ztv
-itin ztv town.itin --themes all --tip-height 60 --turbines "$DEMO/../../tests/outputs/town-turbines.csv" --radius 400 --cell 5 -o ztv-town
+itin ztv town.itin --themes all --tip-height 60 --turbines town-turbines.csv --radius 400 --cell 5 -o ztv-town
 itin ztv garth.itin --turbines turbines.csv --radar 310375,183525,20 --radius 4000 --cell 50 -o radar
 itin site garth.itin --search-area 'POLYGON((309500 183500,314500 183500,314500 188500,309500 188500,309500 183500))' --spacing 1200 --mast-height 20 --count 3 --radius 3000 --cell 50 -o masts --json >masts.json
 itin site town.itin --search-area 'POLYGON((321550 4297550,322010 4297550,322010 4297970,321550 4297970,321550 4297550))' --spacing 120 --mast-height 6 --count 3 --target-height 1.5 --radius 150 --cell 2 --themes buildings -o cameras --json >cameras.json
