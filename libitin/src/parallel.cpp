@@ -21,6 +21,10 @@ std::unique_ptr<tbb::global_control> control;
 }  // namespace
 
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {
+  if (thread_count() == 1) {  // oneTBB would start a worker all the same, which the system may not allow
+    for (std::size_t i = 0; i < count; ++i) body(i);
+    return;
+  }
   // Isolated: what is thrown elsewhere must not end a loop within another one, which its caller would take for
   // finished.
   tbb::task_group_context own(tbb::task_group_context::isolated);

@@ -26,6 +26,14 @@ TEST(ParallelFor, Rethrows) {
                std::runtime_error);
 }
 
+TEST(ParallelFor, StaysOnItsThreadWhereItIsTheOnlyOne) {
+  set_thread_count(1);
+  std::vector<std::thread::id> threads(100);
+  parallel_for(threads.size(), [&](std::size_t i) { threads[i] = std::this_thread::get_id(); });
+  set_thread_count(0);
+  for (const std::thread::id& id : threads) EXPECT_EQ(id, std::this_thread::get_id());
+}
+
 // A body that goes on while another one throws must find its own loops whole.
 TEST(ParallelFor, LoopsWithinAreWholeWhateverOthersThrow) {
   for (int round = 0; round < 20; ++round) {
