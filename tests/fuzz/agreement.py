@@ -336,7 +336,9 @@ class Trial:
                 "--quiet", *shared]
         self.log(*call)
         itin(*call)
-        name = "ztv/turbines.tif" if shared[1] == "none" else "ztv/turbines-screened.tif"
+        name = "ztv/turbines-screened.tif"
+        if not os.path.exists(self.path(name)):  # nothing stands
+            name = "ztv/turbines.tif"
         seen, counted = np.atleast_3d(self.raster(name).T).T, self.raster("ztv/tip-count.tif")
         cells = self.drawn(np.argwhere(counted != COUNT_OUTSIDE), 60)
         lines, where = [], []
