@@ -11,8 +11,7 @@ namespace itin {
 
 namespace {
 
-/// Writes points of the ground that are not in it as they came.
-/// Cuts points into blocks.
+/// Cuts points into blocks, and sets these aside.
 class SetAsideWriter {
  public:
   explicit SetAsideWriter(StoreWriter& writer)

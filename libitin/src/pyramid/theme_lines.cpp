@@ -9,7 +9,6 @@
 #include <itin/parallel.hpp>
 
 #include "features/hot_pixel.hpp"
-#include "pyramid/coverage.hpp"
 #include "pyramid/grounded.hpp"
 #include "pyramid/points_in_triangles.hpp"
 #include "store/edge_quadtree.hpp"
