@@ -7,11 +7,11 @@
 
 #include <itin/certificate.hpp>
 
+#include "geometry/cell.hpp"
 #include "huge_store/fractal.hpp"
 #include "huge_store/fractal_levels.hpp"
 #include "huge_store/posts.hpp"
 #include "huge_store/square.hpp"
-#include "store/cell.hpp"
 
 namespace itin::huge {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/cell.hpp"
 #include "huge_store/square.hpp"
-#include "store/cell.hpp"
 
 namespace itin::huge {
 

@@ -9,12 +9,12 @@
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
 
+#include "gdal/crs.hpp"
 #include "huge_store/deviation.hpp"
 #include "huge_store/fractal.hpp"
 #include "huge_store/fractal_levels.hpp"
 #include "huge_store/square.hpp"
-#include "import/crs.hpp"
-#include "import/source_context.hpp"
+#include "import/source/source_context.hpp"
 #include "store/lattice_sort.hpp"
 #include "store/store_writer.hpp"
 

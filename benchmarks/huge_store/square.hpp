@@ -5,8 +5,8 @@
 
 #include <itin/geometry.hpp>
 
+#include "geometry/cell.hpp"
 #include "huge_store/posts.hpp"
-#include "store/cell.hpp"
 
 namespace itin::huge {
 

@@ -10,7 +10,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "store/cell.hpp"
+#include "geometry/cell.hpp"
 
 namespace itin {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <itin/topology.hpp>
 
-#include "store/cell.hpp"
+#include "geometry/cell.hpp"
 
 namespace itin {
 namespace {

@@ -9,13 +9,13 @@
 #include <itin/progress.hpp>
 #include <viewshed/viewshed.hpp>
 
-#include "binned_heights.hpp"
-#include "eye.hpp"
-#include "full_surface.hpp"
-#include "scene.hpp"
+#include "bounds/binned_heights.hpp"
+#include "bounds/surface_heights.hpp"
+#include "bounds/triangle_bins.hpp"
+#include "request/eye.hpp"
+#include "scene/full_surface.hpp"
+#include "scene/rays/scene.hpp"
 #include "support/terrain_tin.hpp"
-#include "surface_heights.hpp"
-#include "triangle_bins.hpp"
 
 namespace itin::viewshed {
 namespace {

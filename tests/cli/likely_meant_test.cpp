@@ -1,4 +1,4 @@
-#include "likely_meant.hpp"
+#include "program/likely_meant.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <itin/store.hpp>
 
 #include "cli/shell.hpp"
-#include "import/crs.hpp"
+#include "gdal/crs.hpp"
 #include "store/metadata_json.hpp"
 #include "store/seal.hpp"
 

@@ -114,7 +114,7 @@ std::vector<std::string> verbs() {
   return {"import", "info", "check", "tin", "viewshed", "visibility", "ztv", "profile", "los", "site"};
 }
 
-INSTANTIATE_TEST_SUITE_P(Verbs, OwnFiles, ::testing::ValuesIn(verbs()), [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(Verbs, OwnFiles, ::testing::ValuesIn(verbs()), [](const auto& verb) { return verb.param; });
 
 TEST(OwnFiles, KnowAllVerbs) {
   const std::string help = Shell().run("itin --help").out;

@@ -1,4 +1,4 @@
-#include "time_left.hpp"
+#include "program/time_left.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 """Random stores, asked in several ways that must agree: precise, certified and plain viewsheds, zones of visibility of
 turbines, coverage of sites, and sight lines.
 
-    tests/fuzz/agreement.py FIRST_SEED COUNT      with build/dev/bin/itin, or ITIN_PROGRAM; needs gdal-bin python3-gdal
+    tests/fuzz/agreement.py FIRST_SEED COUNT      with build/test/bin/itin, or ITIN_PROGRAM; needs gdal-bin python3-gdal
 
 Every seed imports terrain (raster, contours or scattered points) and features in a random order, checks the store, looks
 from three places, at turbines, and from the best of three sites, and in every mode from cell centres, posts, corners of
@@ -23,7 +23,7 @@ from osgeo import gdal, osr
 
 gdal.UseExceptions()
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-ITIN = os.environ.get("ITIN_PROGRAM", ROOT + "/build/dev/bin/itin")
+ITIN = os.environ.get("ITIN_PROGRAM", ROOT + "/build/test/bin/itin")
 X0, Y0 = 300000, 200000
 HIDDEN, VISIBLE, UNDECIDED, OUTSIDE = 0, 1, 2, 255
 COUNT_OUTSIDE, NO_BLOCKER = 65535, 0xffffffff

@@ -18,15 +18,15 @@ namespace {
 
 using test::even_profile;
 
-constexpr int kSamples = 400;
+constexpr int kSamplesPerPiece = 400;
 
-/// Height of the ground and of the ray over it by interpolation, at `kSamples` places of every piece.
+/// Height of the ground and of the ray over it by interpolation, at `kSamplesPerPiece` places of every piece.
 template <class Visit>
 void sample(const Profile& profile, const Antennas& antennas, const Earth& earth, Visit visit) {
   for (std::size_t i = 0; i + 1 < profile.points.size(); ++i) {
     const ProfilePoint &a = profile.points[i], &b = profile.points[i + 1];
-    for (int k = 0; k <= kSamples; ++k) {
-      const double s = static_cast<double>(k) / kSamples;
+    for (int k = 0; k <= kSamplesPerPiece; ++k) {
+      const double s = static_cast<double>(k) / kSamplesPerPiece;
       const double d = a.distance_m + (b.distance_m - a.distance_m) * s, t = d / profile.length_m;
       const double ground = a.ground_m + (b.ground_m - a.ground_m) * s;
       const double ray = antennas.from_m * (1 - t) + antennas.to_m * t;

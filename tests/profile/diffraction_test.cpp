@@ -20,7 +20,7 @@ RadioPath radio(double ghz, double earth_km, Polarisation polarisation = Polaris
   return {ghz, earth_km, polarisation, 0};
 }
 
-Antennas antennas(const Profile& profile, double from, double to) {
+Antennas antennas_above(const Profile& profile, double from, double to) {
   return {profile.points.front().ground_m + from, profile.points.back().ground_m + to};
 }
 
@@ -32,8 +32,8 @@ struct DeltaBullington {
 constexpr double kPublished = 0.02;
 
 void expect_published(const Profile& profile, const DeltaBullington& e) {
-  const PathLosses losses = path_losses(profile, antennas(profile, e.from, e.to), radio(e.ghz, 8500));
-  const Antennas ends = antennas(profile, e.from, e.to);
+  const PathLosses losses = path_losses(profile, antennas_above(profile, e.from, e.to), radio(e.ghz, 8500));
+  const Antennas ends = antennas_above(profile, e.from, e.to);
   EXPECT_NEAR(ends.from_m - losses.smooth.hstd_m, e.above_t, 1e-6);
   EXPECT_NEAR(ends.to_m - losses.smooth.hsrd_m, e.above_r, 1e-6);
   EXPECT_NEAR(losses.lba_db, e.lba, kPublished);
@@ -63,7 +63,7 @@ TEST(DeltaBullington, StudyGroup3Path2) {
 /// rburg_rural_with_clutter_0_log.csv. Its Lbulla, Lbulls and Ldsph are those at three times the Earth's radius.
 TEST(DeltaBullington, RegensburgToMunichWithClutter) {
   const Profile path = published_profile("rburg");
-  const Antennas ends = antennas(path, 12, 19);
+  const Antennas ends = antennas_above(path, 12, 19);
   const PathLosses median = path_losses(path, ends, radio(0.0982, 8930.776786));
   EXPECT_TRUE(median.horizons.trans_horizon);
   EXPECT_NEAR(*median.horizons.dlt_km, 0.5, 1e-9);
@@ -160,7 +160,7 @@ TEST(SphericalEarth, FallsToNothingWithHeight) {
 
 TEST(PathLosses, AreTheSameFromEitherEnd) {
   const Profile path = published_profile("sg3_path4");
-  const Antennas there = antennas(path, 12, 31), back{there.to_m, there.from_m};
+  const Antennas there = antennas_above(path, 12, 31), back{there.to_m, there.from_m};
   const PathLosses a = path_losses(path, there, radio(3, 7000)), b = path_losses(reversed(path), back, radio(3, 7000));
   EXPECT_NEAR(a.ld_db, b.ld_db, 1e-9);
   EXPECT_NEAR(a.deygout_db, b.deygout_db, 1e-9);

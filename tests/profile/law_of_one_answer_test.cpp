@@ -14,7 +14,7 @@
 #include <profile/line_of_sight.hpp>
 #include <profile/profile.hpp>
 
-#include "line_clearance.hpp"
+#include "lines/line_clearance.hpp"
 #include "support/same_bits.hpp"
 #include "support/seed.hpp"
 #include "support/slow_section.hpp"

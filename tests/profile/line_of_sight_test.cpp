@@ -9,9 +9,9 @@
 
 #include <profile/line_of_sight.hpp>
 
+#include "lines/triangle_buckets.hpp"
 #include "support/same_bits.hpp"
 #include "support/seed.hpp"
-#include "triangle_buckets.hpp"
 
 namespace itin::profile {
 

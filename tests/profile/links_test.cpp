@@ -13,7 +13,7 @@
 #include <profile/clearance_error.hpp>
 #include <profile/links.hpp>
 
-#include "link_sharing.hpp"
+#include "lines/link_sharing.hpp"
 #include "support/raster_file.hpp"
 #include "support/same_bits.hpp"
 #include "support/temporary_directory.hpp"

@@ -7,11 +7,11 @@
 
 #include <viewshed/viewshed.hpp>
 
-#include "eye.hpp"
-#include "field_of_view.hpp"
-#include "grid_units.hpp"
-#include "scene.hpp"
-#include "sight_line.hpp"
+#include "line/grid_units.hpp"
+#include "line/sight_line.hpp"
+#include "request/eye.hpp"
+#include "request/field_of_view.hpp"
+#include "scene/rays/scene.hpp"
 
 namespace itin::test {
 

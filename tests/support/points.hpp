@@ -14,7 +14,7 @@
 #include <itin/geometry.hpp>
 #include <itin/progress.hpp>
 
-#include "import/sorted_points.hpp"
+#include "pyramid/sorted_points.hpp"
 #include "pyramid/working_index.hpp"
 
 namespace itin::test {

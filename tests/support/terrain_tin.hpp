@@ -15,10 +15,13 @@ namespace itin::test {
 /// Heights in metres at column, row; NaN leaves the post out.
 using HeightAt = std::function<double(std::int32_t column, std::int32_t row)>;
 
+/// Where such terrain lies unless a test says otherwise.
+inline constexpr Point2 kCorner{300000, 200000};
+
 /// columns x rows posts, `spacing` metres apart, the first at `corner`; each square with four posts is cut along one
 /// of its diagonals, alternately.
 inline Tin lattice_tin(std::int32_t columns, std::int32_t rows, double spacing, const HeightAt& height,
-                       double resolution = 0.01, Point2 corner = {300000, 200000}) {
+                       double resolution = 0.01, Point2 corner = kCorner) {
   Tin tin;
   tin.grid = {corner, resolution};
   constexpr std::uint32_t kNone = 0xffffffff;

@@ -1,6 +1,6 @@
 // Sweeps about upright axes and from eyes against all triangles, line by line, and the bounds that they rest on against
 // the surface.
-#include "axis_sweep.hpp"
+#include "scene/sweep/axis_sweep.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,14 +12,14 @@
 
 #include <itin/same_place.hpp>
 
-#include "boundary.hpp"
-#include "grid_units.hpp"
+#include "bounds/boundary.hpp"
+#include "bounds/surface_heights.hpp"
+#include "line/grid_units.hpp"
 #include "support/delaunay_tin.hpp"
 #include "support/exact_line_of_sight.hpp"
 #include "support/real_terrain.hpp"
 #include "support/seed.hpp"
 #include "support/terrain_tin.hpp"
-#include "surface_heights.hpp"
 
 namespace itin::viewshed {
 namespace {

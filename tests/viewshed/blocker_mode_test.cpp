@@ -6,8 +6,8 @@
 
 #include <viewshed/viewshed.hpp>
 
-#include "first_blocker.hpp"
-#include "sight_line.hpp"
+#include "line/sight_line.hpp"
+#include "modes/first_blocker.hpp"
 #include "support/exact_line_of_sight.hpp"
 #include "support/real_terrain.hpp"
 #include "support/terrain_tin.hpp"
@@ -16,7 +16,7 @@
 namespace itin::viewshed {
 namespace {
 
-constexpr Point2 kCorner{300000, 200000};
+using test::kCorner;
 
 using test::run;
 

@@ -1,5 +1,5 @@
 // Every cell is in one tile, and boxes hold what they are about.
-#include "cell_tiles.hpp"
+#include "line/cell_tiles.hpp"
 
 #include <vector>
 

@@ -1,5 +1,5 @@
 // Certified viewsheds sector by sector, against the level as a whole and the exact answer.
-#include "certified_sectors.hpp"
+#include "certify/certified_sectors.hpp"
 
 #include <cmath>
 #include <filesystem>

@@ -12,9 +12,9 @@
 #include <itin/triangulate.hpp>
 #include <viewshed/certified.hpp>
 
-#include "eye.hpp"
-#include "grid_units.hpp"
-#include "scene.hpp"
+#include "line/grid_units.hpp"
+#include "request/eye.hpp"
+#include "scene/rays/scene.hpp"
 #include "support/brute_force_viewshed.hpp"
 #include "support/exact_line_of_sight.hpp"
 #include "support/raster_file.hpp"
@@ -27,15 +27,15 @@ namespace {
 
 using test::look;
 
-constexpr Point2 kNorthWest{300000, 200000};
-constexpr double kStep = 50;
+constexpr Point2 kHillsCorner{300000, 200000};
+constexpr double kHillsStep = 50;
 
 /// A store of a few thousand posts, with all of its triangles at hand.
 class Terrain {
  public:
   explicit Terrain(int side, const std::function<double(int, int)>& height) : side_(side) {
     const std::string raster = directory_.file("t.tif"), path = directory_.file("t.itin");
-    test::write_raster(raster, {kNorthWest.x, kNorthWest.y, kStep, side, side, 27700}, height);
+    test::write_raster(raster, {kHillsCorner.x, kHillsCorner.y, kHillsStep, side, side, 27700}, height);
     ImportOptions options;
     options.sources = {raster};
     NoProgress progress;
@@ -46,9 +46,9 @@ class Terrain {
 
   const Store& store() const { return *store_; }
   const Tin& full() const { return full_; }
-  /// In metres east and south of the north-west corner; posts lie at kStep / 2 + n kStep.
-  Point2 at(double east, double south) const { return {kNorthWest.x + east, kNorthWest.y - south}; }
-  double width() const { return side_ * kStep; }
+  /// In metres east and south of the north-west corner; posts lie at kHillsStep / 2 + n kHillsStep.
+  Point2 at(double east, double south) const { return {kHillsCorner.x + east, kHillsCorner.y - south}; }
+  double width() const { return side_ * kHillsStep; }
 
  private:
   test::TemporaryDirectory directory_;
@@ -125,7 +125,7 @@ TEST(Certified, NeverWrongOnRandomTerrain) {
   const Terrain terrain = fractal(49, 150, seed);
   for (const double target : {0.0, 2.0}) {
     for (const bool curved : {true, false}) {
-      Request request = look(terrain.at(25 + 20 * kStep, 25 + 26 * kStep), 3, target, 37);  // on a post
+      Request request = look(terrain.at(25 + 20 * kHillsStep, 25 + 26 * kHillsStep), 3, target, 37);  // on a post
       if (!curved) request.earth = Earth::flat();
       expect_both(terrain, request);
     }
@@ -136,7 +136,8 @@ TEST(Certified, NeverWrongOnRandomTerrain) {
 TEST(Certified, NeverWrongOnRealTerrain) {
   const Terrain terrain = cardiff(60);
   for (const double target : {0.0, 2.0}) {
-    expect_both(terrain, look(terrain.at(25 + 30 * kStep, 25 + 31 * kStep), 2, target, 50));  // cells on posts
+    expect_both(terrain,
+                look(terrain.at(25 + 30 * kHillsStep, 25 + 31 * kHillsStep), 2, target, 50));  // cells on posts
     expect_both(terrain, look(terrain.at(1404.2, 811.9), 10, target, 43));
   }
 }
@@ -144,7 +145,7 @@ TEST(Certified, NeverWrongOnRealTerrain) {
 TEST(Certified, NeverWrongAtTheEdgeAndAcrossVoids) {
   const Terrain terrain = cardiff(50, 6);
   for (const double target : {0.0, 2.0}) {
-    expect_both(terrain, look(terrain.at(25 + 10 * kStep, 25), 5, target, 41));  // on the store's edge
+    expect_both(terrain, look(terrain.at(25 + 10 * kHillsStep, 25), 5, target, 41));  // on the store's edge
     expect_both(terrain, look(terrain.at(1700, 1400), 5, target, 41));
   }
 }

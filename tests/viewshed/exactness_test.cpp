@@ -7,7 +7,7 @@
 #include <itin/parallel.hpp>
 #include <viewshed/viewshed.hpp>
 
-#include "scene.hpp"
+#include "scene/rays/scene.hpp"
 #include "support/delaunay_tin.hpp"
 #include "support/exact_line_of_sight.hpp"
 #include "support/real_terrain.hpp"
@@ -66,7 +66,7 @@ Agreement compare(const Tin& tin, const Request& request) {
   return agreement;
 }
 
-Request look(Point2 position, double height, double target_height, double cell) {
+Request request_from(Point2 position, double height, double target_height, double cell) {
   Request request;
   request.observers = {{"o", position, height}};
   request.target_height = target_height;
@@ -85,7 +85,7 @@ TEST(Exactness, RandomTins) {
   for (int i = 0; i < 6; ++i) {
     const Tin tin = test::random_tin(random, 400, 0, {{500000, 4000000}, 0.01}, 50000);
     const Point3 v = tin.point(static_cast<std::uint32_t>(random() % tin.vertices.size()));
-    expect_exact(compare(tin, look({v.x, v.y}, i % 2 == 0 ? 2 : 0.1, i % 3 == 0 ? 0 : 1, 15)));
+    expect_exact(compare(tin, request_from({v.x, v.y}, i % 2 == 0 ? 2 : 0.1, i % 3 == 0 ? 0 : 1, 15)));
   }
 }
 
@@ -93,7 +93,7 @@ TEST(Exactness, FractalTerrainWithEveryTargetHeight) {
   const std::uint32_t seed = test::seed();
   const Tin tin = test::fractal_tin(33, 50, 150, 0.55, seed);
   const Point2 middle{300000 + 801.3, 200000 + 777.7};
-  for (const double target : {0.0, 0.5, 2.0, 20.0}) expect_exact(compare(tin, look(middle, 10, target, 40)));
+  for (const double target : {0.0, 0.5, 2.0, 20.0}) expect_exact(compare(tin, request_from(middle, 10, target, 40)));
 }
 
 TEST(Exactness, CurvatureOverLongEdges) {
@@ -101,7 +101,7 @@ TEST(Exactness, CurvatureOverLongEdges) {
   const Tin tin = test::fractal_tin(17, 4000, 60, 0.5, test::seed());
   const Point2 middle{300000 + 31234.5, 200000 + 33456.7};
   for (const double k : {0.13, 0.0, -0.5, 0.9}) {
-    Request request = look(middle, 40, 2, 1500);
+    Request request = request_from(middle, 40, 2, 1500);
     request.earth.refraction = k;
     expect_exact(compare(tin, request));
   }
@@ -160,7 +160,7 @@ TEST(Exactness, ObserversOnVerticesEdgesAndCellCorners) {
   const Point2 corner{300000, 200000};
   for (const Point2 offset : {Point2{800, 800}, Point2{825, 800}, Point2{800, 812}, Point2{825, 825},
                               Point2{812.5, 812.5}, Point2{0, 0}, Point2{1600, 800}, Point2{1600, 1600}}) {
-    expect_exact(compare(tin, look({corner.x + offset.x, corner.y + offset.y}, 5, 0, 50)));
+    expect_exact(compare(tin, request_from({corner.x + offset.x, corner.y + offset.y}, 5, 0, 50)));
   }
 }
 
@@ -168,7 +168,7 @@ TEST(Exactness, ThinPillarsOnAPlane) {
   // A pillar 1 m wide and 40 m high every 200 m; between them cells must be seen again behind each.
   const Tin tin = test::lattice_tin(
       401, 401, 1, [](std::int32_t c, std::int32_t r) { return c % 100 == 50 && r % 100 == 50 ? 40.0 : 0.0; });
-  Request request = look({300000 + 201.3, 200000 + 198.9}, 10, 1, 4);
+  Request request = request_from({300000 + 201.3, 200000 + 198.9}, 10, 1, 4);
   request.radius = 190;
   NoProgress progress;
   const Result result = compute(tin, request, progress);
@@ -178,8 +178,8 @@ TEST(Exactness, ThinPillarsOnAPlane) {
   // The twin tests every triangle for every cell: a smaller piece, with the same pillars.
   const Tin piece = test::lattice_tin(
       61, 61, 1, [](std::int32_t c, std::int32_t r) { return c % 20 == 10 && r % 20 == 10 ? 40.0 : 0.0; });
-  expect_exact(compare(piece, look({300000 + 31.3, 200000 + 28.9}, 10, 1, 2)));
-  expect_exact(compare(piece, look({300000 + 30.5, 200000 + 30.5}, 1, 0, 2)));
+  expect_exact(compare(piece, request_from({300000 + 31.3, 200000 + 28.9}, 10, 1, 2)));
+  expect_exact(compare(piece, request_from({300000 + 30.5, 200000 + 30.5}, 1, 0, 2)));
 }
 
 TEST(Exactness, HolesLetSightLinesPass) {
@@ -187,7 +187,7 @@ TEST(Exactness, HolesLetSightLinesPass) {
   const Tin tin = test::random_tin(random, 500, 0.1, {{0, 0}, 0.01}, 50000);
   const Triangle& t = tin.triangles[tin.triangles.size() / 2];
   const Point3 a = tin.point(t[0]), b = tin.point(t[1]), c = tin.point(t[2]);
-  Request request = look({(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3}, 2, 1, 20);
+  Request request = request_from({(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3}, 2, 1, 20);
   request.nodata = NoData::kClear;
   expect_exact(compare(tin, request));
 }
@@ -197,7 +197,7 @@ TEST(Exactness, RealTerrain) {
   if (!tin) GTEST_SKIP() << "needs " << test::big_tujunga_path();
   const Box box = tin->bounds();
   for (const double target : {0.0, 2.0}) {
-    Request request = look({box.xmin + 0.47 * box.width(), box.ymin + 0.55 * box.height()}, 10, target, 30);
+    Request request = request_from({box.xmin + 0.47 * box.width(), box.ymin + 0.55 * box.height()}, 10, target, 30);
     expect_exact(compare(*tin, request));
   }
 }

@@ -15,7 +15,7 @@
 namespace itin::viewshed {
 namespace {
 
-constexpr Point2 kCorner{300000, 200000};
+using test::kCorner;
 
 using test::run;
 

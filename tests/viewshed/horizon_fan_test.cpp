@@ -1,5 +1,5 @@
 // What a fan knows of an eye's horizon, against lines of sight over every triangle.
-#include "horizon_fan.hpp"
+#include "scene/sweep/horizon_fan.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include <itin/earth.hpp>
 
-#include "grid_units.hpp"
+#include "line/grid_units.hpp"
 #include "support/exact_line_of_sight.hpp"
 #include "support/seed.hpp"
 #include "support/terrain_tin.hpp"

@@ -16,7 +16,7 @@
 namespace itin::viewshed {
 namespace {
 
-constexpr Point2 kCorner{300000, 200000};
+using test::kCorner;
 constexpr double kDegrees = 180 / std::numbers::pi;
 
 Horizon run(const Tin& tin, const Request& request, const HorizonOptions& options) {

@@ -8,7 +8,7 @@
 #include <itin/error.hpp>
 #include <viewshed/map_image.hpp>
 
-#include "canvas.hpp"
+#include "drawing/canvas.hpp"
 #include "support/terrain_tin.hpp"
 
 namespace itin::viewshed {
@@ -16,13 +16,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Surveyed {
+struct SurveyedHills {
   Tin tin;
   Result result;
 };
 
-Surveyed survey(Mode mode) {
-  Surveyed s{test::fractal_tin(65, 50, 200, 0.5, 9), {}};
+SurveyedHills survey(Mode mode) {
+  SurveyedHills s{test::fractal_tin(65, 50, 200, 0.5, 9), {}};
   Request request;
   request.observers = {{"Mast", {301000, 201500}, 30}, {"Tower", {302000, 201000}, 30}};
   request.cell_size = 25;
@@ -40,7 +40,7 @@ std::size_t blue_pixels(const MapImage& map) {
 }
 
 TEST(MapImage, ShowsAsMuchBlueAsIsVisible) {
-  const Surveyed s = survey(Mode::kVisible);
+  const SurveyedHills s = survey(Mode::kVisible);
   const MapImage map = draw_map(s.tin, s.result, {.title = "A map", .subtitle = "", .map_pixels = 640});
   EXPECT_EQ(map.rgb.size(), 3U * static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height));
   EXPECT_GE(map.width, 640);
@@ -49,12 +49,12 @@ TEST(MapImage, ShowsAsMuchBlueAsIsVisible) {
 }
 
 TEST(MapImage, DrawsCountsInSteps) {
-  const Surveyed s = survey(Mode::kCount);
+  const SurveyedHills s = survey(Mode::kCount);
   EXPECT_GT(blue_pixels(draw_map(s.tin, s.result, {.title = "Counts", .subtitle = "", .map_pixels = 400})), 1000U);
 }
 
 TEST(MapImage, RefusesSizesOutOfRange) {
-  const Surveyed s = survey(Mode::kVisible);
+  const SurveyedHills s = survey(Mode::kVisible);
   EXPECT_THROW(draw_map(s.tin, s.result, {.title = "", .subtitle = "", .map_pixels = 199}), InputError);
   EXPECT_THROW(draw_map(s.tin, s.result, {.title = "", .subtitle = "", .map_pixels = 16001}), InputError);
 }

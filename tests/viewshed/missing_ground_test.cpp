@@ -12,7 +12,7 @@
 #include <itin/import.hpp>
 #include <viewshed/certified.hpp>
 
-#include "lattice_sectors.hpp"
+#include "compute/lattice_sectors.hpp"
 #include "support/raster_file.hpp"
 #include "support/same_bits.hpp"
 #include "support/seed.hpp"

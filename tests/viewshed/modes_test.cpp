@@ -17,7 +17,7 @@
 namespace itin::viewshed {
 namespace {
 
-constexpr Point2 kCorner{300000, 200000};
+using test::kCorner;
 
 /// Lines this near to grazing may fall either way in single precision.
 constexpr double kNearGrazing = 0.02;

@@ -13,8 +13,8 @@
 #include <itin/same_place.hpp>
 #include <viewshed/viewshed.hpp>
 
-#include "boundary.hpp"
-#include "grid_units.hpp"
+#include "bounds/boundary.hpp"
+#include "line/grid_units.hpp"
 #include "support/exact_line_of_sight.hpp"
 #include "support/seed.hpp"
 #include "support/terrain_tin.hpp"
@@ -26,7 +26,7 @@ namespace {
 using test::run;
 
 /// Rounding of double precision on walls a step thick, metres.
-constexpr double kExactness = 1e-6;
+constexpr double kBisectionError = 1e-6;
 
 /// As viewsheds have it.
 Point2 placed(const Grid& grid, Point2 p) {
@@ -108,7 +108,7 @@ struct Truth {
   bool own = false;      ///< the observer's
   double clearance = 0;  ///< of its line
   double rise = 0;       ///< of its target above the eye
-  bool doubtful() const { return !own && std::abs(clearance + kGrazing) < kExactness; }
+  bool doubtful() const { return !own && std::abs(clearance + kGrazing) < kBisectionError; }
   bool sees() const { return own || clearance > -kGrazing; }
 };
 

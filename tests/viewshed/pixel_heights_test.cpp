@@ -1,13 +1,13 @@
-#include "pixel_heights.hpp"
+#include "bounds/pixel_heights.hpp"
 
 #include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
 
+#include "bounds/surface_heights.hpp"
 #include "support/seed.hpp"
 #include "support/terrain_tin.hpp"
-#include "surface_heights.hpp"
 
 namespace itin::viewshed {
 namespace {

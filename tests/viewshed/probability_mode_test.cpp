@@ -9,7 +9,7 @@
 #include <itin/error.hpp>
 #include <viewshed/viewshed.hpp>
 
-#include "error_worlds.hpp"
+#include "modes/error_worlds.hpp"
 #include "support/exact_line_of_sight.hpp"
 #include "support/terrain_tin.hpp"
 #include "support/viewshed_of.hpp"
@@ -17,7 +17,7 @@
 namespace itin::viewshed {
 namespace {
 
-constexpr Point2 kCorner{300000, 200000};
+using test::kCorner;
 
 using test::run;
 

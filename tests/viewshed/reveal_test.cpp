@@ -1,5 +1,5 @@
 // What is read of a raster because an eye may see it, and rasters read sector by sector, against the whole.
-#include "reveal.hpp"
+#include "scene/reveal.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 #include <viewshed/certified.hpp>
 #include <viewshed/surface.hpp>
 
-#include "lattice_sectors.hpp"
+#include "compute/lattice_sectors.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"

@@ -1,5 +1,5 @@
 // Every cell that an eye looks at is in one sector, and that holds the line to it.
-#include "sight_sectors.hpp"
+#include "plan/sight_sectors.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 #include <itin/error.hpp>
 #include <viewshed/viewshed.hpp>
 
-#include "hulls.hpp"
+#include "line/hulls.hpp"
 #include "support/seed.hpp"
 
 namespace itin::viewshed {

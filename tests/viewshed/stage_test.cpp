@@ -1,5 +1,5 @@
 // What stages report only grows and ends at 1, on any number of threads.
-#include "stage.hpp"
+#include "progress/stage.hpp"
 
 #include <atomic>
 

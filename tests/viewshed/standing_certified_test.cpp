@@ -19,9 +19,9 @@
 namespace itin::viewshed {
 namespace {
 
-constexpr int kSide = 40;
-constexpr double kStep = 25;
-constexpr Point2 kNorthWest{300000, 200000}, kEye{300437.3, 199487.1};  // nothing stands on the eye
+constexpr int kTownSide = 40;
+constexpr double kTownStep = 25;
+constexpr Point2 kTownCorner{300000, 200000}, kEye{300437.3, 199487.1};  // nothing stands on the eye
 
 /// Fractal hills with houses turned every way, and a wood.
 class StandingCertified : public testing::Test {
@@ -29,7 +29,7 @@ class StandingCertified : public testing::Test {
   void make(double void_radius = 0) {
     const std::uint32_t seed = test::seed();
     const std::vector<double> z = test::fractal_heights(65, 60, 0.5, seed);
-    test::write_raster(directory_.file("t.tif"), {kNorthWest.x, kNorthWest.y, kStep, kSide, kSide, 27700},
+    test::write_raster(directory_.file("t.tif"), {kTownCorner.x, kTownCorner.y, kTownStep, kTownSide, kTownSide, 27700},
                        [&](int c, int r) {
                          if (std::hypot(c - 30, r - 30) < void_radius) return std::nan("");
                          return z[static_cast<std::size_t>(r) * 65 + static_cast<std::size_t>(c)];
@@ -52,10 +52,11 @@ class StandingCertified : public testing::Test {
   std::string path() { return directory_.file("s.itin"); }
 
   static test::LineFeature box(std::mt19937& random, double least, double most, double low, double high) {
-    std::uniform_real_distribution<double> place(120, kSide * kStep - 120), size(least, most), height(low, high);
+    std::uniform_real_distribution<double> place(120, kTownSide * kTownStep - 120), size(least, most),
+        height(low, high);
     double x = kEye.x, y = kEye.y;
     while (std::hypot(x - kEye.x, y - kEye.y) < most)
-      x = kNorthWest.x + place(random), y = kNorthWest.y - place(random);
+      x = kTownCorner.x + place(random), y = kTownCorner.y - place(random);
     const double w = size(random) / 2, d = size(random) / 2, turn = place(random);
     test::LineFeature f;
     f.polygon = true;

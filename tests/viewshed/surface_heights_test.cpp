@@ -1,5 +1,5 @@
 // Heights at cell centres against the brute-force surface; no centre may fall between two triangles.
-#include "surface_heights.hpp"
+#include "bounds/surface_heights.hpp"
 
 #include <cmath>
 #include <iostream>
@@ -7,11 +7,11 @@
 
 #include <gtest/gtest.h>
 
+#include "bounds/triangle_bins.hpp"
 #include "support/delaunay_tin.hpp"
 #include "support/exact_line_of_sight.hpp"
 #include "support/seed.hpp"
 #include "support/terrain_tin.hpp"
-#include "triangle_bins.hpp"
 
 namespace itin::viewshed {
 namespace {

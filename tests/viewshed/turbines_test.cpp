@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <gmock/gmock.h>
 #include <iostream>
-#include <numbers>
 #include <random>
 #include <sstream>
 
@@ -13,6 +12,7 @@
 #include <ogrsf_frmts.h>
 
 #include <itin/error.hpp>
+#include <itin/geodesic.hpp>
 #include <itin/parallel.hpp>
 #include <viewshed/link_exclusion.hpp>
 #include <viewshed/turbines.hpp>
@@ -22,14 +22,13 @@
 #include "support/real_terrain.hpp"
 #include "support/seed.hpp"
 #include "support/terrain_tin.hpp"
-#include "turbine_view.hpp"
-#include "value_bands.hpp"
+#include "turbines/turbine_view.hpp"
+#include "turbines/value_bands.hpp"
 
 namespace itin::viewshed {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
-constexpr Point2 kCorner{300000, 200000};
+using test::kCorner;
 
 Turbine turbine(std::size_t number, double dx, double dy, const std::string& farm = "") {
   Turbine t;
@@ -86,7 +85,7 @@ Expected expected(const test::ExactLineOfSight& exact, const Zone& zone, Point2 
       if (high - low < 1e-7) low = high;
     }
     const double drop = zone.request.earth.drop(d);
-    const auto above = [&](double h) { return std::atan((base + h - drop - from.z) / d) * kDegrees; };
+    const auto above = [&](double h) { return std::atan((base + h - drop - from.z) / d) * kDegreesPerRadian; };
     const double angle = above(t.tip_height) - above(low);
     e.height = std::max(e.height, t.tip_height - low), e.angle = std::max(e.angle, angle), e.sum += angle;
     e.nearest = std::min(e.nearest, d);
@@ -221,12 +220,12 @@ TEST(Turbines, BehindAWallSimilarTrianglesTell) {
   const std::size_t i = cell_at(zone, 105, 105);
   const double least = 2 + 8 * 800.0 / 395;
   EXPECT_NEAR(zone.bare.visible_height_m[i], 120 - least, 1e-3);
-  EXPECT_NEAR(zone.bare.vertical_angle_deg[i], (std::atan(118 / 800.0) - std::atan((least - 2) / 800)) * kDegrees,
-              1e-4);
+  EXPECT_NEAR(zone.bare.vertical_angle_deg[i],
+              (std::atan(118 / 800.0) - std::atan((least - 2) / 800)) * kDegreesPerRadian, 1e-4);
   EXPECT_EQ(zone.bare.hub_count[i], 1);
   EXPECT_FLOAT_EQ(zone.bare.nearest_m[i], 800);
-  EXPECT_NEAR(zone.bare.horizontal_angle_deg[i], 2 * std::atan(50 / 800.0) * kDegrees, 1e-4);
-  EXPECT_NEAR(zone.bare.horizontal_from_deg[i], 90 - std::atan(50 / 800.0) * kDegrees, 1e-4);
+  EXPECT_NEAR(zone.bare.horizontal_angle_deg[i], 2 * std::atan(50 / 800.0) * kDegreesPerRadian, 1e-4);
+  EXPECT_NEAR(zone.bare.horizontal_from_deg[i], 90 - std::atan(50 / 800.0) * kDegreesPerRadian, 1e-4);
   EXPECT_FLOAT_EQ(zone.bare.visible_height_m[cell_at(zone, 705, 105)], 120);
 }
 

@@ -19,7 +19,7 @@ using ::testing::Each;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr Point2 kCorner{300000, 200000};
+using test::kCorner;
 
 Tin plane(std::int32_t side = 41) {
   return test::lattice_tin(side, side, 10, [](std::int32_t, std::int32_t) { return 100.0; });

@@ -1,5 +1,5 @@
 // What lies behind voids, by sectors of the horizon and by looking at every edge.
-#include "void_shadow.hpp"
+#include "request/void_shadow.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "boundary.hpp"
+#include "bounds/boundary.hpp"
 #include "support/delaunay_tin.hpp"
 #include "support/seed.hpp"
 #include "support/terrain_tin.hpp"

@@ -1,5 +1,5 @@
 // Zones of visibility surveyed in parts, against the same all at once.
-#include "zone_parts.hpp"
+#include "turbines/zone_parts.hpp"
 
 #include <bit>
 #include <cmath>
@@ -20,16 +20,16 @@
 namespace itin::viewshed {
 namespace {
 
-constexpr int kSide = 100;
-constexpr double kStep = 25;
-constexpr Point2 kNorthWest{300000, 200000};
+constexpr int kZoneSide = 100;
+constexpr double kZoneStep = 25;
+constexpr Point2 kZoneCorner{300000, 200000};
 
 /// Hills with a lake of no data and some houses, and two farms.
 class ZoneParts : public testing::Test {
  protected:
   void SetUp() override {
     const std::vector<double> z = test::fractal_heights(129, 150, 0.5, test::seed());
-    test::write_raster(directory_.file("t.tif"), {kNorthWest.x, kNorthWest.y, kStep, kSide, kSide, 27700},
+    test::write_raster(directory_.file("t.tif"), {kZoneCorner.x, kZoneCorner.y, kZoneStep, kZoneSide, kZoneSide, 27700},
                        [&](int c, int r) {
                          if (std::hypot(c - 60, r - 45) < 5) return std::nan("");
                          return z[static_cast<std::size_t>(r) * 129 + static_cast<std::size_t>(c)];
@@ -41,7 +41,7 @@ class ZoneParts : public testing::Test {
     for (std::size_t k = 1; k <= 5; ++k) {
       Turbine t;
       t.number = k, t.farm = k < 4 ? "west" : "east";
-      t.position = {kNorthWest.x + (k < 4 ? 500 : 1900) + 90.0 * static_cast<double>(k), kNorthWest.y - 900};
+      t.position = {kZoneCorner.x + (k < 4 ? 500 : 1900) + 90.0 * static_cast<double>(k), kZoneCorner.y - 900};
       t.tip_height = 100, t.hub_height = 60, t.rotor_diameter = 80, t.radius = 1200;
       request_.turbines.push_back(t);
     }
@@ -53,10 +53,10 @@ class ZoneParts : public testing::Test {
 
   void add_houses() {
     std::mt19937 random(test::seed());
-    std::uniform_real_distribution<double> place(100, (kSide - 1) * kStep - 100);
+    std::uniform_real_distribution<double> place(100, (kZoneSide - 1) * kZoneStep - 100);
     std::vector<test::LineFeature> houses;
     for (int i = 0; i < 40; ++i) {
-      const double x = kNorthWest.x + place(random), y = kNorthWest.y - place(random);
+      const double x = kZoneCorner.x + place(random), y = kZoneCorner.y - place(random);
       houses.push_back(test::box(x, y, x + 20, y + 12, 15));
     }
     test::write_lines(directory_.file("h.geojson"), houses, true);

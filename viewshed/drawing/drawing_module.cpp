@@ -6,7 +6,7 @@
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 
-#include "../src/drawing.hpp"
+#include "../src/drawing/drawing.hpp"
 
 namespace itin::viewshed {
 

@@ -1,5 +1,5 @@
 // The one parallel seam. Everything above it is written as if there were no threads; oneTBB appears only in
-// src/parallel.cpp, and the serial build (ITIN_PARALLEL=OFF) runs the same loops in order.
+// src/base/parallel.cpp, and the serial build (ITIN_PARALLEL=OFF) runs the same loops in order.
 #pragma once
 
 #include <cstddef>

@@ -11,8 +11,8 @@
 
 #include <itin/section_line.hpp>
 
+#include "geometry/predicates.hpp"
 #include "store/point_index.hpp"
-#include "triangulate/predicates.hpp"
 
 namespace itin {
 

@@ -24,7 +24,7 @@ namespace {
 
 /// A tile is the largest cell with at most about so many points: few enough to be made soon, enough to make its border
 /// cheap.
-constexpr double kTilePoints = 8192;
+constexpr double kPointsPerSectionTile = 8192;
 /// Where the search for it begins.
 constexpr int kUsualLog2Side = 18;
 
@@ -82,7 +82,7 @@ class TileCache {
       points += leaf.points * std::min(1.0, std::ldexp(1.0, 2 * (cell.log2_side - leaf.cell.log2_side)));
     }
     const std::lock_guard lock(sizes_);
-    return small_[key_of(cell)] = points <= kTilePoints;
+    return small_[key_of(cell)] = points <= kPointsPerSectionTile;
   }
 
   const PointIndex& index_;

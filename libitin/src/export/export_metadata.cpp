@@ -7,7 +7,7 @@
 
 #include <itin/error.hpp>
 
-#include "import/quiet_gdal.hpp"
+#include "gdal/quiet_gdal.hpp"
 
 namespace itin {
 

@@ -13,7 +13,7 @@
 #include <itin/raster_regions.hpp>
 
 #include "export/pending_file.hpp"
-#include "import/quiet_gdal.hpp"
+#include "gdal/quiet_gdal.hpp"
 
 namespace itin {
 

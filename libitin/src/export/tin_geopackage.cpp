@@ -9,7 +9,7 @@
 #include "export/export_metadata.hpp"
 #include "export/step_progress.hpp"
 #include "export/tin_formats.hpp"
-#include "import/quiet_gdal.hpp"
+#include "gdal/quiet_gdal.hpp"
 
 namespace itin {
 

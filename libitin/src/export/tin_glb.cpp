@@ -20,7 +20,7 @@ namespace {
 constexpr int kUnsignedByte = 5121, kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;
 constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 using Vector = std::array<float, 3>;
 
 /// East, north, up to glTF's axes: y up, right-handed.
@@ -33,18 +33,19 @@ class Layout {
  public:
   /// `stride` bytes an element; 0 for indices, which must not say it.
   std::size_t add(std::size_t count, std::size_t element_bytes, int target) {
-    Json view = {{"buffer", 0}, {"byteOffset", bytes_}, {"byteLength", count * element_bytes}, {"target", target}};
+    OrderedJson view = {
+        {"buffer", 0}, {"byteOffset", bytes_}, {"byteLength", count * element_bytes}, {"target", target}};
     if (target == kArrayBuffer) view["byteStride"] = element_bytes;
     views_.push_back(std::move(view));
     bytes_ += count * element_bytes;  // all elements are multiples of four bytes, as the format demands of offsets
     return views_.size() - 1;
   }
   std::size_t bytes() const { return bytes_; }
-  const Json& views() const { return views_; }
+  const OrderedJson& views() const { return views_; }
 
  private:
   std::size_t bytes_ = 0;
-  Json views_ = Json::array();
+  OrderedJson views_ = OrderedJson::array();
 };
 
 class GlbWriter {
@@ -92,24 +93,25 @@ class GlbWriter {
     return gltf_axes((p.x - origin_.x) * r, (p.y - origin_.y) * r, (double{1} * p.z - origin_.z) * r);
   }
 
-  Json document(Layout& layout) const {
-    Json extras = parsed_metadata(options_.metadata_json);
+  OrderedJson document(Layout& layout) const {
+    OrderedJson extras = parsed_metadata(options_.metadata_json);
     const Point3 o = tin_.grid.point(origin_);
     extras["origin"] = {o.x, o.y, o.z};
     extras["axes"] = "x east, y up, z south; metres about origin (easting, northing, up)";
     extras["crs"] = options_.crs_wkt;
-    Json scene = {{"extras", std::move(extras)}};
-    Json document = {{"asset", {{"version", "2.0"}, {"generator", std::string("itin ") + ITIN_VERSION}}}, {"scene", 0}};
+    OrderedJson scene = {{"extras", std::move(extras)}};
+    OrderedJson document = {{"asset", {{"version", "2.0"}, {"generator", std::string("itin ") + ITIN_VERSION}}},
+                            {"scene", 0}};
     if (!tin_.triangles.empty()) {
       scene["nodes"] = {0};
-      document["nodes"] = Json::array({{{"name", "surface"}, {"mesh", 0}}});
+      document["nodes"] = OrderedJson::array({{{"name", "surface"}, {"mesh", 0}}});
       add_mesh(document, layout);
     }
-    document["scenes"] = Json::array({std::move(scene)});
+    document["scenes"] = OrderedJson::array({std::move(scene)});
     return document;
   }
 
-  void add_mesh(Json& document, Layout& layout) const {
+  void add_mesh(OrderedJson& document, Layout& layout) const {
     const std::size_t n = tin_.vertices.size(), m = 3 * tin_.triangles.size();
     // z south is -north: the largest northing is the least z.
     const Vector low = position({box_.xmin, box_.ymax, zmin_}), high = position({box_.xmax, box_.ymin, zmax_});
@@ -135,8 +137,8 @@ class GlbWriter {
          {"count", n},
          {"type", "SCALAR"}}};
     const std::size_t indices = layout.add(m, 4, kElementArrayBuffer);
-    document["materials"] = Json::array();
-    Json primitives = Json::array();
+    document["materials"] = OrderedJson::array();
+    OrderedJson primitives = OrderedJson::array();
     std::size_t first = 0;
     for (const auto& [theme, triangles] : by_theme_) {
       document["accessors"].push_back({{"bufferView", indices},
@@ -152,27 +154,27 @@ class GlbWriter {
       document["materials"].push_back(material_of(theme));
     }
     document["bufferViews"] = layout.views();
-    document["buffers"] = Json::array({{{"byteLength", layout.bytes()}}});
-    document["meshes"] = Json::array({{{"name", "surface"}, {"primitives", primitives}}});
+    document["buffers"] = OrderedJson::array({{{"byteLength", layout.bytes()}}});
+    document["meshes"] = OrderedJson::array({{{"name", "surface"}, {"primitives", primitives}}});
   }
 
   /// The terrain has its colours by height; what stands on it has its theme's.
-  static Json attributes_of(std::uint16_t theme) {
-    Json attributes = {{"POSITION", 0}, {"NORMAL", 1}};
+  static OrderedJson attributes_of(std::uint16_t theme) {
+    OrderedJson attributes = {{"POSITION", 0}, {"NORMAL", 1}};
     if (theme == 0) attributes["COLOR_0"] = 2;
     attributes["_VERTEX_ID"] = 3;
     attributes["_SOURCE"] = 4;
     return attributes;
   }
 
-  Json material_of(std::uint16_t theme) const {
+  OrderedJson material_of(std::uint16_t theme) const {
     static constexpr std::array<std::array<double, 4>, 6> kColours{{{0.55, 0.17, 0.10, 1},
                                                                     {0.09, 0.28, 0.08, 1},
                                                                     {0.30, 0.30, 0.32, 1},
                                                                     {0.13, 0.25, 0.50, 1},
                                                                     {0.52, 0.40, 0.10, 1},
                                                                     {0.35, 0.13, 0.40, 1}}};
-    Json look = {{"metallicFactor", 0}, {"roughnessFactor", 1}};
+    OrderedJson look = {{"metallicFactor", 0}, {"roughnessFactor", 1}};
     if (theme != 0) look["baseColorFactor"] = kColours[(theme - 1U) % kColours.size()];
     return {{"name", theme == 0 ? "terrain" : theme_name(options_, theme)},
             {"pbrMetallicRoughness", look},

@@ -8,15 +8,15 @@
 #include <itin/vector_export.hpp>
 
 #include "export/pending_file.hpp"
-#include "import/quiet_gdal.hpp"
+#include "gdal/quiet_gdal.hpp"
 
 namespace itin {
 
 namespace {
 
-class Writer {
+class LayerWriter {
  public:
-  Writer(const PendingFile& output, const std::string& crs_wkt) : path_(output.path()) {
+  LayerWriter(const PendingFile& output, const std::string& crs_wkt) : path_(output.path()) {
     require(crs_.SetFromUserInput(crs_wkt.c_str()) == OGRERR_NONE, "the store's CRS is not understood");
     crs_.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GPKG");
@@ -83,7 +83,7 @@ void write_geopackage(const std::string& path, const std::string& crs_wkt, const
   const CPLConfigOptionSetter unsynced("OGR_SQLITE_SYNCHRONOUS", "OFF", false);
   const CPLConfigOptionSetter in_memory("OGR_SQLITE_JOURNAL", "MEMORY", false);
   PendingFile output(path, overwrite);
-  Writer writer(output, crs_wkt);
+  LayerWriter writer(output, crs_wkt);
   for (const VectorLayer& layer : layers) writer.add(layer);
   writer.close();
   output.commit();

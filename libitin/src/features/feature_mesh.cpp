@@ -11,7 +11,7 @@
 
 #include "features/feature_group.hpp"
 #include "features/prepare_feature.hpp"
-#include "store/cell.hpp"
+#include "geometry/cell.hpp"
 
 namespace itin {
 

@@ -24,10 +24,10 @@
 #include <itin/geometry.hpp>
 #include <itin/progress.hpp>
 
-#include "features/footprint.hpp"
 #include "features/ground_border.hpp"
 #include "features/plan_overlay.hpp"
 #include "features/terrain_heights.hpp"
+#include "store/footprint.hpp"
 
 namespace itin {
 

@@ -8,16 +8,16 @@
 #include <queue>
 #include <tuple>
 
-#include "store/cell.hpp"
-#include "triangulate/predicates.hpp"
+#include "geometry/cell.hpp"
+#include "geometry/predicates.hpp"
 
 namespace itin {
 
 namespace {
 
 using Passage = FlatTriangles::Passage;
-using Side = FlatTriangles::Side;
-using Triangle = FlatTriangles::Triangle;
+using FlatSide = FlatTriangles::Side;
+using FlatTriangle = FlatTriangles::Triangle;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -116,7 +116,7 @@ class Skeleton {
     auto order() const { return std::tuple(from_tip, -distance, terminal, next); }
   };
 
-  const Triangle& triangle(std::uint32_t t) const { return flat_.triangles()[t]; }
+  const FlatTriangle& triangle(std::uint32_t t) const { return flat_.triangles()[t]; }
 
   std::uint32_t add_node(Node node) {
     nodes_.push_back(std::move(node));
@@ -147,7 +147,7 @@ class Skeleton {
     return add_node(std::move(node));
   }
 
-  std::uint32_t centroid(const Triangle& t) {
+  std::uint32_t centroid(const FlatTriangle& t) {
     const auto& [a, b, c] = t.corners;
     Node node;
     node.place = {(static_cast<double>(a.x) + b.x + c.x) / 3, (static_cast<double>(a.y) + b.y + c.y) / 3};
@@ -159,8 +159,8 @@ class Skeleton {
 
   /// The middle of a side, which both triangles at it share; beyond an exit the way leads on to the vertex there.
   std::uint32_t middle_of(std::uint32_t t, std::size_t i) {
-    const Triangle& own = triangle(t);
-    const Side& side = own.sides[i];
+    const FlatTriangle& own = triangle(t);
+    const FlatSide& side = own.sides[i];
     const GridPoint &a = own.corners[(i + 1) % 3], &b = own.corners[(i + 2) % 3];
     const auto [known, fresh] = middles_.try_emplace(std::minmax({morton(a.x, a.y), morton(b.x, b.y)}), 0);
     if (fresh) known->second = add_node(middle_node(own, i, a, b));
@@ -177,7 +177,7 @@ class Skeleton {
     return node;
   }
 
-  static Node middle_node(const Triangle& own, std::size_t i, const GridPoint& a, const GridPoint& b) {
+  static Node middle_node(const FlatTriangle& own, std::size_t i, const GridPoint& a, const GridPoint& b) {
     Node node;
     node.place = {(static_cast<double>(a.x) + b.x) / 2, (static_cast<double>(a.y) + b.y) / 2};
     const Position p{static_cast<std::int32_t>((std::int64_t{a.x} + b.x) >> 1),
@@ -194,7 +194,7 @@ class Skeleton {
     double length = 0, slope = 0;
     for (const std::uint32_t t : region) {
       for (std::size_t i = 0; i < 3; ++i) {
-        const Side& side = triangle(t).sides[i];
+        const FlatSide& side = triangle(t).sides[i];
         const GridPoint &a = triangle(t).corners[(i + 1) % 3], &b = triangle(t).corners[(i + 2) % 3];
         if (side.passage == Passage::kClosed) contours_.add(a, b);
         const double rise = static_cast<double>(side.beyond.z) - base_;

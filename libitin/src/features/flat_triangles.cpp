@@ -2,19 +2,15 @@
 
 #include <algorithm>
 
-#include "store/cell.hpp"
+#include "geometry/cell.hpp"
 
 namespace itin {
 
 namespace {
 
-bool before(const GridPoint& p, const GridPoint& q) {
-  return code_of(p) < code_of(q);
-}
-
 std::array<GridPoint, 3> corners_of(const LevelEdge& e) {
   std::array<GridPoint, 3> corners{e.a, e.b, e.opposite};
-  std::sort(corners.begin(), corners.end(), before);
+  std::sort(corners.begin(), corners.end(), before_by_code);
   return corners;
 }
 
@@ -44,7 +40,8 @@ void FlatTriangles::find_triangles(const std::vector<LevelEdge>& edges) {
     if (e.flat && code_of(corners[2]) == code_of(e.opposite)) triangles_.push_back({corners, {}});
   }
   std::sort(triangles_.begin(), triangles_.end(), [](const Triangle& s, const Triangle& t) {
-    return std::lexicographical_compare(s.corners.begin(), s.corners.end(), t.corners.begin(), t.corners.end(), before);
+    return std::lexicographical_compare(s.corners.begin(), s.corners.end(), t.corners.begin(), t.corners.end(),
+                                        before_by_code);
   });
 }
 
@@ -52,7 +49,7 @@ std::uint32_t FlatTriangles::number_of(const LevelEdge& edge) const {
   const std::array<GridPoint, 3> corners = corners_of(edge);
   const auto found =
       std::lower_bound(triangles_.begin(), triangles_.end(), corners, [](const Triangle& t, const auto& c) {
-        return std::lexicographical_compare(t.corners.begin(), t.corners.end(), c.begin(), c.end(), before);
+        return std::lexicographical_compare(t.corners.begin(), t.corners.end(), c.begin(), c.end(), before_by_code);
       });
   return static_cast<std::uint32_t>(found - triangles_.begin());
 }

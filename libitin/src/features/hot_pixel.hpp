@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "triangulate/predicates.hpp"
+#include "geometry/predicates.hpp"
 
 namespace itin {
 

@@ -6,16 +6,13 @@
 #include <unordered_map>
 
 #include "features/hot_pixel.hpp"
-#include "store/morton_range.hpp"
+#include "geometry/morton_range.hpp"
 #include "triangulate/apex.hpp"
 
 namespace itin {
 
 namespace {
 
-std::uint64_t code_of(Position p) {
-  return morton(p.x, p.y);
-}
 Position position_of(std::uint64_t code) {
   return {morton_x(code), morton_y(code)};
 }

@@ -19,8 +19,8 @@
 
 #include <itin/geometry.hpp>
 
+#include "geometry/predicates.hpp"
 #include "store/point_index.hpp"
-#include "triangulate/predicates.hpp"
 
 namespace itin {
 
@@ -29,11 +29,6 @@ struct LineTolerance {
   double vertical = 0;
   double lateral = 0;
 };
-
-/// Metres, of a level's vertical tolerance: a line may stray as far sideways as the surface up and down.
-constexpr double lateral_tolerance(double vertical) {
-  return vertical;
-}
 
 class LineHierarchy {
  public:

@@ -4,15 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include "store/cell.hpp"
+#include "geometry/cell.hpp"
 
 namespace itin {
 
 namespace {
-
-bool before(const GridPoint& a, const GridPoint& b) {
-  return code_of(a) < code_of(b);
-}
 
 struct Footing {
   double distance, z;
@@ -34,7 +30,7 @@ std::vector<PartVertex> part_vertices(const StandingPart& part, const std::vecto
   std::vector<GridPoint> fresh;
   for (const Position& p : ends) {
     const GridPoint point{p.x, p.y, kUnknown};
-    if (!std::binary_search(part.vertices.begin(), part.vertices.end(), point, before)) fresh.push_back(point);
+    if (!std::binary_search(part.vertices.begin(), part.vertices.end(), point, before_by_code)) fresh.push_back(point);
   }
   // By x, so that a segment finds those beside it.
   std::sort(fresh.begin(), fresh.end());
@@ -67,7 +63,7 @@ std::vector<PartVertex> part_vertices(const StandingPart& part, const std::vecto
   }
   std::vector<GridPoint> all = part.vertices;
   all.insert(all.end(), fresh.begin(), fresh.end());
-  std::sort(all.begin(), all.end(), before);
+  std::sort(all.begin(), all.end(), before_by_code);
   std::erase_if(all, [](const GridPoint& p) { return p.z == kUnknown; });
   std::sort(outline.begin(), outline.end());
   std::vector<PartVertex> result;

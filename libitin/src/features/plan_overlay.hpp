@@ -12,7 +12,7 @@
 #include <itin/geometry.hpp>
 #include <itin/progress.hpp>
 
-#include "triangulate/predicates.hpp"
+#include "geometry/predicates.hpp"
 
 namespace itin {
 

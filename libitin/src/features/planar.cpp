@@ -15,9 +15,6 @@ namespace {
 Position position(const GridPoint& p) {
   return {p.x, p.y};
 }
-std::uint64_t code_of(Position p) {
-  return morton(p.x, p.y);
-}
 
 /// What a vertex may take its height from; the least counts.
 struct Height {

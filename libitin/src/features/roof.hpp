@@ -17,8 +17,8 @@
 
 #include <itin/geometry.hpp>
 
-#include "features/footprint.hpp"
 #include "features/plan_overlay.hpp"
+#include "store/footprint.hpp"
 
 namespace itin {
 

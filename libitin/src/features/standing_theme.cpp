@@ -20,7 +20,7 @@
 #include "features/hot_pixel.hpp"
 #include "features/mask_index.hpp"
 #include "features/terrain_heights.hpp"
-#include "store/cell.hpp"
+#include "geometry/cell.hpp"
 #include "store/point_index.hpp"
 #include "triangulate/apex.hpp"
 

@@ -14,8 +14,8 @@
 
 #include <itin/tin.hpp>
 
-#include "features/footprint.hpp"
 #include "features/plan_overlay.hpp"
+#include "store/footprint.hpp"
 
 namespace itin {
 

@@ -9,14 +9,14 @@
 
 #include <itin/error.hpp>
 
-#include "import/line_layer.hpp"
-#include "import/point_source.hpp"
-#include "import/raster_source.hpp"
-#include "import/source_context.hpp"
-#include "import/source_options.hpp"
-#include "import/source_path.hpp"
-#include "import/terrain_source.hpp"
-#include "import/true_scale.hpp"
+#include "gdal/source_path.hpp"
+#include "import/points/point_source.hpp"
+#include "import/rasters/raster_source.hpp"
+#include "import/source/source_context.hpp"
+#include "import/source/source_options.hpp"
+#include "import/source/terrain_source.hpp"
+#include "import/source/true_scale.hpp"
+#include "import/vectors/line_layer.hpp"
 
 namespace itin {
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "import/findings.hpp"
+#include "import/source/findings.hpp"
 
 namespace itin {
 

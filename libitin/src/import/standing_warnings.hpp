@@ -6,7 +6,7 @@
 
 #include <itin/store.hpp>
 
-#include "import/line_collection.hpp"
+#include "import/vectors/line_collection.hpp"
 
 namespace itin {
 

@@ -7,8 +7,8 @@
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
 
-#include "import/line_collection.hpp"
-#include "import/sorted_points.hpp"
+#include "import/vectors/line_collection.hpp"
+#include "pyramid/sorted_points.hpp"
 
 namespace itin {
 

@@ -27,9 +27,9 @@ Codes ends_of(const std::vector<Segment>& segments) {
 }
 
 /// The level edges of the triangles whose first vertex along the curve is the tile's.
-class TileSurvey {
+class ContourTile {
  public:
-  TileSurvey(const RegionMesh& region, const Codes& contours, const Codes& water) : region_(region) {
+  ContourTile(const RegionMesh& region, const Codes& contours, const Codes& water) : region_(region) {
     for (const SelectedVertex& v : region.vertices) {
       on_contour_.push_back(std::binary_search(contours.begin(), contours.end(), code_of(v.point)));
       on_water_.push_back(std::binary_search(water.begin(), water.end(), code_of(v.point)));
@@ -77,7 +77,7 @@ std::vector<LevelEdge> level_edges(const WorkingIndex& index, const std::vector<
   parallel_for(tiles.size(), [&](std::size_t i) {
     progress.throw_if_cancelled();
     const RegionMesh region = triangulate_region(index, everything, tiles[i].cell.box());
-    TileSurvey(region, on_contour, on_water).collect(tiles[i].cell, of_tile[i]);
+    ContourTile(region, on_contour, on_water).collect(tiles[i].cell, of_tile[i]);
     progress.report("repairing contours", static_cast<double>(++done) / static_cast<double>(tiles.size()));
   });
   std::vector<LevelEdge> edges;

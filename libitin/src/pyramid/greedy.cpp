@@ -39,14 +39,14 @@ using Face = Triangulation::Face_handle;
 using Vertex = Triangulation::Vertex_handle;
 
 /// What to insert next: the worst point of a face, or what breaks up the worst edge.
-struct Proposal {
+struct Insertion {
   double error;
   std::uint32_t point;
   std::uint32_t version;  ///< of the face
   Face face;
   Vertex edge_from, edge_to;  ///< null for a face's proposal
   /// Greatest error first, then the first point in order.
-  bool operator<(const Proposal& p) const { return error != p.error ? error < p.error : point > p.point; }
+  bool operator<(const Insertion& p) const { return error != p.error ? error < p.error : point > p.point; }
 };
 
 class GreedyInsertion {
@@ -94,7 +94,7 @@ class GreedyInsertion {
   template <class OnInsert>
   void refine(double tolerance, const OnInsert& on_insert) {
     while (!queue_.empty() && queue_.top().error > tolerance) {
-      const Proposal top = queue_.top();
+      const Insertion top = queue_.top();
       queue_.pop();
       const bool of_edge = top.edge_from != Vertex();
       if (of_edge ? !triangulation_.is_edge(top.edge_from, top.edge_to) : top.face->info().version != top.version)
@@ -249,7 +249,7 @@ class GreedyInsertion {
   std::vector<std::uint32_t> next_;
   std::vector<std::uint8_t> inserted_;
   Triangulation triangulation_;
-  std::priority_queue<Proposal> queue_;
+  std::priority_queue<Insertion> queue_;
   // Kept between insertions for their memory.
   std::vector<Face> conflicts_;
   std::vector<Triangulation::Edge> boundary_;

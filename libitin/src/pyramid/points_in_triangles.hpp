@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "store/cell.hpp"
-#include "triangulate/predicates.hpp"
+#include "geometry/cell.hpp"
+#include "geometry/predicates.hpp"
 
 namespace itin {
 

@@ -14,14 +14,14 @@ namespace itin {
 
 namespace {
 
-struct Raise {
+struct LevelRaise {
   std::uint64_t code;
   int level;
 };
 
 struct TileProposal {
   Proposal coverage;
-  std::vector<Raise> beyond;  ///< points across the border
+  std::vector<LevelRaise> beyond;  ///< points across the border
 };
 
 TileProposal propose(WorkingIndex& index, const CurveRange& tile, TileSurvey survey,
@@ -65,8 +65,8 @@ std::vector<std::vector<std::size_t>> waves(const std::vector<CurveRange>& tiles
 
 /// Raises points of tiles that had their turn; the others are still free to choose.
 void raise_settled(WorkingIndex& index, const std::vector<CurveRange>& tiles, const std::vector<std::uint8_t>& settled,
-                   const std::vector<Raise>& raises) {
-  for (const Raise& raise : raises) {
+                   const std::vector<LevelRaise>& raises) {
+  for (const LevelRaise& raise : raises) {
     const auto after = std::upper_bound(tiles.begin(), tiles.end(), raise.code,
                                         [](std::uint64_t code, const CurveRange& t) { return code < t.cell.code; });
     if (settled[static_cast<std::size_t>(after - tiles.begin()) - 1]) index.promote(raise.code, raise.level);

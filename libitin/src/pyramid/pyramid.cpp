@@ -18,6 +18,7 @@
 #include "pyramid/replacement.hpp"
 #include "pyramid/set_points_aside.hpp"
 #include "pyramid/working_index.hpp"
+#include "store/lateral_tolerance.hpp"
 #include "store/leaf_cutter.hpp"
 
 namespace itin {

@@ -7,7 +7,7 @@
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
 
-#include "import/sorted_points.hpp"
+#include "pyramid/sorted_points.hpp"
 #include "pyramid/theme_lines.hpp"
 #include "store/store_writer.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "geometry/morton_range.hpp"
 #include "store/leaf_cutter.hpp"
-#include "store/morton_range.hpp"
 
 namespace itin {
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "import/sorted_points.hpp"
+#include "pyramid/sorted_points.hpp"
 #include "store/point_index.hpp"
 
 namespace itin {

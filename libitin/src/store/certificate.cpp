@@ -2,7 +2,7 @@
 
 #include <itin/certificate.hpp>
 
-#include "store/morton_range.hpp"
+#include "geometry/morton_range.hpp"
 
 namespace itin {
 

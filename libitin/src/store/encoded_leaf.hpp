@@ -7,7 +7,7 @@
 
 #include <itin/geometry.hpp>
 
-#include "store/cell.hpp"
+#include "geometry/cell.hpp"
 #include "store/point_index.hpp"
 
 namespace itin {

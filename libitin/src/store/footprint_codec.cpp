@@ -11,7 +11,7 @@ namespace itin {
 
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+constexpr std::size_t kMostFootprintBytes = std::size_t{1} << 30;
 constexpr std::uint64_t kLast = 3;  ///< of every enumeration here
 
 class Writer {
@@ -133,7 +133,7 @@ std::vector<std::uint8_t> content_of(const FootprintFeature& feature) {
 }
 
 std::vector<StoredFootprint> decode_footprints(std::span<const std::uint8_t> bytes) {
-  const std::vector<std::uint8_t> content = decompress(bytes, kMostBytes);
+  const std::vector<std::uint8_t> content = decompress(bytes, kMostFootprintBytes);
   Reader in(content);
   std::vector<StoredFootprint> footprints;
   while (!in.at_end()) footprints.push_back(read(in));

@@ -8,7 +8,7 @@
 
 #include <itin/store.hpp>
 
-#include "features/footprint.hpp"
+#include "store/footprint.hpp"
 
 namespace itin {
 

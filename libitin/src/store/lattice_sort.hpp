@@ -8,7 +8,7 @@
 
 #include <itin/geometry.hpp>
 
-#include "store/cell.hpp"
+#include "geometry/cell.hpp"
 #include "store/radix_sort.hpp"
 
 namespace itin {

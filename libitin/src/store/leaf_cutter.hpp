@@ -7,7 +7,7 @@
 #include <deque>
 #include <utility>
 
-#include "store/cell.hpp"
+#include "geometry/cell.hpp"
 
 namespace itin {
 

@@ -22,7 +22,7 @@ struct Vertex {
 enum Field { kGap, kDegree, kOther, kFinest, kCoarsest, kReach, kFields };
 
 /// The lattice all ends lie on.
-struct Lattice {
+struct LineLattice {
   Vertex corner;
   Vertex step;
   int row_bits;  ///< of the greatest row
@@ -39,8 +39,8 @@ std::vector<Vertex> ends_of(const std::vector<Segment>& segments) {
   return ends;
 }
 
-Lattice lattice_of(const std::vector<Vertex>& ends) {
-  Lattice lattice{{ends.front().x, ends.front().y}, {0, 0}, 0};
+LineLattice lattice_of(const std::vector<Vertex>& ends) {
+  LineLattice lattice{{ends.front().x, ends.front().y}, {0, 0}, 0};
   std::int64_t highest = ends.front().y;
   for (const Vertex& v : ends) {
     lattice.corner.y = std::min(lattice.corner.y, v.y);
@@ -77,9 +77,10 @@ int best_parameter(const std::vector<std::uint64_t>& values) {
 }
 
 /// Everything that is written as a Rice code, field by field, in the order of writing.
-class Plan {
+class LinePlan {
  public:
-  Plan(const std::vector<Segment>& segments, const std::vector<Vertex>& ends, const Lattice& lattice, bool forwards) {
+  LinePlan(const std::vector<Segment>& segments, const std::vector<Vertex>& ends, const LineLattice& lattice,
+           bool forwards) {
     std::int64_t x = lattice.corner.x;
     for (const Vertex& v : ends) {
       values_[kGap].push_back(static_cast<std::uint64_t>((v.x - x) / lattice.step.x));
@@ -190,7 +191,7 @@ class LineReader {
   std::size_t count_;
   std::uint64_t vertices_ = 0;
   bool forwards_ = false;
-  Lattice lattice_{};
+  LineLattice lattice_{};
   std::array<int, kFields> parameters_{};
   std::vector<std::uint8_t> padded_;
   std::vector<Vertex> ends_;
@@ -200,9 +201,9 @@ class LineReader {
 
 std::vector<std::uint8_t> encode_lines(const Cell& cell, const std::vector<Segment>& segments) {
   const std::vector<Vertex> ends = ends_of(segments);
-  const Lattice lattice = lattice_of(ends);
+  const LineLattice lattice = lattice_of(ends);
   const bool forwards = ascending(segments);
-  const Plan plan(segments, ends, lattice, forwards);
+  const LinePlan plan(segments, ends, lattice, forwards);
   std::vector<std::uint8_t> out;
   put_varint(out, ends.size());
   put_varint(out, forwards ? 1 : 0);

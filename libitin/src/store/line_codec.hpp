@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "store/cell.hpp"
+#include "geometry/cell.hpp"
 #include "store/point_index.hpp"
 
 namespace itin {

@@ -11,7 +11,7 @@ namespace itin {
 
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 24;
+constexpr std::size_t kMostSetAsideBytes = std::size_t{1} << 24;
 constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
 
 /// Numbers as differences from others before them.
@@ -64,8 +64,8 @@ Segment made_after(const Segment& last, ByteReader& in) {
   return s;
 }
 
-SetAsideLines decode_lines(std::span<const std::uint8_t> bytes) {
-  const std::vector<std::uint8_t> content = decompress(bytes, kMostBytes);
+SetAsideLines decode_set_aside_lines(std::span<const std::uint8_t> bytes) {
+  const std::vector<std::uint8_t> content = decompress(bytes, kMostSetAsideBytes);
   ByteReader in(content);
   SetAsideLines lines;
   for (std::size_t n = count(in); n > 0; --n) {
@@ -80,7 +80,7 @@ SetAsideLines decode_lines(std::span<const std::uint8_t> bytes) {
   return lines;
 }
 
-Block decode_points(std::span<const std::uint8_t> bytes) {
+Block decode_set_aside_points(std::span<const std::uint8_t> bytes) {
   ByteReader in(bytes);
   Cell cell;
   cell.log2_side = static_cast<int>(in.varint(0, kRootLog2Side));
@@ -89,7 +89,7 @@ Block decode_points(std::span<const std::uint8_t> bytes) {
   return decode_block(cell, in.rest());
 }
 
-SetAsideList decode_list(std::span<const std::uint8_t> bytes) {
+SetAsideList decode_set_aside_list(std::span<const std::uint8_t> bytes) {
   ByteReader in(bytes);
   SetAsideList list;
   list.point_blocks = static_cast<std::uint32_t>(in.varint(0, kMost));
@@ -148,15 +148,15 @@ std::vector<std::uint8_t> encode_set_aside(const SetAsideList& list) {
 
 SetAsideList set_aside_list(const StoreRows& rows) {
   if (rows.version() < format::kFirstVersionThatSetsAside) return {};
-  return decoded(rows, BlobKind::Directory, format::kSetAsideListKey, decode_list);
+  return decoded(rows, BlobKind::Directory, format::kSetAsideListKey, decode_set_aside_list);
 }
 
 Block set_aside_points(const StoreRows& rows, std::uint32_t block) {
-  return decoded(rows, BlobKind::Block, format::set_aside_key(0, block), decode_points);
+  return decoded(rows, BlobKind::Block, format::set_aside_key(0, block), decode_set_aside_points);
 }
 
 SetAsideLines set_aside_lines(const StoreRows& rows, std::uint16_t theme, std::uint32_t block) {
-  return decoded(rows, BlobKind::Block, format::set_aside_key(theme, block), decode_lines);
+  return decoded(rows, BlobKind::Block, format::set_aside_key(theme, block), decode_set_aside_lines);
 }
 
 }  // namespace itin

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "store/cell.hpp"
+#include "geometry/cell.hpp"
 #include "store/point_index.hpp"
 #include "store/store_rows.hpp"
 

@@ -8,11 +8,11 @@
 
 #include <itin/store.hpp>
 
+#include "geometry/morton_range.hpp"
 #include "store/block_cache.hpp"
 #include "store/block_codec.hpp"
 #include "store/directory.hpp"
 #include "store/footprint_codec.hpp"
-#include "store/morton_range.hpp"
 #include "store/point_index.hpp"
 #include "store/store_rows.hpp"
 

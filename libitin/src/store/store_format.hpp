@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "store/cell.hpp"
+#include "geometry/cell.hpp"
 
 namespace itin::format {
 

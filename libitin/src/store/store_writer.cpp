@@ -5,15 +5,15 @@
 #include <optional>
 #include <stdexcept>
 
-#include "features/line_hierarchy.hpp"
+#include "geometry/morton_range.hpp"
 #include "store/block_codec.hpp"
 #include "store/database.hpp"
 #include "store/directory.hpp"
 #include "store/edge_quadtree.hpp"
+#include "store/lateral_tolerance.hpp"
 #include "store/leaf_cutter.hpp"
 #include "store/line_codec.hpp"
 #include "store/metadata_json.hpp"
-#include "store/morton_range.hpp"
 #include "store/replacement_file.hpp"
 #include "store/seal.hpp"
 #include "store/store_format.hpp"
@@ -237,11 +237,11 @@ void StoreWriter::Impl::commit(std::vector<SourceInfo> sources, std::vector<Them
   metadata_.sources = std::move(sources);
   metadata_.themes = std::move(themes);
   metadata_.parts = std::move(parts);
-  const std::string json = metadata_to_json(metadata_);
+  const std::string text = metadata_to_json(metadata_);
   {
     Statement statement = database_.prepare("INSERT INTO metadata(name, value, checksum) VALUES('store', ?, ?)");
-    statement.bind(1, json);
-    statement.bind(2, text_checksum(json));
+    statement.bind(1, text);
+    statement.bind(2, text_checksum(text));
     statement.step("metadata");
   }
   insert_block_.reset();

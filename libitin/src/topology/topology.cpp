@@ -2,8 +2,8 @@
 
 #include <itin/topology.hpp>
 
+#include "geometry/predicates.hpp"
 #include "topology/twin_half_edges.hpp"
-#include "triangulate/predicates.hpp"
 
 namespace itin {
 

@@ -19,9 +19,9 @@
 #include <itin/geometry.hpp>
 #include <itin/tin.hpp>
 
+#include "geometry/predicates.hpp"
 #include "store/point_index.hpp"
 #include "triangulate/block_reader.hpp"
-#include "triangulate/predicates.hpp"
 #include "triangulate/selection.hpp"
 
 namespace itin {

@@ -6,7 +6,7 @@
 
 #include <itin/tin.hpp>
 
-#include "store/cell.hpp"
+#include "geometry/cell.hpp"
 #include "triangulate/region.hpp"
 
 namespace itin {

@@ -7,7 +7,7 @@
 
 #include <CGAL/enum.h>
 
-#include "triangulate/predicates.hpp"
+#include "geometry/predicates.hpp"
 
 namespace itin {
 

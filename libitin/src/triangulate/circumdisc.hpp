@@ -7,7 +7,7 @@
 
 #include <itin/geometry.hpp>
 
-#include "triangulate/predicates.hpp"
+#include "geometry/predicates.hpp"
 
 namespace itin {
 

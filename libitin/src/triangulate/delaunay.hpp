@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include "triangulate/predicates.hpp"
+#include "geometry/predicates.hpp"
 
 namespace itin {
 

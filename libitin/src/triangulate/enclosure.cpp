@@ -47,7 +47,7 @@ void keep_left_of(std::vector<Point>& polygon, Position p, Position q) {
   polygon = std::move(kept);
 }
 
-std::int32_t rounded(double v) {
+std::int32_t rounded_coordinate(double v) {
   return static_cast<std::int32_t>(std::lround(v));
 }
 
@@ -119,7 +119,7 @@ bool Enclosure::known_beyond_hull(Position eye, const Cone& cone, const GridBox&
   keep_left_of(seen, eye, cone.right);
   keep_left_of(seen, cone.left, eye);
   GridBox box;
-  for (const Point& p : seen) box.extend(rounded(p.x), rounded(p.y));
+  for (const Point& p : seen) box.extend(rounded_coordinate(p.x), rounded_coordinate(p.y));
   unknown_ = intersection(expanded(box, 1), limit);
   return known_.covers(unknown_);
 }

@@ -16,7 +16,7 @@
 #include <itin/geometry.hpp>
 #include <itin/window.hpp>
 
-#include "triangulate/predicates.hpp"
+#include "geometry/predicates.hpp"
 
 namespace itin {
 

@@ -12,7 +12,7 @@ __extension__ typedef __int128 Int128;
 // Far beyond every grid, yet squares and their sums still fit in 128 bits.
 constexpr double kFarthest = 0x1p60;
 
-std::int64_t rounded(double grid_units) {
+std::int64_t rounded_units(double grid_units) {
   return std::llround(std::clamp(grid_units, -kFarthest, kFarthest));
 }
 
@@ -26,11 +26,11 @@ int level_of(double tolerance, const std::vector<double>& tolerances) {
 Selection::Selection(const Detail& detail, const std::vector<double>& tolerances, const Grid& grid)
     : finest_(level_of(detail.finest(), tolerances)),
       coarsest_(level_of(detail.coarsest(), tolerances)),
-      x_(rounded((detail.centre().x - grid.origin.x) / grid.resolution)),
-      y_(rounded((detail.centre().y - grid.origin.y) / grid.resolution)) {
+      x_(rounded_units((detail.centre().x - grid.origin.x) / grid.resolution)),
+      y_(rounded_units((detail.centre().y - grid.origin.y) / grid.resolution)) {
   for (std::size_t i = 0; i + 1 < detail.rings().size(); ++i) {
     const Ring& ring = detail.rings()[i];
-    discs_.push_back({rounded(ring.radius / grid.resolution), level_of(ring.tolerance, tolerances)});
+    discs_.push_back({rounded_units(ring.radius / grid.resolution), level_of(ring.tolerance, tolerances)});
   }
 }
 

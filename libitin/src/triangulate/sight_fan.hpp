@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "geometry/predicates.hpp"
 #include "store/point_index.hpp"
-#include "triangulate/predicates.hpp"
 
 namespace itin {
 

@@ -16,7 +16,7 @@ namespace {
 
 /// Large windows are cut into quadtree cells of about this many points: enough to make borders cheap, few enough to
 /// keep a cell's triangulation in the processor's cache.
-constexpr double kTilePoints = 32768;
+constexpr double kPointsPerTile = 32768;
 
 /// Cells that cover the window.
 class TilePlan {
@@ -44,7 +44,7 @@ class TilePlan {
       inside.push_back(i);
       points += leaves_[i].points * std::min(1.0, std::ldexp(1.0, 2 * (cell.log2_side - leaf.log2_side)));
     }
-    if (points <= kTilePoints || cell.log2_side == 0) {
+    if (points <= kPointsPerTile || cell.log2_side == 0) {
       cells_.push_back(cell);
       return;
     }

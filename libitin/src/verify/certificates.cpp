@@ -16,7 +16,7 @@ namespace itin {
 namespace {
 
 /// Grid units: what the slow comparison may be off by.
-constexpr double kRounding = 1e-3;
+constexpr double kErrorRounding = 1e-3;
 
 GridBox box_of(const RegionMesh& mesh) {
   GridBox box;
@@ -73,7 +73,7 @@ class TileVerification {
           corners_of(fine_, t), [&](std::size_t leaf) { compare_in(t, leaf); }, [](const Cell&) {});
     for (std::size_t i = 0; i < of_leaves.size(); ++i) {
       const Leaf& leaf = cover.leaves()[i];
-      if (of_leaves[i].lo < leaf.lo - kRounding || of_leaves[i].hi > leaf.hi + kRounding)
+      if (of_leaves[i].lo < leaf.lo - kErrorRounding || of_leaves[i].hi > leaf.hi + kErrorRounding)
         found_.push_back({level, leaf, of_leaves[i]});
     }
   }
@@ -113,8 +113,8 @@ Damage false_certificate(const FalseCell& cell, const Grid& grid) {
   }
   const Leaf& leaf = *cell.leaf;
   const Point2 corner = grid.position(leaf.cell.box().xmin, leaf.cell.box().ymin);
-  const double lo = std::min<double>(leaf.lo, std::floor(cell.differs.lo + kRounding)),
-               hi = std::max<double>(leaf.hi, std::ceil(cell.differs.hi - kRounding));
+  const double lo = std::min<double>(leaf.lo, std::floor(cell.differs.lo + kErrorRounding)),
+               hi = std::max<double>(leaf.hi, std::ceil(cell.differs.hi - kErrorRounding));
   return {
       format::place("directory", leaf.key),
       fmt::format("the certificate of level {} for the {:.10g} m north-east of {:.2f},{:.2f} is {:.10g} to {:.10g} "

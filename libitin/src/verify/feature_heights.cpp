@@ -14,7 +14,7 @@ namespace itin {
 namespace {
 
 /// Grid steps by which the ground that features were raised on may differ from the ground under them.
-constexpr double kRounding = 2;
+constexpr double kHeightRounding = 2;
 /// A tile's.
 constexpr double kVertices = 4096, kPoints = 1 << 15;
 
@@ -101,8 +101,9 @@ std::vector<FalseCell> PartHeights::higher_in(const Cell& tile) const {
   }
   std::vector<FalseCell> found;
   for (std::size_t i = 0; i < of_leaves.size(); ++i)
-    if (of_leaves[i].hi > cover.leaves()[i].hi + kRounding) found.push_back({tree_, cover.leaves()[i], of_leaves[i]});
-  if (beside.hi > kRounding) found.push_back({tree_, std::nullopt, beside});
+    if (of_leaves[i].hi > cover.leaves()[i].hi + kHeightRounding)
+      found.push_back({tree_, cover.leaves()[i], of_leaves[i]});
+  if (beside.hi > kHeightRounding) found.push_back({tree_, std::nullopt, beside});
   return found;
 }
 

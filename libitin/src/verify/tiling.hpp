@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "store/cell.hpp"
+#include "geometry/cell.hpp"
 
 namespace itin {
 

@@ -17,7 +17,7 @@ namespace itin {
 namespace {
 
 /// Points of a tile: few borders, and a surface that fits into the processor's cache.
-constexpr double kTilePoints = 1 << 15;
+constexpr double kPointsPerVerifiedTile = 1 << 15;
 
 class Verifying {
  public:
@@ -51,7 +51,7 @@ class Verifying {
       const GridBox box = intersection(cell.box(), bounds);
       return box.empty() ? 0.0 : static_cast<double>(store_.points_about(0, grid.box(box)));
     };
-    std::vector<Cell> tiles = tiles_of(points, kTilePoints);
+    std::vector<Cell> tiles = tiles_of(points, kPointsPerVerifiedTile);
     std::erase_if(tiles, [&](const Cell& cell) { return !cell.box().meets(bounds); });
     return tiles;
   }

@@ -25,31 +25,31 @@ void draw_frame(Drawing& drawing, const ChartFrame& frame, const std::function<s
   const Box& box = frame.box;
   const Point2 outline[] = {
       {box.xmin, box.ymin}, {box.xmax, box.ymin}, {box.xmax, box.ymax}, {box.xmin, box.ymax}, {box.xmin, box.ymin}};
-  drawing.polyline(outline, {kInk, 0.8, {}});
+  drawing.polyline(outline, {kReportInk, 0.8, {}});
   for (const double value : frame.x.ticks(frame.x_ticks)) {
     const double x = frame.x.at(value);
-    draw_line(drawing, {x, box.ymax}, {x, box.ymax + kTick}, {kInk, 0.8, {}});
+    draw_line(drawing, {x, box.ymax}, {x, box.ymax + kTick}, {kReportInk, 0.8, {}});
     drawing.text({x, box.ymax + kTick + kLabelSize + 1}, x_label(value, frame.x.step(frame.x_ticks)),
-                 {kLabelSize, kInk, Align::kCentre, false, 0});
+                 {kLabelSize, kReportInk, Align::kCentre, false, 0});
   }
   double widest = 0;
   for (const double value : frame.y.ticks(frame.y_ticks)) {
     const double y = frame.y.at(value);
     const std::string label = tick_label(value, frame.y.step(frame.y_ticks));
-    const Lettering lettering{kLabelSize, kInk, Align::kRight, false, 0};
-    draw_line(drawing, {box.xmin - kTick, y}, {box.xmin, y}, {kInk, 0.8, {}});
+    const Lettering lettering{kLabelSize, kReportInk, Align::kRight, false, 0};
+    draw_line(drawing, {box.xmin - kTick, y}, {box.xmin, y}, {kReportInk, 0.8, {}});
     drawing.text({box.xmin - kTick - 2, y + kLabelSize * 0.36}, label, lettering);
     widest = std::max(widest, drawing.text_width(label, lettering));
   }
   drawing.text({(box.xmin + box.xmax) / 2, box.ymax + kTick + 2 * kLabelSize + 6}, frame.x_title,
-               {kLabelSize + 0.5, kInk, Align::kCentre, false, 0});
+               {kLabelSize + 0.5, kReportInk, Align::kCentre, false, 0});
   drawing.text({box.xmin - kTick - widest - 8, (box.ymin + box.ymax) / 2}, frame.y_title,
-               {kLabelSize + 0.5, kInk, Align::kCentre, false, 90});
+               {kLabelSize + 0.5, kReportInk, Align::kCentre, false, 90});
 }
 
 void draw_legend(Drawing& drawing, Point2 at, double width, const std::vector<LegendItem>& items) {
   constexpr double kSample = 22, kGap = 5, kBetween = 16, kRow = 13;
-  const Lettering lettering{kLabelSize, kInk, Align::kLeft, false, 0};
+  const Lettering lettering{kLabelSize, kReportInk, Align::kLeft, false, 0};
   Point2 p = at;
   for (const LegendItem& item : items) {
     const std::string name = drawing.fitted(item.name, width - kSample - kGap, lettering);

@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "axis.hpp"
-#include "drawing.hpp"
+#include "drawing/axis.hpp"
+#include "drawing/drawing.hpp"
 
 namespace itin::profile {
 
-inline constexpr Colour kInk{0.13, 0.13, 0.13, 1}, kGrey{0.45, 0.45, 0.45, 1}, kFaint{0.84, 0.84, 0.84, 1};
+inline constexpr Colour kReportInk{0.13, 0.13, 0.13, 1}, kReportGrey{0.45, 0.45, 0.45, 1},
+    kReportFaint{0.84, 0.84, 0.84, 1};
 
 struct ChartFrame {
   Box box;  ///< in the drawing, y downwards

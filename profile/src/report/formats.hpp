@@ -7,7 +7,7 @@
 #include <itin/vector_export.hpp>
 #include <profile/los.hpp>
 
-#include "drawing.hpp"
+#include "drawing/drawing.hpp"
 
 namespace itin::profile {
 

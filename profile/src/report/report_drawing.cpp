@@ -15,7 +15,7 @@ namespace {
 // A4 across.
 constexpr double kWidth = 842, kHeight = 595, kMargin = 36;
 
-const Lettering kPlain{8.5, kInk, Align::kLeft, false, 0}, kBold{8.5, kInk, Align::kLeft, true, 0};
+const Lettering kPlain{8.5, kReportInk, Align::kLeft, false, 0}, kBold{8.5, kReportInk, Align::kLeft, true, 0};
 
 /// Sets tables one below the other in a column.
 class Column {
@@ -30,17 +30,17 @@ class Column {
   }
 
   void set(const Table& table) {
-    drawing_.text({left_, y_ + 10}, table.title, {10, kInk, Align::kLeft, true, 0});
+    drawing_.text({left_, y_ + 10}, table.title, {10, kReportInk, Align::kLeft, true, 0});
     y_ += kTitle;
     const Point2 rule[] = {{left_, y_}, {left_ + width_, y_}};
-    drawing_.polyline(rule, {kGrey, 0.6, {}});
+    drawing_.polyline(rule, {kReportGrey, 0.6, {}});
     const std::vector<double> widths = column_widths(table);
     if (!table.header.empty()) row(table.header, widths, kBold);
     for (const auto& cells : table.rows) row(cells, widths, kPlain);
     if (!table.note.empty()) {
       y_ += kNote;
-      drawing_.text({left_, y_}, drawing_.fitted(table.note, width_, {7.5, kGrey, Align::kLeft, false, 0}),
-                    {7.5, kGrey, Align::kLeft, false, 0});
+      drawing_.text({left_, y_}, drawing_.fitted(table.note, width_, {7.5, kReportGrey, Align::kLeft, false, 0}),
+                    {7.5, kReportGrey, Align::kLeft, false, 0});
     }
     y_ += 16;
   }
@@ -89,7 +89,7 @@ class Column {
 
 /// Smaller where it would not fit, and cut where it must be.
 void draw_title(Drawing& drawing, const std::string& title) {
-  Lettering lettering{16, kInk, Align::kLeft, true, 0};
+  Lettering lettering{16, kReportInk, Align::kLeft, true, 0};
   const double width = kWidth - 2 * kMargin;
   while (lettering.size > 10 && drawing.text_width(title, lettering) > width) lettering.size -= 1;
   drawing.text({kMargin, 46}, drawing.fitted(title, width, lettering), lettering);
@@ -98,8 +98,8 @@ void draw_title(Drawing& drawing, const std::string& title) {
 void draw_first_page(Drawing& drawing, const LosReport& report) {
   draw_title(drawing, report.title);
   drawing.text({kMargin, 63},
-               drawing.fitted(verdict_line(report), kWidth - 2 * kMargin, {10, kInk, Align::kLeft, false, 0}),
-               {10, kInk, Align::kLeft, false, 0});
+               drawing.fitted(verdict_line(report), kWidth - 2 * kMargin, {10, kReportInk, Align::kLeft, false, 0}),
+               {10, kReportInk, Align::kLeft, false, 0});
   const double half = (kWidth - 2 * kMargin) / 2;
   const auto end = [&](double x, const char* name, const std::vector<std::string>& lines) {
     drawing.text({x, 82}, name, kBold);
@@ -116,10 +116,10 @@ void draw_first_page(Drawing& drawing, const LosReport& report) {
   draw_sight_chart(drawing, {kMargin, 82 + 11 * lines + 2, kWidth - kMargin, kHeight - kMargin - facts_height}, report);
   double y = kHeight - kMargin - facts_height + 12;
   for (const auto& [name, value] : report.facts) {
-    drawing.text({kMargin, y}, name, {8, kGrey, Align::kLeft, true, 0});
+    drawing.text({kMargin, y}, name, {8, kReportGrey, Align::kLeft, true, 0});
     drawing.text({kMargin + 62, y},
-                 drawing.fitted(value, kWidth - 2 * kMargin - 62, {8, kGrey, Align::kLeft, false, 0}),
-                 {8, kGrey, Align::kLeft, false, 0});
+                 drawing.fitted(value, kWidth - 2 * kMargin - 62, {8, kReportGrey, Align::kLeft, false, 0}),
+                 {8, kReportGrey, Align::kLeft, false, 0});
     y += 11;
   }
 }

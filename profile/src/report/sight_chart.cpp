@@ -8,19 +8,19 @@
 
 #include <fmt/format.h>
 
+#include "drawing/theme_colour.hpp"
 #include "report/tables.hpp"
-#include "theme_colour.hpp"
 
 namespace itin::profile {
 
 namespace {
 
 constexpr int kArcParts = 240;
-constexpr Colour kGround{0.80, 0.74, 0.62, 1}, kGroundLine{0.42, 0.33, 0.20, 1}, kRay{0.05, 0.25, 0.60, 1},
+constexpr Colour kChartGround{0.80, 0.74, 0.62, 1}, kGroundLine{0.42, 0.33, 0.20, 1}, kRay{0.05, 0.25, 0.60, 1},
     kZone{0.20, 0.45, 0.85, 0.13}, kInnerZone{0.20, 0.45, 0.85, 0.16}, kZoneLine{0.20, 0.45, 0.85, 1},
     kWorst{0.75, 0.35, 0.05, 1}, kCut{0.80, 0.10, 0.10, 0.45}, kMarker{0.75, 0.05, 0.05, 1},
     kClutter{0.45, 0.65, 0.35, 0.8}, kNoData{0.9, 0.9, 0.9, 1}, kWhite{1, 1, 1, 0.85},
-    kFeatureLine{0.30, 0.20, 0.20, 1}, kSeen{0.00, 0.62, 0.45, 1}, kUnseen{0.62, 0.62, 0.62, 1};
+    kFeatureLine{0.30, 0.20, 0.20, 1}, kChartSeen{0.00, 0.62, 0.45, 1}, kUnseen{0.62, 0.62, 0.62, 1};
 
 /// Everything drawn, in metres over the chord between the ends' verticals.
 class SightChart {
@@ -96,7 +96,7 @@ class SightChart {
     for (const double tick : frame_.y.ticks(frame_.y_ticks)) {
       std::vector<Point2> arc = sampled(0, length_, &SightChart::bulge);
       for (Point2& p : arc) p.y += frame_.y.at(tick) - frame_.y.at(0);
-      drawing_.polyline(arc, {kFaint, 0.6, {}});
+      drawing_.polyline(arc, {kReportFaint, 0.6, {}});
     }
   }
 
@@ -104,7 +104,8 @@ class SightChart {
     for (const auto& [from, to] : report_.profile.gaps) {
       const Box& box = frame_.box;
       drawing_.rectangle({frame_.x.at(from), box.ymin, frame_.x.at(to), box.ymax}, kNoData);
-      drawing_.text({frame_.x.at((from + to) / 2), box.ymax - 6}, "no data", {7, kGrey, Align::kCentre, false, 0});
+      drawing_.text({frame_.x.at((from + to) / 2), box.ymax - 6}, "no data",
+                    {7, kReportGrey, Align::kCentre, false, 0});
     }
   }
 
@@ -137,7 +138,7 @@ class SightChart {
         clutter = clutter || p.clutter_m > 0;
       }
       if (clutter) fill_below(canopy, kClutter), has_clutter_ = true;
-      fill_below(ground, kGround);
+      fill_below(ground, kChartGround);
       drawing_.polyline(ground, {kGroundLine, 0.9, {}});
     });
   }
@@ -212,7 +213,7 @@ class SightChart {
     const double per_metre_along = (frame_.x.to - frame_.x.from) / length_;
     drawing_.text({frame_.box.xmax, frame_.box.ymax + 26},
                   fmt::format("Vertical exaggeration {:.3g} : 1", per_metre_up / per_metre_along),
-                  {8, kInk, Align::kRight, false, 0});
+                  {8, kReportInk, Align::kRight, false, 0});
   }
 
   /// Of what is drawn of the surface.
@@ -229,10 +230,10 @@ class SightChart {
     const bool first = d == 0;
     const Point2 foot = at(d, ground), top = at(d, antenna);
     const Point2 mast[] = {foot, top};
-    drawing_.polyline(mast, {kInk, 2.2, {}});
+    drawing_.polyline(mast, {kReportInk, 2.2, {}});
     drawing_.circle(top, 2.6, kRay);
     const std::string text = fmt::format("{}, {:g} m", name, std::round(height * 100) / 100);
-    const Lettering lettering{8.5, kInk, Align::kLeft, true, 0};
+    const Lettering lettering{8.5, kReportInk, Align::kLeft, true, 0};
     const double width = drawing_.text_width(text, lettering);
     const double x = first ? top.x + 5 : top.x - 5 - width;
     // Clear of the ray, its zone and the ground, which may rise away from the mast.
@@ -256,12 +257,12 @@ class SightChart {
     const auto up = [&](double height) { return frame_.y.at(foot + height); };
     const double from = report_.visible->from_m;
     drawing_.rectangle({left, up(from), right, up(0)}, kUnseen);
-    drawing_.rectangle({left, up(object.tip_m), right, up(from)}, kSeen);
+    drawing_.rectangle({left, up(object.tip_m), right, up(from)}, kChartSeen);
     const Point2 hub[] = {{left - 3, up(object.hub_m)}, {right, up(object.hub_m)}};
-    if (object.hub_m < object.tip_m) drawing_.polyline(hub, {kInk, 0.8, {}});
+    if (object.hub_m < object.tip_m) drawing_.polyline(hub, {kReportInk, 0.8, {}});
     if (from >= object.tip_m) return;
     const Point2 lowest[] = {at(0, report_.antennas.from_m), {left, up(from)}};
-    drawing_.polyline(lowest, {kSeen, 0.9, {4, 2}});
+    drawing_.polyline(lowest, {kChartSeen, 0.9, {4, 2}});
   }
 
   /// Its label hangs from the top of the chart, clear of the ray, on a line down to the point.
@@ -286,7 +287,7 @@ class SightChart {
     const double k = drop_ > 0 ? 1 / (2 * drop_ * report_.query.earth.radius) : 0;
     const std::string earth = drop_ > 0 ? fmt::format("Terrain over the effective Earth, K = {:.4g}", k)
                                         : std::string("Terrain over a flat Earth");
-    std::vector<LegendItem> items = {{earth, {kGround, 1, {}}, true}, {"Ray", {kRay, 1.3, {}}, false}};
+    std::vector<LegendItem> items = {{earth, {kChartGround, 1, {}}, true}, {"Ray", {kRay, 1.3, {}}, false}};
     if (wavelength_ > 0) {
       items.push_back({"First Fresnel zone, F1", {kZoneLine, 0.7, {}}, false});
       items.push_back({"0.6 F1", {kZoneLine, 0.6, {3, 2}}, false});
@@ -297,10 +298,10 @@ class SightChart {
       items.push_back({cause_of(report_, theme), {theme_colour(theme), 1, {}}, true});
     if (!report_.obstructions.empty()) items.push_back({"Above the ray", {kCut, 1, {}}, true});
     if (report_.visible) {
-      items.push_back({"Of the object at B: seen", {kSeen, 1, {}}, true});
+      items.push_back({"Of the object at B: seen", {kChartSeen, 1, {}}, true});
       items.push_back({"hidden", {kUnseen, 1, {}}, true});
     }
-    items.push_back({"Equal elevation", {kFaint, 0.8, {}}, false});
+    items.push_back({"Equal elevation", {kReportFaint, 0.8, {}}, false});
     draw_legend(drawing_, {frame_.box.xmin, frame_.box.ymax + 43}, frame_.box.width(), items);
   }
 

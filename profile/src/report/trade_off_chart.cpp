@@ -37,10 +37,10 @@ void draw_trade_off_chart(Drawing& drawing, const Box& area, const LosReport& re
   frame.x_ticks = 7, frame.y_ticks = 7;
   frame.x_title = std::string("Height at A, m above ") + base_name(report.query.from_on_surface);
   frame.y_title = std::string("Height at B, m above ") + base_name(report.query.to_on_surface);
-  drawing.text({area.xmin, area.ymin + 8}, "Heights at A against B", {10, kInk, Align::kLeft, true, 0});
+  drawing.text({area.xmin, area.ymin + 8}, "Heights at A against B", {10, kReportInk, Align::kLeft, true, 0});
   for (const double tick : frame.y.ticks(frame.y_ticks)) {
     const Point2 line[] = {frame.at(0, tick), frame.at(x_most, tick)};
-    drawing.polyline(line, {kFaint, 0.5, {}});
+    drawing.polyline(line, {kReportFaint, 0.5, {}});
   }
   drawing.clip(frame.box);
   std::vector<LegendItem> items;

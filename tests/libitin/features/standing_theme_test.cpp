@@ -24,6 +24,7 @@
 #include "libitin/features/surface_comparison.hpp"
 #include "store/point_index.hpp"
 #include "store/store_format.hpp"
+#include "support/corner_triangles.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
 #include "support/sound_store.hpp"
@@ -37,23 +38,13 @@ namespace {
 
 using test::box;
 using test::LineFeature;
-using Corners = std::array<GridPoint, 3>;
-
-Corners smallest_first(Corners c) {
-  std::rotate(c.begin(), std::min_element(c.begin(), c.end()), c.end());
-  return c;
-}
-
-std::set<Corners> triangles_of(const Tin& tin) {
-  std::set<Corners> result;
-  for (const Triangle& t : tin.triangles)
-    result.insert(smallest_first({tin.vertices[t[0]], tin.vertices[t[1]], tin.vertices[t[2]]}));
-  return result;
-}
+using test::smallest_first;
+using test::TriangleCorners;
+using test::triangles_of;
 
 /// The global triangulation of what FORMAT.md says is there, ground or not: read leaf by leaf, without the code under
 /// test.
-std::set<Corners> global(const Store& store, const Detail& detail, const ThemeChoice& choice) {
+std::set<TriangleCorners> global(const Store& store, const Detail& detail, const ThemeChoice& choice) {
   const StoreMetadata& metadata = store.metadata();
   const std::size_t themes = metadata.themes.size();
   std::vector<double> tolerances;
@@ -125,7 +116,7 @@ std::set<Corners> global(const Store& store, const Detail& detail, const ThemeCh
     constraints.emplace_back(a->second, b->second);
   }
   delaunay.constrain(constraints);
-  std::set<Corners> result;
+  std::set<TriangleCorners> result;
   for (const auto& t : delaunay.mesh().triangles)
     result.insert(smallest_first({corners[t[0]], corners[t[1]], corners[t[2]]}));
   return result;
@@ -195,8 +186,9 @@ void expect_windows_of_the_whole(const Store& store, std::mt19937& random, const
   for (const ThemeChoice& choice : choices) {
     for (std::size_t k = 0; k < details.size(); ++k) {
       SCOPED_TRACE("detail " + std::to_string(k));
-      const std::set<Corners> truth = global(store, details[k], choice);
-      const std::set<Corners> found = triangles_of(triangulate(store, Window::all(), details[k], progress, choice));
+      const std::set<TriangleCorners> truth = global(store, details[k], choice);
+      const std::set<TriangleCorners> found =
+          triangles_of(triangulate(store, Window::all(), details[k], progress, choice));
       ASSERT_FALSE(found.empty());
       ASSERT_TRUE(std::includes(truth.begin(), truth.end(), found.begin(), found.end()));
       for (int i = 0; i < 12; ++i) {
@@ -205,11 +197,11 @@ void expect_windows_of_the_whole(const Store& store, std::mt19937& random, const
         };
         const double side = i % 3 == 0 ? in(1, 5) : in(5, 200);
         const double x = in(bounds.xmin, bounds.xmax - side), y = in(bounds.ymin, bounds.ymax - side);
-        const std::set<Corners> part =
+        const std::set<TriangleCorners> part =
             triangles_of(triangulate(store, Window::box({x, y, x + side, y + side}), details[k], progress, choice));
         ASSERT_TRUE(std::includes(found.begin(), found.end(), part.begin(), part.end()));
         const GridBox window = metadata.grid.enclosing({x, y, x + side, y + side});
-        for (const Corners& c : found) {
+        for (const TriangleCorners& c : found) {
           const bool within = std::all_of(c.begin(), c.end(), [&](const GridPoint& p) {
             return p.x > window.xmin && p.x < window.xmax && p.y > window.ymin && p.y < window.ymax;
           });
@@ -272,7 +264,7 @@ TEST_F(StandingThemes, WindowEqualsWholeWithAllThatStands) {
 
 TEST_F(StandingThemes, AHouseHasItsHeightAndTheGroundItsOwn) {
   ground(10, [](int, int) { return 50.0; });
-  const std::set<Corners> bare = triangles_of(whole(ThemeChoice::none()));
+  const std::set<TriangleCorners> bare = triangles_of(whole(ThemeChoice::none()));
   // 40 m by 30 m about posts, which must not poke into the roof.
   const ImportReport report = raise(ThemeKind::Buildings, "houses", {box(300102, 199702, 300142, 199732, 9)});
   EXPECT_EQ(report.features, 1u);

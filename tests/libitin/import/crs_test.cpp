@@ -1,4 +1,4 @@
-#include "import/crs.hpp"
+#include "gdal/crs.hpp"
 
 #include <cmath>
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-#include "import/delimited_text.hpp"
+#include "import/points/delimited_text.hpp"
 
 #include <charconv>
 #include <clocale>

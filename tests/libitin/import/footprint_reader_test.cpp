@@ -1,5 +1,5 @@
 // Footprints from files: small ones written here, and the real ones.
-#include "import/footprint_reader.hpp"
+#include "import/footprints/footprint_reader.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -13,8 +13,8 @@
 
 #include <itin/error.hpp>
 
-#include "import/city_json.hpp"
-#include "import/crs.hpp"
+#include "gdal/crs.hpp"
+#include "import/footprints/city_json.hpp"
 #include "libitin/features/feature_fixture.hpp"
 #include "support/delaunay_tin.hpp"
 #include "support/temporary_directory.hpp"

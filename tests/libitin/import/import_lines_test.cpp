@@ -16,6 +16,7 @@
 
 #include "features/hot_pixel.hpp"
 #include "store/point_index.hpp"
+#include "support/corner_triangles.hpp"
 #include "support/raster_file.hpp"
 #include "support/real_terrain.hpp"
 #include "support/seed.hpp"
@@ -29,18 +30,8 @@ namespace itin {
 namespace {
 
 using test::LineFeature;
-
-using Corners = std::array<GridPoint, 3>;
-
-std::set<Corners> triangles_of(const Tin& tin) {
-  std::set<Corners> result;
-  for (const Triangle& t : tin.triangles) {
-    Corners c{tin.vertices[t[0]], tin.vertices[t[1]], tin.vertices[t[2]]};
-    std::rotate(c.begin(), std::min_element(c.begin(), c.end()), c.end());
-    result.insert(c);
-  }
-  return result;
-}
+using test::TriangleCorners;
+using test::triangles_of;
 
 /// What a store holds, read leaf by leaf, without the triangulation under test.
 struct Content {
@@ -74,7 +65,7 @@ Content content(const Store& store, const Detail& detail, const ThemeChoice& cho
 }
 
 /// The global triangulation, ground or not.
-std::set<Corners> global(const Content& content) {
+std::set<TriangleCorners> global(const Content& content) {
   std::vector<Position> positions;
   std::map<Position, std::uint32_t> number;
   for (const GridPoint& p : content.points) {
@@ -86,9 +77,9 @@ std::set<Corners> global(const Content& content) {
   std::vector<Delaunay::Constraint> constraints;
   for (const Segment& s : content.segments) constraints.emplace_back(number.at({s.ax, s.ay}), number.at({s.bx, s.by}));
   delaunay.constrain(constraints);
-  std::set<Corners> result;
+  std::set<TriangleCorners> result;
   for (const auto& t : delaunay.mesh().triangles) {
-    Corners c{content.points[t[0]], content.points[t[1]], content.points[t[2]]};
+    TriangleCorners c{content.points[t[0]], content.points[t[1]], content.points[t[2]]};
     std::rotate(c.begin(), std::min_element(c.begin(), c.end()), c.end());
     result.insert(c);
   }
@@ -144,8 +135,8 @@ class ImportLines : public testing::Test {
 };
 
 /// Windows, and the whole, at every level and with several choices of themes.
-void expect_windows_of_the_whole(const Store& store, std::mt19937& random, const std::vector<ThemeChoice>& choices,
-                                 std::size_t every_level = 1) {
+void expect_windows_of_the_whole_by_level(const Store& store, std::mt19937& random,
+                                          const std::vector<ThemeChoice>& choices, std::size_t every_level = 1) {
   NoProgress progress;
   const StoreMetadata& metadata = store.metadata();
   const Box bounds = metadata.grid.box(metadata.bounds);
@@ -157,9 +148,9 @@ void expect_windows_of_the_whole(const Store& store, std::mt19937& random, const
     for (std::size_t k = 0; k < details.size(); k += every_level) {
       const Detail& detail = details[k];
       const Content all = content(store, detail, choice);
-      const std::set<Corners> truth = global(all);
+      const std::set<TriangleCorners> truth = global(all);
       const Tin whole = triangulate(store, Window::all(), detail, progress, choice);
-      const std::set<Corners> found = triangles_of(whole);
+      const std::set<TriangleCorners> found = triangles_of(whole);
       ASSERT_FALSE(found.empty());
       ASSERT_TRUE(std::includes(truth.begin(), truth.end(), found.begin(), found.end())) << "level " << k;
       // Every segment is there, as edges.
@@ -182,9 +173,9 @@ void expect_windows_of_the_whole(const Store& store, std::mt19937& random, const
         };
         const double x = in(bounds.xmin, bounds.xmax), y = in(bounds.ymin, bounds.ymax), side = in(5, 900);
         const Window window = i % 2 == 0 ? Window::box({x, y, x + side, y + side}) : Window::disc({x, y}, side);
-        const std::set<Corners> part = triangles_of(triangulate(store, window, detail, progress, choice));
+        const std::set<TriangleCorners> part = triangles_of(triangulate(store, window, detail, progress, choice));
         ASSERT_TRUE(std::includes(found.begin(), found.end(), part.begin(), part.end())) << "level " << k;
-        for (const Corners& c : found) {
+        for (const TriangleCorners& c : found) {
           const Box box = [&] {
             Box b;
             for (const GridPoint& p : c) b.extend(Point2{metadata.grid.point(p).x, metadata.grid.point(p).y});
@@ -219,7 +210,7 @@ TEST_F(ImportLines, WindowEqualsWholeWithConstraints) {
     EXPECT_EQ(store.metadata().themes[0].name, "lakes");
     EXPECT_EQ(store.metadata().themes[1].name, "ridges");
     EXPECT_EQ(store.metadata().themes[2].name, "roads");
-    expect_windows_of_the_whole(store, random, {ThemeChoice::none(), ThemeChoice::all().with_ground_lines()});
+    expect_windows_of_the_whole_by_level(store, random, {ThemeChoice::none(), ThemeChoice::all().with_ground_lines()});
   }
 }
 
@@ -227,7 +218,7 @@ TEST_F(ImportLines, RoadsTakeTheTerrainsHeightAndLeaveItAsItWas) {
   std::mt19937 random(7);
   import_terrain_tile(false);
   NoProgress progress;
-  const std::set<Corners> before =
+  const std::set<TriangleCorners> before =
       triangles_of(triangulate(Store(path("s.itin")), Window::all(), Detail::tolerance(0), progress));
   test::write_lines(path("roads.geojson"), random_lines(random, 20, false), true);
   lines(ThemeKind::Roads, "roads.geojson");
@@ -237,7 +228,7 @@ TEST_F(ImportLines, RoadsTakeTheTerrainsHeightAndLeaveItAsItWas) {
                                ThemeChoice::parse("roads").with_ground_lines());
   std::size_t draped = 0;
   for (const GridPoint& p : with.vertices) {
-    for (const Corners& c : before) {
+    for (const TriangleCorners& c : before) {
       const std::int64_t wa = doubled_area(p, c[1], c[2]), wb = doubled_area(c[0], p, c[2]),
                          wc = doubled_area(c[0], c[1], p);
       if (wa < 0 || wb < 0 || wc < 0) continue;
@@ -357,7 +348,7 @@ TEST(ImportContours, WindowEqualsWholeOnRealContours) {
   test::expect_sound(store);
   EXPECT_EQ(store.metadata().themes[0].features, 322u);
   std::mt19937 random(test::seed());
-  expect_windows_of_the_whole(store, random, {ThemeChoice::none()}, 4);
+  expect_windows_of_the_whole_by_level(store, random, {ThemeChoice::none()}, 4);
 }
 
 }  // namespace

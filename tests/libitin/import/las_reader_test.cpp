@@ -1,4 +1,4 @@
-#include "import/las_reader.hpp"
+#include "import/lidar/las_reader.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -11,9 +11,9 @@
 
 #include <itin/error.hpp>
 
-#include "import/crs.hpp"
-#include "import/las_file.hpp"
-#include "import/las_projection.hpp"
+#include "gdal/crs.hpp"
+#include "import/lidar/las_file.hpp"
+#include "import/lidar/las_projection.hpp"
 #include "support/las_writer.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"

@@ -1,4 +1,4 @@
-#include "import/linear_unit.hpp"
+#include "gdal/linear_unit.hpp"
 
 #include <gtest/gtest.h>
 

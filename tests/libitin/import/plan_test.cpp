@@ -11,7 +11,7 @@
 #include <itin/geodesic.hpp>
 #include <itin/grid_scale.hpp>
 
-#include "import/crs.hpp"
+#include "gdal/crs.hpp"
 #include "libitin/import/raster_fixture.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"

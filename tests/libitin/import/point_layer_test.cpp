@@ -1,4 +1,4 @@
-#include "import/point_layer.hpp"
+#include "import/points/point_layer.hpp"
 
 #include <cmath>
 #include <gmock/gmock.h>
@@ -91,13 +91,14 @@ class PointLayer : public testing::Test {
   std::uint64_t filtered_ = 0;
 };
 
-const std::vector<TestFeature> kTwo{{"POINT Z (300000 200000 12.5)", 1}, {"POINT Z (300010 200020 -3)", 2, "roof"}};
+const std::vector<TestFeature> kTwoFeatures{{"POINT Z (300000 200000 12.5)", 1},
+                                            {"POINT Z (300010 200020 -3)", 2, "roof"}};
 
 TEST_F(PointLayer, ReadsZFromManyFormats) {
   const std::vector<Point3> expected{{300000, 200000, 12.5}, {300010, 200020, -3}};
   for (const auto& [driver, name] :
        {std::pair{"GPKG", "a.gpkg"}, {"ESRI Shapefile", "b.shp"}, {"FlatGeobuf", "d.fgb"}}) {
-    const std::string path = write({TestLayer{"points", wkbPoint25D, kTwo}}, driver, name);
+    const std::string path = write({TestLayer{"points", wkbPoint25D, kTwoFeatures}}, driver, name);
     // FlatGeobuf sorts its features along a curve.
     EXPECT_THAT(read(path), testing::UnorderedElementsAreArray(expected)) << driver;
     EXPECT_THAT(open_point_layer(path, {})->crs(), HasSubstr("British National Grid")) << driver;
@@ -119,7 +120,7 @@ TEST_F(PointLayer, FieldAndFilter) {
   ImportOptions options;
   options.z_field = "h";
   options.where = "kind = 'roof'";
-  EXPECT_EQ(read(write(kTwo), options), (std::vector<Point3>{{300010, 200020, 2}}));
+  EXPECT_EQ(read(write(kTwoFeatures), options), (std::vector<Point3>{{300010, 200020, 2}}));
   EXPECT_EQ(filtered_, 1u);
 }
 
@@ -149,7 +150,8 @@ TEST_F(PointLayer, LinesAndPolygonsAreRefused) {
 }
 
 TEST_F(PointLayer, UnknownNamesAreAnsweredWithTheKnown) {
-  const std::string path = write({TestLayer{"points", wkbPoint25D, kTwo}, TestLayer{"spots", wkbPoint25D, kTwo}});
+  const std::string path =
+      write({TestLayer{"points", wkbPoint25D, kTwoFeatures}, TestLayer{"spots", wkbPoint25D, kTwoFeatures}});
   EXPECT_THAT(refusal<FileError>(path), HasSubstr(R"(["points", "spots"])"));
   ImportOptions options;
   options.layer = "contours";

@@ -13,14 +13,14 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-std::string data(const std::string& name) {
+std::string data_file(const std::string& name) {
   return std::string(ITIN_DATA_DIR) + "/" + name;
 }
 
 class RasterData : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (!std::filesystem::exists(data("README.md"))) GTEST_SKIP() << ITIN_DATA_DIR << " is absent";
+    if (!std::filesystem::exists(data_file("README.md"))) GTEST_SKIP() << ITIN_DATA_DIR << " is absent";
   }
 
   test::Reading expect_exact(const std::string& path, const test::SlowRules& rules = {}, ImportOptions options = {}) {
@@ -36,7 +36,7 @@ class RasterData : public ::testing::Test {
 };
 
 TEST_F(RasterData, EverestHasVoids) {
-  const test::Reading reading = expect_exact(data("srtm90-alpine/mt_everest_90m.tif"));
+  const test::Reading reading = expect_exact(data_file("srtm90-alpine/mt_everest_90m.tif"));
   EXPECT_EQ(plan_.crs_name, "EPSG:32645");
   EXPECT_TRUE(plan_.crs_chosen);
   EXPECT_NEAR(static_cast<double>(reading.counts.voids) / (1201.0 * 1201), 0.091, 0.001);
@@ -46,7 +46,7 @@ TEST_F(RasterData, EverestHasVoids) {
 }
 
 TEST_F(RasterData, SaintHelensIsAUsgsDem) {
-  const test::Reading reading = expect_exact(data("dem30-misc/SainteHelens.dem"));
+  const test::Reading reading = expect_exact(data_file("dem30-misc/SainteHelens.dem"));
   EXPECT_EQ(plan_.crs_name, "EPSG:26710");
   EXPECT_THAT(reading.info.gap_basis, ElementsAre(45, 0, 0, -45));
   EXPECT_NEAR(static_cast<double>(reading.counts.voids) / (327.0 * 468), 0.027, 0.001);
@@ -57,7 +57,7 @@ TEST_F(RasterData, OddNodataValuesEarnNoWarning) {
   for (const char* name : {"dem30-misc/bigtujunga.tif", "dem30-misc/elev_vinschgau.tif", "dem30-misc/hobart_dem_01.tif",
                            "alexandria-va-2m/dtm.tif", "bilbao-dem-bdsm-cdsm/DEM.tif"}) {
     SCOPED_TRACE(name);
-    const test::Reading reading = expect_exact(data(name));
+    const test::Reading reading = expect_exact(data_file(name));
     EXPECT_FALSE(plan_.crs_chosen);
     EXPECT_THAT(plan_.warnings, IsEmpty());
     EXPECT_THAT(reading.counts.warnings, IsEmpty());
@@ -66,7 +66,7 @@ TEST_F(RasterData, OddNodataValuesEarnNoWarning) {
 
 TEST_F(RasterData, SlottskogenNeedsACrs) {
   ImportOptions options;
-  options.sources = {data("dem30-misc/Slottskogen.asc.zip")};
+  options.sources = {data_file("dem30-misc/Slottskogen.asc.zip")};
   try {
     plan_import(options, nullptr);
     FAIL() << "no exception";
@@ -80,7 +80,7 @@ TEST_F(RasterData, SlottskogenNeedsACrs) {
 
 TEST_F(RasterData, TilesOfTerrain50DoNotOverlap) {
   ImportOptions options;
-  options.sources = {data("os-terrain50-wales/tiles/st17.zip"), data("os-terrain50-wales/tiles/st18.zip")};
+  options.sources = {data_file("os-terrain50-wales/tiles/st17.zip"), data_file("os-terrain50-wales/tiles/st18.zip")};
   ImportPlan plan = plan_import(options, nullptr);
   EXPECT_EQ(plan.crs_name, "EPSG:27700");
   EXPECT_EQ(plan.grid, (Grid{{0, 0}, 0.01}));
@@ -103,7 +103,8 @@ TEST_F(RasterData, TilesOfTerrain50DoNotOverlap) {
 }
 
 TEST_F(RasterData, AnnArborIsInFeet) {
-  const test::Reading reading = expect_exact(data("annarbor-viewscape/test_dtm.tif"), {.metres_per_height = 0.3048});
+  const test::Reading reading =
+      expect_exact(data_file("annarbor-viewscape/test_dtm.tif"), {.metres_per_height = 0.3048});
   EXPECT_EQ(plan_.crs_name, "EPSG:26917");
   EXPECT_THAT(plan_.warnings, ElementsAre(HasSubstr("the unit of heights is not stated; taken as that of the "
                                                     "coordinates, 0.3048 m")));
@@ -111,7 +112,7 @@ TEST_F(RasterData, AnnArborIsInFeet) {
 
   ImportOptions metres;
   metres.crs = "EPSG:2253+5703";
-  expect_exact(data("annarbor-viewscape/test_dtm.tif"), {.metres_per_height = 1}, metres);
+  expect_exact(data_file("annarbor-viewscape/test_dtm.tif"), {.metres_per_height = 1}, metres);
   EXPECT_THAT(plan_.warnings, IsEmpty());
 }
 

@@ -22,7 +22,7 @@
 #include <itin/geometry.hpp>
 #include <itin/import.hpp>
 
-#include "import/terrain_source.hpp"
+#include "import/source/terrain_source.hpp"
 
 namespace itin::test {
 

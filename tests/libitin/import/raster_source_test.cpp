@@ -1,5 +1,5 @@
 // Rasters of every format, made and real, against a slow reading that shares no code with the import.
-#include "import/raster_source.hpp"
+#include "import/rasters/raster_source.hpp"
 
 #include <filesystem>
 #include <fstream>

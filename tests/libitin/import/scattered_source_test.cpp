@@ -1,4 +1,4 @@
-#include "import/scattered_source.hpp"
+#include "import/points/scattered_source.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 #include <itin/error.hpp>
 
-#include "import/point_source.hpp"
+#include "import/points/point_source.hpp"
 #include "support/las_writer.hpp"
 #include "support/temporary_directory.hpp"
 

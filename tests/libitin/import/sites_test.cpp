@@ -12,7 +12,7 @@
 #include <itin/error.hpp>
 #include <itin/sites.hpp>
 
-#include "import/delimited_text.hpp"
+#include "import/points/delimited_text.hpp"
 #include "support/seed.hpp"
 
 namespace itin {

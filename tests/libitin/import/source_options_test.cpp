@@ -1,4 +1,4 @@
-#include "import/source_options.hpp"
+#include "import/source/source_options.hpp"
 
 #include <gmock/gmock.h>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "store/morton_range.hpp"
+#include "geometry/morton_range.hpp"
 
 #include <algorithm>
 #include <random>

@@ -24,7 +24,7 @@ bool uses(const Triangle& t, Index v) {
   return std::find(t.begin(), t.end(), v) != t.end();
 }
 
-std::set<std::pair<Index, Index>> edges_of(const Tin& tin) {
+std::set<std::pair<Index, Index>> index_edges_of(const Tin& tin) {
   std::set<std::pair<Index, Index>> edges;
   for (const Triangle& t : tin.triangles)
     for (std::size_t i = 0; i < 3; ++i) edges.insert(std::minmax(t[i], t[(i + 1) % 3]));
@@ -78,7 +78,7 @@ void check_triangles(const Tin& tin, const Topology& topology) {
 }
 
 void check_edges(const Tin& tin, const Topology& topology) {
-  ASSERT_EQ(topology.edge_count(), edges_of(tin).size());
+  ASSERT_EQ(topology.edge_count(), index_edges_of(tin).size());
   std::set<std::pair<Index, Index>> seen;
   Index before = 0;
   for (Index e = 0; e < topology.edge_count(); ++e) {
@@ -104,11 +104,11 @@ void check_edges(const Tin& tin, const Topology& topology) {
     }
     ASSERT_EQ(as_set(edges), expected_edges);
   }
-  EXPECT_EQ(seen, edges_of(tin));
+  EXPECT_EQ(seen, index_edges_of(tin));
 }
 
 void check_vertices(const Tin& tin, const Topology& topology) {
-  const auto edges = edges_of(tin);
+  const auto edges = index_edges_of(tin);
   for (Index v = 0; v < tin.vertices.size(); ++v) {
     const auto neighbours = topology.vertices_of_vertex(v);
     Set expected, expected_triangles;

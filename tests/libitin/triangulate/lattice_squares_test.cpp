@@ -15,23 +15,24 @@ namespace {
 
 constexpr GridBox kEverywhere{-kGridHalfSide, -kGridHalfSide, kGridHalfSide - 1, kGridHalfSide - 1};
 
-using Corners = std::array<Position, 3>;
+using FlatCorners = std::array<Position, 3>;
 
-Corners smallest_first(Corners t) {
+FlatCorners smallest_first(FlatCorners t) {
   std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   return t;
 }
 
 /// Each triangle with its three neighbours, in any order; beyond the hull three equal corners.
-std::map<Corners, std::multiset<Corners>> adjacency(const PlaneMesh& mesh, const std::vector<Position>& positions) {
+std::map<FlatCorners, std::multiset<FlatCorners>> adjacency(const PlaneMesh& mesh,
+                                                            const std::vector<Position>& positions) {
   const auto corners = [&](std::uint32_t t) {
-    if (t == kNoTriangle) return Corners{};
+    if (t == kNoTriangle) return FlatCorners{};
     const auto& [a, b, c] = mesh.triangles[t];
     return smallest_first({positions[a], positions[b], positions[c]});
   };
-  std::map<Corners, std::multiset<Corners>> result;
+  std::map<FlatCorners, std::multiset<FlatCorners>> result;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    std::multiset<Corners>& neighbours = result[corners(t)];
+    std::multiset<FlatCorners>& neighbours = result[corners(t)];
     EXPECT_TRUE(neighbours.empty()) << "a triangle twice";
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t n = mesh.neighbours[t][i];

@@ -15,6 +15,7 @@
 #include <itin/topology.hpp>
 #include <itin/triangulate.hpp>
 
+#include "support/corner_triangles.hpp"
 #include "support/delaunay_tin.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
@@ -27,28 +28,26 @@ namespace {
 
 constexpr std::uint64_t kAny = 1 << 24;
 
-using Corners = std::array<GridPoint, 3>;
+using test::TriangleCorners;
 
 /// Every triangle by its corners, the least first, in order.
 template <class Surface>
-std::vector<Corners> sorted_triangles(const Surface& surface, std::vector<std::uint32_t> numbers) {
-  std::vector<Corners> result;
+std::vector<TriangleCorners> sorted_triangles(const Surface& surface, std::vector<std::uint32_t> numbers) {
+  std::vector<TriangleCorners> result;
   for (const std::uint32_t t : numbers) {
-    Corners corners = surface.corners(t);
-    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-    result.push_back(corners);
+    result.push_back(test::smallest_first(surface.corners(t)));
   }
   std::sort(result.begin(), result.end());
   return result;
 }
 
-std::vector<Corners> triangles_of(const Tin& tin) {
+std::vector<TriangleCorners> ordered_triangles_of(const Tin& tin) {
   std::vector<std::uint32_t> numbers(tin.triangles.size());
   std::iota(numbers.begin(), numbers.end(), 0U);
   return sorted_triangles(tin, numbers);
 }
 
-std::vector<Corners> triangles_of(const LatticeTin& lattice) {
+std::vector<TriangleCorners> ordered_triangles_of(const LatticeTin& lattice) {
   std::vector<std::uint32_t> numbers;
   for (std::uint32_t cell = 0; cell < lattice.tiles.size() * LatticeTin::kCells; ++cell)
     lattice.for_each_triangle(cell, [&](std::uint32_t t) {
@@ -77,7 +76,7 @@ std::vector<Edge> rim_of(const Tin& tin) {
   std::vector<Edge> edges;
   const auto adjacent = adjacent_triangles(tin);
   for (std::uint32_t t = 0; t < adjacent.size(); ++t) {
-    const Corners corners = tin.corners(t);
+    const TriangleCorners corners = tin.corners(t);
     for (std::size_t i = 0; i < 3; ++i)
       if (adjacent[t][i] == kNoNeighbour) edges.emplace_back(place_of(corners[i]), place_of(corners[(i + 1) % 3]));
   }
@@ -100,7 +99,7 @@ TEST(LatticeOf, HasTheTrianglesAndTheRimOfTheTin) {
     const Tin tin = gappy(random, share);
     const auto lattice = lattice_of(tin);
     ASSERT_TRUE(lattice);
-    EXPECT_EQ(triangles_of(*lattice), triangles_of(tin));
+    EXPECT_EQ(ordered_triangles_of(*lattice), ordered_triangles_of(tin));
     EXPECT_EQ(rim_of(*lattice), rim_of(tin));
     GridBox box;
     for (const Triangle& t : tin.triangles)
@@ -150,7 +149,7 @@ class TriangulateLattice : public testing::Test {
     const Tin tin = triangulate(store, window, Detail::tolerance(0), progress_, themes);
     const auto lattice = triangulate_lattice(store, window, themes, kAny, progress_);
     if (!lattice) return false;
-    EXPECT_EQ(triangles_of(*lattice), triangles_of(tin));
+    EXPECT_EQ(ordered_triangles_of(*lattice), ordered_triangles_of(tin));
     EXPECT_EQ(rim_of(*lattice), rim_of(tin));
     EXPECT_EQ(lattice->bounds(), tin.bounds());
     read_in_parts(store, window, themes, tin);
@@ -179,7 +178,7 @@ class TriangulateLattice : public testing::Test {
     reader->read(std::vector{tile}, progress_);
     EXPECT_EQ(lattice.tiles[tile].heights != nullptr, lattice.tiles[tile].ground != LatticeTin::Ground::kNone);
     reader->read_all(progress_);
-    EXPECT_EQ(triangles_of(lattice), triangles_of(tin));
+    EXPECT_EQ(ordered_triangles_of(lattice), ordered_triangles_of(tin));
     for (std::uint32_t cell = 0; cell < lattice.tiles.size() * LatticeTin::kCells; ++cell)
       lattice.for_each_triangle(cell, [&](std::uint32_t t) {
         for (const GridPoint& p : lattice.corners(t)) EXPECT_LE(p.z, reader->highest(cell / LatticeTin::kCells));

@@ -20,8 +20,8 @@ namespace {
 using test::LevelPoint;
 using test::Pattern;
 
-using Corner = std::array<std::int32_t, 3>;
-using TriangleKey = std::array<Corner, 3>;
+using IndexCorners = std::array<std::int32_t, 3>;
+using TriangleKey = std::array<IndexCorners, 3>;
 
 TriangleKey key(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
   TriangleKey k{{{a.x, a.y, a.z}, {b.x, b.y, b.z}, {c.x, c.y, c.z}}};
@@ -69,7 +69,7 @@ std::string differences(const std::set<TriangleKey>& found, const std::set<Trian
     for (const TriangleKey& t : a) {
       if (b.contains(t)) continue;
       text << title;
-      for (const Corner& c : t) text << " (" << c[0] << ", " << c[1] << ")";
+      for (const IndexCorners& c : t) text << " (" << c[0] << ", " << c[1] << ")";
       text << "\n";
     }
   };

@@ -18,8 +18,8 @@
 namespace itin::viewshed {
 namespace {
 
-constexpr Point2 kNorthWest{300000, 200000};
-constexpr double kStep = 50, kRadius = 1500;
+constexpr Point2 kSitesCorner{300000, 200000};
+constexpr double kSitesStep = 50, kRadius = 1500;
 
 class Sites : public ::testing::Test {
  protected:
@@ -27,7 +27,7 @@ class Sites : public ::testing::Test {
     random_.seed(test::seed());
     const std::vector<double> z = test::fractal_heights(129, relief, 0.55, test::seed());
     const std::string raster = directory_.file("t.tif"), path = directory_.file("t.itin");
-    test::write_raster(raster, {kNorthWest.x, kNorthWest.y, kStep, side, side, 27700}, [&](int c, int r) {
+    test::write_raster(raster, {kSitesCorner.x, kSitesCorner.y, kSitesStep, side, side, 27700}, [&](int c, int r) {
       if (with_void && std::hypot(c - 0.35 * side, r - 0.6 * side) < 6) return std::nan("");
       return z[static_cast<std::size_t>(r) * 129 + static_cast<std::size_t>(c)];
     });
@@ -39,10 +39,10 @@ class Sites : public ::testing::Test {
   }
 
   void make_survey(std::size_t count) {
-    std::uniform_real_distribution<double> anywhere(0, side_ * kStep), height(2, 40);
+    std::uniform_real_distribution<double> anywhere(0, side_ * kSitesStep), height(2, 40);
     std::vector<Point2> positions;
     for (std::size_t i = 0; i < 2 * count; ++i)
-      positions.push_back({kNorthWest.x + anywhere(random_), kNorthWest.y - anywhere(random_)});
+      positions.push_back({kSitesCorner.x + anywhere(random_), kSitesCorner.y - anywhere(random_)});
     const auto ground = ground_under(*store_, positions, ThemeChoice::none(), progress_);
     for (std::size_t i = 0; i < positions.size() && survey_.stands.size() < count; ++i)
       if (ground[i])
@@ -229,7 +229,8 @@ TEST_F(Sites, WhatWasFoundCanBePutBack) {
 
 TEST_F(Sites, SitesAreProposedOnSummitsAndSpaced) {
   make_terrain(129, 250, false);
-  const Window area = Window::box({kNorthWest.x + 1000, kNorthWest.y - 5000, kNorthWest.x + 5000, kNorthWest.y - 1000});
+  const Window area =
+      Window::box({kSitesCorner.x + 1000, kSitesCorner.y - 5000, kSitesCorner.x + 5000, kSitesCorner.y - 1000});
   const ProposalRequest request{.spacing = 1000, .radius = 2000, .mast_height = 20, .target_height = 2, .earth = {}};
   const std::vector<Proposal> proposals = propose_sites(*store_, area, request, progress_);
   EXPECT_GE(proposals.size(), 16U);

@@ -62,7 +62,8 @@ struct SiteSurvey {
   ThemeChoice themes = ThemeChoice::none();
   /// Served are targets in sight; with a criterion only those whose link meets it, too.
   std::optional<FresnelCriterion> fresnel;
-  // Changes the speed, never what is exact.
+  // Change the speed, never what is exact.
+  Engine engine = Engine::kAuto;    ///< of cells at full detail; points are decided by rays
   std::optional<double> tolerance;  ///< of the first look; none: chosen by the number of points
   std::uint64_t memory_bytes = std::uint64_t{1} << 30;
 };

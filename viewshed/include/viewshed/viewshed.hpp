@@ -64,6 +64,13 @@ enum class NoData {
   kClear   ///< they pass
 };
 
+/// What decides sight lines to cells. The result never depends on it.
+enum class Engine {
+  kAuto,   ///< whichever takes less time, as benchmarks/README.md measured it
+  kSweep,  ///< a sweep of the surface about each observer
+  kRays    ///< Embree's rays; not in mode kHeight, which asks more than a ray tells
+};
+
 /// What a cell is told about the observers that see it.
 enum class Mode {
   kVisible,     ///< whether any does
@@ -78,7 +85,7 @@ enum class Mode {
 
 /// What is known of the errors of the surface's vertices: normal, with this standard deviation; those of vertices x
 /// apart are correlated as exp(-x / correlation_length), or not at all where that is 0. Between vertices they are
-/// linear, and what stands on the surface moves with it. See src/vertical_odds.hpp for what follows from it.
+/// linear, and what stands on the surface moves with it. See src/modes/vertical_odds.hpp for what follows from it.
 struct VerticalError {
   double sigma = 0;               ///< metres, positive
   double correlation_length = 0;  ///< metres
@@ -105,6 +112,7 @@ struct Request {
   bool observers_on_surface = false;
   bool targets_on_surface = false;
   NoData nodata = NoData::kUnknown;
+  Engine engine = Engine::kAuto;
   Mode mode = Mode::kVisible;
   VerticalError vertical_error;  ///< kProbability
 };

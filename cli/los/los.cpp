@@ -1,0 +1,191 @@
+// itin los: line-of-sight verdicts and reports.
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+#include <itin/height_limit.hpp>
+#include <itin/store.hpp>
+#include <profile/los.hpp>
+#include <profile/profile_csv.hpp>
+
+#include "los/los_case.hpp"
+#include "los/los_links.hpp"
+#include "los/los_reports.hpp"
+#include "los/los_store.hpp"
+#include "options/earth_options.hpp"
+#include "options/radio_options.hpp"
+#include "options/store_scale.hpp"
+#include "output/output_path.hpp"
+#include "output/store_document.hpp"
+#include "program/call_files.hpp"
+#include "program/values.hpp"
+#include "program/verb.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+class LosVerb final : public Verb {
+ public:
+  std::string name() const override { return "los"; }
+  std::string summary() const override { return "Say whether two points see each other, and report why"; }
+
+  void declare(CLI::App& app) override {
+    reads(app.add_option("STORE", store_, "The store (not with --profile-csv)"));
+    line_.declare(app);
+    reads(app.add_option("--profile-csv", profile_csv_, "Work on this profile instead of a store: d_km,h_m[,clutter_m]")
+              ->type_name("FILE"));
+    app.add_option("--heights", heights_text_, "Heights of the two ends above that profile")->type_name("h1,h2");
+    links_.declare(app);
+    earth_.declare(app);
+    earth_.declare_radius(app);
+    radio_.declare(app);
+    reports_.declare(app);
+    policy_.declare(app);
+  }
+
+  void validate() override {
+    earth_.validate();
+    radio_.validate();
+    if (links_.given()) {
+      if (store_.empty() || line_.given()) throw InputError("--links takes a STORE, and the place of --from and --to");
+      reports_.validate_links();
+      links_.validate(radio_.object());
+      line_.validate_surface();
+    } else {
+      validate_line();
+    }
+    query_.earth = earth_.earth();
+    query_.radio = radio_.radio(query_.earth);
+    query_.criteria = radio_.criteria();
+    query_.object = radio_.object();
+  }
+
+  Document parameters() const override {
+    Document parameters = Document::object();
+    if (store_.empty()) {
+      parameters["profile_csv"] = profile_csv_;
+      parameters["heights_m"] = heights_;
+    } else {
+      parameters["store"] = store_;
+      if (links_.given()) parameters.update(links_.parameters());
+      parameters.update(links_.given() ? line_.surface_parameters() : line_.parameters());
+    }
+    parameters.update(radio_.parameters());
+    return parameters;
+  }
+
+  Result execute(Progress& progress) override {
+    if (links_.given()) return run_links(progress);
+    for (const std::string& path : reports_.paths()) policy_.require_writable(path);
+    LosCase one = store_.empty() ? run_profile() : run_store();
+    add_warnings(one.result);
+    reports_.write(one, command(), reports_.paths(), policy_.overwrite);
+    one.result.document["outputs"] = reports_.paths();
+    one.result.text = text_of(one.report);
+    return std::move(one.result);
+  }
+
+ private:
+  void validate_line() {
+    if (store_.empty() == profile_csv_.empty()) throw InputError("give a STORE with --from and --to, or --profile-csv");
+    if (store_.empty()) {
+      if (line_.given()) throw InputError("--from and --to take a STORE; with --profile-csv give --heights h1,h2");
+      if (heights_text_.empty()) throw InputError("--profile-csv takes --heights h1,h2");
+      heights_ = parse_tuple("--heights", heights_text_, 2, "h1,h2");
+      for (const double height : heights_) require_height(height, "--heights");
+      if (heights_[0] < 0 || heights_[1] < 0) throw InputError("--heights: a height must not be negative");
+    } else {
+      if (!heights_text_.empty())
+        throw InputError("--heights is of use with --profile-csv; give heights in --from, --to");
+      line_.validate(radio_.object() ? std::optional(radio_.object()->tip_m) : std::nullopt);
+    }
+    links_.require_none();
+    reports_.validate(!store_.empty());
+  }
+
+  Document command() const {
+    Document command{{"verb", name()}};
+    command.update(parameters());
+    return command;
+  }
+
+  LosHeader header(const std::string& of = {}) const { return {reports_.title(of), earth_.document()}; }
+
+  LosCase run_profile() {
+    query_.from_height_m = heights_[0], query_.to_height_m = heights_[1];
+    query_.points_as_given = true;
+    profile::LosReport report = profile::analyse(profile::read_profile_csv(profile_csv_), query_);
+    LosEnd from, to;
+    from.ground_m = report.stands_on.from_m, to.ground_m = report.stands_on.to_m;
+    from.height_m = heights_[0], to.height_m = heights_[1];
+    from.elevation_angle_deg = report.elevation_angle_from_deg;
+    to.elevation_angle_deg = report.elevation_angle_to_deg;
+    report.facts = {{"Profile", fmt::format("{}, {}", std::filesystem::path(profile_csv_).filename().string(),
+                                            counted(report.profile.points.size(), "point"))}};
+    for (const auto& [end, lines] : {std::pair(from, &report.from_lines), std::pair(to, &report.to_lines)}) {
+      *lines = {fmt::format("ground {:.2f} m, height {:.2f} m, elevation {:.2f} m", end.ground_m, end.height_m,
+                            end.ground_m + end.height_m),
+                fmt::format("elevation angle {:.3f}\xC2\xB0", end.elevation_angle_deg)};
+    }
+    return los_case(std::move(report), from, to, header());
+  }
+
+  LosCase run_store() {
+    const Store store(store_);
+    LosCase one = los_case(store, line_.run(store, query_), header());
+    warn_of_scale(store.metadata(), one.result.warnings);
+    return one;
+  }
+
+  Result run_links(Progress& progress) {
+    policy_.require_writable(links_.output());
+    const Store store(store_);
+    const profile::LinkTable table = links_.table(store, line_);
+    std::vector<LosReports::Job> jobs = reports_.jobs(table.links, policy_);
+    LosLinks::Survey survey = links_.run(store, table, line_, query_, policy_.overwrite, progress);
+    survey.result.document["refraction"] = earth_.document();
+    add_warnings(survey.result);
+    warn_of_scale(store.metadata(), survey.result.warnings);
+    // A link without a verdict has no report; the table says why.
+    std::erase_if(jobs, [&](const LosReports::Job& job) { return !survey.computed[job.link]; });
+    const auto work = [&](std::size_t i) {
+      const profile::Link& link = table.links[i];
+      LosCase one = los_case(store, line_.run(store, query_, {link.from, link.to, link.from_height, link.to_height}),
+                             header(link.id));
+      one.result.document["link"] = link.id;
+      return one;
+    };
+    reports_.write_all(jobs, work, command(), policy_.overwrite, progress, survey.result);
+    return std::move(survey.result);
+  }
+
+  void add_warnings(Result& result) const {
+    if (query_.radio && earth_.is_default()) {
+      result.warnings.push_back(
+          fmt::format("radio at the refraction of light, an effective Earth of {:.0f} km; the usual one of radio is "
+                      "--effective-earth 4/3",
+                      query_.radio->effective_earth_km));
+    }
+  }
+
+  std::string store_, profile_csv_, heights_text_;
+  std::vector<double> heights_;
+  LosStoreOptions line_;
+  LosLinks links_;
+  LosReports reports_;
+  EarthOptions earth_;
+  RadioOptions radio_;
+  OutputPolicy policy_;
+  profile::LosQuery query_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_los_verb() {
+  return std::make_unique<LosVerb>();
+}
+
+}  // namespace itin::cli

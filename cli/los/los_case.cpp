@@ -1,0 +1,95 @@
+#include "los/los_case.hpp"
+
+#include <fmt/format.h>
+
+#include <itin/coordinates.hpp>
+
+namespace itin::cli {
+
+namespace {
+
+std::string optional_metres(const std::optional<double>& value) {
+  return value ? fmt::format("{:.2f} m", *value) : "none is enough";
+}
+
+void add_radio_fact(profile::LosReport& report) {
+  const profile::RadioPath& radio = *report.query.radio;
+  report.facts.emplace_back(
+      "Radio", fmt::format("{:g} GHz, {} polarisation, effective Earth {:.1f} km, {:.0f} % over sea; wavelength "
+                           "0.299792458 / f",
+                           radio.frequency_ghz,
+                           radio.polarisation == profile::Polarisation::kVertical ? "vertical" : "horizontal",
+                           radio.effective_earth_km, 100 * radio.over_sea));
+}
+
+void add_facts(profile::LosReport& report) {
+  report.facts.emplace_back("Refraction", report.query.earth.convention());
+  if (report.query.radio) add_radio_fact(report);
+  report.facts.emplace_back("Program", "itin " ITIN_VERSION);
+}
+
+}  // namespace
+
+LosCase los_case(profile::LosReport report, const LosEnd& from, const LosEnd& to, const LosHeader& header) {
+  LosCase one{std::move(report), {}};
+  one.report.title = header.title;
+  add_facts(one.report);
+  Document& document = one.result.document;
+  document["crs"] = nullptr;
+  document["refraction"] = header.refraction;
+  document["from"] = end_document(from);
+  document["to"] = end_document(to);
+  document.update(los_document(one.report));
+  return one;
+}
+
+LosCase los_case(const Store& store, LosStoreOptions::Result line, const LosHeader& header) {
+  LosCase one = los_case(std::move(line.report), line.from, line.to, header);
+  one.result.warnings = std::move(line.warnings);
+  one.result.document["crs"] = crs_identifier(store.metadata().crs_wkt);
+  one.result.document["surface"] = std::move(line.surface);
+  one.result.document["statistics"] = {{"points_read", line.statistics.points_read},
+                                       {"blocks_read", line.statistics.blocks_read},
+                                       {"triangles", line.triangles}};
+  return one;
+}
+
+std::string text_of(const profile::LosReport& report) {
+  std::string text = fmt::format("{}, {:.1f} m", name_of(report.verdict), report.profile.length_m);
+  if (report.clearance_m && report.critical) {
+    text += fmt::format("; least clearance {:.2f} m at {:.1f} m ({})", *report.clearance_m, report.critical->distance_m,
+                        cause_of(report, report.critical->theme, report.critical->feature));
+  }
+  text += "\n";
+  if (report.geodesic_m)
+    text +=
+        fmt::format("{:.1f} m on the grid, {:.1f} m geodesic (WGS 84)\n", report.profile.length_m, *report.geodesic_m);
+  for (const profile::Obstruction& o : report.obstructions) {
+    text += fmt::format("obstructed from {:.1f} to {:.1f} m, {:.2f} m deep at {:.1f} m ({})\n", o.from_m, o.to_m,
+                        o.depth_m, o.peak_at_m, cause_of(report, o.theme, o.feature));
+  }
+  for (const profile::CriterionResult& c : report.criteria) {
+    text += fmt::format("K = {:.4g}, {:g} F1: {}", c.criterion.k, c.criterion.fraction, name_of(c.verdict));
+    if (c.clearance_f1) text += fmt::format(", {:.3f} F1", *c.clearance_f1);
+    text += "\n";
+  }
+  for (const profile::NamedHeights& r : report.required) {
+    text +=
+        fmt::format("for {}: first end {}, second end {}, both {}\n", r.name, optional_metres(r.heights.from_alone_m),
+                    optional_metres(r.heights.to_alone_m), optional_metres(r.heights.both_equal_m));
+  }
+  if (report.losses) {
+    const profile::PathLosses& l = *report.losses;
+    text += fmt::format("free space {:.1f} dB, diffraction (delta-Bullington) {:.1f} dB; least clearance {:.2f} F1\n",
+                        l.free_space_db, l.ld_db, report.fresnel ? report.fresnel->fraction : 0);
+  }
+  if (report.visible) {
+    text +=
+        fmt::format("of the object at the second end {:.1f} m are seen ({:.0f} %), up to its hub {:.1f} m ({:.0f} %)\n",
+                    report.visible->tip_visible_m, 100 * report.visible->tip_fraction, report.visible->hub_visible_m,
+                    100 * report.visible->hub_fraction);
+  }
+  return text + report.query.earth.convention() + "\n";
+}
+
+}  // namespace itin::cli

@@ -1,0 +1,34 @@
+// One line of sight worked out: its report, and the document that says the same to machines.
+#pragma once
+
+#include <string>
+
+#include <itin/store.hpp>
+#include <profile/los.hpp>
+
+#include "los/los_document.hpp"
+#include "los/los_store.hpp"
+#include "program/verb.hpp"
+
+namespace itin::cli {
+
+struct LosCase {
+  profile::LosReport report;
+  Result result;
+};
+
+/// What is the same for every line of a call.
+struct LosHeader {
+  std::string title;
+  Document refraction;
+};
+
+/// Of a profile from a file.
+LosCase los_case(profile::LosReport report, const LosEnd& from, const LosEnd& to, const LosHeader& header);
+/// Of a line on a store.
+LosCase los_case(const Store& store, LosStoreOptions::Result line, const LosHeader& header);
+
+/// For people.
+std::string text_of(const profile::LosReport& report);
+
+}  // namespace itin::cli

@@ -1,0 +1,169 @@
+#include "los/los_document.hpp"
+
+#include <cmath>
+
+#include <profile/fresnel.hpp>
+
+namespace itin::cli {
+
+namespace {
+
+using profile::LosReport;
+
+Document number(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? Document(*value) : Document(nullptr);
+}
+
+Document cause(const LosReport& report, std::uint16_t theme) {
+  return profile::cause_of(report, theme);
+}
+
+/// What the source calls it.
+Document feature(const LosReport& report, std::uint16_t theme, std::int64_t number) {
+  const auto known = report.features.find({theme, number});
+  return known == report.features.end() ? Document(nullptr) : Document(known->second);
+}
+
+/// From 0, in the order of import.
+Document feature_number(std::int64_t number) {
+  return number < 0 ? Document(nullptr) : Document(number);
+}
+
+Document critical_document(const LosReport& report) {
+  if (!report.critical) return nullptr;
+  const profile::ProfilePoint& p = *report.critical;
+  const bool placed = !report.crs_wkt.empty();
+  return {{"distance_m", p.distance_m},
+          {"x", placed ? Document(p.x) : Document(nullptr)},
+          {"y", placed ? Document(p.y) : Document(nullptr)},
+          {"z", p.ground_m},
+          {"theme", cause(report, p.theme)},
+          {"feature", feature(report, p.theme, p.feature)},
+          {"feature_number", feature_number(p.feature)}};
+}
+
+Document obstructions_document(const LosReport& report) {
+  Document list = Document::array();
+  for (const profile::Obstruction& o : report.obstructions) {
+    list.push_back({{"from_m", o.from_m},
+                    {"to_m", o.to_m},
+                    {"peak_at_m", o.peak_at_m},
+                    {"peak_m", o.peak_m},
+                    {"depth_m", o.depth_m},
+                    {"theme", cause(report, o.theme)},
+                    {"feature", feature(report, o.theme, o.feature)},
+                    {"feature_number", feature_number(o.feature)}});
+  }
+  return list;
+}
+
+Document criteria_document(const LosReport& report) {
+  Document list = Document::array();
+  for (const profile::CriterionResult& c : report.criteria) {
+    list.push_back({{"k", c.criterion.k},
+                    {"fraction", c.criterion.fraction},
+                    {"verdict", name_of(c.verdict)},
+                    {"clearance_m", number(c.clearance_m)},
+                    {"clearance_f1", number(c.clearance_f1)}});
+  }
+  return list;
+}
+
+Document heights_document(const LosReport& report) {
+  Document list = Document::array();
+  for (const profile::NamedHeights& named : report.required) {
+    Document curve = Document::array();
+    for (const profile::HeightPair& pair : named.heights.curve) {
+      curve.push_back({{"h1_m", pair.from_m}, {"h2_m", number(pair.to_m)}});
+    }
+    list.push_back({{"name", named.name},
+                    {"k", number(named.k)},
+                    {"fraction", named.fraction},
+                    {"from_alone_m", number(named.heights.from_alone_m)},
+                    {"to_alone_m", number(named.heights.to_alone_m)},
+                    {"both_equal_m", number(named.heights.both_equal_m)},
+                    {"curve", curve}});
+  }
+  return list;
+}
+
+Document radio_document(const LosReport& report) {
+  const profile::RadioPath& path = *report.query.radio;
+  const profile::PathLosses& losses = *report.losses;
+  Document radio{{"frequency_ghz", path.frequency_ghz},
+                 {"wavelength_m", profile::wavelength_m(path.frequency_ghz)},
+                 {"wavelength", "0.299792458 / f, f in GHz"},
+                 {"effective_earth_km", path.effective_earth_km},
+                 {"polarisation", path.polarisation == profile::Polarisation::kVertical ? "v" : "h"},
+                 {"over_sea", path.over_sea}};
+  radio["fresnel_fraction"] = report.fresnel ? number(report.fresnel->fraction) : Document(nullptr);
+  radio["fresnel_fraction_at_m"] = report.fresnel ? Document(report.fresnel->distance_m) : Document(nullptr);
+  radio["path"] = losses.horizons.trans_horizon ? "trans-horizon" : "line-of-sight";
+  radio["theta_t_mrad"] = losses.horizons.theta_t_mrad;
+  radio["theta_r_mrad"] = losses.horizons.theta_r_mrad;
+  radio["dlt_km"] = number(losses.horizons.dlt_km);
+  radio["dlr_km"] = number(losses.horizons.dlr_km);
+  radio["hst_m"] = losses.smooth.hst_m;
+  radio["hsr_m"] = losses.smooth.hsr_m;
+  radio["hstd_m"] = losses.smooth.hstd_m;
+  radio["hsrd_m"] = losses.smooth.hsrd_m;
+  radio["hte_m"] = report.antennas.from_m - losses.smooth.hstd_m;
+  radio["hre_m"] = report.antennas.to_m - losses.smooth.hsrd_m;
+  radio["v"] = number(losses.largest_v);
+  radio["losses_db"] = {{"free_space", losses.free_space_db},
+                        {"knife_edge", losses.knife_edge_db},
+                        {"bullington", losses.lba_db},
+                        {"lba", losses.lba_db},
+                        {"lbs", losses.lbs_db},
+                        {"ldsph", losses.ldsph_db},
+                        {"ld", losses.ld_db},
+                        {"deygout", losses.deygout_db}};
+  return radio;
+}
+
+Document visible_document(const LosReport& report) {
+  const profile::VisibleHeight& seen = *report.visible;
+  return {{"hub_m", report.query.object->hub_m},
+          {"tip_m", report.query.object->tip_m},
+          {"hidden_below_m", seen.from_m},
+          {"hub", {{"visible_m", seen.hub_visible_m}, {"fraction", seen.hub_fraction}}},
+          {"tip", {{"visible_m", seen.tip_visible_m}, {"fraction", seen.tip_fraction}}}};
+}
+
+}  // namespace
+
+Document end_document(const LosEnd& end) {
+  const auto of_site = [&](auto member) { return end.site ? Document(member(*end.site)) : Document(nullptr); };
+  return {{"x", of_site([](const LosEnd::Site& s) { return s.position.x; })},
+          {"y", of_site([](const LosEnd::Site& s) { return s.position.y; })},
+          {"lon", of_site([](const LosEnd::Site& s) { return s.lon_lat.x; })},
+          {"lat", of_site([](const LosEnd::Site& s) { return s.lon_lat.y; })},
+          {"ground_m", end.ground_m},
+          {"surface_m", number(end.surface_m)},
+          {"stands_on", end.on_surface ? "surface" : "ground"},
+          {"height_m", end.height_m},
+          {"elevation_m", end.elevation_m()},
+          {"azimuth_grid_deg", of_site([](const LosEnd::Site& s) { return s.azimuth_grid_deg; })},
+          {"azimuth_true_deg", of_site([](const LosEnd::Site& s) { return s.azimuth_true_deg; })},
+          {"elevation_angle_deg", end.elevation_angle_deg}};
+}
+
+Document los_document(const LosReport& report) {
+  Document document;
+  document["distance_m"] = report.profile.length_m;
+  document["geodesic_distance_m"] = number(report.geodesic_m);
+  document["verdict"] = name_of(report.verdict);
+  document["clearance_m"] = number(report.clearance_m);
+  document["critical"] = critical_document(report);
+  document["obstructions"] = obstructions_document(report);
+  document["criteria"] = criteria_document(report);
+  document["required_heights"] = heights_document(report);
+  if (report.losses) document["radio"] = radio_document(report);
+  if (report.visible) document["visible_height"] = visible_document(report);
+  Document gaps = Document::array();
+  for (const auto& [from, to] : report.profile.gaps) gaps.push_back({from, to});
+  document["gaps"] = gaps;
+  return document;
+}
+
+}  // namespace itin::cli

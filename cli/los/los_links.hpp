@@ -1,0 +1,47 @@
+// `itin los --links`: one row a link.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <itin/store.hpp>
+#include <profile/links.hpp>
+#include <profile/los.hpp>
+
+#include "los/los_store.hpp"
+#include "program/verb.hpp"
+
+namespace itin::cli {
+
+class LosLinks {
+ public:
+  void declare(CLI::App& app);
+  bool given() const { return !path_.empty(); }
+  const std::string& output() const { return output_; }
+  /// `object`: what stands at each second end, whose tip is then the height of those that the file does not tell.
+  /// Throws InputError.
+  void validate(const std::optional<profile::TallObject>& object);
+  /// Without --links. Throws InputError where an option is given that is of use with it only.
+  void require_none() const;
+  Document parameters() const;
+  /// In the store's CRS. Throws FileError, InputError.
+  profile::LinkTable table(const Store& store, const LosStoreOptions& surface) const;
+
+  struct Survey {
+    Result result;
+    std::vector<bool> computed;  ///< for each link, whether it has a verdict
+  };
+  /// Writes the table. Where a link could not be computed the result says so as its failure. Throws FileError,
+  /// InputError, CorruptStore, Cancelled.
+  Survey run(const Store& store, const profile::LinkTable& table, const LosStoreOptions& surface,
+             const profile::LosQuery& query, bool overwrite, Progress& progress) const;
+
+ private:
+  std::string path_, output_, height_text_;
+  profile::LinkHeights heights_{2, 2};
+};
+
+}  // namespace itin::cli

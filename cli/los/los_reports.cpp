@@ -1,0 +1,130 @@
+#include "los/los_reports.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <set>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+#include <itin/parallel.hpp>
+#include <profile/report.hpp>
+
+#include "output/store_document.hpp"
+#include "program/call_files.hpp"
+#include "program/json_text.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+/// Of a link, in names of files.
+constexpr std::string_view kId = "{id}";
+
+struct Written {
+  std::vector<std::string> paths;
+  std::string failure;  ///< of the first report that could not be written
+};
+
+/// The first of many, by name, and how many more.
+std::string failure_of(const std::vector<Written>& all) {
+  std::size_t failed = 0;
+  std::string first;
+  for (const Written& one : all) {
+    if (one.failure.empty()) continue;
+    if (failed++ == 0) first = one.failure;
+  }
+  if (failed < 2) return first;
+  return fmt::format("{}; so of {} of {}", first, failed, counted(all.size(), "link"));
+}
+
+}  // namespace
+
+void LosReports::declare(CLI::App& app) {
+  writes(app.add_option("--report", paths_,
+                        "Write the report, as its ending says: .json .csv .svg .pdf .png .html .kml .gpkg; may be "
+                        "given again. With "
+                        "--links one for each: {id} in the name stands for the link's")
+             ->type_name("FILE")
+             ->expected(1)
+             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll));
+  app.add_option("--title", title_, "The report's title")->type_name("TEXT");
+}
+
+void LosReports::validate(bool has_positions) const {
+  for (const std::string& path : paths_) profile::require_report_format(path, has_positions);
+}
+
+void LosReports::validate_links() const {
+  validate(true);
+  for (const std::string& path : paths_) {
+    if (path.find(kId) != std::string::npos) continue;
+    throw InputError(
+        fmt::format("--report '{}': with --links give each link a file of its own, such as reports/{}.pdf", path, kId));
+  }
+}
+
+std::string LosReports::title(const std::string& of) const {
+  std::string title = title_.empty() ? "Line-of-sight report" : title_;
+  if (!of.empty()) title += ": " + of;
+  // Line ends and the like have no glyphs.
+  std::replace_if(
+      title.begin(), title.end(), [](unsigned char c) { return c < ' '; }, ' ');
+  return title;
+}
+
+void LosReports::write(const LosCase& one, const Document& command, const std::vector<std::string>& paths,
+                       bool overwrite) const {
+  Document whole{{"itin", ITIN_VERSION}, {"command", command}};
+  whole.update(one.result.document);
+  whole["warnings"] = one.result.warnings;
+  const std::string json = json_text(whole, 2) + "\n";
+  for (const std::string& path : paths) profile::write_report(one.report, json, path, overwrite);
+}
+
+std::vector<LosReports::Job> LosReports::jobs(const std::vector<profile::Link>& links, OutputPolicy& policy) const {
+  std::vector<Job> jobs;
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < links.size() && given(); ++i) {
+    Job& job = jobs.emplace_back(Job{i, {}});
+    for (std::string path : paths_) {
+      path.replace(path.find(kId), kId.size(), file_name(links[i].id));
+      if (!names.insert(path).second)
+        throw InputError(fmt::format("--report: two links' reports would be {}; give links different ids", path));
+      policy.claim(path);
+      job.paths.push_back(std::move(path));
+    }
+  }
+  return jobs;
+}
+
+void LosReports::write_all(const std::vector<Job>& jobs, const std::function<LosCase(std::size_t link)>& work,
+                           const Document& command, bool overwrite, Progress& progress, Result& result) const {
+  std::vector<Written> all(jobs.size());
+  std::atomic<std::size_t> done = 0;
+  parallel_for(jobs.size(), [&](std::size_t i) {
+    progress.throw_if_cancelled();
+    try {
+      const LosCase one = work(jobs[i].link);
+      for (const std::string& path : jobs[i].paths) {
+        write(one, command, {path}, overwrite);
+        all[i].paths.push_back(path);
+      }
+    } catch (const CorruptStore&) {
+      throw;
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const Error& error) {
+      all[i].failure = error.what();
+    }
+    progress.report("reports", static_cast<double>(++done) / static_cast<double>(jobs.size()));
+  });
+  for (const Written& one : all) {
+    for (const std::string& path : one.paths) result.document["outputs"].push_back(path);
+  }
+  const std::string failure = failure_of(all);
+  if (failure.empty()) return;
+  result.failure += (result.failure.empty() ? "" : "; ") + failure;
+}
+
+}  // namespace itin::cli

@@ -1,0 +1,52 @@
+// `--report` and `--title`: the files of one line of sight, or of each of many.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <itin/progress.hpp>
+#include <profile/links.hpp>
+
+#include "los/los_case.hpp"
+#include "output/output_path.hpp"
+#include "program/verb.hpp"
+
+namespace itin::cli {
+
+class LosReports {
+ public:
+  void declare(CLI::App& app);
+  bool given() const { return !paths_.empty(); }
+  const std::vector<std::string>& paths() const { return paths_; }
+  /// Of one line. Throws InputError.
+  void validate(bool has_positions) const;
+  /// Of links, each of which needs a name of its own. Throws InputError.
+  void validate_links() const;
+  /// The title given, or "Line-of-sight report", of what.
+  std::string title(const std::string& of = {}) const;
+
+  /// `command`: the verb and its parameters, as documents have them. Throws FileError.
+  void write(const LosCase& one, const Document& command, const std::vector<std::string>& paths, bool overwrite) const;
+
+  struct Job {
+    std::size_t link;  ///< its place among the links
+    std::vector<std::string> paths;
+  };
+  /// One a link, in order. Throws InputError where two files would be one, FileError where one
+  /// cannot be written.
+  std::vector<Job> jobs(const std::vector<profile::Link>& links, OutputPolicy& policy) const;
+  /// In parallel. What was written is listed in `result`, in the links' order; a report that cannot be written is not
+  /// there, and becomes the result's failure. Throws CorruptStore, Cancelled.
+  void write_all(const std::vector<Job>& jobs, const std::function<LosCase(std::size_t link)>& work,
+                 const Document& command, bool overwrite, Progress& progress, Result& result) const;
+
+ private:
+  std::vector<std::string> paths_;
+  std::string title_;
+};
+
+}  // namespace itin::cli

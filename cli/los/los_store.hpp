@@ -1,0 +1,75 @@
+// A line of sight on a store: its ends, its profile, and what the report's header says about them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <itin/store.hpp>
+#include <itin/tin.hpp>
+#include <profile/los.hpp>
+
+#include "los/los_document.hpp"
+#include "options/detail_options.hpp"
+#include "options/in_crs.hpp"
+#include "options/surface_options.hpp"
+#include "program/values.hpp"
+#include "program/verb.hpp"
+
+namespace itin::cli {
+
+/// `--from`, `--to` and how the surface between them is asked for.
+class LosStoreOptions {
+ public:
+  void declare(CLI::App& app);
+  bool given() const { return !from_text_.empty() || !to_text_.empty(); }
+  /// Throws InputError. `object_tip_m`: the height of what stands at --to, where it does not say.
+  void validate(std::optional<double> object_tip_m);
+  /// For links, which bring their own ends: everything but --from and --to. Throws InputError.
+  void validate_surface();
+  Document surface_parameters() const;
+  Detail detail() const { return detail_.detail({}); }
+  const ThemeChoice& themes() const { return themes_.choice(); }
+  bool from_on_surface() const { return from_on_ == "surface"; }
+  bool to_on_surface() const { return to_on_ == "surface"; }
+  bool gaps_block() const { return nodata_text_ == "block"; }
+  bool gaps_clear() const { return nodata_text_ == "clear"; }
+  const std::string& in_crs() const { return in_crs_.crs; }
+  Document parameters() const;
+
+  /// In the store's CRS; heights as --absolute-heights says.
+  struct Ends {
+    Point2 from, to;
+    double from_height, to_height;
+  };
+  struct Result {
+    profile::LosReport report;
+    LosEnd from, to;
+    Document surface;
+    RetrievalStatistics statistics;
+    std::uint64_t triangles = 0;
+    std::vector<std::string> warnings;
+  };
+  /// Completes the query by heights and the surface's error, and works out the report. Throws InputError,
+  /// CorruptStore, FileError.
+  Result run(const Store& store, profile::LosQuery query) const;
+  /// The same between other ends.
+  Result run(const Store& store, profile::LosQuery query, const Ends& ends) const;
+
+ private:
+  double height_above(const char* option, double ground_m, double given_m) const;
+
+  std::string from_text_, to_text_, nodata_text_;
+  std::string from_on_ = "ground", to_on_ = "ground";
+  bool absolute_heights_ = false;
+  InCrs in_crs_;
+  DetailOptions detail_;
+  ThemeOptions themes_;
+
+  Place from_, to_;
+  double from_height_ = 2, to_height_ = 2;
+};
+
+}  // namespace itin::cli

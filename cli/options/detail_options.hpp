@@ -1,0 +1,32 @@
+// How much detail: `--tolerance`, or `--rings` about a centre.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <itin/detail.hpp>
+
+#include "program/verb.hpp"
+
+namespace itin::cli {
+
+class DetailOptions {
+ public:
+  void declare(CLI::App& app);
+  /// Throws InputError.
+  void validate();
+  bool has_rings() const { return !rings_.empty(); }
+  /// `centre` is used by rings only.
+  Detail detail(Point2 centre) const;
+  Document parameters() const;
+
+ private:
+  std::string tolerance_text_, rings_text_;
+  double tolerance_ = 0;
+  std::vector<Ring> rings_;
+};
+
+}  // namespace itin::cli

@@ -1,0 +1,34 @@
+// Curvature and refraction: `--curvature`, `--refraction`, `--earth-radius`, `--effective-earth`.
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include <itin/earth.hpp>
+
+#include "program/verb.hpp"
+
+namespace itin::cli {
+
+class EarthOptions {
+ public:
+  void declare(CLI::App& app);
+  /// `--effective-earth-km` besides.
+  void declare_radius(CLI::App& app);
+  /// Throws InputError.
+  void validate();
+  const Earth& earth() const { return earth_; }
+  /// Whether nothing was said about refraction.
+  bool is_default() const { return refraction_text_.empty() && effective_text_.empty() && effective_km_text_.empty(); }
+  /// The convention and its values: `refraction` of a document.
+  Document document() const;
+
+ private:
+  void require_no_refraction() const;
+
+  std::string curvature_text_, refraction_text_, radius_text_, effective_text_, effective_km_text_;
+  Earth earth_;
+};
+
+}  // namespace itin::cli

@@ -1,0 +1,21 @@
+#include "options/in_crs.hpp"
+
+#include <memory>
+
+#include <itin/coordinates.hpp>
+
+namespace itin::cli {
+
+void InCrs::declare(CLI::App& app) {
+  app.add_option("--in-crs", crs,
+                 "CRS of the points given here, for instance EPSG:4326 for lon,lat (default: the store's)")
+      ->type_name("CRS");
+}
+
+std::function<Point2(Point2)> InCrs::transform_to(const std::string& wkt) const {
+  if (crs.empty()) return [](Point2 p) { return p; };
+  const auto transform = std::make_shared<CoordinateTransform>(crs, wkt);
+  return [transform](Point2 p) { return (*transform)(p); };
+}
+
+}  // namespace itin::cli

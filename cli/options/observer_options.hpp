@@ -1,0 +1,58 @@
+// Observers: `--observer` or `--observers FILE`, and what their heights mean.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <itin/sites.hpp>
+#include <itin/store.hpp>
+
+#include "options/in_crs.hpp"
+#include "options/view_fields.hpp"
+#include "program/values.hpp"
+#include "program/verb.hpp"
+
+namespace itin::cli {
+
+/// An observer in the store's CRS, as understood.
+struct ObserverPlace {
+  std::string name;
+  Point2 position;
+  double height = 0;  ///< metres above the surface, or an elevation
+  bool absolute = false;
+  ViewFields::View view;
+};
+
+class ObserverOptions {
+ public:
+  void declare(CLI::App& app);
+  /// Throws InputError.
+  void validate();
+  bool absolute_heights() const { return absolute_heights_; }
+  bool on_surface() const { return observer_on_ == "surface"; }
+  /// At least one. Throws InputError, FileError.
+  std::vector<ObserverPlace> places(const StoreMetadata& metadata) const;
+
+ private:
+  std::vector<ObserverPlace> places_given(const StoreMetadata& metadata) const;
+  std::vector<ObserverPlace> places_of_file(const StoreMetadata& metadata) const;
+  void require_above_ground(const std::string& where, double height) const;
+
+  std::vector<std::string> observers_;
+  SiteQuery sites_;
+  std::string height_text_;
+  std::string observer_on_ = "ground";
+  bool absolute_heights_ = false;
+  InCrs in_crs_;
+  ViewFields views_;
+
+  double height_ = 2;  ///< of observers that do not say
+  std::vector<Place> given_;
+};
+
+Document observers_document(const std::vector<ObserverPlace>& places);
+
+}  // namespace itin::cli

@@ -1,0 +1,37 @@
+// Places of a call that lie off the data, and what is likely to be wrong with them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <itin/geometry.hpp>
+#include <itin/store.hpp>
+
+#include "options/in_crs.hpp"
+
+namespace itin::cli {
+
+/// Whether a place in the store's CRS lies within the store's bounds.
+bool is_on_the_data(Point2 place, const StoreMetadata& metadata);
+
+/// Nothing where `given` (in the CRS of --in-crs, else the store's) lies within the store's bounds. Else, to follow
+/// what the place is called: that it lies off the data, the data's bounds, and the likely mistake, such as coordinates
+/// that are swapped, or longitude and latitude without --in-crs.
+std::optional<std::string> off_the_data(Point2 given, const InCrs& in_crs, const StoreMetadata& metadata);
+
+/// `given` in the store's CRS. Throws InputError, which begins with `what`, where it lies off the data.
+Point2 on_the_data(const std::string& what, Point2 given, const InCrs& in_crs, const StoreMetadata& metadata);
+
+/// Throws InputError, which begins with `what`, where `place`, read from a file and in the store's CRS by now, lies off
+/// the data.
+void require_on_the_data(const std::string& what, Point2 place, const InCrs& in_crs, const StoreMetadata& metadata);
+
+/// The same of many, where all do: the first.
+void require_any_on_the_data(const std::string& first, const std::vector<Point2>& places, const InCrs& in_crs,
+                             const StoreMetadata& metadata);
+
+/// "xmin,ymin to xmax,ymax in EPSG:27700".
+std::string extent_of(const StoreMetadata& metadata);
+
+}  // namespace itin::cli

@@ -1,0 +1,31 @@
+#include "options/store_scale.hpp"
+
+#include <fmt/format.h>
+
+#include <itin/coordinates.hpp>
+#include <itin/error.hpp>
+
+namespace itin::cli {
+
+std::optional<GridScale> scale_of(const StoreMetadata& metadata) {
+  try {
+    return grid_scale(metadata.crs_wkt, metadata.grid.box(metadata.bounds));
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+Document scale_document(const std::optional<GridScale>& scale) {
+  return scale ? Document{{"least", scale->least}, {"greatest", scale->greatest}} : Document(nullptr);
+}
+
+void warn_of_scale(const StoreMetadata& metadata, std::vector<std::string>& warnings) {
+  const auto scale = scale_of(metadata);
+  if (!scale || scale->is_true()) return;
+  warnings.push_back(
+      fmt::format("lengths in the store's CRS, {}, are {}, and with them distances, angles and the Earth's curvature; "
+                  "import the sources into a new store, which will have a UTM zone",
+                  crs_title(metadata.crs_wkt), error_in_words(*scale)));
+}
+
+}  // namespace itin::cli

@@ -1,0 +1,24 @@
+// How true lengths in a store are, for documents and warnings.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <itin/grid_scale.hpp>
+#include <itin/store.hpp>
+
+#include "program/verb.hpp"
+
+namespace itin::cli {
+
+/// Over the store's bounds; nothing where its CRS does not tell.
+std::optional<GridScale> scale_of(const StoreMetadata& metadata);
+
+/// `scale`: `least` and `greatest`, or null.
+Document scale_document(const std::optional<GridScale>& scale);
+
+/// Adds a line where lengths are not true, as in stores made before imports minded it.
+void warn_of_scale(const StoreMetadata& metadata, std::vector<std::string>& warnings);
+
+}  // namespace itin::cli

@@ -1,0 +1,150 @@
+#include "options/view_fields.hpp"
+
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+#include <itin/height_limit.hpp>
+
+#include "program/values.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+/// Throws InputError where nothing can be in view.
+void require_view(const ViewFields::View& view, const std::string& where) {
+  const auto refuse = [&](const char* what, const ViewFields::Angles& angles, const char* advice) {
+    throw InputError(
+        fmt::format("{}: its {} run from {:g} to {:g}: {}", where, what, angles.first, angles.second, advice));
+  };
+  if (view.elevation && view.elevation->first >= view.elevation->second)
+    refuse("elevations", *view.elevation, "give a lower and then a higher one");
+  if (view.azimuth && view.azimuth->first == view.azimuth->second)
+    refuse("azimuths", *view.azimuth, "for the whole circle leave them empty");
+}
+
+}  // namespace
+
+void ViewFields::declare(CLI::App& app) {
+  const auto field = [&](const char* option, std::string& to, const char* help, const char* type) {
+    app.add_option(option, to, help)->type_name(type);
+  };
+  field("--target-height-field", target_height_, "The field of the --observers file that holds --target-height",
+        "FIELD");
+  field("--radius-field", radius_, "The field that holds --radius", "FIELD");
+  field("--min-radius-field", min_radius_, "The field that holds --min-radius", "FIELD");
+  field("--azimuth-fields", azimuths_, "The fields that hold --azimuth", "FROM,TO");
+  field("--elevation-fields", elevations_, "The fields that hold --elevation", "FROM,TO");
+  app.add_flag("--arcgis-fields", arcgis_,
+               "Take whichever of OFFSETA, OFFSETB, SPOT, AZIMUTH1, AZIMUTH2, VERT1, VERT2, RADIUS1, RADIUS2 the file "
+               "has; radii are horizontal, whatever their sign");
+}
+
+std::string ViewFields::text_given() const {
+  return target_height_ + radius_ + min_radius_ + azimuths_ + elevations_ + (arcgis_ ? "arcgis" : "");
+}
+
+void ViewFields::add_pair(const char* option, const std::string& text, Role from, Role to) {
+  if (text.empty()) return;
+  const std::size_t comma = text.find(',');
+  if (comma == std::string::npos || comma == 0 || comma + 1 == text.size())
+    throw InputError(fmt::format("{} '{}': expected two fields, FROM,TO", option, text));
+  fields_.push_back({from, text.substr(0, comma)});
+  fields_.push_back({to, text.substr(comma + 1)});
+}
+
+void ViewFields::validate() {
+  if (arcgis_) {
+    if (text_given() != "arcgis")
+      throw InputError("--arcgis-fields names all fields; leave out the options that name single ones");
+    using enum Role;
+    // VERT1 is the upper limit.
+    fields_ = {{kHeight, "OFFSETA"},     {kSpot, "SPOT"},           {kTargetHeight, "OFFSETB"},
+               {kMinRadius, "RADIUS1"},  {kRadius, "RADIUS2"},      {kAzimuthFrom, "AZIMUTH1"},
+               {kAzimuthTo, "AZIMUTH2"}, {kElevationFrom, "VERT2"}, {kElevationTo, "VERT1"}};
+    return;
+  }
+  if (!target_height_.empty()) fields_.push_back({Role::kTargetHeight, target_height_});
+  if (!radius_.empty()) fields_.push_back({Role::kRadius, radius_});
+  if (!min_radius_.empty()) fields_.push_back({Role::kMinRadius, min_radius_});
+  add_pair("--azimuth-fields", azimuths_, Role::kAzimuthFrom, Role::kAzimuthTo);
+  add_pair("--elevation-fields", elevations_, Role::kElevationFrom, Role::kElevationTo);
+}
+
+std::vector<NumberField> ViewFields::numbers() const {
+  std::vector<NumberField> numbers;
+  for (const Field& field : fields_) numbers.push_back({field.name, !arcgis_});
+  return numbers;
+}
+
+ViewFields::View ViewFields::view(const std::vector<std::optional<double>>& numbers, const std::string& where) const {
+  View view;
+  const auto refuse = [&](const Field& field, double value, const std::string& expected) {
+    throw InputError(fmt::format("{}: field '{}' holds {:.10g}: expected {}", where, field.name, value, expected));
+  };
+  const auto angle = [&](const Field& field, double value, double most) {
+    if (std::abs(value) > most)
+      refuse(field, value, most == 90 ? "degrees from -90 to 90" : "degrees from -360 to 360");
+    return value;
+  };
+  // A range of which one end is given is open to the other.
+  const auto range = [](std::optional<Angles>& angles, Angles all) -> Angles& {
+    return angles ? *angles : angles.emplace(all);
+  };
+  for (std::size_t i = 0; i < fields_.size(); ++i) {
+    const Field& field = fields_[i];
+    if (!numbers[i]) continue;
+    const double value = *numbers[i];
+    if (field.role == Role::kHeight || field.role == Role::kSpot || field.role == Role::kTargetHeight)
+      require_height(value, fmt::format("{}: field '{}'", where, field.name));
+    switch (field.role) {
+      case Role::kHeight:
+        if (value < 0) refuse(field, value, "0 or a positive number of metres");
+        view.height = value;
+        break;
+      case Role::kSpot:
+        view.spot = value;
+        break;
+      case Role::kTargetHeight:
+        view.target_height = value;
+        break;
+      case Role::kRadius:
+      case Role::kMinRadius: {
+        // ArcGIS writes horizontal distances with a minus sign.
+        const double metres = arcgis_ ? std::abs(value) : value;
+        if (field.role == Role::kRadius && !(metres > 0)) refuse(field, value, "a positive number of metres");
+        if (metres > kFarthest) refuse(field, value, fmt::format("at most {:.0f} metres", kFarthest));
+        if (metres < 0) refuse(field, value, "0 or a positive number of metres");
+        (field.role == Role::kRadius ? view.radius : view.min_radius) = metres;
+        break;
+      }
+      case Role::kAzimuthFrom:
+        range(view.azimuth, {0, 360}).first = angle(field, value, 360);
+        break;
+      case Role::kAzimuthTo:
+        range(view.azimuth, {0, 360}).second = angle(field, value, 360);
+        break;
+      case Role::kElevationFrom:
+        range(view.elevation, {-90, 90}).first = angle(field, value, 90);
+        break;
+      case Role::kElevationTo:
+        range(view.elevation, {-90, 90}).second = angle(field, value, 90);
+        break;
+    }
+  }
+  require_view(view, where);
+  return view;
+}
+
+void add_view(const ViewFields::View& view, Document& observer) {
+  if (view.target_height) observer["target_height_m"] = *view.target_height;
+  if (view.radius) observer["radius_m"] = *view.radius;
+  if (view.min_radius) observer["min_radius_m"] = *view.min_radius;
+  if (view.azimuth) observer["azimuth_deg"] = {view.azimuth->first, view.azimuth->second};
+  if (view.elevation) observer["elevation_deg"] = {view.elevation->first, view.elevation->second};
+}
+
+}  // namespace itin::cli

@@ -1,0 +1,42 @@
+// A folder of outputs that appears complete or not at all.
+//
+//   OutputFolder folder("ztv", policy);
+//   write(folder.working() + "/tip-count.tif");
+//   folder.publish();
+#pragma once
+
+#include <string>
+
+#include "output/output_path.hpp"
+
+namespace itin::cli {
+
+class OutputFolder {
+ public:
+  /// The file that tells a folder of outputs from any other.
+  static constexpr const char* kManifest = "ztv.json";
+
+  /// Throws FileError if `path` is something else than a folder, or one with files in it that may not be replaced: any
+  /// without `--overwrite`, and with it one that has no manifest; or if nothing can be written beside it.
+  static void require_writable(const std::string& path, const OutputPolicy& policy);
+
+  /// Makes a working folder beside `path`. Throws as require_writable() does.
+  OutputFolder(std::string path, const OutputPolicy& policy);
+  /// Removes the working folder, if not published.
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+  const std::string& working() const { return working_; }
+  /// Gives the working folder the name, in one step. What the earlier folder had besides the outputs that its manifest
+  /// lists moves along. Throws FileError.
+  void publish();
+
+ private:
+  void keep_foreign_files(const std::string& earlier) const;
+
+  std::string path_;
+  std::string working_;
+};
+
+}  // namespace itin::cli

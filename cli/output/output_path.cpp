@@ -1,0 +1,55 @@
+#include "output/output_path.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <unistd.h>
+
+#include <itin/error.hpp>
+
+namespace itin::cli {
+
+void OutputPolicy::declare(CLI::App& app) {
+  app_ = &app;
+  app.add_flag("--overwrite", overwrite, "Replace existing outputs");
+}
+
+void OutputPolicy::claim(const std::string& path) {
+  if (!files_) files_.emplace(*app_);
+  files_->add_output(path);
+  require_writable(path);
+}
+
+void OutputPolicy::require_writable(const std::string& path) const {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path, ignored);
+  if (fs::is_directory(status)) throw FileError(path, "is a directory; name a file");
+  if (fs::exists(status) && !overwrite) throw FileError(path, "exists; give --overwrite to replace it");
+  fs::path directory = fs::path(path).parent_path();
+  if (directory.empty()) directory = ".";
+  if (!fs::is_directory(directory, ignored)) {
+    throw FileError(path, "its directory does not exist; create it or name another place");
+  }
+  if (access(directory.c_str(), W_OK) != 0) {
+    throw FileError(path, "its directory is not writable; change its permissions or name another place");
+  }
+}
+
+std::string ending_of(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending;
+}
+
+std::string file_name(const std::string& name) {
+  std::string text;
+  for (const char c : name) {
+    const bool plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' ||
+                       c == '.' || (c & 0x80) != 0;
+    text += plain ? c : '_';
+  }
+  return text.empty() || text[0] == '.' ? "_" + text : text;
+}
+
+}  // namespace itin::cli

@@ -1,0 +1,36 @@
+// The rules for files a verb is asked to write, checked before any work is done for them.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "program/call_files.hpp"
+
+namespace itin::cli {
+
+/// `--overwrite`, and what it allows.
+class OutputPolicy {
+ public:
+  bool overwrite = false;
+
+  void declare(CLI::App& app);
+  /// Throws FileError if `path` exists and may not be replaced, is a directory, or lies where nothing can be written.
+  void require_writable(const std::string& path) const;
+  /// The same for a file whose name no option gives as it stands. Throws InputError, too, where the call reads or
+  /// writes that file already.
+  void claim(const std::string& path);
+
+ private:
+  CLI::App* app_ = nullptr;
+  std::optional<CallFiles> files_;
+};
+
+/// With its dot, in small letters: ".csv".
+std::string ending_of(const std::string& path);
+
+/// What of a name can be part of every file system's names.
+std::string file_name(const std::string& name);
+
+}  // namespace itin::cli

@@ -1,0 +1,253 @@
+// itin profile: the surface along a line or a path.
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <itin/coordinates.hpp>
+#include <itin/cross_section.hpp>
+#include <itin/error.hpp>
+#include <itin/paths.hpp>
+#include <itin/store.hpp>
+
+#include "options/in_crs.hpp"
+#include "options/off_the_data.hpp"
+#include "options/store_scale.hpp"
+#include "options/surface_options.hpp"
+#include "output/output_path.hpp"
+#include "output/store_document.hpp"
+#include "profile/profile_output.hpp"
+#include "program/call_files.hpp"
+#include "program/values.hpp"
+#include "program/verb.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+/// Appends what lies beyond a corner of the path; the corner itself is there already.
+void append(profile::Profile& whole, const profile::Profile& part) {
+  for (const profile::ProfilePoint& p : part.points) {
+    profile::ProfilePoint moved = p;
+    moved.distance_m += whole.length_m;
+    if (!whole.points.empty()) {
+      const profile::ProfilePoint& last = whole.points.back();
+      if (last.distance_m == moved.distance_m && last.ground_m == moved.ground_m) continue;
+    }
+    whole.points.push_back(moved);
+  }
+  for (const auto& [from, to] : part.gaps) {
+    const double begin = from + whole.length_m, end = to + whole.length_m;
+    if (!whole.gaps.empty() && from == 0 && whole.gaps.back().second == begin) {
+      whole.gaps.back().second = end;
+    } else {
+      whole.gaps.emplace_back(begin, end);
+    }
+  }
+  whole.length_m += part.length_m;
+}
+
+class ProfileVerb final : public Verb {
+ public:
+  std::string name() const override { return "profile"; }
+  std::string summary() const override { return "Write the cross-section of the surface along a line or a path"; }
+
+  void declare(CLI::App& app) override {
+    reads(app.add_option("STORE", store_, "The store")->required());
+    app.add_option("--from", from_text_, "Where the line begins")->type_name("x,y");
+    const auto repeated = [](CLI::Option* option) {
+      return option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    };
+    repeated(app.add_option("--via", via_text_, "A corner on the way; may be given again")->type_name("x,y"));
+    app.add_option("--to", to_text_, "Where it ends")->type_name("x,y");
+    reads(app.add_option("--path", path_, "Follow the one line of this vector file instead")->type_name("FILE"));
+    in_crs_.declare(app);
+    repeated(app.add_option("--tolerance", tolerance_texts_,
+                            "Vertical tolerance of the surface; 0: every stored point (default: 0); may be given again "
+                            "for several profiles side by side")
+                 ->type_name("METRES"));
+    app.add_option("--rings", rings_text_, "Tolerances that grow with the distance from --from, nearest ring first")
+        ->type_name("RADIUS:TOLERANCE,...");
+    repeated(
+        writes(app.add_option("-o,--output", outputs_,
+                              "What to write: .csv, .json, .geojson, or a chart: .svg, .pdf, .png; may be given again")
+                   ->type_name("FILE")));
+    themes_.declare(app);
+    policy_.declare(app);
+  }
+
+  void validate() override {
+    const bool line = !from_text_.empty() || !to_text_.empty() || !via_text_.empty();
+    if (line && !path_.empty()) throw InputError("--path takes the place of --from, --via and --to");
+    if (path_.empty() && (from_text_.empty() || to_text_.empty())) throw InputError("give --from and --to, or --path");
+    if (path_.empty()) {
+      given_.push_back(parse_place("--from", from_text_).position);
+      for (const std::string& text : via_text_) given_.push_back(parse_place("--via", text).position);
+      given_.push_back(parse_place("--to", to_text_).position);
+    }
+    if (!tolerance_texts_.empty() && !rings_text_.empty()) {
+      throw InputError("--tolerance and --rings exclude each other");
+    }
+    for (const std::string& text : tolerance_texts_) {
+      for (const double t : parse_numbers("--tolerance", text, Range::kNotNegative)) tolerances_.push_back(t);
+    }
+    if (!rings_text_.empty()) rings_ = parse_rings("--rings", rings_text_);
+    if (tolerances_.empty()) tolerances_.push_back(0);
+    for (const std::string& output : outputs_) require_profile_format(output);
+    themes_.validate();
+  }
+
+  Document parameters() const override {
+    Document parameters{{"store", store_}};
+    if (path_.empty()) {
+      parameters["points"] = Document::array();
+      for (const Point2& p : given_) parameters["points"].push_back({p.x, p.y});
+    } else {
+      parameters["path"] = path_;
+    }
+    if (!in_crs_.crs.empty()) parameters["in_crs"] = in_crs_.crs;
+    if (rings_.empty()) {
+      parameters["tolerances_m"] = tolerances_;
+    } else {
+      for (const Ring& ring : rings_) {
+        parameters["rings"].push_back({{"radius_m", ring.radius}, {"tolerance_m", ring.tolerance}});
+      }
+    }
+    parameters.update(themes_.parameters());
+    return parameters;
+  }
+
+  Result execute(Progress& progress) override {
+    for (const std::string& output : outputs_) policy_.require_writable(output);
+    const Store store(store_);
+    const std::vector<Point2> corners = corners_in(store.metadata());
+    Result result;
+    std::vector<SurfaceProfile> profiles;
+    Cost cost;
+    for (const auto& [detail, label] : details(corners.front())) {
+      profiles.push_back({detail, label, along(store, corners, detail, themes_.choice(), cost, progress)});
+    }
+    profile::Profile ground;
+    if (std::any_of(outputs_.begin(), outputs_.end(), is_chart) &&
+        themes_.choice().includes_standing(store.metadata().themes)) {
+      ground = along(store, corners, profiles.front().detail, ThemeChoice::none(), cost, progress);
+    }
+    if (profiles.front().profile.points.empty()) {
+      result.warnings.push_back("the line lies wholly outside the data; the profile is empty" +
+                                where_it_begins(store.metadata()));
+    }
+    warn_of_scale(store.metadata(), result.warnings);
+    result.document["crs"] = crs_identifier(store.metadata().crs_wkt);
+    result.document["surface"] = surface_document(store.metadata(), profiles.front().detail, themes_.choice());
+    result.document.update(profile_document(profiles, store.metadata()));
+    if (!outputs_.empty()) result.document["outputs"] = outputs_;
+    result.document["statistics"] = {
+        {"points_read", cost.read.points_read}, {"blocks_read", cost.read.blocks_read}, {"triangles", cost.triangles}};
+    write(store.metadata(), profiles, ground, corners, result.document);
+    result.text = text(profiles, cost.read);
+    return result;
+  }
+
+ private:
+  struct Cost {
+    RetrievalStatistics read;
+    std::uint64_t triangles = 0;
+  };
+  static profile::Profile along(const Store& store, const std::vector<Point2>& corners, const Detail& detail,
+                                const ThemeChoice& themes, Cost& cost, Progress& progress) {
+    profile::Profile whole;
+    for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+      progress.throw_if_cancelled();
+      const CrossSection section = cross_section(store, corners[i], corners[i + 1], detail, themes);
+      append(whole, profile::from_section(section));
+      cost.read += section.statistics;
+      cost.triangles += section.triangles;
+    }
+    return whole;
+  }
+
+  std::vector<Point2> corners_in(const StoreMetadata& metadata) const {
+    if (!path_.empty()) {
+      const std::vector<Path> paths = read_paths(path_, metadata.crs_wkt);
+      if (paths.size() != 1)
+        throw FileError(path_, fmt::format("has {}; a profile follows one", counted(paths.size(), "line")));
+      return paths.front().corners;
+    }
+    std::vector<Point2> corners(given_.size());
+    std::transform(given_.begin(), given_.end(), corners.begin(), in_crs_.transform_to(metadata.crs_wkt));
+    return corners;
+  }
+
+  std::string where_it_begins(const StoreMetadata& metadata) const {
+    if (given_.empty()) return fmt::format("; the data is {}", extent_of(metadata));
+    const auto off = off_the_data(given_.front(), in_crs_, metadata);
+    return off ? fmt::format("; --from '{}' {}", from_text_, *off) : "";
+  }
+
+  std::vector<std::pair<Detail, std::string>> details(Point2 centre) const {
+    std::vector<std::pair<Detail, std::string>> result;
+    if (!rings_.empty()) {
+      result.emplace_back(Detail::rings(centre, rings_), "rings " + rings_text_);
+      return result;
+    }
+    for (const double t : tolerances_) {
+      result.emplace_back(Detail::tolerance(t), t == 0 ? "every stored point" : fmt::format("tolerance {:g} m", t));
+    }
+    return result;
+  }
+
+  void write(const StoreMetadata& metadata, const std::vector<SurfaceProfile>& profiles, const profile::Profile& ground,
+             const std::vector<Point2>& corners, const Document& found) const {
+    Document document{{"itin", ITIN_VERSION}, {"command", {{"verb", name()}}}};
+    document["command"].update(parameters());
+    document.update(found);
+    document.erase("outputs");
+    const Point2 a = corners.front(), b = corners.back();
+    std::vector<double> turns;
+    double length = 0;
+    for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+      length += std::hypot(corners[i].x - corners[i - 1].x, corners[i].y - corners[i - 1].y);
+      turns.push_back(length);
+    }
+    std::string title = fmt::format("Profile from {:.10g}, {:.10g} to {:.10g}, {:.10g}", a.x, a.y, b.x, b.y);
+    if (!turns.empty()) title += fmt::format(" with {} corner{}", turns.size(), turns.size() > 1 ? "s" : "");
+    for (const std::string& output : outputs_) {
+      write_profile({metadata, profiles, ground, document, title, turns, policy_.overwrite}, output);
+    }
+  }
+
+  std::string text(const std::vector<SurfaceProfile>& profiles, const RetrievalStatistics& statistics) const {
+    std::string text;
+    for (const SurfaceProfile& surface : profiles) {
+      const auto& points = surface.profile.points;
+      const auto [low, high] = std::minmax_element(
+          points.begin(), points.end(), [](const auto& a, const auto& b) { return a.ground_m < b.ground_m; });
+      text +=
+          fmt::format("{}: {:.2f} m, {}", surface.name, surface.profile.length_m, counted(points.size(), "breakpoint"));
+      if (!points.empty()) text += fmt::format(", {:.2f} to {:.2f} m", low->ground_m, high->ground_m);
+      for (const auto& [from, to] : surface.profile.gaps) text += fmt::format(", no data {:.2f} to {:.2f} m", from, to);
+      text += "\n";
+    }
+    for (const std::string& output : outputs_) text += output + "\n";
+    return text + fmt::format("read {} in {}\n", counted(statistics.points_read, "point"),
+                              counted(statistics.blocks_read, "block"));
+  }
+
+  std::string store_, from_text_, to_text_, path_, rings_text_;
+  std::vector<std::string> via_text_, tolerance_texts_, outputs_;
+  std::vector<Point2> given_;
+  std::vector<double> tolerances_;
+  std::vector<Ring> rings_;
+  InCrs in_crs_;
+  ThemeOptions themes_;
+  OutputPolicy policy_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_profile_verb() {
+  return std::make_unique<ProfileVerb>();
+}
+
+}  // namespace itin::cli

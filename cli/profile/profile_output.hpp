@@ -1,0 +1,43 @@
+// What `itin profile` writes: tables, documents, lines and charts of the surface along a path.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <itin/detail.hpp>
+#include <itin/store.hpp>
+#include <profile/profile.hpp>
+
+#include "program/verb.hpp"
+
+namespace itin::cli {
+
+/// The surface at one detail along the whole path.
+struct SurfaceProfile {
+  Detail detail;
+  std::string name;  ///< "tolerance 2 m"
+  profile::Profile profile;
+};
+
+/// Throws InputError unless the ending is one of those below.
+void require_profile_format(const std::string& path);
+bool is_chart(const std::string& path);
+
+/// `length_m`, `gaps` of the first profile, and `profiles`.
+Document profile_document(const std::vector<SurfaceProfile>& profiles, const StoreMetadata& metadata);
+
+struct ProfileOutput {
+  const StoreMetadata& metadata;
+  const std::vector<SurfaceProfile>& profiles;
+  const profile::Profile& ground;  ///< for charts: the first without standing features; empty where it has none
+  Document document;               ///< the whole, for .json
+  std::string title;               ///< of charts
+  std::vector<double> corners_m;   ///< likewise: where along the line it turns
+  bool overwrite = false;
+};
+
+/// As the ending says: .csv, .json, .geojson; .svg, .pdf, .png. Throws InputError, FileError.
+void write_profile(const ProfileOutput& output, const std::string& path);
+
+}  // namespace itin::cli

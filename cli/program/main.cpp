@@ -1,0 +1,5 @@
+#include "program/program.hpp"
+
+int main(int argc, char** argv) {
+  return itin::cli::run(argc, argv);
+}

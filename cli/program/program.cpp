@@ -1,0 +1,227 @@
+#include "program/program.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+#include <sys/resource.h>
+#include <system_error>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <itin/error.hpp>
+#include <itin/parallel.hpp>
+
+#include "program/call_error.hpp"
+#include "program/call_files.hpp"
+#include "program/interruption.hpp"
+#include "program/json_text.hpp"
+#include "program/likely_meant.hpp"
+#include "program/stderr_progress.hpp"
+#include "program/thread_limit.hpp"
+#include "program/values.hpp"
+#include "program/verb.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+enum Status { kDone = 0, kFailed = 1, kWrongCall = 2, kInterrupted = 130 };
+
+/// The options that every verb has.
+struct Everywhere {
+  bool json = false;
+  bool quiet = false;
+  std::string threads;
+
+  void declare(CLI::App& app) {
+    app.add_flag("--json", json, "Print the result as one JSON document");
+    app.add_flag("--quiet", quiet, "No progress");
+    app.add_option("--threads", threads, "Threads to use; the result never depends on it (default: all cores)")
+        ->type_name("N");
+  }
+  void apply() const {
+    if (!threads.empty()) set_thread_count(parse_whole("--threads", threads, 1, 4096));
+  }
+};
+
+std::vector<std::unique_ptr<Verb>> make_verbs() {
+  std::vector<std::unique_ptr<Verb>> verbs;
+  verbs.push_back(make_import_verb());
+  verbs.push_back(make_info_verb());
+  verbs.push_back(make_check_verb());
+  verbs.push_back(make_tin_verb());
+  verbs.push_back(make_viewshed_verb());
+  verbs.push_back(make_visibility_verb());
+  verbs.push_back(make_ztv_verb());
+  verbs.push_back(make_profile_verb());
+  verbs.push_back(make_los_verb());
+  verbs.push_back(make_site_verb());
+  return verbs;
+}
+
+/// CLI11 would call an unknown verb an unexpected argument.
+void require_known_verb(const std::vector<std::string>& arguments, const std::vector<std::unique_ptr<Verb>>& verbs) {
+  std::vector<std::string> names;
+  for (const auto& verb : verbs) names.push_back(verb->name());
+  if (arguments.empty()) throw InputError(fmt::format("no verb given; the verbs are {}", fmt::join(names, ", ")));
+  const std::string& first = arguments.front();
+  const bool option = !first.empty() && first.front() == '-';
+  if (!option && std::find(names.begin(), names.end(), first) == names.end()) {
+    throw InputError(fmt::format("unknown verb '{}'{}; the verbs are {}", first, did_you_mean(first, names),
+                                 fmt::join(names, ", ")));
+  }
+}
+
+/// `--observer 1,2,3 4,5,6` means what `--observer 1,2,3 --observer 4,5,6` does. Left to CLI11, an option with any
+/// number of values would swallow the arguments behind it and stop at a negative number.
+std::vector<std::string> repeat_observer(const std::vector<std::string>& arguments) {
+  const std::string option = "--observer";
+  std::vector<std::string> repeated;
+  bool listing = false;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const bool value = i > 0 && arguments[i - 1] == option;
+    const bool another = !value && listing && looks_like_place(arguments[i]);
+    if (another) repeated.push_back(option);
+    repeated.push_back(arguments[i]);
+    listing = value || another;
+  }
+  return repeated;
+}
+
+std::uint64_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+Document complete_document(const Verb& verb, Result& result, double seconds) {
+  Document document;
+  document["itin"] = ITIN_VERSION;
+  document["command"] = {{"verb", verb.name()}};
+  document["command"].update(verb.parameters());
+  Document statistics = result.document.value("statistics", Document::object());
+  result.document.erase("statistics");
+  document.update(result.document);
+  document["warnings"] = result.warnings;
+  statistics["seconds"] = seconds;
+  statistics["peak_memory_bytes"] = peak_memory_bytes();
+  document["statistics"] = std::move(statistics);
+  return document;
+}
+
+void print(const std::string& text) {
+  std::cout << text << std::flush;
+  if (!std::cout) throw FileError("standard output", "could not be written; check the disk or pipe behind it");
+}
+
+/// Most often an unset variable of a script's: it must not stand for the default.
+void require_values(const CLI::App& verb) {
+  for (const CLI::Option* option : verb.get_options()) {
+    const std::vector<std::string>& values = option->results();
+    if (std::find(values.begin(), values.end(), "") != values.end())
+      throw InputError(fmt::format("{}: its value is empty; give one, or leave it out", option->get_name()));
+  }
+}
+
+void run_verb(Verb& verb, CLI::App& options, const Everywhere& everywhere) {
+  const auto start = std::chrono::steady_clock::now();
+  verb.complete();
+  require_values(options);
+  CallFiles{options};  // throws where one of them would be lost
+  everywhere.apply();
+  verb.validate();
+  require_threads();
+  Result result;
+  {
+    StderrProgress progress(StderrProgress::style_for(everywhere.quiet));
+    try {
+      result = verb.execute(progress);
+    } catch (const std::bad_alloc&) {
+      throw Error("out of memory; " + verb.advice_for_less_memory());
+    }
+  }
+  for (const std::string& warning : result.warnings) std::cerr << "itin: warning: " << warning << "\n";
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  print(everywhere.json ? json_text(complete_document(verb, result, elapsed.count()), 2) + "\n" : result.text);
+  if (!result.failure.empty()) throw Error(result.failure);
+}
+
+void parse_and_run(const std::vector<std::string>& arguments) {
+  const std::vector<std::unique_ptr<Verb>> verbs = make_verbs();
+  require_known_verb(arguments, verbs);
+
+  CLI::App app("Intervisibility and viewsheds on a multiscale implicit TIN", "itin");
+  app.set_version_flag("--version", "itin " ITIN_VERSION);
+  app.require_subcommand(1);
+  Everywhere everywhere;
+  for (const auto& verb : verbs) {
+    CLI::App* subcommand = app.add_subcommand(verb->name(), verb->summary());
+    verb->declare(*subcommand);
+    everywhere.declare(*subcommand);
+    require_roles(*subcommand);
+  }
+
+  std::vector<std::string> reversed = repeat_observer(arguments);
+  std::reverse(reversed.begin(), reversed.end());
+  try {
+    app.parse(std::move(reversed));
+  } catch (const CLI::CallForHelp&) {
+    return print(app.help());
+  } catch (const CLI::CallForVersion&) {
+    return print(app.version() + "\n");
+  } catch (const CLI::ParseError& error) {
+    const bool chosen = !app.get_subcommands().empty();
+    const std::string wrong = call_error(chosen ? *app.get_subcommands().front() : app, error);
+    throw InputError(
+        fmt::format("{}; see itin {}--help", wrong, chosen ? app.get_subcommands().front()->get_name() + " " : ""));
+  }
+  CLI::App& chosen = *app.get_subcommands().front();
+  const auto verb =
+      std::find_if(verbs.begin(), verbs.end(), [&](const auto& v) { return v->name() == chosen.get_name(); });
+  try {
+    run_verb(**verb, chosen, everywhere);
+  } catch (const std::bad_alloc&) {
+    throw Error(out_of_memory(chosen));
+  }
+}
+
+int report(std::string message, Status status) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  std::cerr << "itin: error: " << message << std::endl;
+  return status;
+}
+
+}  // namespace
+
+int run(int argc, char** argv) {
+  try {
+    catch_interruptions();
+    parse_and_run({argv + 1, argv + argc});
+    return kDone;
+  } catch (const Cancelled& error) {
+    return report(error.what(), kInterrupted);
+  } catch (const InputError& error) {
+    return report(error.what(), kWrongCall);
+  } catch (const Error& error) {
+    return report(error.what(), kFailed);
+  } catch (const std::bad_alloc&) {
+    return report("out of memory; free some", kFailed);
+  } catch (const std::system_error& error) {
+    return report(error.what(), kFailed);
+  } catch (const std::exception& error) {
+    return report(
+        fmt::format("a mistake of itin's own ({}); please report it with the command that led to it", error.what()),
+        kFailed);
+  } catch (...) {
+    return report("a mistake of itin's own; please report it with the command that led to it", kFailed);
+  }
+}
+
+}  // namespace itin::cli

@@ -1,0 +1,65 @@
+#include "program/stderr_progress.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "program/interruption.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr milliseconds kRedraw{100};
+constexpr milliseconds kPlainLine{3000};
+
+}  // namespace
+
+StderrProgress::Style StderrProgress::style_for(bool quiet) {
+  if (quiet) return Style::kSilent;
+  return isatty(STDERR_FILENO) != 0 ? Style::kTerminal : Style::kLines;
+}
+
+StderrProgress::StderrProgress(Style style) : style_(style), last_drawn_(Clock::now()) {}
+
+StderrProgress::~StderrProgress() {
+  clear();
+}
+
+void StderrProgress::report(std::string_view stage, double reported) {
+  if (style_ == Style::kSilent) return;
+  // Workers must not queue up here: whoever finds the line busy has nothing urgent to say.
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  if (!lock.owns_lock()) return;
+  const auto now = Clock::now();
+  const double fraction = std::clamp(reported, 0.0, 1.0);
+  const auto left = left_.after(stage, fraction, now);
+  if (now - last_drawn_ < (style_ == Style::kTerminal ? kRedraw : kPlainLine)) return;
+  last_drawn_ = now;
+  const std::string text = fmt::format("{} {:3.0f} %{}", stage, std::floor(100 * fraction),
+                                       left ? fmt::format(", {} left", about(*left)) : "");
+  if (style_ == Style::kTerminal) {
+    fmt::print(stderr, "\r\x1b[K{}", text);
+  } else {
+    fmt::print(stderr, "{}\n", text);
+  }
+  std::fflush(stderr);
+  drawn_ = true;
+}
+
+bool StderrProgress::cancelled() const {
+  return interrupted();
+}
+
+void StderrProgress::clear() {
+  const std::lock_guard lock(mutex_);
+  if (drawn_ && style_ == Style::kTerminal) fmt::print(stderr, "\r\x1b[K");
+  drawn_ = false;
+}
+
+}  // namespace itin::cli

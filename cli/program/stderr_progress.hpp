@@ -1,0 +1,42 @@
+// Progress on stderr: one line redrawn in place on a terminal, a plain line every few seconds elsewhere.
+#pragma once
+
+#include <chrono>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+#include <itin/progress.hpp>
+
+#include "program/time_left.hpp"
+
+namespace itin::cli {
+
+class StderrProgress final : public Progress {
+ public:
+  enum class Style { kSilent, kTerminal, kLines };
+
+  /// kTerminal where stderr is a terminal, kLines elsewhere, kSilent if quiet.
+  static Style style_for(bool quiet);
+
+  explicit StderrProgress(Style style);
+  ~StderrProgress() override;
+  StderrProgress(const StderrProgress&) = delete;
+  StderrProgress& operator=(const StderrProgress&) = delete;
+
+  void report(std::string_view stage, double fraction) override;
+  bool cancelled() const override;
+  /// Wipes the line, so that what is printed next starts at its beginning. Called again at destruction.
+  void clear();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  const Style style_;
+  std::mutex mutex_;
+  TimeLeft left_;
+  Clock::time_point last_drawn_;
+  bool drawn_ = false;
+};
+
+}  // namespace itin::cli

@@ -1,0 +1,185 @@
+#include "program/values.hpp"
+
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <itin/error.hpp>
+#include <itin/height_limit.hpp>
+
+namespace itin::cli {
+
+namespace {
+
+[[noreturn]] void refuse(std::string_view option, std::string_view text, std::string_view expected) {
+  throw InputError(fmt::format("{} '{}': {}", option, text, expected));
+}
+
+/// std::from_chars ignores the locale, but accepts no leading plus sign, and accepts inf and nan.
+template <typename Number>
+std::optional<Number> whole_text_as(std::string_view text) {
+  if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  if constexpr (std::is_floating_point_v<Number>) {
+    if (!std::isfinite(value)) return std::nullopt;
+  }
+  return value;
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0;;) {
+    const std::size_t end = text.find(separator, begin);
+    parts.push_back(text.substr(begin, end - begin));
+    if (end == std::string_view::npos) return parts;
+    begin = end + 1;
+  }
+}
+
+}  // namespace
+
+double parse_number(std::string_view option, std::string_view text, Range range) {
+  const std::optional<double> value = whole_text_as<double>(text);
+  if (!value) refuse(option, text, "not a number");
+  if (range == Range::kPositive && *value <= 0) refuse(option, text, "must be greater than 0");
+  if (range == Range::kNotNegative && *value < 0) refuse(option, text, "must not be negative");
+  return *value;
+}
+
+double parse_height(std::string_view option, std::string_view text, Range range) {
+  const double height = parse_number(option, text, range);
+  require_height(height, fmt::format("{} '{}'", option, text));
+  return height;
+}
+
+double parse_radius(std::string_view option, std::string_view text) {
+  const double radius = parse_number(option, text, Range::kPositive);
+  if (radius > kFarthest)
+    refuse(option, text, fmt::format("farther than any ground; give at most {:.0f} metres", kFarthest));
+  return radius;
+}
+
+double parse_ratio(std::string_view option, std::string_view text) {
+  const std::size_t slash = text.find('/');
+  if (slash == std::string_view::npos) return parse_number(option, text, Range::kPositive);
+  const std::optional<double> above = whole_text_as<double>(text.substr(0, slash));
+  const std::optional<double> below = whole_text_as<double>(text.substr(slash + 1));
+  if (!above || !below || *above <= 0 || *below <= 0) refuse(option, text, "expected a positive number or ratio a/b");
+  return *above / *below;
+}
+
+int parse_whole(std::string_view option, std::string_view text, int least, int most) {
+  const std::optional<int> value = whole_text_as<int>(text);
+  if (!value || *value < least || *value > most) {
+    refuse(option, text, fmt::format("expected a whole number from {} to {}", least, most));
+  }
+  return *value;
+}
+
+std::vector<double> parse_numbers(std::string_view option, std::string_view text, Range range) {
+  std::vector<double> values;
+  for (const std::string_view part : split(text, ',')) values.push_back(parse_number(option, part, range));
+  return values;
+}
+
+std::vector<double> parse_heights(std::string_view option, std::string_view text, Range range) {
+  std::vector<double> values;
+  for (const std::string_view part : split(text, ',')) values.push_back(parse_height(option, part, range));
+  return values;
+}
+
+std::vector<double> parse_tuple(std::string_view option, std::string_view text, std::size_t count,
+                                std::string_view shape) {
+  const std::vector<std::string_view> parts = split(text, ',');
+  std::vector<double> values;
+  for (const std::string_view part : parts) {
+    const std::optional<double> value = whole_text_as<double>(part);
+    if (!value || parts.size() != count) refuse(option, text, fmt::format("expected {}", shape));
+    values.push_back(*value);
+  }
+  return values;
+}
+
+std::vector<int> parse_wholes(std::string_view option, std::string_view text, int least, int most) {
+  std::vector<int> values;
+  for (const std::string_view part : split(text, ',')) values.push_back(parse_whole(option, part, least, most));
+  return values;
+}
+
+std::uint64_t parse_bytes(std::string_view option, std::string_view text) {
+  constexpr std::string_view kUnits = "KMGT";
+  std::string_view digits = text;
+  double factor = 1;
+  if (!digits.empty()) {
+    const std::size_t unit = kUnits.find(static_cast<char>(std::toupper(static_cast<unsigned char>(digits.back()))));
+    if (unit != std::string_view::npos) {
+      factor = std::ldexp(1.0, 10 * (static_cast<int>(unit) + 1));
+      digits.remove_suffix(1);
+    }
+  }
+  constexpr double kMost = 1e18;
+  const std::optional<double> value = whole_text_as<double>(digits);
+  if (!value || *value * factor < 1 || *value * factor > kMost) {
+    refuse(option, text, "expected a number of bytes, for instance 500M or 4G");
+  }
+  return static_cast<std::uint64_t>(*value * factor);
+}
+
+bool parse_switch(std::string_view option, std::string_view text) {
+  return parse_choice(option, text, {"off", "on"}) == 1;
+}
+
+std::size_t parse_choice(std::string_view option, std::string_view text, const std::vector<std::string_view>& choices) {
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    if (choices[i] == text) return i;
+  }
+  refuse(option, text, fmt::format("expected one of {}", fmt::join(choices, ", ")));
+}
+
+Box parse_box(std::string_view option, std::string_view text) {
+  constexpr std::string_view kShape = "xmin,ymin,xmax,ymax";
+  const std::vector<double> v = parse_tuple(option, text, 4, kShape);
+  const Box box{v[0], v[1], v[2], v[3]};
+  if (box.xmin >= box.xmax || box.ymin >= box.ymax) {
+    refuse(option, text, fmt::format("expected {} with xmin < xmax and ymin < ymax", kShape));
+  }
+  return box;
+}
+
+std::vector<Ring> parse_rings(std::string_view option, std::string_view text) {
+  std::vector<Ring> rings;
+  for (const std::string_view part : split(text, ',')) {
+    const std::vector<std::string_view> pair = split(part, ':');
+    if (pair.size() != 2) refuse(option, text, "expected radius:tolerance,..., for instance 500:0,2000:1");
+    rings.push_back(
+        {parse_number(option, pair[0], Range::kPositive), parse_number(option, pair[1], Range::kNotNegative)});
+    if (rings.size() > 1) {
+      const Ring& inner = rings[rings.size() - 2];
+      if (rings.back().radius <= inner.radius || rings.back().tolerance < inner.tolerance) {
+        refuse(option, text, "expected growing radii and tolerances, nearest ring first");
+      }
+    }
+  }
+  return rings;
+}
+
+Place parse_place(std::string_view option, std::string_view text) {
+  constexpr std::string_view kShape = "x,y or x,y,h";
+  const bool with_height = split(text, ',').size() == 3;
+  const std::vector<double> v = parse_tuple(option, text, with_height ? 3 : 2, kShape);
+  Place place{{v[0], v[1]}, std::nullopt};
+  if (with_height) place.height = v[2];
+  require_height(place.height.value_or(0), fmt::format("{} '{}'", option, text));
+  return place;
+}
+
+bool looks_like_place(std::string_view text) {
+  const std::vector<std::string_view> parts = split(text, ',');
+  return (parts.size() == 2 || parts.size() == 3) && whole_text_as<double>(parts[0]).has_value();
+}
+
+}  // namespace itin::cli

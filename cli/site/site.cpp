@@ -1,0 +1,228 @@
+// itin site: the few best of many sites.
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+#include <itin/file_digest.hpp>
+#include <itin/output_file.hpp>
+#include <itin/store.hpp>
+#include <viewshed/site_coverage.hpp>
+#include <viewshed/siting.hpp>
+
+#include "options/off_the_data.hpp"
+#include "options/store_scale.hpp"
+#include "output/new_folder.hpp"
+#include "output/output_path.hpp"
+#include "output/store_document.hpp"
+#include "program/json_text.hpp"
+#include "program/verb.hpp"
+#include "site/site_inputs.hpp"
+#include "site/site_links.hpp"
+#include "site/site_options.hpp"
+#include "site/site_outputs.hpp"
+#include "site/site_report.hpp"
+#include "site/site_result.hpp"
+#include "site/site_work.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+constexpr std::size_t kMostWarnings = 20;
+
+class SiteVerb final : public Verb {
+ public:
+  std::string name() const override { return "site"; }
+  std::string summary() const override { return "Choose the few best of many sites, with proof"; }
+  void declare(CLI::App& app) override { options_.declare(app); }
+  void complete() override { options_.apply_parameter_file(); }
+  void validate() override { options_.validate(); }
+  Document parameters() const override {
+    Document parameters = options_.parameters();
+    parameters["inputs"] = inputs_document_;
+    return parameters;
+  }
+
+  Result execute(Progress& progress) override {
+    // What a killed run has written already is its own.
+    policy_ = options_.policy;
+    policy_.overwrite = policy_.overwrite || (options_.resume && std::filesystem::exists(place("site.work")));
+    const NewFolder folder(options_.directory);
+    outputs_ = site_outputs(options_.directory, policy_);
+    const Store store(options_.store);
+    options_.themes.choice().check(store.metadata().themes);
+    inputs_document_ = hash_inputs(progress);
+    const SiteInputs inputs = read_site_inputs(store, options_, progress);
+
+    viewshed::SiteCoverage coverage(store, site_survey(options_, inputs), progress);
+    SiteWork work(place("site.work"), key(), options_.resume, inputs.stands.size(), coverage);
+    coverage.on_refined = [&](std::size_t option, int stage, const viewshed::CoverageBounds& bounds) {
+      work.add(option, stage, bounds);
+    };
+    coverage.look_first();
+    SiteResult site{options_, inputs, coverage, choose(store, inputs, coverage, progress), {}, {}};
+    const std::optional<viewshed::SiteStand> hub_stand = hub(store, progress);
+    site.links = site_links(store, options_, inputs, site.choice, hub_stand, progress);
+    site.rasters = site_rasters(store, options_, inputs, coverage, site.choice, progress);
+    Result result = write(store, site, hub_stand, progress);
+    if (work.restored() > 0)
+      result.text += fmt::format("used of an earlier run: {}\n", counted(work.restored(), "result"));
+    work.remove();
+    return result;
+  }
+
+ private:
+  std::string place(const char* name) const { return (std::filesystem::path(options_.directory) / name).string(); }
+
+  /// Every file that the result depends on.
+  Document hash_inputs(Progress& progress) const {
+    Document inputs = Document::array();
+    for (const std::string& path : {options_.store, options_.candidates.path, options_.search_area, options_.demand,
+                                    options_.existing, options_.forbidden}) {
+      std::error_code none;
+      if (path.empty() || !std::filesystem::is_regular_file(path, none)) continue;
+      inputs.push_back({{"path", path}, {"sha256", file_sha256(path, progress)}});
+    }
+    return inputs;
+  }
+
+  /// Tells runs apart whose results could differ.
+  std::string key() const {
+    Document hashes = Document::array();
+    for (const Document& input : inputs_document_) hashes.push_back(input.at("sha256"));
+    return fmt::format("{} {} {} {}", ITIN_VERSION, json_text(hashes), json_text(options_.parameters()),
+                       json_text(options_.earth.document()));
+  }
+
+  std::optional<viewshed::SiteStand> hub(const Store& store, Progress& progress) const {
+    if (!options_.hub) return std::nullopt;
+    const Point2 p = on_the_data("--hub", options_.hub->position, options_.in_crs, store.metadata());
+    const auto ground = viewshed::ground_under(
+        store, {p}, options_.on_surface ? options_.themes.choice() : ThemeChoice::none(), progress);
+    if (!ground.front()) throw InputError("--hub: there is no data there; move it onto the data");
+    return viewshed::SiteStand{"hub", p, options_.hub->height.value_or(20), *ground.front()};
+  }
+
+  viewshed::ChoiceGoal goal(const SiteInputs& inputs, viewshed::SiteCoverage& coverage) const {
+    viewshed::ChoiceGoal goal;
+    goal.count = options_.count;
+    goal.budget = options_.budget;
+    goal.cover = options_.cover;
+    goal.exact_chosen = options_.exact_final;
+    goal.swaps = options_.swaps;
+    for (std::size_t i = inputs.options.size(); i < inputs.stands.size(); ++i) {
+      while (!coverage.bounds(i).exact) coverage.refine({&i, 1});
+      goal.existing.push_back(coverage.bounds(i).certain);
+    }
+    if (options_.share) goal.wanted = wanted(inputs, goal);
+    return goal;
+  }
+
+  /// The share is of all demand; what existing sites serve counts towards it.
+  viewshed::Weight wanted(const SiteInputs& inputs, const viewshed::ChoiceGoal& goal) const {
+    const viewshed::Weight all = inputs.demand.at_least(*options_.share * inputs.demand.in_metric(inputs.total));
+    return std::max<viewshed::Weight>(0, all - viewshed::served_by(inputs.demand, goal.existing, goal.cover));
+  }
+
+  viewshed::Choice choose(const Store& store, const SiteInputs& inputs, viewshed::SiteCoverage& coverage,
+                          Progress& progress) const {
+    viewshed::ChoiceGoal goal = this->goal(inputs, coverage);
+    const SiteLinks links(store, link_rules(options_), progress);
+    const SiteRules rules(inputs.stands, inputs.options.size(), options_.min_spacing, options_.intervisible,
+                          hub(store, progress), links);
+    if (rules.any()) {
+      goal.may_join = [&](std::size_t option, std::span<const std::size_t> chosen) {
+        return rules.may_join(option, chosen);
+      };
+      goal.holds_together = [&](std::span<const std::size_t> chosen) { return rules.holds_together(chosen); };
+    }
+    return viewshed::choose(inputs.demand, inputs.options, coverage, goal, progress);
+  }
+
+  Result write(const Store& store, const SiteResult& site, const std::optional<viewshed::SiteStand>& hub_stand,
+               Progress& progress) {
+    const std::string& crs = store.metadata().crs_wkt;
+    Result result;
+    warn(site, result.warnings);
+    warn_of_scale(store.metadata(), result.warnings);
+    result.document = site_document(site, store.metadata());
+    for (const SiteOutput& output : outputs_)
+      result.document["outputs"].push_back({{"path", output.path}, {"what", output.what}});
+    write_site_maps(store, site, options_.directory, policy_.overwrite, progress, result.warnings);
+    write_site_rasters(site, options_.directory, crs, json_text(parameters()), policy_.overwrite);
+    write_site_tables(site, options_.directory, policy_.overwrite);
+    write_site_layers(site, options_.directory, crs, policy_.overwrite);
+    const auto profiles = write_site_profiles(store, site, hub_stand, options_.directory, policy_.overwrite, progress);
+    for (const SiteProfile& profile : profiles)
+      result.document["outputs"].push_back({{"path", profile.path}, {"what", "profile of the link " + profile.what}});
+    write_site_report(site, profiles, parameters(), inputs_document_, options_.directory, policy_.overwrite);
+    Document whole{{"itin", ITIN_VERSION}, {"command", {{"verb", name()}}}};
+    whole["command"].update(parameters());
+    whole.update(result.document);
+    write_file(place("site.json"), json_text(whole, 2) + "\n", policy_.overwrite);
+    Document given = options_.given();
+    given["inputs"] = inputs_document_;
+    write_file(place("parameters.json"), json_text(given, 2) + "\n", policy_.overwrite);
+    const viewshed::Statistics& statistics = site.coverage.statistics();
+    result.document["statistics"] = {{"points_read", statistics.retrieval.points_read},
+                                     {"blocks_read", statistics.retrieval.blocks_read},
+                                     {"triangles", statistics.triangles},
+                                     {"lines", statistics.lines}};
+    result.text = text(site, result.document["outputs"].size());
+    return result;
+  }
+
+  void warn(const SiteResult& site, std::vector<std::string>& warnings) const {
+    if (options_.frequency_ghz && options_.earth.is_default())
+      warnings.emplace_back("radio at the refraction of light; the usual one of radio is --effective-earth 4/3");
+    const std::vector<std::string>& rejected = site.inputs.rejected;
+    for (std::size_t i = 0; i < std::min(rejected.size(), kMostWarnings); ++i)
+      warnings.push_back("left out: " + rejected[i]);
+    if (rejected.size() > kMostWarnings)
+      warnings.push_back(
+          fmt::format("left out: {} more; all are listed in {}", rejected.size() - kMostWarnings, place("site.json")));
+    if (site.inputs.demand_without_ground > 0)
+      warnings.push_back(fmt::format("no ground is under {} of the demand, which cannot be served",
+                                     counted(site.inputs.demand_without_ground, "point")));
+    if (options_.count && site.choice.chosen.size() < *options_.count)
+      warnings.push_back(fmt::format("{} chosen, not {}: no other that may be taken gains anything",
+                                     counted(site.choice.chosen.size(), "site"), *options_.count));
+    if (options_.share && site.inputs.demand.in_metric(site.choice.value + site.choice.existing) <
+                              *options_.share * site.inputs.demand.in_metric(site.inputs.total))
+      warnings.emplace_back("the wanted share is not reached: no further site that may be taken gains anything");
+  }
+
+  std::string text(const SiteResult& site, std::size_t files) const {
+    const double total = site.in_metric(site.inputs.total);
+    std::string text;
+    for (const viewshed::ChosenSite& chosen : site.choice.chosen) {
+      const viewshed::SiteStand& stand = site.stand(chosen);
+      text +=
+          fmt::format("{:<16} {:>12.2f} {:>12.2f}  {:>5g} m  +{:<10.10g} {:.10g}\n", stand.name, stand.position.x,
+                      stand.position.y, stand.height, site.in_metric(chosen.gain), site.in_metric(chosen.cumulative));
+    }
+    text += fmt::format("served: {:.10g} of {:.10g} ({:.1f} %); no choice serves more than {:.10g} (gap {:.1f} %)\n",
+                        site.in_metric(site.choice.value), total,
+                        total == 0 ? 0 : 100 * site.in_metric(site.choice.value) / total,
+                        site.in_metric(site.choice.upper_bound), viewshed::gap_percent(site.choice));
+    text += fmt::format(
+        "{}, {}, {} looked at again; {} left out\n", counted(site.inputs.candidates.size(), "candidate"),
+        counted(site.inputs.options.size(), "option"), grouped(site.refined()), grouped(site.inputs.rejected.size()));
+    return text + fmt::format("{}: {}; open report.html\n", options_.directory, counted(files, "file"));
+  }
+
+  SiteOptions options_;
+  OutputPolicy policy_;
+  std::vector<SiteOutput> outputs_;
+  Document inputs_document_ = Document::array();
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_site_verb() {
+  return std::make_unique<SiteVerb>();
+}
+
+}  // namespace itin::cli

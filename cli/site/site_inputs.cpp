@@ -1,0 +1,253 @@
+#include "site/site_inputs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+#include <itin/raster_values.hpp>
+#include <itin/window_source.hpp>
+#include <viewshed/site_proposal.hpp>
+
+#include "options/off_the_data.hpp"
+#include "options/site_list.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+using viewshed::SiteStand;
+
+class InputReader {
+ public:
+  InputReader(const Store& store, const SiteOptions& options, Progress& progress)
+      : store_(store), options_(options), crs_(store.metadata().crs_wkt), progress_(progress) {}
+
+  SiteInputs read() {
+    if (options_.candidates.path.empty()) {
+      propose();
+    } else {
+      read_candidates();
+    }
+    leave_out_forbidden();
+    stand();
+    if (inputs_.options.empty()) throw InputError(nothing_left());
+    read_existing();
+    read_demand();
+    return std::move(inputs_);
+  }
+
+ private:
+  void reject(const std::string& line) { inputs_.rejected.push_back(line); }
+
+  std::string nothing_left() const {
+    if (inputs_.rejected.empty())
+      return options_.candidates.path.empty() ? "no candidate is left to choose from"
+                                              : none_in(options_.candidates, "candidate");
+    return fmt::format("no candidate is left to choose from; the first left out: {}; the data is {}",
+                       inputs_.rejected.front(), extent_of(store_.metadata()));
+  }
+
+  void propose() {
+    const Window area = window_from_polygon(options_.search_area, crs_, options_.in_crs.crs);
+    viewshed::ProposalRequest request;
+    request.spacing = *options_.spacing;
+    request.radius = options_.radius;
+    request.mast_height = options_.masts.front().height;
+    request.target_height = options_.target_height;
+    request.earth = options_.earth.earth();
+    for (const viewshed::Proposal& proposal : viewshed::propose_sites(store_, area, request, progress_)) {
+      inputs_.candidates.push_back({.id = fmt::format("{}", inputs_.candidates.size()),
+                                    .position = proposal.position,
+                                    .height = std::nullopt,
+                                    .cost = 0,
+                                    .why = proposal.summit ? "summit" : "visibility index"});
+    }
+  }
+
+  void read_candidates() {
+    SiteQuery query = options_.candidates;
+    query.crs = options_.in_crs.crs;
+    if (!options_.cost_field.empty()) query.numbers.push_back({options_.cost_field});
+    for (const Site& site : read_sites(query, crs_, inputs_.rejected)) {
+      const std::string place = fmt::format("{}: feature {}", query.path, site.feature);
+      const double cost = site.numbers.empty() ? 0 : site.numbers.front().value_or(std::nan(""));
+      if (!(cost >= 0)) {
+        reject(place + ": its cost is missing or negative");
+      } else if (site.height && *site.height < 0) {
+        reject(place + ": its height is negative");
+      } else {
+        const std::string id = query.name_field.empty() ? fmt::format("{}", site.row) : site.name;
+        inputs_.candidates.push_back({id, site.position, site.height, cost, {}});
+      }
+    }
+  }
+
+  void leave_out_forbidden() {
+    if (options_.forbidden.empty()) return;
+    const Window area = window_from_polygon(options_.forbidden, crs_, options_.in_crs.crs);
+    std::erase_if(inputs_.candidates, [&](const Candidate& candidate) {
+      const bool inside = viewshed::lies_in(area, candidate.position);
+      if (inside) reject(fmt::format("candidate {}: lies in a forbidden area", candidate.id));
+      return inside;
+    });
+  }
+
+  ThemeChoice ground_themes() const { return options_.on_surface ? options_.themes.choice() : ThemeChoice::none(); }
+
+  /// Candidates onto their ground, each with every mast.
+  void stand() {
+    std::vector<Point2> positions;
+    for (const Candidate& candidate : inputs_.candidates) positions.push_back(candidate.position);
+    require_any_on_the_data(options_.candidates.path + ": the first candidate", positions, options_.in_crs,
+                            store_.metadata());
+    const auto ground = viewshed::ground_under(store_, positions, ground_themes(), progress_);
+    std::vector<Candidate> kept;
+    for (std::size_t i = 0; i < ground.size(); ++i) {
+      const Candidate& candidate = inputs_.candidates[i];
+      if (!ground[i]) {
+        const bool on = is_on_the_data(candidate.position, store_.metadata());
+        reject(fmt::format("candidate {} at {:.10g},{:.10g}: {}", candidate.id, candidate.position.x,
+                           candidate.position.y, on ? "there is no data there" : "it lies off the data"));
+        continue;
+      }
+      std::vector<Mast> masts = options_.masts;
+      if (candidate.height) masts = {{*candidate.height, options_.cost_field.empty() ? 1.0 : 0.0}};
+      for (const Mast& mast : masts) {
+        if (!(candidate.cost + mast.cost > 0))
+          throw InputError(fmt::format("candidate {}: its cost is 0; costs must be positive", candidate.id));
+        inputs_.options.push_back({kept.size(), candidate.cost + mast.cost});
+        inputs_.stands.push_back({candidate.id, candidate.position, mast.height, *ground[i]});
+      }
+      kept.push_back(candidate);
+    }
+    inputs_.candidates = std::move(kept);
+  }
+
+  void read_existing() {
+    if (options_.existing.empty()) return;
+    SiteQuery query;
+    query.path = options_.existing;
+    query.height_field = options_.candidates.height_field;
+    query.crs = options_.in_crs.crs;
+    const std::size_t rejected = inputs_.rejected.size();
+    const std::vector<Site> sites = read_sites(query, crs_, inputs_.rejected);
+    if (sites.empty() && inputs_.rejected.size() == rejected) throw InputError(none_in(query, "site"));
+    std::vector<Point2> positions;
+    for (const Site& site : sites) positions.push_back(site.position);
+    const auto ground = viewshed::ground_under(store_, positions, ground_themes(), progress_);
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+      const double height = sites[i].height.value_or(options_.masts.front().height);
+      if (!ground[i] || height < 0) {
+        reject(fmt::format("{}: feature {}: {}", query.path, sites[i].feature,
+                           ground[i] ? "its height is negative" : "there is no data there"));
+      } else {
+        inputs_.stands.push_back({sites[i].name, sites[i].position, height, *ground[i]});
+      }
+    }
+  }
+
+  void read_demand() {
+    inputs_.targets.height = options_.target_height;
+    inputs_.targets.on_surface = options_.targets_on_surface;
+    if (options_.demand == "cells") {
+      read_cells();
+    } else if (is_raster(options_.demand)) {
+      read_weights(read_raster_values(options_.demand, crs_));
+    } else {
+      read_points();
+    }
+    if (inputs_.total == 0) throw InputError("there is no demand within the data: nothing to serve");
+  }
+
+  void read_cells() {
+    const std::vector<SiteStand> of_options(
+        inputs_.stands.begin(), inputs_.stands.begin() + static_cast<std::ptrdiff_t>(inputs_.options.size()));
+    const RasterGrid grid = viewshed::grid_of_reach(store_, of_options, options_.radius, options_.cell.value_or(50));
+    inputs_.targets.grid = grid;
+    inputs_.demand = viewshed::Demand(viewshed::element_count(grid));
+    const viewshed::DemandSet ground = viewshed::with_ground(store_, inputs_.targets, progress_);
+    std::vector<std::uint64_t> reached(inputs_.demand.block_count());
+    for (std::size_t i = 0; i < of_options.size(); ++i) {
+      if (i > 0 && inputs_.options[i].place == inputs_.options[i - 1].place) continue;
+      const viewshed::DemandSet reach =
+          viewshed::within_reach(inputs_.targets, of_options[i].position, options_.radius);
+      for (const auto& block : reach.blocks()) reached[block.number] |= block.members;
+    }
+    for (const auto& block : ground.blocks())
+      inputs_.total += inputs_.demand.weight(block.number, block.members & reached[block.number]);
+  }
+
+  void read_weights(RasterValues weights) {
+    const RasterGrid& grid = weights.grid;
+    inputs_.targets.grid = grid;
+    std::vector<double> of_element(viewshed::element_count(grid));
+    for (std::int64_t row = 0; row < grid.rows(); ++row) {
+      for (std::int64_t column = 0; column < grid.columns(); ++column) {
+        const double value = weights.values[grid.index({column, row})];
+        if (!std::isnan(value)) of_element[viewshed::element_of(grid, {column, row})] = value;
+      }
+    }
+    try {
+      inputs_.demand = viewshed::Demand(of_element);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: {}", options_.demand, error.what()));
+    }
+    inputs_.total = inputs_.demand.total();
+  }
+
+  void read_points() {
+    SiteQuery query;
+    query.path = options_.demand;
+    query.crs = options_.in_crs.crs;
+    if (!options_.weight_field.empty()) query.numbers.push_back({options_.weight_field});
+    std::vector<std::pair<Point2, double>> points;
+    for (const Site& site : read_sites(query, crs_, inputs_.rejected)) {
+      const double weight = site.numbers.empty() ? 1 : site.numbers.front().value_or(-1);
+      if (!(weight >= 0)) {
+        reject(fmt::format("{}: feature {}: its weight is missing or negative", query.path, site.feature));
+      } else {
+        points.emplace_back(site.position, weight);
+      }
+    }
+    if (points.empty()) throw InputError(query.path + ": holds no point to serve");
+    sort_by_place(points);
+    std::vector<double> weights;
+    for (const auto& [position, weight] : points) {
+      inputs_.targets.points.push_back(position);
+      weights.push_back(weight);
+    }
+    inputs_.demand = viewshed::Demand(weights);
+    inputs_.total = inputs_.demand.total();
+    const std::size_t on_ground = viewshed::with_ground(store_, inputs_.targets, progress_).size();
+    inputs_.demand_without_ground = points.size() - on_ground;
+  }
+
+  /// Neighbours next to each other, in strips to and fro: their sight lines are judged together.
+  static void sort_by_place(std::vector<std::pair<Point2, double>>& points) {
+    Box box;
+    for (const auto& [p, weight] : points) box.extend(p);
+    const double strip =
+        std::max(box.height() / std::max(1.0, std::sqrt(static_cast<double>(points.size()) / 8)), 1e-3);
+    std::stable_sort(points.begin(), points.end(), [&](const auto& a, const auto& b) {
+      const double sa = std::floor((a.first.y - box.ymin) / strip), sb = std::floor((b.first.y - box.ymin) / strip);
+      return sa != sb ? sa < sb : a.first.x != b.first.x ? a.first.x < b.first.x : a.first.y < b.first.y;
+    });
+  }
+
+  const Store& store_;
+  const SiteOptions& options_;
+  std::string crs_;
+  Progress& progress_;
+  SiteInputs inputs_;
+};
+
+}  // namespace
+
+SiteInputs read_site_inputs(const Store& store, const SiteOptions& options, Progress& progress) {
+  return InputReader(store, options, progress).read();
+}
+
+}  // namespace itin::cli

@@ -1,0 +1,40 @@
+// What a siting run works on: candidates, demand, existing sites, as read and checked.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <itin/store.hpp>
+#include <viewshed/site_coverage.hpp>
+
+#include "site/site_options.hpp"
+
+namespace itin::cli {
+
+/// A place where a site may stand.
+struct Candidate {
+  std::string id;
+  Point2 position;
+  std::optional<double> height;  ///< its own; otherwise every mast is an option
+  double cost = 0;
+  std::string why;  ///< it was proposed; empty for those given
+};
+
+struct SiteInputs {
+  std::vector<Candidate> candidates;
+  // Options are a candidate with a mast, in order; existing sites follow in `stands`.
+  std::vector<viewshed::SiteOption> options;
+  std::vector<viewshed::SiteStand> stands;
+  viewshed::SiteTargets targets;
+  viewshed::Demand demand;
+  viewshed::Weight total = 0;             ///< all demand; of cells those with ground within the radius of an option
+  std::vector<std::string> rejected;      ///< a line for each row that is not used, and why
+  std::size_t demand_without_ground = 0;  ///< points
+
+  std::size_t existing() const { return stands.size() - options.size(); }
+};
+
+/// Throws InputError where nothing is left to choose from, FileError.
+SiteInputs read_site_inputs(const Store& store, const SiteOptions& options, Progress& progress);
+
+}  // namespace itin::cli

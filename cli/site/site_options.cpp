@@ -1,0 +1,317 @@
+#include "site/site_options.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+#include <profile/fresnel.hpp>
+
+#include "output/store_document.hpp"
+#include "program/call_files.hpp"
+#include "program/json_text.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+std::optional<double> number(const char* option, const std::string& text, Range range) {
+  return text.empty() ? std::nullopt : std::optional(parse_number(option, text, range));
+}
+
+std::string text_of(const std::string& key, const Document& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
+  if (value.is_number()) return json_text(value);
+  if (value.is_array()) {
+    std::string list;
+    for (const Document& item : value) list += (list.empty() ? "" : ",") + text_of(key, item);
+    return list;
+  }
+  throw InputError(fmt::format("--params: '{}' holds no text, number or list of them", key));
+}
+
+/// Not part of what a run is: where it is written, and how.
+bool is_parameter(const std::string& name) {
+  for (const char* other :
+       {"help", "params", "output", "json", "quiet", "threads", "resume", "overwrite", "memory", "engine"})
+    if (name == other) return false;
+  return true;
+}
+
+}  // namespace
+
+void SiteOptions::declare(CLI::App& app) {
+  app_ = &app;
+  reads(app.add_option("STORE", store, "The store")->required());
+  writes(app.add_option("-o,--output", directory, "The folder to write into; made where it is not there")
+             ->type_name("DIR")
+             ->required());
+  reads(app.add_option("--params", params_, "Options from a JSON file, by name; those of the call come before them")
+            ->type_name("FILE"));
+  declare_candidates(app);
+  declare_demand(app);
+  declare_choice(app);
+  declare_work(app);
+}
+
+void SiteOptions::declare_candidates(CLI::App& app) {
+  reads(app.add_option("--candidates", candidates.path,
+                       "Candidates from a vector file, or from CSV with columns x,y or lon,lat")
+            ->type_name("FILE"));
+  app.add_option("--layer", candidates.layer, "The layer of that file")->type_name("NAME");
+  app.add_option("--where", candidates.where, "Only candidates that this SQL condition holds for")->type_name("SQL");
+  app.add_option("--name-field", candidates.name_field, "The field that holds names (default: the row's number from 0)")
+      ->type_name("FIELD");
+  app.add_option("--height-field", candidates.height_field, "The field that holds each mast's height")
+      ->type_name("FIELD");
+  app.add_option("--cost-field", cost_field, "The field that holds each place's cost (default: no costs)")
+      ->type_name("FIELD");
+  reads(app.add_option("--search-area", search_area,
+                       "Propose candidates in these polygons (a file, or WKT) from the terrain")
+            ->type_name("AREA"));
+  app.add_option("--spacing", spacing_text_, "Of proposed candidates: about two for each square of this side")
+      ->type_name("METRES");
+  app.add_option("--mast-height", mast_height_text_, "Height of the masts, or several to choose from (default: 20)")
+      ->type_name("H[,H...]");
+  app.add_option("--mast-cost", mast_cost_text_, "What each of these costs, besides the place (default: 1)")
+      ->type_name("C[,C...]");
+  app.add_option("--observer-on", observer_on_, "Masts stand on the ground (default), or on the roofs of --themes")
+      ->type_name("ground|surface");
+  in_crs.declare(app);
+}
+
+void SiteOptions::declare_demand(CLI::App& app) {
+  reads(app.add_option("--demand", demand,
+                       "What is to be served: cells (default), a raster of weights, or a vector file of points")
+            ->type_name("cells|FILE"));
+  app.add_option("--weight-field", weight_field, "The field of the points that holds weights (default: 1 each)")
+      ->type_name("FIELD");
+  app.add_option("--target-height", target_height_text_, "h of the targets (default: 2)")->type_name("METRES");
+  app.add_option("--target-on", target_on_, "ground (default), or the surface with the roofs and tops of --themes")
+      ->type_name("ground|surface");
+  app.add_option("--frequency", frequency_text_,
+                 "Served is what is in sight with its first Fresnel zone clear at this frequency; links likewise")
+      ->type_name("GHZ");
+  app.add_option("--fresnel", fresnel_text_, "So much of that zone's radius must be clear, 0 to 1 (default: 0.6)")
+      ->type_name("FRACTION");
+  app.add_option("--radius", radius_text_, "How far a site serves (default: 10000)")->type_name("METRES");
+  app.add_option("--cell", cell_text_, "Size of the cells, of the rasters too (default: 50)")->type_name("METRES");
+}
+
+void SiteOptions::declare_choice(CLI::App& app) {
+  app.add_option("--count", count_text_, "Choose so many sites")->type_name("K");
+  app.add_option("--budget", budget_text_, "Choose sites whose costs sum up to this at most")->type_name("COST");
+  app.add_option("--share", share_text_, "Choose sites until this share of the demand is served (0.8, or 80%)")
+      ->type_name("SHARE");
+  app.add_option("--min-spacing", min_spacing_text_, "No two chosen sites are nearer to each other")
+      ->type_name("METRES");
+  reads(app.add_option("--existing", existing, "Sites that serve already, from a vector file")->type_name("FILE"));
+  reads(app.add_option("--forbidden", forbidden, "No site in these polygons (a file, or WKT)")->type_name("AREA"));
+  app.add_option("--k-cover", cover_text_, "What fewer sites serve counts for nothing (default: 1)")->type_name("N");
+  app.add_flag("--intervisible", intervisible, "Every chosen site sees another one, or the hub");
+  app.add_option("--hub", hub_text_, "A given end of the links between sites (implies --intervisible)")
+      ->type_name("x,y[,h]");
+  app.add_option("--exact-final", exact_final_text_, "The chosen sites' coverage is exact (default: on)")
+      ->type_name("on|off");
+  app.add_option("--swap", swap_text_, "Exchange chosen sites for better ones after greedy (default: on)")
+      ->type_name("on|off");
+}
+
+void SiteOptions::declare_work(CLI::App& app) {
+  app.add_option("--tolerance", tolerance_text_, "Detail of the first look at all candidates (default: by size)")
+      ->type_name("METRES");
+  themes.declare(app);
+  earth.declare(app);
+  app.add_option("--nodata", nodata_text_, "What ground without data does to sight lines (default: unknown)")
+      ->type_name("unknown|block|clear");
+  engine.declare(app);
+  app.add_option("--memory", memory_text_, "Memory to work in; it changes the speed only (default: 1G)")
+      ->type_name("SIZE");
+  app.add_flag("--resume", resume, "Go on where a run with the same parameters was killed");
+  policy.declare(app);
+}
+
+void SiteOptions::apply_parameter_file() {
+  if (params_.empty()) return;
+  std::ifstream file(params_);
+  if (!file) throw FileError(params_, "cannot be read");
+  const Document parameters = Document::parse(file, nullptr, false);
+  if (!parameters.is_object()) throw InputError(params_ + ": is no JSON object of options");
+  for (const auto& [key, value] : parameters.items()) {
+    if (key == "store" || key == "inputs" || key == "itin") continue;  // echoed by runs; the call names the store
+    CLI::Option* option = app_->get_option_no_throw("--" + key);
+    if (option == nullptr || !is_parameter(key)) throw InputError(fmt::format("{}: no option '{}'", params_, key));
+    if (option->count() > 0) continue;
+    const std::string text = text_of(key, value);
+    try {
+      option->add_result(text);
+      option->run_callback();
+    } catch (const CLI::ParseError&) {
+      throw InputError(fmt::format("{}: '{}' is no value of the option '{}'", params_, text, key));
+    }
+  }
+}
+
+void SiteOptions::validate() {
+  validate_candidates();
+  validate_masts();
+  validate_demand();
+  validate_choice();
+  validate_work();
+  validate_links();
+}
+
+void SiteOptions::validate_candidates() {
+  if (candidates.path.empty() == search_area.empty())
+    throw InputError("give candidates by --candidates FILE, or by --search-area AREA --spacing METRES");
+  spacing = number("--spacing", spacing_text_, Range::kPositive);
+  if (search_area.empty() && spacing) throw InputError("--spacing is of use with --search-area only");
+  if (!search_area.empty() && !spacing) throw InputError("--search-area: give --spacing METRES too");
+  if (candidates.path.empty()) {
+    for (const std::string* text :
+         {&candidates.layer, &candidates.where, &candidates.name_field, &candidates.height_field, &cost_field})
+      if (!text->empty()) throw InputError("--layer, --where and fields are of use with --candidates only");
+  }
+  on_surface = parse_choice("--observer-on", observer_on_, {"ground", "surface"}) == 1;
+}
+
+void SiteOptions::validate_masts() {
+  if (!candidates.height_field.empty() && !mast_height_text_.empty())
+    throw InputError("--height-field and --mast-height exclude each other");
+  const std::vector<double> heights = mast_height_text_.empty()
+                                          ? std::vector<double>{20}
+                                          : parse_heights("--mast-height", mast_height_text_, Range::kNotNegative);
+  // Where places have costs, a mast has none unless it says so.
+  std::vector<double> costs(heights.size(), cost_field.empty() ? 1 : 0);
+  if (!mast_cost_text_.empty()) costs = parse_numbers("--mast-cost", mast_cost_text_, Range::kNotNegative);
+  if (costs.size() != heights.size())
+    throw InputError(fmt::format("--mast-cost: {} for {}; give each height its cost", counted(costs.size(), "cost"),
+                                 counted(heights.size(), "height")));
+  for (std::size_t i = 0; i < heights.size(); ++i) masts.push_back({heights[i], costs[i]});
+}
+
+void SiteOptions::validate_demand() {
+  if (!target_height_text_.empty())
+    target_height = parse_height("--target-height", target_height_text_, Range::kNotNegative);
+  targets_on_surface = parse_choice("--target-on", target_on_, {"ground", "surface"}) == 1;
+  if (!radius_text_.empty()) radius = parse_radius("--radius", radius_text_);
+  cell = number("--cell", cell_text_, Range::kPositive);
+  if (cell.value_or(0) > radius) throw InputError(fmt::format("--cell '{}': larger than the radius", cell_text_));
+  if (demand == "cells" && !weight_field.empty()) throw InputError("--weight-field is of use with points only");
+}
+
+void SiteOptions::validate_links() {
+  frequency_ghz = number("--frequency", frequency_text_, Range::kPositive);
+  if (!frequency_ghz) {
+    if (!fresnel_text_.empty()) throw InputError("--fresnel takes a --frequency: the zone's radius depends on it");
+    return;
+  }
+  fresnel = number("--fresnel", fresnel_text_, Range::kPositive).value_or(fresnel);
+  if (fresnel > 1) throw InputError(fmt::format("--fresnel '{}': more than the zone; give 0 to 1", fresnel_text_));
+  if (earth.earth().drop_coefficient() == 0)
+    throw InputError("--frequency takes a curved Earth; leave out --curvature off");
+  // No clearance at all where the zone ends on the ground.
+  if (target_height == 0)
+    throw InputError("--frequency takes a --target-height above 0: no link to the ground is clear");
+  for (const Mast& mast : masts)
+    if (mast.height == 0)
+      throw InputError("--frequency takes a --mast-height above 0: no link from the ground is clear");
+}
+
+std::optional<FresnelCriterion> SiteOptions::criterion() const {
+  if (!frequency_ghz) return std::nullopt;
+  return FresnelCriterion{profile::wavelength_m(*frequency_ghz), fresnel};
+}
+
+std::string SiteOptions::meaning_of_served() const {
+  if (!frequency_ghz) return "Served is what has a clear line of sight to a site";
+  return fmt::format(
+      "Served is what has a clear line of sight to a site that leaves at least {:g} of the first Fresnel zone's radius "
+      "clear of the surface everywhere between, at {:g} GHz (wavelength {:.6g} m = 0.299792458 / f; F1 = "
+      "sqrt(wavelength "
+      "d1 d2 / (d1 + d2)))",
+      fresnel, *frequency_ghz, profile::wavelength_m(*frequency_ghz));
+}
+
+void SiteOptions::validate_choice() {
+  if (!count_text_.empty()) count = static_cast<std::size_t>(parse_whole("--count", count_text_, 1, 100000));
+  budget = number("--budget", budget_text_, Range::kPositive);
+  if (!share_text_.empty()) {
+    const bool percent = share_text_.back() == '%';
+    const std::string digits = percent ? share_text_.substr(0, share_text_.size() - 1) : share_text_;
+    share = parse_number("--share", digits, Range::kPositive) / (percent ? 100 : 1);
+    if (*share > 1) throw InputError(fmt::format("--share '{}': more than all; give 0.8 or 80%", share_text_));
+  }
+  if (!count && !budget && !share) throw InputError("how many sites? give --count, --budget or --share");
+  min_spacing = number("--min-spacing", min_spacing_text_, Range::kPositive);
+  if (!cover_text_.empty()) cover = parse_whole("--k-cover", cover_text_, 1, 255);
+  if (!hub_text_.empty()) hub = parse_place("--hub", hub_text_);
+  intervisible = intervisible || hub.has_value();
+  if (!exact_final_text_.empty()) exact_final = parse_switch("--exact-final", exact_final_text_);
+  if (!swap_text_.empty()) swaps = parse_switch("--swap", swap_text_);
+}
+
+void SiteOptions::validate_work() {
+  tolerance = number("--tolerance", tolerance_text_, Range::kNotNegative);
+  themes.validate();
+  earth.validate();
+  engine.engine();
+  if (!nodata_text_.empty()) {
+    using enum viewshed::NoData;
+    constexpr viewshed::NoData kChoices[] = {kUnknown, kBlock, kClear};
+    nodata = kChoices[parse_choice("--nodata", nodata_text_, {"unknown", "block", "clear"})];
+  }
+  if (!memory_text_.empty()) memory_bytes = parse_bytes("--memory", memory_text_);
+}
+
+Document SiteOptions::given() const {
+  Document result = Document::object();
+  for (const CLI::Option* option : app_->get_options()) {
+    const std::string name = option->get_single_name();
+    if (option->count() == 0 || name == "STORE" || !is_parameter(name)) continue;
+    if (option->get_type_size() == 0) {
+      result[name] = true;
+    } else {
+      result[name] = option->results().back();
+    }
+  }
+  return result;
+}
+
+Document SiteOptions::parameters() const {
+  Document p{{"store", store}};
+  if (!candidates.path.empty()) p["candidates"] = candidates.path;
+  if (!search_area.empty()) p["search_area"] = search_area, p["spacing_m"] = *spacing;
+  if (candidates.height_field.empty()) {
+    for (const Mast& mast : masts) p["masts"].push_back({{"height_m", mast.height}, {"cost", mast.cost}});
+  } else {
+    p["height_field"] = candidates.height_field;
+  }
+  if (!cost_field.empty()) p["cost_field"] = cost_field;
+  p["observer_on"] = observer_on_;
+  p["demand"] = demand;
+  p["target_height_m"] = target_height;
+  p["target_on"] = target_on_;
+  p["radius_m"] = radius;
+  p["cell_m"] = cell.value_or(50);
+  if (frequency_ghz) p["frequency_ghz"] = *frequency_ghz, p["fresnel"] = fresnel;
+  if (count) p["count"] = *count;
+  if (budget) p["budget"] = *budget;
+  if (share) p["share"] = *share;
+  if (min_spacing) p["min_spacing_m"] = *min_spacing;
+  if (!existing.empty()) p["existing"] = existing;
+  if (!forbidden.empty()) p["forbidden"] = forbidden;
+  p["k_cover"] = cover;
+  p["intervisible"] = intervisible;
+  if (hub) p["hub"] = {{"x", hub->position.x}, {"y", hub->position.y}, {"height_m", hub->height.value_or(20)}};
+  p["exact_final"] = exact_final;
+  p["swap"] = swaps;
+  p.update(themes.parameters());
+  p["nodata"] = nodata_text_.empty() ? "unknown" : nodata_text_;
+  return p;
+}
+
+}  // namespace itin::cli

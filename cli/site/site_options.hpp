@@ -1,0 +1,104 @@
+// The options of `itin site`, from the command line and from a parameter file.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <itin/fresnel_zone.hpp>
+#include <itin/sites.hpp>
+#include <viewshed/viewshed.hpp>
+
+#include "options/earth_options.hpp"
+#include "options/engine_option.hpp"
+#include "options/in_crs.hpp"
+#include "options/surface_options.hpp"
+#include "output/output_path.hpp"
+#include "program/values.hpp"
+#include "program/verb.hpp"
+
+namespace itin::cli {
+
+/// A mast that may be built.
+struct Mast {
+  double height = 20;  ///< metres
+  double cost = 1;
+};
+
+class SiteOptions {
+ public:
+  void declare(CLI::App& app);
+  /// Takes options from the parameter file, which is part of the call. Throws InputError, FileError.
+  void apply_parameter_file();
+  /// Throws InputError.
+  void validate();
+  /// What was given, by option name without dashes: what a parameter file holds.
+  Document given() const;
+  Document parameters() const;
+  /// What a link must leave clear, if anything.
+  std::optional<FresnelCriterion> criterion() const;
+  /// When a target is served, in a sentence.
+  std::string meaning_of_served() const;
+
+  std::string store, directory;
+  // Candidates.
+  SiteQuery candidates;
+  std::string cost_field;
+  std::string search_area;
+  std::optional<double> spacing;
+  std::vector<Mast> masts;  ///< none where a height field is given
+  bool on_surface = false;
+  InCrs in_crs;
+  // Demand.
+  std::string demand = "cells";
+  std::string weight_field;
+  double target_height = 2;
+  bool targets_on_surface = false;
+  double radius = 10000;
+  std::optional<double> cell;
+  std::optional<double> frequency_ghz;  ///< served is what is in sight, and with a frequency clear by this much:
+  double fresnel = 0.6;                 ///< fraction of the first Fresnel zone
+  // The choice.
+  std::optional<std::size_t> count;
+  std::optional<double> budget, share;
+  std::optional<double> min_spacing;
+  std::string existing, forbidden;
+  int cover = 1;
+  bool intervisible = false;
+  std::optional<Place> hub;
+  bool exact_final = true;
+  bool swaps = true;
+  // How.
+  std::optional<double> tolerance;
+  ThemeOptions themes;
+  EarthOptions earth;
+  EngineOption engine;
+  viewshed::NoData nodata = viewshed::NoData::kUnknown;
+  std::uint64_t memory_bytes = std::uint64_t{1} << 30;
+  bool resume = false;
+  OutputPolicy policy;
+
+ private:
+  void declare_candidates(CLI::App& app);
+  void declare_demand(CLI::App& app);
+  void declare_choice(CLI::App& app);
+  void declare_work(CLI::App& app);
+  void validate_candidates();
+  void validate_masts();
+  void validate_demand();
+  void validate_links();
+  void validate_choice();
+  void validate_work();
+
+  CLI::App* app_ = nullptr;
+  std::string params_;
+  std::string spacing_text_, mast_height_text_, mast_cost_text_, observer_on_ = "ground";
+  std::string target_height_text_, target_on_ = "ground", radius_text_, cell_text_;
+  std::string count_text_, budget_text_, share_text_, min_spacing_text_, cover_text_, hub_text_;
+  std::string exact_final_text_, swap_text_, tolerance_text_, nodata_text_, memory_text_;
+  std::string frequency_text_, fresnel_text_;
+};
+
+}  // namespace itin::cli

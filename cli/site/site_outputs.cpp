@@ -1,0 +1,278 @@
+#include "site/site_outputs.hpp"
+
+#include <filesystem>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include <itin/coordinates.hpp>
+#include <itin/error.hpp>
+#include <itin/output_file.hpp>
+#include <itin/raster.hpp>
+#include <itin/vector_export.hpp>
+
+#include "output/csv_cell.hpp"
+#include "output/store_document.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+std::string place(const std::string& directory, const char* name) {
+  return (std::filesystem::path(directory) / name).string();
+}
+
+std::string sites_csv(const SiteResult& r) {
+  std::string text = "order,id,x,y,height_m,ground_m,cost,gain,cumulative,coverage,first_certain,first_possible\n";
+  const auto out = std::back_inserter(text);
+  for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
+    const viewshed::ChosenSite& site = r.choice.chosen[i];
+    const viewshed::SiteStand& stand = r.stand(site);
+    const CoverageSummary now = r.summary(r.coverage.bounds(site.option)),
+                          first = r.summary(r.coverage.first_bounds(site.option));
+    fmt::format_to(out, "{},{},{},{},{},{:.3f},{},{},{},{},{},{}\n", i + 1, csv_cell(stand.name), stand.position.x,
+                   stand.position.y, stand.height, stand.ground, r.inputs.options[site.option].cost,
+                   r.in_metric(site.gain), r.in_metric(site.cumulative), now.certain, first.certain, first.possible);
+  }
+  return text;
+}
+
+std::string candidates_table(const SiteResult& r) {
+  std::string text =
+      "id,x,y,height_m,cost,looked_at,first_certain,first_possible,certain,possible,proposed_as,outcome\n";
+  const auto out = std::back_inserter(text);
+  for (std::size_t i = 0; i < r.inputs.options.size(); ++i) {
+    const viewshed::SiteStand& stand = r.inputs.stands[i];
+    const CoverageSummary now = r.summary(r.coverage.bounds(i)), first = r.summary(r.coverage.first_bounds(i));
+    fmt::format_to(out, "{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(stand.name), stand.position.x,
+                   stand.position.y, stand.height, r.inputs.options[i].cost,
+                   csv_cell(r.coverage.stage_name(r.coverage.stage(i))), first.certain, first.possible, now.certain,
+                   now.possible, r.candidate(i).why, csv_cell(r.reason(i)));
+  }
+  return text;
+}
+
+std::string link_end(const SiteResult& r, std::size_t chosen) {
+  return r.stand(r.choice.chosen[chosen]).name;
+}
+
+bool is_clear(const SiteResult& r, const SiteLink& link) {
+  return link_rules(r.options).met_by(link.line);
+}
+
+std::string links_csv(const SiteResult& r) {
+  std::string text = "from,to,distance_m,verdict,clearance_m,critical_x,critical_y,critical_z";
+  text += r.options.frequency_ghz ? ",fresnel_fraction,clear\n" : "\n";
+  const auto out = std::back_inserter(text);
+  for (const SiteLink& link : r.links) {
+    fmt::format_to(out, "{},{},{:.3f},{}", csv_cell(link_end(r, link.from)),
+                   link.to ? csv_cell(link_end(r, *link.to)) : "hub", link.distance_m,
+                   link.line.visible() ? "visible" : "hidden");
+    if (link.line.clearance) {
+      fmt::format_to(out, ",{:.3f},{:.3f},{:.3f},{:.3f}", *link.line.clearance, link.line.critical.x,
+                     link.line.critical.y, link.line.critical.z);
+    } else {
+      text += ",,,,";
+    }
+    if (r.options.frequency_ghz) {
+      text += link.line.fresnel_fraction ? fmt::format(",{:.4f}", *link.line.fresnel_fraction) : ",";
+      text += is_clear(r, link) ? ",yes" : ",no";
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+using Type = VectorLayer::Type;
+
+VectorLayer sites_layer(const SiteResult& r) {
+  VectorLayer layer{"sites",
+                    VectorLayer::Shape::kPoints,
+                    {{"rank", Type::kWhole},
+                     {"id", Type::kText},
+                     {"height_m", Type::kNumber},
+                     {"cost", Type::kNumber},
+                     {"gain", Type::kNumber},
+                     {"cumulative", Type::kNumber}},
+                    {}};
+  for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
+    const viewshed::ChosenSite& site = r.choice.chosen[i];
+    const viewshed::SiteStand& stand = r.stand(site);
+    layer.features.push_back(
+        {{{stand.position.x, stand.position.y, stand.ground}},
+         {static_cast<std::int64_t>(i + 1), stand.name, stand.height, r.inputs.options[site.option].cost,
+          r.in_metric(site.gain), r.in_metric(site.cumulative)}});
+  }
+  return layer;
+}
+
+VectorLayer candidates_layer(const SiteResult& r) {
+  VectorLayer layer{"candidates",
+                    VectorLayer::Shape::kPoints,
+                    {{"id", Type::kText},
+                     {"height_m", Type::kNumber},
+                     {"cost", Type::kNumber},
+                     {"looked_at", Type::kText},
+                     {"certain", Type::kNumber},
+                     {"possible", Type::kNumber},
+                     {"outcome", Type::kText}},
+                    {}};
+  for (std::size_t i = 0; i < r.inputs.options.size(); ++i) {
+    const viewshed::SiteStand& stand = r.inputs.stands[i];
+    const CoverageSummary now = r.summary(r.coverage.bounds(i));
+    layer.features.push_back({{{stand.position.x, stand.position.y, stand.ground}},
+                              {stand.name, stand.height, r.inputs.options[i].cost,
+                               r.coverage.stage_name(r.coverage.stage(i)), now.certain, now.possible, r.reason(i)}});
+  }
+  return layer;
+}
+
+/// Links to the hub are drawn to their critical point's side: the hub's own place is in the parameters.
+VectorLayer links_layer(const SiteResult& r) {
+  VectorLayer layer{"links",
+                    VectorLayer::Shape::kLines,
+                    {{"from_id", Type::kText},
+                     {"to_id", Type::kText},
+                     {"distance_m", Type::kNumber},
+                     {"verdict", Type::kText},
+                     {"clearance_m", Type::kNumber},
+                     {"fresnel_fraction", Type::kNumber}},
+                    {}};
+  for (const SiteLink& link : r.links) {
+    if (!link.to) continue;
+    const viewshed::SiteStand &a = r.stand(r.choice.chosen[link.from]), &b = r.stand(r.choice.chosen[*link.to]);
+    VectorLayer::Value clearance, fraction;
+    if (link.line.clearance) clearance = *link.line.clearance;
+    if (link.line.fresnel_fraction) fraction = *link.line.fresnel_fraction;
+    layer.features.push_back(
+        {{{a.position.x, a.position.y, a.elevation()}, {b.position.x, b.position.y, b.elevation()}},
+         {a.name, b.name, link.distance_m, std::string(link.line.visible() ? "visible" : "hidden"), clearance,
+          fraction}});
+  }
+  return layer;
+}
+
+Document interval(const CoverageSummary& summary) {
+  return Document::array({summary.certain, summary.possible});
+}
+
+}  // namespace
+
+std::vector<SiteOutput> site_outputs(const std::string& directory, OutputPolicy& policy) {
+  std::vector<SiteOutput> outputs;
+  for (const auto& [name, what] :
+       {std::pair("sites.gpkg", "chosen sites, candidates, links between sites"),
+        std::pair("sites.csv", "chosen sites in order, with gains and bounds"),
+        std::pair("candidates.csv", "every candidate, its bounds and why it is chosen or not"),
+        std::pair("links.csv", "lines of sight between chosen sites"),
+        std::pair("coverage.tif", "what the choice and existing sites serve"),
+        std::pair("redundancy.tif", "how many of them serve a cell"),
+        std::pair("best-server.tif", "the nearest site that serves a cell"),
+        std::pair("coverage.png", "map of the same as coverage.tif"),
+        std::pair("redundancy.png", "map of the same as redundancy.tif"),
+        std::pair("report.html", "everything on one page"), std::pair("site.json", "the result as a document"),
+        std::pair("parameters.json", "for --params: runs this again")}) {
+    outputs.push_back({place(directory, name), what});
+    policy.claim(outputs.back().path);
+  }
+  return outputs;
+}
+
+Document site_document(const SiteResult& r, const StoreMetadata& metadata) {
+  Document document;
+  document["crs"] = crs_identifier(metadata.crs_wkt);
+  document["surface"] = surface_document(metadata, Detail::tolerance(0), r.options.themes.choice());
+  document["refraction"] = r.options.earth.document();
+  document["served"] = r.options.meaning_of_served();
+  document["value"] = r.in_metric(r.choice.value);
+  document["upper_bound"] = r.in_metric(r.choice.upper_bound);
+  document["gap_percent"] = viewshed::gap_percent(r.choice);
+  document["demand"] = r.in_metric(r.inputs.total);
+  document["served_by_existing"] = r.in_metric(r.choice.existing);
+  document["chosen"] = Document::array();
+  for (const viewshed::ChosenSite& site : r.choice.chosen) {
+    const viewshed::SiteStand& stand = r.stand(site);
+    document["chosen"].push_back({{"id", stand.name},
+                                  {"x", stand.position.x},
+                                  {"y", stand.position.y},
+                                  {"height_m", stand.height},
+                                  {"ground_m", stand.ground},
+                                  {"cost", r.inputs.options[site.option].cost},
+                                  {"gain", r.in_metric(site.gain)},
+                                  {"cumulative", r.in_metric(site.cumulative)},
+                                  {"bounds_before", interval(r.summary(r.coverage.first_bounds(site.option)))},
+                                  {"bounds_after", interval(r.summary(r.coverage.bounds(site.option)))}});
+  }
+  document["candidates"] = r.inputs.candidates.size();
+  document["options"] = r.inputs.options.size();
+  document["existing"] = r.inputs.existing();
+  document["refined"] = r.refined();
+  document["swaps"] = r.choice.swaps;
+  document["left_out"] = r.inputs.rejected.size();
+  document["left_out_rows"] = r.inputs.rejected;
+  if (r.inputs.demand_without_ground > 0) document["demand_points_without_ground"] = r.inputs.demand_without_ground;
+  document["looks"] = Document::array();
+  for (int stage = 0; stage <= r.coverage.last_stage(); ++stage) {
+    std::size_t stayed = 0;
+    for (std::size_t i = 0; i < r.inputs.options.size(); ++i) stayed += r.coverage.stage(i) == stage;
+    document["looks"].push_back({{"at", r.coverage.stage_name(stage)}, {"options_that_needed_no_more", stayed}});
+  }
+  document["links"] = Document::array();
+  for (const SiteLink& link : r.links) {
+    Document entry{{"from", link_end(r, link.from)},
+                   {"to", link.to ? link_end(r, *link.to) : "hub"},
+                   {"distance_m", link.distance_m},
+                   {"verdict", link.line.visible() ? "visible" : "hidden"}};
+    if (link.line.clearance) entry["clearance_m"] = *link.line.clearance;
+    if (link.line.fresnel_fraction) entry["fresnel_fraction"] = *link.line.fresnel_fraction;
+    if (r.options.frequency_ghz) entry["clear"] = is_clear(r, link);
+    document["links"].push_back(std::move(entry));
+  }
+  return document;
+}
+
+void write_site_tables(const SiteResult& result, const std::string& directory, bool overwrite) {
+  write_file(place(directory, "sites.csv"), sites_csv(result), overwrite);
+  write_file(place(directory, "candidates.csv"), candidates_table(result), overwrite);
+  write_file(place(directory, "links.csv"), links_csv(result), overwrite);
+}
+
+void write_site_layers(const SiteResult& result, const std::string& directory, const std::string& crs_wkt,
+                       bool overwrite) {
+  write_geopackage(place(directory, "sites.gpkg"), crs_wkt,
+                   {sites_layer(result), candidates_layer(result), links_layer(result)}, overwrite);
+}
+
+void write_site_rasters(const SiteResult& r, const std::string& directory, const std::string& crs_wkt,
+                        const std::string& parameters, bool overwrite) {
+  const SiteRasters& rasters = r.rasters;
+  RasterDescription description;
+  description.crs_wkt = crs_wkt;
+  description.overwrite = overwrite;
+  description.metadata = {{"itin", ITIN_VERSION}, {"parameters", parameters}};
+  std::vector<std::uint8_t> served(rasters.grid.cell_count());
+  for (std::size_t i = 0; i < served.size(); ++i) {
+    const std::uint16_t n = rasters.redundancy[i];
+    served[i] = n == SiteRasters::kNoDemand ? 255 : static_cast<std::uint8_t>(n >= r.options.cover);
+  }
+  RasterDescription classes = description;
+  classes.band_name = "served";
+  classes.nodata = 255;
+  classes.classes = {
+      {0, "not served", 225, 225, 225, 255}, {1, "served", 0, 114, 178, 255}, {255, "no data", 0, 0, 0, 0}};
+  write_raster(place(directory, "coverage.tif"), rasters.grid, std::span<const std::uint8_t>(served), classes);
+  description.nodata = SiteRasters::kNoDemand;
+  description.band_name = "sites that serve the cell";
+  write_raster(place(directory, "redundancy.tif"), rasters.grid, std::span<const std::uint16_t>(rasters.redundancy),
+               description);
+  description.band_name = "nearest site that serves the cell; 0 none";
+  for (std::size_t i = 0; i < r.choice.chosen.size(); ++i)
+    description.metadata.emplace_back(fmt::format("site_{}", i + 1), r.stand(r.choice.chosen[i]).name);
+  for (std::size_t i = 0; i < r.inputs.existing(); ++i)
+    description.metadata.emplace_back(fmt::format("site_{}", r.choice.chosen.size() + i + 1),
+                                      "existing " + r.inputs.stands[r.inputs.options.size() + i].name);
+  write_raster(place(directory, "best-server.tif"), rasters.grid, std::span<const std::uint16_t>(rasters.best_server),
+               description);
+}
+
+}  // namespace itin::cli

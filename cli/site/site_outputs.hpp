@@ -1,0 +1,35 @@
+// Writes a siting run's folder.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <itin/store.hpp>
+
+#include "output/output_path.hpp"
+#include "program/verb.hpp"
+#include "site/site_result.hpp"
+
+namespace itin::cli {
+
+/// An output's path and what it is.
+struct SiteOutput {
+  std::string path;
+  std::string what;
+};
+
+/// Every file of the folder, which is there. Throws FileError where one may not be written, InputError where the call
+/// reads one.
+std::vector<SiteOutput> site_outputs(const std::string& directory, OutputPolicy& policy);
+
+/// `value`, `upper_bound`, `chosen` and the rest of the contract's document, without what the program adds.
+Document site_document(const SiteResult& result, const StoreMetadata& metadata);
+
+/// Tables, layers and rasters. Throws FileError.
+void write_site_tables(const SiteResult& result, const std::string& directory, bool overwrite);
+void write_site_layers(const SiteResult& result, const std::string& directory, const std::string& crs_wkt,
+                       bool overwrite);
+void write_site_rasters(const SiteResult& result, const std::string& directory, const std::string& crs_wkt,
+                        const std::string& parameters, bool overwrite);
+
+}  // namespace itin::cli

@@ -1,0 +1,23 @@
+// A siting run on one self-contained page.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <itin/store.hpp>
+
+#include "program/verb.hpp"
+#include "site/site_profiles.hpp"
+#include "site/site_result.hpp"
+
+namespace itin::cli {
+
+/// The two maps of the report, as PNG files beside it; `warnings` gets those of drawing them. Throws FileError.
+void write_site_maps(const Store& store, const SiteResult& result, const std::string& directory, bool overwrite,
+                     Progress& progress, std::vector<std::string>& warnings);
+
+/// `parameters` and `inputs` are shown as they are; the maps and profiles are read from their files. Throws FileError.
+void write_site_report(const SiteResult& result, const std::vector<SiteProfile>& profiles, const Document& parameters,
+                       const Document& inputs, const std::string& directory, bool overwrite);
+
+}  // namespace itin::cli

@@ -1,0 +1,165 @@
+#include "site/site_result.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace itin::cli {
+
+namespace {
+
+using viewshed::DemandSet;
+using viewshed::SiteStand;
+
+/// Sites that serve, the chosen ones in their order and the existing ones behind them.
+std::vector<std::size_t> serving(const SiteInputs& inputs, const viewshed::Choice& choice) {
+  std::vector<std::size_t> result;
+  for (const viewshed::ChosenSite& site : choice.chosen) result.push_back(site.option);
+  for (std::size_t i = inputs.options.size(); i < inputs.stands.size(); ++i) result.push_back(i);
+  return result;
+}
+
+/// Best is nearest: in the open that is strongest.
+class BestServer {
+ public:
+  BestServer(const RasterGrid& grid, const DemandSet& ground)
+      : grid_(grid), nearest_(grid.cell_count(), std::numeric_limits<double>::infinity()) {
+    rasters_ = {grid, std::vector<std::uint16_t>(grid.cell_count(), SiteRasters::kNoDemand),
+                std::vector<std::uint16_t>(grid.cell_count(), SiteRasters::kNoDemand)};
+    for_each_cell(ground, [&](std::size_t i, Point2) { rasters_.redundancy[i] = rasters_.best_server[i] = 0; });
+  }
+
+  void add(const SiteStand& stand, std::uint16_t number, const DemandSet& served) {
+    for_each_cell(served, [&](std::size_t i, Point2 centre) {
+      if (rasters_.redundancy[i] == SiteRasters::kNoDemand) return;
+      ++rasters_.redundancy[i];
+      const double distance = std::hypot(centre.x - stand.position.x, centre.y - stand.position.y);
+      if (distance < nearest_[i]) nearest_[i] = distance, rasters_.best_server[i] = number;
+    });
+  }
+  SiteRasters rasters() && { return std::move(rasters_); }
+
+ private:
+  void for_each_cell(const DemandSet& set, const auto& visit) const {
+    for (const DemandSet::Block& block : set.blocks()) {
+      for (std::uint64_t rest = block.members; rest != 0; rest &= rest - 1) {
+        const RasterGrid::Cell cell =
+            viewshed::cell_of(grid_, std::size_t{64} * block.number + static_cast<std::size_t>(std::countr_zero(rest)));
+        visit(grid_.index(cell), grid_.centre(cell.column, cell.row));
+      }
+    }
+  }
+
+  const RasterGrid& grid_;
+  std::vector<double> nearest_;
+  SiteRasters rasters_;
+};
+
+/// Where demand is points: the serving sites on cells.
+struct OnCells {
+  viewshed::SiteTargets targets;
+  std::vector<DemandSet> served;
+};
+
+OnCells on_cells(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
+                 const std::vector<std::size_t>& sites, Progress& progress) {
+  viewshed::SiteSurvey survey = site_survey(options, inputs);
+  survey.stands.clear();
+  for (const std::size_t site : sites) survey.stands.push_back(inputs.stands[site]);
+  survey.targets.points.clear();
+  survey.targets.grid = viewshed::grid_of_reach(store, survey.stands, options.radius, options.cell.value_or(50));
+  survey.tolerance = 0;
+  OnCells result{survey.targets, {}};
+  viewshed::SiteCoverage coverage(store, survey, progress);
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    while (!coverage.bounds(i).exact) coverage.refine({&i, 1});
+    result.served.push_back(coverage.bounds(i).certain);
+  }
+  return result;
+}
+
+}  // namespace
+
+viewshed::SiteSurvey site_survey(const SiteOptions& options, const SiteInputs& inputs) {
+  viewshed::SiteSurvey survey;
+  survey.stands = inputs.stands;
+  survey.targets = inputs.targets;
+  survey.radius = options.radius;
+  survey.earth = options.earth.earth();
+  survey.nodata = options.nodata;
+  survey.themes = options.themes.choice();
+  survey.fresnel = options.criterion();
+  survey.tolerance = options.tolerance;
+  survey.engine = options.engine.engine();
+  survey.memory_bytes = options.memory_bytes;
+  return survey;
+}
+
+LinkRules link_rules(const SiteOptions& options) {
+  return {options.themes.choice(), options.earth.earth(), options.criterion()};
+}
+
+const char* outcome_of(const SiteOptions& options, const SiteLink& link) {
+  if (!link.line.visible()) return "hidden";
+  if (!options.frequency_ghz) return "visible";
+  return link_rules(options).met_by(link.line) ? "clear" : "in sight, zone cut";
+}
+
+std::size_t SiteResult::refined() const {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < inputs.options.size(); ++i) count += coverage.stage(i) > 0;
+  return count;
+}
+
+bool SiteResult::is_chosen(std::size_t option) const {
+  return std::any_of(choice.chosen.begin(), choice.chosen.end(),
+                     [&](const viewshed::ChosenSite& site) { return site.option == option; });
+}
+
+std::string SiteResult::reason(std::size_t option) const {
+  if (is_chosen(option)) return "chosen";
+  const bool exact = coverage.bounds(option).exact;
+  const std::optional<viewshed::Margin>& margin = choice.closest[option];
+  if (!margin) return "out of the question at every step (spacing, links, cost, or another mast of its place)";
+  const double unit = inputs.demand.in_metric(1);
+  return fmt::format("at step {} it gains {} {:.10g}{}, the one taken {:.10g}", margin->step + 1,
+                     exact ? "exactly" : "at most", margin->upper * unit, options.budget ? " a unit of cost" : "",
+                     margin->chosen * unit);
+}
+
+SiteRasters site_rasters(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
+                         const viewshed::SiteCoverage& coverage, const viewshed::Choice& choice, Progress& progress) {
+  const std::vector<std::size_t> sites = serving(inputs, choice);
+  OnCells cells{inputs.targets, {}};
+  if (inputs.targets.grid) {
+    for (const std::size_t site : sites) cells.served.push_back(coverage.bounds(site).certain);
+  } else {
+    cells = on_cells(store, options, inputs, sites, progress);
+  }
+  BestServer best(*cells.targets.grid, viewshed::with_ground(store, cells.targets, progress));
+  for (std::size_t i = 0; i < sites.size(); ++i)
+    best.add(inputs.stands[sites[i]], static_cast<std::uint16_t>(i + 1), cells.served[i]);
+  return std::move(best).rasters();
+}
+
+std::vector<SiteLink> site_links(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
+                                 const viewshed::Choice& choice, const std::optional<SiteStand>& hub,
+                                 Progress& progress) {
+  const SiteLinks links(store, link_rules(options), progress);
+  std::vector<SiteLink> result;
+  const auto add = [&](std::size_t from, std::optional<std::size_t> to, const SiteStand& a, const SiteStand& b) {
+    result.push_back(
+        {from, to, std::hypot(a.position.x - b.position.x, a.position.y - b.position.y), links.between(a, b)});
+  };
+  for (std::size_t i = 0; i < choice.chosen.size(); ++i) {
+    const SiteStand& a = inputs.stands[choice.chosen[i].option];
+    for (std::size_t j = i + 1; j < choice.chosen.size(); ++j) add(i, j, a, inputs.stands[choice.chosen[j].option]);
+    if (hub) add(i, std::nullopt, a, *hub);
+    progress.report("links", static_cast<double>(i + 1) / static_cast<double>(choice.chosen.size()));
+  }
+  return result;
+}
+
+}  // namespace itin::cli

@@ -1,0 +1,74 @@
+// What a siting run ends with, for tables, maps and the report.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <profile/line_of_sight.hpp>
+#include <viewshed/site_coverage.hpp>
+#include <viewshed/siting.hpp>
+
+#include "site/site_inputs.hpp"
+#include "site/site_links.hpp"
+
+namespace itin::cli {
+
+/// A line of sight between two chosen sites, or a site and the hub.
+struct SiteLink {
+  std::size_t from = 0;             ///< in the order of choice
+  std::optional<std::size_t> to{};  ///< none: the hub
+  double distance_m = 0;
+  profile::SightLine line;
+};
+
+/// For links: "clear" as served is meant, "hidden", or in sight only.
+const char* outcome_of(const SiteOptions& options, const SiteLink& link);
+
+/// An option's coverage in the demand's own measure.
+struct CoverageSummary {
+  double certain = 0, possible = 0;
+};
+
+/// The chosen sites on a raster, existing ones behind them.
+struct SiteRasters {
+  RasterGrid grid;
+  std::vector<std::uint16_t> redundancy;   ///< how many serve a cell; kNoDemand where nothing is to be served
+  std::vector<std::uint16_t> best_server;  ///< 1: the first chosen; 0: none
+  static constexpr std::uint16_t kNoDemand = 65535;
+};
+
+struct SiteResult {
+  const SiteOptions& options;
+  const SiteInputs& inputs;
+  const viewshed::SiteCoverage& coverage;
+  viewshed::Choice choice;
+  std::vector<SiteLink> links;
+  SiteRasters rasters;
+
+  const viewshed::SiteStand& stand(const viewshed::ChosenSite& site) const { return inputs.stands[site.option]; }
+  const Candidate& candidate(std::size_t option) const { return inputs.candidates[inputs.options[option].place]; }
+  CoverageSummary summary(const viewshed::CoverageBounds& bounds) const {
+    return {inputs.demand.in_metric(inputs.demand.weight(bounds.certain)),
+            inputs.demand.in_metric(inputs.demand.weight(bounds.possible))};
+  }
+  double in_metric(viewshed::Weight weight) const { return inputs.demand.in_metric(weight); }
+  std::size_t refined() const;
+  /// Why an option is not part of the choice, in words.
+  std::string reason(std::size_t option) const;
+  bool is_chosen(std::size_t option) const;
+};
+
+/// What the rays are cast for.
+viewshed::SiteSurvey site_survey(const SiteOptions& options, const SiteInputs& inputs);
+
+/// From exact coverage (or what is certain of it) of the chosen and the existing sites.
+SiteRasters site_rasters(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
+                         const viewshed::SiteCoverage& coverage, const viewshed::Choice& choice, Progress& progress);
+
+LinkRules link_rules(const SiteOptions& options);
+/// Between all chosen sites, and to the hub.
+std::vector<SiteLink> site_links(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
+                                 const viewshed::Choice& choice, const std::optional<viewshed::SiteStand>& hub,
+                                 Progress& progress);
+
+}  // namespace itin::cli

@@ -1,0 +1,255 @@
+// itin import: terrain and lines into a store.
+
+#include <algorithm>
+#include <functional>
+
+#include <fmt/format.h>
+
+#include <itin/coordinates.hpp>
+#include <itin/import.hpp>
+
+#include "options/store_scale.hpp"
+#include "output/store_document.hpp"
+#include "program/call_files.hpp"
+#include "program/values.hpp"
+#include "program/verb.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+class ImportVerb final : public Verb {
+ public:
+  std::string name() const override { return "import"; }
+  std::string summary() const override { return "Create a store from terrain, or add terrain and lines to it"; }
+
+  void declare(CLI::App& app) override {
+    writes(app.add_option("STORE", store_, "The store, created if there is none")->required());
+    reads(app.add_option("SOURCE", options_.sources, "Rasters, point files, LAS, or layers of lines and polygons")
+              ->required());
+    app.add_option(
+           "--kind", kind_,
+           "What the sources are: terrain (default); contours, breaklines or water, which are lines with heights "
+           "and become part of the terrain; roads, which are lines on it; buildings, walls or vegetation, which "
+           "stand on it where they have heights (--height-field, --height, CityJSON), and else are lines on it")
+        ->type_name("KIND");
+    app.add_option("--theme", options_.theme, "Name of the lines' theme (default: the kind)")->type_name("NAME");
+    app.add_option(
+           "--crs", options_.crs,
+           "CRS of the sources, whatever they say themselves; a part that it has not, horizontal or vertical, stays "
+           "theirs")
+        ->type_name("CRS");
+    app.add_option(
+           "--to-crs", options_.to_crs,
+           "CRS of a new store: projected, in metres, with lengths true to 0.5 % where the sources lie (default: their "
+           "own if it is such a one, else their UTM zone)")
+        ->type_name("CRS");
+    app.add_option("--z-field", options_.z_field,
+                   "The field or column that holds heights, of points and of lines that are part of the terrain")
+        ->type_name("FIELD");
+    app.add_option("--height-field", options_.height_field,
+                   "Buildings, walls, vegetation: the field of their height above the base, in the unit of the CRS's "
+                   "heights (metres or feet)")
+        ->type_name("FIELD");
+    app.add_option("--height", height_, "Of those without a height in the fields")->type_name("METRES");
+    app.add_option("--eaves-field", options_.eaves_field, "Buildings: the field of the eaves' height above the base")
+        ->type_name("FIELD");
+    app.add_option("--base-field", options_.base_field, "Buildings: the field of the base's elevation")
+        ->type_name("FIELD");
+    app.add_option("--base", base_,
+                   "Buildings: what heights count from: minimum (default), mean or maximum of the terrain under the "
+                   "footprint; terrain-following is as mean; CityJSON's own floors count unless this is given. Walls "
+                   "reach down to the terrain, and where it rises above a roof, the roof follows it")
+        ->type_name("RULE");
+    app.add_option("--roof", roof_, "Buildings: flat (default), gabled, hipped or skeleton")->type_name("KIND");
+    app.add_option("--thickness", thickness_, "Of walls and hedges that are given as lines (default: 0.3)")
+        ->type_name("METRES");
+    app.add_option("--name-field", options_.name_field, "What messages call a building, wall or wood")
+        ->type_name("FIELD");
+    app.add_option("--layer", options_.layer, "Vector files: the layer to read")->type_name("NAME");
+    app.add_option("--where", options_.where, "Vector files: only features that this SQL condition holds for")
+        ->type_name("SQL");
+    app.add_option("--band", band_, "The band of rasters that holds heights (default: their only one)")->type_name("N");
+    app.add_option("--class", classes_, "LAS: only these classes (default: all but noise, 7 and 18)")
+        ->type_name("C,C...");
+    app.add_option("--max-gap", max_gap_,
+                   "Scattered points and contours: no ground across wider gaps (default: 100 times their mean spacing)")
+        ->type_name("METRES");
+    app.add_flag("--allow-mixed-vertical", options_.allow_mixed_vertical,
+                 "Take heights as they are, though sources refer to different vertical datums");
+    app.add_flag(
+        "--no-repair", no_repair_,
+        "Contours: infer no points where the triangles of a contour would be flat, in the whole store, whatever "
+        "other imports say");
+    app.add_flag("--replace", options_.replace,
+                 "Take the place of coarser terrain within the sources' coverage, in whatever order they come");
+    app.add_option("--levels", levels_,
+                   "Tolerances of a new store's levels (default: those of 0.5,1,2,4,8,16,32 that are no less than "
+                   "--resolution)")
+        ->type_name("T,T...");
+    app.add_option("--resolution", resolution_, "Grid of a new store's coordinates (default: 0.01)")
+        ->type_name("METRES");
+    app.add_option("--memory", memory_,
+                   "Memory to work in; the result never depends on it, and what needs more is refused (default: 4G)")
+        ->type_name("SIZE");
+  }
+
+  void validate() override {
+    parse_choice("--kind", kind_,
+                 {"terrain", "contours", "breaklines", "buildings", "vegetation", "walls", "roads", "water"});
+    if (kind_ != "terrain") {
+      options_.kind = theme_kind(kind_);
+      if (options_.theme.empty()) options_.theme = kind_;
+    } else if (!options_.theme.empty()) {
+      throw InputError("--theme: terrain has no theme; leave it out");
+    }
+    validate_standing();
+    options_.repair = !no_repair_;
+    if (!classes_.empty()) options_.classes = parse_wholes("--class", classes_, 0, 255);
+    if (!band_.empty()) options_.band = parse_whole("--band", band_, 1, 65535);
+    if (!max_gap_.empty()) options_.max_gap = parse_number("--max-gap", max_gap_, Range::kPositive);
+    if (!levels_.empty()) options_.tolerances = growing_levels();
+    if (!resolution_.empty()) options_.resolution = parse_number("--resolution", resolution_, Range::kPositive);
+    if (!memory_.empty()) options_.memory_bytes = parse_bytes("--memory", memory_);
+  }
+
+  Document parameters() const override {
+    Document parameters{{"store", store_}, {"sources", options_.sources}, {"kind", kind_}};
+    const auto given = [&](const char* name, const std::string& value) {
+      if (!value.empty()) parameters[name] = value;
+    };
+    given("theme", options_.theme);
+    given("crs", options_.crs);
+    given("to_crs", options_.to_crs);
+    given("z_field", options_.z_field);
+    given("height_field", options_.height_field);
+    if (options_.height) parameters["height_m"] = *options_.height;
+    given("eaves_field", options_.eaves_field);
+    given("base_field", options_.base_field);
+    given("base", base_);
+    given("roof", roof_);
+    if (options_.thickness) parameters["thickness_m"] = *options_.thickness;
+    if (options_.band) parameters["band"] = *options_.band;
+    given("name_field", options_.name_field);
+    given("layer", options_.layer);
+    given("where", options_.where);
+    if (!options_.classes.empty()) parameters["classes"] = options_.classes;
+    if (options_.max_gap > 0) parameters["max_gap_m"] = options_.max_gap;
+    parameters["replace"] = options_.replace;
+    if (options_.kind == ThemeKind::Contours) parameters["repair"] = options_.repair;
+    if (!options_.tolerances.empty()) parameters["tolerances_m"] = options_.tolerances;
+    parameters["resolution_m"] = options_.resolution;
+    return parameters;
+  }
+
+  std::string advice_for_less_memory() const override {
+    return "give a smaller --memory, or import fewer sources at once";
+  }
+
+  Result execute(Progress& progress) override {
+    const ImportReport report =
+        options_.kind ? import_lines(store_, options_, progress) : import_terrain(store_, options_, progress);
+    const Store store(store_);
+    Result result{document(report, store.metadata()), text(report, store.metadata()), report.warnings, {}};
+    warn_of_scale(store.metadata(), result.warnings);
+    return result;
+  }
+
+ private:
+  void validate_standing() {
+    if (!height_.empty()) options_.height = parse_height("--height", height_, Range::kPositive);
+    if (!thickness_.empty()) options_.thickness = parse_number("--thickness", thickness_, Range::kPositive);
+    parse_choice("--roof", roof_.empty() ? "flat" : roof_, {"flat", "gabled", "hipped", "skeleton"});
+    if (!roof_.empty()) options_.roof = roof_kind(roof_);
+    parse_choice("--base", base_.empty() ? "minimum" : base_, {"minimum", "mean", "maximum", "terrain-following"});
+    if (!base_.empty()) options_.base = base_rule(base_);
+  }
+
+  std::vector<double> growing_levels() const {
+    std::vector<double> tolerances = parse_numbers("--levels", levels_, Range::kPositive);
+    if (!std::is_sorted(tolerances.begin(), tolerances.end(), std::less_equal<>())) {
+      throw InputError(fmt::format("--levels '{}': expected growing tolerances", levels_));
+    }
+    return tolerances;
+  }
+
+  static Document document(const ImportReport& report, const StoreMetadata& metadata) {
+    Document document;
+    document["crs"] = crs_identifier(metadata.crs_wkt);
+    document["crs_chosen"] = report.crs_chosen;
+    document["read"] = report.read;
+    document["read_features"] = report.read_features;
+    document["voids"] = report.voids;
+    document["filtered"] = report.filtered;
+    document["duplicates"] = report.duplicates;
+    document["replaced"] = report.replaced;
+    document["isolated"] = report.isolated;
+    document["features"] = report.features;
+    document["refused"] = report.refused;
+    document["crossings"] = report.crossings;
+    document["segments_left_out"] = report.left_out;
+    document["flat_triangles"] = {{"before", report.flat_before}, {"after", report.flat_after}};
+    document["inferred"] = report.inferred;
+    document["vertices"] = report.vertices;
+    document["bytes"] = report.store_bytes;
+    document["bytes_per_vertex"] = bytes_per_vertex(report);
+    document["levels"] = levels_document(metadata);
+    document["themes"] = themes_document(metadata);
+    document["statistics"] = {{"points_read", report.read}};
+    return document;
+  }
+
+  std::string text(const ImportReport& report, const StoreMetadata& metadata) const {
+    std::string text =
+        fmt::format("{}: {} vertices in {}, {:.2f} bytes a vertex, {}{}\n", store_, grouped(report.vertices),
+                    readable_bytes(report.store_bytes), bytes_per_vertex(report), report.crs_name,
+                    report.crs_chosen ? " (chosen; see --to-crs)" : "");
+    text += fmt::format("read {} in {:.1f} s", text_of_read(report), report.seconds);
+    const auto mention = [&](std::uint64_t count, const char* noun, const char* what) {
+      if (count > 0) text += fmt::format(", {} {}", counted(count, noun), what);
+    };
+    mention(report.voids, "post", "without data");
+    if (report.filtered > 0) text += fmt::format(", {} filtered out", grouped(report.filtered));
+    if (report.duplicates > 0) text += fmt::format(", {} at places of others", counted(report.duplicates, "point"));
+    mention(report.replaced, "coarser point", "replaced");
+    mention(report.isolated, "isolated point", "left out");
+    mention(report.refused, "feature", "that cannot stand");
+    mention(report.crossings, "crossing", "resolved");
+    mention(report.left_out, "segment", "of lines left out beyond the ground");
+    text += flat_text(report);
+    text += metadata.themes.empty() ? "\n\n" : "\n" + themes_table(metadata) + "\n";
+    return text + levels_table(metadata);
+  }
+
+  static std::string text_of_read(const ImportReport& report) {
+    if (report.read_features == 0) return counted(report.read, "point");
+    return fmt::format("{} with {}", counted(report.read_features, "feature"),
+                       counted(report.read, "vertex", "vertices"));
+  }
+
+  static std::string flat_text(const ImportReport& report) {
+    if (report.flat_before == 0) return "";
+    if (report.inferred == 0) return fmt::format("\n{} flat triangles of contours", grouped(report.flat_before));
+    return fmt::format("\n{} flat triangles of contours, {} after repair with {} inferred points",
+                       grouped(report.flat_before), grouped(report.flat_after), grouped(report.inferred));
+  }
+
+  static double bytes_per_vertex(const ImportReport& report) {
+    return report.vertices == 0 ? 0 : static_cast<double>(report.store_bytes) / static_cast<double>(report.vertices);
+  }
+
+  std::string store_;
+  std::string kind_ = "terrain";
+  bool no_repair_ = false;
+  std::string classes_, band_, max_gap_, levels_, resolution_, memory_;
+  std::string height_, base_, roof_, thickness_;
+  ImportOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_import_verb() {
+  return std::make_unique<ImportVerb>();
+}
+
+}  // namespace itin::cli

@@ -1,0 +1,168 @@
+// itin tin: the triangulation of a window.
+
+#include <filesystem>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include <itin/coordinates.hpp>
+#include <itin/error.hpp>
+#include <itin/store.hpp>
+#include <itin/tin_export.hpp>
+#include <itin/triangulate.hpp>
+#include <viewshed/oblique_view.hpp>
+
+#include "options/detail_options.hpp"
+#include "options/store_scale.hpp"
+#include "options/surface_options.hpp"
+#include "options/window_options.hpp"
+#include "output/output_path.hpp"
+#include "output/store_document.hpp"
+#include "program/call_files.hpp"
+#include "program/json_text.hpp"
+#include "program/values.hpp"
+#include "program/verb.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+class TinVerb final : public Verb {
+ public:
+  std::string name() const override { return "tin"; }
+  std::string summary() const override { return "Write the triangulation of a window"; }
+
+  void declare(CLI::App& app) override {
+    reads(app.add_option("STORE", store_, "The store")->required());
+    window_.declare(app);
+    writes(
+        app.add_option("-o,--output", output_, "What to write: .ply, .obj, .glb, .gpkg or .geojson; a topology: .json")
+            ->type_name("FILE"));
+    writes(app.add_option("--image", image_, "A picture of the surface, seen obliquely (.png, .jpg, ...)")
+               ->type_name("FILE"));
+    app.add_option("--look", look_, "Where the picture's viewer looks, and from how high, degrees (default: 340,40)")
+        ->type_name("AZIMUTH,ELEVATION");
+    app.add_option("--topology", topology_, "Write this structure of the triangulation: triangle, vertex or edge")
+        ->type_name("KIND");
+    detail_.declare(app);
+    themes_.declare(app);
+    policy_.declare(app);
+  }
+
+  void validate() override {
+    window_.validate();
+    detail_.validate();
+    themes_.validate();
+    if (output_.empty() && image_.empty()) throw InputError("give an output: --output FILE, or --image FILE.png");
+    if (output_.empty() && !topology_.empty()) throw InputError("--topology: give --output FILE.json with it");
+    if (!image_.empty()) viewshed::require_image_format(image_);
+    if (!look_.empty()) {
+      const std::vector<double> look = parse_tuple("--look", look_, 2, "azimuth,elevation");
+      view_.azimuth = look[0], view_.elevation = look[1];
+    }
+    if (!topology_.empty()) kind_ = topology_kind(topology_);
+  }
+
+  Document parameters() const override {
+    Document parameters{{"store", store_}};
+    if (!output_.empty()) parameters["output"] = output_;
+    if (!image_.empty()) parameters["image"] = image_;
+    parameters.update(query());
+    return parameters;
+  }
+
+  Result execute(Progress& progress) override {
+    if (!image_.empty()) policy_.require_writable(image_);
+    if (kind_) {
+      require_topology_output(output_, policy_.overwrite);
+    } else if (!output_.empty()) {
+      require_tin_output(output_, policy_.overwrite);
+    }
+    const Store store(store_);
+    const auto [window, centre] = window_.region(store.metadata());
+    const Detail detail = detail_.detail(centre);
+    const ThemeChoice themes = themes_.choice().with_ground_lines();
+    themes.check(store.metadata().themes);
+    const Tin tin = triangulate(store, window, detail, progress, themes);
+    if (tin.triangles.empty() && !image_.empty())
+      throw InputError(window_.no_ground(store.metadata()) + "; there is nothing to draw");
+    const Document surface = surface_document(store.metadata(), detail, themes);
+    if (!output_.empty()) write(tin, store.metadata(), surface, progress);
+    if (!image_.empty()) viewshed::write_image(image_, viewshed::draw_oblique(tin, view_), policy_.overwrite);
+    Result result{document(tin, store.metadata(), surface), text(tin), {}, {}};
+    warn_of_scale(store.metadata(), result.warnings);
+    if (tin.triangles.empty()) result.warnings.push_back(window_.no_ground(store.metadata()));
+    return result;
+  }
+
+ private:
+  /// Without the names of files: what is written must not depend on them.
+  Document query() const {
+    Document query = window_.parameters();
+    query.update(detail_.parameters());
+    query.update(themes_.parameters());
+    if (kind_) query["topology"] = topology_;
+    return query;
+  }
+
+  void write(const Tin& tin, const StoreMetadata& metadata, const Document& surface, Progress& progress) const {
+    TinExportOptions options;
+    options.crs_wkt = metadata.crs_wkt;
+    options.overwrite = policy_.overwrite;
+    for (const ThemeInfo& theme : metadata.themes) options.theme_names.push_back(theme.name);
+    options.metadata_json = json_text(Document{{"itin", ITIN_VERSION}, {"command", query()}, {"surface", surface}});
+    if (kind_) {
+      export_topology(tin, *kind_, output_, options, progress);
+    } else {
+      export_tin(tin, output_, options, progress);
+    }
+  }
+
+  Document document(const Tin& tin, const StoreMetadata& metadata, const Document& surface) const {
+    Document document;
+    document["crs"] = crs_identifier(metadata.crs_wkt);
+    document["surface"] = surface;
+    if (!tin.vertices.empty()) document["bounds"] = box_document(tin.bounds());
+    document["vertices"] = tin.vertices.size();
+    document["triangles"] = tin.triangles.size();
+    document["line_edges"] = tin.lines.size();
+    document["outputs"] = outputs();
+    document["statistics"] = {{"points_read", tin.statistics.points_read},
+                              {"blocks_read", tin.statistics.blocks_read},
+                              {"triangles", tin.triangles.size()}};
+    return document;
+  }
+
+  std::string text(const Tin& tin) const {
+    std::string text;
+    for (const std::string& path : outputs()) {
+      text += fmt::format("{}: {}, {}, {}\n", path, counted(tin.vertices.size(), "vertex", "vertices"),
+                          counted(tin.triangles.size(), "triangle"), readable_bytes(std::filesystem::file_size(path)));
+    }
+    return text + fmt::format("read {} in {}\n", counted(tin.statistics.points_read, "point"),
+                              counted(tin.statistics.blocks_read, "block"));
+  }
+
+  std::vector<std::string> outputs() const {
+    std::vector<std::string> paths;
+    for (const std::string& path : {output_, image_})
+      if (!path.empty()) paths.push_back(path);
+    return paths;
+  }
+
+  std::string store_, output_, topology_, image_, look_;
+  viewshed::ObliqueOptions view_;
+  std::optional<TopologyKind> kind_;
+  WindowOptions window_;
+  DetailOptions detail_;
+  ThemeOptions themes_;
+  OutputPolicy policy_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_tin_verb() {
+  return std::make_unique<TinVerb>();
+}
+
+}  // namespace itin::cli

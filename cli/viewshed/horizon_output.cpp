@@ -1,0 +1,157 @@
+#include "viewshed/horizon_output.hpp"
+
+#include <filesystem>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+#include <itin/output_file.hpp>
+#include <profile/panorama.hpp>
+
+#include "options/site_list.hpp"
+#include "output/output_path.hpp"
+#include "program/call_files.hpp"
+#include "program/json_text.hpp"
+#include "program/values.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+std::string theme_name(std::uint16_t theme, const StoreMetadata& metadata) {
+  return theme == 0 ? "terrain" : metadata.themes[theme - std::size_t{1}].name;
+}
+
+std::string table(const viewshed::Horizon& horizon, const StoreMetadata& metadata) {
+  std::string text = "azimuth_deg,elevation_deg,distance_m,x,y,z,theme\n";
+  for (const viewshed::HorizonPoint& p : horizon.points) {
+    if (!p.sky) {
+      text += fmt::format("{:.10g},,,,,,\n", p.azimuth_deg);
+      continue;
+    }
+    const Point3& at = p.sky->position;
+    text += fmt::format("{:.10g},{:.6f},{:.3f},{:.3f},{:.3f},{:.3f},{}\n", p.azimuth_deg, p.sky->elevation_deg,
+                        p.sky->distance_m, at.x, at.y, at.z, theme_name(p.sky->theme, metadata));
+  }
+  return text;
+}
+
+Document targets_document(const viewshed::Horizon& horizon) {
+  Document targets = Document::array();
+  for (const viewshed::SightedTarget& t : horizon.targets)
+    targets.push_back({{"name", t.target.name},
+                       {"x", t.target.position.x},
+                       {"y", t.target.position.y},
+                       {"elevation_m", t.elevation_m},
+                       {"azimuth_deg", t.azimuth_deg},
+                       {"elevation_deg", t.elevation_deg},
+                       {"distance_m", t.distance_m},
+                       {"visible", t.visible}});
+  return targets;
+}
+
+Document document(const viewshed::Horizon& horizon, const viewshed::Request& request, const StoreMetadata& metadata,
+                  const Document& refraction) {
+  const viewshed::Observer& observer = request.observers.front();
+  Document points = Document::array();
+  for (const viewshed::HorizonPoint& p : horizon.points) {
+    Document point{{"azimuth_deg", p.azimuth_deg}};
+    if (p.sky) {
+      point["elevation_deg"] = p.sky->elevation_deg;
+      point["distance_m"] = p.sky->distance_m;
+      point["x"] = p.sky->position.x;
+      point["y"] = p.sky->position.y;
+      point["z"] = p.sky->position.z;
+      point["theme"] = theme_name(p.sky->theme, metadata);
+    }
+    points.push_back(std::move(point));
+  }
+  return {{"itin", ITIN_VERSION},
+          {"observer",
+           {{"name", observer.name},
+            {"x", observer.position.x},
+            {"y", observer.position.y},
+            {"elevation_m", horizon.eye_elevation_m}}},
+          {"refraction", refraction},
+          {"sky_line", points},
+          {"targets", targets_document(horizon)}};
+}
+
+profile::Panorama panorama(const viewshed::Horizon& horizon, const viewshed::Request& request) {
+  const viewshed::Observer& observer = request.observers.front();
+  profile::Panorama drawing;
+  drawing.title = fmt::format("Horizon of {:.10g}, {:.10g}", observer.position.x, observer.position.y);
+  drawing.note =
+      fmt::format("Eye at {:.1f} m; azimuths from grid north; {}", horizon.eye_elevation_m, request.earth.convention());
+  for (const viewshed::HorizonPoint& p : horizon.points)
+    drawing.skyline.push_back({p.azimuth_deg, p.sky ? p.sky->elevation_deg : std::numeric_limits<double>::quiet_NaN(),
+                               p.sky ? p.sky->distance_m : 0});
+  for (const viewshed::SightedTarget& t : horizon.targets)
+    drawing.places.push_back({t.target.name, t.azimuth_deg, t.elevation_deg, t.distance_m, t.visible});
+  return drawing;
+}
+
+}  // namespace
+
+void HorizonOutput::declare(CLI::App& app) {
+  writes(app.add_option(
+                "--horizon", paths_,
+                "Write the observer's sky line: azimuth, elevation and distance (.csv, .json), or drawn as a panorama "
+                "(.svg, .png, .pdf); may be given again")
+             ->type_name("FILE")
+             ->expected(1)
+             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll));
+  app.add_option("--horizon-step", step_text_, "Between the sky line's azimuths (default: 0.1)")->type_name("DEGREES");
+  reads(app.add_option("--horizon-targets", sites_.path, "Places to mark on the horizon, in line of sight or not")
+            ->type_name("FILE"));
+  app.add_option("--horizon-name-field", sites_.name_field, "The field of that file that holds names")
+      ->type_name("FIELD");
+  app.add_option("--horizon-height-field", sites_.height_field,
+                 "The field of that file that holds h (default: --target-height)")
+      ->type_name("FIELD");
+}
+
+void HorizonOutput::validate() {
+  for (const std::string& path : paths_) {
+    const std::string ending = ending_of(path);
+    if (ending == ".csv" || ending == ".json") continue;
+    if (ending != ".svg" && ending != ".png" && ending != ".pdf")
+      throw InputError(fmt::format("--horizon '{}': a horizon is written as .csv, .json, .svg, .png or .pdf", path));
+  }
+  if (!step_text_.empty()) step_deg_ = parse_number("--horizon-step", step_text_, Range::kPositive);
+  if (paths_.empty() && !(sites_.path + step_text_).empty())
+    throw InputError("--horizon-targets and --horizon-step are of use with --horizon FILE only");
+  if (sites_.path.empty() && !(sites_.name_field + sites_.height_field).empty())
+    throw InputError("--horizon-name-field and --horizon-height-field are of use with --horizon-targets only");
+}
+
+std::vector<viewshed::HorizonTarget> HorizonOutput::targets(const viewshed::Request& request,
+                                                            const StoreMetadata& metadata) const {
+  std::vector<viewshed::HorizonTarget> targets;
+  if (sites_.path.empty()) return targets;
+  for (const Site& site : read_sites(sites_, metadata.crs_wkt))
+    targets.push_back({site.name, site.position, site.height.value_or(request.target_height)});
+  if (targets.empty()) throw InputError(none_in(sites_, "place"));
+  return targets;
+}
+
+Document HorizonOutput::write(viewshed::Surveyed& surveyed, const StoreMetadata& metadata, const Document& refraction,
+                              bool overwrite, Progress& progress) const {
+  if (paths_.empty()) return nullptr;
+  const viewshed::Request& request = surveyed.result.request;
+  const Tin& surface = surveyed.surface.listed(progress);
+  const viewshed::Horizon horizon = viewshed::horizon(surface, surveyed.ground ? *surveyed.ground : surface, request,
+                                                      {step_deg_, targets(request, metadata)}, progress);
+  for (const std::string& path : paths_) {
+    const std::string ending = ending_of(path);
+    const std::string bytes = ending == ".csv" ? table(horizon, metadata)
+                              : ending == ".json"
+                                  ? json_text(document(horizon, request, metadata, refraction), 2) + "\n"
+                                  : profile::draw_panorama(panorama(horizon, request), path);
+    write_file(path, bytes, overwrite);
+  }
+  return targets_document(horizon);
+}
+
+}  // namespace itin::cli

@@ -1,0 +1,38 @@
+// `--horizon FILE`: the sky line of an observer as a table or a drawn panorama, with named places in or out of sight.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <itin/sites.hpp>
+#include <itin/store.hpp>
+#include <viewshed/horizon.hpp>
+
+#include "program/verb.hpp"
+
+namespace itin::cli {
+
+class HorizonOutput {
+ public:
+  void declare(CLI::App& app);
+  /// Throws InputError.
+  void validate();
+  const std::vector<std::string>& paths() const { return paths_; }
+
+  /// Computes and writes what was asked for, if anything; the document of the horizon's targets, or null. Throws
+  /// InputError, FileError.
+  Document write(viewshed::Surveyed& surveyed, const StoreMetadata& metadata, const Document& refraction,
+                 bool overwrite, Progress& progress) const;
+
+ private:
+  std::vector<viewshed::HorizonTarget> targets(const viewshed::Request& request, const StoreMetadata& metadata) const;
+
+  std::vector<std::string> paths_;
+  std::string step_text_;
+  double step_deg_ = 0.1;
+  SiteQuery sites_;
+};
+
+}  // namespace itin::cli

@@ -1,0 +1,388 @@
+// itin viewshed: what observers see.
+
+#include <filesystem>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include <itin/coordinates.hpp>
+#include <itin/error.hpp>
+#include <itin/store.hpp>
+#include <viewshed/certified.hpp>
+#include <viewshed/viewshed.hpp>
+
+#include "options/detail_options.hpp"
+#include "options/earth_options.hpp"
+#include "options/engine_option.hpp"
+#include "options/observer_options.hpp"
+#include "options/store_scale.hpp"
+#include "options/surface_options.hpp"
+#include "output/store_document.hpp"
+#include "program/call_files.hpp"
+#include "program/verb.hpp"
+#include "viewshed/feature_raster.hpp"
+#include "viewshed/horizon_output.hpp"
+#include "viewshed/viewshed_outputs.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+std::optional<viewshed::AngleRange> parse_angles(std::string_view option, const std::string& text, double least,
+                                                 double most) {
+  if (text.empty()) return std::nullopt;
+  const std::vector<double> v = parse_tuple(option, text, 2, "from,to");
+  for (const double angle : v) {
+    if (angle < least || angle > most) {
+      throw InputError(fmt::format("{} '{}': expected degrees from {} to {}", option, text, least, most));
+    }
+  }
+  return viewshed::AngleRange{v[0], v[1]};
+}
+
+std::optional<viewshed::AngleRange> parse_azimuths(const std::string& text) {
+  const auto range = parse_angles("--azimuth", text, -360, 360);
+  if (range && range->from == range->to)
+    throw InputError(fmt::format("--azimuth '{}': from and to are the same; for the whole circle leave it out", text));
+  return range;
+}
+
+std::optional<viewshed::AngleRange> parse_elevations(const std::string& text) {
+  const auto range = parse_angles("--elevation", text, -90, 90);
+  if (range && range->from >= range->to)
+    throw InputError(fmt::format("--elevation '{}': expected from,to with from < to", text));
+  return range;
+}
+
+class ViewshedVerb final : public Verb {
+ public:
+  std::string name() const override { return "viewshed"; }
+  std::string summary() const override { return "Write what observers see, as a raster and a map"; }
+
+  void declare(CLI::App& app) override {
+    reads(app.add_option("STORE", store_, "The store")->required());
+    outputs_.declare(app);
+    horizon_.declare(app);
+    features_.declare(app);
+    app.add_option(
+           "--mode", mode_text_,
+           "visible (to any observer; the default); count (how many see it); certified (certainly visible, "
+           "certainly hidden, or undecided at this tolerance); which (one bit an observer, in UInt32 bands of "
+           "32); angle (elevation angle of the sight line, degrees, the greatest of several observers; of an "
+           "observer's own place -90 or 90, or 0 of the eye); "
+           "nearest (two bands: distance and number of the nearest visible observer); blocker (two bands: theme and "
+           "feature of what first hides the cell from the nearest observer); height (the least height above the "
+           "ground at which a target is seen, metres, no value where none is); probability (two bands: of being "
+           "visible, with --vertical-error, and visible as the heights are)")
+        ->type_name("MODE");
+    observers_.declare(app);
+    declare_targets(app);
+    app.add_option("--vertical-error", sigma_text_, "Standard deviation of heights, for --mode probability")
+        ->type_name("METRES");
+    app.add_option("--error-correlation", correlation_text_,
+                   "L: errors x apart are correlated as exp(-x / L) (default: 0, independent)")
+        ->type_name("METRES");
+    detail_.declare(app);
+    themes_.declare(app);
+    earth_.declare(app);
+    app.add_option("--nodata", nodata_text_, "What ground without data does to sight lines (default: unknown)")
+        ->type_name("unknown|block|clear");
+    engine_.declare(app);
+    app.add_flag("--precise", precise_,
+                 "Exact for the full surface, of which more than --memory holds is read only where it decides");
+    app.add_option(
+           "--memory", memory_text_,
+           "Memory for --precise to work in: it changes the speed only, and too little is refused (default: 1G)")
+        ->type_name("SIZE");
+  }
+
+  void validate() override {
+    horizon_.validate();
+    features_.validate();
+    outputs_.validate(other_outputs());
+    observers_.validate();
+    validate_targets();
+    detail_.validate();
+    themes_.validate();
+    request_.themes = themes_.choice();
+    earth_.validate();
+    request_.earth = earth_.earth();
+    request_.engine = engine_.engine();
+    if (!mode_text_.empty()) parse_mode();
+    if (!nodata_text_.empty()) {
+      using enum viewshed::NoData;
+      constexpr viewshed::NoData kChoices[] = {kUnknown, kBlock, kClear};
+      request_.nodata = kChoices[parse_choice("--nodata", nodata_text_, {"unknown", "block", "clear"})];
+    }
+    validate_vertical_error();
+    validate_precise();
+  }
+
+  Document parameters() const override {
+    Document parameters{{"store", store_}, {"observers", observers_document(places_)}};
+    parameters["mode"] = mode_name();
+    parameters["precise"] = precise_;
+    parameters[request_.target_absolute ? "target_elevation_m" : "target_height_m"] = request_.target_height;
+    if (request_.radius) parameters["radius_m"] = *request_.radius;
+    if (request_.min_radius > 0) parameters["min_radius_m"] = request_.min_radius;
+    const auto angles = [&](const char* name, const std::optional<viewshed::AngleRange>& range) {
+      if (range) parameters[name] = {range->from, range->to};
+    };
+    angles("azimuth_deg", request_.azimuth);
+    angles("elevation_deg", request_.elevation);
+    if (request_.mode == viewshed::Mode::kProbability) {
+      parameters["vertical_error_m"] = request_.vertical_error.sigma;
+      parameters["error_correlation_m"] = request_.vertical_error.correlation_length;
+    }
+    if (request_.cell_size) parameters["cell_m"] = *request_.cell_size;
+    if (!like_.empty()) parameters["like"] = like_;
+    parameters["observer_on"] = request_.observers_on_surface ? "surface" : "ground";
+    parameters["target_on"] = target_on_;
+    parameters.update(detail_.parameters());
+    parameters.update(themes_.parameters());
+    parameters["nodata"] = nodata_text_.empty() ? "unknown" : nodata_text_;
+    return parameters;
+  }
+
+  Result execute(Progress& progress) override {
+    // A budget holds for what is kept of the store as well.
+    const std::uint64_t cache = std::min(StoreOptions().cache_bytes, precise_options_.memory_bytes / 4);
+    const Store store(store_, {cache});
+    const StoreMetadata& metadata = store.metadata();
+    complete_request(metadata);
+    request_.themes.check(metadata.themes);
+    features_.require_themes(metadata, request_.themes);
+    if (!horizon_.paths().empty() && places_.size() > 1)
+      throw InputError("--horizon is that of one observer; give one");
+    outputs_.prepare(request_);
+    viewshed::Surveyed surveyed = survey(store, request_, progress);
+    const ViewshedOutputs::Context context{metadata.crs_wkt,
+                                           surface_document(metadata, request_.detail, request_.themes),
+                                           {{"mode", mode_name()},
+                                            {"precise", precise_ ? "yes" : "no"},
+                                            {"observer_on", request_.observers_on_surface ? "surface" : "ground"},
+                                            {"target_on", target_on_}}};
+    Result result;
+    result.warnings = surveyed.result.warnings;
+    warn_of_scale(metadata, result.warnings);
+    outputs_.write(surveyed, context, result.warnings, progress);
+    outputs_.write_each([&](std::size_t i) { return survey_alone(store, surveyed, i, progress); }, context);
+    const Document targets = horizon_.write(surveyed, metadata, earth_.document(), outputs_.overwrite(), progress);
+    // What is certain or exact is so of the full surface.
+    const Detail detail = precise_ || certified_ ? Detail::tolerance(0) : request_.detail;
+    const Document features =
+        features_.write(store, surveyed.result.grid, {detail, request_.themes}, outputs_.overwrite(), progress);
+    result.document = document(surveyed.result, metadata, context.surface);
+    if (!features.is_null()) result.document["features"] = features;
+    if (!targets.empty()) result.document["horizon_targets"] = targets;
+    result.text = text(surveyed.result);
+    return result;
+  }
+
+ private:
+  std::vector<std::string> other_outputs() const {
+    std::vector<std::string> paths = horizon_.paths();
+    for (const std::string& path : features_.paths()) paths.push_back(path);
+    return paths;
+  }
+
+  void declare_targets(CLI::App& app) {
+    app.add_option("--target-height", target_height_text_, "h of the targets, one in every cell (default: 0)")
+        ->type_name("METRES");
+    app.add_option("--target-on", target_on_, "ground (default), or the surface with the roofs and tops of --themes")
+        ->type_name("ground|surface");
+    app.add_option("--radius", radius_text_, "How far to look (default: as far as there is ground)")
+        ->type_name("METRES");
+    app.add_option("--min-radius", min_radius_text_, "Leave out what is nearer (default: 0)")->type_name("METRES");
+    app.add_option("--azimuth", azimuth_text_, "The field of view, degrees clockwise from grid north")
+        ->type_name("FROM,TO");
+    app.add_option("--elevation", elevation_text_, "The field of view, degrees above the horizontal")
+        ->type_name("FROM,TO");
+    app.add_option("--cell", cell_text_, "Size of the raster's cells (default: a round size for at most 2048 a side)")
+        ->type_name("METRES");
+    reads(app.add_option("--like", like_, "Take the cells of this raster")->type_name("FILE"));
+  }
+
+  void validate_targets() {
+    if (!target_height_text_.empty()) request_.target_height = parse_height("--target-height", target_height_text_);
+    request_.target_absolute = observers_.absolute_heights();
+    if (!request_.target_absolute && request_.target_height < 0) {
+      throw InputError("--target-height: a height must not be negative; for an elevation give --absolute-heights");
+    }
+    parse_choice("--target-on", target_on_, {"ground", "surface"});
+    request_.targets_on_surface = target_on_ == "surface";
+    request_.observers_on_surface = observers_.on_surface();
+    if (!radius_text_.empty()) request_.radius = parse_radius("--radius", radius_text_);
+    if (!min_radius_text_.empty()) {
+      request_.min_radius = parse_number("--min-radius", min_radius_text_, Range::kNotNegative);
+    }
+    if (request_.radius && request_.min_radius >= *request_.radius) {
+      throw InputError("--min-radius: must be less than --radius");
+    }
+    request_.azimuth = parse_azimuths(azimuth_text_);
+    request_.elevation = parse_elevations(elevation_text_);
+    if (!cell_text_.empty() && !like_.empty()) throw InputError("--cell and --like exclude each other");
+    if (!cell_text_.empty()) request_.cell_size = parse_number("--cell", cell_text_, Range::kPositive);
+    if (request_.cell_size && request_.radius && *request_.cell_size > *request_.radius) {
+      throw InputError(fmt::format("--cell '{}': larger than the radius", cell_text_));
+    }
+  }
+
+  /// Those of viewshed::Mode, and then what tells the visible by certificates.
+  static constexpr std::string_view kModes[] = {"visible", "count",  "which",       "angle",    "nearest",
+                                                "blocker", "height", "probability", "certified"};
+
+  void parse_mode() {
+    const auto mode =
+        static_cast<std::size_t>(parse_choice("--mode", mode_text_, {std::begin(kModes), std::end(kModes)}));
+    certified_ = kModes[mode] == "certified";
+    request_.mode = certified_ ? viewshed::Mode::kVisible : static_cast<viewshed::Mode>(mode);
+  }
+  std::string mode_name() const {
+    return std::string(certified_ ? "certified" : kModes[static_cast<std::size_t>(request_.mode)]);
+  }
+
+  void validate_vertical_error() {
+    const bool wanted = request_.mode == viewshed::Mode::kProbability;
+    if (wanted != !sigma_text_.empty())
+      throw InputError("--mode probability and --vertical-error METRES need each other; give both");
+    if (!wanted && !correlation_text_.empty())
+      throw InputError("--error-correlation is of use with --vertical-error only");
+    viewshed::VerticalError& error = request_.vertical_error;
+    if (wanted) error.sigma = parse_number("--vertical-error", sigma_text_, Range::kPositive);
+    if (!correlation_text_.empty())
+      error.correlation_length = parse_number("--error-correlation", correlation_text_, Range::kNotNegative);
+  }
+
+  void validate_precise() {
+    if (!horizon_.paths().empty() && (precise_ || certified_))
+      throw InputError("--horizon is that of the surface at --tolerance; leave out --precise and --mode certified");
+    if (!precise_) {
+      if (!memory_text_.empty()) throw InputError("--memory is of use with --precise only");
+      return;
+    }
+    if (certified_)
+      throw InputError("--precise leaves nothing undecided: give --mode visible or count, or leave --precise out");
+    if (detail_.has_rings() || request_detail_given())
+      throw InputError("--precise is exact for the full surface: leave out --tolerance and --rings");
+    if (!memory_text_.empty()) precise_options_.memory_bytes = parse_bytes("--memory", memory_text_);
+  }
+  bool request_detail_given() const { return detail_.detail({}).coarsest() > 0; }
+
+  viewshed::Surveyed survey(const Store& store, const viewshed::Request& request, Progress& progress) const {
+    if (precise_) return viewshed::compute_precise(store, request, precise_options_, progress);
+    if (certified_) return viewshed::compute_certified(store, request, progress);
+    return viewshed::compute_with_surface(store, request, progress);
+  }
+  viewshed::Result survey_alone(const Store& store, const viewshed::Surveyed& all, std::size_t observer,
+                                Progress& progress) const {
+    const viewshed::Request request = viewshed::alone(all.result, observer);
+    return precise_ || certified_ ? survey(store, request, progress).result
+                                  : viewshed::compute_on_surface(store, all, request, progress);
+  }
+
+  static viewshed::Observer observer_of(const ObserverPlace& place) {
+    const auto angles = [](const std::optional<ViewFields::Angles>& range) {
+      return range ? std::optional(viewshed::AngleRange{range->first, range->second}) : std::nullopt;
+    };
+    const ViewFields::View& view = place.view;
+    return {place.name,  place.position,  place.height,         place.absolute,        view.target_height,
+            view.radius, view.min_radius, angles(view.azimuth), angles(view.elevation)};
+  }
+
+  /// What takes the store's CRS to understand.
+  void complete_request(const StoreMetadata& metadata) {
+    places_ = observers_.places(metadata);
+    if (detail_.has_rings() && places_.size() > 1) {
+      throw InputError("--rings lie about one observer; for several give --tolerance");
+    }
+    for (const ObserverPlace& place : places_) request_.observers.push_back(observer_of(place));
+    request_.detail = detail_.detail(places_.front().position);
+    if (!like_.empty()) request_.grid = raster_grid_like(like_, metadata.crs_wkt);
+  }
+
+  Document document(const viewshed::Result& result, const StoreMetadata& metadata, const Document& surface) const {
+    const viewshed::CellCounts& cells = result.cells;
+    const double area = result.grid.cell_area();
+    Document document;
+    document["crs"] = crs_identifier(metadata.crs_wkt);
+    document["surface"] = surface;
+    document["refraction"] = earth_.document();
+    document["grid"] = {{"bounds", box_document(result.grid.bounds())},
+                        {"columns", result.grid.columns()},
+                        {"rows", result.grid.rows()},
+                        {"cell_m", {result.grid.cell_width(), result.grid.cell_height()}}};
+    document["cells"] = {{"visible", cells.visible},
+                         {"hidden", cells.hidden},
+                         {"undecided", cells.undecided},
+                         {"outside", cells.outside}};
+    document["area_m2"] = {{"visible", static_cast<double>(cells.visible) * area},
+                           {"hidden", static_cast<double>(cells.hidden) * area},
+                           {"undecided", static_cast<double>(cells.undecided) * area},
+                           {"outside", static_cast<double>(cells.outside) * area}};
+    if (certified_) document["decided_percent"] = decided_percent(cells);
+    document["outputs"] = outputs_.paths();
+    const viewshed::Statistics& statistics = result.statistics;
+    document["statistics"] = {{"points_read", statistics.retrieval.points_read},
+                              {"blocks_read", statistics.retrieval.blocks_read},
+                              {"triangles", statistics.triangles},
+                              {"lines", statistics.lines}};
+    return document;
+  }
+
+  static double decided_percent(const viewshed::CellCounts& cells) {
+    const std::uint64_t decided = cells.visible + cells.hidden, all = decided + cells.undecided;
+    return all == 0 ? 100 : 100.0 * static_cast<double>(decided) / static_cast<double>(all);
+  }
+
+  std::string text(const viewshed::Result& result) const {
+    const viewshed::CellCounts& cells = result.cells;
+    const std::uint64_t decided = cells.visible + cells.hidden;
+    const double share = decided == 0 ? 0 : 100.0 * static_cast<double>(cells.visible) / static_cast<double>(decided);
+    std::string text;
+    for (const std::string& path : outputs_.paths()) {
+      text += fmt::format("{}: {}\n", path, readable_bytes(std::filesystem::file_size(path)));
+    }
+    if (certified_) {
+      text += fmt::format("certainly visible: {}; certainly hidden: {}; undecided: {} ({:.1f} % decided)\n",
+                          counted(cells.visible, "cell"), grouped(cells.hidden), grouped(cells.undecided),
+                          decided_percent(cells));
+    } else {
+      text +=
+          fmt::format("visible: {} of {} ({:.1f} %), {:.2f} km2\n", grouped(cells.visible), counted(decided, "cell"),
+                      share, static_cast<double>(cells.visible) * result.grid.cell_area() / 1e6);
+      if (cells.undecided > 0)
+        text += fmt::format("undecided: {}, across ground without data; --nodata block or clear decides them\n",
+                            counted(cells.undecided, "cell"));
+    }
+    text += fmt::format("{}, {}; {}\n", counted(result.statistics.triangles, "triangle"),
+                        counted(result.statistics.lines, "line"), earth_.earth().convention());
+    return text;
+  }
+
+  std::string store_, mode_text_, nodata_text_, like_, memory_text_;
+  std::string sigma_text_, correlation_text_;
+  std::string target_height_text_, radius_text_, min_radius_text_, azimuth_text_, elevation_text_, cell_text_;
+  std::string target_on_ = "ground";
+  bool certified_ = false, precise_ = false;
+  viewshed::PreciseOptions precise_options_;
+  ObserverOptions observers_;
+  DetailOptions detail_;
+  ThemeOptions themes_;
+  EarthOptions earth_;
+  EngineOption engine_;
+  ViewshedOutputs outputs_;
+  HorizonOutput horizon_;
+  FeatureRaster features_;
+
+  std::vector<ObserverPlace> places_;
+  viewshed::Request request_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_viewshed_verb() {
+  return std::make_unique<ViewshedVerb>();
+}
+
+}  // namespace itin::cli

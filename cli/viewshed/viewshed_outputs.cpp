@@ -1,0 +1,117 @@
+#include "viewshed/viewshed_outputs.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+#include <viewshed/map_image.hpp>
+
+#include "program/call_files.hpp"
+#include "program/json_text.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+bool is_polygons(const std::string& path) {
+  return std::filesystem::path(path).extension() == ".gpkg";
+}
+
+}  // namespace
+
+ViewshedOutputs::~ViewshedOutputs() {
+  if (!folder_ || !folder_->made() || complete_) return;
+  std::error_code ignored;
+  for (const std::string& path : single_) std::filesystem::remove(path, ignored);
+}
+
+void ViewshedOutputs::declare(CLI::App& app) {
+  writes(app.add_option(
+                "-o,--output", outputs_,
+                "A raster to write, a GeoTIFF (.tif), or the regions of its classes as polygons, a GeoPackage (.gpkg); "
+                "may be given again")
+             ->type_name("FILE")
+             ->expected(1)
+             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll));
+  writes(app.add_option("--image", image_, "A map to write (.png, .jpg)")->type_name("FILE"));
+  writes(app.add_option("--each", each_, "Also write the raster of every observer alone, as DIR/NAME.tif")
+             ->type_name("DIR"));
+  policy_.declare(app);
+}
+
+void ViewshedOutputs::validate(const std::vector<std::string>& others) {
+  others_ = others;
+  if (paths().empty() && each_.empty())
+    throw InputError(
+        "give an output: --output FILE.tif or FILE.gpkg, --image FILE.png, --each DIR, --horizon FILE.csv, or "
+        "--features FILE.tif");
+  for (const std::string& path : outputs_) {
+    const std::string ending = std::filesystem::path(path).extension().string();
+    if (ending != ".tif" && ending != ".tiff" && ending != ".gpkg")
+      throw InputError(fmt::format("--output '{}': a viewshed is written as .tif or .gpkg", path));
+  }
+  if (!image_.empty()) viewshed::require_image_format(image_);
+}
+
+void ViewshedOutputs::prepare(const viewshed::Request& request) {
+  namespace fs = std::filesystem;
+  for (const std::string& path : paths()) policy_.require_writable(path);
+  if (!each_.empty()) {
+    folder_.emplace(each_);
+    std::set<std::string> taken;
+    for (std::size_t i = 0; i < request.observers.size(); ++i) {
+      const std::string& given = request.observers[i].name;
+      std::string name = file_name(given.empty() ? std::to_string(i + 1) : given);
+      if (taken.contains(name)) name += fmt::format("-{}", i + 1);
+      taken.insert(name);
+      single_.push_back((fs::path(each_) / (name + ".tif")).string());
+    }
+  }
+  for (const std::string& path : single_) policy_.claim(path);
+}
+
+void ViewshedOutputs::write_raster(const std::string& path, const viewshed::Result& result,
+                                   const Context& context) const {
+  viewshed::GeotiffOptions options;
+  options.crs_wkt = context.crs_wkt;
+  options.metadata = {{"itin", ITIN_VERSION}, {"surface", json_text(context.surface)}};
+  options.metadata.insert(options.metadata.end(), context.parameters.begin(), context.parameters.end());
+  options.overwrite = policy_.overwrite;
+  viewshed::write_geotiff(path, result, options);
+}
+
+void ViewshedOutputs::write(viewshed::Surveyed& surveyed, const Context& context, std::vector<std::string>& warnings,
+                            Progress& progress) const {
+  std::optional<viewshed::MapImage> map;
+  if (!image_.empty()) {
+    map = viewshed::draw_map(surveyed.surface, surveyed.result, progress);
+    warnings.insert(warnings.end(), map->warnings.begin(), map->warnings.end());
+  }
+  for (const std::string& path : outputs_) {
+    if (is_polygons(path)) {
+      viewshed::write_polygons(path, surveyed.result, context.crs_wkt, policy_.overwrite);
+    } else {
+      write_raster(path, surveyed.result, context);
+    }
+  }
+  if (map) viewshed::write_image(image_, *map, policy_.overwrite);
+}
+
+void ViewshedOutputs::write_each(const Compute& compute, const Context& context) {
+  for (std::size_t i = 0; i < single_.size(); ++i) write_raster(single_[i], compute(i), context);
+  complete_ = true;
+}
+
+std::vector<std::string> ViewshedOutputs::paths() const {
+  std::vector<std::string> paths = outputs_;
+  if (!image_.empty()) paths.push_back(image_);
+  paths.insert(paths.end(), single_.begin(), single_.end());
+  paths.insert(paths.end(), others_.begin(), others_.end());
+  return paths;
+}
+
+}  // namespace itin::cli

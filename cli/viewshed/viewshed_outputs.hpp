@@ -1,0 +1,60 @@
+// The files a viewshed is written to: rasters and polygons by -o, a map, and rasters of single observers.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <viewshed/viewshed.hpp>
+
+#include "output/new_folder.hpp"
+#include "output/output_path.hpp"
+#include "program/verb.hpp"
+
+namespace itin::cli {
+
+class ViewshedOutputs {
+ public:
+  ViewshedOutputs() = default;
+  /// Leaves nothing of a directory of single observers that was made but not completed.
+  ~ViewshedOutputs();
+  ViewshedOutputs(const ViewshedOutputs&) = delete;
+  ViewshedOutputs& operator=(const ViewshedOutputs&) = delete;
+
+  void declare(CLI::App& app);
+  /// `others` are files that something else writes. Throws InputError.
+  void validate(const std::vector<std::string>& others);
+  /// Throws FileError where something cannot be written. Makes the directory of single observers.
+  void prepare(const viewshed::Request& request);
+
+  struct Context {
+    std::string crs_wkt;
+    Document surface;
+    std::vector<std::pair<std::string, std::string>> parameters;  ///< that a result does not tell
+  };
+  void write(viewshed::Surveyed& surveyed, const Context& context, std::vector<std::string>& warnings,
+             Progress& progress) const;
+  /// Calls compute(observer) for every observer whose own raster is wanted.
+  using Compute = std::function<viewshed::Result(std::size_t)>;
+  void write_each(const Compute& compute, const Context& context);
+
+  /// In the order of the options, the others last.
+  std::vector<std::string> paths() const;
+  bool overwrite() const { return policy_.overwrite; }
+
+ private:
+  void write_raster(const std::string& path, const viewshed::Result& result, const Context& context) const;
+
+  std::vector<std::string> outputs_;
+  std::string image_, each_;
+  std::vector<std::string> others_;
+  std::vector<std::string> single_;  ///< a path an observer, with --each
+  std::optional<NewFolder> folder_;  ///< of these
+  bool complete_ = false;
+  OutputPolicy policy_;
+};
+
+}  // namespace itin::cli

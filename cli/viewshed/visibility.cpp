@@ -1,0 +1,149 @@
+// itin visibility: how much is seen from everywhere in an area.
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include <itin/coordinates.hpp>
+#include <itin/error.hpp>
+#include <itin/store.hpp>
+#include <viewshed/visibility_index.hpp>
+
+#include "options/detail_options.hpp"
+#include "options/earth_options.hpp"
+#include "options/store_scale.hpp"
+#include "options/surface_options.hpp"
+#include "options/window_options.hpp"
+#include "output/output_path.hpp"
+#include "output/store_document.hpp"
+#include "program/call_files.hpp"
+#include "program/json_text.hpp"
+#include "program/values.hpp"
+#include "program/verb.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+constexpr int kMostTargets = 1 << 20;
+
+class VisibilityVerb final : public Verb {
+ public:
+  std::string name() const override { return "visibility"; }
+  std::string summary() const override { return "Write how much is seen from everywhere in an area (total viewshed)"; }
+
+  void declare(CLI::App& app) override {
+    reads(app.add_option("STORE", store_, "The store")->required());
+    writes(app.add_option(
+                  "-o,--output", output_,
+                  "The raster to write (.tif), two bands: the share of the ground within the radius that an observer "
+                  "at the cell's centre sees, 0 to 1, and its standard error")
+               ->type_name("FILE")
+               ->required());
+    app.add_option("--cell", cell_text_, "Distance of observers: the size of the raster's cells")
+        ->type_name("METRES")
+        ->required();
+    app.add_option("--radius", radius_text_, "How far observers look")->type_name("METRES")->required();
+    app.add_option("--observer-height", height_text_, "h of observers above the ground (default: 2)")
+        ->type_name("METRES");
+    app.add_option("--target-height", target_text_, "h of targets above the ground (default: 0)")->type_name("METRES");
+    app.add_option("--targets", targets_text_,
+                   "Targets at random for every observer; four times as many halve the standard error (default: 128)")
+        ->type_name("N");
+    window_.declare(app);
+    detail_.declare(app);
+    themes_.declare(app);
+    earth_.declare(app);
+    app.add_option("--nodata", nodata_text_, "What ground without data does to sight lines (default: clear)")
+        ->type_name("block|clear");
+    policy_.declare(app);
+  }
+
+  void validate() override {
+    request_.cell_size = parse_number("--cell", cell_text_, Range::kPositive);
+    request_.radius = parse_radius("--radius", radius_text_);
+    if (!height_text_.empty()) request_.height = parse_height("--observer-height", height_text_, Range::kNotNegative);
+    if (!target_text_.empty())
+      request_.target_height = parse_height("--target-height", target_text_, Range::kNotNegative);
+    if (!targets_text_.empty())
+      request_.targets = static_cast<unsigned>(parse_whole("--targets", targets_text_, 1, kMostTargets));
+    if (std::filesystem::path(output_).extension() != ".tif")
+      throw InputError(fmt::format("--output '{}': a visibility index is written as .tif", output_));
+    window_.validate();
+    detail_.validate();
+    if (detail_.has_rings()) throw InputError("--rings lie about one observer; give --tolerance");
+    themes_.validate();
+    request_.themes = themes_.choice();
+    earth_.validate();
+    request_.earth = earth_.earth();
+    if (!nodata_text_.empty() && parse_choice("--nodata", nodata_text_, {"block", "clear"}) == 0)
+      request_.nodata = viewshed::NoData::kBlock;
+  }
+
+  Document parameters() const override {
+    Document parameters{{"store", store_},
+                        {"output", output_},
+                        {"cell_m", request_.cell_size},
+                        {"radius_m", request_.radius},
+                        {"observer_height_m", request_.height},
+                        {"target_height_m", request_.target_height},
+                        {"targets", request_.targets}};
+    parameters.update(window_.parameters());
+    parameters.update(detail_.parameters());
+    parameters.update(themes_.parameters());
+    parameters["nodata"] = request_.nodata == viewshed::NoData::kBlock ? "block" : "clear";
+    return parameters;
+  }
+
+  Result execute(Progress& progress) override {
+    policy_.require_writable(output_);
+    const Store store(store_);
+    const StoreMetadata& metadata = store.metadata();
+    request_.area = window_.region(metadata).window;
+    if (!request_.area.is_all() && !metadata.grid.box(metadata.bounds).meets(request_.area.bounds()))
+      throw InputError(window_.no_ground(metadata));
+    request_.detail = detail_.detail({});
+    request_.themes.check(metadata.themes);
+    const viewshed::VisibilityIndex index = viewshed::visibility_index(store, request_, progress);
+    const Document surface = surface_document(metadata, request_.detail, request_.themes);
+    viewshed::write_geotiff(
+        output_, index, request_,
+        {metadata.crs_wkt, {{"itin", ITIN_VERSION}, {"surface", json_text(surface)}}, policy_.overwrite});
+    Result result;
+    warn_of_scale(metadata, result.warnings);
+    Document& document = result.document;
+    document["crs"] = crs_identifier(metadata.crs_wkt);
+    document["surface"] = surface;
+    document["refraction"] = earth_.document();
+    document["observers"] = index.observers;
+    document["mean_share"] = index.mean;
+    document["mean_share_standard_error"] = index.mean_error;
+    document["outputs"] = {output_};
+    document["statistics"] = {{"points_read", index.retrieval.points_read},
+                              {"blocks_read", index.retrieval.blocks_read},
+                              {"triangles", index.triangles},
+                              {"lines", index.lines}};
+    result.text =
+        fmt::format("{}: {}\nseen on average by {}: {:.2f} % (+- {:.2f}) of the ground within {:g} m\n{}, {}; {}\n",
+                    output_, readable_bytes(std::filesystem::file_size(output_)), counted(index.observers, "observer"),
+                    100 * index.mean, 100 * index.mean_error, request_.radius, counted(index.triangles, "triangle"),
+                    counted(index.lines, "line"), earth_.earth().convention());
+    return result;
+  }
+
+ private:
+  std::string store_, output_, cell_text_, radius_text_, height_text_, target_text_, targets_text_, nodata_text_;
+  WindowOptions window_;
+  DetailOptions detail_;
+  ThemeOptions themes_;
+  EarthOptions earth_;
+  OutputPolicy policy_;
+  viewshed::IndexRequest request_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_visibility_verb() {
+  return std::make_unique<VisibilityVerb>();
+}
+
+}  // namespace itin::cli

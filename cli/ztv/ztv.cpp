@@ -1,0 +1,323 @@
+// itin ztv: what is seen of wind turbines from where, as an application for planning needs it.
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <itin/coordinates.hpp>
+#include <itin/error.hpp>
+#include <itin/output_file.hpp>
+#include <itin/store.hpp>
+#include <viewshed/turbines.hpp>
+#include <viewshed/zone_files.hpp>
+
+#include "options/detail_options.hpp"
+#include "options/earth_options.hpp"
+#include "options/off_the_data.hpp"
+#include "options/radius_preset.hpp"
+#include "options/store_scale.hpp"
+#include "options/surface_options.hpp"
+#include "output/csv_cell.hpp"
+#include "output/output_folder.hpp"
+#include "output/store_document.hpp"
+#include "program/call_files.hpp"
+#include "program/json_text.hpp"
+#include "program/values.hpp"
+#include "program/verb.hpp"
+#include "ztv/ztv_methods.hpp"
+#include "ztv/ztv_radio.hpp"
+#include "ztv/ztv_turbines.hpp"
+#include "ztv/ztv_viewpoints.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+using viewshed::Turbine;
+using viewshed::Zone;
+using viewshed::ZoneFile;
+
+constexpr double kDefaultCell = 50;
+
+class ZtvVerb final : public Verb {
+ public:
+  std::string name() const override { return "ztv"; }
+  std::string summary() const override { return "Write where wind turbines are seen: maps, tables, wirelines"; }
+
+  void declare(CLI::App& app) override {
+    reads(app.add_option("STORE", store_, "The store")->required());
+    turbines_.declare(app);
+    replaces(app.add_option("-o,--output", output_, "The folder to write")->required()->type_name("DIR"));
+    app.add_option("--cell", cell_text_, "Size of the rasters' cells (default: 50)")->type_name("METRES");
+    reads(app.add_option("--like", like_, "Take the cells of this raster")->type_name("FILE"));
+    app.add_option("--observer-height", observer_text_, "Of the eyes above the bare ground (default: 2)")
+        ->type_name("METRES");
+    radius_.declare(app);
+    viewpoints_.declare(app);
+    radio_.declare(app);
+    detail_.declare(app);
+    themes_.declare(app);
+    earth_.declare(app);
+    app.add_option("--nodata", nodata_text_, "What ground without data does to sight lines (default: unknown)")
+        ->type_name("unknown|block|clear");
+    app.add_option("--memory", memory_text_,
+                   "Memory to work in, in parts where it does not hold all at once; the result never depends on it "
+                   "(default: no limit)")
+        ->type_name("SIZE");
+    policy_.declare(app);
+  }
+
+  void validate() override {
+    turbines_.validate();
+    viewpoints_.validate(turbines_.in_crs());
+    radio_.validate();
+    radius_.validate();
+    detail_.validate();
+    if (detail_.has_rings()) throw InputError("--rings lie about one observer; a ztv takes --tolerance");
+    themes_.validate();
+    earth_.validate();
+    request_.earth = earth_.earth();
+    if (!observer_text_.empty())
+      request_.observer_height = parse_height("--observer-height", observer_text_, Range::kNotNegative);
+    if (!cell_text_.empty() && !like_.empty()) throw InputError("--cell and --like exclude each other");
+    if (like_.empty())
+      request_.cell_size = cell_text_.empty() ? kDefaultCell : parse_number("--cell", cell_text_, Range::kPositive);
+    if (!memory_text_.empty()) request_.memory_bytes = parse_bytes("--memory", memory_text_);
+    if (!nodata_text_.empty()) {
+      using enum viewshed::NoData;
+      constexpr viewshed::NoData kChoices[] = {kUnknown, kBlock, kClear};
+      request_.nodata = kChoices[parse_choice("--nodata", nodata_text_, {"unknown", "block", "clear"})];
+    }
+  }
+
+  Document parameters() const override {
+    Document parameters{{"store", store_}};
+    parameters.update(turbines_.parameters());
+    parameters["observer_height_m"] = request_.observer_height;
+    if (request_.cell_size) parameters["cell_m"] = *request_.cell_size;
+    if (!like_.empty()) parameters["like"] = like_;
+    parameters["radius_preset"] = radius_.document();
+    parameters.update(viewpoints_.parameters());
+    parameters.update(radio_.parameters());
+    parameters.update(detail_.parameters());
+    parameters.update(themes_.parameters());
+    parameters["nodata"] = nodata_text_.empty() ? "unknown" : nodata_text_;
+    return parameters;
+  }
+
+  cli::Result execute(Progress& progress) override {
+    OutputFolder::require_writable(output_, policy_);
+    radius_.load();
+    const Store store(store_);
+    const StoreMetadata& metadata = store.metadata();
+    complete_request(metadata);
+    Zone zone = viewshed::survey_turbines(store, request_, progress);
+    for (const viewshed::Misplaced& m : zone.misplaced)
+      list_.bad.push_back({m.number, list_.features[m.number - 1], m.message});
+    OutputFolder folder(output_, policy_);
+    cli::Result result;
+    result.document = document(zone, metadata);
+    write(store, zone, folder.working(), result.document, progress);
+    result.warnings = warnings(zone);
+    warn_of_scale(metadata, result.warnings);
+    write_manifest(folder.working(), result);
+    folder.publish();
+    result.text = text(zone);
+    return result;
+  }
+
+ private:
+  /// What takes the store to understand.
+  void complete_request(const StoreMetadata& metadata) {
+    list_ = turbines_.read(metadata, [&](double tip) { return radius_.radius(tip); });
+    std::vector<Point2> places;
+    for (const Turbine& turbine : list_.turbines) places.push_back(turbine.position);
+    require_any_on_the_data(turbines_.path() + ": the first turbine", places, turbines_.in_crs(), metadata);
+    radio_.load(turbines_.in_crs(), metadata);
+    request_.turbines = list_.turbines;
+    request_.radar = radio_.radar();
+    request_.detail = detail_.detail({});
+    themes_.choice().check(metadata.themes);
+    if (themes_.choice().includes_standing(metadata.themes)) request_.themes = themes_.choice();
+    if (!like_.empty()) request_.grid = raster_grid_like(like_, metadata.crs_wkt);
+  }
+
+  Document surface(const StoreMetadata& metadata) const {
+    return surface_document(metadata, request_.detail, request_.themes.value_or(ThemeChoice::none()));
+  }
+
+  void write(const Store& store, const Zone& zone, const std::string& folder, Document& document, Progress& progress) {
+    const StoreMetadata& metadata = store.metadata();
+    std::vector<ZoneFile> files;
+    const auto add = [&](std::vector<ZoneFile> more) { files.insert(files.end(), more.begin(), more.end()); };
+    const auto add_text = [&](const std::string& name, const std::string& what, const std::string& bytes) {
+      write_file(folder + "/" + name, bytes, true);
+      files.push_back({name, what});
+    };
+    viewshed::ZoneFileOptions options;
+    options.crs_wkt = metadata.crs_wkt;
+    options.metadata = {{"itin", ITIN_VERSION},
+                        {"observer_height_m", fmt::format("{:g}", request_.observer_height)},
+                        {"refraction", request_.earth.convention()},
+                        {"surface", json_text(surface(metadata))}};
+    progress.report("rasters", 0);
+    add(viewshed::write_zone_rasters(folder, zone, options));
+    add(radio_.write(folder, zone, options));
+    progress.report("polygons", 0);
+    add(viewshed::write_zone_polygons(folder, zone, options));
+    if (viewpoints_.given()) {
+      seen_ = viewpoints_.write(folder, store, zone, progress);
+      add(seen_.files);
+      document["viewpoints"] = bad_rows_document(seen_.path, seen_.rows, seen_.rows - seen_.bad.size(), seen_.bad);
+    }
+    add_text("areas.csv", "km2 by band of turbines seen and by ring of distance to the nearest turbine",
+             viewshed::area_table(zone));
+    add_text("turbines.csv", "the turbines as understood, row by row, and what is wrong with those not used",
+             turbine_table(zone));
+    add_text("radius-preset.json", "the radii used, to edit and give by --radius-preset",
+             json_text(radius_.document(), 2) + "\n");
+    add_text("methods.md", "how all this was worked out, for the application", methods(zone, metadata));
+    document["outputs"] = Document::array();
+    for (const ZoneFile& file : files)
+      document["outputs"].push_back(
+          {{"path", (std::filesystem::path(output_) / file.name).string()}, {"what", file.what}});
+  }
+
+  std::string turbine_table(const Zone& zone) const {
+    std::vector<std::string> rows(list_.rows);
+    for (std::size_t k = 0; k < zone.request.turbines.size(); ++k) {
+      const Turbine& t = zone.request.turbines[k];
+      rows[t.number - 1] = fmt::format(
+          "{},{},{},{},{:.3f},{:.3f},{:.2f},{},{},{:g},{:g},used,{}\n", t.number, list_.features[t.number - 1],
+          csv_cell(t.name), csv_cell(t.farm), t.position.x, t.position.y, zone.ground_m[k], csv_cell(t.hub_height, 2),
+          csv_cell(t.rotor_diameter, 2), t.tip_height, t.radius / 1000, radio_.cells(zone, k));
+    }
+    const std::string names = radio_.columns(),
+                      none(static_cast<std::size_t>(std::count(names.begin(), names.end(), ',')), ',');
+    for (const BadRow& bad : list_.bad)
+      rows[bad.number - 1] =
+          fmt::format("{},{},,,,,,,,,,not used,{}{}\n", bad.number, bad.feature, csv_cell(bad.message), none);
+    return "number,feature,name,farm,x,y,ground_m,hub_height_m,rotor_diameter_m,tip_height_m,radius_km,status,message" +
+           radio_.columns() + "\n" + fmt::format("{}", fmt::join(rows, ""));
+  }
+
+  std::string methods(const Zone& zone, const StoreMetadata& metadata) const {
+    ZtvMethods facts;
+    facts.turbines_file = turbines_.path();
+    facts.turbines_sha256 = list_.sha256;
+    facts.store = store_;
+    facts.crs = crs_title(metadata.crs_wkt);
+    const Document of_surface = surface(metadata);
+    facts.surface = request_.detail.coarsest() > 0
+                        ? fmt::format(
+                              "It is generalised to a tolerance of {:g} m, with a certified error of {:.2f} to "
+                              "{:.2f} m against the full terrain.",
+                              request_.detail.coarsest(), of_surface["certified_error_m"][0].get<double>(),
+                              of_surface["certified_error_m"][1].get<double>())
+                        : "Every stored point is used.";
+    if (request_.themes) facts.themes = request_.themes->names(metadata.themes);
+    facts.radius = radius_.text();
+    facts.further = radio_.methods(zone);
+    facts.rows = list_.rows, facts.bad = list_.bad.size();
+    return methods_text(zone, facts);
+  }
+
+  Document document(const Zone& zone, const StoreMetadata& metadata) const {
+    Document document;
+    document["crs"] = crs_identifier(metadata.crs_wkt);
+    document["surface"] = surface(metadata);
+    document["refraction"] = earth_.document();
+    document["grid"] = {{"bounds", box_document(zone.grid.bounds())},
+                        {"columns", zone.grid.columns()},
+                        {"rows", zone.grid.rows()},
+                        {"cell_m", {zone.grid.cell_width(), zone.grid.cell_height()}}};
+    document["turbines"] = bad_rows_document(turbines_.path(), list_.rows, zone.request.turbines.size(), list_.bad);
+    document["turbines"]["sha256"] = list_.sha256;
+    document["farms"] = viewshed::farms_of(zone);
+    document["area_km2"]["bare"] = areas(zone, zone.bare);
+    if (zone.screened) document["area_km2"]["screened"] = areas(zone, *zone.screened);
+    document.update(radio_.document(zone));
+    const viewshed::ZoneStatistics& statistics = zone.statistics;
+    document["statistics"] = {{"points_read", statistics.retrieval.points_read},
+                              {"blocks_read", statistics.retrieval.blocks_read},
+                              {"triangles", statistics.triangles},
+                              {"lines", statistics.lines},
+                              {"retrieval_seconds", statistics.retrieval_seconds},
+                              {"scene_seconds", statistics.scene_seconds},
+                              {"lines_seconds", statistics.lines_seconds}};
+    return document;
+  }
+
+  static Document areas(const Zone& zone, const viewshed::Visibility& v) {
+    std::uint64_t hubs = 0, tips = 0, all = 0;
+    for (std::size_t i = 0; i < v.tip_count.size(); ++i) {
+      if (v.tip_count[i] == viewshed::kCountOutside) continue;
+      ++all, hubs += v.hub_count[i] > 0 ? 1U : 0U, tips += v.tip_count[i] > 0 ? 1U : 0U;
+    }
+    const auto km2 = [&](std::uint64_t cells) { return static_cast<double>(cells) * zone.grid.cell_area() / 1e6; };
+    Document areas{{"any_tip_seen", km2(tips)}, {"any_hub_seen", nullptr}, {"studied", km2(all)}};
+    if (known_hubs(zone.request.turbines) > 0) areas["any_hub_seen"] = km2(hubs);
+    return areas;
+  }
+
+  /// Of what areas() says.
+  static std::string seen_from(const Document& areas) {
+    std::string text = fmt::format("from {:.1f} km2", areas["any_tip_seen"].get<double>());
+    if (!areas["any_hub_seen"].is_null())
+      text += fmt::format(", a hub from {:.1f}", areas["any_hub_seen"].get<double>());
+    return text;
+  }
+
+  std::vector<std::string> warnings(const Zone& zone) const {
+    std::vector<std::string> warnings = zone.warnings;
+    for (const BadRow& bad : list_.bad) warnings.push_back(bad_row_warning(turbines_.path(), bad));
+    const auto of_radio = radio_.warnings(zone);
+    warnings.insert(warnings.end(), of_radio.begin(), of_radio.end());
+    for (const BadRow& bad : seen_.bad) warnings.push_back(bad_row_warning(seen_.path, bad));
+    return warnings;
+  }
+
+  /// The document as it stands in the folder: without times, so that equal runs write equal files.
+  void write_manifest(const std::string& folder, const cli::Result& result) const {
+    Document manifest{{"itin", ITIN_VERSION}, {"command", {{"verb", name()}}}};
+    manifest["command"].update(parameters());
+    manifest.update(result.document);
+    manifest["warnings"] = result.warnings;
+    manifest.erase("statistics");
+    write_file(folder + "/" + OutputFolder::kManifest, json_text(manifest, 2) + "\n", true);
+  }
+
+  std::string text(const Zone& zone) const {
+    const Document bare = areas(zone, zone.bare);
+    std::string text = fmt::format("{}: {} of {}; a tip is seen {}, of {:.1f}\n", output_, zone.request.turbines.size(),
+                                   counted(list_.rows, "turbine"), seen_from(bare), bare["studied"].get<double>());
+    if (zone.screened) text += fmt::format("screened: a tip {}\n", seen_from(areas(zone, *zone.screened)));
+    text += fmt::format("{}, {}; {}\n", counted(zone.statistics.triangles, "triangle"),
+                        counted(zone.statistics.lines, "sight line"), request_.earth.convention());
+    return text;
+  }
+
+  std::string store_, output_, cell_text_, like_, observer_text_, nodata_text_, memory_text_;
+  TurbineOptions turbines_;
+  RadiusOptions radius_;
+  ViewpointOptions viewpoints_;
+  ZtvRadioOptions radio_;
+  DetailOptions detail_;
+  ThemeOptions themes_;
+  EarthOptions earth_;
+  OutputPolicy policy_;
+
+  TurbineList list_;
+  viewshed::ZoneRequest request_;
+  ViewpointOptions::Written seen_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_ztv_verb() {
+  return std::make_unique<ZtvVerb>();
+}
+
+}  // namespace itin::cli

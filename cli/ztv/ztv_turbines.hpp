@@ -1,0 +1,64 @@
+// The turbines of `itin ztv`: rows of a file, understood or named as bad.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <itin/site_table.hpp>
+#include <itin/store.hpp>
+#include <viewshed/turbines.hpp>
+
+#include "options/in_crs.hpp"
+#include "program/verb.hpp"
+
+namespace itin::cli {
+
+struct BadRow {
+  std::size_t number = 0;    ///< from 1, in the file's order
+  std::int64_t feature = 0;  ///< the file's own number for it
+  std::string message;
+};
+
+/// What of a file's rows was used, and why the others were not.
+Document bad_rows_document(const std::string& file, std::size_t rows, std::size_t used, const std::vector<BadRow>& bad);
+std::string bad_row_warning(const std::string& file, const BadRow& row);
+
+/// How many have a hub that is known.
+std::size_t known_hubs(const std::vector<viewshed::Turbine>& turbines);
+
+struct TurbineList {
+  std::size_t rows = 0;
+  std::vector<viewshed::Turbine> turbines;
+  std::vector<BadRow> bad;
+  std::vector<std::int64_t> features;  ///< of every row
+  std::string sha256;                  ///< of the file
+};
+
+class TurbineOptions {
+ public:
+  void declare(CLI::App& app);
+  /// Throws InputError.
+  void validate();
+  const std::string& path() const { return query_.path; }
+  const InCrs& in_crs() const { return in_crs_; }
+  /// `radius` of a tip height, metres. Throws FileError, InputError (no row can be used).
+  TurbineList read(const StoreMetadata& metadata, const std::function<double(double)>& radius) const;
+  Document parameters() const;
+
+ private:
+  void require_options_of_one_turbine() const;
+  /// Throws InputError with what is wrong with the row.
+  viewshed::Turbine turbine_of(const SiteRow& row) const;
+
+  SiteQuery query_;
+  std::string hub_text_, rotor_text_, tip_text_, farm_;
+  InCrs in_crs_;
+  std::optional<double> hub_, rotor_, tip_;  ///< of rows that do not say
+};
+
+}  // namespace itin::cli

@@ -1,0 +1,35 @@
+#include "gdal/raster_file.hpp"
+
+#include <itin/error.hpp>
+#include <itin/raster_values.hpp>
+
+#include "gdal/quiet_gdal.hpp"
+#include "gdal/source_path.hpp"
+
+namespace itin {
+
+namespace {
+
+bool is_text_of_points(GDALDriver& driver) {
+  return EQUAL(driver.GetDescription(), "XYZ");
+}
+
+}  // namespace
+
+GDALDatasetUniquePtr open_raster_file(const std::string& path) {
+  require_plain_file(path);
+  GDALDatasetUniquePtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
+  if (!dataset) throw FileError(path, why_not_read(path, "a raster"));
+  return dataset;
+}
+
+bool is_raster(const std::string& path) {
+  const QuietGdal quiet;
+  auto* driver = static_cast<GDALDriver*>(GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, nullptr, nullptr));
+  if (!driver || is_text_of_points(*driver)) return false;
+  if (!driver->GetMetadataItem(GDAL_DCAP_VECTOR)) return true;
+  // A GeoPackage, say, holds either; only opening it tells.
+  return GDALDatasetUniquePtr(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY)) != nullptr;
+}
+
+}  // namespace itin

@@ -1,0 +1,25 @@
+#include <itin/tin.hpp>
+
+#include "geometry/cell.hpp"
+
+namespace itin {
+
+VertexId Tin::id(std::uint32_t vertex) const {
+  return morton(vertices[vertex].x, vertices[vertex].y);
+}
+
+std::uint16_t Tin::theme(const Triangle& t) const {
+  if (standing.empty()) return 0;
+  // Outlines are lines, so all corners off them lie within one and the same feature or its neighbours' walls.
+  for (const std::uint32_t v : t)
+    if (standing[v] != 0) return standing[v];
+  return 0;
+}
+
+Box Tin::bounds() const {
+  GridBox box;
+  for (const GridPoint& v : vertices) box.extend(v.x, v.y);
+  return grid.box(box);
+}
+
+}  // namespace itin

@@ -1,0 +1,28 @@
+// Buildings from CityJSON 1.0 to 2.0 (OGC 20-072r5): solids and surfaces, LoD 1 and 2.
+//
+// Of each Building and BuildingPart the geometry of the greatest level of detail is taken. Roof and ground surfaces are
+// known by their semantics where they have any, otherwise by facing up or down. Pieces of one plane that share edges
+// (triangulated roofs) are joined.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "import/footprints/footprint_reader.hpp"
+
+namespace itin {
+
+struct CityJsonQuery {
+  std::string path;
+  std::string crs;  ///< overrides the file's own
+  std::uint64_t memory_bytes = std::uint64_t{4} << 30;
+  bool ground_as_base = true;  ///< the least elevation of the ground surfaces, or of all; else the terrain's
+};
+
+/// In the CRS `to_crs` (WKT). What cannot be used is passed over with a warning: a line an object, or a line a type for
+/// objects that are no buildings. Throws FileError for a file that is not readable, no CityJSON, or holds an index that
+/// is no whole number in range (naming the object), InputError for a CRS that is missing or unknown, for heights beyond
+/// kFarthestHeight and, before it is read, for a file that takes more than the memory.
+FootprintSource read_city_json(const CityJsonQuery& query, const std::string& to_crs);
+
+}  // namespace itin

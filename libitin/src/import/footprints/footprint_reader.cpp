@@ -1,0 +1,192 @@
+#include "import/footprints/footprint_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include <cpl_conv.h>
+#include <fmt/format.h>
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include <itin/error.hpp>
+#include <itin/height_limit.hpp>
+
+#include "features/feature_mesh.hpp"
+#include "gdal/crs.hpp"
+#include "gdal/quiet_gdal.hpp"
+#include "import/source/findings.hpp"
+#include "import/source/source_context.hpp"
+#include "import/source/source_layer.hpp"
+
+namespace itin {
+
+namespace {
+
+struct Fields {
+  int height = -1, eaves = -1, base = -1, name = -1;
+};
+
+class FootprintLayer {
+ public:
+  FootprintLayer(const FootprintQuery& query, const std::string& to_crs, const Grid& grid)
+      : query_(query),
+        grid_(grid),
+        findings_(query.path),
+        dataset_(open_vector_file(query.path, nullptr, "a layer of polygons or lines")) {
+    layer_ = &choose_layer(*dataset_, query.path, query.layer);
+    fields_ = {field(query.height_field), field(query.eaves_field), field(query.base_field), field(query.name_field)};
+    source_.filtered = select_features(*layer_, query.path, query.where);
+    const OGRSpatialReference* own = layer_->GetSpatialRef();
+    const Crs crs = source_crs(query.path, query.crs, own ? wkt_of(*own) : std::string());
+    transform_.emplace(crs.wkt, to_crs, query.path);
+    SourceHeights heights = source_heights(query.path, std::nullopt, crs);
+    axis_ = std::move(heights.axis);
+    source_.crs = std::move(heights.crs);
+    const bool heights_used = fields_.height >= 0 || fields_.eaves >= 0 || fields_.base >= 0;
+    if (heights_used && !heights.warning.empty()) source_.warnings.push_back(std::move(heights.warning));
+  }
+
+  FootprintSource read(Progress& progress) {
+    const std::string stage = "reading " + query_.path;
+    const auto all = static_cast<double>(std::max<GIntBig>(1, layer_->GetFeatureCount()));
+    std::uint64_t done = 0;
+    layer_->ResetReading();
+    for (;;) {
+      progress.throw_if_cancelled();
+      progress.report(stage, std::min(1.0, static_cast<double>(done++) / all));
+      const OGRFeatureUniquePtr feature = next_feature(*layer_, query_.path);
+      if (!feature) break;
+      add(*feature);
+    }
+    for (std::string& line : findings_.lines()) source_.warnings.push_back(std::move(line));
+    if (unused_z_)
+      source_.warnings.push_back(query_.path + ": Z of the footprints is not used; say whether it is base or top");
+    return std::move(source_);
+  }
+
+ private:
+  int field(const std::string& name) { return name.empty() ? -1 : field_of_layer(*layer_, query_.path, name); }
+
+  void add(const OGRFeature& feature) {
+    FootprintFeature footprint;
+    footprint.name =
+        fields_.name >= 0 ? feature.GetFieldAsString(fields_.name) : fmt::format("feature {}", feature.GetFID());
+    footprint.kind = query_.kind;
+    footprint.roof = query_.roof;
+    const OGRGeometry* geometry = feature.GetGeometryRef();
+    if (!geometry || geometry->IsEmpty()) return pass_over(footprint.name, "has no geometry");
+    // Arcs become chords here.
+    const std::unique_ptr<OGRGeometry> linear(geometry->getLinearGeometry());
+    lowest_ = std::numeric_limits<double>::infinity(), highest_ = -lowest_;
+    try {
+      if (!linear || !add_rings(*linear, footprint))
+        return pass_over(footprint.name, std::string("is a ") + geometry->getGeometryName());
+    } catch (const InputError& error) {
+      return pass_over(footprint.name, error.what());
+    } catch (const OverlayError& error) {
+      return pass_over(footprint.name, error.what());
+    }
+    add_heights(feature, footprint);
+    source_.features.push_back(std::move(footprint));
+  }
+
+  void pass_over(const std::string& name, const std::string& why) {
+    findings_.add(fmt::format("{}: passed over: {}", name, why));
+  }
+
+  /// False for a kind of geometry that has no footprint.
+  bool add_rings(const OGRGeometry& geometry, FootprintFeature& footprint) {
+    const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
+    if (type == wkbPolygon || type == wkbTriangle) {
+      for (const OGRLinearRing* ring : *geometry.toPolygon()) footprint.rings.push_back(plan(*ring));
+      return true;
+    }
+    if (type == wkbLineString) {
+      const OGRLineString& line = *geometry.toLineString();
+      for (PlanRing& ring : band_about(plan(line), query_.thickness, grid_)) footprint.rings.push_back(std::move(ring));
+      return true;
+    }
+    if (type != wkbMultiPolygon && type != wkbMultiLineString && type != wkbGeometryCollection) return false;
+    const OGRGeometryCollection& parts = *geometry.toGeometryCollection();
+    return std::all_of(parts.begin(), parts.end(),
+                       [&](const OGRGeometry* part) { return add_rings(*part, footprint); });
+  }
+
+  PlanRing plan(const OGRSimpleCurve& line) {
+    const auto count = static_cast<std::size_t>(line.getNumPoints());
+    std::vector<double> x(count), y(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const int at = static_cast<int>(i);
+      x[i] = line.getX(at), y[i] = line.getY(at);
+      if (!line.Is3D()) continue;
+      const double z = line.getZ(at) * axis_.factor();
+      lowest_ = std::min(lowest_, z), highest_ = std::max(highest_, z);
+    }
+    transform_->transform(x, y);
+    PlanRing ring;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!std::isfinite(x[i]) || !std::isfinite(y[i]))
+        throw InputError("a vertex has no place in the CRS of the store");
+      ring.push_back({x[i], y[i]});
+    }
+    return ring;
+  }
+
+  std::optional<double> number(const OGRFeature& feature, int index) {
+    if (index < 0 || !feature.IsFieldSetAndNotNull(index)) return std::nullopt;
+    const OGRFieldDefn& definition = *feature.GetFieldDefnRef(index);
+    const bool text = definition.GetType() == OFTString;
+    const double value = feature.GetFieldAsDouble(index);
+    const bool number = !text || CPLGetValueType(feature.GetFieldAsString(index)) != CPL_VALUE_STRING;
+    if (!number || std::isnan(value) || is_missing_mark(value)) {
+      findings_.add(fmt::format("feature {}: {} '{}' is not a number; taken as missing", feature.GetFID(),
+                                definition.GetNameRef(), feature.GetFieldAsString(index)));
+      return std::nullopt;
+    }
+    if (!is_height(value * axis_.metres))
+      require_height(value * axis_.metres,
+                     fmt::format("{}: feature {}: {}", query_.path, feature.GetFID(), definition.GetNameRef()));
+    return value;
+  }
+
+  void add_heights(const OGRFeature& feature, FootprintFeature& footprint) {
+    const auto times = [](std::optional<double> value, double factor) {
+      if (value) *value *= factor;
+      return value;
+    };
+    footprint.height = times(number(feature, fields_.height), axis_.metres);
+    footprint.eaves = times(number(feature, fields_.eaves), axis_.metres);
+    footprint.base = times(number(feature, fields_.base), axis_.factor());
+    const bool has_z = lowest_ <= highest_ && (lowest_ != 0 || highest_ != 0);
+    if (has_z && query_.z == FootprintZ::ignored) unused_z_ = true;
+    if (has_z && query_.z == FootprintZ::base && !footprint.base) footprint.base = lowest_;
+    if (has_z && query_.z == FootprintZ::top && !footprint.height && footprint.base)
+      footprint.height = highest_ - *footprint.base;
+    if (!footprint.height && !footprint.eaves) footprint.height = query_.height;
+  }
+
+  const FootprintQuery& query_;
+  const Grid& grid_;
+  Findings findings_;
+  GDALDatasetUniquePtr dataset_;
+  OGRLayer* layer_ = nullptr;
+  Fields fields_;
+  std::optional<PointTransform> transform_;
+  HeightAxis axis_;
+  double lowest_ = 0, highest_ = 0;  ///< elevations that Z of the feature at hand has, metres
+  bool unused_z_ = false;
+  FootprintSource source_;
+};
+
+}  // namespace
+
+FootprintSource read_footprints(const FootprintQuery& query, const std::string& to_crs, const Grid& grid,
+                                Progress& progress) {
+  const QuietGdal quiet;
+  const OverlayCancellation cancellation(progress);
+  return FootprintLayer(query, to_crs, grid).read(progress);
+}
+
+}  // namespace itin

@@ -1,0 +1,58 @@
+// Footprints from vector layers: polygons in any format GDAL reads, lines as bands about them.
+//
+//   FootprintQuery query;
+//   query.path = "buildings.gpkg";
+//   query.height_field = "height";
+//   FootprintSource source = read_footprints(query, store_crs_wkt, grid);
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <itin/geometry.hpp>
+#include <itin/progress.hpp>
+
+#include "store/footprint.hpp"
+
+namespace itin {
+
+/// What the Z of a footprint's vertices is.
+enum class FootprintZ {
+  ignored,
+  base,  ///< the least of them is the base, unless base_field says
+  top    ///< the greatest of them is the elevation of the roof, unless height_field says; needs a base
+};
+
+struct FootprintQuery {
+  std::string path;
+  std::string layer;             ///< default: the file's only layer
+  std::string where;             ///< in OGR's SQL; default: all features
+  std::string height_field;      ///< of the highest point above the base
+  std::string eaves_field;       ///< of the eaves above the base
+  std::string base_field;        ///< elevation of the base; default: left to the terrain
+  std::string name_field;        ///< default: "feature" and the file's number for it
+  std::string crs;               ///< overrides the layer's own
+  std::optional<double> height;  ///< metres; of features that have none in height_field
+  FeatureKind kind = FeatureKind::building;
+  RoofKind roof = RoofKind::flat;
+  FootprintZ z = FootprintZ::ignored;
+  double thickness = 0.3;  ///< metres; of bands about lines
+};
+
+struct FootprintSource {
+  std::vector<FootprintFeature> features;  ///< in the file's order
+  std::string crs;                         ///< as found or given
+  std::uint64_t filtered = 0;              ///< left out by where
+  std::vector<std::string> warnings;       ///< one line each: features that were passed over, units assumed
+};
+
+/// In the CRS `to_crs` (WKT). Heights are in the unit of the CRS's vertical part or axes, feet where those are feet;
+/// the base is a depth where the vertical part has depths, heights above it never are. A feature whose height is null
+/// has none. Throws FileError for a file, layer, field or filter that is missing or not readable, InputError for a CRS
+/// that is missing or unknown, Cancelled.
+FootprintSource read_footprints(const FootprintQuery& query, const std::string& to_crs, const Grid& grid,
+                                Progress& progress);
+
+}  // namespace itin

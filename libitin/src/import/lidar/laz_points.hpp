@@ -1,0 +1,11 @@
+// Compressed LAS. Only in builds with PDAL (ITIN_HAVE_PDAL).
+#pragma once
+
+#include "import/lidar/las_file.hpp"
+
+namespace itin {
+
+/// All points of a LAZ file in its order, in bounded memory, one thread. Throws FileError, and what the sink throws.
+void read_laz(const LasFile& file, const LasFile::Sink& sink);
+
+}  // namespace itin

@@ -1,0 +1,32 @@
+// Rasters of heights, of any format GDAL reads, as sources of terrain: one point a post, at the centre of its cell.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <itin/import.hpp>
+
+#include "import/source/source_context.hpp"
+
+class GDALDataset;
+
+namespace itin {
+
+/// WKT 2; empty where the raster does not say its CRS.
+std::string crs_text(const GDALDataset& dataset);
+
+/// The rasters `path` stands for: itself, or those inside a .zip in order of name; none where GDAL sees no raster in
+/// it. Text of scattered points is no raster, even where GDAL would grid it.
+std::vector<std::string> find_rasters(const std::string& path);
+
+/// The band options.band, else the only one (value_band.hpp), with its scale, offset, nodata and mask. Heights keep
+/// their exact values: nothing is resampled. Nodata, masked posts and NaN are voids; so are, with a warning, values
+/// that customarily stand for missing data though the file does not declare them.
+///
+/// After reading, SourceInfo::gap_basis holds 1.5 times the longest steps between posts met at the raster's corners and
+/// centre. Throws FileError (unreadable, damaged, several datasets), InputError (no georeference, no CRS, several
+/// bands).
+std::unique_ptr<SourceFile> open_raster_source(const std::string& path, const ImportOptions& options);
+
+}  // namespace itin

@@ -1,0 +1,96 @@
+#include "import/source/imported_lines.hpp"
+
+#include <algorithm>
+
+#include "geometry/predicates.hpp"
+
+namespace itin {
+
+namespace {
+
+/// A segment's ends alone, in order.
+Segment plan_of(const Segment& s) {
+  const auto [a, b] = std::minmax({Position{s.ax, s.ay}, Position{s.bx, s.by}});
+  return {a.x, a.y, b.x, b.y};
+}
+Segment plan_of(const ImportedSegment& s) {
+  return {s.a.x, s.a.y, s.b.x, s.b.y};
+}
+
+/// Whether an end of a line of the terrain has the height and the source that it came with.
+bool is_as_it_came(const GridPoint& p, std::uint16_t source, const ThemeLines& lines) {
+  const std::vector<GridPoint>& vertices = lines.lines.vertices;
+  const auto at = std::lower_bound(vertices.begin(), vertices.end(), code_of(p),
+                                   [](const GridPoint& v, std::uint64_t code) { return code_of(v) < code; });
+  return *at == p && lines.sources[static_cast<std::size_t>(at - vertices.begin())] == source;
+}
+
+/// A theme's segments, each of which may be one that was imported.
+class Placed {
+ public:
+  void add(const Segment& s) { plans_.push_back(plan_of(s)); }
+  void finish() {
+    std::sort(plans_.begin(), plans_.end());
+    came_.resize(plans_.size());
+  }
+  /// Whether there is one with these ends that is not taken, and of which came() is true; then it is taken.
+  template <class Came>
+  bool take_if(const ImportedSegment& s, const Came& came) {
+    const auto at = std::lower_bound(plans_.begin(), plans_.end(), plan_of(s));
+    const auto number = static_cast<std::size_t>(at - plans_.begin());
+    if (at == plans_.end() || *at != plan_of(s) || came_[number] || !came()) return false;
+    return came_[number] = true;
+  }
+  std::vector<Segment> not_taken() const {
+    std::vector<Segment> made;
+    for (std::size_t i = 0; i < plans_.size(); ++i)
+      if (!came_[i]) made.push_back(plans_[i]);
+    return made;
+  }
+
+ private:
+  std::vector<Segment> plans_;  ///< ascending
+  std::vector<bool> came_;
+};
+
+}  // namespace
+
+std::vector<ImportedPiece> imported_pieces(const StoreRows& rows, std::size_t themes,
+                                           const std::vector<Segment>& stored,
+                                           const std::function<ImportedSegment(const Segment&)>& with_heights) {
+  const SetAsideList list = set_aside_list(rows);
+  std::vector<ImportedPiece> pieces;
+  std::vector<std::vector<Segment>> made(themes);
+  for (std::uint16_t theme = 1; theme <= themes; ++theme) {
+    for (std::uint32_t i = 0; i < list.blocks_of(theme); ++i) {
+      const SetAsideLines lines = set_aside_lines(rows, theme, i);
+      made[theme - 1].insert(made[theme - 1].end(), lines.made.begin(), lines.made.end());
+      for (const ImportedSegment& s : lines.imported) pieces.push_back({theme - 1U, s});
+    }
+  }
+  for (const Segment& s : stored) {
+    const auto theme = static_cast<std::uint32_t>(s.theme - 1);
+    if (!std::binary_search(made[theme].begin(), made[theme].end(), plan_of(s)))
+      pieces.push_back({theme, with_heights(s)});
+  }
+  return pieces;
+}
+
+std::vector<SetAsideLines> set_aside_of(std::span<const ImportedPiece> pieces, const std::vector<Segment>& placed,
+                                        const ThemeLines& lines) {
+  std::vector<Placed> of_theme(lines.themes());
+  for (const Segment& s : placed) of_theme[s.theme - std::size_t{1}].add(s);
+  for (Placed& p : of_theme) p.finish();
+  std::vector<SetAsideLines> result(lines.themes());
+  for (const auto& [theme, s] : pieces) {
+    // One that is not placed may have ends that are no vertices.
+    const auto came = [&] {
+      return !lines.terrain[theme] || (is_as_it_came(s.a, s.source, lines) && is_as_it_came(s.b, s.source, lines));
+    };
+    if (!of_theme[theme].take_if(s, came)) result[theme].imported.push_back(s);
+  }
+  for (std::size_t t = 0; t < result.size(); ++t) result[t].made = of_theme[t].not_taken();
+  return result;
+}
+
+}  // namespace itin

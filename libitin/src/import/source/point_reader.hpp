@@ -1,0 +1,57 @@
+// Files of scattered points, whatever their format, seen as one stream of coordinates as the file has them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <itin/geometry.hpp>
+
+#include "gdal/linear_unit.hpp"
+
+namespace itin {
+
+/// Some points in the file's own coordinates and units, axes easting (or longitude), northing (or latitude), height.
+/// A height of NaN is one the file leaves out.
+struct PointBatch {
+  std::vector<double> x, y, z;
+
+  std::size_t size() const { return x.size(); }
+  void add(double easting, double northing, double height) {
+    x.push_back(easting), y.push_back(northing), z.push_back(height);
+  }
+  void clear() { x.clear(), y.clear(), z.clear(); }
+};
+
+/// Readers hand on about this many points at a time: a few hundred kilobytes.
+inline constexpr std::size_t kPointBatchSize = 16384;
+
+/// A point file that was opened and understood: its header was read, not its points.
+class PointReader {
+ public:
+  /// `fraction` of the file has been read so far. The batch may be changed by the receiver.
+  using Sink = std::function<void(PointBatch& batch, double fraction)>;
+
+  virtual ~PointReader() = default;
+  virtual const std::string& path() const = 0;
+  /// What the file says of its CRS: authority:code or WKT; empty if it says nothing.
+  virtual std::string crs() const = 0;
+  /// The unit of the heights, where the file states it apart from its CRS.
+  virtual std::optional<LinearUnit> height_unit() const { return std::nullopt; }
+  /// One line each: assumptions made on opening.
+  virtual std::vector<std::string> warnings() const { return {}; }
+  /// A position amid the points.
+  virtual Point2 centre() const = 0;
+  /// Of the points, as far as it is known without reading them: at least the centre.
+  virtual Box extent() const { return {centre().x, centre().y, centre().x, centre().y}; }
+  /// Bytes or points, whatever is at hand.
+  virtual double size_hint() const = 0;
+  /// Streams all points in bounded memory, and returns how many were left out by class or attribute filter. What the
+  /// sink throws passes through. Throws FileError, InputError.
+  virtual std::uint64_t read(const Sink& sink) = 0;
+};
+
+}  // namespace itin

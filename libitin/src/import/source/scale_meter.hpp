@@ -1,0 +1,36 @@
+// Measures the scale of one CRS at many places.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <itin/geodesic.hpp>
+#include <itin/geometry.hpp>
+#include <itin/grid_scale.hpp>
+
+#include "gdal/crs.hpp"
+
+namespace itin {
+
+/// One thread at a time.
+class ScaleMeter {
+ public:
+  /// Throws InputError unless the CRS has its axes in metres.
+  explicit ScaleMeter(const Crs& crs);
+
+  /// The extremes over these places, in the CRS's coordinates; nothing where none is a place on the ground.
+  std::optional<GridScale> at(std::span<const Point2> places) const;
+  /// Degrees; NaN where a place has no position on the ground.
+  std::vector<Point2> lon_lat(std::span<const Point2> places) const;
+
+ private:
+  Ellipsoid ellipsoid_;
+  double degrees_ = 1;  ///< of one of its geographic CRS's units
+  std::optional<PointTransform> to_geographic_;
+};
+
+/// Corners, middle and between them: five by five, all one where the box is a point.
+std::vector<Point2> places_in(const Box& area);
+
+}  // namespace itin

@@ -1,0 +1,89 @@
+// Import in two steps: a source is opened to learn its CRS and centre; once the store's CRS and grid are settled by the
+// first one, it is bound to them and becomes a TerrainSource.
+//
+//   std::unique_ptr<SourceFile> open_raster_source(const std::string& path, const ImportOptions&);
+//   std::unique_ptr<SourceFile> open_point_source(const std::string& path, const ImportOptions&);
+//   std::unique_ptr<SourceFile> open_las_source(const std::string& path, const ImportOptions&);
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <itin/file_digest.hpp>
+#include <itin/geometry.hpp>
+
+#include "gdal/crs.hpp"
+#include "import/source/source_heights.hpp"
+#include "import/source/terrain_source.hpp"
+
+namespace itin {
+
+/// What a source needs to know of the store.
+struct SourceContext {
+  Grid grid;
+  std::string crs_wkt;
+};
+
+/// A file that was opened and understood. The constructor's work is bounded: headers, not points.
+class OpenedFile {
+ public:
+  virtual ~OpenedFile() = default;
+  virtual const std::string& path() const = 0;
+  /// --crs, else as found in the file. Throws InputError where there is neither: see missing_crs().
+  virtual Crs crs() const = 0;
+  /// A position amid the file's points, in its own CRS.
+  virtual Point2 centre() const = 0;
+  /// Of the file's points in its own CRS, as far as it is known without reading them: at least the centre.
+  virtual Box extent() const { return {centre().x, centre().y, centre().x, centre().y}; }
+  /// One line each: assumptions made on opening.
+  virtual std::vector<std::string> warnings() const { return {}; }
+};
+
+/// One of terrain points. What it says of itself holds before bind() only.
+class SourceFile : public OpenedFile {
+ public:
+  /// Called once. Throws InputError where coordinates cannot be transformed.
+  virtual std::unique_ptr<TerrainSource> bind(const SourceContext& context) = 0;
+};
+
+/// The CRS of a source: --crs, and what that leaves open (the horizontal or the vertical part) as `found`, the text the
+/// file holds. Throws InputError that says `--crs EPSG:xxxx` where neither has a horizontal part.
+Crs source_crs(const std::string& path, const std::string& option_crs, const std::string& found);
+
+/// Whether a number is one that customarily stands for a missing height, and is none for sure.
+bool is_missing_mark(double height);
+/// Takes points from a source's coordinates to the grid, a batch at a time; the last step of every kind of source.
+class Placement {
+ public:
+  Placement(std::string path, const Crs& crs, const HeightAxis& heights, const SourceContext& context);
+
+  /// Transforms x and y in place, and replaces `points` by those that have a position and a height. Points whose height
+  /// is NaN, is_missing_mark(), below -12,000 m or above 20,000 m, or whose position has no image are counted as voids.
+  /// Throws InputError for a position the grid cannot hold, and for a height beyond kFarthestHeight.
+  void place(std::span<double> x, std::span<double> y, std::span<const double> z, std::vector<GridPoint>& points);
+  /// Positions only: of the corners of a lattice step, say. NaN where there is no image.
+  void transform(std::span<double> x, std::span<double> y) const { transform_.transform(x, y); }
+
+  /// What has been placed so far, with warning lines for heights and positions that were refused.
+  ReadCounts counts() const;
+
+ private:
+  void require_heights(std::span<const double> x, std::span<const double> y, std::span<const double> z) const;
+
+  std::string path_;
+  PointTransform transform_;
+  double height_factor_;
+  Grid grid_;
+  GridBox bounds_;
+  std::uint64_t placed_ = 0, voids_ = 0, marks_ = 0, out_of_range_ = 0, unmapped_ = 0;
+};
+
+/// "2024-05-31T12:00:00Z": now, or the time that SOURCE_DATE_EPOCH gives (reproducible-builds.org). Throws InputError
+/// where that is none.
+std::string utc_now();
+
+}  // namespace itin

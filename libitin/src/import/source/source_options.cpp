@@ -1,0 +1,94 @@
+#include "import/source/source_options.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <itin/error.hpp>
+
+namespace itin {
+
+namespace {
+
+using Kinds = unsigned;
+
+constexpr Kinds only(SourceKind kind) {
+  return 1u << static_cast<unsigned>(kind);
+}
+
+constexpr Kinds kRasters = only(SourceKind::raster), kLas = only(SourceKind::las), kText = only(SourceKind::text),
+                kPoints = only(SourceKind::points), kContours = only(SourceKind::contours),
+                kTerrainLines = only(SourceKind::terrain_lines), kGroundLines = only(SourceKind::ground_lines),
+                kBuildings = only(SourceKind::buildings), kWalls = only(SourceKind::walls),
+                kCityModels = only(SourceKind::city_model);
+constexpr Kinds kTerrain = kRasters | kLas | kText | kPoints, kLines = kContours | kTerrainLines | kGroundLines,
+                kFootprints = kBuildings | kWalls;
+
+struct Option {
+  const char* name;
+  bool (*given)(const ImportOptions&);
+  Kinds serves;
+};
+
+constexpr std::array kOptions{
+    Option{"--to-crs", [](const ImportOptions& o) { return !o.to_crs.empty(); }, kTerrain | kLines},
+    Option{"--allow-mixed-vertical", [](const ImportOptions& o) { return o.allow_mixed_vertical; }, kTerrain | kLines},
+    Option{"--replace", [](const ImportOptions& o) { return o.replace; }, kTerrain},
+    Option{"--band", [](const ImportOptions& o) { return o.band.has_value(); }, kRasters},
+    Option{"--class", [](const ImportOptions& o) { return !o.classes.empty(); }, kLas},
+    Option{"--max-gap", [](const ImportOptions& o) { return o.max_gap > 0; }, kLas | kText | kPoints | kContours},
+    Option{"--z-field", [](const ImportOptions& o) { return !o.z_field.empty(); },
+           kText | kPoints | kContours | kTerrainLines},
+    Option{"--no-repair", [](const ImportOptions& o) { return !o.repair; }, kContours},
+    Option{"--layer", [](const ImportOptions& o) { return !o.layer.empty(); }, kPoints | kLines | kFootprints},
+    Option{"--where", [](const ImportOptions& o) { return !o.where.empty(); }, kPoints | kLines | kFootprints},
+    Option{"--height", [](const ImportOptions& o) { return o.height.has_value(); }, kFootprints},
+    Option{"--height-field", [](const ImportOptions& o) { return !o.height_field.empty(); }, kFootprints},
+    Option{"--eaves-field", [](const ImportOptions& o) { return !o.eaves_field.empty(); }, kFootprints},
+    Option{"--name-field", [](const ImportOptions& o) { return !o.name_field.empty(); }, kFootprints},
+    Option{"--thickness", [](const ImportOptions& o) { return o.thickness.has_value(); }, kFootprints},
+    Option{"--base-field", [](const ImportOptions& o) { return !o.base_field.empty(); }, kBuildings},
+    Option{"--base", [](const ImportOptions& o) { return o.base.has_value(); }, kBuildings | kCityModels},
+    Option{"--roof", [](const ImportOptions& o) { return o.roof.has_value(); }, kBuildings},
+};
+
+constexpr std::array<const char*, 10> kTitles{"rasters",
+                                              "LAS",
+                                              "delimited text",
+                                              "layers of points",
+                                              "contours",
+                                              "lines with heights",
+                                              "lines and outlines without heights",
+                                              "buildings with heights",
+                                              "walls and vegetation with heights",
+                                              "CityJSON"};
+
+std::vector<std::string> titles_of(Kinds kinds) {
+  std::vector<std::string> titles;
+  for (std::size_t i = 0; i < kTitles.size(); ++i)
+    if (kinds & (1u << i)) titles.emplace_back(kTitles[i]);
+  return titles;
+}
+
+}  // namespace
+
+void require_useful_options(const ImportOptions& options, std::span<const SourceKind> sources) {
+  Kinds present = 0;
+  for (const SourceKind kind : sources) present |= only(kind);
+  for (const Option& option : kOptions) {
+    if (!option.given(options) || (option.serves & present)) continue;
+    throw InputError(fmt::format("{}: does nothing for {}, only for {}; leave it out", option.name,
+                                 fmt::join(titles_of(present), " and "), fmt::join(titles_of(option.serves), ", ")));
+  }
+}
+
+SourceKind kind_of_lines(ThemeKind kind) {
+  if (kind == ThemeKind::Contours) return SourceKind::contours;
+  return is_terrain(kind) ? SourceKind::terrain_lines : SourceKind::ground_lines;
+}
+
+}  // namespace itin

@@ -1,0 +1,25 @@
+#include "import/source/source_order.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+#include "pyramid/pyramid.hpp"
+
+namespace itin {
+
+std::vector<std::uint32_t> ranks_of(std::span<const SourceInfo> sources) {
+  const auto key = [&](std::uint32_t s) {
+    const SourceInfo& i = sources[s];
+    return std::tuple(!is_ground(i), i.spacing, i.gap_basis, i.replaces, std::tie(i.kind, i.theme, i.sha256, i.path));
+  };
+  std::vector<std::uint32_t> order(sources.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+  std::vector<std::uint32_t> ranks(sources.size());
+  for (std::uint32_t i = 1; i < order.size(); ++i)
+    ranks[order[i]] = ranks[order[i - 1]] + (key(order[i - 1]) < key(order[i]) ? 1 : 0);
+  return ranks;
+}
+
+}  // namespace itin

@@ -1,0 +1,374 @@
+#include "import/vectors/line_collection.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+#include <itin/triangulate.hpp>
+
+#include "features/part_vertices.hpp"
+#include "import/source/source_order.hpp"
+#include "store/store_format.hpp"
+
+namespace itin {
+
+namespace {
+
+/// Measured at the peak of imports, rounded up: of lines while they are simplified, of features while they are raised.
+constexpr std::uint64_t kBytesPerLineVertex = 800, kBytesPerFeatureVertex = 3000;
+/// The full surface's third vertex left of an edge of it.
+std::optional<Position> apex_of(const Store& ground, Position from, Position to) {
+  const Grid& grid = ground.metadata().grid;
+  Box box;
+  for (const Position& p : {from, to}) box.extend(grid.position(p.x, p.y));
+  box = {box.xmin - grid.resolution, box.ymin - grid.resolution, box.xmax + grid.resolution,
+         box.ymax + grid.resolution};
+  NoProgress quiet;
+  const Tin tin = triangulate(ground, Window::box(box), Detail::tolerance(0), quiet);
+  const auto at = [&](std::uint32_t v) { return Position{tin.vertices[v].x, tin.vertices[v].y}; };
+  for (const Triangle& t : tin.triangles)
+    for (int i = 0; i < 3; ++i)
+      if (at(t[i]) == from && at(t[(i + 1) % 3]) == to) return at(t[(i + 2) % 3]);
+  return std::nullopt;
+}
+
+const GridPoint* vertex_at(const StandingPart& part, Position p) {
+  const std::uint64_t code = morton(p.x, p.y);
+  const auto at = std::lower_bound(part.vertices.begin(), part.vertices.end(), code,
+                                   [](const GridPoint& q, std::uint64_t c) { return code_of(q) < c; });
+  return at != part.vertices.end() && code_of(*at) == code ? &*at : nullptr;
+}
+
+/// Where features meet, what is built knows no order of import.
+std::vector<StoredFootprint> in_order_of_content(const std::vector<StoredFootprint>& footprints) {
+  std::vector<std::pair<std::vector<std::uint8_t>, std::size_t>> order;
+  for (std::size_t i = 0; i < footprints.size(); ++i) order.emplace_back(content_of(footprints[i].feature), i);
+  std::sort(order.begin(), order.end());
+  std::vector<StoredFootprint> result;
+  for (const auto& [content, i] : order) result.push_back(footprints[i]);
+  return result;
+}
+
+}  // namespace
+
+void LineCollection::require_room(const std::string& source) const {
+  const std::uint64_t needed = line_vertices_ * kBytesPerLineVertex + feature_vertices_ * kBytesPerFeatureVertex;
+  if (needed <= memory_bytes_) return;
+  throw InputError(
+      fmt::format("{}: the lines and features of the store have now more than {} vertices, for which {} MB of memory "
+                  "are too little; "
+                  "give more than {} MB, or import them into several stores",
+                  source, line_vertices_ + feature_vertices_, memory_bytes_ >> 20, needed >> 20));
+}
+
+void LineCollection::take_themes(const StoreMetadata& metadata) {
+  themes_ = metadata.themes;
+  footprints_.resize(themes_.size());
+  for (const ThemeInfo& theme : themes_) stands_.push_back(theme.stands());
+  for (const SourceInfo& source : metadata.sources) theme_of_source_.push_back(source.theme);
+  find_first_sources(metadata.sources);
+  keeps_set_aside_ = metadata.format_version >= format::kFirstVersionThatSetsAside;
+}
+
+/// By a rule that knows no order of import.
+void LineCollection::find_first_sources(const std::vector<SourceInfo>& sources) {
+  const std::vector<std::uint32_t> ranks = ranks_of(sources);
+  first_source_.assign(themes_.size(), 0);
+  for (std::size_t t = 0; t < themes_.size(); ++t) {
+    std::optional<std::size_t> first;
+    for (std::size_t s = 0; s < sources.size(); ++s)
+      if (sources[s].theme == themes_[t].name && (!first || ranks[s] < ranks[*first])) first = s;
+    if (first) first_source_[t] = static_cast<std::uint16_t>(*first);
+  }
+}
+
+void LineCollection::take_segments(const PointIndex& index) {
+  index.segments(index.bounds(), stored_);
+  // What keeps the ground about features is made again with these.
+  std::erase_if(stored_, [&](const Segment& s) {
+    return s.theme == kCoverage || s.finest > 0 || s.theme > themes_.size() || stands_[s.theme - std::size_t{1}];
+  });
+  line_vertices_ += stored_.size();
+  std::sort(stored_.begin(), stored_.end());
+  stored_.erase(std::unique(stored_.begin(), stored_.end()), stored_.end());
+  for (const Segment& s : stored_) {
+    const auto theme = static_cast<std::uint32_t>(s.theme - 1);
+    if (!is_terrain(themes_[theme].kind)) continue;
+    for (const std::uint64_t end : {morton(s.ax, s.ay), morton(s.bx, s.by)}) {
+      std::uint32_t& of_end = ends_.try_emplace(end, theme).first->second;
+      of_end = std::min(of_end, theme);
+    }
+  }
+}
+
+bool LineCollection::take_vertex(const GridPoint& p, std::uint16_t source, bool of_terrain) {
+  const std::uint64_t code = morton(p.x, p.y);
+  const auto end = of_terrain ? ends_.find(code) : ends_.end();
+  if (theme_of_source_[source].empty()) {
+    // Formats that set nothing aside have vertices of lines under the source of a post they cover.
+    if (end != ends_.end()) vertices_.try_emplace(code, Vertex{p.z, first_source_[end->second]});
+    return false;
+  }
+  // One whose lines left the ground comes with these where they are taken as they were imported.
+  const bool comes_with_lines = as_ == LinesAs::imported && keeps_set_aside_;
+  if (of_terrain && end == ends_.end() && !comes_with_lines) return false;
+  vertices_.try_emplace(code, Vertex{p.z, source});
+  return true;
+}
+
+std::uint16_t LineCollection::source_of_stored(const Segment& s) const {
+  const auto theme = static_cast<std::size_t>(s.theme - 1);
+  for (const std::uint64_t end : {morton(s.ax, s.ay), morton(s.bx, s.by)}) {
+    const auto found = vertices_.find(end);
+    if (found != vertices_.end() && theme_of_source_[found->second.source] == themes_[theme].name)
+      return found->second.source;
+  }
+  return first_source_[theme];
+}
+
+void LineCollection::take_set_aside(const StoreRows& rows) {
+  imported_ = imported_pieces(rows, themes_.size(), stored_, [&](const Segment& s) {
+    const bool of_terrain = is_terrain(themes_[s.theme - std::size_t{1}].kind);
+    const auto vertex = [&](std::int32_t x, std::int32_t y) {
+      const auto found = of_terrain ? vertices_.find(morton(x, y)) : vertices_.end();
+      return GridPoint{x, y, found == vertices_.end() ? 0 : found->second.z};
+    };
+    const auto [a, b] = std::minmax({vertex(s.ax, s.ay), vertex(s.bx, s.by)});
+    return ImportedSegment{a, b, source_of_stored(s)};
+  });
+}
+
+/// The lines with their heights. As they lie, a vertex of the terrain has its own, one of another line gets it anew.
+void LineCollection::add_lines() {
+  if (as_ == LinesAs::imported) {
+    for (const auto& [theme, s] : imported_) segments_.push_back({s.a, s.b, theme});
+    return;
+  }
+  const auto vertex = [&](std::int32_t x, std::int32_t y) {
+    const auto found = vertices_.find(morton(x, y));
+    return GridPoint{x, y, found == vertices_.end() ? 0 : found->second.z};
+  };
+  for (const Segment& s : stored_)
+    segments_.push_back({vertex(s.ax, s.ay), vertex(s.bx, s.by), static_cast<std::uint32_t>(s.theme - 1)});
+}
+
+void LineCollection::take_footprints(const Store& store) {
+  for (std::size_t t = 0; t < store.metadata().themes.size(); ++t)
+    for (StoredFootprint& footprint : stored_footprints(store, static_cast<std::uint16_t>(t + 1)))
+      add_footprint(static_cast<std::uint32_t>(t), std::move(footprint));
+}
+
+std::uint32_t LineCollection::theme(const std::string& name, ThemeKind kind, bool stands) {
+  const auto found = std::find_if(themes_.begin(), themes_.end(), [&](const ThemeInfo& t) { return t.name == name; });
+  if (found == themes_.end()) {
+    if (themes_.size() == format::kMaxThemes)
+      throw InputError(fmt::format("a store holds at most {} themes", format::kMaxThemes));
+    themes_.push_back({name, kind, 0, 0, 0});
+    stands_.push_back(stands);
+    footprints_.emplace_back();
+    return static_cast<std::uint32_t>(themes_.size() - 1);
+  }
+  if (found->kind != kind)
+    throw InputError(fmt::format("theme '{}': holds {} already, not {}; choose another name with --theme", name,
+                                 name_of(found->kind), name_of(kind)));
+  const auto number = static_cast<std::uint32_t>(found - themes_.begin());
+  if (stands_[number] != stands)
+    throw InputError(fmt::format("theme '{}': holds {}; choose another name with --theme", name,
+                                 stands ? "outlines on the ground, not features with heights"
+                                        : "features with heights, not outlines on the ground"));
+  return number;
+}
+
+void LineCollection::add(std::uint32_t theme, std::uint16_t source, std::span<const GridPoint> line) {
+  line_vertices_ += line.size();
+  const bool of_terrain = is_terrain(themes_[theme].kind);
+  const auto vertex = [&](const GridPoint& p) { return GridPoint{p.x, p.y, of_terrain ? p.z : 0}; };
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const auto [a, b] = std::minmax({vertex(line[i - 1]), vertex(line[i])});
+    // Upright, its ends are those of its neighbours.
+    if (a.x != b.x || a.y != b.y) imported_.push_back({theme, {a, b, source}});
+  }
+}
+
+void LineCollection::add_footprint(std::uint32_t theme, StoredFootprint footprint) {
+  feature_vertices_ += vertex_count(footprint.feature);
+  footprints_[theme].push_back(std::move(footprint));
+}
+
+bool LineCollection::stands() const {
+  return std::any_of(footprints_.begin(), footprints_.end(), [](const auto& of_theme) { return !of_theme.empty(); });
+}
+
+void LineCollection::raise(const Store& ground, RaisedFeatures& report, Progress& progress) {
+  report = {};
+  changed_.resize(themes_.size());
+  for (std::uint32_t t = 0; t < themes_.size(); ++t) {
+    if (footprints_[t].empty()) continue;
+    StandingTheme standing = stand(ground, in_order_of_content(footprints_[t]), memory_bytes_, progress);
+    themes_[t].features = standing.built;
+    report.features += standing.built;
+    report.refused += standing.refused;
+    report.themes.push_back({themes_[t].name, standing.built, std::move(standing.reports)});
+    for (StandingPart& part : standing.parts) parts_.push_back({t, std::move(part)});
+    for (const auto& [a, b] : standing.ground.pieces) keep({{a.x, a.y, 0}, {b.x, b.y, 0}, t});
+    changed_[t] = std::move(standing.ground);
+  }
+}
+
+/// An edge that keeps the ground about features.
+void LineCollection::keep(const OwnedSegment& ground_line) {
+  segments_.push_back(ground_line);
+  for (const GridPoint& p : {ground_line.a, ground_line.b}) ground_ends_.push_back({ground_line.owner, code_of(p)});
+}
+
+/// Gives their lines to make_planar()'s segments, under the numbers that follow the themes'.
+void LineCollection::place_parts(ThemeLines& result) {
+  std::stable_sort(parts_.begin(), parts_.end(), [](const OwnPart& a, const OwnPart& b) { return a.theme < b.theme; });
+  std::vector<std::uint32_t> by_rank(themes_.size());
+  std::iota(by_rank.begin(), by_rank.end(), 0U);
+  std::sort(by_rank.begin(), by_rank.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return comes_before(themes_[a], themes_[b]); });
+  for (OwnPart& own : parts_) {
+    const auto owner = static_cast<std::uint32_t>(themes_.size() + result.parts.size());
+    if (owner >= format::kMaxThemes)
+      throw InputError(fmt::format("a store holds at most {} themes and parts of themes", format::kMaxThemes));
+    for (const StandingSegment& s : own.part.segments) segments_.push_back({s.a, s.b, owner});
+    PlacedPart& placed = result.parts.emplace_back();
+    placed.part = {static_cast<std::uint16_t>(own.theme + 1), own.part.coarsest};
+    placed.rank = static_cast<int>(std::find(by_rank.begin(), by_rank.end(), own.theme) - by_rank.begin());
+    placed.source = own.part.source;
+    placed.masks = std::move(own.part.masks);
+    placed.reaches = std::move(own.part.reaches);
+    first_source_.push_back(own.part.source);
+  }
+}
+
+std::uint16_t LineCollection::source_of(const GridPoint& p, std::uint32_t owner) const {
+  const auto found = vertices_.find(morton(p.x, p.y));
+  return found != vertices_.end() ? found->second.source : first_source_[owner];
+}
+
+/// The same, for one that may lie under what drapes: then it is a line of its top. `masks` of the parts.
+void LineCollection::keep_or_raise(const OwnedSegment& ground_line, const std::vector<MaskIndex>& masks) {
+  const Position a{ground_line.a.x, ground_line.a.y}, b{ground_line.b.x, ground_line.b.y};
+  for (std::size_t p = 0; p < parts_.size(); ++p) {
+    if (parts_[p].theme != ground_line.owner || !masks[p].middle_inside(a, b)) continue;
+    StandingPart& part = parts_[p].part;
+    const GridPoint *top_a = vertex_at(part, a), *top_b = vertex_at(part, b);
+    if (top_a == nullptr || top_b == nullptr) continue;
+    part.segments.push_back({*top_a, *top_b, false});
+    segments_.push_back({*top_a, *top_b, static_cast<std::uint32_t>(themes_.size() + p)});
+    return;
+  }
+  keep(ground_line);
+}
+
+/// Puts all segments into one plane, with what keeps the ground about features.
+void LineCollection::make_lines(ThemeLines& result, const Store* ground, const Progress& progress) {
+  GroundBorder border(themes_.size());
+  for (std::uint32_t t = 0; t < changed_.size(); ++t) border.add(t, changed_[t]);
+  std::vector<MaskIndex> masks;
+  for (const PlacedPart& part : result.parts) masks.emplace_back(part.masks);
+  for (const OwnedSegment& s : border.seams()) keep_or_raise(s, masks);
+  GroundBorder::Owners owners;
+  owners.terrain = result.terrain;
+  for (std::uint32_t t = 0; t < themes_.size(); ++t) owners.theme.push_back(t);
+  for (const PlacedPart& part : result.parts) owners.theme.push_back(part.part.theme - 1u);
+  const auto apex = [&](Position from, Position to) { return apex_of(*ground, from, to); };
+  for (;;) {
+    progress.throw_if_cancelled();
+    result.lines = make_planar(segments_, &progress);
+    GroundBorder::Fit fit = border.fit(result.lines, owners, apex);
+    result.borders = std::move(fit.placed);
+    if (fit.lines.empty()) break;
+    for (const OwnedSegment& s : fit.lines) keep_or_raise(s, masks);
+  }
+  segments_.clear();
+  std::sort(ground_ends_.begin(), ground_ends_.end());
+  ground_ends_.erase(std::unique(ground_ends_.begin(), ground_ends_.end()), ground_ends_.end());
+  result.ground_ends = std::move(ground_ends_);
+}
+
+bool LineCollection::changes_terrain(const ThemeLines& lines) const {
+  const std::vector<std::uint32_t> vertices = lines.terrain_vertices();
+  return std::any_of(vertices.begin(), vertices.end(),
+                     [&](std::uint32_t v) { return !ends_.contains(code_of(lines.lines.vertices[v])); });
+}
+
+/// Those of the terrain before the others, then by name.
+void LineCollection::put_in_order(ThemeLines& result) {
+  std::vector<std::uint32_t> order(themes_.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return std::pair(!is_terrain(themes_[a].kind), themes_[a].name) <
+           std::pair(!is_terrain(themes_[b].kind), themes_[b].name);
+  });
+  std::vector<std::uint32_t> number(order.size());
+  std::vector<ThemeInfo> themes;
+  std::vector<bool> stands;
+  std::vector<std::vector<StoredFootprint>> footprints;
+  std::vector<ChangedGround> changed(order.size());
+  changed_.resize(order.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) {
+    number[order[i]] = i;
+    themes.push_back(themes_[order[i]]);
+    stands.push_back(stands_[order[i]]);
+    footprints.push_back(std::move(footprints_[order[i]]));
+    changed[i] = std::move(changed_[order[i]]);
+    result.terrain.push_back(is_terrain(themes.back().kind));
+    result.kinds.push_back(themes.back().kind);
+    result.standing.push_back(stands.back());
+  }
+  for (ThemeVertex& end : ground_ends_) end.theme = number[end.theme];
+  for (OwnedSegment& s : segments_) s.owner = number[s.owner];
+  for (OwnPart& own : parts_) own.theme = number[own.theme];
+  for (ImportedPiece& i : imported_) i.theme = number[i.theme];
+  std::sort(imported_.begin(), imported_.end());
+  imported_.erase(std::unique(imported_.begin(), imported_.end()), imported_.end());
+  themes_ = std::move(themes);
+  stands_ = std::move(stands);
+  footprints_ = std::move(footprints);
+  changed_ = std::move(changed);
+}
+
+/// What brings a vertex along several times has it from the source that comes first.
+void LineCollection::find_vertices(const std::vector<SourceInfo>& sources) {
+  const std::vector<std::uint32_t> ranks = ranks_of(sources);
+  vertices_.clear();
+  for (const auto& [theme, s] : imported_) {
+    for (const GridPoint& p : {s.a, s.b}) {
+      const auto [at, fresh] = vertices_.try_emplace(code_of(p), Vertex{p.z, s.source});
+      if (!fresh && ranks[s.source] < ranks[at->second.source]) at->second.source = s.source;
+    }
+  }
+}
+
+ThemeLines LineCollection::finish(const std::vector<SourceInfo>& sources, const Store* ground,
+                                  const Progress& progress) {
+  add_lines();
+  ThemeLines result;
+  put_in_order(result);
+  find_first_sources(sources);
+  if (as_ == LinesAs::imported) find_vertices(sources);
+  place_parts(result);
+  make_lines(result, ground, progress);
+  std::vector<std::uint32_t> owner(result.lines.vertices.size(), std::numeric_limits<std::uint32_t>::max());
+  std::vector<std::vector<Position>> ends(parts_.size());
+  for (const PlanarEdge& e : result.lines.edges) {
+    for (const std::uint32_t v : {e.from, e.to}) {
+      owner[v] = std::min(owner[v], e.owner);
+      const GridPoint& p = result.lines.vertices[v];
+      if (result.stands(e)) ends[e.owner - themes_.size()].push_back({p.x, p.y});
+    }
+  }
+  for (std::size_t p = 0; p < parts_.size(); ++p) result.parts[p].vertices = part_vertices(parts_[p].part, ends[p]);
+  for (std::size_t v = 0; v < owner.size(); ++v)
+    result.sources.push_back(source_of(result.lines.vertices[v], owner[v]));
+  return result;
+}
+
+}  // namespace itin

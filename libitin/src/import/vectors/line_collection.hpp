@@ -1,0 +1,122 @@
+// All lines of a store, old and new, on their way to being made planar.
+//
+// They are taken as they were imported, so that what comes of them knows no order of import; or, to raise features on a
+// ground, as they lie there: cut and moved already.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include <itin/import.hpp>
+#include <itin/store.hpp>
+
+#include "features/ground_border.hpp"
+#include "features/mask_index.hpp"
+#include "features/standing_theme.hpp"
+#include "import/source/imported_lines.hpp"
+#include "pyramid/theme_lines.hpp"
+#include "store/point_index.hpp"
+
+namespace itin {
+
+struct RaisedTheme {
+  std::string name;
+  std::uint64_t built = 0;  ///< features that stand
+  std::vector<StandingReport> reports;
+};
+
+/// Of all imports so far.
+struct RaisedFeatures {
+  std::uint64_t features = 0;  ///< that stand
+  std::uint64_t refused = 0;
+  std::vector<RaisedTheme> themes;  ///< that stand
+};
+
+/// Whether lines are taken as they were imported, or as they lie on a ground that features are to be raised on.
+enum class LinesAs : std::uint8_t { imported, laid };
+
+class LineCollection {
+ public:
+  LineCollection(LinesAs as, std::uint64_t memory_bytes) : as_(as), memory_bytes_(memory_bytes) {}
+
+  /// Throws InputError, naming the source at hand, where lines and features so far take more than the memory until
+  /// they are in the store.
+  void require_room(const std::string& source) const;
+
+  /// Takes a store's themes over, then its lines, then their vertices, then how they were imported: in this order.
+  void take_themes(const StoreMetadata& metadata);
+  void take_segments(const PointIndex& index);
+  /// Whether the vertex (`of_terrain`: of the full surface) comes from lines, and so is taken over with them, not with
+  /// the points.
+  bool take_vertex(const GridPoint& p, std::uint16_t source, bool of_terrain);
+  void take_set_aside(const StoreRows& rows);
+
+  /// Standing themes' footprints; their lines are not taken over, but made again.
+  void take_footprints(const Store& store);
+
+  /// The number of a theme, which is made if there is none of the name. Throws InputError where one has another kind,
+  /// or stands where the other does not.
+  std::uint32_t theme(const std::string& name, ThemeKind kind, bool stands);
+  void add(std::uint32_t theme, std::uint16_t source, std::span<const GridPoint> line);
+  void add_features(std::uint32_t theme, std::uint64_t count) { themes_[theme].features += count; }
+
+  void add_footprint(std::uint32_t theme, StoredFootprint footprint);
+  /// Whether any theme stands.
+  bool stands() const;
+  /// Builds all standing themes on a store's ground. Throws InputError where that takes more than the memory.
+  void raise(const Store& ground, RaisedFeatures& report, Progress& progress);
+
+  /// Puts the themes in order and the lines of all of them into one plane. `ground` as in raise(), if it was called.
+  ThemeLines finish(const std::vector<SourceInfo>& sources, const Store* ground, const Progress& progress);
+  /// After finish(), of lines as they lie on the ground: whether what stands has given lines of the terrain vertices
+  /// that they do not have there.
+  bool changes_terrain(const ThemeLines& lines) const;
+  /// After finish(), in order: all lines on the ground as they were imported.
+  const std::vector<ImportedPiece>& imported() const { return imported_; }
+  /// After finish(): in order, features counted.
+  const std::vector<ThemeInfo>& themes() const { return themes_; }
+  const std::vector<std::vector<StoredFootprint>>& footprints() const { return footprints_; }
+
+ private:
+  struct Vertex {
+    std::int32_t z;
+    std::uint16_t source;
+  };
+  struct OwnPart {
+    std::uint32_t theme;
+    StandingPart part;
+  };
+  std::uint16_t source_of_stored(const Segment& s) const;
+  void add_lines();
+  void find_first_sources(const std::vector<SourceInfo>& sources);
+  void find_vertices(const std::vector<SourceInfo>& sources);
+  void put_in_order(ThemeLines& result);
+  void place_parts(ThemeLines& result);
+  void keep(const OwnedSegment& ground_line);
+  void keep_or_raise(const OwnedSegment& ground_line, const std::vector<MaskIndex>& masks);
+  void make_lines(ThemeLines& result, const Store* ground, const Progress& progress);
+  std::uint16_t source_of(const GridPoint& p, std::uint32_t owner) const;
+
+  LinesAs as_;
+  std::uint64_t memory_bytes_;
+  std::uint64_t line_vertices_ = 0, feature_vertices_ = 0;  ///< so far
+  std::vector<ThemeInfo> themes_;
+  std::vector<std::uint16_t> first_source_;               ///< by theme, and then by part
+  std::vector<bool> stands_;                              ///< by theme
+  std::vector<std::vector<StoredFootprint>> footprints_;  ///< by theme
+  std::vector<OwnPart> parts_;
+  bool keeps_set_aside_ = true;                            ///< the store does
+  std::vector<std::string> theme_of_source_;               ///< by the store's source; empty for points
+  std::vector<Segment> stored_;                            ///< of the store's lines, on the ground
+  std::unordered_map<std::uint64_t, std::uint32_t> ends_;  ///< theme by Morton code: those of the stored terrain lines
+  std::vector<ImportedPiece> imported_;
+  std::vector<OwnedSegment> segments_;
+  std::vector<ThemeVertex> ground_ends_;                ///< of edges that keep the ground about features
+  std::vector<ChangedGround> changed_;                  ///< by theme: of this ground
+  std::unordered_map<std::uint64_t, Vertex> vertices_;  ///< by Morton code: of the lines as they are taken
+};
+
+}  // namespace itin

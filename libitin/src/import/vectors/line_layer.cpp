@@ -1,0 +1,134 @@
+#include "import/vectors/line_layer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+#include <itin/file_digest.hpp>
+#include <itin/height_limit.hpp>
+
+#include "gdal/quiet_gdal.hpp"
+#include "import/points/scattered_source.hpp"
+
+namespace itin {
+
+LineLayer::LineLayer(const std::string& path, const ImportOptions& options)
+    : layer_(path, options, "a layer of lines"),
+      kind_(options.kind.value()),
+      max_gap_(options.max_gap),
+      crs_(source_crs(path, options.crs, layer_.crs())) {
+  layer_.select(options);
+  heights_ = source_heights(path, std::nullopt, crs_);
+  if (!heights_.warning.empty() && is_terrain(kind_)) warnings_.push_back(heights_.warning);
+  find_centre();
+  info_.path = path;
+  info_.kind = name_of(kind_);
+  info_.theme = options.theme;
+  info_.source_crs = heights_.crs;
+}
+
+void LineLayer::find_centre() {
+  layer_.rewind();
+  while (const auto feature = layer_.next()) {
+    const std::vector<Line> lines = lines_of(*feature);
+    if (lines.empty()) continue;
+    centre_ = {lines.front().x.front(), lines.front().y.front()};
+    return;
+  }
+  throw FileError(path(), fmt::format("layer '{}' holds no lines or polygons of two or more vertices{}", layer_.name(),
+                                      layer_.filtered() > 0 ? " that match --where" : ""));
+}
+
+std::vector<LineLayer::Line> LineLayer::lines_of(const OGRFeature& feature) const {
+  std::vector<Line> lines;
+  const OGRGeometry* geometry = feature.GetGeometryRef();
+  if (geometry == nullptr || geometry->IsEmpty()) return lines;
+  if (geometry->hasCurveGeometry()) {
+    const std::unique_ptr<OGRGeometry> linear(geometry->getLinearGeometry());
+    collect(*linear, feature, lines);
+  } else {
+    collect(*geometry, feature, lines);
+  }
+  return lines;
+}
+
+void LineLayer::collect(const OGRGeometry& geometry, const OGRFeature& feature, std::vector<Line>& lines) const {
+  const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
+  if (OGR_GT_IsSubClassOf(type, wkbLineString)) {
+    add(*geometry.toSimpleCurve(), feature, lines);
+  } else if (OGR_GT_IsSubClassOf(type, wkbPolygon)) {
+    for (const OGRLinearRing* ring : *geometry.toPolygon()) add(*ring, feature, lines);
+  } else if (OGR_GT_IsSubClassOf(type, wkbGeometryCollection)) {
+    for (const OGRGeometry* part : *geometry.toGeometryCollection()) collect(*part, feature, lines);
+  } else {
+    throw InputError(fmt::format("{}: is a {}; {} are lines or polygons", layer_.place(feature),
+                                 OGRGeometryTypeToName(type), name_of(kind_)));
+  }
+}
+
+void LineLayer::add(const OGRSimpleCurve& curve, const OGRFeature& feature, std::vector<Line>& lines) const {
+  const int count = curve.getNumPoints();
+  if (count < 2) return;
+  const bool needs_height = is_terrain(kind_);
+  if (needs_height && !layer_.has_height_field() && !curve.Is3D()) {
+    throw InputError(fmt::format("{}: has no heights, which {} need; name the field of the height with --z-field",
+                                 layer_.place(feature), name_of(kind_)));
+  }
+  const double of_feature = needs_height && layer_.has_height_field() ? layer_.height(feature) : 0;
+  Line line;
+  for (int i = 0; i < count; ++i) {
+    const double z = needs_height && !layer_.has_height_field() ? curve.getZ(i) : of_feature;
+    if (!std::isfinite(curve.getX(i)) || !std::isfinite(curve.getY(i)))
+      throw InputError(fmt::format("{}: a coordinate is not a finite number", layer_.place(feature)));
+    if (const double metres = z * heights_.axis.metres; !is_height(metres) && !std::isnan(z) && !is_missing_mark(z))
+      require_height(metres, layer_.place(feature));
+    line.x.push_back(curve.getX(i));
+    line.y.push_back(curve.getY(i));
+    line.z.push_back(z);
+  }
+  lines.push_back(std::move(line));
+}
+
+ReadCounts LineLayer::read(const SourceContext& context, const Sink& sink, Progress& progress) {
+  const std::string stage = "reading " + path();
+  Placement placement(path(), crs_, heights_.axis, context);
+  std::vector<GridPoint> points;
+  std::uint64_t done = 0, vertices = 0;
+  layer_.rewind();
+  features_ = 0;
+  while (const auto feature = layer_.next()) {
+    progress.throw_if_cancelled();
+    bool any = false;
+    for (Line& line : lines_of(*feature)) {
+      placement.place(line.x, line.y, line.z, points);
+      if (points.size() != line.z.size()) continue;
+      vertices += points.size();
+      sink(points);
+      any = true;
+    }
+    features_ += any ? 1 : 0;
+    progress.report(stage,
+                    static_cast<double>(++done) / static_cast<double>(std::max<std::uint64_t>(1, layer_.matching())));
+  }
+  ReadCounts counts = placement.counts();
+  counts.read = vertices;
+  counts.filtered = layer_.filtered();
+  describe(counts, context.grid, progress);
+  return counts;
+}
+
+void LineLayer::describe(const ReadCounts& counts, const Grid& grid, Progress& progress) {
+  // Contours are ground by themselves, as scattered points are; other lines only add to it.
+  if (kind_ == ThemeKind::Contours) {
+    const double gap = max_gap_ > 0 ? max_gap_ : default_gap(grid.box(counts.bounds), counts.read);
+    info_.gap_basis = {gap, 0, 0, gap};
+  }
+  info_.sha256 = file_sha256(path(), progress);
+  info_.imported = utc_now();
+}
+
+}  // namespace itin

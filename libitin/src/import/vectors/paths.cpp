@@ -1,0 +1,68 @@
+#include <optional>
+
+#include <fmt/format.h>
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include <itin/coordinates.hpp>
+#include <itin/error.hpp>
+#include <itin/paths.hpp>
+
+#include "gdal/crs.hpp"
+#include "gdal/quiet_gdal.hpp"
+#include "import/source/source_layer.hpp"
+
+namespace itin {
+
+namespace {
+
+std::string name_of(const OGRFeature& feature) {
+  for (const char* field : {"id", "name"}) {
+    const int index = feature.GetFieldIndex(field);
+    if (index >= 0 && feature.IsFieldSetAndNotNull(index)) return feature.GetFieldAsString(index);
+  }
+  return std::to_string(feature.GetFID());
+}
+
+const OGRLineString* line_of(const OGRFeature& feature) {
+  const OGRGeometry* geometry = feature.GetGeometryRef();
+  if (geometry == nullptr) return nullptr;
+  const OGRwkbGeometryType type = wkbFlatten(geometry->getGeometryType());
+  if (type == wkbLineString) return geometry->toLineString();
+  if (type != wkbMultiLineString || geometry->toMultiLineString()->getNumGeometries() != 1) return nullptr;
+  return geometry->toMultiLineString()->getGeometryRef(0);
+}
+
+Path path_of(const OGRFeature& feature, const std::string& place, const CoordinateTransform* transform) {
+  const OGRLineString* line = line_of(feature);
+  if (line == nullptr || line->getNumPoints() < 2) throw FileError(place, "is not one line of two or more points");
+  Path path{feature.GetFID(), name_of(feature), {}};
+  for (int i = 0; i < line->getNumPoints(); ++i) {
+    const Point2 p{line->getX(i), line->getY(i)};
+    try {
+      path.corners.push_back(transform != nullptr ? (*transform)(p) : p);
+    } catch (const InputError& error) {
+      throw FileError(place, error.what());
+    }
+  }
+  return path;
+}
+
+}  // namespace
+
+std::vector<Path> read_paths(const std::string& path, const std::string& to_crs) {
+  const QuietGdal quiet;
+  const GDALDatasetUniquePtr dataset = open_vector_file(path, nullptr);
+  std::vector<Path> paths;
+  for (OGRLayer* layer : dataset->GetLayers()) {
+    std::optional<CoordinateTransform> transform;
+    if (const OGRSpatialReference* own = layer->GetSpatialRef()) transform.emplace(wkt_of(*own), to_crs);
+    while (const OGRFeatureUniquePtr feature = next_feature(*layer, path)) {
+      const std::string place = fmt::format("{}: feature {}", path, feature->GetFID());
+      paths.push_back(path_of(*feature, place, transform ? &*transform : nullptr));
+    }
+  }
+  return paths;
+}
+
+}  // namespace itin

@@ -1,0 +1,90 @@
+// Which cells of a lattice are ground within a window, told from where posts are; and the proof that nothing else is.
+//
+// The circle about a cell has no other place of the lattice in or on it. So where three of a cell's posts or all four
+// are there and all posts lie on the lattice, the halves that they make are triangles of the Delaunay triangulation,
+// and of the constrained one where no segment comes between; which are ground, the coverage outline tells, that bounds
+// ground everywhere. If it is made of edges of cells or diagonals, if the edges without a twin of all these halves are
+// exactly those of the outline, with the halves on the side of the ground, then no other ground is within reach from
+// them, and none of their own is missing.
+//
+//   LatticeCover cover(lattice, window, false);
+//   for (post : posts) cover.add(column, row);
+//   cover.join();
+//   if (cover.ends_at(segments)) cover.cut();         // and the lattice knows its ground
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <itin/lattice_tin.hpp>
+
+#include "lattice/lattice_frame.hpp"
+#include "store/point_index.hpp"
+#include "triangulate/grid_window.hpp"
+
+namespace itin {
+
+class LatticeCover {
+ public:
+  /// `lattice` has its place and its tiles, which know of no ground yet. `everything`: whatever is there, and not only
+  /// what meets the window. Both must outlive this.
+  LatticeCover(LatticeTin& lattice, const GridWindow& window, bool everything);
+
+  /// Whether ground may be in a tile.
+  bool reaches(std::uint32_t tile) const { return reach_[tile] != Reach::kNone; }
+  /// Of the lattice, as far as it is within reach.
+  std::uint64_t most_posts() const;
+
+  /// A post is there. Safe for concurrent use.
+  void add(std::uint32_t column, std::uint32_t row);
+  /// How many of these places have no post yet; 0 where some of them are out of reach. Neither this nor fill() is safe
+  /// while posts are added to the same places.
+  std::uint64_t lacks(const PlaceBox& places) const;
+  /// All of them have one. Precondition: they are within reach.
+  void fill(const PlaceBox& places);
+  /// Whether a place amid posts, to the south-east of this one, may lie in the circle about a cell that counts.
+  bool near_known(std::uint32_t column, std::uint32_t row) const;
+
+  /// When all posts have been added: makes cells of them.
+  void join();
+  /// Whether the ground ends just where these segments of the coverage outline are.
+  bool ends_at(std::span<const Segment> outline) const;
+  /// Whether there is ground.
+  bool any() const;
+  /// Whether a part of the window has some, or no cell meets it.
+  bool reaches(const GridWindow& part) const;
+  /// Leaves out the halves that do not meet the window.
+  void cut();
+
+ private:
+  enum class Reach : std::uint8_t { kNone, kPartly, kWhole };
+  using Word = std::uint64_t;  ///< a row of a tile's posts
+  using Posts = std::array<Word, LatticeTin::kSide>;
+  /// An edge of a cell or a diagonal, by its first post and its direction.
+  using Edge = std::pair<std::uint64_t, std::size_t>;
+
+  template <class Visit>
+  void for_each_word(const PlaceBox& places, const Visit& visit) const;
+  GridBox box_of(std::int64_t column, std::int64_t row, std::int64_t end_column, std::int64_t end_row) const;
+  Reach reach_of(std::int64_t column, std::int64_t row, std::int64_t side) const;
+  bool known(std::int64_t column, std::int64_t row, Reach reach) const;
+  Word posts(std::uint32_t tile_column, std::uint32_t tile_row, std::uint32_t row) const;
+  void join(std::uint32_t tile);
+  int halves(std::int64_t column, std::int64_t row) const;
+  Edge edge(std::int64_t column, std::int64_t row, std::size_t direction) const;
+  std::vector<Edge> edges_without_twin() const;
+  bool add_edges_of(const Segment& s, std::vector<Edge>& edges) const;
+  void cut(std::uint32_t tile);
+
+  LatticeTin& lattice_;
+  const GridWindow& window_;
+  bool everything_;
+  std::vector<Reach> reach_;                   ///< of tiles
+  std::vector<std::unique_ptr<Posts>> posts_;  ///< where cells within reach have some
+};
+
+}  // namespace itin

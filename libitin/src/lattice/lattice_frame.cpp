@@ -1,0 +1,38 @@
+#include "lattice/lattice_frame.hpp"
+
+namespace itin {
+
+bool lay(const PostSpacing& of, const GridBox& box, LatticeTin& lattice) {
+  const std::int64_t spacing = of.spacing();
+  const GridPoint& origin = of.origin();
+  const auto floor_of = [&](std::int64_t v) { return v - ((v % spacing) + spacing) % spacing; };
+  // Whole cells about what there is, and a bare one all around.
+  const std::int64_t west = floor_of(std::int64_t{box.xmin} - origin.x) - spacing,
+                     east = -floor_of(origin.x - std::int64_t{box.xmax}) + spacing,
+                     south = floor_of(std::int64_t{box.ymin} - origin.y) - spacing,
+                     north = -floor_of(origin.y - std::int64_t{box.ymax}) + spacing;
+  lattice.spacing = static_cast<std::int32_t>(spacing);
+  lattice.west = static_cast<std::int32_t>(origin.x + west);
+  lattice.north = static_cast<std::int32_t>(origin.y + north);
+  lattice.columns = static_cast<std::uint32_t>((east - west) / spacing + 1);
+  lattice.rows = static_cast<std::uint32_t>((north - south) / spacing + 1);
+  const std::uint64_t tiles = std::uint64_t{lattice.tile_columns()} * lattice.tile_rows();
+  if (tiles > LatticeTin::kMostTiles) return false;
+  lattice.tiles.resize(tiles);
+  return true;
+}
+
+std::optional<PlaceBox> places_of(const LatticeTin& lattice, const GridBox& box) {
+  const std::int64_t spacing = lattice.spacing;
+  const auto first = [&](std::int64_t units) { return (units + spacing - 1) / spacing; };
+  const std::int64_t west = std::int64_t{box.xmin} - lattice.west, north = std::int64_t{lattice.north} - box.ymax,
+                     east = (std::int64_t{box.xmax} - lattice.west) / spacing,
+                     south = (std::int64_t{lattice.north} - box.ymin) / spacing;
+  if (west < 0 || north < 0 || east >= lattice.columns || south >= lattice.rows || first(west) > east ||
+      first(north) > south)
+    return std::nullopt;
+  return PlaceBox{static_cast<std::uint32_t>(first(west)), static_cast<std::uint32_t>(first(north)),
+                  static_cast<std::uint32_t>(east), static_cast<std::uint32_t>(south)};
+}
+
+}  // namespace itin

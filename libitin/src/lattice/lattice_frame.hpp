@@ -1,0 +1,66 @@
+// Where the posts of a square lattice lie: found from points that may be some of them, and asked for by place.
+//
+//   PostSpacing spacing;
+//   for (const GridPoint& p : some) spacing.add(p);
+//   LatticeTin lattice;
+//   if (spacing.found() && lay(spacing, box, lattice)) place_of(lattice, point)->column
+#pragma once
+
+#include <cstdint>
+#include <numeric>
+#include <optional>
+
+#include <itin/geometry.hpp>
+#include <itin/lattice_tin.hpp>
+
+#include "geometry/cell.hpp"
+
+namespace itin {
+
+/// The widest lattice that points can lie on, all of them.
+class PostSpacing {
+ public:
+  void add(const GridPoint& p) {
+    if (!origin_) origin_ = p;
+    spacing_ = std::gcd(std::gcd(spacing_, std::int64_t{p.x} - origin_->x), std::int64_t{p.y} - origin_->y);
+  }
+  /// Once two points differ.
+  bool found() const { return spacing_ > 0; }
+  /// Grid units.
+  std::int64_t spacing() const { return spacing_; }
+  /// Precondition: found().
+  const GridPoint& origin() const { return *origin_; }
+
+ private:
+  std::int64_t spacing_ = 0;
+  std::optional<GridPoint> origin_;
+};
+
+/// Lays the lattice over a box, with bare cells all around, and makes its tiles, without ground. False where that would
+/// be more of them than there can be. Preconditions: found(), and the box is not empty.
+bool lay(const PostSpacing& spacing, const GridBox& box, LatticeTin& lattice);
+
+/// Column and row of the place at a point, or to its north-west.
+struct LatticePlace {
+  std::uint32_t column = 0, row = 0;
+  bool post = false;  ///< the point lies there itself
+};
+/// Nothing beyond the lattice.
+inline std::optional<LatticePlace> place_of(const LatticeTin& lattice, const GridPoint& p) {
+  const auto spacing = static_cast<std::uint32_t>(lattice.spacing);
+  // What lies beyond the lattice comes out as far too much.
+  const auto east = static_cast<std::uint32_t>(p.x - lattice.west),
+             south = static_cast<std::uint32_t>(lattice.north - p.y);
+  const std::uint32_t column = east / spacing, row = south / spacing;
+  if (column >= lattice.columns || row >= lattice.rows) return std::nullopt;
+  return LatticePlace{column, row, column * spacing == east && row * spacing == south};
+}
+
+/// From a first to a last one, both included.
+struct PlaceBox {
+  std::uint32_t west = 0, north = 0, east = 0, south = 0;
+};
+/// Nothing where the box reaches beyond the lattice, or lies between places.
+std::optional<PlaceBox> places_of(const LatticeTin& lattice, const GridBox& box);
+
+}  // namespace itin

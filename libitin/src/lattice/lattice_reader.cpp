@@ -1,0 +1,375 @@
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <itin/lattice_reader.hpp>
+#include <itin/parallel.hpp>
+
+#include "lattice/lattice_cover.hpp"
+#include "triangulate/grid_window.hpp"
+#include "triangulate/selection.hpp"
+#include "triangulate/standing_index.hpp"
+#include "triangulate/window_leaves.hpp"
+
+namespace itin {
+
+namespace {
+
+/// Of a lattice's posts at least one in so many is there; what has no heights takes less.
+constexpr std::uint64_t kEmptiest = 4, kEmptiestWithoutHeights = 64;
+/// So many of the fullest leaves tell the lattice.
+constexpr std::size_t kSamples = 8;
+constexpr std::size_t kLeavesATask = 64;
+/// Of leaves, posts. Those of wider ones are looked at when it is told how high a tile is: they say little about it.
+constexpr std::int64_t kWidestToBound = LatticeTin::kSide / 2;
+
+}  // namespace
+
+class LatticeReader::Work {
+ public:
+  /// Refers to the store.
+  Work(const Store& store, const Window& window, const ThemeChoice& themes)
+      : selection_(selection_of(store.metadata(), Detail::tolerance(0), themes)),
+        index_(store, selection_),
+        whole_(window),
+        window_(whole_, store.metadata().grid, index_.bounds()),
+        everything_(whole_.is_all() || window_.holds(index_.bounds())) {
+    lattice_.grid = store.metadata().grid;
+    for (const SourceInfo& source : store.metadata().sources)
+      widest_spacing_ = std::max(widest_spacing_, std::ceil(source.spacing / lattice_.grid.resolution));
+  }
+
+  /// Where it would be; of no ground yet.
+  bool find_lattice(Heights heights, std::uint64_t most_posts);
+  bool open(Heights heights, std::uint64_t most_posts, Progress& progress);
+  void read(std::span<const std::uint32_t> tiles, Progress& progress);
+
+  LatticeTin lattice_;
+  std::vector<std::int32_t> highest_;  ///< of tiles; none where all heights were read at once
+
+ private:
+  std::vector<Leaf> leaves_within(double margin) const { return leaves_about(index_, selection_, window_, margin); }
+  bool read_posts(Heights heights, Progress& progress);
+  /// Leaves whose posts are placed together: one, or all small ones of a square.
+  using Group = std::span<const Leaf>;
+  bool place_all(const std::vector<Group>& groups, std::size_t begin, std::size_t end, Heights heights,
+                 Progress& progress);
+  bool place(const Leaf& leaf, Heights heights);
+  bool place_square(Group leaves);
+  bool on_lattice(const Leaf& leaf) const;
+  bool bounded() const;
+  int log2_square() const { return std::bit_width(static_cast<std::uint64_t>(kWidestToBound * lattice_.spacing)) - 1; }
+  Cell square_of(const Leaf& leaf) const {
+    const int log2_side = log2_square();
+    return {leaf.cell.code >> 2 * log2_side << 2 * log2_side, log2_side};
+  }
+  bool bounds_well(const Leaf& leaf) const { return leaf.cell.log2_side <= log2_square(); }
+  void rise(std::uint32_t tile, std::int32_t z) {
+    const std::atomic_ref<std::int32_t> highest(highest_[tile]);
+    for (std::int32_t now = highest; now < z && !highest.compare_exchange_weak(now, z);) continue;
+  }
+  template <class Visit>
+  bool for_each_post(const Block& block, const Visit& visit);
+  template <class Visit>
+  void for_each_tile(const Leaf& leaf, const Visit& visit) const;
+  void list_leaves_of_tiles();
+  void read_leaves(std::span<const std::uint32_t> leaves, Progress& progress);
+
+  void begin_reading(std::uint32_t tile) {
+    lattice_.make_heights(tile);
+    being_read_[tile] = true;
+  }
+  /// In the tiles that are being read.
+  void set_height(const LatticePlace& place, std::int32_t z) {
+    lattice_.for_each_tile_of(place.column, place.row, [&](std::uint32_t tile, std::uint32_t post) {
+      if (being_read_[tile]) (*lattice_.tiles[tile].heights)[post] = z;
+    });
+  }
+
+  Selection selection_;
+  StandingIndex index_;
+  Window whole_;
+  GridWindow window_;
+  bool everything_;
+  double widest_spacing_ = 0;  ///< of what was imported, grid units
+  std::vector<Leaf> leaves_;
+  std::optional<LatticeCover> cover_;  ///< while it is being opened
+  std::vector<bool> being_read_;       ///< of tiles
+  // Of tile t: leaves_[leaf_of_tile_[i]] with i in [first_leaf_[t], first_leaf_[t + 1]).
+  std::vector<std::uint32_t> first_leaf_, leaf_of_tile_;
+};
+
+bool LatticeReader::Work::find_lattice(Heights heights, std::uint64_t most_posts) {
+  std::vector<Leaf> leaves = leaves_within(widest_spacing_);
+  std::vector<Leaf> fullest(std::min(kSamples, leaves.size()));
+  std::partial_sort_copy(leaves.begin(), leaves.end(), fullest.begin(), fullest.end(),
+                         [](const Leaf& a, const Leaf& b) { return a.points > b.points; });
+  PostSpacing posts;
+  for (const Leaf& leaf : fullest) {
+    const auto block = index_.block(leaf);
+    for (const GridPoint& p : block->points)
+      if (window_.bounds().contains(p.x, p.y)) posts.add(p);
+  }
+  if (!posts.found()) return false;
+  const auto margin = static_cast<double>(posts.spacing());
+  if (margin > widest_spacing_) {
+    leaves = leaves_within(margin);
+  } else if (margin < widest_spacing_) {
+    keep_leaves_about(window_, margin, leaves);
+  }
+  if (!std::all_of(leaves.begin(), leaves.end(), [](const Leaf& leaf) { return leaf.theme == 0; })) return false;
+  const GridBox box = intersection(expanded(window_.bounds(), margin), index_.bounds());
+  if (box.empty() || !lay(posts, box, lattice_)) return false;
+  std::uint64_t points = 0;
+  for (const Leaf& leaf : leaves) points += leaf.points;
+  cover_.emplace(lattice_, window_, everything_);
+  const std::uint64_t emptiest = heights == Heights::kAll ? kEmptiest : kEmptiestWithoutHeights;
+  if (cover_->most_posts() >
+      std::min(most_posts, emptiest * points + 4 * (std::uint64_t{lattice_.columns} + lattice_.rows)))
+    return false;
+  leaves_ = std::move(leaves);
+  return true;
+}
+
+bool LatticeReader::Work::open(Heights heights, std::uint64_t most_posts, Progress& progress) {
+  if (!find_lattice(heights, most_posts)) return false;
+  if (heights == Heights::kAll) {
+    being_read_.assign(lattice_.tiles.size(), false);
+    for (std::uint32_t t = 0; t < lattice_.tiles.size(); ++t)
+      if (cover_->reaches(t)) begin_reading(t);
+  } else {
+    highest_.assign(lattice_.tiles.size(), std::numeric_limits<std::int32_t>::min());
+  }
+  if (!read_posts(heights, progress)) return false;
+  cover_->join();
+  if (!bounded()) return false;
+  cover_->cut();
+  cover_.reset();
+  if (heights == Heights::kNone) list_leaves_of_tiles();
+  return true;
+}
+
+/// False where one among them lies off the lattice.
+bool LatticeReader::Work::read_posts(Heights heights, Progress& progress) {
+  lattice_.lowest = std::numeric_limits<std::int32_t>::max(), lattice_.highest = -lattice_.lowest;
+  for (const Leaf& leaf : leaves_) {
+    lattice_.statistics += {leaf.points, 1};
+    lattice_.lowest = std::min(lattice_.lowest, leaf.zmin), lattice_.highest = std::max(lattice_.highest, leaf.zmax);
+  }
+  const auto alone = [&](const Leaf& leaf) { return heights == Heights::kAll || !bounds_well(leaf); };
+  const auto squares = std::stable_partition(leaves_.begin(), leaves_.end(), alone);
+  std::sort(squares, leaves_.end(), [](const Leaf& a, const Leaf& b) {
+    return std::tie(a.cell.code, a.level) < std::tie(b.cell.code, b.level);
+  });
+  std::vector<Group> groups;
+  for (auto leaf = leaves_.begin(); leaf != squares; ++leaf) groups.emplace_back(leaf, 1);
+  const std::size_t single = groups.size();
+  for (auto first = squares; first != leaves_.end();) {
+    const auto end =
+        std::find_if_not(first, leaves_.end(), [&](const Leaf& leaf) { return square_of(leaf) == square_of(*first); });
+    groups.emplace_back(first, end);
+    first = end;
+  }
+  return place_all(groups, 0, single, heights, progress) && place_all(groups, single, groups.size(), heights, progress);
+}
+
+/// Those from `begin` to `end`.
+bool LatticeReader::Work::place_all(const std::vector<Group>& groups, std::size_t begin, std::size_t end,
+                                    Heights heights, Progress& progress) {
+  std::atomic<bool> odd = false;
+  std::atomic<std::size_t> done = begin;
+  parallel_for((end - begin + kLeavesATask - 1) / kLeavesATask, [&](std::size_t task) {
+    progress.throw_if_cancelled();
+    const std::size_t first = begin + task * kLeavesATask, last = std::min(end, first + kLeavesATask);
+    for (std::size_t i = first; i < last && !odd; ++i) {
+      const Leaf& leaf = groups[i].front();
+      const bool square = heights == Heights::kNone && bounds_well(leaf);
+      if (!(square ? place_square(groups[i]) : place(leaf, heights))) odd = true;
+    }
+    progress.report("reading", static_cast<double>(done += last - first) / static_cast<double>(groups.size()));
+  });
+  return !odd;
+}
+
+bool LatticeReader::Work::place(const Leaf& leaf, Heights heights) {
+  const auto block = heights == Heights::kNone ? index_.block(leaf) : index_.block_once(leaf);
+  return for_each_post(*block, [&](const LatticePlace& place, std::int32_t z) {
+    if (heights == Heights::kAll) {
+      set_height(place, z);
+    } else {
+      lattice_.for_each_tile_of(place.column, place.row, [&](std::uint32_t tile, std::uint32_t) { rise(tile, z); });
+    }
+  });
+}
+
+/// After all wider leaves. If so many posts lie on the lattice within the square as places are left there, they take
+/// all of them, and need not be read.
+bool LatticeReader::Work::place_square(Group leaves) {
+  std::uint64_t posts = 0;
+  for (const Leaf& leaf : leaves) {
+    posts += leaf.points;
+    for_each_tile(leaf, [&](std::uint32_t tile) { rise(tile, leaf.zmax); });
+  }
+  const auto places = places_of(lattice_, square_of(leaves.front()).box());
+  if (places && cover_->lacks(*places) == posts &&
+      std::all_of(leaves.begin(), leaves.end(), [&](const Leaf& leaf) { return on_lattice(leaf); })) {
+    cover_->fill(*places);
+    return true;
+  }
+  return std::all_of(leaves.begin(), leaves.end(), [&](const Leaf& leaf) {
+    return for_each_post(*index_.plan_once(leaf), [](const LatticePlace&, std::int32_t) {});
+  });
+}
+
+/// Whether all of its points do.
+bool LatticeReader::Work::on_lattice(const Leaf& leaf) const {
+  const auto lattice = index_.lattice_of(leaf);
+  const std::int64_t spacing = lattice_.spacing;
+  return lattice && lattice->step_x % spacing == 0 && lattice->step_y % spacing == 0 &&
+         (std::int64_t{lattice->x} - lattice_.west) % spacing == 0 &&
+         (std::int64_t{lattice->y} - lattice_.north) % spacing == 0;
+}
+
+/// Adds the block's posts to the cover and calls visit(place, height) for each, until one of its points lies off the
+/// lattice: false then.
+template <class Visit>
+bool LatticeReader::Work::for_each_post(const Block& block, const Visit& visit) {
+  for (const GridPoint& p : block.points) {
+    const auto place = place_of(lattice_, p);
+    if (!place) continue;
+    if (!place->post) {
+      if (cover_->near_known(place->column, place->row)) return false;
+      continue;
+    }
+    cover_->add(place->column, place->row);
+    visit(*place, p.z);
+  }
+  return true;
+}
+
+bool LatticeReader::Work::bounded() const {
+  std::vector<Segment> segments;
+  index_.segments(expanded(window_.bounds(), lattice_.spacing), segments);
+  std::erase_if(segments, [&](const Segment& s) { return !selection_.selects(s); });
+  if (std::any_of(segments.begin(), segments.end(), [](const Segment& s) { return s.theme != kCoverage; }) ||
+      !cover_->ends_at(segments))
+    return false;
+  // What is known of each part hangs together with halves that are there.
+  if (whole_.parts().size() < 2) return cover_->any();
+  return std::all_of(whole_.parts().begin(), whole_.parts().end(), [&](const Window::Polygon& polygon) {
+    return cover_->reaches(GridWindow(Window::polygons({polygon}), lattice_.grid, index_.bounds()));
+  });
+}
+
+/// Calls visit(tile) for every tile that may have posts of the leaf.
+template <class Visit>
+void LatticeReader::Work::for_each_tile(const Leaf& leaf, const Visit& visit) const {
+  const GridBox box = leaf.cell.box();
+  // The tile of a post reaches up to the post itself, from the west and the north.
+  const auto first = [&](std::int64_t units) {
+    return std::max<std::int64_t>(0, (units - 1) / lattice_.spacing) / LatticeTin::kSide;
+  };
+  const auto last = [&](std::int64_t units, std::uint32_t count) {
+    return std::min<std::int64_t>(units / lattice_.spacing / LatticeTin::kSide, std::int64_t{count} - 1);
+  };
+  if (std::int64_t{box.xmax} < lattice_.west || std::int64_t{box.ymin} > lattice_.north) return;
+  const std::int64_t first_column = first(std::int64_t{box.xmin} - lattice_.west),
+                     last_column = last(std::int64_t{box.xmax} - lattice_.west, lattice_.tile_columns()),
+                     last_row = last(std::int64_t{lattice_.north} - box.ymin, lattice_.tile_rows());
+  for (std::int64_t row = first(std::int64_t{lattice_.north} - box.ymax); row <= last_row; ++row)
+    for (std::int64_t column = first_column; column <= last_column; ++column)
+      visit(static_cast<std::uint32_t>(row * lattice_.tile_columns() + column));
+}
+
+void LatticeReader::Work::list_leaves_of_tiles() {
+  first_leaf_.assign(lattice_.tiles.size() + 1, 0);
+  for (const Leaf& leaf : leaves_) for_each_tile(leaf, [&](std::uint32_t tile) { ++first_leaf_[tile + 1]; });
+  std::partial_sum(first_leaf_.begin(), first_leaf_.end(), first_leaf_.begin());
+  leaf_of_tile_.resize(first_leaf_.back());
+  std::vector<std::uint32_t> next(first_leaf_.begin(), first_leaf_.end() - 1);
+  for (std::uint32_t i = 0; i < leaves_.size(); ++i)
+    for_each_tile(leaves_[i], [&](std::uint32_t tile) { leaf_of_tile_[next[tile]++] = i; });
+}
+
+void LatticeReader::Work::read(std::span<const std::uint32_t> tiles, Progress& progress) {
+  being_read_.assign(lattice_.tiles.size(), false);
+  std::vector<std::uint32_t> leaves;
+  for (const std::uint32_t t : tiles) {
+    if (lattice_.tiles[t].ground == LatticeTin::Ground::kNone || lattice_.tiles[t].heights) continue;
+    begin_reading(t);
+    leaves.insert(leaves.end(), leaf_of_tile_.begin() + first_leaf_[t], leaf_of_tile_.begin() + first_leaf_[t + 1]);
+  }
+  std::sort(leaves.begin(), leaves.end());
+  leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+  try {
+    read_leaves(leaves, progress);
+  } catch (...) {
+    for (std::size_t t = 0; t < being_read_.size(); ++t)
+      if (being_read_[t]) lattice_.tiles[t].heights.reset();
+    throw;
+  }
+}
+
+/// Into the tiles that are being read.
+void LatticeReader::Work::read_leaves(std::span<const std::uint32_t> leaves, Progress& progress) {
+  parallel_for((leaves.size() + kLeavesATask - 1) / kLeavesATask, [&](std::size_t task) {
+    progress.throw_if_cancelled();
+    for (std::size_t i = task * kLeavesATask; i < std::min(leaves.size(), (task + 1) * kLeavesATask); ++i) {
+      const Leaf& leaf = leaves_[leaves[i]];
+      // Wide ones are asked for time and again.
+      const auto block = bounds_well(leaf) ? index_.block_once(leaf) : index_.block(leaf);
+      for (const GridPoint& p : block->points) {
+        const auto place = place_of(lattice_, p);
+        if (place && place->post) set_height(*place, p.z);
+      }
+    }
+  });
+}
+
+std::unique_ptr<LatticeReader> LatticeReader::open(const Store& store, const Window& window, const ThemeChoice& themes,
+                                                   Heights heights, std::uint64_t most_posts, Progress& progress) {
+  auto work = std::make_unique<Work>(store, window, themes);
+  if (!work->open(heights, most_posts, progress)) return nullptr;
+  return std::unique_ptr<LatticeReader>(new LatticeReader(std::move(work)));
+}
+
+bool LatticeReader::may_open(const Store& store, const Window& window, const ThemeChoice& themes,
+                             std::uint64_t most_posts) {
+  return Work(store, window, themes).find_lattice(Heights::kAll, most_posts);
+}
+
+LatticeReader::LatticeReader(std::unique_ptr<Work> work) : work_(std::move(work)) {}
+LatticeReader::~LatticeReader() = default;
+
+const LatticeTin& LatticeReader::lattice() const {
+  return work_->lattice_;
+}
+LatticeTin LatticeReader::take() {
+  return std::move(work_->lattice_);
+}
+std::int32_t LatticeReader::highest(std::uint32_t tile) const {
+  return work_->highest_[tile];
+}
+void LatticeReader::read(std::span<const std::uint32_t> tiles, Progress& progress) {
+  work_->read(tiles, progress);
+}
+void LatticeReader::read_all(Progress& progress) {
+  std::vector<std::uint32_t> all(work_->lattice_.tiles.size());
+  std::iota(all.begin(), all.end(), 0U);
+  work_->read(all, progress);
+}
+
+std::optional<LatticeTin> triangulate_lattice(const Store& store, const Window& window, const ThemeChoice& themes,
+                                              std::uint64_t most_posts, Progress& progress) {
+  const auto reader = LatticeReader::open(store, window, themes, LatticeReader::Heights::kAll, most_posts, progress);
+  return reader ? std::optional(reader->take()) : std::nullopt;
+}
+
+}  // namespace itin

@@ -1,0 +1,108 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <itin/fresnel_zone.hpp>
+#include <itin/section_line.hpp>
+#include <profile/line_of_sight.hpp>
+
+#include "lines/ray.hpp"
+#include "lines/triangle_buckets.hpp"
+
+namespace itin::profile {
+
+namespace {
+
+/// Where the line, prolonged, enters and leaves a closed triangle; nothing where it misses it.
+std::optional<SectionPiece> chord_of(const SectionLine& line, const Tin& tin, const Triangle& triangle) {
+  std::array<SectionLine::Wide, 3> sides{};
+  for (std::size_t i = 0; i < 3; ++i) sides[i] = line.side(tin.vertices[triangle[i]]);
+  std::array<SectionCrossing, 6> crossings;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const GridPoint &p = tin.vertices[triangle[i]], &q = tin.vertices[triangle[j]];
+    if (sides[i] == 0) crossings[count++] = line.crossing(p);
+    if ((sides[i] < 0 && sides[j] > 0) || (sides[i] > 0 && sides[j] < 0)) crossings[count++] = line.crossing(p, q);
+  }
+  if (count == 0) return std::nullopt;
+  const auto by_t = [](const SectionCrossing& a, const SectionCrossing& b) { return a.t < b.t; };
+  const auto [first, last] = std::minmax_element(crossings.begin(), crossings.begin() + count, by_t);
+  return SectionPiece{*first, *last};
+}
+
+}  // namespace
+
+class SightLines::Impl {
+ public:
+  Impl(const Tin& tin, const Earth& earth, std::optional<double> wavelength)
+      : tin_(&tin), buckets_(tin), drop_(earth.drop_coefficient()), wavelength_(wavelength) {}
+
+  SightLine between(Point3 a, Point3 b) const {
+    const SectionLine line(tin_->grid, {a.x, a.y}, {b.x, b.y});
+    // Whichever end was given first, all arithmetic is the same.
+    if (line.is_mirrored() || (line.is_point() && b.z < a.z)) std::swap(a, b);
+    const double length = line.length();
+    const Ray ray(a.z, b.z, length, drop_);
+    const RayOverGround over_ground{a.z, b.z, drop_ * length * length};
+    LeastClearance least;
+    LeastFraction tightest(std::sqrt(wavelength_.value_or(0) * length));
+    for (const std::uint32_t t : buckets_.near(line.start(), line.end())) {
+      const std::optional<SectionPiece> chord = chord_of(line, *tin_, tin_->triangles[t]);
+      if (!chord) continue;
+      const std::optional<SectionPiece> piece = line.clip(chord->from, chord->to);
+      if (!piece) continue;
+      if (line.is_one_place()) {
+        consider_ends(ray, *piece, least);
+        continue;
+      }
+      least.consider(ray, {piece->from.distance, piece->from.position.z}, {piece->to.distance, piece->to.position.z});
+      if (wavelength_) consider(over_ground, length, *piece, tightest);
+    }
+    SightLine result;
+    result.length = length;
+    result.clearance = least.clearance;
+    if (tightest.least()) result.fresnel_fraction = tightest.least()->fraction;
+    if (least.clearance) result.critical = position(line, least.place);
+    return result;
+  }
+
+ private:
+  /// Of one place there is nothing between them.
+  static void consider_ends(const Ray& ray, const SectionPiece& piece, LeastClearance& least) {
+    for (const SectionCrossing* c : {&piece.from, &piece.to})
+      if (c->t == 0 || c->t == 1) least.consider(ray, GroundPoint{c->distance, c->position.z});
+  }
+
+  static void consider(const RayOverGround& ray, double length, const SectionPiece& piece, LeastFraction& tightest) {
+    const double from = piece.from.distance / length, to = piece.to.distance / length;
+    const double from_z = piece.from.position.z, to_z = piece.to.position.z;
+    tightest.consider(from, ray.clearance(from, from_z));
+    tightest.consider(to, ray.clearance(to, to_z));
+    if (from < to) tightest.consider_inside(ray.piece(from, from_z, to, to_z));
+  }
+
+  static Point3 position(const SectionLine& line, const GroundPoint& p) {
+    const double t = line.length() > 0 ? p.distance / line.length() : 0;
+    const Point2 a = line.start(), b = line.end();
+    return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), p.z};
+  }
+
+  const Tin* tin_;
+  TriangleBuckets buckets_;
+  double drop_;  ///< metres a square metre of distance
+  std::optional<double> wavelength_;
+};
+
+SightLines::SightLines(const Tin& tin, const Earth& earth, std::optional<double> wavelength)
+    : impl_(std::make_unique<Impl>(tin, earth, wavelength)) {}
+SightLines::SightLines(SightLines&&) noexcept = default;
+SightLines& SightLines::operator=(SightLines&&) noexcept = default;
+SightLines::~SightLines() = default;
+
+SightLine SightLines::between(Point3 a, Point3 b) const {
+  return impl_->between(a, b);
+}
+
+}  // namespace itin::profile

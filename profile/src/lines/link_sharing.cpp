@@ -1,0 +1,56 @@
+#include "lines/link_sharing.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <set>
+#include <utility>
+
+#include <itin/store.hpp>
+
+namespace itin::profile {
+
+namespace {
+
+// Measured (benchmarks/README.md): microseconds a point that is triangulated, and more a triangle that is retrieved
+// than one that is walked through.
+constexpr double kPerPoint = 1.2, kPerTriangle = 0.7;
+/// A random line crosses so many edges of a Delaunay triangulation per mean spacing of its points (64 / (3 pi^2)).
+constexpr double kEdgesPerSpacing = 2.16;
+/// Metres: the side of the squares in which ground counts as met, about that of a tile.
+constexpr double kSquare = 2000;
+
+int level_at(const Store& store, double tolerance) {
+  const std::vector<LevelInfo>& levels = store.metadata().levels;
+  int level = 0;
+  while (level + 1 < static_cast<int>(levels.size()) &&
+         levels[static_cast<std::size_t>(level) + 1].tolerance <= tolerance)
+    ++level;
+  return level;
+}
+
+}  // namespace
+
+bool sharing_pays(const Store& store, const Detail& detail, const std::vector<Link>& links) {
+  std::set<std::pair<std::int64_t, std::int64_t>> squares;
+  double length = 0;
+  const Box ground = store.metadata().grid.box(store.metadata().bounds);
+  for (const Link& link : links) {
+    const double dx = link.to.x - link.from.x, dy = link.to.y - link.from.y, own = std::hypot(dx, dy);
+    if (!(own < ground.width() + ground.height())) continue;  // leaves the data, or is no line at all
+    length += own;
+    const int steps = static_cast<int>(2 * own / kSquare) + 1;
+    for (int i = 0; i <= steps; ++i) {
+      const double t = static_cast<double>(i) / steps;
+      squares.emplace(static_cast<std::int64_t>(std::floor((link.from.x + t * dx) / kSquare)),
+                      static_cast<std::int64_t>(std::floor((link.from.y + t * dy) / kSquare)));
+    }
+  }
+  const double area = ground.width() * ground.height();
+  if (area == 0) return true;
+  const auto points = static_cast<double>(store.points_about(level_at(store, detail.finest()), ground));
+  const double density = points / area;
+  const double met = density * static_cast<double>(squares.size()) * kSquare * kSquare;
+  return kPerPoint * met < kPerTriangle * kEdgesPerSpacing * std::sqrt(density) * length;
+}
+
+}  // namespace itin::profile

@@ -1,0 +1,87 @@
+#include "lines/triangle_buckets.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace itin::profile {
+
+namespace {
+
+/// Widens searches by a part of a bucket, so that rounding of the line's course never loses a triangle.
+constexpr double kSlack = 1e-6;
+
+}  // namespace
+
+TriangleBuckets::TriangleBuckets(const Tin& tin) {
+  if (tin.triangles.empty()) return;
+  bounds_ = tin.bounds();
+  const double area = bounds_.width() * bounds_.height();
+  side_ = std::max(std::sqrt(2 * area / static_cast<double>(tin.triangles.size())), tin.grid.resolution);
+  column_count_ = static_cast<int>(bounds_.width() / side_) + 1;
+  row_count_ = static_cast<int>(bounds_.height() / side_) + 1;
+
+  const auto count = static_cast<std::uint32_t>(tin.triangles.size());
+  first_.assign(static_cast<std::size_t>(column_count_) * row_count_ + 1, 0);
+  for (std::uint32_t t = 0; t < count; ++t) for_each_bucket(tin, t, [&](std::size_t bucket) { ++first_[bucket + 1]; });
+  for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+  triangles_.resize(first_.back());
+  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+  for (std::uint32_t t = 0; t < count; ++t) {
+    for_each_bucket(tin, t, [&](std::size_t bucket) { triangles_[next[bucket]++] = t; });
+  }
+}
+
+template <typename Visit>
+void TriangleBuckets::for_each_bucket(const Tin& tin, std::uint32_t triangle, const Visit& visit) const {
+  Box box;
+  for (const std::uint32_t v : tin.triangles[triangle]) {
+    const Point3 p = tin.point(v);
+    box.extend(Point2{p.x, p.y});
+  }
+  const Span across = columns(box.xmin, box.xmax), up = rows(box.ymin, box.ymax);
+  for (int row = up.first; row <= up.last; ++row) {
+    for (int column = across.first; column <= across.last; ++column) {
+      visit(static_cast<std::size_t>(row) * column_count_ + column);
+    }
+  }
+}
+
+TriangleBuckets::Span TriangleBuckets::columns(double xmin, double xmax) const {
+  const double last = column_count_ - 1;
+  const auto column = [&](double x) { return static_cast<int>(std::clamp((x - bounds_.xmin) / side_, 0.0, last)); };
+  return {column(xmin - kSlack * side_), column(xmax + kSlack * side_)};
+}
+
+TriangleBuckets::Span TriangleBuckets::rows(double ymin, double ymax) const {
+  const double last = row_count_ - 1;
+  const auto row = [&](double y) { return static_cast<int>(std::clamp((y - bounds_.ymin) / side_, 0.0, last)); };
+  return {row(ymin - kSlack * side_), row(ymax + kSlack * side_)};
+}
+
+std::vector<std::uint32_t> TriangleBuckets::near(Point2 a, Point2 b) const {
+  std::vector<std::uint32_t> found;
+  if (b.x < a.x) std::swap(a, b);
+  Box course;
+  course.extend(a);
+  course.extend(b);
+  if (!course.meets(bounds_)) return found;
+
+  const double slope = (b.y - a.y) / (b.x - a.x);
+  // The ends come first: within a column of its own, a line due north has no slope.
+  const auto y_at = [&](double x) { return x <= a.x ? a.y : x >= b.x ? b.y : a.y + slope * (x - a.x); };
+  const Span across = columns(a.x, b.x);
+  for (int column = across.first; column <= across.last; ++column) {
+    const double left = bounds_.xmin + (column - kSlack) * side_, right = left + (1 + 2 * kSlack) * side_;
+    const double y0 = y_at(left), y1 = y_at(right);
+    const Span up = rows(std::min(y0, y1), std::max(y0, y1));
+    for (int row = up.first; row <= up.last; ++row) {
+      const std::size_t bucket = static_cast<std::size_t>(row) * column_count_ + column;
+      found.insert(found.end(), triangles_.begin() + first_[bucket], triangles_.begin() + first_[bucket + 1]);
+    }
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+}  // namespace itin::profile

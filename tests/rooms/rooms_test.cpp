@@ -1,0 +1,101 @@
+// The folders of each library are rooms in an order, written down in its ROOMS.md from the ground up. A source may
+// include what is in its own room and in the rooms above it in that table, and nothing else: so there is no cycle.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace itin::test {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kRoot = ITIN_SOURCE_DIR;
+
+/// The rooms of a library by their place in its table: rows "| `room/` | what it holds |".
+std::map<std::string, int> order_of_rooms(const fs::path& sources) {
+  std::map<std::string, int> order;
+  std::ifstream table(sources / "ROOMS.md");
+  const std::regex row("\\| `([a-z_/]*)/` \\|.*");
+  std::smatch match;
+  for (std::string line; std::getline(table, line);)
+    if (std::regex_match(line, match, row)) order.emplace(match[1], static_cast<int>(order.size()));
+  return order;
+}
+
+bool is_source(const fs::path& path) {
+  return path.extension() == ".cpp" || path.extension() == ".hpp";
+}
+
+/// What a file includes in these quotes.
+std::vector<std::string> includes(const fs::path& file, const std::string& pattern) {
+  std::vector<std::string> result;
+  std::ifstream stream(file);
+  const std::regex line_pattern("#include " + pattern);
+  std::smatch match;
+  for (std::string line; std::getline(stream, line);)
+    if (std::regex_match(line, match, line_pattern)) result.push_back(match[1]);
+  return result;
+}
+
+std::vector<fs::path> sources_below(const fs::path& folder) {
+  std::vector<fs::path> result;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+    if (is_source(entry.path())) result.push_back(entry.path());
+  return result;
+}
+
+std::string room_of(const fs::path& sources, const fs::path& file) {
+  return fs::relative(file, sources).parent_path().generic_string();
+}
+
+class Rooms : public testing::TestWithParam<const char*> {};
+
+TEST_P(Rooms, EveryFolderIsInTheTable) {
+  const fs::path sources = kRoot / GetParam();
+  const std::map<std::string, int> order = order_of_rooms(sources);
+  ASSERT_FALSE(order.empty());
+  for (const fs::path& file : sources_below(sources)) EXPECT_EQ(order.count(room_of(sources, file)), 1u) << file;
+  for (const auto& [room, place] : order) EXPECT_TRUE(fs::is_directory(sources / room)) << room;
+}
+
+TEST_P(Rooms, IncludeOnlyWhatStandsAboveThemInTheTable) {
+  const fs::path sources = kRoot / GetParam();
+  const std::map<std::string, int> order = order_of_rooms(sources);
+  for (const fs::path& file : sources_below(sources)) {
+    const auto own = order.find(room_of(sources, file));
+    if (own == order.end()) continue;
+    for (const std::string& included : includes(file, "\"(.*)\".*")) {
+      ASSERT_TRUE(fs::exists(sources / included)) << file << " includes " << included << ", not named from " << sources;
+      const auto other = order.find(fs::path(included).parent_path().generic_string());
+      ASSERT_NE(other, order.end()) << file << " includes " << included;
+      EXPECT_LE(other->second, own->second) << file << " includes " << included;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Libraries, Rooms, testing::Values("libitin/src", "viewshed/src", "profile/src", "cli"));
+
+/// cli -> {viewshed, profile} -> libitin.
+TEST(Libraries, IncludeOnlyThoseBelowThem) {
+  const std::map<std::string, std::vector<std::string>> forbidden = {
+      {"libitin", {"viewshed/", "profile/"}}, {"viewshed", {"profile/"}}, {"profile", {"viewshed/"}}};
+  for (const auto& [library, above] : forbidden) {
+    for (const fs::path& file : sources_below(kRoot / library)) {
+      for (const std::string& included : includes(file, "<(.*)>.*")) {
+        for (const std::string& other : above) EXPECT_FALSE(included.starts_with(other)) << file << " " << included;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+}  // namespace itin::test

@@ -1,0 +1,291 @@
+#include "bounds/binned_heights.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <itin/parallel.hpp>
+
+#include "bounds/surface_heights.hpp"
+#include "line/rounded_outwards.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+constexpr std::size_t kBinsPerChunk = 4096;
+
+RasterGrid bin_grid(const Tin& tin) {
+  const Box box = tin.bounds();
+  if (box.empty()) return {{0, 0}, 1, 1, 1, 1};
+  const double width = std::max(box.width(), tin.grid.resolution), height = std::max(box.height(), tin.grid.resolution);
+  const double bin = std::sqrt(2 * width * height / static_cast<double>(tin.triangles.size()));
+  // Half a bin more than needed all around, so that the edges lie inside.
+  const auto count = [&](double length) { return static_cast<std::int64_t>(std::ceil(length / bin)) + 1; };
+  return {{box.xmin - bin / 2, box.ymax + bin / 2}, bin, bin, count(width), count(height)};
+}
+
+/// A square with some slack, grid units.
+struct Square {
+  double x = 0, y = 0;  ///< its middle
+  double half = 0;
+};
+
+/// A triangle's heights about a square's middle.
+class Facet {
+ public:
+  Facet(const std::array<GridPoint, 3>& corners, const Square& square) : half_(square.half) {
+    std::transform(corners.begin(), corners.end(), corners_.begin(), [&](const GridPoint& v) {
+      return Point3{v.x - square.x, v.y - square.y, static_cast<double>(v.z)};
+    });
+    const auto& [a, b, c] = corners_;
+    const double bx = b.x - a.x, by = b.y - a.y, bz = b.z - a.z, cx = c.x - a.x, cy = c.y - a.y, cz = c.z - a.z;
+    doubled_area_ = bx * cy - by * cx;
+    rise_x_ = bz * cy - by * cz, rise_y_ = bx * cz - bz * cx;
+  }
+
+  double doubled_area() const { return doubled_area_; }
+  /// The slopes times the doubled area.
+  double rise_x() const { return rise_x_; }
+  double rise_y() const { return rise_y_; }
+
+  /// Lowest and highest above a plane through the middle, over the square at most; low > high where the triangle only
+  /// nearly meets it.
+  std::pair<double, double> range_above(double plane_x, double plane_y) const {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Point3& p : corners_) {
+      const double above = p.z - plane_x * p.x - plane_y * p.y;
+      low = std::min(low, above), high = std::max(high, above);
+    }
+    if (doubled_area_ == 0) return {low, high};
+    const Point3& a = corners_[0];
+    const double x = rise_x_ / doubled_area_ - plane_x, y = rise_y_ / doubled_area_ - plane_y;
+    // The last term covers the rounding of what stands before it.
+    const double spread =
+        (std::abs(x) + std::abs(y)) * half_ + 1e-12 * (std::abs(x * a.x) + std::abs(y * a.y) + std::abs(high - low));
+    const double middle = a.z - plane_x * a.x - plane_y * a.y - (x * a.x + y * a.y);
+    return {std::max(low, middle - spread), std::min(high, middle + spread)};
+  }
+
+ private:
+  std::array<Point3, 3> corners_;
+  double half_, doubled_area_, rise_x_, rise_y_;
+};
+
+/// The cells of a lattice as bins.
+RasterGrid bin_grid(const LatticeTin& lattice) {
+  const Point2 corner = lattice.grid.position(lattice.west, lattice.north);
+  const double side = lattice.spacing * lattice.grid.resolution;
+  return {corner, side, side, lattice.columns, lattice.rows};
+}
+
+double greatest_magnitude_of(std::int32_t z, double greatest) {
+  return std::max(greatest, std::abs(static_cast<double>(z)));
+}
+
+}  // namespace
+
+BinnedHeights::BinnedHeights(const Tin& tin) : BinnedHeights(tin, lattice_of(tin)) {}
+
+BinnedHeights::BinnedHeights(const Tin& tin, std::optional<LatticeTin> lattice)
+    : tin_(&tin),
+      own_(std::move(lattice)),
+      lattice_(own_ ? &*own_ : nullptr),
+      units_(tin.grid),
+      grid_(own_ ? bin_grid(*own_) : bin_grid(tin)),
+      runs_(grid_.columns(), grid_.rows()) {
+  own_ ? bound_lattice() : bound_tin();
+}
+
+BinnedHeights::BinnedHeights(const LatticeTin& lattice)
+    : lattice_(&lattice), units_(lattice.grid), grid_(bin_grid(lattice)), runs_(grid_.columns(), grid_.rows()) {
+  bound_lattice();
+}
+
+void BinnedHeights::bound_lattice() {
+  rim_ = lattice_->rim();
+  greatest_magnitude_ = std::max(std::abs(double{1} * lattice_->lowest), std::abs(double{1} * lattice_->highest));
+  parallel_for(lattice_->tiles.size(), [&](std::size_t tile) {
+    if (lattice_->tiles[tile].heights) bound_tile(static_cast<std::uint32_t>(tile));
+  });
+}
+
+void BinnedHeights::add(std::span<const std::uint32_t> tiles) {
+  // Runs at the ends of those to the west and to the north have their neighbours here.
+  std::vector<std::uint32_t> touched;
+  const std::uint32_t columns = lattice_->tile_columns();
+  for (const std::uint32_t tile : tiles) {
+    touched.push_back(tile);
+    if (tile % columns > 0) touched.push_back(tile - 1);
+    if (tile >= columns) touched.push_back(tile - columns);
+  }
+  std::sort(touched.begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  parallel_for(touched.size(), [&](std::size_t i) {
+    if (lattice_->tiles[touched[i]].heights) bound_tile(touched[i]);
+  });
+}
+
+// So that the tiles of both have the same numbers.
+static_assert(RunBounds::kSide == LatticeTin::kSide);
+
+/// Of a cell with one triangle nothing is known where that is not.
+void BinnedHeights::bound_tile(std::uint32_t tile) {
+  constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::lowest();
+  using HeightRange = RunBounds::Range<std::int32_t>;
+  const LatticeTin& lattice = *lattice_;
+  const auto range_of_square = [](const std::int32_t* upper, bool whole) {
+    const std::int32_t* const lower = upper + LatticeTin::kPosts;
+    const std::int32_t high = std::max(std::max(upper[0], upper[1]), std::max(lower[0], lower[1]));
+    if (!whole) return HeightRange{kNone, high};
+    return HeightRange{std::min(std::min(upper[0], upper[1]), std::min(lower[0], lower[1])), high};
+  };
+  const std::uint32_t first = tile * LatticeTin::kCells;
+  const std::int64_t first_column = lattice.column_of(first), first_row = lattice.row_of(first);
+  const bool all_whole = lattice.tiles[tile].ground == LatticeTin::Ground::kWhole;
+  const auto range_of = [&](std::int64_t column, std::int64_t row) {
+    const std::int64_t c = column - first_column, r = row - first_row;
+    if (all_whole && c < RunBounds::kSide && r < RunBounds::kSide)
+      return range_of_square(lattice.tiles[tile].heights->data() + r * LatticeTin::kPosts + c, true);
+    const std::uint32_t cell = this->cell({column, row});
+    const std::uint8_t there = lattice.read(cell) ? lattice.halves(cell) : std::uint8_t{0};
+    return there == 0 ? HeightRange{kNone, kNone} : range_of_square(lattice.posts(cell), LatticeTin::whole(there));
+  };
+  const auto low = [](std::int32_t z) { return z == kNone ? -kFloatInfinity : rounded_down(z); };
+  const auto high = [](std::int32_t z) { return z == kNone ? -kFloatInfinity : rounded_up(z); };
+  runs_.bound<std::int32_t>(tile, range_of, low, high);
+}
+
+void BinnedHeights::bound_tin() {
+  const Tin& tin = *tin_;
+  listed_.emplace(Listed{TriangleBins(tin, grid_), std::vector<Lid>(grid_.cell_count()), {}});
+  for (std::uint32_t t = 0; t < tin.triangles.size(); ++t) {
+    const auto [a, b, c] = tin.corners(t);
+    listed_->tops.push_back(std::max({a.z, b.z, c.z}));
+  }
+  for (const GridPoint& v : tin.vertices) greatest_magnitude_ = greatest_magnitude_of(v.z, greatest_magnitude_);
+  std::vector<Range> ranges(grid_.cell_count());
+  parallel_for(static_cast<std::size_t>(rows()), [&](std::size_t r) {
+    for (std::int64_t c = 0; c < columns(); ++c) {
+      const RasterGrid::Cell bin{c, static_cast<std::int64_t>(r)};
+      ranges[grid_.index(bin)] = bound_bin(bin);
+    }
+  });
+  const std::vector<BoundaryEdge> boundary = boundary_edges(tin);
+  rim_ = rim_of(tin, boundary);
+  forget_depth_at_boundary(boundary, ranges);
+  const auto range_of = [&](std::int64_t column, std::int64_t row) { return ranges[grid_.index({column, row})]; };
+  const auto same = [](float z) { return z; };
+  parallel_for(runs_.tile_count(), [&](std::size_t tile) { runs_.bound<float>(tile, range_of, same, same); });
+}
+
+BinnedHeights::Range BinnedHeights::bound_bin(RasterGrid::Cell bin) {
+  const std::size_t number = grid_.index(bin);
+  const auto listed = listed_->bins.triangles(number);
+  if (listed.empty()) return {-kFloatInfinity, -kFloatInfinity};
+  const Point2 middle = grid_.centre(bin.column, bin.row);
+  const Square square{(middle.x - units_.origin.x) / units_.resolution,
+                      (middle.y - units_.origin.y) / units_.resolution, bin_size() * (0.5 + 2 * kSlack)};
+  double low = kFloatInfinity, high = -kFloatInfinity, area = 0, rise_x = 0, rise_y = 0;
+  for (const std::uint32_t t : listed) {
+    const Facet facet(tin_->corners(t), square);
+    const auto [lowest, highest] = facet.range_above(0, 0);
+    low = std::min(low, lowest), high = std::max(high, highest);
+    area += facet.doubled_area(), rise_x += facet.rise_x(), rise_y += facet.rise_y();
+  }
+  // Sloping as the triangles do on average; rows count southwards.
+  const double slope_x = area > 0 ? rise_x / area : 0, slope_y = area > 0 ? rise_y / area : 0;
+  double above = -kFloatInfinity;
+  for (const std::uint32_t t : listed)
+    above = std::max(above, Facet(tin_->corners(t), square).range_above(slope_x, slope_y).second);
+  listed_->lids[number] = {above, slope_x * bin_size(), -slope_y * bin_size()};
+  return {rounded_down(low), rounded_up(high)};
+}
+
+/// A bin that a triangle meets and no boundary crosses is covered throughout; elsewhere nothing is known of how low the
+/// ground is.
+void BinnedHeights::forget_depth_at_boundary(const std::vector<BoundaryEdge>& boundary,
+                                             std::vector<Range>& ranges) const {
+  std::vector<bool> at_boundary(tin_->triangles.size());
+  for (const BoundaryEdge& edge : boundary) at_boundary[edge.triangle] = true;
+  parallel_for(ranges.size() / kBinsPerChunk + 1, [&](std::size_t chunk) {
+    for (std::size_t bin = chunk * kBinsPerChunk; bin < std::min((chunk + 1) * kBinsPerChunk, ranges.size()); ++bin) {
+      const auto listed = listed_->bins.triangles(bin);
+      if (std::any_of(listed.begin(), listed.end(), [&](std::uint32_t t) { return at_boundary[t]; }))
+        ranges[bin].low = -kFloatInfinity;
+    }
+  });
+}
+
+std::optional<double> BinnedHeights::height_at(Point2 units) const {
+  if (lattice_ != nullptr)
+    if (const auto post = lattice_->post_at(units.x, units.y)) return *post;
+  const double column = column_at(units.x), row = row_at(units.y);
+  if (const auto height = height_amid_square(column, row, units)) return height;
+  const auto at = [](double v, std::int64_t count) {
+    return static_cast<std::int64_t>(std::clamp(v, 0.0, static_cast<double>(count - 1)));
+  };
+  std::optional<double> height;
+  // One bin, or up to four at its edges.
+  for (std::int64_t r = at(row - kSlack, rows()); r <= at(row + kSlack, rows()); ++r) {
+    for (std::int64_t c = at(column - kSlack, columns()); c <= at(column + kSlack, columns()); ++c) {
+      if (lattice_ != nullptr && !lattice_->read(cell({c, r}))) {
+        if (unread_at({c, r}, units)) return kUnread;
+      } else if (!for_each_triangle({c, r}, -kFloatInfinity, [&](std::uint32_t t) {
+                   height = height_over(corners(t), units);
+                   return !height;
+                 })) {
+        return height;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+/// Where the surface is a lattice, and the position lies within a whole square that has been read, but not on its
+/// sides.
+std::optional<double> BinnedHeights::height_amid_square(double column, double row, Point2 units) const {
+  if (lattice_ == nullptr || !(column > 0 && row > 0)) return std::nullopt;
+  const auto c = static_cast<std::int64_t>(column), r = static_cast<std::int64_t>(row);
+  const auto amid = [](double v, std::int64_t n) {
+    const double part = v - static_cast<double>(n);
+    return part > kSlack && part < 1 - kSlack;
+  };
+  if (c >= columns() || r >= rows() || !amid(column, c) || !amid(row, r)) return std::nullopt;
+  const std::uint32_t number = cell({c, r});
+  if (!lattice_->read(number) || lattice_->halves(number) != LatticeTin::kFalling) return std::nullopt;
+  const std::int32_t* const upper = lattice_->posts(number);
+  const std::int32_t* const lower = upper + LatticeTin::kPosts;
+  return height_over(
+      FallingSquare{lattice_->x(static_cast<std::uint32_t>(c)), lattice_->y(static_cast<std::uint32_t>(r + 1)),
+                    lattice_->spacing, lower[0], lower[1], upper[0], upper[1]},
+      units);
+}
+
+bool BinnedHeights::all_unread(Point2 north_west, Point2 south_east) const {
+  const double west = column_at(north_west.x), north = row_at(north_west.y), east = column_at(south_east.x),
+               south = row_at(south_east.y);
+  if (lattice_ == nullptr || west < 0 || north < 0 || east >= static_cast<double>(columns()) ||
+      south >= static_cast<double>(rows()))
+    return false;
+  const auto tile_at = [](double bin) { return static_cast<std::uint32_t>(bin) / LatticeTin::kSide; };
+  for (std::uint32_t row = tile_at(north); row <= tile_at(south); ++row) {
+    for (std::uint32_t column = tile_at(west); column <= tile_at(east); ++column) {
+      const LatticeTin::Tile& tile = lattice_->tiles[row * lattice_->tile_columns() + column];
+      if (tile.ground != LatticeTin::Ground::kWhole || tile.heights) return false;
+    }
+  }
+  return true;
+}
+
+/// Whether a bin that has not been read has ground at a position.
+bool BinnedHeights::unread_at(RasterGrid::Cell bin, Point2 units) const {
+  const std::uint32_t number = cell(bin);
+  if (lattice_->tiles[number / LatticeTin::kCells].ground == LatticeTin::Ground::kWhole) return true;
+  return !lattice_->for_each_triangle(number,
+                                      [&](std::uint32_t t) { return !height_over(lattice_->outline(t), units); });
+}
+
+}  // namespace itin::viewshed

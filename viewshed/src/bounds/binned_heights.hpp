@@ -1,0 +1,148 @@
+// How low and how high a surface is within small squares: bounds that hold at every point of a square, not only at
+// vertices. A lattice's squares are its cells, and their bounds are told from the posts when they are asked for.
+//
+//   BinnedHeights bins(tin);
+//   bins.lid(bin).at(column, row)                            // grid units
+//   bins.for_each_triangle(bin, [&](std::uint32_t t) { return use(bins.corners(t)); });
+//
+// Positions are in bins, columns counted eastwards and rows southwards from the north-west corner.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <itin/lattice_tin.hpp>
+#include <itin/raster.hpp>
+#include <itin/tin.hpp>
+
+#include "bounds/boundary.hpp"
+#include "bounds/run_bounds.hpp"
+#include "bounds/triangle_bins.hpp"
+
+namespace itin::viewshed {
+
+class BinnedHeights {
+ public:
+  /// Of what must outlive it. About two triangles' worth a bin, 50 bytes a triangle; where it is a lattice its cells,
+  /// for a fraction of that.
+  explicit BinnedHeights(const Tin& tin);
+  explicit BinnedHeights(const LatticeTin& lattice);
+  BinnedHeights(const BinnedHeights&) = delete;
+  BinnedHeights& operator=(const BinnedHeights&) = delete;
+
+  const Grid& units() const { return units_; }
+  std::int64_t columns() const { return grid_.columns(); }
+  std::int64_t rows() const { return grid_.rows(); }
+  /// Grid units.
+  double bin_size() const { return grid_.cell_width() / units_.resolution; }
+  /// In bins, of a position in grid units.
+  double column_at(double x) const { return grid_.column_at(units_.origin.x + x * units_.resolution); }
+  double row_at(double y) const { return grid_.row_at(units_.origin.y + y * units_.resolution); }
+
+  /// At least as far from a position as any of the surface; grid units.
+  double farthest_from(double x, double y) const {
+    const double column = column_at(x), row = row_at(y);
+    return bin_size() * std::hypot(std::max(std::abs(column), std::abs(column - static_cast<double>(columns()))),
+                                   std::max(std::abs(row), std::abs(row - static_cast<double>(rows()))));
+  }
+
+  /// Rounded outwards. What has not been read is bare.
+  const RunBounds& runs() const { return runs_; }
+  /// After heights of these tiles of the lattice have been read: they count from now on.
+  void add(std::span<const std::uint32_t> tiles);
+  bool holds(RasterGrid::Cell bin) const { return bin.column < columns() && bin.row < rows(); }
+
+  /// A plane that the surface within one bin does not rise above.
+  struct Lid {
+    double middle = -std::numeric_limits<double>::infinity();
+    double per_column = 0, per_row = 0;
+    /// At a position as far from the bin's middle, in bins; grid units.
+    double at(double east, double south) const { return middle + per_column * east + per_row * south; }
+  };
+  /// Whether no post of a lattice's bin, if it has been read, is above a height, grid units: told sooner than a lid.
+  bool lies_below(RasterGrid::Cell bin, double height) const {
+    if (lattice_ == nullptr || !lattice_->read(cell(bin))) return false;
+    const std::int32_t* const upper = lattice_->posts(cell(bin));
+    const std::int32_t* const lower = upper + LatticeTin::kPosts;
+    return std::max(std::max(upper[0], upper[1]), std::max(lower[0], lower[1])) <= height;
+  }
+  Lid lid(RasterGrid::Cell bin) const {
+    return lattice_ != nullptr ? lid_of_cell(*lattice_, cell(bin)) : listed_->lids[grid_.index(bin)];
+  }
+  /// Calls visit(triangle) for those that meet the bin, or nearly meet it, kSlack bins away at least, and may rise
+  /// above a height, grid units. Ends when one call returns false, and returns whether none did.
+  template <class Visit>
+  bool for_each_triangle(RasterGrid::Cell bin, double above, const Visit& visit) const {
+    if (lattice_ != nullptr) return !lattice_->read(cell(bin)) || lattice_->for_each_triangle(cell(bin), visit);
+    const auto triangles = listed_->bins.triangles(grid_.index(bin));
+    return std::all_of(triangles.begin(), triangles.end(),
+                       [&](std::uint32_t t) { return listed_->tops[t] <= above || visit(t); });
+  }
+  static constexpr double kSlack = 1e-7;
+  std::array<GridPoint, 3> corners(std::uint32_t triangle) const {
+    return lattice_ != nullptr ? lattice_->corners(triangle) : tin_->corners(triangle);
+  }
+  /// Where the surface ends.
+  const std::vector<RimEdge>& rim() const { return rim_; }
+  /// Whether each triangle lies in one bin alone.
+  bool partition() const { return lattice_ != nullptr; }
+  /// Of the surface at a position, if it is there; grid units. kUnread where it has not been read.
+  std::optional<double> height_at(Point2 units) const;
+  /// Whether there is ground at every position between two corners, and none of it has been read.
+  bool all_unread(Point2 north_west, Point2 south_east) const;
+  /// Of the surface, grid units.
+  double greatest_magnitude() const { return greatest_magnitude_; }
+
+ private:
+  BinnedHeights(const Tin& tin, std::optional<LatticeTin> lattice);
+
+  using Range = RunBounds::Range<float>;
+  /// What of a Tin that is no lattice is worked out once.
+  struct Listed {
+    TriangleBins bins;
+    std::vector<Lid> lids;           ///< a bin
+    std::vector<std::int32_t> tops;  ///< a triangle: its highest vertex
+  };
+  std::uint32_t cell(RasterGrid::Cell bin) const {
+    return lattice_->cell(static_cast<std::uint32_t>(bin.column), static_cast<std::uint32_t>(bin.row));
+  }
+  static Lid lid_of_cell(const LatticeTin& lattice, std::uint32_t cell);
+  void bound_lattice();
+  void bound_tile(std::uint32_t tile);
+  std::optional<double> height_amid_square(double column, double row, Point2 units) const;
+  bool unread_at(RasterGrid::Cell bin, Point2 units) const;
+  void bound_tin();
+  Range bound_bin(RasterGrid::Cell bin);
+  void forget_depth_at_boundary(const std::vector<BoundaryEdge>& boundary, std::vector<Range>& ranges) const;
+  const Tin* tin_ = nullptr;
+  std::optional<LatticeTin> own_;        ///< made of the Tin
+  const LatticeTin* lattice_ = nullptr;  ///< else it is the Tin
+  Grid units_;
+  RasterGrid grid_;
+  std::optional<Listed> listed_;
+  RunBounds runs_;
+  double greatest_magnitude_ = 0;
+  std::vector<RimEdge> rim_;
+};
+
+/// Sums and halves of whole numbers, all exact.
+inline BinnedHeights::Lid BinnedHeights::lid_of_cell(const LatticeTin& lattice, std::uint32_t cell) {
+  if (!lattice.read(cell)) return {};
+  const std::uint8_t there = lattice.halves(cell);
+  if (there == 0) return {};
+  const std::int32_t* const upper = lattice.posts(cell);
+  const std::int32_t* const lower = upper + LatticeTin::kPosts;
+  const double nw = upper[0], ne = upper[1], sw = lower[0], se = lower[1];
+  if (!LatticeTin::whole(there)) return {std::max(std::max(nw, ne), std::max(sw, se)), 0, 0};
+  const double per_column = (ne - nw + se - sw) / 2, per_row = (sw - nw + se - ne) / 2;
+  // Both pairs of opposite corners are as far above the plane through the middle of all four.
+  return {(nw + ne + sw + se) / 4 + std::abs(nw - ne - sw + se) / 4, per_column, per_row};
+}
+
+}  // namespace itin::viewshed

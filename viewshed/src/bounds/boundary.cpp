@@ -1,0 +1,68 @@
+#include "bounds/boundary.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <itin/topology.hpp>
+
+namespace itin::viewshed {
+
+namespace {
+
+double distance_to_segment(Point2 p, Point2 a, Point2 b) {
+  const double dx = b.x - a.x, dy = b.y - a.y;
+  const double along = std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
+  return std::hypot(a.x + along * dx - p.x, a.y + along * dy - p.y);
+}
+
+}  // namespace
+
+std::vector<BoundaryEdge> boundary_edges(const Tin& tin) {
+  std::vector<BoundaryEdge> edges;
+  const auto adjacent = adjacent_triangles(tin);
+  for (std::size_t t = 0; t < adjacent.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (adjacent[t][i] == kNoNeighbour)
+        edges.push_back({tin.triangles[t][i], tin.triangles[t][(i + 1) % 3], static_cast<std::uint32_t>(t)});
+    }
+  }
+  return edges;
+}
+
+std::vector<RimEdge> rim_of(const Tin& tin, const std::vector<BoundaryEdge>& boundary) {
+  std::vector<RimEdge> rim;
+  rim.reserve(boundary.size());
+  const auto place = [&](std::uint32_t vertex) { return GridPlace{tin.vertices[vertex].x, tin.vertices[vertex].y}; };
+  for (const BoundaryEdge& edge : boundary) rim.push_back({place(edge.from), place(edge.to)});
+  return rim;
+}
+
+bool surface_resumes(const Grid& units, const std::vector<RimEdge>& rim, Point2 position, double reach) {
+  const Point2 p{(position.x - units.origin.x) / units.resolution, (position.y - units.origin.y) / units.resolution};
+  return std::any_of(rim.begin(), rim.end(), [&](const RimEdge& edge) {
+    const auto& [from, to] = edge;
+    const Point2 a{static_cast<double>(from.x), static_cast<double>(from.y)};
+    const Point2 b{static_cast<double>(to.x), static_cast<double>(to.y)};
+    const double side = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+    // A millionth of a grid unit, so that a position on the boundary's own line does not count.
+    const bool outside = side < -1e-6 * std::hypot(b.x - a.x, b.y - a.y);
+    return outside && distance_to_segment(p, a, b) * units.resolution < reach;
+  });
+}
+
+Crossing crossing_back(const Tin& tin, const BoundaryEdge& edge, const SightLines& lines, unsigned i) {
+  const GridPoint &a = tin.vertices[edge.from], &b = tin.vertices[edge.to];
+  const auto side_of_edge = [&](double x, double y) {
+    return (static_cast<double>(b.x) - a.x) * (y - a.y) - (static_cast<double>(b.y) - a.y) * (x - a.x);
+  };
+  const auto side_of_line = [&](const GridPoint& p) {
+    return (lines.to_x[i] - lines.from_x[i]) * (p.y - lines.from_y[i]) -
+           (lines.to_y[i] - lines.from_y[i]) * (p.x - lines.from_x[i]);
+  };
+  const bool back =
+      side_of_edge(lines.from_x[i], lines.from_y[i]) < 0 && side_of_edge(lines.to_x[i], lines.to_y[i]) > 0;
+  if (!back) return Crossing::kNone;
+  return (side_of_line(a) < 0) != (side_of_line(b) < 0) ? Crossing::kBack : Crossing::kDoubtful;
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,38 @@
+// Where the surface ends: edges of a Tin with a triangle on one side only.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <itin/lattice_tin.hpp>
+#include <itin/tin.hpp>
+
+#include "line/sight_lines.hpp"
+
+namespace itin::viewshed {
+
+/// The surface is to the left of from -> to.
+struct BoundaryEdge {
+  std::uint32_t from = 0;
+  std::uint32_t to = 0;
+  std::uint32_t triangle = 0;
+};
+
+/// In ascending order of the triangles they belong to. O(n) time, 40 bytes a triangle while running.
+std::vector<BoundaryEdge> boundary_edges(const Tin& tin);
+
+/// The same by their ends.
+std::vector<RimEdge> rim_of(const Tin& tin, const std::vector<BoundaryEdge>& boundary);
+
+/// Whether a sight line within `reach` metres of a position on the surface can cross ground without data: whether the
+/// surface begins anew across some piece of its rim, seen from there.
+bool surface_resumes(const Grid& units, const std::vector<RimEdge>& rim, Point2 position, double reach);
+
+enum class Crossing : std::uint8_t { kNone, kBack, kDoubtful };
+
+/// Whether line `i` that left the surface returns to it across the edge. Leaving alone hides nothing: a target on the
+/// edge of the data, or a line along that edge, is not behind a curtain. Doubtful: the line returns somewhere on the
+/// edge's straight, but not between its ends.
+Crossing crossing_back(const Tin& tin, const BoundaryEdge& edge, const SightLines& lines, unsigned i);
+
+}  // namespace itin::viewshed

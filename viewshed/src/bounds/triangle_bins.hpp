@@ -1,0 +1,31 @@
+// Which triangles of a Tin may touch which cell of a coarse grid.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <itin/raster.hpp>
+#include <itin/tin.hpp>
+
+namespace itin::viewshed {
+
+/// About as many bins over a Tin as it has triangles, so that a few lie in each.
+RasterGrid location_grid(const Tin& tin);
+
+class TriangleBins {
+ public:
+  /// A triangle is listed in every cell of `grid` that it meets, or nearly meets, by ascending number. O(n) plus the
+  /// entries.
+  TriangleBins(const Tin& tin, const RasterGrid& grid);
+
+  std::span<const std::uint32_t> triangles(std::size_t bin) const {
+    return std::span(triangles_).subspan(first_[bin], first_[bin + 1] - first_[bin]);
+  }
+
+ private:
+  std::vector<std::size_t> first_;  ///< of bin b: [first_[b], first_[b + 1])
+  std::vector<std::uint32_t> triangles_;
+};
+
+}  // namespace itin::viewshed

@@ -1,0 +1,129 @@
+#include "certify/certified_sectors.hpp"
+
+#include <atomic>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <itin/unreported.hpp>
+
+#include "line/hulls.hpp"
+#include "line/verdicts.hpp"
+#include "plan/sight_sectors.hpp"
+#include "progress/stage.hpp"
+#include "progress/stopwatch.hpp"
+#include "request/request.hpp"
+#include "window/near_ground.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+class CertifiedSectors {
+ public:
+  CertifiedSectors(const Store& store, const Request& request, Voids voids, std::uint64_t most_points,
+                   Progress& progress)
+      : store_(store),
+        request_(request),
+        voids_(voids),
+        most_points_(static_cast<double>(most_points)),
+        whole_(certified_request(store, request)),
+        points_a_square_metre_(points_a_square_metre(store, whole_.level, request)),
+        progress_(progress),
+        reading_(progress) {}
+
+  Surveyed run() {
+    Result& result = surveyed_.result;
+    result.request = request_;
+    result.certified = true;
+    const std::vector<Eye> eyes = eyes_on_full_surface(store_, request_, result.ground_m, progress_);
+    surveyed_.surface.tin = coverage_of(store_, window_of(request_), progress_);
+    result.grid = cells_of(request_, extent_of(store_));
+    tiles_ = grid_of_tiles(result.grid);
+    verdicts_.resize(tiles_.cell_count());
+    const std::size_t cells = result.grid.cell_count();
+    stage_.emplace("cells judged", eyes.size() * cells, progress_);
+    for (std::size_t i = 0; i < eyes.size(); ++i) {
+      look(eyes[i]);
+      stage_->advance_to((i + 1) * cells);
+    }
+    result.visible.resize(result.grid.cell_count());
+    for (std::size_t tile = 0; tile < verdicts_.size(); ++tile)
+      verdicts_[tile].store(tile_at(result.grid, tiles_, tile), result, result.cells);
+    result.statistics.lines_seconds += watch_.lap();
+    return std::move(surveyed_);
+  }
+
+ private:
+  void look(const Eye& eye) {
+    SightSectors sectors(surveyed_.result.grid, eye);
+    while (!sectors.empty()) {
+      const SightSectors::Sector sector = sectors.next(
+          [&](const std::vector<Point2>& hull) { return area_of(hull) * points_a_square_metre_ <= most_points_; });
+      judge(eye, envelop(store_, within(sector.hull, eye, whole_), reading_), sector.parts);
+      sectors.settle(sector, std::numeric_limits<double>::infinity());
+    }
+  }
+
+  /// The same over a sector, without finer ground that lies beside it. All that lies about the eye belongs to it: where
+  /// the window ends, coarse ground stays beside finer one, and would hide everything.
+  static EnvelopeRequest within(std::vector<Point2> sector, const Eye& eye, EnvelopeRequest wanted) {
+    for (const FineDisc& disc : wanted.discs)
+      if (disc.centre == eye.position) add_corners(disc_box(disc.centre, disc.radius), sector);
+    wanted.window = Window::polygons({{hull_of(std::move(sector)), {}}});
+    const Box box = wanted.window.bounds();
+    std::erase_if(wanted.discs, [&](const FineDisc& disc) { return !disc_box(disc.centre, disc.radius).meets(box); });
+    return wanted;
+  }
+
+  void judge(const Eye& eye, Envelope envelope, std::span<const Tile> parts) {
+    Result& result = surveyed_.result;
+    result.statistics.retrieval += envelope.lower.statistics;
+    result.statistics.triangles += envelope.lower.triangles.size();
+    result.statistics.retrieval_seconds += watch_.lap();
+    const EnvelopeScene scene(std::move(envelope), request_, tiles_, voids_);
+    const EnvelopeScene::Look look = scene.look_from(eye);
+    result.statistics.scene_seconds += watch_.lap();
+    const CertifiedPass pass(scene, result.grid, tiles_);
+    const std::vector<PartsOfTile> cells = by_tile(parts, tiles_);
+    std::atomic<std::uint64_t> rays = 0;
+    stage_->for_each(cells.size(), [&](std::size_t i) {
+      const auto work = pass.begin(cells[i].tile);
+      Verdicts& verdicts = verdicts_[cells[i].tile];
+      TileValues<Verdict> values;
+      values.fill(Verdict::kOutside);
+      for_each_cell(cells[i], work->tile, [&](std::size_t cell) { values[cell] = verdicts.open(cell); });
+      pass.judge(look, values, *work, nullptr);
+      verdicts.add(values);
+      rays += work->rays;
+      return cell_count(cells[i].parts);
+    });
+    result.statistics.lines += rays;
+    result.statistics.lines_seconds += watch_.lap();
+  }
+
+  const Store& store_;
+  const Request& request_;
+  Voids voids_;
+  double most_points_;
+  EnvelopeRequest whole_;  ///< of all sectors together
+  double points_a_square_metre_;
+  Progress& progress_;
+  Unreported reading_;  ///< of a sector
+  Stopwatch watch_;
+  Surveyed surveyed_;
+  RasterGrid tiles_;
+  std::optional<Stage> stage_;      ///< its steps are cells, of all observers
+  std::vector<Verdicts> verdicts_;  ///< a tile
+};
+
+}  // namespace
+
+Surveyed certify_by_sectors(const Store& store, const Request& request, Voids voids, std::uint64_t most_points,
+                            Progress& progress) {
+  return CertifiedSectors(store, request, voids, most_points, progress).run();
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,118 @@
+#include <itin/error.hpp>
+#include <itin/lattice_reader.hpp>
+#include <itin/triangulate.hpp>
+#include <viewshed/certified.hpp>
+
+#include "certify/certified_pass.hpp"
+#include "certify/certified_sectors.hpp"
+#include "line/verdicts.hpp"
+#include "progress/stage.hpp"
+#include "progress/stopwatch.hpp"
+#include "request/request.hpp"
+#include "window/near_ground.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+struct Tally {
+  CellCounts cells;
+  std::uint64_t rays = 0;
+};
+
+Tally decide(const CertifiedPass& pass, std::size_t tile, const std::vector<EnvelopeScene::Look>& looks,
+             Result& result) {
+  const auto work = pass.begin(tile);
+  Verdicts verdicts;
+  for (const EnvelopeScene::Look& look : looks) {
+    TileValues<Verdict> values;
+    for (std::size_t cell = 0; cell < values.size(); ++cell) values[cell] = verdicts.open(cell);
+    pass.judge(look, values, *work, nullptr);
+    verdicts.add(values);
+  }
+  Tally tally;
+  tally.rays = work->rays;
+  verdicts.store(work->tile, result, tally.cells);
+  return tally;
+}
+
+void decide_all(const CertifiedPass& pass, const RasterGrid& tiles, const std::vector<EnvelopeScene::Look>& looks,
+                Result& result, Progress& progress) {
+  std::vector<Tally> tallies(tiles.cell_count());
+  for_each_step(tallies.size(), "sight lines", progress,
+                [&](std::size_t i) { tallies[i] = decide(pass, i, looks, result); });
+  for (const Tally& tally : tallies) {
+    result.cells += tally.cells;
+    result.statistics.lines += tally.rays;
+  }
+}
+
+/// A point of an envelope costs about as much as two of the full surface, or as so many posts of a lattice.
+constexpr std::uint64_t kEnvelopeCosts = 2, kEnvelopeCostsInPosts = 128;
+/// So few posts are looked at in a moment, whatever way is asked for.
+constexpr std::uint64_t kFewPosts = 100000;
+/// More take over a gigabyte: larger levels are looked at in sectors.
+constexpr std::uint64_t kMostEnvelopePoints = 1500000, kPointsOfSector = 750000;
+
+enum class Way { kExactly, kBySectors, kAtOnce };
+
+/// Exactly where the level asked for is no cheaper than the full surface: level 0 itself, others that leave out little,
+/// and those that are too large for the memory, but for a small share of a vast surface.
+Way way_of(const Store& store, const Request& request) {
+  // Certificates know nothing of features on the ground.
+  if (features_stand(store, request)) return Way::kExactly;
+  const int level = level_within(store.metadata(), request.detail.coarsest());
+  const Box box = box_of_window(store, request);
+  const std::uint64_t points = store.points_about(level, box), all = store.points_about(0, box);
+  if (kEnvelopeCosts * points >= all) return Way::kExactly;
+  const bool large = points > kMostEnvelopePoints;
+  if (kEnvelopeCostsInPosts * points < all) return large ? Way::kBySectors : Way::kAtOnce;
+  const std::uint64_t most_posts = PreciseOptions().memory_bytes / kBytesAPost;
+  const bool exactly = large || (all > kFewPosts && all <= most_posts &&
+                                 LatticeReader::may_open(store, window_of(request), ThemeChoice::none(), most_posts));
+  return exactly ? Way::kExactly : Way::kAtOnce;
+}
+
+/// The exact answer, but where ground without data leaves it open.
+Surveyed decide_exactly(const Store& store, const Request& request, Progress& progress) {
+  Surveyed surveyed = compute_precise(store, request, {}, progress);
+  surveyed.result.request = request;
+  surveyed.result.certified = true;
+  return surveyed;
+}
+
+}  // namespace
+
+Surveyed compute_certified(const Store& store, const Request& request, Progress& progress) {
+  validate(request);
+  if (request.mode != Mode::kVisible) throw InputError("certificates tell what is visible, and nothing else");
+  const Way way = way_of(store, request);
+  if (way == Way::kExactly) return decide_exactly(store, request, progress);
+  if (way == Way::kBySectors) return certify_by_sectors(store, request, voids_of(request), kPointsOfSector, progress);
+  Surveyed surveyed;
+  Result& result = surveyed.result;
+  result.request = request;
+  result.certified = true;
+  Stopwatch watch;
+  const std::vector<Eye> eyes = eyes_on_full_surface(store, request, result.ground_m, progress);
+  Envelope envelope = envelop(store, certified_request(store, request), progress);
+  result.statistics.retrieval = envelope.lower.statistics;
+  result.statistics.triangles = envelope.lower.triangles.size();
+  result.statistics.retrieval_seconds = watch.lap();
+
+  progress.report("scene", 0);
+  result.grid = cells_of(request, extent_of(store));
+  const RasterGrid tiles = grid_of_tiles(result.grid);
+  const EnvelopeScene scene(std::move(envelope), request, tiles, voids_of(request));
+  std::vector<EnvelopeScene::Look> looks;
+  for (const Eye& eye : eyes) looks.push_back(scene.look_from(eye));
+  result.statistics.scene_seconds = watch.lap();
+
+  result.visible.resize(result.grid.cell_count());
+  decide_all(CertifiedPass(scene, result.grid, tiles), tiles, looks, result, progress);
+  result.statistics.lines_seconds = watch.lap();
+  surveyed.surface.tin = scene.envelope.lower;
+  return surveyed;
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,198 @@
+#include "compute/lattice_sectors.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <iterator>
+#include <memory>
+#include <numbers>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <itin/error.hpp>
+#include <itin/lattice_reader.hpp>
+#include <itin/triangulate.hpp>
+#include <itin/unreported.hpp>
+#include <viewshed/surface.hpp>
+
+#include "bounds/boundary.hpp"
+#include "compute/store_viewshed.hpp"
+#include "line/hulls.hpp"
+#include "modes/observation.hpp"
+#include "plan/sight_sectors.hpp"
+#include "progress/stage.hpp"
+#include "progress/stopwatch.hpp"
+#include "request/request.hpp"
+#include "request/void_shadow.hpp"
+#include "scene/full_surface.hpp"
+#include "scene/reveal.hpp"
+#include "window/near_ground.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// Of a post whose height is not read: a bit, and its share of a leaf and of a tile.
+constexpr double kBytesAnUnreadPost = 0.5;
+/// Of a sector's tiles, before one has been looked at.
+constexpr double kFirstShareSeen = 0.25;
+/// Of the surface that maps are drawn over, at most.
+constexpr std::uint64_t kCoarsePoints = 200000;
+
+class LatticeSectors {
+ public:
+  LatticeSectors(const Store& store, const Request& request, std::uint64_t memory, Progress& progress)
+      : store_(store),
+        request_(request),
+        memory_(memory),
+        all_heights_(asks_for_all_heights(request)),
+        share_seen_(all_heights_ ? 1 : kFirstShareSeen),
+        progress_(progress),
+        reading_(progress) {}
+
+  std::optional<Surveyed> run() {
+    Result& result = surveyed_.result;
+    result.request = request_;
+    const std::vector<Eye> eyes = eyes_on_full_surface(store_, request_, result.ground_m, progress_);
+    retrieve_coarse();
+    observations_ = Observations(request_).of_tiles(tiles_);
+    stage_.emplace("cells decided", eyes.size() * result.grid.cell_count(), progress_);
+    for (std::uint32_t i = 0; i < eyes.size(); ++i)
+      if (!look(eyes[i], i)) return std::nullopt;
+    store_all(observations_, tiles_, result);
+    result.statistics.lines_seconds += watch_.lap();
+    return std::move(surveyed_);
+  }
+
+ private:
+  void retrieve_coarse() {
+    Result& result = surveyed_.result;
+    const Box box = box_of_window(store_, request_);
+    int level = static_cast<int>(store_.metadata().levels.size()) - 1;
+    while (level > 0 && store_.points_about(level - 1, box) <= kCoarsePoints) --level;
+    Tin& coarse = surveyed_.surface.tin;
+    coarse = triangulate(store_, window_of(request_),
+                         Detail::tolerance(store_.metadata().levels[static_cast<std::size_t>(level)].tolerance),
+                         progress_, ThemeChoice::none());
+    result.grid = cells_of(request_, extent_of(store_));
+    tiles_ = grid_of_tiles(result.grid);
+    look_for_voids(coarse.grid, rim_of(coarse, boundary_edges(coarse)), result);
+    posts_a_square_metre_ = points_a_square_metre(store_, 0, request_);
+    tile_side_m_ = LatticeTin::kSide / std::sqrt(posts_a_square_metre_);
+    result.statistics.retrieval_seconds += watch_.lap();
+  }
+
+  /// False where the surface is no lattice.
+  bool look(const Eye& eye, std::uint32_t observer) {
+    SightSectors sectors(surveyed_.result.grid, eye);
+    while (!sectors.empty()) {
+      const SightSectors::Sector sector = sectors.next([&](const std::vector<Point2>& hull) {
+        return bytes_of(hull, share_seen_) <= static_cast<double>(memory_) && has_numbers(hull);
+      });
+      double reach = 0;
+      // The estimate may be wrong, but not by as much.
+      if (bytes_of(sector.hull, all_heights_ ? 1 : 0) <= 2 * static_cast<double>(memory_)) {
+        const auto reader = LatticeReader::open(
+            store_, Window::polygons({{sector.hull, {}}}), ThemeChoice::none(),
+            all_heights_ ? LatticeReader::Heights::kAll : LatticeReader::Heights::kNone, kAnyLattice, reading_);
+        // Later ones may be of too many tiles.
+        if (!reader && (!is_lattice_ || sector.parts.size() == 1)) return false;
+        if (reader) {
+          is_lattice_ = true;
+          reach = look_over(*reader, eye, observer, sectors, sector.parts);
+          learn(reader->lattice(), std::isinf(reach));
+        }
+      }
+      sectors.settle(sector, reach);
+    }
+    stage_->advance_to((observer + 1) * surveyed_.result.grid.cell_count());
+    return true;
+  }
+
+  /// Whether the lattice about it has no more tiles than can be counted.
+  bool has_numbers(const std::vector<Point2>& hull) const {
+    Box box;
+    for (const Point2& p : hull) box.extend(p);
+    return (box.width() / tile_side_m_ + 2) * (box.height() / tile_side_m_ + 2) < LatticeTin::kMostTiles;
+  }
+
+  /// Of a sector of whose tiles such a share is seen.
+  double bytes_of(const std::vector<Point2>& hull, double share) const {
+    const double posts = area_of(hull) * posts_a_square_metre_;
+    // Of the tiles of a lattice a convex shape meets so many on average, however it is turned.
+    const double side = tile_side_m_;
+    const double tiles = area_of(hull) / (side * side) + 2 * length_of(hull) / (std::numbers::pi * side) + 1;
+    return kBytesAnUnreadPost * posts + share * tiles * LatticeTin::kCells * kBytesAPost;
+  }
+
+  /// The next sector will be like it, but not quite.
+  void learn(const LatticeTin& lattice, bool fits) {
+    tile_side_m_ = LatticeTin::kSide * lattice.spacing * lattice.grid.resolution;
+    if (all_heights_) return;
+    double tiles = 0, seen = 0;
+    for (const LatticeTin::Tile& tile : lattice.tiles) {
+      if (tile.ground == LatticeTin::Ground::kNone) continue;
+      tiles += 1, seen += tile.heights ? 1 : 0;
+    }
+    share_seen_ =
+        std::min(1.0, fits ? (share_seen_ + 1.1 * seen / tiles) / 2 : 1.5 * std::max(share_seen_, seen / tiles));
+  }
+
+  /// Decides the cells within a reach, metres, as far as what the eye may see fits into the memory.
+  double look_over(LatticeReader& reader, const Eye& eye, std::uint32_t observer, const SightSectors& sectors,
+                   std::span<const Tile> parts) {
+    Result& result = surveyed_.result;
+    FullSurface surface(reader.lattice(), request_.earth, result.grid, tiles_);
+    const double unread = kBytesAnUnreadPost * static_cast<double>(reader.lattice().triangle_count()) / 2;
+    const double tiles =
+        (static_cast<double>(memory_) - unread) / static_cast<double>(kBytesAPost * LatticeTin::kCells);
+    const Revealed revealed = reveal(eye, reader, surface, static_cast<std::uint64_t>(std::max(0.0, tiles)), reading_);
+    // A bin less, against rounding.
+    const double reach = (revealed.reach - 1) * reader.lattice().spacing * reader.lattice().grid.resolution;
+    const std::optional<VoidShadow> shadow = shadow_of(eye, surface.rim(), result);
+    result.statistics.retrieval += reader.lattice().statistics;
+    result.statistics.triangles += reader.lattice().triangle_count();
+    result.statistics.retrieval_seconds += watch_.lap();
+    std::vector<Tile> decided;
+    std::copy_if(parts.begin(), parts.end(), std::back_inserter(decided),
+                 [&](const Tile& part) { return sectors.within(reach, part); });
+    const std::vector<PartsOfTile> cells = by_tile(decided, tiles_);
+    std::atomic<std::uint64_t> lines = 0;
+    stage_->for_each(cells.size(), [&](std::size_t i) {
+      const auto work = surface.begin(cells[i].tile, cells[i].parts);
+      lines += observations_[cells[i].tile]->look(
+          {surface, eye, revealed.view, observer, shadow ? &*shadow : nullptr, *work});
+      return cell_count(cells[i].parts);
+    });
+    result.statistics.lines += lines;
+    result.statistics.lines_seconds += watch_.lap();
+    return reach;
+  }
+
+  const Store& store_;
+  const Request& request_;
+  std::uint64_t memory_;
+  bool all_heights_;
+  double share_seen_;  ///< of a sector's tiles, as far as it is known
+  Progress& progress_;
+  Unreported reading_;  ///< of a sector
+  Stopwatch watch_;
+  Surveyed surveyed_;
+  RasterGrid tiles_;
+  double posts_a_square_metre_ = 0;
+  double tile_side_m_ = 0;                                  ///< of a tile of the lattice, as far as it is known
+  bool is_lattice_ = false;                                 ///< as far as has been read
+  std::optional<Stage> stage_;                              ///< its steps are cells, of all observers
+  std::vector<std::unique_ptr<Observation>> observations_;  ///< a tile
+};
+
+}  // namespace
+
+std::optional<Surveyed> compute_by_lattice_sectors(const Store& store, const Request& request, std::uint64_t memory,
+                                                   Progress& progress) {
+  if (needs_tin(request) || casts_rays(request) || features_stand(store, request)) return std::nullopt;
+  return LatticeSectors(store, request, memory, progress).run();
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,305 @@
+#include "compute/tin_segments.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include <itin/error.hpp>
+#include <itin/parallel.hpp>
+#include <itin/triangulate.hpp>
+#include <itin/unreported.hpp>
+#include <viewshed/certified.hpp>
+
+#include "certify/certified_pass.hpp"
+#include "compute/store_viewshed.hpp"
+#include "line/cell_tiles.hpp"
+#include "modes/observation.hpp"
+#include "plan/ground_tiles.hpp"
+#include "plan/observer_raster.hpp"
+#include "progress/stage.hpp"
+#include "progress/stopwatch.hpp"
+#include "request/request.hpp"
+#include "scene/full_surface.hpp"
+#include "window/near_ground.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// Of an envelope, which has two surfaces and two scenes; and half of the memory is for what is refined meanwhile.
+constexpr std::uint64_t kBytesAnEnvelopePoint = 2400;
+/// The coarse pass reads so much less than the full surface.
+constexpr std::uint64_t kCoarseShare = 12;
+
+Point2 along(const Grid& grid, const SightLines& lines, unsigned i, double s) {
+  return {grid.origin.x + (lines.from_x[i] + s * (lines.to_x[i] - lines.from_x[i])) * grid.resolution,
+          grid.origin.y + (lines.from_y[i] + s * (lines.to_y[i] - lines.from_y[i])) * grid.resolution};
+}
+
+template <class Visit>
+void for_each_line(unsigned active, const Visit& visit) {
+  for (; active != 0; active &= active - 1) visit(static_cast<unsigned>(std::countr_zero(active)));
+}
+
+class TinSegments {
+ public:
+  TinSegments(const Store& store, const Request& request, std::uint64_t memory, Progress& progress)
+      : store_(store),
+        request_(request),
+        features_(features_stand(store, request)),
+        box_(box_of_window(store, request)),
+        memory_(memory),
+        progress_(progress),
+        reading_(progress) {}
+
+  Surveyed run() {
+    require_mode();
+    Result& result = surveyed_.result;
+    result.request = request_;
+    const std::vector<Eye> eyes = eyes_on_full_surface(store_, request_, result.ground_m, progress_);
+    retrieve_coarse();
+    observations_ = Observations(request_).of_tiles(tiles_);
+    stage_.emplace("cells decided", eyes.size() * result.grid.cell_count(), progress_);
+    for (std::uint32_t i = 0; i < eyes.size(); ++i) look(eyes[i], i);
+    store_all(observations_, tiles_, result);
+    result.statistics.lines_seconds += watch_.lap();
+    return std::move(surveyed_);
+  }
+
+ private:
+  void require_mode() const {
+    if (needs_tin(request_))
+      throw InputError(
+          "blockers and probabilities need the whole window in memory: give more --memory or a smaller --radius");
+  }
+
+  /// Certificates know nothing of what stands on the ground, and cells that a coarse level decides have no exact height
+  /// of ground.
+  bool whole_lines() const { return features_ || request_.mode == Mode::kHeight || request_.mode == Mode::kAngle; }
+
+  std::uint64_t budget() const { return memory_ / kBytesAPoint; }
+
+  int coarse_level() const {
+    const std::uint64_t most = std::min(memory_ / kBytesAnEnvelopePoint, store_.points_about(0, box_) / kCoarseShare);
+    int level = 1;
+    while (level + 1 < static_cast<int>(store_.metadata().levels.size()) && store_.points_about(level, box_) > most)
+      ++level;
+    return level;
+  }
+
+  Tin triangulated(const Window& window, const ThemeChoice& themes) {
+    Tin tin = triangulate(store_, window, Detail::tolerance(0), reading_, themes);
+    Statistics& statistics = surveyed_.result.statistics;
+    statistics.retrieval += tin.statistics;
+    statistics.retrieval_seconds += watch_.lap();
+    return tin;
+  }
+
+  /// `targets` is where they stand.
+  OwnedSurface retrieve(const Window& window, const Window& targets) {
+    Tin tin = triangulated(window, features_ ? request_.themes : ThemeChoice::none());
+    std::optional<Tin> ground;
+    if (features_ && !request_.targets_on_surface) ground = triangulated(targets, ThemeChoice::none());
+    Result& result = surveyed_.result;
+    result.statistics.triangles += tin.triangles.size();
+    return {{std::move(tin), nullptr, {}},
+            std::move(ground),
+            request_.earth,
+            result.grid,
+            tiles_,
+            casts_rays(request_) ? positions_of(request_) : std::vector<Point2>()};
+  }
+
+  void retrieve_coarse() {
+    Envelope envelope = envelop(store_, certified_request(store_, request_, coarse_level()), progress_);
+    Result& result = surveyed_.result;
+    result.statistics.retrieval += envelope.lower.statistics;
+    result.statistics.triangles += envelope.lower.triangles.size();
+    result.statistics.retrieval_seconds += watch_.lap();
+    result.grid = cells_of(request_, extent_of(store_));
+    tiles_ = grid_of_tiles(result.grid);
+    rim_ = rim_of(envelope.lower, envelope.outline);
+    look_for_voids(envelope.lower.grid, rim_, result);
+    ground_.emplace(store_, envelope.lower.bounds());
+    surveyed_.surface.tin = envelope.lower;
+    if (!whole_lines()) coarse_.emplace(std::move(envelope), request_, tiles_, voids_of(request_));
+    result.statistics.scene_seconds += watch_.lap();
+  }
+
+  void look(const Eye& eye, std::uint32_t observer) {
+    if (whole_lines()) {
+      look_over(eye, observer);
+    } else {
+      look_certified(eye, observer);
+    }
+    stage_->advance_to((observer + 1) * surveyed_.result.grid.cell_count());
+  }
+
+  /// All ground under all lines.
+  void look_over(const Eye& eye, std::uint32_t observer) {
+    const std::vector<TileSet> needed = under_lines(eye, observer);
+    // The edges of a segment's window are no voids, and features never reach beyond the ground.
+    const std::optional<VoidShadow> shadow = shadow_of(eye, rim_, surveyed_.result);
+    std::atomic<std::uint64_t> lines = 0;
+    for (const std::vector<std::size_t>& cells : segments(eye, needed)) {
+      const OwnedSurface segment = refine(cells, needed);
+      const AxisSweep::View view = segment.full.view_from(eye);
+      stage_->for_each(cells.size(), [&](std::size_t i) {
+        const auto work = segment.full.begin(cells[i]);
+        lines += observations_[cells[i]]->look({segment.full, eye, view, observer, shadow ? &*shadow : nullptr, *work});
+        return static_cast<std::size_t>(work->tile.columns * work->tile.rows);
+      });
+    }
+    surveyed_.result.statistics.lines += lines;
+  }
+
+  void look_certified(const Eye& eye, std::uint32_t observer) {
+    ObserverRaster raster(surveyed_.result.grid, tiles_, *stage_);
+    for_each_look(eye, observer, [&](std::size_t tile, const Look& look, std::size_t place) {
+      if (!observations_[tile]->open(look)) raster.values()[place] = Verdict::kOutside;
+    });
+    const EnvelopeScene::Look coarse_look = coarse_->look_from(eye);
+    const std::vector<TileSet> needed = coarse_pass(coarse_look, raster);
+    // The scene's memory is free for the segments, when no other observer needs it.
+    if (observer + 1 == request_.observers.size()) coarse_.reset();
+    for (const std::vector<std::size_t>& cells : segments(eye, needed)) {
+      const OwnedSurface segment = refine(cells, needed);
+      const AxisSweep::View view = segment.full.view_from(eye);
+      raster.judge(cells, [&](std::size_t i, TileValues<Verdict>& values) {
+        const auto work = segment.full.begin(cells[i]);
+        const std::uint64_t lines = segment.full.judge(eye, view, values, *work);
+        // The edges of the window are no voids.
+        if (coarse_look.shadow) coarse_look.shadow->fall_on(work->centres, values);
+        return lines;
+      });
+    }
+    surveyed_.result.statistics.lines += raster.rays();
+    for_each_look(eye, observer, [&](std::size_t tile, const Look& look, std::size_t place) {
+      const Verdict value = raster.values()[place];
+      if (value == Verdict::kOutside) return;
+      observations_[tile]->enter(look.cell);
+      if (value == Verdict::kVisible) observations_[tile]->see(look);
+      if (value == Verdict::kUndecided) observations_[tile]->mark_undecided(look.cell);
+    });
+  }
+
+  /// Calls visit(tile, look, place in the grid) for every cell; the looks know no heights.
+  template <class Visit>
+  void for_each_look(const Eye& eye, std::uint32_t observer, const Visit& visit) const {
+    const RasterGrid& grid = surveyed_.result.grid;
+    parallel_for(observations_.size(), [&](std::size_t i) {
+      const Tile tile = tile_at(grid, tiles_, i);
+      const TileCentres centres(store_.metadata().grid, grid, tile);
+      for_each_cell(tile, [&](std::size_t cell, RasterGrid::Cell place) {
+        const auto [dx, dy] = eye.offset_to(grid.centre(place.column, place.row), centres.at(cell));
+        visit(i, Look{cell, observer, dx, dy, 0}, grid.index(place));
+      });
+    });
+  }
+
+  /// The ground that each tile's undecided lines need at full detail.
+  std::vector<TileSet> coarse_pass(const EnvelopeScene::Look& look, ObserverRaster& raster) {
+    std::vector<std::size_t> all(tiles_.cell_count());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    std::vector<TileSet> needed(all.size());
+    const Grid& units = store_.metadata().grid;
+    const CertifiedPass pass(*coarse_, surveyed_.result.grid, tiles_);
+    raster.judge(all, [&](std::size_t tile, TileValues<Verdict>& values) {
+      const auto work = pass.begin(tile);
+      pass.judge(look, values, *work, [&](const Doubtful& d) {
+        if (needed[tile].empty()) needed[tile] = TileSet(ground_->count());
+        UpperScene::Stretches stretches;
+        coarse_->upper.find_stretches(d.lines, d.starts_under, d.ends_under, stretches);
+        for_each_line(d.lines.active, [&](unsigned i) {
+          const Point2 target = along(units, d.lines, i, 1);
+          ground_->add_line(target, target, needed[tile]);
+          for (const Stretch& s : stretches[i])
+            ground_->add_line(along(units, d.lines, i, s.from), along(units, d.lines, i, s.to), needed[tile]);
+        });
+      });
+      return work->rays;
+    });
+    return needed;
+  }
+
+  /// The ground under all lines in view to each tile's open cells.
+  std::vector<TileSet> under_lines(const Eye& eye, std::uint32_t observer) const {
+    constexpr double kAnyHeight = 1e9;
+    std::vector<TileSet> needed(tiles_.cell_count());
+    for_each_look(eye, observer, [&](std::size_t tile, const Look& look, std::size_t) {
+      const bool in_view = eye.view.contains(look.dx, look.dy, -kAnyHeight, kAnyHeight) != false;
+      if (!in_view || !observations_[tile]->open(look)) return;
+      TileSet& tiles = needed[tile];
+      if (tiles.empty()) tiles = TileSet(ground_->count());
+      ground_->add_line(eye.position, {eye.position.x + look.dx, eye.position.y + look.dy}, tiles);
+    });
+    return needed;
+  }
+
+  /// Tiles of cells in order of their azimuth, so that they share the ground on the way, as many together as the
+  /// memory holds.
+  std::vector<std::vector<std::size_t>> segments(const Eye& eye, const std::vector<TileSet>& needed) const {
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t tile = 0; tile < needed.size(); ++tile) {
+      if (needed[tile].empty()) continue;
+      const RasterGrid::Cell cell = place_of(tiles_, tile);
+      const Point2 centre = tiles_.centre(cell.column, cell.row);
+      order.emplace_back(std::atan2(centre.x - eye.position.x, centre.y - eye.position.y), tile);
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<std::vector<std::size_t>> result;
+    TileSet together(ground_->count());
+    for (const auto& [azimuth, tile] : order) {
+      TileSet wider = together;
+      wider |= needed[tile];
+      if (result.empty() || ground_->points(wider) > budget()) {
+        result.emplace_back();
+        wider = needed[tile];
+      }
+      result.back().push_back(tile);
+      together = std::move(wider);
+    }
+    return result;
+  }
+
+  /// All the ground that the cells need.
+  OwnedSurface refine(const std::vector<std::size_t>& cells, const std::vector<TileSet>& needed) {
+    surveyed_.result.statistics.lines_seconds += watch_.lap();
+    TileSet ground(ground_->count());
+    for (const std::size_t tile : cells) ground |= needed[tile];
+    return retrieve(ground_->window(ground), window_over(cells));
+  }
+
+  Window window_over(const std::vector<std::size_t>& cells) const {
+    std::vector<Window::Polygon> parts;
+    for (const std::size_t i : cells) parts.push_back(rectangle(box_of_cell(tiles_, place_of(tiles_, i))));
+    return Window::polygons(std::move(parts));
+  }
+
+  const Store& store_;
+  const Request& request_;
+  bool features_;  ///< stand on the ground
+  Box box_;
+  std::uint64_t memory_;  ///< bytes, without the rasters
+  Progress& progress_;
+  Unreported reading_;  ///< of a segment
+  Stopwatch watch_;
+  Surveyed surveyed_;
+  RasterGrid tiles_;
+  std::vector<RimEdge> rim_;  ///< where ground ends
+  std::optional<GroundTiles> ground_;
+  std::optional<EnvelopeScene> coarse_;                     ///< unless whole lines are needed
+  std::optional<Stage> stage_;                              ///< its steps are cells, of all observers
+  std::vector<std::unique_ptr<Observation>> observations_;  ///< a tile
+};
+
+}  // namespace
+
+Surveyed compute_in_tin_segments(const Store& store, const Request& request, std::uint64_t memory, Progress& progress) {
+  return TinSegments(store, request, memory, progress).run();
+}
+
+}  // namespace itin::viewshed

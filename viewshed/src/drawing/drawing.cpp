@@ -1,0 +1,31 @@
+#include "drawing/drawing.hpp"
+
+#include <dlfcn.h>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+
+namespace itin::viewshed {
+
+namespace {
+
+constexpr const char* kModule = "itin-drawing.so";
+
+/// By its name alone: the dynamic linker looks for it where this library, or the program that it was linked into, says
+/// (RUNPATH: viewshed/CMakeLists.txt), so that it is found wherever an installation has been moved.
+const Drawing& load() {
+  void* const module = dlopen(kModule, RTLD_NOW | RTLD_LOCAL);
+  void* const found = module == nullptr ? nullptr : dlsym(module, "itin_drawing");
+  if (found == nullptr) throw FileError(kModule, fmt::format("maps cannot be drawn without it: {}", dlerror()));
+  return *static_cast<const Drawing*>(found);
+}
+
+}  // namespace
+
+const Drawing& drawing() {
+  static const Drawing& loaded = load();
+  return loaded;
+}
+
+}  // namespace itin::viewshed

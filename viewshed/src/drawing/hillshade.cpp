@@ -1,0 +1,71 @@
+#include "drawing/hillshade.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <itin/parallel.hpp>
+
+namespace itin::viewshed {
+
+namespace {
+
+constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
+
+struct Light {
+  double azimuth;  ///< degrees
+  double weight;
+};
+
+/// Brightness of a slope with gradient (east, north).
+double shade(double east, double north) {
+  constexpr Light kLights[] = {{315, 0.55}, {270, 0.15}, {0, 0.15}, {225, 0.15}};
+  constexpr double kRise = kLevelShade;  // sine of the light's elevation, 40 degrees
+  const double reach = std::sqrt(1 - kRise * kRise);
+  const double steepness = std::sqrt(1 + east * east + north * north);
+  double sum = 0;
+  for (const Light& light : kLights) {
+    const double azimuth = light.azimuth * std::numbers::pi / 180;
+    const double facing = -east * std::sin(azimuth) - north * std::cos(azimuth);
+    sum += light.weight * std::max(0.0, (kRise + reach * facing) / steepness);
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<float> hillshade(std::span<const float> heights, const RasterGrid& pixels) {
+  float low = std::numeric_limits<float>::infinity(), high = -low;
+  for (const float z : heights) {
+    if (!std::isnan(z)) low = std::min(low, z), high = std::max(high, z);
+  }
+  // Gentle country is exaggerated and mountains are not: relief of a tenth of the map's width needs no help.
+  const double width = std::max(pixels.bounds().width(), pixels.bounds().height());
+  const double exaggeration = high > low ? std::clamp(0.12 * width / (high - low), 1.0, 6.0) : 1;
+  const auto columns = pixels.columns(), rows = pixels.rows();
+  const auto height = [&](std::int64_t column, std::int64_t row) {
+    return heights[pixels.index(
+        {std::clamp<std::int64_t>(column, 0, columns - 1), std::clamp<std::int64_t>(row, 0, rows - 1)})];
+  };
+  // Rise over two pixels, or over one at the edge of the surface; nothing where a pixel stands alone.
+  const auto slope = [](float before, float here, float after, double step) {
+    if (!std::isnan(before) && !std::isnan(after)) return (after - before) / (2 * step);
+    if (!std::isnan(after)) return (after - here) / step;
+    return std::isnan(before) ? 0.0 : (here - before) / step;
+  };
+  std::vector<float> result(pixels.cell_count(), kNothing);
+  parallel_for(static_cast<std::size_t>(rows), [&](std::size_t r) {
+    const auto row = static_cast<std::int64_t>(r);
+    for (std::int64_t column = 0; column < columns; ++column) {
+      const float here = height(column, row);
+      if (std::isnan(here)) continue;
+      const double east = slope(height(column - 1, row), here, height(column + 1, row), pixels.cell_width());
+      const double north = slope(height(column, row + 1), here, height(column, row - 1), pixels.cell_height());
+      result[pixels.index({column, row})] = static_cast<float>(shade(exaggeration * east, exaggeration * north));
+    }
+  });
+  return result;
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,29 @@
+// Text on pictures, with a font found on the machine.
+#pragma once
+
+#include <string>
+
+#include "drawing/canvas.hpp"
+
+namespace itin::viewshed {
+
+enum class Align { kLeft, kCentre, kRight };
+
+class Lettering {
+ public:
+  /// Looks for a sans-serif font in the usual places. Without one nothing is drawn and widths are 0.
+  Lettering();
+  bool available() const { return !font_.empty(); }
+
+  /// `baseline` is where the text stands; `size` is the font's height in pixels.
+  void draw(Canvas& canvas, const std::string& text, Point2 baseline, int size, Colour colour,
+            Align align = Align::kLeft) const;
+  /// The same with a white rim, to be read over anything.
+  void draw_with_rim(Canvas& canvas, const std::string& text, Point2 baseline, int size, Colour colour) const;
+  int width(const std::string& text, int size) const;
+
+ private:
+  std::string font_;  ///< path
+};
+
+}  // namespace itin::viewshed

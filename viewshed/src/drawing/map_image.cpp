@@ -1,0 +1,309 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+#include <viewshed/map_image.hpp>
+
+#include "bounds/pixel_heights.hpp"
+#include "drawing/canvas.hpp"
+#include "drawing/hillshade.hpp"
+#include "drawing/lettering.hpp"
+#include "drawing/map_overlay.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+constexpr Colour kMark{213, 94, 0};
+constexpr Colour kInk{30, 30, 30};
+constexpr Colour kFaint{95, 95, 95};
+constexpr Colour kMapPaper{255, 255, 255};
+constexpr Colour kVoid{244, 244, 244};
+
+constexpr std::uint8_t kLevelGrey = 214;  ///< of level ground
+
+constexpr double kOutsideFade = 0.6;  ///< how far ground outside the field of view fades into the paper
+
+std::string length_text(double metres) {
+  return metres >= 1000 ? fmt::format("{:.10g} km", metres / 1000) : fmt::format("{:.10g} m", metres);
+}
+
+std::string area_text(double square_metres) {
+  if (square_metres >= 1e5) return fmt::format("{:.4g} sq km", square_metres / 1e6);
+  return fmt::format("{:.0f} sq m", square_metres);
+}
+
+void require_possible(const MapOptions& options) {
+  if (options.map_pixels < 200 || options.map_pixels > 16000)
+    throw InputError(fmt::format("map of {} pixels: give 200 to 16000", options.map_pixels));
+}
+
+/// 1, 2 or 5 times a power of ten, at most v.
+double round_length(double v) {
+  const double decade = std::pow(10, std::floor(std::log10(v)));
+  for (const double step : {5.0, 2.0})
+    if (step * decade <= v) return step * decade;
+  return decade;
+}
+
+class MapDrawing {
+ public:
+  /// heights_of(pixels) are those of the ground.
+  template <class HeightsOf>
+  MapDrawing(const HeightsOf& heights_of, const Result& result, const MapOptions& options)
+      : result_(result),
+        options_(options),
+        pixels_(pixel_grid(result.grid, options.map_pixels)),
+        shades_(hillshade(heights_of(pixels_), pixels_)),
+        width_(static_cast<int>(pixels_.columns())),
+        height_(static_cast<int>(pixels_.rows())),
+        unit_(std::max(10, static_cast<int>(std::lround(std::max(width_, height_) / 80.0)))),
+        canvas_(std::max(width_, 40 * unit_) + 4 * unit_, height_ + 14 * unit_, kMapPaper),
+        left_((canvas_.width() - width_) / 2),
+        top_(6 * unit_),
+        overlay_(result, options) {}
+
+  MapImage draw() {
+    draw_ground();
+    draw_observers();
+    canvas_.frame(left_ - 1, top_ - 1, width_ + 2, height_ + 2, kInk);
+    draw_heading();
+    draw_north_arrow();
+    draw_scale_bar();
+    draw_legend();
+    MapImage image{canvas_.width(), canvas_.height(), std::move(canvas_.rgb()), {}};
+    if (!letters_.available())
+      image.warnings.emplace_back("map: no font found, drawn without text; install fonts-dejavu-core");
+    return image;
+  }
+
+ private:
+  static RasterGrid pixel_grid(const RasterGrid& cells, int longest) {
+    const Box box = cells.bounds();
+    const double pixel = std::max(box.width(), box.height()) / longest;
+    const auto count = [&](double length) { return std::max<std::int64_t>(1, std::llround(length / pixel)); };
+    const std::int64_t columns = count(box.width()), rows = count(box.height());
+    return {{box.xmin, box.ymax},
+            box.width() / static_cast<double>(columns),
+            box.height() / static_cast<double>(rows),
+            columns,
+            rows};
+  }
+
+  /// The mean of what a pixel's samples show.
+  struct Shown {
+    double red = 0, green = 0, blue = 0;  ///< times the opacity
+    double opacity = 0;
+    double outside = 0;  ///< share outside the field of view
+
+    void add(const std::optional<Tint>& tint) {
+      outside += tint ? 0 : 1;
+      if (!tint) return;
+      opacity += tint->opacity;
+      red += tint->opacity * tint->colour.red;
+      green += tint->opacity * tint->colour.green;
+      blue += tint->opacity * tint->colour.blue;
+    }
+    Colour colour() const {
+      const auto channel = [&](double sum) { return static_cast<std::uint8_t>(std::lround(sum / opacity)); };
+      return opacity > 0 ? Colour{channel(red), channel(green), channel(blue)} : Colour{};
+    }
+  };
+
+  Shown shown_at(std::int64_t column, std::int64_t row) const {
+    // As many samples as cells along a pixel's side, within reason, so that thin shadows are not lost.
+    const double cells = pixels_.cell_width() / result_.grid.cell_width();
+    const int samples = static_cast<int>(std::clamp(std::ceil(cells), 1.0, 4.0));
+    Shown shown;
+    for (int i = 0; i < samples; ++i) {
+      for (int j = 0; j < samples; ++j) {
+        const Point2 centre = pixels_.centre(column, row);
+        const auto cell = result_.grid.cell_at({centre.x + ((i + 0.5) / samples - 0.5) * pixels_.cell_width(),
+                                                centre.y + ((j + 0.5) / samples - 0.5) * pixels_.cell_height()});
+        shown.add(cell ? overlay_.at(result_.grid.index(*cell)) : std::nullopt);
+      }
+    }
+    const int count = samples * samples;
+    return {shown.red / count, shown.green / count, shown.blue / count, shown.opacity / count, shown.outside / count};
+  }
+
+  void draw_ground() {
+    for (int y = 0; y < height_; ++y) {
+      for (int x = 0; x < width_; ++x) {
+        const float shade = shades_[pixels_.index({x, y})];
+        const int px = left_ + x, py = top_ + y;
+        if (std::isnan(shade)) {
+          canvas_.blend(px, py, kVoid, 1);
+          continue;
+        }
+        const auto grey =
+            static_cast<std::uint8_t>(std::clamp(kLevelGrey + 150.0 * (shade - kLevelShade), 100.0, 250.0));
+        const Shown shown = shown_at(x, y);
+        canvas_.blend(px, py, {grey, grey, grey}, 1);
+        canvas_.blend(px, py, kMapPaper, kOutsideFade * shown.outside);
+        canvas_.blend(px, py, shown.colour(), shown.opacity);
+      }
+    }
+  }
+
+  Point2 place_of(Point2 p) const { return {left_ + pixels_.column_at(p.x), top_ + pixels_.row_at(p.y)}; }
+
+  void draw_mark(Point2 at) {
+    canvas_.fill_disc(at, 0.62 * unit_, kMapPaper);
+    canvas_.fill_disc(at, 0.5 * unit_, kInk);
+    canvas_.fill_disc(at, 0.4 * unit_, kMark);
+  }
+
+  void draw_observers() {
+    for (const Observer& observer : result_.request.observers)
+      if (result_.grid.cell_at(observer.position)) draw_mark(place_of(observer.position));
+    constexpr std::size_t kMostLabels = 40;
+    if (result_.request.observers.size() > kMostLabels) return;
+    for (const Observer& observer : result_.request.observers) {
+      if (observer.name.empty() || !result_.grid.cell_at(observer.position)) continue;
+      const Point2 at = place_of(observer.position);
+      const int size = unit_ * 5 / 4, label = letters_.width(observer.name, size);
+      const bool fits = at.x + unit_ + label < left_ + width_;
+      letters_.draw_with_rim(canvas_, observer.name,
+                             {fits ? at.x + 0.9 * unit_ : at.x - 0.9 * unit_ - label, at.y + 0.45 * unit_}, size, kInk);
+    }
+  }
+
+  std::string subtitle() const {
+    if (!options_.subtitle.empty()) return options_.subtitle;
+    const Request& r = result_.request;
+    const Observer& first = r.observers.front();
+    const bool alike = std::all_of(r.observers.begin(), r.observers.end(), [&](const Observer& o) {
+      return o.height == first.height && o.absolute == first.absolute;
+    });
+    std::string text = r.observers.size() == 1 ? "Observer" : fmt::format("{} observers", r.observers.size());
+    const auto height = [](double metres, bool absolute) {
+      return fmt::format("{} {:g} m {}", absolute ? " at" : "", metres, absolute ? "elevation" : "above ground");
+    };
+    if (alike) text += height(first.height, first.absolute);
+    text += ", target" + height(r.target_height, r.target_absolute);
+    if (r.radius) text += ", within " + length_text(*r.radius);
+    text += fmt::format("; cells of {}", length_text(result_.grid.cell_width()));
+    return text;
+  }
+
+  void draw_heading() {
+    letters_.draw(canvas_, options_.title, {static_cast<double>(left_), 2.9 * unit_}, 2 * unit_, kInk);
+    letters_.draw(canvas_, subtitle(), {static_cast<double>(left_), 5.0 * unit_},
+                  fitting_size(subtitle(), width_, unit_ * 5 / 4), kFaint);
+  }
+
+  /// The largest size up to `size` at which the text is no wider than `width`, though never unreadable.
+  int fitting_size(const std::string& text, int width, int size) const {
+    while (size > 8 && letters_.width(text, size) > width) --size;
+    return size;
+  }
+
+  void draw_north_arrow() {
+    const Point2 centre{left_ + width_ - 3.0 * unit_, top_ + 3.2 * unit_};
+    canvas_.fill_disc(centre, 2.3 * unit_, kMapPaper, 0.8);
+    const Point2 tip{centre.x, centre.y - 1.1 * unit_}, tail{centre.x, centre.y + 0.9 * unit_};
+    canvas_.fill_triangle({tip, {centre.x - 0.8 * unit_, centre.y + 1.5 * unit_}, tail}, kInk);
+    canvas_.fill_triangle({tip, {centre.x + 0.8 * unit_, centre.y + 1.5 * unit_}, tail}, kFaint);
+    letters_.draw(canvas_, "N", {centre.x, centre.y - 1.2 * unit_}, unit_, kInk, Align::kCentre);
+  }
+
+  void draw_scale_bar() {
+    const double length = round_length(0.25 * pixels_.bounds().width());
+    const double pixels = length / pixels_.cell_width();
+    constexpr int kParts = 4;
+    const int y = top_ + height_ + unit_, thickness = std::max(4, unit_ / 2);
+    const int x0 = left_ + width_ - static_cast<int>(std::lround(pixels)) - 2 * unit_;
+    for (int i = 0; i < kParts; ++i) {
+      const int from = x0 + static_cast<int>(std::lround(pixels * i / kParts));
+      const int to = x0 + static_cast<int>(std::lround(pixels * (i + 1) / kParts));
+      canvas_.fill_rectangle(from, y, to - from, thickness, i % 2 == 0 ? kInk : kMapPaper);
+    }
+    canvas_.frame(x0, y, static_cast<int>(std::lround(pixels)), thickness, kInk);
+    const double baseline = y + thickness + 1.3 * unit_;
+    letters_.draw(canvas_, "0", {static_cast<double>(x0), baseline}, unit_, kInk, Align::kCentre);
+    letters_.draw(canvas_, length_text(length), {x0 + pixels, baseline}, unit_, kInk, Align::kCentre);
+  }
+
+  /// A patch of the map's colours over level ground, and what it means.
+  void draw_key(int row, const std::vector<Tint>& tints, double fade, const std::string& text) {
+    const int x = left_, y = top_ + height_ + unit_ + row * 7 * unit_ / 4;
+    const int width = 2 * unit_, height = 5 * unit_ / 4, bands = static_cast<int>(tints.size());
+    canvas_.fill_rectangle(x, y, width, height, {kLevelGrey, kLevelGrey, kLevelGrey});
+    canvas_.fill_rectangle(x, y, width, height, kMapPaper, fade);
+    for (int i = 0; i < bands; ++i) {
+      const int from = width * i / bands, to = width * (i + 1) / bands;
+      const Tint& tint = tints[static_cast<std::size_t>(i)];
+      canvas_.fill_rectangle(x + from, y, to - from, height, tint.colour, tint.opacity);
+    }
+    canvas_.frame(x, y, width, height, kFaint);
+    letters_.draw(canvas_, text, {x + 2.6 * unit_, y + 1.05 * unit_}, unit_, kInk);
+  }
+
+  std::string share_text(const std::string& what, std::uint64_t cells) const {
+    const std::uint64_t decided =
+        std::max<std::uint64_t>(1, result_.cells.visible + result_.cells.hidden + result_.cells.undecided);
+    return fmt::format("{}: {} ({:.1f} %)", what, area_text(static_cast<double>(cells) * result_.grid.cell_area()),
+                       100.0 * static_cast<double>(cells) / static_cast<double>(decided));
+  }
+
+  void draw_legend() {
+    int row = 0;
+    for (const MapOverlay::Key& key : overlay_.keys()) draw_key(row++, key.tints, 0, share_text(key.text, key.cells));
+    if (row < 3 && result_.cells.outside > 0) draw_key(row, {}, kOutsideFade, "Outside the field of view, or no data");
+    const double y = top_ + height_ + 6.9 * unit_;
+    draw_mark({left_ + 1.0 * unit_, y});
+    letters_.draw(canvas_, result_.request.observers.size() == 1 ? "Observer" : "Observers",
+                  {left_ + 2.6 * unit_, y + 0.4 * unit_}, unit_, kInk);
+    const std::string earth = result_.request.earth.convention();
+    letters_.draw(canvas_, earth, {static_cast<double>(left_ + width_), y + 0.4 * unit_},
+                  fitting_size(earth, width_ / 2, unit_ * 9 / 10), kFaint, Align::kRight);
+    if (!overlay_.scale().empty()) draw_scale();
+  }
+
+  /// The overlay's steps side by side, in the middle of the lower margin.
+  void draw_scale() {
+    const std::vector<MapOverlay::Step>& steps = overlay_.scale();
+    const int x0 = left_ + width_ * 2 / 5, y = top_ + height_ + unit_, step = 3 * unit_;
+    letters_.draw(canvas_, overlay_.scale_title(), {static_cast<double>(x0), y + 1.0 * unit_}, unit_, kInk);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      const Tint& tint = steps[i].tint;
+      const int x = x0 + static_cast<int>(i) * step;
+      canvas_.fill_rectangle(x, y + 7 * unit_ / 4, step, 5 * unit_ / 4, {kLevelGrey, kLevelGrey, kLevelGrey});
+      canvas_.fill_rectangle(x, y + 7 * unit_ / 4, step, 5 * unit_ / 4, tint.colour, tint.opacity);
+      letters_.draw(canvas_, steps[i].text, {x + 0.5 * step, y + 4.2 * unit_},
+                    fitting_size(steps[i].text, step - 4, unit_), kInk, Align::kCentre);
+    }
+  }
+
+  const Result& result_;
+  const MapOptions& options_;
+  RasterGrid pixels_;
+  std::vector<float> shades_;  ///< of the ground, a pixel
+  int width_, height_;         ///< of the map proper, pixels
+  int unit_;                   ///< everything else is measured in this, pixels
+  Canvas canvas_;
+  int left_, top_;  ///< of the map proper on the canvas
+  MapOverlay overlay_;
+  Lettering letters_;
+};
+
+}  // namespace
+
+MapImage draw_map(const Tin& tin, const Result& result, const MapOptions& options) {
+  require_possible(options);
+  return MapDrawing([&](const RasterGrid& pixels) { return heights_at(tin, pixels); }, result, options).draw();
+}
+
+MapImage draw_map(Surface& surface, const Result& result, Progress& progress, const MapOptions& options) {
+  if (!surface.lattice) return draw_map(surface.tin, result, options);
+  require_possible(options);
+  surface.lattice->read_all(progress);
+  const LatticeTin& lattice = surface.lattice->lattice();
+  return MapDrawing([&](const RasterGrid& pixels) { return heights_at(lattice, pixels); }, result, options).draw();
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,89 @@
+// Lettering and files of maps.
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+#include <itin/output_file.hpp>
+#include <viewshed/map_image.hpp>
+
+#include "drawing/drawing.hpp"
+#include "drawing/lettering.hpp"
+#include "drawing/plain_text.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string find_font() {
+  std::vector<fs::path> places{"/usr/share/fonts", "/usr/local/share/fonts", "/Library/Fonts", "/System/Library/Fonts"};
+  if (const char* home = std::getenv("HOME")) places.push_back(fs::path(home) / ".local/share/fonts");
+  // The earlier the better: metrics differ little, but a machine should always choose the same.
+  constexpr std::array kNames{"DejaVuSans.ttf", "LiberationSans-Regular.ttf", "NotoSans-Regular.ttf", "FreeSans.ttf",
+                              "Arial.ttf"};
+  std::array<std::string, kNames.size()> found;
+  for (const fs::path& place : places) {
+    std::error_code error;
+    for (fs::recursive_directory_iterator i(place, fs::directory_options::skip_permission_denied, error), end;
+         !error && i != end; i.increment(error)) {
+      const auto name = std::find(kNames.begin(), kNames.end(), i->path().filename());
+      if (name == kNames.end()) continue;
+      std::string& slot = found[static_cast<std::size_t>(name - kNames.begin())];
+      if (slot.empty()) slot = i->path().string();
+    }
+  }
+  const auto best = std::find_if(found.begin(), found.end(), [](const std::string& path) { return !path.empty(); });
+  return best == found.end() ? std::string() : *best;
+}
+
+}  // namespace
+
+Lettering::Lettering() : font_(find_font()) {}
+
+void Lettering::draw(Canvas& canvas, const std::string& text, Point2 baseline, int size, Colour colour,
+                     Align align) const {
+  if (!available()) return;
+  const std::array<float, 3> rgb{colour.red / 255.0F, colour.green / 255.0F, colour.blue / 255.0F};
+  const int side = align == Align::kLeft ? 0 : align == Align::kCentre ? 1 : 2;
+  drawing().draw_text({canvas.rgb().data(), canvas.width(), canvas.height()}, plain_text(text).c_str(),
+                      {font_.c_str(), size}, static_cast<int>(baseline.x), static_cast<int>(baseline.y), side,
+                      rgb.data());
+}
+
+void Lettering::draw_with_rim(Canvas& canvas, const std::string& text, Point2 baseline, int size, Colour colour) const {
+  for (const double dx : {-2.0, 0.0, 2.0})
+    for (const double dy : {-2.0, 0.0, 2.0})
+      draw(canvas, text, {baseline.x + dx, baseline.y + dy}, size, {255, 255, 255});
+  draw(canvas, text, baseline, size, colour);
+}
+
+int Lettering::width(const std::string& text, int size) const {
+  return available() ? drawing().text_width(plain_text(text).c_str(), {font_.c_str(), size}) : 0;
+}
+
+void require_image_format(const std::string& path) {
+  if (!drawing().knows_format(path.c_str()))
+    throw InputError(fmt::format("{}: no image format for the ending '{}'; use .png or .jpg", path,
+                                 fs::path(path).extension().string()));
+}
+
+void write_image(const std::string& path, const MapImage& image, bool overwrite) {
+  require_image_format(path);
+  // The module does not change what it encodes.
+  const Picture picture{const_cast<std::uint8_t*>(image.rgb.data()), image.width, image.height};
+  std::string bytes;
+  const char* const failed =
+      drawing().encode(picture, path.c_str(), &bytes, [](void* to, const void* from, std::size_t count) {
+        static_cast<std::string*>(to)->assign(static_cast<const char*>(from), count);
+      });
+  if (failed != nullptr) throw FileError(path, std::string("cannot be written: ") + failed);
+  write_file(path, bytes, overwrite);
+}
+
+}  // namespace itin::viewshed

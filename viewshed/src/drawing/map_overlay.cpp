@@ -1,0 +1,239 @@
+#include "drawing/map_overlay.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include <viewshed/certified.hpp>
+
+namespace itin::viewshed {
+
+namespace {
+
+constexpr double kOpacity = 0.55;  ///< of what is seen
+constexpr int kSteps = 5;
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
+
+/// The rest of the palette, for observers.
+constexpr std::array<Colour, 7> kPalette{
+    {{0, 114, 178}, {230, 159, 0}, {0, 158, 115}, {204, 121, 167}, {86, 180, 233}, {213, 94, 0}, {240, 228, 66}}};
+
+/// Of step i of n, weak to strong.
+double opacity_of(int i, int n) {
+  return n == 1 ? kOpacity : 0.25 + 0.6 * i / (n - 1);
+}
+
+/// 1, 2 or 5 times a power of ten, at least v.
+double round_step(double v) {
+  const double decade = std::pow(10, std::floor(std::log10(v)));
+  for (const double step : {1.0, 2.0, 5.0})
+    if (step * decade >= v * (1 - 1e-9)) return step * decade;
+  return 10 * decade;
+}
+
+struct Extremes {
+  double least = std::numeric_limits<double>::infinity();
+  double most = -std::numeric_limits<double>::infinity();
+  bool empty() const { return least > most; }
+};
+
+Extremes extremes_of(const std::vector<float>& values) {
+  Extremes e;
+  for (const float v : values) {
+    if (!std::isfinite(v)) continue;
+    e.least = std::min(e.least, static_cast<double>(v));
+    e.most = std::max(e.most, static_cast<double>(v));
+  }
+  return e;
+}
+
+}  // namespace
+
+MapOverlay::MapOverlay(const Result& result, const MapOptions& options) : result_(result) {
+  make_scale();
+  make_keys(options);
+}
+
+std::optional<Tint> MapOverlay::at(std::size_t cell) const {
+  const Verdict seen = result_.visible[cell];
+  if (seen == Verdict::kOutside) return std::nullopt;
+  if (seen == Verdict::kUndecided) return Tint{kUndecidedColour, kOpacity};
+  if (steps_.empty()) return Tint{kSeenColour, seen == Verdict::kVisible ? kOpacity : 0};
+  const double v = value(cell);
+  if (std::isnan(v)) return Tint{};
+  const auto step = std::lower_bound(most_.begin(), most_.end(), v);
+  const auto i = std::min(static_cast<std::size_t>(step - most_.begin()), steps_.size() - 1);
+  return steps_[i].tint;
+}
+
+double MapOverlay::value(std::size_t cell) const {
+  const auto positive = [](double v) { return v > 0 ? v : kNoValue; };
+  switch (result_.request.mode) {
+    case Mode::kCount:
+      return positive(result_.count[cell]);
+    case Mode::kWhich: {
+      int count = 0;
+      for (std::size_t i = cell; i < result_.which.size(); i += result_.grid.cell_count())
+        count += std::popcount(result_.which[i]);
+      return positive(count);
+    }
+    case Mode::kAngle:
+      return result_.angle_deg[cell];
+    case Mode::kNearest:
+      return result_.request.observers.size() <= kPalette.size() ? positive(result_.nearest[cell])
+                                                                 : result_.distance_m[cell];
+    case Mode::kBlocker:
+      return result_.visible[cell] == Verdict::kVisible ? 0
+             : result_.blocker[cell] == kNoBlocker      ? kNoValue
+                                                        : blocker_value(result_.blocker_theme[cell]);
+    case Mode::kHeight:
+      return result_.least_height_m[cell];
+    case Mode::kProbability:
+      return result_.probability[cell];
+    case Mode::kVisible:
+      break;
+  }
+  return kNoValue;
+}
+
+/// Of the scale of blockers.
+double MapOverlay::blocker_value(std::uint32_t theme) const {
+  const auto known = std::find(blockers_.begin(), blockers_.end(), theme);
+  return known == blockers_.end() ? kNoValue : static_cast<double>(known - blockers_.begin() + 1);
+}
+
+void MapOverlay::add_step(double most, Tint tint, std::string text) {
+  most_.push_back(most);
+  steps_.push_back({tint, std::move(text)});
+}
+
+void MapOverlay::make_scale() {
+  switch (result_.request.mode) {
+    case Mode::kCount:
+    case Mode::kWhich:
+      return scale_counts();
+    case Mode::kAngle:
+      return scale_angles();
+    case Mode::kNearest:
+      return result_.request.observers.size() <= kPalette.size() ? scale_observers() : scale_distances();
+    case Mode::kBlocker:
+      return scale_blockers();
+    case Mode::kHeight:
+      return scale_heights();
+    case Mode::kProbability:
+      return scale_probabilities();
+    case Mode::kVisible:
+      return;
+  }
+}
+
+void MapOverlay::scale_counts() {
+  title_ = "Seen by observers";
+  int most = 1;
+  for (std::size_t i = 0; i < result_.visible.size(); ++i)
+    if (const double v = result_.visible[i] == Verdict::kVisible ? value(i) : 0; v > most) most = static_cast<int>(v);
+  const int steps = std::min(most, kSteps);
+  for (int i = 0; i < steps; ++i) {
+    const int from = most * i / steps + 1, to = most * (i + 1) / steps;
+    add_step(to, {kSeenColour, opacity_of(i, steps)},
+             from == to ? fmt::format("{}", from) : fmt::format("{}–{}", from, to));
+  }
+}
+
+void MapOverlay::scale_angles() {
+  title_ = "Elevation angle, up to degrees";
+  const Extremes e = extremes_of(result_.angle_deg);
+  if (e.empty()) return;
+  // The least width that does with so many steps; where a multiple of it falls badly, one more is needed.
+  double width = round_step(std::max((e.most - e.least) / kSteps, 0.01));
+  if (std::floor(e.most / width) - std::floor(e.least / width) >= kSteps) width = round_step(1.01 * width);
+  const int first = static_cast<int>(std::floor(e.least / width)), last = static_cast<int>(std::floor(e.most / width));
+  for (int i = first; i <= last; ++i)
+    add_step((i + 1) * width, {kSeenColour, opacity_of(i - first, last - first + 1)},
+             fmt::format("{:.6g}", (i + 1) * width));
+}
+
+void MapOverlay::scale_observers() {
+  title_ = "Nearest visible observer";
+  for (std::size_t i = 0; i < result_.request.observers.size(); ++i) {
+    const std::string& name = result_.request.observers[i].name;
+    add_step(static_cast<double>(i + 1), {kPalette[i], kOpacity}, name.empty() ? fmt::format("{}", i + 1) : name);
+  }
+}
+
+void MapOverlay::scale_distances() {
+  title_ = "Nearest visible observer, up to metres";
+  const Extremes e = extremes_of(result_.distance_m);
+  if (e.empty()) return;
+  const double width = round_step(std::max(e.most / kSteps, 1.0));
+  const int steps = std::max(1, static_cast<int>(std::ceil(e.most / width)));
+  for (int i = 0; i < steps; ++i)
+    add_step((i + 1) * width, {kSeenColour, opacity_of(steps - 1 - i, steps)}, fmt::format("{:.10g}", (i + 1) * width));
+}
+
+void MapOverlay::scale_blockers() {
+  title_ = "Hidden by";
+  blockers_ = result_.blocker_theme;
+  std::sort(blockers_.begin(), blockers_.end());
+  blockers_.erase(std::unique(blockers_.begin(), blockers_.end()), blockers_.end());
+  std::erase(blockers_, kNoBlocker);
+  add_step(0, {kSeenColour, kOpacity}, "visible");
+  for (std::size_t i = 0; i < blockers_.size(); ++i) {
+    const std::uint32_t theme = blockers_[i];
+    const std::string name = theme == 0                            ? "terrain"
+                             : theme == kMissingGround             ? "no data"
+                             : theme <= result_.theme_names.size() ? result_.theme_names[theme - 1]
+                                                                   : fmt::format("theme {}", theme);
+    // Blue is for what is seen.
+    add_step(static_cast<double>(i + 1), {kPalette[1 + i % (kPalette.size() - 1)], theme == 0 ? 0.2 : kOpacity}, name);
+  }
+}
+
+void MapOverlay::scale_heights() {
+  title_ = "Seen from this height up, metres";
+  std::vector<float> heights;
+  for (const float h : result_.least_height_m)
+    if (h > 0 && std::isfinite(h)) heights.push_back(h);
+  std::sort(heights.begin(), heights.end());
+  // Round heights that part the hidden cells into about as many each.
+  std::vector<double> limits;
+  for (const double share : {0.2, 0.45, 0.7}) {
+    if (heights.empty()) break;
+    const double limit = round_step(heights[static_cast<std::size_t>(share * static_cast<double>(heights.size() - 1))]);
+    if (limits.empty() || limit > limits.back()) limits.push_back(limit);
+  }
+  const int steps = static_cast<int>(limits.size()) + (limits.empty() ? 1 : 2);
+  int step = steps;
+  const auto add = [&](double most, std::string text) {
+    --step;
+    add_step(most, {kSeenColour, steps == 1 ? kOpacity : 0.08 + 0.77 * step / (steps - 1)}, std::move(text));
+  };
+  add(0, "0");
+  for (const double limit : limits) add(limit, fmt::format("{:.10g}", limit));
+  if (!limits.empty()) add(std::numeric_limits<double>::infinity(), fmt::format("> {:.10g}", limits.back()));
+}
+
+void MapOverlay::scale_probabilities() {
+  title_ = "Probability of being visible, up to percent";
+  for (const int percent : {5, 25, 50, 75, 95, 100})
+    add_step(percent / 100.0, {kSeenColour, percent == 5 ? 0 : 0.85 * (percent - 5) / 95}, fmt::format("{}", percent));
+}
+
+void MapOverlay::make_keys(const MapOptions& options) {
+  const CellCounts& cells = result_.cells;
+  std::vector<Tint> seen;
+  const Mode mode = result_.request.mode;
+  if (mode != Mode::kBlocker && mode != Mode::kHeight && mode != Mode::kProbability)
+    for (const Step& step : steps_) seen.push_back(step.tint);
+  if (seen.empty()) seen.push_back({kSeenColour, kOpacity});
+  keys_ = {{std::move(seen), result_.certified ? "Certainly visible" : options.seen, cells.visible},
+           {{}, result_.certified ? "Certainly hidden" : options.unseen, cells.hidden}};
+  if (cells.undecided > 0 || result_.certified)
+    keys_.push_back({{{kUndecidedColour, kOpacity}}, "Undecided", cells.undecided});
+}
+
+}  // namespace itin::viewshed

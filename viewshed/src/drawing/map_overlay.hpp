@@ -1,0 +1,71 @@
+// What a map lays over the ground for each mode, and how its legend says so.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <viewshed/map_image.hpp>
+#include <viewshed/viewshed.hpp>
+
+#include "drawing/canvas.hpp"
+
+namespace itin::viewshed {
+
+/// From the palette of Okabe and Ito, told apart with every kind of colour blindness; visible is also darker than what
+/// is hidden, for grey print.
+inline constexpr Colour kSeenColour{0, 114, 178};
+inline constexpr Colour kUndecidedColour{230, 159, 0};
+
+struct Tint {
+  Colour colour = kSeenColour;
+  double opacity = 0;
+};
+
+class MapOverlay {
+ public:
+  MapOverlay(const Result& result, const MapOptions& options);
+
+  /// Nothing outside the field of view.
+  std::optional<Tint> at(std::size_t cell) const;
+
+  /// Classes of the legend: what a patch of colours stands for.
+  struct Key {
+    std::vector<Tint> tints;  ///< side by side; none: bare ground
+    std::string text;
+    std::uint64_t cells = 0;
+  };
+  const std::vector<Key>& keys() const { return keys_; }
+
+  /// The steps of a scale; none where a mode has no more to tell than the keys.
+  struct Step {
+    Tint tint;
+    std::string text;
+  };
+  const std::string& scale_title() const { return title_; }
+  const std::vector<Step>& scale() const { return steps_; }
+
+ private:
+  /// What the scale is about; NaN where it has nothing to say.
+  double value(std::size_t cell) const;
+  void make_scale();
+  void scale_counts();
+  void scale_angles();
+  void scale_observers();
+  void scale_distances();
+  void scale_blockers();
+  void scale_heights();
+  void scale_probabilities();
+  double blocker_value(std::uint32_t theme) const;
+  void add_step(double most, Tint tint, std::string text);
+  void make_keys(const MapOptions& options);
+
+  const Result& result_;
+  std::string title_;
+  std::vector<double> most_;             ///< the greatest value of each step, ascending
+  std::vector<std::uint32_t> blockers_;  ///< themes that hide, ascending
+  std::vector<Step> steps_;
+  std::vector<Key> keys_;
+};
+
+}  // namespace itin::viewshed

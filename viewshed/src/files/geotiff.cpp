@@ -1,0 +1,189 @@
+#include <algorithm>
+#include <functional>
+#include <limits>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <viewshed/viewshed.hpp>
+
+#include "line/verdicts.hpp"
+#include "request/request.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+std::string observers_text(const std::vector<Observer>& observers) {
+  std::string text;
+  for (const Observer& o : observers) {
+    if (!text.empty()) text += ' ';
+    text += fmt::format("{:.12g},{:.12g},{:.12g}", o.position.x, o.position.y, o.height);
+  }
+  return text;
+}
+
+std::string text_of(double v) {
+  return fmt::format("{:.12g}", v);
+}
+std::string text_of(const AngleRange& range) {
+  return fmt::format("{:.12g},{:.12g}", range.from, range.to);
+}
+
+using Metadata = std::vector<std::pair<std::string, std::string>>;
+
+/// What each observer has of its own or, where it has none, all have: once where that is the same for all, else one by
+/// one, `-` for none.
+template <class Value>
+void add_of_observers(const std::string& name, const Request& request, std::optional<Value> Observer::*own,
+                      const std::optional<Value>& of_all, Metadata& items) {
+  std::vector<std::string> texts;
+  for (const Observer& observer : request.observers) {
+    const std::optional<Value>& value = observer.*own ? observer.*own : of_all;
+    texts.push_back(value ? text_of(*value) : "-");
+  }
+  if (std::adjacent_find(texts.begin(), texts.end(), std::not_equal_to<>()) == texts.end()) texts.resize(1);
+  if (texts != std::vector<std::string>{"-"}) items.emplace_back(name, fmt::format("{}", fmt::join(texts, " ")));
+}
+
+Metadata metadata_of(const Result& result) {
+  const Request& r = result.request;
+  Metadata items{{"observers", observers_text(r.observers)},
+                 {"nodata_rule", nodata_text(r.nodata)},
+                 {"refraction", r.earth.convention()},
+                 {"cells", "decided at their centres"}};
+  if (r.observers.front().absolute) items.emplace_back("observer_heights", "elevations");
+  add_of_observers(r.target_absolute ? "target_elevation_m" : "target_height_m", r, &Observer::target_height,
+                   std::optional(r.target_height), items);
+  add_of_observers("radius_m", r, &Observer::radius, r.radius, items);
+  add_of_observers("min_radius_m", r, &Observer::min_radius,
+                   r.min_radius > 0 ? std::optional(r.min_radius) : std::nullopt, items);
+  add_of_observers("azimuth_deg", r, &Observer::azimuth, r.azimuth, items);
+  add_of_observers("elevation_deg", r, &Observer::elevation, r.elevation, items);
+  if (r.mode == Mode::kProbability) {
+    items.emplace_back("vertical_error_m", fmt::format("{:.12g}", r.vertical_error.sigma));
+    items.emplace_back("error_correlation_m", fmt::format("{:.12g}", r.vertical_error.correlation_length));
+  }
+  if (r.mode == Mode::kBlocker) {
+    for (std::size_t i = 0; i < result.theme_names.size(); ++i)
+      items.emplace_back(fmt::format("theme_{}", i + 1), result.theme_names[i]);
+  }
+  return items;
+}
+
+using RasterClasses = std::vector<RasterClass>;
+
+RasterClasses raster_classes_of_verdicts(bool certified) {
+  const std::string certainly = certified ? "certainly " : "";
+  return {{code_of(Verdict::kHidden), certainly + "hidden", 225, 225, 225, 255},
+          {code_of(Verdict::kVisible), certainly + "visible", 0, 114, 178, 255},
+          {code_of(Verdict::kUndecided), "undecided", 230, 159, 0, 255},
+          {code_of(Verdict::kOutside), "outside or no data", 0, 0, 0, 0}};
+}
+
+/// A result's values under one description.
+class Writer {
+ public:
+  Writer(const std::string& path, const Result& result, RasterDescription description)
+      : path_(path), result_(result), description_(std::move(description)) {}
+
+  void verdicts() {
+    description_.classes = raster_classes_of_verdicts(result_.certified);
+    write<std::uint8_t>({result_.certified ? "certified" : "visible"}, code_of(Verdict::kOutside),
+                        codes_of(result_.visible));
+  }
+  void counts() { write<std::uint16_t>({"observers that see the cell"}, kCountOutside, result_.count); }
+  void angles() {
+    write<float>({"elevation angle of the sight line, degrees; of several observers the greatest"}, kNaN,
+                 result_.angle_deg);
+  }
+
+  void heights() {
+    write<float>({"least height above the ground at which a target is seen, metres; no value: at none"}, kNaN,
+                 result_.least_height_m);
+  }
+  void probabilities() {
+    std::vector<float> values = result_.probability;
+    values.reserve(2 * values.size());
+    for (const Verdict v : result_.visible)
+      values.push_back(v == Verdict::kOutside ? std::numeric_limits<float>::quiet_NaN()
+                                              : static_cast<float>(code_of(v)));
+    write<float>({"probability of being visible, in 512 simulated surfaces", "visible as the heights are"}, kNaN,
+                 values);
+  }
+  void blockers() {
+    std::vector<std::string> bands{"theme of what hides the cell, 0: terrain"};
+    std::vector<std::uint32_t> values = result_.blocker_theme;
+    if (!result_.blocker_feature.empty()) {
+      bands.emplace_back("its feature, from 0 in the order of import");
+      values.insert(values.end(), result_.blocker_feature.begin(), result_.blocker_feature.end());
+    }
+    write<std::uint32_t>(bands, kNoBlocker, values);
+  }
+
+  void bits() {
+    const std::vector<Observer>& observers = result_.request.observers;
+    std::vector<std::string> bands(which_grids(observers.size()));
+    for (std::size_t i = 0; i < observers.size(); ++i) {
+      std::string& band = bands[observer_bit(i).grid];
+      if (!band.empty()) band += ", ";
+      const std::string& name = observers[i].name;
+      band += fmt::format("bit {}: {}", i % 32, name.empty() ? std::to_string(i + 1) : name);
+    }
+    write<std::uint32_t>(bands, std::nullopt, result_.which);
+  }
+
+  void nearest() {
+    std::vector<float> values = result_.distance_m;
+    values.reserve(2 * values.size());
+    for (const std::uint32_t number : result_.nearest)
+      values.push_back(number == 0 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(number));
+    write<float>({"distance of the nearest visible observer, metres", "its number, from 1"}, kNaN, values);
+  }
+
+ private:
+  static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+  template <class T>
+  void write(const std::vector<std::string>& bands, std::optional<double> nodata, const std::vector<T>& values) {
+    description_.band_name = bands.front();
+    description_.further_bands.assign(bands.begin() + 1, bands.end());
+    description_.nodata = nodata;
+    write_raster(path_, result_.grid, std::span<const T>(values), description_);
+  }
+
+  const std::string& path_;
+  const Result& result_;
+  RasterDescription description_;
+};
+
+}  // namespace
+
+void write_geotiff(const std::string& path, const Result& result, const GeotiffOptions& options) {
+  RasterDescription description;
+  description.crs_wkt = options.crs_wkt;
+  description.overwrite = options.overwrite;
+  description.metadata = metadata_of(result);
+  description.metadata.insert(description.metadata.end(), options.metadata.begin(), options.metadata.end());
+  Writer writer(path, result, std::move(description));
+  switch (result.request.mode) {
+    case Mode::kVisible:
+      return writer.verdicts();
+    case Mode::kCount:
+      return writer.counts();
+    case Mode::kWhich:
+      return writer.bits();
+    case Mode::kAngle:
+      return writer.angles();
+    case Mode::kNearest:
+      return writer.nearest();
+    case Mode::kBlocker:
+      return writer.blockers();
+    case Mode::kHeight:
+      return writer.heights();
+    case Mode::kProbability:
+      return writer.probabilities();
+  }
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,81 @@
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include <itin/raster_regions.hpp>
+#include <viewshed/viewshed.hpp>
+
+#include "line/verdicts.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+using RegionClasses = std::vector<RegionClass>;
+
+RegionClasses region_classes_of_verdicts(bool certified) {
+  const std::string certainly = certified ? "certainly " : "";
+  return {{code_of(Verdict::kVisible), certainly + "visible"},
+          {code_of(Verdict::kHidden), certainly + "hidden"},
+          {code_of(Verdict::kUndecided), "undecided"}};
+}
+
+RegionClasses classes_of_counts(const Result& result) {
+  const std::set<std::uint16_t> counts(result.count.begin(), result.count.end());
+  RegionClasses classes;
+  for (const std::uint16_t count : counts)
+    if (count != kCountOutside)
+      classes.push_back({count, count == 0   ? std::string("hidden")
+                                : count == 1 ? std::string("1 observer")
+                                             : fmt::format("{} observers", count)});
+  return classes;
+}
+
+RegionClasses classes_of_observers(const Result& result) {
+  RegionClasses classes;
+  for (std::uint32_t i = 0; i < result.request.observers.size(); ++i) {
+    const std::string& name = result.request.observers[i].name;
+    classes.push_back({i + 1, name.empty() ? fmt::format("observer {}", i + 1) : name});
+  }
+  return classes;
+}
+
+RegionClasses classes_of_blockers(const Result& result) {
+  const std::set<std::uint32_t> themes(result.blocker_theme.begin(), result.blocker_theme.end());
+  RegionClasses classes;
+  for (const std::uint32_t theme : themes) {
+    if (theme == kNoBlocker) continue;
+    classes.push_back({theme, theme == 0                           ? std::string("terrain")
+                              : theme == kMissingGround            ? std::string("no data")
+                              : theme <= result.theme_names.size() ? result.theme_names[theme - 1]
+                                                                   : fmt::format("theme {}", theme)});
+  }
+  return classes;
+}
+
+}  // namespace
+
+void write_polygons(const std::string& path, const Result& result, const std::string& crs_wkt, bool overwrite) {
+  RegionDescription description{crs_wkt, "viewshed", {}, overwrite};
+  const auto write = [&]<class T>(const std::vector<T>& values, RegionClasses classes) {
+    description.classes = std::move(classes);
+    write_regions(path, result.grid, std::span<const T>(values), description);
+  };
+  switch (result.request.mode) {
+    case Mode::kCount:
+      return write(result.count, classes_of_counts(result));
+    case Mode::kNearest:
+      return write(result.nearest, classes_of_observers(result));
+    case Mode::kBlocker:
+      return write(result.blocker_theme, classes_of_blockers(result));
+    case Mode::kVisible:
+    case Mode::kWhich:
+    case Mode::kAngle:
+    case Mode::kHeight:
+    case Mode::kProbability:
+      return write(codes_of(result.visible), region_classes_of_verdicts(result.certified));
+  }
+}
+
+}  // namespace itin::viewshed

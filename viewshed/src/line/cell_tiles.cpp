@@ -1,0 +1,54 @@
+#include "line/cell_tiles.hpp"
+
+#include <algorithm>
+
+#include "line/grid_units.hpp"
+
+namespace itin::viewshed {
+
+RasterGrid grid_of_tiles(const RasterGrid& cells) {
+  constexpr auto kSide = static_cast<double>(Tile::kSide);
+  return {cells.north_west(), cells.cell_width() * kSide, cells.cell_height() * kSide,
+          (cells.columns() + Tile::kSide - 1) / Tile::kSide, (cells.rows() + Tile::kSide - 1) / Tile::kSide};
+}
+
+Tile tile_at(const RasterGrid& cells, const RasterGrid& tiles, std::size_t index) {
+  const RasterGrid::Cell tile = place_of(tiles, index);
+  const std::int64_t column = tile.column * Tile::kSide, row = tile.row * Tile::kSide;
+  return {column, row, std::min(Tile::kSide, cells.columns() - column), std::min(Tile::kSide, cells.rows() - row)};
+}
+
+RasterGrid::Cell place_of(const RasterGrid& grid, std::size_t index) {
+  const auto number = static_cast<std::int64_t>(index);
+  return {number % grid.columns(), number / grid.columns()};
+}
+
+TileCentres::TileCentres(const Grid& units, const RasterGrid& grid, const Tile& tile) {
+  for (std::int64_t c = 0; c < tile.columns; ++c)
+    x[static_cast<std::size_t>(c)] = easting_in_units(units, grid.centre_x(tile.column + c));
+  for (std::int64_t r = 0; r < tile.rows; ++r)
+    y[static_cast<std::size_t>(r)] = northing_in_units(units, grid.centre_y(tile.row + r));
+}
+
+Box box_of(const RasterGrid& grid, const Tile& tile) {
+  const Box centres = box_of_centres(grid, tile);
+  const double half_width = grid.cell_width() / 2, half_height = grid.cell_height() / 2;
+  return {centres.xmin - half_width, centres.ymin - half_height, centres.xmax + half_width, centres.ymax + half_height};
+}
+
+Box box_of_centres(const RasterGrid& grid, const Tile& tile) {
+  return {grid.centre_x(tile.column), grid.centre_y(tile.row + tile.rows - 1),
+          grid.centre_x(tile.column + tile.columns - 1), grid.centre_y(tile.row)};
+}
+
+Box box_of_cell(const RasterGrid& grid, RasterGrid::Cell cell) {
+  return box_of(grid, Tile{cell.column, cell.row, 1, 1});
+}
+
+double squared_distance(Point2 position, const Box& box) {
+  const double dx = position.x - std::clamp(position.x, box.xmin, box.xmax),
+               dy = position.y - std::clamp(position.y, box.ymin, box.ymax);
+  return dx * dx + dy * dy;
+}
+
+}  // namespace itin::viewshed

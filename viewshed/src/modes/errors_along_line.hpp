@@ -1,0 +1,68 @@
+// The errors of the heights that a sight line meets, in many worlds: drawn along the line, one vertex after another.
+//
+//   const ErrorWorlds worlds;
+//   ErrorsAlongLine errors(tin, correlation, worlds);   // for many lines
+//   errors.begin(under_the_eye, under_the_target);
+//   for (std::uint32_t vertex : ...) use(errors.from(), errors.to(), errors.of(vertex));
+//
+// Vertices' errors are normal, of standard deviation 1, and correlated as exp(-x / L). Each is drawn given those of
+// both ends and of the two vertices asked for before it. For L = 0, and a line's edges in order, that is all there is
+// to know; for others next to all, as exp(-x / L) is nearly a Markov process.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include <itin/tin.hpp>
+
+#include "modes/error_worlds.hpp"
+
+namespace itin::viewshed {
+
+/// An error that is a weighted sum of those of up to three vertices: of none, it is 0.
+struct ErrorSum {
+  std::array<std::uint32_t, 3> vertex{};
+  std::array<double, 3> weight{};
+  std::size_t count = 0;
+  friend bool operator==(const ErrorSum&, const ErrorSum&) = default;
+};
+
+/// For one thread. 10 kB.
+class ErrorsAlongLine {
+ public:
+  using Errors = std::array<float, ErrorWorlds::kCount>;  ///< one a world
+
+  /// `correlation`: L in grid units. All must outlive it.
+  ErrorsAlongLine(const Tin& tin, double correlation, const ErrorWorlds& worlds);
+
+  /// A line between places whose heights have these errors. What it has of the eye of the line before serves again.
+  void begin(const ErrorSum& from, const ErrorSum& to);
+  const Errors& from() const { return ends_[0].errors; }
+  const Errors& to() const { return ends_[1].errors; }
+  /// Holds until two other vertices have been asked for.
+  const Errors& of(std::uint32_t vertex);
+
+ private:
+  /// An error that has been drawn.
+  struct Drawn {
+    ErrorSum sum;
+    std::array<double, 2> with_ends{};  ///< covariances
+    std::uint32_t used = 0;             ///< of a vertex: when last asked for; 0 where none has been drawn
+    Errors errors{};
+  };
+  void draw_end(std::size_t which, const ErrorSum& sum, std::span<const Drawn* const> given);
+  void draw(Drawn& out, std::uint64_t number, std::span<const Drawn* const> given) const;
+  double covariance(const ErrorSum& a, const ErrorSum& b) const;
+
+  const Tin& tin_;
+  double correlation_;
+  const ErrorWorlds& worlds_;
+  std::array<Drawn, 2> ends_;
+  std::array<Drawn, 3> vertices_;
+  std::uint32_t clock_ = 0;
+};
+
+}  // namespace itin::viewshed

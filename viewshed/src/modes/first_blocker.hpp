@@ -1,0 +1,41 @@
+// What first hides a target from an eye: of the triangles that rise above the sight line, the nearest to the eye.
+//
+//   const FirstBlocker blockers(tin, earth);
+//   const std::optional<FirstBlocker::Blocker> blocker = blockers.find(eye, target);
+//
+// Decided in double precision by every triangle that may matter (HeightPyramid), with SightLine's rule for grazing: a
+// line that a viewshed reports hidden by ground has a blocker.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <itin/earth.hpp>
+#include <itin/tin.hpp>
+
+#include "bounds/height_pyramid.hpp"
+
+namespace itin::viewshed {
+
+/// Safe for concurrent use.
+class FirstBlocker {
+ public:
+  /// The Tin must outlive it. Cost and memory: HeightPyramid's.
+  FirstBlocker(const Tin& tin, const Earth& earth);
+
+  struct Blocker {
+    std::uint32_t triangle = 0;
+    double at = 0;  ///< fraction of the line's length where it first rises above it
+  };
+  /// Ends in grid units. Nothing for a line that no ground hides. Of triangles that begin to hide at one place the
+  /// first by number.
+  std::optional<Blocker> find(const Point3& from, const Point3& to) const;
+
+ private:
+  const Tin& tin_;
+  double drop_;     ///< grid units of drop a squared grid unit
+  double grazing_;  ///< grid units
+  HeightPyramid pyramid_;
+};
+
+}  // namespace itin::viewshed

@@ -1,0 +1,27 @@
+// The height mode: how high a target in a cell must be for some observer to see it.
+#pragma once
+
+#include "modes/observation.hpp"
+
+namespace itin::viewshed {
+
+class LeastHeightObservation final : public Observation {
+ public:
+  /// Of one tile.
+  LeastHeightObservation();
+
+  bool open(const Look& look) const override;
+  std::uint64_t look(const TileLook& tile) override;
+
+ private:
+  void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override;
+  bool raise(const TileLook& tile, const Look& look);
+  void settle(const TileLook& tile, const Look& look);
+
+  TileValues<double> least_;  ///< metres above the ground; infinity where no height is seen
+  // Of the last observer's lines, grid units.
+  TileValues<double> lowest_;
+  TileValues<double> wanted_;  ///< the target that counts as visible
+};
+
+}  // namespace itin::viewshed

@@ -1,0 +1,212 @@
+#include "modes/observation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "line/verdicts.hpp"
+#include "modes/blocker_observation.hpp"
+#include "modes/least_height_observation.hpp"
+#include "modes/probability_observation.hpp"
+#include "request/field_of_view.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+constexpr float kNoAngle = std::numeric_limits<float>::quiet_NaN();
+
+template <class T>
+void copy_row(const TileValues<T>& values, std::size_t cell, std::size_t columns, T* to) {
+  std::copy_n(values.data() + cell, columns, to);
+}
+
+class AnyObserver final : public Observation {
+ public:
+  bool open(const Look& look) const override { return value(look.cell) != Verdict::kVisible; }
+};
+
+class ObserverCount final : public Observation {
+ public:
+  ObserverCount() { counts_.fill(0); }
+
+ private:
+  void keep(const Look& look) override { ++counts_[look.cell]; }
+  void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override {
+    for (std::size_t i = 0; i < columns; ++i)
+      result.count[place + i] = value(cell + i) == Verdict::kOutside ? kCountOutside : counts_[cell + i];
+  }
+  TileValues<std::uint16_t> counts_;
+};
+
+class ObserverBits final : public Observation {
+ public:
+  explicit ObserverBits(std::size_t observers) : grids_(which_grids(observers)) {}
+
+ private:
+  void keep(const Look& look) override {
+    const ObserverBit bit = observer_bit(look.observer);
+    std::vector<std::uint32_t>& row = rows_[look.cell / Tile::kSide];
+    const std::size_t words = look.cell % Tile::kSide * grids_;
+    if (row.size() <= words) row.resize(words + grids_);
+    row[words + bit.grid] |= bit.mask;
+  }
+  void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override {
+    const std::vector<std::uint32_t>& row = rows_[cell / Tile::kSide];
+    const std::size_t seen = std::min(columns, row.size() / grids_);  // beyond, the result's words are 0
+    for (std::size_t i = 0; i < seen; ++i)
+      for (std::size_t grid = 0; grid < grids_; ++grid)
+        result.which[grid * result.grid.cell_count() + place + i] = row[i * grids_ + grid];
+  }
+  std::size_t grids_;
+  /// Of each of the tile's rows the words of its cells, cell by cell, up to the last that is seen.
+  std::array<std::vector<std::uint32_t>, Tile::kSide> rows_;
+};
+
+class GreatestAngle final : public Observation {
+ public:
+  explicit GreatestAngle(const Request& request) : view_(request, {}) { angles_.fill(kNoAngle); }
+
+ private:
+  void keep(const Look& look) override {
+    const auto angle = static_cast<float>(view_.elevation(look.dx, look.dy, look.dz));
+    if (!(angles_[look.cell] >= angle)) angles_[look.cell] = angle;
+  }
+  void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override {
+    copy_row(angles_, cell, columns, result.angle_deg.data() + place);
+  }
+  FieldOfView view_;
+  TileValues<float> angles_;
+};
+
+class NearestObserver final : public Observation {
+ public:
+  NearestObserver() {
+    squared_.fill(std::numeric_limits<double>::infinity());
+    numbers_.fill(0);
+  }
+  bool open(const Look& look) const override {
+    // Of two as near, the first.
+    const double squared = look.squared_distance();
+    return squared < squared_[look.cell] || (squared == squared_[look.cell] && look.observer + 1 < numbers_[look.cell]);
+  }
+
+ private:
+  void keep(const Look& look) override {
+    squared_[look.cell] = look.squared_distance();
+    numbers_[look.cell] = look.observer + 1;
+  }
+  void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override {
+    copy_row(numbers_, cell, columns, result.nearest.data() + place);
+    for (std::size_t i = 0; i < columns; ++i) {
+      const bool seen = numbers_[cell + i] != 0;
+      result.distance_m[place + i] = seen ? static_cast<float>(std::sqrt(squared_[cell + i])) : kNoAngle;
+    }
+  }
+  TileValues<double> squared_;
+  TileValues<std::uint32_t> numbers_;
+};
+
+}  // namespace
+
+std::uint64_t Observation::look(const TileLook& tile) {
+  FullSurface::TileWork& work = tile.work;
+  if (work.unread) {
+    tile.for_each_cell([&](const Look& look) {
+      if (tile.eye.view.contains(look.dx, look.dy, look.dz)) enter(look.cell);
+    });
+    return 0;
+  }
+  TileValues<Verdict> values;
+  values.fill(Verdict::kOutside);
+  tile.for_each_cell([&](const Look& look) {
+    if (open(look)) values[look.cell] = Verdict::kUndecided;
+  });
+  const std::uint64_t lines = tile.surface.judge(tile.eye, tile.view, values, work);
+  if (tile.shadow != nullptr) tile.shadow->fall_on(work.centres, values);
+  const double resolution = tile.surface.units().resolution;
+  tile.for_each_cell([&](Look look) {
+    if (values[look.cell] == Verdict::kOutside) return;
+    enter(look.cell);
+    if (values[look.cell] == Verdict::kUndecided) return mark_undecided(look.cell);
+    const bool seen = values[look.cell] == Verdict::kVisible;
+    look.dz = tile.eye.target(work.ground[look.cell] * resolution) - tile.eye.elevation;
+    if (!std::isnan(work.targets[look.cell])) {
+      judge(look, {tile.eye, tile.eye.units, work.target(look.cell), seen});
+    } else if (seen) {
+      see(look);
+    }
+  });
+  return lines;
+}
+
+void Observation::store(const Tile& tile, Result& result, CellCounts& cells) const {
+  const auto columns = static_cast<std::size_t>(tile.columns);
+  for_each_row(tile, [&](std::size_t cell, RasterGrid::Cell first) {
+    const std::size_t place = result.grid.index(first);
+    copy_row(values_, cell, columns, result.visible.data() + place);
+    store_row(cell, columns, place, result);
+    for (std::size_t i = cell; i < cell + columns; ++i) count(values_[i], cells);
+  });
+}
+
+void Observation::prepare(Result& result) {
+  const std::size_t cells = result.grid.cell_count();
+  result.visible.resize(cells);
+  const Mode mode = result.request.mode;
+  if (mode == Mode::kCount) result.count.resize(cells);
+  if (mode == Mode::kWhich) result.which.resize(cells * which_grids(result.request.observers.size()));
+  if (mode == Mode::kAngle) result.angle_deg.resize(cells);
+  if (mode == Mode::kBlocker) result.blocker.resize(cells);
+  if (mode == Mode::kProbability) result.probability.resize(cells);
+  if (mode == Mode::kHeight) result.least_height_m.resize(cells);
+  if (mode == Mode::kNearest) result.nearest.resize(cells), result.distance_m.resize(cells);
+}
+
+std::optional<VoidShadow> shadow_of(const Eye& eye, const std::vector<RimEdge>& rim, const Result& result) {
+  const Voids voids = voids_of(result.request);
+  if (voids == Voids::kPass || !result.crosses_voids) return std::nullopt;
+  return VoidShadow(rim, eye.units, voids);
+}
+
+Observations::Observations(const Request& request, const Tin& tin) : request_(request) {
+  if (request.mode == Mode::kBlocker) blockers_.emplace(tin, request.earth);
+  if (request.mode == Mode::kProbability) odds_.emplace(tin, request.earth, request.vertical_error);
+}
+
+std::vector<std::unique_ptr<Observation>> Observations::of_tiles(const RasterGrid& tiles) const {
+  std::vector<std::unique_ptr<Observation>> all(tiles.cell_count());
+  for (auto& observation : all) observation = of_tile();
+  return all;
+}
+
+void store_all(const std::vector<std::unique_ptr<Observation>>& observations, const RasterGrid& tiles, Result& result) {
+  Observation::prepare(result);
+  for (std::size_t i = 0; i < observations.size(); ++i)
+    observations[i]->store(tile_at(result.grid, tiles, i), result, result.cells);
+}
+
+std::unique_ptr<Observation> Observations::of_tile() const {
+  switch (request_.mode) {
+    case Mode::kCount:
+      return std::make_unique<ObserverCount>();
+    case Mode::kWhich:
+      return std::make_unique<ObserverBits>(request_.observers.size());
+    case Mode::kAngle:
+      return std::make_unique<GreatestAngle>(request_);
+    case Mode::kNearest:
+      return std::make_unique<NearestObserver>();
+    case Mode::kBlocker:
+      return std::make_unique<BlockerObservation>(*blockers_);
+    case Mode::kHeight:
+      return std::make_unique<LeastHeightObservation>();
+    case Mode::kProbability:
+      return std::make_unique<ProbabilityObservation>(*odds_, request_.nodata);
+    case Mode::kVisible:
+      break;
+  }
+  return std::make_unique<AnyObserver>();
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,33 @@
+#include "modes/probability_observation.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace itin::viewshed {
+
+ProbabilityObservation::ProbabilityObservation(const VerticalOdds& odds, NoData nodata)
+    : odds_(odds), nodata_(nodata), scratch_(odds) {
+  probabilities_.fill(0);
+}
+
+/// At the eye itself, where nothing can come between.
+void ProbabilityObservation::keep(const Look& look) {
+  probabilities_[look.cell] = 1;
+}
+
+void ProbabilityObservation::judge(const Look& look, const Sight& sight) {
+  if (sight.seen) mark_visible(look.cell);
+  const VerticalOdds::Odds odds =
+      odds_.of_line({sight.from, sight.to, !sight.eye.absolute, !sight.eye.target_absolute}, scratch_);
+  // What no ground hides is behind missing ground that blocks.
+  if (!sight.seen && odds.clear && nodata_ == NoData::kBlock) return;
+  probabilities_[look.cell] = std::max(probabilities_[look.cell], static_cast<float>(odds.probability));
+}
+
+void ProbabilityObservation::store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const {
+  for (std::size_t i = 0; i < columns; ++i)
+    result.probability[place + i] =
+        value(cell + i) == Verdict::kOutside ? std::numeric_limits<float>::quiet_NaN() : probabilities_[cell + i];
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,124 @@
+#include "modes/vertical_odds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "line/sight_line.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// The weights of a triangle's corners at a position.
+std::array<double, 3> weights_at(const std::array<GridPoint, 3>& corners, const Point3& p) {
+  const auto& [a, b, c] = corners;
+  const double bx = 1.0 * b.x - a.x, by = 1.0 * b.y - a.y, cx = 1.0 * c.x - a.x, cy = 1.0 * c.y - a.y;
+  const double doubled_area = bx * cy - by * cx, x = p.x - a.x, y = p.y - a.y;
+  const double wb = (x * cy - y * cx) / doubled_area, wc = (bx * y - by * x) / doubled_area;
+  return {1 - wb - wc, wb, wc};
+}
+
+}  // namespace
+
+VerticalOdds::VerticalOdds(const Tin& tin, const Earth& earth, const VerticalError& error)
+    : tin_(tin),
+      drop_(earth.drop_coefficient() * tin.grid.resolution),
+      grazing_(kGrazing / tin.grid.resolution),
+      sigma_(error.sigma / tin.grid.resolution),
+      correlation_(error.correlation_length / tin.grid.resolution),
+      pyramid_(tin) {}
+
+VerticalOdds::Odds VerticalOdds::of_line(const Line& line, Scratch& scratch) const {
+  if (!cross(line, scratch)) return {0, false};
+  const std::vector<Crossing>& crossings = scratch.crossings_;
+  const bool clear =
+      std::none_of(crossings.begin(), crossings.end(), [&](const Crossing& c) { return c.rise > grazing_; });
+  if (crossings.empty() && line.from_stands && line.to_stands) return {1, clear};
+  const Footing from = under(line.from), to = under(line.to);
+  ErrorsAlongLine& errors = scratch.errors_;
+  errors.begin(from.error, to.error);
+  Margins least;
+  least.fill(std::numeric_limits<float>::max());
+  if (!line.from_stands) narrow(least, from.above, errors.from());
+  if (!line.to_stands) narrow(least, to.above, errors.to());
+  for (std::size_t i = 0; i < crossings.size(); ++i) {
+    narrow(least, line, crossings[i], errors);
+    if (i % kCrossingsACount == 0 && share_seen(least) == 0) break;
+  }
+  return {share_seen(least), clear};
+}
+
+double VerticalOdds::share_seen(const Margins& least) {
+  const auto seen = std::count_if(least.begin(), least.end(), [](float margin) { return margin >= 0; });
+  return static_cast<double>(seen) / static_cast<double>(least.size());
+}
+
+/// By how far a fixed end is above ground, grid units.
+void VerticalOdds::narrow(Margins& least, double above, const ErrorsAlongLine::Errors& ground) const {
+  const auto middle = static_cast<float>((grazing_ + above) / sigma_);
+  for (std::size_t w = 0; w < least.size(); ++w) least[w] = std::min(least[w], middle - ground[w]);
+}
+
+/// By how far a line passes above an edge.
+void VerticalOdds::narrow(Margins& least, const Line& line, const Crossing& c, ErrorsAlongLine& errors) const {
+  const auto& a = errors.of(c.a);
+  const auto& b = errors.of(c.b);
+  const auto& from = errors.from();
+  const auto& to = errors.to();
+  const auto middle = static_cast<float>((grazing_ - c.rise) / sigma_),
+             by_from = line.from_stands ? static_cast<float>(1 - c.at) : 0.0F,
+             by_to = line.to_stands ? static_cast<float>(c.at) : 0.0F, by_b = static_cast<float>(c.weight_b),
+             by_a = 1 - by_b;
+  for (std::size_t w = 0; w < least.size(); ++w)
+    least[w] = std::min(least[w], middle + by_from * from[w] + by_to * to[w] - by_a * a[w] - by_b * b[w]);
+}
+
+/// Finds the edges that come near the line, in order. False where one surely hides.
+bool VerticalOdds::cross(const Line& line, Scratch& scratch) const {
+  // No clearance varies by more than twice a vertex' variance; nor, as correlations fall with distance, by more than if
+  // there were none.
+  const double sure = kSure * std::numbers::sqrt2 * sigma_, hidden = kHidden * std::numbers::sqrt2 * sigma_;
+  const auto surely_below = [&](double rise, double at) {
+    const double rest = 1 - at;
+    return rise <= 0 && rise * rise >= kSure * kSure * sigma_ * sigma_ * (1 + at * at + rest * rest);
+  };
+  const SightLine sight(line.from, line.to, drop_, grazing_);
+  std::vector<Crossing>& crossings = scratch.crossings_;
+  crossings.clear();
+  Sheaf sheaf(sight);
+  sheaf.margin = sure;
+  double highest = -sure;
+  const auto add = [&](std::uint32_t triangle) {
+    Triangle t = tin_.triangles[triangle];
+    // So that an edge's two triangles see it alike.
+    std::sort(t.begin(), t.end());
+    sight.for_each_crossing({tin_.vertices[t[0]], tin_.vertices[t[1]], tin_.vertices[t[2]]},
+                            [&](std::size_t i, std::size_t j, double weight, double at, double rise) {
+                              if (surely_below(rise, at)) return;
+                              crossings.push_back({at, rise, t[i], t[j], weight});
+                              if (rise > highest) highest = rise, scratch.highest_ = triangle;
+                            });
+    // Nothing more needs to be looked at.
+    if (highest >= hidden) sheaf.margin = -std::numeric_limits<double>::infinity();
+  };
+  if (const auto last = scratch.highest_) add(*last);
+  if (highest < hidden) pyramid_.search(sheaf, add);
+  if (highest >= hidden) return false;
+  std::sort(crossings.begin(), crossings.end());
+  crossings.erase(std::unique(crossings.begin(), crossings.end()), crossings.end());
+  return true;
+}
+
+/// Far below, where there is no ground.
+VerticalOdds::Footing VerticalOdds::under(const Point3& end) const {
+  const auto triangle = pyramid_.triangle_at({end.x, end.y});
+  if (!triangle) return {{}, std::numeric_limits<float>::max()};
+  const std::array<GridPoint, 3> corners = tin_.corners(*triangle);
+  Footing footing{{tin_.triangles[*triangle], weights_at(corners, end), 3}, end.z};
+  for (std::size_t i = 0; i < 3; ++i) footing.above -= footing.error.weight[i] * corners[i].z;
+  return footing;
+}
+
+}  // namespace itin::viewshed

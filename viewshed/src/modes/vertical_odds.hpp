@@ -1,0 +1,102 @@
+// How probable it is that a sight line is clear where heights are uncertain.
+//
+//   const VerticalOdds odds(tin, earth, {2.0, 0});
+//   VerticalOdds::Scratch scratch(odds);  // for many lines
+//   odds.of_line({eye, target}, scratch).probability
+//
+// Model. The height of every vertex has a normal error of standard deviation sigma; those of two vertices x metres
+// apart have the correlation exp(-x / L), none for L = 0. Between vertices errors are as heights are, linear over each
+// triangle. Ends of a line that stand on the surface move with it; those at a given elevation do not.
+//
+// Method. Share of simulated worlds (error_worlds.hpp) in which the line passes above every edge that it crosses, their
+// errors drawn along it (errors_along_line.hpp). So the probability is joint: that of the whole line, not of its worst
+// place. The Earth's bulge within a single triangle is left out.
+//
+// Accuracy. The share's standard error is at most 0.022, that of independent draws; the same worlds serve all lines,
+// so that neighbours err alike.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <itin/earth.hpp>
+#include <itin/tin.hpp>
+#include <viewshed/viewshed.hpp>
+
+#include "bounds/height_pyramid.hpp"
+#include "modes/error_worlds.hpp"
+#include "modes/errors_along_line.hpp"
+
+namespace itin::viewshed {
+
+/// Safe for concurrent use.
+class VerticalOdds {
+ public:
+  /// The Tin must outlive it. Cost and memory: HeightPyramid's, and 1 MB.
+  VerticalOdds(const Tin& tin, const Earth& earth, const VerticalError& error);
+
+  /// Grid units; they differ horizontally.
+  struct Line {
+    Point3 from, to;
+    bool from_stands = true, to_stands = true;  ///< on the surface, and moves with it
+  };
+  struct Odds {
+    double probability = 0;
+    bool clear = false;  ///< of ground, as the heights are
+  };
+  class Scratch;
+  /// Cost: about half a microsecond an edge that comes near the line, 20 microseconds a line over rolling ground.
+  Odds of_line(const Line& line, Scratch& scratch) const;
+
+ private:
+  /// Standard deviations: what lies farther below a line hides it in no world, and what rises farther above it hides it
+  /// in all worlds but at most one.
+  static constexpr double kSure = 4, kHidden = 3.1;
+  static constexpr std::size_t kCrossingsACount = 8;
+
+  /// Where a line crosses an edge, or passes over a vertex, which is then both of the edge's.
+  struct Crossing {
+    double at = 0;    ///< fraction of its length
+    double rise = 0;  ///< above it, grid units
+    std::uint32_t a = 0, b = 0;
+    double weight_b = 0;
+    friend auto operator<=>(const Crossing&, const Crossing&) = default;
+  };
+  /// The ground under an end.
+  struct Footing {
+    ErrorSum error;
+    double above = 0;  ///< how far the end is, grid units
+  };
+  using Margins = std::array<float, ErrorWorlds::kCount>;  ///< by which a line is clear, in sigmas
+
+  bool cross(const Line& line, Scratch& scratch) const;
+  Footing under(const Point3& end) const;
+  static double share_seen(const Margins& least);
+  void narrow(Margins& least, double above, const ErrorsAlongLine::Errors& ground) const;
+  void narrow(Margins& least, const Line& line, const Crossing& c, ErrorsAlongLine& errors) const;
+
+  const Tin& tin_;
+  double drop_;         ///< grid units of drop a squared grid unit
+  double grazing_;      ///< grid units
+  double sigma_;        ///< grid units
+  double correlation_;  ///< L in grid units
+  HeightPyramid pyramid_;
+  ErrorWorlds worlds_;
+};
+
+/// Memory to use again, for one thread; fastest for lines from one eye to neighbours.
+class VerticalOdds::Scratch {
+ public:
+  /// For lines of those odds, which must outlive it.
+  explicit Scratch(const VerticalOdds& odds) : errors_(odds.tin_, odds.correlation_, odds.worlds_) {}
+
+ private:
+  friend class VerticalOdds;
+  std::vector<Crossing> crossings_;
+  std::optional<std::uint32_t> highest_;  ///< triangle, of the last line: most often near the next one's too
+  ErrorsAlongLine errors_;
+};
+
+}  // namespace itin::viewshed

@@ -1,0 +1,90 @@
+#include "plan/ground_tiles.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <itin/parallel.hpp>
+
+#include "line/cell_tiles.hpp"
+#include "request/request.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+constexpr double kPointsOfTile = 512;
+constexpr double kMostTilesASide = 160;
+
+RasterGrid tiles_over(const Store& store, const Box& box) {
+  const double points = static_cast<double>(store.points_about(0, box));
+  const double side = std::max({box.width(), box.height(), store.metadata().grid.resolution});
+  const double tiles = std::clamp(std::sqrt(points / kPointsOfTile), 1.0, kMostTilesASide);
+  const double size = side * 1.0001 / tiles;
+  return {{box.xmin, box.ymax},
+          size,
+          size,
+          static_cast<std::int64_t>(std::floor(box.width() / size)) + 1,
+          static_cast<std::int64_t>(std::floor(box.height() / size)) + 1};
+}
+
+}  // namespace
+
+bool TileSet::empty() const {
+  return std::all_of(words_.begin(), words_.end(), [](std::uint64_t w) { return w == 0; });
+}
+
+TileSet& TileSet::operator|=(const TileSet& other) {
+  for (std::size_t w = 0; w < words_.size(); ++w) words_[w] |= other.words_[w];
+  return *this;
+}
+
+GroundTiles::GroundTiles(const Store& store, const Box& box)
+    : grid_(tiles_over(store, box)), margin_(1 + store.metadata().grid.resolution), points_(grid_.cell_count()) {
+  parallel_for(points_.size(), [&](std::size_t tile) {
+    points_[tile] = static_cast<std::uint32_t>(store.points_about(0, box_of_cell(grid_, place_of(grid_, tile))));
+  });
+}
+
+std::uint64_t GroundTiles::points(const TileSet& tiles) const {
+  std::uint64_t sum = 0;
+  tiles.for_each([&](std::size_t tile) { sum += points_[tile]; });
+  return sum;
+}
+
+void GroundTiles::add_line(Point2 from, Point2 to, TileSet& tiles) const {
+  const double margin = margin_ / grid_.cell_width();
+  double c0 = grid_.column_at(from.x), r0 = grid_.row_at(from.y), c1 = grid_.column_at(to.x), r1 = grid_.row_at(to.y);
+  if (c1 < c0) std::swap(c0, c1), std::swap(r0, r1);
+  const auto clamp = [](double v, std::int64_t n) {
+    return static_cast<std::int64_t>(std::clamp(std::floor(v), 0.0, static_cast<double>(n - 1)));
+  };
+  const double slope = c1 > c0 ? (r1 - r0) / (c1 - c0) : 0;
+  for (std::int64_t column = clamp(c0 - margin, grid_.columns()); column <= clamp(c1 + margin, grid_.columns());
+       ++column) {
+    // The part of the line over the column, widened.
+    const double west = std::clamp(static_cast<double>(column) - margin, c0, c1);
+    const double east = std::clamp(static_cast<double>(column + 1) + margin, c0, c1);
+    const double a = c1 > c0 ? r0 + slope * (west - c0) : r0, b = c1 > c0 ? r0 + slope * (east - c0) : r1;
+    for (std::int64_t row = clamp(std::min(a, b) - margin, grid_.rows());
+         row <= clamp(std::max(a, b) + margin, grid_.rows()); ++row)
+      tiles.add(grid_.index({column, row}));
+  }
+}
+
+Window GroundTiles::window(const TileSet& tiles) const {
+  // Runs down each column: fewer parts.
+  std::vector<Window::Polygon> parts;
+  for (std::int64_t column = 0; column < grid_.columns(); ++column) {
+    for (std::int64_t row = 0; row < grid_.rows(); ++row) {
+      if (!tiles.contains(grid_.index({column, row}))) continue;
+      const std::int64_t first = row;
+      while (row < grid_.rows() && tiles.contains(grid_.index({column, row}))) ++row;
+      Box b = box_of_cell(grid_, {column, first});
+      b.extend(box_of_cell(grid_, {column, row - 1}));
+      parts.push_back(rectangle(b));
+    }
+  }
+  return Window::polygons(std::move(parts));
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,111 @@
+#include "plan/sight_sectors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include <itin/error.hpp>
+
+#include "line/hulls.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// Along the side of the boxes of cells, at first: the sectors of wider ones overlap more, and of smaller ones each is
+/// looked at with many others anyway.
+constexpr std::int64_t kSide = 16;
+static_assert(Tile::kSide % kSide == 0);
+
+}  // namespace
+
+/// By rings of doubling distances, for nearer cells span wide sectors.
+SightSectors::SightSectors(const RasterGrid& cells, const Eye& eye) : cells_(cells), eye_(eye) {
+  struct Place {
+    int ring;
+    double azimuth;
+    Tile part;
+  };
+  std::vector<Place> places;
+  for (std::int64_t row = 0; row < cells.rows(); row += kSide) {
+    for (std::int64_t column = 0; column < cells.columns(); column += kSide) {
+      const Tile part{column, row, std::min(kSide, cells.columns() - column), std::min(kSide, cells.rows() - row)};
+      const Box box = box_of(cells, part);
+      const double squared = squared_distance(eye.position, box);
+      if (!eye.view.reaches(squared)) continue;
+      const int ring = std::ilogb(std::max(1.0, std::sqrt(squared) / (Tile::kSide * cells.cell_width())));
+      const double azimuth =
+          std::atan2((box.xmin + box.xmax) / 2 - eye.position.x, (box.ymin + box.ymax) / 2 - eye.position.y);
+      places.push_back({ring, azimuth, part});
+    }
+  }
+  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+    return std::tie(a.ring, a.azimuth, a.part.row, a.part.column) >
+           std::tie(b.ring, b.azimuth, b.part.row, b.part.column);
+  });
+  for (const Place& place : places) parts_.push_back(place.part);
+  most_ = parts_.size();
+}
+
+SightSectors::Sector SightSectors::next(const Fits& fits) const {
+  const std::span<const Tile> parts = parts_;
+  Sector sector{{}, {eye_.position}};
+  while (sector.parts.size() < most_) {
+    std::vector<Point2> corners = sector.hull;
+    add_corners(box_of(cells_, parts[parts.size() - sector.parts.size() - 1]), corners);
+    std::vector<Point2> wider = hull_of(std::move(corners));
+    if (!sector.parts.empty() && !fits(wider)) break;
+    sector = {parts.last(sector.parts.size() + 1), std::move(wider)};
+  }
+  return sector;
+}
+
+bool SightSectors::within(double reach, const Tile& part) const {
+  const Box box = box_of(cells_, part);
+  return std::max({box.xmax - eye_.position.x, eye_.position.x - box.xmin, box.ymax - eye_.position.y,
+                   eye_.position.y - box.ymin}) < reach;
+}
+
+void SightSectors::settle(const Sector& sector, double reach) {
+  const std::size_t count = sector.parts.size(), after = parts_.size() - count;
+  const auto decided = [&](const Tile& part) { return within(reach, part); };
+  parts_.erase(std::remove_if(parts_.begin() + static_cast<std::ptrdiff_t>(after), parts_.end(), decided),
+               parts_.end());
+  const std::size_t left = parts_.size() - after;
+  if (count == 1 && left == 1) divide_next();
+  most_ = left == 0 ? parts_.size() : std::max<std::size_t>(1, left / 2);
+}
+
+void SightSectors::divide_next() {
+  Tile rest = parts_.back(), first = rest;
+  if (rest.columns > 1 && rest.columns >= rest.rows) {
+    first.columns /= 2;
+    rest.column += first.columns, rest.columns -= first.columns;
+  } else if (rest.rows > 1) {
+    first.rows /= 2;
+    rest.row += first.rows, rest.rows -= first.rows;
+  } else {
+    throw InputError("the sight line to a single cell does not fit into the memory: give more --memory");
+  }
+  parts_.back() = rest;
+  parts_.push_back(first);
+}
+
+std::size_t cell_count(std::span<const Tile> parts) {
+  std::size_t count = 0;
+  for (const Tile& part : parts) count += static_cast<std::size_t>(part.columns * part.rows);
+  return count;
+}
+
+std::vector<PartsOfTile> by_tile(std::span<const Tile> parts, const RasterGrid& tiles) {
+  std::map<std::size_t, std::vector<Tile>> of_tiles;
+  for (const Tile& part : parts)
+    of_tiles[tiles.index({part.column / Tile::kSide, part.row / Tile::kSide})].push_back(part);
+  std::vector<PartsOfTile> all;
+  for (auto& [tile, some] : of_tiles) all.push_back({tile, std::move(some)});
+  return all;
+}
+
+}  // namespace itin::viewshed

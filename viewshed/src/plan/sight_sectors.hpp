@@ -1,0 +1,72 @@
+// The cells that an eye looks at, taken up sector by sector about it.
+//
+//   SightSectors sectors(grid, eye);
+//   while (!sectors.empty()) {
+//     const SightSectors::Sector sector = sectors.next([&](const std::vector<Point2>& hull) { return ...; });
+//     const double reach = ...                    // look at all its cells that are not farther away
+//     sectors.settle(sector, reach);
+//   }
+//
+// A sector is the hull of the eye and of cells next to each other in azimuth, so that it holds all sight lines to them.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include <itin/geometry.hpp>
+#include <itin/raster.hpp>
+
+#include "line/cell_tiles.hpp"
+#include "request/eye.hpp"
+
+namespace itin::viewshed {
+
+class SightSectors {
+ public:
+  /// Both must outlive it.
+  SightSectors(const RasterGrid& cells, const Eye& eye);
+
+  bool empty() const { return parts_.empty(); }
+
+  struct Sector {
+    std::span<const Tile> parts;  ///< boxes of cells, each within one tile of the grid
+    std::vector<Point2> hull;     ///< counterclockwise, metres
+  };
+  using Fits = std::function<bool(const std::vector<Point2>& hull)>;
+  /// The widest one whose hull fits, or else the narrowest. Valid until settle().
+  Sector next(const Fits& fits) const;
+  /// Whether all cells of a part are nearer to the eye than so many metres, along columns and rows.
+  bool within(double reach, const Tile& part) const;
+  /// The sector's parts within that reach have been decided. What is left of it will come in narrower ones. Throws
+  /// InputError where it is but a single cell.
+  void settle(const Sector& sector, double reach);
+
+ private:
+  void divide_next();
+
+  const RasterGrid& cells_;
+  const Eye& eye_;
+  std::vector<Tile> parts_;  ///< that are left, the next one last
+  std::size_t most_;         ///< parts of the next sector
+};
+
+/// Of all parts.
+std::size_t cell_count(std::span<const Tile> parts);
+
+/// Those of a tile, which are parts of it.
+struct PartsOfTile {
+  std::size_t tile;
+  std::vector<Tile> parts;
+};
+std::vector<PartsOfTile> by_tile(std::span<const Tile> parts, const RasterGrid& tiles);
+
+/// Calls visit(cell in the tile) for each cell of the parts.
+template <class Visit>
+void for_each_cell(const PartsOfTile& cells, const Tile& tile, const Visit& visit) {
+  for (const Tile& part : cells.parts)
+    for_each_cell(part, [&](std::size_t, RasterGrid::Cell place) { visit(tile.cell(place)); });
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,31 @@
+#include "request/eye.hpp"
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+
+#include "line/grid_units.hpp"
+
+namespace itin::viewshed {
+
+void refuse(const Observer& observer, const std::string& why) {
+  throw InputError(
+      fmt::format("observer {} at {:.10g},{:.10g}: {}", observer.name, observer.position.x, observer.position.y, why));
+}
+
+Eye eye_of(const Grid& grid, const Request& request, const Observer& observer, std::optional<double> ground) {
+  if (!ground) refuse(observer, "there is no data there; move it onto the data");
+  if (observer.absolute && observer.height < *ground)
+    refuse(observer, fmt::format("its elevation {:g} m is below the ground, {:.2f} m", observer.height, *ground));
+  const double elevation = observer.absolute ? observer.height : *ground + observer.height;
+  return {observer.position,
+          elevation,
+          {easting_in_units(grid, observer.position.x), northing_in_units(grid, observer.position.y),
+           elevation / grid.resolution},
+          observer.absolute,
+          FieldOfView(request, observer),
+          observer.target_height.value_or(request.target_height),
+          request.target_absolute};
+}
+
+}  // namespace itin::viewshed

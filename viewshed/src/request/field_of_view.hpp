@@ -1,0 +1,87 @@
+// Which targets an observer looks at: ranges of distance, azimuth and elevation, its own or the request's.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include <itin/geodesic.hpp>
+#include <itin/grazing.hpp>
+#include <viewshed/viewshed.hpp>
+
+namespace itin::viewshed {
+
+class FieldOfView {
+ public:
+  FieldOfView(const Request& request, const Observer& observer)
+      : azimuth_(observer.azimuth ? observer.azimuth : request.azimuth),
+        elevation_(observer.elevation ? observer.elevation : request.elevation),
+        drop_(request.earth.drop_coefficient()) {
+    if (const auto radius = observer.radius ? observer.radius : request.radius) farthest_ = *radius * *radius;
+    const double nearest = observer.min_radius.value_or(request.min_radius);
+    nearest_ = nearest * nearest;
+  }
+
+  /// Nothing farther away is in view, metres.
+  double farthest() const { return std::sqrt(farthest_); }
+  /// Whether anything at this squared distance or beyond it can be in view.
+  bool reaches(double squared) const { return squared <= farthest_; }
+
+  /// Whether everything between two squared distances is in view, at all heights.
+  bool holds(double nearest, double farthest) const {
+    return !azimuth_ && !elevation_ && nearest >= nearest_ && farthest <= farthest_;
+  }
+
+  /// Metres from the observer to the target (Eye::offset_to). An observer's own place has every azimuth; of it the eye
+  /// has every elevation, and the rest is straight above or below.
+  bool contains(double dx, double dy, double dz) const { return contains(dx, dy, dz, dz).value(); }
+  bool looks_towards(double azimuth_deg) const { return !azimuth_ || azimuth_within(azimuth_deg); }
+  /// From how far to how far above the eye a target at this squared distance is in view, metres; nothing: any.
+  std::optional<std::pair<double, double>> heights_at(double squared) const {
+    if (!elevation_) return std::nullopt;
+    const double distance = std::sqrt(squared), drop = drop_ * squared, slack = squared == 0 ? kGrazing : 0;
+    const auto height = [&](double degrees) { return std::tan(degrees / kDegreesPerRadian) * distance + drop; };
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    return std::pair(elevation_->from <= -90 ? -kInfinity : height(elevation_->from) - slack,
+                     elevation_->to >= 90 ? kInfinity : height(elevation_->to) + slack);
+  }
+  /// Degrees; of an observer's own place -90 or 90, and 0 of the eye.
+  double elevation(double dx, double dy, double dz) const { return elevation_at(dx * dx + dy * dy, dz); }
+  /// A target somewhere from `low` to `high` above the observer; nothing where that decides.
+  std::optional<bool> contains(double dx, double dy, double low, double high) const {
+    const double squared = dx * dx + dy * dy;
+    if (squared > farthest_ || squared < nearest_) return false;
+    if (squared == 0 && low <= kGrazing && high >= -kGrazing) return true;
+    if (squared > 0 && azimuth_ && !azimuth_within(std::atan2(dx, dy) * kDegreesPerRadian)) return false;
+    if (!elevation_) return true;
+    const double lowest = elevation_at(squared, low), highest = elevation_at(squared, high);
+    if (lowest >= elevation_->from && highest <= elevation_->to) return true;
+    if (highest < elevation_->from || lowest > elevation_->to) return false;
+    return std::nullopt;
+  }
+
+ private:
+  bool azimuth_within(double degrees) const {
+    const double width = turn(azimuth_->to - azimuth_->from);
+    // A range of a whole turn is given as such, not as nothing.
+    if (width == 0 && azimuth_->to != azimuth_->from) return true;
+    return turn(degrees - azimuth_->from) <= width;
+  }
+  double elevation_at(double squared, double dz) const {
+    if (squared == 0 && std::abs(dz) <= kGrazing) return 0;
+    return std::atan2(dz - drop_ * squared, std::sqrt(squared)) * kDegreesPerRadian;
+  }
+  static double turn(double degrees) {
+    const double rest = std::fmod(degrees, 360);
+    return rest < 0 ? rest + 360 : rest;
+  }
+
+  std::optional<AngleRange> azimuth_;
+  std::optional<AngleRange> elevation_;
+  double drop_;
+  double farthest_ = std::numeric_limits<double>::infinity();
+  double nearest_ = 0;
+};
+
+}  // namespace itin::viewshed

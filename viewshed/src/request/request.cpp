@@ -1,0 +1,253 @@
+#include "request/request.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+
+#include "request/eye.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+bool positive(double v) {
+  return std::isfinite(v) && v > 0;
+}
+
+/// The observer's field of view and targets, its own or the request's.
+void validate_view(const Request& request, const Observer& observer) {
+  const double target = observer.target_height.value_or(request.target_height);
+  if (!std::isfinite(target) || (!request.target_absolute && target < 0))
+    throw InputError(fmt::format("target height {:g}: give 0 or a positive number of metres", target));
+  const std::optional<double> radius = radius_of(request, observer);
+  if (radius && !positive(*radius))
+    throw InputError(fmt::format("radius {:g}: give a positive number of metres, or none for all the data", *radius));
+  const double min_radius = observer.min_radius.value_or(request.min_radius);
+  if (!(std::isfinite(min_radius) && min_radius >= 0))
+    throw InputError(fmt::format("least radius {:g}: give 0 or a positive number of metres", min_radius));
+  if (radius && min_radius > *radius)
+    throw InputError(fmt::format("least radius {:g} exceeds the radius {:g}", min_radius, *radius));
+  const auto finite = [](const AngleRange& r) { return std::isfinite(r.from) && std::isfinite(r.to); };
+  const auto& azimuth = observer.azimuth ? observer.azimuth : request.azimuth;
+  if (azimuth && !finite(*azimuth)) throw InputError("azimuth: give two numbers of degrees");
+  const auto& e = observer.elevation ? observer.elevation : request.elevation;
+  if (e && !(finite(*e) && e->from >= -90 && e->to <= 90 && e->from <= e->to))
+    throw InputError("elevation: give two numbers of degrees from -90 to 90, the lower first");
+}
+
+void validate_observer(const Request& request, const Observer& observer) {
+  if (!std::isfinite(observer.position.x) || !std::isfinite(observer.position.y))
+    refuse(observer, "its position is not finite");
+  if (!std::isfinite(observer.height)) refuse(observer, "its height is not a finite number");
+  if (!observer.absolute && observer.height < 0) refuse(observer, "its height is below the ground; give 0 or more");
+  try {
+    validate_view(request, observer);
+  } catch (const InputError& error) {
+    // What the request says is not the observer's fault.
+    const bool own =
+        observer.target_height || observer.radius || observer.min_radius || observer.azimuth || observer.elevation;
+    if (!own) throw;
+    refuse(observer, error.what());
+  }
+}
+
+void validate_cells(const Request& request) {
+  if (request.cell_size && request.grid) throw InputError("both a cell size and a grid are given: give one of them");
+  if (request.cell_size && !positive(*request.cell_size))
+    throw InputError(fmt::format("cell size {:g}: give a positive number of metres", *request.cell_size));
+  const double cell =
+      request.grid ? std::max(request.grid->cell_width(), request.grid->cell_height()) : request.cell_size.value_or(0);
+  for (const Observer& observer : request.observers) {
+    const std::optional<double> radius = radius_of(request, observer);
+    if (radius && cell > *radius)
+      throw InputError(
+          fmt::format("cells of {:g} m are larger than the radius of {:g} m: give smaller cells", cell, *radius));
+  }
+}
+
+/// The least of 1, 2, 5, 10, ... or their decimal fractions with at most kDefaultCells cells a side.
+double default_cell_size(const Box& box) {
+  const double least = std::max(box.width(), box.height()) / kDefaultCells;
+  const double decade = std::pow(10, std::floor(std::log10(least)));
+  for (const double step : {1.0, 2.0, 5.0})
+    if (step * decade >= least) return step * decade;
+  return 10 * decade;
+}
+
+/// So many a GeoTIFF can have.
+constexpr std::size_t kMostBands = 65535;
+
+/// Every 32 observers take a band.
+void validate_bands(const Request& request) {
+  const std::size_t bands = request.mode == Mode::kWhich ? which_grids(request.observers.size()) : 1;
+  if (bands > kMostBands)
+    throw InputError(
+        fmt::format("{} observers take {} bands to tell apart, and a raster has at most {}: give at most {} observers, "
+                    "or count them",
+                    request.observers.size(), bands, kMostBands, 32 * kMostBands));
+}
+
+RasterGrid with_room_for_bands(const Request& request, RasterGrid grid) {
+  const std::size_t bands = request.mode == Mode::kWhich ? which_grids(request.observers.size()) : 1;
+  const auto most = static_cast<std::size_t>(RasterGrid::kMaxCells);
+  if (grid.cell_count() > most / bands)
+    throw InputError(
+        fmt::format("{} cells in {} bands, one for every 32 observers, are more than {} values: give "
+                    "larger cells or fewer observers, or count them",
+                    grid.cell_count(), bands, most));
+  return grid;
+}
+
+bool all_bounded(const Request& request) {
+  return std::all_of(request.observers.begin(), request.observers.end(),
+                     [&](const Observer& o) { return radius_of(request, o).has_value(); });
+}
+
+}  // namespace
+
+bool casts_rays(const Request& request) {
+  return request.engine == Engine::kRays;
+}
+
+std::vector<Point2> positions_of(const Request& request) {
+  std::vector<Point2> positions;
+  for (const Observer& observer : request.observers) positions.push_back(observer.position);
+  return positions;
+}
+
+std::optional<double> radius_of(const Request& request, const Observer& observer) {
+  return observer.radius ? observer.radius : request.radius;
+}
+
+void validate(const Request& request) {
+  if (request.observers.empty()) throw InputError("no observer: give at least one");
+  if (request.mode == Mode::kCount && request.observers.size() >= kCountOutside)
+    throw InputError(fmt::format("{} observers are too many to count: give at most {}", request.observers.size(),
+                                 kCountOutside - 1));
+  validate_bands(request);
+  for (const Observer& observer : request.observers) validate_observer(request, observer);
+  validate_cells(request);
+  if (request.engine == Engine::kRays && request.mode == Mode::kHeight)
+    throw InputError("rays tell whether a target is seen, not from what height on: give the engine sweep or auto");
+  if (request.mode == Mode::kProbability) {
+    const VerticalError& e = request.vertical_error;
+    if (!positive(e.sigma))
+      throw InputError(fmt::format("vertical error {:g}: give a positive number of metres", e.sigma));
+    if (!(std::isfinite(e.correlation_length) && e.correlation_length >= 0))
+      throw InputError(
+          fmt::format("correlation length {:g}: give 0 or a positive number of metres", e.correlation_length));
+  }
+  request.earth.validate();
+}
+
+RasterGrid cells_of(const Request& request, const Box& extent) {
+  if (request.grid) return with_room_for_bands(request, *request.grid);
+  Box area = extent;
+  if (all_bounded(request)) {
+    area = {};
+    for (const Observer& observer : request.observers)
+      area.extend(intersection(disc_box(observer.position, *radius_of(request, observer)), extent));
+  }
+  if (area.empty()) throw InputError("no observer's radius reaches any data");
+  const double size = request.cell_size ? *request.cell_size : default_cell_size(area);
+  return with_room_for_bands(request, RasterGrid::aligned(area, size));
+}
+
+std::string nodata_text(NoData rule) {
+  switch (rule) {
+    case NoData::kUnknown:
+      return "unknown";
+    case NoData::kBlock:
+      return "block";
+    case NoData::kClear:
+      return "clear";
+  }
+  return {};
+}
+
+Window::Polygon rectangle(const Box& b) {
+  return {{{b.xmin, b.ymin}, {b.xmax, b.ymin}, {b.xmax, b.ymax}, {b.xmin, b.ymax}}, {}};
+}
+
+Box intersection(const Box& a, const Box& b) {
+  return {std::max(a.xmin, b.xmin), std::max(a.ymin, b.ymin), std::min(a.xmax, b.xmax), std::min(a.ymax, b.ymax)};
+}
+
+Box disc_box(Point2 centre, double radius) {
+  return {centre.x - radius, centre.y - radius, centre.x + radius, centre.y + radius};
+}
+
+namespace {
+
+/// Convex and around the observer (or a wedge about it), so that it holds the sight lines too.
+Window::Polygon part_of(const Request& request, const Observer& observer) {
+  const std::optional<double> radius = radius_of(request, observer);
+  if (!request.grid) return Window::disc(observer.position, *radius).parts().front();
+  Box box = request.grid->bounds();
+  box.extend(observer.position);
+  return rectangle(radius ? intersection(box, disc_box(observer.position, *radius)) : box);
+}
+
+/// From so many observers on, those that stand within half a radius of each other share a part of the window.
+constexpr std::size_t kCrowd = 256;
+
+/// Observers of about the same radius in the same square of a grid, whose side is about half of it.
+std::map<std::array<double, 3>, std::vector<const Observer*>> crowds_of(const Request& request) {
+  std::map<std::array<double, 3>, std::vector<const Observer*>> crowds;
+  for (const Observer& observer : request.observers) {
+    const std::optional<double> radius = radius_of(request, observer);
+    const double side = radius ? std::exp2(std::floor(std::log2(*radius)) - 1) : 0;
+    const auto square = [&](double v) { return radius ? std::floor(v / side) : 0; };
+    crowds[{side, square(observer.position.x), square(observer.position.y)}].push_back(&observer);
+  }
+  return crowds;
+}
+
+}  // namespace
+
+Window window_of(const Request& request) {
+  if (!all_bounded(request) && !request.grid) return Window::all();
+  std::vector<Window::Polygon> parts;
+  if (request.observers.size() < kCrowd) {
+    for (const Observer& observer : request.observers) parts.push_back(part_of(request, observer));
+    return Window::polygons(std::move(parts));
+  }
+  for (const auto& [square, crowd] : crowds_of(request)) {
+    if (crowd.size() == 1) {
+      parts.push_back(part_of(request, *crowd.front()));
+      continue;
+    }
+    Box box;
+    for (const Observer* const observer : crowd)
+      for (const Point2& corner : part_of(request, *observer).outer) box.extend(corner);
+    parts.push_back(rectangle(box));
+  }
+  return Window::polygons(std::move(parts));
+}
+
+void look_for_voids(const Grid& units, const std::vector<RimEdge>& rim, Result& result) {
+  for (const Observer& observer : result.request.observers) {
+    const double reach = radius_of(result.request, observer).value_or(std::numeric_limits<double>::infinity());
+    result.crosses_voids = result.crosses_voids || surface_resumes(units, rim, observer.position, reach);
+  }
+  const Request& request = result.request;
+  if (result.crosses_voids && request.nodata == NoData::kUnknown && request.mode != Mode::kVisible)
+    result.warnings.emplace_back(kVoidsWarning);
+}
+
+double ceiling_of(const Tin& tin, const Request& request) {
+  if (request.mode == Mode::kHeight) return 2 * kSky;
+  double highest = 0;
+  for (const GridPoint& v : tin.vertices) highest = std::max(highest, v.z * tin.grid.resolution);
+  double above = std::max(request.target_height, 0.0);
+  for (const Observer& observer : request.observers)
+    above = std::max({above, observer.height, observer.target_height.value_or(0)});
+  return highest + above;
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,55 @@
+// What a Request means: its checks, and the cells it asks for.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <itin/window.hpp>
+#include <viewshed/viewshed.hpp>
+
+#include "bounds/boundary.hpp"
+
+namespace itin::viewshed {
+
+inline constexpr const char* kVoidsWarning =
+    "sight lines may cross ground without data, which counts as clear; give nodata block or clear to choose";
+
+/// In height mode no target stands higher above the eye, metres; ground that hides it there hides everything.
+inline constexpr double kSky = 1e7;
+
+/// Throws InputError for everything that is wrong whatever the surface.
+void validate(const Request& request);
+
+/// Whether rays decide the request's lines to cells.
+bool casts_rays(const Request& request);
+/// Where the observers stand, metres.
+std::vector<Point2> positions_of(const Request& request);
+
+/// How far the observer looks; nothing: as far as there is ground.
+std::optional<double> radius_of(const Request& request, const Observer& observer);
+
+/// The cells to decide: as given; or aligned, over the extent of all data, or the part of it about the discs within the
+/// observers' radii, where each has one. So they do not depend on what is read of the data. Throws InputError if there
+/// are none.
+RasterGrid cells_of(const Request& request, const Box& extent);
+
+/// As options and metadata have it.
+std::string nodata_text(NoData rule);
+
+Box intersection(const Box& a, const Box& b);
+/// As a part of a window; unlike Window::box(), also of one without area.
+Window::Polygon rectangle(const Box& box);
+/// About a disc, metres.
+Box disc_box(Point2 centre, double radius);
+
+/// The region that holds every sight line of the request.
+Window window_of(const Request& request);
+
+/// Whether sight lines of the result's request may cross ground without data, with a warning where neither the request
+/// nor its answer says what becomes of them. `rim` is where the surface ends, in these units.
+void look_for_voids(const Grid& units, const std::vector<RimEdge>& rim, Result& result);
+
+/// Above every end of every sight line over this surface, metres.
+double ceiling_of(const Tin& tin, const Request& request);
+
+}  // namespace itin::viewshed

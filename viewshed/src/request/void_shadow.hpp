@@ -1,0 +1,63 @@
+// What lies behind ground without data as an eye sees it: beyond an edge where the surface begins anew.
+//
+//   const VoidShadow shadow(surface.rim(), eye.units);
+//   if (shadow.holds(target.x, target.y)) ...           // hidden under NoData::kBlock
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <itin/geometry.hpp>
+#include <itin/lattice_tin.hpp>
+#include <viewshed/viewshed.hpp>
+
+#include "line/cell_tiles.hpp"
+
+namespace itin::viewshed {
+
+/// What becomes of lines that cross ground without data and come back.
+enum class Voids { kPass, kBlock, kDoubt };
+/// Of the request's lines: where its rule is kUnknown, Mode::kVisible alone leaves anything open.
+Voids voids_of(const Request& request);
+/// For answers that leave nothing open: what is not known hides nothing.
+Voids voids_without_doubt(NoData rule);
+
+class VoidShadow {
+ public:
+  /// Grid units; `voids` is what lies in it: hidden or in doubt. Cost: the edges, each as often as the sectors of the
+  /// horizon it spans, if any faces away from the eye.
+  VoidShadow(const std::vector<RimEdge>& rim, const Point3& eye, Voids voids = Voids::kBlock);
+
+  /// Whether the line from the eye to a place comes back to the surface, be it at the place itself, but not at the
+  /// eye's own. Both lie on the surface. Cost: the edges of one sector.
+  bool holds(double x, double y) const;
+
+  /// Of a tile's cells, what is Verdict::kVisible and lies in it becomes Verdict::kHidden, or Verdict::kUndecided under
+  /// kDoubt.
+  void fall_on(const TileCentres& centres, TileValues<Verdict>& values) const;
+
+ private:
+  /// From the eye, grid units.
+  struct Vector {
+    double x = 0, y = 0;
+    friend bool operator==(const Vector&, const Vector&) = default;
+  };
+  /// The surface is to the left of from -> to.
+  struct Edge {
+    Vector from, to;
+  };
+  using Numbers = std::vector<std::uint32_t>;
+
+  static double cross(const Vector& a, const Vector& b);
+  static double dot(const Vector& a, const Vector& b);
+  static bool reaches(const Vector& line, const Vector& place);
+  static std::size_t sector_of(const Vector& place);
+  bool comes_from_void(const Numbers& edges, const Vector& corner) const;
+
+  Point3 eye_;
+  Verdict shaded_;                ///< what it makes of a visible cell
+  std::vector<Edge> edges_;       ///< none where no edge faces away
+  std::vector<Numbers> sectors_;  ///< clockwise from the south; as edges_
+};
+
+}  // namespace itin::viewshed

@@ -1,0 +1,181 @@
+#include "scene/full_surface.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include <itin/grazing.hpp>
+
+#include "line/grid_units.hpp"
+
+namespace itin::viewshed {
+
+FullSurface::FullSurface(const Tin& surface, const Tin* bare_ground, const Earth& earth, const RasterGrid& grid,
+                         const RasterGrid& tiles)
+    : surface_(&surface),
+      targets_on_(bare_ground != nullptr ? bare_ground : &surface),
+      grid_(grid),
+      tiles_(tiles),
+      heights_(surface),
+      sweep_(earth, heights_),
+      cells_(boxes_of_tiles()) {
+  // Cells much smaller than triangles are filled triangle by triangle.
+  const bool small = 2 * grid.cell_width() < heights_.bin_size() * units().resolution;
+  if (bare_ground != nullptr || small || !heights_.partition()) of_tiles_.emplace(*targets_on_, tiles);
+}
+
+FullSurface::FullSurface(const LatticeTin& surface, const Earth& earth, const RasterGrid& grid, const RasterGrid& tiles)
+    : grid_(grid), tiles_(tiles), heights_(surface), sweep_(earth, heights_), cells_(boxes_of_tiles()) {}
+
+std::vector<BinBox> FullSurface::boxes_of_tiles() const {
+  const auto column = [&](double x) { return heights_.column_at(easting_in_units(units(), x)); };
+  const auto row = [&](double y) { return heights_.row_at(northing_in_units(units(), y)); };
+  std::vector<BinBox> boxes(tiles_.cell_count());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const Box centres = box_of_centres(grid_, tile_at(grid_, tiles_, i));
+    boxes[i] = {column(centres.xmin), row(centres.ymax), column(centres.xmax), row(centres.ymin)};
+  }
+  return boxes;
+}
+
+AxisSweep::View FullSurface::view_of_cells(const Eye& eye) const {
+  if (rays_) return view_from(eye);
+  AxisSweep::Axis axis = axis_of(eye);
+  double farthest = 0;
+  const Box cells = grid_.bounds();
+  for (const Point2 corner : {Point2{cells.xmin, cells.ymin}, Point2{cells.xmax, cells.ymin},
+                              Point2{cells.xmin, cells.ymax}, Point2{cells.xmax, cells.ymax}})
+    farthest = std::max(farthest, std::hypot(corner.x - eye.position.x, corner.y - eye.position.y));
+  axis.radius = std::min(axis.radius, farthest / units().resolution + 1);
+  AxisSweep::View view = sweep_.beginning(axis);
+  std::vector<BinBox> reached;
+  std::copy_if(cells_.begin(), cells_.end(), std::back_inserter(reached),
+               [&](const BinBox& box) { return view.reaches(box); });
+  view.narrow(reached);
+  view.advance(std::numeric_limits<double>::infinity());
+  return view;
+}
+
+std::optional<double> FullSurface::height(Point2 position) const {
+  const auto height =
+      heights_.height_at({easting_in_units(units(), position.x), northing_in_units(units(), position.y)});
+  return height ? std::optional(*height * units().resolution) : std::nullopt;
+}
+
+std::unique_ptr<FullSurface::TileWork> FullSurface::begin(std::size_t tile) const {
+  auto work = std::make_unique<TileWork>(units(), grid_, tile_at(grid_, tiles_, tile));
+  if (of_tiles_) {
+    scan_convert(*targets_on_, of_tiles_->triangles(tile), work->tile, work->centres, work->ground);
+  } else {
+    find_ground({&work->tile, 1}, *work);
+  }
+  return work;
+}
+
+std::unique_ptr<FullSurface::TileWork> FullSurface::begin(std::size_t tile, std::span<const Tile> parts) const {
+  auto work = std::make_unique<TileWork>(units(), grid_, tile_at(grid_, tiles_, tile));
+  find_ground(parts, *work);
+  return work;
+}
+
+std::uint64_t FullSurface::judge(const Eye& eye, const AxisSweep::View& view, TileValues<Verdict>& values,
+                                 TileWork& work) const {
+  raise_targets(eye, values, work);
+  if (rays_) {
+    cast_rays_to_targets(eye, work);
+  } else {
+    sweep_.look_from(view, {work.tile, work.centres, work.targets}, work.scratch, work.seen);
+  }
+  std::uint64_t lines = 0;
+  for_each_cell(work.tile, [&](std::size_t cell, RasterGrid::Cell) {
+    if (std::isnan(work.targets[cell])) return;
+    ++lines;
+    values[cell] = std::isnan(work.seen[cell]) ? Verdict::kHidden : Verdict::kVisible;
+  });
+  return lines;
+}
+
+/// As AxisSweep::look_from(): `work.seen` of a target is the eye's height, or no number where it is hidden.
+void FullSurface::cast_rays_to_targets(const Eye& eye, TileWork& work) const {
+  const auto rows = static_cast<std::size_t>(work.tile.rows), columns = static_cast<std::size_t>(work.tile.columns);
+  SightLines lines;
+  lines.start_at(eye.units);
+  std::array<std::size_t, SightLines::kSize> cells{};
+  for (std::size_t row = 0; row < rows; row += kPacketSide) {
+    for (std::size_t column = 0; column < columns; column += kPacketSide) {
+      lines.active = 0;
+      for (unsigned i = 0; i < SightLines::kSize; ++i) {
+        const std::size_t cell = (row + i / kPacketSide) * Tile::kSide + column + i % kPacketSide;
+        if (std::isnan(work.targets[cell])) continue;
+        const Point3 target = work.target(cell);
+        lines.to_x[i] = target.x, lines.to_y[i] = target.y, lines.to_z[i] = target.z;
+        lines.active |= 1U << i;
+        cells[i] = cell;
+      }
+      if (lines.active == 0) continue;
+      const unsigned hidden = rays_->hidden(lines, work.rays);
+      for (unsigned rest = lines.active; rest != 0; rest &= rest - 1) {
+        const auto i = static_cast<unsigned>(std::countr_zero(rest));
+        work.seen[cells[i]] = (hidden >> i & 1) != 0 ? kNoSurface : eye.units.z;
+      }
+    }
+  }
+}
+
+void FullSurface::cast_rays(const Earth& earth, const std::vector<Point2>& eyes) {
+  rays_ = std::make_unique<const ExactRays>(*surface_, earth, eyes);
+}
+
+double FullSurface::raise_from(const AxisSweep::View& view, Point2 position, double lowest, double highest) const {
+  const RasterGrid around({position.x - 0.5, position.y + 0.5}, 1, 1, 1, 1);
+  const auto work = std::make_unique<TileWork>(units(), around, Tile{0, 0, 1, 1});
+  work->centres.x[0] = easting_in_units(units(), position.x);
+  work->centres.y[0] = northing_in_units(units(), position.y);
+  work->ground[0] = lowest, work->targets[0] = highest;
+  raise_from(view, {work->ground, work->ground}, *work);
+  return work->seen[0];
+}
+
+void FullSurface::find_ground(std::span<const Tile> parts, TileWork& work) const {
+  const TileCentres& at = work.centres;
+  work.ground.fill(kNoSurface);
+  work.unread = true;
+  for (const Tile& part : parts) {
+    const auto west = static_cast<std::size_t>(part.column - work.tile.column),
+               north = static_cast<std::size_t>(part.row - work.tile.row);
+    const std::size_t east = west + static_cast<std::size_t>(part.columns),
+                      south = north + static_cast<std::size_t>(part.rows);
+    const bool unread = heights_.all_unread({at.x[west], at.y[north]}, {at.x[east - 1], at.y[south - 1]});
+    work.unread = work.unread && unread;
+    for (std::size_t r = north; r < south; ++r) {
+      for (std::size_t c = west; c < east; ++c) {
+        const auto height = unread ? kUnread : heights_.height_at({at.x[c], at.y[r]});
+        if (height) work.ground[r * Tile::kSide + c] = *height;
+      }
+    }
+  }
+}
+
+/// Where undecided cells have their targets; those that need no line are decided.
+void FullSurface::raise_targets(const Eye& eye, TileValues<Verdict>& values, TileWork& work) const {
+  const double resolution = units().resolution, metre = 1 / resolution, grazing = kGrazing / resolution;
+  work.targets.fill(kNoSurface);
+  for_each_offset(eye, work, [&](std::size_t cell, const Point2& offset) {
+    Verdict& value = values[cell];
+    if (value != Verdict::kUndecided) return;
+    value = Verdict::kOutside;
+    const double ground = work.ground[cell];
+    if (std::isnan(ground)) return;
+    const double target = eye.target(ground * resolution);
+    if (!eye.view.contains(offset.x, offset.y, target - eye.elevation)) return;
+    const bool below = ground == kUnread || target * metre < ground - grazing;
+    value = below ? Verdict::kHidden : Verdict::kVisible;
+    if (!below && offset != Point2{}) work.targets[cell] = target * metre;
+  });
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,157 @@
+// A whole surface in memory, and what an eye sees of what stands on it: exact, cell for cell. One of two engines
+// decides the sight lines to cells, with the same answer: the sweep about the eye (sweep/axis_sweep.hpp), or rays
+// (rays/exact_rays.hpp).
+//
+//   FullSurface surface(tin, nullptr, request.earth, grid, tiles);
+//   surface.cast_rays(request.earth, {position});   // or not
+//   const auto work = surface.begin(tile);
+//   const auto view = surface.view_from(eye);
+//   surface.judge(eye, view, values, *work);   // every Verdict::kUndecided cell becomes visible, hidden or outside
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <itin/earth.hpp>
+#include <itin/lattice_tin.hpp>
+#include <itin/raster.hpp>
+#include <itin/tin.hpp>
+#include <viewshed/certified.hpp>
+#include <viewshed/surface.hpp>
+
+#include "bounds/binned_heights.hpp"
+#include "bounds/surface_heights.hpp"
+#include "bounds/triangle_bins.hpp"
+#include "line/cell_tiles.hpp"
+#include "request/eye.hpp"
+#include "scene/rays/exact_rays.hpp"
+#include "scene/sweep/axis_sweep.hpp"
+
+namespace itin::viewshed {
+
+class FullSurface {
+ public:
+  /// `surface` hides; targets stand on it, or on `bare_ground` where that is given. `tiles` are those of `grid`. All
+  /// must outlive this.
+  FullSurface(const Tin& surface, const Tin* bare_ground, const Earth& earth, const RasterGrid& grid,
+              const RasterGrid& tiles);
+  FullSurface(const LatticeTin& surface, const Earth& earth, const RasterGrid& grid, const RasterGrid& tiles);
+  FullSurface(const FullSurface&) = delete;
+  FullSurface& operator=(const FullSurface&) = delete;
+
+  /// From now on rays decide the lines to cells; eyes stand at these positions, metres. Precondition: the surface is a
+  /// Tin. Throws std::bad_alloc.
+  void cast_rays(const Earth& earth, const std::vector<Point2>& eyes);
+  bool casts_rays() const { return rays_ != nullptr; }
+
+  const Grid& units() const { return heights_.units(); }
+  const AxisSweep& sweep() const { return sweep_; }
+  const RasterGrid& grid() const { return grid_; }
+  const RasterGrid& tiles() const { return tiles_; }
+  /// Of what hides, metres, if there is any at that position.
+  std::optional<double> height(Point2 position) const;
+  /// Where it ends.
+  const std::vector<RimEdge>& rim() const { return heights_.rim(); }
+
+  /// What a tile's cells share between eyes, for one thread.
+  struct TileWork {
+    TileWork(const Grid& units, const RasterGrid& grid, const Tile& t) : tile(t), centres(units, grid, t) {}
+    Tile tile;
+    TileCentres centres;
+    TileValues<double> ground;   ///< grid units; kNoSurface where none is, kUnread where no eye sees it
+    bool unread = false;         ///< all of the ground
+    TileValues<double> targets;  ///< of the last eye's lines; kNoSurface where none was needed
+    AxisSweep::Heights seen;
+    AxisSweep::Scratch scratch;
+    ExactRays::Work rays;
+    Point3 target(std::size_t cell) const {
+      const Point2 p = centres.at(cell);
+      return {p.x, p.y, targets[cell]};
+    }
+  };
+  std::unique_ptr<TileWork> begin(std::size_t tile) const;
+  /// Of the cells in these parts of the tile alone. Precondition: the surface is a lattice.
+  std::unique_ptr<TileWork> begin(std::size_t tile, std::span<const Tile> parts) const;
+
+  /// Calls visit(cell, Eye::offset_to() it) for every cell.
+  template <class Visit>
+  void for_each_offset(const Eye& eye, const TileWork& work, const Visit& visit) const;
+
+  /// What all tiles share of an eye; rays share nothing.
+  AxisSweep::View view_from(const Eye& eye) const {
+    return rays_ ? sweep_.beginning(axis_of(eye)) : sweep_.view_of(axis_of(eye));
+  }
+  /// The same, for the cells alone: what is beyond and beside them costs nothing.
+  AxisSweep::View view_of_cells(const Eye& eye) const;
+  /// The same, to be advanced.
+  AxisSweep::View look_out(const Eye& eye) const { return sweep_.beginning(axis_of(eye)); }
+  /// After heights of tiles of the lattice have been read: they count from now on.
+  void add(std::span<const std::uint32_t> tiles) { heights_.add(tiles); }
+
+  /// Verdict::kUndecided cells become Verdict::kVisible, Verdict::kHidden, or Verdict::kOutside where there is no
+  /// ground or the eye does not look. Returns how many sight lines that took.
+  std::uint64_t judge(const Eye& eye, const AxisSweep::View& view, TileValues<Verdict>& values, TileWork& work) const;
+
+  /// AxisSweep::raise_from() up to work.targets; the heights are work.seen.
+  void raise_from(const AxisSweep::View& view, const AxisSweep::Lowest& lowest, TileWork& work) const {
+    sweep_.raise_from(view, {work.tile, work.centres, work.targets}, lowest, work.scratch, work.seen);
+  }
+  /// The same for a single place, given in metres; grid units.
+  double raise_from(const AxisSweep::View& view, Point2 position, double lowest, double highest) const;
+
+ private:
+  AxisSweep::Axis axis_of(const Eye& eye) const {
+    return sweep_.axis_at(eye.units, eye.view.farthest() / units().resolution + 1);
+  }
+  void raise_targets(const Eye& eye, TileValues<Verdict>& values, TileWork& work) const;
+  void cast_rays_to_targets(const Eye& eye, TileWork& work) const;
+  void find_ground(std::span<const Tile> parts, TileWork& work) const;
+  std::vector<BinBox> boxes_of_tiles() const;
+
+  const Tin* surface_ = nullptr;     ///< what hides, where that is a Tin
+  const Tin* targets_on_ = nullptr;  ///< what targets stand on, where that is a Tin
+  const RasterGrid& grid_;
+  const RasterGrid& tiles_;
+  BinnedHeights heights_;
+  std::optional<TriangleBins> of_tiles_;  ///< of that Tin, where `heights_` does not tell its heights well
+  AxisSweep sweep_;
+  const std::vector<BinBox> cells_;  ///< of each tile, about their centres
+  std::unique_ptr<const ExactRays> rays_;
+};
+
+template <class Visit>
+void FullSurface::for_each_offset(const Eye& eye, const TileWork& work, const Visit& visit) const {
+  for_each_row(work.tile, [&](std::size_t cell, RasterGrid::Cell place) {
+    const double dy = grid_.centre_y(place.row) - eye.position.y;
+    // Few rows come near the eye.
+    const bool near = same_place(0, work.centres.at(cell).y - eye.units.y);
+    const std::int64_t end = place.column + work.tile.columns;
+    for (; place.column < end; ++place.column, ++cell) {
+      const bool own = near && eye.stands_at(work.centres.at(cell));
+      visit(cell, own ? Point2{} : Point2{grid_.centre_x(place.column) - eye.position.x, dy});
+    }
+  });
+}
+
+/// Together with what it is made of.
+struct OwnedSurface {
+  /// Rays decide the lines to cells where their eyes are given, metres: then the surface must be a Tin.
+  OwnedSurface(Surface of, std::optional<Tin> bare_ground, const Earth& earth, const RasterGrid& grid,
+               const RasterGrid& tiles, const std::vector<Point2>& eyes_of_rays = {})
+      : surface(std::move(of)),
+        ground(std::move(bare_ground)),
+        full(surface.lattice ? FullSurface(surface.lattice->lattice(), earth, grid, tiles)
+                             : FullSurface(surface.tin, ground ? &*ground : nullptr, earth, grid, tiles)) {
+    if (!eyes_of_rays.empty()) full.cast_rays(earth, eyes_of_rays);
+  }
+
+  const Surface surface;
+  const std::optional<Tin> ground;  ///< none where the surface is a lattice
+  FullSurface full;
+};
+
+}  // namespace itin::viewshed

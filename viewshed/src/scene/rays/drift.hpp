@@ -1,0 +1,15 @@
+// How far a ray in single precision may run beside its line, and a surface that is high enough all the same.
+#pragma once
+
+#include <vector>
+
+#include <itin/tin.hpp>
+
+namespace itin::viewshed {
+
+/// Raises the surface by what it may rise within delta(l) of a place (scene.hpp) for lines from these eyes, metres: a
+/// ray that clears it clears the surface as it was, though it runs beside its line. Twice, for the slopes of triangles
+/// next to a vertex's own.
+void raise_against_drift(const std::vector<Point2>& eyes, Tin& tin);
+
+}  // namespace itin::viewshed

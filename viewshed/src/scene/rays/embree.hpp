@@ -1,0 +1,77 @@
+// Embree behind one door: scenes of triangles in single precision, and packets of sight lines as rays.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <type_traits>
+#include <vector>
+
+#if ITIN_EMBREE_MAJOR >= 4
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include "line/sight_lines.hpp"
+#include "scene/rays/tessellation.hpp"
+
+namespace itin::viewshed {
+
+inline constexpr double kRounding = 0x1p-24;
+inline constexpr double kRoundings = 16;  ///< of Embree's edge functions; see scene.hpp
+
+/// u (4 extent + 16 length).
+constexpr double rounding_error(double extent, double length) {
+  return kRounding * (4 * extent + kRoundings * length);
+}
+
+#if ITIN_EMBREE_MAJOR >= 4
+using RayContext = RTCRayQueryContext;
+#else
+using RayContext = RTCIntersectContext;
+#endif
+
+struct GeometryRelease {
+  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+};
+using Geometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, GeometryRelease>;
+
+class EmbreeScene {
+ public:
+  /// Throws std::bad_alloc.
+  EmbreeScene();
+
+  /// Three floats a vertex, three indices a triangle; `owner` is what filters get as geometryUserPtr.
+  Geometry triangles(const std::vector<float>& vertices, const std::vector<std::uint32_t>& indices, void* owner);
+  void attach(const Geometry& geometry);
+  /// Throws std::bad_alloc when Embree ran out of memory.
+  void commit();
+  RTCScene scene() const { return scene_.get(); }
+
+ private:
+  struct DeviceRelease {
+    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+  };
+  struct SceneRelease {
+    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+  };
+  std::unique_ptr<std::remove_pointer_t<RTCDevice>, DeviceRelease> device_;
+  std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneRelease> scene_;
+};
+
+/// A packet as rays: about `centre`, lowered by the Earth's curvature, and both ends raised by `raise` (a line of
+/// length 0) and `raise_per_length`, grid units. `valid` is -1 for the lines of `active`, 0 for the others.
+struct RayFrame {
+  GridPoint centre;
+  double drop = 0;
+  double raise = 0;
+  double raise_per_length = 0;
+
+  void cast(const SightLines& lines, unsigned active, RTCRay16& rays, std::array<int, SightLines::kSize>& valid) const;
+};
+
+/// Which rays something occludes: their tfar becomes negative. `context` is the first member of what filters see.
+void occluded(RTCScene scene, const std::array<int, SightLines::kSize>& valid, RayContext& context, RTCRay16& rays);
+
+}  // namespace itin::viewshed

@@ -1,0 +1,281 @@
+#include "scene/rays/scene.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "bounds/boundary.hpp"
+#include "bounds/surface_heights.hpp"
+#include "bounds/triangle_bins.hpp"
+#include "scene/rays/embree.hpp"
+#include "scene/rays/tessellation.hpp"
+#include "scene/rays/walls.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// What the filters below see of a packet; Embree hands back the pointer to the first member.
+struct HiddenPacket {
+  RayContext context;
+  const SightLines* lines;
+  const SightLine* exact;
+  std::array<std::uint32_t, SightLines::kSize> by{};  ///< triangles that hide a line
+  unsigned by_triangle = 0;                           ///< one bit a line: one of these does
+  unsigned doubtful = 0;  ///< one bit a line: Embree took a triangle for hiding that does not
+};
+
+enum class Hit { kHides, kPasses, kDoubtful };
+
+/// Keeps those of Embree's hits that hide, by `judge(packet, line, primitive)`.
+template <class Judge>
+void keep_hits_that_hide(const RTCFilterFunctionNArguments* arguments, const Judge& judge) {
+  auto& packet = *reinterpret_cast<HiddenPacket*>(arguments->context);
+  const unsigned size = arguments->N;
+  for (unsigned i = 0; i < size; ++i) {
+    if (arguments->valid[i] == 0) continue;
+    const unsigned line = RTCRayN_id(arguments->ray, size, i);
+    const Hit hit = judge(packet, line, RTCHitN_primID(arguments->hit, size, i));
+    if (hit == Hit::kDoubtful) packet.doubtful |= 1U << line;
+    if (hit != Hit::kHides) arguments->valid[i] = 0;
+  }
+}
+
+}  // namespace
+
+class Scene::Impl {
+ public:
+  Impl(const Tin& tin, const Earth& earth, NoData nodata, double ceiling)
+      : tin_(tin),
+        drop_(earth.drop_coefficient() * tin.grid.resolution),
+        sag_(drop_ == 0 ? 0 : kSag),
+        tessellation_(tessellate(tin, drop_)),
+        location_(location_grid(tin)),
+        bins_(tin, location_),
+        boundary_(boundary_edges(tin)) {
+    attach_surface();
+    attach_walls();
+    if (nodata == NoData::kBlock) attach_curtains(boundary_, ceiling);
+    embree_.commit();
+    // Fewer, larger arrays for the ray casting that follows; Embree has its own copy of what it needs.
+    tessellation_.indices = {};
+  }
+
+  unsigned hidden(const SightLines& lines, Occluder& occluder) const {
+    const ExactLines exact = exact_lines(lines, std::make_index_sequence<SightLines::kSize>());
+    const unsigned known = hidden_by_one(occluder, exact, lines.active);
+    if (known == lines.active) return known;
+    HiddenPacket packet;
+    unsigned result = known | cast(lines, lines.active & ~known, exact, packet);
+    if (packet.by_triangle != 0)
+      occluder.triangle = packet.by[static_cast<unsigned>(std::bit_width(packet.by_triangle)) - 1];
+    for (unsigned doubtful = packet.doubtful & ~result; doubtful != 0; doubtful &= doubtful - 1) {
+      const auto i = static_cast<unsigned>(std::countr_zero(doubtful));
+      if (hidden_by_any(lines, i, exact[i], 0, 1) || behind_curtain(lines, i)) result |= 1U << i;
+    }
+    return result;
+  }
+
+  unsigned hidden_together(const SightLines& lines, Occluder& occluder) const {
+    if (drop_ < 0) return 0;
+    const ExactLines exact = exact_lines(lines, std::make_index_sequence<SightLines::kSize>());
+    unsigned result = 0, open = lines.active;
+    const auto settle = [&](unsigned group, const Occluder& by) {
+      const unsigned four = 0xfU << 4 * group;
+      if ((open & four) == 0 || hidden_by_one(by, exact, four) != four) return;
+      result |= 1U << group;
+      open &= ~four;
+      occluder = by;
+    };
+    for (unsigned group = 0; group < SightLines::kSize / 4; ++group) settle(group, occluder);
+    if (open == 0) return result;
+    HiddenPacket packet;
+    cast(lines, open, exact, packet);
+    for (unsigned i = 0; i < SightLines::kSize; ++i) {
+      const unsigned group = i / 4;
+      if ((packet.by_triangle >> 4 * group & 0xfU) == 0xfU) settle(group, {packet.by[i]});
+    }
+    return result;
+  }
+
+  bool hidden_between(const SightLines& lines, unsigned i, double from, double to) const {
+    const SightLine exact({lines.from_x[i], lines.from_y[i], lines.from_z[i]},
+                          {lines.to_x[i], lines.to_y[i], lines.to_z[i]}, drop_, kGrazing / tin_.grid.resolution);
+    return hidden_by_any(lines, i, exact, from, to);
+  }
+
+  std::optional<double> ground(Point2 position) const {
+    const auto bin = location_.cell_at(position);
+    if (!bin) return std::nullopt;
+    const auto height = surface_height(tin_, bins_.triangles(location_.index(*bin)), position);
+    return height ? std::optional(*height * tin_.grid.resolution) : std::nullopt;
+  }
+
+ private:
+  using ExactLines = std::array<SightLine, SightLines::kSize>;
+
+  /// e(l) in metres for a line of `length` metres.
+  double error_bound(double length) const {
+    return sag_ + rounding_error(tessellation_.half_height * tin_.grid.resolution, length);
+  }
+
+  /// The lines of `active` that Embree finds hidden.
+  unsigned cast(const SightLines& lines, unsigned active, const ExactLines& exact, HiddenPacket& packet) const {
+    alignas(64) RTCRay16 rays;
+    alignas(64) std::array<int, SightLines::kSize> valid;
+    const RayFrame frame{tessellation_.centre, drop_, error_bound(0) / tin_.grid.resolution, kRounding * kRoundings};
+    frame.cast(lines, active, rays, valid);
+    packet.lines = &lines;
+    packet.exact = exact.data();
+    occluded(embree_.scene(), valid, packet.context, rays);
+    unsigned result = 0;
+    for (unsigned i = 0; i < SightLines::kSize; ++i)
+      result |= static_cast<unsigned>(valid[i] != 0 && rays.tfar[i] < 0) << i;
+    return result;
+  }
+
+  template <std::size_t... i>
+  ExactLines exact_lines(const SightLines& l, std::index_sequence<i...>) const {
+    return {SightLine({l.from_x[i], l.from_y[i], l.from_z[i]}, {l.to_x[i], l.to_y[i], l.to_z[i]}, drop_,
+                      kGrazing / tin_.grid.resolution)...};
+  }
+
+  void attach_surface() {
+    const Geometry geometry = embree_.triangles(tessellation_.vertices, tessellation_.indices, this);
+    rtcSetGeometryOccludedFilterFunction(geometry.get(), [](const RTCFilterFunctionNArguments* arguments) {
+      const auto& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
+      keep_hits_that_hide(arguments, [&](HiddenPacket& packet, unsigned line, std::uint32_t piece) {
+        const auto& parents = self.tessellation_.parents;
+        const std::uint32_t triangle = parents.empty() ? piece : parents[piece];
+        if (!self.hides(packet.exact[line], triangle)) return Hit::kDoubtful;
+        packet.by[line] = triangle;
+        packet.by_triangle |= 1U << line;
+        return Hit::kHides;
+      });
+    });
+    embree_.attach(geometry);
+  }
+
+  /// Those of the lines that the occluder hides.
+  unsigned hidden_by_one(const Occluder& occluder, const ExactLines& lines, unsigned active) const {
+    if (!occluder.triangle) return 0;
+    unsigned result = 0;
+    for (; active != 0; active &= active - 1) {
+      const auto i = static_cast<unsigned>(std::countr_zero(active));
+      if (hides(lines[i], *occluder.triangle)) result |= 1U << i;
+    }
+    return result;
+  }
+
+  bool hides(const SightLine& line, std::uint32_t triangle) const {
+    const Triangle& t = tin_.triangles[triangle];
+    return line.hidden_by(tin_.vertices[t[0]], tin_.vertices[t[1]], tin_.vertices[t[2]]);
+  }
+
+  /// The slow way, for the few lines that run along an edge: every triangle in the bins under a part of the line.
+  bool hidden_by_any(const SightLines& lines, unsigned i, const SightLine& line, double start, double end) const {
+    const auto bin_at = [&](double s) {
+      const double x = lines.from_x[i] + s * (lines.to_x[i] - lines.from_x[i]);
+      const double y = lines.from_y[i] + s * (lines.to_y[i] - lines.from_y[i]);
+      return Point2{location_.column_at(tin_.grid.origin.x + x * tin_.grid.resolution),
+                    location_.row_at(tin_.grid.origin.y + y * tin_.grid.resolution)};
+    };
+    const Point2 from = bin_at(start), to = bin_at(end);
+    // Steps of half a bin and the bins about each: more than needed, none left out.
+    const double steps = std::ceil(2 * std::max(std::abs(to.x - from.x), std::abs(to.y - from.y))) + 1;
+    std::array<std::size_t, 4> before{kNoBin, kNoBin, kNoBin, kNoBin};
+    for (double step = 0; step <= steps; ++step) {
+      const Point2 at = bin_at(start + (end - start) * (step / steps));
+      std::array<std::size_t, 4> bins = before;
+      for (std::size_t corner = 0; corner < 4; ++corner)
+        bins[corner] = bin_about(at.x + (corner % 2 == 0 ? -0.5 : 0.5), at.y + (corner < 2 ? -0.5 : 0.5));
+      for (const std::size_t bin : bins) {
+        if (bin == kNoBin || std::find(before.begin(), before.end(), bin) != before.end()) continue;
+        for (const std::uint32_t triangle : bins_.triangles(bin))
+          if (hides(line, triangle)) return true;
+      }
+      before = bins;
+    }
+    return false;
+  }
+
+  static constexpr std::size_t kNoBin = ~std::size_t{0};
+  std::size_t bin_about(double x, double y) const {
+    const double column = std::floor(x), row = std::floor(y);
+    const bool outside = column < 0 || row < 0 || column >= static_cast<double>(location_.columns()) ||
+                         row >= static_cast<double>(location_.rows());
+    return outside ? kNoBin : location_.index({static_cast<std::int64_t>(column), static_cast<std::int64_t>(row)});
+  }
+
+  bool behind_curtain(const SightLines& lines, unsigned i) const {
+    return std::any_of(curtains_.begin(), curtains_.end(), [&](const BoundaryEdge& edge) {
+      return crossing_back(tin_, edge, lines, i) == Crossing::kBack;
+    });
+  }
+
+  void attach_walls() {
+    if (boundary_.empty()) return;
+    const Walls walls = walls_under(tin_, boundary_, tessellation_, drop_, std::nullopt);
+    const Geometry geometry = embree_.triangles(walls.vertices, walls.indices, this);
+    rtcSetGeometryOccludedFilterFunction(geometry.get(), [](const RTCFilterFunctionNArguments* arguments) {
+      const auto& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
+      keep_hits_that_hide(arguments, [&](const HiddenPacket& packet, unsigned line, std::uint32_t side) {
+        return self.hides(packet.exact[line], self.boundary_[side / 2].triangle) ? Hit::kHides : Hit::kDoubtful;
+      });
+    });
+    embree_.attach(geometry);
+  }
+
+  void attach_curtains(std::vector<BoundaryEdge> edges, double ceiling) {
+    curtains_ = std::move(edges);
+    if (curtains_.empty()) return;
+    const Walls walls = walls_under(tin_, curtains_, tessellation_, drop_, ceiling);
+    const Geometry geometry = embree_.triangles(walls.vertices, walls.indices, this);
+    rtcSetGeometryOccludedFilterFunction(geometry.get(), [](const RTCFilterFunctionNArguments* arguments) {
+      const auto& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
+      keep_hits_that_hide(arguments, [&](const HiddenPacket& packet, unsigned line, std::uint32_t side) {
+        switch (crossing_back(self.tin_, self.curtains_[side / 2], *packet.lines, line)) {
+          case Crossing::kBack:
+            return Hit::kHides;
+          case Crossing::kDoubtful:
+            return Hit::kDoubtful;
+          case Crossing::kNone:
+            break;
+        }
+        return Hit::kPasses;
+      });
+    });
+    embree_.attach(geometry);
+  }
+
+  const Tin& tin_;
+  double drop_;  ///< grid units of drop a squared grid unit
+  double sag_;
+  Tessellation tessellation_;
+  RasterGrid location_;
+  TriangleBins bins_;
+  std::vector<BoundaryEdge> boundary_;
+  std::vector<BoundaryEdge> curtains_;
+  EmbreeScene embree_;
+};
+
+Scene::Scene(const Tin& tin, const Earth& earth, NoData nodata, double ceiling)
+    : impl_(std::make_unique<Impl>(tin, earth, nodata, ceiling)) {}
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
+Scene::~Scene() = default;
+
+unsigned Scene::hidden(const SightLines& lines, Occluder& occluder) const {
+  return impl_->hidden(lines, occluder);
+}
+unsigned Scene::hidden_together(const SightLines& lines, Occluder& occluder) const {
+  return impl_->hidden_together(lines, occluder);
+}
+bool Scene::hidden_between(const SightLines& lines, unsigned line, double from, double to) const {
+  return impl_->hidden_between(lines, line, from, to);
+}
+std::optional<double> Scene::ground(Point2 position) const {
+  return impl_->ground(position);
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,439 @@
+#include "scene/sweep/axis_sweep.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <itin/same_place.hpp>
+
+#include "scene/sweep/sweep_sights.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kHidden = std::numeric_limits<double>::quiet_NaN();
+
+std::size_t number(std::int64_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+/// One axis and one tile, seen from the axis towards one side at a time.
+class AxisSweep::Task {
+ public:
+  /// `lowest` is that of Kind::kHeight.
+  Task(const AxisSweep& sweep, const View& view, Kind kind, const Ends& ends, const Lowest* lowest, Scratch& scratch,
+       Heights& heights)
+      : sweep_(sweep),
+        bins_(sweep.bins_),
+        view_(view),
+        axis_(view.axis_),
+        kind_(kind),
+        ends_(ends),
+        lowest_(lowest),
+        profile_(scratch),
+        heights_(heights) {
+    radius_squared_ = axis_.radius * axis_.radius;
+  }
+
+  void run() {
+    heights_.fill(kInfinity);
+    highest_ = -kInfinity;
+    for (const double elevation : ends_.elevation)
+      if (elevation > highest_) highest_ = elevation;
+    for (std::size_t i = 0; i < view_.quadrants_.size(); ++i) look_from(view_.quadrants_[i], view_.fans_[i]);
+    leave_out_own_place();
+  }
+
+ private:
+  void leave_out_own_place() {
+    for (std::size_t r = 0; r < number(ends_.tile.rows); ++r) {
+      const double south = axis_.y - ends_.centres.y[r];
+      if (!same_place(0, south)) continue;
+      for (std::size_t c = 0; c < number(ends_.tile.columns); ++c)
+        if (same_place(ends_.centres.x[c] - axis_.x, south)) heights_[r * Tile::kSide + c] = kInfinity;
+    }
+  }
+
+  void look_from(const Quadrant& quadrant, const HorizonFan& fan) {
+    place_cells(quadrant);
+    if (farthest_ <= 0 || quadrant.slabs() == 0) return;
+    auto [from, to] = slopes();
+    if (from > to) return;
+    // A hair more, against rounding.
+    from -= 1e-9, to += 1e-9;
+    // What lies before the tile may hide even the highest of its ends.
+    if (view_.hides(fan.known(from, to, quadrant.slab_at(nearest_)).hidden,
+                    {from, to, nearest_, farthest_, least_drop()}, highest_)) {
+      for_each_cell(quadrant, from, to, [&](const Cell& cell) { heights_[cell.index] = kHidden; });
+      return;
+    }
+    // Sectors one cell wide at the tile's far end.
+    const double width = std::max(1.0, 1 / cells_a_bin_) / farthest_;
+    silhouettes_.fill(kNoSilhouette);
+    for (std::size_t i = 0; from + static_cast<double>(i) * width <= to; ++i)
+      sweep(quadrant, fan, from + static_cast<double>(i) * width, from + static_cast<double>(i + 1) * width);
+  }
+
+  void place_cells(const Quadrant& quadrant) {
+    const bool columns = quadrant.along_columns();
+    majors_ = columns ? ends_.tile.columns : ends_.tile.rows;
+    minors_ = columns ? ends_.tile.rows : ends_.tile.columns;
+    const auto &x = ends_.centres.x, &y = ends_.centres.y;
+    const auto squared = [](double d) { return d * d; };
+    for (std::size_t i = 0; i < number(majors_); ++i) {
+      along_[i] = columns ? quadrant.along(bins_.column_at(x[i]), 0) : quadrant.along(0, bins_.row_at(y[i]));
+      along_squared_[i] = squared(columns ? x[i] - axis_.x : y[i] - axis_.y);
+    }
+    for (std::size_t i = 0; i < number(minors_); ++i) {
+      across_[i] = columns ? quadrant.across(0, bins_.row_at(y[i])) : quadrant.across(bins_.column_at(x[i]), 0);
+      across_squared_[i] = squared(columns ? y[i] - axis_.y : x[i] - axis_.x);
+    }
+    farthest_ = std::max(along_[0], along_[number(majors_ - 1)]);
+    nearest_ = std::max(0.0, std::min(along_[0], along_[number(majors_ - 1)]));
+    const double extent = across_[number(minors_ - 1)] - across_[0];
+    cells_a_bin_ = minors_ > 1 ? static_cast<double>(minors_ - 1) / extent : 1;
+  }
+
+  /// Of the cells within the quadrant; empty where none is.
+  std::pair<double, double> slopes() const {
+    double from = kInfinity, to = -kInfinity;
+    for (const double v : {across_[0], across_[number(minors_ - 1)]}) {
+      for (const double u : {along_[0], along_[number(majors_ - 1)]}) {
+        const double slope = u > 0 ? v / u : std::copysign(kInfinity, v);
+        from = std::min(from, slope), to = std::max(to, slope);
+      }
+    }
+    return {std::max(from, -1.0), std::min(to, 1.0)};
+  }
+
+  /// Of the tile's ends.
+  double least_drop() const {
+    const auto ends = [](const auto& of, std::int64_t count) {
+      return std::minmax_element(of.begin(), of.begin() + count);
+    };
+    const double drop = sweep_.drop_;
+    const auto [near_along, far_along] = ends(along_squared_, majors_);
+    const auto [near_across, far_across] = ends(across_squared_, minors_);
+    // Cells amid a row or a column may lie nearer than those at its ends, but not farther.
+    return drop > 0 ? drop * (*near_along + *near_across) : drop * (*far_along + *far_across);
+  }
+
+  /// Calls visit(cell) for those with slopes in [from, to) whose ends are looked at, nearest first.
+  template <class Visit>
+  void for_each_cell(const Quadrant& quadrant, double from, double to, const Visit& visit) const {
+    const bool columns = quadrant.along_columns(), grows = along_[0] < along_[number(majors_ - 1)];
+    const std::size_t minor_step = columns ? Tile::kSide : 1, major_step = columns ? 1 : Tile::kSide;
+    for (std::int64_t n = 0; n < majors_; ++n) {
+      const std::size_t i = number(grows ? n : majors_ - 1 - n);
+      const double u = along_[i];
+      if (u <= 0) continue;
+      const std::size_t end = first_across(to * u);
+      for (std::size_t k = first_across(from * u); k < end; ++k) {
+        Cell cell{i * major_step + k * minor_step, i, u, across_[k], along_squared_[i] + across_squared_[k]};
+        // Of cells on a diagonal, each belongs to one quadrant.
+        if (columns ? std::abs(cell.across) > u : std::abs(cell.across) >= u) continue;
+        if (cell.squared <= radius_squared_ && !std::isnan(ends_.elevation[cell.index])) visit(cell);
+      }
+    }
+  }
+
+  void sweep(const Quadrant& quadrant, const HorizonFan& fan, double from, double to) {
+    bool surveyed = false;
+    last_ = kNoSilhouette;
+    double along = -1, hidden_below = 0;  // of ends this far away
+    for_each_cell(quadrant, from, to, [&](Cell cell) {
+      if (!std::exchange(surveyed, true)) survey(quadrant, fan, from, to);
+      if (cell.along != along) {
+        along = cell.along;
+        hidden_below = axis_.top + along * profile_.hidden_below(quadrant.slab_at(along));
+      }
+      heights_[cell.index] = kHidden;
+      cell.hidden_below = hidden_below + sweep_.drop_ * cell.squared;
+      if (ends_.elevation[cell.index] >= cell.hidden_below) look(quadrant, cell);
+    });
+  }
+
+  void survey(const Quadrant& quadrant, const HorizonFan& fan, double from, double to) {
+    const std::size_t nearest = quadrant.slab_at(nearest_);
+    profile_.survey(Sector(quadrant, from, to, view_.sector_axis_), fan.known(from, to, nearest), nearest,
+                    quadrant.slab_at(farthest_) + 1);
+  }
+
+  struct Cell {
+    std::size_t index = 0;  ///< in the tile
+    std::size_t major = 0;
+    double along = 0, across = 0;
+    double squared = 0;       ///< distance from the axis, grid units
+    double hidden_below = 0;  ///< elevation
+  };
+
+  /// The first of the cells across that lies at `v` or beyond.
+  std::size_t first_across(double v) const {
+    const double at = (v - across_[0]) * cells_a_bin_;
+    return at <= 0                                 ? 0
+           : at > static_cast<double>(minors_ - 1) ? number(minors_)
+                                                   : static_cast<std::size_t>(std::ceil(at));
+  }
+
+  void look(const Quadrant& quadrant, const Cell& cell) {
+    const Point3 top{axis_.x, axis_.y, axis_.top};
+    const double elevation = ends_.elevation[cell.index];
+    const SweptEnd end{cell.along, sweep_.drop_ * cell.squared};
+    switch (kind_) {
+      case Kind::kAxis: {
+        const SightLine line = line_between(other_end(cell, elevation), top);
+        return look(quadrant, cell, AxisSight(line, axis_.base, end, view_.sector_axis_.margin));
+      }
+      case Kind::kPoint: {
+        const SightLine line = line_between(top, other_end(cell, elevation));
+        return look(quadrant, cell, PointSight(line, end));
+      }
+      case Kind::kHeight: {
+        const HeightSight::Range range{lowest_->end[cell.index], elevation, cell.hidden_below};
+        const SightLine line = line_between(top, other_end(cell, range.lowest));
+        look(quadrant, cell, HeightSight(line, range, end, view_.sector_axis_.margin));
+      }
+    }
+  }
+
+  Point3 other_end(const Cell& cell, double elevation) const {
+    const Point2 p = ends_.centres.at(cell.index);
+    return {p.x, p.y, elevation};
+  }
+  SightLine line_between(const Point3& from, const Point3& to) const {
+    return {from, to, sweep_.drop_, sweep_.grazing_};
+  }
+
+  template <class Sight>
+  void look(const Quadrant& quadrant, const Cell& cell, Sight sight) {
+    if (decide(quadrant, cell, sight)) heights_[cell.index] = least(quadrant, cell, sight);
+    last_ = silhouettes_[cell.major] = sight.silhouette();
+  }
+
+  template <class Sight>
+  double least(const Quadrant&, const Cell&, const Sight& sight) {
+    return sight.least();
+  }
+  /// What rises above a line by less than a grazing is only touched, though clearing it may take metres, near the eye.
+  double least(const Quadrant& quadrant, const Cell& cell, const HeightSight& sight) {
+    const double lowest = lowest_->end[cell.index];
+    double least = sight.least();
+    for (const double end : {lowest_->wanted[cell.index], lowest}) {
+      if (!(end >= lowest && end < least) || sight.silhouette() == kNoSilhouette ||
+          sight.hides(bins_.corners(sight.silhouette()), end))
+        continue;
+      const SightLine line = line_between({axis_.x, axis_.y, axis_.top}, other_end(cell, end));
+      PointSight lower(line, {cell.along, sweep_.drop_ * cell.squared});
+      if (decide(quadrant, cell, lower)) least = end;
+    }
+    return least;
+  }
+
+  /// Whether the top is seen.
+  template <class Sight>
+  bool decide(const Quadrant& quadrant, const Cell& cell, Sight& sight) {
+    const std::uint32_t beside = silhouettes_[cell.major];
+    if (last_ != kNoSilhouette && !clears(last_, sight)) return false;
+    if (beside != kNoSilhouette && beside != last_ && !clears(beside, sight)) return false;
+    bool seen = true;
+    profile_.search(quadrant.slab_at(cell.along), sight,
+                    [&](std::size_t slab) { return seen = clears(quadrant, slab, cell, sight); });
+    return seen;
+  }
+
+  /// Looks at the triangles that lie in a slab under the line.
+  template <class Sight>
+  bool clears(const Quadrant& quadrant, std::size_t slab, const Cell& cell, Sight& sight) const {
+    const double slope = cell.across / cell.along, minor = quadrant.minor();
+    for (std::size_t i = 0; i < Quadrant::kRun; ++i) {
+      const double begin = std::max(0.0, quadrant.begin(slab) + static_cast<double>(i));
+      const double end = std::min(quadrant.begin(slab) + static_cast<double>(i + 1), cell.along);
+      if (begin - end > BinnedHeights::kSlack) continue;
+      const double low = minor + slope * (slope < 0 ? end : begin), high = minor + slope * (slope < 0 ? begin : end);
+      const auto first = static_cast<std::int64_t>(std::max(0.0, low - BinnedHeights::kSlack));
+      const auto last = std::min(quadrant.lines() - 1, static_cast<std::int64_t>(high + BinnedHeights::kSlack));
+      for (std::int64_t line = first; line <= last; ++line) {
+        Stretch within{begin, end, slope};
+        if (line > first) within.limit((static_cast<double>(line) - minor) / slope, slope > 0);
+        if (line < last) within.limit((static_cast<double>(line + 1) - minor) / slope, slope < 0);
+        if (!clears(quadrant, quadrant.bin(slab, i, line), within, sight)) return false;
+      }
+    }
+    return true;
+  }
+
+  /// Of a line outward, in bins along.
+  struct Stretch {
+    double begin = 0, end = 0;
+    double slope = 0;  ///< across / along
+    void limit(double at, bool from_below) {
+      if (from_below) {
+        begin = std::max(begin, at);
+      } else {
+        end = std::min(end, at);
+      }
+    }
+  };
+
+  template <class Sight>
+  bool clears(const Quadrant& quadrant, const RasterGrid::Cell& bin, const Stretch& stretch, Sight& sight) const {
+    if (!bins_.holds(bin)) return true;
+    const double drop = view_.sector_axis_.drop * (1 + stretch.slope * stretch.slope);
+    // Less what curvature bends between the ends.
+    const auto height = [&](double along) {
+      return sight.at_axis() + sight.slope() * along + drop * along * along - std::max(drop, 0.0) -
+             view_.sector_axis_.margin;
+    };
+    const double near = height(stretch.begin), far = height(stretch.end);
+    if (bins_.lies_below(bin, std::min(near, far))) return true;
+    const BinnedHeights::Lid lid = bins_.lid(bin);
+    const auto lid_at = [&](double along) {
+      const Point2 p = quadrant.position(along, stretch.slope * along);
+      return lid.at(p.x - static_cast<double>(bin.column) - 0.5, p.y - static_cast<double>(bin.row) - 0.5);
+    };
+    if (lid_at(stretch.begin) <= near && lid_at(stretch.end) <= far) return true;
+    return bins_.for_each_triangle(bin, std::min(near, far), [&](std::uint32_t t) { return clears(t, sight); });
+  }
+
+  template <class Sight>
+  bool clears(std::uint32_t triangle, Sight& sight) const {
+    return sight.clears(triangle, bins_.corners(triangle));
+  }
+
+  const AxisSweep& sweep_;
+  const BinnedHeights& bins_;
+  const View& view_;
+  const Axis& axis_;
+  Kind kind_;
+  const Ends& ends_;
+  const Lowest* lowest_;
+  SectorProfile& profile_;
+  Heights& heights_;
+  double radius_squared_;
+  // The tile's cells as the quadrant has them, in bins.
+  std::array<double, Tile::kSide> along_{}, across_{}, along_squared_{}, across_squared_{};
+  std::int64_t majors_ = 0, minors_ = 0;
+  double highest_ = 0;  ///< of the tile's ends
+  double farthest_ = 0, nearest_ = 0, cells_a_bin_ = 1;
+  // What hid the last eye of this sector, and of the last one the eye as far away.
+  std::uint32_t last_ = kNoSilhouette;
+  std::array<std::uint32_t, Tile::kSide> silhouettes_{};
+};
+
+AxisSweep::AxisSweep(const Earth& earth, const BinnedHeights& surface)
+    : bins_(surface),
+      drop_(earth.drop_coefficient() * surface.units().resolution),
+      grazing_(kGrazing / surface.units().resolution) {}
+
+AxisSweep::View::View(const BinnedHeights& bins, const Axis& axis, double drop, double grazing)
+    : axis_(axis), column_(bins.column_at(axis.x)), row_(bins.row_at(axis.y)), bin_(bins.bin_size()) {
+  const double bin = bins.bin_size();
+  sector_axis_.top = axis.top;
+  sector_axis_.drop = drop * bin * bin;
+  // Above all single precision's rounding of heights and of drops.
+  const double greatest =
+      bins.greatest_magnitude() + std::abs(axis.top) + 4 * std::abs(drop) * axis.radius * axis.radius;
+  sector_axis_.margin = 100 * grazing + greatest * 0x1p-21;
+  for (const Quadrant::Side side : {Quadrant::kEast, Quadrant::kWest, Quadrant::kSouth, Quadrant::kNorth})
+    quadrants_.emplace_back(bins, column_, row_, side, axis.radius / bin + 1);
+  fans_.resize(quadrants_.size());
+}
+
+bool AxisSweep::View::reaches(const BinBox& box) const {
+  const double east = column_ - std::clamp(column_, box.west, box.east),
+               south = row_ - std::clamp(row_, box.north, box.south);
+  return std::hypot(east, south) * bin_ <= axis_.radius * (1 + 1e-9);
+}
+
+double AxisSweep::View::distance(const BinBox& box) const {
+  return std::max(std::abs(column_ - std::clamp(column_, box.west, box.east)),
+                  std::abs(row_ - std::clamp(row_, box.north, box.south)));
+}
+
+/// What of a box lies in a quadrant, with slopes from -1 to 1; nothing where none does.
+std::optional<AxisSweep::View::Extent> AxisSweep::View::extent(const Quadrant& quadrant, const BinBox& box) const {
+  const auto range = [](double a, double b) { return std::pair(std::min(a, b), std::max(a, b)); };
+  const auto [near, far] = range(quadrant.along(box.west, box.north), quadrant.along(box.east, box.south));
+  const auto [low, high] = range(quadrant.across(box.west, box.north), quadrant.across(box.east, box.south));
+  const double across = std::max({low, -high, 0.0}), nearest = std::max(near, across);
+  if (quadrant.slabs() == 0 || far <= 0 || nearest > far) return std::nullopt;
+  // A hair more, against rounding.
+  Extent ends{std::max(low / (low < 0 ? nearest : far), -1.0) - 1e-9,
+              std::min(high / (high > 0 ? nearest : far), 1.0) + 1e-9, nearest, far, 0};
+  const double drop = sector_axis_.drop, farthest = std::max(-low, high);
+  ends.least_drop = drop * (drop > 0 ? nearest * nearest + across * across : far * far + farthest * farthest);
+  return ends;
+}
+
+void AxisSweep::View::narrow(std::span<const BinBox> boxes) {
+  // Boxes nearby may lie in all directions.
+  constexpr double kNearby = 256;
+  for (std::size_t i = 0; i < quadrants_.size(); ++i) {
+    double from = 1, to = -1, farthest = 0;
+    for (const BinBox& box : boxes) {
+      const auto ends = distance(box) < kNearby ? std::nullopt : extent(quadrants_[i], box);
+      if (!ends) continue;
+      from = std::min(from, ends->from), to = std::max(to, ends->to);
+      farthest = std::max(farthest, ends->nearest);
+    }
+    fans_[i].narrow(from, to, from <= to ? quadrants_[i].slab_at(farthest) : 0);
+  }
+}
+
+void AxisSweep::View::advance(double reach) {
+  for (std::size_t i = 0; i < quadrants_.size(); ++i) {
+    const Quadrant& quadrant = quadrants_[i];
+    if (quadrant.slabs() == 0) continue;
+    // What is farther away begins in that slab or beyond.
+    fans_[i].advance(quadrant, sector_axis_, quadrant.slab_at(std::min(reach, axis_.radius / bin_)));
+  }
+}
+
+bool AxisSweep::View::hides(const BinBox& box, double elevation) const {
+  if (distance(box) == 0) return false;
+  for (std::size_t i = 0; i < quadrants_.size(); ++i) {
+    const auto ends = extent(quadrants_[i], box);
+    if (ends &&
+        !hides(fans_[i].known(ends->from, ends->to, quadrants_[i].slab_at(ends->nearest)).hidden, *ends, elevation))
+      return false;
+  }
+  return true;
+}
+
+bool AxisSweep::View::hides(const Sector::Hidden& known, const Extent& ends, double elevation) const {
+  return elevation < axis_.top + std::min(known.below * ends.nearest, known.below * ends.farthest) + ends.least_drop;
+}
+
+AxisSweep::View AxisSweep::beginning(const Axis& axis) const {
+  return {bins_, axis, drop_, grazing_};
+}
+
+AxisSweep::View AxisSweep::view_of(const Axis& axis) const {
+  View view = beginning(axis);
+  view.advance(kInfinity);
+  return view;
+}
+
+AxisSweep::Axis AxisSweep::axis_at(const Point3& eye, double radius) const {
+  return {eye.x, eye.y, eye.z, eye.z, std::min(radius, bins_.farthest_from(eye.x, eye.y) + 1)};
+}
+
+void AxisSweep::run(const View& axis, const Ends& eyes, Scratch& scratch, Heights& heights) const {
+  Task(*this, axis, Kind::kAxis, eyes, nullptr, scratch, heights).run();
+}
+
+void AxisSweep::look_from(const View& eye, const Ends& targets, Scratch& scratch, Heights& seen) const {
+  Task(*this, eye, Kind::kPoint, targets, nullptr, scratch, seen).run();
+}
+
+void AxisSweep::raise_from(const View& eye, const Ends& highest, const Lowest& lowest, Scratch& scratch,
+                           Heights& least) const {
+  Task(*this, eye, Kind::kHeight, highest, &lowest, scratch, least).run();
+}
+
+}  // namespace itin::viewshed

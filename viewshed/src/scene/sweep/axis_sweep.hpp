@@ -1,0 +1,136 @@
+// How much of an upright axis, such as a turbine, is seen from every cell of a tile: the least height of the axis at
+// which nothing hides it. And the other way round, from an eye: which cells' targets it sees, and from what height on.
+//
+//   AxisSweep sweep(earth, bins);
+//   const AxisSweep::View view = sweep.view_of(axis);       // for all tiles
+//   AxisSweep::Heights heights;                             // grid units, one a cell
+//   sweep.run(view, eyes, scratch, heights);
+//
+// Method. What hides from far away is told once for all tiles (horizon_fan.hpp). The tile is cut into sectors about the
+// axis, each about a cell wide at its far end. Along a sector the bounds of BinnedHeights say for nearly every slab and
+// eye that it hides the whole axis, or that it hides nothing; what remains, mostly the slabs about a line's silhouette
+// and the ground before the eye, is decided triangle by triangle in double precision. An eye begins with what hid its
+// neighbours, so that bounds leave little to decide.
+//
+// Accuracy. Every triangle that may hide more than what is known is looked at exactly, and bounds decide by more than
+// rounding. So the line at the height found has a clearance between -kGrazing and 0, up to rounding, or the height is
+// the lower bound; a line is reported hidden only where a triangle or a bound proves it. It agrees with single lines of
+// sight.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <itin/earth.hpp>
+
+#include "bounds/binned_heights.hpp"
+#include "line/cell_tiles.hpp"
+#include "line/sight_line.hpp"
+#include "scene/sweep/horizon_fan.hpp"
+#include "scene/sweep/sector_profile.hpp"
+
+namespace itin::viewshed {
+
+class AxisSweep {
+ public:
+  /// `surface` must outlive it.
+  AxisSweep(const Earth& earth, const BinnedHeights& surface);
+
+  /// Grid units.
+  struct Axis {
+    double x = 0, y = 0;
+    double base = 0, top = 0;  ///< elevations; what of it is seen below its base does not count
+    double radius = 0;         ///< eyes farther away do not look
+  };
+  /// The other ends of lines, one a cell of a tile, NaN where none is.
+  struct Ends {
+    const Tile& tile;
+    const TileCentres& centres;
+    const TileValues<double>& elevation;  ///< grid units
+  };
+  /// Of each cell: where a sight line to its top is hidden NaN, else the least height seen, from base to top. Eyes at
+  /// the axis' own place (itin/same_place.hpp), and beyond its radius, are left out: infinity.
+  using Heights = TileValues<double>;
+
+  /// What the tiles about an axis share. Refers to the sweep's surface.
+  class View;
+  View view_of(const Axis& axis) const;
+  /// The same, to be advanced.
+  View beginning(const Axis& axis) const;
+  /// An eye that looks as far as there is surface, but no farther than `radius` grid units.
+  Axis axis_at(const Point3& eye, double radius) const;
+
+  /// Memory to use again.
+  using Scratch = SectorProfile;
+  /// For several threads at once, each with its own scratch. Cost: some hundredths of a microsecond an eye that does
+  /// not see the top, a few tenths for others.
+  void run(const View& axis, const Ends& eyes, Scratch& scratch, Heights& heights) const;
+
+  /// The other way round, from an eye to targets, exact to the last bit as the line from the eye over every triangle:
+  /// NaN where hidden, infinity for a target at the eye's own place, else the eye's height.
+  void look_from(const View& eye, const Ends& targets, Scratch& scratch, Heights& seen) const;
+
+  /// Of each cell's ends the lowest that counts, and one that is asked for besides: it need not lie within the range.
+  struct Lowest {
+    const TileValues<double>& end;
+    const TileValues<double>& wanted;
+  };
+  /// How high a cell's end must be for the eye to see it: from the lowest up to `highest`; NaN where that is hidden,
+  /// infinity for a cell at the eye's own place. The line to a height found touches the surface, or the height is one
+  /// of the three given: it is at most one of them just where look_from() sees that. Cost: some tenths of a microsecond
+  /// a cell that does not see the lowest.
+  void raise_from(const View& eye, const Ends& highest, const Lowest& lowest, Scratch& scratch, Heights& least) const;
+
+ private:
+  enum class Kind : std::uint8_t { kAxis, kPoint, kHeight };
+  class Task;
+
+  const BinnedHeights& bins_;
+  double drop_;     ///< grid units of drop a squared grid unit
+  double grazing_;  ///< grid units
+};
+
+/// Closed, in bins.
+struct BinBox {
+  double west = 0, north = 0, east = 0, south = 0;
+};
+
+class AxisSweep::View {
+ public:
+  /// At first it knows of nothing that hides.
+  View(const BinnedHeights& bins, const Axis& axis, double drop, double grazing);
+
+  /// Whether a box lies within the axis' radius, at least in part.
+  bool reaches(const BinBox& box) const;
+  /// How far a box is away from the axis, in bins along columns or rows.
+  double distance(const BinBox& box) const;
+  /// Ends will be asked about in these boxes only, and near the axis.
+  void narrow(std::span<const BinBox> boxes);
+  /// Looks on at what hides up to so many bins away along columns and rows; what is farther away will be asked about
+  /// later. Infinity completes it.
+  void advance(double reach);
+  /// Whether every end in the box up to an elevation, grid units, is certainly hidden, by what has been looked at.
+  bool hides(const BinBox& box, double elevation) const;
+
+ private:
+  friend class AxisSweep;
+  /// Ends within a quadrant: between slopes, and as far along.
+  struct Extent {
+    double from = 0, to = 0;
+    double nearest = 0, farthest = 0;
+    double least_drop = 0;  ///< grid units
+  };
+  bool hides(const Sector::Hidden& known, const Extent& ends, double elevation) const;
+  std::optional<Extent> extent(const Quadrant& quadrant, const BinBox& box) const;
+
+  Axis axis_;
+  Sector::Axis sector_axis_;
+  std::vector<Quadrant> quadrants_;
+  std::vector<HorizonFan> fans_;  ///< of each quadrant
+  double column_, row_, bin_;     ///< where the axis is, in bins, and how wide these are, grid units
+};
+
+}  // namespace itin::viewshed

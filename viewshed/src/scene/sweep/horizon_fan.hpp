@@ -1,0 +1,51 @@
+// What hides lines up to an axis, and above what nothing does, in all directions of a quadrant and up to distances that
+// double, so that far away sectors need not be looked along from the axis.
+//
+// A sector one bin wide at some distance spans hardly more lines of bins nearer by than one that is one bin wide there.
+// So a fan knows, for every distance, sectors one to two bins wide at their ends, each looked along from where the
+// wider one of half the distance ends: every slab is looked at about twice. It remembers what it knew at eighths of
+// each of these distances.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "scene/sweep/sector_profile.hpp"
+
+namespace itin::viewshed {
+
+class HorizonFan {
+ public:
+  /// Only lines within these slopes that begin up to this slab will be asked about; none if `from` exceeds `to`.
+  void narrow(double from, double to, std::size_t slab = std::numeric_limits<std::size_t>::max()) {
+    slopes_ = {from, to};
+    farthest_ = from <= to ? slab : 0;
+  }
+
+  /// Looks on up to a slab, if it has not come as far yet. Memory: at most 1280 bytes a slab. Uses all threads.
+  void advance(const Quadrant& quadrant, const Sector::Axis& axis, std::size_t slab);
+
+  /// What is known by now for lines within slopes [from, to] that begin in slab `nearest`: of the farthest slab up to
+  /// there.
+  Sector::Horizon known(double from, double to, std::size_t nearest) const;
+
+ private:
+  /// Sectors of equal slopes from -1 to 1, looked along up to where slab `slab` begins.
+  struct Ring {
+    std::size_t slab = 0;
+    std::vector<float> below, above;  ///< of lines in a sector hidden and clear, rounded away from each other
+    Sector::Horizon known(double from, double to) const;
+  };
+  void widen();
+  std::pair<std::size_t, std::size_t> sectors() const;
+
+  std::pair<double, double> slopes_{-1, 1};
+  std::size_t farthest_ = std::numeric_limits<std::size_t>::max();  ///< slab
+  std::vector<Ring> rings_;                                         ///< complete ones
+  Ring front_;                                                      ///< on its way to be the next
+  std::size_t widest_ = 0;  ///< slabs: up to there the front's sectors are narrow enough
+};
+
+}  // namespace itin::viewshed

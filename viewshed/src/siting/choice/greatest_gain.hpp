@@ -1,0 +1,24 @@
+// The most that further sites can gain, whatever they are.
+#pragma once
+
+#include <vector>
+
+#include "siting/choice/choice_state.hpp"
+
+namespace itin::viewshed {
+
+struct GreatestGain {
+  Weight sum = 0;        ///< of so many sites: gains only fall as sites are added (submodularity)
+  std::size_t best = 0;  ///< the option that alone gains most
+};
+
+/// Of the options that are `open`, at most `count` of different places, within what the budget leaves after `spent`.
+GreatestGain greatest_gain(const ChoiceProblem& problem, const Served& served, const std::vector<bool>& open,
+                           std::size_t count, double spent);
+
+/// Branch and bound from the best bound down, for as long as a second or so lasts: a bound on the sum of
+/// min(served, cover) of every choice of `count` sites within the budget, and the optimum itself in small cases.
+/// `known` is the sum that some choice has.
+Weight search_optimum(const ChoiceProblem& problem, std::size_t count, Weight known);
+
+}  // namespace itin::viewshed

@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <limits>
+
+#include <itin/parallel.hpp>
+
+#include "siting/choice/choice_state.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// What an option would gain, a unit of cost where that counts.
+struct Bid {
+  std::size_t option = 0;
+  double upper = 0;
+  double lower = 0;
+  bool open = true;  ///< may be taken at all
+
+  friend bool operator<(const Bid& a, const Bid& b) {
+    return a.upper != b.upper ? a.upper > b.upper : a.option < b.option;
+  }
+  /// Whether this one is taken before the other, whatever their true gains are.
+  bool surely_before(const Bid& other) const {
+    return lower > other.upper || (lower == other.upper && option < other.option);
+  }
+};
+
+class Greedy {
+ public:
+  Greedy(const ChoiceProblem& problem, bool per_cost, std::vector<std::size_t>& chosen,
+         std::vector<std::optional<Margin>>& closest)
+      : problem_(problem), per_cost_(per_cost), chosen_(chosen), closest_(closest), served_(problem, chosen) {}
+
+  void run() {
+    while (!reached()) {
+      problem_.progress.throw_if_cancelled();
+      report();
+      const std::optional<Bid> next = best();
+      if (!next) return;
+      take(*next);
+    }
+  }
+
+ private:
+  bool reached() const {
+    const ChoiceGoal& goal = problem_.goal;
+    if (goal.count && chosen_.size() >= *goal.count) return true;
+    if (!goal.wanted) return false;
+    Served none(problem_.demand, goal.cover);
+    for (const DemandSet& set : goal.existing) none.add(set);
+    return served_.least.value() - none.value() >= *goal.wanted;
+  }
+
+  void report() const {
+    if (problem_.goal.count)
+      problem_.progress.report("choice",
+                               static_cast<double>(chosen_.size()) / static_cast<double>(*problem_.goal.count));
+  }
+
+  Bid bid(std::size_t option) const {
+    Bid result{.option = option};
+    const SiteOption& site = problem_.options[option];
+    result.open = !problem_.place_taken(option, chosen_) && problem_.affordable(spent_ + site.cost);
+    if (!result.open) return result;
+    const CoverageBounds& bounds = problem_.coverage.bounds(option);
+    const double unit = per_cost_ ? site.cost : 1;
+    result.upper = static_cast<double>(served_.least.gain(bounds.possible)) / unit;
+    result.lower =
+        bounds.exact && all_exact_ ? result.upper : static_cast<double>(served_.most.gain(bounds.certain)) / unit;
+    return result;
+  }
+
+  std::vector<Bid> all_bids() {
+    spent_ = problem_.cost_of(chosen_);
+    all_exact_ = std::all_of(chosen_.begin(), chosen_.end(),
+                             [&](std::size_t option) { return problem_.coverage.bounds(option).exact; });
+    std::vector<Bid> bids(problem_.options.size());
+    parallel_for(bids.size(), [&](std::size_t i) { bids[i] = bid(i); });
+    return bids;
+  }
+
+  /// The option that exact coverage would have chosen; nothing where none gains.
+  std::optional<Bid> best() {
+    std::vector<Bid> bids = all_bids();
+    for (;;) {
+      std::vector<Bid> order;
+      std::copy_if(bids.begin(), bids.end(), std::back_inserter(order),
+                   [](const Bid& b) { return b.open && b.upper > 0; });
+      std::sort(order.begin(), order.end());
+      const auto joins = [&](const Bid& b) { return problem_.may_join(b.option, chosen_); };
+      const auto first = std::find_if(order.begin(), order.end(), joins);
+      if (first == order.end()) return std::nullopt;
+      // One whose gain may be nothing is not taken before that is known.
+      const auto second = std::find_if(first + 1, order.end(), joins);
+      if (first->lower > 0 && (second == order.end() || first->surely_before(*second))) {
+        remember(order, *first);
+        return *first;
+      }
+      refine({first, order.end()}, bids);
+    }
+  }
+
+  /// The first of the order and those that may come before it.
+  void refine(std::span<const Bid> order, std::vector<Bid>& bids) {
+    std::vector<std::size_t> batch;
+    double known = 0;
+    for (const Bid& b : order.first(std::min(order.size(), 4 * problem_.goal.batch))) {
+      if (b.upper < known || batch.size() >= problem_.goal.batch) break;
+      if (!problem_.coverage.bounds(b.option).exact && problem_.may_join(b.option, chosen_)) batch.push_back(b.option);
+      known = std::max(known, b.lower);
+    }
+    if (!batch.empty()) {
+      problem_.coverage.refine(batch);
+      for (Bid& b : bids) b = bid(b.option);
+      return;
+    }
+    // Both are exact: what the chosen ones serve is not.
+    for (const std::size_t option : chosen_)
+      if (!problem_.coverage.bounds(option).exact) batch.push_back(option);
+    problem_.coverage.refine(batch);
+    served_ = ServedBounds(problem_, chosen_);
+    bids = all_bids();
+  }
+
+  void remember(const std::vector<Bid>& order, const Bid& taken) {
+    for (const Bid& b : order) {
+      if (b.option == taken.option) continue;
+      const double chosen = std::max(taken.lower, std::numeric_limits<double>::min());
+      std::optional<Margin>& margin = closest_[b.option];
+      if (!margin || b.upper / chosen > margin->upper / margin->chosen)
+        margin = Margin{.upper = b.upper, .chosen = chosen, .step = chosen_.size()};
+    }
+  }
+
+  void take(const Bid& next) {
+    if (problem_.goal.exact_chosen || problem_.goal.wanted) problem_.refine_fully(next.option);
+    chosen_.push_back(next.option);
+    served_.add(problem_.coverage.bounds(next.option));
+  }
+
+  const ChoiceProblem& problem_;
+  bool per_cost_;
+  std::vector<std::size_t>& chosen_;
+  std::vector<std::optional<Margin>>& closest_;
+  ServedBounds served_;
+  double spent_ = 0;
+  bool all_exact_ = true;
+};
+
+}  // namespace
+
+void extend_greedily(const ChoiceProblem& problem, bool per_cost, std::vector<std::size_t>& chosen,
+                     std::vector<std::optional<Margin>>& closest) {
+  Greedy(problem, per_cost, chosen, closest).run();
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,94 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <itin/parallel.hpp>
+
+#include "siting/choice/choice_state.hpp"
+#include "siting/choice/greatest_gain.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// By at most this much, since fractions of options count, the sum of gains may be more.
+Weight knapsack(std::vector<std::pair<Weight, double>> gains_and_costs, double budget) {
+  std::sort(gains_and_costs.begin(), gains_and_costs.end(), [](const auto& a, const auto& b) {
+    return static_cast<double>(a.first) * b.second > static_cast<double>(b.first) * a.second;
+  });
+  double sum = 0, rest = budget;
+  for (const auto& [gain, cost] : gains_and_costs) {
+    if (cost <= rest) {
+      sum += static_cast<double>(gain);
+      rest -= cost;
+    } else {
+      sum += static_cast<double>(gain) * std::max(rest, 0.0) / cost;
+      break;
+    }
+  }
+  return static_cast<Weight>(std::ceil(sum * (1 + 1e-12)));
+}
+
+}  // namespace
+
+GreatestGain greatest_gain(const ChoiceProblem& problem, const Served& served, const std::vector<bool>& open,
+                           std::size_t count, double spent) {
+  std::vector<Weight> gains(problem.options.size());
+  parallel_for(gains.size(), [&](std::size_t i) {
+    if (open[i] && problem.affordable(spent + problem.options[i].cost))
+      gains[i] = served.gain(problem.coverage.bounds(i).possible);
+  });
+  GreatestGain result;
+  std::map<std::size_t, Weight> of_place;
+  std::vector<std::pair<Weight, double>> with_costs;
+  for (std::size_t i = 0; i < gains.size(); ++i) {
+    if (gains[i] == 0) continue;
+    if (gains[i] > gains[result.best]) result.best = i;
+    Weight& most = of_place[problem.options[i].place];
+    most = std::max(most, gains[i]);
+    with_costs.emplace_back(gains[i], problem.options[i].cost);
+  }
+  std::vector<Weight> best;
+  for (const auto& [place, gain] : of_place) best.push_back(gain);
+  std::sort(best.begin(), best.end(), std::greater<>());
+  for (std::size_t i = 0; i < std::min(count, best.size()); ++i) result.sum += best[i];
+  if (problem.goal.budget) {
+    const double left = *problem.goal.budget * (1 + 1e-12) - spent;
+    result.sum = std::min(result.sum, knapsack(std::move(with_costs), left));
+  }
+  return result;
+}
+
+Weight bound_optimum(const ChoiceProblem& problem, std::span<const std::size_t> chosen) {
+  const int cover = problem.goal.cover;
+  std::size_t count = problem.options.size();
+  if (problem.goal.count) count = *problem.goal.count;
+  if (!problem.goal.count && !problem.goal.budget) count = chosen.size();
+
+  Served everything(problem.demand, cover), served(problem.demand, cover);
+  Weight sum = 0, known = 0;  // of min(served, cover): at most, and at least
+  for (const DemandSet& set : problem.goal.existing) {
+    sum += served.gain(set);
+    served.add(set);
+    everything.add(set);
+  }
+  known = sum;
+  const Weight existing = served.value();
+  for (std::size_t i = 0; i < problem.options.size(); ++i) everything.add(problem.coverage.bounds(i).possible);
+  Weight bound = everything.value() - existing;
+  const std::vector<bool> all(problem.options.size(), true);
+  const auto tighten = [&](Weight most) { bound = std::min(bound, most / cover - existing); };
+  for (const std::size_t option : chosen) {
+    tighten(sum + greatest_gain(problem, served, all, count, 0).sum);
+    // With open bounds: what may be served counts in the sum, what certainly is leaves nothing to gain.
+    const CoverageBounds& bounds = problem.coverage.bounds(option);
+    sum += served.gain(bounds.possible);
+    known += served.gain(bounds.certain);
+    served.add(bounds.certain);
+  }
+  tighten(sum + greatest_gain(problem, served, all, count, 0).sum);
+  tighten(search_optimum(problem, count, known));
+  return bound;
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,95 @@
+#include <algorithm>
+#include <queue>
+#include <tuple>
+
+#include "siting/choice/choice_state.hpp"
+#include "siting/choice/greatest_gain.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// Words of coverage looked at, over the whole search: a second or so.
+constexpr double kWork = 3e8;
+constexpr std::size_t kMostNodes = 5000;
+
+/// Choices that hold some options and none of some others.
+struct Node {
+  Weight bound = 0;  ///< of the sum of min(served, cover) over all of them
+  std::vector<std::uint32_t> in, out;
+  std::uint32_t branch = 0;  ///< the option of the greatest gain
+  bool complete = false;     ///< nothing can be added
+
+  friend bool operator<(const Node& a, const Node& b) {
+    if (a.bound != b.bound) return a.bound < b.bound;
+    return std::tie(a.in, a.out) < std::tie(b.in, b.out);
+  }
+};
+
+class Search {
+ public:
+  explicit Search(const ChoiceProblem& problem) : problem_(problem), nothing_(problem.demand, problem.goal.cover) {
+    for (const DemandSet& set : problem.goal.existing) {
+      existing_ += nothing_.gain(set);
+      nothing_.add(set);
+    }
+    double blocks = 0;
+    for (std::size_t i = 0; i < problem.options.size(); ++i)
+      blocks += static_cast<double>(problem.coverage.bounds(i).possible.blocks().size());
+    const double node = 2 * std::max(blocks, 1.0) + static_cast<double>(problem.demand.block_count()) * 40;
+    most_nodes_ = std::min(kMostNodes, static_cast<std::size_t>(kWork / node));
+  }
+
+  /// A bound on the sum of min(served, cover); `known` is the sum of a choice at hand.
+  Weight run(std::size_t count, Weight known) {
+    std::priority_queue<Node> open;
+    open.push(evaluate({}, {}, count));
+    for (std::size_t nodes = 0;; ++nodes) {
+      problem_.progress.throw_if_cancelled();
+      const Node best = open.top();
+      if (best.complete || best.bound <= known || nodes >= most_nodes_) return std::max(best.bound, known);
+      open.pop();
+      std::vector<std::uint32_t> in = best.in, out = best.out;
+      in.push_back(best.branch);
+      out.push_back(best.branch);
+      open.push(evaluate(std::move(in), best.out, count));
+      open.push(evaluate(best.in, std::move(out), count));
+    }
+  }
+
+ private:
+  Node evaluate(std::vector<std::uint32_t> in, std::vector<std::uint32_t> out, std::size_t count) const {
+    Served served = nothing_;
+    Weight sum = existing_;
+    double spent = 0;
+    std::vector<bool> open(problem_.options.size(), true);
+    for (const std::uint32_t option : in) {
+      const DemandSet& set = problem_.coverage.bounds(option).possible;
+      sum += served.gain(set);
+      served.add(set);
+      spent += problem_.options[option].cost;
+      for (std::size_t other = 0; other < open.size(); ++other)
+        if (problem_.options[other].place == problem_.options[option].place) open[other] = false;
+    }
+    for (const std::uint32_t option : out) open[option] = false;
+    const GreatestGain most = greatest_gain(problem_, served, open, count - in.size(), spent);
+    return {.bound = sum + most.sum,
+            .in = std::move(in),
+            .out = std::move(out),
+            .branch = static_cast<std::uint32_t>(most.best),
+            .complete = most.sum == 0};
+  }
+
+  const ChoiceProblem& problem_;
+  Served nothing_;  ///< but what existing sites serve
+  Weight existing_ = 0;
+  std::size_t most_nodes_ = 0;
+};
+
+}  // namespace
+
+Weight search_optimum(const ChoiceProblem& problem, std::size_t count, Weight known) {
+  return Search(problem).run(count, known);
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,107 @@
+#include <algorithm>
+
+#include <itin/parallel.hpp>
+
+#include "siting/choice/choice_state.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// An exchange of the chosen site number `out` for option `in`.
+struct Exchange {
+  std::size_t out = 0;
+  std::size_t in = 0;
+  Weight upper = 0;
+  Weight lower = 0;
+
+  friend bool operator<(const Exchange& a, const Exchange& b) {
+    if (a.upper != b.upper) return a.upper > b.upper;
+    return a.out != b.out ? a.out < b.out : a.in < b.in;
+  }
+};
+
+std::vector<std::size_t> after(const Exchange& exchange, std::vector<std::size_t> chosen) {
+  chosen[exchange.out] = exchange.in;
+  return chosen;
+}
+
+/// Those that may gain, in order.
+std::vector<Exchange> exchanges(const ChoiceProblem& problem, const std::vector<std::size_t>& chosen) {
+  const Served all = ServedBounds(problem, chosen).least;
+  std::vector<std::vector<Exchange>> of_site(chosen.size());
+  parallel_for(chosen.size(), [&](std::size_t s) {
+    Served others = all;
+    others.remove(problem.coverage.bounds(chosen[s]).certain);
+    const Weight loss = others.gain(problem.coverage.bounds(chosen[s]).certain);
+    std::vector<std::size_t> rest = chosen;
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(s));
+    const double spent = problem.cost_of(rest);
+    for (std::size_t option = 0; option < problem.options.size(); ++option) {
+      if (option == chosen[s] || problem.place_taken(option, rest) ||
+          !problem.affordable(spent + problem.options[option].cost))
+        continue;
+      const CoverageBounds& bounds = problem.coverage.bounds(option);
+      const Weight upper = others.gain(bounds.possible) - loss;
+      if (upper <= 0) continue;
+      of_site[s].push_back({s, option, upper, bounds.exact ? upper : others.gain(bounds.certain) - loss});
+    }
+  });
+  std::vector<Exchange> result;
+  for (const auto& some : of_site) result.insert(result.end(), some.begin(), some.end());
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+/// The best exchange, or nothing where none gains.
+std::optional<Exchange> best_exchange(const ChoiceProblem& problem, const std::vector<std::size_t>& chosen) {
+  for (;;) {
+    problem.progress.throw_if_cancelled();
+    std::vector<std::size_t> batch;
+    Weight known = 0;
+    for (const Exchange& exchange : exchanges(problem, chosen)) {
+      if (batch.size() >= problem.goal.batch || (!batch.empty() && exchange.upper < known)) break;
+      if (std::find(batch.begin(), batch.end(), exchange.in) != batch.end()) continue;
+      if (!problem.holds_together(after(exchange, chosen))) continue;
+      if (problem.coverage.bounds(exchange.in).exact) {
+        if (batch.empty()) return exchange;
+      } else {
+        batch.push_back(exchange.in);
+      }
+      known = std::max(known, exchange.lower);
+    }
+    if (batch.empty()) return std::nullopt;
+    problem.coverage.refine(batch);
+  }
+}
+
+}  // namespace
+
+std::size_t swap(const ChoiceProblem& problem, std::vector<std::size_t>& chosen) {
+  std::size_t count = 0;
+  while (const std::optional<Exchange> exchange = best_exchange(problem, chosen)) {
+    chosen = after(*exchange, chosen);
+    ++count;
+  }
+  return count;
+}
+
+void drop_needless(const ChoiceProblem& problem, std::vector<std::size_t>& chosen) {
+  if (!problem.goal.wanted) return;
+  const Weight existing = ServedBounds(problem, {}).least.value();
+  for (;;) {
+    std::optional<std::size_t> needless;
+    Weight most = 0;
+    for (std::size_t s = 0; s < chosen.size(); ++s) {
+      std::vector<std::size_t> rest = chosen;
+      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(s));
+      const Weight value = ServedBounds(problem, rest).least.value() - existing;
+      if (value < *problem.goal.wanted || (needless && value <= most) || !problem.holds_together(rest)) continue;
+      needless = s, most = value;
+    }
+    if (!needless) return;
+    chosen.erase(chosen.begin() + static_cast<std::ptrdiff_t>(*needless));
+  }
+}
+
+}  // namespace itin::viewshed

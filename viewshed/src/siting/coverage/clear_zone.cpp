@@ -1,0 +1,134 @@
+#include "siting/coverage/clear_zone.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <itin/grazing.hpp>
+
+namespace itin::viewshed {
+
+namespace {
+
+/// Lines lowered by no more than depth sqrt(s (1 - s)).
+struct LoweredSheaf : Sheaf {
+  /// Below every line; by the tangent in the middle: never more than the lowest height.
+  double lowest_over(double first, double last) const {
+    const double a = std::max(first, 0.0), b = std::min(last, 1.0), s = (a + b) / 2;
+    const double radius = std::sqrt(s * (1 - s));
+    if (radius == 0) return std::min(from_z, end);
+    const double dz = end - from_z;
+    const double height = from_z + s * (dz - bulge * (1 - s)) - depth * radius;
+    const double slope = dz - bulge * (1 - 2 * s) - depth * (0.5 - s) / radius;
+    return height - std::abs(slope) * (b - a) / 2;
+  }
+
+  double depth = 0;
+};
+
+/// Whether one triangle reaches into the zone of one line.
+class ZoneTest {
+ public:
+  ZoneTest(const SightLine& line, double zone, double fraction, double sure)
+      : line_(line), zone_(zone), fraction_(fraction), sure_(sure) {}
+
+  const SightLine& line() const { return line_; }
+
+  bool cut_by(const GridPoint& a, const GridPoint& b, const GridPoint& c) const {
+    if (line_.beside(a, b, c)) return false;
+    const auto ground = line_.ground_over(a, b, c);
+    if (!ground || lowest_spare(*ground) > sure_) return false;
+    if (std::min(spare(*ground, ground->from), spare(*ground, ground->to)) < -sure_) return true;
+    return least_fraction(*ground) < fraction_;
+  }
+
+  double depth() const { return fraction_ * zone_; }
+
+ private:
+  using Ground = SightLine::Ground;
+
+  static double slope(const Ground& g) { return g.to > g.from ? (g.to_rise - g.from_rise) / (g.to - g.from) : 0; }
+  /// Clearance beyond what is asked for.
+  double spare(const Ground& g, double s) const {
+    return -(g.from_rise + slope(g) * (s - g.from)) - line_.bulge() * s * (1 - s) - depth() * std::sqrt(s * (1 - s));
+  }
+  /// No more than the lowest: that is convex, and so above its tangent in the middle.
+  double lowest_spare(const Ground& g) const {
+    const double s = (g.from + g.to) / 2, radius = std::sqrt(s * (1 - s));
+    const double middle = -(g.from_rise + g.to_rise) / 2 - line_.bulge() * s * (1 - s) - depth() * radius;
+    if (radius == 0) return middle;
+    const double half_rise = (g.to_rise - g.from_rise) / 2, half = (g.to - g.from) / 2;
+    return middle - std::abs(half_rise + half * (line_.bulge() * (1 - 2 * s) + depth() * (0.5 - s) / radius));
+  }
+  double least_fraction(const Ground& g) const {
+    const RayOverGround ray{0, 0, line_.bulge()};
+    LeastFraction least(zone_);
+    least.consider(g.from, ray.clearance(g.from, g.from_rise));
+    least.consider(g.to, ray.clearance(g.to, g.to_rise));
+    if (g.from < g.to) least.consider_inside(ray.piece(g.from, g.from_rise, g.to, g.to_rise));
+    return least.least() ? least.least()->fraction : fraction_;
+  }
+
+  SightLine line_;
+  double zone_;  ///< the first zone's greatest radius, twice
+  double fraction_;
+  double sure_;  ///< beyond rounding
+};
+
+}  // namespace
+
+ClearZone::ClearZone(const Tin& lower, const Tin* upper, const Earth& earth, const FresnelCriterion& criterion)
+    : drop_(earth.drop_coefficient() * lower.grid.resolution), criterion_(criterion), lower_(lower) {
+  if (upper != nullptr) upper_.emplace(*upper);
+}
+
+unsigned ClearZone::cut(const Bounded& surface, const SightLines& lines) const {
+  const Tin& tin = surface.tin;
+  const double resolution = tin.grid.resolution, grazing = kGrazing / resolution;
+  std::vector<ZoneTest> tests;
+  tests.reserve(SightLines::kSize);
+  LoweredSheaf sheaf;
+  sheaf.margin = grazing;
+  sheaf.end = std::numeric_limits<double>::infinity();
+  for (unsigned rest = lines.active; rest != 0; rest &= rest - 1) {
+    const auto i = static_cast<unsigned>(std::countr_zero(rest));
+    // From the target: what cuts the zone is most often near it.
+    const SightLine line({lines.to_x[i], lines.to_y[i], lines.to_z[i]},
+                         {lines.from_x[i], lines.from_y[i], lines.from_z[i]}, drop_, grazing);
+    const double zone = std::sqrt(criterion_.wavelength / resolution * std::hypot(line.dx(), line.dy()));
+    tests.emplace_back(line, zone, criterion_.fraction, grazing);
+    sheaf.add(line);
+    sheaf.end = std::min(sheaf.end, line.to_z());
+    sheaf.depth = std::max(sheaf.depth, tests.back().depth());
+  }
+  unsigned result = 0;
+  // Most triangles lie in several bins.
+  std::array<std::uint32_t, 256> before;
+  before.fill(std::numeric_limits<std::uint32_t>::max());
+  surface.pyramid.search(sheaf, [&](std::uint32_t t) {
+    if (std::exchange(before[t % before.size()], t) == t) return;
+    const Triangle& triangle = tin.triangles[t];
+    const GridPoint &a = tin.vertices[triangle[0]], &b = tin.vertices[triangle[1]], &c = tin.vertices[triangle[2]];
+    std::size_t n = 0;
+    for (unsigned rest = lines.active; rest != 0; rest &= rest - 1, ++n) {
+      const unsigned bit = rest & -rest;
+      if ((result & bit) == 0 && tests[n].cut_by(a, b, c)) result |= bit;
+    }
+    if (result == lines.active) sheaf.reach = -1;
+  });
+  return result;
+}
+
+unsigned ClearZone::certainly_cut(const SightLines& to_highest_targets) const {
+  return cut(lower_, to_highest_targets);
+}
+
+unsigned ClearZone::certainly_clear(const SightLines& to_lowest_targets) const {
+  return to_lowest_targets.active & ~cut(upper_ ? *upper_ : lower_, to_lowest_targets);
+}
+
+}  // namespace itin::viewshed

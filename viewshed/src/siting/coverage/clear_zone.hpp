@@ -1,0 +1,52 @@
+// Which sight lines leave so much of the first Fresnel zone clear.
+//
+//   const ClearZone zone(lower, &upper, earth, {.wavelength = 0.06, .fraction = 0.6});
+//   unsigned cut = zone.certainly_cut(to_highest_targets);        // whatever the full surface is: one bit a line
+//   unsigned clear = zone.certainly_clear(to_lowest_targets);
+//
+// Ground that rises above the line lowered by the fraction of the zone's radius cuts the zone. Lowered so, and over the
+// curved Earth, the line is convex in the distance, so that a tangent bounds it from below over whole blocks of
+// triangles; what is left, few triangles near an end or a ridge, is judged one by one in double precision by the
+// definition that lines of sight have (itin/fresnel_zone.hpp). Raising a target only clears more.
+#pragma once
+
+#include <optional>
+
+#include <itin/earth.hpp>
+#include <itin/fresnel_zone.hpp>
+#include <itin/tin.hpp>
+
+#include "bounds/height_pyramid.hpp"
+#include "line/sight_line.hpp"
+#include "line/sight_lines.hpp"
+
+namespace itin::viewshed {
+
+class ClearZone {
+ public:
+  /// The surface lies between the two, or is `lower` itself: then `upper` is null. They must outlive this. O(n) time
+  /// and memory.
+  ClearZone(const Tin& lower, const Tin* upper, const Earth& earth, const FresnelCriterion& criterion);
+
+  /// One bit a line; the closer together their ends, the faster. Over the surface itself a zone is either certainly cut
+  /// or certainly clear. From any number of threads.
+  unsigned certainly_cut(const SightLines& to_highest_targets) const;
+  /// Says nothing of the lines themselves across ground without data.
+  unsigned certainly_clear(const SightLines& to_lowest_targets) const;
+
+ private:
+  /// A surface, and the pyramid of its bounds.
+  struct Bounded {
+    explicit Bounded(const Tin& t) : tin(t), pyramid(t) {}
+    const Tin& tin;
+    HeightPyramid pyramid;
+  };
+  unsigned cut(const Bounded& surface, const SightLines& lines) const;
+
+  double drop_;  ///< grid units a squared grid unit
+  FresnelCriterion criterion_;
+  Bounded lower_;
+  std::optional<Bounded> upper_;
+};
+
+}  // namespace itin::viewshed

@@ -1,0 +1,22 @@
+#include "siting/coverage/group_survey.hpp"
+
+namespace itin::viewshed {
+
+Eye eye_at(const Grid& grid, const Request& request, const SiteStand& stand) {
+  return eye_of(grid, request, {stand.name, stand.position, stand.elevation(), true}, stand.ground);
+}
+
+Request request_of(const SiteSurvey& survey, std::span<const std::size_t> options) {
+  Request request;
+  for (const std::size_t option : options) {
+    const SiteStand& stand = survey.stands[option];
+    request.observers.push_back({stand.name, stand.position, stand.elevation(), true});
+  }
+  request.target_height = survey.targets.height;
+  request.radius = survey.radius;
+  request.earth = survey.earth;
+  request.nodata = survey.nodata;
+  return request;
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,54 @@
+// What a group of sites serves, judged over one surface: what they see, and of that what their Fresnel zones leave.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <viewshed/site_coverage.hpp>
+
+#include "request/eye.hpp"
+#include "window/envelope.hpp"
+
+namespace itin::viewshed {
+
+/// Some of the survey's sites, and what is known of them.
+struct SiteLooks {
+  const Request& request;
+  std::span<const std::size_t> options;
+  /// One an option: what they leave open (in `possible`, not in `certain`) is judged.
+  std::span<const CoverageBounds* const> bounds;
+};
+
+class GroupSurvey {
+ public:
+  GroupSurvey() = default;
+  GroupSurvey(const GroupSurvey&) = delete;
+  GroupSurvey& operator=(const GroupSurvey&) = delete;
+  virtual ~GroupSurvey() = default;
+
+  /// The new bounds. Throws Cancelled.
+  virtual std::vector<CoverageBounds> judge(const SiteLooks& looks, Progress& progress,
+                                            Statistics& statistics) const = 0;
+};
+
+/// Of cells, over bounds of the surface. The survey must outlive it, as it must all of these. `zones`: whether they are
+/// judged, too.
+std::unique_ptr<GroupSurvey> survey_cells(const SiteSurvey& survey, const Request& request, Envelope envelope,
+                                          bool zones);
+/// Of cells, exact: what hides them, and the bare ground that they stand on where it is another. Rays decide where the
+/// positions of the sites are given, metres; then the surface is a Tin.
+std::unique_ptr<GroupSurvey> survey_cells_exactly(const SiteSurvey& survey, Surface surface,
+                                                  std::optional<Tin> bare_ground,
+                                                  const std::vector<Point2>& eyes_of_rays);
+/// Of points; exact over an envelope of level 0.
+std::unique_ptr<GroupSurvey> survey_points(const SiteSurvey& survey, const Request& request, Envelope envelope,
+                                           bool zones);
+
+/// The request of one option or several, for the parts of viewsheds that take one.
+Request request_of(const SiteSurvey& survey, std::span<const std::size_t> options);
+
+Eye eye_at(const Grid& grid, const Request& request, const SiteStand& stand);
+
+}  // namespace itin::viewshed

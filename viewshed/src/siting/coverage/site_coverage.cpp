@@ -1,0 +1,412 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+#include <itin/parallel.hpp>
+#include <itin/triangulate.hpp>
+#include <viewshed/site_coverage.hpp>
+
+#include "progress/stopwatch.hpp"
+#include "request/request.hpp"
+#include "siting/coverage/cell_blocks.hpp"
+#include "siting/coverage/group_survey.hpp"
+#include "window/envelope.hpp"
+#include "window/near_ground.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// Peak memory a point: of an envelope, and of a surface that is swept.
+constexpr std::uint64_t kBytesPerRayPoint = 1200, kBytesPerSweptPoint = 400;
+/// Of the full surface's points the first look reads so many at most: fewer where a second look is cheap, since the
+/// memory holds the full surface for all of them.
+constexpr std::uint64_t kFirstShare = 2, kFirstShareOfWhole = 8;
+/// Points of the full surface about each site.
+constexpr double kSiteNearPoints = 128;
+/// No coarse look at so few points: the full surface is as fast.
+constexpr std::uint64_t kFewPoints = 40000;
+
+/// Few rectangles that hold the discs about all positions: a window of hundreds of discs takes long to classify.
+Window window_about(const std::vector<SiteStand>& stands, const std::vector<std::size_t>& options, double radius) {
+  Box box;
+  for (const std::size_t option : options) box.extend(disc_box(stands[option].position, radius));
+  const RasterGrid cells = RasterGrid::aligned(box, radius / 4);
+  std::vector<bool> met(cells.cell_count());
+  for (const std::size_t option : options) {
+    const Box disc = disc_box(stands[option].position, radius);
+    // Aligned cells may end a hair within the box.
+    const auto within = [](double at, std::int64_t count) {
+      return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(at)), 0, count - 1);
+    };
+    const std::int64_t west = within(cells.column_at(disc.xmin), cells.columns()),
+                       east = within(cells.column_at(disc.xmax), cells.columns()),
+                       north = within(cells.row_at(disc.ymax), cells.rows()),
+                       south = within(cells.row_at(disc.ymin), cells.rows());
+    for (std::int64_t row = north; row <= south; ++row)
+      for (std::int64_t column = west; column <= east; ++column) met[cells.index({column, row})] = true;
+  }
+  std::vector<Window::Polygon> runs;
+  const Point2 corner = cells.north_west();
+  const double side = cells.cell_width();
+  for (std::int64_t row = 0; row < cells.rows(); ++row) {
+    for (std::int64_t column = 0; column < cells.columns(); ++column) {
+      const std::int64_t first = column;
+      while (column < cells.columns() && met[cells.index({column, row})]) ++column;
+      if (column == first) continue;
+      const double west = corner.x + static_cast<double>(first) * side,
+                   east = corner.x + static_cast<double>(column) * side,
+                   north = corner.y - static_cast<double>(row) * side, south = north - side;
+      runs.push_back({{{west, south}, {east, south}, {east, north}, {west, north}}, {}});
+    }
+  }
+  return Window::polygons(std::move(runs));
+}
+
+/// The finest level with at most so many points in the box.
+int level_of(const Store& store, const Box& box, std::uint64_t points) {
+  int level = 0;
+  while (level + 1 < static_cast<int>(store.metadata().levels.size()) && store.points_about(level, box) > points)
+    ++level;
+  return level;
+}
+
+}  // namespace
+
+std::vector<std::optional<double>> ground_under(const Store& store, const std::vector<Point2>& positions,
+                                                const ThemeChoice& themes, Progress& progress) {
+  std::vector<std::optional<double>> result;
+  for (const Point2& p : positions) {
+    progress.throw_if_cancelled();
+    const bool somewhere = std::isfinite(p.x) && std::isfinite(p.y);
+    result.push_back(somewhere ? height_at(store, p, themes, progress) : std::nullopt);
+    if (result.size() % 64 == 0)
+      progress.report("ground under sites", static_cast<double>(result.size()) / static_cast<double>(positions.size()));
+  }
+  return result;
+}
+
+RasterGrid grid_of_reach(const Store& store, const std::vector<SiteStand>& stands, double radius, double cell_size) {
+  Request request;
+  for (const SiteStand& stand : stands) request.observers.push_back({stand.name, stand.position, stand.height});
+  request.radius = radius;
+  request.cell_size = cell_size;
+  return cells_of(request, extent_of(store));
+}
+
+std::size_t element_count(const RasterGrid& grid) {
+  return CellBlocks(grid).element_count();
+}
+std::size_t element_of(const RasterGrid& grid, RasterGrid::Cell cell) {
+  return CellBlocks(grid).element(cell);
+}
+RasterGrid::Cell cell_of(const RasterGrid& grid, std::size_t element) {
+  return CellBlocks(grid).cell(element);
+}
+
+class SiteCoverage::Impl {
+ public:
+  Impl(const Store& store, SiteSurvey survey, Progress& progress)
+      : store_(store),
+        survey_(std::move(survey)),
+        progress_(progress),
+        themed_(survey_.themes.includes_standing(store.metadata().themes)) {
+    if (survey_.stands.empty()) throw InputError("no site to look from: give at least one on the data");
+    Box box;
+    for (const SiteStand& stand : survey_.stands) box.extend(disc_box(stand.position, survey_.radius));
+    choose_levels(box);
+    // A target on a roof is seen from afar as one so high above the bare ground may be.
+    if (survey_.targets.on_surface && themed_) raise_ = store.greatest_feature_height(survey_.themes, box);
+    states_.resize(survey_.stands.size());
+    parallel_for(states_.size(), [&](std::size_t i) {
+      states_[i].bounds.possible = within_reach(survey_.targets, survey_.stands[i].position, survey_.radius);
+      states_[i].first = states_[i].bounds;
+    });
+  }
+
+  /// Over the envelopes of all options, group by group, so that what is found does not depend on what was found before.
+  void look_first() {
+    for (const std::vector<std::size_t>& group : groups(all_options(), levels_.front())) {
+      std::vector<std::size_t> fresh;
+      std::copy_if(group.begin(), group.end(), std::back_inserter(fresh),
+                   [&](std::size_t option) { return states_[option].stage < 0; });
+      if (!fresh.empty()) judge_group(fresh, group, 0, levels_.front(), false);
+    }
+  }
+
+  /// Each option's next stage.
+  void refine(std::span<const std::size_t> options) {
+    std::vector<std::vector<std::size_t>> at_stage(static_cast<std::size_t>(last_stage()) + 1);
+    for (const std::size_t option : options) {
+      if (!states_[option].bounds.exact)
+        at_stage[static_cast<std::size_t>(states_[option].stage + 1)].push_back(option);
+    }
+    for (const auto& some : at_stage)
+      if (!some.empty()) judge(some);
+  }
+
+  struct State {
+    CoverageBounds bounds, first;
+    int stage = -1;  ///< of the last look
+  };
+  const State& state(std::size_t option) const { return states_[option]; }
+  int last_stage() const { return static_cast<int>(levels_.size()) - (themed_ ? 0 : 1); }
+
+  std::string stage_name(int stage) const {
+    if (stage < 0) return "radius alone";
+    if (stage >= static_cast<int>(levels_.size())) return "exact, with themes";
+    const int level = levels_[static_cast<std::size_t>(stage)];
+    if (level == 0) return themed_ ? "exact, bare terrain" : "exact";
+    return fmt::format("tolerance {:g} m", store_.metadata().levels[static_cast<std::size_t>(level)].tolerance);
+  }
+
+  void restore(std::size_t option, int stage, CoverageBounds bounds) {
+    if (stage == 0) states_[option].first = bounds;
+    states_[option].bounds = std::move(bounds);
+    states_[option].stage = stage;
+  }
+
+  const Statistics& statistics() const { return statistics_; }
+  std::function<void(std::size_t, int, const CoverageBounds&)>* on_refined = nullptr;
+
+ private:
+  void choose_levels(const Box& box) {
+    const std::uint64_t all = store_.points_about(0, box);
+    whole_fits_ = all * (themed_ ? 3 : 1) <= budget(0) || read_whole_lattice();
+    // To look at cells exactly takes no longer than to look at them coarsely.
+    const bool exact_at_once = all <= kFewPoints || (survey_.targets.grid && whole_fits_);
+    const int first = survey_.tolerance ? level_within(store_.metadata(), *survey_.tolerance)
+                      : exact_at_once   ? 0
+                                        : level_of(store_, box, all / (whole_fits_ ? kFirstShareOfWhole : kFirstShare));
+    levels_ = {first};
+    if (first > 0) levels_.push_back(0);
+  }
+
+  /// Takes little memory, but whether it is one is known only then.
+  bool read_whole_lattice() {
+    if (themed_ || survey_.fresnel || !survey_.targets.grid || casts_rays()) return false;
+    Stopwatch watch;
+    whole_lattice_ = retrieve_lattice(store_, window_of(all_options()), Detail::tolerance(0), ThemeChoice::none(),
+                                      LatticeReader::Heights::kAll, memory() / kBytesAPost, progress_);
+    statistics_.retrieval_seconds += watch.lap();
+    return whole_lattice_.has_value();
+  }
+
+  std::vector<std::size_t> all_options() const {
+    std::vector<std::size_t> all(survey_.stands.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return all;
+  }
+
+  /// Cells are judged over the full surface at its own level; everything else over envelopes.
+  bool judges_cells_exactly(int level) const { return level == 0 && survey_.targets.grid; }
+  bool casts_rays() const { return survey_.engine == Engine::kRays; }
+  /// What is left is for the rest of the program.
+  std::uint64_t memory() const { return survey_.memory_bytes / 4 * 3; }
+  /// Points to look at together.
+  std::uint64_t budget(int level) const {
+    return memory() / (judges_cells_exactly(level) && !casts_rays() ? kBytesPerSweptPoint : kBytesPerRayPoint);
+  }
+
+  std::uint64_t points_of(const std::vector<std::size_t>& options, int level) const {
+    Box box;
+    for (const std::size_t option : options) box.extend(disc_box(survey_.stands[option].position, survey_.radius));
+    return store_.points_about(level, box);
+  }
+
+  /// Neighbours together, as many as the memory holds.
+  std::vector<std::vector<std::size_t>> groups(std::vector<std::size_t> options, int level) const {
+    if (options.size() < 2 || points_of(options, level) <= budget(level)) return {std::move(options)};
+    Box box;
+    for (const std::size_t option : options) box.extend(survey_.stands[option].position);
+    std::sort(options.begin(), options.end(), [&](std::size_t a, std::size_t b) {
+      const Point2 p = survey_.stands[a].position, q = survey_.stands[b].position;
+      const double pa = box.width() > box.height() ? p.x : p.y, pb = box.width() > box.height() ? q.x : q.y;
+      return pa != pb ? pa < pb : a < b;
+    });
+    const auto half = options.begin() + static_cast<std::ptrdiff_t>(options.size() / 2);
+    std::vector<std::vector<std::size_t>> result = groups({options.begin(), half}, level);
+    for (auto& group : groups({half, options.end()}, level)) result.push_back(std::move(group));
+    return result;
+  }
+
+  /// Takes the options, all at one stage, to the next.
+  void judge(const std::vector<std::size_t>& options) {
+    const int stage = states_[options.front()].stage + 1;
+    const bool themed = stage == static_cast<int>(levels_.size());
+    const int level = themed ? 0 : levels_[static_cast<std::size_t>(stage)];
+    for (const std::vector<std::size_t>& group : groups(options, level))
+      judge_group(group, group, stage, level, themed);
+  }
+
+  /// Over coarse surfaces zones take as long as over the full one, which is looked at next, if the memory holds it.
+  bool zones_at(int level) const { return level == 0 || !whole_fits_; }
+
+  std::unique_ptr<GroupSurvey> survey_of(const std::vector<std::size_t>& group, int level, bool themed) {
+    return judges_cells_exactly(level) ? exact_cells(group, themed) : enveloped(group, level, themed);
+  }
+
+  Request request_of(std::span<const std::size_t> options, bool themed) const {
+    Request request = viewshed::request_of(survey_, options);
+    if (!themed) request.target_height += raise_;
+    return request;
+  }
+
+  std::unique_ptr<GroupSurvey> exact_cells(const std::vector<std::size_t>& group, bool themed) {
+    Stopwatch watch;
+    const Window window = window_of(group);
+    const Detail full = Detail::tolerance(0);
+    // Zones are cut by triangles one by one.
+    const std::uint64_t most_posts = survey_.fresnel || casts_rays() ? 0 : kAnyLattice;
+    Surface surface = whole_lattice_
+                          ? std::move(*std::exchange(whole_lattice_, std::nullopt))
+                          : retrieve_surface(store_, window, full, themed ? survey_.themes : ThemeChoice::none(),
+                                             most_posts, progress_);
+    count(surface.statistics(), surface.triangle_count());
+    std::optional<Tin> bare_ground;
+    if (themed && !survey_.targets.on_surface) {
+      bare_ground = triangulate(store_, window, full, progress_, ThemeChoice::none());
+      count(bare_ground->statistics, bare_ground->triangles.size());
+    }
+    statistics_.retrieval_seconds += watch.lap();
+    std::vector<Point2> eyes_of_rays;
+    if (casts_rays())
+      for (const std::size_t option : group) eyes_of_rays.push_back(survey_.stands[option].position);
+    auto survey = survey_cells_exactly(survey_, std::move(surface), std::move(bare_ground), eyes_of_rays);
+    statistics_.scene_seconds += watch.lap();
+    return survey;
+  }
+
+  std::unique_ptr<GroupSurvey> enveloped(const std::vector<std::size_t>& group, int level, bool themed) {
+    Stopwatch watch;
+    const Request request = request_of(group, themed);
+    EnvelopeRequest read = what_to_read(group, level);
+    if (themed) {
+      read.themes = survey_.themes;
+      if (!survey_.targets.on_surface) read.bare_ground = read.window;
+    }
+    Envelope envelope = envelop(store_, read, progress_);
+    count(envelope.lower.statistics, envelope.lower.triangles.size());
+    statistics_.retrieval_seconds += watch.lap();
+    const bool zones = survey_.fresnel && zones_at(level);
+    const auto survey = survey_.targets.grid ? survey_cells : survey_points;
+    auto result = survey(survey_, request, std::move(envelope), zones);
+    statistics_.scene_seconds += watch.lap();
+    return result;
+  }
+
+  void count(const RetrievalStatistics& retrieval, std::size_t triangles) {
+    statistics_.retrieval += retrieval;
+    statistics_.triangles += triangles;
+  }
+
+  /// The full surface about all sites, once and for all, where the memory holds it: bare, and then with the themes.
+  const GroupSurvey& whole_survey(bool themed) {
+    std::unique_ptr<GroupSurvey>& whole = whole_[themed ? 1 : 0];
+    if (!whole) whole = survey_of(all_options(), 0, themed);
+    return *whole;
+  }
+
+  /// `options` among those of the group, over whose surface they are looked at.
+  void judge_group(const std::vector<std::size_t>& options, const std::vector<std::size_t>& group, int stage, int level,
+                   bool themed) {
+    std::unique_ptr<GroupSurvey> own;
+    if (level > 0 || !whole_fits_) own = survey_of(group, level, themed);
+    const GroupSurvey& survey = own ? *own : whole_survey(themed);
+    Stopwatch watch;
+    std::vector<const CoverageBounds*> before;
+    for (const std::size_t option : options) before.push_back(&states_[option].bounds);
+    std::vector<CoverageBounds> after =
+        survey.judge({request_of(options, themed), options, before}, progress_, statistics_);
+    for (std::size_t i = 0; i < options.size(); ++i) {
+      if (themed_ && !themed) after[i].certain = {}, after[i].exact = false;  // features may hide it
+      if (survey_.fresnel && !zones_at(level)) after[i].certain = {};         // or its zone is cut
+      settle(options[i], stage, std::move(after[i]));
+    }
+    statistics_.lines_seconds += watch.lap();
+  }
+
+  Window window_of(const std::vector<std::size_t>& group) const {
+    return group.size() > 1 ? window_about(survey_.stands, group, survey_.radius)
+                            : Window::disc(survey_.stands[group.front()].position, survey_.radius);
+  }
+
+  /// Less about each site than a single viewshed reads: they are many.
+  EnvelopeRequest what_to_read(const std::vector<std::size_t>& group, int level) const {
+    EnvelopeRequest read;
+    read.level = level;
+    read.window = window_of(group);
+    for (const std::size_t option : group) {
+      const Point2 position = survey_.stands[option].position;
+      read.observers.push_back(position);
+      if (level == 0) continue;
+      const double points = static_cast<double>(store_.points_about(0, disc_box(position, survey_.radius)));
+      const double share = std::sqrt(kSiteNearPoints / std::max(points, kSiteNearPoints));
+      read.discs.push_back({position, survey_.radius * share, 0});
+      if (level > 1) read.discs.push_back({position, 2 * survey_.radius * share, 1});
+    }
+    return read;
+  }
+
+  void settle(std::size_t option, int stage, CoverageBounds bounds) {
+    states_[option].bounds = std::move(bounds);
+    states_[option].stage = stage;
+    if (stage == 0) states_[option].first = states_[option].bounds;
+    if (on_refined != nullptr && *on_refined) (*on_refined)(option, stage, states_[option].bounds);
+  }
+
+  const Store& store_;
+  SiteSurvey survey_;
+  Progress& progress_;
+  bool themed_;
+  double raise_ = 0;
+  bool whole_fits_ = false;
+  std::optional<Surface> whole_lattice_;  ///< until it is looked at
+  std::array<std::unique_ptr<GroupSurvey>, 2> whole_;
+  std::vector<int> levels_;  ///< of the looks at the bare terrain
+  std::vector<State> states_;
+  Statistics statistics_;
+};
+
+SiteCoverage::SiteCoverage(const Store& store, SiteSurvey survey, Progress& progress)
+    : impl_(std::make_unique<Impl>(store, std::move(survey), progress)) {
+  impl_->on_refined = &on_refined;
+}
+SiteCoverage::~SiteCoverage() = default;
+
+const CoverageBounds& SiteCoverage::bounds(std::size_t option) const {
+  return impl_->state(option).bounds;
+}
+void SiteCoverage::refine(std::span<const std::size_t> options) {
+  impl_->refine(options);
+}
+void SiteCoverage::look_first() {
+  impl_->look_first();
+}
+int SiteCoverage::stage(std::size_t option) const {
+  return impl_->state(option).stage;
+}
+int SiteCoverage::last_stage() const {
+  return impl_->last_stage();
+}
+const CoverageBounds& SiteCoverage::first_bounds(std::size_t option) const {
+  return impl_->state(option).first;
+}
+std::string SiteCoverage::stage_name(int stage) const {
+  return impl_->stage_name(stage);
+}
+void SiteCoverage::restore(std::size_t option, int stage, CoverageBounds bounds) {
+  impl_->restore(option, stage, std::move(bounds));
+}
+const Statistics& SiteCoverage::statistics() const {
+  return impl_->statistics();
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,153 @@
+#include "siting/coverage/tile_judge.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+
+#include <itin/parallel.hpp>
+#include <viewshed/certified.hpp>
+
+#include "progress/stage.hpp"
+#include "siting/coverage/cell_blocks.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+constexpr std::int64_t kBlocks = Tile::kSide / CellBlocks::kSide;  ///< a side of a tile
+static_assert(Tile::kSide % CellBlocks::kSide == 0);
+
+using TileWords = std::array<std::uint64_t, kBlocks * kBlocks>;
+
+/// What one option serves of one tile.
+struct TileCover {
+  std::size_t entry = 0;  ///< of the options
+  TileWords certain{}, possible{};
+
+  bool any() const {
+    return std::any_of(possible.begin(), possible.end(), [](std::uint64_t w) { return w != 0; });
+  }
+};
+
+std::uint32_t block_of(const CellBlocks& blocks, const Tile& tile, std::size_t i) {
+  const auto n = static_cast<std::int64_t>(i);
+  return blocks.block({tile.column + n % kBlocks * CellBlocks::kSide, tile.row + n / kBlocks * CellBlocks::kSide});
+}
+
+/// Whether the grid reaches block `i` of the tile.
+bool in_grid(const Tile& tile, std::size_t i) {
+  const auto n = static_cast<std::int64_t>(i);
+  return n % kBlocks * CellBlocks::kSide < tile.columns && n / kBlocks * CellBlocks::kSide < tile.rows;
+}
+
+std::uint64_t members(const DemandSet& set, std::uint32_t number) {
+  const auto& blocks = set.blocks();
+  const auto block = std::lower_bound(blocks.begin(), blocks.end(), number,
+                                      [](const DemandSet::Block& b, std::uint32_t n) { return b.number < n; });
+  return block != blocks.end() && block->number == number ? block->members : 0;
+}
+
+std::size_t cell_in_tile(std::size_t block, unsigned bit) {
+  const std::size_t row = block / kBlocks * CellBlocks::kSide + bit / CellBlocks::kSide;
+  const std::size_t column = block % kBlocks * CellBlocks::kSide + bit % CellBlocks::kSide;
+  return row * Tile::kSide + column;
+}
+
+/// Opens in `values` what the bounds leave open. Returns whether anything is.
+bool open(const CellBlocks& blocks, const Tile& tile, const CoverageBounds& bounds, TileCover& cover,
+          TileValues<Verdict>& values) {
+  bool any = false;
+  values.fill(Verdict::kOutside);
+  for (std::size_t b = 0; b < cover.certain.size(); ++b) {
+    if (!in_grid(tile, b)) continue;
+    const std::uint32_t number = block_of(blocks, tile, b);
+    cover.possible[b] = members(bounds.possible, number);
+    if (cover.possible[b] == 0) continue;
+    cover.certain[b] = members(bounds.certain, number);
+    for (std::uint64_t rest = cover.possible[b] & ~cover.certain[b]; rest != 0; rest &= rest - 1) {
+      values[cell_in_tile(b, static_cast<unsigned>(std::countr_zero(rest)))] = Verdict::kUndecided;
+      any = true;
+    }
+  }
+  return any;
+}
+
+void close(const TileValues<Verdict>& values, TileCover& cover) {
+  for (std::size_t b = 0; b < cover.certain.size(); ++b) {
+    for (std::uint64_t rest = cover.possible[b] & ~cover.certain[b]; rest != 0; rest &= rest - 1) {
+      const auto bit = static_cast<unsigned>(std::countr_zero(rest));
+      const Verdict value = values[cell_in_tile(b, bit)];
+      if (value == Verdict::kVisible) cover.certain[b] |= std::uint64_t{1} << bit;
+      if (value == Verdict::kHidden || value == Verdict::kOutside) cover.possible[b] &= ~(std::uint64_t{1} << bit);
+    }
+  }
+}
+
+DemandSet set_of(std::vector<DemandSet::Block>& blocks) {
+  std::sort(blocks.begin(), blocks.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
+  DemandSet set;
+  for (const DemandSet::Block& block : blocks) set.add(block.number, block.members);
+  return set;
+}
+
+/// What every option serves of one tile. Returns how many sight lines that took.
+std::uint64_t judge_tile(const TileJudge& judge, const SiteSurvey& survey, const SiteLooks& looks,
+                         const RasterGrid& tiles, std::size_t t, std::vector<TileCover>& covers) {
+  const RasterGrid& grid = *survey.targets.grid;
+  const CellBlocks blocks(grid);
+  const Tile tile = tile_at(grid, tiles, t);
+  std::unique_ptr<TileJudge::Work> work;
+  std::uint64_t rays = 0;
+  const Box box = box_of(grid, tile);
+  for (std::size_t i = 0; i < looks.options.size(); ++i) {
+    if (squared_distance(survey.stands[looks.options[i]].position, box) > survey.radius * survey.radius) continue;
+    TileCover cover{.entry = i};
+    TileValues<Verdict> values;
+    if (open(blocks, tile, *looks.bounds[i], cover, values)) {
+      if (!work) work = judge.begin(t);
+      rays += work->judge(i, values);
+      close(values, cover);
+    }
+    if (cover.any()) covers.push_back(cover);
+  }
+  return rays;
+}
+
+std::vector<CoverageBounds> gather(const SiteSurvey& survey, const RasterGrid& tiles, std::size_t options,
+                                   const std::vector<std::vector<TileCover>>& covers) {
+  const CellBlocks blocks(*survey.targets.grid);
+  std::vector<std::vector<DemandSet::Block>> certain(options), possible(options);
+  for (std::size_t t = 0; t < covers.size(); ++t) {
+    const Tile tile = tile_at(*survey.targets.grid, tiles, t);
+    for (const TileCover& cover : covers[t]) {
+      for (std::size_t b = 0; b < cover.possible.size(); ++b) {
+        if (cover.possible[b] == 0) continue;
+        const std::uint32_t number = block_of(blocks, tile, b);
+        possible[cover.entry].push_back({number, cover.possible[b]});
+        if (cover.certain[b] != 0) certain[cover.entry].push_back({number, cover.certain[b]});
+      }
+    }
+  }
+  std::vector<CoverageBounds> result(options);
+  parallel_for(options, [&](std::size_t i) {
+    result[i].certain = set_of(certain[i]);
+    result[i].possible = set_of(possible[i]);
+  });
+  return result;
+}
+
+}  // namespace
+
+std::vector<CoverageBounds> judge_tiles(const TileJudge& judge, const SiteSurvey& survey, const SiteLooks& looks,
+                                        Progress& progress, Statistics& statistics) {
+  const RasterGrid tiles = grid_of_tiles(*survey.targets.grid);
+  std::vector<std::vector<TileCover>> covers(tiles.cell_count());
+  std::atomic<std::uint64_t> rays = 0;
+  for_each_step(covers.size(), "sight lines of candidates", progress,
+                [&](std::size_t t) { rays += judge_tile(judge, survey, looks, tiles, t, covers[t]); });
+  statistics.lines += rays;
+  return gather(survey, tiles, looks.options.size(), covers);
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,119 @@
+#include "turbines/value_bands.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include <itin/markup.hpp>
+
+namespace itin::viewshed {
+
+namespace {
+
+struct Colour {
+  std::uint8_t red, green, blue;
+};
+
+// From few to many, told apart over a grey base map with every kind of colour blindness (after Okabe and Ito).
+constexpr std::array<Colour, 8> kBands{{{240, 228, 66},
+                                        {86, 180, 233},
+                                        {0, 158, 115},
+                                        {0, 114, 178},
+                                        {230, 159, 0},
+                                        {213, 94, 0},
+                                        {204, 121, 167},
+                                        {117, 30, 90}}};
+
+ValueBand none() {
+  return {0, "none", 0, 0, 0, 0};
+}
+
+void colour_bands(std::vector<ValueBand>& bands) {
+  for (std::size_t i = 1; i < bands.size(); ++i) {
+    const Colour& c = kBands[(i - 1) % kBands.size()];
+    bands[i].red = c.red, bands[i].green = c.green, bands[i].blue = c.blue;
+  }
+}
+
+std::string style(const std::string& renderer) {
+  return "<!DOCTYPE qgis PUBLIC 'http://mrcc.com/qgis.dtd' 'SYSTEM'>\n"
+         "<qgis version=\"3.22\" styleCategories=\"Symbology\">\n  <pipe>\n" +
+         renderer + "  </pipe>\n  <blendMode>0</blendMode>\n</qgis>\n";
+}
+
+}  // namespace
+
+std::vector<ValueBand> count_bands(std::size_t most) {
+  constexpr std::size_t kMost = 7;
+  std::vector<ValueBand> bands{none()};
+  const std::size_t width = std::max<std::size_t>(1, (most + kMost - 1) / kMost);
+  for (std::size_t from = 1; from <= most; from += width) {
+    const std::size_t to = std::min(most, from + width - 1);
+    bands.push_back({static_cast<double>(to), from == to ? fmt::format("{}", from) : fmt::format("{} - {}", from, to)});
+  }
+  colour_bands(bands);
+  return bands;
+}
+
+std::vector<ValueBand> limit_bands(const std::vector<double>& limits, const std::string& unit) {
+  std::vector<ValueBand> bands{none()};
+  double from = 0;
+  for (const double to : limits) {
+    bands.push_back({to, fmt::format("{:g} - {:g} {}", from, to, unit)});
+    from = to;
+  }
+  bands.push_back({std::numeric_limits<double>::infinity(), fmt::format("above {:g} {}", from, unit)});
+  colour_bands(bands);
+  return bands;
+}
+
+std::size_t band_of(const std::vector<ValueBand>& bands, double value) {
+  const auto band = std::find_if(bands.begin(), bands.end(), [&](const ValueBand& b) { return value <= b.to; });
+  return static_cast<std::size_t>(std::min(band, bands.end() - 1) - bands.begin());
+}
+
+void set_distinct_colour(std::size_t index, std::uint8_t& red, std::uint8_t& green, std::uint8_t& blue) {
+  if (index < kBands.size()) {
+    red = kBands[index].red, green = kBands[index].green, blue = kBands[index].blue;
+    return;
+  }
+  // Further ones by golden angles about the circle of hues.
+  const double hue = std::fmod(static_cast<double>(index) * 0.61803398875, 1.0) * 6;
+  const auto channel = [&](double shift) {
+    const double d = std::abs(std::fmod(hue + shift, 6.0) - 3) - 1;
+    return static_cast<std::uint8_t>(60 + 160 * std::clamp(d, 0.0, 1.0));
+  };
+  red = channel(0), green = channel(4), blue = channel(2);
+}
+
+std::string banded_style(const std::vector<ValueBand>& bands) {
+  const double last = std::isfinite(bands.back().to) ? bands.back().to : bands[bands.size() - 2].to;
+  std::string text = fmt::format(
+      "    <rasterrenderer type=\"singlebandpseudocolor\" band=\"1\" opacity=\"0.7\" alphaBand=\"-1\" "
+      "classificationMin=\"0\" classificationMax=\"{0:g}\" nodataColor=\"\">\n"
+      "      <rasterTransparency/>\n      <rastershader>\n"
+      "        <colorrampshader colorRampType=\"DISCRETE\" classificationMode=\"1\" clip=\"0\" minimumValue=\"0\" "
+      "maximumValue=\"{0:g}\">\n",
+      last);
+  for (const ValueBand& b : bands)
+    text += fmt::format("          <item value=\"{}\" label=\"{}\" color=\"#{:02x}{:02x}{:02x}\" alpha=\"{}\"/>\n",
+                        std::isfinite(b.to) ? fmt::format("{:g}", b.to) : "inf", escaped_markup(b.label), b.red,
+                        b.green, b.blue, b.alpha);
+  return style(text + "        </colorrampshader>\n      </rastershader>\n    </rasterrenderer>\n");
+}
+
+std::string class_style(const std::vector<StyleClass>& classes) {
+  std::string text =
+      "    <rasterrenderer type=\"paletted\" band=\"1\" opacity=\"0.7\" alphaBand=\"-1\" nodataColor=\"\">\n"
+      "      <rasterTransparency/>\n      <colorPalette>\n";
+  for (const StyleClass& c : classes)
+    text +=
+        fmt::format("        <paletteEntry value=\"{}\" label=\"{}\" color=\"#{:02x}{:02x}{:02x}\" alpha=\"{}\"/>\n",
+                    c.value, escaped_markup(c.label), c.red, c.green, c.blue, c.alpha);
+  return style(text + "      </colorPalette>\n    </rasterrenderer>\n");
+}
+
+}  // namespace itin::viewshed

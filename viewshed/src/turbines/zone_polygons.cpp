@@ -1,0 +1,54 @@
+#include <algorithm>
+
+#include <itin/raster_regions.hpp>
+#include <viewshed/zone_files.hpp>
+
+#include "turbines/farm_combinations.hpp"
+#include "turbines/value_bands.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+void write_bands(const std::string& path, const std::string& layer, const Zone& zone,
+                 const std::vector<std::uint16_t>& counts, const ZoneFileOptions& options) {
+  const auto bands = count_bands(zone.request.turbines.size());
+  RegionDescription description{options.crs_wkt, layer, {}, true};
+  for (std::size_t b = 1; b < bands.size(); ++b)
+    description.classes.push_back({static_cast<std::uint32_t>(b), bands[b].label});
+  constexpr std::uint8_t kOutsideBands = 255;
+  std::vector<std::uint8_t> banded(counts.size());
+  std::transform(counts.begin(), counts.end(), banded.begin(), [&](std::uint16_t count) {
+    return count == kCountOutside ? kOutsideBands : static_cast<std::uint8_t>(band_of(bands, count));
+  });
+  write_regions(path, zone.grid, std::span<const std::uint8_t>(banded), description);
+}
+
+void write_farms(const std::string& path, const Zone& zone, const std::vector<std::uint32_t>& farms,
+                 const ZoneFileOptions& options) {
+  RegionDescription description{options.crs_wkt, "farms", {}, true};
+  for (const Combination& c : combinations_present(zone, {&farms}))
+    if (c.farms != 0) description.classes.push_back({c.farms, c.name});
+  write_regions(path, zone.grid, std::span<const std::uint32_t>(farms), description);
+}
+
+}  // namespace
+
+std::vector<ZoneFile> write_zone_polygons(const std::string& folder, const Zone& zone, const ZoneFileOptions& options) {
+  std::vector<ZoneFile> files;
+  const std::size_t farms = farms_of(zone).size();
+  const auto write_all = [&](const Visibility& v, const std::string& suffix) {
+    files.push_back({"tip-count" + suffix + ".gpkg", "where a band of turbines has its tips seen: polygons, m2"});
+    write_bands(folder + "/" + files.back().name, "tip-count", zone, v.tip_count, options);
+    files.push_back({"hub-count" + suffix + ".gpkg", "where a band of turbines has its hubs seen: polygons, m2"});
+    write_bands(folder + "/" + files.back().name, "hub-count", zone, v.hub_count, options);
+    if (farms < 2 || farms > kMostFarms) return;
+    files.push_back({"farms" + suffix + ".gpkg", "where a combination of farms has tips seen: polygons, m2"});
+    write_farms(folder + "/" + files.back().name, zone, farm_combinations(zone, v), options);
+  };
+  write_all(zone.bare, "");
+  if (zone.screened) write_all(*zone.screened, "-screened");
+  return files;
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,41 @@
+#include <fmt/format.h>
+
+#include <viewshed/link_exclusion.hpp>
+#include <viewshed/zone_files.hpp>
+
+#include "turbines/raster_folder.hpp"
+#include "turbines/value_bands.hpp"
+
+namespace itin::viewshed {
+
+std::vector<ZoneFile> write_radar_raster(const std::string& folder, const Zone& zone, const ZoneFileOptions& options) {
+  RasterFolder files(folder, zone, options);
+  if (zone.radar)
+    files.write("radar-height",
+                "least height above the ground that the radar sees over bare ground, metres; NaN: above 1000 m, or no "
+                "ground",
+                zone.radar->height_m, with_nodata(kNaN),
+                banded_style(limit_bands({25, 50, 75, 100, 150, 200, 500}, "m")));
+  return std::move(files).files();
+}
+
+std::vector<ZoneFile> write_link_raster(const std::string& folder, const Zone& zone, const ZoneFileOptions& options,
+                                        const LinkStudy& study) {
+  RasterFolder files(folder, zone, options);
+  if (study.links.empty()) return {};
+  RasterDescription description;
+  description.classes = {{kLinkClear, "clear of links", 0, 0, 0, 0},
+                         {kLinkExcluded, "rotor within a second Fresnel zone", 213, 94, 0, 255}};
+  std::vector<StyleClass> style;
+  for (const RasterClass& c : description.classes) style.push_back({c.value, c.name, c.red, c.green, c.blue, c.alpha});
+  files.write(
+      "link-exclusion",
+      fmt::format("1 where a rotor of radius {:g} m would come into the second Fresnel zone of a link at {:g} GHz "
+                  "in plan (after Bacon 2002), otherwise 0",
+                  study.rotor_radius_m, study.frequency_ghz),
+      link_exclusion(zone.grid, study.links, study.frequency_ghz, study.rotor_radius_m), description,
+      class_style(style));
+  return std::move(files).files();
+}
+
+}  // namespace itin::viewshed

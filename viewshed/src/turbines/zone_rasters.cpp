@@ -1,0 +1,183 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include <itin/parallel.hpp>
+#include <viewshed/zone_files.hpp>
+
+#include "turbines/farm_combinations.hpp"
+#include "turbines/raster_folder.hpp"
+#include "turbines/value_bands.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// A quantity that is a raster of floats.
+struct Quantity {
+  const char* name;
+  std::vector<float> Visibility::*values;
+  const char* what;
+  const char* unit;
+  std::vector<double> limits;  ///< of its bands
+};
+
+const std::vector<Quantity>& quantities() {
+  static const std::vector<Quantity> kQuantities{
+      {"visible-height",
+       &Visibility::visible_height_m,
+       "tip height less the least visible height, metres, of the turbine with the greatest; 0 where none is seen",
+       "m",
+       {10, 25, 50, 75, 100, 150}},
+      {"vertical-angle",
+       &Visibility::vertical_angle_deg,
+       "vertical angle that the visible part of a turbine takes up, degrees, the greatest of the turbines",
+       "deg",
+       {0.1, 0.25, 0.5, 1, 2, 5}},
+      {"vertical-angle-sum",
+       &Visibility::vertical_angle_sum_deg,
+       "vertical angles of all turbines' visible parts, degrees, summed",
+       "deg",
+       {0.5, 1, 2.5, 5, 10, 25}},
+      {"horizontal-angle",
+       &Visibility::horizontal_angle_deg,
+       "smallest horizontal angle that holds every visible turbine's rotor, degrees; 0 where none is seen",
+       "deg",
+       {1, 2.5, 5, 10, 20, 45}},
+      {"horizontal-from",
+       &Visibility::horizontal_from_deg,
+       "azimuth from grid north, degrees, at which that angle begins, clockwise; no value where none is seen",
+       "deg",
+       {45, 90, 135, 180, 225, 270, 315}},
+      {"horizontal-occupied",
+       &Visibility::horizontal_occupied_deg,
+       "the part of that angle that rotors themselves take up, degrees",
+       "deg",
+       {0.5, 1, 2.5, 5, 10, 20}},
+      {"share",
+       &Visibility::share,
+       "turbines with their tip seen, as a share of all turbines, 0 to 1",
+       "of all",
+       {0.1, 0.25, 0.5, 0.75, 0.9}},
+      {"nearest",
+       &Visibility::nearest_m,
+       "horizontal distance to the nearest turbine with its tip seen, metres; no value where none is seen",
+       "m",
+       {1000, 2500, 5000, 10000, 20000, 30000, 40000}},
+  };
+  return kQuantities;
+}
+
+void write_counts(const Zone& zone, const Visibility& v, const std::string& suffix, RasterFolder& folder) {
+  const auto bands = count_bands(zone.request.turbines.size());
+  const auto what = [](const char* part) {
+    return fmt::format("how many turbines have their {} seen; 65535: {}", part, kNoValue);
+  };
+  folder.write("hub-count" + suffix, what("hub"), v.hub_count, with_nodata(kCountOutside), banded_style(bands));
+  folder.write("tip-count" + suffix, what("tip"), v.tip_count, with_nodata(kCountOutside), banded_style(bands));
+}
+
+void write_bits(const Zone& zone, const Visibility& v, const std::string& suffix, RasterFolder& folder) {
+  RasterDescription description;
+  const auto name = [](std::size_t word) { return fmt::format("turbines {} to {}", 32 * word + 1, 32 * word + 32); };
+  description.band_name = name(0);
+  for (std::size_t w = 1; w < zone.words; ++w) description.further_bands.push_back(name(w));
+  folder.write("turbines" + suffix,
+               "which turbines have their tip seen: turbine k of the file is bit k - 1, 32 turbines a band; no nodata "
+               "value, 0 where none is seen",
+               v.turbines, description, "");
+}
+
+void write_quantities(const Visibility& v, const std::string& suffix, RasterFolder& folder) {
+  for (const Quantity& q : quantities())
+    folder.write(q.name + suffix, fmt::format("{}; NaN: {}", q.what, kNoValue), v.*q.values, with_nodata(kNaN),
+                 banded_style(limit_bands(q.limits, q.unit)));
+}
+
+/// Where either has no value there is none: 65535 less 65535 must not become 0.
+template <class T>
+std::vector<float> difference(const std::vector<T>& bare, const std::vector<T>& screened, T none) {
+  std::vector<float> result(bare.size());
+  for (std::size_t i = 0; i < bare.size(); ++i)
+    result[i] = bare[i] == none || screened[i] == none ? std::numeric_limits<float>::quiet_NaN()
+                                                       : static_cast<float>(bare[i]) - static_cast<float>(screened[i]);
+  return result;
+}
+
+void write_differences(const Zone& zone, RasterFolder& folder) {
+  const auto bands = count_bands(zone.request.turbines.size());
+  const auto what = [](const std::string& of) {
+    return fmt::format("{}: bare ground less screened; NaN: {}", of, kNoValue);
+  };
+  const Visibility &bare = zone.bare, &screened = *zone.screened;
+  folder.write("hub-count-difference", what("hubs seen"), difference(bare.hub_count, screened.hub_count, kCountOutside),
+               with_nodata(kNaN), banded_style(bands));
+  folder.write("tip-count-difference", what("tips seen"), difference(bare.tip_count, screened.tip_count, kCountOutside),
+               with_nodata(kNaN), banded_style(bands));
+  for (const Quantity& q : quantities()) {
+    // An azimuth's difference says nothing, nor does that of a distance that may not be there.
+    if (q.values == &Visibility::horizontal_from_deg || q.values == &Visibility::nearest_m) continue;
+    folder.write(fmt::format("{}-difference", q.name), what(q.what),
+                 difference(bare.*q.values, screened.*q.values, std::numeric_limits<float>::quiet_NaN()),
+                 with_nodata(kNaN), banded_style(limit_bands(q.limits, q.unit)));
+  }
+}
+
+/// Up to seven farms are classes of a Byte raster, with names and colours; more are bits without.
+void write_farm_raster(const std::vector<std::uint32_t>& farms, const std::vector<Combination>& present,
+                       std::size_t farm_count, const std::string& name, RasterFolder& folder) {
+  constexpr std::size_t kClasses = 7;
+  if (farm_count > kClasses) {
+    folder.write(name, "which farms have a tip seen: farm f of the list is bit f - 1; 4294967295: no value", farms,
+                 with_nodata(kOutsideFarms), "");
+    return;
+  }
+  constexpr std::uint8_t kOutsideClass = 255;
+  RasterDescription description = with_nodata(kOutsideClass);
+  std::vector<StyleClass> style;
+  std::size_t index = 0;
+  for (const Combination& c : present) {
+    RasterClass& entry = description.classes.emplace_back();
+    entry.value = static_cast<int>(c.farms), entry.name = c.name, entry.alpha = c.farms == 0 ? 0 : 255;
+    if (c.farms != 0) set_distinct_colour(index++, entry.red, entry.green, entry.blue);
+    style.push_back({entry.value, entry.name, entry.red, entry.green, entry.blue, entry.alpha});
+  }
+  std::vector<std::uint8_t> classes(farms.size());
+  std::transform(farms.begin(), farms.end(), classes.begin(),
+                 [](std::uint32_t f) { return f == kOutsideFarms ? kOutsideClass : static_cast<std::uint8_t>(f); });
+  folder.write(name, fmt::format("which farms have a tip seen, by combination; 255: {}", kNoValue), classes,
+               description, class_style(style));
+}
+
+void write_farms(const Zone& zone, RasterFolder& folder) {
+  const std::size_t count = farms_of(zone).size();
+  if (count < 2 || count > kMostFarms) return;
+  const std::vector<std::uint32_t> bare = farm_combinations(zone, zone.bare);
+  std::vector<std::uint32_t> screened;
+  if (zone.screened) screened = farm_combinations(zone, *zone.screened);
+  const auto present = combinations_present(zone, {&bare, &screened});
+  write_farm_raster(bare, present, count, "farms", folder);
+  if (zone.screened) write_farm_raster(screened, present, count, "farms-screened", folder);
+}
+
+}  // namespace
+
+std::vector<ZoneFile> write_zone_rasters(const std::string& folder, const Zone& zone, const ZoneFileOptions& options) {
+  RasterFolder files(folder, zone, options);
+  const auto write_all = [&](const Visibility& v, const std::string& suffix) {
+    write_counts(zone, v, suffix, files);
+    write_bits(zone, v, suffix, files);
+    write_quantities(v, suffix, files);
+  };
+  write_all(zone.bare, "");
+  if (zone.screened) {
+    write_all(*zone.screened, "-screened");
+    write_differences(zone, files);
+  }
+  write_farms(zone, files);
+  return std::move(files).files();
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,109 @@
+#include "turbines/zone_request.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+
+namespace itin::viewshed {
+
+namespace {
+
+bool is_positive(double v) {
+  return std::isfinite(v) && v > 0;
+}
+
+void validate(const Turbine& t) {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(fmt::format("turbine {} at {:.10g},{:.10g}: {}", t.number, t.position.x, t.position.y, what));
+  };
+  if (t.number < 1) refuse("turbines are numbered from 1");
+  if (!std::isfinite(t.position.x) || !std::isfinite(t.position.y)) refuse("its position is not finite");
+  if (!is_positive(t.tip_height)) refuse("its tip height is not a positive number");
+  if (!is_positive(t.radius)) refuse("its radius is not a positive number");
+  if (t.hub_height && !(*t.hub_height > 0 && *t.hub_height <= t.tip_height))
+    refuse("its hub is not between ground and tip");
+  if (t.rotor_diameter && !is_positive(*t.rotor_diameter)) refuse("its rotor's diameter is not a positive number");
+}
+
+/// The part of the coverage that may lie within the radius.
+Box reach(const Turbine& t, const Box& coverage) {
+  return {std::max(coverage.xmin, t.position.x - t.radius), std::max(coverage.ymin, t.position.y - t.radius),
+          std::min(coverage.xmax, t.position.x + t.radius), std::min(coverage.ymax, t.position.y + t.radius)};
+}
+
+RasterGrid grid_of(const ZoneRequest& request, const Box& coverage) {
+  if (request.grid) return *request.grid;
+  Box area;
+  for (const Turbine& t : request.turbines) area.extend(reach(t, coverage));
+  return RasterGrid::aligned(area, *request.cell_size);
+}
+
+void place_turbines(const std::function<std::optional<double>(Point2)>& ground, Zone& zone) {
+  std::vector<Turbine> placed;
+  for (Turbine& t : zone.request.turbines) {
+    if (const auto height = ground(t.position)) {
+      zone.ground_m.push_back(*height);
+      placed.push_back(std::move(t));
+    } else {
+      zone.misplaced.push_back(
+          {t.number, fmt::format("there is no data at {:.10g},{:.10g}", t.position.x, t.position.y)});
+    }
+  }
+  if (placed.empty()) throw InputError("no turbine stands on any data; see the CRS of the turbines and of the store");
+  zone.request.turbines = std::move(placed);
+}
+
+Visibility nothing_seen(const Zone& zone) {
+  const std::size_t cells = zone.grid.cell_count();
+  Visibility v;
+  v.hub_count.assign(cells, kCountOutside);
+  v.tip_count.assign(cells, kCountOutside);
+  v.turbines.assign(cells * zone.words, 0);
+  for (std::vector<float>* floats :
+       {&v.visible_height_m, &v.vertical_angle_deg, &v.vertical_angle_sum_deg, &v.horizontal_angle_deg,
+        &v.horizontal_from_deg, &v.horizontal_occupied_deg, &v.share, &v.nearest_m})
+    floats->assign(cells, std::numeric_limits<float>::quiet_NaN());
+  return v;
+}
+
+}  // namespace
+
+void validate(const ZoneRequest& request) {
+  if (request.turbines.empty()) throw InputError("no turbine: give at least one");
+  if (request.turbines.size() >= kCountOutside) throw InputError("too many turbines: give at most 65534");
+  for (const Turbine& t : request.turbines) {
+    validate(t);
+    if (request.cell_size && *request.cell_size > t.radius)
+      throw InputError(fmt::format("cells of {:g} m are larger than turbine {}'s radius of {:g} m", *request.cell_size,
+                                   t.number, t.radius));
+  }
+  if (!std::isfinite(request.observer_height) || request.observer_height < 0)
+    throw InputError(
+        fmt::format("observer height {:g}: give 0 or a positive number of metres", request.observer_height));
+  if (request.cell_size.has_value() == request.grid.has_value())
+    throw InputError("give a cell size or a grid, and not both");
+  if (request.cell_size && !is_positive(*request.cell_size))
+    throw InputError(fmt::format("cell size {:g}: give a positive number of metres", *request.cell_size));
+  request.earth.validate();
+}
+
+Zone lay_out(const ZoneRequest& request, const Box& coverage,
+             const std::function<std::optional<double>(Point2)>& ground) {
+  Zone zone;
+  zone.request = request;
+  place_turbines(ground, zone);
+  zone.grid = grid_of(zone.request, coverage);
+  std::size_t last = 0;
+  for (const Turbine& t : zone.request.turbines) last = std::max(last, turbine_bit(t.number).grid);
+  zone.words = last + 1;
+  zone.bare = nothing_seen(zone);
+  return zone;
+}
+
+}  // namespace itin::viewshed

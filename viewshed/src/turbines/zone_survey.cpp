@@ -1,0 +1,161 @@
+#include "turbines/zone_survey.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include <itin/parallel.hpp>
+#include <itin/same_place.hpp>
+
+#include "line/grid_units.hpp"
+#include "progress/stage.hpp"
+
+namespace itin::viewshed {
+
+/// What is known of a tile's cells so far.
+struct ZoneSurvey::TileWork {
+  TileWork(const FullSurface& surface, std::size_t number, std::size_t words)
+      : place(surface.begin(number)), tile(place->tile), centres(place->centres), ground(place->ground), seen(words) {
+    hubs.fill(kCountOutside), tips.fill(kCountOutside);
+    height.fill(0), angle.fill(0), angle_sum.fill(0);
+    nearest.fill(std::numeric_limits<double>::infinity());
+    for (auto& word : seen) word.fill(0);
+  }
+  const std::unique_ptr<FullSurface::TileWork> place;  ///< its targets are eyes, seen of the turbine at hand
+  const Tile& tile;
+  const TileCentres& centres;
+  const TileValues<double>& ground;  ///< grid units
+  TileValues<std::uint16_t> hubs, tips;
+  TileValues<double> height, angle, angle_sum, nearest;
+  std::vector<TileValues<std::uint32_t>> seen;
+  std::uint64_t lines = 0;
+};
+
+ZoneSurvey::ZoneSurvey(const FullSurface& ground, const Zone& zone) : ground_(ground), zone_(zone) {
+  const Grid& units = ground.units();
+  const double per_metre = 1 / units.resolution;
+  for (std::size_t k = 0; k < zone.request.turbines.size(); ++k) {
+    const Turbine& t = zone.request.turbines[k];
+    Axis& axis = axes_.emplace_back();
+    axis.x = easting_in_units(units, t.position.x), axis.y = northing_in_units(units, t.position.y);
+    axis.base = zone.ground_m[k] * per_metre;
+    axis.tip = (zone.ground_m[k] + t.tip_height) * per_metre;
+    axis.hub = t.hub_height ? (zone.ground_m[k] + *t.hub_height) * per_metre : -std::numeric_limits<double>::infinity();
+    axis.position = t.position;
+    axis.radius_squared = t.radius * t.radius;
+  }
+}
+
+std::uint64_t ZoneSurvey::run(const Screen& screen, std::span<const std::size_t> tiles, const std::string& stage,
+                              Visibility& result, Progress& progress) const {
+  const Views views = views_over(screen.sweep);
+  std::atomic<std::uint64_t> lines = 0;
+  for_each_step(tiles.size(), stage, progress,
+                [&](std::size_t i) { lines += decide(tiles[i], screen, views, result); });
+  return lines;
+}
+
+ZoneSurvey::Views ZoneSurvey::views_over(const AxisSweep& sweep) const {
+  Views views(axes_.size());
+  parallel_for(views.size(), [&](std::size_t k) {
+    const Axis& axis = axes_[k];
+    // Which cells lie within the radius is decided in metres.
+    const double reach = zone_.request.turbines[k].radius / ground_.units().resolution + 1;
+    views[k].emplace(sweep.view_of({axis.x, axis.y, axis.base, axis.tip, reach}));
+  });
+  return views;
+}
+
+std::uint64_t ZoneSurvey::decide(std::size_t tile, const Screen& screen, const Views& views, Visibility& result) const {
+  const Tile place = tile_at(zone_.grid, ground_.tiles(), tile);
+  std::vector<std::size_t> near;
+  for (std::size_t k = 0; k < axes_.size(); ++k)
+    if (in_reach(axes_[k], place)) near.push_back(k);
+  if (near.empty()) return 0;
+  const auto work = std::make_unique<TileWork>(ground_, tile, zone_.words);
+  const double eye_height = zone_.request.observer_height / ground_.units().resolution;
+  for (std::size_t i = 0; i < work->ground.size(); ++i) work->place->targets[i] = work->ground[i] + eye_height;
+  for (const std::size_t k : near) look_at(k, screen, *views[k], *work);
+  store(*work, result);
+  return work->lines;
+}
+
+/// Whether a cell's centre may lie within the radius.
+bool ZoneSurvey::in_reach(const Axis& axis, const Tile& tile) const {
+  return squared_distance(axis.position, box_of_centres(zone_.grid, tile)) <= axis.radius_squared;
+}
+
+void ZoneSurvey::look_at(std::size_t turbine, const Screen& screen, const AxisSweep::View& view, TileWork& work) const {
+  const Axis& axis = axes_[turbine];
+  screen.sweep.run(view, {work.tile, work.centres, work.place->targets}, work.place->scratch, work.place->seen);
+  for_each_cell(work.tile, [&](std::size_t cell, RasterGrid::Cell place) {
+    const double dx = zone_.grid.centre_x(place.column) - axis.position.x,
+                 dy = zone_.grid.centre_y(place.row) - axis.position.y, squared = dx * dx + dy * dy;
+    if (squared > axis.radius_squared || std::isnan(work.ground[cell])) return;
+    if (work.tips[cell] == kCountOutside) work.tips[cell] = work.hubs[cell] = 0;
+    const double least = work.place->seen[cell];
+    const bool beneath = std::isinf(least);  // at the turbine's own place
+    work.lines += beneath ? 0 : 1;
+    if (std::isnan(least)) return;
+    const Point2 eye = work.centres.at(cell);
+    if (!screen.shadows.empty() && screen.shadows[turbine].holds(eye.x, eye.y)) return;
+    record(turbine, cell, beneath ? 0 : std::sqrt(squared), beneath ? axis.base : least, work);
+  });
+}
+
+/// The turbine is seen from the cell, down to `least` grid units of elevation.
+void ZoneSurvey::record(std::size_t turbine, std::size_t cell, double distance, double least, TileWork& work) const {
+  const Axis& axis = axes_[turbine];
+  const double resolution = ground_.units().resolution;
+  ++work.tips[cell];
+  if (least <= axis.hub) ++work.hubs[cell];
+  const TurbineBit bit = turbine_bit(zone_.request.turbines[turbine].number);
+  work.seen[bit.grid][cell] |= bit.mask;
+  const double eye = work.ground[cell] * resolution + zone_.request.observer_height;
+  const double angle =
+      vertical_angle_deg(zone_.request.earth, distance, eye, least * resolution, axis.tip * resolution);
+  work.height[cell] = std::max(work.height[cell], (axis.tip - least) * resolution);
+  work.angle[cell] = std::max(work.angle[cell], angle);
+  work.angle_sum[cell] += angle;
+  work.nearest[cell] = std::min(work.nearest[cell], distance);
+}
+
+void ZoneSurvey::store(const TileWork& work, Visibility& result) const {
+  const double all = static_cast<double>(zone_.request.turbines.size());
+  std::vector<Arc> arcs;
+  for_each_cell(work.tile, [&](std::size_t from, RasterGrid::Cell place) {
+    if (work.tips[from] == kCountOutside) return;
+    const std::size_t to = zone_.grid.index(place);
+    result.hub_count[to] = work.hubs[from];
+    result.tip_count[to] = work.tips[from];
+    for (std::size_t w = 0; w < zone_.words; ++w)
+      result.turbines[w * zone_.grid.cell_count() + to] = work.seen[w][from];
+    result.visible_height_m[to] = static_cast<float>(work.height[from]);
+    result.vertical_angle_deg[to] = static_cast<float>(work.angle[from]);
+    result.vertical_angle_sum_deg[to] = static_cast<float>(work.angle_sum[from]);
+    result.share[to] = static_cast<float>(work.tips[from] / all);
+    result.horizontal_angle_deg[to] = result.horizontal_occupied_deg[to] = 0;
+    if (work.tips[from] == 0) return;
+    result.nearest_m[to] = static_cast<float>(work.nearest[from]);
+    store_horizon(work, from, to, zone_.grid.centre(place.column, place.row), result, arcs);
+  });
+}
+
+void ZoneSurvey::store_horizon(const TileWork& work, std::size_t from_cell, std::size_t to_cell, Point2 eye,
+                               Visibility& result, std::vector<Arc>& arcs) const {
+  arcs.clear();
+  for (const Turbine& t : zone_.request.turbines) {
+    const TurbineBit bit = turbine_bit(t.number);
+    if ((work.seen[bit.grid][from_cell] & bit.mask) == 0) continue;
+    const Point2 towards = same_place(ground_.units(), eye, t.position) ? eye : t.position;
+    arcs.push_back(rotor_arc(eye, towards, t.rotor_diameter.value_or(0)));
+  }
+  const RotorHorizon horizon = rotor_horizon(arcs);
+  result.horizontal_angle_deg[to_cell] = static_cast<float>(horizon.held.width);
+  result.horizontal_from_deg[to_cell] = static_cast<float>(horizon.held.from);
+  result.horizontal_occupied_deg[to_cell] = static_cast<float>(horizon.occupied);
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,60 @@
+// Casts the sight lines of a zone of theoretical visibility: every eye of a raster to every turbine in its reach.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <viewshed/turbines.hpp>
+
+#include "line/cell_tiles.hpp"
+#include "request/void_shadow.hpp"
+#include "scene/full_surface.hpp"
+#include "scene/sweep/axis_sweep.hpp"
+#include "turbines/turbine_view.hpp"
+
+namespace itin::viewshed {
+
+class ZoneSurvey {
+ public:
+  /// `zone` has its request, grid and ground; eyes stand on `ground`, whose grid is the zone's. All must outlive it.
+  ZoneSurvey(const FullSurface& ground, const Zone& zone);
+
+  /// What to look over, and each turbine's shadow of voids where these hide; else none.
+  struct Screen {
+    const AxisSweep& sweep;
+    const std::vector<VoidShadow>& shadows;
+  };
+  /// Enters what is seen from the cells of these tiles. Returns how many lines that took.
+  std::uint64_t run(const Screen& screen, std::span<const std::size_t> tiles, const std::string& stage,
+                    Visibility& result, Progress& progress) const;
+
+ private:
+  struct Axis {
+    double x = 0, y = 0;       ///< grid units
+    double base = 0, tip = 0;  ///< elevation, grid units
+    double hub = 0;            ///< -infinity where it is not known
+    Point2 position;
+    double radius_squared = 0;  ///< metres squared
+  };
+  struct TileWork;
+
+  /// The turbines over a surface.
+  using Views = std::vector<std::optional<AxisSweep::View>>;
+  Views views_over(const AxisSweep& sweep) const;
+  std::uint64_t decide(std::size_t tile, const Screen& screen, const Views& views, Visibility& result) const;
+  bool in_reach(const Axis& axis, const Tile& tile) const;
+  void look_at(std::size_t turbine, const Screen& screen, const AxisSweep::View& view, TileWork& work) const;
+  void record(std::size_t turbine, std::size_t cell, double distance, double least, TileWork& work) const;
+  void store(const TileWork& work, Visibility& result) const;
+  void store_horizon(const TileWork& work, std::size_t from_cell, std::size_t to_cell, Point2 eye, Visibility& result,
+                     std::vector<Arc>& arcs) const;
+
+  const FullSurface& ground_;
+  const Zone& zone_;
+  std::vector<Axis> axes_;
+};
+
+}  // namespace itin::viewshed

@@ -1,0 +1,195 @@
+#include "window/envelope.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <itin/certificate.hpp>
+#include <itin/parallel.hpp>
+#include <itin/raster.hpp>
+#include <itin/triangulate.hpp>
+
+#include "scene/rays/drift.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+constexpr std::size_t kVerticesPerChunk = 1 << 12;
+
+void for_each_chunk(std::size_t count, const auto& body) {
+  parallel_for((count + kVerticesPerChunk - 1) / kVerticesPerChunk, [&](std::size_t chunk) {
+    for (std::size_t i = chunk * kVerticesPerChunk; i < std::min(count, (chunk + 1) * kVerticesPerChunk); ++i) body(i);
+  });
+}
+
+GridBox box_of(const Tin& tin, const Triangle& t) {
+  GridBox box;
+  for (const std::uint32_t v : t) box.extend(tin.vertices[v].x, tin.vertices[v].y);
+  return box;
+}
+
+/// Of each vertex: the bounds over all its triangles.
+std::vector<HeightBounds> vertex_bounds(const Store& store, int level, const Tin& tin) {
+  std::vector<HeightBounds> result(tin.vertices.size());
+  if (level == 0) return result;
+  const Certificate certificate = store.certificate(level, tin.bounds());
+  std::vector<HeightBounds> of_triangle(tin.triangles.size());
+  for_each_chunk(of_triangle.size(), [&](std::size_t t) {
+    if (const auto bounds = certificate.over(box_of(tin, tin.triangles[t]))) of_triangle[t] = *bounds;
+  });
+  constexpr auto kMax = std::numeric_limits<std::int32_t>::max(), kMin = std::numeric_limits<std::int32_t>::min();
+  std::fill(result.begin(), result.end(), HeightBounds{kMax, kMin});
+  for (std::size_t t = 0; t < of_triangle.size(); ++t) {
+    for (const std::uint32_t v : tin.triangles[t]) {
+      result[v].lo = std::min(result[v].lo, of_triangle[t].lo);
+      result[v].hi = std::max(result[v].hi, of_triangle[t].hi);
+    }
+  }
+  return result;
+}
+
+bool within(const Tin& tin, const Triangle& t, const FineDisc& disc) {
+  return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) {
+    const Point3 p = tin.point(v);
+    return std::hypot(p.x - disc.centre.x, p.y - disc.centre.y) < disc.radius;
+  });
+}
+
+/// Which of many discs may hold a triangle.
+class DiscIndex {
+ public:
+  explicit DiscIndex(const std::vector<FineDisc>& discs) : discs_(discs) {
+    Box all;
+    for (const FineDisc& disc : discs) all.extend(box_of(disc));
+    const double side = std::ceil(2 * std::sqrt(static_cast<double>(discs.size())));
+    const double size = std::max({all.width(), all.height(), 1.0}) * 1.001 / side;
+    bins_ =
+        RasterGrid({all.xmin, all.ymax}, size, size, static_cast<std::int64_t>(side), static_cast<std::int64_t>(side));
+    of_bin_.resize(bins_.cell_count());
+    for (std::uint32_t i = 0; i < discs.size(); ++i) {
+      const Box box = box_of(discs[i]);
+      const auto first = *bins_.cell_at({box.xmin, box.ymax}), last = *bins_.cell_at({box.xmax, box.ymin});
+      for (std::int64_t row = first.row; row <= last.row; ++row)
+        for (std::int64_t column = first.column; column <= last.column; ++column)
+          of_bin_[bins_.index({column, row})].push_back(i);
+    }
+  }
+
+  bool hold(const Tin& tin, const Triangle& t) const {
+    const Point3 p = tin.point(t[0]);
+    const auto bin = bins_.cell_at({p.x, p.y});
+    if (!bin) return false;
+    const std::vector<std::uint32_t>& near = of_bin_[bins_.index(*bin)];
+    return std::any_of(near.begin(), near.end(), [&](std::uint32_t i) { return within(tin, t, discs_[i]); });
+  }
+
+ private:
+  static Box box_of(const FineDisc& disc) {
+    return {disc.centre.x - disc.radius, disc.centre.y - disc.radius, disc.centre.x + disc.radius,
+            disc.centre.y + disc.radius};
+  }
+
+  const std::vector<FineDisc>& discs_;
+  RasterGrid bins_;
+  std::vector<std::vector<std::uint32_t>> of_bin_;
+};
+
+class Builder {
+ public:
+  Builder(const Store& store, const ThemeChoice& themes, Progress& progress)
+      : store_(store), themes_(themes), progress_(progress) {}
+
+  void add(const Window& window, int level) {
+    const double tolerance = store_.metadata().levels[static_cast<std::size_t>(level)].tolerance;
+    const Tin piece = triangulate(store_, window, Detail::tolerance(tolerance), progress_, themes_);
+    const std::vector<HeightBounds> bounds = vertex_bounds(store_, level, piece);
+    const auto first = static_cast<std::uint32_t>(lower_.vertices.size());
+    lower_.grid = piece.grid;
+    firsts_.push_back(static_cast<std::uint32_t>(lower_.triangles.size()));
+    lower_.statistics += piece.statistics;
+    for (std::size_t v = 0; v < piece.vertices.size(); ++v) {
+      const GridPoint& p = piece.vertices[v];
+      lower_.vertices.push_back({p.x, p.y, p.z + bounds[v].lo});
+      upper_.push_back(p.z + bounds[v].hi);
+    }
+    for (const Triangle& t : piece.triangles) lower_.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  }
+
+  void mark_outline() { outline_ = boundary_edges(lower_); }
+
+  /// Leaves out what lies within a disc, but for triangles at the outline.
+  void clear(const std::vector<FineDisc>& discs) {
+    const DiscIndex index(discs);
+    std::vector<std::uint8_t> drop(lower_.triangles.size());
+    for_each_chunk(drop.size(), [&](std::size_t t) { drop[t] = index.hold(lower_, lower_.triangles[t]); });
+    for (const BoundaryEdge& edge : outline_) drop[edge.triangle] = 0;
+    std::vector<std::uint32_t> number(drop.size());
+    std::uint32_t kept = 0;
+    for (std::size_t t = 0; t < drop.size(); ++t) {
+      number[t] = kept;
+      if (!drop[t]) lower_.triangles[kept++] = lower_.triangles[t];
+    }
+    for (std::uint32_t& first : firsts_) first = first < number.size() ? number[first] : kept;
+    lower_.triangles.resize(kept);
+    for (BoundaryEdge& edge : outline_) edge.triangle = number[edge.triangle];
+  }
+
+  Envelope finish(const std::vector<Point2>& observers) && {
+    Envelope envelope;
+    lower_.sources.assign(lower_.vertices.size(), 0);
+    envelope.upper = lower_;
+    for (std::size_t v = 0; v < upper_.size(); ++v) envelope.upper.vertices[v].z = upper_[v];
+    raise_against_drift(observers, envelope.upper);
+    envelope.lower = std::move(lower_);
+    envelope.outline = std::move(outline_);
+    envelope.pieces.assign(firsts_.begin() + 1, firsts_.end());
+    return envelope;
+  }
+
+ private:
+  const Store& store_;
+  const ThemeChoice& themes_;
+  Progress& progress_;
+  Tin lower_;
+  std::vector<std::int32_t> upper_;  ///< heights
+  std::vector<BoundaryEdge> outline_;
+  std::vector<std::uint32_t> firsts_;  ///< triangles, of each piece
+};
+
+}  // namespace
+
+int level_within(const StoreMetadata& metadata, double tolerance) {
+  int level = 0;
+  while (level + 1 < static_cast<int>(metadata.levels.size()) &&
+         metadata.levels[static_cast<std::size_t>(level) + 1].tolerance <= tolerance)
+    ++level;
+  return level;
+}
+
+Envelope envelop(const Store& store, const EnvelopeRequest& request, Progress& progress) {
+  Builder builder(store, request.themes, progress);
+  builder.add(request.window, request.level);
+  builder.mark_outline();
+  for (int level = request.level - 1; level >= 0; --level) {
+    std::vector<FineDisc> discs;
+    std::vector<Window::Polygon> parts;
+    for (const FineDisc& disc : request.discs) {
+      if (disc.level != level) continue;
+      discs.push_back(disc);
+      parts.push_back(Window::disc(disc.centre, disc.radius).parts().front());
+    }
+    if (discs.empty()) continue;
+    builder.clear(discs);
+    builder.add(Window::polygons(std::move(parts)), level);
+  }
+  Envelope envelope = std::move(builder).finish(request.observers);
+  envelope.exact = request.level == 0;
+  if (request.bare_ground) {
+    envelope.bare_ground = triangulate(store, *request.bare_ground, Detail::tolerance(0), progress);
+    envelope.lower.statistics += envelope.bare_ground->statistics;
+  }
+  return envelope;
+}
+
+}  // namespace itin::viewshed

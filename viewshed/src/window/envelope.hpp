@@ -1,0 +1,57 @@
+// Two surfaces that hold the full surface between them, made of pieces of coarser levels and their certificates.
+//
+//   Envelope envelope = envelop(store, {.window = window, .level = 3, .observers = positions}, progress);
+//
+// Every vertex of a level's triangulation is raised by the greatest upper bound, and lowered by the least lower bound,
+// of all index cells that its triangles meet: between its vertices a bound then holds too (law 2). Pieces of finer
+// levels lie about observers, where coarse ground would hide everything; coarser triangles that lie wholly within are
+// left out, the others overlap, which is right as well: every piece's bounds hold.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <itin/progress.hpp>
+#include <itin/store.hpp>
+#include <itin/theme.hpp>
+#include <itin/tin.hpp>
+#include <itin/window.hpp>
+
+#include "bounds/boundary.hpp"
+
+namespace itin::viewshed {
+
+/// Detail of at least this level within the circle.
+struct FineDisc {
+  Point2 centre;
+  double radius = 0;  ///< metres
+  int level = 0;
+};
+
+struct EnvelopeRequest {
+  Window window = Window::all();
+  int level = 0;
+  std::vector<FineDisc> discs;    ///< in any order
+  std::vector<Point2> observers;  ///< rays start here: `upper` is raised for what single precision does sideways
+  ThemeChoice themes = ThemeChoice::none();          ///< what stands on the ground; at level 0 alone, without discs
+  std::optional<Window> bare_ground = std::nullopt;  ///< where the ground without it is wanted too
+};
+
+/// Both have the same triangles, in the same order.
+struct Envelope {
+  Tin lower;
+  Tin upper;
+  std::vector<BoundaryEdge> outline;  ///< the edges of the coverage, of vertices and triangles of either
+  std::vector<std::uint32_t> pieces;  ///< the first triangle of each piece but the first
+  bool exact = false;                 ///< of level 0 throughout: `lower` is the full surface
+  std::optional<Tin> bare_ground;     ///< the full surface without what stands on it
+};
+
+/// Cost: as triangulate(), and about a microsecond a triangle. Throws as triangulate() does.
+Envelope envelop(const Store& store, const EnvelopeRequest& request, Progress& progress);
+
+/// The coarsest level within the tolerance.
+int level_within(const StoreMetadata& metadata, double tolerance);
+
+}  // namespace itin::viewshed

@@ -1,0 +1,100 @@
+#include "window/near_ground.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <itin/triangulate.hpp>
+
+#include "bounds/surface_heights.hpp"
+#include "request/request.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// Points of one level about one observer, and about all of them; never more than this share of the full surface.
+constexpr double kNearPoints = 16000, kAllNearPoints = 400000, kNearShare = 1.0 / 64;
+
+/// The greatest radius, in steps of a square root of 2, within which a level has no more points than that.
+double radius_with(const Store& store, int level, Point2 centre, double points) {
+  const Box all = extent_of(store);
+  const double greatest = std::max(all.width(), all.height());
+  double radius = store.metadata().grid.resolution;
+  while (radius < greatest &&
+         static_cast<double>(store.points_about(level, disc_box(centre, std::sqrt(2) * radius))) <= points)
+    radius *= std::sqrt(2);
+  return radius;
+}
+
+}  // namespace
+
+std::optional<double> height_at(const Store& store, Point2 position, const ThemeChoice& themes, Progress& progress,
+                                const Detail& detail) {
+  const Box about = disc_box(position, 2 * store.metadata().grid.resolution);
+  return height_on(triangulate(store, Window::box(about), detail, progress, themes), position);
+}
+
+Tin coverage_of(const Store& store, const Window& window, Progress& progress) {
+  return triangulate(store, window, Detail::tolerance(store.metadata().levels.back().tolerance), progress);
+}
+
+std::vector<Eye> eyes_on_full_surface(const Store& store, const Request& request, std::vector<double>& ground,
+                                      Progress& progress) {
+  const Grid& grid = store.metadata().grid;
+  std::vector<Eye> eyes;
+  for (const Observer& observer : request.observers) {
+    const auto height = height_at(store, observer.position,
+                                  request.observers_on_surface ? request.themes : ThemeChoice::none(), progress);
+    eyes.push_back(eye_of(grid, request, observer, height));
+    ground.push_back(*height);
+  }
+  return eyes;
+}
+
+bool features_stand(const Store& store, const Request& request) {
+  return request.themes.includes_standing(store.metadata().themes);
+}
+
+Box box_of_window(const Store& store, const Request& request) {
+  const Window window = window_of(request);
+  const Box all = extent_of(store);
+  if (window.is_all()) return all;
+  // An observer outside the data is told so later on.
+  const Box within = intersection(window.bounds(), all);
+  return within.empty() ? window.bounds() : within;
+}
+
+double points_a_square_metre(const Store& store, int level, const Request& request) {
+  const Box box = box_of_window(store, request);
+  return static_cast<double>(store.points_about(level, box)) / (box.width() * box.height());
+}
+
+EnvelopeRequest certified_request(const Store& store, const Request& request, int level) {
+  EnvelopeRequest result;
+  result.window = window_of(request);
+  result.level = level;
+  const Box box = box_of_window(store, request);
+  const double points = std::min({kNearPoints, kAllNearPoints / static_cast<double>(request.observers.size()),
+                                  kNearShare * static_cast<double>(store.points_about(0, box))});
+  for (const Observer& observer : request.observers) {
+    result.observers.push_back(observer.position);
+    for (int finer = 0; finer < level; ++finer) {
+      double radius = radius_with(store, finer, observer.position, points);
+      if (const auto reach = radius_of(request, observer)) radius = std::min(radius, *reach);
+      result.discs.push_back({observer.position, radius, finer});
+    }
+  }
+  return result;
+}
+
+EnvelopeRequest certified_request(const Store& store, const Request& request) {
+  EnvelopeRequest result = certified_request(store, request, level_within(store.metadata(), request.detail.coarsest()));
+  const std::vector<Ring>& rings = request.detail.rings();
+  for (std::size_t i = 0; i + 1 < rings.size(); ++i) {
+    const int level = level_within(store.metadata(), rings[i].tolerance);
+    if (level < result.level) result.discs.push_back({request.detail.centre(), rings[i].radius, level});
+  }
+  return result;
+}
+
+}  // namespace itin::viewshed

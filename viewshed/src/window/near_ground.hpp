@@ -1,0 +1,44 @@
+// What a certified viewshed reads: the level asked for, and finer ones about the observers.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <itin/progress.hpp>
+#include <itin/store.hpp>
+#include <viewshed/viewshed.hpp>
+
+#include "request/eye.hpp"
+#include "window/envelope.hpp"
+
+namespace itin::viewshed {
+
+/// Metres, of the full surface with these themes, or of another detail; nothing where there is no data.
+std::optional<double> height_at(const Store& store, Point2 position, const ThemeChoice& themes, Progress& progress,
+                                const Detail& detail = Detail::tolerance(0));
+
+/// All that has data within the window, at the coarsest level: its outline is that of the full surface.
+Tin coverage_of(const Store& store, const Window& window, Progress& progress);
+
+/// The observers, on the full surface under them, or on what stands on it where the request says so; `ground` gets its
+/// heights, metres. Throws InputError for an observer outside the data.
+std::vector<Eye> eyes_on_full_surface(const Store& store, const Request& request, std::vector<double>& ground,
+                                      Progress& progress);
+
+/// Whether a theme that stands on the ground is chosen. Certificates know nothing of it: where it does, only level 0
+/// says what is there.
+bool features_stand(const Store& store, const Request& request);
+
+/// About all that the request's window may hold of the store.
+Box box_of_window(const Store& store, const Request& request);
+
+/// How densely points of this level and coarser ones lie there, about.
+double points_a_square_metre(const Store& store, int level, const Request& request);
+
+/// For request.detail.
+EnvelopeRequest certified_request(const Store& store, const Request& request);
+
+/// The same with another level than request.detail's. No features stand there.
+EnvelopeRequest certified_request(const Store& store, const Request& request, int level);
+
+}  // namespace itin::viewshed
