@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A town in full: Delft (AHN3 lidar, BGT, CityJSON of 3dfier) with all its themes. Processor and wall time of each import
-# and of the whole window, and the picture of it.
+# Imports a town with all its themes: Delft (AHN3 lidar, BGT, CityJSON of 3dfier). Prints processor and wall time of each
+# import and of triangulating the whole window, and draws its buildings.
 #   benchmarks/peers/delft.sh [WORK_DIR]      needs node and npm (the lidar is LAZ), jq, and ../shared/data
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# A precise viewshed over posts 1 m apart that would never fit into the memory: 5,000 million within 40 km.
+# A precise viewshed over posts 1 m apart that do not fit into memory: 5,000 million within 40 km.
 #   benchmarks/peers/huge.sh [SIDE_KM [RADIUS_M [MEMORY]]]          80 40000 1G
-# Makes a store of a fractal surface in build/peers, once (80 km: 3.9 GB, a quarter of an hour), and looks from a mast of
-# 30 m near its middle at cells of 50 m: certified first, at coarse levels, then precisely (6 minutes). Prints time and
-# peak memory, which must stay below the budget; and compares what is seen within 1 km, looked at sector by sector and as a
-# whole.
+# Makes a store of a fractal surface in build/peers, once (80 km: 3.9 GB, a quarter of an hour). Computes viewsheds of a
+# mast of 30 m near its middle, with cells of 50 m: certified ones at coarse levels, then the precise one (6 minutes).
+# Prints time and peak memory, which must stay below the budget. Last, compares the precise viewshed within 1 km computed
+# sector by sector with the one computed at once.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/measure.sh"
 require_tools

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# itin import: posts a second, peak memory, and bytes a vertex against an explicit TIN (36 bytes a vertex, indexed) and
-# against the source as it came: a deflated GeoTIFF, or LAS.
+# itin import: posts per second, peak memory, and bytes per vertex. The latter are compared with an explicit TIN (36 bytes
+# per vertex, indexed) and with the source as it came, a deflated GeoTIFF or LAS.
 #   benchmarks/peers/import.sh [MEMORY]     default 2G
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/measure.sh"

@@ -20,7 +20,7 @@ measure() {
     "${megabytes[$name]}"
 }
 
-# ratio A B: how many times as long A took as B by the clock; processor_ratio: on a busy machine.
+# ratio A B: the time of A divided by that of B, by the clock. processor_ratio: by processor time, for a busy machine.
 ratio() { awk -v a="${seconds[$1]}" -v b="${seconds[$2]}" 'BEGIN { printf "%.2f", a / (b > 0 ? b : 0.01) }'; }
 processor_ratio() {
   awk -v a="${processor[$1]}" -v b="${processor[$2]}" 'BEGIN { printf "%.2f", a / (b > 0 ? b : 0.01) }'
@@ -33,7 +33,7 @@ require_tools() {
   done
 }
 
-# The release build's program, and a folder for what is made on the way.
+# The release build's program, and a folder for terrain, stores and results.
 readonly root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 readonly itin=${ITIN_PROGRAM:-$root/build/release/bin/itin}
 readonly data=${ITIN_DATA_DIR:-$root/../shared/data}
@@ -54,7 +54,7 @@ make_terrain() {
       name=$(basename "$zip" .zip)
       echo "/vsizip/$zip/${name^^}.asc"
     done >"$work/wales.txt"
-    # The open sea has no tiles; tiles of the coast have their sea at about 0.
+    # The open sea has no tiles. Tiles on the coast have their sea at about height 0.
     gdalbuildvrt -q -a_srs EPSG:27700 -vrtnodata -9999 -input_file_list "$work/wales.txt" "$work/wales.vrt" 2>/dev/null
     gdal_translate -q -co TILED=YES -co COMPRESS=DEFLATE -co PREDICTOR=3 "$work/wales.vrt" "$work/wales.part.tif"
     mv "$work/wales.part.tif" "$work/wales.tif"

@@ -1,5 +1,6 @@
 #!/bin/sh
-# Many observers in one run against each alone: over Wales (build/peers/wales.itin, made by precise.sh), 40 km far, cells of 50 m.
+# Many observers in one run, and single observers to compare with: Wales (build/peers/wales.itin, made by precise.sh),
+# radius 40 km, cells of 50 m.
 #
 #   benchmarks/peers/observers.sh            with build/dev/bin/itin, or ITIN_PROGRAM
 set -eu

@@ -3,9 +3,9 @@
 #   benchmarks/peers/precise.sh [NO_GRASS] [CASE...]    cases: cardiff pillars lidar rainier wales-10 wales-40 wales
 #                                                       fractal fractal-8192; all where none is given
 # Prints time, processor time, peak memory and agreement (IoU of the visible cells) with `itin viewshed --precise`, which
-# equals brute force on the stored surface cell for cell (tests/viewshed). Certified runs at the coarsest of the
-# tolerances that decides 95 % of the cells. Peers get the raster cut to what the radius needs; itin reads its store of
-# the whole. Aims: certified no slower than gdal_viewshed; precise at most 4 times as slow as it, and 25 times faster than
+# equals brute force on the stored surface cell for cell (tests/viewshed). Certified tolerances are tried from the coarsest
+# until one decides 95 % of the cells. Peers get the raster cut to the radius; itin reads its store of the whole raster.
+# Aims: certified no slower than gdal_viewshed; precise at most 4 times as slow as it, and 25 times faster than
 # r.viewshed; all below 1 GB.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/measure.sh"
@@ -35,7 +35,7 @@ grass_viewshed() {  # grass_viewshed DEM X Y RADIUS OUT
 }
 export -f grass_viewshed
 
-# against PEER: how many times the processor time of the last measured run PEER takes.
+# against A B: the processor time of A, in multiples of B's.
 against() { printf '%s x %s' "$(processor_ratio "$1" "$2")" "$2"; }
 
 compare() {  # compare CASE STORE DEM X Y RADIUS (0: the whole raster)

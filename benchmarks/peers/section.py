@@ -59,7 +59,7 @@ def write_links(raster, side, count, length, out):
 
 
 def sample_raster(raster, links):
-    """Bilinear, a sample a cell, the raster in memory; the least clearance over the effective Earth and its place."""
+    """For each link the least clearance over the effective Earth: bilinear, one sample per cell, the raster in memory."""
     from osgeo import gdal
 
     gdal.UseExceptions()

@@ -2,7 +2,7 @@
 # Cross-sections and batches of links of 10 km over Wales at full detail, against sampling the raster with GDAL and NumPy,
 # and against reading the whole explicit TIN.
 #   benchmarks/peers/section.sh
-# Takes build/release/bin/itin_benchmarks for single sections.
+# Single sections are timed by build/release/bin/itin_benchmarks.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/measure.sh"
 require_tools gdal_translate

@@ -20,7 +20,7 @@ def candidates():
 
 
 def cells_seen(path):
-    """Row and column numbers of cells with value 1, as numbers on one grid of all multiples of the cell size."""
+    """The cells with value 1, each as one number: its row and column on the grid of all multiples of the cell size."""
     import numpy
     from osgeo import gdal
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Writes a surface to compare viewsheds on: surfaces.py pillars OUT.tif | surfaces.py lidar OUT.tif LAS...
+"""Writes a surface on which viewsheds are compared: surfaces.py pillars OUT.tif | surfaces.py lidar OUT.tif LAS...
 
 pillars: a plane of 2 km at 100 m with a pillar of 5 m by 5 m, 40 m high, every 50 m; cells of 1 m, EPSG:32630.
 lidar: all returns of LAS files (Lambert 93), interpolated linearly in their Delaunay triangulation, cells of 1 m.

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# itin ztv against one viewshed a turbine by gdal_viewshed and GRASS r.viewshed: 75 turbines, 40 km, 50 m cells.
+# itin ztv against one viewshed per turbine by gdal_viewshed and GRASS r.viewshed: 75 turbines, 40 km, 50 m cells.
 #   benchmarks/peers/ztv.sh              OS Terrain 50 of Wales
 #   benchmarks/peers/ztv.sh NO_GRASS     without r.viewshed
-# The peers run for SAMPLE turbines (default 5), spread over the farm, and their time is multiplied by 75 / SAMPLE: every
-# run reads, computes and writes alike. A peer's run tells visible from hidden for one height; itin writes the whole
-# output set, tips and hubs, heights, angles and tables. Aims: at most a twentieth of r.viewshed, and less than
-# gdal_viewshed.
+# The peers run for SAMPLE turbines (default 5), spread over the farm, and their time is multiplied by 75 / SAMPLE, because
+# each of their runs reads, computes and writes as much as any other. A peer's run tells visible from hidden at one height.
+# itin writes its whole folder: tips and hubs, heights, angles and tables. Aims: at most a twentieth of the time of
+# r.viewshed, and less than that of gdal_viewshed.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/measure.sh"
 require_tools gdal_viewshed
@@ -54,7 +54,7 @@ grass_runs() {
 export -f gdal_runs grass_runs sites
 export turbines radius tip eye refraction sample out work
 
-against() {  # against NAME: the peer's time for all turbines, and how many times as long that is as itin's
+against() {  # against NAME: the peer's time for all turbines, and the fraction of it that itin takes
   awk -v peer="${seconds[$1]}" -v itin="${seconds["itin ztv, $turbines turbines"]}" \
     -v peer_cpu="${processor[$1]}" -v itin_cpu="${processor["itin ztv, $turbines turbines"]}" -v n=$turbines -v s="$sample" \
     'BEGIN {
