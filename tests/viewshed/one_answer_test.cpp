@@ -193,6 +193,24 @@ TEST_F(InATown, AboutHousesCornersAndWallsPostsAndTheDatasEdge) {
   }
 }
 
+/// Beside a house the surface is not to the last digit the bare ground, also where the window holds no part of the
+/// house.
+TEST_F(InATown, BesideHousesFromTheGround) {
+  NoProgress progress;
+  request_.observers.front().height = request_.target_height = 0;
+  request_.cell_size.reset();
+  for (const bool surface : {false, true}) {
+    request_.targets_on_surface = surface;
+    for (const LineFeature& house : houses_) {
+      const Point2 eye{house.vertices[0].x - 0.7, house.vertices[0].y + 1.3};
+      SCOPED_TRACE(fmt::format("{},{}", eye.x, eye.y));
+      request_.observers.front().position = eye;
+      request_.grid.emplace(Point2{eye.x - 0.5, eye.y + 0.5}, 0.2, 0.2, 5, 5);
+      EXPECT_EQ(ask_again(*store_, viewshed::compute(*store_, request_, progress), 30).wrong, 0);
+    }
+  }
+}
+
 TEST_F(InATown, OfBareGround) {
   request_.themes = ThemeChoice::none();
   for (const double height : {0.0, 1.7}) {

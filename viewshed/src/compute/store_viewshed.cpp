@@ -45,7 +45,8 @@ Surveyed compute_over_tin(const Store& store, const Request& request, Progress& 
   tin = triangulate(store, window_of(request), request.detail, progress, request.themes);
   surveyed.surface.extent = extent_of(store);
   const double seconds = watch.lap();
-  if (!tin.standing.empty() && !(request.observers_on_surface && request.targets_on_surface))
+  // Beside a feature the surface is not to the last digit the ground, also where the window holds no part of it.
+  if (features_stand(store, request) && !(request.observers_on_surface && request.targets_on_surface))
     surveyed.ground = triangulate(store, window_of(request), request.detail, progress, ThemeChoice::none());
   return survey(store, request, std::move(surveyed), seconds, progress);
 }

@@ -57,7 +57,7 @@ VisibilityIndex visibility_index(const Store& store, const IndexRequest& request
   const Scene scene(surface, request.earth, request.nodata, ceiling);
   std::optional<Tin> bare;
   std::optional<Scene> bare_scene;
-  if (!surface.standing.empty()) {
+  if (request.themes.includes_standing(store.metadata().themes)) {
     bare = triangulate(store, window, request.detail, progress, ThemeChoice::none());
     bare_scene.emplace(*bare, request.earth, NoData::kClear, ceiling);
   }
