@@ -2,12 +2,15 @@
 #include <atomic>
 #include <chrono>
 #include <stdexcept>
+#include <string_view>
 #include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include <itin/parallel.hpp>
+
+#include "base/stoppable.hpp"
 
 namespace itin {
 namespace {
@@ -24,6 +27,25 @@ TEST(ParallelFor, Rethrows) {
                               if (i == 37) throw std::runtime_error("37");
                             }),
                std::runtime_error);
+}
+
+TEST(ParallelFor, CanBeStoppedOnAllItsThreads) {
+  struct Stopped final : public Progress {
+    void report(std::string_view, double) override {}
+    bool cancelled() const override { return true; }
+  } stopped;
+  std::atomic<int> ran = 0;
+  const auto work = [&](std::size_t) {
+    stop_if_asked();
+    ++ran;
+  };
+  {
+    const Stoppable stoppable(stopped);
+    for (int round = 0; round < 20; ++round) EXPECT_THROW(parallel_for(100, work), Cancelled);
+  }
+  EXPECT_EQ(ran, 0);
+  parallel_for(100, work);
+  EXPECT_EQ(ran, 100);
 }
 
 TEST(ParallelFor, StaysOnItsThreadWhereItIsTheOnlyOne) {

@@ -7,6 +7,8 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+
+#include "base/stoppable.hpp"
 #endif
 
 namespace itin {
@@ -28,7 +30,12 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& bod
   // Isolated: what is thrown elsewhere must not end a loop within another one, which its caller would take for
   // finished.
   tbb::task_group_context own(tbb::task_group_context::isolated);
-  tbb::parallel_for(std::size_t{0}, count, body, own);
+  const Progress* const progress = stopper();
+  const auto stoppable = [&](std::size_t i) {
+    const Stoppable here(progress);
+    body(i);
+  };
+  tbb::parallel_for(std::size_t{0}, count, stoppable, own);
 }
 
 void set_thread_count(int threads) {

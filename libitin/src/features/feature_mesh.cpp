@@ -9,6 +9,7 @@
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
 
+#include "base/stoppable.hpp"
 #include "features/feature_group.hpp"
 #include "features/prepare_feature.hpp"
 #include "geometry/cell.hpp"
@@ -53,7 +54,10 @@ class Assembly {
                                        [&](const GridPoint& q, std::uint64_t c) { return code(q) < c; });
       return static_cast<std::uint32_t>(at - points_.begin());
     };
-    for (const PlacedSegment& s : segments_) mesh_.segments.push_back({number(s.a), number(s.b), s.feature, s.kind});
+    for (const PlacedSegment& s : segments_) {
+      stop_if_asked();
+      mesh_.segments.push_back({number(s.a), number(s.b), s.feature, s.kind});
+    }
     mesh_.vertices = std::move(points_);
     return std::move(mesh_);
   }
@@ -75,10 +79,10 @@ GridBox box_of(const PreparedFeature& feature) {
 FeatureMesh build_feature_mesh(std::span<const FootprintFeature> features, const FeatureOptions& options,
                                const TerrainHeights* terrain, Progress& progress) {
   check(options, terrain);
+  const Stoppable stoppable(progress);
   std::vector<Preparation> prepared(features.size());
   parallel_for(features.size(), [&](std::size_t i) {
     progress.throw_if_cancelled();
-    const OverlayCancellation cancellation(progress);
     prepared[i] = prepare(features[i], static_cast<std::uint32_t>(i), options, terrain);
   });
   std::vector<GridBox> boxes;
@@ -88,7 +92,6 @@ FeatureMesh build_feature_mesh(std::span<const FootprintFeature> features, const
   std::atomic<std::size_t> done = 0;
   parallel_for(groups.size(), [&](std::size_t g) {
     progress.throw_if_cancelled();
-    const OverlayCancellation cancellation(progress);
     std::vector<PreparedFeature> members;
     for (const std::uint32_t i : groups[g])
       if (prepared[i].stands) members.push_back(std::move(prepared[i].feature));

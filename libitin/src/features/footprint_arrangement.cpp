@@ -6,6 +6,7 @@
 #include <numeric>
 #include <set>
 
+#include "base/stoppable.hpp"
 #include "features/mask_index.hpp"
 #include "features/planar.hpp"
 #include "features/terrain_heights.hpp"
@@ -98,7 +99,10 @@ class Arranging {
     for (PlanFace& face : faces_of(noded_outlines(patches_, progress_))) {
       const std::uint32_t owner = owner_at(cells, face.inside);
       if (owner == kNobody) continue;
-      for_each_edge(face.polygon, [&](Position a, Position b) { left_of_[{a, b}] = owner; });
+      for_each_edge(face.polygon, [&](Position a, Position b) {
+        stop_if_asked();
+        left_of_[{a, b}] = owner;
+      });
       faces[owner].push_back(std::move(face.polygon));
     }
     result_.patches.resize(patches_.size());
@@ -108,6 +112,7 @@ class Arranging {
   void find_neighbours() {
     neighbours_.resize(patches_.size());
     for (const auto& [edge, owner] : left_of_) {
+      stop_if_asked();
       const auto other = left_of_.find({edge.second, edge.first});
       if (other == left_of_.end()) {
         result_.feet.emplace_back(edge, owner);

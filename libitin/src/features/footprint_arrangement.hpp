@@ -15,6 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include <itin/progress.hpp>
+
 #include "features/plan_overlay.hpp"
 
 namespace itin {

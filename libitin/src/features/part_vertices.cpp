@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/stoppable.hpp"
 #include "geometry/cell.hpp"
 
 namespace itin {
@@ -29,6 +30,7 @@ std::vector<PartVertex> part_vertices(const StandingPart& part, const std::vecto
   constexpr std::int32_t kUnknown = std::numeric_limits<std::int32_t>::min();
   std::vector<GridPoint> fresh;
   for (const Position& p : ends) {
+    stop_if_asked();
     const GridPoint point{p.x, p.y, kUnknown};
     if (!std::binary_search(part.vertices.begin(), part.vertices.end(), point, before_by_code)) fresh.push_back(point);
   }
@@ -39,6 +41,7 @@ std::vector<PartVertex> part_vertices(const StandingPart& part, const std::vecto
   std::vector<bool> on_foot(fresh.size());
   std::vector<std::uint64_t> outline;
   for (const auto& segment : part.segments) {
+    stop_if_asked();
     const auto [left, right] = std::minmax(segment.a.x, segment.b.x);
     const auto [low, high] = std::minmax(segment.a.y, segment.b.y);
     if (segment.outline) outline.insert(outline.end(), {code_of(segment.a), code_of(segment.b)});

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "base/stoppable.hpp"
 #include "features/odd_faces.hpp"
 #include "features/planarity.hpp"
 
@@ -21,12 +22,14 @@ namespace {
 constexpr double kGridSize = 1;
 constexpr double kMitreLimit = 5;
 
-/// What may cancel this thread's overlays.
-thread_local const Progress* watched = nullptr;
+bool asked_to_stop() {
+  const Progress* const progress = stopper();
+  return progress != nullptr && progress->cancelled();
+}
 
 /// GEOS calls it from within its loops.
-void interrupt_if_cancelled() {
-  if (watched != nullptr && watched->cancelled()) GEOS_interruptRequest();
+void interrupt_if_asked() {
+  if (asked_to_stop()) GEOS_interruptRequest();
 }
 
 /// GEOS keeps its state in a handle; one a thread.
@@ -37,7 +40,7 @@ class Geos {
         handle_, [](const char* message, void* text) { *static_cast<std::string*>(text) = message; }, &error_);
     GEOSContext_setNoticeMessageHandler_r(
         handle_, [](const char*, void*) {}, nullptr);
-    GEOS_interruptRegisterCallback(interrupt_if_cancelled);
+    GEOS_interruptRegisterCallback(interrupt_if_asked);
   }
   ~Geos() { GEOS_finish_r(handle_); }
   Geos(const Geos&) = delete;
@@ -64,13 +67,15 @@ using Geometry = std::unique_ptr<GEOSGeometry, Destroy>;
 [[noreturn]] void fail() {
   // A request may also reach the overlay of another thread that is about to look for one.
   const bool interrupted = geos().error().starts_with("InterruptedException");
-  if (interrupted || (watched != nullptr && watched->cancelled())) throw Cancelled();
+  if (interrupted || asked_to_stop()) throw Cancelled();
   throw OverlayError("polygon overlay: " + geos().error());
 }
 
 Geometry checked(GEOSGeometry* g) {
+  Geometry geometry(g);
   if (!g) fail();
-  return Geometry(g);
+  stop_if_asked();
+  return geometry;
 }
 
 GEOSCoordSequence* sequence(const GridRing& ring, bool close) {
@@ -167,12 +172,6 @@ Geometry buffered(const Geometry& g, double distance, int cap) {
 }
 
 }  // namespace
-
-OverlayCancellation::OverlayCancellation(const Progress& progress) : before_(std::exchange(watched, &progress)) {}
-
-OverlayCancellation::~OverlayCancellation() {
-  watched = before_;
-}
 
 double area(const GridPolygon& polygon) {
   std::int64_t sum = 0;

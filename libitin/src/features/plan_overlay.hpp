@@ -2,7 +2,8 @@
 //
 // Coordinates are grid positions throughout: what is computed between them is rounded to the grid as by snap rounding,
 // so results are valid polygons whose edges lie within a grid step of the exact ones. Every function is free of shared
-// state and may run on many threads.
+// state and may run on many threads. All of them can be stopped (stoppable.hpp), though GEOS takes some seconds to
+// notice within an outline of a million corners.
 #pragma once
 
 #include <utility>
@@ -10,7 +11,6 @@
 
 #include <itin/error.hpp>
 #include <itin/geometry.hpp>
-#include <itin/progress.hpp>
 
 #include "geometry/predicates.hpp"
 
@@ -21,19 +21,6 @@ namespace itin {
 class OverlayError : public Error {
  public:
   using Error::Error;
-};
-
-/// While one lives, the functions below throw Cancelled in this thread soon after `progress`, which must outlive it, is
-/// cancelled.
-class OverlayCancellation {
- public:
-  explicit OverlayCancellation(const Progress& progress);
-  ~OverlayCancellation();
-  OverlayCancellation(const OverlayCancellation&) = delete;
-  OverlayCancellation& operator=(const OverlayCancellation&) = delete;
-
- private:
-  const Progress* before_;
 };
 
 /// Open: the first position is not repeated.

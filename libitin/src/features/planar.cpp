@@ -4,6 +4,7 @@
 #include <set>
 #include <tuple>
 
+#include "base/stoppable.hpp"
 #include "features/hot_pixel.hpp"
 #include "store/edge_quadtree.hpp"
 #include "triangulate/apex.hpp"
@@ -89,13 +90,17 @@ class SnapRounding {
 
   PlanarLines run() && {
     find_hot_pixels();
+    stop_if_asked();
     const SortedPositions hot(std::move(hot_));
     for (const OwnedSegment& s : segments_) {
       look_up();
       round(s, hot);
     }
+    stop_if_asked();
     settle_heights();
+    stop_if_asked();
     split_at_vertices();
+    stop_if_asked();
     return number();
   }
 
@@ -213,6 +218,7 @@ class SnapRounding {
     std::sort(codes.begin(), codes.end());
     codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
     for (const std::uint64_t code : codes) {
+      stop_if_asked();
       const auto height = std::lower_bound(heights_.begin(), heights_.end(), code,
                                            [](const Height& h, std::uint64_t c) { return h.code < c; });
       lines.vertices.push_back({morton_x(code), morton_y(code), static_cast<std::int32_t>(-height->depth)});
@@ -221,6 +227,7 @@ class SnapRounding {
       return static_cast<std::uint32_t>(std::lower_bound(codes.begin(), codes.end(), code_of(p)) - codes.begin());
     };
     for (const Piece& piece : pieces_) {
+      stop_if_asked();
       const auto [from, to] = std::minmax({number_of(piece.from), number_of(piece.to)});
       lines.edges.push_back({from, to, piece.owner});
     }

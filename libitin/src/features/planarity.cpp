@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "base/stoppable.hpp"
 #include "features/hot_pixel.hpp"
 #include "store/edge_quadtree.hpp"
 #include "triangulate/apex.hpp"
@@ -66,6 +67,7 @@ void visit_conflicts(std::span<const GridEdge> edges, const std::function<bool(s
     return std::lower_bound(numbers.begin(), numbers.end(), std::pair{edge, std::uint32_t{0}})->second;
   };
   visit_edge_leaves(std::move(segments), [&](const Cell& cell, const std::vector<Segment>& near) {
+    stop_if_asked();
     for (std::size_t i = 0; i < near.size(); ++i) {
       for (std::size_t j = i + 1; j < near.size() && near[j].ax <= near[i].bx; ++j)
         for (std::uint64_t k = meetings(cell, near[i], near[j]); k > 0; --k)
@@ -87,11 +89,13 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> conflicts(std::span<const G
   std::vector<Segment> segments;
   for (std::uint32_t i = 0; i < edges.size(); ++i) {
     const auto [a, b] = std::minmax(edges[i].first, edges[i].second);
+    stop_if_asked();
     const auto [first, inserted] = number.insert({{a, b}, i});
     if (inserted) segments.push_back({a.x, a.y, b.x, b.y});
     if (!inserted) found.emplace_back(first->second, i);
   }
   for_each_edge_leaf(std::move(segments), [&](const Cell&, const std::vector<Segment>& near) {
+    stop_if_asked();
     for (std::size_t i = 0; i < near.size(); ++i) {
       for (std::size_t j = i + 1; j < near.size() && near[j].ax <= near[i].bx; ++j) {
         const GridEdge s{{near[i].ax, near[i].ay}, {near[i].bx, near[i].by}};

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "base/stoppable.hpp"
 #include "features/hot_pixel.hpp"
 
 namespace itin {
@@ -109,6 +110,7 @@ void PolygonSides::for_each_cell(Point2 p, Point2 q, const Visit& visit) const {
 
 void PolygonSides::fill_cells() {
   const auto for_each = [&](const GridEdge& e, const auto& visit) {
+    stop_if_asked();
     for_each_cell({double{1} * e.first.x, double{1} * e.first.y}, {double{1} * e.second.x, double{1} * e.second.y},
                   visit);
   };
@@ -125,6 +127,7 @@ void PolygonSides::fill_cells() {
 void PolygonSides::find_references() {
   inside_.assign(static_cast<std::size_t>(columns_ * rows_), false);
   for (const GridEdge& e : edges_) {
+    stop_if_asked();
     const Place a = place(e.first), b = place(e.second);
     const auto [low, high] = std::minmax(a.y, b.y);
     for (std::int64_t row = low / side_; row <= high / side_; ++row) {

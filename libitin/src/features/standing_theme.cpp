@@ -15,6 +15,7 @@
 #include <itin/triangulate.hpp>
 #include <itin/unreported.hpp>
 
+#include "base/stoppable.hpp"
 #include "features/feature_mesh.hpp"
 #include "features/footprint_arrangement.hpp"
 #include "features/hot_pixel.hpp"
@@ -245,6 +246,7 @@ class Standing {
     std::vector<std::int32_t> top(numbers.size(), std::numeric_limits<std::int32_t>::min());
     std::vector<int> level_of_vertex(mesh.vertices.size(), -1);
     for (const FeatureSegment& s : mesh.segments) {
+      stop_if_asked();
       const GridPoint &a = mesh.vertices[s.from], &b = mesh.vertices[s.to];
       top[s.feature] = std::max({top[s.feature], a.z, b.z});
       StandingPart& part = part_of(levels[s.feature], footprints_[numbers[s.feature]].source);
@@ -255,6 +257,7 @@ class Standing {
     for (const FeatureMask& mask : mesh.masks) masks.push_back(mask.polygon);
     const MaskIndex index(masks);
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+      stop_if_asked();
       const GridPoint& p = mesh.vertices[v];
       if (level_of_vertex[v] < 0) {
         // It has no segments: the feature is the one on whose ground it stands.

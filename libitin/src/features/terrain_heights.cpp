@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/stoppable.hpp"
 #include "features/mask_index.hpp"
 
 namespace itin {
@@ -287,6 +288,7 @@ class TerrainHeights::FootprintIntegral {
   void add_part(const GridBox& part, const Rings& rings, const std::vector<std::uint32_t>& triangles) {
     Rings clipped;
     for (std::vector<Point2> ring : rings) {
+      stop_if_asked();
       clip(ring, corners_of(part));
       if (!ring.empty()) clipped.push_back(std::move(ring));
     }
@@ -301,6 +303,7 @@ class TerrainHeights::FootprintIntegral {
 
   void add(const Rings& rings, const std::vector<std::uint32_t>& triangles) {
     for (const std::uint32_t t : triangles) {
+      stop_if_asked();
       const Triangle& v = terrain_.triangle(t);
       const GridPoint &a = terrain_.vertex(v[0]), &b = terrain_.vertex(v[1]), &c = terrain_.vertex(v[2]);
       const std::array<Point2, 3> corner{Point2{1.0 * a.x, 1.0 * a.y}, {1.0 * b.x, 1.0 * b.y}, {1.0 * c.x, 1.0 * c.y}};
@@ -338,6 +341,7 @@ std::optional<double> TerrainHeights::mean_height(const GridPolygons& footprint,
 void TerrainHeights::add_outline(const GridPolygons& footprint, Extremes& extremes) const {
   for (const GridPolygon& polygon : footprint) {
     for_each_edge(polygon, [&](Position a, Position b) {
+      stop_if_asked();
       if (const auto z = height_at(a)) extremes.add(*z);
       for (const Crossing& c : all_crossings(a, b)) extremes.add(c.height * grid().resolution);
     });
@@ -354,8 +358,10 @@ std::optional<double> TerrainHeights::base_height(const GridPolygons& footprint,
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   const MaskIndex inside(footprint);
-  for (const std::uint32_t v : vertices)
+  for (const std::uint32_t v : vertices) {
+    stop_if_asked();
     if (inside.strictly_inside({vertex(v).x, vertex(v).y})) extremes.add(vertex(v).z * grid().resolution);
+  }
   if (extremes.low > extremes.high) return std::nullopt;
   return rule == BaseRule::minimum ? extremes.low : extremes.high;
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "base/stoppable.hpp"
 #include "features/mask_index.hpp"
 #include "features/planar.hpp"
 #include "triangulate/delaunay.hpp"
@@ -117,6 +118,7 @@ class Overlaying {
   void find_pierced(const std::vector<PlacedSegment>& segments) {
     std::vector<std::vector<PlacedSegment>> of_top(covered_.size());
     for (const PlacedSegment& s : segments) {
+      stop_if_asked();
       if (s.kind == SegmentClass::foot) continue;
       const auto top = top_of(s);
       if (top && !covered_[*top].above) of_top[*top].push_back(s);
@@ -144,6 +146,7 @@ class Overlaying {
   std::set<TerrainEdge> edges_about(const std::vector<PlacedSegment>& segments) {
     std::set<std::uint32_t> triangles;
     for (const PlacedSegment& s : segments) {
+      stop_if_asked();
       if (s.kind != SegmentClass::foot && s.kind != SegmentClass::eaves) continue;
       const auto along = terrain_.triangles_along({s.a.x, s.a.y}, {s.b.x, s.b.y});
       triangles.insert(along.begin(), along.end());
@@ -197,6 +200,7 @@ class Overlaying {
   /// Over level ground nothing is to be kept but heights, and what lies beyond.
   OverlaidLines raised(std::vector<PlacedSegment> segments) {
     for (PlacedSegment& s : segments) {
+      stop_if_asked();
       if (s.kind == SegmentClass::foot) continue;
       for (GridPoint* p : {&s.a, &s.b})
         if (const auto ground = ground_at(*p)) lift(*p, *ground, s.feature);
@@ -229,6 +233,7 @@ class Overlaying {
     top_.resize(lines_.vertices.size());
     const PlanarEdge* last = nullptr;
     for (const PlanarEdge& e : lines_.edges) {
+      stop_if_asked();
       // Ascending: the first owner has what several share.
       if (last && last->from == e.from && last->to == e.to) continue;
       last = &e;
@@ -256,6 +261,7 @@ class Overlaying {
   /// Gives every vertex its height.
   void raise() {
     for (std::uint32_t v = 0; v < lines_.vertices.size(); ++v) {
+      stop_if_asked();
       GridPoint& p = lines_.vertices[v];
       const auto ground = ground_at(p);
       if (!ground) continue;
@@ -278,6 +284,7 @@ class Overlaying {
     ground.inner = std::move(inner_);
     // Under a roof nothing is to be kept, whoever else changes what lies beyond.
     for (const GridEdge& e : border_) {
+      stop_if_asked();
       if (carries_terrain(e))
         ground.border.push_back(e);
       else

@@ -3,6 +3,8 @@
 #include "features/odd_faces.hpp"
 
 #include <atomic>
+#include <cmath>
+#include <numbers>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -167,6 +169,25 @@ TEST(FeatureMesh, IsCancelledInTheMidstOfOneFeature) {
     Impatient impatient(looks);
     EXPECT_THROW(build_feature_mesh(knot, options, nullptr, impatient), Cancelled) << looks;
   }
+}
+
+/// However many corners one feature has, no step of the work on it goes without asking.
+TEST(FeatureMesh, AsksOftenWithinOneLargeFeature) {
+  constexpr int kCorners = 4000;
+  std::mt19937 random(test::seed());
+  GridRing star;
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kCorners, radius = 100000 + static_cast<double>(random() % 1000);
+    star.push_back({static_cast<std::int32_t>(160000 + radius * std::cos(angle)),
+                    static_cast<std::int32_t>(160000 + radius * std::sin(angle))});
+  }
+  FeatureOptions options;
+  options.grid = kFeatureGrid;
+  const Tin tin = test::fractal_tin(65, 50, 20, 0.5, static_cast<std::uint32_t>(random()));
+  const TerrainHeights terrain(tin);
+  Impatient patient(1 << 30);
+  build_feature_mesh(std::vector{house("star", {in_metres(star)}, 0, 50)}, options, &terrain, patient);
+  EXPECT_GT(patient.asked(), 20 * kCorners);
 }
 
 }  // namespace

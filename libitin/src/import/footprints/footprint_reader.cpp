@@ -13,6 +13,7 @@
 #include <itin/error.hpp>
 #include <itin/height_limit.hpp>
 
+#include "base/stoppable.hpp"
 #include "features/feature_mesh.hpp"
 #include "gdal/crs.hpp"
 #include "gdal/quiet_gdal.hpp"
@@ -185,7 +186,7 @@ class FootprintLayer {
 FootprintSource read_footprints(const FootprintQuery& query, const std::string& to_crs, const Grid& grid,
                                 Progress& progress) {
   const QuietGdal quiet;
-  const OverlayCancellation cancellation(progress);
+  const Stoppable stoppable(progress);
   return FootprintLayer(query, to_crs, grid).read(progress);
 }
 
