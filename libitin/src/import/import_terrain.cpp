@@ -11,6 +11,7 @@
 #include <itin/import.hpp>
 #include <itin/store.hpp>
 
+#include "base/stoppable.hpp"
 #include "import/empty_import.hpp"
 #include "import/footprints/footprint_file.hpp"
 #include "import/source/source_context.hpp"
@@ -371,7 +372,11 @@ void write_in_turns(const std::string& store_path, StoreWriter& writer, const st
 ImportReport import_sources(const std::string& store_path, const ImportOptions& options, Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
   if (options.sources.empty()) throw InputError("no source given: name at least one file to import");
+  const Stoppable stoppable(progress);
   static_cast<void>(utc_now());  // what keeps it from being told is known before hours of work
+  // First of all: another import could change the store once it has been opened. And a place that cannot be written is
+  // known before hours of work.
+  auto file = std::make_unique<ReplacementFile>(store_path);
   std::optional<Store> existing;
   if (std::filesystem::exists(store_path)) existing.emplace(store_path);
   const Store* const store = existing ? &*existing : nullptr;
@@ -388,8 +393,7 @@ ImportReport import_sources(const std::string& store_path, const ImportOptions& 
         fmt::format("contours are left flat: {} has some that were imported with --no-repair", store_path));
 
   const SetAsideCounts before = counts_of(store);
-  // The writer comes first: it holds the lock, and a place that cannot be written is known before hours of work.
-  StoreWriter writer(store_path, additions.plan.crs_wkt, additions.plan.grid, tolerances);
+  StoreWriter writer(std::move(file), additions.plan.crs_wkt, additions.plan.grid, tolerances);
   write_in_turns(store_path, writer, tolerances, existing, std::move(additions), options, report, progress);
 
   const Store written(store_path);

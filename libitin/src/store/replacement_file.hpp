@@ -17,6 +17,8 @@ class ReplacementFile {
   ReplacementFile(const ReplacementFile&) = delete;
   ReplacementFile& operator=(const ReplacementFile&) = delete;
 
+  /// As the caller calls it.
+  const std::string& target() const { return shown_; }
   const std::string& temporary_path() const { return temporary_; }
   /// Syncs the bytes, renames, syncs the directory. Throws FileError; the target is then what it was.
   void commit();
@@ -25,8 +27,8 @@ class ReplacementFile {
   void lock();
   [[noreturn]] void fail(const std::string& what) const;
 
-  std::string shown_;   ///< as the caller calls the target
-  std::string target_;  ///< the same with symbolic links followed
+  std::string shown_;
+  std::string target_;  ///< with symbolic links followed
   std::string temporary_;
   int descriptor_ = -1;
   bool committed_ = false;

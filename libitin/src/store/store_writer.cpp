@@ -4,7 +4,9 @@
 #include <map>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
+#include "base/stoppable.hpp"
 #include "geometry/morton_range.hpp"
 #include "store/block_codec.hpp"
 #include "store/database.hpp"
@@ -14,7 +16,6 @@
 #include "store/leaf_cutter.hpp"
 #include "store/line_codec.hpp"
 #include "store/metadata_json.hpp"
-#include "store/replacement_file.hpp"
 #include "store/seal.hpp"
 #include "store/store_format.hpp"
 
@@ -40,7 +41,8 @@ void raise(std::vector<Leaf>& leaves, const FeatureReach& reach) {
 
 class StoreWriter::Impl {
  public:
-  Impl(const std::string& path, const std::string& crs_wkt, const Grid& grid, const std::vector<double>& tolerances);
+  Impl(std::unique_ptr<ReplacementFile> file, const std::string& crs_wkt, const Grid& grid,
+       const std::vector<double>& tolerances);
 
   void add_point_leaf(const EncodedLeaf& encoded);
   void add_theme_vertices(std::uint16_t theme, std::span<const GridPoint> points,
@@ -63,7 +65,7 @@ class StoreWriter::Impl {
   void widen(LevelInfo& level, std::int32_t lo, std::int32_t hi) const;
 
   // Destroyed in reverse order: statements, database, file.
-  ReplacementFile file_;
+  std::unique_ptr<ReplacementFile> file_;
   Database database_;
   std::optional<Statement> insert_block_, insert_chunk_;
   StoreMetadata metadata_;
@@ -74,9 +76,9 @@ class StoreWriter::Impl {
   bool has_last_ = false;
 };
 
-StoreWriter::Impl::Impl(const std::string& path, const std::string& crs_wkt, const Grid& grid,
+StoreWriter::Impl::Impl(std::unique_ptr<ReplacementFile> file, const std::string& crs_wkt, const Grid& grid,
                         const std::vector<double>& tolerances)
-    : file_(path), database_(Database::create(file_.temporary_path(), path)) {
+    : file_(std::move(file)), database_(Database::create(file_->temporary_path(), file_->target())) {
   if (tolerances.empty() || tolerances.size() > format::kMaxLevels) {
     throw std::invalid_argument("a store has 1 to 64 levels");
   }
@@ -223,6 +225,7 @@ void StoreWriter::Impl::set_aside(std::uint16_t theme, const SetAsideLines& line
 void StoreWriter::Impl::add_edges(std::uint16_t theme, std::vector<Segment> segments) {
   if (theme > format::kMaxThemes) throw std::invalid_argument("too many themes");
   for_each_edge_leaf(std::move(segments), [&](const Cell& cell, const std::vector<Segment>& in_cell) {
+    stop_if_asked();
     const int tree = format::edge_tree(theme);
     add_leaf({cell, tree, static_cast<std::uint32_t>(in_cell.size()), 0, 0, 0, 0, format::key(tree, cell.code)},
              theme == kCoverage ? encode_outline(cell, in_cell) : encode_lines(cell, in_cell));
@@ -248,12 +251,15 @@ void StoreWriter::Impl::commit(std::vector<SourceInfo> sources, std::vector<Them
   insert_chunk_.reset();
   database_.execute("COMMIT");
   database_.close();
-  file_.commit();
+  file_->commit();
 }
 
 StoreWriter::StoreWriter(const std::string& path, const std::string& crs_wkt, const Grid& grid,
                          const std::vector<double>& tolerances)
-    : impl_(std::make_unique<Impl>(path, crs_wkt, grid, tolerances)) {}
+    : StoreWriter(std::make_unique<ReplacementFile>(path), crs_wkt, grid, tolerances) {}
+StoreWriter::StoreWriter(std::unique_ptr<ReplacementFile> file, const std::string& crs_wkt, const Grid& grid,
+                         const std::vector<double>& tolerances)
+    : impl_(std::make_unique<Impl>(std::move(file), crs_wkt, grid, tolerances)) {}
 StoreWriter::~StoreWriter() = default;
 
 void StoreWriter::add_leaf(int level, const Cell& cell, std::span<const GridPoint> points,

@@ -24,6 +24,7 @@
 #include "store/encoded_leaf.hpp"
 #include "store/footprint_codec.hpp"
 #include "store/point_index.hpp"
+#include "store/replacement_file.hpp"
 #include "store/set_aside.hpp"
 
 namespace itin {
@@ -38,6 +39,9 @@ class StoreWriter {
  public:
   /// `tolerances` in metres, level 0 (tolerance 0) first. Throws FileError.
   StoreWriter(const std::string& path, const std::string& crs_wkt, const Grid& grid,
+              const std::vector<double>& tolerances);
+  /// In place of that file.
+  StoreWriter(std::unique_ptr<ReplacementFile> file, const std::string& crs_wkt, const Grid& grid,
               const std::vector<double>& tolerances);
   ~StoreWriter();
   StoreWriter(const StoreWriter&) = delete;

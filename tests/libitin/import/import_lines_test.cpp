@@ -1,10 +1,13 @@
 // Lines in a store: law 1 with constraints against a global triangulation, certificates, themes, later additions.
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <gmock/gmock.h>
 #include <map>
 #include <random>
 #include <set>
+#include <string_view>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -303,6 +306,37 @@ TEST_F(ImportLines, WhatLeavesTheGroundIsLeftOut) {
   const ImportReport report = lines(ThemeKind::Breaklines, "l.geojson");
   EXPECT_EQ(report.left_out, 2u);
   EXPECT_EQ(Store(path("s.itin")).metadata().themes[0].segments, 1u);
+}
+
+/// From its very beginning: what another import changed in a store that is read already would be lost.
+TEST_F(ImportLines, AnotherMeanwhileIsRefused) {
+  struct Meanwhile final : public Progress {
+    explicit Meanwhile(std::function<void()> call) : call_(std::move(call)) {}
+    void report(std::string_view, double) override {
+      if (call_) std::exchange(call_, nullptr)();
+    }
+    std::function<void()> call_;
+  };
+  import_terrain_tile(false);
+  test::write_lines(path("roads.geojson"), {{{{300500, 198000, 0}, {300600, 198000, 0}}}}, true);
+  test::write_lines(path("houses.geojson"), {test::box(300510, 198010, 300530, 198020, 7)});
+  std::string refusal = "none";
+  Meanwhile meanwhile([&] {
+    try {
+      lines(ThemeKind::Roads, "roads.geojson");
+    } catch (const FileError& e) {
+      refusal = e.what();
+    }
+  });
+  ImportOptions options;
+  options.sources = {path("houses.geojson")};
+  options.kind = ThemeKind::Buildings;
+  options.height_field = "h";
+  import_lines(path("s.itin"), options, meanwhile);
+  EXPECT_THAT(refusal, testing::HasSubstr("s.itin: another import is writing this store; wait for it to end"));
+  const Store store(path("s.itin"));
+  ASSERT_EQ(store.metadata().themes.size(), 1U);
+  EXPECT_EQ(store.metadata().themes[0].name, "buildings");
 }
 
 TEST_F(ImportLines, MistakesAreNamed) {
