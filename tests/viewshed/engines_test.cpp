@@ -1,0 +1,217 @@
+// The two engines, the sweep and rays, decide every sight line alike.
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <itin/error.hpp>
+#include <itin/import.hpp>
+#include <itin/triangulate.hpp>
+#include <viewshed/certified.hpp>
+#include <viewshed/site_coverage.hpp>
+
+#include "bounds/surface_heights.hpp"
+#include "support/delaunay_tin.hpp"
+#include "support/same_result.hpp"
+#include "support/seed.hpp"
+#include "support/temporary_directory.hpp"
+#include "support/terrain_tin.hpp"
+
+namespace itin::viewshed {
+namespace {
+
+const std::vector<Mode> kModesOfRays{Mode::kVisible, Mode::kCount,   Mode::kWhich,      Mode::kAngle,
+                                     Mode::kNearest, Mode::kBlocker, Mode::kProbability};
+/// For large cases: the others ask the engines nothing else.
+const std::vector<Mode> kFewModes{Mode::kWhich, Mode::kNearest};
+
+class Engines : public testing::Test {
+ protected:
+  /// The viewsheds of a request by both engines; `compute_by` makes one.
+  template <class Compute>
+  void expect_same_by_both(Request request, const std::vector<Mode>& modes, const Compute& compute_by) {
+    request.vertical_error = {0.5, 30};
+    for (const Mode mode : modes) {
+      SCOPED_TRACE("mode " + std::to_string(static_cast<int>(mode)));
+      request.mode = mode;
+      request.engine = Engine::kSweep;
+      const Result swept = compute_by(request);
+      request.engine = Engine::kRays;
+      const Result cast = compute_by(request);
+      test::expect_same_result(swept, cast);
+      visible_ += swept.cells.visible, hidden_ += swept.cells.hidden;
+    }
+  }
+
+  /// Observers of all kinds: anywhere, on vertices, on edges, at elevations, with height 0.
+  Request request_over(const Tin& tin, std::size_t observers) {
+    Request request;
+    const Box box = tin.bounds();
+    std::uniform_real_distribution<double> along(0.02, 0.98), height(0, 30);
+    while (request.observers.size() < observers) {
+      Observer o{std::to_string(request.observers.size()),
+                 {box.xmin + along(random_) * box.width(), box.ymin + along(random_) * box.height()},
+                 height(random_)};
+      const Triangle& t = tin.triangles[random_() % tin.triangles.size()];
+      const Point3 a = tin.point(t[0]), b = tin.point(t[1]);
+      if (request.observers.size() % 3 == 1) o.position = {a.x, a.y}, o.height = 0;
+      if (request.observers.size() % 3 == 2) o.position = {(a.x + b.x) / 2, (a.y + b.y) / 2}, o.height = 1.5;
+      request.observers.push_back(o);
+    }
+    request.cell_size = std::max(box.width(), box.height()) / 90;
+    return request;
+  }
+
+  std::mt19937 random_{test::seed()};
+  NoProgress progress_;
+  std::uint64_t visible_ = 0, hidden_ = 0;
+};
+
+TEST_F(Engines, AgreeOverRandomTins) {
+  for (int round = 0; round < 12; ++round) {
+    SCOPED_TRACE(round);
+    const Tin tin = test::random_tin(random_, 400, round % 2 == 0 ? 0.15 : 0);
+    Request request = request_over(tin, 1 + static_cast<std::size_t>(round % 4));
+    std::erase_if(request.observers, [&](const Observer& o) { return !height_on(tin, o.position); });
+    if (request.observers.empty()) continue;
+    request.target_height = round % 3;
+    request.nodata = round % 4 == 0 ? NoData::kUnknown : round % 4 == 1 ? NoData::kBlock : NoData::kClear;
+    expect_same_by_both(request, kModesOfRays, [&](const Request& r) { return compute(tin, r, progress_); });
+  }
+  EXPECT_GT(visible_, 200U);
+  EXPECT_GT(hidden_, 200U);
+}
+
+/// Every line between places on a plane grazes it from end to end.
+TEST_F(Engines, AgreeWhereEveryLineGrazes) {
+  for (const bool curved : {false, true}) {
+    for (const double slope : {0.0, 0.25}) {
+      const Tin tin = test::lattice_tin(60, 60, 25, [&](int c, int r) { return 100 + slope * 25 * c + 0 * r; });
+      Request request = request_over(tin, 5);
+      for (Observer& o : request.observers) o.height = 0;
+      request.earth.curvature = curved;
+      expect_same_by_both(request, kFewModes, [&](const Request& r) { return compute(tin, r, progress_); });
+    }
+  }
+}
+
+/// Ridges one step wide: lines run along their crests and just over them.
+TEST_F(Engines, AgreeOverWalls) {
+  const Tin tin = test::lattice_tin(70, 70, 10, [](int c, int r) { return c % 9 == 4 || r % 13 == 6 ? 40.0 : 10.0; });
+  Request request = request_over(tin, 6);
+  request.observers[0].position = {test::kCorner.x + 45, test::kCorner.y + 300}, request.observers[0].height = 30;
+  request.target_height = 29.5;
+  expect_same_by_both(request, kFewModes, [&](const Request& r) { return compute(tin, r, progress_); });
+  EXPECT_GT(visible_, 200U);
+  EXPECT_GT(hidden_, 200U);
+}
+
+/// From 40 km away single precision errs by metres sideways.
+TEST_F(Engines, AgreeFarFromTheEye) {
+  const Tin tin = test::fractal_tin(129, 400, 900, 0.6, test::seed());
+  Request request = request_over(tin, 3);
+  request.observers[0].position = {test::kCorner.x + 10, test::kCorner.y + 10};
+  expect_same_by_both(request, kFewModes, [&](const Request& r) { return compute(tin, r, progress_); });
+  EXPECT_GT(visible_, 200U);
+  EXPECT_GT(hidden_, 200U);
+}
+
+/// A town of lidar and footprints, the bundled one.
+class EnginesInTown : public Engines {
+ protected:
+  EnginesInTown() {
+    const std::string data = std::string(ITIN_SOURCE_DIR) + "/scripts/demo-data/";
+    ImportOptions terrain;
+    terrain.sources = {data + "alexandria-dtm.tif"};
+    import_terrain(path(), terrain, progress_);
+    ImportOptions buildings;
+    buildings.sources = {data + "alexandria-buildings.geojson"};
+    buildings.kind = ThemeKind::Buildings;
+    buildings.height_field = "HEIGHT";
+    import_lines(path(), buildings, progress_);
+    request_.observers = {{"street", {321800, 4297750}, 2}, {"roof", {321692.34, 4297619.88}, 25}};
+    request_.cell_size = 4;
+  }
+  std::string path() const { return directory_.file("town.itin"); }
+
+  const test::TemporaryDirectory directory_;
+  Request request_;
+};
+
+TEST_F(EnginesInTown, AgreeOnThePlainSurface) {
+  const Store store(path());
+  for (const ThemeChoice& themes : {ThemeChoice::none(), ThemeChoice::all()}) {
+    request_.themes = themes;
+    for (const bool on_surface : {false, true}) {
+      request_.targets_on_surface = on_surface;
+      expect_same_by_both(request_, kFewModes, [&](const Request& r) { return compute(store, r, progress_); });
+    }
+  }
+}
+
+TEST_F(EnginesInTown, AgreeAtATolerance) {
+  const Store store(path());
+  request_.detail = Detail::tolerance(1);
+  expect_same_by_both(request_, kFewModes, [&](const Request& r) { return compute(store, r, progress_); });
+}
+
+/// Segment by segment each engine says what it says of the whole.
+TEST_F(EnginesInTown, AgreeInLittleMemory) {
+  const Store store(path());
+  request_.mode = Mode::kCount;
+  for (const ThemeChoice& themes : {ThemeChoice::none(), ThemeChoice::all()}) {
+    request_.themes = themes;
+    request_.engine = Engine::kSweep;
+    const Result whole = compute_precise(store, request_, {}, progress_).result;
+    for (const Engine engine : {Engine::kSweep, Engine::kRays}) {
+      request_.engine = engine;
+      const Result parts = compute_precise(store, request_, {.memory_bytes = 12000000}, progress_).result;
+      EXPECT_GT(parts.statistics.triangles, 0U);
+      test::expect_same_result(whole, parts);
+    }
+  }
+}
+
+TEST_F(EnginesInTown, RaysLeaveLeastHeightsToTheSweep) {
+  const Store store(path());
+  request_.mode = Mode::kHeight;
+  request_.engine = Engine::kRays;
+  EXPECT_THROW(compute(store, request_, progress_), InputError);
+  EXPECT_THROW(compute_precise(store, request_, {}, progress_), InputError);
+}
+
+TEST_F(EnginesInTown, SitesServeTheSame) {
+  const Store store(path());
+  const std::vector<Point2> places{{321800, 4297750}, {321700, 4297700}, {321850, 4297850}};
+  const auto ground = ground_under(store, places, ThemeChoice::none(), progress_);
+  SiteSurvey survey;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (ground[i]) survey.stands.push_back({std::to_string(i), places[i], 6, *ground[i]});
+  ASSERT_GE(survey.stands.size(), 2U);
+  survey.radius = 150;
+  survey.nodata = NoData::kClear;
+  survey.themes = ThemeChoice::all();
+  survey.targets.height = 1.5;
+  survey.targets.grid = grid_of_reach(store, survey.stands, survey.radius, 3);
+  std::vector<std::vector<std::uint64_t>> served;
+  for (const Engine engine : {Engine::kSweep, Engine::kRays}) {
+    survey.engine = engine;
+    SiteCoverage coverage(store, survey, progress_);
+    coverage.look_first();
+    served.emplace_back();
+    for (std::size_t option = 0; option < survey.stands.size(); ++option) {
+      while (!coverage.bounds(option).exact) coverage.refine(std::vector{option});
+      for (const DemandSet::Block& block : coverage.bounds(option).certain.blocks()) {
+        served.back().push_back(block.number);
+        served.back().push_back(block.members);
+      }
+    }
+  }
+  EXPECT_GT(served[0].size(), 10U);
+  EXPECT_EQ(served[0], served[1]);
+}
+
+}  // namespace
+}  // namespace itin::viewshed
