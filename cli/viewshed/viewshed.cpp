@@ -88,11 +88,11 @@ class ViewshedVerb final : public Verb {
     app.add_option("--nodata", nodata_text_, "What ground without data does to sight lines (default: unknown)")
         ->type_name("unknown|block|clear");
     engine_.declare(app);
-    app.add_flag("--precise", precise_,
-                 "Exact for the full surface, of which more than --memory holds is read only where it decides");
+    app.add_flag("--precise", precise_, "Exact for the full surface: the same as --tolerance 0");
     app.add_option(
            "--memory", memory_text_,
-           "Memory for --precise to work in: it changes the speed only, and too little is refused (default: 1G)")
+           "Memory to work in (default: 1G). What exceeds it is read in segments: it changes the speed only, and "
+           "too little is refused")
         ->type_name("SIZE");
   }
 
@@ -146,7 +146,7 @@ class ViewshedVerb final : public Verb {
 
   Result execute(Progress& progress) override {
     // A budget holds for what is kept of the store as well.
-    const std::uint64_t cache = std::min(StoreOptions().cache_bytes, precise_options_.memory_bytes / 4);
+    const std::uint64_t cache = std::min(StoreOptions().cache_bytes, compute_options_.memory_bytes / 4);
     const Store store(store_, {cache});
     const StoreMetadata& metadata = store.metadata();
     complete_request(metadata);
@@ -156,6 +156,8 @@ class ViewshedVerb final : public Verb {
       throw InputError("--horizon is that of one observer; give one");
     outputs_.prepare(request_);
     viewshed::Surveyed surveyed = survey(store, request_, progress);
+    if (!horizon_.paths().empty() && !surveyed.whole)
+      throw InputError("--horizon takes the whole surface in memory: give more --memory or a smaller --radius");
     const ViewshedOutputs::Context context{metadata.crs_wkt,
                                            surface_document(metadata, request_.detail, request_.themes),
                                            {{"mode", mode_name()},
@@ -257,28 +259,24 @@ class ViewshedVerb final : public Verb {
   void validate_precise() {
     if (!horizon_.paths().empty() && (precise_ || certified_))
       throw InputError("--horizon is that of the surface at --tolerance; leave out --precise and --mode certified");
-    if (!precise_) {
-      if (!memory_text_.empty()) throw InputError("--memory is of use with --precise only");
-      return;
-    }
+    if (!memory_text_.empty()) compute_options_.memory_bytes = parse_bytes("--memory", memory_text_);
+    if (!precise_) return;
     if (certified_)
       throw InputError("--precise leaves nothing undecided: give --mode visible or count, or leave --precise out");
     if (detail_.has_rings() || request_detail_given())
       throw InputError("--precise is exact for the full surface: leave out --tolerance and --rings");
-    if (!memory_text_.empty()) precise_options_.memory_bytes = parse_bytes("--memory", memory_text_);
   }
   bool request_detail_given() const { return detail_.detail({}).coarsest() > 0; }
 
   viewshed::Surveyed survey(const Store& store, const viewshed::Request& request, Progress& progress) const {
-    if (precise_) return viewshed::compute_precise(store, request, precise_options_, progress);
     if (certified_) return viewshed::compute_certified(store, request, progress);
-    return viewshed::compute_with_surface(store, request, progress);
+    return viewshed::compute_with_surface(store, request, compute_options_, progress);
   }
   viewshed::Result survey_alone(const Store& store, const viewshed::Surveyed& all, std::size_t observer,
                                 Progress& progress) const {
     const viewshed::Request request = viewshed::alone(all.result, observer);
-    return precise_ || certified_ ? survey(store, request, progress).result
-                                  : viewshed::compute_on_surface(store, all, request, progress);
+    return all.whole ? viewshed::compute_on_surface(store, all, request, progress)
+                     : survey(store, request, progress).result;
   }
 
   static viewshed::Observer observer_of(const ObserverPlace& place) {
@@ -365,7 +363,7 @@ class ViewshedVerb final : public Verb {
   std::string target_height_text_, radius_text_, min_radius_text_, azimuth_text_, elevation_text_, cell_text_;
   std::string target_on_ = "ground";
   bool certified_ = false, precise_ = false;
-  viewshed::PreciseOptions precise_options_;
+  viewshed::ComputeOptions compute_options_;
   ObserverOptions observers_;
   DetailOptions detail_;
   ThemeOptions themes_;

@@ -52,7 +52,8 @@ void expect_first(const Tin& tin, Point2 from, double cell, const Earth& earth) 
     double least = 2;
     for (std::uint32_t t = 0; t < tin.triangles.size(); ++t)
       if (const auto at = hidden_from(t)) least = std::min(least, *at);
-    const auto found = hidden_from(result.blocker[i]);
+    const auto& [u, v, w] = result.blockers[result.blocker[i]].corners;
+    const auto found = line.hidden_from(u, v, w);
     ASSERT_TRUE(found) << "triangle " << result.blocker[i] << " hides nothing";
     ASSERT_NEAR(*found, least, 1e-9);
     // The same line, up to just before that place and to just behind it.

@@ -11,6 +11,7 @@
 #include <itin/store.hpp>
 #include <viewshed/certified.hpp>
 
+#include "support/full_detail.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
@@ -52,7 +53,7 @@ TEST(CertifiedSectors, SayWhatTheLevelSaysAndNothingWrong) {
       request.cell_size = 40;
       request.nodata = rule;
       request.mode = Mode::kVisible;
-      const Result exact = compute_precise(store, request, {}, progress).result;
+      const Result exact = test::compute_at_full_detail(store, request, {}, progress).result;
       request.detail = Detail::tolerance(16);
       const Result whole = compute_certified(store, request, progress).result;
       ASSERT_GT(whole.cells.undecided, 0U) << "not of the level";

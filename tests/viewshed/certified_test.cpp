@@ -17,7 +17,9 @@
 #include "scene/rays/scene.hpp"
 #include "support/brute_force_viewshed.hpp"
 #include "support/exact_line_of_sight.hpp"
+#include "support/full_detail.hpp"
 #include "support/raster_file.hpp"
+#include "support/same_result.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/terrain_tin.hpp"
@@ -104,7 +106,8 @@ void expect_precise(const Terrain& terrain, const Request& request, const std::v
   for (std::size_t i = 0; i < std::size(kMemory); ++i) {
     const std::uint64_t memory = kMemory[i];
     const Result result =
-        compute_precise(terrain.store(), request, {.memory_bytes = memory, .lattices = i == 0}, progress).result;
+        test::compute_at_full_detail(terrain.store(), request, {.memory_bytes = memory, .lattices = i == 0}, progress)
+            .result;
     ASSERT_EQ(result.visible.size(), truth.size());
     std::uint64_t different = 0;
     for (std::size_t k = 0; k < truth.size(); ++k) different += result.visible[k] != truth[k];
@@ -225,16 +228,20 @@ TEST(Certified, RingsAndSeveralObservers) {
   }
   request.mode = Mode::kCount;
   const Result count =
-      compute_precise(terrain.store(), request, {.memory_bytes = 500000, .lattices = false}, progress).result;
+      test::compute_at_full_detail(terrain.store(), request, {.memory_bytes = 500000, .lattices = false}, progress)
+          .result;
   request.mode = Mode::kVisible;
   const Result any =
-      compute_precise(terrain.store(), request, {.memory_bytes = 500000, .lattices = false}, progress).result;
+      test::compute_at_full_detail(terrain.store(), request, {.memory_bytes = 500000, .lattices = false}, progress)
+          .result;
   request.mode = Mode::kWhich;
   const Result which =
-      compute_precise(terrain.store(), request, {.memory_bytes = 500000, .lattices = false}, progress).result;
+      test::compute_at_full_detail(terrain.store(), request, {.memory_bytes = 500000, .lattices = false}, progress)
+          .result;
   request.mode = Mode::kNearest;
   const Result nearest =
-      compute_precise(terrain.store(), request, {.memory_bytes = 500000, .lattices = false}, progress).result;
+      test::compute_at_full_detail(terrain.store(), request, {.memory_bytes = 500000, .lattices = false}, progress)
+          .result;
   const auto distance = [&](std::size_t observer, std::size_t i) {
     const auto columns = nearest.grid.columns();
     const Point2 c =
@@ -256,9 +263,10 @@ TEST(Certified, RingsAndSeveralObservers) {
 void expect_heights_at_any_memory(const Terrain& terrain, Request request, const Result& visible) {
   NoProgress progress;
   request.mode = Mode::kHeight;
-  const Result all = compute_precise(terrain.store(), request, {}, progress).result;
+  const Result all = test::compute_at_full_detail(terrain.store(), request, {}, progress).result;
   const Result parts =
-      compute_precise(terrain.store(), request, {.memory_bytes = 16000000, .lattices = false}, progress).result;
+      test::compute_at_full_detail(terrain.store(), request, {.memory_bytes = 16000000, .lattices = false}, progress)
+          .result;
   EXPECT_TRUE(all.visible == visible.visible);
   EXPECT_TRUE(parts.visible == visible.visible);
   for (std::size_t i = 0; i < all.least_height_m.size(); ++i) {
@@ -267,14 +275,52 @@ void expect_heights_at_any_memory(const Terrain& terrain, Request request, const
   }
   request.mode = Mode::kAngle;
   const auto angles = [&](std::uint64_t memory) {
-    return compute_precise(terrain.store(), request, {.memory_bytes = memory, .lattices = false}, progress)
+    return test::compute_at_full_detail(terrain.store(), request, {.memory_bytes = memory, .lattices = false}, progress)
         .result.angle_deg;
   };
   const std::vector<float> whole = angles(1 << 30), cut = angles(16000000);
   EXPECT_TRUE(std::equal(whole.begin(), whole.end(), cut.begin(), cut.end(),
                          [](float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); }));
-  request.mode = Mode::kBlocker;
-  EXPECT_THROW(compute_precise(terrain.store(), request, {.memory_bytes = 1300000}, progress), InputError);
+}
+
+/// Blockers and probabilities are asked of the triangles of each segment.
+void expect_studies_at_any_memory(const Terrain& terrain, Request request) {
+  NoProgress progress;
+  request.cell_size = 4 * *request.cell_size;
+  request.vertical_error = {1.5, 40};
+  for (const Mode mode : {Mode::kBlocker, Mode::kProbability}) {
+    request.mode = mode;
+    const Result all = test::compute_at_full_detail(terrain.store(), request, {}, progress).result;
+    const Result parts =
+        test::compute_at_full_detail(terrain.store(), request, {.memory_bytes = 16000000}, progress).result;
+    EXPECT_GT(parts.statistics.triangles, all.statistics.triangles) << "not in segments";
+    test::expect_same_result(all, parts);
+    EXPECT_TRUE(all.blockers == parts.blockers);
+    EXPECT_TRUE(all.blocker == parts.blocker);
+  }
+}
+
+/// Heights err alike wherever the window ends.
+TEST(Probability, IsThatOfTheLineWhateverTheWindow) {
+  const test::CardiffTerrain heights;
+  const Terrain terrain(200, [&](int c, int r) { return heights(c + 300, r + 300); });
+  NoProgress progress;
+  Request request = look(terrain.at(3000, 3000), 20, 2, 60);
+  request.mode = Mode::kProbability;
+  request.vertical_error = {2, 50};
+  request.radius = 1000;
+  const Result near = compute(terrain.store(), request, progress);
+  request.grid = near.grid;
+  request.cell_size.reset();
+  request.radius = 1900;
+  const Result far = compute(terrain.store(), request, progress);
+  std::size_t probable = 0;
+  for (std::size_t i = 0; i < near.probability.size(); ++i) {
+    if (std::isnan(near.probability[i])) continue;
+    ASSERT_EQ(near.probability[i], far.probability[i]);
+    probable += near.probability[i] > 0.05F && near.probability[i] < 0.95F;
+  }
+  EXPECT_GT(probable, 50U);
 }
 
 TEST(Precise, TheMemoryChangesNothingOnTheWholeSample) {
@@ -284,14 +330,16 @@ TEST(Precise, TheMemoryChangesNothingOnTheWholeSample) {
   NoProgress progress;
   for (const double target : {0.0, 2.0}) {
     const Request request = look(terrain.at(381.3, 7002.4), 2, target, 60);
-    const Result result = compute_precise(terrain.store(), request, {}, progress).result;
+    const Result result = test::compute_at_full_detail(terrain.store(), request, {}, progress).result;
     const Scene whole(terrain.full(), request.earth, request.nodata, 10000);
     for (const std::uint64_t memory : {std::uint64_t{16000000}, std::uint64_t{1300000}}) {
       const Result other =
-          compute_precise(terrain.store(), request, {.memory_bytes = memory, .lattices = false}, progress).result;
+          test::compute_at_full_detail(terrain.store(), request, {.memory_bytes = memory, .lattices = false}, progress)
+              .result;
       EXPECT_TRUE(result.visible == other.visible) << "memory " << memory;
     }
     expect_heights_at_any_memory(terrain, request, result);
+    expect_studies_at_any_memory(terrain, request);
     // And the walk over all triangles beneath the line.
     const Eye eye =
         eye_of(terrain.full().grid, request, request.observers[0], whole.ground(request.observers[0].position));

@@ -14,6 +14,7 @@
 
 #include "bounds/surface_heights.hpp"
 #include "support/delaunay_tin.hpp"
+#include "support/full_detail.hpp"
 #include "support/same_result.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
@@ -164,11 +165,29 @@ TEST_F(EnginesInTown, AgreeInLittleMemory) {
   for (const ThemeChoice& themes : {ThemeChoice::none(), ThemeChoice::all()}) {
     request_.themes = themes;
     request_.engine = Engine::kSweep;
-    const Result whole = compute_precise(store, request_, {}, progress_).result;
+    const Result whole = test::compute_at_full_detail(store, request_, {}, progress_).result;
     for (const Engine engine : {Engine::kSweep, Engine::kRays}) {
       request_.engine = engine;
-      const Result parts = compute_precise(store, request_, {.memory_bytes = 12000000}, progress_).result;
+      const Result parts = test::compute_at_full_detail(store, request_, {.memory_bytes = 12000000}, progress_).result;
       EXPECT_GT(parts.statistics.triangles, 0U);
+      test::expect_same_result(whole, parts);
+    }
+  }
+}
+
+/// At a tolerance, too, the memory changes nothing, whatever the mode.
+TEST_F(EnginesInTown, AgreeAtAToleranceInLittleMemory) {
+  const Store store(path());
+  request_.detail = Detail::tolerance(0.5);
+  request_.vertical_error = {0.5, 30};
+  for (const ThemeChoice& themes : {ThemeChoice::none(), ThemeChoice::all()}) {
+    request_.themes = themes;
+    for (const Mode mode : {Mode::kVisible, Mode::kBlocker, Mode::kProbability, Mode::kAngle}) {
+      SCOPED_TRACE(static_cast<int>(mode));
+      request_.mode = mode;
+      const Result whole = compute_with_surface(store, request_, {}, progress_).result;
+      const Result parts = compute_with_surface(store, request_, {.memory_bytes = 400000}, progress_).result;
+      EXPECT_GT(parts.statistics.triangles, whole.statistics.triangles) << "not in segments";
       test::expect_same_result(whole, parts);
     }
   }
@@ -179,7 +198,7 @@ TEST_F(EnginesInTown, RaysLeaveLeastHeightsToTheSweep) {
   request_.mode = Mode::kHeight;
   request_.engine = Engine::kRays;
   EXPECT_THROW(compute(store, request_, progress_), InputError);
-  EXPECT_THROW(compute_precise(store, request_, {}, progress_), InputError);
+  EXPECT_THROW(test::compute_at_full_detail(store, request_, {}, progress_), InputError);
 }
 
 TEST_F(EnginesInTown, SitesServeTheSame) {

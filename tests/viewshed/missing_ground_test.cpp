@@ -13,6 +13,7 @@
 #include <viewshed/certified.hpp>
 
 #include "compute/lattice_sectors.hpp"
+#include "support/full_detail.hpp"
 #include "support/raster_file.hpp"
 #include "support/same_bits.hpp"
 #include "support/seed.hpp"
@@ -71,7 +72,7 @@ class VerdictsOverVoids : public testing::Test {
       Request exact = request;
       exact.mode = Mode::kVisible;
       exact.nodata = rule;
-      return compute_precise(store, exact, {}, progress_).result;
+      return test::compute_at_full_detail(store, exact, {}, progress_).result;
     };
     Result open = run(NoData::kClear);
     const Result closed = run(NoData::kBlock);
@@ -111,9 +112,9 @@ TEST_F(VerdictsOverVoids, OneRunIsTwoInAnyMemory) {
   ASSERT_GT(expected.cells.undecided, 100U);
   ASSERT_GT(expected.cells.visible, 100U);
   // By its posts; the whole at once; a coarse pass and segments.
-  for (const PreciseOptions& options : {PreciseOptions{kMuch, true}, {kMuch, false}, {4000000, false}}) {
+  for (const ComputeOptions& options : {ComputeOptions{kMuch, true}, {kMuch, false}, {4000000, false}}) {
     SCOPED_TRACE(options.memory_bytes);
-    expect_same(expected, compute_precise(store, request, options, progress_).result);
+    expect_same(expected, test::compute_at_full_detail(store, request, options, progress_).result);
   }
   const auto sectors = compute_by_lattice_sectors(store, request, 400000, progress_);
   ASSERT_TRUE(sectors);
@@ -128,9 +129,9 @@ TEST_F(VerdictsOverVoids, NothingIsOpenUnderTheOtherRules) {
     request.nodata = rule;
     Request exact = request;
     exact.mode = Mode::kVisible;
-    const Result expected = compute_precise(store, exact, {}, progress_).result;
+    const Result expected = test::compute_at_full_detail(store, exact, {}, progress_).result;
     for (const std::uint64_t memory : {kMuch, std::uint64_t{4000000}}) {
-      const Result found = compute_precise(store, request, {memory, false}, progress_).result;
+      const Result found = test::compute_at_full_detail(store, request, {memory, false}, progress_).result;
       EXPECT_EQ(found.cells.undecided, 0U);
       EXPECT_EQ(found.cells.visible, expected.cells.visible);
       EXPECT_EQ(found.cells.hidden, expected.cells.hidden);
@@ -146,9 +147,9 @@ TEST_F(VerdictsOverVoids, ProgressOnlyGrowsAndReachesTheEnd) {
     Request of_mode = request;
     of_mode.mode = mode;
     test::ToldProgress whole, segments, sectors;
-    compute_precise(store, of_mode, {kMuch, false}, whole);
+    test::compute_at_full_detail(store, of_mode, {kMuch, false}, whole);
     whole.expect_whole("sight lines");
-    compute_precise(store, of_mode, {4000000, false}, segments);
+    test::compute_at_full_detail(store, of_mode, {4000000, false}, segments);
     segments.expect_whole("cells decided");
     ASSERT_TRUE(compute_by_lattice_sectors(store, of_mode, 400000, sectors));
     sectors.expect_whole("cells decided");
@@ -171,8 +172,8 @@ TEST_F(VerdictsOverVoids, FeaturesChangeNothingOfThat) {
     for (const NoData rule : {NoData::kUnknown, NoData::kBlock}) {
       SCOPED_TRACE(static_cast<int>(mode));
       request.mode = mode, request.nodata = rule;
-      const Result whole = compute_precise(store, request, {kMuch, false}, progress_).result;
-      const Result parts = compute_precise(store, request, {4000000, false}, progress_).result;
+      const Result whole = test::compute_at_full_detail(store, request, {kMuch, false}, progress_).result;
+      const Result parts = test::compute_at_full_detail(store, request, {4000000, false}, progress_).result;
       EXPECT_TRUE(parts.visible == whole.visible);
       EXPECT_TRUE(same(parts.least_height_m, whole.least_height_m));
       EXPECT_TRUE(same(parts.angle_deg, whole.angle_deg));

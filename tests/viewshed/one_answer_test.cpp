@@ -18,6 +18,7 @@
 #include <viewshed/certified.hpp>
 #include <viewshed/viewshed.hpp>
 
+#include "support/full_detail.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
@@ -110,7 +111,7 @@ class OneAnswer : public testing::Test {
     request.cell_size.reset();
     request.grid.emplace(Point2{place.x - 7.5 * cell, place.y + 7.5 * cell}, cell, cell, 15, 15);
     const Result plain = viewshed::compute(store, request, progress);
-    EXPECT_EQ(viewshed::compute_precise(store, request, {}, progress).result.visible, plain.visible);
+    EXPECT_EQ(test::compute_at_full_detail(store, request, {}, progress).result.visible, plain.visible);
     const std::size_t own = plain.grid.index({7, 7});
     if (plain.visible[own] != viewshed::Verdict::kOutside) {
       EXPECT_TRUE(plain.visible[own] == viewshed::Verdict::kVisible || off >= step);
@@ -239,7 +240,7 @@ TEST_F(InATown, FromUnderARoofOrCanopy) {
   const Result result = viewshed::compute(*store_, request_, progress);
   EXPECT_EQ(result.cells.visible, 0U);
   EXPECT_GT(result.cells.hidden, 1000U);
-  EXPECT_EQ(viewshed::compute_precise(*store_, request_, {}, progress).result.visible, result.visible);
+  EXPECT_EQ(test::compute_at_full_detail(*store_, request_, {}, progress).result.visible, result.visible);
 }
 
 TEST_F(InATown, WhateverLinesLieOnTheGround) {
@@ -260,7 +261,7 @@ TEST_F(InATown, WhateverLinesLieOnTheGround) {
   // Where a road crosses a house's outline both get a vertex, on the grid.
   EXPECT_LT(changed, 40);
   expect_plain_agrees(*store_, request_, 300);
-  expect_exact(*store_, viewshed::compute_precise(*store_, request_, {}, progress).result, 300);
+  expect_exact(*store_, test::compute_at_full_detail(*store_, request_, {}, progress).result, 300);
 }
 
 TEST_F(InATown, WithFeaturesAtATolerance) {
@@ -276,7 +277,7 @@ TEST_F(InATown, PreciseAgreesEntirelyWithFeatures) {
   request_.observers.front().height = 15;
   for (const bool target : {false, true}) {
     request_.targets_on_surface = target;
-    expect_exact(*store_, viewshed::compute_precise(*store_, request_, {}, progress).result, 800);
+    expect_exact(*store_, test::compute_at_full_detail(*store_, request_, {}, progress).result, 800);
   }
 }
 
@@ -337,7 +338,7 @@ TEST_F(InWales, PreciseAgreesEntirely) {
   NoProgress progress;
   for (const double height : {0.0, 2.0}) {
     request_.target_height = height;
-    const Result result = viewshed::compute_precise(*store_, request_, {}, progress).result;
+    const Result result = test::compute_at_full_detail(*store_, request_, {}, progress).result;
     expect_exact(*store_, result, 2000);
   }
 }

@@ -15,6 +15,7 @@
 #include <viewshed/surface.hpp>
 
 #include "compute/lattice_sectors.hpp"
+#include "support/full_detail.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
@@ -181,7 +182,7 @@ TEST_F(Reveal, ARadiusBeyondTheDataIsOfTheData) {
   Request request = look(1);
   const Result whole = compute(*store_, request, progress_);
   request.radius = 5e6;
-  const Result found = compute_precise(*store_, request, {}, progress_).result;
+  const Result found = test::compute_at_full_detail(*store_, request, {}, progress_).result;
   EXPECT_EQ(found.grid.cell_count(), whole.grid.cell_count());
   EXPECT_TRUE(found.visible == whole.visible);
 }

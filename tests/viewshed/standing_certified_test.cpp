@@ -10,6 +10,7 @@
 #include <viewshed/certified.hpp>
 
 #include "support/brute_force_viewshed.hpp"
+#include "support/full_detail.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
@@ -92,7 +93,7 @@ class StandingCertified : public testing::Test {
     const RasterGrid cells = compute(*store_, r, progress).grid;
     const std::vector<Verdict> truth = test::brute_force(surface_, ground_, r, cells);
     for (const std::uint64_t memory : {std::uint64_t{1} << 30, std::uint64_t{160000}}) {
-      const Result result = compute_precise(*store_, r, {.memory_bytes = memory}, progress).result;
+      const Result result = test::compute_at_full_detail(*store_, r, {.memory_bytes = memory}, progress).result;
       ASSERT_EQ(result.visible.size(), truth.size());
       std::uint64_t different = 0;
       for (std::size_t i = 0; i < truth.size(); ++i) different += result.visible[i] != truth[i];

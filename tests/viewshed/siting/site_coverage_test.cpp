@@ -9,6 +9,7 @@
 #include <viewshed/site_coverage.hpp>
 #include <viewshed/site_proposal.hpp>
 
+#include "support/full_detail.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
@@ -53,7 +54,7 @@ class Sites : public ::testing::Test {
     survey_.tolerance = 4;
   }
 
-  /// What compute_precise() says of one site.
+  /// What test::compute_at_full_detail() says of one site.
   DemandSet precise(std::size_t option) {
     const SiteStand& stand = survey_.stands[option];
     Request request;
@@ -63,7 +64,7 @@ class Sites : public ::testing::Test {
     request.grid = survey_.targets.grid;
     // Siting counts what is seen across missing ground as served, unless that blocks.
     request.nodata = survey_.nodata == NoData::kUnknown ? NoData::kClear : survey_.nodata;
-    const Result result = compute_precise(*store_, request, {}, progress_).result;
+    const Result result = test::compute_at_full_detail(*store_, request, {}, progress_).result;
     DemandSet set;
     const RasterGrid& grid = *survey_.targets.grid;
     for (std::size_t block = 0; block < element_count(grid) / 64; ++block) {
@@ -297,7 +298,7 @@ TEST(SitesInTown, FeaturesOnlyHide) {
     request.grid = survey.targets.grid;
     request.themes = ThemeChoice::all();
     request.nodata = NoData::kClear;
-    const Result precise = compute_precise(store, request, {}, progress).result;
+    const Result precise = test::compute_at_full_detail(store, request, {}, progress).result;
     std::uint64_t different = 0;
     const RasterGrid& grid = *survey.targets.grid;
     for (std::int64_t row = 0; row < grid.rows(); ++row)

@@ -1,7 +1,6 @@
 // Viewsheds that are certain of what they say about the full surface, without reading all of it.
 //
 //   viewshed::Surveyed s = viewshed::compute_certified(store, request, progress);   // request.detail: a few metres
-//   viewshed::Surveyed p = viewshed::compute_precise(store, request, {.memory_bytes = 1 << 30}, progress);
 //
 // Both ends of a sight line stand on the full surface (level 0 of the terrain), whatever the tolerance. "Certainly" is
 // what it says: no cell called certain differs from the full surface's exact answer, single precision included.
@@ -21,28 +20,12 @@ namespace itin::viewshed {
 /// observer, for coarse ground there would hide everything. With several observers a cell is certainly visible when it
 /// is to one of them, and certainly hidden when it is to all. Under NoData::kUnknown a line across a void and back is
 /// never certainly visible. Cost: as a plain viewshed twice over. Where exact answers cost
-/// no more, every cell is decided, but for such lines across voids, as by compute_precise(): with themes that stand on
-/// the ground, where the level has half of all points or more, or a hundred-and-twenty-eighth of those of a large
-/// raster, or of any surface if that is over a million and a half. Other levels of more than a million and a half
-/// points are looked at sector by sector about each observer. Throws as compute() does, and InputError where such
-/// themes and voids come together, under another rule than NoData::kClear, in a window that takes more than a gigabyte.
+/// no more, every cell is decided, but for such lines across voids, as by compute_with_surface() at tolerance 0: with
+/// themes that stand on the ground, where the level has half of all points or more, or a hundred-and-twenty-eighth of
+/// those of a large raster, or of any surface if that is over a million and a half. Other levels of more than a million
+/// and a half points are looked at sector by sector about each observer. Throws as compute() does, and InputError where
+/// such themes and voids come together, under another rule than NoData::kClear, in a window that takes more than a
+/// gigabyte.
 Surveyed compute_certified(const Store& store, const Request& request, Progress& progress);
-
-struct PreciseOptions {
-  // Change the speed, never the answer.
-  std::uint64_t memory_bytes = std::uint64_t{1} << 30;
-  bool lattices = true;  ///< a raster is swept over its posts alone
-};
-
-/// Exact for the full surface, in every mode: as compute() at tolerance 0, with the same answer. Of a
-/// large raster only those heights are read that an observer may see; where these do not fit into the memory, sector by
-/// sector about each observer. Where another surface does not fit, a certified pass at a coarse level decides most
-/// cells; for the others the places where their lines come near the ground, and no more, are read at full detail and
-/// swept, as many at a time as the memory allows. With themes that stand on the ground, and for heights and angles,
-/// that is all ground under the lines. Request::detail is not used.
-/// Cost, on one core: about a microsecond a point; a fifth of that for rasters, and 9 bytes a post. Throws as compute()
-/// does, and, where the window is too large for the memory, InputError in modes kBlocker and kProbability and where
-/// NoData::kBlock and voids come together with such themes or modes.
-Surveyed compute_precise(const Store& store, const Request& request, const PreciseOptions& options, Progress& progress);
 
 }  // namespace itin::viewshed

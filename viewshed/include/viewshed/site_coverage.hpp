@@ -9,7 +9,7 @@
 //   coverage.look_first();
 //   Choice choice = choose(demand, options, coverage, {.count = 10}, progress);
 //
-// Exact means every triangle of the full surface in double precision, as compute_precise(). Where themes that stand on
+// Exact means every triangle of the full surface in double precision, as compute(). Where themes that stand on
 // the ground are chosen, the bare terrain comes first: features only raise it, so that what it hides for a target on
 // the ground needs no further look; only then are they read.
 //

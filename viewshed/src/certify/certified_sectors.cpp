@@ -38,7 +38,8 @@ class CertifiedSectors {
     Result& result = surveyed_.result;
     result.request = request_;
     result.certified = true;
-    const std::vector<Eye> eyes = eyes_on_full_surface(store_, request_, result.ground_m, progress_);
+    surveyed_.whole = false;
+    const std::vector<Eye> eyes = eyes_on_surface(store_, request_, Detail::tolerance(0), result.ground_m, progress_);
     surveyed_.surface.tin = coverage_of(store_, window_of(request_), progress_);
     result.grid = cells_of(request_, extent_of(store_));
     tiles_ = grid_of_tiles(result.grid);

@@ -67,7 +67,7 @@ Way way_of(const Store& store, const Request& request) {
   if (kEnvelopeCosts * points >= all) return Way::kExactly;
   const bool large = points > kMostEnvelopePoints;
   if (kEnvelopeCostsInPosts * points < all) return large ? Way::kBySectors : Way::kAtOnce;
-  const std::uint64_t most_posts = PreciseOptions().memory_bytes / kBytesAPost;
+  const std::uint64_t most_posts = ComputeOptions().memory_bytes / kBytesAPost;
   const bool exactly = large || (all > kFewPosts && all <= most_posts &&
                                  LatticeReader::may_open(store, window_of(request), ThemeChoice::none(), most_posts));
   return exactly ? Way::kExactly : Way::kAtOnce;
@@ -75,7 +75,9 @@ Way way_of(const Store& store, const Request& request) {
 
 /// The exact answer, but where ground without data leaves it open.
 Surveyed decide_exactly(const Store& store, const Request& request, Progress& progress) {
-  Surveyed surveyed = compute_precise(store, request, {}, progress);
+  Request exact = request;
+  exact.detail = Detail::tolerance(0);
+  Surveyed surveyed = compute_with_surface(store, exact, {}, progress);
   surveyed.result.request = request;
   surveyed.result.certified = true;
   return surveyed;
@@ -93,8 +95,9 @@ Surveyed compute_certified(const Store& store, const Request& request, Progress&
   Result& result = surveyed.result;
   result.request = request;
   result.certified = true;
+  surveyed.whole = false;
   Stopwatch watch;
-  const std::vector<Eye> eyes = eyes_on_full_surface(store, request, result.ground_m, progress);
+  const std::vector<Eye> eyes = eyes_on_surface(store, request, Detail::tolerance(0), result.ground_m, progress);
   Envelope envelope = envelop(store, certified_request(store, request), progress);
   result.statistics.retrieval = envelope.lower.statistics;
   result.statistics.triangles = envelope.lower.triangles.size();

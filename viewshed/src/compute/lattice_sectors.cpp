@@ -54,13 +54,16 @@ class LatticeSectors {
   std::optional<Surveyed> run() {
     Result& result = surveyed_.result;
     result.request = request_;
-    const std::vector<Eye> eyes = eyes_on_full_surface(store_, request_, result.ground_m, progress_);
+    surveyed_.whole = false;
+    const std::vector<Eye> eyes = eyes_on_surface(store_, request_, Detail::tolerance(0), result.ground_m, progress_);
     retrieve_coarse();
-    observations_ = Observations(request_).of_tiles(tiles_);
+    Observations observations(request_);
+    observations_ = observations.of_tiles(tiles_);
     stage_.emplace("cells decided", eyes.size() * result.grid.cell_count(), progress_);
     for (std::uint32_t i = 0; i < eyes.size(); ++i)
       if (!look(eyes[i], i)) return std::nullopt;
     store_all(observations_, tiles_, result);
+    observations.finish(result);
     result.statistics.lines_seconds += watch_.lap();
     return std::move(surveyed_);
   }
@@ -191,7 +194,7 @@ class LatticeSectors {
 
 std::optional<Surveyed> compute_by_lattice_sectors(const Store& store, const Request& request, std::uint64_t memory,
                                                    Progress& progress) {
-  if (needs_tin(request) || casts_rays(request) || features_stand(store, request)) return std::nullopt;
+  if (features_stand(store, request)) return std::nullopt;
   return LatticeSectors(store, request, memory, progress).run();
 }
 

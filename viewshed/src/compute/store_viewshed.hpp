@@ -1,4 +1,4 @@
-// Viewsheds over what is retrieved of a store as a whole.
+// Viewsheds over what is retrieved of a store at once: the first two rungs of compute_with_surface()'s ladder.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@
 
 namespace itin::viewshed {
 
-/// Whether its mode asks more of the surface than sight lines.
-bool needs_tin(const Request& request);
+/// Whether the request can be answered over the posts of a lattice alone: at full detail, in a mode that asks no more
+/// than sight lines, by the sweep.
+bool takes_a_lattice(const Store& store, const Request& request);
 
-/// Where the surface is a lattice of at most so many posts, and the mode and the detail are such that it will do. The
-/// request is valid.
+/// Nothing where the surface is no lattice of at most so many posts. Precondition: takes_a_lattice().
 std::optional<Surveyed> compute_over_lattice(const Store& store, const Request& request, std::uint64_t most_posts,
                                              Progress& progress);
 

@@ -7,14 +7,13 @@
 #include <numeric>
 #include <optional>
 
-#include <itin/error.hpp>
 #include <itin/parallel.hpp>
 #include <itin/triangulate.hpp>
 #include <itin/unreported.hpp>
 #include <viewshed/certified.hpp>
 
 #include "certify/certified_pass.hpp"
-#include "compute/store_viewshed.hpp"
+#include "compute/memory.hpp"
 #include "line/cell_tiles.hpp"
 #include "modes/observation.hpp"
 #include "plan/ground_tiles.hpp"
@@ -50,37 +49,37 @@ class TinSegments {
       : store_(store),
         request_(request),
         features_(features_stand(store, request)),
+        full_(level_within(store.metadata(), request.detail.coarsest()) == 0),
         box_(box_of_window(store, request)),
         memory_(memory),
         progress_(progress),
         reading_(progress) {}
 
   Surveyed run() {
-    require_mode();
     Result& result = surveyed_.result;
     result.request = request_;
-    const std::vector<Eye> eyes = eyes_on_full_surface(store_, request_, result.ground_m, progress_);
+    surveyed_.whole = false;
+    const std::vector<Eye> eyes = eyes_on_surface(store_, request_, request_.detail, result.ground_m, progress_);
     retrieve_coarse();
-    observations_ = Observations(request_).of_tiles(tiles_);
+    Observations observations(request_);
+    observations_ = observations.of_tiles(tiles_);
     stage_.emplace("cells decided", eyes.size() * result.grid.cell_count(), progress_);
     for (std::uint32_t i = 0; i < eyes.size(); ++i) look(eyes[i], i);
     store_all(observations_, tiles_, result);
+    observations.finish(result);
     result.statistics.lines_seconds += watch_.lap();
     return std::move(surveyed_);
   }
 
  private:
-  void require_mode() const {
-    if (needs_tin(request_))
-      throw InputError(
-          "blockers and probabilities need the whole window in memory: give more --memory or a smaller --radius");
+  /// Certificates know nothing of what stands on the ground, nor of coarser surfaces, and cells that a coarse level
+  /// decides have no exact height of ground.
+  bool whole_lines() const {
+    return features_ || !full_ || needs_triangles(request_) || request_.mode == Mode::kHeight ||
+           request_.mode == Mode::kAngle;
   }
 
-  /// Certificates know nothing of what stands on the ground, and cells that a coarse level decides have no exact height
-  /// of ground.
-  bool whole_lines() const { return features_ || request_.mode == Mode::kHeight || request_.mode == Mode::kAngle; }
-
-  std::uint64_t budget() const { return memory_ / kBytesAPoint; }
+  std::uint64_t budget() const { return memory_ / bytes_per_point(request_); }
 
   int coarse_level() const {
     const std::uint64_t most = std::min(memory_ / kBytesAnEnvelopePoint, store_.points_about(0, box_) / kCoarseShare);
@@ -91,7 +90,7 @@ class TinSegments {
   }
 
   Tin triangulated(const Window& window, const ThemeChoice& themes) {
-    Tin tin = triangulate(store_, window, Detail::tolerance(0), reading_, themes);
+    Tin tin = triangulate(store_, window, request_.detail, reading_, themes);
     Statistics& statistics = surveyed_.result.statistics;
     statistics.retrieval += tin.statistics;
     statistics.retrieval_seconds += watch_.lap();
@@ -123,7 +122,7 @@ class TinSegments {
     tiles_ = grid_of_tiles(result.grid);
     rim_ = rim_of(envelope.lower, envelope.outline);
     look_for_voids(envelope.lower.grid, rim_, result);
-    ground_.emplace(store_, envelope.lower.bounds());
+    ground_.emplace(store_, level_within(store_.metadata(), request_.detail.finest()), envelope.lower.bounds());
     surveyed_.surface.tin = envelope.lower;
     if (!whole_lines()) coarse_.emplace(std::move(envelope), request_, tiles_, voids_of(request_));
     result.statistics.scene_seconds += watch_.lap();
@@ -146,10 +145,13 @@ class TinSegments {
     std::atomic<std::uint64_t> lines = 0;
     for (const std::vector<std::size_t>& cells : segments(eye, needed)) {
       const OwnedSurface segment = refine(cells, needed);
+      std::optional<TriangleStudies> studies;
+      if (needs_triangles(request_)) studies.emplace(request_, segment.surface.tin);
       const AxisSweep::View view = segment.full.view_from(eye);
       stage_->for_each(cells.size(), [&](std::size_t i) {
         const auto work = segment.full.begin(cells[i]);
-        lines += observations_[cells[i]]->look({segment.full, eye, view, observer, shadow ? &*shadow : nullptr, *work});
+        lines += observations_[cells[i]]->look(
+            {segment.full, eye, view, observer, shadow ? &*shadow : nullptr, *work, studies ? &*studies : nullptr});
         return static_cast<std::size_t>(work->tile.columns * work->tile.rows);
       });
     }
@@ -282,6 +284,7 @@ class TinSegments {
   const Store& store_;
   const Request& request_;
   bool features_;  ///< stand on the ground
+  bool full_;      ///< the surface is the full one
   Box box_;
   std::uint64_t memory_;  ///< bytes, without the rasters
   Progress& progress_;

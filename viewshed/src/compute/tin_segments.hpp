@@ -1,7 +1,7 @@
-// Exact viewsheds of surfaces of triangles that do not fit into the memory: segment by segment about each observer.
+// Viewsheds of surfaces of triangles that do not fit into the memory: segment by segment about each observer.
 //
-// A certified pass at a coarse level decides most cells. Where the lines to the others come near the ground, and no
-// more, it is read at full detail: a segment is the ground that tiles of cells next to each other in azimuth need, as
+// At full detail a certified pass at a coarse level decides most cells. Where the lines to the others come near the
+// ground, and no more, it is read: a segment is the ground that tiles of cells next to each other in azimuth need, as
 // many as fit. Where certificates do not help, it is all ground under the lines.
 #pragma once
 
@@ -13,11 +13,8 @@
 
 namespace itin::viewshed {
 
-/// Peak memory a point of the full surface: triangulation, triangles and bins.
-inline constexpr std::uint64_t kBytesAPoint = 400;
-
-/// The full surface's answer, and a coarse surface. `memory` is for the surfaces alone, bytes. Throws as
-/// compute_precise() does.
+/// The answer of the surface at the request's detail, and a coarse surface. `memory` is for the surfaces alone, bytes.
+/// Throws as compute_with_surface() does.
 Surveyed compute_in_tin_segments(const Store& store, const Request& request, std::uint64_t memory, Progress& progress);
 
 }  // namespace itin::viewshed

@@ -15,13 +15,6 @@ namespace itin::viewshed {
 
 namespace {
 
-void name_blockers(const Tin& tin, Result& result) {
-  result.blocker_theme.resize(result.blocker.size());
-  std::transform(result.blocker.begin(), result.blocker.end(), result.blocker_theme.begin(), [&](std::uint32_t b) {
-    return b == kNoBlocker || b == kMissingGround ? b : std::uint32_t{tin.theme(tin.triangles[b])};
-  });
-}
-
 /// One of the two is there; `bare` is null where ends stand on that. Cells are laid over `extent`.
 Result compute_on(const Tin* tin, LatticeReader* reader, const Tin* bare, const Box& extent, const Request& request,
                   Progress& progress) {
@@ -52,12 +45,13 @@ Result compute_on(const Tin* tin, LatticeReader* reader, const Tin* bare, const 
   }
   look_for_voids(units, surface.rim(), result);
   result.statistics.scene_seconds = watch.lap();
-  const Observations observations = lattice != nullptr ? Observations(request) : Observations(request, *tin);
+  std::optional<TriangleStudies> studies;
+  if (needs_triangles(request)) studies.emplace(request, *tin);
+  Observations observations(request);
   std::vector<AxisSweep::View> views;
   if (reader != nullptr && !all_read(*reader))
     for (const Eye& eye : eyes) views.push_back(reveal(eye, *reader, surface, kAnyTiles, progress).view);
-  look_around(surface, observations, eyes, views, result, progress);
-  if (request.mode == Mode::kBlocker) name_blockers(*tin, result);
+  look_around(surface, studies ? &*studies : nullptr, observations, eyes, views, result, progress);
   result.statistics.lines_seconds = watch.lap();
   return result;
 }

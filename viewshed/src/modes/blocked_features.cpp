@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
+#include <vector>
 
 #include <itin/feature_at.hpp>
 
@@ -9,43 +11,42 @@ namespace itin::viewshed {
 
 namespace {
 
-Point2 middle(const Tin& tin, std::uint32_t triangle) {
-  const Triangle& t = tin.triangles[triangle];
-  const Point3 a = tin.point(t[0]), b = tin.point(t[1]), c = tin.point(t[2]);
-  return {(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3};
+Point2 middle(const Grid& grid, const std::array<GridPoint, 3>& corners) {
+  Point2 sum;
+  for (const GridPoint& corner : corners) {
+    const Point3 p = grid.point(corner);
+    sum.x += p.x, sum.y += p.y;
+  }
+  return {sum.x / 3, sum.y / 3};
 }
 
-/// The triangles that hide some cell, each once, by their themes.
-std::map<std::uint16_t, std::vector<std::uint32_t>> blocking_triangles(const Result& result) {
-  std::map<std::uint16_t, std::vector<std::uint32_t>> triangles;
-  for (std::size_t i = 0; i < result.blocker.size(); ++i) {
-    const std::uint32_t theme = result.blocker_theme[i];
-    if (theme != 0 && theme != kNoBlocker && theme != kMissingGround)
-      triangles[static_cast<std::uint16_t>(theme)].push_back(result.blocker[i]);
+/// Fills `blocker_feature`.
+void find_blocking_features(const Store& store, Result& result) {
+  std::map<std::uint16_t, std::pair<std::vector<std::uint32_t>, std::vector<Point2>>> by_theme;
+  for (std::uint32_t i = 0; i < result.blockers.size(); ++i) {
+    const BlockingTriangle& blocker = result.blockers[i];
+    if (blocker.theme == 0) continue;
+    auto& [numbers, places] = by_theme[blocker.theme];
+    numbers.push_back(i);
+    places.push_back(middle(store.metadata().grid, blocker.corners));
   }
-  for (auto& [theme, some] : triangles) {
-    std::sort(some.begin(), some.end());
-    some.erase(std::unique(some.begin(), some.end()), some.end());
+  std::vector<std::uint32_t> feature_of(result.blockers.size(), kNoBlocker);
+  for (const auto& [theme, blockers] : by_theme) {
+    const auto found = features_at(store, theme, blockers.second);
+    for (std::size_t i = 0; i < found.size(); ++i)
+      if (found[i]) feature_of[blockers.first[i]] = static_cast<std::uint32_t>(found[i]->number);
   }
-  return triangles;
+  result.blocker_feature.resize(result.blocker.size());
+  std::transform(result.blocker.begin(), result.blocker.end(), result.blocker_feature.begin(),
+                 [&](std::uint32_t b) { return b < kMissingGround ? feature_of[b] : kNoBlocker; });
 }
 
 }  // namespace
 
-void find_blocking_features(const Store& store, const Tin& tin, Result& result) {
-  std::map<std::uint32_t, std::uint32_t> feature_of;
-  for (const auto& [theme, triangles] : blocking_triangles(result)) {
-    std::vector<Point2> places;
-    for (const std::uint32_t t : triangles) places.push_back(middle(tin, t));
-    const auto found = features_at(store, theme, places);
-    for (std::size_t i = 0; i < found.size(); ++i)
-      if (found[i]) feature_of[triangles[i]] = static_cast<std::uint32_t>(found[i]->number);
-  }
-  result.blocker_feature.resize(result.blocker.size());
-  std::transform(result.blocker.begin(), result.blocker.end(), result.blocker_feature.begin(), [&](std::uint32_t b) {
-    const auto feature = feature_of.find(b);
-    return feature == feature_of.end() ? kNoBlocker : feature->second;
-  });
+void name_features(const Store& store, Result& result) {
+  result.theme_names.clear();
+  for (const ThemeInfo& theme : store.metadata().themes) result.theme_names.push_back(theme.name);
+  if (result.request.mode == Mode::kBlocker) find_blocking_features(store, result);
 }
 
 }  // namespace itin::viewshed

@@ -1,13 +1,13 @@
-// Which imported features hide cells.
+// The themes and features of a viewshed over a store.
 #pragma once
 
 #include <itin/store.hpp>
-#include <itin/tin.hpp>
 #include <viewshed/viewshed.hpp>
 
 namespace itin::viewshed {
 
-/// Fills blocker_feature of a result whose blockers are triangles of `tin`, from the store it was made of.
-void find_blocking_features(const Store& store, const Tin& tin, Result& result);
+/// What the store that a result was made of knows of it: the names of its themes, and of its blockers which features
+/// they are part of.
+void name_features(const Store& store, Result& result);
 
 }  // namespace itin::viewshed

@@ -1,30 +1,52 @@
 #include "modes/blocker_observation.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace itin::viewshed {
 
-BlockerObservation::BlockerObservation(const FirstBlocker& blockers) : blockers_(blockers) {
+BlockerObservation::BlockerObservation(BlockerTable& table) : table_(table) {
   squared_.fill(std::numeric_limits<double>::infinity());
   observer_.fill(0);
-  triangle_.fill(kNoBlocker);
+  blocker_.fill(kNoBlocker);
 }
 
-void BlockerObservation::judge(const Look& look, const Sight& sight) {
+std::uint64_t BlockerObservation::look(const TileLook& tile) {
+  found_.clear();
+  const std::uint64_t lines = Observation::look(tile);
+  std::vector<std::uint32_t> triangles;
+  for (const std::size_t cell : found_) triangles.push_back(blocker_[cell]);
+  std::sort(triangles.begin(), triangles.end());
+  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+  std::vector<BlockingTriangle> corners;
+  for (const std::uint32_t t : triangles) {
+    const Triangle& triangle = tile.studies->tin.triangles[t];
+    corners.push_back({tile.studies->tin.corners(t), tile.studies->tin.theme(triangle)});
+  }
+  const std::vector<std::uint32_t> numbers = table_.numbers_of(corners);
+  for (const std::size_t cell : found_) {
+    const auto at = std::lower_bound(triangles.begin(), triangles.end(), blocker_[cell]) - triangles.begin();
+    blocker_[cell] = numbers[static_cast<std::size_t>(at)];
+  }
+  return lines;
+}
+
+void BlockerObservation::judge(const TileLook& tile, const Look& look, const Sight& sight) {
   if (sight.seen) return see(look);
   const double squared = look.squared_distance();
   const bool nearer =
       squared < squared_[look.cell] || (squared == squared_[look.cell] && look.observer < observer_[look.cell]);
   if (!nearer) return;
-  const auto blocker = blockers_.find(sight.from, sight.to);
+  const auto blocker = tile.studies->blockers->find(sight.from, sight.to);
   squared_[look.cell] = squared;
   observer_[look.cell] = look.observer;
-  triangle_[look.cell] = blocker ? blocker->triangle : kMissingGround;
+  blocker_[look.cell] = blocker ? blocker->triangle : kMissingGround;
+  if (blocker) found_.push_back(look.cell);
 }
 
 void BlockerObservation::store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const {
   for (std::size_t i = 0; i < columns; ++i)
-    result.blocker[place + i] = value(cell + i) == Verdict::kHidden ? triangle_[cell + i] : kNoBlocker;
+    result.blocker[place + i] = value(cell + i) == Verdict::kHidden ? blocker_[cell + i] : kNoBlocker;
 }
 
 }  // namespace itin::viewshed

@@ -1,27 +1,32 @@
 // The blocker mode: what first hides a cell that no observer sees.
 #pragma once
 
-#include "modes/first_blocker.hpp"
+#include <vector>
+
+#include "modes/blocker_table.hpp"
 #include "modes/observation.hpp"
 
 namespace itin::viewshed {
 
 class BlockerObservation final : public Observation {
  public:
-  /// Of one tile; `blockers` must outlive it.
-  explicit BlockerObservation(const FirstBlocker& blockers);
+  /// Of one tile; its blockers are numbered as in the table, which must outlive it.
+  explicit BlockerObservation(BlockerTable& table);
 
   bool open(const Look& look) const override { return value(look.cell) != Verdict::kVisible; }
+  std::uint64_t look(const TileLook& tile) override;
 
  private:
-  void judge(const Look& look, const Sight& sight) override;
+  void judge(const TileLook& tile, const Look& look, const Sight& sight) override;
   void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override;
 
-  const FirstBlocker& blockers_;
+  BlockerTable& table_;
   /// Of the nearest observer that was asked for so far; of two as near the first.
   TileValues<double> squared_;
   TileValues<std::uint32_t> observer_;
-  TileValues<std::uint32_t> triangle_;
+  TileValues<std::uint32_t> blocker_;
+  std::vector<std::size_t>
+      found_;  ///< cells whose blocker is a triangle of the surface looked at, not yet of the table
 };
 
 }  // namespace itin::viewshed

@@ -66,7 +66,7 @@ void ErrorsAlongLine::begin(const ErrorSum& from, const ErrorSum& to) {
 void ErrorsAlongLine::draw_end(std::size_t which, const ErrorSum& sum, std::span<const Drawn* const> given) {
   ends_[which].sum = sum;
   // Numbers beyond those of vertices.
-  draw(ends_[which], tin_.vertices.size() + 2 * std::uint64_t{sum.vertex[0]} + which, given);
+  draw(ends_[which], (which + 1) << 62 | number_of(sum.vertex[0]), given);
 }
 
 const ErrorsAlongLine::Errors& ErrorsAlongLine::of(std::uint32_t vertex) {
@@ -80,10 +80,17 @@ const ErrorsAlongLine::Errors& ErrorsAlongLine::of(std::uint32_t vertex) {
     for (const Drawn& d : vertices_)
       if (&d != &*asked && d.used > 0) given[count++] = &d;
     asked->sum = {{vertex}, {1}, 1};
-    draw(*asked, vertex, std::span(given).first(count));
+    draw(*asked, number_of(vertex), std::span(given).first(count));
   }
   asked->used = ++clock_;
   return asked->errors;
+}
+
+/// By its place: a vertex errs alike in every window that it is part of.
+std::uint64_t ErrorsAlongLine::number_of(std::uint32_t vertex) const {
+  const GridPoint& p = tin_.vertices[vertex];
+  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(p.x + kGridHalfSide)) << 31 |
+         static_cast<std::uint32_t>(p.y + kGridHalfSide);
 }
 
 /// Sets the errors of `out.sum`, given those of the ends, or of the first, and of vertices. What they leave open is

@@ -55,6 +55,7 @@ class ErrorsAlongLine {
   };
   void draw_end(std::size_t which, const ErrorSum& sum, std::span<const Drawn* const> given);
   void draw(Drawn& out, std::uint64_t number, std::span<const Drawn* const> given) const;
+  std::uint64_t number_of(std::uint32_t vertex) const;
   double covariance(const ErrorSum& a, const ErrorSum& b) const;
 
   const Tin& tin_;

@@ -23,9 +23,10 @@ constexpr std::size_t kGroup = 256;
 
 class LookAround {
  public:
-  LookAround(const FullSurface& surface, const Observations& observations, const std::vector<Eye>& eyes,
-             const std::vector<AxisSweep::View>& views, Result& result)
+  LookAround(const FullSurface& surface, const TriangleStudies* studies, Observations& observations,
+             const std::vector<Eye>& eyes, const std::vector<AxisSweep::View>& views, Result& result)
       : surface_(surface),
+        studies_(studies),
         observations_(observations),
         eyes_(eyes),
         given_(views),
@@ -93,13 +94,14 @@ class LookAround {
     std::uint64_t lines = 0;
     for (const std::uint32_t i : eyes) {
       const auto& shadow = shadows_[i - first_];
-      lines += observation.look({surface_, eyes_[i], view_of(i), i, shadow ? &*shadow : nullptr, work});
+      lines += observation.look({surface_, eyes_[i], view_of(i), i, shadow ? &*shadow : nullptr, work, studies_});
     }
     return lines;
   }
 
   const FullSurface& surface_;
-  const Observations& observations_;
+  const TriangleStudies* studies_;
+  Observations& observations_;
   const std::vector<Eye>& eyes_;
   const std::vector<AxisSweep::View>& given_;  ///< each eye's, or none
   Result& result_;
@@ -113,10 +115,12 @@ class LookAround {
 
 }  // namespace
 
-void look_around(const FullSurface& surface, const Observations& observations, const std::vector<Eye>& eyes,
-                 const std::vector<AxisSweep::View>& views, Result& result, Progress& progress) {
+void look_around(const FullSurface& surface, const TriangleStudies* studies, Observations& observations,
+                 const std::vector<Eye>& eyes, const std::vector<AxisSweep::View>& views, Result& result,
+                 Progress& progress) {
   Observation::prepare(result);
-  LookAround(surface, observations, eyes, views, result).run(progress);
+  LookAround(surface, studies, observations, eyes, views, result).run(progress);
+  observations.finish(result);
 }
 
 }  // namespace itin::viewshed

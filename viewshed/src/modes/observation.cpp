@@ -133,7 +133,7 @@ std::uint64_t Observation::look(const TileLook& tile) {
     const bool seen = values[look.cell] == Verdict::kVisible;
     look.dz = tile.eye.target(work.ground[look.cell] * resolution) - tile.eye.elevation;
     if (!std::isnan(work.targets[look.cell])) {
-      judge(look, {tile.eye, tile.eye.units, work.target(look.cell), seen});
+      judge(tile, look, {tile.eye, tile.eye.units, work.target(look.cell), seen});
     } else if (seen) {
       see(look);
     }
@@ -170,12 +170,7 @@ std::optional<VoidShadow> shadow_of(const Eye& eye, const std::vector<RimEdge>& 
   return VoidShadow(rim, eye.units, voids);
 }
 
-Observations::Observations(const Request& request, const Tin& tin) : request_(request) {
-  if (request.mode == Mode::kBlocker) blockers_.emplace(tin, request.earth);
-  if (request.mode == Mode::kProbability) odds_.emplace(tin, request.earth, request.vertical_error);
-}
-
-std::vector<std::unique_ptr<Observation>> Observations::of_tiles(const RasterGrid& tiles) const {
+std::vector<std::unique_ptr<Observation>> Observations::of_tiles(const RasterGrid& tiles) {
   std::vector<std::unique_ptr<Observation>> all(tiles.cell_count());
   for (auto& observation : all) observation = of_tile();
   return all;
@@ -187,7 +182,11 @@ void store_all(const std::vector<std::unique_ptr<Observation>>& observations, co
     observations[i]->store(tile_at(result.grid, tiles, i), result, result.cells);
 }
 
-std::unique_ptr<Observation> Observations::of_tile() const {
+void Observations::finish(Result& result) const {
+  if (request_.mode == Mode::kBlocker) blockers_.give(result);
+}
+
+std::unique_ptr<Observation> Observations::of_tile() {
   switch (request_.mode) {
     case Mode::kCount:
       return std::make_unique<ObserverCount>();
@@ -198,11 +197,11 @@ std::unique_ptr<Observation> Observations::of_tile() const {
     case Mode::kNearest:
       return std::make_unique<NearestObserver>();
     case Mode::kBlocker:
-      return std::make_unique<BlockerObservation>(*blockers_);
+      return std::make_unique<BlockerObservation>(blockers_);
     case Mode::kHeight:
       return std::make_unique<LeastHeightObservation>();
     case Mode::kProbability:
-      return std::make_unique<ProbabilityObservation>(*odds_, request_.nodata);
+      return std::make_unique<ProbabilityObservation>(request_.nodata);
     case Mode::kVisible:
       break;
   }

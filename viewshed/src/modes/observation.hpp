@@ -18,8 +18,8 @@
 #include <viewshed/viewshed.hpp>
 
 #include "line/cell_tiles.hpp"
-#include "modes/first_blocker.hpp"
-#include "modes/vertical_odds.hpp"
+#include "modes/blocker_table.hpp"
+#include "modes/triangle_studies.hpp"
 #include "request/eye.hpp"
 #include "request/void_shadow.hpp"
 #include "scene/full_surface.hpp"
@@ -42,6 +42,7 @@ struct TileLook {
   std::uint32_t observer;
   const VoidShadow* shadow;  ///< shadow_of() the eye; may be null
   FullSurface::TileWork& work;
+  const TriangleStudies* studies = nullptr;  ///< of the surface, where the mode needs them
 
   /// Calls visit(look) for every cell that has ground; the looks lead to the ground.
   template <class Visit>
@@ -91,7 +92,7 @@ class Observation {
 
  private:
   virtual void keep(const Look&) {}
-  virtual void judge(const Look& look, const Sight& sight) {
+  virtual void judge(const TileLook&, const Look& look, const Sight& sight) {
     if (sight.seen) see(look);
   }
   /// A row of `columns` cells, from `cell` in the tile to `place` in the grid.
@@ -103,22 +104,20 @@ class Observation {
 /// What ground without data, beyond this rim, hides from the eye or leaves undecided, where that changes the result.
 std::optional<VoidShadow> shadow_of(const Eye& eye, const std::vector<RimEdge>& rim, const Result& result);
 
-/// Makes the Observations of a request's mode. All that it is given must outlive it and them.
+/// Makes the Observations of a request's mode. The request must outlive it, and it must outlive them.
 class Observations {
  public:
-  /// For modes that need no more than sight lines.
   explicit Observations(const Request& request) : request_(request) {}
-  /// For every mode, over that Tin.
-  Observations(const Request& request, const Tin& tin);
 
-  std::unique_ptr<Observation> of_tile() const;
+  std::unique_ptr<Observation> of_tile();
   /// One of each.
-  std::vector<std::unique_ptr<Observation>> of_tiles(const RasterGrid& tiles) const;
+  std::vector<std::unique_ptr<Observation>> of_tiles(const RasterGrid& tiles);
+  /// After the last of them has been stored: completes what tiles have in common.
+  void finish(Result& result) const;
 
  private:
   const Request& request_;
-  std::optional<FirstBlocker> blockers_;
-  std::optional<VerticalOdds> odds_;
+  BlockerTable blockers_;
 };
 
 /// Makes room in the result and writes all tiles' observations and counts to it.

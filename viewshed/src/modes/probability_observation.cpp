@@ -5,9 +5,15 @@
 
 namespace itin::viewshed {
 
-ProbabilityObservation::ProbabilityObservation(const VerticalOdds& odds, NoData nodata)
-    : odds_(odds), nodata_(nodata), scratch_(odds) {
+ProbabilityObservation::ProbabilityObservation(NoData nodata) : nodata_(nodata) {
   probabilities_.fill(0);
+}
+
+std::uint64_t ProbabilityObservation::look(const TileLook& tile) {
+  scratch_.emplace(*tile.studies->odds);
+  const std::uint64_t lines = Observation::look(tile);
+  scratch_.reset();
+  return lines;
 }
 
 /// At the eye itself, where nothing can come between.
@@ -15,10 +21,10 @@ void ProbabilityObservation::keep(const Look& look) {
   probabilities_[look.cell] = 1;
 }
 
-void ProbabilityObservation::judge(const Look& look, const Sight& sight) {
+void ProbabilityObservation::judge(const TileLook& tile, const Look& look, const Sight& sight) {
   if (sight.seen) mark_visible(look.cell);
   const VerticalOdds::Odds odds =
-      odds_.of_line({sight.from, sight.to, !sight.eye.absolute, !sight.eye.target_absolute}, scratch_);
+      tile.studies->odds->of_line({sight.from, sight.to, !sight.eye.absolute, !sight.eye.target_absolute}, *scratch_);
   // What no ground hides is behind missing ground that blocks.
   if (!sight.seen && odds.clear && nodata_ == NoData::kBlock) return;
   probabilities_[look.cell] = std::max(probabilities_[look.cell], static_cast<float>(odds.probability));

@@ -31,11 +31,11 @@ class TileSet {
 
 class GroundTiles {
  public:
-  /// Over the box, with about so many points of the full surface a tile.
-  GroundTiles(const Store& store, const Box& box);
+  /// Over the box, each with about as many points of the level's surface.
+  GroundTiles(const Store& store, int level, const Box& box);
 
   std::size_t count() const { return grid_.cell_count(); }
-  /// Points of the full surface, about.
+  /// Points of that surface, about.
   std::uint64_t points(std::size_t tile) const { return points_[tile]; }
   std::uint64_t points(const TileSet& tiles) const;
   /// Every tile that the line between two positions meets, or passes within a metre and the grid's resolution.

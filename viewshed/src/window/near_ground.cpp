@@ -38,13 +38,14 @@ Tin coverage_of(const Store& store, const Window& window, Progress& progress) {
   return triangulate(store, window, Detail::tolerance(store.metadata().levels.back().tolerance), progress);
 }
 
-std::vector<Eye> eyes_on_full_surface(const Store& store, const Request& request, std::vector<double>& ground,
-                                      Progress& progress) {
+std::vector<Eye> eyes_on_surface(const Store& store, const Request& request, const Detail& detail,
+                                 std::vector<double>& ground, Progress& progress) {
   const Grid& grid = store.metadata().grid;
   std::vector<Eye> eyes;
   for (const Observer& observer : request.observers) {
-    const auto height = height_at(store, observer.position,
-                                  request.observers_on_surface ? request.themes : ThemeChoice::none(), progress);
+    const auto height =
+        height_at(store, observer.position, request.observers_on_surface ? request.themes : ThemeChoice::none(),
+                  progress, detail);
     eyes.push_back(eye_of(grid, request, observer, height));
     ground.push_back(*height);
   }

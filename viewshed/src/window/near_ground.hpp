@@ -20,10 +20,10 @@ std::optional<double> height_at(const Store& store, Point2 position, const Theme
 /// All that has data within the window, at the coarsest level: its outline is that of the full surface.
 Tin coverage_of(const Store& store, const Window& window, Progress& progress);
 
-/// The observers, on the full surface under them, or on what stands on it where the request says so; `ground` gets its
-/// heights, metres. Throws InputError for an observer outside the data.
-std::vector<Eye> eyes_on_full_surface(const Store& store, const Request& request, std::vector<double>& ground,
-                                      Progress& progress);
+/// The observers, on the surface of this detail under them, or on what stands on it where the request says so; `ground`
+/// gets its heights, metres. Throws InputError for an observer outside the data.
+std::vector<Eye> eyes_on_surface(const Store& store, const Request& request, const Detail& detail,
+                                 std::vector<double>& ground, Progress& progress);
 
 /// Whether a theme that stands on the ground is chosen. Certificates know nothing of it: where it does, only level 0
 /// says what is there.

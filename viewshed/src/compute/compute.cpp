@@ -1,0 +1,70 @@
+// The one ladder: how much of a store's surface is read at once, under a memory budget.
+#include <algorithm>
+#include <utility>
+
+#include <viewshed/viewshed.hpp>
+
+#include "compute/lattice_sectors.hpp"
+#include "compute/memory.hpp"
+#include "compute/store_viewshed.hpp"
+#include "compute/tin_segments.hpp"
+#include "modes/blocked_features.hpp"
+#include "request/request.hpp"
+#include "window/near_ground.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// Points of the surface that the request asks for, about.
+std::uint64_t points_of(const Store& store, const Request& request) {
+  const StoreMetadata& metadata = store.metadata();
+  const Box box = box_of_window(store, request);
+  const Detail& detail = request.detail;
+  std::uint64_t points = store.points_about(level_within(metadata, detail.coarsest()), box);
+  for (std::size_t i = 0; i + 1 < detail.rings().size(); ++i) {
+    const Ring& ring = detail.rings()[i];
+    const Box finer = intersection(disc_box(detail.centre(), ring.radius), box);
+    if (!finer.empty()) points += store.points_about(level_within(metadata, ring.tolerance), finer);
+  }
+  return points;
+}
+
+/// The first rung that the memory allows.
+Surveyed climb(const Store& store, const Request& request, const ComputeOptions& options, Progress& progress) {
+  const std::uint64_t memory = memory_beside_rasters(options.memory_bytes, store, request);
+  const std::uint64_t points = points_of(store, request);
+  const bool lattice = options.lattices && takes_a_lattice(store, request);
+  if (lattice && points <= memory / kBytesAPost)
+    if (auto surveyed = compute_over_lattice(store, request, memory / kBytesAPost, progress))
+      return std::move(*surveyed);
+  if (points <= memory / bytes_per_point(request)) return compute_over_tin(store, request, progress);
+  if (lattice)
+    if (auto surveyed = compute_by_lattice_sectors(store, request, memory / kSectorShare, progress))
+      return std::move(*surveyed);
+  return compute_in_tin_segments(store, request, memory, progress);
+}
+
+}  // namespace
+
+Surveyed compute_with_surface(const Store& store, const Request& request, const ComputeOptions& options,
+                              Progress& progress) {
+  validate(request);
+  Surveyed surveyed = climb(store, request, options, progress);
+  name_features(store, surveyed.result);
+  return surveyed;
+}
+
+Result compute(const Store& store, const Request& request, Progress& progress) {
+  return compute_with_surface(store, request, {}, progress).result;
+}
+
+Request alone(const Result& result, std::size_t observer) {
+  Request request = result.request;
+  request.observers = {result.request.observers[observer]};
+  request.cell_size.reset();
+  request.grid = result.grid;
+  return request;
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,49 @@
+#include "compute/memory.hpp"
+
+#include <algorithm>
+
+#include <viewshed/surface.hpp>
+
+#include "modes/triangle_studies.hpp"
+#include "request/request.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// What is known of a cell on the way and in the end.
+std::uint64_t bytes_per_cell(const Request& request) {
+  constexpr std::uint64_t kVerdict = 6;
+  switch (request.mode) {
+    case Mode::kVisible:
+      return kVerdict;
+    case Mode::kCount:
+      return kVerdict + 4;
+    case Mode::kWhich:
+      return kVerdict + 8 * which_grids(request.observers.size());
+    case Mode::kAngle:
+    case Mode::kHeight:
+    case Mode::kProbability:
+      return kVerdict + 8;
+    case Mode::kNearest:
+      return kVerdict + 20;
+    case Mode::kBlocker:
+      return kVerdict + 28;
+  }
+  return kVerdict;
+}
+
+}  // namespace
+
+std::uint64_t bytes_per_point(const Request& request) {
+  constexpr std::uint64_t kTriangles = 400, kStudies = 150, kRays = 1500;
+  return kTriangles + (needs_triangles(request) ? kStudies : 0) + (casts_rays(request) ? kRays : 0);
+}
+
+std::uint64_t memory_beside_rasters(std::uint64_t memory, const Store& store, const Request& request) {
+  const std::uint64_t cells = cells_of(request, extent_of(store)).cell_count();
+  const std::uint64_t rasters = std::min(memory, bytes_per_cell(request) * cells);
+  return std::max(memory / 4, memory - rasters);
+}
+
+}  // namespace itin::viewshed

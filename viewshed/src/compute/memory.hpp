@@ -1,0 +1,21 @@
+// What a viewshed takes of the memory: its rasters, and each point of its surface.
+#pragma once
+
+#include <cstdint>
+
+#include <itin/store.hpp>
+#include <viewshed/viewshed.hpp>
+
+namespace itin::viewshed {
+
+/// A sector takes one part of so many; the rest is for the store's cache, and for what is freed but not given back.
+inline constexpr std::uint64_t kSectorShare = 2;
+
+/// At the peak, for each point of a surface of triangles: triangulation, triangles and bins, and what the engine and
+/// the mode add.
+std::uint64_t bytes_per_point(const Request& request);
+
+/// What the rasters leave of the memory, or a quarter of it.
+std::uint64_t memory_beside_rasters(std::uint64_t memory, const Store& store, const Request& request);
+
+}  // namespace itin::viewshed

@@ -1,0 +1,31 @@
+// What some modes ask of every triangle of a surface.
+#pragma once
+
+#include <optional>
+
+#include <itin/tin.hpp>
+#include <viewshed/viewshed.hpp>
+
+#include "modes/first_blocker.hpp"
+#include "modes/vertical_odds.hpp"
+
+namespace itin::viewshed {
+
+/// Whether the request's mode asks more of the surface than sight lines.
+inline bool needs_triangles(const Request& request) {
+  return request.mode == Mode::kBlocker || request.mode == Mode::kProbability;
+}
+
+struct TriangleStudies {
+  /// Those that the request's mode needs; both must outlive it.
+  TriangleStudies(const Request& request, const Tin& surface) : tin(surface) {
+    if (request.mode == Mode::kBlocker) blockers.emplace(surface, request.earth);
+    if (request.mode == Mode::kProbability) odds.emplace(surface, request.earth, request.vertical_error);
+  }
+
+  const Tin& tin;
+  std::optional<FirstBlocker> blockers;
+  std::optional<VerticalOdds> odds;
+};
+
+}  // namespace itin::viewshed
