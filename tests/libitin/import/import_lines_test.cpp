@@ -308,6 +308,24 @@ TEST_F(ImportLines, WhatLeavesTheGroundIsLeftOut) {
   EXPECT_EQ(Store(path("s.itin")).metadata().themes[0].segments, 1u);
 }
 
+/// It is laid again with all that is imported later.
+TEST_F(ImportLines, WhatWasLeftOutTakesMemoryToo) {
+  import_terrain_tile(false);
+  LineFeature beyond, within{{{300500, 198000, 0}, {300600, 198000, 0}}};
+  for (int i = 0; i < 20000; ++i) beyond.vertices.push_back({310000.0 + i, 198000.0 + i % 7, 0});
+  test::write_lines(path("l.geojson"), {beyond, within}, true);
+  test::write_lines(path("m.geojson"), {within}, true);
+  lines(ThemeKind::Roads, "l.geojson");
+  ImportOptions options;
+  options.sources = {path("m.geojson")};
+  options.kind = ThemeKind::Walls;
+  options.memory_bytes = 8 << 20;
+  NoProgress progress;
+  EXPECT_THROW(import_lines(path("s.itin"), options, progress), InputError);
+  options.memory_bytes = 80 << 20;
+  EXPECT_NO_THROW(import_lines(path("s.itin"), options, progress));
+}
+
 /// From its very beginning: what another import changed in a store that is read already would be lost.
 TEST_F(ImportLines, AnotherMeanwhileIsRefused) {
   struct Meanwhile final : public Progress {
