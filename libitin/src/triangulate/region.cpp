@@ -4,6 +4,11 @@
 #include <cmath>
 #include <set>
 
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+
+#include "stoppable.hpp"
 #include "triangulate/circumdisc.hpp"
 #include "triangulate/cut_out.hpp"
 #include "triangulate/enclosure.hpp"
@@ -41,13 +46,18 @@ class RegionTriangulation {
   RegionMesh run() {
     RegionMesh result;
     if (!tile_.empty() && triangulate_box(first_margin())) {
-      for (int mended = 0;; ++mended) {
+      // Every round puts a vertex or a segment of the store into the mesh, or the box grows: it ends, whatever is
+      // stored.
+      for (int rounds = 0;; ++rounds) {
+        stop_if_asked();
         do mark_ground();
         while (look_farther());
-        if (!mend()) break;
-        if (mended == kPatience && worth_growing()) {
+        const Mending mending = mend();
+        if (mending == Mending::kDone) break;
+        if (mending == Mending::kInVain) require_more_ground();
+        if (mending == Mending::kInVain || (rounds == kPatience && worth_growing())) {
           triangulate_box(4 * margin_);
-          mended = 0;
+          rounds = 0;
         }
       }
       result = extract();
@@ -141,9 +151,20 @@ class RegionTriangulation {
     return margin + 1;
   }
 
-  void insert(const SelectedVertex& vertex) {
+  /// What no sound store asks for: something that the mesh has already disproves it.
+  void require_more_ground() const {
+    if (box_.contains(index_.bounds()))
+      throw Error(
+          fmt::format("vertices and lines between grid positions {}, {} and {}, {} contradict each other; run "
+                      "itin check on the store",
+                      tile_.xmin, tile_.ymin, tile_.xmax, tile_.ymax));
+  }
+
+  /// Whether it is new.
+  bool insert(const SelectedVertex& vertex) {
     const auto [number, fresh] = read_.number_of(vertex);
     if (fresh) grown_.insert(number);
+    return fresh;
   }
 
   /// A segment's end, which goes into the mesh if there is one.
@@ -271,8 +292,9 @@ class RegionTriangulation {
     return true;
   }
 
-  /// Proves every ground triangle of the region, or inserts what disproves it. True when something was inserted.
-  bool mend() {
+  enum class Mending : std::uint8_t { kDone, kGoesOn, kInVain };
+  /// Proves every ground triangle of the region, or inserts what disproves it: in vain where the mesh has all of it.
+  Mending mend() {
     std::vector<SelectedVertex> intruders;
     std::vector<Segment> fresh;
     for (std::uint32_t t = 0; t < mesh().triangles.size(); ++t) {
@@ -283,12 +305,15 @@ class RegionTriangulation {
     for (const SegmentEdge& edge : outline_) {
       if (edge.left == kNoTriangle) look_left_of(edge.from, edge.to, intruders);
     }
-    for (const SelectedVertex& v : intruders) insert(v);
+    if (intruders.empty() && fresh.empty()) return Mending::kDone;
+    bool inserted = !fresh.empty();
+    for (const SelectedVertex& v : intruders) inserted = insert(v) || inserted;
     insert(fresh);
-    return !intruders.empty() || !fresh.empty();
+    return inserted ? Mending::kGoesOn : Mending::kInVain;
   }
 
   void prove(std::uint32_t t, std::vector<SelectedVertex>& intruders, std::vector<Segment>& fresh) {
+    stop_if_asked();
     // Where one vertex is missing it is so for many triangles. What is left of them then is asked the next time.
     if (std::any_of(intruders.begin(), intruders.end(), [&](const SelectedVertex& v) { return disturbs(v, t); }))
       return;

@@ -7,6 +7,7 @@
 
 #include <itin/error.hpp>
 
+#include "stoppable.hpp"
 #include "triangulate/merge_runs.hpp"
 
 namespace itin {
@@ -66,6 +67,7 @@ std::vector<RegionReader::Coded> RegionReader::points(const GridBox& box) {
 }
 
 void RegionReader::read_block(const Leaf& leaf, const GridBox& box, std::vector<Coded>& found) {
+  stop_if_asked();
   const auto block = index_.block(leaf);
   statistics_.points_read += block->points.size();
   statistics_.blocks_read += 1;

@@ -6,6 +6,7 @@
 #include <itin/store.hpp>
 #include <itin/triangulate.hpp>
 
+#include "stoppable.hpp"
 #include "triangulate/assembly.hpp"
 #include "triangulate/region.hpp"
 #include "triangulate/standing_index.hpp"
@@ -75,6 +76,7 @@ void name_themes(Tin& tin, const StoreMetadata& metadata) {
 
 Tin triangulate(const Store& store, const Window& window, const Detail& detail, Progress& progress,
                 const ThemeChoice& themes) {
+  const Stoppable stoppable(progress);
   const StoreMetadata& metadata = store.metadata();
   const Selection selection = selection_of(metadata, detail, themes);
   const GridWindow grid_window(window, metadata.grid, metadata.bounds);
