@@ -119,6 +119,31 @@ TEST_F(Engines, AgreeFarFromTheEye) {
   EXPECT_GT(hidden_, 200U);
 }
 
+/// Cells a step of the grid wide about an eye that stands on the ground under a roof: it sees its own cell alone. So
+/// near the eye coordinates err by as much as a cell's slope may.
+TEST_F(Engines, AgreeWithinStepsOfTheEye) {
+  // Far from the grid's origin, as the stores of national grids are.
+  Tin roof = test::random_tin(random_, 60, 0, {{0, 0}, 0.01}, 3000);
+  for (GridPoint& p : roof.vertices) p.x += 30000000, p.y += 20000000;
+  Tin ground = roof;
+  for (GridPoint& p : ground.vertices) p.z -= 500;
+  std::uniform_real_distribution<double> within(-20, 20);
+  for (int i = 0; i < 500; ++i) {
+    Request request;
+    const Point2 eye{300000 + within(random_), 200000 + within(random_)};
+    if (!height_on(ground, eye)) continue;
+    request.observers = {{"o", eye, 0}};
+    request.target_height = 1.7;
+    request.nodata = NoData::kClear;
+    request.grid.emplace(Point2{eye.x - 0.075, eye.y + 0.075}, 0.01, 0.01, 15, 15);
+    expect_same_by_both(request, {Mode::kVisible}, [&](const Request& r) {
+      const Result result = compute(roof, ground, r, progress_);
+      EXPECT_EQ(result.cells.visible, 1U);
+      return result;
+    });
+  }
+}
+
 /// A town of lidar and footprints, the bundled one.
 class EnginesInTown : public Engines {
  protected:

@@ -8,7 +8,7 @@
 
 #include <itin/error.hpp>
 
-#include "stoppable.hpp"
+#include "base/stoppable.hpp"
 #include "triangulate/circumdisc.hpp"
 #include "triangulate/cut_out.hpp"
 #include "triangulate/enclosure.hpp"

@@ -7,7 +7,7 @@
 
 #include <itin/error.hpp>
 
-#include "stoppable.hpp"
+#include "base/stoppable.hpp"
 #include "triangulate/merge_runs.hpp"
 
 namespace itin {

@@ -6,7 +6,7 @@
 #include <itin/store.hpp>
 #include <itin/triangulate.hpp>
 
-#include "stoppable.hpp"
+#include "base/stoppable.hpp"
 #include "triangulate/assembly.hpp"
 #include "triangulate/region.hpp"
 #include "triangulate/standing_index.hpp"

@@ -69,14 +69,17 @@ class AxisSweep::Task {
     // What lies before the tile may hide even the highest of its ends.
     if (view_.hides(fan.known(from, to, quadrant.slab_at(nearest_)).hidden,
                     {from, to, nearest_, farthest_, least_drop()}, highest_)) {
-      for_each_cell(quadrant, from, to, [&](const Cell& cell) { heights_[cell.index] = kHidden; });
+      for_each_cell(quadrant, -kInfinity, kInfinity, [&](const Cell& cell) { heights_[cell.index] = kHidden; });
       return;
     }
     // Sectors one cell wide at the tile's far end.
     const double width = std::max(1.0, 1 / cells_a_bin_) / farthest_;
     silhouettes_.fill(kNoSilhouette);
-    for (std::size_t i = 0; from + static_cast<double>(i) * width <= to; ++i)
-      sweep(quadrant, fan, from + static_cast<double>(i) * width, from + static_cast<double>(i + 1) * width);
+    for (std::size_t i = 0; from + static_cast<double>(i) * width <= to; ++i) {
+      const Slopes sector{from + static_cast<double>(i) * width, from + static_cast<double>(i + 1) * width};
+      // The outer ones have all that is left: near the axis a cell's slope may err by more than a hair.
+      sweep(quadrant, fan, sector, {i == 0 ? -kInfinity : sector.from, sector.to > to ? kInfinity : sector.to});
+    }
   }
 
   void place_cells(const Quadrant& quadrant) {
@@ -142,12 +145,16 @@ class AxisSweep::Task {
     }
   }
 
-  void sweep(const Quadrant& quadrant, const HorizonFan& fan, double from, double to) {
+  struct Slopes {
+    double from = 0, to = 0;
+  };
+
+  void sweep(const Quadrant& quadrant, const HorizonFan& fan, const Slopes& sector, const Slopes& cells) {
     bool surveyed = false;
     last_ = kNoSilhouette;
     double along = -1, hidden_below = 0;  // of ends this far away
-    for_each_cell(quadrant, from, to, [&](Cell cell) {
-      if (!std::exchange(surveyed, true)) survey(quadrant, fan, from, to);
+    for_each_cell(quadrant, cells.from, cells.to, [&](Cell cell) {
+      if (!std::exchange(surveyed, true)) survey(quadrant, fan, sector.from, sector.to);
       if (cell.along != along) {
         along = cell.along;
         hidden_below = axis_.top + along * profile_.hidden_below(quadrant.slab_at(along));
