@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <itin/certificate.hpp>
 #include <itin/import.hpp>
 #include <itin/lattice_tin.hpp>
 #include <itin/parallel.hpp>

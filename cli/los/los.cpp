@@ -8,7 +8,7 @@
 #include <itin/height_limit.hpp>
 #include <itin/store.hpp>
 #include <profile/los.hpp>
-#include <profile/profile_csv.hpp>
+#include <profile/profile.hpp>
 
 #include "los/los_case.hpp"
 #include "los/los_links.hpp"

@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include <itin/fresnel_zone.hpp>
 #include <itin/store.hpp>
 #include <profile/line_of_sight.hpp>
 #include <viewshed/site_coverage.hpp>
@@ -18,7 +17,7 @@ namespace itin::cli {
 struct LinkRules {
   ThemeChoice themes;
   Earth earth;
-  std::optional<FresnelCriterion> fresnel;
+  std::optional<viewshed::FresnelCriterion> fresnel;
 
   bool met_by(const profile::SightLine& line) const { return line.clears(fresnel ? fresnel->fraction : 0); }
 };

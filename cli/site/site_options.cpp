@@ -221,9 +221,9 @@ void SiteOptions::validate_links() {
       throw InputError("--frequency takes a --mast-height above 0: no link from the ground is clear");
 }
 
-std::optional<FresnelCriterion> SiteOptions::criterion() const {
+std::optional<viewshed::FresnelCriterion> SiteOptions::criterion() const {
   if (!frequency_ghz) return std::nullopt;
-  return FresnelCriterion{profile::wavelength_m(*frequency_ghz), fresnel};
+  return viewshed::FresnelCriterion{profile::wavelength_m(*frequency_ghz), fresnel};
 }
 
 std::string SiteOptions::meaning_of_served() const {

@@ -7,9 +7,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include <itin/fresnel_zone.hpp>
 #include <itin/sites.hpp>
-#include <viewshed/viewshed.hpp>
+#include <viewshed/site_coverage.hpp>
 
 #include "options/earth_options.hpp"
 #include "options/engine_option.hpp"
@@ -38,7 +37,7 @@ class SiteOptions {
   Document given() const;
   Document parameters() const;
   /// What a link must leave clear, if anything.
-  std::optional<FresnelCriterion> criterion() const;
+  std::optional<viewshed::FresnelCriterion> criterion() const;
   /// When a target is served, in a sentence.
   std::string meaning_of_served() const;
 

@@ -10,7 +10,7 @@
 #include <itin/store.hpp>
 #include <itin/tin_export.hpp>
 #include <itin/triangulate.hpp>
-#include <viewshed/oblique_view.hpp>
+#include <viewshed/map_image.hpp>
 
 #include "options/detail_options.hpp"
 #include "options/store_scale.hpp"

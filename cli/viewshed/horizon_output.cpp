@@ -7,7 +7,8 @@
 
 #include <itin/error.hpp>
 #include <itin/output_file.hpp>
-#include <profile/panorama.hpp>
+#include <profile/chart.hpp>
+#include <viewshed/surface.hpp>
 
 #include "options/site_list.hpp"
 #include "output/output_path.hpp"
@@ -140,7 +141,7 @@ Document HorizonOutput::write(viewshed::Surveyed& surveyed, const StoreMetadata&
                               bool overwrite, Progress& progress) const {
   if (paths_.empty()) return nullptr;
   const viewshed::Request& request = surveyed.result.request;
-  const Tin& surface = surveyed.surface.listed(progress);
+  const Tin& surface = surveyed.surface->listed(progress);
   const viewshed::Horizon horizon = viewshed::horizon(surface, surveyed.ground ? *surveyed.ground : surface, request,
                                                       {step_deg_, targets(request, metadata)}, progress);
   for (const std::string& path : paths_) {

@@ -88,7 +88,7 @@ void ViewshedOutputs::write(viewshed::Surveyed& surveyed, const Context& context
                             Progress& progress) const {
   std::optional<viewshed::MapImage> map;
   if (!image_.empty()) {
-    map = viewshed::draw_map(surveyed.surface, surveyed.result, progress);
+    map = viewshed::draw_map(*surveyed.surface, surveyed.result, progress);
     warnings.insert(warnings.end(), map->warnings.begin(), map->warnings.end());
   }
   for (const std::string& path : outputs_) {

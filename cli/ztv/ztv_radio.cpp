@@ -7,6 +7,7 @@
 
 #include <itin/error.hpp>
 #include <profile/links.hpp>
+#include <viewshed/link_exclusion.hpp>
 
 #include "options/off_the_data.hpp"
 #include "output/csv_cell.hpp"

@@ -1,4 +1,5 @@
-# Installs BUILD_DIR below WORK_DIR, then configures, builds and runs the project in SOURCE_DIR against it.
+# Installs BUILD_DIR below WORK_DIR, then configures, builds and runs a consumer and the examples against it. With SHARED,
+# shared libraries are built from ROOT_DIR into BUILD_DIR first.
 function(run)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE status)
   if(NOT status EQUAL 0)
@@ -7,16 +8,92 @@ function(run)
   endif()
 endfunction()
 
+# What a shared library exports is itin's own.
+function(check_symbols library)
+  execute_process(COMMAND nm --dynamic --defined-only --demangle ${library} OUTPUT_VARIABLE symbols
+    COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX REPLACE "[;\\[]" "" symbols "${symbols}")
+  string(REGEX REPLACE "\n" ";" symbols "${symbols}")
+  list(LENGTH symbols count)
+  list(FILTER symbols EXCLUDE REGEX "^[0-9a-f]+ . (([a-zA-Z -]+ (for|to) )?itin::)|^$")
+  if(symbols OR count LESS 10)
+    list(JOIN symbols "\n" symbols)
+    message(FATAL_ERROR "${library} exports ${count} symbols, of which foreign:\n${symbols}")
+  endif()
+endfunction()
+
+# Compiles the consumer by what pkg-config says of the package alone.
+function(check_pkgconfig)
+  set(ENV{PKG_CONFIG_PATH} ${WORK_DIR}/prefix/lib/pkgconfig)
+  execute_process(COMMAND pkg-config --cflags --libs itin-viewshed itin-profile OUTPUT_VARIABLE flags
+    OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  separate_arguments(flags UNIX_COMMAND "${flags} ${CXX_FLAGS}")
+  run(${CXX_COMPILER} -std=c++20 ${ROOT_DIR}/tests/consumer/consumer.cpp -o ${WORK_DIR}/by-pkg-config ${flags}
+    -Wl,-rpath,${WORK_DIR}/prefix/lib)
+  run(${CMAKE_COMMAND} -E chdir ${WORK_DIR} ${WORK_DIR}/by-pkg-config)
+endfunction()
+
+# Runs each on a small town.
+function(run_examples examples)
+  set(data ${ROOT_DIR}/scripts/demo-data)
+  foreach(command IN ITEMS
+      "make_store|town.itin|${data}/alexandria-dtm.tif|${data}/alexandria-buildings.geojson"
+      "viewshed|town.itin|321800|4297750"
+      "line_of_sight|town.itin|321590|4297655|10|321790|4297662|12"
+      "siting|town.itin"
+      "cancel|town.itin|0")
+    string(REPLACE "|" ";" command ${command})
+    run(${CMAKE_COMMAND} -E chdir ${WORK_DIR} ${examples}/${command})
+  endforeach()
+  foreach(file IN ITEMS viewshed.tif viewshed.png profile.svg)
+    if(NOT EXISTS ${WORK_DIR}/${file})
+      message(FATAL_ERROR "the examples did not write ${file}")
+    endif()
+  endforeach()
+endfunction()
+
 file(REMOVE_RECURSE ${WORK_DIR})
-run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/installed)
-# Whoever unpacks an installation elsewhere must find it whole.
-file(RENAME ${WORK_DIR}/installed ${WORK_DIR}/prefix)
 set(flags "${CXX_FLAGS}")
 if(SANITIZE)
   string(APPEND flags " -fsanitize=${SANITIZE}")
 endif()
-run(${CMAKE_COMMAND} -S ${SOURCE_DIR} -B ${WORK_DIR}/build -G Ninja -DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix
-  -DCMAKE_BUILD_TYPE=${BUILD_TYPE} -DCMAKE_CXX_FLAGS=${flags})
-run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
-run(${CMAKE_COMMAND} -E chdir ${WORK_DIR} ${WORK_DIR}/build/consumer)
-run(${CMAKE_COMMAND} -E chdir ${WORK_DIR} ${WORK_DIR}/prefix/bin/itin --version)
+set(settings -G Ninja -DCMAKE_BUILD_TYPE=${BUILD_TYPE} -DCMAKE_CXX_COMPILER=${CXX_COMPILER}
+  -DCMAKE_CXX_COMPILER_LAUNCHER=${CXX_LAUNCHER} -DCMAKE_CXX_FLAGS_RELWITHDEBINFO=${CXX_FLAGS_RELWITHDEBINFO})
+set(foreign "")
+if(SHARED)
+  run(${CMAKE_COMMAND} -S ${ROOT_DIR} -B ${BUILD_DIR} ${settings} -DCMAKE_CXX_FLAGS=${CXX_FLAGS} -DBUILD_SHARED_LIBS=ON
+    -DCMAKE_UNITY_BUILD=${UNITY_BUILD} -DITIN_SANITIZE=${SANITIZE} -DITIN_PARALLEL=${PARALLEL} -DITIN_BUILD_TESTS=OFF)
+  run(${CMAKE_COMMAND} --build ${BUILD_DIR})
+  # Users of shared libraries need not have what these were built with.
+  foreach(package IN ITEMS CGAL GDAL GEOS SQLite3 OpenSSL TBB embree fmt PkgConfig)
+    list(APPEND foreign -DCMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
+  endforeach()
+endif()
+run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/installed)
+# Whoever unpacks an installation elsewhere must find it whole.
+file(RENAME ${WORK_DIR}/installed ${WORK_DIR}/prefix)
+set(prefix ${WORK_DIR}/prefix)
+run(${CMAKE_COMMAND} -E chdir ${WORK_DIR} ${prefix}/bin/itin --version)
+file(GLOB libraries ${prefix}/lib/libitin*.so.?.?.?)
+list(LENGTH libraries count)
+if(SHARED AND NOT count EQUAL 3)
+  message(FATAL_ERROR "${count} shared libraries are installed")
+endif()
+foreach(library IN LISTS libraries)
+  check_symbols(${library})
+endforeach()
+if(NOT SANITIZE)
+  check_pkgconfig()
+endif()
+foreach(project IN ITEMS tests/consumer examples)
+  if(SHARED AND project STREQUAL tests/consumer)
+    continue()  # its headers are the same
+  endif()
+  run(${CMAKE_COMMAND} -S ${ROOT_DIR}/${project} -B ${WORK_DIR}/${project} ${settings} ${foreign}
+    -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_FLAGS=${flags})
+  run(${CMAKE_COMMAND} --build ${WORK_DIR}/${project})
+endforeach()
+if(NOT SHARED)
+  run(${CMAKE_COMMAND} -E chdir ${WORK_DIR} ${WORK_DIR}/tests/consumer/consumer)
+endif()
+run_examples(${WORK_DIR}/examples)

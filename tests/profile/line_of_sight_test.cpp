@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <random>
+#include <type_traits>
 
 #include <gtest/gtest.h>
 
@@ -55,6 +56,12 @@ TEST(LineOfSight, IsBlockedByARidgeAsFarAsItRisesAboveTheRay) {
   EXPECT_EQ(line.critical, (Point3{50, 30, 10}));
 }
 
+TEST(LineOfSight, TakesNoTinThatIsGoneTheNextMoment) {
+  static_assert(std::is_constructible_v<SightLines, const Tin&, Earth>);
+  static_assert(!std::is_constructible_v<SightLines, Tin, Earth>);
+  static_assert(!std::is_constructible_v<SightLines, Tin, Earth, std::optional<double>>);
+}
+
 TEST(LineOfSight, GrazingTheSurfaceIsVisible) {
   const Tin tin = ridge();
   const SightLines sight_lines(tin, Earth::flat());
@@ -94,7 +101,8 @@ TEST(LineOfSight, SeesAcrossGroundWithoutData) {
   const SightLine line = SightLines(tin, Earth::flat()).between({500, 0, -5}, {600, 0, -5});
   EXPECT_EQ(line.clearance, std::nullopt);
   EXPECT_TRUE(line.visible());
-  EXPECT_TRUE(SightLines(Tin{}, Earth::flat()).between({0, 0, 0}, {1, 1, 1}).visible());
+  const Tin nothing;
+  EXPECT_TRUE(SightLines(nothing, Earth::flat()).between({0, 0, 0}, {1, 1, 1}).visible());
 }
 
 TEST(LineOfSight, OfLengthZeroLooksDown) {

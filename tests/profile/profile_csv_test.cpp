@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <itin/error.hpp>
-#include <profile/profile_csv.hpp>
+#include <profile/profile.hpp>
 
 namespace itin::profile {
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <itin/error.hpp>
-#include <viewshed/oblique_view.hpp>
+#include <viewshed/map_image.hpp>
 
 #include "support/terrain_tin.hpp"
 

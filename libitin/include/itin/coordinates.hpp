@@ -1,7 +1,7 @@
 // Coordinate reference systems by name, and points from one to another.
 //
 //   CoordinateTransform to_store("EPSG:4326", store.metadata().crs_wkt);
-//   Point2 p = to_store({-3.18, 51.48});  // longitude, latitude
+//   const Point2 cardiff = to_store({-3.18, 51.48});  // longitude, latitude
 //
 // Axis order is the one of maps and files, whatever the authority says: easting, northing; longitude, latitude.
 #pragma once

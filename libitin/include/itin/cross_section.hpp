@@ -1,8 +1,9 @@
 // Cross-sections: where a straight line crosses the edges of the surface's triangles.
 //
 //   const CrossSection section = cross_section(store, {305000, 210000}, {315000, 213000}, Detail::tolerance(0));
-//   for (const Breakpoint& p : section.breakpoints) plot(p.distance, p.position.z);
-//   const CrossSection street = cross_section(store, a, b, Detail::tolerance(0), ThemeChoice::parse("buildings"));
+//   for (const Breakpoint& p : section.breakpoints) std::cout << p.distance << ' ' << p.position.z << '\n';
+//
+// ThemeChoice::parse("buildings") as a last argument has houses stand in the way.
 //
 // The breakpoints are the crossings that a window query's triangles would give, neither more nor fewer, and nothing is
 // sampled: between two of them the surface is straight. cross_section() reads the fewest points (R. Smith and others,
@@ -46,7 +47,7 @@ struct SectionGap {
 
 struct CrossSection {
   double length = 0;       ///< metres
-  bool one_place = false;  ///< the ends are, as same_place.hpp has it
+  bool one_place = false;  ///< the ends are nearer to each other than a step of the store's grid
   /// In order of distance. Over ground the first and last are the line's ends; two breakpoints with no gap between them
   /// are joined by a straight piece of the surface. A line of length 0 has one. Where the line merely touches the
   /// ground there is one breakpoint between two gaps.
@@ -74,6 +75,8 @@ class SectionSurface {
   /// Throws InputError for themes that the store does not have.
   SectionSurface(const Store& store, const Detail& detail, const ThemeChoice& themes = ThemeChoice::none());
   SectionSurface(const Store& store, const Detail& detail, const ThemeChoice& themes, const Options& options);
+  SectionSurface(const Store&& store, const Detail& detail, const ThemeChoice& themes = ThemeChoice::none()) = delete;
+  SectionSurface(const Store&& store, const Detail& detail, const ThemeChoice& themes, const Options& options) = delete;
   SectionSurface(SectionSurface&&) noexcept;
   SectionSurface& operator=(SectionSurface&&) noexcept;
   ~SectionSurface();

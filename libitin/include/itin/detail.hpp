@@ -1,7 +1,8 @@
 // How much detail a query wants: one tolerance, or rings of tolerance about a centre.
 //
-//   Detail::tolerance(0)                                       // every stored point
-//   Detail::rings({x, y}, {{500, 0}, {2000, 1}, {10000, 4}})   // within 500 m everything, within 2 km 1 m, ...
+//   const Detail full = Detail::tolerance(0);  // every stored point
+//   // Within 500 m everything, within 2 km to 1 m, beyond that to 4 m.
+//   const Detail rings = Detail::rings({318000, 176000}, {{500, 0}, {2000, 1}, {10000, 4}});
 #pragma once
 
 #include <vector>

@@ -1,8 +1,8 @@
 // Earth curvature and refraction, as one parabola.
 //
-//   Earth earth;                       // curved, k = 0.13, R = 6371 km
-//   earth.drop(40000);                 // 109.2 m
-//   Earth::effective_earth(4.0 / 3)    // radio: 94.2 m at 40 km
+//   const Earth earth;                                         // curved, k = 0.13, R = 6371 km
+//   const double light = earth.drop(40000);                    // 109.2 m
+//   const Earth radio = Earth::effective_earth(4.0 / 3);       // radio.drop(40000): 94.2 m
 //
 // A point at horizontal distance d from the observer appears lower by drop = d^2 (1 - k) / (2 R), or by d^2 / (2 K R)
 // with the effective Earth factor K = 1 / (1 - k). The parabola departs from the sphere by less than d^4 / (8 R^3):

@@ -1,5 +1,11 @@
 // What can go wrong, as types that carry their data. Every message is one line: what, where, what to do.
 //
+//   try {
+//     const Store store("wales.itin");
+//   } catch (const FileError& error) {
+//     std::cerr << error.what() << "; try " << error.path() << " elsewhere\n";
+//   }
+//
 // Input errors end the command line with status 2, all others with status 1.
 #pragma once
 

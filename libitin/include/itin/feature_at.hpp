@@ -1,8 +1,11 @@
 // Which imported feature stands at a place.
 //
-//   const CrossSection section = cross_section(store, a, b, detail, themes);
-//   for (const Breakpoint& p : section.breakpoints) {
-//     if (p.theme != 0) features_at(store, p.theme, {{p.position.x, p.position.y}});
+//   const CrossSection street =
+//       cross_section(store, {321590, 4297655}, {321790, 4297655}, Detail::tolerance(0), ThemeChoice::all());
+//   for (const Breakpoint& p : street.breakpoints) {
+//     if (p.theme == 0) continue;
+//     const std::optional<FeatureAt> house = features_at(store, p.theme, {{p.position.x, p.position.y}})[0];
+//     if (house) std::cout << house->name << '\n';
 //   }
 #pragma once
 

@@ -6,7 +6,7 @@
 //
 // Units: metres, easting / northing / up, in the store's projected coordinate reference system. Grid coordinates are
 // whole multiples of the resolution relative to the grid's origin; they stay within [-2^29, 2^29), so that differences
-// fit in 31 bits and the predicates built on them in 128 (see src/geometry/predicates.hpp).
+// fit in 31 bits and the predicates built on them in 128.
 #pragma once
 
 #include <algorithm>

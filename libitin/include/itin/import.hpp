@@ -2,11 +2,12 @@
 //
 //   ImportOptions options;
 //   options.sources = {"ST17.asc", "ST18.asc"};
-//   ImportReport report = import_terrain("cardiff.itin", options, progress);
+//   const ImportReport report = import_terrain("cardiff.itin", options, progress);
+//   for (const std::string& warning : report.warnings) std::cerr << warning << '\n';
 //
 // Importing into an existing store adds to it. Vertices, triangles, levels and certificates, of terrain, lines and all
 // that stands, are a function of the set of sources and their options, whatever the order and the portions in which
-// they were imported: a store keeps what it leaves out, cuts or moves as it came (store/set_aside.hpp), and every
+// they were imported: a store keeps what it leaves out, cuts or moves as it came, and every
 // import begins with all of it. The order shows in the numbers of sources and features, and in what the first import
 // settles for a store: CRS, grid and levels. Stores of format 3 and older have kept nothing: what earlier imports made
 // of their sources counts as what was imported. Adding rebuilds the pyramid of the whole store; it takes as long as
@@ -18,7 +19,6 @@
 #include <string>
 #include <vector>
 
-#include <itin/feature_rules.hpp>
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
 
@@ -90,24 +90,26 @@ struct ImportReport {
 /// CorruptStore, Cancelled. Whatever is thrown, the store stays as it was.
 ImportReport import_terrain(const std::string& store_path, const ImportOptions& options, Progress& progress);
 
-/// Where contours are imported, options.repair decides for all contours of the store, also when something is added
-/// later; where several imports of contours differ, they are not repaired. Then points are inferred along ridges,
-/// valleys, passes, hilltops and pits (features/flat_skeleton.hpp) and have a source of their own, of kind "inferred",
-/// the last one. They depend on the terrain and the lines that were imported alone, and are inferred anew whenever such
-/// are added.
-///
 /// Adds lines and polygons (as their rings) to a theme, which is made if there is none of that name. Contours may make
 /// a new store; other lines need ground to lie on. All lines of the store are made planar together: crossings get a
 /// vertex, and no line moves by more than half a grid step. Heights of lines of the terrain win over those of points;
 /// of lines that meet, those of the terrain and then the first name in order decide. Lines of other kinds take the
 /// heights of the full surface at their vertices. Throws as above.
 ///
+/// Where contours are imported, options.repair decides for all contours of the store, also when something is added
+/// later; where several imports of contours differ, they are not repaired. Then points are inferred along ridges,
+/// valleys, passes, hilltops and pits (Ware 1998) and have a source of their own, of kind "inferred",
+/// the last one. They depend on the terrain and the lines that were imported alone, and are inferred anew whenever such
+/// are added.
+///
 /// Buildings, vegetation and walls with heights stand on the ground (stands()): queries that choose their theme see
 /// roofs and tops, in place of what lies under them. They need ground all under them, others are refused, with a
 /// warning. At full detail they only raise the surface: outside of footprints it stays what it is, within it is nowhere
 /// lower, but for rounding to the grid. The store keeps their footprints, and stands them up again whenever its terrain
 /// changes.
-bool stands(const ImportOptions& options);
 ImportReport import_lines(const std::string& store_path, const ImportOptions& options, Progress& progress);
+
+/// Whether what import_lines() makes of these options stands on the ground.
+bool stands(const ImportOptions& options);
 
 }  // namespace itin

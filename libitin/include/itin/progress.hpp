@@ -1,4 +1,13 @@
-// One handle for progress and cancellation, passed down to every long call.
+// One handle for progress and cancellation, passed down to every long call; and how many threads such calls use.
+//
+//   struct Bar final : Progress {
+//     std::atomic<bool> stop = false;  // set it from any thread: the call throws Cancelled
+//     void report(std::string_view stage, double fraction) override {
+//       std::cerr << stage << ' ' << static_cast<int>(100 * fraction) << " %\n";
+//     }
+//     bool cancelled() const override { return stop; }
+//   } bar;
+//   const Tin tin = triangulate(store, Window::all(), Detail::tolerance(8), bar);
 #pragma once
 
 #include <string_view>
@@ -26,5 +35,10 @@ class NoProgress final : public Progress {
  public:
   void report(std::string_view, double) override {}
 };
+
+/// Limits all calls of the process to this many threads in all; 0 means all cores. No result depends on it.
+void set_thread_count(int threads);
+/// How many threads calls may use now, at least 1.
+int thread_count();
 
 }  // namespace itin

@@ -1,8 +1,13 @@
 // Rasters that results are written on: where their cells lie, and how they get into files.
 //
-//   RasterGrid grid = RasterGrid::aligned({318000, 176000, 328000, 186000}, 10);
-//   Point2 p = grid.centre(0, 0);                            // of the north-west cell
-//   write_raster("visible.tif", grid, std::span<const std::uint8_t>(values), description);
+//   const RasterGrid grid = RasterGrid::aligned({318000, 176000, 328000, 186000}, 10);
+//   std::vector<float> eastings(grid.cell_count());
+//   for (std::int64_t row = 0; row < grid.rows(); ++row)
+//     for (std::int64_t column = 0; column < grid.columns(); ++column)
+//       eastings[grid.index({column, row})] = static_cast<float>(grid.centre(column, row).x);
+//   RasterDescription description;
+//   description.crs_wkt = store.metadata().crs_wkt;
+//   write_raster("eastings.tif", grid, std::span<const float>(eastings), description);
 //
 // North up: row 0 is the northernmost, and values lie row by row from west to east. This file is the only place that
 // knows how rows map to northings and where a cell's centre is.

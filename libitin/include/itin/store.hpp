@@ -1,7 +1,7 @@
 // A multiscale implicit TIN on disk, open for reading.
 //
-//   itin::Store store("wales.itin");
-//   std::cout << store.metadata().levels.size();
+//   const Store store("wales.itin");
+//   for (const LevelInfo& level : store.metadata().levels) std::cout << level.tolerance << " m\n";
 //
 // A Store is safe to use from any number of threads. Blocks are decoded once and kept in a cache shared by all
 // threads, bounded by StoreOptions::cache_bytes. No triangle is stored; see triangulate.hpp.
@@ -14,16 +14,17 @@
 #include <string>
 #include <vector>
 
-#include <itin/certificate.hpp>
 #include <itin/geometry.hpp>
 #include <itin/progress.hpp>
 #include <itin/theme.hpp>
 
 namespace itin {
 
-class PointIndex;        // src/store/point_index.hpp
-class StoreFile;         // src/store/store_file.hpp
-struct StoredFootprint;  // src/store/footprint_codec.hpp
+// Not installed.
+class Certificate;
+class PointIndex;
+class StoreFile;
+struct StoredFootprint;
 
 /// T_k + lo <= T_0 <= T_k + hi, metres.
 struct CertifiedError {
@@ -89,8 +90,6 @@ class Store {
   const std::string& path() const;
   const StoreMetadata& metadata() const;
   std::uint64_t file_bytes() const;
-  /// For the libraries of this toolkit: the quadtrees themselves.
-  const PointIndex& points() const;
   /// The widest bounds of the level's cells that meet the box: T_level + lo <= T_0 <= T_level + hi all over it.
   /// Nullopt where there is no ground. Throws InputError for a level the store does not have, CorruptStore.
   std::optional<CertifiedError> certified_error(int level, const Box& box) const;
@@ -101,7 +100,11 @@ class Store {
   double greatest_height_left_out(const ThemeChoice& themes, int level, const Box& box) const;
   /// About how many points of this level and coarser ones lie in the box; reads the directory, no points.
   std::uint64_t points_about(int level, const Box& box) const;
-  /// The bounds of the level's cells that meet the box, to ask about many places. Throws likewise.
+
+  // For the libraries of this toolkit.
+  /// The quadtrees themselves.
+  const PointIndex& points() const;
+  /// The bounds of the level's cells that meet the box, to ask about many places. Throws as certified_error() does.
   Certificate certificate(int level, const Box& box) const;
 
  private:

@@ -1,7 +1,7 @@
 // Themes: named classes of lines in a store.
 //
-//   ThemeChoice::parse("houses,hedges")   // or "all", "none"
-//   ThemeChoice::all().with_ground_lines()
+//   const ThemeChoice some = ThemeChoice::parse("houses,hedges");  // or "all", "none"
+//   const ThemeChoice with_roads = ThemeChoice::all().with_ground_lines();
 //
 // Lines of terrain themes (contours, breaklines, water) have heights and are part of the full surface, whatever a query
 // chooses. Those of the other kinds lie on it, and are part of a query's triangulation only where it names their theme
@@ -26,6 +26,17 @@ ThemeKind theme_kind(std::string_view name);
 constexpr bool is_terrain(ThemeKind kind) {
   return kind == ThemeKind::Contours || kind == ThemeKind::Breaklines || kind == ThemeKind::Water;
 }
+
+/// How a building on its footprint is closed above.
+enum class RoofKind : std::uint8_t { flat, gabled, hipped, skeleton };
+/// What a building's heights count from: the terrain under its footprint, of which the last takes the mean. Its foot
+/// lies on the terrain whatever the rule.
+enum class BaseRule : std::uint8_t { minimum, mean, maximum, terrain_following };
+
+/// "flat", "gabled", "hipped", "skeleton". Throws InputError.
+RoofKind roof_kind(std::string_view name);
+/// "minimum", "mean", "maximum", "terrain-following". Throws InputError.
+BaseRule base_rule(std::string_view name);
 
 struct ThemeInfo {
   std::string name;

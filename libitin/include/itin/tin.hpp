@@ -1,4 +1,8 @@
 // A triangulated piece of the surface: what a window query returns.
+//
+//   const Tin tin = triangulate(store, Window::disc({318000, 176000}, 500), Detail::tolerance(0), progress);
+//   for (std::uint32_t t = 0; t < tin.triangles.size(); ++t)
+//     for (const GridPoint& corner : tin.corners(t)) std::cout << tin.grid.point(corner).z << '\n';
 #pragma once
 
 #include <array>

@@ -1,7 +1,8 @@
 // Who touches whom in a Tin: nothing of it is stored, all of it is made on demand.
 //
+//   const Tin tin = triangulate(store, Window::disc({318000, 176000}, 500), Detail::tolerance(0), progress);
 //   const Topology topology(tin);
-//   for (std::uint32_t neighbour : topology.vertices_of_vertex(v)) ...
+//   for (const std::uint32_t neighbour : topology.vertices_of_vertex(0)) std::cout << tin.point(neighbour).z << '\n';
 //
 // Half-edge 3 t + i runs from corner i of triangle t to the next, with t to its left. Edges are numbered in ascending
 // order of their first half-edge. The nine relations of De Floriani and Hui (2005) are asked by name; each costs time
@@ -35,6 +36,7 @@ std::vector<std::array<std::uint32_t, 3>> adjacent_triangles(const Tin& tin);
 class Topology {
  public:
   explicit Topology(const Tin& tin);
+  explicit Topology(const Tin&& tin) = delete;
 
   std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(tin_->vertices.size()); }
   std::uint32_t edge_count() const { return static_cast<std::uint32_t>(half_edge_of_edge_.size()); }

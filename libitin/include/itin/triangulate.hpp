@@ -1,4 +1,8 @@
 // Window queries: the triangles of the global constrained Delaunay triangulation that meet a window (law 1).
+//
+//   const Window window = Window::disc({318000, 176000}, 5000);
+//   const Tin tin = triangulate(store, window, Detail::tolerance(2), progress);
+//   std::cout << tin.triangles.size() << " triangles\n";
 #pragma once
 
 #include <itin/detail.hpp>

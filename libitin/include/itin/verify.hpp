@@ -1,7 +1,7 @@
 // Whether a store keeps its promises about surfaces: certificates that hold, features no higher than its index says.
 //
 //   const Store store("wales.itin");
-//   std::vector<Damage> damage = check(store, progress);          // that every byte is what was written
+//   std::vector<Damage> damage = check(store, progress);  // that every byte is what was written
 //   if (damage.empty()) damage = verify(store, {}, progress).damage;
 //
 // check() finds what disk and network do to a file; verify() also what a faulty program, or a hand, has written under

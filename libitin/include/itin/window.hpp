@@ -1,7 +1,7 @@
 // The region a query asks for: box, polygon with holes, disc, wedge or corridor.
 //
-//   Window w = Window::disc({318000, 176000}, 5000);
-//   Tin tin = triangulate(store, w, Detail::tolerance(2));
+//   const Window disc = Window::disc({318000, 176000}, 5000);
+//   const Tin tin = triangulate(store, disc, Detail::tolerance(2), progress);
 //
 // A window is a closed region of the plane. A triangle belongs to the answer when it meets the window (touching
 // counts). Shapes are kept as polygons in metres and quantised to the store's grid once, so that membership is decided

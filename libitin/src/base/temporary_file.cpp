@@ -21,8 +21,8 @@ namespace {
 
 }  // namespace
 
-TemporaryFile::TemporaryFile(std::string directory) : directory_(std::move(directory)) {
-  if (directory_.empty()) directory_ = ".";
+TemporaryFile::TemporaryFile(std::string directory)
+    : directory_(directory.empty() ? std::string(1, '.') : std::move(directory)) {
   std::string name = directory_ + "/.itin-XXXXXX";
   descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);
   if (descriptor_ < 0) throw_file_error(directory_, "create", errno);

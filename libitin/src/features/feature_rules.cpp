@@ -5,7 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <itin/error.hpp>
-#include <itin/feature_rules.hpp>
+#include <itin/theme.hpp>
 
 namespace itin {
 

@@ -27,11 +27,11 @@ Footing footing(const StandingSegment& segment, const GridPoint& p) {
 }  // namespace
 
 std::vector<PartVertex> part_vertices(const StandingPart& part, const std::vector<Position>& ends) {
-  constexpr std::int32_t kUnknown = std::numeric_limits<std::int32_t>::min();
+  constexpr std::int32_t kHeightUnknown = std::numeric_limits<std::int32_t>::min();
   std::vector<GridPoint> fresh;
   for (const Position& p : ends) {
     stop_if_asked();
-    const GridPoint point{p.x, p.y, kUnknown};
+    const GridPoint point{p.x, p.y, kHeightUnknown};
     if (!std::binary_search(part.vertices.begin(), part.vertices.end(), point, before_by_code)) fresh.push_back(point);
   }
   // By x, so that a segment finds those beside it.
@@ -67,7 +67,7 @@ std::vector<PartVertex> part_vertices(const StandingPart& part, const std::vecto
   std::vector<GridPoint> all = part.vertices;
   all.insert(all.end(), fresh.begin(), fresh.end());
   std::sort(all.begin(), all.end(), before_by_code);
-  std::erase_if(all, [](const GridPoint& p) { return p.z == kUnknown; });
+  std::erase_if(all, [](const GridPoint& p) { return p.z == kHeightUnknown; });
   std::sort(outline.begin(), outline.end());
   std::vector<PartVertex> result;
   for (const GridPoint& p : all) result.push_back({p, std::binary_search(outline.begin(), outline.end(), code_of(p))});

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include <itin/feature_rules.hpp>
 #include <itin/geometry.hpp>
+#include <itin/theme.hpp>
 
 namespace itin {
 

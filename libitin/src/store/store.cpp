@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include <itin/certificate.hpp>
 #include <itin/store.hpp>
 
 #include "store/store_file.hpp"

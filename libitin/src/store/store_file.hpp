@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <itin/certificate.hpp>
 #include <itin/store.hpp>
 
 #include "geometry/morton_range.hpp"

@@ -69,9 +69,9 @@ class StoreWriter {
   /// The same of a theme's lines.
   void set_aside(std::uint16_t theme, const SetAsideLines& lines);
   void count_set_aside(const SetAsideCounts& counts);
-  /// Certified error of each level = the union of its leaves'. Syncs and renames. Throws FileError (disk full, ...).
   /// `themes` gets the number of blocks of its footprints, which may be none.
   void add_footprints(std::vector<ThemeInfo>& themes, const std::vector<std::vector<StoredFootprint>>& footprints);
+  /// Certified error of each level = the union of its leaves'. Syncs and renames. Throws FileError (disk full, ...).
   void commit(std::vector<SourceInfo> sources, std::vector<ThemeInfo> themes = {}, std::vector<ThemePart> parts = {});
 
  private:

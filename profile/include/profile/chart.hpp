@@ -1,6 +1,10 @@
-// Charts of profiles: elevation over distance, several surfaces on one pair of axes.
+// Charts: of profiles, elevation over distance, several surfaces on one pair of axes; and of horizons, the sky line
+// over azimuth with named places above or below it.
 //
-//   write_file("ridge.svg", draw_chart({"Garth Hill", "", {{"full detail", profile}}}, "ridge.svg"), false);
+//   profile::Chart chart;
+//   chart.title = "Garth Hill";
+//   chart.series = {{"full detail", line}};
+//   std::ofstream("ridge.svg") << profile::draw_chart(chart, "ridge.svg");
 #pragma once
 
 #include <string>
@@ -29,5 +33,33 @@ void require_chart_format(const std::string& path);
 
 /// The bytes of a file of the format its name tells. Vertical exaggeration is stated on the chart. Throws InputError.
 std::string draw_chart(const Chart& chart, const std::string& path);
+
+struct SkylinePoint {
+  double azimuth_deg = 0;
+  double elevation_deg = 0;  ///< NaN: no ground in that direction
+  double distance_m = 0;
+};
+
+struct PanoramaPlace {
+  std::string name;
+  double azimuth_deg = 0;
+  double elevation_deg = 0;
+  double distance_m = 0;
+  bool visible = false;
+};
+
+struct Panorama {
+  std::string title;
+  std::string note;                   ///< below the title, smaller
+  std::vector<SkylinePoint> skyline;  ///< clockwise and evenly spaced; may pass through north
+  std::vector<PanoramaPlace> places;  ///< those beyond the sky line's azimuths are left out
+};
+
+/// Throws InputError unless the name ends in .svg, .pdf or .png.
+void require_panorama_format(const std::string& path);
+
+/// The bytes of a file of the format its name tells. What is near is darker than what is far; places in sight are
+/// filled marks, hidden ones hollow. Throws InputError.
+std::string draw_panorama(const Panorama& panorama, const std::string& path);
 
 }  // namespace itin::profile

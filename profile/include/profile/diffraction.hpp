@@ -1,9 +1,10 @@
 // Losses of a radio path over a profile: free space, knife edges, and delta-Bullington with its smooth and spherical
 // parts, every intermediate value included.
 //
-//   const RadioPath path{.frequency_ghz = 2.5, .effective_earth_km = 8500, .polarisation = Polarisation::kHorizontal};
-//   const PathLosses losses = path_losses(profile, {619, 538}, path);   // elevations of the antennas
-//   losses.ld_db;
+//   profile::RadioPath path;
+//   path.frequency_ghz = 2.5;
+//   const profile::PathLosses losses = profile::path_losses(line, {619, 538}, path);  // elevations of the antennas
+//   std::cout << losses.free_space_db + losses.ld_db << " dB\n";
 //
 // Sources: ITU-R P.525-4 (free space), P.526-15 section 4.1 (knife edge), P.452-17 section 4.2 and attachment 2, which
 // P.1812-6 section 4.3 and its attachment 1 repeat word for word (delta-Bullington), P.526-12 section 4.4.2 (cascaded

@@ -1,9 +1,9 @@
 // Fresnel zones of a radio path, and how much of the first one is clear over the whole of it.
 //
-//   const double wavelength = wavelength_m(7.5);                                   // 0.03997 m at 7.5 GHz
-//   fresnel_radius_m(4000, 6000, wavelength);                                      // 9.8 m
-//   const auto least = fresnel_clearance(profile, {120.5, 98.0}, earth, wavelength);
-//   if (least && least->fraction < 0.6) ...
+//   const double wavelength = profile::wavelength_m(7.5);                       // 0.03997 m at 7.5 GHz
+//   const double radius = profile::fresnel_radius_m(4000, 6000, wavelength);    // 9.8 m
+//   const auto least = profile::fresnel_clearance(line, {120.5, 98.0}, Earth(), wavelength);
+//   if (least && least->fraction < 0.6) std::cout << "cut at " << least->distance_m << " m\n";
 //
 // Source: ITU-R P.526-15 section 2 (Fresnel ellipsoids), P.530-18 section 2.2 (clearance). The speed of light is the
 // exact one: the radius is 17.314 sqrt(d1 d2 / (f d)) metres with km and GHz, not 17.3. Nothing is sampled: between two

@@ -1,14 +1,15 @@
 // Exact lines of sight on a triangulated surface: the reference that every faster answer is measured against.
 //
-//   const profile::SightLines sight_lines(tin, earth);
-//   const profile::SightLine line = sight_lines.between({x0, y0, z0 + 1.7}, {x1, y1, z1 + 2});
-//   if (line.visible()) ...
-//   profile::SightLines(tin, earth, wavelength_m(7.5)).between(...).fresnel_fraction  // least clearance / F1
+//   const Tin tin = triangulate(store, Window::all(), Detail::tolerance(0), progress);
+//   const profile::SightLines sight_lines(tin, Earth());
+//   const profile::SightLine sight = sight_lines.between({310375, 183525, 309}, {322300, 190000, 285});
+//   if (!sight.visible()) std::cout << "hidden at " << sight.critical.x << ", " << sight.critical.y << '\n';
 //
 // The vertical plane through both ends cuts the surface into straight pieces, one a triangle. Within a piece the
 // clearance, the height of the ray above the surface, is a quadratic of the distance (the ray and the piece are
 // straight, the drop of the earth's curvature is quadratic), so that its least value is found in closed form: nothing
-// is sampled. Refraction bends the ray by the same quadratic; see itin/earth.hpp.
+// is sampled. Refraction bends the ray by the same quadratic; see itin/earth.hpp. With a wavelength, the clear part of
+// the first Fresnel zone is found as well.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,6 @@
 
 #include <itin/earth.hpp>
 #include <itin/geometry.hpp>
-#include <itin/grazing.hpp>
 #include <itin/tin.hpp>
 
 namespace itin::profile {
@@ -25,7 +25,7 @@ namespace itin::profile {
 struct SightLine {
   double length = 0;  ///< metres, horizontal
   /// Metres, the least height of the ray above the surface between the ends, both included; nothing where no ground
-  /// lies between them. At one place (itin/same_place.hpp) of the ends alone.
+  /// lies between them. At one place (nearer than a step of the grid) of the ends alone.
   std::optional<double> clearance;
   /// The least clearance / F1 between the ends, as fresnel_clearance() has it; nothing without a wavelength, and where
   /// no ground lies between them.
@@ -35,7 +35,7 @@ struct SightLine {
   Point3 critical;
 
   /// A ray that grazes the surface is visible, and so is one over ground without data.
-  bool visible() const { return !clearance || *clearance >= -kGrazing; }
+  bool visible() const;
   /// Whether it is visible, and at least this fraction of the first Fresnel zone is clear.
   bool clears(double fraction) const { return visible() && (!fresnel_fraction || *fresnel_fraction >= fraction); }
 };
@@ -45,6 +45,7 @@ class SightLines {
  public:
   /// O(n) time and memory in the triangles.
   SightLines(const Tin& tin, const Earth& earth, std::optional<double> wavelength = std::nullopt);
+  SightLines(const Tin&& tin, const Earth& earth, std::optional<double> wavelength = std::nullopt) = delete;
   SightLines(SightLines&&) noexcept;
   SightLines& operator=(SightLines&&) noexcept;
   ~SightLines();

@@ -1,7 +1,10 @@
 // Many lines of sight over one surface, in parallel.
 //
-//   const LinkTable table = read_link_table("links.csv", store.metadata().crs_wkt, {2, 2});
-//   const std::vector<LinkResult> rows = survey_links(store, table.links, {.earth = earth}, progress);
+//   const profile::LinkTable table = profile::read_link_table("links.csv", store.metadata().crs_wkt, {2, 2});
+//   profile::LinkQuery query;
+//   query.radio = profile::RadioPath{.frequency_ghz = 7.5};
+//   for (const profile::LinkResult& row : profile::survey_links(store, table.links, query, progress))
+//     std::cout << (row.verdict ? profile::name_of(*row.verdict) : row.message) << '\n';
 #pragma once
 
 #include <optional>
@@ -50,10 +53,10 @@ struct LinkTable {
 
 /// A CSV table `id,x1,y1,h1,x2,y2,h2`, or a file of lines, whose ends are the links' ends at `heights` above the
 /// surface. A table may have a header line; one with all these names may have its columns in another order and others
-/// besides; for x and y stands any pair of position_columns.hpp, each with 1 or 2 behind it. In the CRS `to_crs` (WKT);
-/// CSV tables are taken to be in `csv_crs`, if that is empty in longitude and latitude where the header calls them so,
-/// else in `to_crs`. Throws FileError naming the feature of a file of lines, InputError for an unknown CRS and for a
-/// file without links.
+/// besides; for x and y stands easting and northing, or lon and lat, each with 1 or 2 behind it. In the CRS `to_crs`
+/// (WKT); CSV tables are taken to be in `csv_crs`, if that is empty in longitude and latitude where the header calls
+/// them so, else in `to_crs`. Throws FileError naming the feature of a file of lines, InputError for an unknown CRS and
+/// for a file without links.
 LinkTable read_link_table(const std::string& path, const std::string& to_crs, const LinkHeights& heights,
                           const std::string& csv_crs = {});
 

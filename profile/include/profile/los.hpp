@@ -1,11 +1,11 @@
 // Everything a report says about one line of sight, worked out on its profile.
 //
-//   LosQuery query;
+//   profile::LosQuery query;
 //   query.from_height_m = 12, query.to_height_m = 15, query.earth = Earth::effective_earth(4.0 / 3);
-//   query.radio = RadioPath{.frequency_ghz = 7.5, .effective_earth_km = 6371 * 4.0 / 3};
+//   query.radio = profile::RadioPath{.frequency_ghz = 7.5, .effective_earth_km = 6371 * 4.0 / 3};
 //   query.criteria = {{4.0 / 3, 1.0}, {2.0 / 3, 0.3}};
-//   const LosReport report = analyse(profile, query);
-//   write_report(report, json, "link.pdf", false);    // profile/report.hpp
+//   const profile::LosReport report = profile::analyse(line, query);
+//   std::cout << profile::name_of(report.verdict) << '\n';
 #pragma once
 
 #include <cstdint>

@@ -1,12 +1,15 @@
 // A profile: the ground along a line, as everything about lines of sight takes it.
 //
-//   const Profile profile = from_section(cross_section(store, a, b, detail));
-//   const Sight sight = line_of_sight(profile, {h1, h2}, earth);   // profile/sight.hpp
+//   const profile::Profile line =
+//       profile::from_section(cross_section(store, {310375, 183525}, {322300, 190000}, Detail::tolerance(0)));
+//   if (const auto half_way = profile::height_at(line, line.length_m / 2)) std::cout << *half_way << " m\n";
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <iosfwd>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -30,7 +33,7 @@ struct Profile {
   std::vector<ProfilePoint> points;
   std::vector<std::pair<double, double>> gaps;  ///< metres from, to; in order
   double length_m = 0;
-  bool one_place = false;  ///< the ends are, as itin/same_place.hpp has it
+  bool one_place = false;  ///< the ends are nearer to each other than a step of the store's grid
 
   /// Whether anything lies between the ends.
   bool has_length() const { return length_m > 0 && !one_place; }
@@ -61,6 +64,16 @@ std::optional<double> height_at(const Profile& profile, double distance_m);
 bool has_ground_at_ends(const Profile& profile);
 
 Profile from_section(const CrossSection& section);
+
+/// A profile that others hand in: `d_km,h_m[,clutter_m]`, one row a point, a header line optional. Columns are
+/// separated by commas, semicolons or tabs; a first line that is not numbers is a header, whose names (of any case, in
+/// this order) are checked; empty lines and lines that begin with # are skipped; a decimal point, whatever the locale.
+/// Distances ascend (two equal ones are a vertical face) and begin anywhere: the first is the profile's origin. Throws
+/// InputError, naming `name` and the line, for anything else, for numbers that are not finite, negative clutter, and
+/// fewer than two rows.
+Profile read_profile_csv(std::istream& text, const std::string& name);
+/// From a file. Throws FileError where it cannot be read.
+Profile read_profile_csv(const std::string& path);
 
 /// The same seen from the other end. Exact for distances that are multiples of 2^-30 m, as a CrossSection's are.
 Profile reversed(const Profile& profile);

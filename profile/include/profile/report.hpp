@@ -1,6 +1,7 @@
 // A line-of-sight report as a file a planner can hand in.
 //
-//   write_report(report, json, "link.pdf", overwrite);
+//   const profile::LosReport report = profile::analyse(line, query);
+//   profile::write_report(report, "{}", "link.pdf", false);
 //
 // By the name's ending: .json (the document as given), .csv (one row a point of the profile), .svg, .pdf, .png (the
 // drawing; the PDF has a second page of tables and the trade-off chart), .html (all of it, self-contained), .kml and

@@ -1,8 +1,9 @@
 // How high antennas must stand: one end alone, both equally, and one height against the other.
 //
-//   const Requirement los{earth}, six_tenths{earth, 0.6, wavelength_m(7.5)};
-//   const RequiredHeights heights = required_heights(profile, {10, 15}, six_tenths);
-//   if (heights.from_alone_m) ...        // the first end's height, the second one's staying at 15 m
+//   const profile::Requirement six_tenths{Earth(), 0.6, 0.03997};  // of F1, at 7.5 GHz
+//   const profile::RequiredHeights heights = profile::required_heights(line, {10, 15}, six_tenths);
+//   // The first end's height, the second one's staying at 15 m.
+//   if (heights.from_alone_m) std::cout << *heights.from_alone_m << " m\n";
 //
 // A requirement asks that everywhere between the ends the ray stand `fraction` first Fresnel radii above the ground, on
 // an Earth of its own: two-criterion planning after ITU-R P.530-18 section 2.2 is two of them, the greater height

@@ -1,9 +1,11 @@
 // Wirelines: the terrain's silhouettes and turbines as seen from a viewpoint, to scale.
 //
-//   WirelineQuery query{.eye = {x, y}, .eye_elevation_m = 213.4, .from_deg = 250, .width_deg = 53.5};
+//   profile::WirelineQuery query;
+//   query.eye = {291500, 200300}, query.eye_elevation_m = 213.4, query.from_deg = 250;
 //   query.turbines = {{.label = "1", .position = {290500, 202300}, .ground_m = 480, .hub_m = 90, .tip_m = 145}};
-//   const Wireline view = survey_wireline(SectionSurface(store, Detail::tolerance(0)), query, progress);
-//   write_file("view.svg", draw_wireline(view, "view.svg"), false);
+//   const SectionSurface surface(store, Detail::tolerance(0));
+//   const profile::Wireline view = profile::survey_wireline(surface, query, progress);
+//   std::ofstream("view.svg") << profile::draw_wireline(view, "view.svg");
 //
 // The drawing is a cylinder rolled out: a degree of azimuth is as long as a degree of elevation. Seen from the distance
 // that it states, one eye on the horizon's middle, it covers what the eye sees. Nothing is sampled along a line of

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
-#include <profile/panorama.hpp>
+#include <profile/chart.hpp>
 
 #include "drawing/axis.hpp"
 #include "drawing/drawing.hpp"

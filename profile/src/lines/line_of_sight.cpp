@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <itin/fresnel_zone.hpp>
+#include <itin/grazing.hpp>
 #include <itin/section_line.hpp>
 #include <profile/line_of_sight.hpp>
 
@@ -33,6 +34,10 @@ std::optional<SectionPiece> chord_of(const SectionLine& line, const Tin& tin, co
 }
 
 }  // namespace
+
+bool SightLine::visible() const {
+  return !clearance || *clearance >= -kGrazing;
+}
 
 class SightLines::Impl {
  public:

@@ -12,7 +12,7 @@
 
 #include <itin/error.hpp>
 #include <itin/height_limit.hpp>
-#include <profile/profile_csv.hpp>
+#include <profile/profile.hpp>
 
 namespace itin::profile {
 

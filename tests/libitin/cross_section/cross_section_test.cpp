@@ -1,6 +1,7 @@
 // Cross-sections against every triangle of the whole cut by the line.
 #include <iostream>
 #include <sstream>
+#include <type_traits>
 
 #include <gtest/gtest.h>
 
@@ -138,6 +139,12 @@ TEST_P(SectionPatterns, EqualEveryTriangleCutByTheLine) {
 
 INSTANTIATE_TEST_SUITE_P(CrossSection, SectionPatterns,
                          testing::Values(Pattern::kRandom, Pattern::kLattice, Pattern::kClusters, Pattern::kContours));
+
+TEST(SectionSurface, TakesNoStoreThatIsGoneTheNextMoment) {
+  static_assert(std::is_constructible_v<SectionSurface, const Store&, Detail>);
+  static_assert(!std::is_constructible_v<SectionSurface, Store, Detail>);
+  static_assert(!std::is_constructible_v<SectionSurface, Store, Detail, ThemeChoice, SectionSurface::Options>);
+}
 
 }  // namespace
 }  // namespace itin

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <random>
 #include <set>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -180,6 +181,11 @@ TEST(Topology, AgreesWithDefinitionsOnRandomTins) {
       several_fans += topology.vertices_of_vertex(v).size() > topology.triangles_of_vertex(v).size() + 1;
   }
   EXPECT_GT(several_fans, 10) << "no vertex had its triangles cut into fans";
+}
+
+TEST(Topology, TakesNoTinThatIsGoneTheNextMoment) {
+  static_assert(std::is_constructible_v<Topology, const Tin&>);
+  static_assert(!std::is_constructible_v<Topology, Tin>);
 }
 
 TEST(Topology, LatticeWithStraightBoundaries) {

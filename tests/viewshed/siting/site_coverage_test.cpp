@@ -1,6 +1,7 @@
 // Bounds of what sites serve, against precise viewsheds; and the choice made on them, against brute force.
 #include <iostream>
 #include <random>
+#include <type_traits>
 
 #include <gtest/gtest.h>
 
@@ -307,6 +308,11 @@ TEST(SitesInTown, FeaturesOnlyHide) {
                      themed.bounds(i).certain.contains(element_of(grid, {column, row}));
     EXPECT_EQ(different, 0U);
   }
+}
+
+TEST(SiteCoverage, TakesNoStoreThatIsGoneTheNextMoment) {
+  static_assert(std::is_constructible_v<SiteCoverage, const Store&, SiteSurvey, Progress&>);
+  static_assert(!std::is_constructible_v<SiteCoverage, Store, SiteSurvey, Progress&>);
 }
 
 }  // namespace

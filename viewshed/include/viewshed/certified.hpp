@@ -1,6 +1,9 @@
 // Viewsheds that are certain of what they say about the full surface, without reading all of it.
 //
-//   viewshed::Surveyed s = viewshed::compute_certified(store, request, progress);   // request.detail: a few metres
+//   viewshed::Request request;
+//   request.observers = {{"mast", {318000, 176000}, 20}};
+//   request.detail = Detail::tolerance(4);
+//   const viewshed::Result certain = viewshed::compute_certified(store, request, progress).result;
 //
 // Both ends of a sight line stand on the full surface (level 0 of the terrain), whatever the tolerance. "Certainly" is
 // what it says: no cell called certain differs from the full surface's exact answer, single precision included.

@@ -1,9 +1,9 @@
 // What sites are to serve: cells or points with weights, and sets of them.
 //
-//   Demand demand({3.0, 1.0, 2.5});          // three households
-//   DemandSet served;
-//   served.add(0, 0b101);                     // the first and the third
-//   double people = demand.in_metric(demand.weight(served));
+//   const viewshed::Demand demand({3.0, 1.0, 2.5});  // three households
+//   viewshed::DemandSet served;
+//   served.add(0, 0b101);  // the first and the third
+//   const double people = demand.in_metric(demand.weight(served));
 //
 // Weights are kept as whole numbers of a unit (1 where all are whole, else a power of two small enough), so that sums
 // do not depend on their order and comparisons of bounds with exact values are exact.

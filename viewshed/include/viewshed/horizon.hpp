@@ -1,9 +1,11 @@
 // The horizon of an observer: how high the surface reaches in every direction, and where; and what of named places is
 // in sight.
 //
+//   const Tin tin = triangulate(store, Window::disc({310375, 183525}, 20000), Detail::tolerance(0), progress);
+//   viewshed::Request request;
 //   request.observers = {{"Garth Hill", {310375, 183525}, 2}};
-//   viewshed::Horizon h = viewshed::horizon(tin, tin, request, {.step_deg = 0.1}, progress);
-//   h.points[900].sky->elevation_deg      // due east
+//   const viewshed::Horizon sky = viewshed::horizon(tin, tin, request, {.step_deg = 0.1}, progress);
+//   if (sky.points[900].sky) std::cout << sky.points[900].sky->elevation_deg << " degrees due east\n";
 //
 // Azimuths are clockwise from grid north. Elevations are those of the straight line after curvature and refraction.
 // Exact: the line at an azimuth's elevation touches the surface within a micrometre and rises nowhere into it; nothing

@@ -1,7 +1,10 @@
-// A map of a viewshed for reports: hillshade, what is visible, observers, legend, scale bar, north arrow and title.
+// Pictures for reports: a map of a viewshed with hillshade, observers, legend, scale bar, north arrow and title; and a
+// surface seen from afar and above.
 //
-//   viewshed::MapImage map = viewshed::draw_map(tin, result, {.title = "Mast at Caerphilly"});
-//   viewshed::write_image("map.png", map, overwrite);
+//   const Tin tin = triangulate(store, Window::all(), request.detail, progress);
+//   const viewshed::Result result = viewshed::compute(tin, request, progress);
+//   viewshed::write_image("map.png", viewshed::draw_map(tin, result, {.title = "Mast at Caerphilly"}), false);
+//   viewshed::write_image("hills.png", viewshed::draw_oblique(tin, {.azimuth = 340, .elevation = 40}), false);
 #pragma once
 
 #include <cstdint>
@@ -10,7 +13,6 @@
 
 #include <itin/progress.hpp>
 #include <itin/tin.hpp>
-#include <viewshed/surface.hpp>
 #include <viewshed/viewshed.hpp>
 
 namespace itin::viewshed {
@@ -33,8 +35,19 @@ struct MapImage {
 /// `result` must come from `tin`. Colours can be told apart by colour-blind readers and in grey print. Throws
 /// InputError for a size out of range.
 MapImage draw_map(const Tin& tin, const Result& result, const MapOptions& options = {});
-/// The same over a surface; what of it has not been read is.
+/// Over what compute_with_surface() kept; heights of it that have not been read are.
 MapImage draw_map(Surface& surface, const Result& result, Progress& progress, const MapOptions& options = {});
+
+/// Parallel projection, shaded, what stands on the surface in a colour for each theme.
+struct ObliqueOptions {
+  double azimuth = 340;   ///< degrees clockwise from grid north: where the viewer looks
+  double elevation = 40;  ///< degrees, above 0 up to 90: how high above the horizon the viewer is
+  int pixels = 1600;      ///< of the picture's longer side, 200 to 16000
+};
+
+/// Hidden parts are hidden exactly, up to a pixel. O(n) time for n triangles and O(pixels^2) memory, on one thread.
+/// Throws InputError for options out of range and for a surface without triangles.
+MapImage draw_oblique(const Tin& tin, const ObliqueOptions& options = {});
 
 /// Throws InputError if OpenImageIO knows no format for the path's ending (png, jpg, tif, ...).
 void require_image_format(const std::string& path);

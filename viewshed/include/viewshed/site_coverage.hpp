@@ -2,12 +2,14 @@
 // for those that are asked about again, exactly. Cells are swept over the full surface, which takes no longer than a
 // coarse look, so that they are exact at once where the memory holds it.
 //
-//   SiteSurvey survey;
-//   survey.stands = {...};                       // positions, heights, ground under them
-//   survey.targets.grid = grid_of_reach(...);
-//   SiteCoverage coverage(store, survey, progress);
+//   viewshed::SiteSurvey survey;
+//   const Point2 hill{310375, 183525};
+//   if (const auto ground = viewshed::ground_under(store, {hill}, ThemeChoice::none(), progress)[0])
+//     survey.stands = {{"Garth Hill", hill, 20, *ground}};
+//   survey.targets.grid = viewshed::grid_of_reach(store, survey.stands, survey.radius, 100);
+//   viewshed::SiteCoverage coverage(store, survey, progress);
 //   coverage.look_first();
-//   Choice choice = choose(demand, options, coverage, {.count = 10}, progress);
+//   const std::size_t cells = coverage.bounds(0).certain.size();  // certainly served by the first
 //
 // Exact means every triangle of the full surface in double precision, as compute(). Where themes that stand on
 // the ground are chosen, the bare terrain comes first: features only raise it, so that what it hides for a target on
@@ -24,7 +26,7 @@
 #include <string>
 #include <vector>
 
-#include <itin/fresnel_zone.hpp>
+#include <itin/raster.hpp>
 #include <itin/store.hpp>
 #include <viewshed/siting.hpp>
 #include <viewshed/viewshed.hpp>
@@ -44,6 +46,12 @@ struct SiteStand {
 /// The elevation under each position on the full surface with the themes; nothing where there is no data.
 std::vector<std::optional<double>> ground_under(const Store& store, const std::vector<Point2>& positions,
                                                 const ThemeChoice& themes, Progress& progress);
+
+/// What leaves a link clear: at least this fraction of the first Fresnel zone's radius free of ground, everywhere.
+struct FresnelCriterion {
+  double wavelength = 0;  ///< metres
+  double fraction = 0.6;
+};
 
 /// One of the two: the centres of a raster's cells, or points. Element numbers: see element_of() and SiteCoverage.
 struct SiteTargets {
@@ -88,6 +96,7 @@ class SiteCoverage final : public Coverage {
   /// The store and the progress must outlive it. Before look_first() all that is known is the radius. Throws
   /// InputError.
   SiteCoverage(const Store& store, SiteSurvey survey, Progress& progress);
+  SiteCoverage(const Store&& store, SiteSurvey survey, Progress& progress) = delete;
   ~SiteCoverage() override;
 
   const CoverageBounds& bounds(std::size_t option) const override;

@@ -1,6 +1,8 @@
 // Candidates for sites, proposed from the terrain after Franklin and Vogt (2006): the most visible places, spaced.
 //
-//   for (const Proposal& p : propose_sites(store, area, {.spacing = 1000}, progress)) ...
+//   const Window area = Window::box({304000, 181000, 336000, 206000});
+//   for (const viewshed::Proposal& p : viewshed::propose_sites(store, area, {.spacing = 1000}, progress))
+//     std::cout << p.position.x << ' ' << p.position.y << '\n';
 //
 // The area is cut into squares of the spacing. Each proposes its highest post, if that is a summit (no neighbour nearby
 // is higher), and the post of the greatest visibility index: the share that it sees of a few targets at random

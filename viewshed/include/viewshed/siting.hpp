@@ -1,7 +1,10 @@
 // Which few of many sites serve the most, chosen on bounds of what each serves, as if everything were known exactly.
 //
-//   Choice choice = choose(demand, options, coverage, {.count = 10}, progress);
-//   choice.chosen[0].option, choice.chosen[0].gain, choice.value, choice.upper_bound
+//   // `coverage` is a SiteCoverage, or any other Coverage of these options.
+//   const viewshed::Demand demand(viewshed::element_count(grid));
+//   const std::vector<viewshed::SiteOption> options = {{.place = 0}, {.place = 1}, {.place = 2}};
+//   const viewshed::Choice choice = viewshed::choose(demand, options, coverage, {.count = 2}, progress);
+//   for (const viewshed::ChosenSite& site : choice.chosen) std::cout << site.option << ' ' << site.gain << '\n';
 //
 // Coverage comes with two sets for each option: what it certainly serves, and what it may serve. Lazy greedy (Minoux
 // 1978) takes the option of the greatest upper bound; where its bounds leave open whether it is the best, it is refined

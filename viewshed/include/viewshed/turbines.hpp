@@ -8,9 +8,9 @@
 //
 // A turbine is an upright axis from the ground to its tip. An eye stands `observer_height` metres above the bare ground
 // at a cell's centre. The least height of the axis at which nothing hides it says all: the tip is seen if that is no
-// higher than the tip, the hub likewise, and what lies above it is the visible height. It is exact for the surface (see
-// src/least_height.hpp): it is where the line from the eye touches a triangle. A cell within no turbine's radius, or
-// without ground, has no value; a turbine counts only in cells within its own radius.
+// higher than the tip, the hub likewise, and what lies above it is the visible height. It is exact for the surface: it
+// is where the line from the eye touches a triangle. A cell within no turbine's radius, or without ground, has no
+// value; a turbine counts only in cells within its own radius.
 #pragma once
 
 #include <cstdint>
@@ -56,7 +56,7 @@ struct ZoneRequest {
   std::optional<Observer> radar;  ///< whose horizon is looked for besides, over bare ground
 };
 
-/// One value a cell; see `Zone::grid`. Floats are NaN, counts kCountOutside outside.
+/// One value for each cell of the zone's grid. Floats are NaN, counts kCountOutside outside.
 struct Visibility {
   std::vector<std::uint16_t> hub_count;
   std::vector<std::uint16_t> tip_count;

@@ -5,7 +5,7 @@
 //   request.target_height = 2;
 //   request.radius = 10000;
 //   request.detail = Detail::tolerance(2);
-//   viewshed::Result result = viewshed::compute(store, request, progress);
+//   const viewshed::Result result = viewshed::compute(store, request, progress);
 //   viewshed::write_geotiff("out.tif", result, {.crs_wkt = store.metadata().crs_wkt});
 //
 // Both ends of a sight line stand on the surface queried: on its ground, that is, without the standing features of the
@@ -18,6 +18,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -30,8 +31,6 @@
 #include <itin/store.hpp>
 #include <itin/theme.hpp>
 #include <itin/tin.hpp>
-#include <viewshed/surface.hpp>
-#include <viewshed/verdict.hpp>
 
 namespace itin::viewshed {
 
@@ -83,9 +82,17 @@ enum class Mode {
   kProbability  ///< how probably any of them does where heights are uncertain: the greatest of theirs
 };
 
+/// What is known of a line of sight. The numbers are those of rasters.
+enum class Verdict : std::uint8_t {
+  kHidden = 0,
+  kVisible = 1,
+  kUndecided = 2,  ///< at the detail asked for, or for want of ground
+  kOutside = 255   ///< outside every field of view, or no ground to look at
+};
+
 /// What is known of the errors of the surface's vertices: normal, with this standard deviation; those of vertices x
 /// apart are correlated as exp(-x / correlation_length), or not at all where that is 0. Between vertices they are
-/// linear, and what stands on the surface moves with it. See src/modes/vertical_odds.hpp for what follows from it.
+/// linear, and what stands on the surface moves with it.
 struct VerticalError {
   double sigma = 0;               ///< metres, positive
   double correlation_length = 0;  ///< metres
@@ -206,12 +213,7 @@ constexpr std::size_t which_grids(std::size_t observers) {
 /// size or angle; more than 65534 observers to count), Cancelled.
 Result compute(const Tin& tin, const Request& request, Progress& progress);
 
-/// The same on a surface that may be a lattice, if the mode is neither kBlocker nor kProbability: then for a tenth of
-/// the memory and a third of the time. `ground` may be null. Reads those heights of the lattice that are asked for and
-/// have not been read, so it is not for several threads at once.
-Result compute(const Surface& surface, const Tin* ground, const Request& request, Progress& progress);
-
-/// The same on a Tin, with the ground on which ends stand that are not on the surface. It must cover what the surface
+/// The same, with the ground on which ends stand that are not on the surface. It must cover what the surface
 /// covers.
 Result compute(const Tin& tin, const Tin& ground, const Request& request, Progress& progress);
 
@@ -221,9 +223,12 @@ struct ComputeOptions {
   bool lattices = true;  ///< a raster is swept over its posts alone
 };
 
+/// What sight lines were looked at over. Opaque: draw_map() and compute_on_surface() take it.
+struct Surface;
+
 /// A result, and what it was made on, for maps and single observers while the store is open.
 struct Surveyed {
-  Surface surface;            ///< a coarse one where the memory did not hold that of the request
+  std::shared_ptr<Surface> surface;  ///< a coarse one where the memory did not hold that of the request
   std::optional<Tin> ground;  ///< what ends stand on, where that is not the surface
   bool whole = true;          ///< `surface` is that of the request
   Result result;

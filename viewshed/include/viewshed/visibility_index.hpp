@@ -1,8 +1,10 @@
 // How much is seen from everywhere in an area: the total viewshed, as a visibility index (Franklin and Ray 1994).
 //
-//   viewshed::IndexRequest request{.area = Window::box(box), .cell_size = 250, .radius = 5000};
-//   viewshed::VisibilityIndex index = viewshed::visibility_index(store, request, progress);
-//   viewshed::write_geotiff("index.tif", index, request, {.crs_wkt = crs_wkt});
+//   viewshed::IndexRequest request;
+//   request.area = Window::box({304000, 181000, 324000, 201000});
+//   request.cell_size = 250;
+//   const viewshed::VisibilityIndex index = viewshed::visibility_index(store, request, progress);
+//   viewshed::write_geotiff("index.tif", index, request, {.crs_wkt = store.metadata().crs_wkt});
 //
 // Every cell's centre is an observer's place, and of the ground within the radius a share is seen: its estimate from
 // targets at random, evenly spread over the disc, comes with its standard error. Both ends stand on the ground, and

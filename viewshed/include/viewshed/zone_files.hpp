@@ -1,8 +1,11 @@
 // A Zone as files: rasters with QGIS styles, polygons, tables.
 //
-//   for (const ZoneFile& file : write_zone_rasters("out", zone, options)) list(file.name, file.what);
+//   const viewshed::Zone zone = viewshed::survey_turbines(store, zone_request, progress);
+//   for (const viewshed::ZoneFile& file :
+//        viewshed::write_zone_rasters("out", zone, {.crs_wkt = store.metadata().crs_wkt}))
+//     std::cout << file.name << ": " << file.what << '\n';
 //
-// Names are as in the command line's contract: tip-count.tif, tip-count-screened.tif, tip-count-difference.tif (bare
+// Names: tip-count.tif, tip-count-screened.tif, tip-count-difference.tif (bare
 // less screened), and so on. Beside every raster lies NAME.qml.
 #pragma once
 
@@ -10,7 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include <viewshed/link_exclusion.hpp>
 #include <viewshed/turbines.hpp>
 
 namespace itin::viewshed {
@@ -25,7 +27,12 @@ struct ZoneFileOptions {
   std::vector<std::pair<std::string, std::string>> metadata;  ///< into every raster
 };
 
-/// Radio links that rotors must stay away from.
+struct RadioLink {
+  std::string id;
+  Point2 from, to;
+};
+
+/// Radio links that rotors must stay away from (D. F. Bacon, "Fixed-link wind-turbine exclusion zone method", 2002).
 struct LinkStudy {
   std::vector<RadioLink> links;
   double frequency_ghz = 0;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include <itin/lattice_tin.hpp>
 #include <itin/parallel.hpp>
 
 #include "bounds/surface_heights.hpp"

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include <itin/lattice_tin.hpp>
 #include <itin/parallel.hpp>
 
 #include "bounds/surface_heights.hpp"

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <itin/unreported.hpp>
+#include <viewshed/surface.hpp>
 
 #include "line/hulls.hpp"
 #include "line/verdicts.hpp"
@@ -40,7 +41,8 @@ class CertifiedSectors {
     result.certified = true;
     surveyed_.whole = false;
     const std::vector<Eye> eyes = eyes_on_surface(store_, request_, Detail::tolerance(0), result.ground_m, progress_);
-    surveyed_.surface.tin = coverage_of(store_, window_of(request_), progress_);
+    surveyed_.surface =
+        std::make_shared<Surface>(Surface{coverage_of(store_, window_of(request_), progress_), nullptr, {}});
     result.grid = cells_of(request_, extent_of(store_));
     tiles_ = grid_of_tiles(result.grid);
     verdicts_.resize(tiles_.cell_count());

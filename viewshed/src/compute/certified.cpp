@@ -2,6 +2,7 @@
 #include <itin/lattice_reader.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/certified.hpp>
+#include <viewshed/surface.hpp>
 
 #include "certify/certified_pass.hpp"
 #include "certify/certified_sectors.hpp"
@@ -114,7 +115,7 @@ Surveyed compute_certified(const Store& store, const Request& request, Progress&
   result.visible.resize(result.grid.cell_count());
   decide_all(CertifiedPass(scene, result.grid, tiles), tiles, looks, result, progress);
   result.statistics.lines_seconds = watch.lap();
-  surveyed.surface.tin = scene.envelope.lower;
+  surveyed.surface = std::make_shared<Surface>(Surface{scene.envelope.lower, nullptr, {}});
   return surveyed;
 }
 

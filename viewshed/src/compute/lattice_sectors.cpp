@@ -74,7 +74,8 @@ class LatticeSectors {
     const Box box = box_of_window(store_, request_);
     int level = static_cast<int>(store_.metadata().levels.size()) - 1;
     while (level > 0 && store_.points_about(level - 1, box) <= kCoarsePoints) --level;
-    Tin& coarse = surveyed_.surface.tin;
+    surveyed_.surface = std::make_shared<Surface>();
+    Tin& coarse = surveyed_.surface->tin;
     coarse = triangulate(store_, window_of(request_),
                          Detail::tolerance(store_.metadata().levels[static_cast<std::size_t>(level)].tolerance),
                          progress_, ThemeChoice::none());

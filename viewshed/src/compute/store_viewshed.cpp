@@ -1,6 +1,7 @@
 #include "compute/store_viewshed.hpp"
 
 #include <itin/triangulate.hpp>
+#include <viewshed/surface.hpp>
 #include <viewshed/viewshed.hpp>
 
 #include "modes/blocked_features.hpp"
@@ -15,7 +16,7 @@ namespace itin::viewshed {
 namespace {
 
 Surveyed survey(const Request& request, Surveyed surveyed, double seconds, Progress& progress) {
-  surveyed.result = compute(surveyed.surface, surveyed.ground ? &*surveyed.ground : nullptr, request, progress);
+  surveyed.result = compute(*surveyed.surface, surveyed.ground ? &*surveyed.ground : nullptr, request, progress);
   surveyed.result.statistics.retrieval_seconds = seconds;
   return surveyed;
 }
@@ -35,15 +36,17 @@ std::optional<Surveyed> compute_over_lattice(const Store& store, const Request& 
                                   heights_for(request, store.points_about(0, box_of_window(store, request))),
                                   most_posts, progress);
   if (!surface) return std::nullopt;
-  return survey(request, {std::move(*surface), std::nullopt, true, {}}, watch.lap(), progress);
+  return survey(request, {std::make_shared<Surface>(std::move(*surface)), std::nullopt, true, {}}, watch.lap(),
+                progress);
 }
 
 Surveyed compute_over_tin(const Store& store, const Request& request, Progress& progress) {
   Stopwatch watch;
   Surveyed surveyed;
-  Tin& tin = surveyed.surface.tin;
+  surveyed.surface = std::make_shared<Surface>();
+  Tin& tin = surveyed.surface->tin;
   tin = triangulate(store, window_of(request), request.detail, progress, request.themes);
-  surveyed.surface.extent = extent_of(store);
+  surveyed.surface->extent = extent_of(store);
   const double seconds = watch.lap();
   // Beside a feature the surface is not to the last digit the ground, also where the window holds no part of it.
   if (features_stand(store, request) && !(request.observers_on_surface && request.targets_on_surface))
@@ -52,7 +55,7 @@ Surveyed compute_over_tin(const Store& store, const Request& request, Progress& 
 }
 
 Result compute_on_surface(const Store& store, const Surveyed& surveyed, const Request& request, Progress& progress) {
-  Result result = compute(surveyed.surface, surveyed.ground ? &*surveyed.ground : nullptr, request, progress);
+  Result result = compute(*surveyed.surface, surveyed.ground ? &*surveyed.ground : nullptr, request, progress);
   name_features(store, result);
   return result;
 }

@@ -11,6 +11,7 @@
 #include <itin/triangulate.hpp>
 #include <itin/unreported.hpp>
 #include <viewshed/certified.hpp>
+#include <viewshed/surface.hpp>
 
 #include "certify/certified_pass.hpp"
 #include "compute/memory.hpp"
@@ -123,7 +124,7 @@ class TinSegments {
     rim_ = rim_of(envelope.lower, envelope.outline);
     look_for_voids(envelope.lower.grid, rim_, result);
     ground_.emplace(store_, level_within(store_.metadata(), request_.detail.finest()), envelope.lower.bounds());
-    surveyed_.surface.tin = envelope.lower;
+    surveyed_.surface = std::make_shared<Surface>(Surface{envelope.lower, nullptr, {}});
     if (!whole_lines()) coarse_.emplace(std::move(envelope), request_, tiles_, voids_of(request_));
     result.statistics.scene_seconds += watch_.lap();
   }

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include <viewshed/surface.hpp>
 #include <viewshed/viewshed.hpp>
 
 #include "bounds/boundary.hpp"

@@ -6,6 +6,7 @@
 
 #include <itin/error.hpp>
 #include <viewshed/map_image.hpp>
+#include <viewshed/surface.hpp>
 
 #include "bounds/pixel_heights.hpp"
 #include "drawing/canvas.hpp"

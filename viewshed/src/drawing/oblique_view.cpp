@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <itin/error.hpp>
-#include <viewshed/oblique_view.hpp>
+#include <viewshed/map_image.hpp>
 
 #include "drawing/canvas.hpp"
 

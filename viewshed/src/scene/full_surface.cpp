@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <itin/grazing.hpp>
+#include <itin/lattice_tin.hpp>
 
 #include "line/grid_units.hpp"
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <itin/lattice_reader.hpp>
 #include <itin/parallel.hpp>
 
 #include "line/grid_units.hpp"

@@ -48,7 +48,7 @@ std::vector<Combination> combinations_present(const Zone& zone,
   const std::vector<std::string> names = farms_of(zone);
   std::vector<Combination> result;
   for (const std::uint32_t farms : present) {
-    Combination& c = result.emplace_back(farms, "");
+    Combination& c = result.emplace_back(Combination{farms, ""});
     for (std::size_t f = 0; f < names.size() && f < kMostFarms; ++f) {
       if ((farms >> f & 1) == 0) continue;
       if (!c.name.empty()) c.name += " + ";

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include <viewshed/surface.hpp>
 #include <viewshed/turbines.hpp>
 
 #include "bounds/boundary.hpp"

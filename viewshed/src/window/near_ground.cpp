@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <itin/triangulate.hpp>
+#include <viewshed/surface.hpp>
 
 #include "bounds/surface_heights.hpp"
 #include "request/request.hpp"

@@ -55,12 +55,11 @@ class CityModel {
   }
 
   FootprintSource read() {
-    using enum Json::value_t;
     std::map<std::string, int> others;
     in_place({}, [&] {
       const CityJsonCounts counts(model_);
       check_templates(model_, counts);
-      for (const auto& [name, value] : member_or_empty(model_, "CityObjects", object).items())
+      for (const auto& [name, value] : member_or_empty(model_, "CityObjects", Json::value_t::object).items())
         in_place(name, [&, &title = name, &city_object = value] { read(title, city_object, counts, others); });
     });
     for (const auto& [type, count] : others)

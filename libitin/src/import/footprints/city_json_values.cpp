@@ -160,14 +160,14 @@ int depth_of(const std::string& type) {
 }
 
 CityJsonCounts::CityJsonCounts(const Json& model) : vertices(items_of(member(model, "vertices"), "vertices").size()) {
-  using enum Json::value_t;
-  const Json& shared = member_or_empty(model, "geometry-templates", object);
-  templates = member_or_empty(shared, "templates", array).size();
-  template_vertices = member_or_empty(shared, "vertices-templates", array).size();
-  const Json& appearance = member_or_empty(model, "appearance", object);
-  materials = member_or_empty(appearance, "materials", array).size();
-  textures = member_or_empty(appearance, "textures", array).size();
-  texture_vertices = member_or_empty(appearance, "vertices-texture", array).size();
+  using Kind = Json::value_t;
+  const Json& shared = member_or_empty(model, "geometry-templates", Kind::object);
+  templates = member_or_empty(shared, "templates", Kind::array).size();
+  template_vertices = member_or_empty(shared, "vertices-templates", Kind::array).size();
+  const Json& appearance = member_or_empty(model, "appearance", Kind::object);
+  materials = member_or_empty(appearance, "materials", Kind::array).size();
+  textures = member_or_empty(appearance, "textures", Kind::array).size();
+  texture_vertices = member_or_empty(appearance, "vertices-texture", Kind::array).size();
 }
 
 void check_indices(const Json& geometry, const CityJsonCounts& counts) {

@@ -82,12 +82,14 @@ std::vector<SetAsideLines> set_aside_of(std::span<const ImportedPiece> pieces, c
   for (const Segment& s : placed) of_theme[s.theme - std::size_t{1}].add(s);
   for (Placed& p : of_theme) p.finish();
   std::vector<SetAsideLines> result(lines.themes());
-  for (const auto& [theme, s] : pieces) {
+  for (const ImportedPiece& piece : pieces) {
+    const ImportedSegment& s = piece.segment;
     // One that is not placed may have ends that are no vertices.
     const auto came = [&] {
-      return !lines.terrain[theme] || (is_as_it_came(s.a, s.source, lines) && is_as_it_came(s.b, s.source, lines));
+      return !lines.terrain[piece.theme] ||
+             (is_as_it_came(s.a, s.source, lines) && is_as_it_came(s.b, s.source, lines));
     };
-    if (!of_theme[theme].take_if(s, came)) result[theme].imported.push_back(s);
+    if (!of_theme[piece.theme].take_if(s, came)) result[piece.theme].imported.push_back(s);
   }
   for (std::size_t t = 0; t < result.size(); ++t) result[t].made = of_theme[t].not_taken();
   return result;

@@ -47,8 +47,11 @@ const GridPoint* vertex_at(const StandingPart& part, Position p) {
 
 /// Where features meet, what is built knows no order of import.
 std::vector<StoredFootprint> in_order_of_content(const std::vector<StoredFootprint>& footprints) {
-  std::vector<std::pair<std::vector<std::uint8_t>, std::size_t>> order;
-  for (std::size_t i = 0; i < footprints.size(); ++i) order.emplace_back(content_of(footprints[i].feature), i);
+  std::vector<std::pair<std::string, std::size_t>> order;
+  for (std::size_t i = 0; i < footprints.size(); ++i) {
+    const std::vector<std::uint8_t> content = content_of(footprints[i].feature);
+    order.emplace_back(std::string(content.begin(), content.end()), i);
+  }
   std::sort(order.begin(), order.end());
   std::vector<StoredFootprint> result;
   for (const auto& [content, i] : order) result.push_back(footprints[i]);

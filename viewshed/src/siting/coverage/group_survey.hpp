@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <viewshed/site_coverage.hpp>
+#include <viewshed/surface.hpp>
 
 #include "request/eye.hpp"
 #include "window/envelope.hpp"

@@ -12,6 +12,7 @@
 #include <itin/parallel.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/site_coverage.hpp>
+#include <viewshed/surface.hpp>
 
 #include "progress/stopwatch.hpp"
 #include "request/request.hpp"

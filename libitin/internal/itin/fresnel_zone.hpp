@@ -16,12 +16,6 @@
 
 namespace itin {
 
-/// What leaves a link clear: at least this fraction of the first Fresnel zone's radius free of ground, everywhere.
-struct FresnelCriterion {
-  double wavelength = 0;  ///< metres
-  double fraction = 0.6;
-};
-
 /// One straight piece of ground under a ray: with t in [from, to] the clearance is constant + linear t + square t^2.
 struct RayPiece {
   double from = 0, to = 0;

@@ -9,18 +9,13 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include <itin/geometry.hpp>
 #include <itin/raster.hpp>
+#include <viewshed/zone_files.hpp>
 
 namespace itin::viewshed {
-
-struct RadioLink {
-  std::string id;
-  Point2 from, to;
-};
 
 /// sqrt(2 lambda d1 d2 / (d1 + d2)), metres; lambda = 0.299792458 / f.
 double second_fresnel_radius_m(double d1, double d2, double frequency_ghz);

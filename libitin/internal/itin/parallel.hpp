@@ -5,16 +5,12 @@
 #include <cstddef>
 #include <functional>
 
+#include <itin/progress.hpp>
+
 namespace itin {
 
 /// Runs body(i) for i in [0, count), in any order and on any thread. The iterations must not depend on each other.
 /// The first exception thrown by a body is rethrown here after the running bodies have ended.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body);
-
-/// Limits parallel_for in the whole process to this many threads; 0 means all cores. No result depends on it.
-void set_thread_count(int threads);
-
-/// How many threads parallel_for may use now, at least 1.
-int thread_count();
 
 }  // namespace itin

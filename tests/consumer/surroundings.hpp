@@ -1,0 +1,27 @@
+// What the examples in the headers take as given. They are compiled, not run.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <fstream>
+#include <iostream>
+#include <string>
+#include <vector>
+
+namespace itin {
+extern const Store store;
+extern const Tin tin;
+extern NoProgress progress;
+}  // namespace itin
+
+namespace itin::viewshed {
+extern const Request request;
+extern const ZoneRequest zone_request;
+extern const RasterGrid grid;
+extern Coverage& coverage;
+}  // namespace itin::viewshed
+
+namespace itin::profile {
+extern const Profile line;
+extern const LosQuery query;
+}  // namespace itin::profile
