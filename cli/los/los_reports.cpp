@@ -12,6 +12,7 @@
 
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
+#include "program/field_names.hpp"
 #include "program/json_text.hpp"
 
 namespace itin::cli {
@@ -115,7 +116,7 @@ void LosReports::write_all(const std::vector<Job>& jobs, const std::function<Los
     } catch (const Cancelled&) {
       throw;
     } catch (const Error& error) {
-      all[i].failure = error.what();
+      all[i].failure = in_options(error.what());
     }
     progress.report("reports", static_cast<double>(++done) / static_cast<double>(jobs.size()));
   });

@@ -9,6 +9,7 @@
 #include <string>
 #include <sys/resource.h>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -20,6 +21,7 @@
 
 #include "program/call_error.hpp"
 #include "program/call_files.hpp"
+#include "program/field_names.hpp"
 #include "program/interruption.hpp"
 #include "program/json_text.hpp"
 #include "program/likely_meant.hpp"
@@ -147,6 +149,7 @@ void run_verb(Verb& verb, CLI::App& options, const Everywhere& everywhere) {
       throw Error("out of memory; " + verb.advice_for_less_memory());
     }
   }
+  for (std::string& warning : result.warnings) warning = in_options(std::move(warning));
   for (const std::string& warning : result.warnings) std::cerr << "itin: warning: " << warning << "\n";
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   print(everywhere.json ? json_text(complete_document(verb, result, elapsed.count()), 2) + "\n" : result.text);
@@ -192,7 +195,8 @@ void parse_and_run(const std::vector<std::string>& arguments) {
   }
 }
 
-int report(std::string message, Status status) {
+int report(const std::string& error, Status status) {
+  std::string message = in_options(error);
   std::replace(message.begin(), message.end(), '\n', ' ');
   std::cerr << "itin: error: " << message << std::endl;
   return status;

@@ -11,6 +11,7 @@
 
 #include "options/site_list.hpp"
 #include "program/call_files.hpp"
+#include "program/field_names.hpp"
 #include "program/values.hpp"
 
 namespace itin::cli {
@@ -98,7 +99,7 @@ void TurbineOptions::require_options_of_one_turbine() const {
   } catch (const InputError& error) {
     throw InputError(fmt::format(
         "--hub-height, --rotor-diameter, --tip-height: no turbine is like that, {}; leave out or correct one of them",
-        error.what()));
+        in_options(error.what())));
   }
 }
 
@@ -139,7 +140,7 @@ TurbineList TurbineOptions::read(const StoreMetadata& metadata, const std::funct
       turbine.radius = radius(turbine.tip_height);
       list.turbines.push_back(std::move(turbine));
     } catch (const InputError& error) {
-      list.bad.push_back({k, row.feature, error.what()});
+      list.bad.push_back({k, row.feature, in_options(error.what())});
     }
   }
   if (list.rows == 0) throw InputError(none_in(query_, "turbine"));

@@ -24,6 +24,7 @@
 #include "options/site_list.hpp"
 #include "output/csv_cell.hpp"
 #include "program/call_files.hpp"
+#include "program/field_names.hpp"
 #include "program/values.hpp"
 
 namespace itin::cli {
@@ -258,7 +259,7 @@ ViewpointOptions::Written ViewpointOptions::write(const std::string& folder, con
       write_wireline(folder, bare, v, zone, sights, field_deg_, progress, written);
       if (screened) write_wireline(folder, *screened, v, zone, over_features, field_deg_, progress, written);
     } catch (const InputError& error) {
-      written.bad.push_back({number, row.feature, error.what()});
+      written.bad.push_back({number, row.feature, in_options(error.what())});
     }
   }
   if (written.rows == 0) throw InputError(none_in(query_, "viewpoint"));

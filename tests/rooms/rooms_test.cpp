@@ -96,6 +96,20 @@ TEST(Libraries, IncludeOnlyThoseBelowThem) {
   }
 }
 
+/// A message of a library names a field of the request, `to_crs`; cli/program/field_names.cpp makes it an option.
+TEST(Libraries, NameNoOptionOfTheCommandLine) {
+  const std::regex option("\"[^\"]*--[a-z][^\"]*\"");
+  for (const char* library : {"libitin", "viewshed", "profile"}) {
+    for (const fs::path& file : sources_below(kRoot / library)) {
+      std::ifstream stream(file);
+      for (std::string line; std::getline(stream, line);) {
+        const std::string code = line.substr(0, line.find("//"));
+        EXPECT_FALSE(std::regex_search(code, option)) << file << ": " << line;
+      }
+    }
+  }
+}
+
 }  // namespace
 
 }  // namespace itin::test

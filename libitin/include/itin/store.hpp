@@ -53,7 +53,7 @@ struct SourceInfo {
   /// e = a u + b v between two vertices may be ground when |a| <= 1 and |b| <= 1 for either vertex's source.
   std::array<double, 4> gap_basis{};  ///< ux, uy, vx, vy
   double spacing = 0;                 ///< metres: lattice step (geometric mean of the two), or mean point spacing
-  bool replaces = false;              ///< took the place of coarser ground (--replace)
+  bool replaces = false;              ///< took the place of coarser ground
 };
 
 struct StoreMetadata {

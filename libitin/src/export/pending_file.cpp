@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 void PendingFile::require_possible(const std::string& path, bool overwrite) {
   std::error_code ignored;  // what cannot be looked at fails when it is opened, with a better message
   if (fs::is_directory(path, ignored)) throw FileError(path, "is a folder; name a file");
-  if (!overwrite && fs::exists(path, ignored)) throw FileError(path, "exists already; --overwrite replaces it");
+  if (!overwrite && fs::exists(path, ignored)) throw FileError(path, "exists already; `overwrite` replaces it");
   const fs::path folder = fs::path(path).parent_path();
   if (!folder.empty() && !fs::is_directory(folder, ignored))
     throw FileError(path, fmt::format("there is no folder {}; create it first", folder.string()));

@@ -171,14 +171,14 @@ Crs utm_zone(const Crs& crs, Point2 position, const std::string& place) {
   const QuietGdal quiet;
   const OGRSpatialReference reference = understood(crs.wkt, place);
   std::unique_ptr<OGRSpatialReference> geographic(reference.CloneGeogCS());
-  if (!geographic) throw InputError(fmt::format("{}: no UTM zone for {}; give --to-crs", place, crs.name));
+  if (!geographic) throw InputError(fmt::format("{}: no UTM zone for {}; give `to_crs`", place, crs.name));
   geographic->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   PointTransform(crs.wkt, wkt_of(*geographic), place).transform(std::span(&position.x, 1), std::span(&position.y, 1));
   const double longitude = position.x * geographic->GetAngularUnits() * 180 / M_PI;
   const double latitude = position.y * geographic->GetAngularUnits() * 180 / M_PI;
   if (!(latitude >= -80 && latitude <= 84 && std::abs(longitude) <= 360))
     throw InputError(
-        fmt::format("{}: no UTM zone at longitude {:.4f}, latitude {:.4f}; give --to-crs", place, longitude, latitude));
+        fmt::format("{}: no UTM zone at longitude {:.4f}, latitude {:.4f}; give `to_crs`", place, longitude, latitude));
   const int zone = std::min(60, static_cast<int>((std::remainder(longitude, 360) + 180) / 6) + 1);
   return parse_crs(fmt::format("EPSG:{}", utm_base(*geographic, zone, latitude >= 0) + zone), place);
 }

@@ -44,7 +44,7 @@ GDALRasterBand& only_band(GDALDataset& dataset, const std::string& path, const B
 GDALRasterBand& chosen_band(GDALDataset& dataset, const std::string& path, int number, const std::string& values) {
   const int count = dataset.GetRasterCount();
   if (number < 1 || number > count)
-    throw InputError(fmt::format("{}: has no band {}, only {}; give another --band", path, number,
+    throw InputError(fmt::format("{}: has no band {}, only {}; give another `band`", path, number,
                                  count == 1 ? std::string("band 1") : fmt::format("bands 1 to {}", count)));
   GDALRasterBand& band = *dataset.GetRasterBand(number);
   if (is_mask(band)) throw FileError(path, fmt::format("band {} is a mask, and holds no {}", number, values));

@@ -13,7 +13,7 @@ struct BandQuery {
   std::optional<int> number;  ///< from 1; default: the only band, but for those that mask the others (alpha)
   // In messages: what the band should hold, and what to do where several could.
   std::string values = "heights";
-  std::string advice = "say with --band N which of them holds heights";
+  std::string advice = "say with `band` N which of them holds heights";
 };
 
 /// Throws InputError where several bands could be meant or the number is of none, FileError for a raster without bands,

@@ -11,9 +11,9 @@ namespace itin {
 namespace {
 
 std::string filters_of(const ImportOptions& options) {
-  if (!options.classes.empty() && !options.where.empty()) return "--class and --where leave";
-  if (!options.classes.empty()) return "--class leaves";
-  return "--where leaves";
+  if (!options.classes.empty() && !options.where.empty()) return "`classes` and `where` leave";
+  if (!options.classes.empty()) return "`classes` leaves";
+  return "`where` leaves";
 }
 
 /// What became of all that was read.
@@ -21,7 +21,7 @@ std::string what_became(const ImportReport& report, const ImportOptions& options
   std::string text;
   if (report.filtered > 0 && options.classes.empty() && options.where.empty()) {
     text =
-        fmt::format("{} points are noise (classes 7, 18) or withheld, unless --class asks for them", report.filtered);
+        fmt::format("{} points are noise (classes 7, 18) or withheld, unless `classes` asks for them", report.filtered);
   } else if (report.filtered > 0) {
     text = fmt::format("{} out {} points or features", filters_of(options), report.filtered);
   }
@@ -45,7 +45,7 @@ void require_ground(const ImportReport& report, const ImportOptions& options) {
       fmt::format("nothing to import: {} read, but no three of them span ground: they lie on one line, or "
                   "too far apart{}",
                   report.read == 1 ? "1 point was" : fmt::format("{} points were", report.read),
-                  options.max_gap > 0 ? "; give a larger --max-gap" : ""));
+                  options.max_gap > 0 ? "; give a larger `max_gap`" : ""));
 }
 
 }  // namespace itin

@@ -42,7 +42,8 @@ std::vector<double> tolerances_of(const ImportOptions& options, const Store* exi
     for (const LevelInfo& level : existing->metadata().levels) stored.push_back(level.tolerance);
     if (!options.tolerances.empty() &&
         !std::equal(options.tolerances.begin(), options.tolerances.end(), stored.begin() + 1, stored.end())) {
-      throw InputError("--levels: " + existing->path() + " has other levels already; leave --levels out to add to it");
+      throw InputError("`tolerances`: " + existing->path() +
+                       " has other levels already; leave `tolerances` out to add to it");
     }
     return stored;
   }
@@ -54,9 +55,9 @@ std::vector<double> tolerances_of(const ImportOptions& options, const Store* exi
   }
   for (const double t : options.tolerances) {
     if (!std::isfinite(t) || t <= tolerances.back())
-      throw InputError("--levels: tolerances must be positive and ascending");
+      throw InputError("`tolerances`: tolerances must be positive and ascending");
     if (t < options.resolution)
-      throw InputError("--levels: a tolerance below the resolution means nothing; raise it or lower --resolution");
+      throw InputError("`tolerances`: a tolerance below the resolution means nothing; raise it or lower `resolution`");
     tolerances.push_back(t);
   }
   return tolerances;
@@ -64,10 +65,10 @@ std::vector<double> tolerances_of(const ImportOptions& options, const Store* exi
 
 void check_resolution(const ImportOptions& options, const Store* existing) {
   if (!std::isfinite(options.resolution) || options.resolution <= 0)
-    throw InputError("--resolution: must be positive, in metres");
+    throw InputError("`resolution`: must be positive, in metres");
   if (existing != nullptr && options.resolution != ImportOptions{}.resolution &&
       options.resolution != existing->metadata().grid.resolution) {
-    throw InputError("--resolution: " + existing->path() +
+    throw InputError("`resolution`: " + existing->path() +
                      " has another one already; leave it out to add to the store");
   }
 }
@@ -390,7 +391,7 @@ ImportReport import_sources(const std::string& store_path, const ImportOptions& 
   report.warnings = additions.plan.warnings;
   if (options.kind == ThemeKind::Contours && options.repair && !will_repair(options, store))
     report.warnings.push_back(
-        fmt::format("contours are left flat: {} has some that were imported with --no-repair", store_path));
+        fmt::format("contours are left flat: {} has some that were imported with `repair = false`", store_path));
 
   const SetAsideCounts before = counts_of(store);
   StoreWriter writer(std::move(file), additions.plan.crs_wkt, additions.plan.grid, tolerances);
@@ -425,7 +426,7 @@ ImportReport import_lines(const std::string& store_path, const ImportOptions& op
   if (may_stand(*options.kind) && !stands(options)) {
     report.warnings.push_back(
         fmt::format("{} without heights are outlines on the ground; to make them stand, give "
-                    "--height-field or --height, and another --theme",
+                    "`height_field` or `height`, and another `theme`",
                     name_of(*options.kind)));
   }
   return report;

@@ -95,14 +95,14 @@ StoreCrs settle_crs(const ImportOptions& options, const StoreMetadata* existing,
   if (existing) {
     const StoreCrs settled{parse_crs(existing->crs_wkt, "the store's CRS")};
     if (!options.to_crs.empty() &&
-        !PointTransform(metric_crs(options.to_crs, "--to-crs").wkt, settled.crs.wkt, "--to-crs").identity())
+        !PointTransform(metric_crs(options.to_crs, "`to_crs`").wkt, settled.crs.wkt, "`to_crs`").identity())
       throw InputError(
-          fmt::format("--to-crs {}: the store's CRS is {} already; leave the option out, or import into a "
+          fmt::format("`to_crs` {}: the store's CRS is {} already; leave the option out, or import into a "
                       "new store",
                       options.to_crs, settled.crs.name));
     return settled;
   }
-  if (!options.to_crs.empty()) return {metric_crs(options.to_crs, "--to-crs")};
+  if (!options.to_crs.empty()) return {metric_crs(options.to_crs, "`to_crs`")};
   const Crs crs = first.crs();
   if (!crs.metric()) return {utm_zone(crs, first.centre(), first.path()), true};
   const GridScale scale = TrueScale(crs, false).of(first);
@@ -122,7 +122,7 @@ class VerticalDatums {
     if (datum != datum_)
       throw InputError(
           fmt::format("{}: heights refer to {}, but those of {} to {}; convert one of them, or take them as they are "
-                      "with --allow-mixed-vertical",
+                      "with `allow_mixed_vertical`",
                       place, datum, place_, datum_));
   }
 
@@ -139,21 +139,21 @@ void check_vertical_datums(const OpenedFiles& opened, const ImportOptions& optio
   if (existing)
     for (const SourceInfo& source : existing->sources)
       if (!source.source_crs.empty()) datums.add(datum_of(parse_crs(source.source_crs, source.path)), source.path);
-  if (!options.to_crs.empty()) datums.add(datum_of(parse_crs(options.to_crs, "--to-crs")), "--to-crs");
+  if (!options.to_crs.empty()) datums.add(datum_of(parse_crs(options.to_crs, "`to_crs`")), "`to_crs`");
   for (const OpenedFile* file : opened) datums.add(datum_of(file->crs()), file->path());
 }
 
 Grid settle_grid(const ImportOptions& options, const StoreMetadata* existing, const OpenedFile& first, const Crs& crs) {
   if (existing) return existing->grid;
   if (!(options.resolution >= kFinestResolution && options.resolution <= kCoarsestResolution))
-    throw InputError(fmt::format("--resolution {}: give {} to {} metres", options.resolution, kFinestResolution,
+    throw InputError(fmt::format("`resolution` {}: give {} to {} metres", options.resolution, kFinestResolution,
                                  kCoarsestResolution));
   const std::string& place = options.sources.front();
   Point2 centre = first.centre();
   PointTransform(first.crs().wkt, crs.wkt, place).transform(std::span(&centre.x, 1), std::span(&centre.y, 1));
   if (!std::isfinite(centre.x) || !std::isfinite(centre.y))
     throw InputError(
-        fmt::format("{}: lies where {} is not defined; choose another CRS with --to-crs", place, crs.name));
+        fmt::format("{}: lies where {} is not defined; choose another CRS with `to_crs`", place, crs.name));
   const double step = kGridHalfSide * options.resolution;
   // Adding zero turns -0, which would be written differently, into 0.
   return {{std::round(centre.x / step) * step + 0.0, std::round(centre.y / step) * step + 0.0}, options.resolution};

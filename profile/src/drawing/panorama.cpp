@@ -40,7 +40,7 @@ class PanoramaPage {
       : panorama_(panorama),
         drawing_(format, kPanoramaWidth, kPanoramaHeight),
         frame_{52, 130, kPanoramaWidth - 18, kPanoramaHeight - 66} {
-    if (panorama.skyline.size() < 2) throw InputError("a panorama of fewer than two azimuths: widen --azimuth");
+    if (panorama.skyline.size() < 2) throw InputError("a panorama of fewer than two azimuths: widen `azimuth`");
     unwrap();
     place_axes();
     sort_distances();

@@ -35,10 +35,10 @@ void require_report_format(const std::string& path, bool has_positions) {
   constexpr std::string_view kEndings[] = {".json", ".csv", ".svg", ".pdf", ".png", ".html", ".kml", ".gpkg"};
   const std::string ending = ending_of(path);
   if (std::find(std::begin(kEndings), std::end(kEndings), ending) == std::end(kEndings)) {
-    throw InputError(fmt::format("--report '{}': expected .json, .csv, .svg, .pdf, .png, .html, .kml or .gpkg", path));
+    throw InputError(fmt::format("`report` '{}': expected .json, .csv, .svg, .pdf, .png, .html, .kml or .gpkg", path));
   }
   if (!has_positions && (ending == ".kml" || ending == ".gpkg")) {
-    throw InputError(fmt::format("--report '{}': a profile from a file has no positions to map", path));
+    throw InputError(fmt::format("`report` '{}': a profile from a file has no positions to map", path));
   }
 }
 

@@ -273,7 +273,7 @@ TEST_F(ContourRepair, IsDoneUnlessAnImportOfContoursSaysOtherwise) {
   // Whichever came first.
   report = add(two, ThemeKind::Contours, true, "s.itin", "more");
   EXPECT_EQ(report.inferred, 0u);
-  EXPECT_THAT(report.warnings, testing::Contains(testing::HasSubstr("--no-repair")));
+  EXPECT_THAT(report.warnings, testing::Contains(testing::HasSubstr("`repair = false`")));
 }
 
 // Truth: OS Terrain 50 has the same tile as contours and as a grid.

@@ -109,8 +109,8 @@ TEST(DelimitedText, BadColumnsAreNamed) {
   EXPECT_THAT(refusal<FileError>("x,y,z\n1,2,3\n", "height"),
               HasSubstr(R"(no column 'height'; it has ["x", "y", "z"])"));
   EXPECT_THAT(refusal<FileError>("1,2,3\n", "z"), HasSubstr("no header line"));
-  EXPECT_THAT(refusal<FileError>("x,y\n1,2\n"), HasSubstr("--z-field"));
-  EXPECT_THAT(refusal<FileError>("name,x,y\na,2,3\n"), HasSubstr("--z-field"));
+  EXPECT_THAT(refusal<FileError>("x,y\n1,2\n"), HasSubstr("`z_field`"));
+  EXPECT_THAT(refusal<FileError>("name,x,y\na,2,3\n"), HasSubstr("`z_field`"));
   EXPECT_THAT(refusal<FileError>("what\n1\n"), HasSubstr("three columns"));
   EXPECT_THAT(refusal<FileError>(""), HasSubstr("holds no points"));
   EXPECT_THAT(refusal<FileError>("x,y,z\n# nothing\n"), HasSubstr("holds no points"));

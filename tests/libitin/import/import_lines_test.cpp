@@ -369,7 +369,7 @@ TEST_F(ImportLines, MistakesAreNamed) {
   test::write_lines(path("flat.geojson"), {{{{300500, 198000, 0}, {300600, 198000, 0}}}}, true);
   expect_error([&] { lines(ThemeKind::Roads, "flat.geojson"); }, "import terrain first");
   import_terrain_tile(false);
-  expect_error([&] { lines(ThemeKind::Breaklines, "flat.geojson"); }, "--z-field");
+  expect_error([&] { lines(ThemeKind::Breaklines, "flat.geojson"); }, "`z_field`");
   expect_error([&] { lines(ThemeKind::Roads, "flat.geojson", "all"); }, "choose a name");
   lines(ThemeKind::Roads, "flat.geojson", "lanes");
   expect_error([&] { lines(ThemeKind::Walls, "flat.geojson", "lanes"); }, "holds roads already");

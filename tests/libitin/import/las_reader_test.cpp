@@ -113,7 +113,7 @@ TEST(LasReader, LeavesOutNoiseAndWithheldPoints) {
   EXPECT_EQ(kept({}), (std::vector{0, 4, 5}));
   EXPECT_EQ(kept({2}), (std::vector{0}));
   EXPECT_EQ(kept({7, 9}), (std::vector{1, 4}));
-  EXPECT_THAT(message_of<InputError>([&] { kept({256}); }), HasSubstr("--class 256"));
+  EXPECT_THAT(message_of<InputError>([&] { kept({256}); }), HasSubstr("`classes` 256"));
 }
 
 TEST(LasReader, CentreDistrustsAnEmptyHeaderBox) {

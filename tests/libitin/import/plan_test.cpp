@@ -119,7 +119,7 @@ TEST_F(Plan, RefusesACrsWhoseLengthsAreWrongWhereItIsAskedFor) {
   EXPECT_EQ(refusal<InputError>({british()}),
             british() +
                 ": lengths in EPSG:3857, the store's CRS, are up to 60.6 % too long there, where 0.5 % are "
-                "allowed; give --to-crs one made for that place, such as 'EPSG:32630', or import it into a store "
+                "allowed; give `to_crs` one made for that place, such as 'EPSG:32630', or import it into a store "
                 "of its own, in pieces where it is wide");
   options_.to_crs = "EPSG:32633";
   EXPECT_THAT(refusal<InputError>({british()}), HasSubstr("such as 'EPSG:32630'"));
@@ -144,7 +144,7 @@ TEST_F(Plan, RefusesToAddWhereLengthsInTheStoreAreWrong) {
 
 TEST_F(Plan, HelpsAtThePoles) {
   const std::string pole = raster("pole.tif", "EPSG:3031", {-100, 50, 0, 100, 0, -50});
-  EXPECT_THAT(refusal<InputError>({pole}), HasSubstr("give --to-crs"));
+  EXPECT_THAT(refusal<InputError>({pole}), HasSubstr("give `to_crs`"));
   options_.to_crs = "+proj=laea +lat_0=-90 +lon_0=0 +datum=WGS84 +units=m";
   EXPECT_EQ(plan({pole}).sources.size(), 1U);
 }
@@ -199,7 +199,7 @@ TEST_F(Plan, FollowsAnExistingStore) {
   options_.to_crs = "EPSG:27700";
   EXPECT_EQ(
       refusal<InputError>({british()}, &existing),
-      "--to-crs EPSG:27700: the store's CRS is EPSG:32630 already; leave the option out, or import into a new store");
+      "`to_crs` EPSG:27700: the store's CRS is EPSG:32630 already; leave the option out, or import into a new store");
 }
 
 TEST_F(Plan, RefusesToMixVerticalDatums) {
@@ -246,14 +246,14 @@ TEST_F(Plan, RefusesWhatItCannotOpen) {
 TEST_F(Plan, RefusesWrongCalls) {
   EXPECT_THAT(refusal<InputError>({}), HasSubstr("name at least one source"));
   options_.crs = "EPSG:1";
-  EXPECT_THAT(refusal<InputError>({british()}), HasSubstr("--crs: the CRS 'EPSG:1' is not understood"));
+  EXPECT_THAT(refusal<InputError>({british()}), HasSubstr("`crs`: the CRS 'EPSG:1' is not understood"));
   options_.crs.clear();
   options_.to_crs = "EPSG:4326";
-  EXPECT_THAT(refusal<InputError>({british()}), HasSubstr("--to-crs: EPSG:4326 is not projected with axes in metres"));
+  EXPECT_THAT(refusal<InputError>({british()}), HasSubstr("`to_crs`: EPSG:4326 is not projected with axes in metres"));
   options_.to_crs.clear();
   for (const double resolution : {0.0, -1.0, 1e-6, 100.0, std::numeric_limits<double>::quiet_NaN()}) {
     options_.resolution = resolution;
-    EXPECT_THAT(refusal<InputError>({british()}), HasSubstr("--resolution"));
+    EXPECT_THAT(refusal<InputError>({british()}), HasSubstr("`resolution`"));
   }
 }
 

@@ -135,18 +135,18 @@ TEST_F(PointLayer, MissingHeightsAndGeometriesAreVoids) {
 }
 
 TEST_F(PointLayer, NoHeightAtAllNamesTheOption) {
-  EXPECT_THAT(refusal<InputError>(write({{"POINT (1 2)", 3}}, wkbPoint)), HasSubstr("--z-field"));
+  EXPECT_THAT(refusal<InputError>(write({{"POINT (1 2)", 3}}, wkbPoint)), HasSubstr("`z_field`"));
   const std::string path = write({TestLayer{"points", wkbPoint25D, {{"POINT (1 2)", std::nullopt}}}}, "GPKG", "b.gpkg");
   ImportOptions options;
   options.z_field = "h";
-  EXPECT_THAT(refusal<InputError>(path, options), HasSubstr("--z-field"));
+  EXPECT_THAT(refusal<InputError>(path, options), HasSubstr("`z_field`"));
 }
 
 TEST_F(PointLayer, LinesAndPolygonsAreRefused) {
-  EXPECT_THAT(refusal<InputError>(write({{"LINESTRING (1 2,3 4)", 3}}, wkbLineString)), HasSubstr("--kind"));
+  EXPECT_THAT(refusal<InputError>(write({{"LINESTRING (1 2,3 4)", 3}}, wkbLineString)), HasSubstr("`kind`"));
   const std::vector<TestFeature> mixed{{"POINT Z (1 2 3)", 3}, {"POLYGON ((0 0,1 0,0 1,0 0))", 3}};
   EXPECT_THAT(refusal<InputError>(write({TestLayer{"mixed", wkbUnknown, mixed}}, "GPKG", "b.gpkg")),
-              HasSubstr("--kind"));
+              HasSubstr("`kind`"));
 }
 
 TEST_F(PointLayer, UnknownNamesAreAnsweredWithTheKnown) {
@@ -164,12 +164,12 @@ TEST_F(PointLayer, UnknownNamesAreAnsweredWithTheKnown) {
   EXPECT_THAT(refusal<InputError>(path, options), HasSubstr("feature 1: kind 'ground' is not a finite number"));
   options.z_field.clear();
   options.where = "no such = 'thing";
-  EXPECT_THAT(refusal<InputError>(path, options), HasSubstr("--where"));
+  EXPECT_THAT(refusal<InputError>(path, options), HasSubstr("`where`"));
   options.where = "elevation > 100";
   EXPECT_THAT(refusal<FileError>(path, options), HasSubstr("a field that layer 'spots' has not"));
   options.where = "h > 100";
   EXPECT_THAT(refusal<InputError>(path, options),
-              HasSubstr("--where h > 100 leaves none of 2 features of layer 'spots'"));
+              HasSubstr("`where` h > 100 leaves none of 2 features of layer 'spots'"));
 }
 
 TEST_F(PointLayer, NonFiniteNumbersNameTheFeature) {

@@ -71,7 +71,7 @@ TEST_F(RasterData, SlottskogenNeedsACrs) {
     plan_import(options, nullptr);
     FAIL() << "no exception";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("Slottskogen.asc: does not say its CRS; give it with --crs EPSG:xxxx"));
+    EXPECT_THAT(error.what(), HasSubstr("Slottskogen.asc: does not say its CRS; give it with `crs` EPSG:xxxx"));
   }
   options.crs = "EPSG:3006";
   const test::Reading reading = expect_exact(options.sources.front(), {1, "EPSG:3006"}, options);

@@ -305,7 +305,7 @@ TEST_F(RasterSource, RefusesAUnitThatIsNotUnderstood) {
   made.unit = "cubit";
   test::write_raster(directory_.file("a.tif"), made);
   EXPECT_THAT(refusal<InputError>(directory_.file("a.tif")),
-              HasSubstr("a.tif: the unit of heights, 'cubit', is not understood; give --crs the CRS of heights"));
+              HasSubstr("a.tif: the unit of heights, 'cubit', is not understood; give `crs` the CRS of heights"));
   ImportOptions options;
   options.crs = "EPSG:5703";
   const test::Reading reading = expect_exact(directory_.file("a.tif"), {}, options);
@@ -373,7 +373,7 @@ TEST_F(RasterSource, AsksWhichOfSeveralBands) {
   MadeRaster made = hills(30, 20);
   made.bands = 3;
   test::write_raster(directory_.file("a.tif"), made);
-  EXPECT_THAT(refusal<InputError>(directory_.file("a.tif")), HasSubstr("has 3 bands, 1, 2, 3; say with --band N"));
+  EXPECT_THAT(refusal<InputError>(directory_.file("a.tif")), HasSubstr("has 3 bands, 1, 2, 3; say with `band` N"));
   ImportOptions options;
   options.band = 1;
   expect_exact(directory_.file("a.tif"), {}, options);
@@ -511,7 +511,7 @@ TEST_F(RasterSource, RefusesWhatHoldsNoHeights) {
   homeless.crs.clear();
   test::write_raster(directory_.file("homeless.tif"), homeless);
   EXPECT_EQ(refusal<InputError>(directory_.file("homeless.tif")),
-            directory_.file("homeless.tif") + ": does not say its CRS; give it with --crs EPSG:xxxx");
+            directory_.file("homeless.tif") + ": does not say its CRS; give it with `crs` EPSG:xxxx");
 
   MadeRaster complex = hills(8, 8);
   complex.type = GDT_CFloat32;

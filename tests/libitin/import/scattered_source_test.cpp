@@ -78,7 +78,7 @@ TEST_F(ScatteredSource, ACrsIsNeeded) {
     open_point_source(path, {})->crs();
     FAIL() << "no CRS, and no complaint";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("--crs"));
+    EXPECT_THAT(error.what(), HasSubstr("`crs`"));
   }
 }
 

@@ -190,7 +190,7 @@ TEST_F(Sites, NameWhatIsWrong) {
   EXPECT_THAT(message_of(query), says("no field 'label'"));
   query = masts;
   query.where = "tower_m > 2";
-  EXPECT_THAT(message_of(query), says("--where tower_m > 2"));
+  EXPECT_THAT(message_of(query), says("`where` tower_m > 2"));
   query = masts;
   query.height_field = "name";
   EXPECT_THAT(message_of(query), says("feature 1: its height field 'name' holds no number"));

@@ -25,7 +25,7 @@ TEST(SourceOptions, AreRefusedByNameWhereNoSourceUsesThem) {
     EXPECT_NO_THROW(check(options, {kind}));
   options.classes = {2};
   EXPECT_THAT([&] { check(options, {raster}); },
-              ThrowsMessage<InputError>("--class: does nothing for rasters, only for LAS; leave it out"));
+              ThrowsMessage<InputError>("`classes`: does nothing for rasters, only for LAS; leave it out"));
   EXPECT_THAT(
       [&] {
         check(options, {raster, text});

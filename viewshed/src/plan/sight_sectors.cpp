@@ -87,7 +87,7 @@ void SightSectors::divide_next() {
     first.rows /= 2;
     rest.row += first.rows, rest.rows -= first.rows;
   } else {
-    throw InputError("the sight line to a single cell does not fit into the memory: give more --memory");
+    throw InputError("the sight line to a single cell does not fit into the memory: give more `memory_bytes`");
   }
   parts_.back() = rest;
   parts_.push_back(first);

@@ -46,7 +46,7 @@ std::vector<SourceKind> kinds_of(const ImportOptions& options) {
 
 FootprintSource read_model(const std::string& path, const ImportOptions& options, const StoreMetadata& store) {
   if (options.kind != ThemeKind::Buildings)
-    throw InputError(path + ": CityJSON holds buildings; import it with --kind buildings");
+    throw InputError(path + ": CityJSON holds buildings; import it with `kind` buildings");
   CityJsonQuery query;
   query.path = path;
   query.crs = options.crs;

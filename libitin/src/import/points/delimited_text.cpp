@@ -203,7 +203,7 @@ std::size_t DelimitedText::height_column(const std::vector<std::string>& names, 
   for (const std::string_view name : kHeightNames)
     if (const auto column = index_of(names, name); column && !is_position(*column)) return *column;
   if (names.size() > 2 && !is_position(2)) return 2;
-  throw FileError(path_, fmt::format("has no column of heights among {}; name it with --z-field", names));
+  throw FileError(path_, fmt::format("has no column of heights among {}; name it with `z_field`", names));
 }
 
 std::uint64_t DelimitedText::read(const Sink& sink) {

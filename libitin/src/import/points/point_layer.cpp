@@ -62,16 +62,16 @@ void PointLayer::check_geometry_type() const {
 
 void PointLayer::refuse_geometry(const std::string& type) const {
   throw InputError(fmt::format(
-      "{}: layer '{}' holds {}, not points; import lines and polygons with --kind contours, breaklines, buildings, ...",
+      "{}: layer '{}' holds {}, not points; import lines and polygons with `kind` contours, breaklines, buildings, ...",
       layer_.path(), layer_.name(), type));
 }
 
 void PointLayer::refuse_heightless() const {
   throw InputError(
       !layer_.has_height_field()
-          ? fmt::format("{}: the points of layer '{}' have no Z; name the field of the height with --z-field",
+          ? fmt::format("{}: the points of layer '{}' have no Z; name the field of the height with `z_field`",
                         layer_.path(), layer_.name())
-          : fmt::format("{}: layer '{}' has a height in no feature; check --z-field", layer_.path(), layer_.name()));
+          : fmt::format("{}: layer '{}' has a height in no feature; check `z_field`", layer_.path(), layer_.name()));
 }
 
 Point2 PointLayer::find_centre() {
@@ -89,7 +89,7 @@ Point2 PointLayer::find_centre() {
     return {batch.x.front(), batch.y.front()};
   }
   throw FileError(layer_.path(), fmt::format("layer '{}' holds no points{}", layer_.name(),
-                                             layer_.filtered() > 0 ? " that match --where" : ""));
+                                             layer_.filtered() > 0 ? " that match `where`" : ""));
 }
 
 std::uint64_t PointLayer::read(const Sink& sink) {

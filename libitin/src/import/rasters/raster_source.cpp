@@ -182,13 +182,13 @@ void RasterTerrain::measure_steps() {
   const Point2 u = across.longest, v = down.longest;
   const double cell = std::abs(u.x * v.y - u.y * v.x);
   if (!(cell > 0))
-    throw InputError(fmt::format("{}: lies where the store's CRS is not defined; choose another with --to-crs", path_));
+    throw InputError(fmt::format("{}: lies where the store's CRS is not defined; choose another with `to_crs`", path_));
   info_.gap_basis = {kGapSteps * u.x, kGapSteps * u.y, kGapSteps * v.x, kGapSteps * v.y};
   info_.spacing = std::sqrt(cell);
   if (const double variation = std::max(across.variation(), down.variation()); variation > kSteadySteps)
     warnings_.push_back(fmt::format(
         "{}: steps between posts vary {:.2f} fold in the store's CRS, so that narrow voids may be bridged where posts "
-        "are dense; import smaller pieces, or choose a nearer CRS with --to-crs",
+        "are dense; import smaller pieces, or choose a nearer CRS with `to_crs`",
         path_, variation));
 }
 

@@ -46,7 +46,7 @@ std::optional<LinearUnit> HeightBand::stated_unit() const {
   if (text.empty()) return std::nullopt;
   if (auto unit = linear_unit(text)) return unit;
   throw InputError(
-      fmt::format("{}: the unit of heights, '{}', is not understood; give --crs the CRS of heights in the right unit, "
+      fmt::format("{}: the unit of heights, '{}', is not understood; give `crs` the CRS of heights in the right unit, "
                   "such as EPSG:5703 for metres",
                   path_, text));
 }

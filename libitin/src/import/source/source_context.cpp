@@ -52,11 +52,11 @@ Crs own_crs(const std::string& path, const std::string& found, bool needed) {
 }  // namespace
 
 Crs source_crs(const std::string& path, const std::string& option_crs, const std::string& found) {
-  const Crs given = option_crs.empty() ? Crs{} : parse_any_crs(option_crs, "--crs");
+  const Crs given = option_crs.empty() ? Crs{} : parse_any_crs(option_crs, "`crs`");
   const Crs own = own_crs(path, found, given.wkt.empty());
   Crs crs = given.wkt.empty() ? own : given;
   if (crs.wkt.empty())
-    throw InputError(fmt::format("{}: does not say its {}CRS; give it with --crs EPSG:xxxx", path,
+    throw InputError(fmt::format("{}: does not say its {}CRS; give it with `crs` EPSG:xxxx", path,
                                  given.heights || own.heights ? "horizontal " : ""));
   crs.heights_given = given.heights.has_value();
   crs.heights = crs.heights_given ? given.heights : own.heights;
@@ -104,7 +104,7 @@ void Placement::place(std::span<double> x, std::span<double> y, std::span<const 
       throw InputError(
           fmt::format("{}: position {:.12g}, {:.12g} lies beyond the {:.0f} km about {:.12g}, {:.12g} that the store's "
                       "grid holds at "
-                      "{} m; import it into a store of its own, or give a coarser --resolution",
+                      "{} m; import it into a store of its own, or give a coarser `resolution`",
                       path_, x[i], y[i], kGridHalfSide * grid_.resolution / 1000, grid_.origin.x, grid_.origin.y,
                       grid_.resolution));
     }

@@ -39,7 +39,7 @@ std::string warning_about(const std::string& path, const HeightAxis& axis, const
   if (!stated && !is_metre(axis.metres))
     return fmt::format(
         "{}: the unit of heights is not stated; taken as that of the coordinates, {:.9g} m. If they are in metres, "
-        "give --crs a compound CRS, such as {}+5703",
+        "give `crs` a compound CRS, such as {}+5703",
         path, axis.metres, crs.name);
   if (axis.down)
     return fmt::format("{}: heights are depths, in units of {:.9g} m, and were converted to heights in metres", path,

@@ -39,7 +39,7 @@ OGRLayer& choose_layer(GDALDataset& dataset, const std::string& path, const std:
   if (names.empty()) throw FileError(path, "has no layers");
   if (name.empty()) {
     if (names.size() == 1) return *dataset.GetLayer(0);
-    throw FileError(path, fmt::format("has several layers; choose one with --layer: {}", names));
+    throw FileError(path, fmt::format("has several layers; choose one with `layer`: {}", names));
   }
   if (OGRLayer* layer = dataset.GetLayerByName(name.c_str())) return *layer;
   throw FileError(path, fmt::format("has no layer '{}'; it has {}", name, names));
@@ -60,8 +60,8 @@ namespace {
   if (reason.find("not recognised as an available field") != std::string::npos ||
       reason.find("no such column") != std::string::npos)
     throw FileError(
-        path, fmt::format("--where {} names a field that layer '{}' has not: {}", where, layer.GetName(), reason));
-  throw InputError(fmt::format("{}: --where {} is not understood: {}", path, where, reason));
+        path, fmt::format("`where` {} names a field that layer '{}' has not: {}", where, layer.GetName(), reason));
+  throw InputError(fmt::format("{}: `where` {} is not understood: {}", path, where, reason));
 }
 
 }  // namespace
@@ -75,7 +75,7 @@ std::uint64_t select_features(OGRLayer& layer, const std::string& path, const st
   const GIntBig left = layer.GetFeatureCount();
   if (!understood || left < 0 || QuietGdal::failed()) refuse_clause(layer, path, where);
   if (left == 0 && all > 0)
-    throw InputError(fmt::format("{}: --where {} leaves none of {} feature{} of layer '{}'", path, where, all,
+    throw InputError(fmt::format("{}: `where` {} leaves none of {} feature{} of layer '{}'", path, where, all,
                                  all == 1 ? "" : "s", layer.GetName()));
   return static_cast<std::uint64_t>(std::max<GIntBig>(0, all - left));
 }

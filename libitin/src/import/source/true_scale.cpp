@@ -33,8 +33,8 @@ GridScale TrueScale::of(const OpenedFile& file) {
   const auto scale = meter_.at(places_of(file));
   if (!scale)
     throw InputError(
-        fmt::format("{}: lies where {} is not defined; check the file's CRS (--crs), or choose another for the store "
-                    "with --to-crs",
+        fmt::format("{}: lies where {} is not defined; check the file's CRS (`crs`), or choose another for the store "
+                    "with `to_crs`",
                     file.path(), crs_.name));
   return *scale;
 }
@@ -54,7 +54,7 @@ void TrueScale::require(const std::string& path, std::span<const Point2> places,
   const std::string remedy =
       store_exists_ ? "import it into a store of its own"
                     : fmt::format(
-                          "give --to-crs one made for that place, such as '{}', or import it into a store of "
+                          "give `to_crs` one made for that place, such as '{}', or import it into a store of "
                           "its own, in pieces where it is wide",
                           nearer_crs(places));
   throw InputError(fmt::format("{}: lengths in {}, the store's CRS, are {} there, where {} % are allowed; {}", path,

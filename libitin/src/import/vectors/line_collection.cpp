@@ -180,11 +180,11 @@ std::uint32_t LineCollection::theme(const std::string& name, ThemeKind kind, boo
     return static_cast<std::uint32_t>(themes_.size() - 1);
   }
   if (found->kind != kind)
-    throw InputError(fmt::format("theme '{}': holds {} already, not {}; choose another name with --theme", name,
+    throw InputError(fmt::format("theme '{}': holds {} already, not {}; choose another name with `theme`", name,
                                  name_of(found->kind), name_of(kind)));
   const auto number = static_cast<std::uint32_t>(found - themes_.begin());
   if (stands_[number] != stands)
-    throw InputError(fmt::format("theme '{}': holds {}; choose another name with --theme", name,
+    throw InputError(fmt::format("theme '{}': holds {}; choose another name with `theme`", name,
                                  stands ? "outlines on the ground, not features with heights"
                                         : "features with heights, not outlines on the ground"));
   return number;

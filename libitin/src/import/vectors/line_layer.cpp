@@ -40,7 +40,7 @@ void LineLayer::find_centre() {
     return;
   }
   throw FileError(path(), fmt::format("layer '{}' holds no lines or polygons of two or more vertices{}", layer_.name(),
-                                      layer_.filtered() > 0 ? " that match --where" : ""));
+                                      layer_.filtered() > 0 ? " that match `where`" : ""));
 }
 
 std::vector<LineLayer::Line> LineLayer::lines_of(const OGRFeature& feature) const {
@@ -75,7 +75,7 @@ void LineLayer::add(const OGRSimpleCurve& curve, const OGRFeature& feature, std:
   if (count < 2) return;
   const bool needs_height = is_terrain(kind_);
   if (needs_height && !layer_.has_height_field() && !curve.Is3D()) {
-    throw InputError(fmt::format("{}: has no heights, which {} need; name the field of the height with --z-field",
+    throw InputError(fmt::format("{}: has no heights, which {} need; name the field of the height with `z_field`",
                                  layer_.place(feature), name_of(kind_)));
   }
   const double of_feature = needs_height && layer_.has_height_field() ? layer_.height(feature) : 0;

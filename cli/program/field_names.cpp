@@ -1,0 +1,55 @@
+#include "program/field_names.hpp"
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+namespace itin::cli {
+
+namespace {
+
+using Names = std::pair<std::string_view, std::string_view>;
+
+constexpr std::array kNames{
+    Names{"allow_mixed_vertical", "--allow-mixed-vertical"},
+    Names{"azimuth", "--azimuth"},
+    Names{"band", "--band"},
+    Names{"base", "--base"},
+    Names{"base_field", "--base-field"},
+    Names{"classes", "--class"},
+    Names{"crs", "--crs"},
+    Names{"eaves_field", "--eaves-field"},
+    Names{"height", "--height"},
+    Names{"height_field", "--height-field"},
+    Names{"kind", "--kind"},
+    Names{"layer", "--layer"},
+    Names{"max_gap", "--max-gap"},
+    Names{"memory_bytes", "--memory"},
+    Names{"name_field", "--name-field"},
+    Names{"overwrite", "--overwrite"},
+    Names{"radius", "--radius"},
+    Names{"repair = false", "--no-repair"},
+    Names{"replace", "--replace"},
+    Names{"report", "--report"},
+    Names{"resolution", "--resolution"},
+    Names{"roof", "--roof"},
+    Names{"theme", "--theme"},
+    Names{"thickness", "--thickness"},
+    Names{"to_crs", "--to-crs"},
+    Names{"tolerances", "--levels"},
+    Names{"where", "--where"},
+    Names{"z_field", "--z-field"},
+};
+
+}  // namespace
+
+std::string in_options(std::string message) {
+  for (const auto& [field, option] : kNames) {
+    const std::string quoted = "`" + std::string(field) + "`";
+    for (std::size_t at = message.find(quoted); at != std::string::npos; at = message.find(quoted, at + option.size()))
+      message.replace(at, quoted.size(), option);
+  }
+  return message;
+}
+
+}  // namespace itin::cli
