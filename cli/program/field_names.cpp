@@ -4,6 +4,8 @@
 #include <string_view>
 #include <utility>
 
+#include <fmt/format.h>
+
 namespace itin::cli {
 
 namespace {
@@ -45,7 +47,7 @@ constexpr std::array kNames{
 
 std::string in_options(std::string message) {
   for (const auto& [field, option] : kNames) {
-    const std::string quoted = "`" + std::string(field) + "`";
+    const std::string quoted = fmt::format("`{}`", field);
     for (std::size_t at = message.find(quoted); at != std::string::npos; at = message.find(quoted, at + option.size()))
       message.replace(at, quoted.size(), option);
   }
