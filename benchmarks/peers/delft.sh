@@ -5,7 +5,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 readonly here=$PWD/benchmarks/peers data=$PWD/../shared/data/ahn3-bgt-delft work=${1:-build/peers/delft}
-readonly itin=${ITIN:-$PWD/build/release/bin/itin}
+readonly itin=${ITIN_PROGRAM:-$PWD/build/release/bin/itin}
 mkdir -p "$work"
 cd "$work"
 
@@ -27,7 +27,7 @@ timed "and of 160 buildings" "$itin" import delft.itin "$data/output/testarea.js
 timed "vegetation, outlines" "$itin" import delft.itin "$data/bgt/bgt_begroeidterreindeel.sqlite" --kind vegetation --quiet
 timed "walls, 2 m high" "$itin" import delft.itin "$data/bgt/bgt_scheiding.sqlite" --kind walls --height 2 --quiet
 timed "roads" "$itin" import delft.itin "$data/bgt/bgt_wegdeel.sqlite" --kind roads --quiet
-timed "the whole window, bare, to PLY" "$itin" tin delft.itin --all -o bare.ply --overwrite --quiet
+timed "the whole window, bare, to PLY" "$itin" tin delft.itin --all --themes none -o bare.ply --overwrite --quiet
 timed "the whole window, all themes, to PLY" "$itin" tin delft.itin --all --themes all -o all.ply --overwrite --quiet
 timed "the picture of its houses" "$itin" tin delft.itin --all --themes buildings --image delft.jpg --overwrite --quiet
 "$itin" info delft.itin --json | jq -c '{vertices, bytes, bytes_per_vertex, themes}'

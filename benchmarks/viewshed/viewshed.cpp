@@ -91,10 +91,10 @@ void BM_Viewshed(benchmark::State& state) {
   NoProgress progress;
   Result result;
   for (auto _ : state) result = compute(terrain(), request, progress);
-  state.counters["rays_per_second"] =
+  state.counters["lines_per_second"] =
       benchmark::Counter(static_cast<double>(result.statistics.lines), benchmark::Counter::kIsIterationInvariantRate);
   state.counters["scene_s"] = result.statistics.scene_seconds;
-  state.counters["rays_s"] = result.statistics.lines_seconds;
+  state.counters["lines_s"] = result.statistics.lines_seconds;
   state.counters["visible_share"] =
       static_cast<double>(result.cells.visible) / static_cast<double>(result.grid.cell_count());
 }
