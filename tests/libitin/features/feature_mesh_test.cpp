@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <itin/error.hpp>
@@ -213,7 +214,7 @@ TEST_P(FeatureMeshCrowds, StayPlanar) {
     std::vector<FootprintFeature> features;
     for (int i = count(random); i > 0; --i) {
       const Point2 centre{kFeatureGrid.origin.x + anywhere(random), kFeatureGrid.origin.y + anywhere(random)};
-      features.push_back(house("f" + std::to_string(i), {random_ring(random, crowd.reach, corners(random), centre)}, 10,
+      features.push_back(house(fmt::format("f{}", i), {random_ring(random, crowd.reach, corners(random), centre)}, 10,
                                height(random), static_cast<RoofKind>(roof(random))));
     }
     FeatureOptions options;
@@ -260,7 +261,7 @@ TEST(FeatureMesh, SurvivesAnythingOnRoughGround) {
     std::vector<FootprintFeature> features;
     for (int i = count(random); i > 0; --i) {
       const Point2 at{kFeatureGrid.origin.x + centre(random), kFeatureGrid.origin.y + centre(random)};
-      features.push_back(house("f" + std::to_string(i), {random_ring(random, 2.5 * step, corners(random), at)}, 3,
+      features.push_back(house(fmt::format("f{}", i), {random_ring(random, 2.5 * step, corners(random), at)}, 3,
                                height(random), static_cast<RoofKind>(roof(random))));
       features.back().kind = static_cast<FeatureKind>(kind(random));
       if (round % 3 != 0) features.back().base.reset();

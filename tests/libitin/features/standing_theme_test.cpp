@@ -147,7 +147,7 @@ class StandingThemes : public testing::Test {
   }
   ImportReport raise(ThemeKind kind, const std::string& theme, const std::vector<LineFeature>& features,
                      ImportOptions options = {}) const {
-    options.height_field = "h";
+    options.height_field = std::string(1, 'h');
     return add(kind, theme, features, options);
   }
 
