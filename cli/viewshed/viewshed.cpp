@@ -269,7 +269,7 @@ class ViewshedVerb final : public Verb {
   bool request_detail_given() const { return detail_.detail({}).coarsest() > 0; }
 
   viewshed::Surveyed survey(const Store& store, const viewshed::Request& request, Progress& progress) const {
-    if (certified_) return viewshed::compute_certified(store, request, progress);
+    if (certified_) return viewshed::compute_certified(store, request, compute_options_, progress);
     return viewshed::compute_with_surface(store, request, compute_options_, progress);
   }
   viewshed::Result survey_alone(const Store& store, const viewshed::Surveyed& all, std::size_t observer,

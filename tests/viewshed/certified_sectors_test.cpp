@@ -55,7 +55,7 @@ TEST(CertifiedSectors, SayWhatTheLevelSaysAndNothingWrong) {
       request.mode = Mode::kVisible;
       const Result exact = test::compute_at_full_detail(store, request, {}, progress).result;
       request.detail = Detail::tolerance(16);
-      const Result whole = compute_certified(store, request, progress).result;
+      const Result whole = compute_certified(store, request, {}, progress).result;
       ASSERT_GT(whole.cells.undecided, 0U) << "not of the level";
       const Voids voids = rule == NoData::kUnknown ? Voids::kDoubt : voids_without_doubt(rule);
       const Result parts = certify_by_sectors(store, request, voids, 700, progress).result;

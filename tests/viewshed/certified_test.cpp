@@ -82,7 +82,7 @@ std::vector<Verdict> brute_force(const Terrain& terrain, const Request& request,
 double expect_certain(const Terrain& terrain, Request request, double tolerance, const std::vector<Verdict>& truth) {
   request.detail = Detail::tolerance(tolerance);
   NoProgress progress;
-  const Result result = compute_certified(terrain.store(), request, progress).result;
+  const Result result = compute_certified(terrain.store(), request, {}, progress).result;
   EXPECT_EQ(result.visible.size(), truth.size());
   std::uint64_t decided = 0, in_view = 0, wrong = 0;
   for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -180,11 +180,11 @@ TEST(Certified, UnknownVoidsLeaveLinesUndecided) {
   const Terrain terrain = cardiff(50, 6);
   Request request = look(terrain.at(1700, 1400), 200, 2, 41);
   NoProgress progress;
-  const Result clear = compute_certified(terrain.store(), request, progress).result;
+  const Result clear = compute_certified(terrain.store(), request, {}, progress).result;
   request.nodata = NoData::kUnknown;
-  const Result unknown = compute_certified(terrain.store(), request, progress).result;
+  const Result unknown = compute_certified(terrain.store(), request, {}, progress).result;
   request.nodata = NoData::kBlock;
-  const Result block = compute_certified(terrain.store(), request, progress).result;
+  const Result block = compute_certified(terrain.store(), request, {}, progress).result;
   EXPECT_GT(unknown.cells.undecided, clear.cells.undecided);
   EXPECT_GT(block.cells.hidden, clear.cells.hidden);
   for (std::size_t i = 0; i < clear.visible.size(); ++i) {
@@ -203,7 +203,7 @@ TEST(Certified, RingsAndSeveralObservers) {
   NoProgress progress;
   Request request = first;
   request.detail = Detail::rings(first.observers[0].position, {{600, 0}, {1500, 0.5}, {9000, 4}});
-  const Result rings = compute_certified(terrain.store(), request, progress).result;
+  const Result rings = compute_certified(terrain.store(), request, {}, progress).result;
   const auto truth = brute_force(terrain, first, rings.grid), other = brute_force(terrain, second, rings.grid);
   for (std::size_t i = 0; i < truth.size(); ++i) {
     if (rings.visible[i] == Verdict::kVisible) {
@@ -216,7 +216,7 @@ TEST(Certified, RingsAndSeveralObservers) {
   request = first;
   request.observers.push_back(second.observers[0]);
   request.detail = Detail::tolerance(1);
-  const Result both = compute_certified(terrain.store(), request, progress).result;
+  const Result both = compute_certified(terrain.store(), request, {}, progress).result;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const bool seen = truth[i] == Verdict::kVisible || other[i] == Verdict::kVisible;
     if (both.visible[i] == Verdict::kVisible) {

@@ -118,7 +118,7 @@ class OneAnswer : public testing::Test {
     }
     ask_again(store, plain, 40);
     request.detail = Detail::tolerance(4);
-    ask_again(store, viewshed::compute_certified(store, request, progress).result, 40);
+    ask_again(store, viewshed::compute_certified(store, request, {}, progress).result, 40);
   }
 
   test::TemporaryDirectory directory_;
@@ -347,7 +347,7 @@ TEST_F(InWales, CertainlyIsCertain) {
   NoProgress progress;
   request_.detail = Detail::tolerance(1);
   request_.target_height = 30;
-  expect_exact(*store_, viewshed::compute_certified(*store_, request_, progress).result, 2000);
+  expect_exact(*store_, viewshed::compute_certified(*store_, request_, {}, progress).result, 2000);
 }
 
 }  // namespace

@@ -202,7 +202,7 @@ TEST_F(Reveal, CellsDoNotDependOnWhatIsRead) {
   expect_same(whole, parts->result);
   Request certified = request;
   certified.detail = Detail::tolerance(16);
-  EXPECT_EQ(compute_certified(*store_, certified, progress_).result.grid.bounds(), whole.grid.bounds());
+  EXPECT_EQ(compute_certified(*store_, certified, {}, progress_).result.grid.bounds(), whole.grid.bounds());
 }
 
 TEST_F(Reveal, TooLittleMemoryIsRefused) {

@@ -135,7 +135,7 @@ TEST_F(StandingCertified, EveryCellIsCertain) {
   NoProgress progress;
   r.nodata = NoData::kUnknown;
   const std::vector<Verdict> truth = test::brute_force(surface_, ground_, r, compute(*store_, r, progress).grid);
-  const Result result = compute_certified(*store_, r, progress).result;
+  const Result result = compute_certified(*store_, r, {}, progress).result;
   EXPECT_EQ(result.cells.undecided, 0U);
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const Verdict certain = truth[i] == Verdict::kVisible  ? Verdict::kVisible
@@ -151,7 +151,7 @@ TEST_F(StandingCertified, LinesAcrossVoidsStayOpen) {
   NoProgress progress;
   const auto decide = [&](NoData rule) {
     r.nodata = rule;
-    return compute_certified(*store_, r, progress).result;
+    return compute_certified(*store_, r, {}, progress).result;
   };
   const Result clear = decide(NoData::kClear), block = decide(NoData::kBlock), unknown = decide(NoData::kUnknown);
   EXPECT_GT(unknown.cells.undecided, 0U);

@@ -3,7 +3,7 @@
 //   viewshed::Request request;
 //   request.observers = {{"mast", {318000, 176000}, 20}};
 //   request.detail = Detail::tolerance(4);
-//   const viewshed::Result certain = viewshed::compute_certified(store, request, progress).result;
+//   const viewshed::Result certain = viewshed::compute_certified(store, request, {}, progress).result;
 //
 // Both ends of a sight line stand on the full surface (level 0 of the terrain), whatever the tolerance. "Certainly" is
 // what it says: no cell called certain differs from the full surface's exact answer, single precision included.
@@ -29,6 +29,7 @@ namespace itin::viewshed {
 /// and a half points are looked at sector by sector about each observer. Throws as compute() does, and InputError where
 /// such themes and voids come together, under another rule than NoData::kClear, in a window that takes more than a
 /// gigabyte.
-Surveyed compute_certified(const Store& store, const Request& request, Progress& progress);
+Surveyed compute_certified(const Store& store, const Request& request, const ComputeOptions& options,
+                           Progress& progress);
 
 }  // namespace itin::viewshed

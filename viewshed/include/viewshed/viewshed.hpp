@@ -229,8 +229,8 @@ struct Surface;
 /// A result, and what it was made on, for maps and single observers while the store is open.
 struct Surveyed {
   std::shared_ptr<Surface> surface;  ///< a coarse one where the memory did not hold that of the request
-  std::optional<Tin> ground;  ///< what ends stand on, where that is not the surface
-  bool whole = true;          ///< `surface` is that of the request
+  std::optional<Tin> ground;         ///< what ends stand on, where that is not the surface
+  bool whole = true;                 ///< `surface` is that of the request
   Result result;
 };
 

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <itin/error.hpp>
 #include <itin/lattice_reader.hpp>
 #include <itin/triangulate.hpp>
@@ -75,22 +77,37 @@ Way way_of(const Store& store, const Request& request) {
 }
 
 /// The exact answer, but where ground without data leaves it open.
-Surveyed decide_exactly(const Store& store, const Request& request, Progress& progress) {
+Surveyed decide_exactly(const Store& store, const Request& request, const ComputeOptions& options, Progress& progress) {
   Request exact = request;
   exact.detail = Detail::tolerance(0);
-  Surveyed surveyed = compute_with_surface(store, exact, {}, progress);
+  Surveyed surveyed = compute_with_surface(store, exact, options, progress);
   surveyed.result.request = request;
   surveyed.result.certified = true;
   return surveyed;
 }
 
+/// What the level takes at a time does not follow the memory, since what it leaves undecided would follow it, too.
+void require_memory(const Store& store, const Request& request, Way way, std::uint64_t memory) {
+  constexpr std::uint64_t kBytesPerEnvelopePoint = 715;
+  const int level = level_within(store.metadata(), request.detail.coarsest());
+  const std::uint64_t points =
+      way == Way::kBySectors ? kPointsOfSector : store.points_about(level, box_of_window(store, request));
+  if (points * kBytesPerEnvelopePoint > memory)
+    throw InputError(
+        fmt::format("the level takes {:.0f} MB at a time: give more `memory_bytes`, a coarser tolerance or "
+                    "a smaller `radius`",
+                    static_cast<double>(points * kBytesPerEnvelopePoint) / 1e6));
+}
+
 }  // namespace
 
-Surveyed compute_certified(const Store& store, const Request& request, Progress& progress) {
+Surveyed compute_certified(const Store& store, const Request& request, const ComputeOptions& options,
+                           Progress& progress) {
   validate(request);
   if (request.mode != Mode::kVisible) throw InputError("certificates tell what is visible, and nothing else");
   const Way way = way_of(store, request);
-  if (way == Way::kExactly) return decide_exactly(store, request, progress);
+  if (way == Way::kExactly) return decide_exactly(store, request, options, progress);
+  require_memory(store, request, way, options.memory_bytes);
   if (way == Way::kBySectors) return certify_by_sectors(store, request, voids_of(request), kPointsOfSector, progress);
   Surveyed surveyed;
   Result& result = surveyed.result;
