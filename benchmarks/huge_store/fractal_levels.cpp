@@ -8,9 +8,9 @@ namespace {
 
 /// The coarsest whose surface lies within the tolerance.
 int coarsest_stage(double tolerance) {
-  constexpr double decimetres_a_metre = 10;
+  constexpr double decimetres_per_metre = 10;
   int stage = 0;
-  while (stage < Fractal::kTopStage && Fractal::greatest_deviation(stage + 1) <= tolerance * decimetres_a_metre)
+  while (stage < Fractal::kTopStage && Fractal::greatest_deviation(stage + 1) <= tolerance * decimetres_per_metre)
     ++stage;
   return stage;
 }

@@ -47,7 +47,7 @@ void report(benchmark::State& state, const CrossSection& sum) {
   state.counters["points_read"] = static_cast<double>(sum.statistics.points_read) / lines;
   state.counters["blocks_read"] = static_cast<double>(sum.statistics.blocks_read) / lines;
   // A strip of triangles has two vertices more.
-  state.counters["points_a_vertex"] =
+  state.counters["points_per_vertex"] =
       static_cast<double>(sum.statistics.points_read) / (static_cast<double>(sum.triangles) + 2 * lines);
 }
 

@@ -59,7 +59,7 @@ void BM_Sweep(benchmark::State& state) {
   const Eye eye = eye_of(terrain().grid, request, observer, height_on(terrain(), observer.position));
   std::uint64_t lines = 0;
   for (auto _ : state) {
-    const AxisSweep::View view = surface.view_from(eye);
+    const RadialSweep::View view = surface.view_from(eye);
     for (std::size_t tile = 0; tile < tiles.cell_count(); ++tile) {
       TileValues<Verdict> values;
       values.fill(Verdict::kUndecided);

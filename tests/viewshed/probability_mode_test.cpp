@@ -9,7 +9,7 @@
 #include <itin/error.hpp>
 #include <viewshed/viewshed.hpp>
 
-#include "modes/error_worlds.hpp"
+#include "modes/error_realisations.hpp"
 #include "support/exact_line_of_sight.hpp"
 #include "support/terrain_tin.hpp"
 #include "support/viewshed_of.hpp"
@@ -158,9 +158,9 @@ TEST(ProbabilityMode, RefusesAnErrorThatIsNone) {
   EXPECT_THROW(run(tin, request), InputError);
 }
 
-TEST(ErrorWorlds, AreNormalAndIndependent) {
-  const ErrorWorlds worlds;
-  constexpr auto kCount = static_cast<double>(ErrorWorlds::kCount);
+TEST(ErrorRealisations, AreNormalAndIndependent) {
+  const ErrorRealisations worlds;
+  constexpr auto kCount = static_cast<double>(ErrorRealisations::kCount);
   double squares = 0;
   constexpr int kPairs = 400;
   for (std::uint64_t number = 0; number < kPairs; ++number) {

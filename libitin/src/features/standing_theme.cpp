@@ -12,8 +12,8 @@
 
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
+#include <itin/silent_progress.hpp>
 #include <itin/triangulate.hpp>
-#include <itin/unreported.hpp>
 
 #include "base/stoppable.hpp"
 #include "features/feature_mesh.hpp"
@@ -202,7 +202,7 @@ class Standing {
     std::sort(numbers.begin(), numbers.end());
     std::vector<FootprintFeature> features;
     for (const std::uint32_t i : numbers) features.push_back(footprints_[i].feature);
-    Unreported quiet(progress);
+    SilentProgress quiet(progress);
     const Box window = grid_.box(box);
     const Tin tin = triangulate(ground_, Window::box(window), Detail::tolerance(0), quiet, ThemeChoice::none());
     const TerrainHeights terrain(tin);

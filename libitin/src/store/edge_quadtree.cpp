@@ -74,8 +74,8 @@ std::vector<std::uint8_t> encode_outline(const Cell& cell, const std::vector<Seg
 }
 
 std::vector<Segment> decode_outline(const Cell& cell, std::size_t count, std::span<const std::uint8_t> bytes) {
-  constexpr std::size_t most_bytes_a_segment = 4 * 9;
-  const std::vector<std::uint8_t> content = decompress(bytes, count * most_bytes_a_segment);
+  constexpr std::size_t most_bytes_per_segment = 4 * 9;
+  const std::vector<std::uint8_t> content = decompress(bytes, count * most_bytes_per_segment);
   ByteReader in(content);
   std::vector<Segment> segments;
   std::int64_t x = morton_x(cell.code), y = morton_y(cell.code);

@@ -36,7 +36,7 @@ struct Surface {
 /// Every lattice, however large.
 inline constexpr std::uint64_t kAnyLattice = std::uint64_t{1} << 31;
 /// Of a lattice that is swept.
-inline constexpr std::uint64_t kBytesAPost = 9;
+inline constexpr std::uint64_t kBytesPerPost = 9;
 
 /// Of all its data, metres.
 Box extent_of(const Store& store);

@@ -161,7 +161,7 @@ void BinnedHeights::bound_tile(std::uint32_t tile) {
 
 void BinnedHeights::bound_tin() {
   const Tin& tin = *tin_;
-  listed_.emplace(Listed{TriangleBins(tin, grid_), std::vector<Lid>(grid_.cell_count()), {}});
+  listed_.emplace(Listed{TriangleBins(tin, grid_), std::vector<UpperPlane>(grid_.cell_count()), {}});
   for (std::uint32_t t = 0; t < tin.triangles.size(); ++t) {
     const auto [a, b, c] = tin.corners(t);
     listed_->tops.push_back(std::max({a.z, b.z, c.z}));
@@ -201,7 +201,7 @@ BinnedHeights::Range BinnedHeights::bound_bin(RasterGrid::Cell bin) {
   double above = -kFloatInfinity;
   for (const std::uint32_t t : listed)
     above = std::max(above, Facet(tin_->corners(t), square).range_above(slope_x, slope_y).second);
-  listed_->lids[number] = {above, slope_x * bin_size(), -slope_y * bin_size()};
+  listed_->upper_planes[number] = {above, slope_x * bin_size(), -slope_y * bin_size()};
   return {rounded_down(low), rounded_up(high)};
 }
 

@@ -2,7 +2,7 @@
 // vertices. A lattice's squares are its cells, and their bounds are told from the posts when they are asked for.
 //
 //   BinnedHeights bins(tin);
-//   bins.lid(bin).at(column, row)                            // grid units
+//   bins.upper_plane(bin).at(column, row)                            // grid units
 //   bins.for_each_triangle(bin, [&](std::uint32_t t) { return use(bins.corners(t)); });
 //
 // Positions are in bins, columns counted eastwards and rows southwards from the north-west corner.
@@ -59,21 +59,22 @@ class BinnedHeights {
   bool holds(RasterGrid::Cell bin) const { return bin.column < columns() && bin.row < rows(); }
 
   /// A plane that the surface within one bin does not rise above.
-  struct Lid {
+  struct UpperPlane {
     double middle = -std::numeric_limits<double>::infinity();
     double per_column = 0, per_row = 0;
     /// At a position as far from the bin's middle, in bins; grid units.
     double at(double east, double south) const { return middle + per_column * east + per_row * south; }
   };
-  /// Whether no post of a lattice's bin, if it has been read, is above a height, grid units: told sooner than a lid.
+  /// Whether no post of a lattice's bin, if it has been read, is above a height, grid units: told sooner than its
+  /// upper plane.
   bool lies_below(RasterGrid::Cell bin, double height) const {
     if (lattice_ == nullptr || !lattice_->read(cell(bin))) return false;
     const std::int32_t* const upper = lattice_->posts(cell(bin));
     const std::int32_t* const lower = upper + LatticeTin::kPosts;
     return std::max(std::max(upper[0], upper[1]), std::max(lower[0], lower[1])) <= height;
   }
-  Lid lid(RasterGrid::Cell bin) const {
-    return lattice_ != nullptr ? lid_of_cell(*lattice_, cell(bin)) : listed_->lids[grid_.index(bin)];
+  UpperPlane upper_plane(RasterGrid::Cell bin) const {
+    return lattice_ != nullptr ? upper_plane_of_cell(*lattice_, cell(bin)) : listed_->upper_planes[grid_.index(bin)];
   }
   /// Calls visit(triangle) for those that meet the bin, or nearly meet it, kSlack bins away at least, and may rise
   /// above a height, grid units. Ends when one call returns false, and returns whether none did.
@@ -106,13 +107,13 @@ class BinnedHeights {
   /// What of a Tin that is no lattice is worked out once.
   struct Listed {
     TriangleBins bins;
-    std::vector<Lid> lids;           ///< a bin
-    std::vector<std::int32_t> tops;  ///< a triangle: its highest vertex
+    std::vector<UpperPlane> upper_planes;  ///< a bin
+    std::vector<std::int32_t> tops;        ///< a triangle: its highest vertex
   };
   std::uint32_t cell(RasterGrid::Cell bin) const {
     return lattice_->cell(static_cast<std::uint32_t>(bin.column), static_cast<std::uint32_t>(bin.row));
   }
-  static Lid lid_of_cell(const LatticeTin& lattice, std::uint32_t cell);
+  static UpperPlane upper_plane_of_cell(const LatticeTin& lattice, std::uint32_t cell);
   void bound_lattice();
   void bound_tile(std::uint32_t tile);
   std::optional<double> height_amid_square(double column, double row, Point2 units) const;
@@ -132,7 +133,7 @@ class BinnedHeights {
 };
 
 /// Sums and halves of whole numbers, all exact.
-inline BinnedHeights::Lid BinnedHeights::lid_of_cell(const LatticeTin& lattice, std::uint32_t cell) {
+inline BinnedHeights::UpperPlane BinnedHeights::upper_plane_of_cell(const LatticeTin& lattice, std::uint32_t cell) {
   if (!lattice.read(cell)) return {};
   const std::uint8_t there = lattice.halves(cell);
   if (there == 0) return {};

@@ -66,13 +66,14 @@ std::optional<std::uint32_t> HeightPyramid::triangle_at(Point2 units) const {
   return std::nullopt;
 }
 
-HeightPyramid::Track HeightPyramid::track_of(const Sheaf& sheaf) const {
+HeightPyramid::Track HeightPyramid::track_of(const LineBundle& bundle) const {
   const auto column = [&](double x) { return bin_grid_.column_at(grid_.origin.x + x * grid_.resolution); };
   const auto row = [&](double y) { return bin_grid_.row_at(grid_.origin.y + y * grid_.resolution); };
   const auto side = [](double from, double to) { return Side{from, reciprocal(to - from)}; };
   // Rows count southwards.
-  return {side(column(sheaf.from_west), column(sheaf.to_west)), side(column(sheaf.from_east), column(sheaf.to_east)),
-          side(row(sheaf.from_north), row(sheaf.to_north)), side(row(sheaf.from_south), row(sheaf.to_south))};
+  return {side(column(bundle.from_west), column(bundle.to_west)),
+          side(column(bundle.from_east), column(bundle.to_east)), side(row(bundle.from_north), row(bundle.to_north)),
+          side(row(bundle.from_south), row(bundle.to_south))};
 }
 
 }  // namespace itin::viewshed

@@ -2,10 +2,10 @@
 // of blocks of 2 x 2, 4 x 4, ... bins.
 //
 //   HeightPyramid pyramid(tin);
-//   Sheaf sheaf;
-//   for (const SightLine& line : lines) sheaf.add(line);
-//   sheaf.end = ...;                                       // the lowest far end of all, grid units
-//   pyramid.search(sheaf, [&](std::uint32_t triangle) { ... });
+//   LineBundle bundle;
+//   for (const SightLine& line : lines) bundle.add(line);
+//   bundle.end = ...;                                       // the lowest far end of all, grid units
+//   pyramid.search(bundle, [&](std::uint32_t triangle) { ... });
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ namespace itin::viewshed {
 /// Lines close together: a box of their near ends, a box of their far ends, and a height below all of them. At the
 /// fraction s of their lengths they lie in the box between the two, and above
 /// (1 - s) from_z + s end - bulge s (1 - s), measured so that curved ground is flat.
-struct Sheaf {
+struct LineBundle {
   double from_west = kInfinity, from_east = -kInfinity, from_south = kInfinity, from_north = -kInfinity;
   double to_west = kInfinity, to_east = -kInfinity, to_south = kInfinity, to_north = -kInfinity;
   double from_z = kInfinity;
@@ -37,9 +37,9 @@ struct Sheaf {
   double reach = 1;   ///< the fraction of the lengths up to which the lines matter
   double margin = 0;  ///< how far below the lines ground matters, too
 
-  Sheaf() = default;
+  LineBundle() = default;
   /// One line, with its own end.
-  explicit Sheaf(const SightLine& line) : end(line.to_z()) { add(line); }
+  explicit LineBundle(const SightLine& line) : end(line.to_z()) { add(line); }
 
   void add(const SightLine& line) {
     const Point3& from = line.from();
@@ -69,11 +69,11 @@ class HeightPyramid {
   /// The Tin must outlive it. About 20 bytes a triangle of even size.
   explicit HeightPyramid(const Tin& tin);
 
-  /// Calls visit(triangle) for every triangle that may rise above a line of the sheaf, or come within its margin,
+  /// Calls visit(triangle) for every triangle that may rise above a line of the bundle, or come within its margin,
   /// nearest first, some more than once. A block is left out as a whole where the lines run above its highest point.
-  /// `Lines` is a Sheaf, or what has its members and another lowest_over().
+  /// `Lines` is a LineBundle, or what has its members and another lowest_over().
   template <class Lines, class Visit>
-  void search(const Lines& sheaf, const Visit& visit) const;
+  void search(const Lines& bundle, const Visit& visit) const;
 
   /// A triangle that holds a position in grid units, if there is one.
   std::optional<std::uint32_t> triangle_at(Point2 units) const;
@@ -94,7 +94,7 @@ class HeightPyramid {
       if (per_b < 0) first = std::max(first, s);
     }
   };
-  /// One side of a sheaf, in bins: at the fraction s it is at `at + s / per`.
+  /// One side of a bundle, in bins: at the fraction s it is at `at + s / per`.
   struct Side {
     double at = 0, per = 0;
   };
@@ -104,7 +104,7 @@ class HeightPyramid {
     Stretch within(const Block& b) const;
   };
 
-  Track track_of(const Sheaf& sheaf) const;
+  Track track_of(const LineBundle& bundle) const;
   std::uint32_t side(std::uint32_t level) const { return side_ >> level; }
   std::int32_t highest(const Block& b) const {
     return highest_[b.level][std::size_t{b.row} * side(b.level) + b.column];
@@ -135,8 +135,8 @@ inline HeightPyramid::Stretch HeightPyramid::Track::within(const Block& b) const
 }
 
 template <class Lines, class Visit>
-void HeightPyramid::search(const Lines& sheaf, const Visit& visit) const {
-  const Track track = track_of(sheaf);
+void HeightPyramid::search(const Lines& bundle, const Visit& visit) const {
+  const Track track = track_of(bundle);
   // The child nearest to the lines' start, and then across x, y and both.
   const std::uint32_t near = (track.west.per < 0 ? 1U : 0U) | (track.north.per < 0 ? 2U : 0U);
   std::array<Block, 3 * kMaxLevels + 4> pending;
@@ -145,9 +145,9 @@ void HeightPyramid::search(const Lines& sheaf, const Visit& visit) const {
   while (count > 0) {
     const Block block = pending[--count];
     const Stretch stretch = track.within(block);
-    if (stretch.empty() || stretch.first > sheaf.reach) continue;
-    const double lowest = sheaf.lowest_over(stretch.first, stretch.last);
-    if (highest(block) + sheaf.margin <= lowest) continue;
+    if (stretch.empty() || stretch.first > bundle.reach) continue;
+    const double lowest = bundle.lowest_over(stretch.first, stretch.last);
+    if (highest(block) + bundle.margin <= lowest) continue;
     if (block.level > 0) {
       for (const std::uint32_t across : {3U, 2U, 1U, 0U}) {
         const std::uint32_t child = near ^ across;
@@ -156,7 +156,7 @@ void HeightPyramid::search(const Lines& sheaf, const Visit& visit) const {
       continue;
     }
     for (const std::uint32_t t : bins_.triangles(std::size_t{block.row} * side_ + block.column))
-      if (tops_[t] + sheaf.margin > lowest) visit(t);
+      if (tops_[t] + bundle.margin > lowest) visit(t);
   }
 }
 

@@ -67,20 +67,20 @@ void for_each_centre(const Tin& tin, std::span<const std::uint32_t> triangles, c
   const auto a_unit = [](double first, double last, std::int64_t count) {
     return count > 1 ? static_cast<double>(count - 1) / std::abs(last - first) : 1.0;
   };
-  const double columns_a_unit = a_unit(x[0], x[static_cast<std::size_t>(tile.columns - 1)], tile.columns);
-  const double rows_a_unit = a_unit(y[0], y[static_cast<std::size_t>(tile.rows - 1)], tile.rows);
+  const double columns_per_unit = a_unit(x[0], x[static_cast<std::size_t>(tile.columns - 1)], tile.columns);
+  const double rows_per_unit = a_unit(y[0], y[static_cast<std::size_t>(tile.rows - 1)], tile.rows);
   // Rows and columns are found by spacing, give or take one, and then compared exactly.
   const auto first_at = [](double cells, std::int64_t limit) {
     return static_cast<std::int64_t>(std::clamp(std::floor(cells) - 1, 0.0, static_cast<double>(limit)));
   };
   for (const std::uint32_t t : triangles) {
     const RowSections sections(tin.corners(t));
-    for (std::int64_t r = first_at((y[0] - sections.highest()) * rows_a_unit, tile.rows); r < tile.rows; ++r) {
+    for (std::int64_t r = first_at((y[0] - sections.highest()) * rows_per_unit, tile.rows); r < tile.rows; ++r) {
       const double row_y = y[static_cast<std::size_t>(r)];
       if (row_y > sections.highest()) continue;
       if (row_y < sections.lowest()) break;
       const auto [west, east] = sections.at(row_y);
-      for (std::int64_t c = first_at((west.x - x[0]) * columns_a_unit, tile.columns); c < tile.columns; ++c) {
+      for (std::int64_t c = first_at((west.x - x[0]) * columns_per_unit, tile.columns); c < tile.columns; ++c) {
         const double cell_x = x[static_cast<std::size_t>(c)];
         if (cell_x < west.x) continue;
         if (cell_x > east.x) break;

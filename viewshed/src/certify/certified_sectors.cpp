@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <itin/unreported.hpp>
+#include <itin/silent_progress.hpp>
 #include <viewshed/surface.hpp>
 
 #include "line/hulls.hpp"
@@ -16,7 +16,7 @@
 #include "progress/stage.hpp"
 #include "progress/stopwatch.hpp"
 #include "request/request.hpp"
-#include "window/near_ground.hpp"
+#include "window/retrieval.hpp"
 
 namespace itin::viewshed {
 
@@ -31,7 +31,7 @@ class CertifiedSectors {
         voids_(voids),
         most_points_(static_cast<double>(most_points)),
         whole_(certified_request(store, request)),
-        points_a_square_metre_(points_a_square_metre(store, whole_.level, request)),
+        points_per_square_metre_(points_per_square_metre(store, whole_.level, request)),
         progress_(progress),
         reading_(progress) {}
 
@@ -64,7 +64,7 @@ class CertifiedSectors {
     SightSectors sectors(surveyed_.result.grid, eye);
     while (!sectors.empty()) {
       const SightSectors::Sector sector = sectors.next(
-          [&](const std::vector<Point2>& hull) { return area_of(hull) * points_a_square_metre_ <= most_points_; });
+          [&](const std::vector<Point2>& hull) { return area_of(hull) * points_per_square_metre_ <= most_points_; });
       judge(eye, envelop(store_, within(sector.hull, eye, whole_), reading_), sector.parts);
       sectors.settle(sector, std::numeric_limits<double>::infinity());
     }
@@ -112,9 +112,9 @@ class CertifiedSectors {
   Voids voids_;
   double most_points_;
   EnvelopeRequest whole_;  ///< of all sectors together
-  double points_a_square_metre_;
+  double points_per_square_metre_;
   Progress& progress_;
-  Unreported reading_;  ///< of a sector
+  SilentProgress reading_;  ///< of a sector
   Stopwatch watch_;
   Surveyed surveyed_;
   RasterGrid tiles_;

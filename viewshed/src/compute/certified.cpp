@@ -12,7 +12,7 @@
 #include "progress/stage.hpp"
 #include "progress/stopwatch.hpp"
 #include "request/request.hpp"
-#include "window/near_ground.hpp"
+#include "window/retrieval.hpp"
 
 namespace itin::viewshed {
 
@@ -70,7 +70,7 @@ Way way_of(const Store& store, const Request& request) {
   if (kEnvelopeCosts * points >= all) return Way::kExactly;
   const bool large = points > kMostEnvelopePoints;
   if (kEnvelopeCostsInPosts * points < all) return large ? Way::kBySectors : Way::kAtOnce;
-  const std::uint64_t most_posts = ComputeOptions().memory_bytes / kBytesAPost;
+  const std::uint64_t most_posts = ComputeOptions().memory_bytes / kBytesPerPost;
   const bool exactly = large || (all > kFewPosts && all <= most_posts &&
                                  LatticeReader::may_open(store, window_of(request), ThemeChoice::none(), most_posts));
   return exactly ? Way::kExactly : Way::kAtOnce;
@@ -88,15 +88,15 @@ Surveyed decide_exactly(const Store& store, const Request& request, const Comput
 
 /// What the level takes at a time does not follow the memory, since what it leaves undecided would follow it, too.
 void require_memory(const Store& store, const Request& request, Way way, std::uint64_t memory) {
-  constexpr std::uint64_t kBytesPerEnvelopePoint = 715;
+  constexpr std::uint64_t kBytesPerPointOfLevel = 715;
   const int level = level_within(store.metadata(), request.detail.coarsest());
   const std::uint64_t points =
       way == Way::kBySectors ? kPointsOfSector : store.points_about(level, box_of_window(store, request));
-  if (points * kBytesPerEnvelopePoint > memory)
+  if (points * kBytesPerPointOfLevel > memory)
     throw InputError(
         fmt::format("the level takes {:.0f} MB at a time: give more `memory_bytes`, a coarser tolerance or "
                     "a smaller `radius`",
-                    static_cast<double>(points * kBytesPerEnvelopePoint) / 1e6));
+                    static_cast<double>(points * kBytesPerPointOfLevel) / 1e6));
 }
 
 }  // namespace

@@ -8,9 +8,9 @@
 #include "compute/memory.hpp"
 #include "compute/store_viewshed.hpp"
 #include "compute/tin_segments.hpp"
-#include "modes/blocked_features.hpp"
+#include "modes/feature_names.hpp"
 #include "request/request.hpp"
-#include "window/near_ground.hpp"
+#include "window/retrieval.hpp"
 
 namespace itin::viewshed {
 
@@ -35,8 +35,8 @@ Surveyed climb(const Store& store, const Request& request, const ComputeOptions&
   const std::uint64_t memory = memory_beside_rasters(options.memory_bytes, store, request);
   const std::uint64_t points = points_of(store, request);
   const bool lattice = options.lattices && takes_a_lattice(store, request);
-  if (lattice && points <= memory / kBytesAPost)
-    if (auto surveyed = compute_over_lattice(store, request, memory / kBytesAPost, progress))
+  if (lattice && points <= memory / kBytesPerPost)
+    if (auto surveyed = compute_over_lattice(store, request, memory / kBytesPerPost, progress))
       return std::move(*surveyed);
   if (points <= memory / bytes_per_point(request)) return compute_over_tin(store, request, progress);
   if (lattice)

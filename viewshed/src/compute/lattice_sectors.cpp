@@ -12,8 +12,8 @@
 
 #include <itin/error.hpp>
 #include <itin/lattice_reader.hpp>
+#include <itin/silent_progress.hpp>
 #include <itin/triangulate.hpp>
-#include <itin/unreported.hpp>
 #include <viewshed/surface.hpp>
 
 #include "bounds/boundary.hpp"
@@ -27,14 +27,14 @@
 #include "request/void_shadow.hpp"
 #include "scene/full_surface.hpp"
 #include "scene/reveal.hpp"
-#include "window/near_ground.hpp"
+#include "window/retrieval.hpp"
 
 namespace itin::viewshed {
 
 namespace {
 
 /// Of a post whose height is not read: a bit, and its share of a leaf and of a tile.
-constexpr double kBytesAnUnreadPost = 0.5;
+constexpr double kBytesPerUnreadPost = 0.5;
 /// Of a sector's tiles, before one has been looked at.
 constexpr double kFirstShareSeen = 0.25;
 /// Of the surface that maps are drawn over, at most.
@@ -82,8 +82,8 @@ class LatticeSectors {
     result.grid = cells_of(request_, extent_of(store_));
     tiles_ = grid_of_tiles(result.grid);
     look_for_voids(coarse.grid, rim_of(coarse, boundary_edges(coarse)), result);
-    posts_a_square_metre_ = points_a_square_metre(store_, 0, request_);
-    tile_side_m_ = LatticeTin::kSide / std::sqrt(posts_a_square_metre_);
+    posts_per_square_metre_ = points_per_square_metre(store_, 0, request_);
+    tile_side_m_ = LatticeTin::kSide / std::sqrt(posts_per_square_metre_);
     result.statistics.retrieval_seconds += watch_.lap();
   }
 
@@ -123,11 +123,11 @@ class LatticeSectors {
 
   /// Of a sector of whose tiles such a share is seen.
   double bytes_of(const std::vector<Point2>& hull, double share) const {
-    const double posts = area_of(hull) * posts_a_square_metre_;
+    const double posts = area_of(hull) * posts_per_square_metre_;
     // Of the tiles of a lattice a convex shape meets so many on average, however it is turned.
     const double side = tile_side_m_;
     const double tiles = area_of(hull) / (side * side) + 2 * length_of(hull) / (std::numbers::pi * side) + 1;
-    return kBytesAnUnreadPost * posts + share * tiles * LatticeTin::kCells * kBytesAPost;
+    return kBytesPerUnreadPost * posts + share * tiles * LatticeTin::kCells * kBytesPerPost;
   }
 
   /// The next sector will be like it, but not quite.
@@ -148,9 +148,9 @@ class LatticeSectors {
                    std::span<const Tile> parts) {
     Result& result = surveyed_.result;
     FullSurface surface(reader.lattice(), request_.earth, result.grid, tiles_);
-    const double unread = kBytesAnUnreadPost * static_cast<double>(reader.lattice().triangle_count()) / 2;
+    const double unread = kBytesPerUnreadPost * static_cast<double>(reader.lattice().triangle_count()) / 2;
     const double tiles =
-        (static_cast<double>(memory_) - unread) / static_cast<double>(kBytesAPost * LatticeTin::kCells);
+        (static_cast<double>(memory_) - unread) / static_cast<double>(kBytesPerPost * LatticeTin::kCells);
     const Revealed revealed = reveal(eye, reader, surface, static_cast<std::uint64_t>(std::max(0.0, tiles)), reading_);
     // A bin less, against rounding.
     const double reach = (revealed.reach - 1) * reader.lattice().spacing * reader.lattice().grid.resolution;
@@ -180,11 +180,11 @@ class LatticeSectors {
   bool all_heights_;
   double share_seen_;  ///< of a sector's tiles, as far as it is known
   Progress& progress_;
-  Unreported reading_;  ///< of a sector
+  SilentProgress reading_;  ///< of a sector
   Stopwatch watch_;
   Surveyed surveyed_;
   RasterGrid tiles_;
-  double posts_a_square_metre_ = 0;
+  double posts_per_square_metre_ = 0;
   double tile_side_m_ = 0;                                  ///< of a tile of the lattice, as far as it is known
   bool is_lattice_ = false;                                 ///< as far as has been read
   std::optional<Stage> stage_;                              ///< its steps are cells, of all observers

@@ -4,12 +4,12 @@
 #include <viewshed/surface.hpp>
 #include <viewshed/viewshed.hpp>
 
-#include "modes/blocked_features.hpp"
+#include "modes/feature_names.hpp"
 #include "modes/triangle_studies.hpp"
 #include "progress/stopwatch.hpp"
 #include "request/request.hpp"
 #include "scene/reveal.hpp"
-#include "window/near_ground.hpp"
+#include "window/retrieval.hpp"
 
 namespace itin::viewshed {
 

@@ -8,8 +8,8 @@
 #include <optional>
 
 #include <itin/parallel.hpp>
+#include <itin/silent_progress.hpp>
 #include <itin/triangulate.hpp>
-#include <itin/unreported.hpp>
 #include <viewshed/certified.hpp>
 #include <viewshed/surface.hpp>
 
@@ -23,14 +23,14 @@
 #include "progress/stopwatch.hpp"
 #include "request/request.hpp"
 #include "scene/full_surface.hpp"
-#include "window/near_ground.hpp"
+#include "window/retrieval.hpp"
 
 namespace itin::viewshed {
 
 namespace {
 
 /// Of an envelope, which has two surfaces and two scenes; and half of the memory is for what is refined meanwhile.
-constexpr std::uint64_t kBytesAnEnvelopePoint = 2400;
+constexpr std::uint64_t kBytesPerEnvelopePoint = 2400;
 /// The coarse pass reads so much less than the full surface.
 constexpr std::uint64_t kCoarseShare = 12;
 
@@ -83,7 +83,7 @@ class TinSegments {
   std::uint64_t budget() const { return memory_ / bytes_per_point(request_); }
 
   int coarse_level() const {
-    const std::uint64_t most = std::min(memory_ / kBytesAnEnvelopePoint, store_.points_about(0, box_) / kCoarseShare);
+    const std::uint64_t most = std::min(memory_ / kBytesPerEnvelopePoint, store_.points_about(0, box_) / kCoarseShare);
     int level = 1;
     while (level + 1 < static_cast<int>(store_.metadata().levels.size()) && store_.points_about(level, box_) > most)
       ++level;
@@ -148,7 +148,7 @@ class TinSegments {
       const OwnedSurface segment = refine(cells, needed);
       std::optional<TriangleStudies> studies;
       if (needs_triangles(request_)) studies.emplace(request_, segment.surface.tin);
-      const AxisSweep::View view = segment.full.view_from(eye);
+      const RadialSweep::View view = segment.full.view_from(eye);
       stage_->for_each(cells.size(), [&](std::size_t i) {
         const auto work = segment.full.begin(cells[i]);
         lines += observations_[cells[i]]->look(
@@ -170,12 +170,12 @@ class TinSegments {
     if (observer + 1 == request_.observers.size()) coarse_.reset();
     for (const std::vector<std::size_t>& cells : segments(eye, needed)) {
       const OwnedSurface segment = refine(cells, needed);
-      const AxisSweep::View view = segment.full.view_from(eye);
+      const RadialSweep::View view = segment.full.view_from(eye);
       raster.judge(cells, [&](std::size_t i, TileValues<Verdict>& values) {
         const auto work = segment.full.begin(cells[i]);
         const std::uint64_t lines = segment.full.judge(eye, view, values, *work);
         // The edges of the window are no voids.
-        if (coarse_look.shadow) coarse_look.shadow->fall_on(work->centres, values);
+        if (coarse_look.shadow) coarse_look.shadow->apply_to(work->centres, values);
         return lines;
       });
     }
@@ -289,7 +289,7 @@ class TinSegments {
   Box box_;
   std::uint64_t memory_;  ///< bytes, without the rasters
   Progress& progress_;
-  Unreported reading_;  ///< of a segment
+  SilentProgress reading_;  ///< of a segment
   Stopwatch watch_;
   Surveyed surveyed_;
   RasterGrid tiles_;

@@ -49,7 +49,7 @@ Result compute_on(const Tin* tin, LatticeReader* reader, const Tin* bare, const 
   std::optional<TriangleStudies> studies;
   if (needs_triangles(request)) studies.emplace(request, *tin);
   Observations observations(request);
-  std::vector<AxisSweep::View> views;
+  std::vector<RadialSweep::View> views;
   if (reader != nullptr && !all_read(*reader))
     for (const Eye& eye : eyes) views.push_back(reveal(eye, *reader, surface, kAnyTiles, progress).view);
   look_around(surface, studies ? &*studies : nullptr, observations, eyes, views, result, progress);

@@ -46,17 +46,17 @@ class Panorama {
     };
     // Far below all ground in sight.
     const SightLine line = line_to(eye_.units.z);
-    Sheaf sheaf(line);
-    sheaf.end = eye_.units.z - 1e4 * reach_;
+    LineBundle bundle(line);
+    bundle.end = eye_.units.z - 1e4 * reach_;
     std::optional<std::uint32_t> highest;
-    pyramid_.search(sheaf, [&](std::uint32_t triangle) {
+    pyramid_.search(bundle, [&](std::uint32_t triangle) {
       const Triangle& t = surface_.triangles[triangle];
       const double clear = line.clearing_end(surface_.vertices[t[0]], surface_.vertices[t[1]], surface_.vertices[t[2]]);
-      if (clear > sheaf.end) sheaf.end = clear, highest = triangle;
+      if (clear > bundle.end) bundle.end = clear, highest = triangle;
     });
     if (!highest) return std::nullopt;
-    if (std::isinf(sheaf.end)) throw InputError("the observer stands beneath a roof or top: it has no horizon");
-    return point(line_to(sheaf.end), *highest, azimuth, sheaf.end);
+    if (std::isinf(bundle.end)) throw InputError("the observer stands beneath a roof or top: it has no horizon");
+    return point(line_to(bundle.end), *highest, azimuth, bundle.end);
   }
 
  private:

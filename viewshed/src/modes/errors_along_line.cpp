@@ -51,7 +51,7 @@ Regression regress(std::size_t count, const Covariances& among, const std::array
 
 }  // namespace
 
-ErrorsAlongLine::ErrorsAlongLine(const Tin& tin, double correlation, const ErrorWorlds& worlds)
+ErrorsAlongLine::ErrorsAlongLine(const Tin& tin, double correlation, const ErrorRealisations& worlds)
     : tin_(tin), correlation_(correlation), worlds_(worlds) {}
 
 void ErrorsAlongLine::begin(const ErrorSum& from, const ErrorSum& to) {

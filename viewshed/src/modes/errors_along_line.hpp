@@ -1,6 +1,6 @@
 // The errors of the heights that a sight line meets, in many worlds: drawn along the line, one vertex after another.
 //
-//   const ErrorWorlds worlds;
+//   const ErrorRealisations worlds;
 //   ErrorsAlongLine errors(tin, correlation, worlds);   // for many lines
 //   errors.begin(under_the_eye, under_the_target);
 //   for (std::uint32_t vertex : ...) use(errors.from(), errors.to(), errors.of(vertex));
@@ -18,7 +18,7 @@
 
 #include <itin/tin.hpp>
 
-#include "modes/error_worlds.hpp"
+#include "modes/error_realisations.hpp"
 
 namespace itin::viewshed {
 
@@ -33,10 +33,10 @@ struct ErrorSum {
 /// For one thread. 10 kB.
 class ErrorsAlongLine {
  public:
-  using Errors = std::array<float, ErrorWorlds::kCount>;  ///< one a world
+  using Errors = std::array<float, ErrorRealisations::kCount>;  ///< one a world
 
   /// `correlation`: L in grid units. All must outlive it.
-  ErrorsAlongLine(const Tin& tin, double correlation, const ErrorWorlds& worlds);
+  ErrorsAlongLine(const Tin& tin, double correlation, const ErrorRealisations& worlds);
 
   /// A line between places whose heights have these errors. What it has of the eye of the line before serves again.
   void begin(const ErrorSum& from, const ErrorSum& to);
@@ -60,7 +60,7 @@ class ErrorsAlongLine {
 
   const Tin& tin_;
   double correlation_;
-  const ErrorWorlds& worlds_;
+  const ErrorRealisations& worlds_;
   std::array<Drawn, 2> ends_;
   std::array<Drawn, 3> vertices_;
   std::uint32_t clock_ = 0;

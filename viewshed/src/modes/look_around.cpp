@@ -24,7 +24,7 @@ constexpr std::size_t kGroup = 256;
 class LookAround {
  public:
   LookAround(const FullSurface& surface, const TriangleStudies* studies, Observations& observations,
-             const std::vector<Eye>& eyes, const std::vector<AxisSweep::View>& views, Result& result)
+             const std::vector<Eye>& eyes, const std::vector<RadialSweep::View>& views, Result& result)
       : surface_(surface),
         studies_(studies),
         observations_(observations),
@@ -61,7 +61,9 @@ class LookAround {
       shadows_[i] = shadow_of(eyes_[first_ + i], surface_.rim(), result_);
     });
   }
-  const AxisSweep::View& view_of(std::size_t eye) const { return given_.empty() ? *made_[eye - first_] : given_[eye]; }
+  const RadialSweep::View& view_of(std::size_t eye) const {
+    return given_.empty() ? *made_[eye - first_] : given_[eye];
+  }
 
   /// The group looks; after the last one the tile is done.
   void look_at(std::size_t tile) {
@@ -103,20 +105,20 @@ class LookAround {
   const TriangleStudies* studies_;
   Observations& observations_;
   const std::vector<Eye>& eyes_;
-  const std::vector<AxisSweep::View>& given_;  ///< each eye's, or none
+  const std::vector<RadialSweep::View>& given_;  ///< each eye's, or none
   Result& result_;
   std::vector<std::unique_ptr<Observation>> kept_;  ///< each tile's, from the first group to the last
   std::vector<TileTally> tallies_;
   // The group at hand: its eyes, and what each of them has.
   std::size_t first_ = 0, end_ = 0;
-  std::vector<std::optional<AxisSweep::View>> made_;
+  std::vector<std::optional<RadialSweep::View>> made_;
   std::vector<std::optional<VoidShadow>> shadows_;
 };
 
 }  // namespace
 
 void look_around(const FullSurface& surface, const TriangleStudies* studies, Observations& observations,
-                 const std::vector<Eye>& eyes, const std::vector<AxisSweep::View>& views, Result& result,
+                 const std::vector<Eye>& eyes, const std::vector<RadialSweep::View>& views, Result& result,
                  Progress& progress) {
   Observation::prepare(result);
   LookAround(surface, studies, observations, eyes, views, result).run(progress);

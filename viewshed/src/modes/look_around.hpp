@@ -18,7 +18,7 @@ namespace itin::viewshed {
 /// NoData::kBlock matters. Memory: 36 kB a thread, what a mode keeps of all cells where there are hundreds of eyes,
 /// and, where it does, what edges of voids each eye sees from behind. Throws Cancelled.
 void look_around(const FullSurface& surface, const TriangleStudies* studies, Observations& observations,
-                 const std::vector<Eye>& eyes, const std::vector<AxisSweep::View>& views, Result& result,
+                 const std::vector<Eye>& eyes, const std::vector<RadialSweep::View>& views, Result& result,
                  Progress& progress);
 
 }  // namespace itin::viewshed

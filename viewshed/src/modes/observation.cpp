@@ -124,7 +124,7 @@ std::uint64_t Observation::look(const TileLook& tile) {
     if (open(look)) values[look.cell] = Verdict::kUndecided;
   });
   const std::uint64_t lines = tile.surface.judge(tile.eye, tile.view, values, work);
-  if (tile.shadow != nullptr) tile.shadow->fall_on(work.centres, values);
+  if (tile.shadow != nullptr) tile.shadow->apply_to(work.centres, values);
   const double resolution = tile.surface.units().resolution;
   tile.for_each_cell([&](Look look) {
     if (values[look.cell] == Verdict::kOutside) return;

@@ -38,7 +38,7 @@ struct Look {
 struct TileLook {
   const FullSurface& surface;
   const Eye& eye;
-  const AxisSweep::View& view;  ///< the eye's
+  const RadialSweep::View& view;  ///< the eye's
   std::uint32_t observer;
   const VoidShadow* shadow;  ///< shadow_of() the eye; may be null
   FullSurface::TileWork& work;

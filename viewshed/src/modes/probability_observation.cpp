@@ -23,7 +23,7 @@ void ProbabilityObservation::keep(const Look& look) {
 
 void ProbabilityObservation::judge(const TileLook& tile, const Look& look, const Sight& sight) {
   if (sight.seen) mark_visible(look.cell);
-  const VerticalOdds::Odds odds =
+  const VisibilityProbability::Odds odds =
       tile.studies->odds->of_line({sight.from, sight.to, !sight.eye.absolute, !sight.eye.target_absolute}, *scratch_);
   // What no ground hides is behind missing ground that blocks.
   if (!sight.seen && odds.clear && nodata_ == NoData::kBlock) return;

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "modes/observation.hpp"
-#include "modes/vertical_odds.hpp"
+#include "modes/visibility_probability.hpp"
 
 namespace itin::viewshed {
 
@@ -21,8 +21,8 @@ class ProbabilityObservation final : public Observation {
   void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override;
 
   NoData nodata_;
-  std::optional<VerticalOdds::Scratch> scratch_;  ///< of the surface looked at
-  TileValues<float> probabilities_;               ///< of several observers the greatest
+  std::optional<VisibilityProbability::Scratch> scratch_;  ///< of the surface looked at
+  TileValues<float> probabilities_;                        ///< of several observers the greatest
 };
 
 }  // namespace itin::viewshed

@@ -7,7 +7,7 @@
 #include <viewshed/viewshed.hpp>
 
 #include "modes/first_blocker.hpp"
-#include "modes/vertical_odds.hpp"
+#include "modes/visibility_probability.hpp"
 
 namespace itin::viewshed {
 
@@ -25,7 +25,7 @@ struct TriangleStudies {
 
   const Tin& tin;
   std::optional<FirstBlocker> blockers;
-  std::optional<VerticalOdds> odds;
+  std::optional<VisibilityProbability> odds;
 };
 
 }  // namespace itin::viewshed

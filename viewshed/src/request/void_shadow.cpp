@@ -94,7 +94,7 @@ bool VoidShadow::comes_from_void(const Numbers& edges, const Vector& corner) con
   return from_void;
 }
 
-void VoidShadow::fall_on(const TileCentres& centres, TileValues<Verdict>& values) const {
+void VoidShadow::apply_to(const TileCentres& centres, TileValues<Verdict>& values) const {
   if (sectors_.empty()) return;
   for (std::size_t cell = 0; cell < values.size(); ++cell) {
     const Point2 place = centres.at(cell);

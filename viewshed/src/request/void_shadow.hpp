@@ -34,7 +34,7 @@ class VoidShadow {
 
   /// Of a tile's cells, what is Verdict::kVisible and lies in it becomes Verdict::kHidden, or Verdict::kUndecided under
   /// kDoubt.
-  void fall_on(const TileCentres& centres, TileValues<Verdict>& values) const;
+  void apply_to(const TileCentres& centres, TileValues<Verdict>& values) const;
 
  private:
   /// From the eye, grid units.

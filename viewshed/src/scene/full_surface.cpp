@@ -43,16 +43,16 @@ std::vector<BinBox> FullSurface::boxes_of_tiles() const {
   return boxes;
 }
 
-AxisSweep::View FullSurface::view_of_cells(const Eye& eye) const {
+RadialSweep::View FullSurface::view_of_cells(const Eye& eye) const {
   if (rays_) return view_from(eye);
-  AxisSweep::Axis axis = axis_of(eye);
+  RadialSweep::Axis axis = axis_of(eye);
   double farthest = 0;
   const Box cells = grid_.bounds();
   for (const Point2 corner : {Point2{cells.xmin, cells.ymin}, Point2{cells.xmax, cells.ymin},
                               Point2{cells.xmin, cells.ymax}, Point2{cells.xmax, cells.ymax}})
     farthest = std::max(farthest, std::hypot(corner.x - eye.position.x, corner.y - eye.position.y));
   axis.radius = std::min(axis.radius, farthest / units().resolution + 1);
-  AxisSweep::View view = sweep_.beginning(axis);
+  RadialSweep::View view = sweep_.beginning(axis);
   std::vector<BinBox> reached;
   std::copy_if(cells_.begin(), cells_.end(), std::back_inserter(reached),
                [&](const BinBox& box) { return view.reaches(box); });
@@ -83,7 +83,7 @@ std::unique_ptr<FullSurface::TileWork> FullSurface::begin(std::size_t tile, std:
   return work;
 }
 
-std::uint64_t FullSurface::judge(const Eye& eye, const AxisSweep::View& view, TileValues<Verdict>& values,
+std::uint64_t FullSurface::judge(const Eye& eye, const RadialSweep::View& view, TileValues<Verdict>& values,
                                  TileWork& work) const {
   raise_targets(eye, values, work);
   if (rays_) {
@@ -100,7 +100,7 @@ std::uint64_t FullSurface::judge(const Eye& eye, const AxisSweep::View& view, Ti
   return lines;
 }
 
-/// As AxisSweep::look_from(): `work.seen` of a target is the eye's height, or no number where it is hidden.
+/// As RadialSweep::look_from(): `work.seen` of a target is the eye's height, or no number where it is hidden.
 void FullSurface::cast_rays_to_targets(const Eye& eye, TileWork& work) const {
   const auto rows = static_cast<std::size_t>(work.tile.rows), columns = static_cast<std::size_t>(work.tile.columns);
   SightLines lines;
@@ -131,7 +131,7 @@ void FullSurface::cast_rays(const Earth& earth, const std::vector<Point2>& eyes)
   rays_ = std::make_unique<const ExactRays>(*surface_, earth, eyes);
 }
 
-double FullSurface::raise_from(const AxisSweep::View& view, Point2 position, double lowest, double highest) const {
+double FullSurface::raise_from(const RadialSweep::View& view, Point2 position, double lowest, double highest) const {
   const RasterGrid around({position.x - 0.5, position.y + 0.5}, 1, 1, 1, 1);
   const auto work = std::make_unique<TileWork>(units(), around, Tile{0, 0, 1, 1});
   work->centres.x[0] = easting_in_units(units(), position.x);

@@ -1,5 +1,5 @@
 // A whole surface in memory, and what an eye sees of what stands on it: exact, cell for cell. One of two engines
-// decides the sight lines to cells, with the same answer: the sweep about the eye (sweep/axis_sweep.hpp), or rays
+// decides the sight lines to cells, with the same answer: the sweep about the eye (sweep/radial_sweep.hpp), or rays
 // (rays/exact_rays.hpp).
 //
 //   FullSurface surface(tin, nullptr, request.earth, grid, tiles);
@@ -29,7 +29,7 @@
 #include "line/cell_tiles.hpp"
 #include "request/eye.hpp"
 #include "scene/rays/exact_rays.hpp"
-#include "scene/sweep/axis_sweep.hpp"
+#include "scene/sweep/radial_sweep.hpp"
 
 namespace itin::viewshed {
 
@@ -49,7 +49,7 @@ class FullSurface {
   bool casts_rays() const { return rays_ != nullptr; }
 
   const Grid& units() const { return heights_.units(); }
-  const AxisSweep& sweep() const { return sweep_; }
+  const RadialSweep& sweep() const { return sweep_; }
   const RasterGrid& grid() const { return grid_; }
   const RasterGrid& tiles() const { return tiles_; }
   /// Of what hides, metres, if there is any at that position.
@@ -65,8 +65,8 @@ class FullSurface {
     TileValues<double> ground;   ///< grid units; kNoSurface where none is, kUnread where no eye sees it
     bool unread = false;         ///< all of the ground
     TileValues<double> targets;  ///< of the last eye's lines; kNoSurface where none was needed
-    AxisSweep::Heights seen;
-    AxisSweep::Scratch scratch;
+    RadialSweep::Heights seen;
+    RadialSweep::Scratch scratch;
     ExactRays::Work rays;
     Point3 target(std::size_t cell) const {
       const Point2 p = centres.at(cell);
@@ -82,29 +82,29 @@ class FullSurface {
   void for_each_offset(const Eye& eye, const TileWork& work, const Visit& visit) const;
 
   /// What all tiles share of an eye; rays share nothing.
-  AxisSweep::View view_from(const Eye& eye) const {
+  RadialSweep::View view_from(const Eye& eye) const {
     return rays_ ? sweep_.beginning(axis_of(eye)) : sweep_.view_of(axis_of(eye));
   }
   /// The same, for the cells alone: what is beyond and beside them costs nothing.
-  AxisSweep::View view_of_cells(const Eye& eye) const;
+  RadialSweep::View view_of_cells(const Eye& eye) const;
   /// The same, to be advanced.
-  AxisSweep::View look_out(const Eye& eye) const { return sweep_.beginning(axis_of(eye)); }
+  RadialSweep::View look_out(const Eye& eye) const { return sweep_.beginning(axis_of(eye)); }
   /// After heights of tiles of the lattice have been read: they count from now on.
   void add(std::span<const std::uint32_t> tiles) { heights_.add(tiles); }
 
   /// Verdict::kUndecided cells become Verdict::kVisible, Verdict::kHidden, or Verdict::kOutside where there is no
   /// ground or the eye does not look. Returns how many sight lines that took.
-  std::uint64_t judge(const Eye& eye, const AxisSweep::View& view, TileValues<Verdict>& values, TileWork& work) const;
+  std::uint64_t judge(const Eye& eye, const RadialSweep::View& view, TileValues<Verdict>& values, TileWork& work) const;
 
-  /// AxisSweep::raise_from() up to work.targets; the heights are work.seen.
-  void raise_from(const AxisSweep::View& view, const AxisSweep::Lowest& lowest, TileWork& work) const {
+  /// RadialSweep::raise_from() up to work.targets; the heights are work.seen.
+  void raise_from(const RadialSweep::View& view, const RadialSweep::Lowest& lowest, TileWork& work) const {
     sweep_.raise_from(view, {work.tile, work.centres, work.targets}, lowest, work.scratch, work.seen);
   }
   /// The same for a single place, given in metres; grid units.
-  double raise_from(const AxisSweep::View& view, Point2 position, double lowest, double highest) const;
+  double raise_from(const RadialSweep::View& view, Point2 position, double lowest, double highest) const;
 
  private:
-  AxisSweep::Axis axis_of(const Eye& eye) const {
+  RadialSweep::Axis axis_of(const Eye& eye) const {
     return sweep_.axis_at(eye.units, eye.view.farthest() / units().resolution + 1);
   }
   void raise_targets(const Eye& eye, TileValues<Verdict>& values, TileWork& work) const;
@@ -118,7 +118,7 @@ class FullSurface {
   const RasterGrid& tiles_;
   BinnedHeights heights_;
   std::optional<TriangleBins> of_tiles_;  ///< of that Tin, where `heights_` does not tell its heights well
-  AxisSweep sweep_;
+  RadialSweep sweep_;
   const std::vector<BinBox> cells_;  ///< of each tile, about their centres
   std::unique_ptr<const ExactRays> rays_;
 };

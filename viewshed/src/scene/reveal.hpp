@@ -1,7 +1,7 @@
 // Reads what an eye may see of a lattice, and no more.
 //
 //   reveal_place(observer.position, reader, surface, progress);         // so that its height is known
-//   const AxisSweep::View view = reveal(eye, reader, surface, kAnyTiles, progress).view;
+//   const RadialSweep::View view = reveal(eye, reader, surface, kAnyTiles, progress).view;
 //
 // From the eye outwards, as far each time as what has been read tells what is hidden: a tile that does not rise above
 // the horizon before it, nor do targets on its highest post, is left alone. To the eye it is bare: no line passes
@@ -18,13 +18,13 @@
 
 #include "request/eye.hpp"
 #include "scene/full_surface.hpp"
-#include "scene/sweep/axis_sweep.hpp"
+#include "scene/sweep/radial_sweep.hpp"
 
 namespace itin::viewshed {
 
 inline constexpr std::uint64_t kAnyTiles = std::numeric_limits<std::uint64_t>::max();
 struct Revealed {
-  AxisSweep::View view;
+  RadialSweep::View view;
   double reach;  ///< ends that are not as far away along columns or rows may be looked at; bins
 };
 /// `surface` is the reader's. Cost: the tiles, and the view. Ends short of all where it would have to read more than

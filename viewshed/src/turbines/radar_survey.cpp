@@ -10,7 +10,7 @@ namespace itin::viewshed {
 
 namespace {
 
-void survey_tile(const AxisSweep::View& radar, const FullSurface& surface, const VoidShadow* shadow,
+void survey_tile(const RadialSweep::View& radar, const FullSurface& surface, const VoidShadow* shadow,
                  FullSurface::TileWork& work, std::vector<float>& result) {
   const double resolution = surface.units().resolution;
   for (std::size_t i = 0; i < work.ground.size(); ++i) work.targets[i] = work.ground[i] + kRadarCeiling / resolution;
@@ -27,7 +27,7 @@ void survey_tile(const AxisSweep::View& radar, const FullSurface& surface, const
 
 }  // namespace
 
-std::vector<float> radar_heights(const AxisSweep::View& radar, const FullSurface& surface, const VoidShadow* shadow,
+std::vector<float> radar_heights(const RadialSweep::View& radar, const FullSurface& surface, const VoidShadow* shadow,
                                  Progress& progress) {
   std::vector<float> result(surface.grid().cell_count(), std::numeric_limits<float>::quiet_NaN());
   for_each_step(surface.tiles().cell_count(), "radar", progress,
@@ -35,7 +35,7 @@ std::vector<float> radar_heights(const AxisSweep::View& radar, const FullSurface
   return result;
 }
 
-double radar_sees(const AxisSweep::View& radar, const FullSurface& surface, const VoidShadow* shadow,
+double radar_sees(const RadialSweep::View& radar, const FullSurface& surface, const VoidShadow* shadow,
                   const Turbine& turbine, double ground_m) {
   const Grid& units = surface.units();
   const double tip = (ground_m + turbine.tip_height) / units.resolution;

@@ -16,11 +16,11 @@ namespace itin::viewshed {
 /// kRadarCeiling: NaN above that, and without ground. `shadow` is what ground without data hides from the radar; may be
 /// null.
 inline constexpr double kRadarCeiling = 1000;
-std::vector<float> radar_heights(const AxisSweep::View& radar, const FullSurface& surface, const VoidShadow* shadow,
+std::vector<float> radar_heights(const RadialSweep::View& radar, const FullSurface& surface, const VoidShadow* shadow,
                                  Progress& progress);
 
 /// What the radar sees of one turbine, metres from its tip down; 0: hidden.
-double radar_sees(const AxisSweep::View& radar, const FullSurface& surface, const VoidShadow* shadow,
+double radar_sees(const RadialSweep::View& radar, const FullSurface& surface, const VoidShadow* shadow,
                   const Turbine& turbine, double ground_m);
 
 }  // namespace itin::viewshed

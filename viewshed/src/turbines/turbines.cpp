@@ -15,12 +15,12 @@
 #include "request/request.hpp"
 #include "request/void_shadow.hpp"
 #include "scene/full_surface.hpp"
-#include "scene/sweep/axis_sweep.hpp"
+#include "scene/sweep/radial_sweep.hpp"
 #include "turbines/radar_survey.hpp"
 #include "turbines/zone_parts.hpp"
 #include "turbines/zone_request.hpp"
 #include "turbines/zone_survey.hpp"
-#include "window/near_ground.hpp"
+#include "window/retrieval.hpp"
 
 namespace itin::viewshed {
 
@@ -78,7 +78,7 @@ class ZoneWork {
     std::optional<VoidShadow> behind_voids;
     if (zone_.request.nodata == NoData::kBlock) behind_voids.emplace(surface.rim(), eye.units);
     const VoidShadow* const shadow = behind_voids ? &*behind_voids : nullptr;
-    const AxisSweep::View view = surface.view_from(eye);
+    const RadialSweep::View view = surface.view_from(eye);
     RadarView& seen = zone_.radar.emplace();
     seen.ground_m = *height;
     seen.height_m = radar_heights(view, surface, shadow, progress_);
@@ -95,7 +95,7 @@ class ZoneWork {
 std::optional<Surface> lattice_under(const Store& store, const Zone& zone, Progress& progress) {
   std::uint64_t most_posts = kAnyLattice;
   if (const auto memory = zone.request.memory_bytes)
-    most_posts = (*memory - std::min(*memory, bytes_of_results(zone))) / kBytesAPost;
+    most_posts = (*memory - std::min(*memory, bytes_of_results(zone))) / kBytesPerPost;
   return retrieve_lattice(store, window_of(zone.request), zone.request.detail, ThemeChoice::none(),
                           LatticeReader::Heights::kAll, most_posts, progress);
 }

@@ -57,7 +57,7 @@ std::uint64_t ZoneSurvey::run(const Screen& screen, std::span<const std::size_t>
   return lines;
 }
 
-ZoneSurvey::Views ZoneSurvey::views_over(const AxisSweep& sweep) const {
+ZoneSurvey::Views ZoneSurvey::views_over(const RadialSweep& sweep) const {
   Views views(axes_.size());
   parallel_for(views.size(), [&](std::size_t k) {
     const Axis& axis = axes_[k];
@@ -87,7 +87,8 @@ bool ZoneSurvey::in_reach(const Axis& axis, const Tile& tile) const {
   return squared_distance(axis.position, box_of_centres(zone_.grid, tile)) <= axis.radius_squared;
 }
 
-void ZoneSurvey::look_at(std::size_t turbine, const Screen& screen, const AxisSweep::View& view, TileWork& work) const {
+void ZoneSurvey::look_at(std::size_t turbine, const Screen& screen, const RadialSweep::View& view,
+                         TileWork& work) const {
   const Axis& axis = axes_[turbine];
   screen.sweep.run(view, {work.tile, work.centres, work.place->targets}, work.place->scratch, work.place->seen);
   for_each_cell(work.tile, [&](std::size_t cell, RasterGrid::Cell place) {

@@ -12,7 +12,7 @@
 #include "line/cell_tiles.hpp"
 #include "request/void_shadow.hpp"
 #include "scene/full_surface.hpp"
-#include "scene/sweep/axis_sweep.hpp"
+#include "scene/sweep/radial_sweep.hpp"
 #include "turbines/turbine_view.hpp"
 
 namespace itin::viewshed {
@@ -24,7 +24,7 @@ class ZoneSurvey {
 
   /// What to look over, and each turbine's shadow of voids where these hide; else none.
   struct Screen {
-    const AxisSweep& sweep;
+    const RadialSweep& sweep;
     const std::vector<VoidShadow>& shadows;
   };
   /// Enters what is seen from the cells of these tiles. Returns how many lines that took.
@@ -42,11 +42,11 @@ class ZoneSurvey {
   struct TileWork;
 
   /// The turbines over a surface.
-  using Views = std::vector<std::optional<AxisSweep::View>>;
-  Views views_over(const AxisSweep& sweep) const;
+  using Views = std::vector<std::optional<RadialSweep::View>>;
+  Views views_over(const RadialSweep& sweep) const;
   std::uint64_t decide(std::size_t tile, const Screen& screen, const Views& views, Visibility& result) const;
   bool in_reach(const Axis& axis, const Tile& tile) const;
-  void look_at(std::size_t turbine, const Screen& screen, const AxisSweep::View& view, TileWork& work) const;
+  void look_at(std::size_t turbine, const Screen& screen, const RadialSweep::View& view, TileWork& work) const;
   void record(std::size_t turbine, std::size_t cell, double distance, double least, TileWork& work) const;
   void store(const TileWork& work, Visibility& result) const;
   void store_horizon(const TileWork& work, std::size_t from_cell, std::size_t to_cell, Point2 eye, Visibility& result,

@@ -28,7 +28,7 @@ std::vector<std::string> open_options(const std::string& path, ColumnTypes types
   const GDALDatasetUniquePtr file = open_vector_file(path, nullptr);
   if (!is_csv(*file) || file->GetLayerCount() != 1) return {};
   std::vector<std::string> options;
-  if (types == ColumnTypes::kTold) options.emplace_back("AUTODETECT_TYPE=YES");
+  if (types == ColumnTypes::kDeclared) options.emplace_back("AUTODETECT_TYPE=YES");
   OGRLayer& layer = *file->GetLayer(0);
   const auto columns = columns_of(layer);
   if (!columns) return options;

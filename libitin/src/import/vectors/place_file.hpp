@@ -15,7 +15,7 @@
 namespace itin {
 
 /// Whether the types of a CSV file's columns are told by their values, or all but those of the position are texts.
-enum class ColumnTypes { kTexts, kTold };
+enum class ColumnTypes { kTexts, kDeclared };
 
 /// Throws FileError. Within the life of a QuietGdal.
 GDALDatasetUniquePtr open_place_file(const std::string& path, ColumnTypes types);

@@ -84,7 +84,7 @@ Site site_of(const Places& places, const OGRFeature& feature, const SiteFields& 
 /// `rejected` is null where the first feature that is not understood ends it.
 std::vector<Site> read(const SiteQuery& query, const std::string& to_crs, std::vector<std::string>* rejected) {
   const QuietGdal quiet;
-  const GDALDatasetUniquePtr dataset = open_place_file(query.path, ColumnTypes::kTold);
+  const GDALDatasetUniquePtr dataset = open_place_file(query.path, ColumnTypes::kDeclared);
   OGRLayer& layer = choose_layer(*dataset, query.path, query.layer);
   const SiteFields fields{field_index(layer, query.path, query.height_field),
                           field_index(layer, query.path, query.name_field), number_fields(layer, query)};

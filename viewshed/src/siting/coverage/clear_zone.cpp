@@ -15,7 +15,7 @@ namespace itin::viewshed {
 namespace {
 
 /// Lines lowered by no more than depth sqrt(s (1 - s)).
-struct LoweredSheaf : Sheaf {
+struct LoweredLines : LineBundle {
   /// Below every line; by the tangent in the middle: never more than the lowest height.
   double lowest_over(double first, double last) const {
     const double a = std::max(first, 0.0), b = std::min(last, 1.0), s = (a + b) / 2;
@@ -91,9 +91,9 @@ unsigned ClearZone::cut(const Bounded& surface, const SightLines& lines) const {
   const double resolution = tin.grid.resolution, grazing = kGrazing / resolution;
   std::vector<ZoneTest> tests;
   tests.reserve(SightLines::kSize);
-  LoweredSheaf sheaf;
-  sheaf.margin = grazing;
-  sheaf.end = std::numeric_limits<double>::infinity();
+  LoweredLines bundle;
+  bundle.margin = grazing;
+  bundle.end = std::numeric_limits<double>::infinity();
   for (unsigned rest = lines.active; rest != 0; rest &= rest - 1) {
     const auto i = static_cast<unsigned>(std::countr_zero(rest));
     // From the target: what cuts the zone is most often near it.
@@ -101,15 +101,15 @@ unsigned ClearZone::cut(const Bounded& surface, const SightLines& lines) const {
                          {lines.from_x[i], lines.from_y[i], lines.from_z[i]}, drop_, grazing);
     const double zone = std::sqrt(criterion_.wavelength / resolution * std::hypot(line.dx(), line.dy()));
     tests.emplace_back(line, zone, criterion_.fraction, grazing);
-    sheaf.add(line);
-    sheaf.end = std::min(sheaf.end, line.to_z());
-    sheaf.depth = std::max(sheaf.depth, tests.back().depth());
+    bundle.add(line);
+    bundle.end = std::min(bundle.end, line.to_z());
+    bundle.depth = std::max(bundle.depth, tests.back().depth());
   }
   unsigned result = 0;
   // Most triangles lie in several bins.
   std::array<std::uint32_t, 256> before;
   before.fill(std::numeric_limits<std::uint32_t>::max());
-  surface.pyramid.search(sheaf, [&](std::uint32_t t) {
+  surface.pyramid.search(bundle, [&](std::uint32_t t) {
     if (std::exchange(before[t % before.size()], t) == t) return;
     const Triangle& triangle = tin.triangles[t];
     const GridPoint &a = tin.vertices[triangle[0]], &b = tin.vertices[triangle[1]], &c = tin.vertices[triangle[2]];
@@ -118,7 +118,7 @@ unsigned ClearZone::cut(const Bounded& surface, const SightLines& lines) const {
       const unsigned bit = rest & -rest;
       if ((result & bit) == 0 && tests[n].cut_by(a, b, c)) result |= bit;
     }
-    if (result == lines.active) sheaf.reach = -1;
+    if (result == lines.active) bundle.reach = -1;
   });
   return result;
 }

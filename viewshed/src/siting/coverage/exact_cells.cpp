@@ -28,7 +28,7 @@ struct FullGround {
 
 struct ExactLook {
   Eye eye;
-  AxisSweep::View view;
+  RadialSweep::View view;
   std::optional<VoidShadow> shadow;  ///< where ground without data hides
 };
 
@@ -40,7 +40,7 @@ class ExactTile final : public TileJudge::Work {
   std::uint64_t judge(std::size_t i, TileValues<Verdict>& values) override {
     const auto& [eye, view, shadow] = *looks_[i];
     const std::uint64_t lines = ground_.surface.full.judge(eye, view, values, *work_);
-    if (shadow) shadow->fall_on(work_->centres, values);
+    if (shadow) shadow->apply_to(work_->centres, values);
     if (ground_.zone) cut_zones(*ground_.zone, eye, {work_->centres, work_->targets, work_->targets}, values);
     return lines;
   }

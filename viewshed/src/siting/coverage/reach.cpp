@@ -8,7 +8,7 @@
 #include "bounds/triangle_bins.hpp"
 #include "siting/coverage/cell_blocks.hpp"
 #include "siting/coverage/point_bins.hpp"
-#include "window/near_ground.hpp"
+#include "window/retrieval.hpp"
 
 namespace itin::viewshed {
 

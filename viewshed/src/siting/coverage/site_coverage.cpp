@@ -19,7 +19,7 @@
 #include "siting/coverage/cell_blocks.hpp"
 #include "siting/coverage/group_survey.hpp"
 #include "window/envelope.hpp"
-#include "window/near_ground.hpp"
+#include "window/retrieval.hpp"
 
 namespace itin::viewshed {
 
@@ -195,7 +195,7 @@ class SiteCoverage::Impl {
     if (themed_ || survey_.fresnel || !survey_.targets.grid || casts_rays()) return false;
     Stopwatch watch;
     whole_lattice_ = retrieve_lattice(store_, window_of(all_options()), Detail::tolerance(0), ThemeChoice::none(),
-                                      LatticeReader::Heights::kAll, memory() / kBytesAPost, progress_);
+                                      LatticeReader::Heights::kAll, memory() / kBytesPerPost, progress_);
     statistics_.retrieval_seconds += watch.lap();
     return whole_lattice_.has_value();
   }

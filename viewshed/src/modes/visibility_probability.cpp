@@ -1,4 +1,4 @@
-#include "modes/vertical_odds.hpp"
+#include "modes/visibility_probability.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ std::array<double, 3> weights_at(const std::array<GridPoint, 3>& corners, const 
 
 }  // namespace
 
-VerticalOdds::VerticalOdds(const Tin& tin, const Earth& earth, const VerticalError& error)
+VisibilityProbability::VisibilityProbability(const Tin& tin, const Earth& earth, const VerticalError& error)
     : tin_(tin),
       drop_(earth.drop_coefficient() * tin.grid.resolution),
       grazing_(kGrazing / tin.grid.resolution),
@@ -30,7 +30,7 @@ VerticalOdds::VerticalOdds(const Tin& tin, const Earth& earth, const VerticalErr
       correlation_(error.correlation_length / tin.grid.resolution),
       pyramid_(tin) {}
 
-VerticalOdds::Odds VerticalOdds::of_line(const Line& line, Scratch& scratch) const {
+VisibilityProbability::Odds VisibilityProbability::of_line(const Line& line, Scratch& scratch) const {
   if (!cross(line, scratch)) return {0, false};
   const std::vector<Crossing>& crossings = scratch.crossings_;
   const bool clear =
@@ -45,24 +45,24 @@ VerticalOdds::Odds VerticalOdds::of_line(const Line& line, Scratch& scratch) con
   if (!line.to_stands) narrow(least, to.above, errors.to());
   for (std::size_t i = 0; i < crossings.size(); ++i) {
     narrow(least, line, crossings[i], errors);
-    if (i % kCrossingsACount == 0 && share_seen(least) == 0) break;
+    if (i % kCrossingsPerCount == 0 && share_seen(least) == 0) break;
   }
   return {share_seen(least), clear};
 }
 
-double VerticalOdds::share_seen(const Margins& least) {
+double VisibilityProbability::share_seen(const Margins& least) {
   const auto seen = std::count_if(least.begin(), least.end(), [](float margin) { return margin >= 0; });
   return static_cast<double>(seen) / static_cast<double>(least.size());
 }
 
 /// By how far a fixed end is above ground, grid units.
-void VerticalOdds::narrow(Margins& least, double above, const ErrorsAlongLine::Errors& ground) const {
+void VisibilityProbability::narrow(Margins& least, double above, const ErrorsAlongLine::Errors& ground) const {
   const auto middle = static_cast<float>((grazing_ + above) / sigma_);
   for (std::size_t w = 0; w < least.size(); ++w) least[w] = std::min(least[w], middle - ground[w]);
 }
 
 /// By how far a line passes above an edge.
-void VerticalOdds::narrow(Margins& least, const Line& line, const Crossing& c, ErrorsAlongLine& errors) const {
+void VisibilityProbability::narrow(Margins& least, const Line& line, const Crossing& c, ErrorsAlongLine& errors) const {
   const auto& a = errors.of(c.a);
   const auto& b = errors.of(c.b);
   const auto& from = errors.from();
@@ -76,7 +76,7 @@ void VerticalOdds::narrow(Margins& least, const Line& line, const Crossing& c, E
 }
 
 /// Finds the edges that come near the line, in order. False where one surely hides.
-bool VerticalOdds::cross(const Line& line, Scratch& scratch) const {
+bool VisibilityProbability::cross(const Line& line, Scratch& scratch) const {
   // No clearance varies by more than twice a vertex' variance; nor, as correlations fall with distance, by more than if
   // there were none.
   const double sure = kSure * std::numbers::sqrt2 * sigma_, hidden = kHidden * std::numbers::sqrt2 * sigma_;
@@ -87,8 +87,8 @@ bool VerticalOdds::cross(const Line& line, Scratch& scratch) const {
   const SightLine sight(line.from, line.to, drop_, grazing_);
   std::vector<Crossing>& crossings = scratch.crossings_;
   crossings.clear();
-  Sheaf sheaf(sight);
-  sheaf.margin = sure;
+  LineBundle bundle(sight);
+  bundle.margin = sure;
   double highest = -sure;
   const auto add = [&](std::uint32_t triangle) {
     Triangle t = tin_.triangles[triangle];
@@ -101,10 +101,10 @@ bool VerticalOdds::cross(const Line& line, Scratch& scratch) const {
                               if (rise > highest) highest = rise, scratch.highest_ = triangle;
                             });
     // Nothing more needs to be looked at.
-    if (highest >= hidden) sheaf.margin = -std::numeric_limits<double>::infinity();
+    if (highest >= hidden) bundle.margin = -std::numeric_limits<double>::infinity();
   };
   if (const auto last = scratch.highest_) add(*last);
-  if (highest < hidden) pyramid_.search(sheaf, add);
+  if (highest < hidden) pyramid_.search(bundle, add);
   if (highest >= hidden) return false;
   std::sort(crossings.begin(), crossings.end());
   crossings.erase(std::unique(crossings.begin(), crossings.end()), crossings.end());
@@ -112,7 +112,7 @@ bool VerticalOdds::cross(const Line& line, Scratch& scratch) const {
 }
 
 /// Far below, where there is no ground.
-VerticalOdds::Footing VerticalOdds::under(const Point3& end) const {
+VisibilityProbability::Footing VisibilityProbability::under(const Point3& end) const {
   const auto triangle = pyramid_.triangle_at({end.x, end.y});
   if (!triangle) return {{}, std::numeric_limits<float>::max()};
   const std::array<GridPoint, 3> corners = tin_.corners(*triangle);

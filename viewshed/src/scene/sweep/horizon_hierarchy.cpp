@@ -1,4 +1,4 @@
-#include "scene/sweep/horizon_fan.hpp"
+#include "scene/sweep/horizon_hierarchy.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -15,14 +15,14 @@ namespace {
 
 constexpr std::size_t kFirst = 16;  ///< slabs up to where sectors are twice as many for the first time
 /// So many sectors a slab: they are a bin wide where they become twice as many.
-constexpr std::size_t kSectorsASlab = 2 * Quadrant::kRun;
+constexpr std::size_t kSectorsPerSlab = 2 * Quadrant::kRun;
 constexpr std::size_t kRings = 8;  ///< up to there
 static_assert(kFirst % kRings == 0);
-constexpr std::size_t kSectorsATask = 64;
+constexpr std::size_t kSectorsPerTask = 64;
 
 }  // namespace
 
-void HorizonFan::advance(const Quadrant& quadrant, const Sector::Axis& axis, std::size_t slab) {
+void HorizonHierarchy::advance(const Quadrant& quadrant, const Sector::Axis& axis, std::size_t slab) {
   slab = std::min(slab, farthest_);
   while (front_.slab < slab) {
     if (front_.slab == widest_) widen();
@@ -32,32 +32,33 @@ void HorizonFan::advance(const Quadrant& quadrant, const Sector::Axis& axis, std
     // What is not looked at may rise.
     std::fill_n(front_.above.begin(), first, kFloatInfinity);
     std::fill_n(front_.above.rbegin(), front_.above.size() - last, kFloatInfinity);
-    parallel_for((last - first + kSectorsATask - 1) / kSectorsATask, [&, first = first, last = last](std::size_t task) {
-      const std::size_t begin = first + task * kSectorsATask;
-      for (std::size_t i = begin; i < std::min(last, begin + kSectorsATask); ++i) {
-        const double from = static_cast<double>(i) * width - 1;
-        const Sector sector(quadrant, from, from + width, axis);
-        const auto [hidden, above] = sector.look_on({{front_.slab, front_.below[i]}, front_.above[i]}, end);
-        front_.below[i] = rounded_down(hidden.below), front_.above[i] = rounded_up(above);
-      }
-    });
+    parallel_for(
+        (last - first + kSectorsPerTask - 1) / kSectorsPerTask, [&, first = first, last = last](std::size_t task) {
+          const std::size_t begin = first + task * kSectorsPerTask;
+          for (std::size_t i = begin; i < std::min(last, begin + kSectorsPerTask); ++i) {
+            const double from = static_cast<double>(i) * width - 1;
+            const Sector sector(quadrant, from, from + width, axis);
+            const auto [hidden, above] = sector.look_on({{front_.slab, front_.below[i]}, front_.above[i]}, end);
+            front_.below[i] = rounded_down(hidden.below), front_.above[i] = rounded_up(above);
+          }
+        });
     front_.slab = end;
     if (end == ring) rings_.push_back(front_);
   }
 }
 
 /// Twice as many sectors, or the first ones.
-void HorizonFan::widen() {
+void HorizonHierarchy::widen() {
   widest_ = widest_ == 0 ? kFirst : 2 * widest_;
   for (std::vector<float>* const of : {&front_.below, &front_.above}) {
     const std::vector<float> wide = std::move(*of);
-    of->assign(kSectorsASlab * widest_, -kFloatInfinity);
+    of->assign(kSectorsPerSlab * widest_, -kFloatInfinity);
     for (std::size_t i = 0; i < 2 * wide.size(); ++i) (*of)[i] = wide[i / 2];
   }
 }
 
 /// The first of the front's sectors that lines may lie in, and the end of them: a few more, against rounding.
-std::pair<std::size_t, std::size_t> HorizonFan::sectors() const {
+std::pair<std::size_t, std::size_t> HorizonHierarchy::sectors() const {
   const auto count = static_cast<double>(front_.below.size());
   const auto at = [&](double slope, double more) {
     return static_cast<std::size_t>(std::clamp((slope + 1) * count / 2 + more, 0.0, count));
@@ -66,7 +67,7 @@ std::pair<std::size_t, std::size_t> HorizonFan::sectors() const {
   return {first, std::max(first, at(slopes_.second, 3))};
 }
 
-Sector::Horizon HorizonFan::Ring::known(double from, double to) const {
+Sector::Horizon HorizonHierarchy::Ring::known(double from, double to) const {
   // Rounding may make it one sector less: by far less than sectors look at beside them.
   const auto sector_at = [&](double slope) {
     const double at = (slope + 1) * static_cast<double>(below.size()) / 2;
@@ -77,7 +78,7 @@ Sector::Horizon HorizonFan::Ring::known(double from, double to) const {
           *std::max_element(above.begin() + first, above.begin() + end)};
 }
 
-Sector::Horizon HorizonFan::known(double from, double to, std::size_t nearest) const {
+Sector::Horizon HorizonHierarchy::known(double from, double to, std::size_t nearest) const {
   if (front_.slab > 0 && front_.slab <= nearest) return front_.known(from, to);
   const auto farther = std::upper_bound(rings_.begin(), rings_.end(), nearest,
                                         [](std::size_t slab, const Ring& r) { return slab < r.slab; });

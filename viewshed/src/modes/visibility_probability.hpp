@@ -1,16 +1,16 @@
 // How probable it is that a sight line is clear where heights are uncertain.
 //
-//   const VerticalOdds odds(tin, earth, {2.0, 0});
-//   VerticalOdds::Scratch scratch(odds);  // for many lines
+//   const VisibilityProbability odds(tin, earth, {2.0, 0});
+//   VisibilityProbability::Scratch scratch(odds);  // for many lines
 //   odds.of_line({eye, target}, scratch).probability
 //
 // Model. The height of every vertex has a normal error of standard deviation sigma; those of two vertices x metres
 // apart have the correlation exp(-x / L), none for L = 0. Between vertices errors are as heights are, linear over each
 // triangle. Ends of a line that stand on the surface move with it; those at a given elevation do not.
 //
-// Method. Share of simulated worlds (error_worlds.hpp) in which the line passes above every edge that it crosses, their
-// errors drawn along it (errors_along_line.hpp). So the probability is joint: that of the whole line, not of its worst
-// place. The Earth's bulge within a single triangle is left out.
+// Method. Share of simulated worlds (error_realisations.hpp) in which the line passes above every edge that it crosses,
+// their errors drawn along it (errors_along_line.hpp). So the probability is joint: that of the whole line, not of its
+// worst place. The Earth's bulge within a single triangle is left out.
 //
 // Accuracy. The share's standard error is at most 0.022, that of independent draws; the same worlds serve all lines,
 // so that neighbours err alike.
@@ -26,16 +26,16 @@
 #include <viewshed/viewshed.hpp>
 
 #include "bounds/height_pyramid.hpp"
-#include "modes/error_worlds.hpp"
+#include "modes/error_realisations.hpp"
 #include "modes/errors_along_line.hpp"
 
 namespace itin::viewshed {
 
 /// Safe for concurrent use.
-class VerticalOdds {
+class VisibilityProbability {
  public:
   /// The Tin must outlive it. Cost and memory: HeightPyramid's, and 1 MB.
-  VerticalOdds(const Tin& tin, const Earth& earth, const VerticalError& error);
+  VisibilityProbability(const Tin& tin, const Earth& earth, const VerticalError& error);
 
   /// Grid units; they differ horizontally.
   struct Line {
@@ -54,7 +54,7 @@ class VerticalOdds {
   /// Standard deviations: what lies farther below a line hides it in no world, and what rises farther above it hides it
   /// in all worlds but at most one.
   static constexpr double kSure = 4, kHidden = 3.1;
-  static constexpr std::size_t kCrossingsACount = 8;
+  static constexpr std::size_t kCrossingsPerCount = 8;
 
   /// Where a line crosses an edge, or passes over a vertex, which is then both of the edge's.
   struct Crossing {
@@ -69,7 +69,7 @@ class VerticalOdds {
     ErrorSum error;
     double above = 0;  ///< how far the end is, grid units
   };
-  using Margins = std::array<float, ErrorWorlds::kCount>;  ///< by which a line is clear, in sigmas
+  using Margins = std::array<float, ErrorRealisations::kCount>;  ///< by which a line is clear, in sigmas
 
   bool cross(const Line& line, Scratch& scratch) const;
   Footing under(const Point3& end) const;
@@ -83,17 +83,17 @@ class VerticalOdds {
   double sigma_;        ///< grid units
   double correlation_;  ///< L in grid units
   HeightPyramid pyramid_;
-  ErrorWorlds worlds_;
+  ErrorRealisations worlds_;
 };
 
 /// Memory to use again, for one thread; fastest for lines from one eye to neighbours.
-class VerticalOdds::Scratch {
+class VisibilityProbability::Scratch {
  public:
   /// For lines of those odds, which must outlive it.
-  explicit Scratch(const VerticalOdds& odds) : errors_(odds.tin_, odds.correlation_, odds.worlds_) {}
+  explicit Scratch(const VisibilityProbability& odds) : errors_(odds.tin_, odds.correlation_, odds.worlds_) {}
 
  private:
-  friend class VerticalOdds;
+  friend class VisibilityProbability;
   std::vector<Crossing> crossings_;
   std::optional<std::uint32_t> highest_;  ///< triangle, of the last line: most often near the next one's too
   ErrorsAlongLine errors_;

@@ -1,4 +1,4 @@
-#include "modes/error_worlds.hpp"
+#include "modes/error_realisations.hpp"
 
 #include <array>
 #include <boost/math/special_functions/erf.hpp>
@@ -10,8 +10,8 @@ namespace itin::viewshed {
 
 namespace {
 
-std::array<float, ErrorWorlds::kCount> equally_probable() {
-  std::array<float, ErrorWorlds::kCount> values{};
+std::array<float, ErrorRealisations::kCount> equally_probable() {
+  std::array<float, ErrorRealisations::kCount> values{};
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double middle = (static_cast<double>(i) + 0.5) / static_cast<double>(values.size());
     values[i] = static_cast<float>(std::numbers::sqrt2 * boost::math::erf_inv(2 * middle - 1));
@@ -29,7 +29,7 @@ std::uint64_t scrambled(std::uint64_t number) {
 
 }  // namespace
 
-ErrorWorlds::ErrorWorlds() {
+ErrorRealisations::ErrorRealisations() {
   std::array<float, kCount> values = equally_probable();
   std::mt19937_64 random(1979);
   rows_.reserve(kRows * 2 * kCount);
@@ -40,7 +40,7 @@ ErrorWorlds::ErrorWorlds() {
   }
 }
 
-std::span<const float, ErrorWorlds::kCount> ErrorWorlds::of(std::uint64_t number) const {
+std::span<const float, ErrorRealisations::kCount> ErrorRealisations::of(std::uint64_t number) const {
   const std::uint64_t h = scrambled(number);
   const std::size_t row = h % kRows, begin = h / kRows % kCount;
   return std::span<const float, kCount>(rows_.data() + row * 2 * kCount + begin, kCount);

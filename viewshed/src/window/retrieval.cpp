@@ -1,4 +1,4 @@
-#include "window/near_ground.hpp"
+#include "window/retrieval.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -66,7 +66,7 @@ Box box_of_window(const Store& store, const Request& request) {
   return within.empty() ? window.bounds() : within;
 }
 
-double points_a_square_metre(const Store& store, int level, const Request& request) {
+double points_per_square_metre(const Store& store, int level, const Request& request) {
   const Box box = box_of_window(store, request);
   return static_cast<double>(store.points_about(level, box)) / (box.width() * box.height());
 }

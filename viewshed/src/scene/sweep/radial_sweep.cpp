@@ -1,4 +1,4 @@
-#include "scene/sweep/axis_sweep.hpp"
+#include "scene/sweep/radial_sweep.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,10 +23,10 @@ std::size_t number(std::int64_t i) {
 }  // namespace
 
 /// One axis and one tile, seen from the axis towards one side at a time.
-class AxisSweep::Task {
+class RadialSweep::Task {
  public:
   /// `lowest` is that of Kind::kHeight.
-  Task(const AxisSweep& sweep, const View& view, Kind kind, const Ends& ends, const Lowest* lowest, Scratch& scratch,
+  Task(const RadialSweep& sweep, const View& view, Kind kind, const Ends& ends, const Lowest* lowest, Scratch& scratch,
        Heights& heights)
       : sweep_(sweep),
         bins_(sweep.bins_),
@@ -59,7 +59,7 @@ class AxisSweep::Task {
     }
   }
 
-  void look_from(const Quadrant& quadrant, const HorizonFan& fan) {
+  void look_from(const Quadrant& quadrant, const HorizonHierarchy& fan) {
     place_cells(quadrant);
     if (farthest_ <= 0 || quadrant.slabs() == 0) return;
     auto [from, to] = slopes();
@@ -73,7 +73,7 @@ class AxisSweep::Task {
       return;
     }
     // Sectors one cell wide at the tile's far end.
-    const double width = std::max(1.0, 1 / cells_a_bin_) / farthest_;
+    const double width = std::max(1.0, 1 / cells_per_bin_) / farthest_;
     silhouettes_.fill(kNoSilhouette);
     for (std::size_t i = 0; from + static_cast<double>(i) * width <= to; ++i) {
       const Slopes sector{from + static_cast<double>(i) * width, from + static_cast<double>(i + 1) * width};
@@ -99,7 +99,7 @@ class AxisSweep::Task {
     farthest_ = std::max(along_[0], along_[number(majors_ - 1)]);
     nearest_ = std::max(0.0, std::min(along_[0], along_[number(majors_ - 1)]));
     const double extent = across_[number(minors_ - 1)] - across_[0];
-    cells_a_bin_ = minors_ > 1 ? static_cast<double>(minors_ - 1) / extent : 1;
+    cells_per_bin_ = minors_ > 1 ? static_cast<double>(minors_ - 1) / extent : 1;
   }
 
   /// Of the cells within the quadrant; empty where none is.
@@ -149,7 +149,7 @@ class AxisSweep::Task {
     double from = 0, to = 0;
   };
 
-  void sweep(const Quadrant& quadrant, const HorizonFan& fan, const Slopes& sector, const Slopes& cells) {
+  void sweep(const Quadrant& quadrant, const HorizonHierarchy& fan, const Slopes& sector, const Slopes& cells) {
     bool surveyed = false;
     last_ = kNoSilhouette;
     double along = -1, hidden_below = 0;  // of ends this far away
@@ -165,7 +165,7 @@ class AxisSweep::Task {
     });
   }
 
-  void survey(const Quadrant& quadrant, const HorizonFan& fan, double from, double to) {
+  void survey(const Quadrant& quadrant, const HorizonHierarchy& fan, double from, double to) {
     const std::size_t nearest = quadrant.slab_at(nearest_);
     profile_.survey(Sector(quadrant, from, to, view_.sector_axis_), fan.known(from, to, nearest), nearest,
                     quadrant.slab_at(farthest_) + 1);
@@ -181,7 +181,7 @@ class AxisSweep::Task {
 
   /// The first of the cells across that lies at `v` or beyond.
   std::size_t first_across(double v) const {
-    const double at = (v - across_[0]) * cells_a_bin_;
+    const double at = (v - across_[0]) * cells_per_bin_;
     return at <= 0                                 ? 0
            : at > static_cast<double>(minors_ - 1) ? number(minors_)
                                                    : static_cast<std::size_t>(std::ceil(at));
@@ -298,12 +298,12 @@ class AxisSweep::Task {
     };
     const double near = height(stretch.begin), far = height(stretch.end);
     if (bins_.lies_below(bin, std::min(near, far))) return true;
-    const BinnedHeights::Lid lid = bins_.lid(bin);
-    const auto lid_at = [&](double along) {
+    const BinnedHeights::UpperPlane upper_plane = bins_.upper_plane(bin);
+    const auto plane_at = [&](double along) {
       const Point2 p = quadrant.position(along, stretch.slope * along);
-      return lid.at(p.x - static_cast<double>(bin.column) - 0.5, p.y - static_cast<double>(bin.row) - 0.5);
+      return upper_plane.at(p.x - static_cast<double>(bin.column) - 0.5, p.y - static_cast<double>(bin.row) - 0.5);
     };
-    if (lid_at(stretch.begin) <= near && lid_at(stretch.end) <= far) return true;
+    if (plane_at(stretch.begin) <= near && plane_at(stretch.end) <= far) return true;
     return bins_.for_each_triangle(bin, std::min(near, far), [&](std::uint32_t t) { return clears(t, sight); });
   }
 
@@ -312,7 +312,7 @@ class AxisSweep::Task {
     return sight.clears(triangle, bins_.corners(triangle));
   }
 
-  const AxisSweep& sweep_;
+  const RadialSweep& sweep_;
   const BinnedHeights& bins_;
   const View& view_;
   const Axis& axis_;
@@ -326,18 +326,18 @@ class AxisSweep::Task {
   std::array<double, Tile::kSide> along_{}, across_{}, along_squared_{}, across_squared_{};
   std::int64_t majors_ = 0, minors_ = 0;
   double highest_ = 0;  ///< of the tile's ends
-  double farthest_ = 0, nearest_ = 0, cells_a_bin_ = 1;
+  double farthest_ = 0, nearest_ = 0, cells_per_bin_ = 1;
   // What hid the last eye of this sector, and of the last one the eye as far away.
   std::uint32_t last_ = kNoSilhouette;
   std::array<std::uint32_t, Tile::kSide> silhouettes_{};
 };
 
-AxisSweep::AxisSweep(const Earth& earth, const BinnedHeights& surface)
+RadialSweep::RadialSweep(const Earth& earth, const BinnedHeights& surface)
     : bins_(surface),
       drop_(earth.drop_coefficient() * surface.units().resolution),
       grazing_(kGrazing / surface.units().resolution) {}
 
-AxisSweep::View::View(const BinnedHeights& bins, const Axis& axis, double drop, double grazing)
+RadialSweep::View::View(const BinnedHeights& bins, const Axis& axis, double drop, double grazing)
     : axis_(axis), column_(bins.column_at(axis.x)), row_(bins.row_at(axis.y)), bin_(bins.bin_size()) {
   const double bin = bins.bin_size();
   sector_axis_.top = axis.top;
@@ -351,19 +351,19 @@ AxisSweep::View::View(const BinnedHeights& bins, const Axis& axis, double drop, 
   fans_.resize(quadrants_.size());
 }
 
-bool AxisSweep::View::reaches(const BinBox& box) const {
+bool RadialSweep::View::reaches(const BinBox& box) const {
   const double east = column_ - std::clamp(column_, box.west, box.east),
                south = row_ - std::clamp(row_, box.north, box.south);
   return std::hypot(east, south) * bin_ <= axis_.radius * (1 + 1e-9);
 }
 
-double AxisSweep::View::distance(const BinBox& box) const {
+double RadialSweep::View::distance(const BinBox& box) const {
   return std::max(std::abs(column_ - std::clamp(column_, box.west, box.east)),
                   std::abs(row_ - std::clamp(row_, box.north, box.south)));
 }
 
 /// What of a box lies in a quadrant, with slopes from -1 to 1; nothing where none does.
-std::optional<AxisSweep::View::Extent> AxisSweep::View::extent(const Quadrant& quadrant, const BinBox& box) const {
+std::optional<RadialSweep::View::Extent> RadialSweep::View::extent(const Quadrant& quadrant, const BinBox& box) const {
   const auto range = [](double a, double b) { return std::pair(std::min(a, b), std::max(a, b)); };
   const auto [near, far] = range(quadrant.along(box.west, box.north), quadrant.along(box.east, box.south));
   const auto [low, high] = range(quadrant.across(box.west, box.north), quadrant.across(box.east, box.south));
@@ -377,7 +377,7 @@ std::optional<AxisSweep::View::Extent> AxisSweep::View::extent(const Quadrant& q
   return ends;
 }
 
-void AxisSweep::View::narrow(std::span<const BinBox> boxes) {
+void RadialSweep::View::narrow(std::span<const BinBox> boxes) {
   // Boxes nearby may lie in all directions.
   constexpr double kNearby = 256;
   for (std::size_t i = 0; i < quadrants_.size(); ++i) {
@@ -392,7 +392,7 @@ void AxisSweep::View::narrow(std::span<const BinBox> boxes) {
   }
 }
 
-void AxisSweep::View::advance(double reach) {
+void RadialSweep::View::advance(double reach) {
   for (std::size_t i = 0; i < quadrants_.size(); ++i) {
     const Quadrant& quadrant = quadrants_[i];
     if (quadrant.slabs() == 0) continue;
@@ -401,7 +401,7 @@ void AxisSweep::View::advance(double reach) {
   }
 }
 
-bool AxisSweep::View::hides(const BinBox& box, double elevation) const {
+bool RadialSweep::View::hides(const BinBox& box, double elevation) const {
   if (distance(box) == 0) return false;
   for (std::size_t i = 0; i < quadrants_.size(); ++i) {
     const auto ends = extent(quadrants_[i], box);
@@ -412,34 +412,34 @@ bool AxisSweep::View::hides(const BinBox& box, double elevation) const {
   return true;
 }
 
-bool AxisSweep::View::hides(const Sector::Hidden& known, const Extent& ends, double elevation) const {
+bool RadialSweep::View::hides(const Sector::Hidden& known, const Extent& ends, double elevation) const {
   return elevation < axis_.top + std::min(known.below * ends.nearest, known.below * ends.farthest) + ends.least_drop;
 }
 
-AxisSweep::View AxisSweep::beginning(const Axis& axis) const {
+RadialSweep::View RadialSweep::beginning(const Axis& axis) const {
   return {bins_, axis, drop_, grazing_};
 }
 
-AxisSweep::View AxisSweep::view_of(const Axis& axis) const {
+RadialSweep::View RadialSweep::view_of(const Axis& axis) const {
   View view = beginning(axis);
   view.advance(kInfinity);
   return view;
 }
 
-AxisSweep::Axis AxisSweep::axis_at(const Point3& eye, double radius) const {
+RadialSweep::Axis RadialSweep::axis_at(const Point3& eye, double radius) const {
   return {eye.x, eye.y, eye.z, eye.z, std::min(radius, bins_.farthest_from(eye.x, eye.y) + 1)};
 }
 
-void AxisSweep::run(const View& axis, const Ends& eyes, Scratch& scratch, Heights& heights) const {
+void RadialSweep::run(const View& axis, const Ends& eyes, Scratch& scratch, Heights& heights) const {
   Task(*this, axis, Kind::kAxis, eyes, nullptr, scratch, heights).run();
 }
 
-void AxisSweep::look_from(const View& eye, const Ends& targets, Scratch& scratch, Heights& seen) const {
+void RadialSweep::look_from(const View& eye, const Ends& targets, Scratch& scratch, Heights& seen) const {
   Task(*this, eye, Kind::kPoint, targets, nullptr, scratch, seen).run();
 }
 
-void AxisSweep::raise_from(const View& eye, const Ends& highest, const Lowest& lowest, Scratch& scratch,
-                           Heights& least) const {
+void RadialSweep::raise_from(const View& eye, const Ends& highest, const Lowest& lowest, Scratch& scratch,
+                             Heights& least) const {
   Task(*this, eye, Kind::kHeight, highest, &lowest, scratch, least).run();
 }
 

@@ -16,7 +16,7 @@
 
 namespace itin::viewshed {
 
-class HorizonFan {
+class HorizonHierarchy {
  public:
   /// Only lines within these slopes that begin up to this slab will be asked about; none if `from` exceeds `to`.
   void narrow(double from, double to, std::size_t slab = std::numeric_limits<std::size_t>::max()) {

@@ -1,6 +1,6 @@
 // Progress of what is but a part of a call.
 //
-//   Unreported quiet(progress);
+//   SilentProgress quiet(progress);
 //   const Tin tin = triangulate(store, window, detail, quiet);   // ends when the call is cancelled, and shows nothing
 #pragma once
 
@@ -11,9 +11,9 @@
 namespace itin {
 
 /// Passes on that the call is to end, and nothing of how far its part has come.
-class Unreported final : public Progress {
+class SilentProgress final : public Progress {
  public:
-  explicit Unreported(const Progress& whole) : whole_(whole) {}
+  explicit SilentProgress(const Progress& whole) : whole_(whole) {}
   void report(std::string_view, double) override {}
   bool cancelled() const override { return whole_.cancelled(); }
 

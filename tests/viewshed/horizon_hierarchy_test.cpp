@@ -1,5 +1,5 @@
 // What a fan knows of an eye's horizon, against lines of sight over every triangle.
-#include "scene/sweep/horizon_fan.hpp"
+#include "scene/sweep/horizon_hierarchy.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +34,7 @@ class Lookout {
     const Quadrant quadrant(bins_, column_, row_, side);
     const double bin = bins_.bin_size();
     const Sector::Axis axis{eye_.z / unit_, earth_.drop_coefficient() * unit_ * bin * bin, 1};
-    HorizonFan fan;
+    HorizonHierarchy fan;
     fan.narrow(from, to);
     for (std::size_t reach = 0; reach < quadrant.slabs(); reach += 1 + random_() % 15) {
       fan.advance(quadrant, axis, reach);
@@ -85,7 +85,7 @@ class Lookout {
   int hidden_ = 0, clear_ = 0;
 };
 
-TEST(HorizonFan, TellsWhatIsHiddenAndWhatIsClear) {
+TEST(HorizonHierarchy, TellsWhatIsHiddenAndWhatIsClear) {
   std::mt19937 random(test::seed());
   const std::vector<double> z = test::fractal_heights(129, 60, 0.5, random());
   const auto height_at = [&](std::int32_t c, std::int32_t r) {

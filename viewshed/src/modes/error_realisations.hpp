@@ -1,7 +1,7 @@
 // Normal errors in many simulated worlds, to count in how many of them something holds.
 //
-//   const ErrorWorlds worlds;
-//   const std::span<const float, ErrorWorlds::kCount> errors = worlds.of(vertex);  // errors[w]: in world w
+//   const ErrorRealisations worlds;
+//   const std::span<const float, ErrorRealisations::kCount> errors = worlds.of(vertex);  // errors[w]: in world w
 //
 // A Latin hypercube: in its kCount worlds everything takes each of as many equally probable values once, in an order
 // of its own, so that shares vary less than those of independent draws (McKay, Beckman and Conover 1979). The orders
@@ -16,12 +16,12 @@
 namespace itin::viewshed {
 
 /// Safe for concurrent use. 1 MB.
-class ErrorWorlds {
+class ErrorRealisations {
  public:
   static constexpr std::size_t kCount = 512;
 
   /// The same in every process.
-  ErrorWorlds();
+  ErrorRealisations();
 
   /// Of mean 0 and standard deviation 1, independent of those of other numbers.
   std::span<const float, kCount> of(std::uint64_t number) const;

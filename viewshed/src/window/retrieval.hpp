@@ -33,7 +33,7 @@ bool features_stand(const Store& store, const Request& request);
 Box box_of_window(const Store& store, const Request& request);
 
 /// How densely points of this level and coarser ones lie there, about.
-double points_a_square_metre(const Store& store, int level, const Request& request);
+double points_per_square_metre(const Store& store, int level, const Request& request);
 
 /// For request.detail.
 EnvelopeRequest certified_request(const Store& store, const Request& request);

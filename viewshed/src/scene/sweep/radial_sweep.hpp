@@ -1,16 +1,16 @@
 // How much of an upright axis, such as a turbine, is seen from every cell of a tile: the least height of the axis at
 // which nothing hides it. And the other way round, from an eye: which cells' targets it sees, and from what height on.
 //
-//   AxisSweep sweep(earth, bins);
-//   const AxisSweep::View view = sweep.view_of(axis);       // for all tiles
-//   AxisSweep::Heights heights;                             // grid units, one a cell
+//   RadialSweep sweep(earth, bins);
+//   const RadialSweep::View view = sweep.view_of(axis);       // for all tiles
+//   RadialSweep::Heights heights;                             // grid units, one a cell
 //   sweep.run(view, eyes, scratch, heights);
 //
-// Method. What hides from far away is told once for all tiles (horizon_fan.hpp). The tile is cut into sectors about the
-// axis, each about a cell wide at its far end. Along a sector the bounds of BinnedHeights say for nearly every slab and
-// eye that it hides the whole axis, or that it hides nothing; what remains, mostly the slabs about a line's silhouette
-// and the ground before the eye, is decided triangle by triangle in double precision. An eye begins with what hid its
-// neighbours, so that bounds leave little to decide.
+// Method. What hides from far away is told once for all tiles (horizon_hierarchy.hpp). The tile is cut into sectors
+// about the axis, each about a cell wide at its far end. Along a sector the bounds of BinnedHeights say for nearly
+// every slab and eye that it hides the whole axis, or that it hides nothing; what remains, mostly the slabs about a
+// line's silhouette and the ground before the eye, is decided triangle by triangle in double precision. An eye begins
+// with what hid its neighbours, so that bounds leave little to decide.
 //
 // Accuracy. Every triangle that may hide more than what is known is looked at exactly, and bounds decide by more than
 // rounding. So the line at the height found has a clearance between -kGrazing and 0, up to rounding, or the height is
@@ -29,15 +29,15 @@
 #include "bounds/binned_heights.hpp"
 #include "line/cell_tiles.hpp"
 #include "line/sight_line.hpp"
-#include "scene/sweep/horizon_fan.hpp"
+#include "scene/sweep/horizon_hierarchy.hpp"
 #include "scene/sweep/sector_profile.hpp"
 
 namespace itin::viewshed {
 
-class AxisSweep {
+class RadialSweep {
  public:
   /// `surface` must outlive it.
-  AxisSweep(const Earth& earth, const BinnedHeights& surface);
+  RadialSweep(const Earth& earth, const BinnedHeights& surface);
 
   /// Grid units.
   struct Axis {
@@ -98,7 +98,7 @@ struct BinBox {
   double west = 0, north = 0, east = 0, south = 0;
 };
 
-class AxisSweep::View {
+class RadialSweep::View {
  public:
   /// At first it knows of nothing that hides.
   View(const BinnedHeights& bins, const Axis& axis, double drop, double grazing);
@@ -116,7 +116,7 @@ class AxisSweep::View {
   bool hides(const BinBox& box, double elevation) const;
 
  private:
-  friend class AxisSweep;
+  friend class RadialSweep;
   /// Ends within a quadrant: between slopes, and as far along.
   struct Extent {
     double from = 0, to = 0;
@@ -129,8 +129,8 @@ class AxisSweep::View {
   Axis axis_;
   Sector::Axis sector_axis_;
   std::vector<Quadrant> quadrants_;
-  std::vector<HorizonFan> fans_;  ///< of each quadrant
-  double column_, row_, bin_;     ///< where the axis is, in bins, and how wide these are, grid units
+  std::vector<HorizonHierarchy> fans_;  ///< of each quadrant
+  double column_, row_, bin_;           ///< where the axis is, in bins, and how wide these are, grid units
 };
 
 }  // namespace itin::viewshed

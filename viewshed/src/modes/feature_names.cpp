@@ -1,4 +1,4 @@
-#include "modes/blocked_features.hpp"
+#include "modes/feature_names.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,6 +1,6 @@
 // Sweeps about upright axes and from eyes against all triangles, line by line, and the bounds that they rest on against
 // the surface.
-#include "scene/sweep/axis_sweep.hpp"
+#include "scene/sweep/radial_sweep.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -46,7 +46,7 @@ class RaisedGround {
       const TileCentres centres(tin_.grid, grid_, tile);
       scan_convert(tin_, in_tiles_.triangles(i), tile, centres, *elevation);
       for (double& z : *elevation) z += above / tin_.grid.resolution;
-      visit(AxisSweep::Ends{tile, centres, *elevation});
+      visit(RadialSweep::Ends{tile, centres, *elevation});
     }
   }
 
@@ -74,11 +74,11 @@ class Sweeping {
     const auto base = exact_.height(foot);
     if (!base) return tally;
     const double unit = tin_.grid.resolution;
-    const AxisSweep::Axis axis{easting_in_units(tin_.grid, foot.x), northing_in_units(tin_.grid, foot.y), *base / unit,
-                               (*base + height) / unit, radius / unit};
+    const RadialSweep::Axis axis{easting_in_units(tin_.grid, foot.x), northing_in_units(tin_.grid, foot.y),
+                                 *base / unit, (*base + height) / unit, radius / unit};
     const auto work = std::make_unique<Work>();
-    const AxisSweep::View view = sweep_.view_of(axis);
-    ground_.for_each_tile(eye_height, [&](const AxisSweep::Ends& eyes) {
+    const RadialSweep::View view = sweep_.view_of(axis);
+    ground_.for_each_tile(eye_height, [&](const RadialSweep::Ends& eyes) {
       sweep_.run(view, eyes, work->scratch, work->found);
       for (std::int64_t r = 0; r < eyes.tile.rows; ++r)
         for (std::int64_t c = (r * 7) % every_; c < eyes.tile.columns; c += every_)
@@ -89,11 +89,11 @@ class Sweeping {
 
  private:
   struct Work {
-    AxisSweep::Heights found;
-    AxisSweep::Scratch scratch;
+    RadialSweep::Heights found;
+    RadialSweep::Scratch scratch;
   };
 
-  void check(const AxisSweep::Axis& axis, const AxisSweep::Ends& eyes, const AxisSweep::Heights& heights,
+  void check(const RadialSweep::Axis& axis, const RadialSweep::Ends& eyes, const RadialSweep::Heights& heights,
              std::int64_t row, std::int64_t column, Tally& tally) {
     const auto cell = static_cast<std::size_t>(row * Tile::kSide + column);
     const double eye = eyes.elevation[cell];
@@ -120,7 +120,7 @@ class Sweeping {
   }
 
   /// Grid units; the height of the axis above which an eye sees it.
-  double least(const Point3& eye, const AxisSweep::Axis& axis) const {
+  double least(const Point3& eye, const RadialSweep::Axis& axis) const {
     const double unit = tin_.grid.resolution;
     const SightLine line(eye, {axis.x, axis.y, axis.top}, earth_.drop_coefficient() * unit, kGrazing / unit);
     double least = axis.base;
@@ -135,7 +135,7 @@ class Sweeping {
   const Tin& tin_;
   Earth earth_;
   BinnedHeights bins_;
-  AxisSweep sweep_;
+  RadialSweep sweep_;
   test::ExactLineOfSight exact_;
   RaisedGround ground_;
   std::int64_t every_ = 1;  ///< of so many cells one is looked at
@@ -148,7 +148,7 @@ Point2 place_in(const Tin& tin, std::mt19937& random) {
   return {box.xmin + x * box.width(), box.ymin + share(random) * box.height()};
 }
 
-TEST(AxisSweep, RandomTins) {
+TEST(RadialSweep, RandomTins) {
   std::mt19937 random(test::seed());
   Tally all;
   for (int i = 0; i < 6; ++i) {
@@ -162,7 +162,7 @@ TEST(AxisSweep, RandomTins) {
   EXPECT_GT(all.partly, 20);
 }
 
-TEST(AxisSweep, FractalTerrainWithCellsOfEverySize) {
+TEST(RadialSweep, FractalTerrainWithCellsOfEverySize) {
   std::mt19937 random(test::seed());
   int hidden = 0;
   for (const double roughness : {0.35, 0.5, 0.65}) {
@@ -177,7 +177,7 @@ TEST(AxisSweep, FractalTerrainWithCellsOfEverySize) {
   EXPECT_GT(hidden, 0);
 }
 
-TEST(AxisSweep, AxesOnCellCentresAndWithinStepsOfThem) {
+TEST(RadialSweep, AxesOnCellCentresAndWithinStepsOfThem) {
   std::mt19937 random(test::seed());
   const Tin tin = test::fractal_tin(33, 50, 150, 0.55, random());
   constexpr double kCell = 7.93;
@@ -191,7 +191,7 @@ TEST(AxisSweep, AxesOnCellCentresAndWithinStepsOfThem) {
   }
 }
 
-TEST(AxisSweep, GroundWithVoids) {
+TEST(RadialSweep, GroundWithVoids) {
   std::mt19937 random(test::seed());
   const std::vector<double> z = test::fractal_heights(65, 120, 0.5, random());
   const Tin tin = test::lattice_tin(65, 65, 50, [&](std::int32_t c, std::int32_t r) {
@@ -208,7 +208,7 @@ TEST(AxisSweep, GroundWithVoids) {
   EXPECT_GT(all.hidden, 0);
 }
 
-TEST(AxisSweep, LongEdgesOnACurvedEarth) {
+TEST(RadialSweep, LongEdgesOnACurvedEarth) {
   std::mt19937 random(test::seed());
   const Tin tin = test::fractal_tin(17, 4000, 60, 0.5, random());
   int partly = 0;
@@ -221,7 +221,7 @@ TEST(AxisSweep, LongEdgesOnACurvedEarth) {
   EXPECT_GT(partly, 10);
 }
 
-TEST(AxisSweep, WallsAndRoofs) {
+TEST(RadialSweep, WallsAndRoofs) {
   // Boxes with walls a centimetre thick, among which eyes and axis may stand.
   const Tin tin = test::lattice_tin(
       161, 161, 5, [](std::int32_t c, std::int32_t r) { return c % 7 < 3 && r % 11 < 4 ? 9.0 + c % 5 : 0.01 * c; });
@@ -231,7 +231,7 @@ TEST(AxisSweep, WallsAndRoofs) {
   EXPECT_GT(t.partly + t.hidden, 10);
 }
 
-TEST(AxisSweep, RealTerrain) {
+TEST(RadialSweep, RealTerrain) {
   const auto tin = test::big_tujunga(300, 300, 60);
   if (!tin) GTEST_SKIP() << "needs " << test::big_tujunga_path();
   std::mt19937 random(test::seed());
@@ -254,8 +254,8 @@ class LookingAround {
   /// Metres above the ground.
   Tally see(const Point3& eye, double target_height) {
     Tally tally;
-    const AxisSweep::View view = sweep_.view_of(sweep_.axis_at(eye, INFINITY));
-    ground_.for_each_tile(target_height, [&](const AxisSweep::Ends& targets) {
+    const RadialSweep::View view = sweep_.view_of(sweep_.axis_at(eye, INFINITY));
+    ground_.for_each_tile(target_height, [&](const RadialSweep::Ends& targets) {
       sweep_.look_from(view, targets, work_->scratch, work_->found);
       for_each_line(eye, targets, [&](std::size_t cell, const SightLine& line) {
         const bool hidden = hides(line);
@@ -270,8 +270,8 @@ class LookingAround {
   Tally raise(const Point3& eye, double wanted, double highest) {
     Tally tally;
     const double metre = 1 / tin_.grid.resolution;
-    const AxisSweep::View view = sweep_.view_of(sweep_.axis_at(eye, INFINITY));
-    ground_.for_each_tile(0, [&](const AxisSweep::Ends& ground) {
+    const RadialSweep::View view = sweep_.view_of(sweep_.axis_at(eye, INFINITY));
+    ground_.for_each_tile(0, [&](const RadialSweep::Ends& ground) {
       for (std::size_t i = 0; i < ground.elevation.size(); ++i) {
         work_->wanted[i] = ground.elevation[i] + wanted * metre;
         work_->highest[i] = ground.elevation[i] + highest * metre;
@@ -295,12 +295,12 @@ class LookingAround {
  private:
   struct Work {
     TileValues<double> wanted, highest;
-    AxisSweep::Heights found;
-    AxisSweep::Scratch scratch;
+    RadialSweep::Heights found;
+    RadialSweep::Scratch scratch;
   };
 
   template <class Visit>
-  void for_each_line(const Point3& eye, const AxisSweep::Ends& ends, const Visit& visit) const {
+  void for_each_line(const Point3& eye, const RadialSweep::Ends& ends, const Visit& visit) const {
     for (std::size_t k = 0; k < ends.elevation.size(); ++k) {
       const Point3 end{ends.centres.x[k % Tile::kSide], ends.centres.y[k / Tile::kSide], ends.elevation[k]};
       if (std::isnan(end.z)) continue;
@@ -336,7 +336,7 @@ class LookingAround {
   const Tin& tin_;
   double drop_;
   BinnedHeights bins_;
-  AxisSweep sweep_;
+  RadialSweep sweep_;
   RaisedGround ground_;
   std::unique_ptr<Work> work_ = std::make_unique<Work>();
 };
@@ -425,9 +425,9 @@ void expect_bounds(const Tin& tin, std::mt19937& random) {
     }
     ++looked;
     const double z = *height / unit;
-    EXPECT_LE(
-        z, bins.lid(bin).at(column - static_cast<double>(bin.column) - 0.5, row - static_cast<double>(bin.row) - 0.5) +
-               1e-6);
+    EXPECT_LE(z, bins.upper_plane(bin).at(column - static_cast<double>(bin.column) - 0.5,
+                                          row - static_cast<double>(bin.row) - 0.5) +
+                     1e-6);
     EXPECT_LE(z, east.high(run, bin.row) + 1e-6);
     EXPECT_GE(z, east.low(run, bin.row) - 1e-6);
     const auto south = bins.runs().southwards();
