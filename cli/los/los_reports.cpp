@@ -8,7 +8,7 @@
 
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
-#include <profile/report.hpp>
+#include <profile/los.hpp>
 
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"

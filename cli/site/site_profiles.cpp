@@ -8,7 +8,7 @@
 
 #include <itin/cross_section.hpp>
 #include <itin/error.hpp>
-#include <profile/report.hpp>
+#include <profile/los.hpp>
 
 #include "options/radio_options.hpp"
 #include "output/output_path.hpp"

@@ -41,6 +41,10 @@ class RasterGrid {
   /// a millionth of a cell of such a multiple counts as lying on it. Throws InputError as above, or for an empty box.
   static RasterGrid aligned(const Box& box, double cell_size);
 
+  /// A part of these cells as a grid of its own, whose centres are to the last bit where they are in this one. Throws
+  /// InputError unless all its cells are cells of this grid.
+  RasterGrid part(Cell north_west, std::int64_t columns, std::int64_t rows) const;
+
   static constexpr std::int64_t kMaxCells = std::int64_t{1} << 33;
   static constexpr std::int64_t kMaxSide = 0x7fffffff;  ///< what GDAL counts
 
@@ -50,17 +54,19 @@ class RasterGrid {
   double cell_width() const { return cell_width_; }
   double cell_height() const { return cell_height_; }
   double cell_area() const { return cell_width_ * cell_height_; }
-  Point2 north_west() const { return north_west_; }
+  Point2 north_west() const { return {edge_x(0), edge_y(0)}; }
   Box bounds() const;
 
   double centre_x(std::int64_t column) const {
-    return north_west_.x + (static_cast<double>(column) + 0.5) * cell_width_;
+    return origin_.x + (static_cast<double>(first_.column + column) + 0.5) * cell_width_;
   }
-  double centre_y(std::int64_t row) const { return north_west_.y - (static_cast<double>(row) + 0.5) * cell_height_; }
+  double centre_y(std::int64_t row) const {
+    return origin_.y - (static_cast<double>(first_.row + row) + 0.5) * cell_height_;
+  }
   Point2 centre(std::int64_t column, std::int64_t row) const { return {centre_x(column), centre_y(row)}; }
   /// Where a position lies in units of cells from the north-west corner: centre_x(c) is at c + 0.5.
-  double column_at(double x) const { return (x - north_west_.x) / cell_width_; }
-  double row_at(double y) const { return (north_west_.y - y) / cell_height_; }
+  double column_at(double x) const { return (x - origin_.x) / cell_width_ - static_cast<double>(first_.column); }
+  double row_at(double y) const { return (origin_.y - y) / cell_height_ - static_cast<double>(first_.row); }
   /// The cell that holds a position; of neighbours that share it the eastern, the southern. Nothing outside.
   std::optional<Cell> cell_at(Point2 p) const;
   std::size_t index(Cell cell) const { return static_cast<std::size_t>(cell.row * columns_ + cell.column); }
@@ -68,7 +74,14 @@ class RasterGrid {
   friend bool operator==(const RasterGrid&, const RasterGrid&) = default;
 
  private:
-  Point2 north_west_;
+  /// West of a column, north of a row.
+  double edge_x(std::int64_t column) const {
+    return origin_.x + static_cast<double>(first_.column + column) * cell_width_;
+  }
+  double edge_y(std::int64_t row) const { return origin_.y - static_cast<double>(first_.row + row) * cell_height_; }
+
+  Point2 origin_;  ///< the north-west corner of the grid that this is a part of, or of this one
+  Cell first_;     ///< this one's north-west cell in that
   double cell_width_ = 1;
   double cell_height_ = 1;
   std::int64_t columns_ = 0;

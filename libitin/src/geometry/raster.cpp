@@ -21,7 +21,7 @@ double ceil_multiple(double v, double step) {
 
 RasterGrid::RasterGrid(Point2 north_west, double cell_width, double cell_height, std::int64_t columns,
                        std::int64_t rows)
-    : north_west_(north_west), cell_width_(cell_width), cell_height_(cell_height), columns_(columns), rows_(rows) {
+    : origin_(north_west), cell_width_(cell_width), cell_height_(cell_height), columns_(columns), rows_(rows) {
   if (!std::isfinite(north_west.x) || !std::isfinite(north_west.y))
     throw InputError("raster: its corner is not a finite position");
   if (!(std::isfinite(cell_width) && std::isfinite(cell_height) && cell_width > 0 && cell_height > 0))
@@ -50,8 +50,20 @@ RasterGrid RasterGrid::aligned(const Box& box, double cell_size) {
 
 Box RasterGrid::bounds() const {
   if (columns_ == 0) return {};
-  return {north_west_.x, north_west_.y - static_cast<double>(rows_) * cell_height_,
-          north_west_.x + static_cast<double>(columns_) * cell_width_, north_west_.y};
+  return {edge_x(0), edge_y(rows_), edge_x(columns_), edge_y(0)};
+}
+
+RasterGrid RasterGrid::part(Cell north_west, std::int64_t columns, std::int64_t rows) const {
+  const bool within = north_west.column >= 0 && north_west.row >= 0 && columns >= 1 && rows >= 1 &&
+                      columns <= columns_ - north_west.column && rows <= rows_ - north_west.row;
+  if (!within)
+    throw InputError(fmt::format("raster: {} x {} cells from column {}, row {} on are no part of {} x {} cells",
+                                 columns, rows, north_west.column, north_west.row, columns_, rows_));
+  RasterGrid part = *this;
+  part.first_ = {first_.column + north_west.column, first_.row + north_west.row};
+  part.columns_ = columns;
+  part.rows_ = rows;
+  return part;
 }
 
 std::optional<RasterGrid::Cell> RasterGrid::cell_at(Point2 p) const {

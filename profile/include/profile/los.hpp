@@ -6,6 +6,7 @@
 //   query.criteria = {{4.0 / 3, 1.0}, {2.0 / 3, 0.3}};
 //   const profile::LosReport report = profile::analyse(line, query);
 //   std::cout << profile::name_of(report.verdict) << '\n';
+//   profile::write_report(report, "{}", "link.pdf", false);
 #pragma once
 
 #include <cstdint>
@@ -123,5 +124,15 @@ double ray_elevation_m(const LosReport& report, double distance_m);
 
 /// "terrain", or the theme's name, and of a feature that is known: "buildings, Town Hall".
 std::string cause_of(const LosReport& report, std::uint16_t theme, std::int64_t feature = -1);
+
+/// A report as a file that a planner can hand in. By the name's ending: .json (the document as given), .csv (one row
+/// for each point of the profile), .svg, .pdf, .png (the drawing; the PDF has a second page of tables and the trade-off
+/// chart), .html (all of it, self-contained), .kml and .gpkg (the line, its ends, the critical point and the
+/// obstructions; for profiles with positions). Equal reports give equal bytes. Throws as require_report_format() does,
+/// and FileError.
+void write_report(const LosReport& report, const std::string& json, const std::string& path, bool overwrite);
+
+/// Throws InputError for another ending, and for .kml and .gpkg of a profile without positions.
+void require_report_format(const std::string& path, bool has_positions);
 
 }  // namespace itin::profile

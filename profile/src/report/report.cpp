@@ -6,7 +6,7 @@
 
 #include <itin/error.hpp>
 #include <itin/output_file.hpp>
-#include <profile/report.hpp>
+#include <profile/los.hpp>
 
 #include "report/formats.hpp"
 

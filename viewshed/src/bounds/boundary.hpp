@@ -24,9 +24,11 @@ std::vector<BoundaryEdge> boundary_edges(const Tin& tin);
 /// The same by their ends.
 std::vector<RimEdge> rim_of(const Tin& tin, const std::vector<BoundaryEdge>& boundary);
 
-/// Whether a sight line within `reach` metres of a position on the surface can cross ground without data: whether the
-/// surface begins anew across some piece of its rim, seen from there.
-bool surface_resumes(const Grid& units, const std::vector<RimEdge>& rim, Point2 position, double reach);
+/// Whether a sight line from a position on the surface can cross ground without data: whether the surface begins anew
+/// across some piece of its rim, seen from there, less than `reach` metres away and within `lines`: a convex hull,
+/// metres, that holds the position and all sight lines.
+bool surface_resumes(const Grid& units, const std::vector<RimEdge>& rim, Point2 position, double reach,
+                     const std::vector<Point2>& lines);
 
 enum class Crossing : std::uint8_t { kNone, kBack, kDoubtful };
 

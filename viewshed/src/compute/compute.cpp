@@ -5,7 +5,7 @@
 #include <viewshed/viewshed.hpp>
 
 #include "compute/lattice_sectors.hpp"
-#include "compute/memory.hpp"
+#include "plan/memory.hpp"
 #include "compute/store_viewshed.hpp"
 #include "compute/tin_segments.hpp"
 #include "modes/feature_names.hpp"

@@ -14,7 +14,7 @@
 #include <viewshed/surface.hpp>
 
 #include "certify/certified_pass.hpp"
-#include "compute/memory.hpp"
+#include "plan/memory.hpp"
 #include "line/cell_tiles.hpp"
 #include "modes/observation.hpp"
 #include "plan/ground_tiles.hpp"

@@ -1,8 +1,10 @@
 // Convex hulls of places in the plane.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -27,6 +29,16 @@ inline double area_of(const std::vector<Point2>& hull) {
   double doubled = 0;
   for (std::size_t i = 2; i < hull.size(); ++i) doubled += left_of(hull[0], hull[i - 1], hull[i]);
   return doubled / 2;
+}
+
+/// Whether a side of the hull, counterclockwise, has all these places beyond it. Of two convex shapes that are apart
+/// one has such a side; so a box that has none meets the hull, or may.
+inline bool beyond_a_side(const std::vector<Point2>& hull, std::span<const Point2> places) {
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Point2 &a = hull[i], &b = hull[(i + 1) % hull.size()];
+    if (std::all_of(places.begin(), places.end(), [&](Point2 p) { return left_of(a, b, p) < 0; })) return true;
+  }
+  return false;
 }
 
 /// All around.

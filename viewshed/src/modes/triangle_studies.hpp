@@ -11,11 +11,6 @@
 
 namespace itin::viewshed {
 
-/// Whether the request's mode asks more of the surface than sight lines.
-inline bool needs_triangles(const Request& request) {
-  return request.mode == Mode::kBlocker || request.mode == Mode::kProbability;
-}
-
 struct TriangleStudies {
   /// Those that the request's mode needs; both must outlive it.
   TriangleStudies(const Request& request, const Tin& surface) : tin(surface) {

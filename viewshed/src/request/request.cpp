@@ -9,6 +9,7 @@
 
 #include <itin/error.hpp>
 
+#include "line/hulls.hpp"
 #include "request/eye.hpp"
 
 namespace itin::viewshed {
@@ -114,6 +115,10 @@ bool casts_rays(const Request& request) {
   return request.engine == Engine::kRays;
 }
 
+bool needs_triangles(const Request& request) {
+  return request.mode == Mode::kBlocker || request.mode == Mode::kProbability;
+}
+
 std::vector<Point2> positions_of(const Request& request) {
   std::vector<Point2> positions;
   for (const Observer& observer : request.observers) positions.push_back(observer.position);
@@ -182,15 +187,24 @@ Box disc_box(Point2 centre, double radius) {
   return {centre.x - radius, centre.y - radius, centre.x + radius, centre.y + radius};
 }
 
+std::vector<Point2> hull_about(Point2 observer, const Box& box) {
+  // The hull has an area even where the box is empty.
+  constexpr double kMetre = 1;
+  std::vector<Point2> corners;
+  add_corners(disc_box(observer, kMetre), corners);
+  if (!box.empty()) add_corners(box, corners);
+  return hull_of(std::move(corners));
+}
+
 namespace {
 
-/// Convex and around the observer (or a wedge about it), so that it holds the sight lines too.
+/// Of the window, for one observer.
 Window::Polygon part_of(const Request& request, const Observer& observer) {
   const std::optional<double> radius = radius_of(request, observer);
   if (!request.grid) return Window::disc(observer.position, *radius).parts().front();
-  Box box = request.grid->bounds();
-  box.extend(observer.position);
-  return rectangle(radius ? intersection(box, disc_box(observer.position, *radius)) : box);
+  const Box cells = request.grid->bounds();
+  return {hull_about(observer.position, radius ? intersection(cells, disc_box(observer.position, *radius)) : cells),
+          {}};
 }
 
 /// From so many observers on, those that stand within half a radius of each other share a part of the window.
@@ -233,7 +247,8 @@ Window window_of(const Request& request) {
 void look_for_voids(const Grid& units, const std::vector<RimEdge>& rim, Result& result) {
   for (const Observer& observer : result.request.observers) {
     const double reach = radius_of(result.request, observer).value_or(std::numeric_limits<double>::infinity());
-    result.crosses_voids = result.crosses_voids || surface_resumes(units, rim, observer.position, reach);
+    result.crosses_voids = result.crosses_voids || surface_resumes(units, rim, observer.position, reach,
+                                                                   hull_about(observer.position, result.grid.bounds()));
   }
   const Request& request = result.request;
   if (result.crosses_voids && request.nodata == NoData::kUnknown && request.mode != Mode::kVisible)

@@ -22,6 +22,8 @@ void validate(const Request& request);
 
 /// Whether rays decide the request's lines to cells.
 bool casts_rays(const Request& request);
+/// Whether the request's mode asks more of the surface's triangles than sight lines.
+bool needs_triangles(const Request& request);
 /// Where the observers stand, metres.
 std::vector<Point2> positions_of(const Request& request);
 
@@ -42,7 +44,11 @@ Window::Polygon rectangle(const Box& box);
 /// About a disc, metres.
 Box disc_box(Point2 centre, double radius);
 
-/// The region that holds every sight line of the request.
+/// Holds the sight lines from an observer to places in the box, which may be empty. Convex, counterclockwise.
+std::vector<Point2> hull_about(Point2 observer, const Box& box);
+
+/// The region that holds every sight line of the request: a convex one about each observer, or about observers that
+/// stand close together.
 Window window_of(const Request& request);
 
 /// Whether sight lines of the result's request may cross ground without data, with a warning where neither the request

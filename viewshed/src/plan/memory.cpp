@@ -1,10 +1,9 @@
-#include "compute/memory.hpp"
+#include "plan/memory.hpp"
 
 #include <algorithm>
 
 #include <viewshed/surface.hpp>
 
-#include "modes/triangle_studies.hpp"
 #include "request/request.hpp"
 
 namespace itin::viewshed {
