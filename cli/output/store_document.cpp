@@ -4,16 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <itin/level_choice.hpp>
+
 namespace itin::cli {
 
 namespace {
-
-/// The coarsest level within the tolerance: what a query reads (design.md, Words).
-const LevelInfo& level_for(const StoreMetadata& metadata, double tolerance) {
-  const auto coarser = std::find_if(metadata.levels.begin() + 1, metadata.levels.end(),
-                                    [&](const LevelInfo& level) { return level.tolerance > tolerance; });
-  return *std::prev(coarser);
-}
 
 std::vector<std::uint64_t> query_vertices(const StoreMetadata& metadata) {
   std::vector<std::uint64_t> counts(metadata.levels.size());
@@ -31,7 +26,8 @@ Document error_interval(const CertifiedError& error) {
 Document surface_document(const StoreMetadata& metadata, const Detail& detail, const ThemeChoice& themes) {
   CertifiedError error;
   for (const Ring& ring : detail.rings()) {
-    const CertifiedError& of_level = level_for(metadata, ring.tolerance).certified_error;
+    const CertifiedError& of_level =
+        metadata.levels[static_cast<std::size_t>(level_within(metadata, ring.tolerance))].certified_error;
     error.lo = std::min(error.lo, of_level.lo);
     error.hi = std::max(error.hi, of_level.hi);
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/level_choice.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/map_image.hpp>
 
@@ -16,12 +17,8 @@ constexpr std::uint64_t kHillshadePoints = 400000;
 constexpr int kMapPixels = 1100;
 
 Tin hillshade_surface(const Store& store, const RasterGrid& grid, Progress& progress) {
-  int level = 0;
-  const auto& levels = store.metadata().levels;
-  while (level + 1 < static_cast<int>(levels.size()) && store.points_about(level, grid.bounds()) > kHillshadePoints)
-    ++level;
-  return triangulate(store, Window::box(grid.bounds()),
-                     Detail::tolerance(levels[static_cast<std::size_t>(level)].tolerance), progress);
+  const int level = finest_level_of(store, grid.bounds(), kHillshadePoints);
+  return triangulate(store, Window::box(grid.bounds()), detail_of(store.metadata(), level), progress);
 }
 
 /// The choice as a viewshed's result, which is what maps are drawn of.

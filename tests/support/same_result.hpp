@@ -26,6 +26,8 @@ inline void expect_same_result(const viewshed::Result& expected, const viewshed:
   EXPECT_TRUE(same_values(found.angle_deg, expected.angle_deg));
   EXPECT_TRUE(found.nearest == expected.nearest);
   EXPECT_TRUE(same_values(found.distance_m, expected.distance_m));
+  EXPECT_TRUE(found.blockers == expected.blockers);
+  EXPECT_TRUE(found.blocker == expected.blocker);
   EXPECT_TRUE(found.blocker_theme == expected.blocker_theme);
   EXPECT_TRUE(found.blocker_feature == expected.blocker_feature);
   EXPECT_TRUE(same_values(found.least_height_m, expected.least_height_m));

@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include <itin/level_choice.hpp>
 #include <itin/store.hpp>
 
 namespace itin::profile {
@@ -18,15 +19,6 @@ constexpr double kPerPoint = 1.2, kPerTriangle = 0.7;
 constexpr double kEdgesPerSpacing = 2.16;
 /// Metres: the side of the squares in which ground counts as met, about that of a tile.
 constexpr double kSquare = 2000;
-
-int level_at(const Store& store, double tolerance) {
-  const std::vector<LevelInfo>& levels = store.metadata().levels;
-  int level = 0;
-  while (level + 1 < static_cast<int>(levels.size()) &&
-         levels[static_cast<std::size_t>(level) + 1].tolerance <= tolerance)
-    ++level;
-  return level;
-}
 
 }  // namespace
 
@@ -47,7 +39,7 @@ bool sharing_pays(const Store& store, const Detail& detail, const std::vector<Li
   }
   const double area = ground.width() * ground.height();
   if (area == 0) return true;
-  const auto points = static_cast<double>(store.points_about(level_at(store, detail.finest()), ground));
+  const auto points = static_cast<double>(store.points_about(level_within(store.metadata(), detail.finest()), ground));
   const double density = points / area;
   const double met = density * static_cast<double>(squares.size()) * kSquare * kSquare;
   return kPerPoint * met < kPerTriangle * kEdgesPerSpacing * std::sqrt(density) * length;

@@ -1,21 +1,21 @@
 #include <algorithm>
 
+#include <itin/level_choice.hpp>
 #include <itin/store.hpp>
 #include <profile/clearance_error.hpp>
 
 namespace itin::profile {
 
 double clearance_error(const Store& store, const Detail& detail, const ThemeChoice& themes, Point2 from, Point2 to) {
-  const std::vector<LevelInfo>& levels = store.metadata().levels;
+  const int finest = level_within(store.metadata(), detail.finest());
+  const int coarsest = level_within(store.metadata(), detail.coarsest());
   Box box;
   box.extend(from);
   box.extend(to);
   CertifiedError widest;
-  int finest = 0;
-  for (std::size_t i = 0; i < levels.size() && levels[i].tolerance <= detail.coarsest(); ++i) {
-    if (levels[i].tolerance <= detail.finest()) finest = static_cast<int>(i);
-    if (i == 0) continue;  // the full surface itself
-    const auto error = store.certified_error(static_cast<int>(i), box);
+  // Level 0 is the full surface itself.
+  for (int level = 1; level <= coarsest; ++level) {
+    const auto error = store.certified_error(level, box);
     if (!error) continue;
     widest.lo = std::min(widest.lo, error->lo), widest.hi = std::max(widest.hi, error->hi);
   }

@@ -2,6 +2,7 @@
 
 #include <itin/error.hpp>
 #include <itin/lattice_reader.hpp>
+#include <itin/level_choice.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/certified.hpp>
 #include <viewshed/surface.hpp>

@@ -5,10 +5,10 @@
 #include <viewshed/viewshed.hpp>
 
 #include "compute/lattice_sectors.hpp"
-#include "plan/memory.hpp"
 #include "compute/store_viewshed.hpp"
 #include "compute/tin_segments.hpp"
 #include "modes/feature_names.hpp"
+#include "plan/memory.hpp"
 #include "request/request.hpp"
 #include "window/retrieval.hpp"
 

@@ -12,6 +12,7 @@
 
 #include <itin/error.hpp>
 #include <itin/lattice_reader.hpp>
+#include <itin/level_choice.hpp>
 #include <itin/silent_progress.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/surface.hpp>
@@ -72,13 +73,11 @@ class LatticeSectors {
   void retrieve_coarse() {
     Result& result = surveyed_.result;
     const Box box = box_of_window(store_, request_);
-    int level = static_cast<int>(store_.metadata().levels.size()) - 1;
-    while (level > 0 && store_.points_about(level - 1, box) <= kCoarsePoints) --level;
+    const int level = finest_level_of(store_, box, kCoarsePoints);
     surveyed_.surface = std::make_shared<Surface>();
     Tin& coarse = surveyed_.surface->tin;
-    coarse = triangulate(store_, window_of(request_),
-                         Detail::tolerance(store_.metadata().levels[static_cast<std::size_t>(level)].tolerance),
-                         progress_, ThemeChoice::none());
+    coarse =
+        triangulate(store_, window_of(request_), detail_of(store_.metadata(), level), progress_, ThemeChoice::none());
     result.grid = cells_of(request_, extent_of(store_));
     tiles_ = grid_of_tiles(result.grid);
     look_for_voids(coarse.grid, rim_of(coarse, boundary_edges(coarse)), result);

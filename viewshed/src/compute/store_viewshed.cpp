@@ -23,12 +23,6 @@ Surveyed survey(const Request& request, Surveyed surveyed, double seconds, Progr
 
 }  // namespace
 
-bool takes_a_lattice(const Store& store, const Request& request) {
-  // At coarser levels nothing of the full one is looked at.
-  return !needs_triangles(request) && !casts_rays(request) &&
-         level_within(store.metadata(), request.detail.coarsest()) == 0;
-}
-
 std::optional<Surveyed> compute_over_lattice(const Store& store, const Request& request, std::uint64_t most_posts,
                                              Progress& progress) {
   Stopwatch watch;

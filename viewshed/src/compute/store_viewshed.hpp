@@ -10,10 +10,6 @@
 
 namespace itin::viewshed {
 
-/// Whether the request can be answered over the posts of a lattice alone: at full detail, in a mode that asks no more
-/// than sight lines, by the sweep.
-bool takes_a_lattice(const Store& store, const Request& request);
-
 /// Nothing where the surface is no lattice of at most so many posts. Precondition: takes_a_lattice().
 std::optional<Surveyed> compute_over_lattice(const Store& store, const Request& request, std::uint64_t most_posts,
                                              Progress& progress);

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 
+#include <itin/level_choice.hpp>
 #include <itin/parallel.hpp>
 #include <itin/silent_progress.hpp>
 #include <itin/triangulate.hpp>
@@ -14,10 +15,10 @@
 #include <viewshed/surface.hpp>
 
 #include "certify/certified_pass.hpp"
-#include "plan/memory.hpp"
 #include "line/cell_tiles.hpp"
 #include "modes/observation.hpp"
 #include "plan/ground_tiles.hpp"
+#include "plan/memory.hpp"
 #include "plan/observer_raster.hpp"
 #include "progress/stage.hpp"
 #include "progress/stopwatch.hpp"
@@ -84,10 +85,7 @@ class TinSegments {
 
   int coarse_level() const {
     const std::uint64_t most = std::min(memory_ / kBytesPerEnvelopePoint, store_.points_about(0, box_) / kCoarseShare);
-    int level = 1;
-    while (level + 1 < static_cast<int>(store_.metadata().levels.size()) && store_.points_about(level, box_) > most)
-      ++level;
-    return level;
+    return finest_level_of(store_, box_, most, 1);
   }
 
   Tin triangulated(const Window& window, const ThemeChoice& themes) {

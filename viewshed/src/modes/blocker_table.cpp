@@ -13,9 +13,14 @@ std::vector<std::uint32_t> BlockerTable::numbers_of(std::span<const BlockingTria
 }
 
 void BlockerTable::give(Result& result) const {
+  // What hid a cell from one observer may have given way to what hides it from a nearer one.
+  std::vector<bool> hides(numbers_.size());
+  for (const std::uint32_t blocker : result.blocker)
+    if (blocker < kMissingGround) hides[blocker] = true;
   std::vector<std::uint32_t> place(numbers_.size());
   result.blockers.clear();
   for (const auto& [triangle, number] : numbers_) {
+    if (!hides[number]) continue;
     place[number] = static_cast<std::uint32_t>(result.blockers.size());
     result.blockers.push_back(triangle);
   }

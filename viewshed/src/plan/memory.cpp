@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <itin/level_choice.hpp>
 #include <viewshed/surface.hpp>
 
 #include "request/request.hpp"
@@ -33,6 +34,12 @@ std::uint64_t bytes_per_cell(const Request& request) {
 }
 
 }  // namespace
+
+bool takes_a_lattice(const Store& store, const Request& request) {
+  // At coarser levels nothing of the full one is looked at.
+  return !needs_triangles(request) && !casts_rays(request) &&
+         level_within(store.metadata(), request.detail.coarsest()) == 0;
+}
 
 std::uint64_t bytes_per_point(const Request& request) {
   constexpr std::uint64_t kTriangles = 400, kStudies = 150, kRays = 1500;

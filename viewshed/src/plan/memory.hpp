@@ -11,6 +11,10 @@ namespace itin::viewshed {
 /// A sector takes one part of so many; the rest is for the store's cache, and for what is freed but not given back.
 inline constexpr std::uint64_t kSectorShare = 2;
 
+/// Whether the request can be answered over the posts of a lattice alone: at full detail, in a mode that asks no more
+/// than sight lines, by the sweep.
+bool takes_a_lattice(const Store& store, const Request& request);
+
 /// At the peak, for each point of a surface of triangles: triangulation, triangles and bins, and what the engine and
 /// the mode add.
 std::uint64_t bytes_per_point(const Request& request);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <viewshed/surface.hpp>
 
 #include "line/hulls.hpp"
 #include "request/eye.hpp"
@@ -242,6 +243,15 @@ Window window_of(const Request& request) {
     parts.push_back(rectangle(box));
   }
   return Window::polygons(std::move(parts));
+}
+
+Box box_of_window(const Store& store, const Request& request) {
+  const Window window = window_of(request);
+  const Box all = extent_of(store);
+  if (window.is_all()) return all;
+  // An observer outside the data is told so later on.
+  const Box within = intersection(window.bounds(), all);
+  return within.empty() ? window.bounds() : within;
 }
 
 void look_for_voids(const Grid& units, const std::vector<RimEdge>& rim, Result& result) {

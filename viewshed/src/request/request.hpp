@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <itin/store.hpp>
 #include <itin/window.hpp>
 #include <viewshed/viewshed.hpp>
 
@@ -50,6 +51,8 @@ std::vector<Point2> hull_about(Point2 observer, const Box& box);
 /// The region that holds every sight line of the request: a convex one about each observer, or about observers that
 /// stand close together.
 Window window_of(const Request& request);
+/// About all that this may hold of the store.
+Box box_of_window(const Store& store, const Request& request);
 
 /// Whether sight lines of the result's request may cross ground without data, with a warning where neither the request
 /// nor its answer says what becomes of them. `rim` is where the surface ends, in these units.

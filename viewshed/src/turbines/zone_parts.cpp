@@ -12,11 +12,12 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/level_choice.hpp>
 
 #include "line/cell_tiles.hpp"
 #include "line/hulls.hpp"
+#include "plan/point_counts.hpp"
 #include "request/request.hpp"
-#include "window/envelope.hpp"
 
 namespace itin::viewshed {
 
@@ -43,41 +44,6 @@ Window::Polygon box_about(const std::vector<Window::Polygon>& parts, Point2 rada
   return rectangle(box);
 }
 
-/// How many points a query reads of convex polygons, about.
-class PointCounts {
- public:
-  PointCounts(const Store& store, int level, const Box& box)
-      : cells_(RasterGrid::aligned(box, std::max(box.width(), box.height()) / kSide)) {
-    for (std::size_t i = 0; i < cells_.cell_count(); ++i) counts_.push_back(store.points_about(level, cell(i)));
-  }
-
-  std::uint64_t within(const std::vector<Point2>& polygon) const {
-    std::uint64_t count = 0;
-    for (std::size_t i = 0; i < counts_.size(); ++i)
-      if (counts_[i] > 0 && meets(polygon, cell(i))) count += counts_[i];
-    return count;
-  }
-
- private:
-  static constexpr double kSide = 48;
-
-  Box cell(std::size_t i) const { return box_of_cell(cells_, place_of(cells_, i)); }
-
-  /// Or may meet it.
-  static bool meets(const std::vector<Point2>& polygon, const Box& box) {
-    std::vector<Point2> corners;
-    add_corners(box, corners);
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const Point2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-      if (std::all_of(corners.begin(), corners.end(), [&](Point2 p) { return left_of(a, b, p) < 0; })) return false;
-    }
-    return true;
-  }
-
-  RasterGrid cells_;
-  std::vector<std::uint64_t> counts_;
-};
-
 class Partition {
  public:
   Partition(const Store& store, const Zone& zone, bool screened, const Box& box)
@@ -90,7 +56,7 @@ class Partition {
   /// Bytes. As measured on OS Terrain 50: 160 a triangle of one surface, and another 110 of a second one; and what a
   /// cell's results take.
   double memory(const std::vector<Point2>& window) const {
-    const double triangles = 2 * static_cast<double>(points_.within(window));
+    const double triangles = 2 * static_cast<double>(points_.within(Window::polygons({{window, {}}})));
     return (screened_ ? 270 : 160) * triangles + (screened_ ? 2 : 1) * static_cast<double>(bytes_of_results(zone_));
   }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <itin/certificate.hpp>
+#include <itin/level_choice.hpp>
 #include <itin/parallel.hpp>
 #include <itin/raster.hpp>
 #include <itin/triangulate.hpp>
@@ -101,8 +102,7 @@ class Builder {
       : store_(store), themes_(themes), progress_(progress) {}
 
   void add(const Window& window, int level) {
-    const double tolerance = store_.metadata().levels[static_cast<std::size_t>(level)].tolerance;
-    const Tin piece = triangulate(store_, window, Detail::tolerance(tolerance), progress_, themes_);
+    const Tin piece = triangulate(store_, window, detail_of(store_.metadata(), level), progress_, themes_);
     const std::vector<HeightBounds> bounds = vertex_bounds(store_, level, piece);
     const auto first = static_cast<std::uint32_t>(lower_.vertices.size());
     lower_.grid = piece.grid;
@@ -158,14 +158,6 @@ class Builder {
 };
 
 }  // namespace
-
-int level_within(const StoreMetadata& metadata, double tolerance) {
-  int level = 0;
-  while (level + 1 < static_cast<int>(metadata.levels.size()) &&
-         metadata.levels[static_cast<std::size_t>(level) + 1].tolerance <= tolerance)
-    ++level;
-  return level;
-}
 
 Envelope envelop(const Store& store, const EnvelopeRequest& request, Progress& progress) {
   Builder builder(store, request.themes, progress);

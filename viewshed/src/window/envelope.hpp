@@ -51,7 +51,4 @@ struct Envelope {
 /// Cost: as triangulate(), and about a microsecond a triangle. Throws as triangulate() does.
 Envelope envelop(const Store& store, const EnvelopeRequest& request, Progress& progress);
 
-/// The coarsest level within the tolerance.
-int level_within(const StoreMetadata& metadata, double tolerance);
-
 }  // namespace itin::viewshed

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <itin/level_choice.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/surface.hpp>
 
@@ -55,15 +56,6 @@ std::vector<Eye> eyes_on_surface(const Store& store, const Request& request, con
 
 bool features_stand(const Store& store, const Request& request) {
   return request.themes.includes_standing(store.metadata().themes);
-}
-
-Box box_of_window(const Store& store, const Request& request) {
-  const Window window = window_of(request);
-  const Box all = extent_of(store);
-  if (window.is_all()) return all;
-  // An observer outside the data is told so later on.
-  const Box within = intersection(window.bounds(), all);
-  return within.empty() ? window.bounds() : within;
 }
 
 double points_per_square_metre(const Store& store, int level, const Request& request) {

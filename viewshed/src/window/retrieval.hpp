@@ -29,9 +29,6 @@ std::vector<Eye> eyes_on_surface(const Store& store, const Request& request, con
 /// says what is there.
 bool features_stand(const Store& store, const Request& request);
 
-/// About all that the request's window may hold of the store.
-Box box_of_window(const Store& store, const Request& request);
-
 /// How densely points of this level and coarser ones lie there, about.
 double points_per_square_metre(const Store& store, int level, const Request& request);
 

@@ -1,5 +1,6 @@
 #include <utility>
 
+#include <itin/level_choice.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/surface.hpp>
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/level_choice.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/site_proposal.hpp>
 
@@ -32,13 +33,6 @@ bool within(const Window::Ring& ring, Point2 p) {
     if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x) inside = !inside;
   }
   return inside;
-}
-
-int level_for(const Store& store, const Box& box) {
-  int level = 0;
-  while (level + 1 < static_cast<int>(store.metadata().levels.size()) && store.points_about(level, box) > kPoints)
-    ++level;
-  return level;
 }
 
 std::vector<bool> summits(const Tin& tin) {
@@ -144,8 +138,8 @@ std::vector<Proposal> propose_sites(const Store& store, const Window& area, cons
     throw InputError(fmt::format("a spacing of {:g} m cuts the search area into more than {:g} squares: give a greater",
                                  request.spacing, kMostSquares));
   box = {box.xmin - request.radius, box.ymin - request.radius, box.xmax + request.radius, box.ymax + request.radius};
-  const double tolerance = store.metadata().levels[static_cast<std::size_t>(level_for(store, box))].tolerance;
-  const Tin tin = triangulate(store, Window::box(box), Detail::tolerance(tolerance), progress);
+  const Detail detail = detail_of(store.metadata(), finest_level_of(store, box, kPoints));
+  const Tin tin = triangulate(store, Window::box(box), detail, progress);
   if (tin.triangles.empty()) throw InputError("the search area holds no ground");
   std::vector<Proposal> proposals = Proposer(tin, area, request).run(progress);
   if (proposals.empty()) throw InputError("the search area holds no ground");

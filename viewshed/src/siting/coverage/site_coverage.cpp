@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/level_choice.hpp>
 #include <itin/parallel.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/site_coverage.hpp>
@@ -69,14 +70,6 @@ Window window_about(const std::vector<SiteStand>& stands, const std::vector<std:
     }
   }
   return Window::polygons(std::move(runs));
-}
-
-/// The finest level with at most so many points in the box.
-int level_of(const Store& store, const Box& box, std::uint64_t points) {
-  int level = 0;
-  while (level + 1 < static_cast<int>(store.metadata().levels.size()) && store.points_about(level, box) > points)
-    ++level;
-  return level;
 }
 
 }  // namespace
@@ -184,8 +177,9 @@ class SiteCoverage::Impl {
     // To look at cells exactly takes no longer than to look at them coarsely.
     const bool exact_at_once = all <= kFewPoints || (survey_.targets.grid && whole_fits_);
     const int first = survey_.tolerance ? level_within(store_.metadata(), *survey_.tolerance)
-                      : exact_at_once   ? 0
-                                        : level_of(store_, box, all / (whole_fits_ ? kFirstShareOfWhole : kFirstShare));
+                      : exact_at_once
+                          ? 0
+                          : finest_level_of(store_, box, all / (whole_fits_ ? kFirstShareOfWhole : kFirstShare));
     levels_ = {first};
     if (first > 0) levels_.push_back(0);
   }

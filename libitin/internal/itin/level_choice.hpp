@@ -1,0 +1,22 @@
+// Which of a store's levels a query reads.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <itin/detail.hpp>
+#include <itin/geometry.hpp>
+#include <itin/store.hpp>
+
+namespace itin {
+
+/// The coarsest level whose tolerance is at most this one.
+int level_within(const StoreMetadata& metadata, double tolerance);
+
+/// The finest level, from `finest` on, with at most about so many points in the box; the coarsest where none has.
+int finest_level_of(const Store& store, const Box& box, std::uint64_t most_points, int finest = 0);
+
+/// The surface of one level.
+Detail detail_of(const StoreMetadata& metadata, int level);
+
+}  // namespace itin

@@ -1,0 +1,71 @@
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <span>
+
+#include <xxhash.h>
+
+#include <itin/error.hpp>
+#include <itin/output_file.hpp>
+#include <itin/packed_file.hpp>
+
+#include "store/byte_stream.hpp"
+#include "store/zstd_frame.hpp"
+
+namespace itin {
+
+namespace {
+
+constexpr std::string_view kMagic = "itinpack";
+constexpr std::size_t kHashBytes = 8;
+
+std::span<const std::uint8_t> bytes_of(std::string_view text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+std::string text_of(std::span<const std::uint8_t> bytes) {
+  return {bytes.begin(), bytes.end()};
+}
+
+/// The lowest byte first.
+std::string hash_of(std::string_view frame) {
+  const std::uint64_t hash = content_hash(frame);
+  std::string bytes;
+  for (std::size_t i = 0; i < kHashBytes; ++i) bytes += static_cast<char>(hash >> 8 * i & 0xff);
+  return bytes;
+}
+
+std::string read_all(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  if (!in) throw FileError(path, "cannot be read");
+  return bytes;
+}
+
+}  // namespace
+
+std::uint64_t content_hash(std::string_view bytes) {
+  return XXH3_64bits(bytes.data(), bytes.size());
+}
+
+void write_packed(const std::string& path, std::string_view bytes) {
+  const std::string frame = text_of(compress(bytes_of(bytes)));
+  write_file(path, std::string(kMagic) + hash_of(frame) + frame, true);
+}
+
+std::string read_packed(const std::string& path) {
+  const std::string file = read_all(path);
+  const std::string_view all = file;
+  if (all.size() < kMagic.size() + kHashBytes || all.substr(0, kMagic.size()) != kMagic)
+    throw FileError(path, "is no file that itin packed");
+  const std::string_view frame = all.substr(kMagic.size() + kHashBytes);
+  if (all.substr(kMagic.size(), kHashBytes) != hash_of(frame))
+    throw FileError(path, "is damaged: its checksum does not match");
+  try {
+    return text_of(decompress(bytes_of(frame), std::numeric_limits<std::uint32_t>::max() * std::size_t{256}));
+  } catch (const DecodeError& error) {
+    throw FileError(path, error.what());
+  }
+}
+
+}  // namespace itin

@@ -1,0 +1,310 @@
+// Segments of a plan, decided in any order and by several runners, are the viewshed at once.
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <numeric>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <itin/error.hpp>
+#include <itin/import.hpp>
+#include <itin/triangulate.hpp>
+#include <viewshed/plan.hpp>
+
+#include "support/raster_file.hpp"
+#include "support/same_result.hpp"
+#include "support/seed.hpp"
+#include "support/temporary_directory.hpp"
+#include "support/terrain_tin.hpp"
+
+namespace itin::viewshed {
+namespace {
+
+constexpr Mode kPlannedModes[] = {Mode::kVisible, Mode::kCount,   Mode::kWhich,  Mode::kAngle,
+                                  Mode::kNearest, Mode::kBlocker, Mode::kHeight, Mode::kProbability};
+
+class Plans : public testing::Test {
+ protected:
+  /// Hills with a hole, 4 km by 4 km.
+  static void SetUpTestSuite() {
+    directory_ = new test::TemporaryDirectory;
+    const std::vector<double> z = test::fractal_heights(257, 200, 0.55, 11);
+    const std::string raster = directory_->file("hills.tif");
+    test::write_raster(raster, {300000, 204000, 20, 200, 200, 27700}, [&](int c, int r) {
+      if (std::hypot(c - 60, r - 120) < 12) return std::nan("");
+      return z[static_cast<std::size_t>(r) * 257 + static_cast<std::size_t>(c)];
+    });
+    NoProgress progress;
+    ImportOptions options;
+    options.sources = {raster};
+    import_terrain(hills_path(), options, progress);
+
+    const std::string data = std::string(ITIN_SOURCE_DIR) + "/scripts/demo-data/";
+    ImportOptions terrain;
+    terrain.sources = {data + "alexandria-dtm.tif"};
+    import_terrain(town_path(), terrain, progress);
+    ImportOptions buildings;
+    buildings.sources = {data + "alexandria-buildings.geojson"};
+    buildings.kind = ThemeKind::Buildings;
+    buildings.height_field = "HEIGHT";
+    import_lines(town_path(), buildings, progress);
+  }
+  static void TearDownTestSuite() {
+    delete directory_;
+    directory_ = nullptr;
+  }
+  static std::string hills_path() { return directory_->file("hills.itin"); }
+  static std::string town_path() { return directory_->file("town.itin"); }
+
+  /// Observers of all kinds; one looks past the data's edge, and one reaches no cell's neighbourhood but its own.
+  static Request over_hills() {
+    Request request;
+    request.observers = {{"summit", {301500, 202500}, 30},
+                         {"valley", {303300, 200700}, 2},
+                         {"corner", {300020, 203970}, 12},
+                         {"near", {302200, 201800}, 5}};
+    request.observers[3].radius = 300;
+    request.observers[1].azimuth = AngleRange{200, 30};
+    request.target_height = 2;
+    request.cell_size = 13;
+    request.vertical_error = {0.5, 40};
+    return request;
+  }
+
+  static Request over_town() {
+    Request request;
+    request.observers = {{"street", {321800, 4297750}, 2}, {"roof", {321692.34, 4297619.88}, 25}};
+    request.cell_size = 3;
+    request.vertical_error = {0.3, 10};
+    request.themes = ThemeChoice::all();
+    return request;
+  }
+
+  /// The segments in a random order, every third of them as a file.
+  Result merged(const Store& store, const Plan& plan) {
+    std::vector<std::size_t> order(plan.segments().size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::shuffle(order.begin(), order.end(), random_);
+    Merge merge(plan);
+    for (const std::size_t i : order) {
+      Result result = decide(store, plan, i, progress_);
+      if (i % 3 == 0) {
+        const std::string path = directory_->file("segment");
+        write_segment(path, plan, i, result);
+        result = read_segment(path, plan, i);
+      }
+      merge.add(i, result);
+    }
+    return merge.take();
+  }
+
+  void expect_whole(const Store& store, const Request& request, const ComputeOptions& options,
+                    std::uint64_t most_cells = kAnyNumberOfCells) {
+    const Result whole = compute(store, request, progress_);
+    const Plan plan(store, request, options, most_cells);
+    EXPECT_GT(plan.segments().size(), 2U);
+    const Result parts = merged(store, plan);
+    test::expect_same_result(whole, parts);
+    EXPECT_EQ(parts.ground_m, whole.ground_m);
+    EXPECT_EQ(parts.theme_names, whole.theme_names);
+    visible_ += whole.cells.visible, hidden_ += whole.cells.hidden;
+  }
+
+  static inline test::TemporaryDirectory* directory_ = nullptr;
+  std::mt19937 random_{test::seed()};
+  NoProgress progress_;
+  std::uint64_t visible_ = 0, hidden_ = 0;
+};
+
+TEST_F(Plans, MakeTheWholeInEveryMode) {
+  const Store store(hills_path());
+  for (const Mode mode : kPlannedModes) {
+    SCOPED_TRACE(static_cast<int>(mode));
+    Request request = over_hills();
+    request.mode = mode;
+    expect_whole(store, request, {.memory_bytes = 6000000}, 20000);
+  }
+  EXPECT_GT(visible_, 1000U);
+  EXPECT_GT(hidden_, 1000U);
+}
+
+TEST_F(Plans, MakeTheWholeAcrossMissingGround) {
+  const Store store(hills_path());
+  for (const NoData nodata : {NoData::kUnknown, NoData::kBlock, NoData::kClear}) {
+    for (const Mode mode : {Mode::kVisible, Mode::kHeight, Mode::kBlocker}) {
+      SCOPED_TRACE(static_cast<int>(mode));
+      Request request = over_hills();
+      request.nodata = nodata;
+      request.mode = mode;
+      expect_whole(store, request, {}, 5000);
+    }
+  }
+}
+
+TEST_F(Plans, MakeTheWholeAtATolerance) {
+  const Store store(hills_path());
+  Request request = over_hills();
+  request.mode = Mode::kWhich;
+  request.detail = Detail::tolerance(4);
+  expect_whole(store, request, {}, 8000);
+  request.detail = Detail::rings({301500, 202500}, {{600, 0}, {1500, 2}, {3000, 8}});
+  expect_whole(store, request, {.memory_bytes = 8000000}, 30000);
+}
+
+TEST_F(Plans, MakeTheWholeInATown) {
+  const Store store(town_path());
+  for (const Mode mode : kPlannedModes) {
+    SCOPED_TRACE(static_cast<int>(mode));
+    Request request = over_town();
+    request.mode = mode;
+    expect_whole(store, request, {}, 8000);
+  }
+}
+
+/// With either engine, and with ends on the roofs.
+TEST_F(Plans, MakeTheWholeWithRays) {
+  const Store store(town_path());
+  Request request = over_town();
+  request.engine = Engine::kRays;
+  request.observers_on_surface = request.targets_on_surface = true;
+  request.mode = Mode::kNearest;
+  expect_whole(store, request, {}, 8000);
+}
+
+/// More observers than one word of bits holds, most of whom reach few segments.
+TEST_F(Plans, NumberObserversAsTheWholeDoes) {
+  const Store store(hills_path());
+  Request request = over_hills();
+  request.observers.clear();
+  std::uniform_real_distribution<double> along(100, 3900);
+  while (request.observers.size() < 70) {
+    Observer observer{std::to_string(request.observers.size()), {300000 + along(random_), 200000 + along(random_)}, 10};
+    if (std::hypot(observer.position.x - 301200, observer.position.y - 201600) < 300) continue;
+    observer.radius = 500;
+    request.observers.push_back(observer);
+  }
+  for (const Mode mode : {Mode::kCount, Mode::kWhich, Mode::kNearest}) {
+    request.mode = mode;
+    expect_whole(store, request, {}, 9000);
+  }
+}
+
+TEST_F(Plans, ListSegmentsNearestFirstEachCellOnce) {
+  const Store store(hills_path());
+  Request request = over_hills();
+  request.observers.resize(1);
+  request.radius = 900;
+  const std::uint64_t memory = 3000000;
+  const Plan plan(store, request, {.memory_bytes = memory}, 4096);
+  ASSERT_GT(plan.segments().size(), 4U);
+  std::vector<int> times(plan.grid().cell_count());
+  double last = 0;
+  for (const Segment& s : plan.segments()) {
+    EXPECT_GE(s.distance_m, last);
+    last = s.distance_m;
+    EXPECT_LE(s.columns * s.rows, 4096);
+    EXPECT_THAT(s.observers, testing::ElementsAre(0));
+    EXPECT_GT(s.points, 0U);
+    for (std::int64_t row = 0; row < s.rows; ++row)
+      for (std::int64_t column = 0; column < s.columns; ++column)
+        ++times[plan.grid().index({s.north_west.column + column, s.north_west.row + row})];
+  }
+  EXPECT_EQ(last <= 900, true);
+  EXPECT_EQ(*std::max_element(times.begin(), times.end()), 1);
+  const Result whole = compute(store, request, progress_);
+  for (std::size_t cell = 0; cell < times.size(); ++cell)
+    if (whole.visible[cell] != Verdict::kOutside) {
+      ASSERT_EQ(times[cell], 1) << cell;
+    }
+}
+
+TEST_F(Plans, KeepASubgridsCentres) {
+  const RasterGrid whole({300000.1, 204000.7}, 0.3, 0.7, 1000, 900);
+  const RasterGrid part = whole.part({123, 77}, 200, 300).part({50, 60}, 20, 30);
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_EQ(part.centre(i, i).x, whole.centre(173 + i, 137 + i).x);
+    EXPECT_EQ(part.centre(i, i).y, whole.centre(173 + i, 137 + i).y);
+  }
+  EXPECT_TRUE(part == whole.part({173, 137}, 20, 30));
+  EXPECT_THROW(std::ignore = part.part({1, 0}, 20, 30), InputError);
+  EXPECT_THROW(std::ignore = part.part({0, 0}, 0, 1), InputError);
+  EXPECT_THROW(std::ignore = part.part({-1, 0}, 2, 2), InputError);
+}
+
+TEST_F(Plans, AreEqualForEqualRequestsAlone) {
+  const Store store(hills_path());
+  const Request request = over_hills();
+  const ComputeOptions options{.memory_bytes = 6000000};
+  const std::uint64_t id = Plan(store, request, options).id();
+  EXPECT_EQ(Plan(Store(hills_path()), request, options).id(), id);
+  Request other = request;
+  other.observers[2].height += 1e-9;
+  EXPECT_NE(Plan(store, other, options).id(), id);
+  other = request;
+  other.mode = Mode::kCount;
+  EXPECT_NE(Plan(store, other, options).id(), id);
+  EXPECT_NE(Plan(store, request, options, 5000).id(), id);
+  EXPECT_NE(Plan(Store(town_path()), over_town(), options).id(), id);
+}
+
+TEST_F(Plans, TakeTheirOwnSegmentsAlone) {
+  const Store store(hills_path());
+  Request request = over_hills();
+  const Plan plan(store, request, {}, 20000);
+  ASSERT_GT(plan.segments().size(), 2U);
+  Merge merge(plan);
+  const Result first = decide(store, plan, 0, progress_);
+  merge.add(0, first);
+  merge.add(0, first);
+  EXPECT_EQ(merge.missing().size(), plan.segments().size() - 1);
+  EXPECT_THROW(std::ignore = merge.take(), InputError);
+  EXPECT_THROW(merge.add(1, first), InputError);
+
+  const std::string path = directory_->file("first");
+  write_segment(path, plan, 0, first);
+  EXPECT_THROW(std::ignore = read_segment(path, plan, 1), InputError);
+  request.target_height = 3;
+  EXPECT_THROW(std::ignore = read_segment(path, Plan(store, request, {}, 20000), 0), InputError);
+  EXPECT_THROW(std::ignore = read_segment(directory_->file("none"), plan, 0), FileError);
+}
+
+/// Whatever byte of it is damaged or missing.
+TEST_F(Plans, RefuseDamagedFiles) {
+  const Store store(hills_path());
+  Request request = over_hills();
+  request.mode = Mode::kBlocker;
+  const Plan plan(store, request, {}, 20000);
+  const std::string path = directory_->file("segment");
+  write_segment(path, plan, 0, decide(store, plan, 0, progress_));
+  std::ifstream in(path, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  for (std::size_t round = 0; round < 200; ++round) {
+    std::string damaged = bytes;
+    const std::size_t at = round < 40 ? round : random_() % bytes.size();
+    if (round % 2 == 0) {
+      damaged[at] = static_cast<char>(damaged[at] ^ (1 << round % 8));
+    } else {
+      damaged.resize(at);
+    }
+    std::ofstream(path, std::ios::binary | std::ios::trunc) << damaged;
+    EXPECT_THROW(std::ignore = read_segment(path, plan, 0), FileError) << at;
+  }
+}
+
+/// Cells of a request's own warn of missing ground where a line to them can cross it, and nowhere else.
+TEST_F(Plans, WarnOfMissingGroundWhereLinesCrossIt) {
+  const Store store(hills_path());
+  Request request = over_hills();
+  request.observers.resize(1);
+  request.mode = Mode::kCount;
+  request.cell_size.reset();
+  request.grid.emplace(Point2{302500, 203500}, 20, 20, 50, 50);
+  EXPECT_TRUE(compute(store, request, progress_).warnings.empty());
+  request.grid.emplace(Point2{300500, 201000}, 20, 20, 20, 20);
+  EXPECT_EQ(compute(store, request, progress_).warnings.size(), 1U);
+}
+
+}  // namespace
+}  // namespace itin::viewshed

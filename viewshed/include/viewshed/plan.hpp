@@ -1,0 +1,100 @@
+// The work of a viewshed as a value: segments of its cells, each decided for itself, in any order, by anyone who has
+// the store.
+//
+//   const viewshed::Plan plan(store, request, {.memory_bytes = 256 << 20});
+//   viewshed::Merge merge(plan);
+//   for (std::size_t i = 0; i < plan.segments().size(); ++i) merge.add(i, viewshed::decide(store, plan, i, progress));
+//   const viewshed::Result result = merge.take();
+//
+// The result is that of compute(), to the last bit. A plan follows from the store, the request, the memory and the most
+// cells of a segment, and from nothing else: who makes it elsewhere from these has the same segments, and results pass
+// between them as files:
+//
+//   viewshed::write_segment("7.segment", plan, 7, viewshed::decide(store, plan, 7, progress));   // on one machine
+//   merge.add(7, viewshed::read_segment("7.segment", plan, 7));                                  // on another
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <itin/progress.hpp>
+#include <itin/raster.hpp>
+#include <itin/store.hpp>
+#include <viewshed/viewshed.hpp>
+
+namespace itin::viewshed {
+
+/// A rectangle of cells, and the observers that may see some of them.
+struct Segment {
+  RasterGrid::Cell north_west;  ///< in Plan::grid()
+  std::int64_t columns = 0;
+  std::int64_t rows = 0;
+  std::vector<std::uint32_t> observers;  ///< their numbers from 0 in the request, ascending
+  double distance_m = 0;                 ///< from the nearest of them to the nearest cell
+  std::uint64_t points = 0;              ///< of the surface under the sight lines, about
+};
+
+inline constexpr std::uint64_t kAnyNumberOfCells = std::numeric_limits<std::uint64_t>::max();
+
+class Plan {
+ public:
+  /// Cuts the request's cells in halves until the surface under the sight lines to a segment fits into the memory (or
+  /// the segment is a single tile of 64 by 64 cells, which decide() then reads piece by piece), and has no more than
+  /// `most_cells` cells. Reads the store's directory alone. Throws InputError for a request that compute() refuses
+  /// whatever the surface.
+  Plan(const Store& store, const Request& request, const ComputeOptions& options = {},
+       std::uint64_t most_cells = kAnyNumberOfCells);
+
+  const Request& request() const { return request_; }
+  const ComputeOptions& options() const { return options_; }
+  /// All cells. Those that belong to no segment are outside of every field of view.
+  const RasterGrid& grid() const { return grid_; }
+  /// The nearest to an observer first.
+  const std::vector<Segment>& segments() const { return segments_; }
+  /// What decide() computes: the viewshed of the segment's observers on its cells.
+  Request request_of(std::size_t segment) const;
+  /// Equal for plans with the same segments of the same request on the same store, and for no others.
+  std::uint64_t id() const { return id_; }
+
+ private:
+  Request request_;
+  ComputeOptions options_;
+  RasterGrid grid_;
+  std::vector<Segment> segments_;
+  std::uint64_t id_ = 0;
+};
+
+/// The segment's cells alone; `store` is the one that the plan was made for. Cost and errors are those of
+/// compute_with_surface() on Plan::request_of().
+Result decide(const Store& store, const Plan& plan, std::size_t segment, Progress& progress);
+
+/// The results of segments put together, in any order. The plan must outlive it.
+class Merge {
+ public:
+  explicit Merge(const Plan& plan);
+  ~Merge();
+
+  /// Throws InputError for a result that is not this segment's. One that is there already may come again.
+  void add(std::size_t segment, const Result& result);
+  /// The segments that have not come, ascending.
+  std::vector<std::size_t> missing() const;
+  /// What compute() gives. The statistics are the sums of all segments'. Throws InputError while any is missing.
+  Result take();
+
+ private:
+  class Rasters;
+  std::unique_ptr<Rasters> rasters_;
+};
+
+/// Equal results give equal bytes, but for statistics. Throws FileError; an existing file is replaced once the new one
+/// is complete.
+void write_segment(const std::string& path, const Plan& plan, std::size_t segment, const Result& result);
+
+/// Throws FileError where the file cannot be read or is damaged, InputError where it holds another plan's segment or
+/// another segment.
+Result read_segment(const std::string& path, const Plan& plan, std::size_t segment);
+
+}  // namespace itin::viewshed

@@ -1,0 +1,99 @@
+#include "plan/plan_id.hpp"
+
+#include <string>
+
+#include <fmt/format.h>
+
+#include <itin/packed_file.hpp>
+
+namespace itin::viewshed {
+
+namespace {
+
+/// Values one after the other as text, numbers to the last bit.
+class Text {
+ public:
+  template <class... Values>
+  void add(const Values&... values) {
+    (put(values), ...);
+  }
+  std::uint64_t hash() const { return content_hash(text_); }
+
+ private:
+  void put(double v) { text_ += fmt::format("{:a};", v); }
+  void put(std::uint64_t v) { text_ += fmt::format("{};", v); }
+  void put(std::int64_t v) { text_ += fmt::format("{};", v); }
+  void put(std::uint32_t v) { put(std::uint64_t{v}); }
+  void put(bool v) { put(std::uint64_t{v}); }
+  template <class E>
+  requires std::is_enum_v<E>
+  void put(E v) { put(static_cast<std::uint64_t>(v)); }
+  void put(const std::string& v) { text_ += fmt::format("{}:{};", v.size(), v); }
+  void put(Point2 v) { add(v.x, v.y); }
+  void put(const AngleRange& v) { add(v.from, v.to); }
+  void put(const Ring& v) { add(v.radius, v.tolerance); }
+  void put(const Box& v) { add(v.xmin, v.ymin, v.xmax, v.ymax); }
+  template <class T>
+  void put(const std::optional<T>& v) {
+    put(v.has_value());
+    if (v) put(*v);
+  }
+  template <class T>
+  void put(const std::vector<T>& all) {
+    put(std::uint64_t{all.size()});
+    for (const T& v : all) put(v);
+  }
+
+  // Every field of these is named, so that a new one cannot be forgotten.
+  void put(const Observer& v) {
+    const auto& [name, position, height, absolute, target_height, radius, min_radius, azimuth, elevation] = v;
+    add(name, position, height, absolute, target_height, radius, min_radius, azimuth, elevation);
+  }
+  void put(const Earth& v) {
+    const auto& [curvature, refraction, radius, effective_factor] = v;
+    add(curvature, refraction, radius, effective_factor);
+  }
+  void put(const VerticalError& v) {
+    const auto& [sigma, correlation_length] = v;
+    add(sigma, correlation_length);
+  }
+  void put(const Segment& v) {
+    const auto& [north_west, columns, rows, observers, distance_m, points] = v;
+    add(north_west.column, north_west.row, columns, rows, observers, distance_m, points);
+  }
+
+  std::string text_;
+};
+
+void add_request(Text& text, const Request& request, const std::vector<ThemeInfo>& themes) {
+  const auto& [observers, target_height, target_absolute, radius, min_radius, azimuth, elevation, cell_size, grid,
+               earth, detail, choice, observers_on_surface, targets_on_surface, nodata, engine, mode, vertical_error] =
+      request;
+  text.add(observers, target_height, target_absolute, radius, min_radius, azimuth, elevation, cell_size,
+           grid.has_value(), earth, detail.centre(), detail.rings(), choice.names(themes), observers_on_surface,
+           targets_on_surface, nodata, engine, mode, vertical_error);
+}
+
+/// A store has no digest of its own: what tells it from others is what was imported, and what became of it.
+void add_store(Text& text, const StoreMetadata& store) {
+  text.add(store.crs_wkt, store.grid.origin, store.grid.resolution, store.vertices);
+  for (const LevelInfo& level : store.levels)
+    text.add(level.tolerance, level.lateral_tolerance, level.vertices, level.certified_error.lo,
+             level.certified_error.hi);
+  for (const SourceInfo& source : store.sources)
+    text.add(source.path, source.theme, source.imported, source.sha256, source.vertices);
+  for (const ThemeInfo& theme : store.themes) text.add(theme.name, theme.features, theme.vertices, theme.segments);
+}
+
+}  // namespace
+
+std::uint64_t id_of(const StoreMetadata& store, const Request& request, const RasterGrid& grid,
+                    const std::vector<Segment>& segments) {
+  Text text;
+  add_store(text, store);
+  add_request(text, request, store.themes);
+  text.add(grid.north_west(), grid.cell_width(), grid.cell_height(), grid.columns(), grid.rows(), segments);
+  return text.hash();
+}
+
+}  // namespace itin::viewshed
