@@ -1,6 +1,5 @@
 #include "certify/certified_sectors.hpp"
 
-#include <atomic>
 #include <limits>
 #include <optional>
 #include <span>
@@ -10,8 +9,9 @@
 #include <itin/silent_progress.hpp>
 #include <viewshed/surface.hpp>
 
+#include "certify/certified_cells.hpp"
+#include "judge/envelope_judge.hpp"
 #include "line/hulls.hpp"
-#include "line/verdicts.hpp"
 #include "plan/sight_sectors.hpp"
 #include "progress/stage.hpp"
 #include "progress/stopwatch.hpp"
@@ -45,16 +45,14 @@ class CertifiedSectors {
         std::make_shared<Surface>(Surface{coverage_of(store_, window_of(request_), progress_), nullptr, {}});
     result.grid = cells_of(request_, extent_of(store_));
     tiles_ = grid_of_tiles(result.grid);
-    verdicts_.resize(tiles_.cell_count());
     const std::size_t cells = result.grid.cell_count();
-    stage_.emplace("cells judged", eyes.size() * cells, progress_);
+    Stage stage("cells judged", eyes.size() * cells, progress_);
+    cells_.emplace(result.grid, tiles_, stage);
     for (std::size_t i = 0; i < eyes.size(); ++i) {
       look(eyes[i]);
-      stage_->advance_to((i + 1) * cells);
+      stage.advance_to((i + 1) * cells);
     }
-    result.visible.resize(result.grid.cell_count());
-    for (std::size_t tile = 0; tile < verdicts_.size(); ++tile)
-      verdicts_[tile].store(tile_at(result.grid, tiles_, tile), result, result.cells);
+    cells_->store(result);
     result.statistics.lines_seconds += watch_.lap();
     return std::move(surveyed_);
   }
@@ -87,23 +85,9 @@ class CertifiedSectors {
     result.statistics.triangles += envelope.lower.triangles.size();
     result.statistics.retrieval_seconds += watch_.lap();
     const EnvelopeScene scene(std::move(envelope), request_, tiles_, voids_);
-    const EnvelopeScene::Look look = scene.look_from(eye);
+    const EnvelopeJudge judge(scene, result.grid, tiles_, {eye});
     result.statistics.scene_seconds += watch_.lap();
-    const CertifiedPass pass(scene, result.grid, tiles_);
-    const std::vector<PartsOfTile> cells = by_tile(parts, tiles_);
-    std::atomic<std::uint64_t> rays = 0;
-    stage_->for_each(cells.size(), [&](std::size_t i) {
-      const auto work = pass.begin(cells[i].tile);
-      Verdicts& verdicts = verdicts_[cells[i].tile];
-      TileValues<Verdict> values;
-      values.fill(Verdict::kOutside);
-      for_each_cell(cells[i], work->tile, [&](std::size_t cell) { values[cell] = verdicts.open(cell); });
-      pass.judge(look, values, *work, nullptr);
-      verdicts.add(values);
-      rays += work->rays;
-      return cell_count(cells[i].parts);
-    });
-    result.statistics.lines += rays;
+    cells_->judge(judge, 1, by_tile(parts, tiles_));
     result.statistics.lines_seconds += watch_.lap();
   }
 
@@ -118,8 +102,7 @@ class CertifiedSectors {
   Stopwatch watch_;
   Surveyed surveyed_;
   RasterGrid tiles_;
-  std::optional<Stage> stage_;      ///< its steps are cells, of all observers
-  std::vector<Verdicts> verdicts_;  ///< a tile
+  std::optional<CertifiedCells> cells_;
 };
 
 }  // namespace

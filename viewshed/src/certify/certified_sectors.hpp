@@ -7,7 +7,7 @@
 #include <itin/store.hpp>
 #include <viewshed/viewshed.hpp>
 
-#include "certify/certified_pass.hpp"
+#include "request/void_shadow.hpp"
 
 namespace itin::viewshed {
 

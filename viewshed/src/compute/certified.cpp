@@ -7,9 +7,10 @@
 #include <viewshed/certified.hpp>
 #include <viewshed/surface.hpp>
 
-#include "certify/certified_pass.hpp"
+#include "certify/certified_cells.hpp"
 #include "certify/certified_sectors.hpp"
-#include "line/verdicts.hpp"
+#include "judge/envelope_judge.hpp"
+#include "plan/sight_sectors.hpp"
 #include "progress/stage.hpp"
 #include "progress/stopwatch.hpp"
 #include "request/request.hpp"
@@ -18,38 +19,6 @@
 namespace itin::viewshed {
 
 namespace {
-
-struct Tally {
-  CellCounts cells;
-  std::uint64_t rays = 0;
-};
-
-Tally decide(const CertifiedPass& pass, std::size_t tile, const std::vector<EnvelopeScene::Look>& looks,
-             Result& result) {
-  const auto work = pass.begin(tile);
-  Verdicts verdicts;
-  for (const EnvelopeScene::Look& look : looks) {
-    TileValues<Verdict> values;
-    for (std::size_t cell = 0; cell < values.size(); ++cell) values[cell] = verdicts.open(cell);
-    pass.judge(look, values, *work, nullptr);
-    verdicts.add(values);
-  }
-  Tally tally;
-  tally.rays = work->rays;
-  verdicts.store(work->tile, result, tally.cells);
-  return tally;
-}
-
-void decide_all(const CertifiedPass& pass, const RasterGrid& tiles, const std::vector<EnvelopeScene::Look>& looks,
-                Result& result, Progress& progress) {
-  std::vector<Tally> tallies(tiles.cell_count());
-  for_each_step(tallies.size(), "sight lines", progress,
-                [&](std::size_t i) { tallies[i] = decide(pass, i, looks, result); });
-  for (const Tally& tally : tallies) {
-    result.cells += tally.cells;
-    result.statistics.lines += tally.rays;
-  }
-}
 
 /// A point of an envelope costs about as much as two of the full surface, or as so many posts of a lattice.
 constexpr std::uint64_t kEnvelopeCosts = 2, kEnvelopeCostsInPosts = 128;
@@ -126,12 +95,13 @@ Surveyed compute_certified(const Store& store, const Request& request, const Com
   result.grid = cells_of(request, extent_of(store));
   const RasterGrid tiles = grid_of_tiles(result.grid);
   const EnvelopeScene scene(std::move(envelope), request, tiles, voids_of(request));
-  std::vector<EnvelopeScene::Look> looks;
-  for (const Eye& eye : eyes) looks.push_back(scene.look_from(eye));
+  const EnvelopeJudge judge(scene, result.grid, tiles, eyes);
   result.statistics.scene_seconds = watch.lap();
 
-  result.visible.resize(result.grid.cell_count());
-  decide_all(CertifiedPass(scene, result.grid, tiles), tiles, looks, result, progress);
+  Stage stage("cells judged", eyes.size() * result.grid.cell_count(), progress);
+  CertifiedCells cells(result.grid, tiles, stage);
+  cells.judge(judge, eyes.size(), all_cells(result.grid, tiles));
+  cells.store(result);
   result.statistics.lines_seconds = watch.lap();
   surveyed.surface = std::make_shared<Surface>(Surface{scene.envelope.lower, nullptr, {}});
   return surveyed;

@@ -14,7 +14,7 @@
 #include <viewshed/certified.hpp>
 #include <viewshed/surface.hpp>
 
-#include "certify/certified_pass.hpp"
+#include "judge/certified_pass.hpp"
 #include "line/cell_tiles.hpp"
 #include "modes/observation.hpp"
 #include "plan/ground_tiles.hpp"

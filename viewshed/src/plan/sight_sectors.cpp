@@ -108,4 +108,10 @@ std::vector<PartsOfTile> by_tile(std::span<const Tile> parts, const RasterGrid& 
   return all;
 }
 
+std::vector<PartsOfTile> all_cells(const RasterGrid& grid, const RasterGrid& tiles) {
+  std::vector<PartsOfTile> all(tiles.cell_count());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = {i, {tile_at(grid, tiles, i)}};
+  return all;
+}
+
 }  // namespace itin::viewshed

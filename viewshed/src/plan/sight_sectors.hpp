@@ -61,6 +61,8 @@ struct PartsOfTile {
   std::vector<Tile> parts;
 };
 std::vector<PartsOfTile> by_tile(std::span<const Tile> parts, const RasterGrid& tiles);
+/// Every tile, whole.
+std::vector<PartsOfTile> all_cells(const RasterGrid& grid, const RasterGrid& tiles);
 
 /// Calls visit(cell in the tile) for each cell of the parts.
 template <class Visit>

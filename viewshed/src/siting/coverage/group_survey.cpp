@@ -6,6 +6,12 @@ Eye eye_at(const Grid& grid, const Request& request, const SiteStand& stand) {
   return eye_of(grid, request, {stand.name, stand.position, stand.elevation(), true}, stand.ground);
 }
 
+std::vector<Eye> eyes_of(const Grid& grid, const SiteSurvey& survey, const SiteLooks& looks) {
+  std::vector<Eye> eyes;
+  for (const std::size_t option : looks.options) eyes.push_back(eye_at(grid, looks.request, survey.stands[option]));
+  return eyes;
+}
+
 Request request_of(const SiteSurvey& survey, std::span<const std::size_t> options) {
   Request request;
   for (const std::size_t option : options) {

@@ -52,4 +52,7 @@ Request request_of(const SiteSurvey& survey, std::span<const std::size_t> option
 
 Eye eye_at(const Grid& grid, const Request& request, const SiteStand& stand);
 
+/// Each look's.
+std::vector<Eye> eyes_of(const Grid& grid, const SiteSurvey& survey, const SiteLooks& looks);
+
 }  // namespace itin::viewshed

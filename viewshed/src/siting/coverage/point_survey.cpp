@@ -7,7 +7,7 @@
 #include <itin/parallel.hpp>
 
 #include "bounds/surface_heights.hpp"
-#include "certify/certified_pass.hpp"
+#include "judge/certified_pass.hpp"
 #include "line/grid_units.hpp"
 #include "line/sight_line.hpp"
 #include "progress/stage.hpp"

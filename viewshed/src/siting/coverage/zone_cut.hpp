@@ -3,20 +3,12 @@
 
 #include <cstdint>
 
+#include "judge/tile_judge.hpp"
 #include "line/cell_tiles.hpp"
 #include "request/eye.hpp"
 #include "siting/coverage/clear_zone.hpp"
 
 namespace itin::viewshed {
-
-/// Where the targets of a tile's cells may be, grid units; kNoSurface where none is. Over the full surface `low` and
-/// `high` are one.
-struct TileTargets {
-  const TileCentres& centres;
-  const TileValues<double>& low;
-  const TileValues<double>& high;
-  bool exact() const { return &low == &high; }
-};
 
 /// Visible cells and undecided ones whose zone is certainly cut become Verdict::kHidden; visible ones become
 /// Verdict::kUndecided where it is not certainly clear. A target at the eye's own place has no zone.

@@ -1,4 +1,4 @@
-#include "certify/certified_pass.hpp"
+#include "judge/certified_pass.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -20,17 +20,24 @@ EnvelopeScene::EnvelopeScene(Envelope e, const Request& request, const RasterGri
       bins(envelope.lower, tiles),
       voids(v),
       exact(envelope.exact),
-      drop(request.earth.drop_coefficient() * envelope.lower.grid.resolution) {
+      drop(request.earth.drop_coefficient() * envelope.lower.grid.resolution),
+      tiles_(tiles) {
   if (envelope.bare_ground) ground_bins.emplace(*envelope.bare_ground, tiles);
 }
 
 EnvelopeScene::Look EnvelopeScene::look_from(const Eye& eye) const {
-  std::vector<std::uint32_t> all(envelope.upper.triangles.size());
-  std::iota(all.begin(), all.end(), 0U);
-  return look_from(eye, all);
+  const auto tile = tiles_.cell_at(eye.position);
+  std::vector<std::uint32_t> all;
+  if (!tile) {
+    all.resize(envelope.upper.triangles.size());
+    std::iota(all.begin(), all.end(), 0U);
+  }
+  Look look{eye, upper_height(eye, tile ? bins.triangles(tiles_.index(*tile)) : all)};
+  if (voids != Voids::kPass) look.shadow.emplace(rim_of(envelope.upper, envelope.outline), eye.units, voids);
+  return look;
 }
 
-EnvelopeScene::Look EnvelopeScene::look_from(const Eye& eye, std::span<const std::uint32_t> triangles) const {
+double EnvelopeScene::upper_height(const Eye& eye, std::span<const std::uint32_t> triangles) const {
   const Tin& tin = envelope.upper;
   double highest = -std::numeric_limits<double>::infinity();
   const auto apart = [](double v, std::int32_t a, std::int32_t b, std::int32_t c) {
@@ -42,9 +49,7 @@ EnvelopeScene::Look EnvelopeScene::look_from(const Eye& eye, std::span<const std
     if (apart(eye.units.x, a.x, b.x, c.x) || apart(eye.units.y, a.y, b.y, c.y)) continue;
     if (const auto height = surface_height(tin, {&t, 1}, eye.position)) highest = std::max(highest, *height);
   }
-  Look look{eye, highest};
-  if (voids != Voids::kPass) look.shadow.emplace(rim_of(tin, envelope.outline), eye.units, voids);
-  return look;
+  return highest;
 }
 
 CertifiedPass::CertifiedPass(const EnvelopeScene& scene, const RasterGrid& grid, const RasterGrid& tiles)

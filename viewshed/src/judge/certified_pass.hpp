@@ -30,6 +30,7 @@ namespace itin::viewshed {
 
 class EnvelopeScene {
  public:
+  /// `tiles` must outlive it.
   EnvelopeScene(Envelope envelope, const Request& request, const RasterGrid& tiles, Voids voids);
   EnvelopeScene(const EnvelopeScene&) = delete;
   EnvelopeScene& operator=(const EnvelopeScene&) = delete;
@@ -41,8 +42,6 @@ class EnvelopeScene {
     std::optional<VoidShadow> shadow = std::nullopt;  ///< unless voids are passed
   };
   Look look_from(const Eye& eye) const;
-  /// The same, from those of the triangles that may lie under the eye.
-  Look look_from(const Eye& eye, std::span<const std::uint32_t> triangles) const;
 
   Envelope envelope;
   Scene lower;
@@ -51,7 +50,13 @@ class EnvelopeScene {
   std::optional<TriangleBins> ground_bins;  ///< of the bare ground, where the envelope has it
   Voids voids;
   bool exact;   ///< both surfaces are the full one, of level 0
-  double drop;  ///< by curvature, grid units a squared grid unit
+  double drop;  ///< by curvature, grid units for a squared grid unit
+
+ private:
+  /// Of the upper surface, grid units; -infinity where there is none.
+  double upper_height(const Eye& eye, std::span<const std::uint32_t> triangles) const;
+
+  const RasterGrid& tiles_;
 };
 
 /// Lines of a packet that are not decided, to their lowest targets.

@@ -1,4 +1,4 @@
-#include "siting/coverage/tile_judge.hpp"
+#include "siting/coverage/judge_tiles.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,6 +10,7 @@
 
 #include "progress/stage.hpp"
 #include "siting/coverage/cell_blocks.hpp"
+#include "siting/coverage/zone_cut.hpp"
 
 namespace itin::viewshed {
 
@@ -92,8 +93,9 @@ DemandSet set_of(std::vector<DemandSet::Block>& blocks) {
 }
 
 /// What every option serves of one tile. Returns how many sight lines that took.
-std::uint64_t judge_tile(const TileJudge& judge, const SiteSurvey& survey, const SiteLooks& looks,
-                         const RasterGrid& tiles, std::size_t t, std::vector<TileCover>& covers) {
+std::uint64_t judge_tile(const TileJudge& judge, const std::optional<ClearZone>& zone, const SiteSurvey& survey,
+                         const SiteLooks& looks, const RasterGrid& tiles, std::size_t t,
+                         std::vector<TileCover>& covers) {
   const RasterGrid& grid = *survey.targets.grid;
   const CellBlocks blocks(grid);
   const Tile tile = tile_at(grid, tiles, t);
@@ -107,6 +109,7 @@ std::uint64_t judge_tile(const TileJudge& judge, const SiteSurvey& survey, const
     if (open(blocks, tile, *looks.bounds[i], cover, values)) {
       if (!work) work = judge.begin(t);
       rays += work->judge(i, values);
+      if (zone) cut_zones(*zone, judge.eye(i), work->targets(), values);
       close(values, cover);
     }
     if (cover.any()) covers.push_back(cover);
@@ -139,13 +142,14 @@ std::vector<CoverageBounds> gather(const SiteSurvey& survey, const RasterGrid& t
 
 }  // namespace
 
-std::vector<CoverageBounds> judge_tiles(const TileJudge& judge, const SiteSurvey& survey, const SiteLooks& looks,
-                                        Progress& progress, Statistics& statistics) {
+std::vector<CoverageBounds> judge_tiles(const TileJudge& judge, const std::optional<ClearZone>& zone,
+                                        const SiteSurvey& survey, const SiteLooks& looks, Progress& progress,
+                                        Statistics& statistics) {
   const RasterGrid tiles = grid_of_tiles(*survey.targets.grid);
   std::vector<std::vector<TileCover>> covers(tiles.cell_count());
   std::atomic<std::uint64_t> rays = 0;
   for_each_step(covers.size(), "sight lines of candidates", progress,
-                [&](std::size_t t) { rays += judge_tile(judge, survey, looks, tiles, t, covers[t]); });
+                [&](std::size_t t) { rays += judge_tile(judge, zone, survey, looks, tiles, t, covers[t]); });
   statistics.lines += rays;
   return gather(survey, tiles, looks.options.size(), covers);
 }

@@ -1,0 +1,38 @@
+#include "certify/certified_cells.hpp"
+
+#include <atomic>
+
+namespace itin::viewshed {
+
+void CertifiedCells::judge(const TileJudge& judge, std::size_t eyes, std::span<const PartsOfTile> cells) {
+  std::atomic<std::uint64_t> lines = 0;
+  stage_.for_each(cells.size(), [&](std::size_t i) {
+    lines += this->judge(judge, eyes, cells[i]);
+    return eyes * cell_count(cells[i].parts);
+  });
+  lines_ += lines;
+}
+
+std::uint64_t CertifiedCells::judge(const TileJudge& judge, std::size_t eyes, const PartsOfTile& cells) {
+  const auto work = judge.begin(cells.tile);
+  const Tile tile = tile_at(grid_, tiles_, cells.tile);
+  Verdicts& verdicts = verdicts_[cells.tile];
+  std::uint64_t lines = 0;
+  for (std::size_t eye = 0; eye < eyes; ++eye) {
+    TileValues<Verdict> values;
+    values.fill(Verdict::kOutside);
+    for_each_cell(cells, tile, [&](std::size_t cell) { values[cell] = verdicts.open(cell); });
+    lines += work->judge(eye, values);
+    verdicts.add(values);
+  }
+  return lines;
+}
+
+void CertifiedCells::store(Result& result) const {
+  result.visible.resize(grid_.cell_count());
+  for (std::size_t tile = 0; tile < verdicts_.size(); ++tile)
+    verdicts_[tile].store(tile_at(grid_, tiles_, tile), result, result.cells);
+  result.statistics.lines += lines_;
+}
+
+}  // namespace itin::viewshed

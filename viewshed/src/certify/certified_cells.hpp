@@ -1,0 +1,43 @@
+// What all eyes together know of the cells, judged one group of eyes and cells after another.
+//
+//   CertifiedCells cells(grid, tiles, stage);
+//   cells.judge(EnvelopeJudge(scene, grid, tiles, eyes), eyes.size(), by_tile(parts, tiles));
+//   cells.store(result);
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <viewshed/viewshed.hpp>
+
+#include "judge/tile_judge.hpp"
+#include "line/verdicts.hpp"
+#include "plan/sight_sectors.hpp"
+#include "progress/stage.hpp"
+
+namespace itin::viewshed {
+
+class CertifiedCells {
+ public:
+  /// Every cell judged for an eye is a step of the stage. All must outlive it.
+  CertifiedCells(const RasterGrid& grid, const RasterGrid& tiles, Stage& stage)
+      : grid_(grid), tiles_(tiles), stage_(stage), verdicts_(tiles.cell_count()) {}
+
+  /// What one eye certainly sees is not asked of the others. Throws Cancelled.
+  void judge(const TileJudge& judge, std::size_t eyes, std::span<const PartsOfTile> cells);
+
+  /// Adds the counts and the sight lines to the result's.
+  void store(Result& result) const;
+
+ private:
+  std::uint64_t judge(const TileJudge& judge, std::size_t eyes, const PartsOfTile& cells);
+
+  const RasterGrid& grid_;
+  const RasterGrid& tiles_;
+  Stage& stage_;
+  std::vector<Verdicts> verdicts_;  ///< each tile's
+  std::uint64_t lines_ = 0;
+};
+
+}  // namespace itin::viewshed

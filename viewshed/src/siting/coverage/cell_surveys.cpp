@@ -1,0 +1,69 @@
+// Cells judged over the full surface, or over bounds of it.
+#include "judge/envelope_judge.hpp"
+#include "judge/exact_judge.hpp"
+#include "siting/coverage/judge_tiles.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+class EnvelopeCells final : public GroupSurvey {
+ public:
+  EnvelopeCells(const SiteSurvey& survey, const Request& request, Envelope envelope, bool zones)
+      : survey_(survey),
+        tiles_(grid_of_tiles(*survey.targets.grid)),
+        scene_(std::move(envelope), request, tiles_, voids_without_doubt(survey.nodata)) {
+    if (zones) zone_.emplace(scene_.envelope.lower, &scene_.envelope.upper, survey.earth, *survey.fresnel);
+  }
+
+  std::vector<CoverageBounds> judge(const SiteLooks& looks, Progress& progress, Statistics& statistics) const override {
+    const EnvelopeJudge judge(scene_, *survey_.targets.grid, tiles_,
+                              eyes_of(scene_.envelope.lower.grid, survey_, looks));
+    return judge_tiles(judge, zone_, survey_, looks, progress, statistics);
+  }
+
+ private:
+  const SiteSurvey& survey_;
+  RasterGrid tiles_;
+  EnvelopeScene scene_;
+  std::optional<ClearZone> zone_;
+};
+
+class ExactCells final : public GroupSurvey {
+ public:
+  ExactCells(const SiteSurvey& survey, Surface surface, std::optional<Tin> bare_ground,
+             const std::vector<Point2>& eyes_of_rays)
+      : survey_(survey),
+        tiles_(grid_of_tiles(*survey.targets.grid)),
+        surface_(std::move(surface), std::move(bare_ground), survey.earth, *survey.targets.grid, tiles_, eyes_of_rays) {
+    if (survey.fresnel) zone_.emplace(surface_.surface.tin, nullptr, survey.earth, *survey.fresnel);
+  }
+
+  std::vector<CoverageBounds> judge(const SiteLooks& looks, Progress& progress, Statistics& statistics) const override {
+    const ExactJudge judge(surface_.full, eyes_of(surface_.full.units(), survey_, looks), survey_.nodata);
+    auto result = judge_tiles(judge, zone_, survey_, looks, progress, statistics);
+    for (CoverageBounds& bounds : result) bounds.exact = true;
+    return result;
+  }
+
+ private:
+  const SiteSurvey& survey_;
+  RasterGrid tiles_;
+  OwnedSurface surface_;
+  std::optional<ClearZone> zone_;
+};
+
+}  // namespace
+
+std::unique_ptr<GroupSurvey> survey_cells(const SiteSurvey& survey, const Request& request, Envelope envelope,
+                                          bool zones) {
+  return std::make_unique<EnvelopeCells>(survey, request, std::move(envelope), zones);
+}
+
+std::unique_ptr<GroupSurvey> survey_cells_exactly(const SiteSurvey& survey, Surface surface,
+                                                  std::optional<Tin> bare_ground,
+                                                  const std::vector<Point2>& eyes_of_rays) {
+  return std::make_unique<ExactCells>(survey, std::move(surface), std::move(bare_ground), eyes_of_rays);
+}
+
+}  // namespace itin::viewshed
