@@ -8,7 +8,6 @@
 #include <itin/coordinates.hpp>
 #include <itin/error.hpp>
 #include <itin/store.hpp>
-#include <viewshed/certified.hpp>
 #include <viewshed/viewshed.hpp>
 
 #include "options/detail_options.hpp"

@@ -9,7 +9,7 @@
 
 #include <itin/import.hpp>
 #include <itin/store.hpp>
-#include <viewshed/certified.hpp>
+#include <viewshed/viewshed.hpp>
 
 #include "support/full_detail.hpp"
 #include "support/raster_file.hpp"

@@ -10,7 +10,7 @@
 #include <itin/error.hpp>
 #include <itin/import.hpp>
 #include <itin/triangulate.hpp>
-#include <viewshed/certified.hpp>
+#include <viewshed/viewshed.hpp>
 
 #include "line/grid_units.hpp"
 #include "request/eye.hpp"

@@ -9,7 +9,7 @@
 #include <itin/error.hpp>
 #include <itin/import.hpp>
 #include <itin/triangulate.hpp>
-#include <viewshed/certified.hpp>
+#include <viewshed/viewshed.hpp>
 #include <viewshed/site_coverage.hpp>
 
 #include "bounds/surface_heights.hpp"

@@ -10,7 +10,7 @@
 
 #include <itin/error.hpp>
 #include <itin/import.hpp>
-#include <viewshed/certified.hpp>
+#include <viewshed/viewshed.hpp>
 
 #include "compute/lattice_sectors.hpp"
 #include "support/full_detail.hpp"

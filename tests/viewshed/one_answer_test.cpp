@@ -15,7 +15,6 @@
 #include <itin/import.hpp>
 #include <itin/store.hpp>
 #include <profile/los.hpp>
-#include <viewshed/certified.hpp>
 #include <viewshed/viewshed.hpp>
 
 #include "support/full_detail.hpp"

@@ -9,78 +9,27 @@
 #include <gtest/gtest.h>
 
 #include <itin/error.hpp>
-#include <itin/import.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/plan.hpp>
 
-#include "support/raster_file.hpp"
+#include "support/hills_and_town.hpp"
 #include "support/same_result.hpp"
 #include "support/seed.hpp"
-#include "support/temporary_directory.hpp"
-#include "support/terrain_tin.hpp"
 
 namespace itin::viewshed {
 namespace {
 
-constexpr Mode kPlannedModes[] = {Mode::kVisible, Mode::kCount,   Mode::kWhich,  Mode::kAngle,
-                                  Mode::kNearest, Mode::kBlocker, Mode::kHeight, Mode::kProbability};
-
 class Plans : public testing::Test {
  protected:
-  /// Hills with a hole, 4 km by 4 km.
-  static void SetUpTestSuite() {
-    directory_ = new test::TemporaryDirectory;
-    const std::vector<double> z = test::fractal_heights(257, 200, 0.55, 11);
-    const std::string raster = directory_->file("hills.tif");
-    test::write_raster(raster, {300000, 204000, 20, 200, 200, 27700}, [&](int c, int r) {
-      if (std::hypot(c - 60, r - 120) < 12) return std::nan("");
-      return z[static_cast<std::size_t>(r) * 257 + static_cast<std::size_t>(c)];
-    });
-    NoProgress progress;
-    ImportOptions options;
-    options.sources = {raster};
-    import_terrain(hills_path(), options, progress);
-
-    const std::string data = std::string(ITIN_SOURCE_DIR) + "/scripts/demo-data/";
-    ImportOptions terrain;
-    terrain.sources = {data + "alexandria-dtm.tif"};
-    import_terrain(town_path(), terrain, progress);
-    ImportOptions buildings;
-    buildings.sources = {data + "alexandria-buildings.geojson"};
-    buildings.kind = ThemeKind::Buildings;
-    buildings.height_field = "HEIGHT";
-    import_lines(town_path(), buildings, progress);
-  }
+  static void SetUpTestSuite() { stores_ = new test::HillsAndTown; }
   static void TearDownTestSuite() {
-    delete directory_;
-    directory_ = nullptr;
+    delete stores_;
+    stores_ = nullptr;
   }
-  static std::string hills_path() { return directory_->file("hills.itin"); }
-  static std::string town_path() { return directory_->file("town.itin"); }
-
-  /// Observers of all kinds; one looks past the data's edge, and one reaches no cell's neighbourhood but its own.
-  static Request over_hills() {
-    Request request;
-    request.observers = {{"summit", {301500, 202500}, 30},
-                         {"valley", {303300, 200700}, 2},
-                         {"corner", {300020, 203970}, 12},
-                         {"near", {302200, 201800}, 5}};
-    request.observers[3].radius = 300;
-    request.observers[1].azimuth = AngleRange{200, 30};
-    request.target_height = 2;
-    request.cell_size = 13;
-    request.vertical_error = {0.5, 40};
-    return request;
-  }
-
-  static Request over_town() {
-    Request request;
-    request.observers = {{"street", {321800, 4297750}, 2}, {"roof", {321692.34, 4297619.88}, 25}};
-    request.cell_size = 3;
-    request.vertical_error = {0.3, 10};
-    request.themes = ThemeChoice::all();
-    return request;
-  }
+  static std::string hills_path() { return stores_->hills(); }
+  static std::string town_path() { return stores_->town(); }
+  static Request over_hills() { return test::HillsAndTown::over_hills(); }
+  static Request over_town() { return test::HillsAndTown::over_town(); }
 
   /// The segments in a random order, every third of them as a file.
   Result merged(const Store& store, const Plan& plan) {
@@ -91,7 +40,7 @@ class Plans : public testing::Test {
     for (const std::size_t i : order) {
       Result result = decide(store, plan, i, progress_);
       if (i % 3 == 0) {
-        const std::string path = directory_->file("segment");
+        const std::string path = stores_->file("segment");
         write_segment(path, plan, i, result);
         result = read_segment(path, plan, i);
       }
@@ -112,7 +61,7 @@ class Plans : public testing::Test {
     visible_ += whole.cells.visible, hidden_ += whole.cells.hidden;
   }
 
-  static inline test::TemporaryDirectory* directory_ = nullptr;
+  static inline test::HillsAndTown* stores_ = nullptr;
   std::mt19937 random_{test::seed()};
   NoProgress progress_;
   std::uint64_t visible_ = 0, hidden_ = 0;
@@ -120,7 +69,7 @@ class Plans : public testing::Test {
 
 TEST_F(Plans, MakeTheWholeInEveryMode) {
   const Store store(hills_path());
-  for (const Mode mode : kPlannedModes) {
+  for (const Mode mode : test::kEveryMode) {
     SCOPED_TRACE(static_cast<int>(mode));
     Request request = over_hills();
     request.mode = mode;
@@ -155,7 +104,7 @@ TEST_F(Plans, MakeTheWholeAtATolerance) {
 
 TEST_F(Plans, MakeTheWholeInATown) {
   const Store store(town_path());
-  for (const Mode mode : kPlannedModes) {
+  for (const Mode mode : test::kEveryMode) {
     SCOPED_TRACE(static_cast<int>(mode));
     Request request = over_town();
     request.mode = mode;
@@ -262,12 +211,12 @@ TEST_F(Plans, TakeTheirOwnSegmentsAlone) {
   EXPECT_THROW(std::ignore = merge.take(), InputError);
   EXPECT_THROW(merge.add(1, first), InputError);
 
-  const std::string path = directory_->file("first");
+  const std::string path = stores_->file("first");
   write_segment(path, plan, 0, first);
   EXPECT_THROW(std::ignore = read_segment(path, plan, 1), InputError);
   request.target_height = 3;
   EXPECT_THROW(std::ignore = read_segment(path, Plan(store, request, {}, 20000), 0), InputError);
-  EXPECT_THROW(std::ignore = read_segment(directory_->file("none"), plan, 0), FileError);
+  EXPECT_THROW(std::ignore = read_segment(stores_->file("none"), plan, 0), FileError);
 }
 
 /// Whatever byte of it is damaged or missing.
@@ -276,7 +225,7 @@ TEST_F(Plans, RefuseDamagedFiles) {
   Request request = over_hills();
   request.mode = Mode::kBlocker;
   const Plan plan(store, request, {}, 20000);
-  const std::string path = directory_->file("segment");
+  const std::string path = stores_->file("segment");
   write_segment(path, plan, 0, decide(store, plan, 0, progress_));
   std::ifstream in(path, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};

@@ -11,7 +11,7 @@
 
 #include <itin/error.hpp>
 #include <itin/import.hpp>
-#include <viewshed/certified.hpp>
+#include <viewshed/viewshed.hpp>
 #include <viewshed/surface.hpp>
 
 #include "compute/lattice_sectors.hpp"

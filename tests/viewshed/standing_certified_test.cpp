@@ -7,7 +7,7 @@
 
 #include <itin/import.hpp>
 #include <itin/triangulate.hpp>
-#include <viewshed/certified.hpp>
+#include <viewshed/viewshed.hpp>
 
 #include "support/brute_force_viewshed.hpp"
 #include "support/full_detail.hpp"

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <itin/import.hpp>
-#include <viewshed/certified.hpp>
+#include <viewshed/viewshed.hpp>
 #include <viewshed/site_coverage.hpp>
 #include <viewshed/site_proposal.hpp>
 

@@ -4,8 +4,8 @@
 #include <itin/lattice_reader.hpp>
 #include <itin/level_choice.hpp>
 #include <itin/triangulate.hpp>
-#include <viewshed/certified.hpp>
 #include <viewshed/surface.hpp>
+#include <viewshed/viewshed.hpp>
 
 #include "certify/certified_cells.hpp"
 #include "certify/certified_sectors.hpp"

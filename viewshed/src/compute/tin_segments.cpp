@@ -11,8 +11,8 @@
 #include <itin/parallel.hpp>
 #include <itin/silent_progress.hpp>
 #include <itin/triangulate.hpp>
-#include <viewshed/certified.hpp>
 #include <viewshed/surface.hpp>
+#include <viewshed/viewshed.hpp>
 
 #include "judge/certified_pass.hpp"
 #include "line/cell_tiles.hpp"

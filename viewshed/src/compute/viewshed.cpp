@@ -3,8 +3,8 @@
 #include <viewshed/surface.hpp>
 #include <viewshed/viewshed.hpp>
 
-#include "bounds/boundary.hpp"
 #include "bounds/surface_heights.hpp"
+#include "compute/surface_in_memory.hpp"
 #include "modes/look_around.hpp"
 #include "progress/stopwatch.hpp"
 #include "request/eye.hpp"
@@ -16,62 +16,75 @@ namespace itin::viewshed {
 
 namespace {
 
-/// One of the two is there; `bare` is null where ends stand on that. Cells are laid over `extent`.
-Result compute_on(const Tin* tin, LatticeReader* reader, const Tin* bare, const Box& extent, const Request& request,
-                  Progress& progress) {
+Result begin_result(const SurfaceInMemory& over, const Request& request, Progress& progress) {
   validate(request);
   Result result;
-  const LatticeTin* const lattice = reader != nullptr ? &reader->lattice() : nullptr;
-  const Grid& units = lattice != nullptr ? lattice->grid : tin->grid;
-  result.statistics.triangles = lattice != nullptr ? lattice->triangle_count() : tin->triangles.size();
-  result.statistics.retrieval = lattice != nullptr ? lattice->statistics : tin->statistics;
-  if (result.statistics.triangles == 0) eye_of(units, request, request.observers.front(), std::nullopt);
+  result.statistics.triangles = over.lattice != nullptr ? over.lattice->triangle_count() : over.tin->triangles.size();
+  result.statistics.retrieval = over.lattice != nullptr ? over.lattice->statistics : over.tin->statistics;
+  if (result.statistics.triangles == 0) eye_of(over.units(), request, request.observers.front(), std::nullopt);
   result.request = request;
-  Stopwatch watch;
   progress.report("scene", 0);
-  result.grid = cells_of(request, extent);
-  const RasterGrid tiles = grid_of_tiles(result.grid);
-  if (reader != nullptr && asks_for_all_heights(request)) reader->read_all(progress);
-  FullSurface surface = lattice != nullptr ? FullSurface(*lattice, request.earth, result.grid, tiles)
-                                           : FullSurface(*tin, request.targets_on_surface ? nullptr : bare,
-                                                         request.earth, result.grid, tiles);
-  if (casts_rays(request)) surface.cast_rays(request.earth, positions_of(request));
+  result.grid = cells_of(request, over.extent);
+  return result;
+}
+
+std::vector<Eye> eyes_over(const SurfaceInMemory& over, FullSurface& surface, Result& result, Progress& progress) {
   std::vector<Eye> eyes;
+  const Request& request = result.request;
   for (const Observer& observer : request.observers) {
-    const bool raised = request.observers_on_surface || bare == nullptr;
-    if (reader != nullptr) reveal_place(observer.position, *reader, surface, progress);
-    const auto height = raised ? surface.height(observer.position) : height_on(*bare, observer.position);
-    eyes.push_back(eye_of(units, request, observer, height));
+    const bool raised = request.observers_on_surface || over.bare == nullptr;
+    if (over.reader != nullptr) reveal_place(observer.position, *over.reader, surface, progress);
+    const auto height = raised ? surface.height(observer.position) : height_on(*over.bare, observer.position);
+    eyes.push_back(eye_of(over.units(), request, observer, height));
     result.ground_m.push_back(*height);
   }
-  look_for_voids(units, surface.rim(), result);
+  return eyes;
+}
+
+}  // namespace
+
+Result compute(const SurfaceInMemory& over, const Request& request, Progress& progress) {
+  Stopwatch watch;
+  Result result = begin_result(over, request, progress);
+  const RasterGrid tiles = grid_of_tiles(result.grid);
+  if (over.reader != nullptr && asks_for_all_heights(request)) over.reader->read_all(progress);
+  auto heights = over.heights          ? over.heights
+                 : over.tin != nullptr ? std::make_shared<BinnedHeights>(*over.tin)
+                                       : std::make_shared<BinnedHeights>(*over.lattice);
+  FullSurface surface(std::move(heights), over.tin, request.targets_on_surface ? nullptr : over.bare, request.earth,
+                      result.grid, tiles);
+  if (casts_rays(request)) surface.cast_rays(request.earth, positions_of(request));
+  const std::vector<Eye> eyes = eyes_over(over, surface, result, progress);
+  look_for_voids(over.units(), surface.rim(), result);
   result.statistics.scene_seconds = watch.lap();
   std::optional<TriangleStudies> studies;
-  if (needs_triangles(request)) studies.emplace(request, *tin);
+  if (needs_triangles(request)) studies.emplace(request, *over.tin);
   Observations observations(request);
   std::vector<RadialSweep::View> views;
-  if (reader != nullptr && !all_read(*reader))
-    for (const Eye& eye : eyes) views.push_back(reveal(eye, *reader, surface, kAnyTiles, progress).view);
+  if (over.reader != nullptr && !all_read(*over.reader))
+    for (const Eye& eye : eyes) views.push_back(reveal(eye, *over.reader, surface, kAnyTiles, progress).view);
   look_around(surface, studies ? &*studies : nullptr, observations, eyes, views, result, progress);
   result.statistics.lines_seconds = watch.lap();
   return result;
 }
 
-}  // namespace
-
 Result compute(const Tin& tin, const Request& request, Progress& progress) {
-  return compute_on(&tin, nullptr, nullptr, tin.bounds(), request, progress);
+  return compute(SurfaceInMemory{.tin = &tin, .extent = tin.bounds()}, request, progress);
 }
 
 Result compute(const Tin& tin, const Tin& ground, const Request& request, Progress& progress) {
-  return compute_on(&tin, nullptr, &ground, tin.bounds(), request, progress);
+  return compute(SurfaceInMemory{.tin = &tin, .bare = &ground, .extent = tin.bounds()}, request, progress);
 }
 
 Result compute(const Surface& surface, const Tin* ground, const Request& request, Progress& progress) {
-  const Box extent = !surface.extent.empty() ? surface.extent
-                     : surface.lattice       ? surface.lattice->lattice().bounds()
-                                             : surface.tin.bounds();
-  return compute_on(&surface.tin, surface.lattice.get(), ground, extent, request, progress);
+  SurfaceInMemory over{.bare = ground, .extent = surface.extent};
+  if (surface.lattice) {
+    over.reader = surface.lattice.get(), over.lattice = &surface.lattice->lattice();
+  } else {
+    over.tin = &surface.tin;
+  }
+  if (over.extent.empty()) over.extent = over.lattice != nullptr ? over.lattice->bounds() : over.tin->bounds();
+  return compute(over, request, progress);
 }
 
 }  // namespace itin::viewshed

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include <viewshed/certified.hpp>
+#include <viewshed/viewshed.hpp>
 
 namespace itin::viewshed {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include <viewshed/certified.hpp>
+#include <viewshed/viewshed.hpp>
 
 #include "bounds/surface_heights.hpp"
 #include "request/request.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <itin/raster.hpp>
-#include <viewshed/certified.hpp>
+#include <viewshed/viewshed.hpp>
 
 #include "line/cell_tiles.hpp"
 #include "progress/stage.hpp"

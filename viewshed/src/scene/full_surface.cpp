@@ -17,24 +17,29 @@ namespace itin::viewshed {
 
 FullSurface::FullSurface(const Tin& surface, const Tin* bare_ground, const Earth& earth, const RasterGrid& grid,
                          const RasterGrid& tiles)
-    : surface_(&surface),
-      targets_on_(bare_ground != nullptr ? bare_ground : &surface),
-      grid_(grid),
-      tiles_(tiles),
-      heights_(surface),
-      sweep_(earth, heights_),
-      cells_(boxes_of_tiles()) {
-  // Cells much smaller than triangles are filled triangle by triangle.
-  const bool small = 2 * grid.cell_width() < heights_.bin_size() * units().resolution;
-  if (bare_ground != nullptr || small || !heights_.partition()) of_tiles_.emplace(*targets_on_, tiles);
-}
+    : FullSurface(std::make_shared<BinnedHeights>(surface), &surface, bare_ground, earth, grid, tiles) {}
 
 FullSurface::FullSurface(const LatticeTin& surface, const Earth& earth, const RasterGrid& grid, const RasterGrid& tiles)
-    : grid_(grid), tiles_(tiles), heights_(surface), sweep_(earth, heights_), cells_(boxes_of_tiles()) {}
+    : FullSurface(std::make_shared<BinnedHeights>(surface), nullptr, nullptr, earth, grid, tiles) {}
+
+FullSurface::FullSurface(std::shared_ptr<BinnedHeights> heights, const Tin* surface, const Tin* bare_ground,
+                         const Earth& earth, const RasterGrid& grid, const RasterGrid& tiles)
+    : surface_(surface),
+      targets_on_(bare_ground != nullptr ? bare_ground : surface),
+      grid_(grid),
+      tiles_(tiles),
+      heights_(std::move(heights)),
+      sweep_(earth, *heights_),
+      cells_(boxes_of_tiles()) {
+  if (surface == nullptr) return;
+  // Cells much smaller than triangles are filled triangle by triangle.
+  const bool small = 2 * grid.cell_width() < heights_->bin_size() * units().resolution;
+  if (bare_ground != nullptr || small || !heights_->partition()) of_tiles_.emplace(*targets_on_, tiles);
+}
 
 std::vector<BinBox> FullSurface::boxes_of_tiles() const {
-  const auto column = [&](double x) { return heights_.column_at(easting_in_units(units(), x)); };
-  const auto row = [&](double y) { return heights_.row_at(northing_in_units(units(), y)); };
+  const auto column = [&](double x) { return heights_->column_at(easting_in_units(units(), x)); };
+  const auto row = [&](double y) { return heights_->row_at(northing_in_units(units(), y)); };
   std::vector<BinBox> boxes(tiles_.cell_count());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const Box centres = box_of_centres(grid_, tile_at(grid_, tiles_, i));
@@ -63,7 +68,7 @@ RadialSweep::View FullSurface::view_of_cells(const Eye& eye) const {
 
 std::optional<double> FullSurface::height(Point2 position) const {
   const auto height =
-      heights_.height_at({easting_in_units(units(), position.x), northing_in_units(units(), position.y)});
+      heights_->height_at({easting_in_units(units(), position.x), northing_in_units(units(), position.y)});
   return height ? std::optional(*height * units().resolution) : std::nullopt;
 }
 
@@ -150,11 +155,11 @@ void FullSurface::find_ground(std::span<const Tile> parts, TileWork& work) const
                north = static_cast<std::size_t>(part.row - work.tile.row);
     const std::size_t east = west + static_cast<std::size_t>(part.columns),
                       south = north + static_cast<std::size_t>(part.rows);
-    const bool unread = heights_.all_unread({at.x[west], at.y[north]}, {at.x[east - 1], at.y[south - 1]});
+    const bool unread = heights_->all_unread({at.x[west], at.y[north]}, {at.x[east - 1], at.y[south - 1]});
     work.unread = work.unread && unread;
     for (std::size_t r = north; r < south; ++r) {
       for (std::size_t c = west; c < east; ++c) {
-        const auto height = unread ? kUnread : heights_.height_at({at.x[c], at.y[r]});
+        const auto height = unread ? kUnread : heights_->height_at({at.x[c], at.y[r]});
         if (height) work.ground[r * Tile::kSide + c] = *height;
       }
     }

@@ -20,8 +20,8 @@
 #include <itin/lattice_tin.hpp>
 #include <itin/raster.hpp>
 #include <itin/tin.hpp>
-#include <viewshed/certified.hpp>
 #include <viewshed/surface.hpp>
+#include <viewshed/viewshed.hpp>
 
 #include "bounds/binned_heights.hpp"
 #include "bounds/surface_heights.hpp"
@@ -40,6 +40,9 @@ class FullSurface {
   FullSurface(const Tin& surface, const Tin* bare_ground, const Earth& earth, const RasterGrid& grid,
               const RasterGrid& tiles);
   FullSurface(const LatticeTin& surface, const Earth& earth, const RasterGrid& grid, const RasterGrid& tiles);
+  /// Over heights that have been binned before, and are shared; `surface` is null where they are a lattice's.
+  FullSurface(std::shared_ptr<BinnedHeights> heights, const Tin* surface, const Tin* bare_ground, const Earth& earth,
+              const RasterGrid& grid, const RasterGrid& tiles);
   FullSurface(const FullSurface&) = delete;
   FullSurface& operator=(const FullSurface&) = delete;
 
@@ -48,14 +51,14 @@ class FullSurface {
   void cast_rays(const Earth& earth, const std::vector<Point2>& eyes);
   bool casts_rays() const { return rays_ != nullptr; }
 
-  const Grid& units() const { return heights_.units(); }
+  const Grid& units() const { return heights_->units(); }
   const RadialSweep& sweep() const { return sweep_; }
   const RasterGrid& grid() const { return grid_; }
   const RasterGrid& tiles() const { return tiles_; }
   /// Of what hides, metres, if there is any at that position.
   std::optional<double> height(Point2 position) const;
   /// Where it ends.
-  const std::vector<RimEdge>& rim() const { return heights_.rim(); }
+  const std::vector<RimEdge>& rim() const { return heights_->rim(); }
 
   /// What a tile's cells share between eyes, for one thread.
   struct TileWork {
@@ -90,7 +93,7 @@ class FullSurface {
   /// The same, to be advanced.
   RadialSweep::View look_out(const Eye& eye) const { return sweep_.beginning(axis_of(eye)); }
   /// After heights of tiles of the lattice have been read: they count from now on.
-  void add(std::span<const std::uint32_t> tiles) { heights_.add(tiles); }
+  void add(std::span<const std::uint32_t> tiles) { heights_->add(tiles); }
 
   /// Verdict::kUndecided cells become Verdict::kVisible, Verdict::kHidden, or Verdict::kOutside where there is no
   /// ground or the eye does not look. Returns how many sight lines that took.
@@ -116,7 +119,7 @@ class FullSurface {
   const Tin* targets_on_ = nullptr;  ///< what targets stand on, where that is a Tin
   const RasterGrid& grid_;
   const RasterGrid& tiles_;
-  BinnedHeights heights_;
+  const std::shared_ptr<BinnedHeights> heights_;
   std::optional<TriangleBins> of_tiles_;  ///< of that Tin, where `heights_` does not tell its heights well
   RadialSweep sweep_;
   const std::vector<BinBox> cells_;  ///< of each tile, about their centres

@@ -6,7 +6,7 @@
 #include <bit>
 
 #include <itin/parallel.hpp>
-#include <viewshed/certified.hpp>
+#include <viewshed/viewshed.hpp>
 
 #include "progress/stage.hpp"
 #include "siting/coverage/cell_blocks.hpp"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include <viewshed/certified.hpp>
+#include <viewshed/viewshed.hpp>
 
 namespace itin::viewshed {
 

@@ -1,0 +1,79 @@
+// Two stores, imported once for a suite: hills with a hole, as a raster, and the bundled town of lidar and footprints.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <itin/import.hpp>
+#include <viewshed/viewshed.hpp>
+
+#include "support/raster_file.hpp"
+#include "support/temporary_directory.hpp"
+#include "support/terrain_tin.hpp"
+
+namespace itin::test {
+
+inline constexpr viewshed::Mode kEveryMode[] = {
+    viewshed::Mode::kVisible, viewshed::Mode::kCount,   viewshed::Mode::kWhich,  viewshed::Mode::kAngle,
+    viewshed::Mode::kNearest, viewshed::Mode::kBlocker, viewshed::Mode::kHeight, viewshed::Mode::kProbability};
+
+class HillsAndTown {
+ public:
+  HillsAndTown() {
+    // 4 km by 4 km.
+    const std::vector<double> z = fractal_heights(257, 200, 0.55, 11);
+    const std::string raster = directory_.file("hills.tif");
+    write_raster(raster, {300000, 204000, 20, 200, 200, 27700}, [&](int c, int r) {
+      if (std::hypot(c - 60, r - 120) < 12) return std::nan("");
+      return z[static_cast<std::size_t>(r) * 257 + static_cast<std::size_t>(c)];
+    });
+    NoProgress progress;
+    ImportOptions options;
+    options.sources = {raster};
+    import_terrain(hills(), options, progress);
+
+    const std::string data = std::string(ITIN_SOURCE_DIR) + "/scripts/demo-data/";
+    ImportOptions terrain;
+    terrain.sources = {data + "alexandria-dtm.tif"};
+    import_terrain(town(), terrain, progress);
+    ImportOptions buildings;
+    buildings.sources = {data + "alexandria-buildings.geojson"};
+    buildings.kind = ThemeKind::Buildings;
+    buildings.height_field = "HEIGHT";
+    import_lines(town(), buildings, progress);
+  }
+
+  std::string file(const std::string& name) const { return directory_.file(name); }
+  std::string hills() const { return file("hills.itin"); }
+  std::string town() const { return file("town.itin"); }
+
+  /// Observers of all kinds; one looks past the data's edge, and one sees its own neighbourhood alone.
+  static viewshed::Request over_hills() {
+    viewshed::Request request;
+    request.observers = {{"summit", {301500, 202500}, 30},
+                         {"valley", {303300, 200700}, 2},
+                         {"corner", {300020, 203970}, 12},
+                         {"near", {302200, 201800}, 5}};
+    request.observers[3].radius = 300;
+    request.observers[1].azimuth = viewshed::AngleRange{200, 30};
+    request.target_height = 2;
+    request.cell_size = 13;
+    request.vertical_error = {0.5, 40};
+    return request;
+  }
+
+  static viewshed::Request over_town() {
+    viewshed::Request request;
+    request.observers = {{"street", {321800, 4297750}, 2}, {"roof", {321692.34, 4297619.88}, 25}};
+    request.cell_size = 3;
+    request.vertical_error = {0.3, 10};
+    request.themes = ThemeChoice::all();
+    return request;
+  }
+
+ private:
+  const TemporaryDirectory directory_;
+};
+
+}  // namespace itin::test

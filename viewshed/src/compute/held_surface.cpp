@@ -1,0 +1,132 @@
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+#include <itin/level_choice.hpp>
+#include <itin/triangulate.hpp>
+#include <viewshed/held_surface.hpp>
+#include <viewshed/surface.hpp>
+
+#include "compute/surface_in_memory.hpp"
+#include "modes/feature_names.hpp"
+#include "plan/memory.hpp"
+#include "request/request.hpp"
+#include "window/retrieval.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// A surface with its heights binned.
+struct Binned {
+  explicit Binned(Tin of) : tin(std::move(of)), heights(std::make_shared<BinnedHeights>(tin)) {}
+  const Tin tin;
+  const std::shared_ptr<BinnedHeights> heights;
+};
+
+}  // namespace
+
+class HeldSurface::Impl {
+ public:
+  Impl(const Store& store, const Box& area, const Detail& detail, const ThemeChoice& themes,
+       const ComputeOptions& options, Progress& progress)
+      : store_(store), area_(area), detail_(detail), themes_(themes) {
+    if (area.empty()) throw InputError("area: it is empty; give a box in metres");
+    const Window window = Window::box(area);
+    if (options.lattices) retrieve_posts(window, options, progress);
+    if (posts_) return;
+    require_memory(bytes_per_point(Request()), options);
+    triangles_.emplace(triangulate(store, window, detail, progress, themes));
+    if (themes.includes_standing(store.metadata().themes))
+      bare_ = triangulate(store, window, detail, progress, ThemeChoice::none());
+  }
+
+  const Box& area() const { return area_; }
+
+  bool covers(const Request& request) const {
+    const Window window = window_of(request);
+    const Box all = extent_of(store_), asked = window.is_all() ? all : intersection(window.bounds(), all);
+    return asked.empty() || (asked.xmin >= area_.xmin && asked.ymin >= area_.ymin && asked.xmax <= area_.xmax &&
+                             asked.ymax <= area_.ymax);
+  }
+
+  Result compute(Request request, Progress& progress) const {
+    request.detail = detail_, request.themes = themes_;
+    validate(request);
+    if (!covers(request))
+      throw InputError(
+          fmt::format("sight lines leave the surface that is held, {:.0f},{:.0f} to {:.0f},{:.0f}: give a "
+                      "smaller `radius`, or hold a larger area",
+                      area_.xmin, area_.ymin, area_.xmax, area_.ymax));
+    Result result = viewshed::compute(surface_for(request, progress), request, progress);
+    name_features(store_, result);
+    return result;
+  }
+
+ private:
+  void retrieve_posts(const Window& window, const ComputeOptions& options, Progress& progress) {
+    auto surface = retrieve_lattice(store_, window, detail_, themes_, LatticeReader::Heights::kAll,
+                                    options.memory_bytes / kBytesPerPost, progress);
+    if (!surface) return;
+    posts_ = std::move(surface->lattice);
+    post_heights_ = std::make_shared<BinnedHeights>(posts_->lattice());
+  }
+
+  void require_memory(std::uint64_t bytes, const ComputeOptions& options) const {
+    const int level = level_within(store_.metadata(), detail_.coarsest());
+    const std::uint64_t needed = bytes * store_.points_about(level, area_);
+    if (needed > options.memory_bytes)
+      throw InputError(fmt::format("the surface takes about {:.0f} MB: give more `memory_bytes`, or a smaller area",
+                                   static_cast<double>(needed) / 1e6));
+  }
+
+  SurfaceInMemory surface_for(const Request& request, Progress& progress) const {
+    SurfaceInMemory over{.bare = bare_ ? &*bare_ : nullptr, .extent = extent_of(store_)};
+    if (posts_ && !needs_triangles(request) && !casts_rays(request)) {
+      over.lattice = &posts_->lattice(), over.heights = post_heights_;
+      return over;
+    }
+    const Binned& triangles = listed(progress);
+    over.tin = &triangles.tin, over.heights = triangles.heights;
+    return over;
+  }
+
+  /// The triangles of a lattice are listed when they are first asked for.
+  const Binned& listed(Progress& progress) const {
+    const std::lock_guard lock(listing_);
+    if (!triangles_) triangles_.emplace(triangulate(store_, Window::box(area_), detail_, progress, themes_));
+    return *triangles_;
+  }
+
+  const Store& store_;
+  Box area_;
+  Detail detail_;
+  ThemeChoice themes_;
+  std::unique_ptr<LatticeReader> posts_;  ///< where the surface is a lattice
+  std::shared_ptr<BinnedHeights> post_heights_;
+  mutable std::mutex listing_;
+  mutable std::optional<Binned> triangles_;
+  std::optional<Tin> bare_;  ///< what ends stand on, where features stand
+};
+
+HeldSurface::HeldSurface(const Store& store, const Box& area, const Detail& detail, const ThemeChoice& themes,
+                         const ComputeOptions& options, Progress& progress)
+    : impl_(std::make_unique<const Impl>(store, area, detail, themes, options, progress)) {}
+HeldSurface::HeldSurface(HeldSurface&&) noexcept = default;
+HeldSurface& HeldSurface::operator=(HeldSurface&&) noexcept = default;
+HeldSurface::~HeldSurface() = default;
+
+const Box& HeldSurface::area() const {
+  return impl_->area();
+}
+bool HeldSurface::covers(const Request& request) const {
+  return impl_->covers(request);
+}
+Result HeldSurface::compute(const Request& request, Progress& progress) const {
+  return impl_->compute(request, progress);
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,29 @@
+// What a viewshed is computed over, once it has been read: triangles, or the posts of a lattice.
+#pragma once
+
+#include <memory>
+
+#include <itin/lattice_reader.hpp>
+#include <itin/tin.hpp>
+#include <viewshed/viewshed.hpp>
+
+#include "bounds/binned_heights.hpp"
+
+namespace itin::viewshed {
+
+struct SurfaceInMemory {
+  // One of the two.
+  const Tin* tin = nullptr;
+  const LatticeTin* lattice = nullptr;
+  LatticeReader* reader = nullptr;                   ///< of the lattice, where heights may have to be read
+  const Tin* bare = nullptr;                         ///< what ends stand on, where that is not the surface
+  Box extent;                                        ///< that cells are laid over
+  std::shared_ptr<BinnedHeights> heights = nullptr;  ///< of the surface, where they have been binned
+
+  const Grid& units() const { return lattice != nullptr ? lattice->grid : tin->grid; }
+};
+
+/// Safe for concurrent use where there is no reader.
+Result compute(const SurfaceInMemory& over, const Request& request, Progress& progress);
+
+}  // namespace itin::viewshed
