@@ -65,6 +65,7 @@ class Plans : public testing::Test {
   std::mt19937 random_{test::seed()};
   NoProgress progress_;
   std::uint64_t visible_ = 0, hidden_ = 0;
+  int coarse_ = 0;  ///< plans over a coarse level
 };
 
 TEST_F(Plans, MakeTheWholeInEveryMode) {
@@ -110,6 +111,30 @@ TEST_F(Plans, MakeTheWholeInATown) {
     request.mode = mode;
     expect_whole(store, request, {}, 8000);
   }
+}
+
+/// Over the full surface in segments, over a coarse level at once.
+TEST_F(Plans, MakeTheWholeOfWhatIsCertain) {
+  for (const bool town : {false, true}) {
+    const Store store(town ? town_path() : hills_path());
+    for (const double tolerance : {1.0, 16.0}) {
+      SCOPED_TRACE(tolerance);
+      Request request = town ? over_town() : over_hills();
+      request.detail = Detail::tolerance(tolerance);
+      const Result whole = compute_certified(store, request, {}, progress_).result;
+      const Plan plan(store, request, {}, 6000, Certainty::kCertified);
+      if (town) {
+        EXPECT_GT(plan.segments().size(), 2U);
+      }
+      coarse_ += plan.decides_exactly() ? 0 : 1;
+      const Result parts = merged(store, plan);
+      EXPECT_TRUE(parts.certified);
+      EXPECT_EQ(parts.ground_m, whole.ground_m);
+      test::expect_same_result(whole, parts);
+      EXPECT_NE(plan.id(), Plan(store, request, {}, 6000).id());
+    }
+  }
+  EXPECT_EQ(coarse_, 1);
 }
 
 /// With either engine, and with ends on the roofs.

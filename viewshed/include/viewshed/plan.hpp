@@ -6,9 +6,9 @@
 //   for (std::size_t i = 0; i < plan.segments().size(); ++i) merge.add(i, viewshed::decide(store, plan, i, progress));
 //   const viewshed::Result result = merge.take();
 //
-// The result is that of compute(), to the last bit. A plan follows from the store, the request, the memory and the most
-// cells of a segment, and from nothing else: who makes it elsewhere from these has the same segments, and results pass
-// between them as files:
+// The result is that of compute(), or of compute_certified(), to the last bit. A plan follows from the store, the
+// request, the memory and the most cells of a segment, and from nothing else: who makes it elsewhere from these has the
+// same segments, and results pass between them as files:
 //
 //   viewshed::write_segment("7.segment", plan, 7, viewshed::decide(store, plan, 7, progress));   // on one machine
 //   merge.add(7, viewshed::read_segment("7.segment", plan, 7));                                  // on another
@@ -39,17 +39,24 @@ struct Segment {
 
 inline constexpr std::uint64_t kAnyNumberOfCells = std::numeric_limits<std::uint64_t>::max();
 
+/// What a plan is for: the result of compute(), or that of compute_certified().
+enum class Certainty { kExact, kCertified };
+
 class Plan {
  public:
   /// Cuts the request's cells in halves until the surface under the sight lines to a segment fits into the memory (or
   /// the segment is a single tile of 64 by 64 cells, which decide() then reads piece by piece), and has no more than
-  /// `most_cells` cells. Reads the store's directory alone. Throws InputError for a request that compute() refuses
+  /// `most_cells` cells. A certified viewshed over a coarse level is one segment: cut differently, the level would
+  /// leave other cells undecided. Reads the store's directory alone. Throws InputError for a request that is refused
   /// whatever the surface.
   Plan(const Store& store, const Request& request, const ComputeOptions& options = {},
-       std::uint64_t most_cells = kAnyNumberOfCells);
+       std::uint64_t most_cells = kAnyNumberOfCells, Certainty certainty = Certainty::kExact);
 
   const Request& request() const { return request_; }
   const ComputeOptions& options() const { return options_; }
+  Certainty certainty() const { return certainty_; }
+  /// Whether segments are decided over the full surface or that of the request's detail, not over a coarse level.
+  bool decides_exactly() const { return exactly_; }
   /// All cells. Those that belong to no segment are outside of every field of view.
   const RasterGrid& grid() const { return grid_; }
   /// The nearest to an observer first.
@@ -62,13 +69,15 @@ class Plan {
  private:
   Request request_;
   ComputeOptions options_;
+  Certainty certainty_;
+  bool exactly_;
   RasterGrid grid_;
   std::vector<Segment> segments_;
   std::uint64_t id_ = 0;
 };
 
 /// The segment's cells alone; `store` is the one that the plan was made for. Cost and errors are those of
-/// compute_with_surface() on Plan::request_of().
+/// compute_with_surface() on Plan::request_of(), or of compute_certified().
 Result decide(const Store& store, const Plan& plan, std::size_t segment, Progress& progress);
 
 /// The results of segments put together, in any order. The plan must outlive it.
@@ -81,7 +90,7 @@ class Merge {
   void add(std::size_t segment, const Result& result);
   /// The segments that have not come, ascending.
   std::vector<std::size_t> missing() const;
-  /// What compute() gives. The statistics are the sums of all segments'. Throws InputError while any is missing.
+  /// The whole result. The statistics are the sums of all segments'. Throws InputError while any is missing.
   Result take();
 
  private:

@@ -1,7 +1,8 @@
+#include "compute/certified.hpp"
+
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
-#include <itin/lattice_reader.hpp>
 #include <itin/level_choice.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/surface.hpp>
@@ -20,32 +21,6 @@ namespace itin::viewshed {
 
 namespace {
 
-/// A point of an envelope costs about as much as two of the full surface, or as so many posts of a lattice.
-constexpr std::uint64_t kEnvelopeCosts = 2, kEnvelopeCostsInPosts = 128;
-/// So few posts are looked at in a moment, whatever way is asked for.
-constexpr std::uint64_t kFewPosts = 100000;
-/// More take over a gigabyte: larger levels are looked at in sectors.
-constexpr std::uint64_t kMostEnvelopePoints = 1500000, kPointsOfSector = 750000;
-
-enum class Way { kExactly, kBySectors, kAtOnce };
-
-/// Exactly where the level asked for is no cheaper than the full surface: level 0 itself, others that leave out little,
-/// and those that are too large for the memory, but for a small share of a vast surface.
-Way way_of(const Store& store, const Request& request) {
-  // Certificates know nothing of features on the ground.
-  if (features_stand(store, request)) return Way::kExactly;
-  const int level = level_within(store.metadata(), request.detail.coarsest());
-  const Box box = box_of_window(store, request);
-  const std::uint64_t points = store.points_about(level, box), all = store.points_about(0, box);
-  if (kEnvelopeCosts * points >= all) return Way::kExactly;
-  const bool large = points > kMostEnvelopePoints;
-  if (kEnvelopeCostsInPosts * points < all) return large ? Way::kBySectors : Way::kAtOnce;
-  const std::uint64_t most_posts = ComputeOptions().memory_bytes / kBytesPerPost;
-  const bool exactly = large || (all > kFewPosts && all <= most_posts &&
-                                 LatticeReader::may_open(store, window_of(request), ThemeChoice::none(), most_posts));
-  return exactly ? Way::kExactly : Way::kAtOnce;
-}
-
 /// The exact answer, but where ground without data leaves it open.
 Surveyed decide_exactly(const Store& store, const Request& request, const ComputeOptions& options, Progress& progress) {
   Request exact = request;
@@ -57,11 +32,11 @@ Surveyed decide_exactly(const Store& store, const Request& request, const Comput
 }
 
 /// What the level takes at a time does not follow the memory, since what it leaves undecided would follow it, too.
-void require_memory(const Store& store, const Request& request, Way way, std::uint64_t memory) {
+void require_memory(const Store& store, const Request& request, CertifiedWay way, std::uint64_t memory) {
   constexpr std::uint64_t kBytesPerPointOfLevel = 715;
   const int level = level_within(store.metadata(), request.detail.coarsest());
   const std::uint64_t points =
-      way == Way::kBySectors ? kPointsOfSector : store.points_about(level, box_of_window(store, request));
+      way == CertifiedWay::kBySectors ? kPointsOfSector : store.points_about(level, box_of_window(store, request));
   if (points * kBytesPerPointOfLevel > memory)
     throw InputError(
         fmt::format("the level takes {:.0f} MB at a time: give more `memory_bytes`, a coarser tolerance or "
@@ -73,12 +48,16 @@ void require_memory(const Store& store, const Request& request, Way way, std::ui
 
 Surveyed compute_certified(const Store& store, const Request& request, const ComputeOptions& options,
                            Progress& progress) {
-  validate(request);
-  if (request.mode != Mode::kVisible) throw InputError("certificates tell what is visible, and nothing else");
-  const Way way = way_of(store, request);
-  if (way == Way::kExactly) return decide_exactly(store, request, options, progress);
+  return compute_certified(store, request, certified_way(store, request), options, progress);
+}
+
+Surveyed compute_certified(const Store& store, const Request& request, CertifiedWay way, const ComputeOptions& options,
+                           Progress& progress) {
+  validate_certified(request);
+  if (way == CertifiedWay::kExactly) return decide_exactly(store, request, options, progress);
   require_memory(store, request, way, options.memory_bytes);
-  if (way == Way::kBySectors) return certify_by_sectors(store, request, voids_of(request), kPointsOfSector, progress);
+  if (way == CertifiedWay::kBySectors)
+    return certify_by_sectors(store, request, voids_of(request), kPointsOfSector, progress);
   Surveyed surveyed;
   Result& result = surveyed.result;
   result.request = request;

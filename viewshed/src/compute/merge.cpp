@@ -9,6 +9,7 @@
 #include <itin/error.hpp>
 #include <viewshed/plan.hpp>
 
+#include "compute/certified.hpp"
 #include "line/cell_tiles.hpp"
 #include "modes/blocker_table.hpp"
 #include "modes/observation.hpp"
@@ -16,7 +17,11 @@
 namespace itin::viewshed {
 
 Result decide(const Store& store, const Plan& plan, std::size_t segment, Progress& progress) {
-  return compute_with_surface(store, plan.request_of(segment), plan.options(), progress).result;
+  const Request request = plan.request_of(segment);
+  if (plan.certainty() == Certainty::kExact)
+    return compute_with_surface(store, request, plan.options(), progress).result;
+  const CertifiedWay way = plan.decides_exactly() ? CertifiedWay::kExactly : certified_way(store, plan.request());
+  return compute_certified(store, request, way, plan.options(), progress).result;
 }
 
 /// The whole result in the making.
@@ -25,6 +30,7 @@ class Merge::Rasters {
   explicit Rasters(const Plan& plan) : plan_(plan), added_(plan.segments().size()) {
     result_.request = plan.request();
     result_.grid = plan.grid();
+    result_.certified = plan.certainty() == Certainty::kCertified;
     result_.ground_m.resize(plan.request().observers.size());
     Observation::prepare(result_);
     if (plan.request().mode == Mode::kBlocker) result_.blocker_feature.resize(plan.grid().cell_count());

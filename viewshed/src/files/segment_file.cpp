@@ -132,6 +132,7 @@ Result read_segment(const std::string& path, const Plan& plan, std::size_t segme
   reader.expect_end();
   result.request = plan.request_of(segment);
   result.grid = *result.request.grid;
+  result.certified = plan.certainty() == Certainty::kCertified;
   return result;
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -11,6 +12,7 @@
 #include <viewshed/surface.hpp>
 
 #include "line/cell_tiles.hpp"
+#include "plan/certified_way.hpp"
 #include "plan/memory.hpp"
 #include "plan/plan_id.hpp"
 #include "plan/point_counts.hpp"
@@ -55,6 +57,17 @@ Request request_on(const Request& whole, const RasterGrid& grid, const Segment& 
   return request;
 }
 
+std::vector<std::uint32_t> all_observers(const Request& request) {
+  std::vector<std::uint32_t> all(request.observers.size());
+  std::iota(all.begin(), all.end(), 0U);
+  return all;
+}
+
+/// Every cell for every observer.
+Segment whole_of(const Request& request, const RasterGrid& grid) {
+  return {{0, 0}, grid.columns(), grid.rows(), all_observers(request), 0, 0};
+}
+
 class Division {
  public:
   Division(const Store& store, const Request& request, const ComputeOptions& options, const RasterGrid& grid,
@@ -69,8 +82,7 @@ class Division {
         points_(store, request) {}
 
   std::vector<Segment> run() {
-    std::vector<std::uint32_t> all(request_.observers.size());
-    for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
+    const std::vector<std::uint32_t> all = all_observers(request_);
     divide(cells({0, 0}, grid_.columns(), grid_.rows()), all);
     std::sort(segments_.begin(), segments_.end(), [](const Segment& a, const Segment& b) {
       return std::tie(a.distance_m, a.north_west.row, a.north_west.column) <
@@ -156,19 +168,29 @@ class Division {
   std::vector<Segment> segments_;
 };
 
-RasterGrid checked_cells(const Store& store, const Request& request) {
-  validate(request);
+RasterGrid checked_cells(const Store& store, const Request& request, Certainty certainty) {
+  certainty == Certainty::kCertified ? validate_certified(request) : validate(request);
   return cells_of(request, extent_of(store));
+}
+
+std::vector<Segment> divided(const Store& store, Request request, const ComputeOptions& options, const RasterGrid& grid,
+                             std::uint64_t most_cells, Certainty certainty, bool exactly) {
+  if (!exactly) return {whole_of(request, grid)};
+  if (certainty == Certainty::kCertified) request.detail = Detail::tolerance(0);
+  return Division(store, request, options, grid, most_cells).run();
 }
 
 }  // namespace
 
-Plan::Plan(const Store& store, const Request& request, const ComputeOptions& options, std::uint64_t most_cells)
+Plan::Plan(const Store& store, const Request& request, const ComputeOptions& options, std::uint64_t most_cells,
+           Certainty certainty)
     : request_(request),
       options_(options),
-      grid_(checked_cells(store, request)),
-      segments_(Division(store, request_, options_, grid_, most_cells).run()),
-      id_(id_of(store.metadata(), request_, grid_, segments_)) {}
+      certainty_(certainty),
+      exactly_(certainty == Certainty::kExact || certified_way(store, request) == CertifiedWay::kExactly),
+      grid_(checked_cells(store, request, certainty)),
+      segments_(divided(store, request, options, grid_, most_cells, certainty, exactly_)),
+      id_(id_of(store.metadata(), *this)) {}
 
 Request Plan::request_of(std::size_t segment) const {
   return request_on(request_, grid_, segments_.at(segment));

@@ -87,12 +87,13 @@ void add_store(Text& text, const StoreMetadata& store) {
 
 }  // namespace
 
-std::uint64_t id_of(const StoreMetadata& store, const Request& request, const RasterGrid& grid,
-                    const std::vector<Segment>& segments) {
+std::uint64_t id_of(const StoreMetadata& store, const Plan& plan) {
   Text text;
   add_store(text, store);
-  add_request(text, request, store.themes);
-  text.add(grid.north_west(), grid.cell_width(), grid.cell_height(), grid.columns(), grid.rows(), segments);
+  add_request(text, plan.request(), store.themes);
+  const RasterGrid& grid = plan.grid();
+  text.add(plan.certainty(), plan.decides_exactly(), grid.north_west(), grid.cell_width(), grid.cell_height(),
+           grid.columns(), grid.rows(), plan.segments());
   return text.hash();
 }
 

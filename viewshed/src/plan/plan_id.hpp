@@ -2,14 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include <viewshed/plan.hpp>
 
 namespace itin::viewshed {
 
 /// Of all that the results of its segments follow from.
-std::uint64_t id_of(const StoreMetadata& store, const Request& request, const RasterGrid& grid,
-                    const std::vector<Segment>& segments);
+std::uint64_t id_of(const StoreMetadata& store, const Plan& plan);
 
 }  // namespace itin::viewshed

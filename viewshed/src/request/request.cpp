@@ -151,6 +151,15 @@ void validate(const Request& request) {
   request.earth.validate();
 }
 
+void validate_certified(const Request& request) {
+  validate(request);
+  if (request.mode != Mode::kVisible) throw InputError("certificates tell what is visible, and nothing else");
+}
+
+bool features_stand(const Store& store, const Request& request) {
+  return request.themes.includes_standing(store.metadata().themes);
+}
+
 RasterGrid cells_of(const Request& request, const Box& extent) {
   if (request.grid) return with_room_for_bands(request, *request.grid);
   Box area = extent;

@@ -21,6 +21,12 @@ inline constexpr double kSky = 1e7;
 /// Throws InputError for everything that is wrong whatever the surface.
 void validate(const Request& request);
 
+/// Throws InputError for what certificates do not tell.
+void validate_certified(const Request& request);
+
+/// Whether a theme that stands on the ground is chosen. Certificates know nothing of it: where it does, only level 0
+/// says what is there.
+bool features_stand(const Store& store, const Request& request);
 /// Whether rays decide the request's lines to cells.
 bool casts_rays(const Request& request);
 /// Whether the request's mode asks more of the surface's triangles than sight lines.

@@ -54,10 +54,6 @@ std::vector<Eye> eyes_on_surface(const Store& store, const Request& request, con
   return eyes;
 }
 
-bool features_stand(const Store& store, const Request& request) {
-  return request.themes.includes_standing(store.metadata().themes);
-}
-
 double points_per_square_metre(const Store& store, int level, const Request& request) {
   const Box box = box_of_window(store, request);
   return static_cast<double>(store.points_about(level, box)) / (box.width() * box.height());

@@ -25,10 +25,6 @@ Tin coverage_of(const Store& store, const Window& window, Progress& progress);
 std::vector<Eye> eyes_on_surface(const Store& store, const Request& request, const Detail& detail,
                                  std::vector<double>& ground, Progress& progress);
 
-/// Whether a theme that stands on the ground is chosen. Certificates know nothing of it: where it does, only level 0
-/// says what is there.
-bool features_stand(const Store& store, const Request& request);
-
 /// How densely points of this level and coarser ones lie there, about.
 double points_per_square_metre(const Store& store, int level, const Request& request);
 
