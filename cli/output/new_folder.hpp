@@ -2,36 +2,29 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <system_error>
-#include <utility>
 
 #include <itin/error.hpp>
+#include <itin/unfinished.hpp>
 
 namespace itin::cli {
 
 class NewFolder {
  public:
   /// Makes it where it is missing. Throws FileError where that fails, or something else has the name.
-  explicit NewFolder(std::string path) : path_(std::move(path)) {
+  explicit NewFolder(const std::string& path) {
     std::error_code error;
-    made_ = std::filesystem::create_directory(path_, error);
-    if (!std::filesystem::is_directory(path_)) throw FileError(path_, "cannot be made a directory; name another place");
+    if (std::filesystem::create_directory(path, error)) made_.emplace(path, Unfinished::Kind::folder_if_empty);
+    if (!std::filesystem::is_directory(path)) throw FileError(path, "cannot be made a directory; name another place");
   }
-  /// Removes it if this made it and it is empty.
-  ~NewFolder() {
-    std::error_code ignored;
-    if (made_) std::filesystem::remove(path_, ignored);
-  }
-  NewFolder(const NewFolder&) = delete;
-  NewFolder& operator=(const NewFolder&) = delete;
 
   /// Whether it was not there before.
-  bool made() const { return made_; }
+  bool made() const { return made_.has_value(); }
 
  private:
-  std::string path_;
-  bool made_ = false;
+  std::optional<Unfinished> made_;
 };
 
 }  // namespace itin::cli

@@ -60,30 +60,26 @@ void OutputFolder::require_writable(const std::string& given, const OutputPolicy
     throw FileError(path, "its parent folder is not writable; change its permissions or name another place");
 }
 
-OutputFolder::OutputFolder(std::string path, const OutputPolicy& policy)
-    : path_(without_slash(std::move(path))), working_(fmt::format("{}.{}.tmp", path_, getpid())) {
+OutputFolder::OutputFolder(std::string path, const OutputPolicy& policy) : path_(without_slash(std::move(path))) {
   require_writable(path_, policy);
+  const std::string working = fmt::format("{}.{}.tmp", path_, getpid());
   std::error_code error;
-  fs::create_directory(working_, error);
-  if (error) throw FileError(working_, "cannot be created: " + error.message());
-}
-
-OutputFolder::~OutputFolder() {
-  std::error_code ignored;
-  if (!working_.empty()) fs::remove_all(working_, ignored);
+  fs::create_directory(working, error);
+  if (error) throw FileError(working, "cannot be created: " + error.message());
+  working_.emplace(working, Unfinished::Kind::folder);
 }
 
 void OutputFolder::publish() {
   const bool replace = fs::exists(path_) && !fs::is_empty(path_);
   const unsigned flags = replace ? RENAME_EXCHANGE : 0;
-  if (renameat2(AT_FDCWD, working_.c_str(), AT_FDCWD, path_.c_str(), flags) != 0)
-    throw FileError(path_, std::string("cannot be written: ") + std::strerror(errno));
-  if (replace) {
-    keep_foreign_files(working_);
-    std::error_code ignored;
-    fs::remove_all(working_, ignored);
-  }
-  working_.clear();
+  working_->finish([&] {
+    if (renameat2(AT_FDCWD, working().c_str(), AT_FDCWD, path_.c_str(), flags) != 0)
+      throw FileError(path_, std::string("cannot be written: ") + std::strerror(errno));
+  });
+  if (!replace) return;
+  keep_foreign_files(working());
+  std::error_code ignored;
+  fs::remove_all(working(), ignored);
 }
 
 void OutputFolder::keep_foreign_files(const std::string& earlier) const {

@@ -5,7 +5,10 @@
 //   folder.publish();
 #pragma once
 
+#include <optional>
 #include <string>
+
+#include <itin/unfinished.hpp>
 
 #include "output/output_path.hpp"
 
@@ -20,14 +23,10 @@ class OutputFolder {
   /// without `--overwrite`, and with it one that has no manifest; or if nothing can be written beside it.
   static void require_writable(const std::string& path, const OutputPolicy& policy);
 
-  /// Makes a working folder beside `path`. Throws as require_writable() does.
+  /// Makes a working folder beside `path`, which goes again unless it is published. Throws as require_writable() does.
   OutputFolder(std::string path, const OutputPolicy& policy);
-  /// Removes the working folder, if not published.
-  ~OutputFolder();
-  OutputFolder(const OutputFolder&) = delete;
-  OutputFolder& operator=(const OutputFolder&) = delete;
 
-  const std::string& working() const { return working_; }
+  const std::string& working() const { return working_->path(); }
   /// Gives the working folder the name, in one step. What the earlier folder had besides the outputs that its manifest
   /// lists moves along. Throws FileError.
   void publish();
@@ -36,7 +35,7 @@ class OutputFolder {
   void keep_foreign_files(const std::string& earlier) const;
 
   std::string path_;
-  std::string working_;
+  std::optional<Unfinished> working_;
 };
 
 }  // namespace itin::cli

@@ -1,9 +1,17 @@
 #include "program/interruption.hpp"
 
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <ctime>
+#include <semaphore.h>
+#include <string>
+#include <system_error>
+#include <thread>
 #include <unistd.h>
+
+#include <itin/error.hpp>
+#include <itin/unfinished.hpp>
 
 namespace itin::cli {
 
@@ -12,23 +20,54 @@ namespace {
 /// When the first signal came, in milliseconds of the monotonic clock; 0 before it.
 std::atomic<long long> first_signal{0};
 static_assert(std::atomic<long long>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
+/// Posted with it.
+sem_t signalled;
+/// Set by the thread that ends the program, be it by itself or not.
+std::atomic<bool> ending{false};
 
+/// What a call has to stop and clean up. Less than a second, for the system takes back gigabytes no faster than that.
+constexpr std::chrono::milliseconds kTimeToStop{750};
 /// timeout(1) and terminals tell the process and then its group: repetitions this soon are no second wish.
 constexpr long long kPatience = 1000;
-constexpr int kInterruptedStatus = 130;
 
 extern "C" void note_interruption(int) {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
   const long long milliseconds = 1000LL * now.tv_sec + now.tv_nsec / 1000000 + 1;
   long long none = 0;
-  if (first_signal.compare_exchange_strong(none, milliseconds)) return;
-  if (milliseconds - none > kPatience) _exit(kInterruptedStatus);
+  if (first_signal.compare_exchange_strong(none, milliseconds)) {
+    sem_post(&signalled);
+  } else if (milliseconds - none > kPatience) {
+    _exit(kInterruptedStatus);
+  }
+}
+
+/// Not by a stream: the thread that holds its lock may be the one that does not stop.
+void say_interrupted() {
+  const std::string wipe_progress = isatty(STDERR_FILENO) != 0 ? "\r\x1b[K" : "";
+  const std::string line = wipe_progress + "itin: error: " + Cancelled().what() + "\n";
+  [[maybe_unused]] const ssize_t ignored = ::write(STDERR_FILENO, line.data(), line.size());
+}
+
+void end_what_does_not_stop() {
+  while (sem_wait(&signalled) != 0) {
+  }
+  std::this_thread::sleep_for(kTimeToStop);
+  if (ending.exchange(true)) return;
+  remove_unfinished();
+  say_interrupted();
+  _exit(kInterruptedStatus);
 }
 
 }  // namespace
 
 void catch_interruptions() {
+  sem_init(&signalled, 0, 0);
+  try {
+    std::thread(end_what_does_not_stop).detach();
+  } catch (const std::system_error&) {
+    // As the header says.
+  }
   struct sigaction action {};
   action.sa_handler = note_interruption;
   // Restart system calls: a write that fails with EINTR would look like a full disk.
@@ -43,6 +82,10 @@ void catch_interruptions() {
 
 bool interrupted() {
   return first_signal.load(std::memory_order_relaxed) != 0;
+}
+
+void end_interruptions() {
+  while (ending.exchange(true)) pause();
 }
 
 }  // namespace itin::cli

@@ -34,7 +34,7 @@ namespace itin::cli {
 
 namespace {
 
-enum Status { kDone = 0, kFailed = 1, kWrongCall = 2, kInterrupted = 130 };
+enum Status { kDone = 0, kFailed = 1, kWrongCall = 2, kInterrupted = kInterruptedStatus };
 
 /// The options that every verb has.
 struct Everywhere {
@@ -196,6 +196,7 @@ void parse_and_run(const std::vector<std::string>& arguments) {
 }
 
 int report(const std::string& error, Status status) {
+  end_interruptions();
   std::string message = in_options(error);
   std::replace(message.begin(), message.end(), '\n', ' ');
   std::cerr << "itin: error: " << message << std::endl;
@@ -208,6 +209,7 @@ int run(int argc, char** argv) {
   try {
     catch_interruptions();
     parse_and_run({argv + 1, argv + argc});
+    end_interruptions();
     return kDone;
   } catch (const Cancelled& error) {
     return report(error.what(), kInterrupted);

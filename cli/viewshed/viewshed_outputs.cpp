@@ -23,12 +23,6 @@ bool is_polygons(const std::string& path) {
 
 }  // namespace
 
-ViewshedOutputs::~ViewshedOutputs() {
-  if (!folder_ || !folder_->made() || complete_) return;
-  std::error_code ignored;
-  for (const std::string& path : single_) std::filesystem::remove(path, ignored);
-}
-
 void ViewshedOutputs::declare(CLI::App& app) {
   writes(app.add_option(
                 "-o,--output", outputs_,
@@ -69,6 +63,7 @@ void ViewshedOutputs::prepare(const viewshed::Request& request) {
       if (taken.contains(name)) name += fmt::format("-{}", i + 1);
       taken.insert(name);
       single_.push_back((fs::path(each_) / (name + ".tif")).string());
+      if (folder_->made()) in_new_folder_.emplace_back(single_.back());
     }
   }
   for (const std::string& path : single_) policy_.claim(path);
@@ -103,7 +98,7 @@ void ViewshedOutputs::write(viewshed::Surveyed& surveyed, const Context& context
 
 void ViewshedOutputs::write_each(const Compute& compute, const Context& context) {
   for (std::size_t i = 0; i < single_.size(); ++i) write_raster(single_[i], compute(i), context);
-  complete_ = true;
+  for (Unfinished& raster : in_new_folder_) raster.finish([] {});
 }
 
 std::vector<std::string> ViewshedOutputs::paths() const {

@@ -1,6 +1,7 @@
 // The files a viewshed is written to: rasters and polygons by -o, a map, and rasters of single observers.
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <optional>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <itin/unfinished.hpp>
 #include <viewshed/viewshed.hpp>
 
 #include "output/new_folder.hpp"
@@ -18,16 +20,11 @@ namespace itin::cli {
 
 class ViewshedOutputs {
  public:
-  ViewshedOutputs() = default;
-  /// Leaves nothing of a directory of single observers that was made but not completed.
-  ~ViewshedOutputs();
-  ViewshedOutputs(const ViewshedOutputs&) = delete;
-  ViewshedOutputs& operator=(const ViewshedOutputs&) = delete;
-
   void declare(CLI::App& app);
   /// `others` are files that something else writes. Throws InputError.
   void validate(const std::vector<std::string>& others);
-  /// Throws FileError where something cannot be written. Makes the directory of single observers.
+  /// Throws FileError where something cannot be written. Makes the directory of single observers, of which nothing is
+  /// left unless write_each() completes it.
   void prepare(const viewshed::Request& request);
 
   struct Context {
@@ -53,7 +50,7 @@ class ViewshedOutputs {
   std::vector<std::string> others_;
   std::vector<std::string> single_;  ///< a path an observer, with --each
   std::optional<NewFolder> folder_;  ///< of these
-  bool complete_ = false;
+  std::deque<Unfinished> in_new_folder_;
   OutputPolicy policy_;
 };
 

@@ -14,6 +14,17 @@ namespace itin {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+std::string temporary_name(const fs::path& target) {
+  static std::atomic<unsigned> count{0};
+  const std::string name =
+      fmt::format(".{}.part{}-{}{}", target.stem().string(), ::getpid(), ++count, target.extension().string());
+  return (target.parent_path() / name).string();
+}
+
+}  // namespace
+
 void PendingFile::require_possible(const std::string& path, bool overwrite) {
   std::error_code ignored;  // what cannot be looked at fails when it is opened, with a better message
   if (fs::is_directory(path, ignored)) throw FileError(path, "is a folder; name a file");
@@ -23,28 +34,18 @@ void PendingFile::require_possible(const std::string& path, bool overwrite) {
     throw FileError(path, fmt::format("there is no folder {}; create it first", folder.string()));
 }
 
-PendingFile::PendingFile(std::string path, bool overwrite) : path_(std::move(path)), overwrite_(overwrite) {
+PendingFile::PendingFile(std::string path, bool overwrite)
+    : path_(std::move(path)), overwrite_(overwrite), unfinished_(temporary_name(path_)) {
   require_possible(path_, overwrite_);
-  static std::atomic<unsigned> count{0};
-  const fs::path target(path_);
-  temporary_path_ = (target.parent_path() / fmt::format(".{}.part{}-{}{}", target.stem().string(), ::getpid(), ++count,
-                                                        target.extension().string()))
-                        .string();
-}
-
-PendingFile::~PendingFile() {
-  if (committed_) return;
-  std::error_code ignored;
-  fs::remove(temporary_path_, ignored);
-  fs::remove(temporary_path_ + "-journal", ignored);  // SQLite's, beside an unfinished GeoPackage
 }
 
 void PendingFile::commit() {
   require_possible(path_, overwrite_);
-  std::error_code error;
-  fs::rename(temporary_path_, path_, error);
-  if (error) throw FileError(path_, "cannot be put in place: " + error.message());
-  committed_ = true;
+  unfinished_.finish([&] {
+    std::error_code error;
+    fs::rename(temporary_path(), path_, error);
+    if (error) throw FileError(path_, "cannot be put in place: " + error.message());
+  });
 }
 
 }  // namespace itin

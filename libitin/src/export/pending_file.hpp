@@ -7,6 +7,8 @@
 
 #include <string>
 
+#include <itin/unfinished.hpp>
+
 namespace itin {
 
 class PendingFile {
@@ -16,22 +18,17 @@ class PendingFile {
 
   /// Throws as require_possible() does.
   PendingFile(std::string path, bool overwrite);
-  /// Removes the temporary file, if not committed.
-  ~PendingFile();
-  PendingFile(const PendingFile&) = delete;
-  PendingFile& operator=(const PendingFile&) = delete;
 
   const std::string& path() const { return path_; }
-  /// In the same folder, with the same ending; no other PendingFile has the same.
-  const std::string& temporary_path() const { return temporary_path_; }
+  /// In the same folder, with the same ending; no other PendingFile has the same. What is there goes unless committed.
+  const std::string& temporary_path() const { return unfinished_.path(); }
   /// Renames. Throws FileError, also when another program has made the file meanwhile and it may not be replaced.
   void commit();
 
  private:
   std::string path_;
-  std::string temporary_path_;
   bool overwrite_;
-  bool committed_ = false;
+  Unfinished unfinished_;
 };
 
 }  // namespace itin

@@ -3,7 +3,7 @@
 // Coordinates are grid positions throughout: what is computed between them is rounded to the grid as by snap rounding,
 // so results are valid polygons whose edges lie within a grid step of the exact ones. Every function is free of shared
 // state and may run on many threads. All of them can be stopped (stoppable.hpp), though GEOS takes some seconds to
-// notice within an outline of a million corners.
+// notice within an outline of a million corners (the program does not wait for it).
 #pragma once
 
 #include <utility>

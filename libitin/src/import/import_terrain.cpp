@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <deque>
 #include <filesystem>
 #include <iterator>
 #include <optional>
@@ -10,6 +11,7 @@
 #include <itin/error.hpp>
 #include <itin/import.hpp>
 #include <itin/store.hpp>
+#include <itin/unfinished.hpp>
 
 #include "base/stoppable.hpp"
 #include "import/empty_import.hpp"
@@ -302,22 +304,6 @@ void report_counts(const SetAsideCounts& before, const SetAsideCounts& now, Impo
   report.crossings = std::max(report.crossings, more(now.crossings, before.crossings));
 }
 
-/// A store for the time of an import only.
-class PassingStore {
- public:
-  explicit PassingStore(std::string path) : path_(std::move(path)) {}
-  PassingStore(const PassingStore&) = delete;
-  PassingStore& operator=(const PassingStore&) = delete;
-  ~PassingStore() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
-
 Additions plan_additions(const ImportOptions& options, const Store* store, Progress& progress) {
   Additions additions;
   if (stands(options)) {
@@ -352,15 +338,15 @@ void write_in_turns(const std::string& store_path, StoreWriter& writer, const st
                     ImportReport& report, Progress& progress) {
   const Store* base = existing ? &*existing : nullptr;
   const Store* ground = may_stand_on(base) && !additions.footprints.empty() ? base : nullptr;
-  std::vector<std::unique_ptr<PassingStore>> passing;
+  std::deque<Unfinished> passing;  // stores for the time of this import only
   std::optional<Store> before;
   RaisedFeatures raised;
   for (int raisings = 0;;) {
     raisings += ground != nullptr ? 1 : 0;
-    passing.push_back(std::make_unique<PassingStore>(fmt::format("{}.ground{}", store_path, passing.size())));
-    const Target target{writer, passing.back()->path(), raisings == kMostRaised, tolerances};
+    passing.emplace_back(fmt::format("{}.ground{}", store_path, passing.size()));
+    const Target target{writer, passing.back().path(), raisings == kMostRaised, tolerances};
     if (write_store(target, base, additions, ground, options, report, raised, progress)) break;
-    base = ground = &before.emplace(passing.back()->path());
+    base = ground = &before.emplace(passing.back().path());
     additions = Additions{plan_nothing(base->metadata()), {}};
   }
   report.features += raised.features;

@@ -27,11 +27,12 @@ ReplacementFile::ReplacementFile(const std::string& target) : shown_(target), ta
   if (fs::is_directory(target_, missing)) fail("is a directory, name a file");
   temporary_ = target_ + ".writing";
   lock();
+  unfinished_.emplace(temporary_);
   struct stat old = {};
   const bool kept = ::stat(target_.c_str(), &old) != 0 || ::fchmod(descriptor_, old.st_mode & 07777) == 0;
   if (!kept || ::ftruncate(descriptor_, 0) != 0) {
     const int code = errno;
-    ::unlink(temporary_.c_str());
+    unfinished_.reset();
     ::close(descriptor_);
     fail(std::strerror(code));
   }
@@ -57,16 +58,16 @@ void ReplacementFile::lock() {
 }
 
 ReplacementFile::~ReplacementFile() {
-  if (!committed_) ::unlink(temporary_.c_str());
+  unfinished_.reset();
   ::close(descriptor_);
 }
 
 void ReplacementFile::commit() {
   if (::fsync(descriptor_) != 0) fail(std::string("cannot be written: ") + std::strerror(errno));
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0) {
-    fail(std::string("cannot be replaced: ") + std::strerror(errno));
-  }
-  committed_ = true;
+  unfinished_->finish([&] {
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0)
+      fail(std::string("cannot be replaced: ") + std::strerror(errno));
+  });
   const fs::path parent = fs::path(target_).parent_path();
   const int directory = ::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (directory < 0) return;  // a directory we may write but not read: its entry is synced with the next flush

@@ -4,7 +4,10 @@
 // process, so what a killed one left behind is simply overwritten by the next.
 #pragma once
 
+#include <optional>
 #include <string>
+
+#include <itin/unfinished.hpp>
 
 namespace itin {
 
@@ -31,7 +34,7 @@ class ReplacementFile {
   std::string target_;  ///< with symbolic links followed
   std::string temporary_;
   int descriptor_ = -1;
-  bool committed_ = false;
+  std::optional<Unfinished> unfinished_;  ///< what has the temporary name, while we have the lock
 };
 
 }  // namespace itin

@@ -126,17 +126,47 @@ TEST(FeatureMesh, LeavesOutMeasuredRoofsThatCrossTooOften) {
       << mesh.reports.at(0).text;
 }
 
+Patch box_patch(std::int32_t xmin, std::int32_t ymin, std::int32_t xmax, std::int32_t ymax) {
+  return {{{{{xmin, ymin}, {xmax, ymin}, {xmax, ymax}, {xmin, ymax}}, {}}}, {}, 0};
+}
+
+TEST(Entangled, NoMoreThanMustGo) {
+  // 110 bands across 110: each crosses the others at 440 places, all together at 48,400.
+  std::vector<Patch> patches;
+  std::vector<std::uint32_t> owners;
+  for (int i = 0; i < 110; ++i) patches.push_back(box_patch(0, 100 * i, 50000, 100 * i + 50));
+  for (int i = 0; i < 110; ++i) patches.push_back(box_patch(100 * i + 5, -100, 100 * i + 55, 40000));
+  for (std::uint32_t i = 0; i < patches.size(); ++i) owners.push_back(1000 + i);
+  const std::map<std::uint32_t, std::string> gone = entangled(patches, owners);
+  ASSERT_EQ(gone.size(), 65U);  // as 48,400 - 65 * 440 is the first that is not above 20,000
+  EXPECT_EQ(gone.begin()->first, 1000U + 220 - 65) << "of equals the last go";
+  for (const auto& [owner, why] : gone) {
+    EXPECT_EQ(why,
+              "left out: its outline crosses itself and its neighbours 440 times, where no more than 20000 crossings "
+              "of 880 edges are taken apart");
+  }
+}
+
+/// Teeth upward from y = -2; or, with x and y exchanged, to the right.
+PlanRing comb(int teeth, bool exchanged) {
+  PlanRing ring;
+  const auto add = [&](double x, double y) {
+    if (exchanged) std::swap(x, y);
+    ring.push_back({kFeatureGrid.origin.x + x, kFeatureGrid.origin.y + y});
+  };
+  for (int i = 0; i < teeth; ++i) add(i, -1), add(i, 200), add(i + 0.5, 200), add(i + 0.5, -1);
+  add(teeth, -1), add(teeth, -2), add(0, -2);
+  return ring;
+}
+
 TEST(FeatureMesh, LeavesOutNeighboursThatCrossTooOften) {
-  std::vector<FootprintFeature> bands;
-  constexpr int kBands = 110;
-  for (int i = 0; i < kBands; ++i) bands.push_back(house("row", {test::box_ring(0, i, 500, i + 0.5)}, 0, 5));
-  for (int i = 0; i < kBands; ++i) bands.push_back(house("column", {test::box_ring(i, -1, i + 0.5, 400)}, 0, 5));
-  const FeatureMesh mesh = meshed(bands);
-  EXPECT_GT(mesh.built, 100U);
-  EXPECT_GT(mesh.refused, 20U);
-  EXPECT_TRUE(reported(mesh,
-                       "left out: its outline crosses itself and its neighbours 440 times, where no more than "
-                       "20000 crossings of 880 edges are taken apart"));
+  const FeatureMesh mesh =
+      meshed({house("upward", {comb(75, false)}, 0, 5), house("to the right", {comb(75, true)}, 0, 5),
+              house("beside", {test::box_ring(300, 300, 310, 310)}, 0, 5)});
+  EXPECT_EQ(mesh.built, 2U);
+  EXPECT_EQ(mesh.refused, 1U);
+  EXPECT_TRUE(reported(mesh, "to the right: left out: its outline crosses itself and its neighbours "));
+  EXPECT_TRUE(reported(mesh, " times, where no more than 20000 crossings of 606 edges are taken apart"));
 }
 
 TEST(FeatureMesh, ALineThatCrossesItselfTooOftenIsNoWall) {

@@ -1,0 +1,68 @@
+#include <filesystem>
+#include <mutex>
+#include <system_error>
+#include <utility>
+
+#include <itin/unfinished.hpp>
+
+namespace itin {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A thread that still writes into a folder may fill it between two looks at it.
+constexpr int kTries = 100;
+
+struct AllUnfinished {
+  std::mutex mutex;
+  std::list<const Unfinished*> list;  ///< the latest first
+};
+
+AllUnfinished& all() {
+  static AllUnfinished all;
+  return all;
+}
+
+}  // namespace
+
+Unfinished::Turn::Turn() {
+  all().mutex.lock();
+}
+
+Unfinished::Turn::~Turn() {
+  all().mutex.unlock();
+}
+
+Unfinished::Unfinished(std::string path, Kind kind) : path_(std::move(path)), kind_(kind) {
+  const Turn turn;
+  place_ = all().list.insert(all().list.begin(), this);
+}
+
+Unfinished::~Unfinished() {
+  const Turn turn;
+  if (finished_) return;
+  remove();
+  keep();
+}
+
+void Unfinished::keep() {
+  if (!std::exchange(finished_, true)) all().list.erase(place_);
+}
+
+void Unfinished::remove() const {
+  std::error_code error;
+  if (kind_ == Kind::folder) {
+    for (int i = 0; i < kTries && (i == 0 || error); ++i) fs::remove_all(path_, error);
+    return;
+  }
+  fs::remove(path_, error);
+  if (kind_ == Kind::file) fs::remove(path_ + "-journal", error);
+}
+
+void remove_unfinished() {
+  all().mutex.lock();
+  for (const Unfinished* const unfinished : all().list) unfinished->remove();
+}
+
+}  // namespace itin
