@@ -90,16 +90,53 @@ class ZoneParts : public testing::Test {
       expect_same(a.*field, b.*field);
   }
 
+  static void expect_same(const Zone& a, const Zone& b) {
+    EXPECT_EQ(a.statistics.lines, b.statistics.lines);
+    expect_same(a.bare, b.bare);
+    ASSERT_EQ(a.screened.has_value(), b.screened.has_value());
+    if (a.screened) expect_same(*a.screened, *b.screened);
+    ASSERT_EQ(a.radar.has_value(), b.radar.has_value());
+    if (a.radar) {
+      EXPECT_EQ(a.radar->ground_m, b.radar->ground_m);
+      expect_same(a.radar->height_m, b.radar->height_m);
+      EXPECT_EQ(a.radar->turbine_m, b.radar->turbine_m);
+    }
+    EXPECT_EQ(a.warnings, b.warnings);
+  }
+
+  /// With what holds a part of the surfaces alone.
+  Zone survey_in_parts(const Zone& whole, double share) {
+    const double surfaces = 110 * static_cast<double>(whole.statistics.triangles);
+    Zone parts = survey(bytes_of_results(whole) + static_cast<std::uint64_t>(share * surfaces));
+    EXPECT_GT(zone_parts(Store(path()), parts, whole.screened.has_value()).size(), 1U);
+    return parts;
+  }
+
   void expect_parts_make_the_whole() {
     const Zone whole = survey(std::nullopt);
-    const double results = 2 * 40 * static_cast<double>(whole.grid.cell_count());
-    const double surfaces = 110 * static_cast<double>(whole.statistics.triangles);
-    const Zone parts = survey(static_cast<std::uint64_t>(results + 0.4 * surfaces));
-    EXPECT_GT(zone_parts(Store(path()), parts, true).size(), 1U);
-    EXPECT_EQ(parts.statistics.lines, whole.statistics.lines);
-    expect_same(parts.bare, whole.bare);
-    expect_same(*parts.screened, *whole.screened);
-    EXPECT_EQ(parts.warnings, whole.warnings);
+    for (const double share : {0.6, 0.4}) expect_same(survey_in_parts(whole, share), whole);
+  }
+
+  /// North of the lake, which lies between it and some of the cells.
+  void add_radar() { request_.radar = Observer{"radar", {kZoneCorner.x + 1530, kZoneCorner.y - 260}, 15}; }
+
+  /// With the engine of viewsheds, which looks from the radar alone.
+  void expect_heights_of_a_viewshed(const Zone& zone) {
+    Request request;
+    request.observers = {*request_.radar};
+    request.mode = Mode::kHeight;
+    request.grid = zone.grid;
+    request.nodata = request_.nodata;
+    const Result result = compute(Store(path()), request, progress_);
+    std::size_t high = 0;
+    for (std::size_t i = 0; i < result.least_height_m.size(); ++i) {
+      const float expected = result.least_height_m[i], found = zone.radar->height_m[i];
+      ASSERT_EQ(std::isnan(expected), std::isnan(found)) << "cell " << i;
+      if (std::isnan(expected)) continue;
+      ASSERT_NEAR(expected, found, 1e-3) << "cell " << i;
+      high += expected > 1 ? 1 : 0;
+    }
+    EXPECT_GT(high, 100U);
   }
 
   test::TemporaryDirectory directory_;
@@ -114,6 +151,47 @@ TEST_F(ZoneParts, MakeTheWhole) {
 TEST_F(ZoneParts, LikewiseWhereWhatIsMissingHides) {
   request_.nodata = NoData::kBlock;
   expect_parts_make_the_whole();
+}
+
+TEST_F(ZoneParts, HoldWhatARadarSees) {
+  add_radar();
+  const Zone whole = survey(std::nullopt);
+  expect_heights_of_a_viewshed(whole);
+  for (const double share : {0.8, 0.6, 0.4}) {
+    const Zone parts = survey_in_parts(whole, share);
+    expect_same(parts, whole);
+    for (const ZonePart& part : zone_parts(Store(path()), parts, true))
+      EXPECT_TRUE(part.tiles.empty() || part.radar_tiles.empty());
+  }
+}
+
+TEST_F(ZoneParts, HoldWhatARadarSeesAcrossMissingGround) {
+  add_radar();
+  const Zone clear = survey(std::nullopt);
+  request_.nodata = NoData::kBlock;
+  const Zone whole = survey(std::nullopt);
+  EXPECT_GT(std::count_if(whole.radar->height_m.begin(), whole.radar->height_m.end(), [](float h) { return h != h; }),
+            std::count_if(clear.radar->height_m.begin(), clear.radar->height_m.end(), [](float h) { return h != h; }));
+  expect_heights_of_a_viewshed(whole);
+  for (const double share : {0.8, 0.6, 0.4}) expect_same(survey_in_parts(whole, share), whole);
+}
+
+/// Over the bare ground alone, on cells that reach beyond the turbines and the data, and with a turbine beyond them.
+TEST_F(ZoneParts, HoldWhatARadarSeesFarFromTheTurbines) {
+  add_radar();
+  request_.themes.reset();
+  request_.turbines.resize(2);
+  for (Turbine& t : request_.turbines) t.radius = 300;
+  request_.cell_size.reset();
+  request_.grid = RasterGrid({kZoneCorner.x - 100, kZoneCorner.y + 100}, 10, 10, 280, 98);
+  const Zone whole = survey(std::nullopt);
+  expect_heights_of_a_viewshed(whole);
+  for (const double share : {0.7, 0.4}) expect_same(survey_in_parts(whole, share), whole);
+}
+
+TEST_F(ZoneParts, ARadarOffTheDataIsRefused) {
+  request_.radar = Observer{"radar", {kZoneCorner.x - 1000, kZoneCorner.y}, 15};
+  EXPECT_THROW(survey(std::nullopt), InputError);
 }
 
 TEST_F(ZoneParts, LittleMemoryIsRefusedWithWhatIsNeeded) {

@@ -121,8 +121,7 @@ struct Zone {
 Zone survey_turbines(const Tin& ground, const Tin* screened, const ZoneRequest& request, Progress& progress);
 
 /// On the surface of a store: one retrieval within the turbines' radii, or one a part. Throws also what triangulate()
-/// throws, and InputError where memory_bytes is not enough for any part, or for all with a radar, saying about how much
-/// is.
+/// throws, and InputError where memory_bytes is not enough for some part, saying about how much is.
 Zone survey_turbines(const Store& store, const ZoneRequest& request, Progress& progress);
 
 }  // namespace itin::viewshed

@@ -4,46 +4,70 @@
 #include <limits>
 
 #include "line/grid_units.hpp"
-#include "progress/stage.hpp"
 
 namespace itin::viewshed {
 
 namespace {
 
-void survey_tile(const RadialSweep::View& radar, const FullSurface& surface, const VoidShadow* shadow,
-                 FullSurface::TileWork& work, std::vector<float>& result) {
-  const double resolution = surface.units().resolution;
-  for (std::size_t i = 0; i < work.ground.size(); ++i) work.targets[i] = work.ground[i] + kRadarCeiling / resolution;
-  surface.raise_from(radar, {work.ground, work.ground}, work);
-  for_each_cell(work.tile, [&](std::size_t cell, RasterGrid::Cell place) {
-    if (std::isnan(work.ground[cell]) || std::isnan(work.seen[cell])) return;
-    const Point2 top = work.centres.at(cell);
-    if (shadow != nullptr && shadow->holds(top.x, top.y)) return;
-    const bool at_radar = std::isinf(work.seen[cell]);
-    result[surface.grid().index(place)] =
-        at_radar ? 0 : static_cast<float>((work.seen[cell] - work.ground[cell]) * resolution);
-  });
+Eye eye_of_radar(const Grid& units, std::optional<double> ground_m, const ZoneRequest& zone) {
+  Request request;
+  request.earth = zone.earth;
+  return eye_of(units, request, *zone.radar, ground_m);
 }
 
 }  // namespace
 
-std::vector<float> radar_heights(const RadialSweep::View& radar, const FullSurface& surface, const VoidShadow* shadow,
-                                 Progress& progress) {
-  std::vector<float> result(surface.grid().cell_count(), std::numeric_limits<float>::quiet_NaN());
-  for_each_step(surface.tiles().cell_count(), "radar", progress,
-                [&](std::size_t tile) { survey_tile(radar, surface, shadow, *surface.begin(tile), result); });
-  return result;
+struct RadarSurvey::Screen {
+  const FullSurface& ground;
+  const RadialSweep::View& view;
+  const VoidShadow* shadow;  ///< what ground without data hides; may be null
+
+  bool shades(Point2 units) const { return shadow != nullptr && shadow->holds(units.x, units.y); }
+};
+
+RadarSurvey::RadarSurvey(const Grid& units, std::optional<double> ground_m, Zone& zone)
+    : zone_(zone), eye_(eye_of_radar(units, ground_m, zone.request)) {
+  RadarView& seen = zone.radar.emplace();
+  seen.ground_m = *ground_m;
+  seen.height_m.assign(zone.grid.cell_count(), std::numeric_limits<float>::quiet_NaN());
+  seen.turbine_m.assign(zone.request.turbines.size(), 0);
 }
 
-double radar_sees(const RadialSweep::View& radar, const FullSurface& surface, const VoidShadow* shadow,
-                  const Turbine& turbine, double ground_m) {
-  const Grid& units = surface.units();
-  const double tip = (ground_m + turbine.tip_height) / units.resolution;
-  const double least = surface.raise_from(radar, turbine.position, ground_m / units.resolution, tip);
-  if (std::isinf(least)) return turbine.tip_height;
-  const bool shaded = shadow != nullptr && shadow->holds(easting_in_units(units, turbine.position.x),
-                                                         northing_in_units(units, turbine.position.y));
-  return shaded || std::isnan(least) ? 0 : (tip - least) * units.resolution;
+void RadarSurvey::run(const FullSurface& ground, const ZonePart& part, Stage& stage) {
+  std::optional<VoidShadow> shadow;
+  // The part's window is convex: where it ends, no sight line does.
+  if (zone_.request.nodata == NoData::kBlock) shadow.emplace(ground.rim(), eye_.units);
+  const RadialSweep::View view = ground.view_from(eye_);
+  const Screen screen{ground, view, shadow ? &*shadow : nullptr};
+  stage.for_each(part.radar_tiles.size(), [&](std::size_t i) {
+    survey_tile(screen, part.radar_tiles[i]);
+    return std::size_t{1};
+  });
+  for (const std::size_t turbine : part.radar_turbines) zone_.radar->turbine_m[turbine] = seen_of(screen, turbine);
+}
+
+void RadarSurvey::survey_tile(const Screen& screen, std::size_t tile) {
+  const auto work = screen.ground.begin(tile);
+  const double resolution = screen.ground.units().resolution;
+  for (std::size_t i = 0; i < work->ground.size(); ++i) work->targets[i] = work->ground[i] + kRadarCeiling / resolution;
+  screen.ground.raise_from(screen.view, {work->ground, work->ground}, *work);
+  for_each_cell(work->tile, [&](std::size_t cell, RasterGrid::Cell place) {
+    if (std::isnan(work->ground[cell]) || std::isnan(work->seen[cell]) || screen.shades(work->centres.at(cell))) return;
+    const bool at_radar = std::isinf(work->seen[cell]);
+    zone_.radar->height_m[zone_.grid.index(place)] =
+        at_radar ? 0 : static_cast<float>((work->seen[cell] - work->ground[cell]) * resolution);
+  });
+}
+
+double RadarSurvey::seen_of(const Screen& screen, std::size_t turbine) const {
+  const Turbine& t = zone_.request.turbines[turbine];
+  const double ground_m = zone_.ground_m[turbine];
+  const Grid& units = screen.ground.units();
+  const double tip = (ground_m + t.tip_height) / units.resolution;
+  const double least = screen.ground.raise_from(screen.view, t.position, ground_m / units.resolution, tip);
+  if (std::isinf(least)) return t.tip_height;
+  const Point2 place{easting_in_units(units, t.position.x), northing_in_units(units, t.position.y)};
+  return screen.shades(place) || std::isnan(least) ? 0 : (tip - least) * units.resolution;
 }
 
 }  // namespace itin::viewshed

@@ -1,26 +1,40 @@
 // How high something must stand to rise above a radar's horizon.
+//
+//   RadarSurvey radar(units, ground_m, zone);      // zone.radar knows of nothing seen yet
+//   radar.run(surface, part, stage);               // for every part
 #pragma once
 
-#include <vector>
+#include <optional>
 
-#include <itin/progress.hpp>
 #include <viewshed/turbines.hpp>
 
+#include "progress/stage.hpp"
 #include "request/eye.hpp"
 #include "request/void_shadow.hpp"
 #include "scene/full_surface.hpp"
+#include "turbines/zone_parts.hpp"
 
 namespace itin::viewshed {
 
-/// `radar` is the surface's view from it. For every cell of the surface's grid, metres above its ground, up to
-/// kRadarCeiling: NaN above that, and without ground. `shadow` is what ground without data hides from the radar; may be
-/// null.
+/// What is hidden up to so many metres above the ground is not looked for.
 inline constexpr double kRadarCeiling = 1000;
-std::vector<float> radar_heights(const RadialSweep::View& radar, const FullSurface& surface, const VoidShadow* shadow,
-                                 Progress& progress);
 
-/// What the radar sees of one turbine, metres from its tip down; 0: hidden.
-double radar_sees(const RadialSweep::View& radar, const FullSurface& surface, const VoidShadow* shadow,
-                  const Turbine& turbine, double ground_m);
+class RadarSurvey {
+ public:
+  /// `ground_m` is under the zone's radar. The zone must outlive it. Throws InputError where there is none.
+  RadarSurvey(const Grid& units, std::optional<double> ground_m, Zone& zone);
+
+  /// Enters what is seen over the tiles and of the turbines that the part has for the radar. Every tile is a step.
+  void run(const FullSurface& ground, const ZonePart& part, Stage& stage);
+
+ private:
+  struct Screen;
+  void survey_tile(const Screen& screen, std::size_t tile);
+  /// Of one turbine, metres from its tip down; 0: hidden.
+  double seen_of(const Screen& screen, std::size_t turbine) const;
+
+  Zone& zone_;
+  Eye eye_;
+};
 
 }  // namespace itin::viewshed

@@ -1,17 +1,17 @@
 #include <algorithm>
+#include <memory>
 #include <optional>
-#include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
+#include <itin/silent_progress.hpp>
 #include <viewshed/surface.hpp>
 #include <viewshed/turbines.hpp>
 
 #include "bounds/boundary.hpp"
 #include "line/grid_units.hpp"
+#include "progress/stage.hpp"
 #include "progress/stopwatch.hpp"
-#include "request/eye.hpp"
 #include "request/request.hpp"
 #include "request/void_shadow.hpp"
 #include "scene/full_surface.hpp"
@@ -46,49 +46,43 @@ void warn_of_voids(const Tin& tin, Zone& zone) {
   if (crossed) zone.warnings.emplace_back(kVoidsWarning);
 }
 
+/// Tiles to look from or over, each over the ground and, of the turbines, over what screens.
+std::size_t steps_of(const std::vector<ZonePart>& parts, bool screened) {
+  std::size_t steps = 0;
+  for (const ZonePart& part : parts) steps += (screened ? 2 : 1) * part.tiles.size() + part.radar_tiles.size();
+  return steps;
+}
+
 /// Surveys the parts of a zone, one after another.
 class ZoneWork {
  public:
-  ZoneWork(Zone& zone, Progress& progress) : zone_(zone), progress_(progress) {}
+  /// `ground` tells that under the radar, metres. Throws InputError where there is none.
+  template <class Ground>
+  ZoneWork(const Grid& units, const Ground& ground, Zone& zone) : zone_(zone) {
+    if (const auto& radar = zone.request.radar) radar_.emplace(units, ground(radar->position), zone);
+  }
 
-  /// `screen` may be null.
-  void survey(const FullSurface& ground, const FullSurface* screen, std::span<const std::size_t> tiles) {
-    const ZoneSurvey survey(ground, zone_);
-    look(survey, ground, tiles, "sight lines", zone_.bare);
-    if (zone_.request.radar) look_from_radar(ground);
-    if (screen != nullptr) look(survey, *screen, tiles, "sight lines, screened", *zone_.screened);
+  /// `screen` is null where the part has no turbines to look for, or nothing screens them.
+  void survey(const FullSurface& ground, const FullSurface* screen, const ZonePart& part, Stage& stage) {
+    Stopwatch watch;
+    if (!part.tiles.empty()) {
+      const ZoneSurvey survey(ground, zone_);
+      look(survey, ground, part, zone_.bare, stage);
+      if (screen != nullptr) look(survey, *screen, part, *zone_.screened, stage);
+    }
+    if (radar_) radar_->run(ground, part, stage);
+    zone_.statistics.lines_seconds += watch.lap();
   }
 
  private:
-  void look(const ZoneSurvey& survey, const FullSurface& surface, std::span<const std::size_t> tiles,
-            const std::string& stage, Visibility& visibility) {
-    Stopwatch watch;
+  void look(const ZoneSurvey& survey, const FullSurface& surface, const ZonePart& part, Visibility& visibility,
+            Stage& stage) {
     const std::vector<VoidShadow> behind_voids = shadows(surface, zone_.request);
-    zone_.statistics.lines += survey.run({surface.sweep(), behind_voids}, tiles, stage, visibility, progress_);
-    zone_.statistics.lines_seconds += watch.lap();
-  }
-
-  void look_from_radar(const FullSurface& surface) {
-    Stopwatch watch;
-    const Observer& radar = *zone_.request.radar;
-    const auto height = surface.height(radar.position);
-    Request request;
-    request.earth = zone_.request.earth;
-    const Eye eye = eye_of(surface.units(), request, radar, height);
-    std::optional<VoidShadow> behind_voids;
-    if (zone_.request.nodata == NoData::kBlock) behind_voids.emplace(surface.rim(), eye.units);
-    const VoidShadow* const shadow = behind_voids ? &*behind_voids : nullptr;
-    const RadialSweep::View view = surface.view_from(eye);
-    RadarView& seen = zone_.radar.emplace();
-    seen.ground_m = *height;
-    seen.height_m = radar_heights(view, surface, shadow, progress_);
-    for (std::size_t k = 0; k < zone_.request.turbines.size(); ++k)
-      seen.turbine_m.push_back(radar_sees(view, surface, shadow, zone_.request.turbines[k], zone_.ground_m[k]));
-    zone_.statistics.lines_seconds += watch.lap();
+    zone_.statistics.lines += survey.run({surface.sweep(), behind_voids}, part.tiles, visibility, stage);
   }
 
   Zone& zone_;
-  Progress& progress_;
+  std::optional<RadarSurvey> radar_;
 };
 
 /// The ground of the whole zone, where that is a lattice and the memory holds it.
@@ -96,7 +90,7 @@ std::optional<Surface> lattice_under(const Store& store, const Zone& zone, Progr
   std::uint64_t most_posts = kAnyLattice;
   if (const auto memory = zone.request.memory_bytes)
     most_posts = (*memory - std::min(*memory, bytes_of_results(zone))) / kBytesPerPost;
-  return retrieve_lattice(store, window_of(zone.request), zone.request.detail, ThemeChoice::none(),
+  return retrieve_lattice(store, window_of(zone), zone.request.detail, ThemeChoice::none(),
                           LatticeReader::Heights::kAll, most_posts, progress);
 }
 
@@ -104,8 +98,10 @@ std::optional<Surface> lattice_under(const Store& store, const Zone& zone, Progr
 
 Zone survey_turbines(const Tin& ground, const Tin* screened, const ZoneRequest& request, Progress& progress) {
   validate(request);
-  Zone zone = lay_out(request, ground.bounds(), [&](Point2 p) { return height_on(ground, p); });
+  const auto height = [&](Point2 p) { return height_on(ground, p); };
+  Zone zone = lay_out(request, ground.bounds(), height);
   warn_of_voids(ground, zone);
+  ZoneWork work(ground.grid, height, zone);
   const RasterGrid tiles = grid_of_tiles(zone.grid);
   const FullSurface bare(ground, nullptr, request.earth, zone.grid, tiles);
   std::optional<FullSurface> screen;
@@ -113,44 +109,45 @@ Zone survey_turbines(const Tin& ground, const Tin* screened, const ZoneRequest& 
     zone.screened = zone.bare;
     screen.emplace(*screened, nullptr, request.earth, zone.grid, tiles);
   }
-  ZoneWork(zone, progress).survey(bare, screen ? &*screen : nullptr, whole_zone(zone).tiles);
+  const ZonePart whole = whole_zone(zone);
+  Stage stage("sight lines", steps_of({whole}, screen.has_value()), progress);
+  work.survey(bare, screen ? &*screen : nullptr, whole, stage);
   return zone;
 }
 
 Zone survey_turbines(const Store& store, const ZoneRequest& request, Progress& progress) {
   validate(request);
   Stopwatch watch;
+  const auto height = [&](Point2 p) { return height_at(store, p, ThemeChoice::none(), progress, request.detail); };
   const Tin outline = coverage_of(store, window_of(request), progress);
-  Zone zone = lay_out(request, outline.bounds(),
-                      [&](Point2 p) { return height_at(store, p, ThemeChoice::none(), progress, request.detail); });
+  Zone zone = lay_out(request, outline.bounds(), height);
   warn_of_voids(outline, zone);
+  ZoneWork work(store.metadata().grid, height, zone);
   const bool stands = request.themes && request.themes->includes_standing(store.metadata().themes);
   if (stands) zone.screened = zone.bare;
+
+  auto lattice = stands ? std::nullopt : lattice_under(store, zone, progress);
+  const std::vector<ZonePart> parts = lattice ? std::vector{whole_zone(zone)} : zone_parts(store, zone, stands);
   const RasterGrid tiles = grid_of_tiles(zone.grid);
-  ZoneWork work(zone, progress);
-  const auto counted = [&](Surface surface) {
+  const auto owned = [&](Surface surface) {
     zone.statistics.retrieval_seconds += watch.lap();
     zone.statistics.retrieval += surface.statistics();
     zone.statistics.triangles += surface.triangle_count();
-    return surface;
+    return std::make_unique<OwnedSurface>(std::move(surface), std::nullopt, request.earth, zone.grid, tiles);
   };
-  const auto survey = [&](Surface bare, const ZonePart& part) {
-    const OwnedSurface ground(counted(std::move(bare)), std::nullopt, request.earth, zone.grid, tiles);
-    std::optional<OwnedSurface> screen;
-    if (stands)
-      screen.emplace(
-          counted(retrieve_surface(store, part.window, request.detail, *request.themes, kAnyLattice, progress)),
-          std::nullopt, request.earth, zone.grid, tiles);
+  SilentProgress quiet(progress);
+  Progress& reading = parts.size() == 1 ? progress : quiet;
+  std::optional<Stage> stage;
+  for (const ZonePart& part : parts) {
+    const auto retrieve = [&](const ThemeChoice& themes) {
+      return retrieve_surface(store, part.window, request.detail, themes, kAnyLattice, reading);
+    };
+    const auto ground = owned(lattice ? std::move(*lattice) : retrieve(ThemeChoice::none()));
+    const auto screen = stands && !part.tiles.empty() ? owned(retrieve(*request.themes)) : nullptr;
     zone.statistics.scene_seconds += watch.lap();
-    work.survey(ground.full, screen ? &screen->full : nullptr, part.tiles);
+    if (!stage) stage.emplace("sight lines", steps_of(parts, stands), progress);
+    work.survey(ground->full, screen ? &screen->full : nullptr, part, *stage);
     watch.lap();
-  };
-  auto lattice = stands ? std::nullopt : lattice_under(store, zone, progress);
-  if (lattice) {
-    survey(std::move(*lattice), whole_zone(zone));
-  } else {
-    for (const ZonePart& part : zone_parts(store, zone, stands))
-      survey(retrieve_surface(store, part.window, request.detail, ThemeChoice::none(), kAnyLattice, progress), part);
   }
   if (request.themes && !stands) {
     zone.screened = zone.bare;

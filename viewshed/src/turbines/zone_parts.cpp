@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -36,71 +37,124 @@ Window::Polygon farm_disc(const std::vector<const Turbine*>& farm) {
 
 /// Convex about the radar and all the rest, so that it holds the radar's sight lines.
 Window::Polygon box_about(const std::vector<Window::Polygon>& parts, Point2 radar) {
-  Box box;
-  box.extend(Point2{radar.x - 1, radar.y - 1});
-  box.extend(Point2{radar.x + 1, radar.y + 1});
+  Box box = disc_box(radar, 1);
   for (const Window::Polygon& part : parts)
     for (const Point2& p : part.outer) box.extend(p);
   return rectangle(box);
 }
 
+std::vector<Window::Polygon> farm_discs(const ZoneRequest& request) {
+  std::map<std::string, std::vector<const Turbine*>> farms;
+  for (const Turbine& t : request.turbines) farms[t.farm].push_back(&t);
+  std::vector<Window::Polygon> discs;
+  for (const auto& [name, farm] : farms) discs.push_back(farm_disc(farm));
+  return discs;
+}
+
+Window with_radar(std::vector<Window::Polygon> parts, const ZoneRequest& request) {
+  if (request.radar) parts = {box_about(parts, request.radar->position)};
+  return Window::polygons(std::move(parts));
+}
+
+std::vector<std::size_t> numbers_to(std::size_t count) {
+  std::vector<std::size_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+  return numbers;
+}
+
+/// Bytes a triangle, as measured on OS Terrain 50: of one surface, and of two.
+constexpr double kBareGround = 160, kScreened = 270;
+
 class Partition {
  public:
-  Partition(const Store& store, const Zone& zone, bool screened, const Box& box)
+  Partition(const Store& store, const Zone& zone, const Box& box)
       : zone_(zone),
-        screened_(screened),
         margin_(2 * store.metadata().grid.resolution),
         tiles_(grid_of_tiles(zone.grid)),
         points_(store, level_within(store.metadata(), zone.request.detail.coarsest()), box) {}
 
-  /// Bytes. As measured on OS Terrain 50: 160 a triangle of one surface, and another 110 of a second one; and what a
-  /// cell's results take.
-  double memory(const std::vector<Point2>& window) const {
-    const double triangles = 2 * static_cast<double>(points_.within(Window::polygons({{window, {}}})));
-    return (screened_ ? 270 : 160) * triangles + (screened_ ? 2 : 1) * static_cast<double>(bytes_of_results(zone_));
+  bool fits(const std::vector<Point2>& window, double bytes_per_triangle) const {
+    return memory(window, bytes_per_triangle) <= static_cast<double>(*zone_.request.memory_bytes);
   }
 
-  /// Those in reach of a turbine, from the south clockwise about the middle of all turbines.
-  std::vector<std::size_t> tiles_by_azimuth() const {
+  /// What is seen of turbines, from the cells in their reach.
+  void divide_turbines(double bytes_per_triangle, std::vector<ZonePart>& parts) const {
     Box farm;
     for (const Turbine& t : zone_.request.turbines) farm.extend(t.position);
-    const Point2 middle{(farm.xmin + farm.xmax) / 2, (farm.ymin + farm.ymax) / 2};
-    std::vector<std::pair<double, std::size_t>> order;
+    std::vector<Box> boxes;
+    std::vector<std::size_t> in_some_reach;
     for (std::size_t i = 0; i < tiles_.cell_count(); ++i) {
-      const Box box = box_about(i);
-      if (std::none_of(zone_.request.turbines.begin(), zone_.request.turbines.end(),
-                       [&](const Turbine& t) { return in_reach(t, box); }))
-        continue;
-      order.emplace_back(std::atan2((box.xmin + box.xmax) / 2 - middle.x, (box.ymin + box.ymax) / 2 - middle.y), i);
+      const Box& box = boxes.emplace_back(box_about(i));
+      if (std::any_of(zone_.request.turbines.begin(), zone_.request.turbines.end(),
+                      [&](const Turbine& t) { return in_reach(t, box); }))
+        in_some_reach.push_back(i);
     }
-    std::sort(order.begin(), order.end());
-    std::vector<std::size_t> result;
-    for (const auto& [azimuth, tile] : order) result.push_back(tile);
-    return result;
+    if (in_some_reach.empty()) return;
+    sort_by_azimuth({(farm.xmin + farm.xmax) / 2, (farm.ymin + farm.ymax) / 2}, boxes, in_some_reach);
+    divide(
+        in_some_reach, bytes_per_triangle, [&](Numbers of) { return about_turbines_in_reach(boxes, of); },
+        [&](Window window, Numbers of) {
+          parts.push_back({std::move(window), {of.begin(), of.end()}, {}, {}});
+        });
   }
 
-  /// Cuts them in halves until each part fits.
-  void divide(std::span<const std::size_t> tiles, std::vector<ZonePart>& parts) const {
-    const std::vector<Point2> window = window_over(tiles);
-    const double needed = memory(window);
-    if (needed <= static_cast<double>(*zone_.request.memory_bytes)) {
-      parts.push_back({Window::polygons({{window, {}}}), {tiles.begin(), tiles.end()}});
-    } else if (tiles.size() > 1) {
-      divide(tiles.first(tiles.size() / 2), parts);
-      divide(tiles.subspan(tiles.size() / 2), parts);
+  /// What the radar sees, over all cells and of all turbines.
+  void divide_radar(std::vector<ZonePart>& parts) const {
+    const Point2 radar = zone_.request.radar->position;
+    std::vector<Box> boxes;
+    for (std::size_t i = 0; i < tiles_.cell_count(); ++i) boxes.push_back(box_about(i));
+    for (const Turbine& t : zone_.request.turbines) boxes.push_back(disc_box(t.position, margin_));
+    std::vector<std::size_t> all = numbers_to(boxes.size());
+    sort_by_azimuth(radar, boxes, all);
+    divide(
+        all, kBareGround, [&](Numbers of) { return about_radar(boxes, of); },
+        [&](Window window, Numbers of) {
+          ZonePart& part = parts.emplace_back(ZonePart{std::move(window), {}, {}, {}});
+          for (const std::size_t i : of) {
+            if (i < tiles_.cell_count()) part.radar_tiles.push_back(i);
+            if (i >= tiles_.cell_count()) part.radar_turbines.push_back(i - tiles_.cell_count());
+          }
+        });
+  }
+
+ private:
+  using Numbers = std::span<const std::size_t>;
+
+  double memory(const std::vector<Point2>& window, double bytes_per_triangle) const {
+    const double triangles = 2 * static_cast<double>(points_.within(Window::polygons({{window, {}}})));
+    return bytes_per_triangle * triangles + static_cast<double>(bytes_of_results(zone_));
+  }
+
+  /// Cuts them in halves until the ground under each fits.
+  template <class WindowOver, class Add>
+  void divide(Numbers of, double bytes_per_triangle, const WindowOver& window_over, const Add& add) const {
+    std::vector<Point2> window = window_over(of);
+    if (fits(window, bytes_per_triangle)) {
+      add(Window::polygons({{std::move(window), {}}}), of);
+    } else if (of.size() > 1) {
+      divide(of.first(of.size() / 2), bytes_per_triangle, window_over, add);
+      divide(of.subspan(of.size() / 2), bytes_per_triangle, window_over, add);
     } else {
-      refuse(needed);
+      refuse(memory(window, bytes_per_triangle));
     }
   }
 
   [[noreturn]] void refuse(double needed) const {
     throw InputError(
         fmt::format("this takes about {:.2g} GB of memory, more than the {:.2g} GB allowed: give a coarser "
-                    "tolerance, larger cells or a smaller radius, or allow more",
+                    "`tolerance`, a greater `cell_size`, a smaller `radius`, or more `memory_bytes`",
                     needed / 1e9, static_cast<double>(*zone_.request.memory_bytes) / 1e9));
   }
 
- private:
+  /// From the south clockwise about a place.
+  static void sort_by_azimuth(Point2 about, const std::vector<Box>& boxes, std::vector<std::size_t>& numbers) {
+    const auto azimuth = [&](std::size_t i) {
+      return std::atan2((boxes[i].xmin + boxes[i].xmax) / 2 - about.x, (boxes[i].ymin + boxes[i].ymax) / 2 - about.y);
+    };
+    std::sort(numbers.begin(), numbers.end(),
+              [&](std::size_t a, std::size_t b) { return std::pair(azimuth(a), a) < std::pair(azimuth(b), b); });
+  }
+
   Box box_about(std::size_t tile) const {
     const Box centres = box_of_centres(zone_.grid, tile_at(zone_.grid, tiles_, tile));
     return {centres.xmin - margin_, centres.ymin - margin_, centres.xmax + margin_, centres.ymax + margin_};
@@ -110,24 +164,23 @@ class Partition {
     return squared_distance(t.position, box) <= t.radius * t.radius;
   }
 
-  /// Convex about the tiles' cells and all turbines in their reach.
-  std::vector<Point2> window_over(std::span<const std::size_t> tiles) const {
+  std::vector<Point2> about_turbines_in_reach(const std::vector<Box>& boxes, Numbers of) const {
     std::vector<Point2> points;
-    std::vector<bool> met(zone_.request.turbines.size());
-    for (const std::size_t tile : tiles) {
-      const Box box = box_about(tile);
-      add_corners(box, points);
-      for (std::size_t k = 0; k < met.size(); ++k) met[k] = met[k] || in_reach(zone_.request.turbines[k], box);
-    }
-    for (std::size_t k = 0; k < met.size(); ++k) {
-      const Point2 p = zone_.request.turbines[k].position;
-      if (met[k]) add_corners(disc_box(p, margin_), points);
-    }
+    for (const std::size_t i : of) add_corners(boxes[i], points);
+    for (const Turbine& t : zone_.request.turbines)
+      if (std::any_of(of.begin(), of.end(), [&](std::size_t i) { return in_reach(t, boxes[i]); }))
+        add_corners(disc_box(t.position, margin_), points);
+    return hull_of(std::move(points));
+  }
+
+  std::vector<Point2> about_radar(const std::vector<Box>& boxes, Numbers of) const {
+    std::vector<Point2> points;
+    for (const std::size_t i : of) add_corners(boxes[i], points);
+    add_corners(disc_box(zone_.request.radar->position, margin_), points);
     return hull_of(std::move(points));
   }
 
   const Zone& zone_;
-  bool screened_;
   double margin_;  ///< metres, against rounding
   RasterGrid tiles_;
   PointCounts points_;
@@ -136,37 +189,40 @@ class Partition {
 }  // namespace
 
 Window window_of(const ZoneRequest& request) {
-  std::map<std::string, std::vector<const Turbine*>> farms;
-  for (const Turbine& t : request.turbines) farms[t.farm].push_back(&t);
-  std::vector<Window::Polygon> parts;
-  for (const auto& [name, farm] : farms) parts.push_back(farm_disc(farm));
-  if (request.radar) parts.push_back(box_about(parts, request.radar->position));
-  return Window::polygons(std::move(parts));
+  return with_radar(farm_discs(request), request);
+}
+
+Window window_of(const Zone& zone) {
+  std::vector<Window::Polygon> parts = farm_discs(zone.request);
+  if (zone.request.radar) parts.push_back(rectangle(zone.grid.bounds()));
+  return with_radar(std::move(parts), zone.request);
 }
 
 ZonePart whole_zone(const Zone& zone) {
-  ZonePart whole{window_of(zone.request), std::vector<std::size_t>(grid_of_tiles(zone.grid).cell_count())};
-  std::iota(whole.tiles.begin(), whole.tiles.end(), std::size_t{0});
+  ZonePart whole{window_of(zone), numbers_to(grid_of_tiles(zone.grid).cell_count()), {}, {}};
+  if (!zone.request.radar) return whole;
+  whole.radar_tiles = whole.tiles;
+  whole.radar_turbines = numbers_to(zone.request.turbines.size());
   return whole;
 }
 
 std::uint64_t bytes_of_results(const Zone& zone) {
-  return (36 + 4 * zone.words) * zone.grid.cell_count();
+  const std::uint64_t surfaces = zone.screened ? 2 : 1;
+  return (surfaces * (36 + 4 * zone.words) + (zone.request.radar ? 4 : 0)) * zone.grid.cell_count();
 }
 
 std::vector<ZonePart> zone_parts(const Store& store, const Zone& zone, bool screened) {
   const ZonePart whole = whole_zone(zone);
   if (!zone.request.memory_bytes) return {whole};
   const Box box = whole.window.bounds();
-  const Partition partition(store, zone, screened, box);
+  const Partition partition(store, zone, box);
+  const double bytes_per_triangle = screened ? kScreened : kBareGround;
   std::vector<Point2> corners;
   add_corners(box, corners);
-  const double needed = partition.memory(hull_of(corners));
-  if (needed <= static_cast<double>(*zone.request.memory_bytes)) return {whole};
-  // A radar's heights are surveyed all at once.
-  if (zone.request.radar) partition.refuse(needed);
+  if (partition.fits(hull_of(corners), bytes_per_triangle)) return {whole};
   std::vector<ZonePart> parts;
-  partition.divide(partition.tiles_by_azimuth(), parts);
+  partition.divide_turbines(bytes_per_triangle, parts);
+  if (zone.request.radar) partition.divide_radar(parts);
   return parts;
 }
 

@@ -14,21 +14,28 @@
 
 namespace itin::viewshed {
 
+/// What one reading of the ground decides, or of the ground and of what stands on it.
 struct ZonePart {
-  Window window;                   ///< holds every sight line of its tiles
-  std::vector<std::size_t> tiles;  ///< of grid_of_tiles(zone.grid)
+  Window window;                            ///< holds every sight line of what follows
+  std::vector<std::size_t> tiles;           ///< of grid_of_tiles(zone.grid): from their cells turbines are looked for
+  std::vector<std::size_t> radar_tiles;     ///< over their cells the radar's heights are looked for
+  std::vector<std::size_t> radar_turbines;  ///< indices in zone.request.turbines: those that the radar looks for
 };
 
-/// Holds all lines to every turbine, and to the radar.
+/// Holds all lines to every turbine, and from the radar as far as the turbines' radii reach.
 Window window_of(const ZoneRequest& request);
+
+/// The same with every cell of the zone's grid, which the radar looks at.
+Window window_of(const Zone& zone);
 
 ZonePart whole_zone(const Zone& zone);
 
-/// Of what is told of the cells, over the bare ground.
+/// Of what is told of the cells, in all.
 std::uint64_t bytes_of_results(const Zone& zone);
 
-/// One part of all tiles where the zone's memory_bytes hold that, or are not given; else tiles in order of their
-/// azimuth, as many together as they hold. Throws InputError where that is impossible, saying about how much is needed.
+/// One part of everything where the zone's memory_bytes hold that, or are not given. Else tiles in the order of their
+/// azimuth about the turbines, as many together as they hold, and then, over the bare ground alone, about the radar.
+/// Throws InputError where that is impossible, saying about how much is needed.
 std::vector<ZonePart> zone_parts(const Store& store, const Zone& zone, bool screened);
 
 }  // namespace itin::viewshed

@@ -10,7 +10,6 @@
 #include <itin/same_place.hpp>
 
 #include "line/grid_units.hpp"
-#include "progress/stage.hpp"
 
 namespace itin::viewshed {
 
@@ -48,12 +47,14 @@ ZoneSurvey::ZoneSurvey(const FullSurface& ground, const Zone& zone) : ground_(gr
   }
 }
 
-std::uint64_t ZoneSurvey::run(const Screen& screen, std::span<const std::size_t> tiles, const std::string& stage,
-                              Visibility& result, Progress& progress) const {
+std::uint64_t ZoneSurvey::run(const Screen& screen, std::span<const std::size_t> tiles, Visibility& result,
+                              Stage& stage) const {
   const Views views = views_over(screen.sweep);
   std::atomic<std::uint64_t> lines = 0;
-  for_each_step(tiles.size(), stage, progress,
-                [&](std::size_t i) { lines += decide(tiles[i], screen, views, result); });
+  stage.for_each(tiles.size(), [&](std::size_t i) {
+    lines += decide(tiles[i], screen, views, result);
+    return std::size_t{1};
+  });
   return lines;
 }
 

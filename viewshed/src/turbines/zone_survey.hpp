@@ -4,12 +4,12 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <viewshed/turbines.hpp>
 
 #include "line/cell_tiles.hpp"
+#include "progress/stage.hpp"
 #include "request/void_shadow.hpp"
 #include "scene/full_surface.hpp"
 #include "scene/sweep/radial_sweep.hpp"
@@ -27,9 +27,8 @@ class ZoneSurvey {
     const RadialSweep& sweep;
     const std::vector<VoidShadow>& shadows;
   };
-  /// Enters what is seen from the cells of these tiles. Returns how many lines that took.
-  std::uint64_t run(const Screen& screen, std::span<const std::size_t> tiles, const std::string& stage,
-                    Visibility& result, Progress& progress) const;
+  /// Enters what is seen from the cells of these tiles, each a step. Returns how many lines that took.
+  std::uint64_t run(const Screen& screen, std::span<const std::size_t> tiles, Visibility& result, Stage& stage) const;
 
  private:
   struct Axis {
