@@ -40,7 +40,7 @@ Request whole(std::int64_t cells) {
 }
 
 void BM_Scene(benchmark::State& state) {
-  for (auto _ : state) benchmark::DoNotOptimize(Scene(terrain(), Earth{}, NoData::kClear, 1000));
+  for (auto _ : state) benchmark::DoNotOptimize(Scene(terrain(), Earth{}));
 }
 BENCHMARK(BM_Scene)->Unit(benchmark::kMillisecond)->UseRealTime();
 

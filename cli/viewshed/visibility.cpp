@@ -1,4 +1,5 @@
 // itin visibility: how much is seen from everywhere in an area.
+#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -55,6 +56,10 @@ class VisibilityVerb final : public Verb {
     earth_.declare(app);
     app.add_option("--nodata", nodata_text_, "What ground without data does to sight lines (default: clear)")
         ->type_name("block|clear");
+    app.add_option("--memory", memory_text_,
+                   "Memory to work in, block by block of observers where it does not hold all ground at once; the "
+                   "result never depends on it (default: 1G)")
+        ->type_name("SIZE");
     policy_.declare(app);
   }
 
@@ -77,6 +82,7 @@ class VisibilityVerb final : public Verb {
     request_.earth = earth_.earth();
     if (!nodata_text_.empty() && parse_choice("--nodata", nodata_text_, {"block", "clear"}) == 0)
       request_.nodata = viewshed::NoData::kBlock;
+    if (!memory_text_.empty()) request_.memory_bytes = parse_bytes("--memory", memory_text_);
   }
 
   Document parameters() const override {
@@ -96,7 +102,8 @@ class VisibilityVerb final : public Verb {
 
   Result execute(Progress& progress) override {
     policy_.require_writable(output_);
-    const Store store(store_);
+    // A budget holds for what is kept of the store as well.
+    const Store store(store_, {std::min(StoreOptions().cache_bytes, request_.memory_bytes / 4)});
     const StoreMetadata& metadata = store.metadata();
     request_.area = window_.region(metadata).window;
     if (!request_.area.is_all() && !metadata.grid.box(metadata.bounds).meets(request_.area.bounds()))
@@ -131,7 +138,8 @@ class VisibilityVerb final : public Verb {
   }
 
  private:
-  std::string store_, output_, cell_text_, radius_text_, height_text_, target_text_, targets_text_, nodata_text_;
+  std::string store_, output_, cell_text_, radius_text_, height_text_, target_text_, targets_text_, nodata_text_,
+      memory_text_;
   WindowOptions window_;
   DetailOptions detail_;
   ThemeOptions themes_;

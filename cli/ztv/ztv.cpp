@@ -110,7 +110,10 @@ class ZtvVerb final : public Verb {
   cli::Result execute(Progress& progress) override {
     OutputFolder::require_writable(output_, policy_);
     radius_.load();
-    const Store store(store_);
+    // A budget holds for what is kept of the store as well.
+    StoreOptions kept;
+    if (request_.memory_bytes) kept.cache_bytes = std::min(kept.cache_bytes, *request_.memory_bytes / 4);
+    const Store store(store_, kept);
     const StoreMetadata& metadata = store.metadata();
     complete_request(metadata);
     Zone zone = viewshed::survey_turbines(store, request_, progress);

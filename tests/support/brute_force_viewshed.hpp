@@ -30,8 +30,7 @@ inline viewshed::Request look(Point2 position, double height, double target_heig
 inline std::vector<viewshed::Verdict> brute_force(const Tin& surface, const Tin& ground,
                                                   const viewshed::Request& request, const RasterGrid& cells) {
   using namespace viewshed;
-  const Scene above(surface, request.earth, request.nodata, 100000),
-      below(ground, request.earth, request.nodata, 100000);
+  const Scene above(surface, request.earth), below(ground, request.earth);
   const Observer& observer = request.observers.front();
   const Eye eye =
       eye_of(surface.grid, request, observer, (request.observers_on_surface ? above : below).ground(observer.position));

@@ -331,7 +331,7 @@ TEST(Precise, TheMemoryChangesNothingOnTheWholeSample) {
   for (const double target : {0.0, 2.0}) {
     const Request request = look(terrain.at(381.3, 7002.4), 2, target, 60);
     const Result result = test::compute_at_full_detail(terrain.store(), request, {}, progress).result;
-    const Scene whole(terrain.full(), request.earth, request.nodata, 10000);
+    const Scene whole(terrain.full(), request.earth);
     for (const std::uint64_t memory : {std::uint64_t{16000000}, std::uint64_t{1300000}}) {
       const Result other =
           test::compute_at_full_detail(terrain.store(), request, {.memory_bytes = memory, .lattices = false}, progress)

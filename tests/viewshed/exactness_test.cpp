@@ -112,7 +112,7 @@ TEST(Exactness, BlocksHiddenTogetherAreHidden) {
   std::mt19937 random(test::seed());
   const Tin tin = test::fractal_tin(33, 2000, 300, 0.55, random());
   const Earth earth;
-  const Scene scene(tin, earth, NoData::kClear, 0);
+  const Scene scene(tin, earth);
   const test::ExactLineOfSight exact(tin, earth);
   const double unit = tin.grid.resolution, drop = earth.drop_coefficient();
   const auto in = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };

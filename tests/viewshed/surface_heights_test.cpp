@@ -69,6 +69,21 @@ TEST(SurfaceHeights, OverASquareAreThoseOverItsTriangles) {
   }
 }
 
+/// Whichever triangle comes first, as it does in one window or another.
+TEST(SurfaceHeights, OnAnEdgeBothTrianglesHaveOneHeight) {
+  std::mt19937 random(test::seed());
+  std::uniform_int_distribution<std::int32_t> place(1, 2'000'000), height(-500'000, 500'000);
+  for (int i = 0; i < 20000; ++i) {
+    const GridPoint south{0, 0, height(random)}, north{0, place(random), height(random)};
+    const GridPoint west{-place(random), place(random), height(random)}, east{place(random), 0, height(random)};
+    const Point2 p{0, static_cast<double>(place(random) % (north.y + 1))};
+    const auto one = height_over(std::array{south, north, west}, p),
+               other = height_over(std::array{south, east, north}, p);
+    ASSERT_TRUE(one && other);
+    ASSERT_EQ(*one, *other);
+  }
+}
+
 TEST(SurfaceHeights, OnRandomTinsWithHoles) {
   std::mt19937 random(test::seed());
   for (int i = 0; i < 5; ++i) {

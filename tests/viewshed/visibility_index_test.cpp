@@ -3,14 +3,22 @@
 
 #include <gtest/gtest.h>
 
+#include <itin/cross_section.hpp>
 #include <itin/error.hpp>
 #include <itin/import.hpp>
 #include <itin/parallel.hpp>
+#include <itin/triangulate.hpp>
+#include <profile/los.hpp>
 #include <viewshed/visibility_index.hpp>
 
+#include "index/index_plan.hpp"
+#include "index/sampled_surface.hpp"
+#include "index/visibility_sampler.hpp"
 #include "support/raster_file.hpp"
 #include "support/real_terrain.hpp"
+#include "support/same_bits.hpp"
 #include "support/temporary_directory.hpp"
+#include "support/vector_file.hpp"
 
 namespace itin::viewshed {
 namespace {
@@ -23,6 +31,105 @@ class VisibilityIndexTest : public testing::Test {
     options.sources = {directory_.file("t.tif")};
     NoProgress progress;
     import_terrain(path_, options, progress);
+  }
+
+  /// Hills with two lakes of no data.
+  void import_hills() const {
+    const test::CardiffTerrain terrain;
+    import_posts([&](int c, int r) {
+      return std::hypot(c - 50, r - 30) < 6 || std::hypot(c - 20, r - 60) < 3 ? std::nan("")
+                                                                              : terrain(c + 200, r + 150);
+    });
+  }
+
+  void import_houses() const {
+    std::vector<test::LineFeature> houses;
+    for (int i = 0; i < 40; ++i) {
+      const double x = 300500 + 71 * (i % 8) * 5, y = 199500 - 613 * (i / 8);
+      houses.push_back(test::box(x, y, x + 30, y + 20, 12));
+    }
+    test::write_lines(directory_.file("h.geojson"), houses, true);
+    ImportOptions options;
+    options.sources = {directory_.file("h.geojson")};
+    options.kind = ThemeKind::Buildings;
+    options.theme = "houses";
+    options.height_field = "h";
+    NoProgress progress;
+    import_lines(path_, options, progress);
+  }
+
+  static void expect_same(const VisibilityIndex& a, const VisibilityIndex& b) {
+    ASSERT_EQ(a.share.size(), b.share.size());
+    for (std::size_t i = 0; i < a.share.size(); ++i) {
+      ASSERT_TRUE(test::same_bits(a.share[i], b.share[i])) << "cell " << i;
+      ASSERT_TRUE(test::same_bits(a.standard_error[i], b.standard_error[i])) << "cell " << i;
+    }
+    EXPECT_EQ(a.lines, b.lines);
+    EXPECT_EQ(a.observers, b.observers);
+    EXPECT_EQ(a.mean, b.mean);
+  }
+
+  void expect_blocks_make_the_whole(IndexRequest request, const std::vector<std::uint64_t>& memories) const {
+    request.memory_bytes = std::uint64_t{1} << 30;
+    const VisibilityIndex whole = index(request);
+    for (const std::uint64_t memory : memories) {
+      SCOPED_TRACE(memory);
+      request.memory_bytes = memory;
+      const VisibilityIndex blocks = index(request);
+      EXPECT_GT(blocks.triangles, whole.triangles) << "not in blocks";
+      expect_same(blocks, whole);
+    }
+  }
+
+  /// Every line of some eyes of an index, as a viewshed and a line of sight have it.
+  void expect_lines_of_viewsheds(const IndexRequest& request) const {
+    const Store store(path_);
+    NoProgress progress;
+    const auto surface = [&](const ThemeChoice& themes) {
+      return Surface{triangulate(store, Window::all(), request.detail, progress, themes), nullptr, {}};
+    };
+    const Surface full = surface(request.themes), bare = surface(ThemeChoice::none());
+    const SampledSurface screen(full, request.earth, 0), ground(bare, request.earth, 0);
+    const VisibilitySampler sampler(screen, ground, {request.radius, request.target_height, request.targets},
+                                    request.nodata);
+    int visible = 0, hidden = 0;
+    for (const Point2 eye : {Point2{301500, 197900}, {302225, 198725}, {301325, 197425}, {302800, 197300}}) {
+      const std::optional<double> height = sampler.ground(eye);
+      ASSERT_TRUE(height);
+      sampler.look(eye, *height + request.height, 7, [&](Point2 target, bool seen) {
+        ++(seen ? visible : hidden);
+        EXPECT_EQ(seen_in_viewshed(store, request, eye, target), seen) << eye.x << ' ' << target.x << ' ' << target.y;
+        if (request.nodata == NoData::kClear) {
+          EXPECT_EQ(seen_along_line(store, request, eye, target), seen) << eye.x << ' ' << target.x << ' ' << target.y;
+        }
+      });
+    }
+    EXPECT_GT(visible, 50);
+    EXPECT_GT(hidden, 50);
+  }
+
+  static bool seen_in_viewshed(const Store& store, const IndexRequest& index, Point2 eye, Point2 target) {
+    Request request;
+    request.observers = {{"o", eye, index.height}};
+    request.target_height = index.target_height;
+    request.grid = RasterGrid({target.x - 0.5, target.y + 0.5}, 1, 1, 1, 1);
+    request.themes = index.themes;
+    request.nodata = index.nodata;
+    NoProgress progress;
+    return compute(store, request, progress).visible[0] == Verdict::kVisible;
+  }
+
+  static bool seen_along_line(const Store& store, const IndexRequest& index, Point2 eye, Point2 target) {
+    const auto along = [&](const ThemeChoice& themes) {
+      return profile::from_section(cross_section(store, eye, target, index.detail, themes));
+    };
+    profile::LosQuery query;
+    query.from_height_m = index.height, query.to_height_m = index.target_height;
+    query.earth = index.earth;
+    const bool standing = index.themes.includes_standing(store.metadata().themes);
+    // Missing ground alone leaves a line undecided.
+    return profile::analyse(along(index.themes), query, standing ? along(ThemeChoice::none()) : profile::Profile{})
+               .verdict != profile::SightVerdict::kHidden;
   }
 
   VisibilityIndex index(const IndexRequest& request) const {
@@ -89,6 +196,70 @@ TEST_F(VisibilityIndexTest, ThreadsAndNeighboursDoNotMatter) {
   EXPECT_EQ(index(request).share, one.share);
   request.area = Window::box({301000, 198500, 301500, 199000});
   EXPECT_EQ(index(request).share.at(0), one.share.at(0));
+}
+
+TEST_F(VisibilityIndexTest, BlocksMakeTheWhole) {
+  import_hills();
+  IndexRequest request{.area = Window::box({300500, 196500, 303500, 199500}), .cell_size = 150, .radius = 700};
+  for (const NoData rule : {NoData::kClear, NoData::kBlock}) {
+    request.nodata = rule;
+    expect_blocks_make_the_whole(request, {40000, 18000});
+  }
+  // At a tolerance the surface is no lattice; nor is it where houses stand.
+  request.detail = Detail::tolerance(1);
+  expect_blocks_make_the_whole(request, {1000000, 300000});
+  import_houses();
+  request.detail = Detail::tolerance(0);
+  request.themes = ThemeChoice::all();
+  for (const NoData rule : {NoData::kClear, NoData::kBlock}) {
+    request.nodata = rule;
+    expect_blocks_make_the_whole(request, {2000000, 800000});
+  }
+  // Many lines, which rays look for first; an area that is no box.
+  request.targets = 1000;
+  request.area = Window::polygons({{{{300600, 196600}, {303200, 197000}, {301500, 199400}}, {}}});
+  expect_blocks_make_the_whole(request, {1600000});
+}
+
+TEST_F(VisibilityIndexTest, LinesAreThoseOfViewshedsAndLinesOfSight) {
+  import_hills();
+  IndexRequest request{.area = Window::all(), .height = 4, .radius = 1500, .targets = 200};
+  expect_lines_of_viewsheds(request);
+  request.nodata = NoData::kBlock;
+  expect_lines_of_viewsheds(request);
+  import_houses();
+  request.nodata = NoData::kClear;
+  request.themes = ThemeChoice::all();
+  expect_lines_of_viewsheds(request);
+}
+
+TEST_F(VisibilityIndexTest, RaysFindNothingElse) {
+  import_hills();
+  import_houses();
+  NoProgress progress;
+  const Surface surface{
+      triangulate(Store(path_), Window::all(), Detail::tolerance(0), progress, ThemeChoice::all()), nullptr, {}};
+  const Earth earth;
+  const SampledSurface few(surface, earth, 0), many(surface, earth, std::uint64_t{1} << 40);
+  const VisibilitySampler one(few, few, {1500, 0, 4000}, NoData::kClear),
+      other(many, many, {1500, 0, 4000}, NoData::kClear);
+  for (const Point2 eye : {Point2{301500, 197900}, {302225, 198725}, {301025, 197025}}) {
+    std::vector<bool> seen, seen_too;
+    one.look(eye, *one.ground(eye) + 3, 1, [&](Point2, bool s) { seen.push_back(s); });
+    other.look(eye, *other.ground(eye) + 3, 1, [&](Point2, bool s) { seen_too.push_back(s); });
+    EXPECT_EQ(seen, seen_too);
+  }
+}
+
+TEST_F(VisibilityIndexTest, TooLittleMemoryForOneObserverIsRefused) {
+  import_hills();
+  try {
+    index({.area = Window::box({301000, 197000, 303000, 199000}), .radius = 1500, .memory_bytes = 10000});
+    FAIL();
+  } catch (const InputError& error) {
+    for (const char* field : {"`memory_bytes`", "`radius`", "`tolerance`"})
+      EXPECT_NE(std::string(error.what()).find(field), std::string::npos) << error.what();
+  }
 }
 
 TEST_F(VisibilityIndexTest, EverythingIsSeenOnAPlaneAndNothingSaysSoForCertain) {

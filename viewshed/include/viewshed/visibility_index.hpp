@@ -31,6 +31,8 @@ struct IndexRequest {
   Detail detail = Detail::tolerance(0);
   ThemeChoice themes = ThemeChoice::none();
   NoData nodata = NoData::kClear;  ///< kUnknown is refused: a sample knows no doubt
+  /// To work in, about: where it does not hold all ground at once, this is read block by block of observers.
+  std::uint64_t memory_bytes = ComputeOptions().memory_bytes;
 };
 
 struct VisibilityIndex {
@@ -45,9 +47,10 @@ struct VisibilityIndex {
   RetrievalStatistics retrieval;
 };
 
-/// The same store and request give the same numbers, whatever the number of threads. Cost: retrieval of the area and
-/// the radius about it, and about a microsecond a target. Throws InputError (values out of range, no ground in the
-/// area), and what triangulate() throws.
+/// The same store and request give the same numbers, whatever the number of threads and the memory: each line is hidden
+/// or not as SightLine, and so every viewshed, has it. Cost: retrieval of the observers' cells and the radius about
+/// them, and one to two microseconds a target. Throws InputError (values out of range, no ground in the area, too
+/// little memory for a single observer), and what triangulate() throws.
 VisibilityIndex visibility_index(const Store& store, const IndexRequest& request, Progress& progress);
 
 /// Two bands, Float32: the share and its standard error; nodata NaN. Throws FileError.

@@ -66,19 +66,4 @@ bool surface_resumes(const Grid& units, const std::vector<RimEdge>& rim, Point2 
   });
 }
 
-Crossing crossing_back(const Tin& tin, const BoundaryEdge& edge, const SightLines& lines, unsigned i) {
-  const GridPoint &a = tin.vertices[edge.from], &b = tin.vertices[edge.to];
-  const auto side_of_edge = [&](double x, double y) {
-    return (static_cast<double>(b.x) - a.x) * (y - a.y) - (static_cast<double>(b.y) - a.y) * (x - a.x);
-  };
-  const auto side_of_line = [&](const GridPoint& p) {
-    return (lines.to_x[i] - lines.from_x[i]) * (p.y - lines.from_y[i]) -
-           (lines.to_y[i] - lines.from_y[i]) * (p.x - lines.from_x[i]);
-  };
-  const bool back =
-      side_of_edge(lines.from_x[i], lines.from_y[i]) < 0 && side_of_edge(lines.to_x[i], lines.to_y[i]) > 0;
-  if (!back) return Crossing::kNone;
-  return (side_of_line(a) < 0) != (side_of_line(b) < 0) ? Crossing::kBack : Crossing::kDoubtful;
-}
-
 }  // namespace itin::viewshed

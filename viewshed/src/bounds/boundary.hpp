@@ -7,8 +7,6 @@
 #include <itin/lattice_tin.hpp>
 #include <itin/tin.hpp>
 
-#include "line/sight_lines.hpp"
-
 namespace itin::viewshed {
 
 /// The surface is to the left of from -> to.
@@ -29,12 +27,5 @@ std::vector<RimEdge> rim_of(const Tin& tin, const std::vector<BoundaryEdge>& bou
 /// metres, that holds the position and all sight lines.
 bool surface_resumes(const Grid& units, const std::vector<RimEdge>& rim, Point2 position, double reach,
                      const std::vector<Point2>& lines);
-
-enum class Crossing : std::uint8_t { kNone, kBack, kDoubtful };
-
-/// Whether line `i` that left the surface returns to it across the edge. Leaving alone hides nothing: a target on the
-/// edge of the data, or a line along that edge, is not behind a curtain. Doubtful: the line returns somewhere on the
-/// edge's straight, but not between its ends.
-Crossing crossing_back(const Tin& tin, const BoundaryEdge& edge, const SightLines& lines, unsigned i);
 
 }  // namespace itin::viewshed

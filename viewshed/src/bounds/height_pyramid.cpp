@@ -31,44 +31,79 @@ double reciprocal(double d) {
 }  // namespace
 
 HeightPyramid::HeightPyramid(const Tin& tin)
-    : tin_(tin),
-      bin_grid_(grid_of_bins(tin)),
-      bins_(tin, bin_grid_),
-      side_(static_cast<std::uint32_t>(bin_grid_.rows())),
-      tops_(tin.triangles.size()),
-      grid_(tin.grid) {
-  std::transform(tin.triangles.begin(), tin.triangles.end(), tops_.begin(), [&](const Triangle& t) {
+    : tin_(&tin), units_(tin.grid), bin_grid_(grid_of_bins(tin)), listed_(Listed{TriangleBins(tin, bin_grid_), {}}) {
+  listed_->tops.resize(tin.triangles.size());
+  std::transform(tin.triangles.begin(), tin.triangles.end(), listed_->tops.begin(), [&](const Triangle& t) {
     return std::max({tin.vertices[t[0]].z, tin.vertices[t[1]].z, tin.vertices[t[2]].z});
   });
-  constexpr std::int32_t kNothing = std::numeric_limits<std::int32_t>::min();
-  std::vector<std::int32_t>& bins = highest_.emplace_back(std::size_t{side_} * side_, kNothing);
-  parallel_for(side_, [&](std::size_t row) {
-    for (std::size_t b = row * side_; b < (row + 1) * side_; ++b)
-      for (const std::uint32_t t : bins_.triangles(b)) bins[b] = std::max(bins[b], tops_[t]);
+  std::vector<std::int32_t>& bins = highest_.emplace_back(bin_grid_.cell_count(), kNothing);
+  parallel_for(rows(0), [&](std::size_t row) {
+    for (std::size_t b = row * columns(0); b < (row + 1) * columns(0); ++b)
+      for (const std::uint32_t t : listed_->bins.triangles(b)) bins[b] = std::max(bins[b], listed_->tops[t]);
   });
-  for (std::size_t n = side_ / 2; n > 0; n /= 2) {
-    std::vector<std::int32_t> coarser(n * n);
-    const std::vector<std::int32_t>& finer = highest_.back();
-    for (std::size_t i = 0; i < n * n; ++i) {
-      const std::size_t first = (i / n * 2) * (2 * n) + i % n * 2;
-      coarser[i] = std::max({finer[first], finer[first + 1], finer[first + 2 * n], finer[first + 2 * n + 1]});
-    }
+  build_blocks();
+}
+
+HeightPyramid::HeightPyramid(const LatticeTin& lattice)
+    : lattice_(&lattice),
+      units_(lattice.grid),
+      bin_grid_(lattice.grid.position(lattice.west, lattice.north), lattice.spacing * lattice.grid.resolution,
+                lattice.spacing * lattice.grid.resolution, lattice.columns, lattice.rows) {
+  highest_.emplace_back();
+  build_blocks();
+}
+
+/// All levels above the bins.
+void HeightPyramid::build_blocks() {
+  for (std::uint32_t level = 1; columns(level - 1) > 1 || rows(level - 1) > 1; ++level) {
+    std::vector<std::int32_t> coarser(std::size_t{columns(level)} * rows(level), kNothing);
+    parallel_for(rows(level), [&](std::size_t row) {
+      for (std::uint32_t column = 0; column < columns(level); ++column) {
+        std::int32_t& top = coarser[row * columns(level) + column];
+        const auto south = std::min<std::uint32_t>(static_cast<std::uint32_t>(2 * row + 2), rows(level - 1)),
+                   east = std::min(2 * column + 2, columns(level - 1));
+        for (auto r = static_cast<std::uint32_t>(2 * row); r < south; ++r)
+          for (std::uint32_t c = 2 * column; c < east; ++c) top = std::max(top, highest({level - 1, c, r}));
+      }
+    });
     highest_.push_back(std::move(coarser));
   }
 }
 
 std::optional<std::uint32_t> HeightPyramid::triangle_at(Point2 units) const {
-  const auto bin =
-      bin_grid_.cell_at({grid_.origin.x + units.x * grid_.resolution, grid_.origin.y + units.y * grid_.resolution});
-  if (!bin) return std::nullopt;
-  for (const std::uint32_t t : bins_.triangles(bin_grid_.index(*bin)))
-    if (height_over(tin_.corners(t), units)) return t;
+  const auto hit = hit_at(units);
+  return hit ? std::optional(hit->triangle) : std::nullopt;
+}
+
+std::optional<double> HeightPyramid::height_at(Point2 units) const {
+  const auto hit = hit_at(units);
+  return hit ? std::optional(hit->height) : std::nullopt;
+}
+
+std::optional<HeightPyramid::Hit> HeightPyramid::hit_at(Point2 units) const {
+  std::optional<Hit> hit;
+  const auto misses = [&](std::uint32_t t) {
+    const auto height = height_over(corners(t), units);
+    if (height) hit = {t, *height};
+    return !height;
+  };
+  const double column = bin_grid_.column_at(units_.origin.x + units.x * units_.resolution),
+               row = bin_grid_.row_at(units_.origin.y + units.y * units_.resolution);
+  const auto at = [](double v, std::int64_t count) {
+    return static_cast<std::uint32_t>(std::clamp(v, 0.0, static_cast<double>(count - 1)));
+  };
+  // One bin; of a lattice's, which know nothing of their neighbours, up to four at its edges.
+  const double slack = lattice_ != nullptr ? kHair : 0;
+  const std::uint32_t east = at(column + slack, bin_grid_.columns()), south = at(row + slack, bin_grid_.rows());
+  for (std::uint32_t r = at(row - slack, bin_grid_.rows()); r <= south; ++r)
+    for (std::uint32_t c = at(column - slack, bin_grid_.columns()); c <= east; ++c)
+      if (!for_each_triangle({0, c, r}, misses)) return hit;
   return std::nullopt;
 }
 
 HeightPyramid::Track HeightPyramid::track_of(const LineBundle& bundle) const {
-  const auto column = [&](double x) { return bin_grid_.column_at(grid_.origin.x + x * grid_.resolution); };
-  const auto row = [&](double y) { return bin_grid_.row_at(grid_.origin.y + y * grid_.resolution); };
+  const auto column = [&](double x) { return bin_grid_.column_at(units_.origin.x + x * units_.resolution); };
+  const auto row = [&](double y) { return bin_grid_.row_at(units_.origin.y + y * units_.resolution); };
   const auto side = [](double from, double to) { return Side{from, reciprocal(to - from)}; };
   // Rows count southwards.
   return {side(column(bundle.from_west), column(bundle.to_west)),

@@ -1,5 +1,5 @@
 // Where a surface may rise above sight lines: its triangles in square bins, with the greatest height of every bin and
-// of blocks of 2 x 2, 4 x 4, ... bins.
+// of blocks of 2 x 2, 4 x 4, ... bins. A lattice's bins are its cells.
 //
 //   HeightPyramid pyramid(tin);
 //   LineBundle bundle;
@@ -16,6 +16,7 @@
 #include <optional>
 #include <vector>
 
+#include <itin/lattice_tin.hpp>
 #include <itin/raster.hpp>
 #include <itin/tin.hpp>
 
@@ -66,8 +67,12 @@ struct LineBundle {
 
 class HeightPyramid {
  public:
-  /// The Tin must outlive it. About 20 bytes a triangle of even size.
+  /// Of what must outlive it. About 20 bytes a triangle of even size.
   explicit HeightPyramid(const Tin& tin);
+  /// All of whose heights are read. Less than two bytes a post.
+  explicit HeightPyramid(const LatticeTin& lattice);
+
+  const Grid& units() const { return units_; }
 
   /// Calls visit(triangle) for every triangle that may rise above a line of the bundle, or come within its margin,
   /// nearest first, some more than once. A block is left out as a whole where the lines run above its highest point.
@@ -75,10 +80,17 @@ class HeightPyramid {
   template <class Lines, class Visit>
   void search(const Lines& bundle, const Visit& visit) const;
 
+  std::array<GridPoint, 3> corners(std::uint32_t triangle) const {
+    return lattice_ != nullptr ? lattice_->corners(triangle) : tin_->corners(triangle);
+  }
   /// A triangle that holds a position in grid units, if there is one.
   std::optional<std::uint32_t> triangle_at(Point2 units) const;
+  /// Of the surface there, grid units.
+  std::optional<double> height_at(Point2 units) const;
 
  private:
+  static constexpr double kHair = 1e-7;  ///< bins, against rounding; less than TriangleBins allows its triangles
+
   struct Block {
     std::uint32_t level = 0;  ///< 2^level bins a side
     std::uint32_t column = 0, row = 0;
@@ -87,6 +99,7 @@ class HeightPyramid {
   struct Stretch {
     double first = 0, last = 1;
     bool empty() const { return first > last; }
+    Stretch operator&(const Stretch& other) const { return {std::max(first, other.first), std::min(last, other.last)}; }
     /// Leaves what has a + b s <= c.
     void limit(double a, double per_b, double c) {
       const double s = (c - a) * per_b;
@@ -100,38 +113,66 @@ class HeightPyramid {
   };
   struct Track {
     Side west, east, north, south;
-    /// The stretch within a block, or a hair about it.
-    Stretch within(const Block& b) const;
+    /// The stretches between columns, or rows, or a hair about them.
+    Stretch across(double first, double last) const { return between(west, east, first, last); }
+    Stretch down(double first, double last) const { return between(north, south, first, last); }
+
+   private:
+    static Stretch between(const Side& low, const Side& high, double first, double last) {
+      Stretch stretch;
+      stretch.limit(low.at, low.per, last + kHair);
+      stretch.limit(-high.at, -high.per, kHair - first);
+      return stretch;
+    }
+  };
+  struct Pending {
+    Block block;
+    Stretch stretch;  ///< within the block
   };
 
+  /// What of a Tin is worked out once.
+  struct Listed {
+    TriangleBins bins;
+    std::vector<std::int32_t> tops;  ///< a triangle
+  };
+
+  void build_blocks();
   Track track_of(const LineBundle& bundle) const;
-  std::uint32_t side(std::uint32_t level) const { return side_ >> level; }
-  std::int32_t highest(const Block& b) const {
-    return highest_[b.level][std::size_t{b.row} * side(b.level) + b.column];
+  static std::uint32_t blocks(std::int64_t bins, std::uint32_t level) {
+    return static_cast<std::uint32_t>((bins + (std::int64_t{1} << level) - 1) >> level);
   }
+  std::uint32_t columns(std::uint32_t level) const { return blocks(bin_grid_.columns(), level); }
+  std::uint32_t rows(std::uint32_t level) const { return blocks(bin_grid_.rows(), level); }
+  std::int32_t highest(const Block& b) const {
+    if (b.level == 0 && lattice_ != nullptr) return highest_of_cell(lattice_->cell(b.column, b.row));
+    return highest_[b.level][std::size_t{b.row} * columns(b.level) + b.column];
+  }
+  std::int32_t highest_of_cell(std::uint32_t cell) const;
+  /// Calls visit(triangle) until one call returns false, and returns whether none did.
+  template <class Visit>
+  bool for_each_triangle(const Block& bin, const Visit& visit) const;
+  struct Hit {
+    std::uint32_t triangle;
+    double height;
+  };
+  std::optional<Hit> hit_at(Point2 units) const;
 
-  static constexpr std::size_t kMaxLevels = 12;
+  static constexpr std::int32_t kNothing = std::numeric_limits<std::int32_t>::min();
+  static constexpr std::size_t kMaxLevels = 32;
 
-  const Tin& tin_;
+  const Tin* tin_ = nullptr;
+  const LatticeTin* lattice_ = nullptr;  ///< else it is the Tin
+  Grid units_;
   RasterGrid bin_grid_;
-  TriangleBins bins_;
-  std::uint32_t side_;
-  std::vector<std::int32_t> tops_;                  ///< a triangle
-  std::vector<std::vector<std::int32_t>> highest_;  ///< a level, row by row
-  Grid grid_;
+  std::optional<Listed> listed_;
+  std::vector<std::vector<std::int32_t>> highest_;  ///< a level, row by row; a lattice's cells tell their own
 };
 
-inline HeightPyramid::Stretch HeightPyramid::Track::within(const Block& b) const {
-  // Against rounding; less than TriangleBins allows its triangles.
-  constexpr double kHair = 1e-7;
-  const double size = static_cast<double>(1U << b.level) + 2 * kHair;
-  const double x = (b.column << b.level) - kHair, y = (b.row << b.level) - kHair;
-  Stretch stretch;
-  stretch.limit(west.at, west.per, x + size);
-  stretch.limit(-east.at, -east.per, -x);
-  stretch.limit(north.at, north.per, y + size);
-  stretch.limit(-south.at, -south.per, -y);
-  return stretch;
+inline std::int32_t HeightPyramid::highest_of_cell(std::uint32_t cell) const {
+  if (!lattice_->read(cell) || lattice_->halves(cell) == 0) return kNothing;
+  const std::int32_t* const upper = lattice_->posts(cell);
+  const std::int32_t* const lower = upper + LatticeTin::kPosts;
+  return std::max(std::max(upper[0], upper[1]), std::max(lower[0], lower[1]));
 }
 
 template <class Lines, class Visit>
@@ -139,25 +180,42 @@ void HeightPyramid::search(const Lines& bundle, const Visit& visit) const {
   const Track track = track_of(bundle);
   // The child nearest to the lines' start, and then across x, y and both.
   const std::uint32_t near = (track.west.per < 0 ? 1U : 0U) | (track.north.per < 0 ? 2U : 0U);
-  std::array<Block, 3 * kMaxLevels + 4> pending;
+  std::array<Pending, 3 * kMaxLevels + 4> pending;
   std::size_t count = 1;
-  pending[0] = {static_cast<std::uint32_t>(highest_.size() - 1), 0, 0};
+  pending[0] = {{static_cast<std::uint32_t>(highest_.size() - 1), 0, 0}, {0, 1}};
   while (count > 0) {
-    const Block block = pending[--count];
-    const Stretch stretch = track.within(block);
-    if (stretch.empty() || stretch.first > bundle.reach) continue;
+    const auto [block, stretch] = pending[--count];
+    if (stretch.first > bundle.reach) continue;
     const double lowest = bundle.lowest_over(stretch.first, stretch.last);
     if (highest(block) + bundle.margin <= lowest) continue;
     if (block.level > 0) {
-      for (const std::uint32_t across : {3U, 2U, 1U, 0U}) {
-        const std::uint32_t child = near ^ across;
-        pending[count++] = {block.level - 1, 2 * block.column + (child & 1), 2 * block.row + (child >> 1)};
+      const std::uint32_t level = block.level - 1, columns = this->columns(level), rows = this->rows(level);
+      const double side = 1U << level, west = 2 * side * block.column, north = 2 * side * block.row;
+      const std::array across{track.across(west, west + side), track.across(west + side, west + 2 * side)};
+      const std::array down{track.down(north, north + side), track.down(north + side, north + 2 * side)};
+      for (const std::uint32_t other : {3U, 2U, 1U, 0U}) {
+        const std::uint32_t child = near ^ other, c = child & 1, r = child >> 1;
+        const Block inner{level, 2 * block.column + c, 2 * block.row + r};
+        const Stretch within = across[c] & down[r];
+        if (!within.empty() && inner.column < columns && inner.row < rows) pending[count++] = {inner, within};
       }
       continue;
     }
-    for (const std::uint32_t t : bins_.triangles(std::size_t{block.row} * side_ + block.column))
-      if (tops_[t] + bundle.margin > lowest) visit(t);
+    for_each_triangle(block, [&](std::uint32_t t) {
+      if (lattice_ != nullptr || listed_->tops[t] + bundle.margin > lowest) visit(t);
+      return true;
+    });
   }
+}
+
+template <class Visit>
+bool HeightPyramid::for_each_triangle(const Block& bin, const Visit& visit) const {
+  if (lattice_ != nullptr) {
+    const std::uint32_t cell = lattice_->cell(bin.column, bin.row);
+    return !lattice_->read(cell) || lattice_->for_each_triangle(cell, visit);
+  }
+  const auto listed = listed_->bins.triangles(std::size_t{bin.row} * columns(0) + bin.column);
+  return std::all_of(listed.begin(), listed.end(), visit);
 }
 
 }  // namespace itin::viewshed

@@ -40,7 +40,9 @@ class RowSections {
   }
 
   static double height(const RowCrossing& west, const RowCrossing& east, double x) {
-    if (east.x == west.x) return west.z;
+    // On an edge as both triangles there have it, to the last bit.
+    if (x == west.x || east.x == west.x) return west.z;
+    if (x == east.x) return east.z;
     return west.z + (east.z - west.z) * ((x - west.x) / (east.x - west.x));
   }
 

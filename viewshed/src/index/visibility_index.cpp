@@ -1,19 +1,25 @@
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/silent_progress.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/site_proposal.hpp>
+#include <viewshed/surface.hpp>
 #include <viewshed/visibility_index.hpp>
 
+#include "index/index_plan.hpp"
+#include "index/sampled_surface.hpp"
 #include "index/visibility_sampler.hpp"
 #include "progress/stage.hpp"
 #include "request/request.hpp"
-#include "scene/rays/scene.hpp"
 
 namespace itin::viewshed {
 
@@ -32,77 +38,135 @@ void validate(const IndexRequest& request) {
   require(request.nodata != NoData::kUnknown, "ground without data must block or be clear for a visibility index");
 }
 
-Window with_surroundings(const Window& area, double radius) {
-  if (area.is_all()) return area;
-  const Box box = area.bounds();
-  return Window::box({box.xmin - radius, box.ymin - radius, box.xmax + radius, box.ymax + radius});
-}
-
 /// Of targets seen among those on ground: with one more of either kind, so that none or all seen is no certainty.
 double standard_error(const VisibilitySampler::Tally& tally) {
   const double n = tally.on_ground + 2, p = (tally.seen + 1) / n;
   return std::sqrt(p * (1 - p) / n);
 }
 
+/// Samples an index segment by segment.
+class IndexWork {
+ public:
+  IndexWork(const Store& store, const IndexRequest& request, Progress& progress)
+      : store_(store),
+        request_(request),
+        stands_(request.themes.includes_standing(store.metadata().themes)),
+        progress_(progress),
+        quiet_(progress) {
+    index_.grid =
+        RasterGrid::aligned(request.area.is_all() ? extent_of(store) : request.area.bounds(), request.cell_size);
+    index_.share.assign(index_.grid.cell_count(), kNoShare);
+    index_.standard_error.assign(index_.grid.cell_count(), kNoShare);
+    const std::uint64_t rasters = std::min(request.memory_bytes, kBytesPerCell * index_.grid.cell_count());
+    memory_ = std::max(request.memory_bytes / 4, request.memory_bytes - rasters);
+  }
+
+  /// Where all ground under a segment is posts of a lattice, there is room for far more of them.
+  VisibilityIndex run() {
+    const auto posts_fit = [&](std::uint64_t points, std::uint64_t) { return points <= memory_ / kBytesPerPost; };
+    const auto segments = plan(all_cells(index_.grid), posts_fit);
+    for (const IndexSegment& segment : segments) {
+      auto lattice = retrieve_lattice(store_, segment.window, request_.detail, request_.themes,
+                                      LatticeReader::Heights::kAll, kAnyLattice, quiet_);
+      if (lattice) {
+        sample(segment, *lattice, std::nullopt);
+      } else {
+        sample_triangles(segment.cells, segments.size() == 1);
+      }
+    }
+    summarise();
+    return std::move(index_);
+  }
+
+ private:
+  std::vector<IndexSegment> plan(const CellBlock& cells, const SurfaceFits& fits) const {
+    return index_segments(store_, request_, index_.grid, cells, fits);
+  }
+
+  /// `all`: the cells are those of the whole index.
+  void sample_triangles(const CellBlock& cells, bool all) {
+    const auto parts = plan(cells, [&](std::uint64_t points, std::uint64_t lines) {
+      const std::uint64_t ground = stands_ ? SampledSurface::bytes(points, 0) : 0;
+      return SampledSurface::bytes(points, lines) + ground <= memory_;
+    });
+    Progress& reading = all && parts.size() == 1 ? progress_ : quiet_;
+    const auto triangulated = [&](const IndexSegment& part, const ThemeChoice& themes) {
+      return Surface{triangulate(store_, part.window, request_.detail, reading, themes), nullptr, {}};
+    };
+    for (const IndexSegment& part : parts)
+      sample(part, triangulated(part, request_.themes),
+             stands_ ? std::optional(triangulated(part, ThemeChoice::none())) : std::nullopt);
+  }
+
+  /// Targets and eyes stand on the bare ground where that is another surface.
+  void sample(const IndexSegment& segment, const Surface& retrieved, const std::optional<Surface>& bare) {
+    index_.retrieval += retrieved.statistics();
+    index_.triangles += retrieved.triangle_count();
+    if (retrieved.triangle_count() == 0) return;
+    const SampledSurface surface(retrieved, request_.earth, segment.cells.count() * request_.targets);
+    std::optional<SampledSurface> ground;
+    if (bare) ground.emplace(*bare, request_.earth, 0);
+    const VisibilitySampler sampler(surface, ground ? *ground : surface,
+                                    {request_.radius, request_.target_height, request_.targets}, request_.nodata);
+    if (!stage_) stage_.emplace("observers", index_.grid.cell_count(), progress_);
+    stage_->for_each(segment.cells.count(), [&](std::size_t i) {
+      sample(sampler, segment.cells.cell(i));
+      return std::size_t{1};
+    });
+  }
+
+  void sample(const VisibilitySampler& sampler, RasterGrid::Cell cell) {
+    const Point2 place = index_.grid.centre(cell.column, cell.row);
+    const auto height = lies_in(request_.area, place) ? sampler.ground(place) : std::nullopt;
+    if (!height) return;
+    any_eye_ = true;
+    const GridPoint seed = store_.metadata().grid.quantise({place.x, place.y, 0});
+    const VisibilitySampler::Tally tally =
+        sampler.look(place, *height + request_.height,
+                     std::uint64_t{static_cast<std::uint32_t>(seed.x)} << 32 | static_cast<std::uint32_t>(seed.y));
+    lines_ += tally.on_ground;
+    if (tally.on_ground == 0) return;
+    index_.share[index_.grid.index(cell)] = static_cast<float>(tally.seen) / static_cast<float>(tally.on_ground);
+    index_.standard_error[index_.grid.index(cell)] = static_cast<float>(standard_error(tally));
+  }
+
+  void summarise() {
+    if (index_.triangles == 0) throw InputError("the area holds no ground");
+    if (!any_eye_) throw InputError("no cell's centre lies on ground in the area; give smaller cells");
+    double variance = 0;
+    for (std::size_t i = 0; i < index_.share.size(); ++i) {
+      if (std::isnan(index_.share[i])) continue;
+      ++index_.observers;
+      index_.mean += index_.share[i];
+      variance += double{index_.standard_error[i]} * index_.standard_error[i];
+    }
+    if (index_.observers == 0)
+      throw InputError(
+          "no target fell on ground: the radius reaches far beyond it; give a smaller one, or more targets");
+    index_.lines = lines_;
+    index_.mean /= static_cast<double>(index_.observers);
+    index_.mean_error = std::sqrt(variance) / static_cast<double>(index_.observers);
+  }
+
+  static constexpr std::uint64_t kBytesPerCell = 16;
+
+  const Store& store_;
+  const IndexRequest& request_;
+  bool stands_;  ///< something, on the ground
+  Progress& progress_;
+  SilentProgress quiet_;
+  std::uint64_t memory_ = 0;  ///< bytes, without the rasters
+  VisibilityIndex index_;
+  std::optional<Stage> stage_;
+  std::atomic<bool> any_eye_ = false;
+  std::atomic<std::uint64_t> lines_ = 0;
+};
+
 }  // namespace
 
 VisibilityIndex visibility_index(const Store& store, const IndexRequest& request, Progress& progress) {
   validate(request);
-  const Window window = with_surroundings(request.area, request.radius);
-  const Tin surface = triangulate(store, window, request.detail, progress, request.themes);
-  if (surface.triangles.empty()) throw InputError("the area holds no ground");
-  Request look;
-  look.target_height = std::max(request.height, request.target_height);
-  const double ceiling = ceiling_of(surface, look);
-  const Scene scene(surface, request.earth, request.nodata, ceiling);
-  std::optional<Tin> bare;
-  std::optional<Scene> bare_scene;
-  if (request.themes.includes_standing(store.metadata().themes)) {
-    bare = triangulate(store, window, request.detail, progress, ThemeChoice::none());
-    bare_scene.emplace(*bare, request.earth, NoData::kClear, ceiling);
-  }
-  const Scene& ground = bare_scene ? *bare_scene : scene;
-
-  VisibilityIndex index;
-  index.grid = RasterGrid::aligned(request.area.is_all() ? surface.bounds() : request.area.bounds(), request.cell_size);
-  index.share.assign(index.grid.cell_count(), kNoShare);
-  index.standard_error.assign(index.grid.cell_count(), kNoShare);
-  index.triangles = surface.triangles.size();
-  index.retrieval = surface.statistics;
-  const VisibilitySampler sampler(scene, ground, surface.grid, request.radius, request.target_height, request.targets);
-  std::vector<std::uint64_t> rays(static_cast<std::size_t>(index.grid.rows()));
-  std::atomic<bool> stands = false;
-  for_each_step(rays.size(), "observers", progress, [&](std::size_t row) {
-    for (std::int64_t column = 0; column < index.grid.columns(); ++column) {
-      const RasterGrid::Cell cell{column, static_cast<std::int64_t>(row)};
-      const Point2 place = index.grid.centre(cell.column, cell.row);
-      const auto height = lies_in(request.area, place) ? ground.ground(place) : std::nullopt;
-      if (!height) continue;
-      stands = true;
-      const GridPoint seed = surface.grid.quantise({place.x, place.y, 0});
-      const VisibilitySampler::Tally tally = sampler.look(
-          place, *height + request.height,
-          (static_cast<std::uint64_t>(static_cast<std::uint32_t>(seed.x)) << 32) | static_cast<std::uint32_t>(seed.y));
-      rays[row] += tally.on_ground;
-      if (tally.on_ground == 0) continue;
-      index.share[index.grid.index(cell)] = static_cast<float>(tally.seen) / static_cast<float>(tally.on_ground);
-      index.standard_error[index.grid.index(cell)] = static_cast<float>(standard_error(tally));
-    }
-  });
-  double variance = 0;
-  for (std::size_t i = 0; i < index.share.size(); ++i) {
-    if (std::isnan(index.share[i])) continue;
-    ++index.observers;
-    index.mean += index.share[i];
-    variance += double{index.standard_error[i]} * index.standard_error[i];
-  }
-  for (const std::uint64_t r : rays) index.lines += r;
-  if (!stands) throw InputError("no cell's centre lies on ground in the area; give smaller cells");
-  if (index.observers == 0)
-    throw InputError("no target fell on ground: the radius reaches far beyond it; give a smaller one, or more targets");
-  index.mean /= static_cast<double>(index.observers);
-  index.mean_error = std::sqrt(variance) / static_cast<double>(index.observers);
-  return index;
+  return IndexWork(store, request, progress).run();
 }
 
 void write_geotiff(const std::string& path, const VisibilityIndex& index, const IndexRequest& request,

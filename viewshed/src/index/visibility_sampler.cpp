@@ -1,13 +1,17 @@
 #include "index/visibility_sampler.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include <itin/same_place.hpp>
 
+#include "bounds/boundary.hpp"
 #include "line/grid_units.hpp"
+#include "request/void_shadow.hpp"
 
 namespace itin::viewshed {
 
@@ -31,34 +35,75 @@ class Random {
 
 }  // namespace
 
-VisibilitySampler::Tally VisibilitySampler::look(Point2 eye, double elevation, std::uint64_t seed) const {
+/// Lines to targets on ground; those at the eye's own place are seen without one.
+struct VisibilitySampler::Packet {
+  SightLines lines;
+  std::array<Point2, SightLines::kSize> targets;  ///< metres
+  unsigned on_ground = 0;                         ///< one bit a target
+};
+
+VisibilitySampler::VisibilitySampler(const SampledSurface& surface, const SampledSurface& ground,
+                                     const Targets& targets, NoData nodata)
+    : surface_(surface), ground_(ground), targets_(targets) {
+  if (nodata == NoData::kBlock) rim_ = surface.rim();
+}
+
+std::optional<double> VisibilitySampler::ground(Point2 place) const {
+  const Grid& units = ground_.units();
+  const auto height = ground_.height({easting_in_units(units, place.x), northing_in_units(units, place.y)});
+  return height ? std::optional(*height * units.resolution) : std::nullopt;
+}
+
+/// What of the rim lines within the radius may cross.
+std::vector<RimEdge> VisibilitySampler::rim_near(const Point3& eye) const {
+  const double reach = targets_.radius / surface_.units().resolution + 1;
+  std::vector<RimEdge> near;
+  std::copy_if(rim_.begin(), rim_.end(), std::back_inserter(near), [&](const RimEdge& edge) {
+    const auto& [a, b] = edge;
+    return std::min(a.x, b.x) <= eye.x + reach && std::max(a.x, b.x) >= eye.x - reach &&
+           std::min(a.y, b.y) <= eye.y + reach && std::max(a.y, b.y) >= eye.y - reach;
+  });
+  return near;
+}
+
+VisibilitySampler::Tally VisibilitySampler::look(Point2 eye, double elevation, std::uint64_t seed,
+                                                 const Told& told) const {
+  const Grid& units = surface_.units();
+  const Point3 from{easting_in_units(units, eye.x), northing_in_units(units, eye.y), elevation / units.resolution};
   Random random(seed);
-  Occluder occluder;
+  const VoidShadow behind_voids(rim_near(from), from);
+  SampledSurface::Work work;
   Tally tally;
-  const Point3 from{easting_in_units(grid_, eye.x), northing_in_units(grid_, eye.y), elevation / grid_.resolution};
-  while (tally.asked < targets_) {
-    SightLines lines;
-    lines.start_at(from);
-    const unsigned packet = std::min<unsigned>(SightLines::kSize, targets_ - tally.asked);
-    for (unsigned i = 0; i < packet; ++i) {
-      const double distance = radius_ * std::sqrt(random.next());
+  while (tally.asked < targets_.count) {
+    Packet packet;
+    packet.lines.start_at(from);
+    const unsigned size = std::min<unsigned>(SightLines::kSize, targets_.count - tally.asked);
+    for (unsigned i = 0; i < size; ++i) {
+      const double distance = targets_.radius * std::sqrt(random.next());
       const double azimuth = 2 * std::numbers::pi * random.next();
       const Point2 target{eye.x + distance * std::sin(azimuth), eye.y + distance * std::cos(azimuth)};
-      const auto ground = ground_.ground(target);
-      if (!ground) continue;
-      lines.to_x[i] = easting_in_units(grid_, target.x);
-      lines.to_y[i] = northing_in_units(grid_, target.y);
-      if (same_place(lines.to_x[i] - from.x, lines.to_y[i] - from.y)) {
-        ++tally.on_ground, ++tally.seen;
-        continue;
-      }
-      lines.to_z[i] = (*ground + target_height_) / grid_.resolution;
-      lines.active |= 1U << i;
+      const auto height = ground(target);
+      if (!height) continue;
+      SightLines& lines = packet.lines;
+      packet.targets[i] = target;
+      packet.on_ground |= 1U << i;
+      lines.to_x[i] = easting_in_units(units, target.x);
+      lines.to_y[i] = northing_in_units(units, target.y);
+      lines.to_z[i] = (*height + targets_.height) / units.resolution;
+      if (!same_place(lines.to_x[i] - from.x, lines.to_y[i] - from.y)) lines.active |= 1U << i;
     }
-    tally.asked += packet;
-    tally.on_ground += static_cast<unsigned>(std::popcount(lines.active));
-    if (lines.active != 0)
-      tally.seen += static_cast<unsigned>(std::popcount(lines.active & ~scene_.hidden(lines, occluder)));
+    unsigned hidden = surface_.hidden(packet.lines, work);
+    for (unsigned open = packet.lines.active & ~hidden; open != 0; open &= open - 1) {
+      const auto i = static_cast<unsigned>(std::countr_zero(open));
+      if (behind_voids.holds(packet.lines.to_x[i], packet.lines.to_y[i])) hidden |= 1U << i;
+    }
+    tally.asked += size;
+    tally.on_ground += static_cast<unsigned>(std::popcount(packet.on_ground));
+    tally.seen += static_cast<unsigned>(std::popcount(packet.on_ground & ~hidden));
+    for (unsigned rest = told ? packet.on_ground : 0; rest != 0; rest &= rest - 1) {
+      const auto i = static_cast<unsigned>(std::countr_zero(rest));
+      told(packet.targets[i], (hidden >> i & 1) == 0);
+    }
   }
   return tally;
 }

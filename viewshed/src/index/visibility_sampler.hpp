@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <vector>
 
 #include <itin/geometry.hpp>
+#include <viewshed/viewshed.hpp>
 
-#include "scene/rays/scene.hpp"
+#include "index/sampled_surface.hpp"
 
 namespace itin::viewshed {
 
@@ -17,27 +20,32 @@ class VisibilitySampler {
     unsigned seen = 0;       ///< of those
   };
 
-  /// Metres. Targets stand on `ground`, which may be `scene` itself; both must outlive the sampler.
-  VisibilitySampler(const Scene& scene, const Scene& ground, const Grid& grid, double radius, double target_height,
-                    unsigned targets)
-      : scene_(scene),
-        ground_(ground),
-        grid_(grid),
-        radius_(radius),
-        target_height_(target_height),
-        targets_(targets) {}
+  /// What is looked for from every eye.
+  struct Targets {
+    double radius = 0;  ///< metres
+    double height = 0;  ///< metres above the ground
+    unsigned count = 0;
+  };
+  /// Targets stand on `ground`, which may be `surface` itself. Both must outlive the sampler.
+  VisibilitySampler(const SampledSurface& surface, const SampledSurface& ground, const Targets& targets, NoData nodata);
 
+  /// The ground under a place, metres.
+  std::optional<double> ground(Point2 place) const;
+
+  /// Called with every target on ground, metres, and whether it is seen.
+  using Told = std::function<void(Point2 target, bool seen)>;
   /// From an eye at this elevation, metres, to targets spread evenly over the disc about it. The same seed gives the
   /// same targets. Safe for concurrent use.
-  Tally look(Point2 eye, double elevation, std::uint64_t seed) const;
+  Tally look(Point2 eye, double elevation, std::uint64_t seed, const Told& told = nullptr) const;
 
  private:
-  const Scene& scene_;
-  const Scene& ground_;
-  Grid grid_;
-  double radius_;
-  double target_height_;
-  unsigned targets_;
+  struct Packet;
+  std::vector<RimEdge> rim_near(const Point3& eye) const;
+
+  const SampledSurface& surface_;
+  const SampledSurface& ground_;
+  Targets targets_;
+  std::vector<RimEdge> rim_;  ///< where ground without data hides
 };
 
 }  // namespace itin::viewshed

@@ -15,7 +15,7 @@ namespace itin::viewshed {
 
 EnvelopeScene::EnvelopeScene(Envelope e, const Request& request, const RasterGrid& tiles, Voids v)
     : envelope(std::move(e)),
-      lower(envelope.lower, request.earth, NoData::kClear, 0),
+      lower(envelope.lower, request.earth),
       upper(envelope.upper, envelope.pieces, request.earth),
       bins(envelope.lower, tiles),
       voids(v),

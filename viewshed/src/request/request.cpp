@@ -274,14 +274,4 @@ void look_for_voids(const Grid& units, const std::vector<RimEdge>& rim, Result& 
     result.warnings.emplace_back(kVoidsWarning);
 }
 
-double ceiling_of(const Tin& tin, const Request& request) {
-  if (request.mode == Mode::kHeight) return 2 * kSky;
-  double highest = 0;
-  for (const GridPoint& v : tin.vertices) highest = std::max(highest, v.z * tin.grid.resolution);
-  double above = std::max(request.target_height, 0.0);
-  for (const Observer& observer : request.observers)
-    above = std::max({above, observer.height, observer.target_height.value_or(0)});
-  return highest + above;
-}
-
 }  // namespace itin::viewshed

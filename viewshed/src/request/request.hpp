@@ -64,7 +64,4 @@ Box box_of_window(const Store& store, const Request& request);
 /// nor its answer says what becomes of them. `rim` is where the surface ends, in these units.
 void look_for_voids(const Grid& units, const std::vector<RimEdge>& rim, Result& result);
 
-/// Above every end of every sight line over this surface, metres.
-double ceiling_of(const Tin& tin, const Request& request);
-
 }  // namespace itin::viewshed

@@ -41,7 +41,7 @@ ExactRays::ExactRays(const Tin& surface, const Earth& earth, const std::vector<P
     : upper_tin_(raised(surface, eyes)),
       location_(location_grid(surface)),
       bins_(surface, location_),
-      surface_(surface, earth, NoData::kClear, 0),
+      surface_(surface, earth),
       upper_(upper_tin_, {}, earth) {}
 
 unsigned ExactRays::hidden(const SightLines& lines, Work& work) const {

@@ -25,19 +25,17 @@ struct HiddenPacket {
   unsigned doubtful = 0;  ///< one bit a line: Embree took a triangle for hiding that does not
 };
 
-enum class Hit { kHides, kPasses, kDoubtful };
-
-/// Keeps those of Embree's hits that hide, by `judge(packet, line, primitive)`.
-template <class Judge>
-void keep_hits_that_hide(const RTCFilterFunctionNArguments* arguments, const Judge& judge) {
+/// Keeps those of Embree's hits that hide: where `hides(packet, line, primitive)`.
+template <class Hides>
+void keep_hits_that_hide(const RTCFilterFunctionNArguments* arguments, const Hides& hides) {
   auto& packet = *reinterpret_cast<HiddenPacket*>(arguments->context);
   const unsigned size = arguments->N;
   for (unsigned i = 0; i < size; ++i) {
     if (arguments->valid[i] == 0) continue;
     const unsigned line = RTCRayN_id(arguments->ray, size, i);
-    const Hit hit = judge(packet, line, RTCHitN_primID(arguments->hit, size, i));
-    if (hit == Hit::kDoubtful) packet.doubtful |= 1U << line;
-    if (hit != Hit::kHides) arguments->valid[i] = 0;
+    if (hides(packet, line, RTCHitN_primID(arguments->hit, size, i))) continue;
+    packet.doubtful |= 1U << line;
+    arguments->valid[i] = 0;
   }
 }
 
@@ -45,7 +43,7 @@ void keep_hits_that_hide(const RTCFilterFunctionNArguments* arguments, const Jud
 
 class Scene::Impl {
  public:
-  Impl(const Tin& tin, const Earth& earth, NoData nodata, double ceiling)
+  Impl(const Tin& tin, const Earth& earth)
       : tin_(tin),
         drop_(earth.drop_coefficient() * tin.grid.resolution),
         sag_(drop_ == 0 ? 0 : kSag),
@@ -55,7 +53,6 @@ class Scene::Impl {
         boundary_(boundary_edges(tin)) {
     attach_surface();
     attach_walls();
-    if (nodata == NoData::kBlock) attach_curtains(boundary_, ceiling);
     embree_.commit();
     // Fewer, larger arrays for the ray casting that follows; Embree has its own copy of what it needs.
     tessellation_.indices = {};
@@ -71,7 +68,7 @@ class Scene::Impl {
       occluder.triangle = packet.by[static_cast<unsigned>(std::bit_width(packet.by_triangle)) - 1];
     for (unsigned doubtful = packet.doubtful & ~result; doubtful != 0; doubtful &= doubtful - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(doubtful));
-      if (hidden_by_any(lines, i, exact[i], 0, 1) || behind_curtain(lines, i)) result |= 1U << i;
+      if (hidden_by_any(lines, i, exact[i], 0, 1)) result |= 1U << i;
     }
     return result;
   }
@@ -147,10 +144,10 @@ class Scene::Impl {
       keep_hits_that_hide(arguments, [&](HiddenPacket& packet, unsigned line, std::uint32_t piece) {
         const auto& parents = self.tessellation_.parents;
         const std::uint32_t triangle = parents.empty() ? piece : parents[piece];
-        if (!self.hides(packet.exact[line], triangle)) return Hit::kDoubtful;
+        if (!self.hides(packet.exact[line], triangle)) return false;
         packet.by[line] = triangle;
         packet.by_triangle |= 1U << line;
-        return Hit::kHides;
+        return true;
       });
     });
     embree_.attach(geometry);
@@ -207,42 +204,14 @@ class Scene::Impl {
     return outside ? kNoBin : location_.index({static_cast<std::int64_t>(column), static_cast<std::int64_t>(row)});
   }
 
-  bool behind_curtain(const SightLines& lines, unsigned i) const {
-    return std::any_of(curtains_.begin(), curtains_.end(), [&](const BoundaryEdge& edge) {
-      return crossing_back(tin_, edge, lines, i) == Crossing::kBack;
-    });
-  }
-
   void attach_walls() {
     if (boundary_.empty()) return;
-    const Walls walls = walls_under(tin_, boundary_, tessellation_, drop_, std::nullopt);
+    const Walls walls = walls_under(tin_, boundary_, tessellation_, drop_);
     const Geometry geometry = embree_.triangles(walls.vertices, walls.indices, this);
     rtcSetGeometryOccludedFilterFunction(geometry.get(), [](const RTCFilterFunctionNArguments* arguments) {
       const auto& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
       keep_hits_that_hide(arguments, [&](const HiddenPacket& packet, unsigned line, std::uint32_t side) {
-        return self.hides(packet.exact[line], self.boundary_[side / 2].triangle) ? Hit::kHides : Hit::kDoubtful;
-      });
-    });
-    embree_.attach(geometry);
-  }
-
-  void attach_curtains(std::vector<BoundaryEdge> edges, double ceiling) {
-    curtains_ = std::move(edges);
-    if (curtains_.empty()) return;
-    const Walls walls = walls_under(tin_, curtains_, tessellation_, drop_, ceiling);
-    const Geometry geometry = embree_.triangles(walls.vertices, walls.indices, this);
-    rtcSetGeometryOccludedFilterFunction(geometry.get(), [](const RTCFilterFunctionNArguments* arguments) {
-      const auto& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
-      keep_hits_that_hide(arguments, [&](const HiddenPacket& packet, unsigned line, std::uint32_t side) {
-        switch (crossing_back(self.tin_, self.curtains_[side / 2], *packet.lines, line)) {
-          case Crossing::kBack:
-            return Hit::kHides;
-          case Crossing::kDoubtful:
-            return Hit::kDoubtful;
-          case Crossing::kNone:
-            break;
-        }
-        return Hit::kPasses;
+        return self.hides(packet.exact[line], self.boundary_[side / 2].triangle);
       });
     });
     embree_.attach(geometry);
@@ -255,12 +224,10 @@ class Scene::Impl {
   RasterGrid location_;
   TriangleBins bins_;
   std::vector<BoundaryEdge> boundary_;
-  std::vector<BoundaryEdge> curtains_;
   EmbreeScene embree_;
 };
 
-Scene::Scene(const Tin& tin, const Earth& earth, NoData nodata, double ceiling)
-    : impl_(std::make_unique<Impl>(tin, earth, nodata, ceiling)) {}
+Scene::Scene(const Tin& tin, const Earth& earth) : impl_(std::make_unique<Impl>(tin, earth)) {}
 Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 Scene::~Scene() = default;

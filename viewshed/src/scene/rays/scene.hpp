@@ -1,6 +1,6 @@
 // Sight lines against a Tin: Embree finds triangles that may hide, double precision decides whether they do.
 //
-//   Scene scene(tin, earth, NoData::kClear, ceiling);
+//   Scene scene(tin, earth);
 //   SightLines lines;                       // up to 16, as close together as possible
 //   Occluder occluder;                      // kept from packet to packet
 //   unsigned hidden = scene.hidden(lines, occluder);  // one bit a line
@@ -27,7 +27,6 @@
 
 #include <itin/earth.hpp>
 #include <itin/tin.hpp>
-#include <viewshed/viewshed.hpp>
 
 #include "line/sight_line.hpp"
 #include "line/sight_lines.hpp"
@@ -41,9 +40,8 @@ struct Occluder {
 
 class Scene {
  public:
-  /// The Tin must outlive the scene. With NoData::kBlock curtains stand along the Tin's boundary, `ceiling` metres
-  /// high: no end may lie higher. Throws std::bad_alloc.
-  Scene(const Tin& tin, const Earth& earth, NoData nodata, double ceiling);
+  /// The Tin must outlive the scene. Throws std::bad_alloc.
+  Scene(const Tin& tin, const Earth& earth);
   Scene(Scene&&) noexcept;
   Scene& operator=(Scene&&) noexcept;
   ~Scene();

@@ -73,7 +73,7 @@ class UpperScene::Impl {
               -kRounding * kRoundings};
     attach_surface(tessellation);
     parents_ = std::move(tessellation.parents);
-    attach_walls(walls_under(tin, boundary_, tessellation, drop, std::nullopt));
+    attach_walls(walls_under(tin, boundary_, tessellation, drop));
     embree_.commit();
   }
 

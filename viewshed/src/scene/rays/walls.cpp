@@ -6,12 +6,10 @@
 namespace itin::viewshed {
 
 Walls walls_under(const Tin& tin, const std::vector<BoundaryEdge>& boundary, const Tessellation& tessellation,
-                  double drop, std::optional<double> ceiling) {
+                  double drop) {
   Walls walls;
   const double metre = 1 / tin.grid.resolution;
   const auto bottom = static_cast<float>(-(2 * tessellation.half_height + metre));
-  const auto sky =
-      static_cast<float>(ceiling.value_or(0) * metre - tessellation.centre.z + tessellation.half_height + metre);
   for (const BoundaryEdge& edge : boundary) {
     const auto first = static_cast<std::uint32_t>(walls.vertices.size() / 3);
     const GridPoint &a = tin.vertices[edge.from], &b = tin.vertices[edge.to];
@@ -20,7 +18,7 @@ Walls walls_under(const Tin& tin, const std::vector<BoundaryEdge>& boundary, con
     const auto bulge = static_cast<float>(std::max(drop, 0.0) * length * length / 4);
     for (const std::uint32_t end : {edge.from, edge.to}) {
       const float* const v = tessellation.vertices.data() + 3 * std::size_t{end};
-      walls.vertices.insert(walls.vertices.end(), {v[0], v[1], bottom, v[0], v[1], ceiling ? sky : v[2] + bulge});
+      walls.vertices.insert(walls.vertices.end(), {v[0], v[1], bottom, v[0], v[1], v[2] + bulge});
     }
     walls.indices.insert(walls.indices.end(), {first, first + 2, first + 3, first, first + 3, first + 1});
   }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include <itin/tin.hpp>
@@ -18,8 +17,8 @@ struct Walls {
   std::vector<std::uint32_t> indices;
 };
 
-/// From below everything up to the surface's edge; or, as curtains, up to above `ceiling` metres.
+/// From below everything up to the surface's edge.
 Walls walls_under(const Tin& tin, const std::vector<BoundaryEdge>& boundary, const Tessellation& tessellation,
-                  double drop, std::optional<double> ceiling);
+                  double drop);
 
 }  // namespace itin::viewshed

@@ -8,11 +8,11 @@
 #include <itin/level_choice.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/site_proposal.hpp>
+#include <viewshed/surface.hpp>
 
 #include "index/visibility_sampler.hpp"
 #include "progress/stage.hpp"
 #include "request/request.hpp"
-#include "scene/rays/scene.hpp"
 
 namespace itin::viewshed {
 
@@ -49,14 +49,14 @@ std::vector<bool> summits(const Tin& tin) {
 
 class Proposer {
  public:
-  Proposer(const Tin& tin, const Window& area, const ProposalRequest& request)
-      : tin_(tin),
+  Proposer(const Surface& surface, const Window& area, const ProposalRequest& request)
+      : tin_(surface.tin),
         area_(area),
         request_(request),
-        scene_(tin, request.earth, NoData::kClear, 0),
-        sampler_(scene_, scene_, tin.grid, request.radius, request.target_height, kTargets),
+        surface_(surface, request.earth, kPoints * kTargets),
+        sampler_(surface_, surface_, {request.radius, request.target_height, kTargets}, NoData::kClear),
         squares_(RasterGrid::aligned(area.bounds(), request.spacing)),
-        summits_(summits(tin)) {}
+        summits_(summits(tin_)) {}
 
   std::vector<Proposal> run(Progress& progress) const {
     const std::vector<std::vector<std::uint32_t>> posts = by_square();
@@ -114,7 +114,7 @@ class Proposer {
   const Tin& tin_;
   const Window& area_;
   const ProposalRequest& request_;
-  Scene scene_;
+  SampledSurface surface_;
   VisibilitySampler sampler_;
   RasterGrid squares_;
   std::vector<bool> summits_;
@@ -139,9 +139,9 @@ std::vector<Proposal> propose_sites(const Store& store, const Window& area, cons
                                  request.spacing, kMostSquares));
   box = {box.xmin - request.radius, box.ymin - request.radius, box.xmax + request.radius, box.ymax + request.radius};
   const Detail detail = detail_of(store.metadata(), finest_level_of(store, box, kPoints));
-  const Tin tin = triangulate(store, Window::box(box), detail, progress);
-  if (tin.triangles.empty()) throw InputError("the search area holds no ground");
-  std::vector<Proposal> proposals = Proposer(tin, area, request).run(progress);
+  const Surface surface{triangulate(store, Window::box(box), detail, progress), nullptr, {}};
+  if (surface.tin.triangles.empty()) throw InputError("the search area holds no ground");
+  std::vector<Proposal> proposals = Proposer(surface, area, request).run(progress);
   if (proposals.empty()) throw InputError("the search area holds no ground");
   return proposals;
 }

@@ -1,0 +1,67 @@
+#include "index/sampled_surface.hpp"
+
+#include <bit>
+
+#include <itin/grazing.hpp>
+
+#include "bounds/boundary.hpp"
+#include "line/sight_line.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// As measured over 700,000 triangles: a line decided by rays saves less than a microsecond, and a triangle among them
+/// takes as long.
+constexpr std::uint64_t kLinesPerTriangle = 2;
+
+bool casts_rays(std::uint64_t triangles, std::uint64_t lines) {
+  return lines > kLinesPerTriangle * triangles;
+}
+
+HeightPyramid pyramid_over(const Surface& surface) {
+  return surface.lattice ? HeightPyramid(surface.lattice->lattice()) : HeightPyramid(surface.tin);
+}
+
+}  // namespace
+
+SampledSurface::SampledSurface(const Surface& surface, const Earth& earth, std::uint64_t lines)
+    : surface_(surface), pyramid_(pyramid_over(surface_)) {
+  drop_ = earth.drop_coefficient() * units().resolution;
+  grazing_ = kGrazing / units().resolution;
+  if (!surface_.lattice && casts_rays(surface_.tin.triangles.size(), lines)) rays_.emplace(surface_.tin, earth);
+}
+
+std::uint64_t SampledSurface::bytes(std::uint64_t points, std::uint64_t lines) {
+  constexpr std::uint64_t kTin = 300, kRays = 300;
+  return points * (casts_rays(2 * points, lines) ? kTin + kRays : kTin);
+}
+
+std::vector<RimEdge> SampledSurface::rim() const {
+  return surface_.lattice ? surface_.lattice->lattice().rim() : rim_of(surface_.tin, boundary_edges(surface_.tin));
+}
+
+unsigned SampledSurface::hidden(const SightLines& lines, Work& work) const {
+  unsigned result = rays_ ? rays_->hidden(lines, work.occluder) : 0;
+  for (unsigned open = lines.active & ~result; open != 0; open &= open - 1) {
+    const auto i = static_cast<unsigned>(std::countr_zero(open));
+    if (hidden({lines.from_x[i], lines.from_y[i], lines.from_z[i]}, {lines.to_x[i], lines.to_y[i], lines.to_z[i]}))
+      result |= 1U << i;
+  }
+  return result;
+}
+
+bool SampledSurface::hidden(const Point3& from, const Point3& to) const {
+  const SightLine line(from, to, drop_, grazing_);
+  LineBundle bundle(line);
+  bool hidden = false;
+  pyramid_.search(bundle, [&](std::uint32_t triangle) {
+    const auto [a, b, c] = pyramid_.corners(triangle);
+    if (hidden || line.beside(a, b, c) || !line.hidden_by(a, b, c)) return;
+    hidden = true;
+    bundle.reach = -1;  // nothing is left to search
+  });
+  return hidden;
+}
+
+}  // namespace itin::viewshed

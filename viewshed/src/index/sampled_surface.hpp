@@ -1,0 +1,53 @@
+// A surface for single lines in great number: how high it is, and which lines it hides, exact whatever else is known
+// of it.
+//
+//   const SampledSurface surface(retrieved, earth, lines_expected);
+//   SampledSurface::Work work;                             // one a thread
+//   const unsigned hidden = surface.hidden(lines, work);   // one bit a line, as SightLine has it
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <itin/earth.hpp>
+#include <viewshed/surface.hpp>
+
+#include "bounds/height_pyramid.hpp"
+#include "line/sight_lines.hpp"
+#include "scene/rays/scene.hpp"
+
+namespace itin::viewshed {
+
+/// Double precision asks every triangle that may rise above a line (HeightPyramid). Where a Tin is asked about very
+/// many lines, rays find most of those that are hidden (Scene) in less time.
+class SampledSurface {
+ public:
+  /// Of what must outlive it and has all its heights, to be asked about so many lines. Throws std::bad_alloc.
+  SampledSurface(const Surface& surface, const Earth& earth, std::uint64_t lines);
+  /// What a Tin of so many points takes, bytes, about. A lattice takes kBytesPerPost.
+  static std::uint64_t bytes(std::uint64_t points, std::uint64_t lines);
+
+  const Grid& units() const { return pyramid_.units(); }
+  /// At a position in grid units, grid units.
+  std::optional<double> height(Point2 units) const { return pyramid_.height_at(units); }
+  /// Where it ends.
+  std::vector<RimEdge> rim() const;
+
+  struct Work {
+    Occluder occluder;
+  };
+  /// One bit a line: 1 hidden. Ends of active lines differ horizontally. Safe for concurrent use.
+  unsigned hidden(const SightLines& lines, Work& work) const;
+
+ private:
+  bool hidden(const Point3& from, const Point3& to) const;
+
+  const Surface& surface_;
+  double drop_;     ///< grid units of drop a squared grid unit
+  double grazing_;  ///< grid units
+  HeightPyramid pyramid_;
+  std::optional<Scene> rays_;
+};
+
+}  // namespace itin::viewshed
