@@ -1,5 +1,6 @@
 // itin site: the few best of many sites.
 
+#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -51,10 +52,12 @@ class SiteVerb final : public Verb {
     policy_.overwrite = policy_.overwrite || (options_.resume && std::filesystem::exists(place("site.work")));
     const NewFolder folder(options_.directory);
     outputs_ = site_outputs(options_.directory, policy_);
-    const Store store(options_.store);
+    // A budget holds for what is kept of the store as well.
+    const Store store(options_.store, {std::min(StoreOptions().cache_bytes, options_.memory_bytes / 4)});
     options_.themes.choice().check(store.metadata().themes);
     inputs_document_ = hash_inputs(progress);
     const SiteInputs inputs = read_site_inputs(store, options_, progress);
+    require_memory(store, inputs);
 
     viewshed::SiteCoverage coverage(store, site_survey(options_, inputs), progress);
     SiteWork work(place("site.work"), key(), options_.resume, inputs.stands.size(), coverage);
@@ -64,6 +67,7 @@ class SiteVerb final : public Verb {
     coverage.look_first();
     SiteResult site{options_, inputs, coverage, choose(store, inputs, coverage, progress), {}, {}};
     const std::optional<viewshed::SiteStand> hub_stand = hub(store, progress);
+    coverage.release_surfaces();
     site.links = site_links(store, options_, inputs, site.choice, hub_stand, progress);
     site.rasters = site_rasters(store, options_, inputs, coverage, site.choice, progress);
     Result result = write(store, site, hub_stand, progress);
@@ -86,6 +90,21 @@ class SiteVerb final : public Verb {
       inputs.push_back({{"path", path}, {"sha256", file_sha256(path, progress)}});
     }
     return inputs;
+  }
+
+  /// For the maps, beside what is known of all sites. Where demand is points, they are of cells about the chosen sites.
+  void require_memory(const Store& store, const SiteInputs& inputs) const {
+    const RasterGrid grid = inputs.targets.grid
+                                ? *inputs.targets.grid
+                                : viewshed::grid_of_reach(store, inputs.stands, options_.radius, options_.cell_size());
+    const std::uint64_t needed =
+        bytes_of_site_maps(store, grid) + viewshed::bytes_of_coverage(site_survey(options_, inputs));
+    if (needed <= options_.memory_bytes) return;
+    throw InputError(fmt::format(
+        "maps of {} cells, and what {} may serve of them, take some {:.2g} GB, more than the {:.2g} GB of --memory: "
+        "give a greater --cell, a smaller --radius, fewer sites, or more",
+        grouped(grid.cell_count()), counted(inputs.stands.size(), "site"), static_cast<double>(needed) / 1e9,
+        static_cast<double>(options_.memory_bytes) / 1e9));
   }
 
   /// Tells runs apart whose results could differ.

@@ -165,7 +165,7 @@ class InputReader {
   void read_cells() {
     const std::vector<SiteStand> of_options(
         inputs_.stands.begin(), inputs_.stands.begin() + static_cast<std::ptrdiff_t>(inputs_.options.size()));
-    const RasterGrid grid = viewshed::grid_of_reach(store_, of_options, options_.radius, options_.cell.value_or(50));
+    const RasterGrid grid = viewshed::grid_of_reach(store_, of_options, options_.radius, options_.cell_size());
     inputs_.targets.grid = grid;
     inputs_.demand = viewshed::Demand(viewshed::element_count(grid));
     const viewshed::DemandSet ground = viewshed::with_ground(store_, inputs_.targets, progress_);

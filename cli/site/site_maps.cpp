@@ -16,9 +16,13 @@ namespace {
 constexpr std::uint64_t kHillshadePoints = 400000;
 constexpr int kMapPixels = 1100;
 
+int hillshade_level(const Store& store, const RasterGrid& grid) {
+  return finest_level_of(store, grid.bounds(), kHillshadePoints);
+}
+
 Tin hillshade_surface(const Store& store, const RasterGrid& grid, Progress& progress) {
-  const int level = finest_level_of(store, grid.bounds(), kHillshadePoints);
-  return triangulate(store, Window::box(grid.bounds()), detail_of(store.metadata(), level), progress);
+  return triangulate(store, Window::box(grid.bounds()), detail_of(store.metadata(), hillshade_level(store, grid)),
+                     progress);
 }
 
 /// The choice as a viewshed's result, which is what maps are drawn of.
@@ -43,6 +47,12 @@ viewshed::Result as_viewshed(const SiteResult& r) {
 }
 
 }  // namespace
+
+std::uint64_t bytes_of_site_maps(const Store& store, const RasterGrid& grid) {
+  // Of a cell its nearest server and how far that is, how many serve it, and copies of these to draw and to write.
+  constexpr std::uint64_t kCell = 20, kPoint = 150;
+  return kCell * grid.cell_count() + kPoint * store.points_about(hillshade_level(store, grid), grid.bounds());
+}
 
 void write_site_maps(const Store& store, const SiteResult& r, const std::string& directory, bool overwrite,
                      Progress& progress, std::vector<std::string>& warnings) {

@@ -128,7 +128,8 @@ void SiteOptions::declare_work(CLI::App& app) {
   app.add_option("--nodata", nodata_text_, "What ground without data does to sight lines (default: unknown)")
       ->type_name("unknown|block|clear");
   engine.declare(app);
-  app.add_option("--memory", memory_text_, "Memory to work in; it changes the speed only (default: 1G)")
+  app.add_option("--memory", memory_text_,
+                 "Memory for surfaces, what every site serves, and maps; the result never depends on it (default: 1G)")
       ->type_name("SIZE");
   app.add_flag("--resume", resume, "Go on where a run with the same parameters was killed");
   policy.declare(app);

@@ -57,6 +57,7 @@ class SiteOptions {
   bool targets_on_surface = false;
   double radius = 10000;
   std::optional<double> cell;
+  double cell_size() const { return cell.value_or(50); }
   std::optional<double> frequency_ghz;  ///< served is what is in sight, and with a frequency clear by this much:
   double fresnel = 0.6;                 ///< fraction of the first Fresnel zone
   // The choice.

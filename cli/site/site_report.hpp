@@ -12,6 +12,9 @@
 
 namespace itin::cli {
 
+/// What the rasters of a choice on these cells and the maps of them take, bytes, about.
+std::uint64_t bytes_of_site_maps(const Store& store, const RasterGrid& grid);
+
 /// The two maps of the report, as PNG files beside it; `warnings` gets those of drawing them. Throws FileError.
 void write_site_maps(const Store& store, const SiteResult& result, const std::string& directory, bool overwrite,
                      Progress& progress, std::vector<std::string>& warnings);

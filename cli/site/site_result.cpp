@@ -69,7 +69,7 @@ OnCells on_cells(const Store& store, const SiteOptions& options, const SiteInput
   survey.stands.clear();
   for (const std::size_t site : sites) survey.stands.push_back(inputs.stands[site]);
   survey.targets.points.clear();
-  survey.targets.grid = viewshed::grid_of_reach(store, survey.stands, options.radius, options.cell.value_or(50));
+  survey.targets.grid = viewshed::grid_of_reach(store, survey.stands, options.radius, options.cell_size());
   survey.tolerance = 0;
   OnCells result{survey.targets, {}};
   viewshed::SiteCoverage coverage(store, survey, progress);

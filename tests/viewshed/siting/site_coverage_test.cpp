@@ -1,5 +1,6 @@
 // Bounds of what sites serve, against precise viewsheds; and the choice made on them, against brute force.
 #include <iostream>
+#include <numeric>
 #include <random>
 #include <type_traits>
 
@@ -134,6 +135,45 @@ TEST_F(Sites, TheMemoryChangesNothingExact) {
   survey_.memory_bytes = 110000;
   SiteCoverage coverage(*store_, survey_, progress_);
   expect_bounds_at_every_stage(coverage, all_precise());
+}
+
+/// Of what is known of every site, counted block by block, before and after every look.
+TEST_F(Sites, WhatIsKnownOfThemTakesNoMoreThanIsCountedOn) {
+  make_terrain(100, 200, false);
+  make_survey(8);
+  const auto counted = [&](const SiteCoverage& coverage) {
+    std::uint64_t blocks = 0;
+    for (std::size_t i = 0; i < survey_.stands.size(); ++i)
+      for (const CoverageBounds* bounds : {&coverage.bounds(i), &coverage.first_bounds(i)})
+        for (const DemandSet* set : {&bounds->certain, &bounds->possible}) blocks += set->blocks().capacity();
+    return sizeof(DemandSet::Block) * blocks;
+  };
+  std::uint64_t most = 0;
+  SiteCoverage coverage(*store_, survey_, progress_);
+  most = std::max(most, counted(coverage));
+  coverage.look_first();
+  most = std::max(most, counted(coverage));
+  coverage.release_surfaces();
+  std::vector<std::size_t> all(survey_.stands.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  while (coverage.stage(0) < coverage.last_stage()) {
+    coverage.refine(all);
+    most = std::max(most, counted(coverage));
+  }
+  EXPECT_LE(most, bytes_of_coverage(survey_));
+  EXPECT_GT(8 * most, bytes_of_coverage(survey_));
+}
+
+TEST_F(Sites, TooLittleMemoryForWhatIsKnownOfThemIsRefused) {
+  make_terrain(100, 200, false);
+  make_survey(8);
+  survey_.memory_bytes = bytes_of_coverage(survey_);
+  try {
+    SiteCoverage(*store_, survey_, progress_);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("`memory_bytes`"), std::string::npos) << error.what();
+  }
 }
 
 TEST_F(Sites, WhatIsMissingHidesIfThatIsAskedFor) {

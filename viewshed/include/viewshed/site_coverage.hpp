@@ -73,6 +73,7 @@ struct SiteSurvey {
   // Change the speed, never what is exact.
   Engine engine = Engine::kAuto;    ///< of cells at full detail; points are decided by rays
   std::optional<double> tolerance;  ///< of the first look; none: chosen by the number of points
+  /// For surfaces, and for what is known of what each site serves.
   std::uint64_t memory_bytes = std::uint64_t{1} << 30;
 };
 
@@ -91,10 +92,13 @@ DemandSet with_ground(const Store& store, const SiteTargets& targets, Progress& 
 /// Everything within the radius of a site, with or without ground.
 DemandSet within_reach(const SiteTargets& targets, Point2 position, double radius);
 
+/// What is known of what each site serves takes no more bytes than this; see SiteSurvey::memory_bytes.
+std::uint64_t bytes_of_coverage(const SiteSurvey& survey);
+
 class SiteCoverage final : public Coverage {
  public:
   /// The store and the progress must outlive it. Before look_first() all that is known is the radius. Throws
-  /// InputError.
+  /// InputError, also where three quarters of memory_bytes do not hold what each site may serve.
   SiteCoverage(const Store& store, SiteSurvey survey, Progress& progress);
   SiteCoverage(const Store&& store, SiteSurvey survey, Progress& progress) = delete;
   ~SiteCoverage() override;
@@ -104,6 +108,8 @@ class SiteCoverage final : public Coverage {
   void refine(std::span<const std::size_t> options) override;
   /// At every option that was not looked at yet.
   void look_first();
+  /// Frees the memory of the surfaces. They are read again where options are refined after this.
+  void release_surfaces();
 
   /// How often an option was refined after the first look, and how often that can be at most.
   int stage(std::size_t option) const;

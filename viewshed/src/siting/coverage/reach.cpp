@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <itin/parallel.hpp>
 #include <viewshed/site_coverage.hpp>
@@ -58,6 +59,28 @@ DemandSet points_in_reach(const std::vector<Point2>& points, Point2 p, double ra
 DemandSet within_reach(const SiteTargets& targets, Point2 position, double radius) {
   return targets.grid ? cells_in_reach(*targets.grid, position, radius)
                       : points_in_reach(targets.points, position, radius);
+}
+
+namespace {
+
+/// Of the cells or points that may lie within a radius, more rather than fewer.
+double blocks_in_reach(const SiteTargets& targets, double radius) {
+  if (!targets.grid) return std::ceil(static_cast<double>(targets.points.size()) / 64);
+  const RasterGrid& grid = *targets.grid;
+  constexpr double kSide = CellBlocks::kSide;
+  // What meets a disc lies within one a block's diagonal wider.
+  const double columns = radius / (kSide * grid.cell_width()) + std::sqrt(2),
+               rows = radius / (kSide * grid.cell_height()) + std::sqrt(2);
+  return std::min(std::numbers::pi * columns * rows, static_cast<double>(CellBlocks(grid).count()));
+}
+
+}  // namespace
+
+/// Bounds from above and from below, now and after the first look; those of now may have room for twice as much.
+std::uint64_t bytes_of_coverage(const SiteSurvey& survey) {
+  constexpr double kSets = 2 + 2 * 2;
+  const double of_set = sizeof(DemandSet::Block) * std::ceil(blocks_in_reach(survey.targets, survey.radius));
+  return static_cast<std::uint64_t>(kSets * of_set * static_cast<double>(survey.stands.size()));
 }
 
 namespace {

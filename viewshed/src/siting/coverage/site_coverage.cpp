@@ -113,6 +113,7 @@ class SiteCoverage::Impl {
         progress_(progress),
         themed_(survey_.themes.includes_standing(store.metadata().themes)) {
     if (survey_.stands.empty()) throw InputError("no site to look from: give at least one on the data");
+    require_room_for_sets();
     Box box;
     for (const SiteStand& stand : survey_.stands) box.extend(disc_box(stand.position, survey_.radius));
     choose_levels(box);
@@ -167,13 +168,27 @@ class SiteCoverage::Impl {
     states_[option].stage = stage;
   }
 
+  void release_surfaces() {
+    whole_lattice_.reset();
+    whole_ = {};
+  }
+
   const Statistics& statistics() const { return statistics_; }
   std::function<void(std::size_t, int, const CoverageBounds&)>* on_refined = nullptr;
 
  private:
+  void require_room_for_sets() {
+    sets_ = bytes_of_coverage(survey_);
+    if (sets_ <= survey_.memory_bytes / 4 * 3) return;
+    throw InputError(fmt::format(
+        "what {} sites may serve takes {:.2g} GB, too much for {:.2g} GB of memory: give a greater `cell_size`, a "
+        "smaller `radius`, fewer sites, or more `memory_bytes`",
+        survey_.stands.size(), static_cast<double>(sets_) / 1e9, static_cast<double>(survey_.memory_bytes) / 1e9));
+  }
+
   void choose_levels(const Box& box) {
     const std::uint64_t all = store_.points_about(0, box);
-    whole_fits_ = all * (themed_ ? 3 : 1) <= budget(0) || read_whole_lattice();
+    whole_fits_ = fits(all * (themed_ ? 3 : 1), survey_.stands.size(), 0) || read_whole_lattice();
     // To look at cells exactly takes no longer than to look at them coarsely.
     const bool exact_at_once = all <= kFewPoints || (survey_.targets.grid && whole_fits_);
     const int first = survey_.tolerance ? level_within(store_.metadata(), *survey_.tolerance)
@@ -189,7 +204,8 @@ class SiteCoverage::Impl {
     if (themed_ || survey_.fresnel || !survey_.targets.grid || casts_rays()) return false;
     Stopwatch watch;
     whole_lattice_ = retrieve_lattice(store_, window_of(all_options()), Detail::tolerance(0), ThemeChoice::none(),
-                                      LatticeReader::Heights::kAll, memory() / kBytesPerPost, progress_);
+                                      LatticeReader::Heights::kAll,
+                                      (memory() - std::min(memory(), sets_)) / kBytesPerPost, progress_);
     statistics_.retrieval_seconds += watch.lap();
     return whole_lattice_.has_value();
   }
@@ -203,11 +219,13 @@ class SiteCoverage::Impl {
   /// Cells are judged over the full surface at its own level; everything else over envelopes.
   bool judges_cells_exactly(int level) const { return level == 0 && survey_.targets.grid; }
   bool casts_rays() const { return survey_.engine == Engine::kRays; }
-  /// What is left is for the rest of the program.
-  std::uint64_t memory() const { return survey_.memory_bytes / 4 * 3; }
-  /// Points to look at together.
-  std::uint64_t budget(int level) const {
-    return memory() / (judges_cells_exactly(level) && !casts_rays() ? kBytesPerSweptPoint : kBytesPerRayPoint);
+  /// For surfaces; what is left is for the rest of the program.
+  std::uint64_t memory() const { return (survey_.memory_bytes - sets_) / 4 * 3; }
+  /// Whether so many options can be looked at together over a surface of so many points.
+  bool fits(std::uint64_t points, std::size_t options, int level) const {
+    const bool swept = judges_cells_exactly(level) && !casts_rays();
+    const std::uint64_t sets = sets_ / survey_.stands.size() * options;
+    return points * (swept ? kBytesPerSweptPoint : kBytesPerRayPoint) + sets <= memory();
   }
 
   std::uint64_t points_of(const std::vector<std::size_t>& options, int level) const {
@@ -218,7 +236,7 @@ class SiteCoverage::Impl {
 
   /// Neighbours together, as many as the memory holds.
   std::vector<std::vector<std::size_t>> groups(std::vector<std::size_t> options, int level) const {
-    if (options.size() < 2 || points_of(options, level) <= budget(level)) return {std::move(options)};
+    if (options.size() < 2 || fits(points_of(options, level), options.size(), level)) return {std::move(options)};
     Box box;
     for (const std::size_t option : options) box.extend(survey_.stands[option].position);
     std::sort(options.begin(), options.end(), [&](std::size_t a, std::size_t b) {
@@ -362,6 +380,7 @@ class SiteCoverage::Impl {
   Progress& progress_;
   bool themed_;
   double raise_ = 0;
+  std::uint64_t sets_ = 0;  ///< bytes, of what is known of all options
   bool whole_fits_ = false;
   std::optional<Surface> whole_lattice_;  ///< until it is looked at
   std::array<std::unique_ptr<GroupSurvey>, 2> whole_;
@@ -384,6 +403,9 @@ void SiteCoverage::refine(std::span<const std::size_t> options) {
 }
 void SiteCoverage::look_first() {
   impl_->look_first();
+}
+void SiteCoverage::release_surfaces() {
+  impl_->release_surfaces();
 }
 int SiteCoverage::stage(std::size_t option) const {
   return impl_->state(option).stage;
