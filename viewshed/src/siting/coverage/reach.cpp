@@ -76,9 +76,9 @@ double blocks_in_reach(const SiteTargets& targets, double radius) {
 
 }  // namespace
 
-/// Bounds from above and from below, now and after the first look; those of now may have room for twice as much.
+/// Bounds from above and from below, now and after the first look.
 std::uint64_t bytes_of_coverage(const SiteSurvey& survey) {
-  constexpr double kSets = 2 + 2 * 2;
+  constexpr double kSets = 4;
   const double of_set = sizeof(DemandSet::Block) * std::ceil(blocks_in_reach(survey.targets, survey.radius));
   return static_cast<std::uint64_t>(kSets * of_set * static_cast<double>(survey.stands.size()));
 }

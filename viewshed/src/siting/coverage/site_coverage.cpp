@@ -121,8 +121,9 @@ class SiteCoverage::Impl {
     if (survey_.targets.on_surface && themed_) raise_ = store.greatest_feature_height(survey_.themes, box);
     states_.resize(survey_.stands.size());
     parallel_for(states_.size(), [&](std::size_t i) {
-      states_[i].bounds.possible = within_reach(survey_.targets, survey_.stands[i].position, survey_.radius);
-      states_[i].first = states_[i].bounds;
+      const CoverageBounds reach{{}, within_reach(survey_.targets, survey_.stands[i].position, survey_.radius)};
+      // Copies have no room to grow: bytes_of_coverage() counts on that.
+      states_[i].bounds = states_[i].first = reach;
     });
   }
 
@@ -162,9 +163,9 @@ class SiteCoverage::Impl {
     return fmt::format("tolerance {:g} m", store_.metadata().levels[static_cast<std::size_t>(level)].tolerance);
   }
 
-  void restore(std::size_t option, int stage, CoverageBounds bounds) {
-    if (stage == 0) states_[option].first = bounds;
-    states_[option].bounds = std::move(bounds);
+  void restore(std::size_t option, int stage, const CoverageBounds& bounds) {
+    if (stage == 0) states_[option].first = CoverageBounds(bounds);
+    states_[option].bounds = CoverageBounds(bounds);
     states_[option].stage = stage;
   }
 
@@ -205,7 +206,7 @@ class SiteCoverage::Impl {
     Stopwatch watch;
     whole_lattice_ = retrieve_lattice(store_, window_of(all_options()), Detail::tolerance(0), ThemeChoice::none(),
                                       LatticeReader::Heights::kAll,
-                                      (memory() - std::min(memory(), sets_)) / kBytesPerPost, progress_);
+                                      (memory() - std::min(memory(), 2 * sets_)) / kBytesPerPost, progress_);
     statistics_.retrieval_seconds += watch.lap();
     return whole_lattice_.has_value();
   }
@@ -224,7 +225,8 @@ class SiteCoverage::Impl {
   /// Whether so many options can be looked at together over a surface of so many points.
   bool fits(std::uint64_t points, std::size_t options, int level) const {
     const bool swept = judges_cells_exactly(level) && !casts_rays();
-    const std::uint64_t sets = sets_ / survey_.stands.size() * options;
+    // Judging gathers them in vectors that grow.
+    const std::uint64_t sets = 2 * (sets_ / survey_.stands.size()) * options;
     return points * (swept ? kBytesPerSweptPoint : kBytesPerRayPoint) + sets <= memory();
   }
 
@@ -341,7 +343,7 @@ class SiteCoverage::Impl {
     for (std::size_t i = 0; i < options.size(); ++i) {
       if (themed_ && !themed) after[i].certain = {}, after[i].exact = false;  // features may hide it
       if (survey_.fresnel && !zones_at(level)) after[i].certain = {};         // or its zone is cut
-      settle(options[i], stage, std::move(after[i]));
+      settle(options[i], stage, std::exchange(after[i], {}));
     }
     statistics_.lines_seconds += watch.lap();
   }
@@ -368,10 +370,8 @@ class SiteCoverage::Impl {
     return read;
   }
 
-  void settle(std::size_t option, int stage, CoverageBounds bounds) {
-    states_[option].bounds = std::move(bounds);
-    states_[option].stage = stage;
-    if (stage == 0) states_[option].first = states_[option].bounds;
+  void settle(std::size_t option, int stage, const CoverageBounds& bounds) {
+    restore(option, stage, bounds);
     if (on_refined != nullptr && *on_refined) (*on_refined)(option, stage, states_[option].bounds);
   }
 
@@ -420,7 +420,7 @@ std::string SiteCoverage::stage_name(int stage) const {
   return impl_->stage_name(stage);
 }
 void SiteCoverage::restore(std::size_t option, int stage, CoverageBounds bounds) {
-  impl_->restore(option, stage, std::move(bounds));
+  impl_->restore(option, stage, bounds);
 }
 const Statistics& SiteCoverage::statistics() const {
   return impl_->statistics();
