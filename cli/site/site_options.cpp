@@ -129,7 +129,7 @@ void SiteOptions::declare_work(CLI::App& app) {
       ->type_name("unknown|block|clear");
   engine.declare(app);
   app.add_option("--memory", memory_text_,
-                 "Memory for surfaces, what every site serves, and maps; the result never depends on it (default: 1G)")
+                 "Memory for surfaces, what every site serves, and maps; it changes the speed only (default: 1G)")
       ->type_name("SIZE");
   app.add_flag("--resume", resume, "Go on where a run with the same parameters was killed");
   policy.declare(app);

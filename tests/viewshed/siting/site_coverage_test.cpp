@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include <itin/import.hpp>
-#include <viewshed/viewshed.hpp>
 #include <viewshed/site_coverage.hpp>
 #include <viewshed/site_proposal.hpp>
+#include <viewshed/viewshed.hpp>
 
 #include "support/full_detail.hpp"
 #include "support/raster_file.hpp"

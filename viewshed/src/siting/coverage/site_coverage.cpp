@@ -206,7 +206,7 @@ class SiteCoverage::Impl {
     Stopwatch watch;
     whole_lattice_ = retrieve_lattice(store_, window_of(all_options()), Detail::tolerance(0), ThemeChoice::none(),
                                       LatticeReader::Heights::kAll,
-                                      (memory() - std::min(memory(), 2 * sets_)) / kBytesPerPost, progress_);
+                                      (memory() - std::min(memory(), sets_ / 2)) / kBytesPerPost, progress_);
     statistics_.retrieval_seconds += watch.lap();
     return whole_lattice_.has_value();
   }
@@ -225,8 +225,8 @@ class SiteCoverage::Impl {
   /// Whether so many options can be looked at together over a surface of so many points.
   bool fits(std::uint64_t points, std::size_t options, int level) const {
     const bool swept = judges_cells_exactly(level) && !casts_rays();
-    // Judging gathers them in vectors that grow.
-    const std::uint64_t sets = 2 * (sets_ / survey_.stands.size()) * options;
+    // Judging them makes bounds anew, which mostly hold half of what is within reach.
+    const std::uint64_t sets = sets_ / survey_.stands.size() * options / 2;
     return points * (swept ? kBytesPerSweptPoint : kBytesPerRayPoint) + sets <= memory();
   }
 
