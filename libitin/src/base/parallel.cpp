@@ -1,8 +1,13 @@
 #include <itin/parallel.hpp>
 
 #ifdef ITIN_PARALLEL
+#include <algorithm>
+#include <atomic>
+#include <exception>
 #include <memory>
 #include <mutex>
+#include <thread>
+#include <vector>
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -20,22 +25,53 @@ namespace {
 std::mutex control_mutex;
 std::unique_ptr<tbb::global_control> control;
 
-}  // namespace
+#ifdef __SANITIZE_THREAD__
 
-void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {
-  if (thread_count() == 1) {  // oneTBB would start a worker all the same, which the system may not allow
-    for (std::size_t i = 0; i < count; ++i) body(i);
-    return;
-  }
+/// oneTBB is not built with the thread sanitizer, which takes what oneTBB orders for races. Under it a loop has threads
+/// of its own, whose order the sanitizer sees.
+void run_on_threads(std::size_t count, const std::function<void(std::size_t)>& body) {
+  std::atomic<std::size_t> next = 0;
+  std::mutex mutex;
+  std::exception_ptr first;
+  const auto work = [&] {
+    try {
+      for (std::size_t i = next++; i < count; i = next++) body(i);
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!first) first = std::current_exception();
+      next = count;
+    }
+  };
+  std::vector<std::jthread> others(std::min(count, static_cast<std::size_t>(thread_count())) - 1);
+  for (std::jthread& thread : others) thread = std::jthread(work);
+  work();
+  others.clear();
+  if (first) std::rethrow_exception(first);
+}
+
+#else
+
+void run_on_threads(std::size_t count, const std::function<void(std::size_t)>& body) {
   // Isolated: what is thrown elsewhere must not end a loop within another one, which its caller would take for
   // finished.
   tbb::task_group_context own(tbb::task_group_context::isolated);
+  tbb::parallel_for(std::size_t{0}, count, body, own);
+}
+
+#endif
+
+}  // namespace
+
+void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {
+  if (thread_count() == 1 || count == 0) {  // oneTBB would start a worker all the same, which the system may not allow
+    for (std::size_t i = 0; i < count; ++i) body(i);
+    return;
+  }
   const Progress* const progress = stopper();
-  const auto stoppable = [&](std::size_t i) {
+  run_on_threads(count, [&](std::size_t i) {
     const Stoppable here(progress);
     body(i);
-  };
-  tbb::parallel_for(std::size_t{0}, count, stoppable, own);
+  });
 }
 
 void set_thread_count(int threads) {
