@@ -38,12 +38,12 @@ struct ImportOptions {
   std::string where;
   std::optional<int> band;  ///< of rasters: the one that holds heights, from 1; default: their only one
 
-  // Of buildings, vegetation and walls that stand on the ground: those with one of the first three, and CityJSON.
+  // For raised features only: CityJSON, and buildings, vegetation and walls for which one of the first three is given.
   std::string height_field;         ///< of the highest point above the base
   std::string eaves_field;          ///< of the eaves above the base
   std::optional<double> height;     ///< metres; of features that have none in the fields
   std::string base_field;           ///< elevation of the base
-  std::string name_field;           ///< what messages call a feature
+  std::string name_field;           ///< the name of a feature in messages
   std::optional<BaseRule> base;     ///< of buildings without base_field; default: minimum, or the floors of CityJSON
   std::optional<RoofKind> roof;     ///< default: flat
   std::optional<double> thickness;  ///< metres; of what stands on lines; default: 0.3
@@ -77,7 +77,7 @@ struct ImportReport {
   std::uint64_t crossings = 0;      ///< further pairs of segments that cross, of any themes, and were given a vertex
   std::uint64_t left_out = 0;       ///< further segments, of any theme, that do not lie wholly on the ground
   std::uint64_t flat_before = 0;    ///< triangles that are level because their corners lie on contours
-  std::uint64_t flat_after = 0;     ///< of them, those that are left
+  std::uint64_t flat_after = 0;     ///< those of flat_before that are left
   std::uint64_t inferred = 0;       ///< points of the store inferred from contours
   std::uint64_t vertices = 0;       ///< of the store now
   std::uint64_t store_bytes = 0;

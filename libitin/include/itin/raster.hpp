@@ -46,7 +46,7 @@ class RasterGrid {
   RasterGrid part(Cell north_west, std::int64_t columns, std::int64_t rows) const;
 
   static constexpr std::int64_t kMaxCells = std::int64_t{1} << 33;
-  static constexpr std::int64_t kMaxSide = 0x7fffffff;  ///< what GDAL counts
+  static constexpr std::int64_t kMaxSide = 0x7fffffff;  ///< the most that GDAL counts
 
   std::int64_t columns() const { return columns_; }
   std::int64_t rows() const { return rows_; }

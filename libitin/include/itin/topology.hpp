@@ -27,12 +27,12 @@ namespace itin {
 inline constexpr std::uint32_t kNoNeighbour = 0xffffffff;
 
 /// For each triangle t and i = 0, 1, 2 the triangle across the edge from corner i to corner (i + 1) % 3, or
-/// kNoNeighbour. O(n) time, about 40 bytes a triangle while running. Precondition here and below: tin.triangles are
+/// kNoNeighbour. O(n) time, about 40 bytes per triangle while running. Precondition here and below: tin.triangles are
 /// those of a planar triangulation, counterclockwise, fewer than 2^32 / 3.
 std::vector<std::array<std::uint32_t, 3>> adjacent_triangles(const Tin& tin);
 
 /// Immutable and safe for concurrent use. Refers to the Tin, which must outlive it and stay as it is. O(n) to make,
-/// about 75 bytes a triangle.
+/// about 75 bytes per triangle.
 class Topology {
  public:
   explicit Topology(const Tin& tin);
@@ -61,8 +61,9 @@ class Topology {
     return vertices_of_vertex(vertex).size() != triangles_of_vertex(vertex).size();
   }
 
-  // Of a vertex, counterclockwise. A boundary vertex's begin at the boundary, so that its fans stay together; the fan
-  // of the least triangle among those that begin a fan comes first. An enclosed vertex's begin at its least triangle.
+  // Around a vertex, counterclockwise. At a boundary vertex the lists begin at the boundary, so that its fans stay
+  // together; the fan of the least triangle among those that begin a fan comes first. At an enclosed vertex they begin
+  // at its least triangle.
   std::span<const std::uint32_t> vertices_of_vertex(std::uint32_t v) const {
     return slice(neighbours_, first_neighbour_, v);
   }
@@ -72,7 +73,7 @@ class Topology {
     return slice(triangles_, first_triangle_, v);
   }
 
-  // Of an edge.
+  // Incident to an edge.
   /// Origin and destination of its half_edge().
   std::array<std::uint32_t, 2> vertices_of_edge(std::uint32_t e) const {
     return {origin(half_edge(e)), destination(half_edge(e))};
@@ -82,7 +83,7 @@ class Topology {
   /// To its left and to its right; nothing to the right of a boundary edge.
   std::array<std::optional<std::uint32_t>, 2> triangles_of_edge(std::uint32_t e) const;
 
-  // Of a triangle; entry i belongs to corner i, or to the edge from corner i to the next.
+  // Incident to a triangle; entry i belongs to corner i, or to the edge from corner i to the next.
   const std::array<std::uint32_t, 3>& vertices_of_triangle(std::uint32_t t) const { return tin_->triangles[t]; }
   std::array<std::uint32_t, 3> edges_of_triangle(std::uint32_t t) const {
     return {edge_of_half_edge_[3 * t], edge_of_half_edge_[3 * t + 1], edge_of_half_edge_[3 * t + 2]};
@@ -102,7 +103,7 @@ class Topology {
   std::vector<std::uint32_t> twins_;  ///< by half-edge; kNoNeighbour at the boundary
   std::vector<std::uint32_t> edge_of_half_edge_;
   std::vector<std::uint32_t> half_edge_of_edge_;
-  // Of vertex v: [first[v], first[v + 1]).
+  // Vertex v has the entries [first[v], first[v + 1]).
   std::vector<std::uint32_t> first_triangle_, triangles_;
   std::vector<std::uint32_t> first_neighbour_, neighbours_, edges_;
 };

@@ -33,8 +33,9 @@ struct Verification {
 /// levels agrees with its cells. For every cell of every part of a standing theme: that no feature of that part rises
 /// higher above T_0 within the cell than the cell says, to two grid steps, for the ground under features is rounded.
 ///
-/// The store must be sound by check(). Memory: the surfaces of a tile of some 32,000 vertices a thread. Cost: what the
-/// import took to verify its levels, about 10 microseconds a vertex. Throws FileError, CorruptStore and Cancelled.
+/// The store must be sound by check(). Memory: the surfaces of a tile of some 32,000 vertices per thread. Cost: what
+/// the import took to verify its levels, about 10 microseconds per vertex. Throws FileError, CorruptStore and
+/// Cancelled.
 Verification verify(const Store& store, const VerifyOptions& options, Progress& progress);
 
 }  // namespace itin

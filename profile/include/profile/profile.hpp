@@ -65,7 +65,7 @@ bool has_ground_at_ends(const Profile& profile);
 
 Profile from_section(const CrossSection& section);
 
-/// A profile that others hand in: `d_km,h_m[,clutter_m]`, one row a point, a header line optional. Columns are
+/// A profile that others hand in: `d_km,h_m[,clutter_m]`, one row per point, a header line optional. Columns are
 /// separated by commas, semicolons or tabs; a first line that is not numbers is a header, whose names (of any case, in
 /// this order) are checked; empty lines and lines that begin with # are skipped; a decimal point, whatever the locale.
 /// Distances ascend (two equal ones are a vertical face) and begin anywhere: the first is the profile's origin. Throws
@@ -75,7 +75,7 @@ Profile read_profile_csv(std::istream& text, const std::string& name);
 /// From a file. Throws FileError where it cannot be read.
 Profile read_profile_csv(const std::string& path);
 
-/// The same seen from the other end. Exact for distances that are multiples of 2^-30 m, as a CrossSection's are.
+/// The profile as seen from the other end. Exact for distances that are multiples of 2^-30 m, as a CrossSection's are.
 Profile reversed(const Profile& profile);
 
 }  // namespace itin::profile
