@@ -42,7 +42,7 @@ class TileCache {
     const Cell cell = cell_at(place);
     const std::uint64_t key = key_of(cell);
     if (auto tile = find(key)) return tile;
-    // Of several threads that want one tile the first makes it.
+    // When several threads want one tile, the first makes it.
     const std::lock_guard lock(makers_[(key * 0x9e3779b97f4a7c15u) >> 58]);
     if (auto tile = find(key)) return tile;
     const RegionMesh region = triangulate_region(index_, selection_, square_of(cell));

@@ -10,7 +10,7 @@
 // ground where footprints overlap, and where walls stand between those that touch, is the rule of
 // footprint_arrangement.hpp.
 //
-// The segments are planar: they meet only at vertices, all of which lie on the grid, one a position. That is verified
+// The segments are planar: they meet only at vertices, all of which lie on the grid, one per position. That is verified
 // exactly, and made so by snap rounding where it does not hold (and reported). Vertices without segments are ground
 // repeated at the top of what drapes. The result depends on the features' order (which settles ties) but not on
 // threads.

@@ -33,9 +33,9 @@ namespace {
 constexpr double kPiece = 1000;
 /// Metres, or two grid steps where those are more.
 constexpr double kWallOffset = 0.05;
-/// Of the ground's triangulation, while features are raised on it. Measured, rounded up.
+/// Memory of the ground's triangulation while features are raised on it. Measured, rounded up.
 constexpr std::uint64_t kBytesPerPoint = 400;
-/// Of ground that is triangulated for several groups of features at once.
+/// The most points of ground that are triangulated at once, for several groups of features.
 constexpr std::uint64_t kMostPoints = 500'000;
 
 GridBox box_of(const FootprintFeature& feature, const Grid& grid) {

@@ -32,7 +32,7 @@ struct Integral {
   double area = 0, x = 0, y = 0;  ///< and first moments
 };
 
-/// Of a closed ring about `origin`; signed, counterclockwise positive.
+/// The integral over a closed ring about `origin`; signed, counterclockwise positive.
 Integral integral(const std::vector<Point2>& ring, Point2 origin) {
   Integral sum;
   for (std::size_t i = 0; i < ring.size(); ++i) {

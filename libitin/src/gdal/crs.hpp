@@ -30,7 +30,7 @@ struct Crs {
 /// `text` is authority:code, WKT, PROJ or whatever else GDAL understands. What agrees to a millimetre with a CRS that
 /// an authority knows is taken for that. Throws InputError, which begins with `place` (a file or an option).
 Crs parse_crs(const std::string& text, const std::string& place);
-/// Likewise, but it may have a vertical part only.
+/// As parse_crs(), but the CRS may have a vertical part only.
 Crs parse_any_crs(const std::string& text, const std::string& place);
 
 /// The horizontal part, as parse_crs() takes it. Throws likewise.

@@ -22,12 +22,14 @@ namespace itin {
 
 namespace {
 
-/// Of a lattice's posts at least one in so many is there; what has no heights takes less.
+/// At least one in so many posts of a lattice must be there. Without heights, which take most of the memory, fewer will
+/// do.
 constexpr std::uint64_t kEmptiest = 4, kEmptiestWithoutHeights = 64;
-/// So many of the fullest leaves tell the lattice.
+/// The number of the fullest leaves that the lattice is found by.
 constexpr std::size_t kSamples = 8;
 constexpr std::size_t kLeavesATask = 64;
-/// Of leaves, posts. Those of wider ones are looked at when it is told how high a tile is: they say little about it.
+/// The widest leaf, in posts, that bounds the height of a tile. Wider leaves say little about it, so their posts are
+/// read instead.
 constexpr std::int64_t kWidestToBound = LatticeTin::kSide / 2;
 
 }  // namespace
@@ -102,7 +104,7 @@ class LatticeReader::Work {
   std::vector<Leaf> leaves_;
   std::optional<LatticeCover> cover_;  ///< while it is being opened
   std::vector<bool> being_read_;       ///< of tiles
-  // Of tile t: leaves_[leaf_of_tile_[i]] with i in [first_leaf_[t], first_leaf_[t + 1]).
+  // The leaves of tile t are leaves_[leaf_of_tile_[i]] with i in [first_leaf_[t], first_leaf_[t + 1]).
   std::vector<std::uint32_t> first_leaf_, leaf_of_tile_;
 };
 
@@ -261,7 +263,7 @@ bool LatticeReader::Work::bounded() const {
   if (std::any_of(segments.begin(), segments.end(), [](const Segment& s) { return s.theme != kCoverage; }) ||
       !cover_->ends_at(segments))
     return false;
-  // What is known of each part hangs together with halves that are there.
+  // The known ground of each part is connected with halves that are there.
   if (whole_.parts().size() < 2) return cover_->any();
   return std::all_of(whole_.parts().begin(), whole_.parts().end(), [&](const Window::Polygon& polygon) {
     return cover_->reaches(GridWindow(Window::polygons({polygon}), lattice_.grid, index_.bounds()));

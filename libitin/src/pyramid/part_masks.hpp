@@ -1,4 +1,4 @@
-// What makes way for standing features: the vertices and lines under them.
+// The vertices and lines that make way for the standing features above them.
 #pragma once
 
 #include <vector>

@@ -39,7 +39,7 @@ std::vector<std::array<double, 4>> gap_bases(const std::vector<SourceInfo>& sour
   return bases;
 }
 
-/// Of the vertices of the terrain's lines, ascending, as those are in Morton order.
+/// The codes of the vertices of the terrain's lines, ascending, as those are in Morton order.
 std::vector<std::uint64_t> terrain_codes(const ThemeLines& lines) {
   std::vector<std::uint64_t> codes;
   for (const std::uint32_t v : lines.terrain_vertices()) codes.push_back(code_of(lines.lines.vertices[v]));

@@ -17,7 +17,7 @@ struct StoredFootprint {
   std::uint16_t source = 0;
 };
 
-/// Of a theme, by its number, in the order of import. Throws CorruptStore.
+/// The footprints of a theme, by its number, in the order of import. Throws CorruptStore.
 std::vector<StoredFootprint> stored_footprints(const Store& store, std::uint16_t theme);
 /// Those of one of its footprint_blocks.
 std::vector<StoredFootprint> stored_footprints(const Store& store, std::uint16_t theme, std::uint32_t block);

@@ -30,7 +30,7 @@ inline constexpr int kLastTree = 2046;
 inline constexpr int kMaxThemes = 900;  ///< and parts of themes, which are numbered after them
 /// The footprints of standing themes as they were imported; blocks without a directory.
 inline constexpr int kFootprintTree = 2046;
-/// What was imported but is not in the surface (set_aside.hpp); blocks without a directory but for one list.
+/// Imported points and lines that are not in the surface (set_aside.hpp); blocks without a directory but for one list.
 inline constexpr int kSetAsideTree = 2045;
 /// Added to the source of a part's vertex that lies between a feature and the ground.
 inline constexpr std::uint16_t kOnOutline = 0x8000;

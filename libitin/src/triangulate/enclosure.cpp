@@ -87,7 +87,7 @@ bool Enclosure::holds(std::uint32_t t) {
 }
 
 bool Enclosure::shut_in(std::uint32_t t, int edge, End end) {
-  // What lies beyond the edge is left of ab.
+  // The side beyond the edge is left of ab.
   const Position a = corner(t, edge + 2), b = corner(t, edge + 1), eye = end == End::kFirst ? a : b;
   const ApexFrame frame(a, b);
   const double lambda = frame.lambda(corner(t, edge));

@@ -35,8 +35,8 @@ class Enclosure {
   bool add_missing(std::vector<Cell>& cells) const;
 
  private:
-  /// What an eye sees through an edge of a triangle on this side of it; its directions lie from `right` to `left`,
-  /// counterclockwise.
+  /// The cone that an eye sees through an edge of a triangle on this side of it; its directions lie from `right` to
+  /// `left`, counterclockwise.
   struct Cone {
     std::uint32_t triangle;
     int edge;

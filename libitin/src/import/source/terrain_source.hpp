@@ -13,7 +13,7 @@
 
 namespace itin {
 
-/// What was met on the way.
+/// Counts of what was read, and warnings.
 struct ReadCounts {
   std::uint64_t read = 0;             ///< points handed on
   std::uint64_t voids = 0;            ///< posts without data

@@ -28,7 +28,7 @@ struct RaisedTheme {
   std::vector<StandingReport> reports;
 };
 
-/// Of all imports so far.
+/// The features raised for all imports so far.
 struct RaisedFeatures {
   std::uint64_t features = 0;  ///< that stand
   std::uint64_t refused = 0;
