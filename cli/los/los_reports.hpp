@@ -22,9 +22,9 @@ class LosReports {
   void declare(CLI::App& app);
   bool given() const { return !paths_.empty(); }
   const std::vector<std::string>& paths() const { return paths_; }
-  /// Of one line. Throws InputError.
+  /// Checks the options for one line. Throws InputError.
   void validate(bool has_positions) const;
-  /// Of links, each of which needs a name of its own. Throws InputError.
+  /// Checks the options for links, each of which needs a file name of its own. Throws InputError.
   void validate_links() const;
   /// The title given, or "Line-of-sight report", of what.
   std::string title(const std::string& of = {}) const;

@@ -29,7 +29,7 @@ void require_roles(CLI::App& verb);
 
 class CallFiles {
  public:
-  /// Of a verb whose options have their values. Throws InputError where a file would be written that is read as well,
+  /// `verb`: its options must have their values. Throws InputError where a file would be written that is read as well,
   /// by whatever name, or that is written already; and where an output is a symbolic link to nothing.
   explicit CallFiles(CLI::App& verb);
 

@@ -5,7 +5,7 @@
 
 namespace itin::cli {
 
-/// What the program ends with when it was interrupted.
+/// The status that the program ends with when it was interrupted.
 inline constexpr int kInterruptedStatus = 130;
 
 /// Catches SIGINT, SIGTERM and SIGHUP from now on; a closed pipe and a file beyond the shell's limit become

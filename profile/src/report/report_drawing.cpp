@@ -46,7 +46,7 @@ class Column {
   }
 
  private:
-  /// What each column would like; where that is too much, the widest give way.
+  /// The widths that the columns' texts need; where that is too much, the widest give way.
   std::vector<double> column_widths(const Table& table) const {
     const std::size_t columns = table.header.empty() ? table.rows.front().size() : table.header.size();
     std::vector<double> widths(columns, 0);

@@ -56,7 +56,7 @@ class Sites : public ::testing::Test {
     survey_.tolerance = 4;
   }
 
-  /// What test::compute_at_full_detail() says of one site.
+  /// The answer of test::compute_at_full_detail() for one site.
   DemandSet precise(std::size_t option) {
     const SiteStand& stand = survey_.stands[option];
     Request request;

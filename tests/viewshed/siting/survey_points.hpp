@@ -7,7 +7,7 @@ namespace itin::test {
 
 using viewshed::DemandSet, viewshed::SiteSurvey;
 
-/// The same survey with a point at each cell's centre, the padding's included, where element numbers stay.
+/// The survey with a point at each cell's centre, the padding's included, where element numbers stay.
 inline SiteSurvey survey_of_points(const SiteSurvey& survey) {
   SiteSurvey of_points = survey;
   of_points.targets.grid.reset();

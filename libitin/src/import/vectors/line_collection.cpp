@@ -93,7 +93,7 @@ void LineCollection::find_first_sources(const std::vector<SourceInfo>& sources) 
 
 void LineCollection::take_segments(const PointIndex& index) {
   index.segments(index.bounds(), stored_);
-  // The lines that keep the ground about features are made anew.
+  // The lines that keep the ground about features are made again with the features.
   std::erase_if(stored_, [&](const Segment& s) {
     return s.theme == kCoverage || s.finest > 0 || s.theme > themes_.size() || stands_[s.theme - std::size_t{1}];
   });
