@@ -28,7 +28,7 @@ LosCase los_case(profile::LosReport report, const LosEnd& from, const LosEnd& to
 /// The case of a line on a store.
 LosCase los_case(const Store& store, LosStoreOptions::Result line, const LosHeader& header);
 
-/// For people.
+/// The report as text for people.
 std::string text_of(const profile::LosReport& report);
 
 }  // namespace itin::cli

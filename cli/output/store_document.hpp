@@ -23,7 +23,7 @@ Document surface_document(const StoreMetadata& metadata, const Detail& detail, c
 Document themes_document(const StoreMetadata& metadata);
 std::string themes_table(const StoreMetadata& metadata);
 
-/// By the number of a theme; 0 is the terrain.
+/// The names of themes by their number; 0 is the terrain.
 std::vector<std::string> theme_names(const StoreMetadata& metadata);
 
 /// `levels`, finest first. A level's `vertices` are those stored in it, so that they sum up to the store's;

@@ -36,7 +36,7 @@ std::string named(const CLI::Option& option) {
   return option.get_positional() ? option.get_name() : option.get_name() + " " + option.get_type_name();
 }
 
-/// Those that are required and not there.
+/// The options that are required and not given.
 std::vector<std::string> missing(const CLI::App& verb) {
   std::vector<std::string> names;
   for (const CLI::Option* option : verb.get_options())

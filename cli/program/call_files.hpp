@@ -17,7 +17,7 @@
 
 namespace itin::cli {
 
-/// The option's values are read. What is no file, as well-known text, is passed over.
+/// The option's values are read. Values that are no files, such as well-known text, are passed over.
 CLI::Option* reads(CLI::Option* option);
 /// A file that is written, or a folder that files are written into.
 CLI::Option* writes(CLI::Option* option);

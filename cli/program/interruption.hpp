@@ -1,6 +1,6 @@
-// Ctrl-C and its kin: the first asks the running call to stop and clean up. What has not stopped within a second, as
-// within a long call of another library, is ended: outputs that are not complete are removed, and the store is what it
-// was.
+// Ctrl-C and its kin: the first asks the running call to stop and clean up. A call that has not stopped within a
+// second, as within a long call of another library, is ended: outputs that are not complete are removed, and the store
+// is what it was.
 #pragma once
 
 namespace itin::cli {

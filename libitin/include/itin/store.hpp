@@ -20,7 +20,7 @@
 
 namespace itin {
 
-// Not installed.
+// Declared in headers that are not installed.
 class Certificate;
 class PointIndex;
 class StoreFile;

@@ -49,7 +49,7 @@ class Topology {
   static std::uint32_t previous(std::uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
   std::uint32_t origin(std::uint32_t h) const { return tin_->triangles[h / 3][h % 3]; }
   std::uint32_t destination(std::uint32_t h) const { return origin(next(h)); }
-  /// Nothing at the boundary.
+  /// The half-edge in the other direction; nothing at the boundary.
   std::optional<std::uint32_t> twin(std::uint32_t h) const {
     return twins_[h] == kNoNeighbour ? std::nullopt : std::optional(twins_[h]);
   }

@@ -38,7 +38,7 @@ class LatticeReader {
   LatticeReader& operator=(const LatticeReader&) = delete;
 
   const LatticeTin& lattice() const;
-  /// Ends it.
+  /// Moves the lattice out; the reader may not be used afterwards.
   LatticeTin take();
 
   /// No post of the tile is higher, grid units. Told where it was opened without heights.

@@ -25,7 +25,7 @@ namespace {
 /// A tile is the largest cell with at most about so many points: few enough to be made soon, enough to make its border
 /// cheap.
 constexpr double kPointsPerSectionTile = 8192;
-/// Where the search for it begins.
+/// The side where the search for a tile's size begins.
 constexpr int kUsualLog2Side = 18;
 
 /// Tiles by the cell they cover, made when first asked for.

@@ -210,7 +210,7 @@ class GlbWriter {
     return rgba;
   }
 
-  /// In the order of add_mesh().
+  /// Writes the buffer in the order of add_mesh().
   void write_buffer(BufferedFile& file, Progress& progress) const {
     StepProgress steps(progress, 5 * tin_.vertices.size() + tin_.triangles.size());
     const auto each_vertex = [&](const auto& write_vertex) {

@@ -171,7 +171,7 @@ struct Additions {
   ImportPlan plan;
   std::vector<FootprintFile> footprints;
 
-  /// As in turns after the first.
+  /// As in every turn after the first.
   bool empty() const { return plan.sources.empty() && plan.lines.empty() && footprints.empty(); }
 };
 
@@ -360,7 +360,7 @@ ImportReport import_sources(const std::string& store_path, const ImportOptions& 
   const auto start = std::chrono::steady_clock::now();
   if (options.sources.empty()) throw InputError("no source given: name at least one file to import");
   const Stoppable stoppable(progress);
-  static_cast<void>(utc_now());  // what keeps it from being told is known before hours of work
+  static_cast<void>(utc_now());  // a wrong SOURCE_DATE_EPOCH is noticed before hours of work
   // First of all: another import could change the store once it has been opened. And a place that cannot be written is
   // known before hours of work.
   auto file = std::make_unique<ReplacementFile>(store_path);

@@ -48,7 +48,7 @@ class LatticeReader::Work {
       widest_spacing_ = std::max(widest_spacing_, std::ceil(source.spacing / lattice_.grid.resolution));
   }
 
-  /// Where it would be; of no ground yet.
+  /// Lays the lattice out where it would be, without ground. False where there is none.
   bool find_lattice(Heights heights, std::uint64_t most_posts);
   bool open(Heights heights, std::uint64_t most_posts, Progress& progress);
   void read(std::span<const std::uint32_t> tiles, Progress& progress);
@@ -88,7 +88,7 @@ class LatticeReader::Work {
     lattice_.make_heights(tile);
     being_read_[tile] = true;
   }
-  /// In the tiles that are being read.
+  /// Sets the height in the tiles that are being read.
   void set_height(const LatticePlace& place, std::int32_t z) {
     lattice_.for_each_tile_of(place.column, place.row, [&](std::uint32_t tile, std::uint32_t post) {
       if (being_read_[tile]) (*lattice_.tiles[tile].heights)[post] = z;
@@ -182,7 +182,7 @@ bool LatticeReader::Work::read_posts(Heights heights, Progress& progress) {
   return place_all(groups, 0, single, heights, progress) && place_all(groups, single, groups.size(), heights, progress);
 }
 
-/// Those from `begin` to `end`.
+/// Places the groups from `begin` to `end`.
 bool LatticeReader::Work::place_all(const std::vector<Group>& groups, std::size_t begin, std::size_t end,
                                     Heights heights, Progress& progress) {
   std::atomic<bool> odd = false;
@@ -319,7 +319,7 @@ void LatticeReader::Work::read(std::span<const std::uint32_t> tiles, Progress& p
   }
 }
 
-/// Into the tiles that are being read.
+/// Reads leaves into the tiles that are being read.
 void LatticeReader::Work::read_leaves(std::span<const std::uint32_t> leaves, Progress& progress) {
   parallel_for((leaves.size() + kLeavesATask - 1) / kLeavesATask, [&](std::size_t task) {
     progress.throw_if_cancelled();

@@ -24,7 +24,7 @@ struct RoofSurface {
 };
 
 struct FootprintFeature {
-  std::string name;  ///< what messages call it
+  std::string name;  ///< the name of the feature in messages
   FeatureKind kind = FeatureKind::building;
   std::vector<PlanRing> rings;
   BaseRule base_rule = BaseRule::minimum;

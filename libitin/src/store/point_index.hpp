@@ -15,7 +15,7 @@
 
 namespace itin {
 
-/// A leaf of a point quadtree. In a store there is one tree a level, and a leaf's points all have the leaf's level.
+/// A leaf of a point quadtree. In a store there is one tree per level, and a leaf's points all have the leaf's level.
 /// In the importer's single tree `level` is the coarsest any of its points may have; Block::levels tells each one's,
 /// and `points` counts those that were asked for.
 struct Leaf {

@@ -71,7 +71,7 @@ constexpr std::uint64_t footprint_key(std::uint64_t theme, std::uint64_t number)
 constexpr std::uint64_t set_aside_key(std::uint64_t theme, std::uint64_t number) {
   return static_cast<std::uint64_t>(kSetAsideTree) << 52 | theme << 32 | number;
 }
-/// In the directory.
+/// The key of the list of what is set aside; it is in the directory.
 inline constexpr std::uint64_t kSetAsideListKey = std::uint64_t{kSetAsideTree} << 52;
 constexpr int tree_of(std::uint64_t key) {
   return static_cast<int>(key >> 52);

@@ -40,7 +40,7 @@ class StoreWriter {
   /// `tolerances` in metres, level 0 (tolerance 0) first. Throws FileError.
   StoreWriter(const std::string& path, const std::string& crs_wkt, const Grid& grid,
               const std::vector<double>& tolerances);
-  /// In place of that file.
+  /// Writes a store that takes the place of that file.
   StoreWriter(std::unique_ptr<ReplacementFile> file, const std::string& crs_wkt, const Grid& grid,
               const std::vector<double>& tolerances);
   ~StoreWriter();

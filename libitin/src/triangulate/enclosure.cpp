@@ -7,7 +7,7 @@ namespace itin {
 
 namespace {
 
-/// For more, a search among the unread vertices is as fast.
+/// With more cones, a search among the unread vertices is as fast.
 constexpr std::size_t kMostCones = 2000;
 
 /// Whether segment pq may meet the circle `lambda`: surely false only when it does not.

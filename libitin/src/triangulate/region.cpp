@@ -315,7 +315,7 @@ class RegionTriangulation {
 
   void prove(std::uint32_t t, std::vector<SelectedVertex>& intruders, std::vector<Segment>& fresh) {
     stop_if_asked();
-    // Where one vertex is missing it is so for many triangles. What is left of them then is asked the next time.
+    // A missing vertex is missing for many triangles. Those that are left then are asked the next time.
     if (std::any_of(intruders.begin(), intruders.end(), [&](const SelectedVertex& v) { return disturbs(v, t); }))
       return;
     if (!box_.contains(box_of(t))) {

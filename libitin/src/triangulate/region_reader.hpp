@@ -31,7 +31,7 @@ class RegionReader {
   /// The points of a box, with their Morton codes.
   using Coded = std::pair<std::uint64_t, SelectedVertex>;
   std::vector<Coded> points(const GridBox& box);
-  /// Those that meet the box and have not been read before.
+  /// The segments that meet the box and have not been read before.
   std::vector<Segment> fresh_segments(const GridBox& box);
 
   struct Numbered {

@@ -49,7 +49,7 @@ struct WirelineQuery {
 /// The terrain between two distances, as a line of elevation angles.
 struct WirelineBand {
   double from_m = 0, to_m = 0;
-  std::vector<float> angle_deg;  ///< the greatest, one a line of sight from left to right; NaN without ground
+  std::vector<float> angle_deg;  ///< the greatest, one per line of sight from left to right; NaN without ground
   std::vector<bool> crest;       ///< whether the terrain falls out of sight behind it
 };
 

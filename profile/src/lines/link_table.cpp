@@ -56,7 +56,7 @@ std::optional<double> cell_number(const std::string& text) {
   return value;
 }
 
-/// Where a row has what.
+/// The columns of a link table.
 struct Columns {
   std::array<std::size_t, kLinkColumns> of{0, 1, 2, 3, 4, 5, 6};  ///< the cell that each of kLinkNames is in
   bool geographic = false;                                        ///< positions are longitude and latitude

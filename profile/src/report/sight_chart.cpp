@@ -174,7 +174,7 @@ class SightChart {
     }
   }
 
-  /// Before the ground, which covers what of them is in it.
+  /// Drawn before the ground, which covers the parts of features within it.
   void draw_features() {
     for (const FeatureRun& run : feature_runs(dense_)) {
       std::vector<Point2> top;

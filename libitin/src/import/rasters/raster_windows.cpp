@@ -36,7 +36,7 @@ bool is_virtual(GDALDataset& dataset) {
   return dataset.GetDriver() != nullptr && EQUAL(dataset.GetDriver()->GetDescription(), "VRT");
 }
 
-/// `path` of the dataset. What cannot be opened is told when it is read.
+/// `path` of the dataset. A file that cannot be opened is reported when it is read.
 void require_small_blocks(GDALDataset& dataset, const std::string& path, std::uint64_t memory_bytes, int depth) {
   if (is_virtual(dataset) && depth < kDeepest) {
     const CPLStringList files(dataset.GetFileList());

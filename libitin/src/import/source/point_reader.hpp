@@ -49,8 +49,8 @@ class PointReader {
   virtual Box extent() const { return {centre().x, centre().y, centre().x, centre().y}; }
   /// Bytes or points, whatever is at hand.
   virtual double size_hint() const = 0;
-  /// Streams all points in bounded memory, and returns how many were left out by class or attribute filter. What the
-  /// sink throws passes through. Throws FileError, InputError.
+  /// Streams all points in bounded memory, and returns how many were left out by class or attribute filter. Exceptions
+  /// of the sink pass through. Throws FileError, InputError.
   virtual std::uint64_t read(const Sink& sink) = 0;
 };
 

@@ -43,7 +43,7 @@ class OpenedFile {
   virtual std::vector<std::string> warnings() const { return {}; }
 };
 
-/// One of terrain points. What it says of itself holds before bind() only.
+/// An opened file of terrain points. Its answers hold before bind() only.
 class SourceFile : public OpenedFile {
  public:
   /// Called once. Throws InputError where coordinates cannot be transformed.

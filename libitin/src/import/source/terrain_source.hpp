@@ -60,7 +60,7 @@ struct ImportPlan {
 /// for nearly every CRS at 1 cm. Throws InputError, FileError.
 ImportPlan plan_import(const ImportOptions& options, const StoreMetadata* existing);
 
-/// For an import that adds neither terrain nor lines to a store.
+/// The plan of an import that adds neither terrain nor lines to a store.
 ImportPlan plan_nothing(const StoreMetadata& existing);
 
 }  // namespace itin

@@ -79,7 +79,7 @@ void LineCollection::take_themes(const StoreMetadata& metadata) {
   keeps_set_aside_ = metadata.format_version >= format::kFirstVersionThatSetsAside;
 }
 
-/// By a rule that knows no order of import.
+/// Finds each theme's first source, by a rule that does not depend on the order of import.
 void LineCollection::find_first_sources(const std::vector<SourceInfo>& sources) {
   const std::vector<std::uint32_t> ranks = ranks_of(sources);
   first_source_.assign(themes_.size(), 0);
@@ -307,7 +307,7 @@ bool LineCollection::changes_terrain(const ThemeLines& lines) const {
                      [&](std::uint32_t v) { return !ends_.contains(code_of(lines.lines.vertices[v])); });
 }
 
-/// Those of the terrain before the others, then by name.
+/// Puts the themes of the terrain before the others, then orders by name.
 void LineCollection::put_in_order(ThemeLines& result) {
   std::vector<std::uint32_t> order(themes_.size());
   std::iota(order.begin(), order.end(), 0u);

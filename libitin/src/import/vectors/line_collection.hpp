@@ -76,7 +76,7 @@ class LineCollection {
   bool changes_terrain(const ThemeLines& lines) const;
   /// After finish(), in order: all lines on the ground as they were imported.
   const std::vector<ImportedPiece>& imported() const { return imported_; }
-  /// After finish(): in order, features counted.
+  /// After finish(): the themes in order, their features counted.
   const std::vector<ThemeInfo>& themes() const { return themes_; }
   const std::vector<std::vector<StoredFootprint>>& footprints() const { return footprints_; }
 
