@@ -20,7 +20,7 @@ enum class ThemeKind : std::uint8_t { Contours, Breaklines, Water, Roads, Walls,
 
 /// "contours", "breaklines", ...
 std::string_view name_of(ThemeKind kind);
-/// The inverse. Throws InputError.
+/// The kind of this name. Throws InputError.
 ThemeKind theme_kind(std::string_view name);
 /// Whether lines of this kind are part of the full surface.
 constexpr bool is_terrain(ThemeKind kind) {
@@ -30,7 +30,7 @@ constexpr bool is_terrain(ThemeKind kind) {
 /// How a building on its footprint is closed above.
 enum class RoofKind : std::uint8_t { flat, gabled, hipped, skeleton };
 /// Where a building's heights count from: the minimum, mean or maximum of the terrain under its footprint;
-/// terrain_following takes the mean, too. The foot lies on the terrain whatever the rule.
+/// terrain_following takes the mean, too. The building's foot lies on the terrain whatever the rule.
 enum class BaseRule : std::uint8_t { minimum, mean, maximum, terrain_following };
 
 /// "flat", "gabled", "hipped", "skeleton". Throws InputError.

@@ -67,7 +67,7 @@ class Topology {
   std::span<const std::uint32_t> vertices_of_vertex(std::uint32_t v) const {
     return slice(neighbours_, first_neighbour_, v);
   }
-  /// In step with vertices_of_vertex().
+  /// The edges to vertices_of_vertex(), in the same order.
   std::span<const std::uint32_t> edges_of_vertex(std::uint32_t v) const { return slice(edges_, first_neighbour_, v); }
   std::span<const std::uint32_t> triangles_of_vertex(std::uint32_t v) const {
     return slice(triangles_, first_triangle_, v);
@@ -80,7 +80,7 @@ class Topology {
   }
   /// Appends the edges that share a vertex with e: counterclockwise after e about its origin, then its destination.
   void edges_of_edge(std::uint32_t e, std::vector<std::uint32_t>& out) const;
-  /// To its left and to its right; nothing to the right of a boundary edge.
+  /// The triangles to its left and to its right; nothing to the right of a boundary edge.
   std::array<std::optional<std::uint32_t>, 2> triangles_of_edge(std::uint32_t e) const;
 
   // Incident to a triangle; entry i belongs to corner i, or to the edge from corner i to the next.

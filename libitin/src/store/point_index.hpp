@@ -26,7 +26,7 @@ struct Leaf {
   std::int32_t zmax = 0;
   std::int32_t lo = 0;  ///< T_level + lo <= T_0 <= T_level + hi over the cell, grid units
   std::int32_t hi = 0;
-  std::uint64_t key = 0;    ///< the index's own, of each leaf another
+  std::uint64_t key = 0;    ///< the index's own; each leaf has another
   std::uint16_t theme = 0;  ///< whose vertices, 0 for terrain; a theme's vertices are there at every level
 };
 

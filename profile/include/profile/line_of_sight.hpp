@@ -30,8 +30,8 @@ struct SightLine {
   /// The least clearance / F1 between the ends, as fresnel_clearance() has it; nothing without a wavelength, and where
   /// no ground lies between them.
   std::optional<double> fresnel_fraction;
-  /// Where on the surface the clearance is least; of several places the one nearest to the end that comes first in (x,
-  /// y, z).
+  /// Where on the surface the clearance is least; among several places, the one nearest to the end that comes first in
+  /// (x, y, z).
   Point3 critical;
 
   /// A ray that grazes the surface is visible, and so is one over ground without data.

@@ -61,8 +61,8 @@ struct Wireline {
 /// Elevation angle of a point, degrees above the horizontal, after curvature and refraction.
 double apparent_angle_deg(const Earth& earth, double distance_m, double above_eye_m);
 
-/// Cost: a cross-section a line of sight. Throws what SectionSurface throws, Cancelled; InputError for a field of view
-/// that makes no sense.
+/// Cost: one cross-section per line of sight. Throws what SectionSurface throws, Cancelled; InputError for a field of
+/// view that makes no sense.
 Wireline survey_wireline(const SectionSurface& surface, const WirelineQuery& query, Progress& progress);
 
 /// The bytes of a file: .svg, .pdf or .png by the name's ending. Equal views give equal bytes. Throws InputError.

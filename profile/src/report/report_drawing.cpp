@@ -124,7 +124,7 @@ void draw_first_page(Drawing& drawing, const LosReport& report) {
   }
 }
 
-/// Two columns of tables a page, and as many pages as they take.
+/// Two columns of tables per page, and as many pages as they take.
 class TablePages {
  public:
   TablePages(Drawing& drawing, const LosReport& report) : drawing_(drawing), report_(report) { begin_page(); }

@@ -19,7 +19,7 @@ inline SiteSurvey survey_of_points(const SiteSurvey& survey) {
   return of_points;
 }
 
-/// Without the padding about the grid, of which cells are not asked but points are.
+/// Without the padding about the grid, whose cells are not asked but whose points are.
 inline DemandSet without_padding(const RasterGrid& grid, const DemandSet& set) {
   DemandSet result;
   for (const DemandSet::Block& block : set.blocks()) {
