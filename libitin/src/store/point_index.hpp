@@ -67,7 +67,7 @@ struct Segment {
   std::int32_t bx = 0, by = 0;
   std::uint16_t theme = kCoverage;
   std::uint8_t finest = 0, coarsest = 0xff;  ///< it is part of its line at these levels
-  std::int32_t reach = 0;  ///< what it stands for at finer levels lies within its box, widened by this on all sides
+  std::int32_t reach = 0;  ///< finer segments that it stands for lie within its box, widened by this on all sides
   friend auto operator<=>(const Segment&, const Segment&) = default;
 };
 

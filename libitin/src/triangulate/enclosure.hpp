@@ -56,7 +56,7 @@ class Enclosure {
   const KnownGround& known_;
   GridBox all_;
   std::vector<Cone> cones_;
-  GridBox unknown_;  ///< what the last failure lacked, as far as it is near
+  GridBox unknown_;  ///< the ground that the last failure lacked, as far as it is near
 };
 
 }  // namespace itin

@@ -18,8 +18,8 @@ namespace itin {
 
 namespace {
 
-/// Measured at the peak of imports, rounded up: of lines while they are simplified, with their pieces as they were
-/// imported (690 where breaklines cut each other, 530 of roads), of features while they are raised.
+/// Measured at the peak of imports, rounded up: for lines while they are simplified, with their pieces as they were
+/// imported (690 where breaklines cut each other, 530 for roads), and for features while they are raised.
 constexpr std::uint64_t kBytesPerLineVertex = 800, kBytesPerFeatureVertex = 3000;
 
 /// The full surface's third vertex left of an edge of it.

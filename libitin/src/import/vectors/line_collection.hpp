@@ -71,8 +71,8 @@ class LineCollection {
 
   /// Puts the themes in order and the lines of all of them into one plane. `ground` as in raise(), if it was called.
   ThemeLines finish(const std::vector<SourceInfo>& sources, const Store* ground, const Progress& progress);
-  /// After finish(), of lines as they lie on the ground: whether what stands has given lines of the terrain vertices
-  /// that they do not have there.
+  /// After finish(), for lines as they lie on the ground: whether raised features have given lines of the terrain
+  /// vertices that they do not have there.
   bool changes_terrain(const ThemeLines& lines) const;
   /// After finish(), in order: all lines on the ground as they were imported.
   const std::vector<ImportedPiece>& imported() const { return imported_; }
