@@ -137,7 +137,7 @@ TEST_F(Sites, TheMemoryChangesNothingExact) {
   expect_bounds_at_every_stage(coverage, all_precise());
 }
 
-/// Of what is known of every site, counted block by block, before and after every look.
+/// The coverage known of every site is counted block by block, before and after every stage.
 TEST_F(Sites, WhatIsKnownOfThemTakesNoMoreThanIsCountedOn) {
   make_terrain(100, 200, false);
   make_survey(8);
