@@ -17,18 +17,18 @@ struct LosCase {
   Result result;
 };
 
-/// What is the same for every line of a call.
+/// The facts that are the same for every line of a call.
 struct LosHeader {
   std::string title;
   Document refraction;
 };
 
-/// Of a profile from a file.
+/// The case of a profile from a file.
 LosCase los_case(profile::LosReport report, const LosEnd& from, const LosEnd& to, const LosHeader& header);
-/// Of a line on a store.
+/// The case of a line on a store.
 LosCase los_case(const Store& store, LosStoreOptions::Result line, const LosHeader& header);
 
-/// For people.
+/// The report as text for people.
 std::string text_of(const profile::LosReport& report);
 
 }  // namespace itin::cli

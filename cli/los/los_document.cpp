@@ -18,7 +18,7 @@ Document cause(const LosReport& report, std::uint16_t theme) {
   return profile::cause_of(report, theme);
 }
 
-/// What the source calls it.
+/// The name that the source gives the feature, or null.
 Document feature(const LosReport& report, std::uint16_t theme, std::int64_t number) {
   const auto known = report.features.find({theme, number});
   return known == report.features.end() ? Document(nullptr) : Document(known->second);

@@ -34,7 +34,7 @@ struct Columns {
   bool radio = false, object = false, errors = false;
 };
 
-/// One row a row of the file, in its order.
+/// Writes one row per row of the file, in its order.
 class TableWriter {
  public:
   explicit TableWriter(const Columns& columns) : columns_(columns) {
@@ -121,7 +121,7 @@ Counts counts_of(const LinkTable& table, const std::vector<LinkResult>& results)
   return counts;
 }
 
-/// Of rows that cannot be read, else of links.
+/// The first error in rows that cannot be read, else in links.
 std::string first_error(const LinkTable& table, const std::vector<LinkResult>& results, const StoreMetadata& metadata) {
   if (!table.bad.empty()) return fmt::format("line {}: {}", table.bad.front().line, table.bad.front().message);
   const auto first = std::find_if(results.begin(), results.end(), [](const LinkResult& r) { return !r.verdict; });

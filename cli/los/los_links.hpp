@@ -1,4 +1,4 @@
-// `itin los --links`: one row a link.
+// `itin los --links`: one row per link.
 #pragma once
 
 #include <optional>

@@ -19,7 +19,7 @@ namespace itin::cli {
 
 namespace {
 
-/// Of a link, in names of files.
+/// Stands for a link's id in names of files.
 constexpr std::string_view kId = "{id}";
 
 struct Written {

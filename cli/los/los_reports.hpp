@@ -22,9 +22,9 @@ class LosReports {
   void declare(CLI::App& app);
   bool given() const { return !paths_.empty(); }
   const std::vector<std::string>& paths() const { return paths_; }
-  /// Of one line. Throws InputError.
+  /// Checks the options for one line. Throws InputError.
   void validate(bool has_positions) const;
-  /// Of links, each of which needs a name of its own. Throws InputError.
+  /// Checks the options for links, each of which needs a file name of its own. Throws InputError.
   void validate_links() const;
   /// The title given, or "Line-of-sight report", of what.
   std::string title(const std::string& of = {}) const;
@@ -39,8 +39,8 @@ class LosReports {
   /// One a link, in order. Throws InputError where two files would be one, FileError where one
   /// cannot be written.
   std::vector<Job> jobs(const std::vector<profile::Link>& links, OutputPolicy& policy) const;
-  /// In parallel. What was written is listed in `result`, in the links' order; a report that cannot be written is not
-  /// there, and becomes the result's failure. Throws CorruptStore, Cancelled.
+  /// Writes the reports in parallel and lists them in `result`, in the links' order. A report that cannot be written is
+  /// not listed, and becomes the result's failure. Throws CorruptStore, Cancelled.
   void write_all(const std::vector<Job>& jobs, const std::function<LosCase(std::size_t link)>& work,
                  const Document& command, bool overwrite, Progress& progress, Result& result) const;
 

@@ -55,7 +55,7 @@ class LosStoreOptions {
   /// Completes the query by heights and the surface's error, and works out the report. Throws InputError,
   /// CorruptStore, FileError.
   Result run(const Store& store, profile::LosQuery query) const;
-  /// The same between other ends.
+  /// As above, between other ends.
   Result run(const Store& store, profile::LosQuery query, const Ends& ends) const;
 
  private:

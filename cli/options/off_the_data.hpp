@@ -27,7 +27,7 @@ Point2 on_the_data(const std::string& what, Point2 given, const InCrs& in_crs, c
 /// the data.
 void require_on_the_data(const std::string& what, Point2 place, const InCrs& in_crs, const StoreMetadata& metadata);
 
-/// The same of many, where all do: the first.
+/// Throws InputError, which begins with `first` (what the first place is called), where all places lie off the data.
 void require_any_on_the_data(const std::string& first, const std::vector<Point2>& places, const InCrs& in_crs,
                              const StoreMetadata& metadata);
 

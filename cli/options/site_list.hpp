@@ -1,4 +1,4 @@
-// What is said of a file of places that holds none.
+// The error about a file of places that holds none.
 #pragma once
 
 #include <string>

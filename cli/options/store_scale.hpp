@@ -12,7 +12,7 @@
 
 namespace itin::cli {
 
-/// Over the store's bounds; nothing where its CRS does not tell.
+/// The scale of the store's CRS over its bounds; nothing where the CRS does not tell.
 std::optional<GridScale> scale_of(const StoreMetadata& metadata);
 
 /// `scale`: `least` and `greatest`, or null.

@@ -18,7 +18,7 @@ class ViewFields {
  public:
   using Angles = std::pair<double, double>;  ///< degrees, from and to
 
-  /// What an observer's fields say; nothing where they are empty.
+  /// The values of an observer's fields; nothing where they are empty.
   struct View {
     std::optional<double> height;  ///< OFFSETA
     std::optional<double> spot;    ///< SPOT: the elevation that the height is above

@@ -27,7 +27,7 @@ class WindowOptions {
   };
   /// In the store's CRS. Throws InputError, FileError.
   Region region(const StoreMetadata& metadata) const;
-  /// What a window that holds no ground is told: where it lies and where the data does.
+  /// The message for a window that holds no ground: where it lies and where the data does.
   std::string no_ground(const StoreMetadata& metadata) const;
   Document parameters() const;
 

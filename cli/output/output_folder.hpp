@@ -27,8 +27,8 @@ class OutputFolder {
   OutputFolder(std::string path, const OutputPolicy& policy);
 
   const std::string& working() const { return working_->path(); }
-  /// Gives the working folder the name, in one step. What the earlier folder had besides the outputs that its manifest
-  /// lists moves along. Throws FileError.
+  /// Gives the working folder the name, in one step. Files of the earlier folder that its manifest does not list as
+  /// outputs move along. Throws FileError.
   void publish();
 
  private:

@@ -18,8 +18,8 @@ class OutputPolicy {
   void declare(CLI::App& app);
   /// Throws FileError if `path` exists and may not be replaced, is a directory, or lies where nothing can be written.
   void require_writable(const std::string& path) const;
-  /// The same for a file whose name no option gives as it stands. Throws InputError, too, where the call reads or
-  /// writes that file already.
+  /// As require_writable(), for a file whose name no option gives as it stands. Throws InputError, too, where the call
+  /// reads or writes that file already.
   void claim(const std::string& path);
 
  private:
@@ -30,7 +30,7 @@ class OutputPolicy {
 /// With its dot, in small letters: ".csv".
 std::string ending_of(const std::string& path);
 
-/// What of a name can be part of every file system's names.
+/// The name with an underscore for each character that some file systems do not allow.
 std::string file_name(const std::string& name);
 
 }  // namespace itin::cli

@@ -1,4 +1,4 @@
-// What documents say about the store behind a result, and numbers in the form people read.
+// Documents about the store behind a result, and numbers in the form people read.
 #pragma once
 
 #include <string>
@@ -19,18 +19,18 @@ Document error_interval(const CertifiedError& error);
 /// tolerance is the coarsest, the error covers all, and the rings are listed.
 Document surface_document(const StoreMetadata& metadata, const Detail& detail, const ThemeChoice& themes);
 
-/// `themes`, in the store's order; and the same as text.
+/// `themes`, in the store's order, as a document and as text.
 Document themes_document(const StoreMetadata& metadata);
 std::string themes_table(const StoreMetadata& metadata);
 
-/// By the number of a theme; 0 is the terrain.
+/// The names of themes by their number; 0 is the terrain.
 std::vector<std::string> theme_names(const StoreMetadata& metadata);
 
 /// `levels`, finest first. A level's `vertices` are those stored in it, so that they sum up to the store's;
 /// `query_vertices` are those that a query at its tolerance reads: its own and all coarser ones.
 Document levels_document(const StoreMetadata& metadata);
 
-/// The same as an aligned table.
+/// `levels` as an aligned table.
 std::string levels_table(const StoreMetadata& metadata);
 
 /// [xmin, ymin, xmax, ymax] with names.

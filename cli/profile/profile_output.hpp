@@ -1,4 +1,4 @@
-// What `itin profile` writes: tables, documents, lines and charts of the surface along a path.
+// The output of `itin profile`: tables, documents, lines and charts of the surface along a path.
 #pragma once
 
 #include <optional>
@@ -33,7 +33,7 @@ struct ProfileOutput {
   const profile::Profile& ground;  ///< for charts: the first without standing features; empty where it has none
   Document document;               ///< the whole, for .json
   std::string title;               ///< of charts
-  std::vector<double> corners_m;   ///< likewise: where along the line it turns
+  std::vector<double> corners_m;   ///< of charts: where along the line it turns
   bool overwrite = false;
 };
 

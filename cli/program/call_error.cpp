@@ -22,7 +22,8 @@ std::vector<std::string> option_names(const CLI::App& verb) {
   return names;
 }
 
-/// What no option or place in the call takes. A misspelt option comes first: what follows it is often its value.
+/// The message about arguments that no option or place in the call takes. A misspelt option comes first: what follows
+/// it is often its value.
 std::string unexpected(const CLI::App& verb, const std::vector<std::string>& arguments) {
   const auto option = std::find_if(arguments.begin(), arguments.end(), is_option);
   if (option == arguments.end())
@@ -35,7 +36,7 @@ std::string named(const CLI::Option& option) {
   return option.get_positional() ? option.get_name() : option.get_name() + " " + option.get_type_name();
 }
 
-/// Those that are required and not there.
+/// The options that are required and not given.
 std::vector<std::string> missing(const CLI::App& verb) {
   std::vector<std::string> names;
   for (const CLI::Option* option : verb.get_options())

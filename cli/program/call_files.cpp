@@ -49,7 +49,7 @@ std::string place_of(const std::string& path) {
   return unknown ? path : place.string();
 }
 
-/// The same for all names of one file, be it there or to come.
+/// An identity that all names of one file share, be it there or to come.
 std::string identity(const std::string& path) {
   struct stat status = {};
   if (::stat(path.c_str(), &status) == 0) return fmt::format("{}:{}", status.st_dev, status.st_ino);
@@ -66,7 +66,7 @@ bool lies_within(const fs::path& file, const fs::path& folder) {
   return end == folder.end();
 }
 
-/// What is read where a file is named: itself, and what a virtual one stands for.
+/// The files that are read where one is named: itself, and those that a virtual one stands for.
 std::vector<std::string> read_for(const std::string& path) {
   std::vector<std::string> files{path};
   if (!path.ends_with(".vrt")) return files;

@@ -17,7 +17,7 @@
 
 namespace itin::cli {
 
-/// The option's values are read. What is no file, as well-known text, is passed over.
+/// The option's values are read. Values that are no files, such as well-known text, are passed over.
 CLI::Option* reads(CLI::Option* option);
 /// A file that is written, or a folder that files are written into.
 CLI::Option* writes(CLI::Option* option);
@@ -29,7 +29,7 @@ void require_roles(CLI::App& verb);
 
 class CallFiles {
  public:
-  /// Of a verb whose options have their values. Throws InputError where a file would be written that is read as well,
+  /// `verb`: its options must have their values. Throws InputError where a file would be written that is read as well,
   /// by whatever name, or that is written already; and where an output is a symbolic link to nothing.
   explicit CallFiles(CLI::App& verb);
 

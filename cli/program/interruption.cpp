@@ -25,7 +25,8 @@ sem_t signalled;
 /// Set by the thread that ends the program, be it by itself or not.
 std::atomic<bool> ending{false};
 
-/// What a call has to stop and clean up. Less than a second, for the system takes back gigabytes no faster than that.
+/// The time that a call has to stop and clean up. Less than a second, for the system takes back gigabytes no faster
+/// than that.
 constexpr std::chrono::milliseconds kTimeToStop{750};
 /// timeout(1) and terminals tell the process and then its group: repetitions this soon are no second wish.
 constexpr long long kPatience = 1000;

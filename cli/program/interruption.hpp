@@ -1,11 +1,11 @@
-// Ctrl-C and its kin: the first asks the running call to stop and clean up. What has not stopped within a second, as
-// within a long call of another library, is ended: outputs that are not complete are removed, and the store is what it
-// was.
+// Ctrl-C and its kin: the first asks the running call to stop and clean up. A call that has not stopped within a
+// second, as within a long call of another library, is ended: outputs that are not complete are removed, and the store
+// is what it was.
 #pragma once
 
 namespace itin::cli {
 
-/// What the program ends with when it was interrupted.
+/// The status that the program ends with when it was interrupted.
 inline constexpr int kInterruptedStatus = 130;
 
 /// Catches SIGINT, SIGTERM and SIGHUP from now on; a closed pipe and a file beyond the shell's limit become

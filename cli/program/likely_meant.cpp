@@ -22,7 +22,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return d[a.size()][b.size()];
 }
 
-/// Without the dashes that all options have in common.
+/// The name without the dashes that all options have in common.
 std::string_view letters(std::string_view name) {
   return name.substr(std::min(name.size(), name.find_first_not_of('-')));
 }

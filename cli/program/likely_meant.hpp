@@ -1,4 +1,4 @@
-// What somebody meant who misspelt a name.
+// The name that somebody meant who misspelt one.
 #pragma once
 
 #include <optional>

@@ -13,8 +13,8 @@ class TimeLeft {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Of a stage of which `fraction` is done `now`. Nothing until enough is done to tell. A stage that is left and
-  /// entered again goes on where it was; one whose fraction falls back has begun anew.
+  /// The time left for a stage of which `fraction` is done `now`. Nothing until enough is done to tell. A stage that is
+  /// left and entered again goes on where it was; one whose fraction falls back has begun anew.
   std::optional<std::chrono::seconds> after(std::string_view stage, double fraction, Clock::time_point now);
 
  private:

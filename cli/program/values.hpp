@@ -40,7 +40,7 @@ int parse_whole(std::string_view option, std::string_view text, int least, int m
 /// Numbers separated by commas, at least one.
 std::vector<double> parse_numbers(std::string_view option, std::string_view text, Range range = Range::kAny);
 
-/// Such metres separated by commas, at least one.
+/// Heights in metres, separated by commas, at least one.
 std::vector<double> parse_heights(std::string_view option, std::string_view text, Range range = Range::kAny);
 
 /// Exactly `names.size()` numbers separated by commas; `shape` is the expected form, for instance "x,y,r".

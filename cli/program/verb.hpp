@@ -14,7 +14,7 @@ namespace itin::cli {
 
 using Document = nlohmann::ordered_json;
 
-/// What a verb found out, for machines and for people; the program prints one of the two on stdout.
+/// The answer of a verb, for machines and for people; the program prints one of the two on stdout.
 struct Result {
   Document document =
       Document::object();  ///< without `itin`, `command` and the process's statistics, which the program adds
@@ -38,7 +38,7 @@ class Verb {
   virtual Document parameters() const = 0;
   /// Throws itin::Error.
   virtual Result execute(Progress& progress) = 0;
-  /// What to do where there is not memory enough.
+  /// Advice for a call that runs out of memory.
   virtual std::string advice_for_less_memory() const {
     return "ask for a smaller window, a coarser tolerance or larger cells";
   }

@@ -47,7 +47,7 @@ class SiteVerb final : public Verb {
   }
 
   Result execute(Progress& progress) override {
-    // What a killed run has written already is its own.
+    // Files that a killed run has written may be replaced when it is resumed.
     policy_ = options_.policy;
     policy_.overwrite = policy_.overwrite || (options_.resume && std::filesystem::exists(place("site.work")));
     const NewFolder folder(options_.directory);

@@ -1,4 +1,4 @@
-// What a siting run works on: candidates, demand, existing sites, as read and checked.
+// The inputs of a siting run: candidates, demand, existing sites, as read and checked.
 #pragma once
 
 #include <string>

@@ -13,7 +13,7 @@
 
 namespace itin::cli {
 
-/// What lines between sites are judged by.
+/// The rules that lines between sites are judged by.
 struct LinkRules {
   ThemeChoice themes;
   Earth earth;
@@ -33,7 +33,7 @@ class SiteLinks {
   bool connect(const viewshed::SiteStand& a, const viewshed::SiteStand& b) const {
     return rules_.met_by(between(a, b));
   }
-  /// The same, for options by their number; asked again it costs nothing.
+  /// As above, for options by their number; asking again costs nothing.
   bool connect(const std::vector<viewshed::SiteStand>& stands, std::size_t a, std::size_t b) const;
 
  private:

@@ -49,7 +49,7 @@ viewshed::Result as_viewshed(const SiteResult& r) {
 }  // namespace
 
 std::uint64_t bytes_of_site_maps(const Store& store, const RasterGrid& grid) {
-  // Of a cell its nearest server and how far that is, how many serve it, and copies of these to draw and to write.
+  // Bytes per cell: its nearest server, how far that is, how many serve it, and copies of these to draw and to write.
   constexpr std::uint64_t kCell = 20, kPoint = 150;
   return kCell * grid.cell_count() + kPoint * store.points_about(hillshade_level(store, grid), grid.bounds());
 }

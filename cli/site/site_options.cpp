@@ -33,7 +33,7 @@ std::string text_of(const std::string& key, const Document& value) {
   throw InputError(fmt::format("--params: '{}' holds no text, number or list of them", key));
 }
 
-/// Not part of what a run is: where it is written, and how.
+/// Whether an option is part of the run itself, and does not only say where and how the run is written.
 bool is_parameter(const std::string& name) {
   for (const char* other :
        {"help", "params", "output", "json", "quiet", "threads", "resume", "overwrite", "memory", "engine"})

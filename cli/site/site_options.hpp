@@ -33,10 +33,10 @@ class SiteOptions {
   void apply_parameter_file();
   /// Throws InputError.
   void validate();
-  /// What was given, by option name without dashes: what a parameter file holds.
+  /// The values given, by option name without dashes, as a parameter file holds them.
   Document given() const;
   Document parameters() const;
-  /// What a link must leave clear, if anything.
+  /// The part of the Fresnel zone that a link must leave clear, if any.
   std::optional<viewshed::FresnelCriterion> criterion() const;
   /// When a target is served, in a sentence.
   std::string meaning_of_served() const;

@@ -119,7 +119,7 @@ std::string stages_html(const SiteResult& r) {
   return table.finish();
 }
 
-/// Those that came nearest to being chosen.
+/// The options that came nearest to being chosen.
 std::string closest_html(const SiteResult& r) {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < r.inputs.options.size(); ++i) {

@@ -12,7 +12,7 @@
 
 namespace itin::cli {
 
-/// What the rasters of a choice on these cells and the maps of them take, bytes, about.
+/// About how many bytes the rasters of a choice on these cells and the maps of them take.
 std::uint64_t bytes_of_site_maps(const Store& store, const RasterGrid& grid);
 
 /// The two maps of the report, as PNG files beside it; `warnings` gets those of drawing them. Throws FileError.

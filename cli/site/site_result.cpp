@@ -57,7 +57,7 @@ class BestServer {
   SiteRasters rasters_;
 };
 
-/// Where demand is points: the serving sites on cells.
+/// Where demand is points: the cells that each site serves.
 struct OnCells {
   viewshed::SiteTargets targets;
   std::vector<DemandSet> served;

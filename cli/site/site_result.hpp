@@ -1,4 +1,4 @@
-// What a siting run ends with, for tables, maps and the report.
+// The result of a siting run, for tables, maps and the report.
 #pragma once
 
 #include <string>
@@ -58,7 +58,7 @@ struct SiteResult {
   bool is_chosen(std::size_t option) const;
 };
 
-/// What the rays are cast for.
+/// The survey that lines of sight are computed for.
 viewshed::SiteSurvey site_survey(const SiteOptions& options, const SiteInputs& inputs);
 
 /// From exact coverage (or what is certain of it) of the chosen and the existing sites.

@@ -1,4 +1,4 @@
-// What a siting run has found out so far, kept in a file so that a killed run can go on.
+// The results of a siting run so far, kept in a file so that a killed run can go on.
 #pragma once
 
 #include <cstdio>

@@ -25,7 +25,7 @@ double bytes_per_vertex(const Store& store) {
   return vertices == 0 ? 0 : static_cast<double>(store.file_bytes()) / static_cast<double>(vertices);
 }
 
-/// What the heights of sources mean.
+/// The meaning of the heights of sources.
 class SourceHeights {
  public:
   explicit SourceHeights(const StoreMetadata& metadata) : metadata_(metadata) {

@@ -31,8 +31,8 @@ class FeatureRaster {
     ThemeChoice themes;
   };
   /// Writes the number of the theme that the surface is part of at each cell's centre, 0 for ground and where there is
-  /// none; of several that meet there the first. The document tells how many cells each has; null where no file is
-  /// asked for. Memory follows the raster. Throws FileError, CorruptStore, Cancelled.
+  /// none; where several meet, the first. The document tells how many cells each has; null where no file is asked for.
+  /// Memory follows the raster. Throws FileError, CorruptStore, Cancelled.
   Document write(const Store& store, const RasterGrid& grid, const Surface& surface, bool overwrite,
                  Progress& progress) const;
 

@@ -169,7 +169,7 @@ class ViewshedVerb final : public Verb {
     outputs_.write(surveyed, context, result.warnings, progress);
     outputs_.write_each([&](std::size_t i) { return survey_alone(store, surveyed, i, progress); }, context);
     const Document targets = horizon_.write(surveyed, metadata, earth_.document(), outputs_.overwrite(), progress);
-    // What is certain or exact is so of the full surface.
+    // Certified and exact answers are about the full surface.
     const Detail detail = precise_ || certified_ ? Detail::tolerance(0) : request_.detail;
     const Document features =
         features_.write(store, surveyed.result.grid, {detail, request_.themes}, outputs_.overwrite(), progress);
@@ -287,7 +287,7 @@ class ViewshedVerb final : public Verb {
             view.radius, view.min_radius, angles(view.azimuth), angles(view.elevation)};
   }
 
-  /// What takes the store's CRS to understand.
+  /// Completes the request by the options that need the store's CRS.
   void complete_request(const StoreMetadata& metadata) {
     places_ = observers_.places(metadata);
     if (detail_.has_rings() && places_.size() > 1) {

@@ -132,7 +132,7 @@ class ZtvVerb final : public Verb {
   }
 
  private:
-  /// What takes the store to understand.
+  /// Completes the request by the options that need the store.
   void complete_request(const StoreMetadata& metadata) {
     list_ = turbines_.read(metadata, [&](double tip) { return radius_.radius(tip); });
     std::vector<Point2> places;
@@ -265,7 +265,7 @@ class ZtvVerb final : public Verb {
     return areas;
   }
 
-  /// Of what areas() says.
+  /// Puts the result of areas() into words.
   static std::string seen_from(const Document& areas) {
     std::string text = fmt::format("from {:.1f} km2", areas["any_tip_seen"].get<double>());
     if (!areas["any_hub_seen"].is_null())

@@ -45,7 +45,7 @@ class ZtvRadioOptions {
     std::string link;
     double clearance = 0;
   };
-  /// Of the link that is least clear of the turbine's own rotor.
+  /// The link that is least clear of the turbine's own rotor.
   Nearest nearest_link(const viewshed::Turbine& turbine) const;
   viewshed::LinkStudy study(const viewshed::Zone& zone) const;
 

@@ -25,7 +25,7 @@ std::optional<double> number(const char* name, const std::optional<std::string>&
   return text ? parse_height(name, *text, Range::kPositive) : otherwise;
 }
 
-/// What two of hub, rotor and tip say about the third.
+/// Completes the one of hub, rotor and tip that the other two imply.
 void complete(std::optional<double>& hub, std::optional<double>& rotor, std::optional<double>& tip) {
   if (!tip) {
     if (!hub || !rotor) throw InputError("it has neither tip_height nor both hub_height and rotor_diameter");

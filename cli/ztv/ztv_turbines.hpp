@@ -24,7 +24,7 @@ struct BadRow {
   std::string message;
 };
 
-/// What of a file's rows was used, and why the others were not.
+/// How many of a file's rows were used, and why the others were not.
 Document bad_rows_document(const std::string& file, std::size_t rows, std::size_t used, const std::vector<BadRow>& bad);
 std::string bad_row_warning(const std::string& file, const BadRow& row);
 

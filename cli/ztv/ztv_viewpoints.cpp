@@ -42,7 +42,7 @@ struct Viewpoint {
   double ground = 0;
 };
 
-/// What is seen of one turbine from one viewpoint.
+/// The part of one turbine that is seen from one viewpoint.
 struct Sight {
   double distance = 0, azimuth = 0;
   double least = 0;  ///< metres above the turbine's ground, from which on it is seen

@@ -1,4 +1,4 @@
-// Command-line tests as data: cases in plain text, one file a verb, run by command_line_test.cpp.
+// Command-line tests as data: cases in plain text, one file per verb, run by command_line_test.cpp.
 //
 //   # a comment
 //   case missing store                  starts a case; each runs in a directory of its own
@@ -9,7 +9,7 @@
 //   json /vertices number               stdout is JSON, with a number (string, array, object, boolean) at this pointer
 //   file out.tif, no-file out.tif       exists afterwards, or not
 //
-// Of every run that ends with status 1, 2 or 130 stderr must be one line that begins with "itin: error: ".
+// Every run that ends with status 1, 2 or 130 must write one line to stderr, which begins with "itin: error: ".
 #pragma once
 
 #include <ostream>

@@ -51,7 +51,7 @@ std::vector<FileOption> file_options(const std::string& help) {
   return options;
 }
 
-/// What a verb asks for besides.
+/// Further options that a verb requires.
 std::string required(const std::string& verb) {
   return verb == "visibility" ? " --cell 10 --radius 100" : "";
 }

@@ -28,7 +28,7 @@ class Shell {
 
  private:
   std::filesystem::path directory_;
-  std::filesystem::path beside_;  ///< what the tests need and the command must not see
+  std::filesystem::path beside_;  ///< files that the tests need and the command must not see
 };
 
 /// A conical hill of 41 x 41 posts, 50 m apart, as ESRI ASCII grid; x 300000-302050, y 170000-172050, EPSG:27700 by a

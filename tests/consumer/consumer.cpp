@@ -1,4 +1,4 @@
-// What a user of the installed package writes first: compiles, links and runs without a store at hand.
+// A first program of a user of the installed package: it compiles, links and runs without a store at hand.
 #include <cstdlib>
 
 #include <itin/detail.hpp>
@@ -9,7 +9,7 @@
 #include <viewshed/map_image.hpp>
 
 int main() {
-  // What draws is a module that is found beside the libraries.
+  // The module that draws is found beside the libraries.
   const itin::viewshed::MapImage image{2, 1, {255, 0, 0, 0, 0, 255}, {}};
   itin::viewshed::write_image("map.png", image, true);
   try {

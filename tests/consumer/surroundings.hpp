@@ -1,4 +1,4 @@
-// What the examples in the headers take as given. They are compiled, not run.
+// Declarations that the examples in the headers take as given. The examples are compiled, not run.
 #pragma once
 
 #include <atomic>

@@ -1,4 +1,4 @@
-// What goes at the end of a scope, and what an early end of the program leaves.
+// Files and folders that go at the end of a scope, and those that an early end of the program leaves.
 #include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>

@@ -34,7 +34,7 @@ bool is_source(const fs::path& path) {
   return path.extension() == ".cpp" || path.extension() == ".hpp";
 }
 
-/// What a file includes in these quotes.
+/// The names that a file includes in these quotes.
 std::vector<std::string> includes(const fs::path& file, const std::string& pattern) {
   std::vector<std::string> result;
   std::ifstream stream(file);

@@ -52,7 +52,7 @@ inline CrossSection slow_section(const SectionLine& line, const std::vector<std:
     return a.distance == b.distance && a.position == b.position;
   };
   auto& b = section.breakpoints;
-  // Of equal ones the first is left, with the least theme: none, if one triangle has none.
+  // Among equal ones the first is left, with the least theme: none, if one triangle has none.
   b.erase(std::unique(b.begin(), b.end(), same), b.end());
   std::sort(pieces.begin(), pieces.end(),
             [](const SectionPiece& p, const SectionPiece& q) { return p.from.distance < q.from.distance; });

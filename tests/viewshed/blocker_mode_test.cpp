@@ -1,4 +1,5 @@
-// What first hides a cell, against every triangle, and against exact lines of sight that end just before and after it.
+// The triangle that first hides a cell, against every triangle, and against exact lines of sight that end just before
+// and after it.
 #include <cmath>
 #include <gmock/gmock.h>
 
@@ -56,7 +57,7 @@ void expect_first(const Tin& tin, Point2 from, double cell, const Earth& earth) 
     const auto found = line.hidden_from(u, v, w);
     ASSERT_TRUE(found) << "triangle " << result.blocker[i] << " hides nothing";
     ASSERT_NEAR(*found, least, 1e-9);
-    // The same line, up to just before that place and to just behind it.
+    // The line is clear up to that place, and not beyond.
     const double length = std::hypot(target.x - eye.x, target.y - eye.y);
     const auto point = [&](double s) {
       return Point3{eye.x + s * (target.x - eye.x), eye.y + s * (target.y - eye.y),

@@ -8,7 +8,7 @@
 namespace itin::viewshed {
 namespace {
 
-/// Of three by two tiles, the last ones not whole.
+/// A grid of three by two tiles, the last ones not whole.
 const RasterGrid kGrid({5000, 9000}, 20, 10, 150, 90);
 
 TEST(CellTiles, HoldEveryCellOnce) {

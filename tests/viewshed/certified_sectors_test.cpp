@@ -65,7 +65,7 @@ TEST(CertifiedSectors, SayWhatTheLevelSaysAndNothingWrong) {
       for (std::size_t i = 0; i < parts.visible.size(); ++i) {
         const Verdict value = parts.visible[i];
         ASSERT_EQ(value == Verdict::kOutside, exact.visible[i] == Verdict::kOutside) << i;
-        // What the exact answer takes for clear may be open.
+        // The certified answer may leave open what the exact one decides.
         if (value == Verdict::kVisible) {
           ASSERT_EQ(exact.visible[i], Verdict::kVisible) << i;
         } else if (value == Verdict::kHidden) {

@@ -107,7 +107,7 @@ TEST(Exactness, CurvatureOverLongEdges) {
   }
 }
 
-/// What one triangle hides the corners of, it hides all of, curvature included.
+/// A triangle that hides the corners of a block hides all of it, curvature included.
 TEST(Exactness, BlocksHiddenTogetherAreHidden) {
   std::mt19937 random(test::seed());
   const Tin tin = test::fractal_tin(33, 2000, 300, 0.55, random());

@@ -98,7 +98,7 @@ TEST(HeightMode, OfSeveralObserversTheLeast) {
   const Tin tin = test::fractal_tin(33, 50, 60, 0.55, 6);
   Request request = look({{kCorner.x + 303, kCorner.y + 498}, {kCorner.x + 1203, kCorner.y + 1198}}, 110);
   expect_exact(tin, request);
-  // What targets of one observer alone are as high as is a matter of that observer.
+  // A target height given for one observer counts for that observer only.
   request.observers[1].target_height = 300;
   const Result result = run(tin, request);
   request.observers.erase(request.observers.begin());

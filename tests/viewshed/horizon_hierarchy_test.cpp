@@ -1,4 +1,4 @@
-// What a fan knows of an eye's horizon, against lines of sight over every triangle.
+// An eye's horizon in a hierarchy, against lines of sight over every triangle.
 #include "scene/sweep/horizon_hierarchy.hpp"
 
 #include <algorithm>

@@ -41,7 +41,7 @@ Request strewn(std::size_t count, Mode mode) {
   return request;
 }
 
-/// What one observer makes of one cell.
+/// The view that one observer has of one cell.
 struct Sight {
   enum { kOut, kHides, kSees, kEither } verdict = kOut;
   double distance = 0;

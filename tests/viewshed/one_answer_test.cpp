@@ -30,7 +30,7 @@ using test::LineFeature;
 using viewshed::Request;
 using viewshed::Result;
 
-/// What became of the cells asked again.
+/// The outcome for the cells asked again.
 struct Agreement {
   int visible = 0, hidden = 0;  ///< by the line of sight
   int wrong = 0;                ///< cells that differ
@@ -124,7 +124,7 @@ class OneAnswer : public testing::Test {
   std::mt19937 random_{test::seed()};
 };
 
-/// A town in a wood on rolling ground, 600 m a side.
+/// A town in a wood on rolling ground, 600 m on each side.
 class InATown : public OneAnswer {
  protected:
   void SetUp() override {

@@ -103,7 +103,7 @@ class WhereverTheObserverStands : public testing::Test {
   std::mt19937 random_{test::seed()};
 };
 
-/// What the exact line of sight says of a cell.
+/// The answer of the exact line of sight for a cell.
 struct Truth {
   bool own = false;      ///< the observer's
   double clearance = 0;  ///< of its line
@@ -137,7 +137,7 @@ class Asking {
   test::ExactLineOfSight exact_;
 };
 
-/// One result a mode.
+/// One result per mode.
 struct AllModes {
   explicit AllModes(const Tin& tin, Request request) {
     const auto in = [&](Mode mode) {
@@ -217,7 +217,7 @@ TEST_F(WhereverTheObserverStands, AllModesAgree) {
         const auto truth = asking.of(centre);
         if (!truth || value == Verdict::kOutside) continue;
         if (truth->own) modes.expect_own(cell, *truth);
-        // What missing ground hides is not the exact line's matter.
+        // The exact line of sight does not know of missing ground.
         const bool behind_void = value == Verdict::kHidden && modes.blocker.blocker[cell] == kMissingGround;
         if (!truth->doubtful() && !behind_void) {
           EXPECT_EQ(value == Verdict::kVisible, truth->sees()) << "clearance " << truth->clearance;
@@ -231,7 +231,7 @@ TEST_F(WhereverTheObserverStands, AllModesAgree) {
   EXPECT_GT(hidden, 500);
 }
 
-/// Of an observer two metres up on a plane, who looks at its own cell.
+/// An observer two metres up on a plane looks at its own cell.
 class OwnCell : public testing::Test {
  protected:
   void ask(Mode mode, AngleRange elevation, double target_height) {
@@ -273,7 +273,7 @@ TEST_F(OwnCell, IsInViewWhereItsElevationIs) {
   }
 }
 
-/// Of several cells nearer than a step of the grid each is the observer's own.
+/// Several cells that are nearer than a step of the grid are all the observer's own.
 TEST_F(OwnCell, MayBeMany) {
   request_.target_height = 0;
   request_.observers = {{"o", {300205, 200205}, 2}};

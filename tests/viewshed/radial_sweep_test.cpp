@@ -138,7 +138,7 @@ class Sweeping {
   RadialSweep sweep_;
   test::ExactLineOfSight exact_;
   RaisedGround ground_;
-  std::int64_t every_ = 1;  ///< of so many cells one is looked at
+  std::int64_t every_ = 1;  ///< one in so many cells is looked at
 };
 
 Point2 place_in(const Tin& tin, std::mt19937& random) {
@@ -281,7 +281,7 @@ class LookingAround {
       for_each_line(eye, ground, [&](std::size_t cell, const SightLine& line) {
         const double lowest = ground.elevation[cell], found = work_->found[cell];
         const double expected = least(line, lowest, work_->wanted[cell], work_->highest[cell]);
-        // Of two triangles that meet below the line, the one that is found may be another but for the last bit.
+        // Where two triangles meet below the line, either may be found: they agree but for the last bit.
         EXPECT_TRUE(std::abs(found - expected) < 1e-8 || (std::isnan(found) && std::isnan(expected)))
             << found << ", not " << expected << " over " << lowest;
         EXPECT_EQ(found == lowest, expected == lowest);

@@ -1,4 +1,5 @@
-// What is read of a raster because an eye may see it, and rasters read sector by sector, against the whole.
+// The parts of a raster that are read because an eye may see them, and rasters read sector by sector, against the
+// whole.
 #include "scene/reveal.hpp"
 
 #include <algorithm>

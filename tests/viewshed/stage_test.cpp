@@ -1,4 +1,4 @@
-// What stages report only grows and ends at 1, on any number of threads.
+// The progress that stages report only grows and ends at 1, on any number of threads.
 #include "progress/stage.hpp"
 
 #include <atomic>

@@ -1,4 +1,5 @@
-// What a viewshed request means: cells, values, fields of view, several observers, ground without data, wrong calls.
+// The meaning of a viewshed request: cells, values, fields of view, several observers, ground without data, wrong
+// calls.
 #include <cmath>
 #include <gmock/gmock.h>
 #include <limits>

@@ -137,7 +137,7 @@ class VisibilityIndexTest : public testing::Test {
     return visibility_index(Store(path_), request, progress);
   }
 
-  /// Of the ground within the radius of one place, by a cell every 10 m.
+  /// The share of the ground within the radius of one place that is seen from it, by a cell every 10 m.
   double share_seen(Point2 place, const IndexRequest& request) const {
     Request look;
     look.observers = {{"o", place, request.height}};

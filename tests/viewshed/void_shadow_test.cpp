@@ -1,4 +1,4 @@
-// What lies behind voids, by sectors of the horizon and by looking at every edge.
+// Ground behind voids, by sectors of the horizon and by looking at every edge.
 #include "request/void_shadow.hpp"
 
 #include <algorithm>

@@ -13,7 +13,7 @@
 
 namespace itin {
 
-/// Not thread-safe; make one a thread.
+/// Not thread-safe; make one per thread.
 class CoordinateTransform {
  public:
   /// CRSs as authority:code, WKT, PROJ string or anything else GDAL understands; the identity where both are one, by
@@ -34,7 +34,7 @@ class CoordinateTransform {
 /// "EPSG:27700" where the CRS has an authority's code, else the WKT itself.
 std::string crs_identifier(const std::string& wkt);
 
-/// What people call it: "OSGB36 / British National Grid".
+/// The name that people use for a CRS: "OSGB36 / British National Grid".
 std::string crs_title(const std::string& wkt);
 
 }  // namespace itin

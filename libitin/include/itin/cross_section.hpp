@@ -33,7 +33,7 @@ class Store;
 struct Breakpoint {
   double distance = 0;  ///< metres along the line
   Point3 position;      ///< on the surface
-  /// Of the standing feature that the place lies within, its outline not included: StoreMetadata::themes[theme - 1]; 0:
+  /// The theme of the feature whose inside, without its outline, holds the place: StoreMetadata::themes[theme - 1]; 0:
   /// ground. Between two breakpoints the surface is part of a feature if it is so at either.
   std::uint16_t theme = 0;
 };
@@ -57,7 +57,7 @@ struct CrossSection {
   std::uint64_t triangles = 0;  ///< crossed by the line
 };
 
-/// Cost: about a microsecond a triangle crossed when warm. Memory follows the line.
+/// Cost: about a microsecond per triangle crossed when warm. Memory follows the line.
 /// Throws InputError for ends that are not finite or farther than 2^31 grid units from the grid's origin and for themes
 /// that the store does not have, CorruptStore, FileError.
 CrossSection cross_section(const Store& store, Point2 from, Point2 to, const Detail& detail,

@@ -26,9 +26,9 @@ struct Earth {
   /// Throws InputError unless the radius is a positive number, the factor (where given) too, and k a number below 1:
   /// from 1 on sight lines would bend as much as the Earth, and the horizon be gone.
   void validate() const;
-  /// Metres of drop a square metre of squared distance; 0 without curvature.
+  /// Metres of drop per square metre of squared distance; 0 without curvature.
   double drop_coefficient() const;
-  /// Metres.
+  /// The drop at a distance, both metres.
   double drop(double distance) const { return drop_coefficient() * distance * distance; }
   /// One line for results, for example "drop = d^2 (1 - k) / (2 R), k = 0.13, R = 6371000 m".
   std::string convention() const;

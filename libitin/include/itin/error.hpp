@@ -1,4 +1,4 @@
-// What can go wrong, as types that carry their data. Every message is one line: what, where, what to do.
+// Errors as types that carry their data. Every message is one line: what, where, what to do.
 //
 //   try {
 //     const Store store("wales.itin");

@@ -26,8 +26,9 @@ struct FeatureAt {
 };
 
 /// The feature of a standing theme (its number from 1) whose footprint holds each place, or is nearest to it within a
-/// metre, for footprints are moved a little when they are made to fit together. Of several the first one imported.
-/// Cost: reads all footprints of the theme, a block of 256 at a time, about a microsecond each. Throws CorruptStore.
+/// metre, for footprints are moved a little when they are made to fit together. Where several do, the first one
+/// imported counts. Cost: reads all footprints of the theme, a block of 256 at a time, about a microsecond each. Throws
+/// CorruptStore.
 std::vector<std::optional<FeatureAt>> features_at(const Store& store, std::uint16_t theme,
                                                   const std::vector<Point2>& places);
 

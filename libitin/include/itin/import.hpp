@@ -38,12 +38,12 @@ struct ImportOptions {
   std::string where;
   std::optional<int> band;  ///< of rasters: the one that holds heights, from 1; default: their only one
 
-  // Of buildings, vegetation and walls that stand on the ground: those with one of the first three, and CityJSON.
+  // For raised features only: CityJSON, and buildings, vegetation and walls for which one of the first three is given.
   std::string height_field;         ///< of the highest point above the base
   std::string eaves_field;          ///< of the eaves above the base
   std::optional<double> height;     ///< metres; of features that have none in the fields
   std::string base_field;           ///< elevation of the base
-  std::string name_field;           ///< what messages call a feature
+  std::string name_field;           ///< the name of a feature in messages
   std::optional<BaseRule> base;     ///< of buildings without base_field; default: minimum, or the floors of CityJSON
   std::optional<RoofKind> roof;     ///< default: flat
   std::optional<double> thickness;  ///< metres; of what stands on lines; default: 0.3
@@ -72,12 +72,12 @@ struct ImportReport {
   std::uint64_t duplicates = 0;     ///< positions that were there already
   std::uint64_t replaced = 0;       ///< coarser points that made room now
   std::uint64_t isolated = 0;       ///< points left out now because no ground could be triangulated about them
-  std::uint64_t features = 0;       ///< of lines read, or of those that stand now
+  std::uint64_t features = 0;       ///< line features read, or features that stand now
   std::uint64_t refused = 0;        ///< features that could not stand, of all imports so far; warnings say why
   std::uint64_t crossings = 0;      ///< further pairs of segments that cross, of any themes, and were given a vertex
   std::uint64_t left_out = 0;       ///< further segments, of any theme, that do not lie wholly on the ground
   std::uint64_t flat_before = 0;    ///< triangles that are level because their corners lie on contours
-  std::uint64_t flat_after = 0;     ///< of them, those that are left
+  std::uint64_t flat_after = 0;     ///< those of flat_before that are left
   std::uint64_t inferred = 0;       ///< points of the store inferred from contours
   std::uint64_t vertices = 0;       ///< of the store now
   std::uint64_t store_bytes = 0;
@@ -93,7 +93,7 @@ ImportReport import_terrain(const std::string& store_path, const ImportOptions& 
 /// Adds lines and polygons (as their rings) to a theme, which is made if there is none of that name. Contours may make
 /// a new store; other lines need ground to lie on. All lines of the store are made planar together: crossings get a
 /// vertex, and no line moves by more than half a grid step. Heights of lines of the terrain win over those of points;
-/// of lines that meet, those of the terrain and then the first name in order decide. Lines of other kinds take the
+/// where lines meet, those of the terrain and then the first name in order decide. Lines of other kinds take the
 /// heights of the full surface at their vertices. Throws as above.
 ///
 /// Where contours are imported, options.repair decides for all contours of the store, also when something is added
@@ -109,7 +109,7 @@ ImportReport import_terrain(const std::string& store_path, const ImportOptions& 
 /// changes.
 ImportReport import_lines(const std::string& store_path, const ImportOptions& options, Progress& progress);
 
-/// Whether what import_lines() makes of these options stands on the ground.
+/// Whether features that import_lines() imports with these options stand on the ground.
 bool stands(const ImportOptions& options);
 
 }  // namespace itin

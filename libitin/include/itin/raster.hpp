@@ -34,7 +34,7 @@ class RasterGrid {
   };
 
   RasterGrid() = default;
-  /// From the north-west corner. Throws InputError unless sizes are positive, counts at least 1, and within the
+  /// A grid from its north-west corner. Throws InputError unless sizes are positive, counts at least 1, and within the
   /// limits below.
   RasterGrid(Point2 north_west, double cell_width, double cell_height, std::int64_t columns, std::int64_t rows);
   /// The smallest grid of square cells over the box whose cell edges are multiples of the cell size. A box edge within
@@ -46,7 +46,7 @@ class RasterGrid {
   RasterGrid part(Cell north_west, std::int64_t columns, std::int64_t rows) const;
 
   static constexpr std::int64_t kMaxCells = std::int64_t{1} << 33;
-  static constexpr std::int64_t kMaxSide = 0x7fffffff;  ///< what GDAL counts
+  static constexpr std::int64_t kMaxSide = 0x7fffffff;  ///< the most that GDAL counts
 
   std::int64_t columns() const { return columns_; }
   std::int64_t rows() const { return rows_; }
@@ -67,14 +67,14 @@ class RasterGrid {
   /// Where a position lies in units of cells from the north-west corner: centre_x(c) is at c + 0.5.
   double column_at(double x) const { return (x - origin_.x) / cell_width_ - static_cast<double>(first_.column); }
   double row_at(double y) const { return (origin_.y - y) / cell_height_ - static_cast<double>(first_.row); }
-  /// The cell that holds a position; of neighbours that share it the eastern, the southern. Nothing outside.
+  /// The cell that holds a position; on a shared edge the eastern or southern neighbour. Nothing outside.
   std::optional<Cell> cell_at(Point2 p) const;
   std::size_t index(Cell cell) const { return static_cast<std::size_t>(cell.row * columns_ + cell.column); }
 
   friend bool operator==(const RasterGrid&, const RasterGrid&) = default;
 
  private:
-  /// West of a column, north of a row.
+  /// The western edge of a column, the northern edge of a row.
   double edge_x(std::int64_t column) const {
     return origin_.x + static_cast<double>(first_.column + column) * cell_width_;
   }

@@ -20,7 +20,7 @@
 
 namespace itin {
 
-// Not installed.
+// Declared in headers that are not installed.
 class Certificate;
 class PointIndex;
 class StoreFile;
@@ -96,7 +96,7 @@ class Store {
   /// The most by which features of the chosen themes, in the cells that meet the box, rise above T_0 under them,
   /// metres; 0 where there are none. Throws CorruptStore.
   double greatest_feature_height(const ThemeChoice& themes, const Box& box) const;
-  /// The same of those that a query at `level` leaves out.
+  /// The greatest height, likewise, of those features that a query at `level` leaves out.
   double greatest_height_left_out(const ThemeChoice& themes, int level, const Box& box) const;
   /// About how many points of this level and coarser ones lie in the box; reads the directory, no points.
   std::uint64_t points_about(int level, const Box& box) const;

@@ -20,7 +20,7 @@ enum class ThemeKind : std::uint8_t { Contours, Breaklines, Water, Roads, Walls,
 
 /// "contours", "breaklines", ...
 std::string_view name_of(ThemeKind kind);
-/// The inverse. Throws InputError.
+/// The kind of this name. Throws InputError.
 ThemeKind theme_kind(std::string_view name);
 /// Whether lines of this kind are part of the full surface.
 constexpr bool is_terrain(ThemeKind kind) {
@@ -29,8 +29,8 @@ constexpr bool is_terrain(ThemeKind kind) {
 
 /// How a building on its footprint is closed above.
 enum class RoofKind : std::uint8_t { flat, gabled, hipped, skeleton };
-/// What a building's heights count from: the terrain under its footprint, of which the last takes the mean. Its foot
-/// lies on the terrain whatever the rule.
+/// Where a building's heights count from: the minimum, mean or maximum of the terrain under its footprint;
+/// terrain_following takes the mean, too. The building's foot lies on the terrain whatever the rule.
 enum class BaseRule : std::uint8_t { minimum, mean, maximum, terrain_following };
 
 /// "flat", "gabled", "hipped", "skeleton". Throws InputError.
@@ -70,7 +70,7 @@ class ThemeChoice {
   static ThemeChoice none() { return ThemeChoice(false, {}); }
   /// "all", "none", or names with commas between. Throws InputError for an empty name.
   static ThemeChoice parse(std::string_view text);
-  /// The same choice, of lines on the ground as well.
+  /// This choice, which then takes in lines that lie on the ground, too.
   ThemeChoice with_ground_lines() const;
 
   bool includes(const ThemeInfo& theme) const;

@@ -28,7 +28,7 @@ struct LineEdge {
   friend auto operator<=>(const LineEdge&, const LineEdge&) = default;
 };
 
-/// What retrieving a window cost.
+/// The cost of retrieving a window.
 struct RetrievalStatistics {
   std::uint64_t points_read = 0;  ///< points decoded, used or not
   std::uint64_t blocks_read = 0;  ///< blocks fetched, from cache or disk
@@ -51,9 +51,9 @@ struct Tin {
   /// Per vertex: the theme (from 1) of the standing feature that it is part of, off the feature's outline; 0: none.
   /// Empty where no vertex is.
   std::vector<std::uint16_t> standing;
-  std::vector<LineEdge> lines;  ///< of every theme present, ascending; an edge that themes share comes for each
+  std::vector<LineEdge> lines;  ///< those of every theme present, ascending; an edge that themes share comes for each
 
-  /// Of a triangle, counterclockwise.
+  /// The corners of a triangle, counterclockwise.
   std::array<GridPoint, 3> corners(std::uint32_t triangle) const {
     const auto& [a, b, c] = triangles[triangle];
     return {vertices[a], vertices[b], vertices[c]};

@@ -57,9 +57,9 @@ TopologyKind topology_kind(std::string_view name);
 void require_tin_output(const std::string& path, bool overwrite);
 void require_topology_output(const std::string& path, bool overwrite);
 
-/// Written under a temporary name beside `path` and renamed when complete; whatever is thrown, `path` stays as it was.
+/// Writes under a temporary name beside `path` and renames when complete; whatever is thrown, `path` stays as it was.
 /// Throws InputError (unknown ending; metadata that is not an object; a CRS without an EPSG code for .geojson; too many
-/// vertices for .glb), FileError, Cancelled. O(n) time and, but for .glb (24 bytes a vertex), constant memory.
+/// vertices for .glb), FileError, Cancelled. O(n) time and, but for .glb (24 bytes per vertex), constant memory.
 void export_tin(const Tin& tin, const std::string& path, const TinExportOptions& options, Progress& progress);
 
 /// A JSON document (path ends in .json): `topology` (the kind), `crs` (WKT), `vertex_ids` (decimal strings, for many

@@ -27,12 +27,12 @@ namespace itin {
 inline constexpr std::uint32_t kNoNeighbour = 0xffffffff;
 
 /// For each triangle t and i = 0, 1, 2 the triangle across the edge from corner i to corner (i + 1) % 3, or
-/// kNoNeighbour. O(n) time, about 40 bytes a triangle while running. Precondition here and below: tin.triangles are
+/// kNoNeighbour. O(n) time, about 40 bytes per triangle while running. Precondition here and below: tin.triangles are
 /// those of a planar triangulation, counterclockwise, fewer than 2^32 / 3.
 std::vector<std::array<std::uint32_t, 3>> adjacent_triangles(const Tin& tin);
 
 /// Immutable and safe for concurrent use. Refers to the Tin, which must outlive it and stay as it is. O(n) to make,
-/// about 75 bytes a triangle.
+/// about 75 bytes per triangle.
 class Topology {
  public:
   explicit Topology(const Tin& tin);
@@ -49,7 +49,7 @@ class Topology {
   static std::uint32_t previous(std::uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
   std::uint32_t origin(std::uint32_t h) const { return tin_->triangles[h / 3][h % 3]; }
   std::uint32_t destination(std::uint32_t h) const { return origin(next(h)); }
-  /// Nothing at the boundary.
+  /// The half-edge in the other direction; nothing at the boundary.
   std::optional<std::uint32_t> twin(std::uint32_t h) const {
     return twins_[h] == kNoNeighbour ? std::nullopt : std::optional(twins_[h]);
   }
@@ -61,28 +61,29 @@ class Topology {
     return vertices_of_vertex(vertex).size() != triangles_of_vertex(vertex).size();
   }
 
-  // Of a vertex, counterclockwise. A boundary vertex's begin at the boundary, so that its fans stay together; the fan
-  // of the least triangle among those that begin a fan comes first. An enclosed vertex's begin at its least triangle.
+  // Around a vertex, counterclockwise. At a boundary vertex the lists begin at the boundary, so that its fans stay
+  // together; the fan of the least triangle among those that begin a fan comes first. At an enclosed vertex they begin
+  // at its least triangle.
   std::span<const std::uint32_t> vertices_of_vertex(std::uint32_t v) const {
     return slice(neighbours_, first_neighbour_, v);
   }
-  /// In step with vertices_of_vertex().
+  /// The edges to vertices_of_vertex(), in the same order.
   std::span<const std::uint32_t> edges_of_vertex(std::uint32_t v) const { return slice(edges_, first_neighbour_, v); }
   std::span<const std::uint32_t> triangles_of_vertex(std::uint32_t v) const {
     return slice(triangles_, first_triangle_, v);
   }
 
-  // Of an edge.
+  // Incident to an edge.
   /// Origin and destination of its half_edge().
   std::array<std::uint32_t, 2> vertices_of_edge(std::uint32_t e) const {
     return {origin(half_edge(e)), destination(half_edge(e))};
   }
   /// Appends the edges that share a vertex with e: counterclockwise after e about its origin, then its destination.
   void edges_of_edge(std::uint32_t e, std::vector<std::uint32_t>& out) const;
-  /// To its left and to its right; nothing to the right of a boundary edge.
+  /// The triangles to its left and to its right; nothing to the right of a boundary edge.
   std::array<std::optional<std::uint32_t>, 2> triangles_of_edge(std::uint32_t e) const;
 
-  // Of a triangle; entry i belongs to corner i, or to the edge from corner i to the next.
+  // Incident to a triangle; entry i belongs to corner i, or to the edge from corner i to the next.
   const std::array<std::uint32_t, 3>& vertices_of_triangle(std::uint32_t t) const { return tin_->triangles[t]; }
   std::array<std::uint32_t, 3> edges_of_triangle(std::uint32_t t) const {
     return {edge_of_half_edge_[3 * t], edge_of_half_edge_[3 * t + 1], edge_of_half_edge_[3 * t + 2]};
@@ -102,7 +103,7 @@ class Topology {
   std::vector<std::uint32_t> twins_;  ///< by half-edge; kNoNeighbour at the boundary
   std::vector<std::uint32_t> edge_of_half_edge_;
   std::vector<std::uint32_t> half_edge_of_edge_;
-  // Of vertex v: [first[v], first[v + 1]).
+  // Vertex v has the entries [first[v], first[v + 1]).
   std::vector<std::uint32_t> first_triangle_, triangles_;
   std::vector<std::uint32_t> first_neighbour_, neighbours_, edges_;
 };

@@ -20,7 +20,7 @@ class Store;
 /// it.
 ///
 /// Cost: reads the leaves that meet the window and a few around it; O(n log n) in the points read. Memory follows the
-/// window: about 300 bytes a point while running, 28 bytes a point for the result.
+/// window: about 300 bytes per point while running, 28 bytes per point for the result.
 /// Throws InputError (a theme the store does not have), CorruptStore, FileError, Cancelled. An answer without triangles
 /// is not an error.
 Tin triangulate(const Store& store, const Window& window, const Detail& detail, Progress& progress,

@@ -17,8 +17,8 @@
 namespace itin {
 
 struct VerifyOptions {
-  /// Tiles of the ground, and of each part of a standing theme, that are verified: about as many, evenly spread along
-  /// the Morton curve. 0: all of them.
+  /// How many tiles of the ground, and of each part of a standing theme, are verified: about so many, evenly spread
+  /// along the Morton curve. 0: all of them.
   std::size_t sample = 0;
 };
 
@@ -28,13 +28,14 @@ struct Verification {
   std::uint64_t tiles_verified = 0;  ///< all, or the sample
 };
 
-/// For every level and index cell: that there is a certificate wherever there is ground, and that
+/// Verifies for every level and index cell that there is a certificate wherever there is ground, and that
 /// T_k + lo <= T_0 <= T_k + hi all over the cell, to a thousandth of a grid step; and that what the directory says of
 /// levels agrees with its cells. For every cell of every part of a standing theme: that no feature of that part rises
 /// higher above T_0 within the cell than the cell says, to two grid steps, for the ground under features is rounded.
 ///
-/// The store must be sound by check(). Memory: the surfaces of a tile of some 32,000 vertices a thread. Cost: what the
-/// import took to verify its levels, about 10 microseconds a vertex. Throws FileError, CorruptStore and Cancelled.
+/// The store must be sound by check(). Memory: the surfaces of a tile of some 32,000 vertices per thread. Cost: what
+/// the import took to verify its levels, about 10 microseconds per vertex. Throws FileError, CorruptStore and
+/// Cancelled.
 Verification verify(const Store& store, const VerifyOptions& options, Progress& progress);
 
 }  // namespace itin

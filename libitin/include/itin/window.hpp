@@ -6,7 +6,7 @@
 // A window is a closed region of the plane. A triangle belongs to the answer when it meets the window (touching
 // counts). Shapes are kept as polygons in metres and quantised to the store's grid once, so that membership is decided
 // exactly: a disc is the regular polygon of kArcSides sides around it (it contains the disc), a wedge has its arc cut
-// into as many parts, in proportion. Quantising moves corners by at most half a grid step an axis.
+// into as many parts, in proportion. Quantising moves corners by at most half a grid step per axis.
 //
 // Every function that makes a window throws InputError, naming the shape, when a coordinate is not a finite number
 // within kLimit of 0 or when the shape has no area.

@@ -18,7 +18,7 @@ struct HeightBounds {
   std::int32_t hi = 0;
 };
 
-/// The bounds of a level's cells, in memory: about 32 bytes a cell, and a cell holds hundreds of points. Immutable;
+/// The bounds of a level's cells, in memory: about 32 bytes per cell, and a cell holds hundreds of points. Immutable;
 /// safe for concurrent use.
 class Certificate {
  public:

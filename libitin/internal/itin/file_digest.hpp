@@ -1,4 +1,4 @@
-// What tells one source file from another.
+// A digest that tells one source file from another.
 #pragma once
 
 #include <string>

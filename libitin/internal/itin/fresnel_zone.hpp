@@ -53,7 +53,7 @@ class LeastFraction {
   void consider(double t, double clearance);
   /// Between the piece's ends, which count by consider() only.
   void consider_inside(const RayPiece& piece);
-  /// Of several places the one considered first.
+  /// Among equal places, the one considered first.
   const std::optional<Place>& least() const { return least_; }
 
  private:

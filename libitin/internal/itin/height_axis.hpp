@@ -1,4 +1,4 @@
-// What the numbers that a source has for heights mean.
+// The meaning of the numbers that a source has for heights.
 //
 //   const HeightAxis axis = height_axis("EPSG:27700+5715");    // depths below Mean Sea Level, in metres
 //   axis.factor() * 10                                         // -10 metres

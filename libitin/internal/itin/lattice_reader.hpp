@@ -24,11 +24,11 @@ namespace itin {
 
 class LatticeReader {
  public:
-  /// Of tiles with ground.
+  /// Which tiles with ground have heights after opening.
   enum class Heights : std::uint8_t { kNone, kAll };
 
-  /// As triangulate_lattice(): nothing where that is none. The store must outlive it. Cost: all heights about twice
-  /// what it takes to do without them.
+  /// As triangulate_lattice(), and nothing where that returns nothing. The store must outlive it. Cost: with all
+  /// heights about twice that without them.
   static std::unique_ptr<LatticeReader> open(const Store& store, const Window& window, const ThemeChoice& themes,
                                              Heights heights, std::uint64_t most_posts, Progress& progress);
   /// Whether that may be one: what a few blocks tell.
@@ -38,7 +38,7 @@ class LatticeReader {
   LatticeReader& operator=(const LatticeReader&) = delete;
 
   const LatticeTin& lattice() const;
-  /// Ends it.
+  /// Moves the lattice out; the reader may not be used afterwards.
   LatticeTin take();
 
   /// No post of the tile is higher, grid units. Told where it was opened without heights.

@@ -1,10 +1,10 @@
 // A triangulation all of whose triangles are halves of the cells of one square lattice, as a raster's are: its posts
-// and, where a cell is not whole, a byte a cell say it all, so that no triangle is listed.
+// and, where a cell is not whole, one byte per cell say it all, so that no triangle is listed.
 //
 //   if (const auto lattice = triangulate_lattice(store, window, ThemeChoice::none(), 100'000'000, progress))
 //     for (std::uint32_t t : ...) use(lattice->corners(t));
 //
-// Little more than 4 bytes a post, where a Tin takes 38, and a fraction of the time. Columns count eastwards and rows
+// Little more than 4 bytes per post, where a Tin takes 38, and a fraction of the time. Columns count eastwards and rows
 // southwards. Cell (c, r) lies between posts (c, r) and (c + 1, r + 1). The first and the last cells of every row and
 // column are bare. Cells are kept in square tiles, and what has no ground takes no memory; so do heights that have not
 // been read yet (lattice_reader.hpp): of those tiles it is only known where ground is.
@@ -52,7 +52,7 @@ struct LatticeTin {
   enum Half : std::uint8_t { kSouthWest = 1, kNorthEast = 2, kNorthWest = 4, kSouthEast = 8 };
   static constexpr std::uint8_t kFalling = kSouthWest | kNorthEast;  ///< the whole cell, its diagonal from north-west
   static constexpr std::uint8_t kRising = kNorthWest | kSouthEast;   ///< the whole cell, its diagonal from south-west
-  /// Of the two triangles of a cell, whichever its diagonal, the western and the eastern one.
+  /// The western and the eastern triangle of a cell, whichever its diagonal.
   static constexpr std::uint8_t kFirst = kSouthWest | kNorthWest, kSecond = kNorthEast | kSouthEast;
 
   static constexpr std::uint32_t kSide = 64;          ///< of a tile, cells
@@ -126,13 +126,13 @@ struct LatticeTin {
     const std::uint8_t there = halves(cell);
     return ((there & kFirst) == 0 || visit(2 * cell)) && ((there & kSecond) == 0 || visit(2 * cell + 1));
   }
-  /// Of a triangle, counterclockwise. The western one of a cell has the number of the cell, doubled, the eastern one
-  /// the next. Precondition: read.
+  /// The corners of a triangle, counterclockwise. The western one of a cell has the number of the cell, doubled, the
+  /// eastern one the next. Precondition: read.
   std::array<GridPoint, 3> corners(std::uint32_t triangle) const {
     const std::int32_t* const height = posts(triangle / 2);
     return corners(triangle, {height[0], height[1], height[kPosts], height[kPosts + 1]});
   }
-  /// The same in the plane, at height 0.
+  /// The corners in the plane, at height 0.
   std::array<GridPoint, 3> outline(std::uint32_t triangle) const { return corners(triangle, {}); }
   std::uint64_t triangle_count() const;
 
@@ -142,7 +142,7 @@ struct LatticeTin {
   /// The smallest box of all triangles, metres.
   Box bounds() const;
 
-  /// The same triangles one by one, in the order of a Tin's; without sources. Precondition: all tiles are read.
+  /// Lists the triangles one by one, in the order of a Tin's; without sources. Precondition: all tiles are read.
   Tin tin() const;
 
   // To fill it.
@@ -153,7 +153,7 @@ struct LatticeTin {
   /// Calls visit(tile, place in its heights) for the up to four tiles that a post belongs to.
   template <class Visit>
   void for_each_tile_of(std::uint32_t column, std::uint32_t row, const Visit& visit) const;
-  /// Of a tile whose halves are set: tells what ground that is, and forgets them where that says it all.
+  /// Classifies the ground of a tile whose halves are set, and drops the halves where the class says it all.
   void settle(std::uint32_t tile);
 
  private:
@@ -190,8 +190,8 @@ void LatticeTin::for_each_tile_of(std::uint32_t column, std::uint32_t row, const
 std::optional<LatticeTin> triangulate_lattice(const Store& store, const Window& window, const ThemeChoice& themes,
                                               std::uint64_t most_posts, Progress& progress);
 
-/// A Tin that is one. Nothing where it is not, or covers so little of a lattice that that would be mostly empty. O(n);
-/// what is none is most often found out by the first few triangles.
+/// The lattice that a Tin is. Nothing where it is none, or covers so little of a lattice that this would be mostly
+/// empty. O(n); most often the first few triangles already show that it is none.
 std::optional<LatticeTin> lattice_of(const Tin& tin);
 
 }  // namespace itin

@@ -13,7 +13,8 @@ std::uint64_t content_hash(std::string_view bytes);
 /// As write_file() does; an existing file is replaced. Throws FileError.
 void write_packed(const std::string& path, std::string_view bytes);
 
-/// What write_packed() was given. Throws FileError where the file cannot be read, is none of these, or is damaged.
+/// The bytes that write_packed() was given. Throws FileError where the file cannot be read, was not written by it, or
+/// is damaged.
 std::string read_packed(const std::string& path);
 
 }  // namespace itin

@@ -25,7 +25,7 @@ std::optional<PositionColumns> position_columns(const std::vector<std::string>& 
 /// In any case of letters (ASCII).
 bool same_column_name(std::string_view a, std::string_view b);
 
-/// What messages say that a table's header should name.
+/// The columns that messages ask for in a table's header.
 inline constexpr const char* kPositionColumnsAdvice = "x and y, easting and northing, or lon and lat";
 
 }  // namespace itin

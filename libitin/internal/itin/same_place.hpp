@@ -10,11 +10,11 @@ namespace itin {
 /// the grid stay two places however they are rounded.
 inline constexpr double kSamePlace = 0.999;
 
-/// Of places so far apart in plan, grid units.
+/// Whether two places that are `dx`, `dy` apart in plan, grid units, are one.
 constexpr bool same_place(double dx, double dy) {
   return dx * dx + dy * dy < kSamePlace * kSamePlace;
 }
-/// Of places in metres.
+/// Whether two places, in metres, are one.
 constexpr bool same_place(const Grid& grid, Point2 a, Point2 b) {
   return same_place((a.x - b.x) / grid.resolution, (a.y - b.y) / grid.resolution);
 }

@@ -77,7 +77,7 @@ class SectionLine {
   /// first is crossed first. Ends on the line may count as either.
   template <class P>
   static bool crossed_before(const P& left1, const P& right1, const P& left2, const P& right2) {
-    // What lies ahead of an edge is to the left of left -> right.
+    // The side ahead of an edge is to the left of left -> right.
     const int l1 = ahead(left2, right2, left1), r1 = ahead(left2, right2, right1);
     if (l1 <= 0 && r1 <= 0) return l1 < 0 || r1 < 0;
     if (l1 >= 0 && r1 >= 0) return false;

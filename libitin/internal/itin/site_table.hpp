@@ -1,4 +1,4 @@
-// Points with fields, one a row, from any vector file, bad rows and all: for lists that one bad row must not stop.
+// Points with fields, one per row, from any vector file, bad rows and all: for lists that one bad row must not stop.
 //
 //   SiteQuery query;
 //   query.path = "turbines.csv";
@@ -18,7 +18,7 @@ namespace itin {
 struct SiteRow {
   std::int64_t feature = 0;                        ///< the file's own number for it
   std::optional<Point2> position;                  ///< in the CRS asked for; nothing: see `error`
-  std::vector<std::optional<std::string>> values;  ///< one a field asked for; nothing where it is empty or not there
+  std::vector<std::optional<std::string>> values;  ///< one per field asked for; nothing where it is empty or not there
   std::string error;                               ///< why there is no position; one line
 };
 

@@ -28,7 +28,7 @@ struct SiteQuery {
   std::string height_field;  ///< metres; default: no heights
   std::string name_field;    ///< default: the feature's number
   std::vector<NumberField> numbers;
-  /// Of a file that does not say. Default: longitude and latitude where the columns of a CSV file are called so
+  /// The CRS of a file that names none. Default: longitude and latitude where the columns of a CSV file are called so
   /// (position_columns.hpp), else the one asked for. Overrides no file's own.
   std::string crs;
 };
@@ -47,7 +47,7 @@ struct Site {
 /// kFarthestHeight, and a filter that leaves nothing.
 std::vector<Site> read_sites(const SiteQuery& query, const std::string& to_crs);
 
-/// The same, but features that are not understood are left out, each with a line in `rejected` that names it.
+/// As above, but features that are not understood are left out, each with a line in `rejected` that names it.
 std::vector<Site> read_sites(const SiteQuery& query, const std::string& to_crs, std::vector<std::string>& rejected);
 
 }  // namespace itin

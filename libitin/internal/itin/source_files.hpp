@@ -6,8 +6,8 @@
 
 namespace itin {
 
-/// What GDAL reads of a raster or vector file: itself, its sidecars, and of a virtual one (.vrt) the files that it
-/// names. Empty for what is no data set. Opens it.
+/// The files that GDAL reads for a raster or vector file: itself, its sidecars, and the files that a virtual one (.vrt)
+/// names. Empty where it is no data set. Opens it.
 std::vector<std::string> source_files(const std::string& path);
 
 }  // namespace itin

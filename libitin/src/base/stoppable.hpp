@@ -1,4 +1,4 @@
-// What may stop a thread's work, for code so deep down that no handle of progress reaches it.
+// Lets a thread's work be stopped in code so deep down that no handle of progress reaches it.
 //
 //   const Stoppable stoppable(progress);   // as a long call begins
 //   stop_if_asked();                       // in the loops of whatever it calls: throws Cancelled
@@ -23,7 +23,7 @@ class Stoppable {
   const Progress* before_;
 };
 
-/// What may stop this thread, or null.
+/// The handle that may stop this thread, or null.
 const Progress* stopper();
 
 /// Throws Cancelled where this thread has been asked to stop. A few nanoseconds.

@@ -48,7 +48,7 @@ void NearbyApex::move_to(Position a, Position b, double lambda) {
   for (const Leaf& leaf : leaves_) {
     const GridBox box = leaf.cell.box();
     if (leaf.level < selection_.finest_in(box)) continue;
-    // What was read before comes for free.
+    // A block that was read before costs nothing.
     if (blocks_.has_read(leaf)) {
       load(leaf);
     } else {
@@ -124,7 +124,7 @@ std::optional<SectionVertex> NearbyApex::search(const ApexFrame& frame, double l
     unread_.pop_back();
     for (std::size_t p = before; p < points_.size(); ++p) consider(frame, points_[p], candidate);
   }
-  // What lies on the searched circle itself may have rivals that rounding left out.
+  // A point on the searched circle itself may have rivals that rounding left out.
   if (candidate.best && candidate.reach < 0.999 * lambda) return candidate.best;
   return std::nullopt;
 }

@@ -1,8 +1,9 @@
 // The third vertices of triangles along a line, from as few blocks as can be.
 //
-// What ApexSearch (triangulate/apex.hpp) asks the index for every edge is kept here for a whole neighbourhood: the list
-// of its leaves, the points of those read so far in a lattice of bins, the segments. A leaf is read when the circle at
-// hand reaches it, not before. Where a circle outgrows the neighbourhood, ApexSearch takes over.
+// ApexSearch (triangulate/apex.hpp) asks the index again for every edge. Here the answers are kept for a whole
+// neighbourhood: the list of its leaves, the points of those read so far in a lattice of bins, the segments. A leaf is
+// read when the circle at hand reaches it, not before. Where a circle outgrows the neighbourhood, ApexSearch takes
+// over.
 #pragma once
 
 #include <cstdint>

@@ -25,7 +25,7 @@ namespace {
 /// A tile is the largest cell with at most about so many points: few enough to be made soon, enough to make its border
 /// cheap.
 constexpr double kPointsPerSectionTile = 8192;
-/// Where the search for it begins.
+/// The side where the search for a tile's size begins.
 constexpr int kUsualLog2Side = 18;
 
 /// Tiles by the cell they cover, made when first asked for.
@@ -42,7 +42,7 @@ class TileCache {
     const Cell cell = cell_at(place);
     const std::uint64_t key = key_of(cell);
     if (auto tile = find(key)) return tile;
-    // Of several threads that want one tile the first makes it.
+    // When several threads want one tile, the first makes it.
     const std::lock_guard lock(makers_[(key * 0x9e3779b97f4a7c15u) >> 58]);
     if (auto tile = find(key)) return tile;
     const RegionMesh region = triangulate_region(index_, selection_, square_of(cell));

@@ -19,11 +19,12 @@ struct Met : SectionCrossing {
   bool at_vertex = false;
 };
 
-/// Of a triangle by two of its corners. These are features' both and differ in a party wall only.
+/// The theme of a triangle from those of two of its corners. Where both are features', they differ in a party wall
+/// only.
 std::uint16_t either(std::uint16_t a, std::uint16_t b) {
   return a == 0 || b == 0 ? std::max(a, b) : std::min(a, b);
 }
-/// Of an edge by the triangles beside it: a foot is not within the feature.
+/// The theme of an edge from those of the triangles beside it: a foot is not within the feature.
 std::uint16_t both(std::uint16_t a, std::uint16_t b) {
   return std::min(a, b);
 }
@@ -36,7 +37,7 @@ struct Stretch {
   double from() const { return crossings.front().distance; }
   double to() const { return crossings.back().distance; }
 
-  /// A vertex on the line is crossed with several edges at once. Of what comes twice the second knows more.
+  /// A vertex on the line is crossed with several edges at once. Where a crossing comes twice, the second knows more.
   void add(const Met& c) {
     if (!crossings.empty()) {
       Met& last = crossings.back();

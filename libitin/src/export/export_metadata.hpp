@@ -1,4 +1,4 @@
-// What an export says about itself besides its triangles.
+// The metadata that an export carries besides its triangles.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ std::string dumped(const nlohmann::ordered_json& json);
 /// For comments: line ends become spaces.
 std::string on_one_line(std::string text);
 
-/// Of a theme by its number, from 1; empty where the options do not say.
+/// The name of a theme by its number, from 1; empty where the options do not say.
 std::string theme_name(const TinExportOptions& options, std::uint16_t theme);
 
 /// For GeoJSON, "urn:ogc:def:crs:EPSG::27700"; empty for an unknown CRS. Throws InputError for one without EPSG code.

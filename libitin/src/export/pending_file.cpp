@@ -26,7 +26,7 @@ std::string temporary_name(const fs::path& target) {
 }  // namespace
 
 void PendingFile::require_possible(const std::string& path, bool overwrite) {
-  std::error_code ignored;  // what cannot be looked at fails when it is opened, with a better message
+  std::error_code ignored;  // a path that cannot be looked at fails when it is opened, with a better message
   if (fs::is_directory(path, ignored)) throw FileError(path, "is a folder; name a file");
   if (!overwrite && fs::exists(path, ignored)) throw FileError(path, "exists already; `overwrite` replaces it");
   const fs::path folder = fs::path(path).parent_path();

@@ -20,7 +20,7 @@ class PendingFile {
   PendingFile(std::string path, bool overwrite);
 
   const std::string& path() const { return path_; }
-  /// In the same folder, with the same ending; no other PendingFile has the same. What is there goes unless committed.
+  /// In the same folder, with the same ending; no other PendingFile has the same. The file there goes unless committed.
   const std::string& temporary_path() const { return unfinished_.path(); }
   /// Renames. Throws FileError, also when another program has made the file meanwhile and it may not be replaced.
   void commit();

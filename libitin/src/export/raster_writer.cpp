@@ -65,7 +65,7 @@ struct Level {
 
 template <class T>
 T most_frequent(const std::array<T, 4>& v) {
-  // Of four values one occurs more often than any other or the first of the tied ones stands for them.
+  // Among values that occur equally often the first one wins.
   if (v[0] == v[1] || v[0] == v[2] || v[0] == v[3]) return v[0];
   if (v[1] == v[2] || v[1] == v[3]) return v[1];
   return v[2] == v[3] ? v[2] : v[0];

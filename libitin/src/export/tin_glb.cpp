@@ -31,7 +31,7 @@ Vector gltf_axes(double east, double north, double up) {
 /// The buffer views' places in the file's one buffer, in the order in which they are written.
 class Layout {
  public:
-  /// `stride` bytes an element; 0 for indices, which must not say it.
+  /// `stride` bytes per element; 0 for indices, which must not say it.
   std::size_t add(std::size_t count, std::size_t element_bytes, int target) {
     OrderedJson view = {
         {"buffer", 0}, {"byteOffset", bytes_}, {"byteLength", count * element_bytes}, {"target", target}};
@@ -210,7 +210,7 @@ class GlbWriter {
     return rgba;
   }
 
-  /// In the order of add_mesh().
+  /// Writes the buffer in the order of add_mesh().
   void write_buffer(BufferedFile& file, Progress& progress) const {
     StepProgress steps(progress, 5 * tin_.vertices.size() + tin_.triangles.size());
     const auto each_vertex = [&](const auto& write_vertex) {

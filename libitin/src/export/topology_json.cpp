@@ -35,7 +35,7 @@ void write_vertices(const Tin& tin, BufferedFile& file, StepProgress& steps) {
   });
 }
 
-/// Where there are any.
+/// Writes the lines where there are any.
 void write_lines(const Tin& tin, const std::vector<std::string>& theme_names, BufferedFile& file, StepProgress& steps) {
   if (tin.lines.empty()) return;
   write_array(file, "lines", tin.lines.size(), steps, [&](std::uint32_t i) {

@@ -16,7 +16,7 @@ using TerrainEdge = std::pair<std::uint32_t, std::uint32_t>;
 /// edge that no ring meets may so get a vertex.
 constexpr std::int32_t kRounded = 2;
 
-/// Of all triangles at the plan's rings, so that no new vertex is seen by those within.
+/// The edges of all triangles at the plan's rings. They hide every new vertex from the triangles within.
 std::set<TerrainEdge> edges_at_rings(const GridPolygon& plan, const TerrainHeights& terrain) {
   std::set<TerrainEdge> edges;
   for_each_edge(plan, [&](Position p, Position q) {

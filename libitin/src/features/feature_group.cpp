@@ -27,8 +27,8 @@ GridEdge plan_of(const PlacedSegment& s) {
   return {{s.a.x, s.a.y}, {s.b.x, s.b.y}};
 }
 
-/// One attempt at a group. What cannot stand is found on the way, and the group is built again without it, for its
-/// neighbours' walls and feet depend on it.
+/// One attempt at a group. A feature that cannot stand is found on the way, and the group is built again without it,
+/// for its neighbours' walls and feet depend on it.
 class GroupBuilder {
  public:
   GroupBuilder(const std::vector<PreparedFeature>& features, double offset, const TerrainHeights* terrain,

@@ -29,7 +29,7 @@ void check(const FeatureOptions& options, const TerrainHeights* terrain) {
   if (terrain && terrain->grid() != options.grid) throw InputError("features and terrain are on different grids");
 }
 
-/// What the groups found, put together.
+/// Puts the meshes of all groups together.
 class Assembly {
  public:
   explicit Assembly(const Grid& grid) { mesh_.grid = grid; }

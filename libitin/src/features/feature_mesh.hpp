@@ -5,12 +5,12 @@
 //   // leave out the terrain's vertices and lines within mesh.masks, insert mesh.vertices and mesh.segments
 //
 // A building is its outline on the terrain (without terrain, at its base) and, the wall offset inside, rings at the
-// height of its eaves, with the creases of its roof between them. What drapes is the same with heights above the
-// terrain, whose edges it repeats within its top. Nothing makes the surface lower (terrain_overlay.hpp). Who gets the
-// ground where footprints overlap, and where walls stand between those that touch, is the rule of
+// height of its eaves, with the creases of its roof between them. A draped feature is built likewise, with heights
+// above the terrain, whose edges it repeats within its top. Nothing makes the surface lower (terrain_overlay.hpp). Who
+// gets the ground where footprints overlap, and where walls stand between those that touch, is the rule of
 // footprint_arrangement.hpp.
 //
-// The segments are planar: they meet only at vertices, all of which lie on the grid, one a position. That is verified
+// The segments are planar: they meet only at vertices, all of which lie on the grid, one per position. That is verified
 // exactly, and made so by snap rounding where it does not hold (and reported). Vertices without segments are ground
 // repeated at the top of what drapes. The result depends on the features' order (which settles ties) but not on
 // threads.
@@ -72,7 +72,7 @@ struct FeatureOptions {
 };
 
 /// Without terrain only buildings with a base of their own stand. Throws InputError for an offset or pitch out of range
-/// and for terrain on another grid, Cancelled. What is wrong with single features is reported, not thrown.
+/// and for terrain on another grid, Cancelled. Errors in single features are reported, not thrown.
 FeatureMesh build_feature_mesh(std::span<const FootprintFeature> features, const FeatureOptions& options,
                                const TerrainHeights* terrain, Progress& progress);
 

@@ -51,7 +51,7 @@ struct Node {
   std::vector<std::pair<std::uint32_t, double>> links;  ///< neighbours and distances
 };
 
-/// What the contour intervals beside the region tell.
+/// The shape of the ground in the contour intervals beside the region.
 struct Surroundings {
   double slope = kUnknown;     ///< mean, along the region's contours
   double interval = kUnknown;  ///< the least difference from a neighbouring contour

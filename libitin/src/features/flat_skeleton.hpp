@@ -11,7 +11,7 @@
 //   contour interval beside the region.
 // - A region without exits is a hilltop, or a pit where the ground outside is higher: it rises with the slope of the
 //   contour interval outside, away from the contour.
-// What is extrapolated stays within half of the contour interval. Where nothing outside tells the slope, as about a
+// An extrapolated height stays within half of the contour interval. Where nothing outside tells the slope, as about a
 // lone contour, nothing is inferred.
 #pragma once
 
@@ -21,8 +21,8 @@
 
 namespace itin {
 
-/// The points inferred for one region, strictly inside it or, by an exit, in the triangle beyond; perhaps none. Of all
-/// regions they are distinct but for triangles of a few grid steps.
+/// The points inferred for one region, strictly inside it or, by an exit, in the triangle beyond; perhaps none. Points
+/// of different regions are distinct, except in triangles of a few grid steps.
 std::vector<GridPoint> infer_points(const FlatTriangles& flat, const FlatTriangles::Region& region);
 
 }  // namespace itin

@@ -49,8 +49,8 @@ struct Arrangement {
 /// Precondition: offset >= 2 grid units. Throws Cancelled where a progress is given and cancelled.
 Arrangement arrange(const std::vector<Patch>& patches, double offset, const Progress* progress = nullptr);
 
-/// Groups of patches whose boxes hang together, each ascending; groups in order of their first. What lies in different
-/// groups never meets, on the grid or off it.
+/// Groups of patches whose boxes hang together, each ascending; groups in order of their first. Patches of different
+/// groups never meet, on the grid or off it.
 std::vector<std::vector<std::uint32_t>> groups_of(const std::vector<GridBox>& boxes);
 
 }  // namespace itin

@@ -1,6 +1,6 @@
-// What shuts in the ground that standing features change: edges of the full surface that no feature of their theme
-// cuts, so nothing may cut them where that theme is there alone, lest the triangles beyond become others. Where another
-// theme's lines cross one it makes way for them, when they are there.
+// The border of the ground that standing features change: edges of the full surface that no feature of their theme
+// cuts. Where that theme is there alone nothing may cut them, or the triangles beyond would change. Where another
+// theme's lines cross such an edge, it makes way for them when they are there.
 //
 //   GroundBorder border(themes);
 //   border.add(theme, changed);                     // what each piece of each theme changes
@@ -59,7 +59,7 @@ class GroundBorder {
   /// Where the changed ground of two pieces of a theme meets: edges to be kept as lines, owned by themes.
   std::vector<OwnedSegment> seams();
   struct Fit {
-    std::vector<OwnedSegment> lines;   ///< the same for borders that lines of their own theme cut: these have moved on
+    std::vector<OwnedSegment> lines;   ///< edges to keep where their own theme's lines cut the border, which moved on
     std::vector<PlacedBorder> placed;  ///< where there are none: the borders still needed, for a line of the terrain or
                                        ///< one of the same theme does as well
   };

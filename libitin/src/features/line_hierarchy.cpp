@@ -80,7 +80,7 @@ class LineHierarchy::Graph {
         }
       }
     }
-    // What is left are closed chains without nodes.
+    // Only closed chains without nodes are left.
     for (const auto& [e, themes] : themes_) {
       if (!used_.contains(e)) cut_ring(chain_from(e.first, e.second), true, result);
     }

@@ -40,7 +40,7 @@ class LineHierarchy {
                 const std::vector<std::uint64_t>& nodes, const HeightAt& height,
                 const std::vector<LineTolerance>& tolerances);
 
-  /// Of all levels, ascending; without those of `whole`.
+  /// The segments of all levels, ascending; without those of `whole`.
   std::vector<Segment> segments() const;
 
   struct VertexLevel {

@@ -1,4 +1,4 @@
-// What a ring that crosses itself encloses, by the even-odd rule.
+// The area that a ring encloses by the even-odd rule, even where it crosses itself.
 #pragma once
 
 #include "features/plan_overlay.hpp"

@@ -15,7 +15,7 @@ struct Footing {
   double distance, z;
 };
 
-/// Of a position on a segment: how far off it lies, grid units, and the segment's height next to it.
+/// How far a position lies off a segment, grid units, and the segment's height next to it.
 Footing footing(const StandingSegment& segment, const GridPoint& p) {
   const GridPoint &a = segment.a, &b = segment.b;
   const double dx = 1.0 * b.x - a.x, dy = 1.0 * b.y - a.y, px = 1.0 * p.x - a.x, py = 1.0 * p.y - a.y;

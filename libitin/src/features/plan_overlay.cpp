@@ -32,7 +32,7 @@ void interrupt_if_asked() {
   if (asked_to_stop()) GEOS_interruptRequest();
 }
 
-/// GEOS keeps its state in a handle; one a thread.
+/// GEOS keeps its state in a handle; one per thread.
 class Geos {
  public:
   Geos() : handle_(GEOS_init_r()) {

@@ -63,8 +63,8 @@ struct EvenOdd {
   GridPolygons polygons;
   bool repaired = false;  ///< the rings crossed or touched themselves or each other
 };
-/// What rings enclose. Empty where they enclose nothing. Throws OverlayError where they cross more often than
-/// most_conflicts() (planarity.hpp), before any memory is spent on it.
+/// The area that rings enclose; may be empty. Throws OverlayError where they cross more often than most_conflicts()
+/// (planarity.hpp), before any memory is spent on it.
 EvenOdd even_odd(const std::vector<GridRing>& rings);
 
 /// A bounded face of an arrangement, with a position inside it.
@@ -75,9 +75,9 @@ struct PlanFace {
 /// The faces of edges that meet only at their ends, without regard to edges that bound none.
 std::vector<PlanFace> faces_of(const std::vector<GridEdge>& edges);
 
-/// Of polygons that have no area in common and meet at shared edges; vertices stay.
+/// The union of polygons that have no area in common and meet at shared edges; vertices stay.
 GridPolygons united(const GridPolygons& faces);
-/// Of any polygons.
+/// The union of any polygons.
 GridPolygons merged(const GridPolygons& polygons);
 /// All positions further than `distance` from the outside; corners stay sharp.
 GridPolygons eroded(const GridPolygons& polygons, double distance);

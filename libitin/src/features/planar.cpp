@@ -17,7 +17,7 @@ Position position(const GridPoint& p) {
   return {p.x, p.y};
 }
 
-/// What a vertex may take its height from; the least counts.
+/// A source of a vertex's height; the least one counts.
 struct Height {
   std::uint64_t code;
   std::uint32_t owner;
@@ -172,7 +172,7 @@ class SnapRounding {
     pieces_.push_back({p, q, owner});
   }
 
-  /// The heights that count, one a position.
+  /// The heights that count, one per position.
   void settle_heights() {
     std::sort(heights_.begin(), heights_.end());
     heights_.erase(std::unique(heights_.begin(), heights_.end(),

@@ -12,7 +12,7 @@
 // been led past a vertex at less than half a step.
 //
 // Heights. A vertex takes the height of the owner that comes first in order; of one owner's, the height of an end
-// rather than one interpolated along a segment; of several such, the greatest.
+// rather than one interpolated along a segment; among several such, the greatest.
 #pragma once
 
 #include <cstdint>

@@ -15,7 +15,7 @@
 
 namespace itin {
 
-/// Independent of the polygon once made. Some 40 bytes an edge; a look-up takes time proportional to the edges nearby.
+/// Independent of the polygon once made. Some 40 bytes per edge; a look-up takes time proportional to the edges nearby.
 /// Safe for concurrent use.
 class PolygonSides {
  public:
@@ -26,7 +26,7 @@ class PolygonSides {
   /// Whether the middle between two positions is inside. On the border, whether what lies next to it to the right (and
   /// a little above) is.
   bool encloses_middle(Position a, Position b) const;
-  /// The same for any place, to 2^-16 grid steps.
+  /// Whether a place, to 2^-16 grid steps, is inside; its border counts as for encloses_middle().
   bool encloses(Point2 p) const;
   /// The pieces of the segment pq inside, in order from p, as floating point has it.
   std::vector<std::pair<Point2, Point2>> inside_parts(Point2 p, Point2 q) const;

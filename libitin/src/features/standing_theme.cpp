@@ -33,9 +33,9 @@ namespace {
 constexpr double kPiece = 1000;
 /// Metres, or two grid steps where those are more.
 constexpr double kWallOffset = 0.05;
-/// Of the ground's triangulation, while features are raised on it. Measured, rounded up.
+/// Memory of the ground's triangulation while features are raised on it. Measured, rounded up.
 constexpr std::uint64_t kBytesPerPoint = 400;
-/// Of ground that is triangulated for several groups of features at once.
+/// The most points of ground that are triangulated at once, for several groups of features.
 constexpr std::uint64_t kMostPoints = 500'000;
 
 GridBox box_of(const FootprintFeature& feature, const Grid& grid) {
@@ -140,7 +140,7 @@ class Standing {
   };
   using Groups = std::vector<Group>;
 
-  /// By place.
+  /// The groups by the piece of ground that they stand on.
   std::map<std::pair<std::int64_t, std::int64_t>, Groups> cut_into_pieces() const {
     std::vector<GridBox> boxes;
     for (const StoredFootprint& f : footprints_) {
@@ -209,7 +209,7 @@ class Standing {
     const std::vector<Segment> outline = outline_near(ground_, box);
     FeatureMesh mesh = build_feature_mesh(features, options_, &terrain, quiet);
     std::set<std::uint32_t> left_out;
-    // Over what those had covered, others may now reach.
+    // Without these, others may reach over the ground that they had covered.
     for (auto beyond = beyond_ground(mesh, outline, terrain); !beyond.empty();
          beyond = beyond_ground(mesh, outline, terrain)) {
       for (const std::uint32_t f : beyond) {

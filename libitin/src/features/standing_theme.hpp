@@ -1,8 +1,8 @@
 // Standing features on a store's ground: from footprints to what a store keeps of them, part by part.
 //
-// Features that touch are there together or not at all, so that no query sees half a block of houses: they are kept as
-// long as the longer side of the box about them all is at least the lateral tolerance. A part holds those that are kept
-// up to the same level.
+// A block of touching features is kept or dropped as a whole, so that no query sees half of it: they are kept as long
+// as the longer side of the box about them all is at least the lateral tolerance. A part holds those that are kept up
+// to the same level.
 #pragma once
 
 #include <cstdint>

@@ -32,7 +32,7 @@ struct Integral {
   double area = 0, x = 0, y = 0;  ///< and first moments
 };
 
-/// Of a closed ring about `origin`; signed, counterclockwise positive.
+/// The integral over a closed ring about `origin`; signed, counterclockwise positive.
 Integral integral(const std::vector<Point2>& ring, Point2 origin) {
   Integral sum;
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -127,7 +127,7 @@ std::vector<std::uint32_t> TerrainHeights::triangles_near(const GridBox& box) co
         const Triangle& v = tin_->triangles[triangles_[k]];
         const GridBox own = box_of(vertex(v[0]), vertex(v[1]), vertex(v[2]));
         if (!box.meets(own)) continue;
-        // In the first of the buckets that list it.
+        // A triangle counts in the first of the buckets that list it.
         const GridBox all = bucket_range(own);
         if (c == std::max(all.xmin, range.xmin) && r == std::max(all.ymin, range.ymin)) found.push_back(triangles_[k]);
       }

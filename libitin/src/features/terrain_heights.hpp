@@ -4,8 +4,8 @@
 //   std::optional<double> z = terrain.height_at(p);       // metres; nothing outside the triangulation
 //   std::optional<double> base = terrain.base_height(footprint, BaseRule::mean);
 //
-// Immutable and safe for concurrent use. Refers to the Tin, which must outlive it. About 12 bytes a triangle; a look-up
-// takes time proportional to the triangles near it.
+// Immutable and safe for concurrent use. Refers to the Tin, which must outlive it. About 12 bytes per triangle; a
+// look-up takes time proportional to the triangles near it.
 #pragma once
 
 #include <cstdint>

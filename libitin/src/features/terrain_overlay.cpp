@@ -133,7 +133,7 @@ class Overlaying {
     }
   }
 
-  /// Of a top's border or within it.
+  /// The top that the segment borders or lies in.
   std::optional<std::uint32_t> top_of(const PlacedSegment& s) const {
     if (const auto inside = tops_.at_middle({s.a.x, s.a.y}, {s.b.x, s.b.y})) return inside;
     for (const Position p : {Position{s.a.x, s.a.y}, Position{s.b.x, s.b.y}}) {

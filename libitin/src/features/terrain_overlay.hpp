@@ -1,7 +1,7 @@
 // Features laid over the terrain's own edges, so that they only raise it: outside of footprints the surface with
 // features is the bare terrain, inside it is nowhere lower.
 //
-// Of every terrain triangle that a foot or an eaves line crosses all edges become lines, cut at what they cross.
+// All edges of every terrain triangle that a foot or an eaves line crosses become lines, cut at what they cross.
 // Between feet and eaves they belong to the wall; outside they lie on the ground and keep the triangulation there what
 // it was. So each piece of the surface outside of tops lies in one terrain triangle, and its corners are no lower than
 // that: nor is the piece. A top that the terrain pierces takes all of the terrain's edges up, each vertex as high as

@@ -94,7 +94,7 @@ std::string text_of(const OGRSpatialReference& reference) {
   return reference.GetAuthorityCode(nullptr) ? name_of(reference) : wkt_of(reference);
 }
 
-/// Of the whole or of the part called `key`; empty where it has none.
+/// The EPSG code of the whole or of the part called `key`; empty where it has none.
 std::string epsg_code(const OGRSpatialReference& reference, const char* key) {
   const char* authority = reference.GetAuthorityName(key);
   const char* code = reference.GetAuthorityCode(key);
@@ -203,8 +203,8 @@ class PointTransform::Impl {
   }
 
  private:
-  // Of several operations between two CRSs, GDAL takes the best one for the middle of what it is given: chunks must not
-  // depend on the number of threads.
+  // Between two CRSs GDAL chooses the operation that is best for the middle of the points it is given, so chunks must
+  // not depend on the number of threads.
   static constexpr std::size_t kChunk = 1024;
 
   static void transform_chunk(OGRCoordinateTransformation& transformation, std::span<double> x, std::span<double> y) {
@@ -216,7 +216,7 @@ class PointTransform::Impl {
     }
   }
 
-  std::vector<Transformation> copies_;  // one a worker: a transformation has a state
+  std::vector<Transformation> copies_;  // one per worker: a transformation has a state
 };
 
 PointTransform::PointTransform(const std::string& source_wkt, const std::string& target_wkt, const std::string& place) {

@@ -27,10 +27,10 @@ struct Crs {
   bool metric() const { return metres_per_axis == 1.0; }
 };
 
-/// `text` is authority:code, WKT, PROJ or whatever else GDAL understands. What agrees to a millimetre with a CRS that
-/// an authority knows is taken for that. Throws InputError, which begins with `place` (a file or an option).
+/// `text` is authority:code, WKT, PROJ or whatever else GDAL understands. A CRS that agrees to a millimetre with one
+/// that an authority knows is taken for that one. Throws InputError, which begins with `place` (a file or an option).
 Crs parse_crs(const std::string& text, const std::string& place);
-/// Likewise, but it may have a vertical part only.
+/// As parse_crs(), but the CRS may have a vertical part only.
 Crs parse_any_crs(const std::string& text, const std::string& place);
 
 /// The horizontal part, as parse_crs() takes it. Throws likewise.

@@ -5,8 +5,8 @@
 
 namespace itin {
 
-/// Throws FileError for what exists, but is empty, a pipe or device, or may not be read. What is no file may still be a
-/// dataset's name, and a directory may be a dataset: reading tells. Names that begin with /vsi are GDAL's.
+/// Throws FileError for a path that exists, but is empty, a pipe or device, or may not be read. A name of no file may
+/// still be a dataset's, and a directory may be a dataset: reading tells. Names that begin with /vsi are GDAL's.
 void require_plain_file(const std::string& path);
 
 /// Whether there is nothing under that name, GDAL's names of files within others included.

@@ -74,7 +74,7 @@ inline bool whole_and_alike(const std::array<std::uint8_t, LatticeTin::kCells>& 
 }
 }  // namespace detail_lattice
 
-/// The same for all cells of a tile.
+/// Calls for_each_open_edge() for all cells of a tile.
 template <class Halves, class Visit>
 void for_each_open_edge_of(const LatticeTin& lattice, std::uint32_t tile, const Halves& halves, const Visit& visit) {
   using Ground = LatticeTin::Ground;

@@ -12,7 +12,7 @@ namespace itin {
 namespace {
 
 constexpr std::size_t kChunk = 1 << 14;
-/// Of a lattice's cells at least one in so many has ground.
+/// At least one in so many cells of a lattice must have ground.
 constexpr std::int64_t kEmptiest = 4;
 
 GridBox box_of(const Tin& tin, const Triangle& t) {

@@ -16,7 +16,7 @@ std::string filters_of(const ImportOptions& options) {
   return "`where` leaves";
 }
 
-/// What became of all that was read.
+/// Says why nothing is left of what was read.
 std::string what_became(const ImportReport& report, const ImportOptions& options) {
   std::string text;
   if (report.filtered > 0 && options.classes.empty() && options.where.empty()) {

@@ -166,12 +166,12 @@ std::string directory_of(const std::string& path) {
   return parent.empty() ? "." : parent;
 }
 
-/// What one import adds to a store.
+/// The sources that one import adds to a store.
 struct Additions {
   ImportPlan plan;
   std::vector<FootprintFile> footprints;
 
-  /// As in turns after the first.
+  /// As in every turn after the first.
   bool empty() const { return plan.sources.empty() && plan.lines.empty() && footprints.empty(); }
 };
 
@@ -197,7 +197,7 @@ void set_lines_aside(const std::vector<SetAsideLines>& of_themes, StoreWriter& w
   for (std::size_t t = 0; t < of_themes.size(); ++t) writer.set_aside(static_cast<std::uint16_t>(t + 1), of_themes[t]);
 }
 
-/// Of a store that may be null.
+/// The counts of a store, which may be null.
 SetAsideCounts counts_of(const Store* store) {
   return store == nullptr ? SetAsideCounts{} : set_aside_list(file_of(*store).rows()).counts;
 }
@@ -295,7 +295,7 @@ bool write_store(const Target& target, const Store* base, Additions& additions, 
   return done;
 }
 
-/// What has come about since.
+/// Reports the changes from `before` to `now`.
 void report_counts(const SetAsideCounts& before, const SetAsideCounts& now, ImportReport& report) {
   const auto more = [](std::uint64_t n, std::uint64_t than) { return n - std::min(n, than); };
   report.replaced = more(now.replaced, before.replaced);
@@ -319,8 +319,8 @@ Additions plan_additions(const ImportOptions& options, const Store* store, Progr
   return additions;
 }
 
-/// So many times features are raised: few vertices that they give to lines of the ground, within a grid step or two of
-/// others, are left then.
+/// Features are raised at most so many times. After that, few vertices that they give to lines of the ground are left,
+/// within a grid step or two of others.
 constexpr int kMostRaised = 3;
 
 /// Whether a store's ground, which may be null, is that of its terrain and lines alone, as they were imported: nothing
@@ -332,7 +332,7 @@ bool may_stand_on(const Store* store) {
   return std::all_of(themes.begin(), themes.end(), stands) || std::none_of(themes.begin(), themes.end(), stands);
 }
 
-/// What stands needs its ground finished first, and gives lines of the ground vertices where it crosses them.
+/// Raised features need their ground finished first, and give vertices to lines of the ground where they cross them.
 void write_in_turns(const std::string& store_path, StoreWriter& writer, const std::vector<double>& tolerances,
                     const std::optional<Store>& existing, Additions additions, const ImportOptions& options,
                     ImportReport& report, Progress& progress) {
@@ -360,7 +360,7 @@ ImportReport import_sources(const std::string& store_path, const ImportOptions& 
   const auto start = std::chrono::steady_clock::now();
   if (options.sources.empty()) throw InputError("no source given: name at least one file to import");
   const Stoppable stoppable(progress);
-  static_cast<void>(utc_now());  // what keeps it from being told is known before hours of work
+  static_cast<void>(utc_now());  // a wrong SOURCE_DATE_EPOCH is noticed before hours of work
   // First of all: another import could change the store once it has been opened. And a place that cannot be written is
   // known before hours of work.
   auto file = std::make_unique<ReplacementFile>(store_path);

@@ -1,4 +1,4 @@
-// What an import says of features that stand: of its own all, of older ones what is new.
+// Warnings about features that stand: all about those of this import, only new ones about older features.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace itin {
 
-/// Of features of the sources from number `first_new` on, and of themes of which fewer features stand than in the store
-/// before: the ground has become another. `before` may be null.
+/// Warns about features of the sources from number `first_new` on, and about themes of which fewer features stand than
+/// in the store before, because the ground has changed. `before` may be null.
 std::vector<std::string> standing_warnings(const RaisedFeatures& raised, const StoreMetadata* before,
                                            std::size_t first_new);
 

@@ -1,4 +1,4 @@
-// What a store was made of, read back for another import.
+// The sources that a store was made of, read back for another import.
 #pragma once
 
 #include <cstdint>

@@ -16,8 +16,8 @@ namespace {
 constexpr std::uint32_t kSide = LatticeTin::kSide;
 constexpr std::uint32_t kBlock = 8;  ///< cells, by which the window is asked where it has a part of a tile
 
-/// Of cells, beside the bits of LatticeTin::Half: whether it is known what is there, and whether the window may leave
-/// out parts of them.
+/// Further bits of a cell, beside those of LatticeTin::Half: whether it is known what is there, and whether the window
+/// may leave out parts of the cell.
 constexpr std::uint8_t kKnown = 0x80, kCut = 0x40;
 constexpr std::uint8_t kHalves = LatticeTin::kFalling | LatticeTin::kRising;
 
@@ -116,7 +116,7 @@ GridBox LatticeCover::box_of(std::int64_t column, std::int64_t row, std::int64_t
   return {x(column), y(end_row), x(end_column), y(row)};
 }
 
-/// Of a square of cells.
+/// How far a square of cells lies within reach.
 LatticeCover::Reach LatticeCover::reach_of(std::int64_t column, std::int64_t row, std::int64_t side) const {
   if (everything_) return Reach::kWhole;
   const GridBox box = box_of(column, row, std::min<std::int64_t>(column + side, lattice_.columns),
@@ -180,7 +180,7 @@ void LatticeCover::join(std::uint32_t tile) {
   lattice_.tiles[tile].ground = LatticeTin::Ground::kPartly;
 }
 
-/// Of a cell, those that are there; negative where that is not known.
+/// The halves of a cell that are there; negative where that is not known.
 int LatticeCover::halves(std::int64_t column, std::int64_t row) const {
   if (column < 0 || row < 0 || column + 1 >= lattice_.columns || row + 1 >= lattice_.rows) return -1;
   const std::uint32_t cell = lattice_.cell(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row));
@@ -193,7 +193,7 @@ LatticeCover::Edge LatticeCover::edge(std::int64_t column, std::int64_t row, std
   return {static_cast<std::uint64_t>(row) * lattice_.columns + static_cast<std::uint64_t>(column), direction};
 }
 
-/// Of known halves, those with nothing beyond, which is known as well.
+/// The edges of known halves beyond which, as is known as well, there is nothing.
 std::vector<LatticeCover::Edge> LatticeCover::edges_without_twin() const {
   std::vector<std::vector<Edge>> of_tiles(lattice_.tiles.size());
   parallel_for(of_tiles.size(), [&](std::size_t tile) {

@@ -36,7 +36,7 @@ class LatticeCover {
 
   /// Whether ground may be in a tile.
   bool reaches(std::uint32_t tile) const { return reach_[tile] != Reach::kNone; }
-  /// Of the lattice, as far as it is within reach.
+  /// The most posts that the lattice may have within reach.
   std::uint64_t most_posts() const;
 
   /// A post is there. Safe for concurrent use.

@@ -48,7 +48,7 @@ struct LatticePlace {
 /// Nothing beyond the lattice.
 inline std::optional<LatticePlace> place_of(const LatticeTin& lattice, const GridPoint& p) {
   const auto spacing = static_cast<std::uint32_t>(lattice.spacing);
-  // What lies beyond the lattice comes out as far too much.
+  // A negative difference wraps round to a number that is far too large.
   const auto east = static_cast<std::uint32_t>(p.x - lattice.west),
              south = static_cast<std::uint32_t>(lattice.north - p.y);
   const std::uint32_t column = east / spacing, row = south / spacing;

@@ -22,12 +22,14 @@ namespace itin {
 
 namespace {
 
-/// Of a lattice's posts at least one in so many is there; what has no heights takes less.
+/// At least one in so many posts of a lattice must be there. Without heights, which take most of the memory, fewer will
+/// do.
 constexpr std::uint64_t kEmptiest = 4, kEmptiestWithoutHeights = 64;
-/// So many of the fullest leaves tell the lattice.
+/// The number of the fullest leaves that the lattice is found by.
 constexpr std::size_t kSamples = 8;
 constexpr std::size_t kLeavesATask = 64;
-/// Of leaves, posts. Those of wider ones are looked at when it is told how high a tile is: they say little about it.
+/// The widest leaf, in posts, that bounds the height of a tile. Wider leaves say little about it, so their posts are
+/// read instead.
 constexpr std::int64_t kWidestToBound = LatticeTin::kSide / 2;
 
 }  // namespace
@@ -46,7 +48,7 @@ class LatticeReader::Work {
       widest_spacing_ = std::max(widest_spacing_, std::ceil(source.spacing / lattice_.grid.resolution));
   }
 
-  /// Where it would be; of no ground yet.
+  /// Lays the lattice out where it would be, without ground. False where there is none.
   bool find_lattice(Heights heights, std::uint64_t most_posts);
   bool open(Heights heights, std::uint64_t most_posts, Progress& progress);
   void read(std::span<const std::uint32_t> tiles, Progress& progress);
@@ -86,7 +88,7 @@ class LatticeReader::Work {
     lattice_.make_heights(tile);
     being_read_[tile] = true;
   }
-  /// In the tiles that are being read.
+  /// Sets the height in the tiles that are being read.
   void set_height(const LatticePlace& place, std::int32_t z) {
     lattice_.for_each_tile_of(place.column, place.row, [&](std::uint32_t tile, std::uint32_t post) {
       if (being_read_[tile]) (*lattice_.tiles[tile].heights)[post] = z;
@@ -102,7 +104,7 @@ class LatticeReader::Work {
   std::vector<Leaf> leaves_;
   std::optional<LatticeCover> cover_;  ///< while it is being opened
   std::vector<bool> being_read_;       ///< of tiles
-  // Of tile t: leaves_[leaf_of_tile_[i]] with i in [first_leaf_[t], first_leaf_[t + 1]).
+  // The leaves of tile t are leaves_[leaf_of_tile_[i]] with i in [first_leaf_[t], first_leaf_[t + 1]).
   std::vector<std::uint32_t> first_leaf_, leaf_of_tile_;
 };
 
@@ -180,7 +182,7 @@ bool LatticeReader::Work::read_posts(Heights heights, Progress& progress) {
   return place_all(groups, 0, single, heights, progress) && place_all(groups, single, groups.size(), heights, progress);
 }
 
-/// Those from `begin` to `end`.
+/// Places the groups from `begin` to `end`.
 bool LatticeReader::Work::place_all(const std::vector<Group>& groups, std::size_t begin, std::size_t end,
                                     Heights heights, Progress& progress) {
   std::atomic<bool> odd = false;
@@ -261,7 +263,7 @@ bool LatticeReader::Work::bounded() const {
   if (std::any_of(segments.begin(), segments.end(), [](const Segment& s) { return s.theme != kCoverage; }) ||
       !cover_->ends_at(segments))
     return false;
-  // What is known of each part hangs together with halves that are there.
+  // The known ground of each part is connected with halves that are there.
   if (whole_.parts().size() < 2) return cover_->any();
   return std::all_of(whole_.parts().begin(), whole_.parts().end(), [&](const Window::Polygon& polygon) {
     return cover_->reaches(GridWindow(Window::polygons({polygon}), lattice_.grid, index_.bounds()));
@@ -317,7 +319,7 @@ void LatticeReader::Work::read(std::span<const std::uint32_t> tiles, Progress& p
   }
 }
 
-/// Into the tiles that are being read.
+/// Reads leaves into the tiles that are being read.
 void LatticeReader::Work::read_leaves(std::span<const std::uint32_t> leaves, Progress& progress) {
   parallel_for((leaves.size() + kLeavesATask - 1) / kLeavesATask, [&](std::size_t task) {
     progress.throw_if_cancelled();

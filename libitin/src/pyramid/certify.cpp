@@ -82,7 +82,7 @@ GridBox box_of(const RegionMesh& mesh) {
   return box;
 }
 
-/// What to verify: those leaves of the cell that lie in the box, for these levels.
+/// A task of verification: those leaves of the cell that lie in the box, for these levels.
 struct Task {
   CurveRange cell;
   GridBox box;
@@ -160,8 +160,9 @@ class CellVerification {
     return result;
   }
 
-  /// What breaks up each coarse edge where it is most off, of the places where anything does. Of places as far off the
-  /// first by its ends' codes: cells that leave points to each other agree on them, or none would ever raise any.
+  /// The point that breaks up each coarse edge at the place where it is most off, among those where any point does.
+  /// Ties go to the first place by its ends' codes: cells that leave points to each other agree on them, or none would
+  /// ever raise any.
   std::vector<std::uint32_t> remedies(const Difference& d) const {
     std::vector<Difference::Crossing> crossings = d.too_large;
     const auto coarse_edge = [](const Difference::Crossing& c) { return std::pair(c.coarse_from, c.coarse_to); };
@@ -243,7 +244,7 @@ class Disturbed {
   explicit Disturbed(std::size_t leaves) : levels_(leaves) {}
 
   void mark(std::uint32_t leaf, unsigned levels) { levels_[leaf].fetch_or(levels, std::memory_order_relaxed); }
-  /// What of these levels must be verified in the cell: the least box around it, perhaps empty.
+  /// The part of these levels that must be verified in the cell: the least box around it, perhaps empty.
   Task in(const WorkingIndex& index, const CurveRange& cell, unsigned levels) const {
     Task task{cell, {}, 0};
     for (std::uint32_t leaf = index.leaf_of(cell.cell.code);

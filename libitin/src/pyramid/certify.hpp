@@ -13,7 +13,7 @@
 
 namespace itin {
 
-/// What every leaf of the working index knows of every level: T_k + lo <= T_0 <= T_k + hi over the leaf.
+/// The bounds of every level in every leaf of the working index: T_k + lo <= T_0 <= T_k + hi over the leaf.
 class LeafBounds {
  public:
   LeafBounds(std::size_t leaves, int levels) : levels_(levels), bounds_(leaves * static_cast<std::size_t>(levels)) {}

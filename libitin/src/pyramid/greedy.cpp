@@ -38,7 +38,7 @@ using Triangulation = CGAL::Delaunay_triangulation_2<
 using Face = Triangulation::Face_handle;
 using Vertex = Triangulation::Vertex_handle;
 
-/// What to insert next: the worst point of a face, or what breaks up the worst edge.
+/// A point to insert: the worst one of a face, or one that breaks up the worst edge.
 struct Insertion {
   double error;
   std::uint32_t point;

@@ -9,7 +9,7 @@
 
 namespace itin {
 
-/// What greedy insertion does with a vertex.
+/// The part that a vertex takes in greedy insertion.
 enum class Candidacy : std::uint8_t {
   kNone,    ///< beyond the fringe, or isolated
   kFree,    ///< gets a level, if only a proposed one in the fringe

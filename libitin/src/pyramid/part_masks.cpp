@@ -37,7 +37,8 @@ class PartMask {
   }
   /// Lines end at feet, so a segment lies inside or outside as a whole.
   bool covers(const Segment& s) const { return hides_end(s) || index_.middle_inside({s.ax, s.ay}, {s.bx, s.by}); }
-  /// What keeps the ground makes way only where it has to: between vertices that rise it keeps tops above the ground.
+  /// A line that keeps the ground makes way only where it has to: between vertices that rise it keeps tops above the
+  /// ground.
   bool hides_end(const Segment& s) const {
     return among(masked_, morton(s.ax, s.ay)) || among(masked_, morton(s.bx, s.by));
   }

@@ -1,4 +1,4 @@
-// What makes way for standing features: the vertices and lines under them.
+// The vertices and lines that make way for the standing features above them.
 #pragma once
 
 #include <vector>
@@ -10,8 +10,8 @@
 namespace itin {
 
 /// Writes the vertices of all parts, with the positions where vertices of the terrain, of lines on the ground
-/// (`draped`) and of parts of greater rank make way for them. Returns the segments, of all that are given, that do: as
-/// FORMAT.md has them in the parts' edge trees.
+/// (`draped`) and of parts of greater rank make way for them. Returns those of all given segments that
+/// make way, as FORMAT.md has them in the parts' edge trees.
 std::vector<Segment> write_parts(const ThemeLines& lines, const WorkingIndex& index,
                                  const std::vector<CurveRange>& tiles, const std::vector<GridPoint>& draped,
                                  const std::vector<Segment>& segments, StoreWriter& writer, Progress& progress);

@@ -39,7 +39,7 @@ std::vector<std::array<double, 4>> gap_bases(const std::vector<SourceInfo>& sour
   return bases;
 }
 
-/// Of the vertices of the terrain's lines, ascending, as those are in Morton order.
+/// The codes of the vertices of the terrain's lines, ascending, as those are in Morton order.
 std::vector<std::uint64_t> terrain_codes(const ThemeLines& lines) {
   std::vector<std::uint64_t> codes;
   for (const std::uint32_t v : lines.terrain_vertices()) codes.push_back(code_of(lines.lines.vertices[v]));
@@ -90,8 +90,8 @@ std::vector<RawPoint> raw_points(const std::vector<GridPoint>& points, std::size
   return result;
 }
 
-/// The vertices that each theme has besides those of the full surface, with the themes they belong to. `crossings`: of
-/// what keeps the ground with others.
+/// The vertices that each theme has besides those of the full surface, with the themes they belong to. `crossings`:
+/// those of lines that keep the ground with other lines.
 void write_features(const PlacedLines& placed, const std::vector<ThemeVertex>& crossings, const ThemeLines& lines,
                     const std::vector<GridPoint>& draped, StoreWriter& writer, PyramidReport& report) {
   std::vector<std::pair<std::uint16_t, std::uint64_t>> ends;  // theme, code

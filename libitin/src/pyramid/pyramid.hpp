@@ -26,10 +26,10 @@ struct PyramidReport {
   std::vector<std::uint64_t> vertices_of_source;
   std::uint64_t left_out = 0;                ///< segments of lines that are not wholly on the ground
   std::vector<std::uint64_t> segments;       ///< by theme and then by part, of the full surface
-  std::vector<std::uint64_t> line_vertices;  ///< likewise
+  std::vector<std::uint64_t> line_vertices;  ///< by theme and then by part
   std::vector<Segment> placed;               ///< of lines on the ground, of the full surface
   std::uint64_t flat_before = 0;             ///< flat triangles of contours (features/flat_triangles.hpp)
-  std::uint64_t flat_after = 0;              ///< of them, those that the repair could not mend, or did not
+  std::uint64_t flat_after = 0;              ///< those that the repair did not mend
 };
 
 /// Finds the coverage, gives every point its level, certifies the levels and writes it all. `sources` gives the gap

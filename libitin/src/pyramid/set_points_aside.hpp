@@ -1,4 +1,4 @@
-// What of the imported points is not in the surface, on its way into the store (store/set_aside.hpp).
+// Writes imported points that are not in the surface into the store (store/set_aside.hpp).
 #pragma once
 
 #include <vector>

@@ -58,7 +58,7 @@ class SortedPoints {
   std::unique_ptr<Impl> impl_;
 };
 
-/// What a source's points are worth where several lie at one position.
+/// The rank of a source's points where several lie at one position.
 struct SourceRank {
   double spacing = 0;       ///< metres
   bool ground = true;       ///< its points are ground by themselves, not only where others are
@@ -75,7 +75,7 @@ class PointSorter {
   /// Not thread-safe.
   void add(const RawPoint& point);
   void add(std::span<const RawPoint> points);
-  /// Of several points at one position one of a line stays, then the one whose source has the finest spacing, among
+  /// Among several points at one position one of a line stays, else the one whose source has the finest spacing, among
   /// equal spacings the highest, among equal heights the one whose source comes first: a rule on the points alone.
   /// Where it is not ground and one of the others is, it becomes a point of that one's source, or there would be a
   /// hole. `duplicates`, if given, receives the number dropped and not covered. Throws FileError, Cancelled.

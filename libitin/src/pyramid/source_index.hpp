@@ -15,7 +15,7 @@ using Sources = std::set<std::uint16_t>;
 /// Knows which leaves hold such points, so that searches pass over all others: O(points) to make.
 class SourceIndex final : public PointIndex {
  public:
-  /// Both must outlive it. What is dropped from the base later has to be asked for no more.
+  /// Both must outlive it. Points that the base drops later must not be asked for any more.
   SourceIndex(const WorkingIndex& base, const Sources& sources);
   const Sources& sources() const { return sources_; }
 

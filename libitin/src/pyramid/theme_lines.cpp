@@ -36,7 +36,7 @@ GridBox box_of(std::span<const std::uint64_t> codes) {
   return box;
 }
 
-/// Runs of codes, one a tile, put together again in ascending order.
+/// Runs of codes, one per tile, put together again in ascending order.
 template <class T, class OfTile>
 std::vector<T> by_tile(const Codes& codes, const std::vector<CurveRange>& tiles, const char* stage, Progress& progress,
                        const OfTile& of_tile) {

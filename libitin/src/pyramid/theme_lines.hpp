@@ -59,7 +59,7 @@ struct ThemeLines {
   }
 };
 
-/// What of them lies on the ground.
+/// The lines as far as they lie on the ground.
 struct PlacedLines {
   std::vector<Segment> terrain;           ///< part of the full surface; their ends are points of the index
   std::vector<Segment> features;          ///< on it
@@ -74,7 +74,7 @@ struct PlacedLines {
 /// The segments of the parts of standing themes, which lie on the ground already.
 std::vector<Segment> standing_segments(const ThemeLines& lines);
 Segment segment_of(const BorderEdge& border);
-/// What keeps the ground about them.
+/// The segments that keep the ground about standing features.
 std::vector<Segment> ground_segments(const ThemeLines& lines);
 /// Vertices that this has got from crossing other lines, ascending. They may be vertices of the full surface.
 std::vector<ThemeVertex> crossings_of_ground(const ThemeLines& lines);

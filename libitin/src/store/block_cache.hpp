@@ -18,7 +18,7 @@ class BlockCache {
 
   /// Null where there is no such entry.
   std::shared_ptr<const void> find(std::uint64_t key);
-  /// An entry larger than a shard is not kept. Of two entries with one key the first stays.
+  /// An entry larger than a shard is not kept. Where the key is there already, the first entry stays.
   void insert(std::uint64_t key, std::shared_ptr<const void> value, std::size_t bytes);
   /// Bytes held now, at most the budget.
   std::uint64_t bytes();

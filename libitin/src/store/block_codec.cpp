@@ -316,7 +316,7 @@ Header read_header(const Cell& cell, std::span<const std::uint8_t> bytes) {
   return {count, lattice, step_z, in};
 }
 
-// What a block is coded by, and where its points are.
+// The parameters that a block is coded by, and the positions of its points.
 struct Plan {
   Lattice lattice;
   std::uint64_t step_z;

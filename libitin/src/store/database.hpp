@@ -20,7 +20,7 @@ class Database {
  public:
   /// An empty database in the file at `path`, without journal or syncs: whoever writes it renames it when complete.
   static Database create(const std::string& path, const std::string& shown);
-  /// For reading a file that nobody changes in place.
+  /// Opens a file for reading that nobody changes in place.
   static Database open(const std::string& path);
 
   void execute(const std::string& sql);

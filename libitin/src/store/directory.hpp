@@ -14,7 +14,7 @@ namespace itin {
 /// Leaves of one tree in ascending order of cell.code.
 using DirectoryChunk = std::vector<Leaf>;
 
-/// What is always in memory of a chunk.
+/// The part of a chunk that is always in memory.
 struct ChunkEntry {
   std::uint64_t code = 0;  ///< of its first leaf
   std::uint64_t end = 0;   ///< of its last leaf

@@ -24,7 +24,7 @@ bool crosses(const Segment& segment, const Cell& cell);
 void for_each_edge_leaf(std::vector<Segment> segments,
                         const std::function<void(const Cell&, const std::vector<Segment>&)>& visit);
 
-/// The same, until visit(cell, segments) returns false.
+/// As for_each_edge_leaf(), but stops when visit(cell, segments) returns false.
 void visit_edge_leaves(std::vector<Segment> segments,
                        const std::function<bool(const Cell&, const std::vector<Segment>&)>& visit);
 

@@ -1,4 +1,4 @@
-// What stands on the ground, as sources give it: a footprint in plan and how high it reaches.
+// A feature that stands on the ground, as sources give it: its footprint in plan and how high it reaches.
 //
 // Units: metres, in the CRS of the store. Rings are open or closed, of any orientation, and are read by the even-odd
 // rule: a ring inside another is a courtyard, one inside that is solid again.
@@ -24,11 +24,11 @@ struct RoofSurface {
 };
 
 struct FootprintFeature {
-  std::string name;  ///< what messages call it
+  std::string name;  ///< the name of the feature in messages
   FeatureKind kind = FeatureKind::building;
   std::vector<PlanRing> rings;
   BaseRule base_rule = BaseRule::minimum;
-  std::optional<double> base;    ///< elevation; default: from the terrain. Of buildings only: all else drapes
+  std::optional<double> base;    ///< elevation; default: from the terrain. Only buildings have one: all else drapes
   std::optional<double> height;  ///< of the highest point above the base (above the terrain, where it drapes)
   std::optional<double> eaves;   ///< of the eaves above the base; default: from height and pitch
   RoofKind roof = RoofKind::flat;

@@ -39,7 +39,7 @@ class Reader {
  public:
   explicit Reader(std::span<const std::uint8_t> bytes) : in_(bytes) {}
   std::uint64_t whole(std::uint64_t most) { return in_.varint(0, most); }
-  /// Of things of a byte or more that follow.
+  /// A number of things that follow, each of at least one byte.
   std::size_t count() { return static_cast<std::size_t>(in_.varint(0, in_.rest().size())); }
   double number() {
     std::uint64_t bits = 0;

@@ -17,9 +17,9 @@ struct StoredFootprint {
   std::uint16_t source = 0;
 };
 
-/// Of a theme, by its number, in the order of import. Throws CorruptStore.
+/// The footprints of a theme, by its number, in the order of import. Throws CorruptStore.
 std::vector<StoredFootprint> stored_footprints(const Store& store, std::uint16_t theme);
-/// Those of one of its footprint_blocks.
+/// The footprints in one of the theme's footprint_blocks.
 std::vector<StoredFootprint> stored_footprints(const Store& store, std::uint16_t theme, std::uint32_t block);
 
 inline constexpr std::size_t kFootprintsInBlock = 256;

@@ -38,7 +38,7 @@ struct Moments {
   }
 };
 
-// What of a least-squares plane depends on the samples' positions alone.
+// The part of a least-squares plane that depends on the samples' positions alone.
 struct Plane {
   double w = 0, x = 0, y = 0, a = 0, c = 0, cross = 0, determinant = 0;
 

@@ -18,7 +18,7 @@ struct Vertex {
   friend auto operator<=>(const Vertex&, const Vertex&) = default;
 };
 
-/// What Rice codes are written, each with a parameter of its own.
+/// The fields that are written as Rice codes, each with a parameter of its own.
 enum Field { kGap, kDegree, kOther, kFinest, kCoarsest, kReach, kFields };
 
 /// The lattice all ends lie on.

@@ -1,4 +1,4 @@
-// What triangulation needs of a set of points: the leaves that meet a box, and their points.
+// The interface to a set of points that triangulation needs: the leaves that meet a box, and their points.
 //
 // Store implements it on disk; the importer implements it on its sorted temporary file, so that one triangulation
 // serves both.
@@ -15,7 +15,7 @@
 
 namespace itin {
 
-/// A leaf of a point quadtree. In a store there is one tree a level, and a leaf's points all have the leaf's level.
+/// A leaf of a point quadtree. In a store there is one tree per level, and a leaf's points all have the leaf's level.
 /// In the importer's single tree `level` is the coarsest any of its points may have; Block::levels tells each one's,
 /// and `points` counts those that were asked for.
 struct Leaf {
@@ -26,7 +26,7 @@ struct Leaf {
   std::int32_t zmax = 0;
   std::int32_t lo = 0;  ///< T_level + lo <= T_0 <= T_level + hi over the cell, grid units
   std::int32_t hi = 0;
-  std::uint64_t key = 0;    ///< the index's own, of each leaf another
+  std::uint64_t key = 0;    ///< the index's own; each leaf has another
   std::uint16_t theme = 0;  ///< whose vertices, 0 for terrain; a theme's vertices are there at every level
 };
 
@@ -44,9 +44,9 @@ struct Block {
   }
 };
 
-/// What all points of a block lie on: (x + i step_x, y + j step_y), grid units.
+/// The lattice that all points of a block lie on: (x + i step_x, y + j step_y), grid units.
 struct BlockLattice {
-  std::uint32_t points = 0;  ///< so many of its places have one
+  std::uint32_t points = 0;  ///< how many of its places have a point
   std::int32_t x = 0, y = 0;
   std::int64_t step_x = 1, step_y = 1;
 };
@@ -67,7 +67,7 @@ struct Segment {
   std::int32_t bx = 0, by = 0;
   std::uint16_t theme = kCoverage;
   std::uint8_t finest = 0, coarsest = 0xff;  ///< it is part of its line at these levels
-  std::int32_t reach = 0;  ///< what it stands for at finer levels lies within its box, widened by this on all sides
+  std::int32_t reach = 0;  ///< finer segments that it stands for lie within its box, widened by this on all sides
   friend auto operator<=>(const Segment&, const Segment&) = default;
 };
 
@@ -84,12 +84,12 @@ class PointIndex {
   /// of all themes included.
   virtual void leaves(int finest, const GridBox& box, std::vector<Leaf>& out) const = 0;
   virtual std::shared_ptr<const Block> block(const Leaf& leaf) const = 0;
-  /// The same in any order, for those who will not ask again: nothing is kept for the next time.
+  /// The block with its points in any order, for callers who will not ask again: it need not be cached.
   virtual std::shared_ptr<const Block> block_once(const Leaf& leaf) const { return block(leaf); }
-  /// The same, of its points only where they are in the plane: what their heights come out as does not count.
+  /// As block_once(), but only the positions in plan count: the heights may be anything.
   virtual std::shared_ptr<const Block> plan_once(const Leaf& leaf) const { return block_once(leaf); }
 
-  /// What the points lie on, where that is known without reading where they are.
+  /// The lattice that the leaf's points lie on, where it is known without reading them.
   virtual std::optional<BlockLattice> lattice_of(const Leaf&) const { return std::nullopt; }
 
   /// Appends every segment that meets `box`, of the coverage and of all themes, at all levels, and perhaps others

@@ -20,7 +20,7 @@ class ReplacementFile {
   ReplacementFile(const ReplacementFile&) = delete;
   ReplacementFile& operator=(const ReplacementFile&) = delete;
 
-  /// As the caller calls it.
+  /// The target's name as the caller gave it.
   const std::string& target() const { return shown_; }
   const std::string& temporary_path() const { return temporary_; }
   /// Syncs the bytes, renames, syncs the directory. Throws FileError; the target is then what it was.
@@ -34,7 +34,7 @@ class ReplacementFile {
   std::string target_;  ///< with symbolic links followed
   std::string temporary_;
   int descriptor_ = -1;
-  std::optional<Unfinished> unfinished_;  ///< what has the temporary name, while we have the lock
+  std::optional<Unfinished> unfinished_;  ///< the file of the temporary name, while we have the lock
 };
 
 }  // namespace itin

@@ -1,6 +1,6 @@
-// What was imported but is not in the surface as it came, kept so that a later import finds all of it again: points of
-// the ground that others replaced, that no ground is about, or that a line's vertex covers; and lines that were cut,
-// moved or left out. See libitin/FORMAT.md, "Set aside".
+// Points and lines that were imported but are not in the surface as they came, kept so that a later import finds all of
+// it again: points of the ground that others replaced, that no ground is about, or that a line's vertex covers; and
+// lines that were cut, moved or left out. See libitin/FORMAT.md, "Set aside".
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct SetAsideLines {
   std::vector<Segment> made;              ///< ascending, as the store has them; only their ends count
 };
 
-/// What is left out of a store, and how often its lines cross.
+/// How many points and segments a store leaves out, and how often its lines cross.
 struct SetAsideCounts {
   std::uint64_t replaced = 0, isolated = 0;  ///< points
   std::uint64_t segments = 0;                ///< beyond the ground

@@ -195,7 +195,7 @@ bool holds(const GridBox& box, const ChunkEntry& chunk, const GridBox& bounds) {
   return true;
 }
 
-/// So many positions has a box.
+/// The number of grid positions in a box.
 double positions_of(const GridBox& box) {
   if (box.empty()) return 0;
   return (double{1} * box.xmax - box.xmin + 1) * (double{1} * box.ymax - box.ymin + 1);

@@ -41,7 +41,8 @@ class StoreFile final : public PointIndex {
 
   /// One of the theme's footprint blocks.
   std::vector<StoredFootprint> read_footprints(std::uint16_t theme, std::uint32_t number) const;
-  /// Of the part's features about the box above the full surface, grid units; 0 where there are none.
+  /// The greatest height of the part's features about the box above the full surface, grid units; 0 where there are
+  /// none.
   std::int32_t greatest_height(std::uint16_t part, const GridBox& box) const;
   std::optional<CertifiedError> certified_error(int level, const Box& box) const;
   std::uint64_t points_about(int level, const Box& box) const;

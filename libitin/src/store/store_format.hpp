@@ -30,7 +30,7 @@ inline constexpr int kLastTree = 2046;
 inline constexpr int kMaxThemes = 900;  ///< and parts of themes, which are numbered after them
 /// The footprints of standing themes as they were imported; blocks without a directory.
 inline constexpr int kFootprintTree = 2046;
-/// What was imported but is not in the surface (set_aside.hpp); blocks without a directory but for one list.
+/// Imported points and lines that are not in the surface (set_aside.hpp); blocks without a directory but for one list.
 inline constexpr int kSetAsideTree = 2045;
 /// Added to the source of a part's vertex that lies between a feature and the ground.
 inline constexpr std::uint16_t kOnOutline = 0x8000;
@@ -71,7 +71,7 @@ constexpr std::uint64_t footprint_key(std::uint64_t theme, std::uint64_t number)
 constexpr std::uint64_t set_aside_key(std::uint64_t theme, std::uint64_t number) {
   return static_cast<std::uint64_t>(kSetAsideTree) << 52 | theme << 32 | number;
 }
-/// In the directory.
+/// The key of the list of what is set aside; it is in the directory.
 inline constexpr std::uint64_t kSetAsideListKey = std::uint64_t{kSetAsideTree} << 52;
 constexpr int tree_of(std::uint64_t key) {
   return static_cast<int>(key >> 52);

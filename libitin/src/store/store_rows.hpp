@@ -32,7 +32,7 @@ class StoreRows {
   std::string read_metadata() const;
   /// The keys of all rows of a table, ascending. Throws CorruptStore.
   void for_each_key(BlobKind kind, const std::function<void(std::uint64_t)>& visit) const;
-  /// What SQLite's own integrity check finds; empty for a sound file.
+  /// The findings of SQLite's own integrity check; empty for a sound file.
   std::vector<std::string> structural_damage() const;
 
  private:

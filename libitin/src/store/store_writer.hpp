@@ -40,7 +40,7 @@ class StoreWriter {
   /// `tolerances` in metres, level 0 (tolerance 0) first. Throws FileError.
   StoreWriter(const std::string& path, const std::string& crs_wkt, const Grid& grid,
               const std::vector<double>& tolerances);
-  /// In place of that file.
+  /// Writes a store that takes the place of that file.
   StoreWriter(std::unique_ptr<ReplacementFile> file, const std::string& crs_wkt, const Grid& grid,
               const std::vector<double>& tolerances);
   ~StoreWriter();
@@ -52,21 +52,21 @@ class StoreWriter {
   /// derived from the points.
   void add_leaf(int level, const Cell& cell, std::span<const GridPoint> points, std::span<const std::uint16_t> sources,
                 std::int32_t lo, std::int32_t hi);
-  /// The same, encoded before.
+  /// Adds a leaf that is encoded already.
   void add_leaf(const EncodedLeaf& leaf);
   /// The vertices that are not part of the full surface, but of this theme's lines on it; in Morton order.
   void add_theme_vertices(std::uint16_t theme, std::span<const GridPoint> points,
                           std::span<const std::uint16_t> sources);
-  /// The same of a part of a standing theme, which is numbered after the themes. Points with format::kMask as their
-  /// source are no vertices. Each cell takes the greatest of the reaches that it meets; cells without points are
+  /// The vertices of a part of a standing theme; parts are numbered after the themes. Points with format::kMask as
+  /// their source are no vertices. Each cell takes the greatest of the reaches that it meets; cells without points are
   /// written too where it is above 0.
   void add_part_vertices(std::uint16_t part, std::span<const GridPoint> points, std::span<const std::uint16_t> sources,
                          std::span<const FeatureReach> reaches);
-  /// The coverage outline and the lines of all themes, all at once, in any order; kept in an edge quadtree a theme.
+  /// The coverage outline and the lines of all themes, all at once, in any order; kept in one edge quadtree per theme.
   void add_segments(const std::vector<Segment>& segments);
   /// Points of the ground that are not in it as they came; cell by cell, in Morton order.
   void set_aside(const Cell& cell, std::span<const GridPoint> points, std::span<const std::uint16_t> sources);
-  /// The same of a theme's lines.
+  /// Lines of a theme that are not in the surface as they came.
   void set_aside(std::uint16_t theme, const SetAsideLines& lines);
   void count_set_aside(const SetAsideCounts& counts);
   /// `themes` gets the number of blocks of its footprints, which may be none.

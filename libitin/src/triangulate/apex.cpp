@@ -12,7 +12,7 @@ namespace itin {
 
 namespace {
 
-/// So many of the nearest segments are tried before the others.
+/// The number of nearest segments that are tried before the others.
 constexpr std::ptrdiff_t kNearSegments = 16;
 /// For less it is not worth sorting segments by direction.
 constexpr std::size_t kFewSegments = 64, kFewQuestions = 4;
@@ -84,7 +84,7 @@ bool hide(std::span<const Segment> segments, Position a, Position b, const GridB
   return !segments.empty() && hide(segments, a, b, box, kShadowHalvings);
 }
 
-/// What is known while one circle is searched.
+/// The state of the search of one circle.
 struct ApexSearch::Search {
   const ApexFrame& frame;
   GridBox box;  ///< all that the search looks at, but for
@@ -150,7 +150,7 @@ std::optional<SelectedVertex> ApexSearch::least_circle(const ApexFrame& frame, d
   // Where there is much it is near, and where there is nothing even a wide circle is soon looked through.
   for (double part = frame.r; part < std::min(lambda / kWide, span); part *= kWide) {
     const auto best = nearest_circle(frame, part, nullptr, known, segments);
-    // What lies on the searched circle itself may have rivals that rounding left out.
+    // A point on the searched circle itself may have rivals that rounding left out.
     if (best && frame.lambda(best->position()) < 0.999 * part) return best;
   }
   return nearest_circle(frame, lambda, beyond, known, segments);

@@ -48,7 +48,7 @@ class ApexSearch {
   ApexSearch(const PointIndex& index, const Selection& selection)
       : index_(index), selection_(selection), blocks_(index) {}
 
-  /// What intruder() and inside() pass over from now on: the caller has triangulated all that is selected in this box.
+  /// From now on intruder() and inside() pass over this box: the caller has triangulated all that is selected in it.
   void pass_over(const GridBox& known) { known_ = known; }
 
   /// The third vertex of the triangle to the left of ab, an edge of the global triangulation that is no constraint;

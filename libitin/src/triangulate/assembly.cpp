@@ -37,7 +37,7 @@ class Assembly {
     bool owns(std::size_t v) const { return v >= first && v < end; }
   };
 
-  /// Of a region's triangles, and where they go.
+  /// A run of a region's triangles, and the place where they go.
   struct Slice {
     std::vector<Triangle>::const_iterator first, end;
     std::size_t place;

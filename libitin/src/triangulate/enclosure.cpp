@@ -7,7 +7,7 @@ namespace itin {
 
 namespace {
 
-/// For more, a search among the unread vertices is as fast.
+/// With more cones, a search among the unread vertices is as fast.
 constexpr std::size_t kMostCones = 2000;
 
 /// Whether segment pq may meet the circle `lambda`: surely false only when it does not.
@@ -87,7 +87,7 @@ bool Enclosure::holds(std::uint32_t t) {
 }
 
 bool Enclosure::shut_in(std::uint32_t t, int edge, End end) {
-  // What lies beyond the edge is left of ab.
+  // The side beyond the edge is left of ab.
   const Position a = corner(t, edge + 2), b = corner(t, edge + 1), eye = end == End::kFirst ? a : b;
   const ApexFrame frame(a, b);
   const double lambda = frame.lambda(corner(t, edge));

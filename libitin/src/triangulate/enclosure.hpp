@@ -35,8 +35,8 @@ class Enclosure {
   bool add_missing(std::vector<Cell>& cells) const;
 
  private:
-  /// What an eye sees through an edge of a triangle on this side of it; its directions lie from `right` to `left`,
-  /// counterclockwise.
+  /// The cone that an eye sees through an edge of a triangle on this side of it; its directions lie from `right` to
+  /// `left`, counterclockwise.
   struct Cone {
     std::uint32_t triangle;
     int edge;
@@ -56,7 +56,7 @@ class Enclosure {
   const KnownGround& known_;
   GridBox all_;
   std::vector<Cone> cones_;
-  GridBox unknown_;  ///< what the last failure lacked, as far as it is near
+  GridBox unknown_;  ///< the ground that the last failure lacked, as far as it is near
 };
 
 }  // namespace itin

@@ -132,8 +132,8 @@ bool GridWindow::form_box(std::span<const Edge> edges) {
   return true;
 }
 
-/// Of boxes: the boundary of their union, and of where more of them overlap. A border between two that stand side by
-/// side has inside on both sides.
+/// The boundary of a union of boxes, and of their overlaps. A border between two boxes side by side goes, for it has
+/// inside on both sides.
 std::vector<GridWindow::Edge> GridWindow::without_common_borders(const std::vector<Edge>& edges) {
   struct End {
     bool vertical;

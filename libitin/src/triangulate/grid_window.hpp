@@ -41,7 +41,7 @@ class GridWindow {
  private:
   enum class State : std::uint8_t { Outside, Inside, Mixed };
 
-  /// Of a ring, the window's inside to its left.
+  /// An edge of a ring, the window's inside to its left.
   struct Edge {
     Position a;
     Position b;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr auto kByEnds = [](const auto& a, const auto& b) { return std::tie(a.from, a.to) < std::tie(b.from, b.to); };
 
-/// Of a sorted range; null where there is none.
+/// The edge in a sorted range; null where there is none.
 template <class Edge>
 const Edge* find(const std::vector<Edge>& edges, std::uint32_t from, std::uint32_t to) {
   const auto found = std::lower_bound(edges.begin(), edges.end(), std::pair(from, to),

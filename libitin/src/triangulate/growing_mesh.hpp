@@ -99,7 +99,7 @@ class GrowingMesh {
   std::vector<std::uint8_t> settled_;
   std::uint32_t last_ = 0;  ///< a triangle near the last change
   std::uint32_t turn_ = 0;
-  // What is being replaced, kept for its memory.
+  // Buffers for the part that is being replaced, kept for their memory.
   std::vector<std::uint32_t> cavity_, left_, right_;
   std::vector<Side> rim_;
   std::vector<Corners> filling_;

@@ -12,8 +12,8 @@ namespace {
 constexpr std::uint32_t kNone = kNoTriangle;
 /// Lattices with more gaps than posts are left alone from some point on.
 constexpr std::size_t kMostNodesAPost = 4;
-/// Of the posts on a column as most posts' columns have them: those with less than this part are no columns, but
-/// vertices of lines.
+/// A column with fewer than one in so many of the posts that columns usually have is none: its points are vertices of
+/// lines.
 constexpr std::uint32_t kLeastPart = 4;
 
 /// How often each value of one coordinate comes; then, which of them are columns (or rows), and their numbers.

@@ -98,7 +98,7 @@ class RegionTriangulation {
     return !mesh().triangles.empty();
   }
 
-  /// Of all points in read_box_ and in the seed, if given, and of all segments in box_.
+  /// Triangulates all points in read_box_ and in the seed, if given, with all segments in box_.
   void triangulate(const Leaf* seed) {
     hull_.clear();
     read_.start(read_box_, seed, box_);
@@ -151,7 +151,8 @@ class RegionTriangulation {
     return margin + 1;
   }
 
-  /// What no sound store asks for: something that the mesh has already disproves it.
+  /// Throws where all ground has been read. A sound store never needs more: this one's vertices and lines contradict
+  /// each other.
   void require_more_ground() const {
     if (box_.contains(index_.bounds()))
       throw Error(
@@ -314,7 +315,7 @@ class RegionTriangulation {
 
   void prove(std::uint32_t t, std::vector<SelectedVertex>& intruders, std::vector<Segment>& fresh) {
     stop_if_asked();
-    // Where one vertex is missing it is so for many triangles. What is left of them then is asked the next time.
+    // A missing vertex is missing for many triangles. Those that are left then are asked the next time.
     if (std::any_of(intruders.begin(), intruders.end(), [&](const SelectedVertex& v) { return disturbs(v, t); }))
       return;
     if (!box_.contains(box_of(t))) {
@@ -322,7 +323,7 @@ class RegionTriangulation {
       fresh.insert(fresh.end(), crossing.begin(), crossing.end());
       if (!crossing.empty()) return;
     }
-    // What lies in a triangle takes it away, and with it all questions about what it sees.
+    // A vertex within a triangle takes it away, and with it all questions about what it sees.
     std::optional<SelectedVertex> found = search_.inside(corner(t, 0), corner(t, 1), corner(t, 2));
     for (int i = 0; i < 3 && !found; ++i) {
       // Beyond edge i is left of its reverse.

@@ -6,8 +6,8 @@
 //   1. a triangle whose circumdisc lies in the box, or as much of it as the triangle sees past the lines there
 //      (enclosure.hpp), is global, for all that could disturb it has been read;
 //   2. otherwise no segment may cross it, no vertex lie in it, and beyond none of its unconstrained edges may a vertex,
-//      visible from both ends of the edge, lie in its circumcircle (apex.hpp looks that up). What is found is inserted,
-//      and so on.
+//      visible from both ends of the edge, lie in its circumcircle (apex.hpp looks that up). Whatever is found is
+//      inserted, and so on.
 // At the end every triangle satisfies the constrained Delaunay property against the whole store, whatever the region
 // or its box (C. L. Lawson's local test made global; Lee and Lin 1986).
 #pragma once

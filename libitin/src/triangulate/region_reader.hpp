@@ -1,4 +1,4 @@
-// What has been read of an index for one region: vertices by number, and segments, each once.
+// The part of an index that has been read for one region: vertices by number, and segments, each once.
 #pragma once
 
 #include <cstdint>
@@ -28,10 +28,10 @@ class RegionReader {
   /// Forgets all, and reads the points of one box and, if given, those of a leaf in another. They get the first
   /// numbers, in Morton order.
   void start(const GridBox& box, const Leaf* leaf, const GridBox& leaf_box);
-  /// Of a box, with their Morton codes.
+  /// The points of a box, with their Morton codes.
   using Coded = std::pair<std::uint64_t, SelectedVertex>;
   std::vector<Coded> points(const GridBox& box);
-  /// Those that meet the box and have not been read before.
+  /// The segments that meet the box and have not been read before.
   std::vector<Segment> fresh_segments(const GridBox& box);
 
   struct Numbered {
@@ -45,7 +45,7 @@ class RegionReader {
   void complete(std::uint32_t vertex, ApexSearch& search);
 
   const std::vector<SelectedVertex>& vertices() const { return vertices_; }
-  /// So many vertices are in Morton order; those after them came one by one.
+  /// The number of vertices in Morton order; those after them came one by one.
   std::uint32_t in_order() const { return in_order_; }
   const RetrievalStatistics& statistics() const { return statistics_; }
 

@@ -56,7 +56,7 @@ class Selection {
   std::vector<bool> left_out_;  ///< by theme
 };
 
-/// What a query of a store selects. Throws InputError for a theme that the store does not have.
+/// The selection of a query of a store. Throws InputError for a theme that the store does not have.
 Selection selection_of(const StoreMetadata& metadata, const Detail& detail, const ThemeChoice& themes);
 
 /// The leaves of an index that may hold something selected in `box`.

@@ -38,7 +38,7 @@ std::vector<std::uint64_t> StandingIndex::masks(const GridBox& box, int below) c
   std::vector<std::uint64_t> codes;
   for (const Leaf& leaf : leaves) {
     if (!is_part(leaf.theme) || rank(leaf.theme) == kNotThere || rank(leaf.theme) >= below) continue;
-    // Held, for the cache may have let it go.
+    // We hold the block, for the cache may let it go.
     const std::shared_ptr<const Block> block = base_.block(leaf);
     for (const GridPoint& p : block->points)
       if (box.contains(p.x, p.y)) codes.push_back(morton(p.x, p.y));

@@ -2,8 +2,8 @@
 //
 //   const StandingIndex index(store, selection);     // then as any PointIndex, with the same selection
 //
-// What is there depends on the selection alone, never on the window, so all that holds of a store's triangulations
-// holds of these.
+// The points that are there depend on the selection alone, never on the window, so all that holds for a store's
+// triangulations holds for these.
 #pragma once
 
 #include <memory>
@@ -40,8 +40,8 @@ class StandingIndex final : public PointIndex {
 
  private:
   static constexpr int kNotThere = -1;
-  /// Of what a theme number names: kNotThere where it is not chosen; themes on the ground and the terrain come after
-  /// all parts.
+  /// The rank of the theme or part of this number: kNotThere where it is not chosen; themes on the ground and the
+  /// terrain come after all parts.
   int rank(std::uint16_t theme) const { return ranks_[theme]; }
   bool is_part(std::uint16_t theme) const { return theme > themes_; }
   std::vector<std::uint64_t> masks(const GridBox& box, int below) const;

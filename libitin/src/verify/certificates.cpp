@@ -60,7 +60,7 @@ class TileVerification {
     if (std::find(in_doubt.begin(), in_doubt.end(), 1) != in_doubt.end()) look_closely(level, coarse, cover, in_doubt);
   }
 
-  /// What has no such room may hold yet, for the parts of triangles that lie in the cell.
+  /// Checks certificates in doubt again, now only over those parts of triangles that lie in the cell.
   void look_closely(int level, const RegionMesh& coarse, const LeafCover& cover,
                     const std::vector<std::uint8_t>& in_doubt) {
     const HeightDifference difference(coarse);

@@ -9,7 +9,7 @@
 
 namespace itin {
 
-/// What a store selects of its terrain at each level.
+/// The selections of a store's terrain at each level.
 std::vector<Selection> selections_of_levels(const StoreMetadata& metadata);
 
 /// Compares all levels with the full surface in one tile. Throws Error where there are no surfaces.

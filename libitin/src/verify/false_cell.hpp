@@ -18,7 +18,7 @@ struct FalseCell {
   Extremes differs;          ///< of the two surfaces in it
 };
 
-/// What was found of the same cell in several tiles, made one; in the order of trees and of the curve.
+/// Merges what several tiles found about one cell; in the order of trees and of the curve.
 inline std::vector<FalseCell> merged(const std::vector<FalseCell>& found) {
   constexpr std::uint64_t kMissing = ~std::uint64_t{0};
   std::map<std::pair<int, std::uint64_t>, FalseCell> by_place;

@@ -17,7 +17,7 @@ class PartHeights {
   /// `part` from 0. Refers to the store, which must outlive it.
   PartHeights(const Store& store, std::size_t part);
 
-  /// Where its features have vertices.
+  /// The tiles in which the part's features have vertices.
   std::vector<Cell> tiles() const;
   /// Compares the features that meet a tile with the ground under them. Throws Error where there are no surfaces.
   std::vector<FalseCell> higher_in(const Cell& tile) const;

@@ -16,7 +16,7 @@
 
 namespace itin {
 
-/// Of a difference, grid units, and where it is greatest; empty at first.
+/// The extremes of a difference, grid units, and where it is greatest; empty at first.
 struct Extremes {
   double lo = std::numeric_limits<double>::infinity();
   double hi = -std::numeric_limits<double>::infinity();

@@ -58,8 +58,8 @@ struct Panorama {
 /// Throws InputError unless the name ends in .svg, .pdf or .png.
 void require_panorama_format(const std::string& path);
 
-/// The bytes of a file of the format its name tells. What is near is darker than what is far; places in sight are
-/// filled marks, hidden ones hollow. Throws InputError.
+/// The bytes of a file of the format its name tells. Near ground is darker than far ground; places in sight are filled
+/// marks, hidden ones hollow. Throws InputError.
 std::string draw_panorama(const Panorama& panorama, const std::string& path);
 
 }  // namespace itin::profile

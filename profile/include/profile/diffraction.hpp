@@ -61,7 +61,7 @@ struct SmoothHeights {
 };
 SmoothHeights smooth_heights(const Profile& profile, const Antennas& antennas);
 
-/// What each antenna sees as its horizon, P.452-17 attachment 2 sections 4 and 5.1 to 5.3.
+/// The radio horizon of each antenna, P.452-17 attachment 2 sections 4 and 5.1 to 5.3.
 struct Horizons {
   bool trans_horizon = false;
   double theta_t_mrad = 0, theta_r_mrad = 0;  ///< elevation angles; within sight towards the other antenna
@@ -90,8 +90,8 @@ struct PathLosses {
 PathLosses path_losses(const Profile& profile, const Antennas& antennas, const RadioPath& path,
                        const Profile* bare = nullptr);
 
-/// The same ground with no two points farther apart than this, metres: a triangulated surface is straight between
-/// breakpoints, but the Earth below it is not, and the formulas look at points only.
+/// Adds points until no two neighbours are farther apart than `most_m`, metres: a triangulated surface is straight
+/// between breakpoints, but the Earth below it is not, and the formulas look at points only.
 Profile with_spacing(const Profile& profile, double most_m);
 
 }  // namespace itin::profile

@@ -21,7 +21,7 @@ namespace itin::profile {
 /// The speed of light, metres times GHz.
 inline constexpr double kSpeedOfLight = 0.299792458;
 
-/// Metres.
+/// The wavelength, metres.
 constexpr double wavelength_m(double frequency_ghz) {
   return kSpeedOfLight / frequency_ghz;
 }

@@ -5,7 +5,7 @@
 //   const profile::SightLine sight = sight_lines.between({310375, 183525, 309}, {322300, 190000, 285});
 //   if (!sight.visible()) std::cout << "hidden at " << sight.critical.x << ", " << sight.critical.y << '\n';
 //
-// The vertical plane through both ends cuts the surface into straight pieces, one a triangle. Within a piece the
+// The vertical plane through both ends cuts the surface into straight pieces, one per triangle. Within a piece the
 // clearance, the height of the ray above the surface, is a quadratic of the distance (the ray and the piece are
 // straight, the drop of the earth's curvature is quadratic), so that its least value is found in closed form: nothing
 // is sampled. Refraction bends the ray by the same quadratic; see itin/earth.hpp. With a wavelength, the clear part of
@@ -30,8 +30,8 @@ struct SightLine {
   /// The least clearance / F1 between the ends, as fresnel_clearance() has it; nothing without a wavelength, and where
   /// no ground lies between them.
   std::optional<double> fresnel_fraction;
-  /// Where on the surface the clearance is least; of several places the one nearest to the end that comes first in (x,
-  /// y, z).
+  /// Where on the surface the clearance is least; among several places, the one nearest to the end that comes first in
+  /// (x, y, z).
   Point3 critical;
 
   /// A ray that grazes the surface is visible, and so is one over ground without data.

@@ -34,7 +34,7 @@ struct Link {
   double to_height = 0;
 };
 
-/// Of links from a file that does not tell.
+/// Antenna heights of links whose file gives none, above what their ends stand on.
 struct LinkHeights {
   double from_m = 0, to_m = 0;
 };
@@ -63,11 +63,11 @@ LinkTable read_link_table(const std::string& path, const std::string& to_crs, co
 struct LinkQuery {
   Earth earth;
   Detail detail = Detail::tolerance(0);      ///< of the surface
-  ThemeChoice themes = ThemeChoice::none();  ///< likewise
-  /// What the ends stand on where features stand on the ground: these, or the ground under them.
+  ThemeChoice themes = ThemeChoice::none();  ///< raised features on the surface
+  /// Whether an end within a raised feature stands on it, or else on the ground under it.
   bool from_on_surface = false, to_on_surface = false;
   std::optional<RadioPath> radio;    ///< gives fresnel_fraction and ld_db
-  std::optional<TallObject> object;  ///< what stands at each second end; gives visible
+  std::optional<TallObject> object;  ///< the object at each second end; gives visible
   bool gaps_block = false;           ///< ground without data stops the ray
 };
 
@@ -83,7 +83,7 @@ struct LinkResult {
   std::string message;    ///< of an error
 };
 
-/// One result a link, in order, whatever the number of threads. Links over one area share the tiles that are read and
+/// One result per link, in order, whatever the number of threads. Links over one area share the tiles that are read and
 /// triangulated for them, and answers are those of analyse() to the last bit. A link that cannot be computed (no ground
 /// under an end) is an error row. Throws CorruptStore, FileError, Cancelled.
 std::vector<LinkResult> survey_links(const Store& store, const std::vector<Link>& links, const LinkQuery& query,

@@ -25,8 +25,8 @@
 namespace itin::profile {
 
 enum class SightVerdict { kVisible, kHidden, kUndecided };
-/// Of a criterion: the fraction is met; the ray is free but not the fraction; the ray is cut; the surface's certified
-/// error leaves it open.
+/// How a criterion comes out: the fraction is met; the ray is free but not the fraction; the ray is cut; the surface's
+/// certified error leaves it open.
 enum class CriterionVerdict { kClear, kMarginal, kObstructed, kUndecided };
 const char* name_of(SightVerdict verdict);
 const char* name_of(CriterionVerdict verdict);
@@ -41,7 +41,7 @@ struct Obstruction {
   std::int64_t feature = -1;    ///< as in ProfilePoint
 };
 
-/// Of two-criterion planning: on an Earth of factor k, this fraction of F1 must be clear.
+/// A rule of two-criterion planning: on an Earth of factor k, this fraction of F1 must be clear.
 struct Criterion {
   double k = 4.0 / 3;
   double fraction = 1;
@@ -59,14 +59,14 @@ struct NamedHeights {
   RequiredHeights heights;
 };
 
-/// What the tall object at the second end is.
+/// The tall object at the second end, such as a wind turbine.
 struct TallObject {
   double hub_m = 0, tip_m = 0;  ///< above its ground
 };
 
 struct LosQuery {
   double from_height_m = 0, to_height_m = 0;  ///< above what the ends stand on
-  /// What that is where features stand on the ground: these, or the ground under them.
+  /// Whether an end within a raised feature stands on it, or else on the ground under it.
   bool from_on_surface = false, to_on_surface = false;
   Earth earth;
   std::optional<RadioPath> radio;
@@ -98,9 +98,9 @@ struct LosReport {
   std::optional<PathLosses> losses;  ///< nothing without a frequency, or where an antenna is within a feature
   std::optional<VisibleHeight> visible;
 
-  // What the caller knows besides, for the report's header and maps.
+  // Filled in by the caller, for the report's header and maps.
   std::string title;
-  std::vector<std::pair<std::string, std::string>> facts;  ///< what was asked of what: name, value
+  std::vector<std::pair<std::string, std::string>> facts;  ///< the input and the settings: name, value
   std::vector<std::string> from_lines, to_lines;           ///< about the ends
   std::string crs_wkt;                                     ///< empty: the profile has no positions
   std::optional<double> geodesic_m;                        ///< between the ends on WGS 84, where they have positions
@@ -108,7 +108,7 @@ struct LosReport {
   std::map<std::pair<std::uint16_t, std::int64_t>, std::string> features;  ///< names by theme and feature
 };
 
-/// What the ends stand on, as the query has it.
+/// The elevation under each end: of the surface or of the ground, as the query says.
 EndGrounds stands_on(const Profile& profile, const Profile& ground, const LosQuery& query);
 
 /// `ground`: the same line without standing features, for a profile that has them. Throws InputError where there is no

@@ -39,7 +39,7 @@ struct Profile {
   bool has_length() const { return length_m > 0 && !one_place; }
   /// Whether the ground is continuous from point i to point i + 1.
   bool joined(std::size_t i) const;
-  /// The theme of what is between point i and point i + 1.
+  /// The theme of the feature between point i and point i + 1.
   std::uint16_t theme_between(std::size_t i) const;
 };
 
@@ -48,7 +48,7 @@ struct FeatureRun {
   std::size_t first = 0, last = 0;
   std::uint16_t theme = 0;
 };
-/// In order; what merely touches the line is left out.
+/// The runs in order; features that merely touch the line are left out.
 std::vector<FeatureRun> feature_runs(const Profile& profile);
 
 /// Elevations of what the two ends of a line stand on.
@@ -65,17 +65,17 @@ bool has_ground_at_ends(const Profile& profile);
 
 Profile from_section(const CrossSection& section);
 
-/// A profile that others hand in: `d_km,h_m[,clutter_m]`, one row a point, a header line optional. Columns are
+/// A profile that others hand in: `d_km,h_m[,clutter_m]`, one row per point, a header line optional. Columns are
 /// separated by commas, semicolons or tabs; a first line that is not numbers is a header, whose names (of any case, in
 /// this order) are checked; empty lines and lines that begin with # are skipped; a decimal point, whatever the locale.
 /// Distances ascend (two equal ones are a vertical face) and begin anywhere: the first is the profile's origin. Throws
 /// InputError, naming `name` and the line, for anything else, for numbers that are not finite, negative clutter, and
 /// fewer than two rows.
 Profile read_profile_csv(std::istream& text, const std::string& name);
-/// From a file. Throws FileError where it cannot be read.
+/// Reads such a profile from a file. Throws FileError where it cannot be read.
 Profile read_profile_csv(const std::string& path);
 
-/// The same seen from the other end. Exact for distances that are multiples of 2^-30 m, as a CrossSection's are.
+/// The profile as seen from the other end. Exact for distances that are multiples of 2^-30 m, as a CrossSection's are.
 Profile reversed(const Profile& profile);
 
 }  // namespace itin::profile

@@ -32,7 +32,7 @@ struct HeightPair {
 
 struct RequiredHeights {
   std::optional<double> from_alone_m;  ///< nothing: no height is enough while the other end stands where it does
-  std::optional<double> to_alone_m;    ///< likewise
+  std::optional<double> to_alone_m;    ///< nothing: as for from_alone_m
   std::optional<double> both_equal_m;  ///< nothing: ground in the way at an end itself
   std::vector<HeightPair> curve;       ///< ascending in from_m, descending in to_m
 };
@@ -48,7 +48,7 @@ struct PlannedHeights {
 RequiredHeights required_heights(const Profile& profile, const PlannedHeights& planned, const Requirement& requirement,
                                  const std::optional<EndGrounds>& grounds = {});
 
-/// What is seen of an upright object at the second end from an antenna or eye at the first.
+/// The visible part of an upright object at the second end, seen from an antenna or eye at the first.
 struct VisibleHeight {
   double from_m = 0;         ///< above the object's ground: below this it is hidden
   double hub_visible_m = 0;  ///< seen of the part up to the hub

@@ -49,7 +49,7 @@ struct WirelineQuery {
 /// The terrain between two distances, as a line of elevation angles.
 struct WirelineBand {
   double from_m = 0, to_m = 0;
-  std::vector<float> angle_deg;  ///< the greatest, one a line of sight from left to right; NaN without ground
+  std::vector<float> angle_deg;  ///< the greatest, one per line of sight from left to right; NaN without ground
   std::vector<bool> crest;       ///< whether the terrain falls out of sight behind it
 };
 
@@ -61,8 +61,8 @@ struct Wireline {
 /// Elevation angle of a point, degrees above the horizontal, after curvature and refraction.
 double apparent_angle_deg(const Earth& earth, double distance_m, double above_eye_m);
 
-/// Cost: a cross-section a line of sight. Throws what SectionSurface throws, Cancelled; InputError for a field of view
-/// that makes no sense.
+/// Cost: one cross-section per line of sight. Throws what SectionSurface throws, Cancelled; InputError for a field of
+/// view that makes no sense.
 Wireline survey_wireline(const SectionSurface& surface, const WirelineQuery& query, Progress& progress);
 
 /// The bytes of a file: .svg, .pdf or .png by the name's ending. Equal views give equal bytes. Throws InputError.

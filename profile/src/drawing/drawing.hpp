@@ -5,7 +5,7 @@
 //   drawing.text({100, 60}, "Caerphilly", {.size = 10, .align = Align::kCentre});
 //   write(drawing.finish());
 //
-// Lengths are points, 1/72 inch, y downwards. PNG has 2 pixels a point. The bytes depend on the calls alone.
+// Lengths are points, 1/72 inch, y downwards. PNG has 2 pixels per point. The bytes depend on the calls alone.
 #pragma once
 
 #include <memory>
@@ -65,7 +65,7 @@ class Drawing {
   /// Until unclip(), nothing is drawn outside the box.
   void clip(const Box& box);
   void unclip();
-  /// What follows goes on another page. Only for PDF.
+  /// Starts another page. Only for PDF.
   void new_page();
 
   /// The file's bytes. Nothing can be drawn afterwards. Throws Error when Cairo fails.

@@ -9,7 +9,7 @@
 
 namespace itin::profile {
 
-/// By theme number (from 1), going round.
+/// The colour of a theme by its number (from 1); colours repeat.
 inline const Colour& theme_colour(std::uint16_t theme) {
   static constexpr Colour kColours[] = {
       {0.72, 0.38, 0.33, 1}, {0.38, 0.58, 0.34, 1}, {0.52, 0.44, 0.68, 1}, {0.85, 0.65, 0.25, 1}};

@@ -56,7 +56,7 @@ class Walk {
     return std::tie(b.x, b.y) < std::tie(a.x, a.y);
   }
 
-  /// Of one place there is nothing between them.
+  /// Ends at one place have no ground between them: only that at the ends counts.
   std::optional<LineClearance> over_ends() {
     for (const ProfilePoint* p : {&profile_.points.front(), &profile_.points.back()})
       if (p->distance_m == 0 || p->distance_m == profile_.length_m) consider(*p, clearance_over(*p));

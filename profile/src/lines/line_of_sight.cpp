@@ -74,7 +74,7 @@ class SightLines::Impl {
   }
 
  private:
-  /// Of one place there is nothing between them.
+  /// Ends at one place have no ground between them: only that at the ends counts.
   static void consider_ends(const Ray& ray, const SectionPiece& piece, LeastClearance& least) {
     for (const SectionCrossing* c : {&piece.from, &piece.to})
       if (c->t == 0 || c->t == 1) least.consider(ray, GroundPoint{c->distance, c->position.z});
@@ -96,7 +96,7 @@ class SightLines::Impl {
 
   const Tin* tin_;
   TriangleBuckets buckets_;
-  double drop_;  ///< metres a square metre of distance
+  double drop_;  ///< metres per square metre of distance
   std::optional<double> wavelength_;
 };
 

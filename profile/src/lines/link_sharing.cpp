@@ -12,8 +12,8 @@ namespace itin::profile {
 
 namespace {
 
-// Measured (benchmarks/README.md): microseconds a point that is triangulated, and more a triangle that is retrieved
-// than one that is walked through.
+// Measured (benchmarks/README.md): microseconds per point that is triangulated, and by how many more per triangle that
+// is retrieved than per one that is walked through.
 constexpr double kPerPoint = 1.2, kPerTriangle = 0.7;
 /// A random line crosses so many edges of a Delaunay triangulation per mean spacing of its points (64 / (3 pi^2)).
 constexpr double kEdgesPerSpacing = 2.16;

@@ -23,7 +23,7 @@ constexpr std::size_t kLinkColumns = 7;
 constexpr std::array<const char*, kLinkColumns> kLinkNames = {"id", "x1", "y1", "h1", "x2", "y2", "h2"};
 constexpr const char* kUtf8Mark = "\xEF\xBB\xBF";
 
-/// Of a row of CSV, without the quotes of those that have them.
+/// The cells of a row of CSV, without their quotes.
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells(1);
   bool quoted = false;
@@ -56,7 +56,7 @@ std::optional<double> cell_number(const std::string& text) {
   return value;
 }
 
-/// Where a row has what.
+/// The columns of a link table.
 struct Columns {
   std::array<std::size_t, kLinkColumns> of{0, 1, 2, 3, 4, 5, 6};  ///< the cell that each of kLinkNames is in
   bool geographic = false;                                        ///< positions are longitude and latitude

@@ -77,7 +77,7 @@ class Surfaces {
     if (fresnel) result.fresnel_fraction = fresnel->fraction;
     const EndGrounds top = ends_of(profile);
     if (antennas.from_m < top.from_m || antennas.to_m < top.to_m) return;
-    // The same points as in a report (los.cpp).
+    // A report takes the same points (los.cpp).
     const Profile dense = with_spacing(profile, std::min(100.0, profile.length_m / 50));
     result.ld_db = path_losses(dense, antennas, *query_.radio, bare).ld_db;
   }

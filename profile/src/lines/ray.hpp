@@ -49,7 +49,8 @@ class Ray {
   double start_z_, end_z_, length_, drop_;
 };
 
-/// The least clearance over pieces of ground, and where it is: of several places the one nearest to the ray's start.
+/// The least clearance over pieces of ground, and where it is: among several places, the one nearest to the ray's
+/// start.
 struct LeastClearance {
   std::optional<double> clearance;
   GroundPoint place;

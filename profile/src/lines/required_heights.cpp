@@ -18,8 +18,9 @@ struct Line {
   double slope() const { return end - start; }
 };
 
-/// What the ray must reach: the ground, the bulge of the Earth and a share of the Fresnel zone. Between two points of
-/// the profile it is concave, so that (demand - base) / weight, both linear and weight > 0, rises, then falls.
+/// The height that the ray must reach: the ground, the bulge of the Earth and a share of the Fresnel zone. Between two
+/// points of the profile it is concave, so that (demand - base) / weight, both linear and weight > 0, rises, then
+/// falls.
 class Demand {
  public:
   Demand(const Profile& profile, const Requirement& requirement)

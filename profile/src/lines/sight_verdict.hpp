@@ -1,4 +1,4 @@
-// What a clearance says: the same for one line and for many.
+// The verdict on a clearance, by one rule for one line and for many.
 #pragma once
 
 #include <cmath>

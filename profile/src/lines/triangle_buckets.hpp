@@ -8,7 +8,7 @@
 
 namespace itin::profile {
 
-/// Immutable and safe for concurrent use. About two triangles a bucket; a triangle is in every bucket its box meets.
+/// Immutable and safe for concurrent use. About two triangles per bucket; a triangle is in every bucket its box meets.
 class TriangleBuckets {
  public:
   explicit TriangleBuckets(const Tin& tin);

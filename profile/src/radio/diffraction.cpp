@@ -18,7 +18,7 @@ struct Edge {
   double height_m;
 };
 
-// What kilometres in decimals lose in metres: a point given 50 m from an end is not nearer.
+// The rounding error of kilometres in decimals, metres: a point given 50 m from an end is not nearer.
 constexpr double kHairM = 1e-6;
 
 enum class Ground { kBare, kWithClutter, kSmooth };
@@ -44,7 +44,7 @@ struct Span {
   double length() const { return b.km - a.km; }
   double bulge_m(double d1, double d2) const { return 500 * curvature * d1 * d2; }
   double line_m(double d1, double d2) const { return (a.height_m * d2 + b.height_m * d1) / length(); }
-  /// Of an obstacle `above` metres over the line: P.452-17 equations (16) and (20).
+  /// The parameter of an obstacle `above` metres over the line: P.452-17 equations (16) and (20).
   double v_of(double above, double d1, double d2) const {
     return above * std::sqrt(0.002 * length() / (wavelength * d1 * d2));
   }

@@ -46,7 +46,7 @@ class Column {
   }
 
  private:
-  /// What each column would like; where that is too much, the widest give way.
+  /// The widths that the columns' texts need; where that is too much, the widest give way.
   std::vector<double> column_widths(const Table& table) const {
     const std::size_t columns = table.header.empty() ? table.rows.front().size() : table.header.size();
     std::vector<double> widths(columns, 0);
@@ -124,7 +124,7 @@ void draw_first_page(Drawing& drawing, const LosReport& report) {
   }
 }
 
-/// Two columns of tables a page, and as many pages as they take.
+/// Two columns of tables per page, and as many pages as they take.
 class TablePages {
  public:
   TablePages(Drawing& drawing, const LosReport& report) : drawing_(drawing), report_(report) { begin_page(); }

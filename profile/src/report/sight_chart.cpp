@@ -174,7 +174,7 @@ class SightChart {
     }
   }
 
-  /// Before the ground, which covers what of them is in it.
+  /// Drawn before the ground, which covers the parts of features within it.
   void draw_features() {
     for (const FeatureRun& run : feature_runs(dense_)) {
       std::vector<Point2> top;
@@ -216,7 +216,7 @@ class SightChart {
                   {8, kReportInk, Align::kRight, false, 0});
   }
 
-  /// Of what is drawn of the surface.
+  /// The highest point of the drawn surface.
   double highest_between(double from, double to) const {
     double highest = -std::numeric_limits<double>::infinity();
     for (const ProfilePoint& p : dense_.points) {
@@ -310,7 +310,7 @@ class SightChart {
   double length_, drop_, wavelength_;
   double worst_drop_ = 0, worst_k_ = 0;
   Profile dense_;
-  Profile ground_;  ///< likewise, without standing features
+  Profile ground_;  ///< dense, too; without standing features
   ChartFrame frame_;
   bool has_clutter_ = false;
   std::set<std::uint16_t> themes_;

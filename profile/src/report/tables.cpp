@@ -22,7 +22,7 @@ std::string capitalised(std::string text) {
   return text;
 }
 
-/// What stands at a distance.
+/// The theme of the feature at a distance; 0: none.
 std::uint16_t theme_at(const Profile& profile, double distance_m) {
   for (std::size_t i = 0; i + 1 < profile.points.size(); ++i) {
     const bool holds = profile.points[i].distance_m <= distance_m && distance_m <= profile.points[i + 1].distance_m;
@@ -125,8 +125,8 @@ Table object_table(const LosReport& report) {
           ""};
 }
 
-/// Of a free path. Where no frequency is given, and the least clearance is that of an end over its own foot, any
-/// wavelength finds the same place.
+/// The tightest place of a free path. Where no frequency is given, and the least clearance is that of an end over its
+/// own foot, any wavelength finds the same place.
 std::optional<FresnelClearance> tightest_zone(const LosReport& report) {
   if (*report.clearance_m < -kGrazing) return std::nullopt;
   if (report.fresnel) return report.fresnel;

@@ -1,4 +1,4 @@
-// What a report says in words and numbers, as tables that every format sets in its own way.
+// The words and numbers of a report, as tables that every format sets in its own way.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +36,7 @@ Table ends_table(const LosReport& report);
 /// Verdicts, obstructions, required heights, radio and losses, the tall object: those there are.
 std::vector<Table> result_tables(const LosReport& report);
 
-/// What an end's heights count from: "ground" or "surface".
+/// The base that an end's heights count from: "ground" or "surface".
 const char* base_name(bool on_surface);
 
 /// Metres up to 2 km, kilometres beyond.

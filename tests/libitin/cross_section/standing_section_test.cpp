@@ -161,7 +161,7 @@ TEST_F(StandingSections, AHouseHasItsFootAndItsEavesAtEitherWall) {
   const Store store(path("s.itin"));
   const CrossSection section =
       cross_section(store, {300095, 199715.3}, {300150, 199715.3}, Detail::tolerance(0), ThemeChoice::all());
-  // What the walls are made of: foot, eaves, eaves, foot, and other points between them on roof and ground.
+  // The section meets each wall in order: foot, eaves, eaves, foot, and other points between them on roof and ground.
   std::vector<double> at_foot, at_eaves;
   for (const Breakpoint& p : section.breakpoints) {
     const bool within = p.distance > 7 && p.distance < 47;

@@ -1,4 +1,4 @@
-// What all formats share: names, replacing, and leaving nothing behind.
+// Rules that all formats share: names, replacing, and leaving nothing behind.
 #include <csignal>
 #include <filesystem>
 #include <gmock/gmock.h>

@@ -24,7 +24,7 @@
 namespace itin {
 namespace {
 
-/// Heights above the ground, one a square metre, from the north-western corner.
+/// Heights above the ground, one per square metre, from the north-western corner.
 struct Canopy {
   int columns = 0, rows = 0;
   Point2 corner;

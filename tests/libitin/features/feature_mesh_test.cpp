@@ -113,7 +113,7 @@ TEST(FeatureMesh, PutsThePartyWallIntoTheLowerHouse) {
   EXPECT_NEAR(surface.at(10, 6), 9, 1e-9) << "the party line stands at the higher eaves";
   EXPECT_NEAR(surface.at(9.94, 6), 5, 1e-9);
   EXPECT_NEAR(surface.at(10.02, 1), 0, 0.01);
-  // The same whichever comes first.
+  // The order of the houses does not matter.
   const FeatureMesh turned = meshed({row[1], row[0]});
   EXPECT_EQ(mesh.vertices, turned.vertices);
 }
@@ -246,7 +246,7 @@ INSTANTIATE_TEST_SUITE_P(OfAllSizes, FeatureMeshCrowds,
                          testing::Values(Crowd{15, 15, 0.05}, Crowd{3, 2, 0.05}, Crowd{0.5, 0.5, 0.02},
                                          Crowd{0.15, 0.1, 0.02}));
 
-// The same on ground as rough as they are large: nothing sinks into it, and its edges stay planar with all lines.
+// Houses on ground as rough as they are large: nothing sinks into it, and its edges stay planar with all lines.
 TEST(FeatureMesh, SurvivesAnythingOnRoughGround) {
   std::mt19937 random(test::seed());
   std::uint64_t built = 0, joined = 0, ground = 0;

@@ -1,4 +1,4 @@
-// What rings that cross themselves enclose, against the number of their edges on the way to the outside; and how many
+// The area that self-crossing rings enclose, against the number of their edges on the way to the outside; and how many
 // crossings are taken apart.
 #include "features/odd_faces.hpp"
 

@@ -1,5 +1,5 @@
-// What stands only raises the surface: nowhere is it lower than the bare terrain, and outside of footprints it is the
-// bare terrain. On random footprints over rough ground; standing_theme_test.cpp looks at real ones.
+// Standing features only raise the surface: nowhere is it lower than the bare terrain, and outside of footprints it is
+// the bare terrain. On random footprints over rough ground; standing_theme_test.cpp looks at real ones.
 #include <cmath>
 #include <gmock/gmock.h>
 #include <iostream>
@@ -159,7 +159,7 @@ TEST_F(OnlyRaised, NoHouseLowersGroundOfContours) {
   compare(ThemeChoice::all());
 }
 
-/// What stands in each other's way.
+/// Woods and houses that overlap.
 TEST_F(OnlyRaised, NothingTogetherLowersTheGround) {
   ground(5, [&](int, int) { return 100 + in(0, 5); });
   std::vector<LineFeature> woods, houses;

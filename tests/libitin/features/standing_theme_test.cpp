@@ -50,7 +50,7 @@ std::set<TriangleCorners> global(const Store& store, const Detail& detail, const
   std::vector<double> tolerances;
   for (const LevelInfo& level : metadata.levels) tolerances.push_back(level.tolerance);
   const Selection selection(detail, tolerances, metadata.grid);
-  // Of terrain and lines: nothing. Of parts that are there: the theme.
+  // The theme that a number stands for: of a part or of lines on the ground.
   const auto theme_of = [&](std::uint16_t number) -> const ThemeInfo& {
     return number > themes ? metadata.themes[metadata.parts[number - themes - 1].theme - 1u]
                            : metadata.themes[number - 1u];

@@ -257,7 +257,7 @@ TEST_F(ContourRepair, IsDoneUnlessAnImportOfContoursSaysOtherwise) {
   ImportReport report = add(one, ThemeKind::Contours, true);
   report = add(two, ThemeKind::Contours, true, "s.itin", "more");
   EXPECT_GT(report.inferred, 0u);
-  // What else is added leaves it so.
+  // Another import changes nothing in that.
   const ImportReport with_road = add(road, ThemeKind::Roads);
   EXPECT_EQ(with_road.inferred, report.inferred);
   const std::vector<SourceInfo> sources = Store(path("s.itin")).metadata().sources;

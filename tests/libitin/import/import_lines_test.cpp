@@ -36,7 +36,7 @@ using test::LineFeature;
 using test::TriangleCorners;
 using test::triangles_of;
 
-/// What a store holds, read leaf by leaf, without the triangulation under test.
+/// The content of a store, read leaf by leaf, without the triangulation under test.
 struct Content {
   std::vector<GridPoint> points;
   std::vector<Segment> segments;

@@ -1,4 +1,5 @@
-// What a store holds is a function of the set of its sources: whatever the order of import, and in whatever portions.
+// The content of a store is a function of the set of its sources: whatever the order of import, and in whatever
+// portions.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -148,7 +149,7 @@ class ImportOrder : public testing::Test {
     return features;
   }
 
-  /// What may come first, and all else.
+  /// Terrain, which may come first, and sources of all other kinds.
   std::vector<Source> random_sources() {
     std::vector<Source> sources{terrain("coarse", {300000, 200000, 50, 20, 20, 27700}, false, chance(2))};
     const std::vector<std::function<Source()>> kinds{

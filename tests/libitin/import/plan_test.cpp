@@ -1,4 +1,4 @@
-// What an import settles before it reads a point: kinds, CRS, grid, and every refusal.
+// Decisions of an import before it reads a point: kinds, CRS, grid, and every refusal.
 #include <cmath>
 #include <filesystem>
 #include <fstream>

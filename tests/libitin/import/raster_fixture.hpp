@@ -95,7 +95,7 @@ inline void add_to_zip(const std::string& zip, const std::string& name, const st
   VSIFCloseL(out);
 }
 
-/// What the import should make of a raster.
+/// The result that the import of a raster should have.
 struct SlowReading {
   std::vector<GridPoint> points;  ///< sorted
   std::uint64_t voids = 0;
@@ -154,7 +154,7 @@ inline SlowReading read_slowly(const std::string& path, const ImportPlan& plan, 
   return reading;
 }
 
-/// What the import does make of a plan's source.
+/// The result that the import of a plan's source has.
 struct Reading {
   std::vector<GridPoint> points;  ///< sorted
   ReadCounts counts;
@@ -174,8 +174,8 @@ inline Reading read(TerrainSource& source) {
   return reading;
 }
 
-/// Equal. Of a hundred thousand posts one may fall on the other side of a half, and differ by one grid step, since both
-/// sides compute positions in their own order.
+/// Expects both to be equal. One post in a hundred thousand may fall on the other side of a half and differ by one grid
+/// step, since both sides compute positions in their own order.
 inline void expect_same(const Reading& reading, const SlowReading& truth) {
   EXPECT_EQ(reading.counts.read, truth.points.size());
   EXPECT_EQ(reading.counts.voids, truth.voids);

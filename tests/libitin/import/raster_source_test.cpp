@@ -329,7 +329,7 @@ TEST_F(RasterSource, TurnsDepthsOver) {
   expect_exact(directory_.file("b.tif"), {.metres_per_height = -1200.0 / 3937});
 }
 
-/// What was understood is found again in the store, whichever part of the file it came from.
+/// The meaning of heights is found again in the store, whichever part of the file it came from.
 TEST_F(RasterSource, KeepsWhatHeightsMean) {
   struct Said {
     const char *crs, *unit, *option;
@@ -413,7 +413,7 @@ TEST_F(RasterSource, RefusesHeightsBeyondAll) {
   test::write_raster(directory_.file("a.tif"), made);
   EXPECT_THAT(refusal<InputError>(directory_.file("a.tif")),
               HasSubstr("a.tif: at 300075,199925: a height of 1.5e+06 m is beyond 1000000 m"));
-  // What marks missing data is none, though the file does not declare it.
+  // A value that marks missing data is no height, even where the file does not declare it.
   made.posts[9] = -3.4028234663852886e38;
   test::write_raster(directory_.file("b.tif"), made);
   const ImportPlan plan = plan_of(directory_.file("b.tif"), {});

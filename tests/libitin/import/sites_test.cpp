@@ -82,7 +82,7 @@ TEST_F(Sites, InCsvHeadedLongitudeAndLatitudeAreGeographic) {
     EXPECT_NEAR(sites[0].position.x, 310375, 200) << header;
     EXPECT_NEAR(sites[0].position.y, 183525, 200) << header;
   }
-  // What the call says of the CRS comes before what a header says.
+  // The CRS that the call names comes before that of a header.
   SiteQuery query = file("masts.csv", "lon,lat\n310375,183525\n");
   query.crs = "EPSG:27700";
   EXPECT_EQ(read_sites(query, "EPSG:27700").front().position, (Point2{310375, 183525}));

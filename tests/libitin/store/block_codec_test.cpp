@@ -73,7 +73,7 @@ TEST(BlockCodec, CommonStepsAndSmoothHeightsVanish) {
   }
   const auto bytes =
       encode_block(Cell{morton(0, 0), 17}, test::in_curve_order(points), std::vector<std::uint16_t>(400));
-  EXPECT_LT(bytes.size(), 250u);  // five bits a point: one for the position, the rest for the height
+  EXPECT_LT(bytes.size(), 250u);  // five bits per point: one for the position, the rest for the height
 }
 
 TEST(BlockCodec, TheHeaderTellsALatticeOfAllPoints) {

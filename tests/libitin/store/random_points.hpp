@@ -14,7 +14,7 @@
 
 namespace itin::test {
 
-/// Sorted along the Morton curve, one point a position.
+/// Sorted along the Morton curve, one point per position.
 std::vector<GridPoint> in_curve_order(std::vector<GridPoint> points);
 
 enum class Scatter { Uniform, Clustered, Lattice, SparseLattice, Line, FlatLattice };
@@ -30,7 +30,7 @@ struct GivenLeaf {
   std::int32_t lo = 0, hi = 0;
 };
 
-/// What a store was written from: the slow twin that its reader is compared with.
+/// The data that a store was written from: the slow twin that its reader is compared with.
 struct GivenStore {
   std::vector<double> tolerances;
   std::vector<GivenLeaf> leaves;  ///< in the writer's order

@@ -1,4 +1,4 @@
-// What a store keeps of imports beside its surface: written, read, and found damaged.
+// The imports that a store keeps beside its surface: written, read, and found damaged.
 #include "store/set_aside.hpp"
 
 #include <gmock/gmock.h>

@@ -70,7 +70,7 @@ void expect_squares_and_rest_make_the_whole(const Ground& ground, std::size_t gi
   const std::span<const Position> read(ground.positions.data(), given);
   const LatticeSquares squares(read, ground.segments, ground.known);
   std::vector<std::uint32_t> rest = squares.rest();
-  // What turns up later has later numbers.
+  // Positions that turn up later have later numbers.
   for (std::size_t i = given; i < ground.positions.size(); ++i) rest.push_back(static_cast<std::uint32_t>(i));
   std::vector<Position> positions;
   for (const std::uint32_t i : rest) positions.push_back(ground.positions[i]);

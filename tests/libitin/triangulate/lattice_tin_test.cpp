@@ -143,7 +143,7 @@ class TriangulateLattice : public testing::Test {
 
   double noise(int c, int r) const { return 40 * std::sin(c * 0.31 + r * 0.17) + 15 * std::sin(r * 0.71 - c * 0.2); }
 
-  /// What comes of a window: a lattice with the very triangles, or none. Returns whether there was one.
+  /// Expects a window to give a lattice with the very triangles, or none. Returns whether there was one.
   bool compare(const Window& window, const ThemeChoice& themes = ThemeChoice::none()) {
     const Store store(path("s.itin"));
     const Tin tin = triangulate(store, window, Detail::tolerance(0), progress_, themes);

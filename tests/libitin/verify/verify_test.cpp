@@ -237,7 +237,7 @@ TEST_F(Verify, CanBeCancelled) {
   EXPECT_THROW(verify(Store(store_), {}, progress), Cancelled);
 }
 
-// What an import writes is true, whatever it is of.
+// Certificates that an import writes are true for every kind of source.
 
 TEST_F(Verify, SoundWithASingleCoarseLevel) {
   ImportOptions options;

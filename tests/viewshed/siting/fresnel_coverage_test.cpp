@@ -77,7 +77,7 @@ class FresnelSites : public ::testing::Test {
     survey_.fresnel = FresnelCriterion{profile::wavelength_m(frequency_ghz_), draw(0.1, 1)};
   }
 
-  /// What itin los says of each pair.
+  /// The verdict of itin los on each pair.
   DemandSet served(std::size_t option, const ThemeChoice& themes) {
     const RasterGrid& grid = *survey_.targets.grid;
     const SiteStand& stand = survey_.stands[option];

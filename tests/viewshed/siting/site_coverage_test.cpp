@@ -56,7 +56,7 @@ class Sites : public ::testing::Test {
     survey_.tolerance = 4;
   }
 
-  /// What test::compute_at_full_detail() says of one site.
+  /// The answer of test::compute_at_full_detail() for one site.
   DemandSet precise(std::size_t option) {
     const SiteStand& stand = survey_.stands[option];
     Request request;
@@ -137,7 +137,7 @@ TEST_F(Sites, TheMemoryChangesNothingExact) {
   expect_bounds_at_every_stage(coverage, all_precise());
 }
 
-/// Of what is known of every site, counted block by block, before and after every look.
+/// The coverage known of every site is counted block by block, before and after every stage.
 TEST_F(Sites, WhatIsKnownOfThemTakesNoMoreThanIsCountedOn) {
   make_terrain(100, 200, false);
   make_survey(8);

@@ -7,7 +7,7 @@ namespace itin::test {
 
 using viewshed::DemandSet, viewshed::SiteSurvey;
 
-/// The same survey with a point at each cell's centre, the padding's included, where element numbers stay.
+/// The survey with a point at each cell's centre, the padding's included, where element numbers stay.
 inline SiteSurvey survey_of_points(const SiteSurvey& survey) {
   SiteSurvey of_points = survey;
   of_points.targets.grid.reset();
@@ -19,7 +19,7 @@ inline SiteSurvey survey_of_points(const SiteSurvey& survey) {
   return of_points;
 }
 
-/// Without the padding about the grid, of which cells are not asked but points are.
+/// Without the padding about the grid, whose cells are not asked but whose points are.
 inline DemandSet without_padding(const RasterGrid& grid, const DemandSet& set) {
   DemandSet result;
   for (const DemandSet::Block& block : set.blocks()) {

@@ -80,7 +80,7 @@ class CityModel {
     return parse_city_json(query.path);
   }
 
-  /// What `read` finds wrong is said to be in this object of the file; in the file where there is no name.
+  /// Reports an error of `read` as one in this object of the file, or in the file where there is no name.
   template <class Read>
   void in_place(const std::string& name, const Read& read) const {
     try {

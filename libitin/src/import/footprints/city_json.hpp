@@ -1,7 +1,7 @@
 // Buildings from CityJSON 1.0 to 2.0 (OGC 20-072r5): solids and surfaces, LoD 1 and 2.
 //
-// Of each Building and BuildingPart the geometry of the greatest level of detail is taken. Roof and ground surfaces are
-// known by their semantics where they have any, otherwise by facing up or down. Pieces of one plane that share edges
+// Each Building and BuildingPart gives its geometry of the greatest level of detail. Roof and ground surfaces are known
+// by their semantics where they have any, otherwise by facing up or down. Pieces of one plane that share edges
 // (triangulated roofs) are joined.
 #pragma once
 
@@ -19,10 +19,10 @@ struct CityJsonQuery {
   bool ground_as_base = true;  ///< the least elevation of the ground surfaces, or of all; else the terrain's
 };
 
-/// In the CRS `to_crs` (WKT). What cannot be used is passed over with a warning: a line an object, or a line a type for
-/// objects that are no buildings. Throws FileError for a file that is not readable, no CityJSON, or holds an index that
-/// is no whole number in range (naming the object), InputError for a CRS that is missing or unknown, for heights beyond
-/// kFarthestHeight and, before it is read, for a file that takes more than the memory.
+/// In the CRS `to_crs` (WKT). Objects that cannot be used are passed over with a warning: one line per object, or one
+/// per type for those that are no buildings. Throws FileError for a file that is not readable, no CityJSON, or holds an
+/// index that is no whole number in range (naming the object), InputError for a CRS that is missing or unknown, for
+/// heights beyond kFarthestHeight and, before it is read, for a file that takes more than the memory.
 FootprintSource read_city_json(const CityJsonQuery& query, const std::string& to_crs);
 
 }  // namespace itin

@@ -43,7 +43,7 @@ struct CityJsonCounts {
 
 /// Every index in the geometry: of vertices, semantic surfaces, materials, textures and templates.
 void check_indices(const nlohmann::json& geometry, const CityJsonCounts& counts);
-/// Those of the geometries that others are instances of.
+/// Every index in the geometries that others are instances of.
 void check_templates(const nlohmann::json& model, const CityJsonCounts& counts);
 
 }  // namespace itin

@@ -18,7 +18,7 @@
 
 namespace itin {
 
-/// What the Z of a footprint's vertices is.
+/// The meaning of the Z of a footprint's vertices.
 enum class FootprintZ {
   ignored,
   base,  ///< the least of them is the base, unless base_field says

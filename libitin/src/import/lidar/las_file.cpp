@@ -168,7 +168,7 @@ Record read_record(Bytes& bytes, std::uint64_t offset, bool extended) {
   return record;
 }
 
-/// Key directory: a header of four shorts, then four a key: id, where its value is, count, value. Only those whose
+/// Key directory: a header of four shorts, then four per key: id, where its value is, count, value. Only those whose
 /// value stands in the directory itself (where = 0) are codes.
 std::map<std::uint16_t, std::uint16_t> geo_keys(std::string_view payload) {
   std::map<std::uint16_t, std::uint16_t> keys;
@@ -249,7 +249,7 @@ LasFile::LasFile(std::string path) : path_(std::move(path)) {
 }
 
 std::uint64_t LasFile::records_not_promised() const {
-  // Of files with waveforms these may follow the points.
+  // In files with waveforms these may follow the points.
   const bool waveforms = header_.point_format == 4 || header_.point_format == 5 || header_.point_format >= 9;
   if (header_.compressed || waveforms) return 0;
   const std::uint64_t end = header_.evlr_count > 0 ? std::min(header_.evlr_offset, file_size_) : file_size_;

@@ -41,7 +41,7 @@ struct LasHeader {
   Box bounds;  ///< as the header claims
 };
 
-/// What the (extended) variable length records say of the CRS.
+/// The CRS by the (extended) variable length records.
 struct LasProjectionRecords {
   std::map<std::uint16_t, std::uint16_t> geo_keys;  ///< GeoTIFF keys whose value is a code
   std::string wkt;

@@ -1,4 +1,4 @@
-// Points in delimited text: CSV, XYZ, TXT. One point a line; columns parted by semicolons, tabs, commas or blanks,
+// Points in delimited text: CSV, XYZ, TXT. One point per line; columns parted by semicolons, tabs, commas or blanks,
 // found from the first line. Blank lines and lines that begin with # are skipped.
 //
 //   DelimitedText text("survey.csv", "height_od");

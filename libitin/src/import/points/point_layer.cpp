@@ -56,7 +56,7 @@ void PointLayer::check_geometry_type() const {
   if (type == wkbNone)
     throw InputError(
         fmt::format("{}: layer '{}' has no geometry; give a layer of points", layer_.path(), layer_.name()));
-  // Of an unknown type each feature is judged by itself.
+  // In a layer of unknown type each feature is judged by itself.
   if (wkbFlatten(type) != wkbUnknown && !is_point_type(type)) refuse_geometry(OGRGeometryTypeToName(type));
 }
 

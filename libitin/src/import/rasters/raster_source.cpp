@@ -102,7 +102,7 @@ struct Batch {
   std::vector<GridPoint> points;
 };
 
-/// What is known of a raster before its posts are read.
+/// A raster as it is known before its posts are read.
 struct OpenedRaster {
   std::string path;
   std::optional<int> band;  ///< as the call says
@@ -248,7 +248,7 @@ class RasterFile final : public SourceFile {
     return raster_.lattice.post(present_.column + (present_.columns - 1) / 2.0,
                                 present_.row + (present_.rows - 1) / 2.0);
   }
-  /// What a vast raster holds is known by large windows alone: only the posts tell how far it reaches.
+  /// Where the posts of a vast raster lie is known by large windows only: the posts themselves tell how far they reach.
   Box extent() const override {
     const bool all = present_.columns == raster_.lattice.columns && present_.rows == raster_.lattice.rows;
     return all ? raster_.lattice.box(present_) : SourceFile::extent();

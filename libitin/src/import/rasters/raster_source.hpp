@@ -1,4 +1,4 @@
-// Rasters of heights, of any format GDAL reads, as sources of terrain: one point a post, at the centre of its cell.
+// Rasters of heights, of any format GDAL reads, as sources of terrain: one point per post, at the centre of its cell.
 #pragma once
 
 #include <memory>

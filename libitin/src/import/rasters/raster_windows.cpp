@@ -22,7 +22,7 @@ constexpr std::uint64_t kPostsOfStore = std::uint64_t{1} << 40;   // its tree ha
 constexpr std::uint64_t kBlockShare = 4;                          // of the memory, for the block at hand
 constexpr int kDeepest = 8;                                       // virtual rasters of virtual rasters
 
-/// What GDAL holds to read a single post.
+/// The memory that GDAL takes to read a single post.
 std::uint64_t block_bytes(GDALDataset& dataset, GDALRasterBand& band) {
   int columns = 0, rows = 0;
   band.GetBlockSize(&columns, &rows);
@@ -36,7 +36,7 @@ bool is_virtual(GDALDataset& dataset) {
   return dataset.GetDriver() != nullptr && EQUAL(dataset.GetDriver()->GetDescription(), "VRT");
 }
 
-/// `path` of the dataset. What cannot be opened is told when it is read.
+/// `path` of the dataset. A file that cannot be opened is reported when it is read.
 void require_small_blocks(GDALDataset& dataset, const std::string& path, std::uint64_t memory_bytes, int depth) {
   if (is_virtual(dataset) && depth < kDeepest) {
     const CPLStringList files(dataset.GetFileList());

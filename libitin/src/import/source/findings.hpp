@@ -1,5 +1,5 @@
-// What is wrong with single features of a source, as warnings: a city has thousands of odd footprints, and the first
-// ones tell what is the matter.
+// Warnings about single features of a source: a city has thousands of odd footprints, and the first ones tell what is
+// the matter.
 #pragma once
 
 #include <cstddef>

@@ -32,8 +32,8 @@ std::vector<Point2> line_ends(std::span<const Point2> places) {
   return ends;
 }
 
-/// Of the lines through one place. Ground lengths are those of a linear map of the grid, whose squares are a quadratic
-/// form: Tissot's indicatrix turned inside out.
+/// The scale along the lines through one place. Ground lengths are those of a linear map of the grid, whose squares are
+/// a quadratic form: Tissot's indicatrix turned inside out.
 std::optional<GridScale> scale_of(std::span<const Point2> ends, const Ellipsoid& ellipsoid) {
   std::array<double, kDirections.size()> squares{};
   for (std::size_t k = 0; k < squares.size(); ++k) {

@@ -21,7 +21,7 @@ class LineReader {
   /// The next line without its end (LF or CRLF) and without a leading byte order mark; nothing at the end of the file.
   /// The view holds until the next call. Throws FileError, InputError (a line too long).
   std::optional<std::string_view> next();
-  /// Of the line returned last, from 1.
+  /// The number of the line returned last, from 1.
   std::uint64_t line_number() const { return line_number_; }
   std::uint64_t bytes_read() const { return bytes_read_; }
 

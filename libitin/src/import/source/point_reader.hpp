@@ -37,7 +37,7 @@ class PointReader {
 
   virtual ~PointReader() = default;
   virtual const std::string& path() const = 0;
-  /// What the file says of its CRS: authority:code or WKT; empty if it says nothing.
+  /// The CRS by the file itself: authority:code or WKT; empty if it says nothing.
   virtual std::string crs() const = 0;
   /// The unit of the heights, where the file states it apart from its CRS.
   virtual std::optional<LinearUnit> height_unit() const { return std::nullopt; }
@@ -45,12 +45,12 @@ class PointReader {
   virtual std::vector<std::string> warnings() const { return {}; }
   /// A position amid the points.
   virtual Point2 centre() const = 0;
-  /// Of the points, as far as it is known without reading them: at least the centre.
+  /// The box of the points, as far as it is known without reading them: at least the centre.
   virtual Box extent() const { return {centre().x, centre().y, centre().x, centre().y}; }
   /// Bytes or points, whatever is at hand.
   virtual double size_hint() const = 0;
-  /// Streams all points in bounded memory, and returns how many were left out by class or attribute filter. What the
-  /// sink throws passes through. Throws FileError, InputError.
+  /// Streams all points in bounded memory, and returns how many were left out by class or attribute filter. Exceptions
+  /// of the sink pass through. Throws FileError, InputError.
   virtual std::uint64_t read(const Sink& sink) = 0;
 };
 

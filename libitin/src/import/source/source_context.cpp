@@ -38,7 +38,7 @@ constexpr double kMissingMarks[] = {-3.4028234663852886e38,
 // Some were written as single precision, or with few digits.
 constexpr double kMarkShare = 1e-6;
 
-/// What a file says of itself. Where --crs has a horizontal part, it need not be understood.
+/// The CRS by the file itself. Where --crs has a horizontal part, it need not be understood.
 Crs own_crs(const std::string& path, const std::string& found, bool needed) {
   if (found.empty()) return {};
   try {

@@ -22,7 +22,7 @@
 
 namespace itin {
 
-/// What a source needs to know of the store.
+/// The part of the store that a source needs to know.
 struct SourceContext {
   Grid grid;
   std::string crs_wkt;
@@ -37,13 +37,13 @@ class OpenedFile {
   virtual Crs crs() const = 0;
   /// A position amid the file's points, in its own CRS.
   virtual Point2 centre() const = 0;
-  /// Of the file's points in its own CRS, as far as it is known without reading them: at least the centre.
+  /// The box of the file's points in its own CRS, as far as it is known without reading them: at least the centre.
   virtual Box extent() const { return {centre().x, centre().y, centre().x, centre().y}; }
   /// One line each: assumptions made on opening.
   virtual std::vector<std::string> warnings() const { return {}; }
 };
 
-/// One of terrain points. What it says of itself holds before bind() only.
+/// An opened file of terrain points. Its answers hold before bind() only.
 class SourceFile : public OpenedFile {
  public:
   /// Called once. Throws InputError where coordinates cannot be transformed.
@@ -68,7 +68,7 @@ class Placement {
   /// Positions only: of the corners of a lattice step, say. NaN where there is no image.
   void transform(std::span<double> x, std::span<double> y) const { transform_.transform(x, y); }
 
-  /// What has been placed so far, with warning lines for heights and positions that were refused.
+  /// Counts what has been placed so far, with warning lines for heights and positions that were refused.
   ReadCounts counts() const;
 
  private:

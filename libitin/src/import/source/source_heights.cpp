@@ -12,7 +12,7 @@ bool is_metre(double metres) {
   return std::abs(metres - 1) <= 1e-9;
 }
 
-/// Of a CRS without another word on its heights.
+/// The height axis that a CRS itself implies.
 HeightAxis axis_of(const Crs& crs) {
   HeightAxis axis = crs.heights.value_or(HeightAxis{});
   if (crs.heights || !crs.metres_per_axis || is_metre(*crs.metres_per_axis)) return axis;

@@ -46,7 +46,7 @@ class SourceLayer {
 
   const std::string& path() const { return path_; }
   std::string name() const { return layer_->GetName(); }
-  /// What the layer says of its CRS, as WKT; empty if it says nothing.
+  /// The CRS by the layer itself, as WKT; empty if it says nothing.
   std::string crs() const;
   OGRwkbGeometryType geometry_type() const { return layer_->GetGeomType(); }
   bool has_height_field() const { return height_field_ >= 0; }
@@ -56,7 +56,7 @@ class SourceLayer {
 
   void rewind() { layer_->ResetReading(); }
   OGRFeatureUniquePtr next() { return next_feature(*layer_, path_); }
-  /// Of the height field; NaN for null. Throws InputError.
+  /// The value of the height field; NaN for null. Throws InputError.
   double height(const OGRFeature& feature) const;
   /// For messages: file, layer and feature.
   std::string place(const OGRFeature& feature) const;

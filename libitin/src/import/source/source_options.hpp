@@ -8,7 +8,7 @@
 
 namespace itin {
 
-/// What a source is, as far as options depend on it.
+/// The kind of a source, as far as options depend on it.
 enum class SourceKind : std::uint16_t {
   raster,
   las,
@@ -18,14 +18,14 @@ enum class SourceKind : std::uint16_t {
   terrain_lines,  ///< of others with heights that are part of the ground
   ground_lines,   ///< of lines and outlines that lie on it
   buildings,      ///< a layer of footprints that stand
-  walls,          ///< likewise; vegetation too
+  walls,          ///< a layer of walls or vegetation
   city_model      ///< CityJSON
 };
 
 /// Throws InputError, naming the option, where one is given that none of the sources makes use of.
 void require_useful_options(const ImportOptions& options, std::span<const SourceKind> sources);
 
-/// What the lines of a kind are, where they do not stand.
+/// The kind of source that lines of a theme's kind are, where they do not stand.
 SourceKind kind_of_lines(ThemeKind kind);
 
 }  // namespace itin

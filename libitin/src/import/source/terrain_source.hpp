@@ -13,7 +13,7 @@
 
 namespace itin {
 
-/// What was met on the way.
+/// Counts of what was read, and warnings.
 struct ReadCounts {
   std::uint64_t read = 0;             ///< points handed on
   std::uint64_t voids = 0;            ///< posts without data
@@ -60,7 +60,7 @@ struct ImportPlan {
 /// for nearly every CRS at 1 cm. Throws InputError, FileError.
 ImportPlan plan_import(const ImportOptions& options, const StoreMetadata* existing);
 
-/// For an import that adds neither terrain nor lines to a store.
+/// The plan of an import that adds neither terrain nor lines to a store.
 ImportPlan plan_nothing(const StoreMetadata& existing);
 
 }  // namespace itin

@@ -10,7 +10,7 @@ namespace itin {
 
 namespace {
 
-/// Of those that have an image.
+/// The images of those places that have one.
 std::vector<Point2> transformed(std::span<const Point2> places, const PointTransform& transform) {
   std::vector<double> x, y;
   for (const Point2& p : places) x.push_back(p.x), y.push_back(p.y);

@@ -13,7 +13,7 @@ namespace itin {
 
 class TrueScale {
  public:
-  /// Of this CRS for a store, a new one or one that exists.
+  /// For the CRS of a store, a new one or one that exists.
   TrueScale(Crs crs, bool store_exists) : crs_(std::move(crs)), store_exists_(store_exists), meter_(crs_) {}
 
   /// Where the file's points lie, as far as that is known before they are read. Throws InputError where that is nowhere
@@ -21,7 +21,7 @@ class TrueScale {
   GridScale of(const OpenedFile& file);
   /// Throws InputError, which names a remedy, where lengths are not true.
   void require(const OpenedFile& file);
-  /// Likewise of points in this box in the CRS, from the file `path`.
+  /// Requires true lengths of points in this box in the CRS, from the file `path`.
   void require(const std::string& path, const Box& area) const;
 
  private:

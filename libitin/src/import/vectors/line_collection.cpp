@@ -18,8 +18,8 @@ namespace itin {
 
 namespace {
 
-/// Measured at the peak of imports, rounded up: of lines while they are simplified, with their pieces as they were
-/// imported (690 where breaklines cut each other, 530 of roads), of features while they are raised.
+/// Measured at the peak of imports, rounded up: for lines while they are simplified, with their pieces as they were
+/// imported (690 where breaklines cut each other, 530 for roads), and for features while they are raised.
 constexpr std::uint64_t kBytesPerLineVertex = 800, kBytesPerFeatureVertex = 3000;
 
 /// The full surface's third vertex left of an edge of it.
@@ -79,7 +79,7 @@ void LineCollection::take_themes(const StoreMetadata& metadata) {
   keeps_set_aside_ = metadata.format_version >= format::kFirstVersionThatSetsAside;
 }
 
-/// By a rule that knows no order of import.
+/// Finds each theme's first source, by a rule that does not depend on the order of import.
 void LineCollection::find_first_sources(const std::vector<SourceInfo>& sources) {
   const std::vector<std::uint32_t> ranks = ranks_of(sources);
   first_source_.assign(themes_.size(), 0);
@@ -93,7 +93,7 @@ void LineCollection::find_first_sources(const std::vector<SourceInfo>& sources) 
 
 void LineCollection::take_segments(const PointIndex& index) {
   index.segments(index.bounds(), stored_);
-  // What keeps the ground about features is made again with these.
+  // The lines that keep the ground about features are made again with the features.
   std::erase_if(stored_, [&](const Segment& s) {
     return s.theme == kCoverage || s.finest > 0 || s.theme > themes_.size() || stands_[s.theme - std::size_t{1}];
   });
@@ -259,7 +259,8 @@ std::uint16_t LineCollection::source_of(const GridPoint& p, std::uint32_t owner)
   return found != vertices_.end() ? found->second.source : first_source_[owner];
 }
 
-/// The same, for one that may lie under what drapes: then it is a line of its top. `masks` of the parts.
+/// Keeps a line of the ground. Where it lies under a draped feature, it becomes a line of that feature's top. `masks`
+/// are those of the parts.
 void LineCollection::keep_or_raise(const OwnedSegment& ground_line, const std::vector<MaskIndex>& masks) {
   const Position a{ground_line.a.x, ground_line.a.y}, b{ground_line.b.x, ground_line.b.y};
   for (std::size_t p = 0; p < parts_.size(); ++p) {
@@ -306,7 +307,7 @@ bool LineCollection::changes_terrain(const ThemeLines& lines) const {
                      [&](std::uint32_t v) { return !ends_.contains(code_of(lines.lines.vertices[v])); });
 }
 
-/// Those of the terrain before the others, then by name.
+/// Puts the themes of the terrain before the others, then orders by name.
 void LineCollection::put_in_order(ThemeLines& result) {
   std::vector<std::uint32_t> order(themes_.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -342,7 +343,7 @@ void LineCollection::put_in_order(ThemeLines& result) {
   changed_ = std::move(changed);
 }
 
-/// What brings a vertex along several times has it from the source that comes first.
+/// A vertex that several sources bring along belongs to the one that comes first.
 void LineCollection::find_vertices(const std::vector<SourceInfo>& sources) {
   const std::vector<std::uint32_t> ranks = ranks_of(sources);
   vertices_.clear();

@@ -28,7 +28,7 @@ struct RaisedTheme {
   std::vector<StandingReport> reports;
 };
 
-/// Of all imports so far.
+/// The features raised for all imports so far.
 struct RaisedFeatures {
   std::uint64_t features = 0;  ///< that stand
   std::uint64_t refused = 0;
@@ -71,12 +71,12 @@ class LineCollection {
 
   /// Puts the themes in order and the lines of all of them into one plane. `ground` as in raise(), if it was called.
   ThemeLines finish(const std::vector<SourceInfo>& sources, const Store* ground, const Progress& progress);
-  /// After finish(), of lines as they lie on the ground: whether what stands has given lines of the terrain vertices
-  /// that they do not have there.
+  /// After finish(), for lines as they lie on the ground: whether raised features have given lines of the terrain
+  /// vertices that they do not have there.
   bool changes_terrain(const ThemeLines& lines) const;
   /// After finish(), in order: all lines on the ground as they were imported.
   const std::vector<ImportedPiece>& imported() const { return imported_; }
-  /// After finish(): in order, features counted.
+  /// After finish(): the themes in order, their features counted.
   const std::vector<ThemeInfo>& themes() const { return themes_; }
   const std::vector<std::vector<StoredFootprint>>& footprints() const { return footprints_; }
 

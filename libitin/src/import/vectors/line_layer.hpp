@@ -35,7 +35,7 @@ class LineLayer final : public OpenedFile {
 
   /// Complete after read().
   const SourceInfo& info() const { return info_; }
-  /// With at least one line.
+  /// The number of features with at least one line.
   std::uint64_t features() const { return features_; }
 
  private:
