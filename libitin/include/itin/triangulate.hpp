@@ -3,9 +3,9 @@
 //   const Window window = Window::disc({318000, 176000}, 5000);
 //   const Tin tin = triangulate(store, window, Detail::tolerance(2), progress);
 //   std::cout << tin.triangles.size() << " triangles\n";
-//   for (const auto& metres : heights_at(store, {{318000, 176000}}, Detail::tolerance(0), ThemeChoice::all(),
-//   progress))
-//     if (metres) std::cout << *metres << " m\n";
+//   const Detail full = Detail::tolerance(0);
+//   const auto metres = heights_at(store, {{318000, 176000}}, full, ThemeChoice::all(), progress)[0];
+//   if (metres) std::cout << *metres << " m\n";
 #pragma once
 
 #include <optional>

@@ -18,12 +18,12 @@ namespace itin {
 
 namespace {
 
-/// Positions share a window where in their box lie about so many points for each of them at most: as many as
-/// triangulate() takes at once, so that a window over far places lists few leaves between them. The window's corners
-/// and triangles take about a kilobyte a position.
-constexpr double kPointsAPosition = 32768;
+/// Positions share a window if their box holds at most about this many points for each of them. triangulate() takes as
+/// many at once, and the window then lists few leaves between the positions. A window takes about a kilobyte per
+/// position.
+constexpr double kPointsPerPosition = 32768;
 constexpr std::size_t kMostPositions = 16384;
-/// So many are looked for in every triangle near them.
+/// At most this many places are looked for in every triangle near them.
 constexpr std::size_t kFewPlaces = 4;
 
 struct Place {
@@ -66,11 +66,12 @@ std::pair<std::span<Place>, std::span<Place>> halves(std::span<Place> places, co
   return {places.first(half), places.subspan(half)};
 }
 
-/// Places that share a window, from how many points a square unit of the store has.
+/// Adds the groups of places that share a window. `density`: the store's points per square unit.
 void group(std::span<Place> places, double density, std::vector<std::span<Place>>& groups) {
   const Box box = box_of(places);
   const auto count = static_cast<double>(places.size());
-  const bool near = places.size() <= kMostPositions && box.width() * box.height() * density <= kPointsAPosition * count;
+  const bool near =
+      places.size() <= kMostPositions && box.width() * box.height() * density <= kPointsPerPosition * count;
   if (places.size() < 2 || near) {
     groups.push_back(places);
     return;

@@ -30,7 +30,7 @@ void require_ground(const StoreLine& line, const Profile& profile) {
   if (profile.points.back().distance_m != profile.length_m) throw none_at("`to`", line.to);
 }
 
-/// Of the antenna at an elevation above what its end stands on.
+/// The height of an antenna at an elevation above what its end stands on.
 double height_above(const char* field, double stands_on_m, double elevation_m) {
   if (elevation_m < stands_on_m)
     throw InputError(
