@@ -118,19 +118,15 @@ class LosVerb final : public Verb {
     query_.from_height_m = heights_[0], query_.to_height_m = heights_[1];
     query_.points_as_given = true;
     profile::LosReport report = profile::analyse(profile::read_profile_csv(profile_csv_), query_);
-    LosEnd from, to;
-    from.ground_m = report.stands_on.from_m, to.ground_m = report.stands_on.to_m;
-    from.height_m = heights_[0], to.height_m = heights_[1];
-    from.elevation_angle_deg = report.elevation_angle_from_deg;
-    to.elevation_angle_deg = report.elevation_angle_to_deg;
     report.facts = {{"Profile", fmt::format("{}, {}", std::filesystem::path(profile_csv_).filename().string(),
                                             counted(report.profile.points.size(), "point"))}};
-    for (const auto& [end, lines] : {std::pair(from, &report.from_lines), std::pair(to, &report.to_lines)}) {
+    for (const auto& [end, lines] :
+         {std::pair(report.from, &report.from_lines), std::pair(report.to, &report.to_lines)}) {
       *lines = {fmt::format("ground {:.2f} m, height {:.2f} m, elevation {:.2f} m", end.ground_m, end.height_m,
-                            end.ground_m + end.height_m),
+                            end.elevation_m),
                 fmt::format("elevation angle {:.3f}\xC2\xB0", end.elevation_angle_deg)};
     }
-    return los_case(std::move(report), from, to, header());
+    return los_case(std::move(report), header());
   }
 
   LosCase run_store() {

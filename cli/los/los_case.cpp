@@ -4,6 +4,8 @@
 
 #include <itin/coordinates.hpp>
 
+#include "los/los_document.hpp"
+
 namespace itin::cli {
 
 namespace {
@@ -30,27 +32,27 @@ void add_facts(profile::LosReport& report) {
 
 }  // namespace
 
-LosCase los_case(profile::LosReport report, const LosEnd& from, const LosEnd& to, const LosHeader& header) {
+LosCase los_case(profile::LosReport report, const LosHeader& header) {
   LosCase one{std::move(report), {}};
   one.report.title = header.title;
   add_facts(one.report);
   Document& document = one.result.document;
   document["crs"] = nullptr;
   document["refraction"] = header.refraction;
-  document["from"] = end_document(from);
-  document["to"] = end_document(to);
+  document["from"] = end_document(one.report.from);
+  document["to"] = end_document(one.report.to);
   document.update(los_document(one.report));
   return one;
 }
 
 LosCase los_case(const Store& store, LosStoreOptions::Result line, const LosHeader& header) {
-  LosCase one = los_case(std::move(line.report), line.from, line.to, header);
+  LosCase one = los_case(std::move(line.report), header);
   one.result.warnings = std::move(line.warnings);
   one.result.document["crs"] = crs_identifier(store.metadata().crs_wkt);
   one.result.document["surface"] = std::move(line.surface);
-  one.result.document["statistics"] = {{"points_read", line.statistics.points_read},
-                                       {"blocks_read", line.statistics.blocks_read},
-                                       {"triangles", line.triangles}};
+  one.result.document["statistics"] = {{"points_read", one.report.statistics.points_read},
+                                       {"blocks_read", one.report.statistics.blocks_read},
+                                       {"triangles", one.report.triangles}};
   return one;
 }
 

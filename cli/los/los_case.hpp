@@ -6,7 +6,6 @@
 #include <itin/store.hpp>
 #include <profile/los.hpp>
 
-#include "los/los_document.hpp"
 #include "los/los_store.hpp"
 #include "program/verb.hpp"
 
@@ -24,7 +23,7 @@ struct LosHeader {
 };
 
 /// The case of a profile from a file.
-LosCase los_case(profile::LosReport report, const LosEnd& from, const LosEnd& to, const LosHeader& header);
+LosCase los_case(profile::LosReport report, const LosHeader& header);
 /// The case of a line on a store.
 LosCase los_case(const Store& store, LosStoreOptions::Result line, const LosHeader& header);
 

@@ -1,6 +1,7 @@
 #include "los/los_document.hpp"
 
 #include <cmath>
+#include <optional>
 
 #include <profile/fresnel.hpp>
 
@@ -8,6 +9,7 @@ namespace itin::cli {
 
 namespace {
 
+using profile::LosEnd;
 using profile::LosReport;
 
 Document number(const std::optional<double>& value) {
@@ -132,7 +134,7 @@ Document visible_document(const LosReport& report) {
 
 }  // namespace
 
-Document end_document(const LosEnd& end) {
+Document end_document(const profile::LosEnd& end) {
   const auto of_site = [&](auto member) { return end.site ? Document(member(*end.site)) : Document(nullptr); };
   return {{"x", of_site([](const LosEnd::Site& s) { return s.position.x; })},
           {"y", of_site([](const LosEnd::Site& s) { return s.position.y; })},
@@ -142,7 +144,7 @@ Document end_document(const LosEnd& end) {
           {"surface_m", number(end.surface_m)},
           {"stands_on", end.on_surface ? "surface" : "ground"},
           {"height_m", end.height_m},
-          {"elevation_m", end.elevation_m()},
+          {"elevation_m", end.elevation_m},
           {"azimuth_grid_deg", of_site([](const LosEnd::Site& s) { return s.azimuth_grid_deg; })},
           {"azimuth_true_deg", of_site([](const LosEnd::Site& s) { return s.azimuth_true_deg; })},
           {"elevation_angle_deg", end.elevation_angle_deg}};

@@ -1,4 +1,4 @@
-// A line of sight on a store: its ends, its profile, and what the report's header says about them.
+// A line of sight on a store, as the options ask for it.
 #pragma once
 
 #include <optional>
@@ -8,10 +8,8 @@
 #include <CLI/CLI.hpp>
 
 #include <itin/store.hpp>
-#include <itin/tin.hpp>
 #include <profile/los.hpp>
 
-#include "los/los_document.hpp"
 #include "options/detail_options.hpp"
 #include "options/in_crs.hpp"
 #include "options/surface_options.hpp"
@@ -46,21 +44,15 @@ class LosStoreOptions {
   };
   struct Result {
     profile::LosReport report;
-    LosEnd from, to;
     Document surface;
-    RetrievalStatistics statistics;
-    std::uint64_t triangles = 0;
     std::vector<std::string> warnings;
   };
-  /// Completes the query by heights and the surface's error, and works out the report. Throws InputError,
-  /// CorruptStore, FileError.
+  /// Completes the query by what the options say, and works out the report. Throws InputError, CorruptStore, FileError.
   Result run(const Store& store, profile::LosQuery query) const;
   /// As above, between other ends.
   Result run(const Store& store, profile::LosQuery query, const Ends& ends) const;
 
  private:
-  double height_above(const char* option, double ground_m, double given_m) const;
-
   std::string from_text_, to_text_, nodata_text_;
   std::string from_on_ = "ground", to_on_ = "ground";
   bool absolute_heights_ = false;

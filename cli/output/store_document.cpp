@@ -1,7 +1,5 @@
 #include "output/store_document.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include <itin/level_choice.hpp>
@@ -24,14 +22,8 @@ Document error_interval(const CertifiedError& error) {
 }
 
 Document surface_document(const StoreMetadata& metadata, const Detail& detail, const ThemeChoice& themes) {
-  CertifiedError error;
-  for (const Ring& ring : detail.rings()) {
-    const CertifiedError& of_level =
-        metadata.levels[static_cast<std::size_t>(level_within(metadata, ring.tolerance))].certified_error;
-    error.lo = std::min(error.lo, of_level.lo);
-    error.hi = std::max(error.hi, of_level.hi);
-  }
-  Document surface{{"tolerance_m", detail.coarsest()}, {"certified_error_m", error_interval(error)}};
+  Document surface{{"tolerance_m", detail.coarsest()},
+                   {"certified_error_m", error_interval(certified_error(metadata, detail))}};
   if (detail.rings().size() > 1) {
     surface["centre"] = {{"x", detail.centre().x}, {"y", detail.centre().y}};
     for (const Ring& ring : detail.rings()) {
@@ -52,12 +44,6 @@ Document themes_document(const StoreMetadata& metadata) {
                       {"segments", theme.segments}});
   }
   return themes;
-}
-
-std::vector<std::string> theme_names(const StoreMetadata& metadata) {
-  std::vector<std::string> names{"terrain"};
-  for (const ThemeInfo& theme : metadata.themes) names.push_back(theme.name);
-  return names;
 }
 
 std::string themes_table(const StoreMetadata& metadata) {

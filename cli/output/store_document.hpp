@@ -23,9 +23,6 @@ Document surface_document(const StoreMetadata& metadata, const Detail& detail, c
 Document themes_document(const StoreMetadata& metadata);
 std::string themes_table(const StoreMetadata& metadata);
 
-/// The names of themes by their number; 0 is the terrain.
-std::vector<std::string> theme_names(const StoreMetadata& metadata);
-
 /// `levels`, finest first. A level's `vertices` are those stored in it, so that they sum up to the store's;
 /// `query_vertices` are those that a query at its tolerance reads: its own and all coarser ones.
 Document levels_document(const StoreMetadata& metadata);

@@ -32,7 +32,7 @@ Document gaps_document(const Profile& profile) {
 
 std::string csv(const std::vector<SurfaceProfile>& profiles, const StoreMetadata& metadata) {
   const bool several = profiles.size() > 1;
-  const std::vector<std::string> themes = theme_names(metadata);
+  const std::vector<std::string> themes = profile::theme_names(metadata);
   std::string text = several ? "tolerance,distance,x,y,z,theme\n" : "distance,x,y,z,theme\n";
   const auto out = std::back_inserter(text);
   for (const SurfaceProfile& surface : profiles) {
@@ -78,7 +78,7 @@ std::string geojson(const ProfileOutput& output) {
   const std::string urn = fmt::format("urn:ogc:def:crs:{}::{}", crs.substr(0, colon), crs.substr(colon + 1));
   document["crs"] = {{"type", "name"}, {"properties", {{"name", urn}}}};
   document["features"] = Document::array();
-  const std::vector<std::string> names = theme_names(output.metadata);
+  const std::vector<std::string> names = profile::theme_names(output.metadata);
   for (const SurfaceProfile& surface : output.profiles) {
     for (const std::uint16_t theme : themes_of(surface.profile)) {
       Document feature{{"type", "Feature"}};
@@ -102,7 +102,7 @@ std::string chart(const ProfileOutput& output, const std::string& path) {
                   crs_title(output.metadata.crs_wkt), ITIN_VERSION);
   for (const SurfaceProfile& surface : output.profiles) chart.series.push_back({surface.name, surface.profile});
   chart.ground = output.ground;
-  chart.themes = theme_names(output.metadata);
+  chart.themes = profile::theme_names(output.metadata);
   return profile::draw_chart(chart, path);
 }
 
@@ -130,7 +130,7 @@ void require_profile_format(const std::string& path) {
 }
 
 Document profile_document(const std::vector<SurfaceProfile>& profiles, const StoreMetadata& metadata) {
-  const std::vector<std::string> themes = theme_names(metadata);
+  const std::vector<std::string> themes = profile::theme_names(metadata);
   Document document;
   document["length_m"] = profiles.front().profile.length_m;
   document["gaps"] = gaps_document(profiles.front().profile);

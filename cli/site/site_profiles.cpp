@@ -12,7 +12,6 @@
 
 #include "options/radio_options.hpp"
 #include "output/output_path.hpp"
-#include "output/store_document.hpp"
 
 namespace itin::cli {
 
@@ -47,7 +46,7 @@ profile::LosReport report_of(const Store& store, const SiteOptions& options, con
   };
   report.from_lines = about(from), report.to_lines = about(to);
   report.crs_wkt = store.metadata().crs_wkt;
-  report.themes = theme_names(store.metadata());
+  report.themes = profile::theme_names(store.metadata());
   return report;
 }
 

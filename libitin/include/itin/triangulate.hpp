@@ -3,9 +3,16 @@
 //   const Window window = Window::disc({318000, 176000}, 5000);
 //   const Tin tin = triangulate(store, window, Detail::tolerance(2), progress);
 //   std::cout << tin.triangles.size() << " triangles\n";
+//   const Detail full = Detail::tolerance(0);
+//   const auto metres = heights_at(store, {{318000, 176000}}, full, ThemeChoice::all(), progress)[0];
+//   if (metres) std::cout << *metres << " m\n";
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include <itin/detail.hpp>
+#include <itin/geometry.hpp>
 #include <itin/progress.hpp>
 #include <itin/theme.hpp>
 #include <itin/tin.hpp>
@@ -13,6 +20,7 @@
 
 namespace itin {
 
+class RasterGrid;
 class Store;
 
 /// Exactly those ground triangles of the triangulation of the whole store, at this detail and with these themes, that
@@ -25,5 +33,17 @@ class Store;
 /// is not an error.
 Tin triangulate(const Store& store, const Window& window, const Detail& detail, Progress& progress,
                 const ThemeChoice& themes = ThemeChoice::none());
+
+/// The elevation of the surface under each position, metres; nothing where there is no ground. A position within a
+/// ten-thousandth of a grid unit of a grid point is taken to be there.
+///
+/// Cost: positions near each other share what is read and triangulated, so that many in one call are far faster than
+/// one by one, with the same heights to the last bit. Throws as triangulate() does.
+std::vector<std::optional<double>> heights_at(const Store& store, const std::vector<Point2>& positions,
+                                              const Detail& detail, const ThemeChoice& themes, Progress& progress);
+
+/// The same under the centres of a raster's cells, rounded to float; NaN where there is no ground.
+std::vector<float> heights_at(const Store& store, const RasterGrid& cells, const Detail& detail,
+                              const ThemeChoice& themes, Progress& progress);
 
 }  // namespace itin

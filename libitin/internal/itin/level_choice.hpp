@@ -19,4 +19,7 @@ int finest_level_of(const Store& store, const Box& box, std::uint64_t most_point
 /// The surface of one level.
 Detail detail_of(const StoreMetadata& metadata, int level);
 
+/// The widest certified error of the levels that this detail reads.
+CertifiedError certified_error(const StoreMetadata& metadata, const Detail& detail);
+
 }  // namespace itin

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <itin/level_choice.hpp>
 
 namespace itin {
@@ -25,6 +27,16 @@ int finest_level_of(const Store& store, const Box& box, std::uint64_t most_point
 
 Detail detail_of(const StoreMetadata& metadata, int level) {
   return Detail::tolerance(metadata.levels[static_cast<std::size_t>(level)].tolerance);
+}
+
+CertifiedError certified_error(const StoreMetadata& metadata, const Detail& detail) {
+  CertifiedError widest;
+  for (const Ring& ring : detail.rings()) {
+    const LevelInfo& level = metadata.levels[static_cast<std::size_t>(level_within(metadata, ring.tolerance))];
+    widest.lo = std::min(widest.lo, level.certified_error.lo);
+    widest.hi = std::max(widest.hi, level.certified_error.hi);
+  }
+  return widest;
 }
 
 }  // namespace itin

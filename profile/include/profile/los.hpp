@@ -1,10 +1,11 @@
-// Everything a report says about one line of sight, worked out on its profile.
+// Everything a report says about one line of sight, worked out over a store or on a profile.
 //
 //   profile::LosQuery query;
 //   query.from_height_m = 12, query.to_height_m = 15, query.earth = Earth::effective_earth(4.0 / 3);
 //   query.radio = profile::RadioPath{.frequency_ghz = 7.5, .effective_earth_km = 6371 * 4.0 / 3};
 //   query.criteria = {{4.0 / 3, 1.0}, {2.0 / 3, 0.3}};
-//   const profile::LosReport report = profile::analyse(line, query);
+//   const profile::StoreLine hills{.from = {310375, 183525}, .to = {322300, 190000}, .themes = ThemeChoice::all()};
+//   const profile::LosReport report = profile::analyse(store, hills, query);
 //   std::cout << profile::name_of(report.verdict) << '\n';
 //   profile::write_report(report, "{}", "link.pdf", false);
 #pragma once
@@ -16,11 +17,19 @@
 #include <utility>
 #include <vector>
 
+#include <itin/detail.hpp>
 #include <itin/earth.hpp>
+#include <itin/geometry.hpp>
+#include <itin/theme.hpp>
+#include <itin/tin.hpp>
 #include <profile/diffraction.hpp>
 #include <profile/fresnel.hpp>
 #include <profile/profile.hpp>
 #include <profile/required_heights.hpp>
+
+namespace itin {
+class Store;
+}
 
 namespace itin::profile {
 
@@ -81,6 +90,30 @@ struct LosQuery {
   bool points_as_given = false;
 };
 
+/// Where a line over a store runs, and over which surface.
+struct StoreLine {
+  Point2 from, to;                           ///< in the store's CRS
+  Detail detail = Detail::tolerance(0);      ///< of the surface
+  ThemeChoice themes = ThemeChoice::none();  ///< likewise
+  bool elevations = false;  ///< the query's heights are elevations, not heights above what the ends stand on
+};
+
+/// One end of a line, as far as it is known: a profile from a file has no positions.
+struct LosEnd {
+  double ground_m = 0;              ///< elevation of the ground without standing features
+  std::optional<double> surface_m;  ///< elevation with them, where they are known
+  bool on_surface = false;          ///< whether height_m counts from that
+  double height_m = 0;              ///< of the antenna
+  double elevation_m = 0;           ///< likewise
+  double elevation_angle_deg = 0;   ///< of the other antenna, as it appears
+  struct Site {
+    Point2 position;                                    ///< in the store's CRS
+    Point2 lon_lat;                                     ///< degrees on WGS 84
+    double azimuth_grid_deg = 0, azimuth_true_deg = 0;  ///< towards the other end
+  };
+  std::optional<Site> site;
+};
+
 struct LosReport {
   LosQuery query;
   Profile profile;
@@ -91,14 +124,14 @@ struct LosReport {
   std::optional<double> clearance_m;
   std::optional<ProfilePoint> critical;
   std::vector<Obstruction> obstructions;
-  double elevation_angle_from_deg = 0, elevation_angle_to_deg = 0;  ///< of the other antenna, as it appears
+  LosEnd from, to;
   std::vector<CriterionResult> criteria;
   std::vector<NamedHeights> required;
   std::optional<FresnelClearance> fresnel;
   std::optional<PathLosses> losses;  ///< nothing without a frequency, or where an antenna is within a feature
   std::optional<VisibleHeight> visible;
 
-  // Filled in by the caller, for the report's header and maps.
+  // For the report's header and maps. Over a store analyse() fills in all but the title, otherwise the caller does.
   std::string title;
   std::vector<std::pair<std::string, std::string>> facts;  ///< the input and the settings: name, value
   std::vector<std::string> from_lines, to_lines;           ///< about the ends
@@ -106,6 +139,10 @@ struct LosReport {
   std::optional<double> geodesic_m;                        ///< between the ends on WGS 84, where they have positions
   std::vector<std::string> themes;                         ///< names by ProfilePoint::theme; 0 is the terrain
   std::map<std::pair<std::uint16_t, std::int64_t>, std::string> features;  ///< names by theme and feature
+
+  // Of a line over a store.
+  RetrievalStatistics statistics;
+  std::uint64_t triangles = 0;  ///< crossed by the line
 };
 
 /// The elevation under each end: of the surface or of the ground, as the query says.
@@ -115,6 +152,12 @@ EndGrounds stands_on(const Profile& profile, const Profile& ground, const LosQue
 /// ground at an end, a height is negative, or a criterion asks for a part of the Fresnel zone without a frequency. O(n)
 /// but for logarithmic factors.
 LosReport analyse(Profile profile, const LosQuery& query, Profile ground = {});
+
+/// The same of a line over a store, with what stands on its ground. The surface's certified error about the line is
+/// added to query.clearance_error_m, so that over a coarse surface a verdict is certain or undecided; the report's
+/// query has the sum, and heights above what the ends stand on. Throws InputError also for an elevation below that, for
+/// themes that the store does not have, and for an end that has no longitude and latitude; CorruptStore, FileError.
+LosReport analyse(const Store& store, const StoreLine& line, LosQuery query);
 
 /// The position at a distance along the line, in the profile's CRS.
 Point2 position_at(const LosReport& report, double distance_m);

@@ -15,6 +15,10 @@
 
 #include <itin/cross_section.hpp>
 
+namespace itin {
+struct StoreMetadata;
+}
+
 namespace itin::profile {
 
 struct ProfilePoint {
@@ -64,6 +68,9 @@ std::optional<double> height_at(const Profile& profile, double distance_m);
 bool has_ground_at_ends(const Profile& profile);
 
 Profile from_section(const CrossSection& section);
+
+/// The names of a store's themes by ProfilePoint::theme; 0 is the terrain.
+std::vector<std::string> theme_names(const StoreMetadata& metadata);
 
 /// A profile that others hand in: `d_km,h_m[,clutter_m]`, one row per point, a header line optional. Columns are
 /// separated by commas, semicolons or tabs; a first line that is not numbers is a header, whose names (of any case, in

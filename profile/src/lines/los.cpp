@@ -103,6 +103,17 @@ void add_required(LosReport& report) {
   }
 }
 
+void describe_ends(LosReport& report) {
+  const bool features = !report.ground.points.empty();
+  const EndGrounds ground = ends_of(features ? report.ground : report.profile), surface = ends_of(report.profile);
+  const LosQuery& query = report.query;
+  report.from.ground_m = ground.from_m, report.to.ground_m = ground.to_m;
+  if (features) report.from.surface_m = surface.from_m, report.to.surface_m = surface.to_m;
+  report.from.on_surface = query.from_on_surface, report.to.on_surface = query.to_on_surface;
+  report.from.height_m = query.from_height_m, report.to.height_m = query.to_height_m;
+  report.from.elevation_m = report.antennas.from_m, report.to.elevation_m = report.antennas.to_m;
+}
+
 bool above_surface(const Profile& profile, const Antennas& antennas) {
   return antennas.from_m >= profile.points.front().ground_m && antennas.to_m >= profile.points.back().ground_m;
 }
@@ -152,6 +163,7 @@ LosReport analyse(Profile profile, const LosQuery& query, Profile ground) {
   report.profile = std::move(profile);
   report.ground = std::move(ground);
   report.antennas = {report.stands_on.from_m + query.from_height_m, report.stands_on.to_m + query.to_height_m};
+  describe_ends(report);
   if (auto line = line_clearance(report.profile, report.antennas, query.earth)) {
     report.clearance_m = line->clearance_m;
     report.critical = line->critical;
@@ -159,8 +171,8 @@ LosReport analyse(Profile profile, const LosQuery& query, Profile ground) {
   }
   report.verdict = sight_verdict(report.profile, report.clearance_m, {query.clearance_error_m, query.gaps_block});
   const double rise = report.antennas.to_m - report.antennas.from_m;
-  report.elevation_angle_from_deg = elevation_deg(rise, report.profile, query.earth);
-  report.elevation_angle_to_deg = elevation_deg(-rise, report.profile, query.earth);
+  report.from.elevation_angle_deg = elevation_deg(rise, report.profile, query.earth);
+  report.to.elevation_angle_deg = elevation_deg(-rise, report.profile, query.earth);
   for (const Criterion& c : query.criteria) report.criteria.push_back(judge(report, c));
   add_required(report);
   add_radio(report);

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include <itin/store.hpp>
 #include <profile/profile.hpp>
 
 namespace itin::profile {
@@ -68,6 +69,12 @@ Profile from_section(const CrossSection& section) {
   }
   for (const SectionGap& gap : section.gaps) profile.gaps.emplace_back(gap.from, gap.to);
   return profile;
+}
+
+std::vector<std::string> theme_names(const StoreMetadata& metadata) {
+  std::vector<std::string> names{"terrain"};
+  for (const ThemeInfo& theme : metadata.themes) names.push_back(theme.name);
+  return names;
 }
 
 Profile reversed(const Profile& profile) {

@@ -2,64 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
-#include "line/grid_units.hpp"
+#include <itin/grid_units.hpp>
 
 namespace itin::viewshed {
 
 namespace {
-
-struct RowCrossing {
-  double x = 0;
-  double z = 0;
-};
-
-/// A triangle with its vertices in ascending order of (y, x), so that both triangles at an edge see the edge alike and
-/// its crossings with a row agree to the last bit.
-class RowSections {
- public:
-  explicit RowSections(const std::array<GridPoint, 3>& corners) {
-    std::transform(corners.begin(), corners.end(), corners_.begin(), [](const GridPoint& v) {
-      return Point3{static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-    });
-    order(0, 1), order(1, 2), order(0, 1);
-  }
-
-  double lowest() const { return corners_[0].y; }
-  double highest() const { return corners_[2].y; }
-
-  /// From west to east. Precondition: lowest() <= y <= highest().
-  std::pair<RowCrossing, RowCrossing> at(double y) const {
-    const auto& [a, b, c] = corners_;
-    RowCrossing p = cross(a, c, y);
-    RowCrossing q = y < b.y ? cross(a, b, y) : cross(b, c, y);
-    if (y == b.y) q = {b.x, b.z};
-    if (q.x < p.x) std::swap(p, q);
-    return {p, q};
-  }
-
-  static double height(const RowCrossing& west, const RowCrossing& east, double x) {
-    // On an edge as both triangles there have it, to the last bit.
-    if (x == west.x || east.x == west.x) return west.z;
-    if (x == east.x) return east.z;
-    return west.z + (east.z - west.z) * ((x - west.x) / (east.x - west.x));
-  }
-
- private:
-  void order(std::size_t first, std::size_t second) {
-    Point3 &a = corners_[first], &b = corners_[second];
-    if (b.y != a.y ? b.y < a.y : b.x < a.x) std::swap(a, b);
-  }
-
-  static RowCrossing cross(const Point3& a, const Point3& b, double y) {
-    if (y >= b.y) return {b.x, b.z};
-    const double w = (y - a.y) / (b.y - a.y);
-    return {a.x + w * (b.x - a.x), a.z + w * (b.z - a.z)};
-  }
-
-  std::array<Point3, 3> corners_;
-};
 
 /// Calls visit(cell, height function) for every cell centre in every triangle.
 template <class Visit>
@@ -113,19 +61,7 @@ void scan_convert_highest(const Tin& tin, std::span<const std::uint32_t> triangl
 }
 
 std::optional<double> surface_height(const Tin& tin, std::span<const std::uint32_t> triangles, Point2 position) {
-  const Point2 units{easting_in_units(tin.grid, position.x), northing_in_units(tin.grid, position.y)};
-  for (const std::uint32_t t : triangles)
-    if (const auto height = height_over(tin.corners(t), units)) return height;
-  return std::nullopt;
-}
-
-std::optional<double> height_over(const std::array<GridPoint, 3>& triangle, Point2 units) {
-  const auto& [x, y] = units;
-  const RowSections sections(triangle);
-  if (y < sections.lowest() || y > sections.highest()) return std::nullopt;
-  const auto [west, east] = sections.at(y);
-  if (x < west.x || x > east.x) return std::nullopt;
-  return RowSections::height(west, east, x);
+  return height_over(tin, triangles, place_in_units(tin.grid, position));
 }
 
 double height_over(const FallingSquare& square, Point2 units) {
@@ -137,19 +73,6 @@ double height_over(const FallingSquare& square, Point2 units) {
   const RowCrossing diagonal = at(east + w * (west - east), square.se, square.nw);
   return units.x <= diagonal.x ? RowSections::height(at(west, square.sw, square.nw), diagonal, units.x)
                                : RowSections::height(diagonal, at(east, square.se, square.ne), units.x);
-}
-
-std::optional<double> height_on(const Tin& tin, Point2 position) {
-  const Point2 units{easting_in_units(tin.grid, position.x), northing_in_units(tin.grid, position.y)};
-  const auto beside = [&](const std::array<GridPoint, 3>& corners) {
-    const auto& [a, b, c] = corners;
-    return (a.x < units.x && b.x < units.x && c.x < units.x) || (a.x > units.x && b.x > units.x && c.x > units.x);
-  };
-  for (std::uint32_t i = 0; i < tin.triangles.size(); ++i) {
-    if (beside(tin.corners(i))) continue;
-    if (const auto height = height_over(tin.corners(i), units)) return *height * tin.grid.resolution;
-  }
-  return std::nullopt;
 }
 
 }  // namespace itin::viewshed

@@ -7,6 +7,7 @@
 #include <span>
 
 #include <itin/tin.hpp>
+#include <itin/tin_heights.hpp>
 
 #include "line/cell_tiles.hpp"
 
@@ -28,20 +29,14 @@ void scan_convert_highest(const Tin& tin, std::span<const std::uint32_t> triangl
 /// Height in grid units at a position in metres, if one of `triangles` holds it.
 std::optional<double> surface_height(const Tin& tin, std::span<const std::uint32_t> triangles, Point2 position);
 
-/// The same over a single triangle, at a position in grid units, if it holds that.
-std::optional<double> height_over(const std::array<GridPoint, 3>& triangle, Point2 units);
-
 /// A square whose diagonal runs from north-west to south-east; heights are those of its corners, all in grid units.
 struct FallingSquare {
   std::int32_t west = 0, south = 0, side = 0;
   std::int32_t sw = 0, se = 0, nw = 0, ne = 0;
 };
 
-/// The same, to the last bit, over the two triangles of a square, of which the south-western one comes first.
-/// Precondition: the position lies within it, and on none of its sides.
+/// The height that height_over() gives, to the last bit, over the two triangles of a square, of which the south-western
+/// one comes first. Precondition: the position lies within it, and on none of its sides.
 double height_over(const FallingSquare& square, Point2 units);
-
-/// Height in metres at a position in metres, by looking at every triangle of the Tin.
-std::optional<double> height_on(const Tin& tin, Point2 position);
 
 }  // namespace itin::viewshed

@@ -1,13 +1,4 @@
-// Positions in metres as places in grid units.
+// Positions in metres as places in grid units: those of libitin.
 #pragma once
 
-#include <itin/geometry.hpp>
-
-namespace itin::viewshed {
-
-/// What lies within a ten-thousandth of a unit of a whole number is meant to be there: sites and cell centres often are
-/// vertices, also at the edge of the data, where rounding would put them outside.
-double easting_in_units(const Grid& grid, double x);
-double northing_in_units(const Grid& grid, double y);
-
-}  // namespace itin::viewshed
+#include <itin/grid_units.hpp>

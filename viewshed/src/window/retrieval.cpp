@@ -7,7 +7,6 @@
 #include <itin/triangulate.hpp>
 #include <viewshed/surface.hpp>
 
-#include "bounds/surface_heights.hpp"
 #include "request/request.hpp"
 
 namespace itin::viewshed {
@@ -32,8 +31,7 @@ double radius_with(const Store& store, int level, Point2 centre, double points) 
 
 std::optional<double> height_at(const Store& store, Point2 position, const ThemeChoice& themes, Progress& progress,
                                 const Detail& detail) {
-  const Box about = disc_box(position, 2 * store.metadata().grid.resolution);
-  return height_on(triangulate(store, Window::box(about), detail, progress, themes), position);
+  return heights_at(store, {position}, detail, themes, progress).front();
 }
 
 Tin coverage_of(const Store& store, const Window& window, Progress& progress) {
@@ -43,13 +41,14 @@ Tin coverage_of(const Store& store, const Window& window, Progress& progress) {
 std::vector<Eye> eyes_on_surface(const Store& store, const Request& request, const Detail& detail,
                                  std::vector<double>& ground, Progress& progress) {
   const Grid& grid = store.metadata().grid;
+  std::vector<Point2> positions;
+  for (const Observer& observer : request.observers) positions.push_back(observer.position);
+  const auto heights = heights_at(store, positions, detail,
+                                  request.observers_on_surface ? request.themes : ThemeChoice::none(), progress);
   std::vector<Eye> eyes;
-  for (const Observer& observer : request.observers) {
-    const auto height =
-        height_at(store, observer.position, request.observers_on_surface ? request.themes : ThemeChoice::none(),
-                  progress, detail);
-    eyes.push_back(eye_of(grid, request, observer, height));
-    ground.push_back(*height);
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    eyes.push_back(eye_of(grid, request, request.observers[i], heights[i]));
+    ground.push_back(*heights[i]);
   }
   return eyes;
 }

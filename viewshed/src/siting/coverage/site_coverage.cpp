@@ -20,7 +20,6 @@
 #include "siting/coverage/cell_blocks.hpp"
 #include "siting/coverage/group_survey.hpp"
 #include "window/envelope.hpp"
-#include "window/retrieval.hpp"
 
 namespace itin::viewshed {
 
@@ -76,15 +75,7 @@ Window window_about(const std::vector<SiteStand>& stands, const std::vector<std:
 
 std::vector<std::optional<double>> ground_under(const Store& store, const std::vector<Point2>& positions,
                                                 const ThemeChoice& themes, Progress& progress) {
-  std::vector<std::optional<double>> result;
-  for (const Point2& p : positions) {
-    progress.throw_if_cancelled();
-    const bool somewhere = std::isfinite(p.x) && std::isfinite(p.y);
-    result.push_back(somewhere ? height_at(store, p, themes, progress) : std::nullopt);
-    if (result.size() % 64 == 0)
-      progress.report("ground under sites", static_cast<double>(result.size()) / static_cast<double>(positions.size()));
-  }
-  return result;
+  return heights_at(store, positions, Detail::tolerance(0), themes, progress);
 }
 
 RasterGrid grid_of_reach(const Store& store, const std::vector<SiteStand>& stands, double radius, double cell_size) {

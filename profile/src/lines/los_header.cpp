@@ -1,0 +1,115 @@
+#include "lines/los_header.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include <itin/coordinates.hpp>
+#include <itin/feature_at.hpp>
+#include <itin/geodesic.hpp>
+#include <itin/level_choice.hpp>
+
+namespace itin::profile {
+
+namespace {
+
+double grid_azimuth_deg(Point2 from, Point2 to) {
+  const double azimuth = std::atan2(to.x - from.x, to.y - from.y) * 180 / std::numbers::pi;
+  return azimuth < 0 ? azimuth + 360 : azimuth;
+}
+
+void add_sites(const StoreLine& line, LosReport& report) {
+  const CoordinateTransform to_geographic(report.crs_wkt, "EPSG:4326");
+  const Point2 a = to_geographic(line.from), b = to_geographic(line.to);
+  const Geodesic between = geodesic(a, b);
+  report.from.site = {line.from, a, grid_azimuth_deg(line.from, line.to), between.azimuth_deg};
+  report.to.site = {line.to, b, grid_azimuth_deg(line.to, line.from), between.back_azimuth_deg};
+  report.geodesic_m = between.distance_m;
+}
+
+/// The features where the sight line is cut or tightest.
+void name_features(const Store& store, LosReport& report) {
+  struct Wanted {
+    std::vector<Point2> places;
+    std::vector<std::int64_t*> features;
+  };
+  std::map<std::uint16_t, Wanted> wanted;
+  const auto want = [&](std::uint16_t theme, double distance_m, std::int64_t& feature) {
+    if (theme == 0) return;
+    wanted[theme].places.push_back(position_at(report, distance_m));
+    wanted[theme].features.push_back(&feature);
+  };
+  if (report.critical) want(report.critical->theme, report.critical->distance_m, report.critical->feature);
+  for (Obstruction& o : report.obstructions) want(o.theme, o.peak_at_m, o.feature);
+  for (const auto& [theme, these] : wanted) {
+    const auto found = features_at(store, theme, these.places);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      if (!found[i]) continue;
+      *these.features[i] = found[i]->number;
+      report.features[{theme, found[i]->number}] = found[i]->name;
+    }
+  }
+}
+
+std::string names_in(const std::vector<std::string>& themes) {
+  std::string names;
+  for (const std::string& theme : themes) names += (names.empty() ? "" : ", ") + theme;
+  return names.empty() ? "none" : names;
+}
+
+std::string sources_of(const StoreMetadata& metadata) {
+  std::string sources;
+  for (const SourceInfo& source : metadata.sources) {
+    if (sources.size() > 160) return sources + ", ...";
+    sources +=
+        fmt::format("{}{}{}", sources.empty() ? "" : ", ", std::filesystem::path(source.path).filename().string(),
+                    source.sha256.empty() ? "" : " (SHA-256 " + source.sha256.substr(0, 12) + ")");
+  }
+  return sources;
+}
+
+std::vector<std::pair<std::string, std::string>> facts_about(const Store& store, const StoreLine& line) {
+  const StoreMetadata& metadata = store.metadata();
+  const CertifiedError error = certified_error(metadata, line.detail);
+  return {{"Store", std::filesystem::path(store.path()).filename().string()},
+          {"Sources", sources_of(metadata)},
+          {"CRS", fmt::format("{} ({})", crs_title(metadata.crs_wkt), crs_identifier(metadata.crs_wkt))},
+          {"Surface",
+           fmt::format("tolerance {:g} m, certified error {:+.2f} to {:+.2f} m; themes: {}", line.detail.coarsest(),
+                       error.lo, error.hi, names_in(line.themes.names(metadata.themes)))}};
+}
+
+std::string angle_text(double degrees) {
+  return fmt::format("{:.3f}\xC2\xB0", degrees);
+}
+
+std::vector<std::string> lines_about(const LosEnd& end, const std::string& crs) {
+  const LosEnd::Site& site = *end.site;
+  const std::string surface = end.on_surface ? fmt::format(", surface {:.2f} m", *end.surface_m) : "";
+  return {fmt::format("{:.2f}, {:.2f} ({})", site.position.x, site.position.y, crs),
+          fmt::format("{:.6f}\xC2\xB0 {}, {:.6f}\xC2\xB0 {} (WGS 84)", std::abs(site.lon_lat.y),
+                      site.lon_lat.y < 0 ? "S" : "N", std::abs(site.lon_lat.x), site.lon_lat.x < 0 ? "W" : "E"),
+          fmt::format("ground {:.2f} m{}, height {:.2f} m, elevation {:.2f} m", end.ground_m, surface, end.height_m,
+                      end.elevation_m),
+          fmt::format("azimuth {} grid, {} true; elevation angle {}", angle_text(site.azimuth_grid_deg),
+                      angle_text(site.azimuth_true_deg), angle_text(end.elevation_angle_deg))};
+}
+
+}  // namespace
+
+void add_header(const Store& store, const StoreLine& line, LosReport& report) {
+  const StoreMetadata& metadata = store.metadata();
+  report.crs_wkt = metadata.crs_wkt;
+  report.themes = theme_names(metadata);
+  name_features(store, report);
+  add_sites(line, report);
+  report.facts = facts_about(store, line);
+  const std::string crs = crs_identifier(metadata.crs_wkt);
+  report.from_lines = lines_about(report.from, crs);
+  report.to_lines = lines_about(report.to, crs);
+}
+
+}  // namespace itin::profile

@@ -1,0 +1,69 @@
+#include <fmt/format.h>
+
+#include <itin/cross_section.hpp>
+#include <itin/error.hpp>
+#include <itin/height_limit.hpp>
+#include <itin/store.hpp>
+#include <profile/clearance_error.hpp>
+#include <profile/los.hpp>
+
+#include "lines/los_header.hpp"
+
+namespace itin::profile {
+
+namespace {
+
+void require_heights(const StoreLine& line, const LosQuery& query) {
+  for (const auto& [field, height] :
+       {std::pair("`from_height_m`", query.from_height_m), std::pair("`to_height_m`", query.to_height_m)}) {
+    require_height(height, field);
+    if (height < 0 && !line.elevations)
+      throw InputError(fmt::format("{}: a height must not be negative; for an elevation set `elevations`", field));
+  }
+}
+
+void require_ground(const StoreLine& line, const Profile& profile) {
+  const auto none_at = [](const char* field, Point2 p) {
+    return InputError(fmt::format("{}: there is no ground at {:.2f},{:.2f}", field, p.x, p.y));
+  };
+  if (profile.points.empty() || profile.points.front().distance_m != 0) throw none_at("`from`", line.from);
+  if (profile.points.back().distance_m != profile.length_m) throw none_at("`to`", line.to);
+}
+
+/// The height of an antenna at an elevation above what its end stands on.
+double height_above(const char* field, double stands_on_m, double elevation_m) {
+  if (elevation_m < stands_on_m)
+    throw InputError(
+        fmt::format("{}: elevation {:g} m is below what it stands on, {:.2f} m", field, elevation_m, stands_on_m));
+  return elevation_m - stands_on_m;
+}
+
+}  // namespace
+
+LosReport analyse(const Store& store, const StoreLine& line, LosQuery query) {
+  require_heights(line, query);
+  CrossSection section = cross_section(store, line.from, line.to, line.detail, line.themes);
+  Profile profile = from_section(section), ground;
+  require_ground(line, profile);
+  if (line.themes.includes_standing(store.metadata().themes)) {
+    const CrossSection bare = cross_section(store, line.from, line.to, line.detail);
+    ground = from_section(bare);
+    section.statistics += bare.statistics;
+  }
+  if (line.elevations) {
+    const EndGrounds grounds = stands_on(profile, ground, query);
+    query.from_height_m = height_above("`from`", grounds.from_m, query.from_height_m);
+    query.to_height_m = height_above("`to`", grounds.to_m, query.to_height_m);
+  }
+  query.clearance_error_m += clearance_error(store, line.detail, line.themes, line.from, line.to);
+
+  LosReport report = analyse(std::move(profile), query, std::move(ground));
+  const EndGrounds surface = ends_of(report.profile);
+  report.from.surface_m = surface.from_m, report.to.surface_m = surface.to_m;
+  report.statistics = section.statistics;
+  report.triangles = section.triangles;
+  add_header(store, line, report);
+  return report;
+}
+
+}  // namespace itin::profile
