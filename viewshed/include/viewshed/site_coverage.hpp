@@ -62,7 +62,7 @@ struct SiteTargets {
 };
 
 struct SiteSurvey {
-  std::vector<SiteStand> stands;  ///< one an option
+  std::vector<SiteStand> stands;  ///< one per option
   SiteTargets targets;
   double radius = 10000;  ///< metres: no site serves farther
   Earth earth;

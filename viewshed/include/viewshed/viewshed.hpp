@@ -109,7 +109,7 @@ struct Request {
   std::optional<AngleRange> azimuth;
   std::optional<AngleRange> elevation;
   // The cells: one of the two, or neither. Then the cell size is the least of 1, 2, 5, 10, ... (or their decimal
-  // fractions) metres that gives at most kDefaultCells cells a side.
+  // fractions) metres that gives at most kDefaultCells cells per side.
   std::optional<double> cell_size;
   std::optional<RasterGrid> grid;
   Earth earth;
@@ -208,10 +208,10 @@ constexpr std::size_t which_grids(std::size_t observers) {
 }
 
 /// On a given surface. The Tin must hold every triangle that sight lines cross; where it ends there is no data.
-/// Cost: O(n) for n triangles (about 0.1 microseconds each) and about 50 ns a cell and observer, in mode kHeight 150;
-/// memory 9 bytes a post of a raster, 50 a triangle of others, and a tenth of a megabyte a thread. The result does not
-/// depend on the number of threads. Throws InputError (an observer outside the data, by name; an unusable radius, cell
-/// size or angle; more than 65534 observers to count), Cancelled.
+/// Cost: O(n) for n triangles (about 0.1 microseconds each) and about 50 ns per cell and observer, in mode kHeight 150;
+/// memory 9 bytes per post of a raster, 50 per triangle of others, and a tenth of a megabyte per thread. The result
+/// does not depend on the number of threads. Throws InputError (an observer outside the data, by name; an unusable
+/// radius, cell size or angle; more than 65534 observers to count), Cancelled.
 Result compute(const Tin& tin, const Request& request, Progress& progress);
 
 /// The same, with the ground on which ends stand that are not on the surface. It must cover what the surface
@@ -241,7 +241,7 @@ struct Surveyed {
 /// surface, and the others take the places where their lines come near the ground, and no more; with themes that stand
 /// on the ground, at a tolerance, and in modes that ask more than whether a cell is seen, they take all ground under
 /// the lines. The answer is the same to the last bit, in every mode. Cost, on one core: about a microsecond a point; a
-/// fifth of that for rasters, and 9 bytes a post. Throws as compute() on a Tin and triangulate() do, and InputError
+/// fifth of that for rasters, and 9 bytes per post. Throws as compute() on a Tin and triangulate() do, and InputError
 /// where the line to a single cell does not fit into the memory.
 Surveyed compute_with_surface(const Store& store, const Request& request, const ComputeOptions& options,
                               Progress& progress);
@@ -285,7 +285,7 @@ struct GeotiffOptions {
 /// of distance and number of the nearest (nodata NaN). Throws FileError.
 void write_geotiff(const std::string& path, const Result& result, const GeotiffOptions& options);
 
-/// What is seen as polygons in a GeoPackage, one a class as write_regions() writes them: visible and hidden; the
+/// What is seen as polygons in a GeoPackage, one per class as write_regions() writes them: visible and hidden; the
 /// undecided; a class for every count, nearest observer or theme that hides. Throws FileError.
 void write_polygons(const std::string& path, const Result& result, const std::string& crs_wkt, bool overwrite);
 

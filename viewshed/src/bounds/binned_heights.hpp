@@ -29,8 +29,8 @@ namespace itin::viewshed {
 
 class BinnedHeights {
  public:
-  /// Of what must outlive it. About two triangles' worth a bin, 50 bytes a triangle; where it is a lattice its cells,
-  /// for a fraction of that.
+  /// Of what must outlive it. About two triangles' worth per bin, 50 bytes per triangle; where it is a lattice its
+  /// cells, for a fraction of that.
   explicit BinnedHeights(const Tin& tin);
   explicit BinnedHeights(const LatticeTin& lattice);
   BinnedHeights(const BinnedHeights&) = delete;
@@ -107,8 +107,8 @@ class BinnedHeights {
   /// What of a Tin that is no lattice is worked out once.
   struct Listed {
     TriangleBins bins;
-    std::vector<UpperPlane> upper_planes;  ///< a bin
-    std::vector<std::int32_t> tops;        ///< a triangle: its highest vertex
+    std::vector<UpperPlane> upper_planes;  ///< per bin
+    std::vector<std::int32_t> tops;        ///< per triangle: its highest vertex
   };
   std::uint32_t cell(RasterGrid::Cell bin) const {
     return lattice_->cell(static_cast<std::uint32_t>(bin.column), static_cast<std::uint32_t>(bin.row));

@@ -67,9 +67,9 @@ struct LineBundle {
 
 class HeightPyramid {
  public:
-  /// Of what must outlive it. About 20 bytes a triangle of even size.
+  /// Of what must outlive it. About 20 bytes per triangle of even size.
   explicit HeightPyramid(const Tin& tin);
-  /// All of whose heights are read. Less than two bytes a post.
+  /// All of whose heights are read. Less than two bytes per post.
   explicit HeightPyramid(const LatticeTin& lattice);
 
   const Grid& units() const { return units_; }
@@ -133,7 +133,7 @@ class HeightPyramid {
   /// What of a Tin is worked out once.
   struct Listed {
     TriangleBins bins;
-    std::vector<std::int32_t> tops;  ///< a triangle
+    std::vector<std::int32_t> tops;  ///< per triangle
   };
 
   void build_blocks();

@@ -11,7 +11,7 @@ namespace itin::viewshed {
 /// What level ground has.
 inline constexpr double kLevelShade = 0.643;
 
-/// One value a pixel: 0 (darkest) to 1 (brightest), NaN where its height, metres, is. Light comes from the north-west
+/// One value per pixel: 0 (darkest) to 1 (brightest), NaN where its height, metres, is. Light comes from the north-west
 /// and, weaker, from the west, north and south-west, so that no slope direction is lost.
 std::vector<float> hillshade(std::span<const float> heights, const RasterGrid& pixels);
 

@@ -145,7 +145,7 @@ class View {
   std::array<double, 3> light_{};
   std::vector<Seen> seen_;
   double left_ = std::numeric_limits<double>::infinity(), right_ = -left_, low_ = left_, high_ = -left_;
-  double scale_ = 1;  ///< samples a metre
+  double scale_ = 1;  ///< samples per metre
   int width_ = 0, height_ = 0;
   std::vector<Colour> colours_;
   std::vector<float> depths_;

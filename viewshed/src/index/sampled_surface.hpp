@@ -37,7 +37,7 @@ class SampledSurface {
   struct Work {
     Occluder occluder;
   };
-  /// One bit a line: 1 hidden. Ends of active lines differ horizontally. Safe for concurrent use.
+  /// One bit per line: 1 hidden. Ends of active lines differ horizontally. Safe for concurrent use.
   unsigned hidden(const SightLines& lines, Work& work) const;
 
  private:

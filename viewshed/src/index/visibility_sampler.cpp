@@ -39,7 +39,7 @@ class Random {
 struct VisibilitySampler::Packet {
   SightLines lines;
   std::array<Point2, SightLines::kSize> targets;  ///< metres
-  unsigned on_ground = 0;                         ///< one bit a target
+  unsigned on_ground = 0;                         ///< one bit per target
 };
 
 VisibilitySampler::VisibilitySampler(const SampledSurface& surface, const SampledSurface& ground,

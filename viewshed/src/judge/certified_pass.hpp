@@ -78,7 +78,7 @@ class CertifiedPass {
 
   /// Cells along the side of the smallest block that is decided as a whole.
   static constexpr std::size_t kBlockSide = 8, kBlocks = Tile::kSide / kBlockSide;
-  /// One value a block of a tile, row by row.
+  /// One value per block of a tile, row by row.
   using BlockValues = std::array<double, kBlocks * kBlocks>;
 
   /// What a tile's cells share between observers.

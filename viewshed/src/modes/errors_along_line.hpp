@@ -33,7 +33,7 @@ struct ErrorSum {
 /// For one thread. 10 kB.
 class ErrorsAlongLine {
  public:
-  using Errors = std::array<float, ErrorRealisations::kCount>;  ///< one a world
+  using Errors = std::array<float, ErrorRealisations::kCount>;  ///< one per world
 
   /// `correlation`: L in grid units. All must outlive it.
   ErrorsAlongLine(const Tin& tin, double correlation, const ErrorRealisations& worlds);

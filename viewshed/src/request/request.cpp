@@ -72,7 +72,7 @@ void validate_cells(const Request& request) {
   }
 }
 
-/// The least of 1, 2, 5, 10, ... or their decimal fractions with at most kDefaultCells cells a side.
+/// The least of 1, 2, 5, 10, ... or their decimal fractions with at most kDefaultCells cells per side.
 double default_cell_size(const Box& box) {
   const double least = std::max(box.width(), box.height()) / kDefaultCells;
   const double decade = std::pow(10, std::floor(std::log10(least)));

@@ -62,7 +62,7 @@ std::vector<std::size_t> numbers_to(std::size_t count) {
   return numbers;
 }
 
-/// Bytes a triangle, as measured on OS Terrain 50: of one surface, and of two.
+/// Bytes per triangle, as measured on OS Terrain 50: of one surface, and of two.
 constexpr double kBareGround = 160, kScreened = 270;
 
 class Partition {

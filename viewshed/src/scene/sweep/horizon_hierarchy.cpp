@@ -14,7 +14,7 @@ namespace itin::viewshed {
 namespace {
 
 constexpr std::size_t kFirst = 16;  ///< slabs up to where sectors are twice as many for the first time
-/// So many sectors a slab: they are a bin wide where they become twice as many.
+/// So many sectors per slab: they are a bin wide where they become twice as many.
 constexpr std::size_t kSectorsPerSlab = 2 * Quadrant::kRun;
 constexpr std::size_t kRings = 8;  ///< up to there
 static_assert(kFirst % kRings == 0);

@@ -24,7 +24,7 @@ class HorizonHierarchy {
     farthest_ = from <= to ? slab : 0;
   }
 
-  /// Looks on up to a slab, if it has not come as far yet. Memory: at most 1280 bytes a slab. Uses all threads.
+  /// Looks on up to a slab, if it has not come as far yet. Memory: at most 1280 bytes per slab. Uses all threads.
   void advance(const Quadrant& quadrant, const Sector::Axis& axis, std::size_t slab);
 
   /// What is known by now for lines within slopes [from, to] that begin in slab `nearest`: of the farthest slab up to

@@ -45,7 +45,7 @@ class RadialSweep {
     double base = 0, top = 0;  ///< elevations; what of it is seen below its base does not count
     double radius = 0;         ///< eyes farther away do not look
   };
-  /// The other ends of lines, one a cell of a tile, NaN where none is.
+  /// The other ends of lines, one per cell of a tile, NaN where none is.
   struct Ends {
     const Tile& tile;
     const TileCentres& centres;

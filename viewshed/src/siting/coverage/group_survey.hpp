@@ -18,7 +18,7 @@ namespace itin::viewshed {
 struct SiteLooks {
   const Request& request;
   std::span<const std::size_t> options;
-  /// One an option: what they leave open (in `possible`, not in `certain`) is judged.
+  /// One per option: what they leave open (in `possible`, not in `certain`) is judged.
   std::span<const CoverageBounds* const> bounds;
 };
 
