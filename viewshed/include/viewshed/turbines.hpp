@@ -50,7 +50,7 @@ struct ZoneRequest {
   Detail detail = Detail::tolerance(0);  ///< of the surface; not used with a Tin
   std::optional<ThemeChoice> themes;     ///< of the screened surface, likewise; nothing: bare ground alone
   NoData nodata = NoData::kUnknown;
-  /// What a survey of a store may take, bytes, about: it is made in parts where the surface does not fit. The results
+  /// A survey of a store may take about so many bytes: it is made in parts where the surface does not fit. The results
   /// are the same. Nothing: any.
   std::optional<std::uint64_t> memory_bytes;
   std::optional<Observer> radar;  ///< whose horizon is looked for besides, over bare ground

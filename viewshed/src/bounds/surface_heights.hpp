@@ -21,14 +21,14 @@ inline constexpr double kUnread = -std::numeric_limits<double>::infinity();
 void scan_convert(const Tin& tin, std::span<const std::uint32_t> triangles, const Tile& tile,
                   const TileCentres& centres, TileValues<double>& heights);
 
-/// The same for triangles that overlap: the greatest height.
+/// Triangles may overlap here: a centre gets the greatest height.
 void scan_convert_highest(const Tin& tin, std::span<const std::uint32_t> triangles, const Tile& tile,
                           const TileCentres& centres, TileValues<double>& heights);
 
 /// Height in grid units at a position in metres, if one of `triangles` holds it.
 std::optional<double> surface_height(const Tin& tin, std::span<const std::uint32_t> triangles, Point2 position);
 
-/// The same over a single triangle, at a position in grid units, if it holds that.
+/// Height over a single triangle at a position in grid units, if it holds that.
 std::optional<double> height_over(const std::array<GridPoint, 3>& triangle, Point2 units);
 
 /// A square whose diagonal runs from north-west to south-east; heights are those of its corners, all in grid units.
@@ -37,8 +37,8 @@ struct FallingSquare {
   std::int32_t sw = 0, se = 0, nw = 0, ne = 0;
 };
 
-/// The same, to the last bit, over the two triangles of a square, of which the south-western one comes first.
-/// Precondition: the position lies within it, and on none of its sides.
+/// Gives the same height, to the last bit, as the two triangles of a square, the south-western one first. Precondition:
+/// the position lies within it, and on none of its sides.
 double height_over(const FallingSquare& square, Point2 units);
 
 /// Height in metres at a position in metres, by looking at every triangle of the Tin.

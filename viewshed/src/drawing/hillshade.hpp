@@ -8,7 +8,7 @@
 
 namespace itin::viewshed {
 
-/// What level ground has.
+/// The shade of level ground.
 inline constexpr double kLevelShade = 0.643;
 
 /// One value per pixel: 0 (darkest) to 1 (brightest), NaN where its height, metres, is. Light comes from the north-west
