@@ -38,7 +38,8 @@ class ErrorsAlongLine {
   /// `correlation`: L in grid units. All must outlive it.
   ErrorsAlongLine(const Tin& tin, double correlation, const ErrorRealisations& worlds);
 
-  /// A line between places whose heights have these errors. What it has of the eye of the line before serves again.
+  /// A line between places whose heights have these errors. Values of the eye are reused where the line before began at
+  /// it.
   void begin(const ErrorSum& from, const ErrorSum& to);
   const Errors& from() const { return ends_[0].errors; }
   const Errors& to() const { return ends_[1].errors; }

@@ -23,7 +23,7 @@
 
 namespace itin::viewshed {
 
-/// Of the active lines those that some triangle hides, decided in double precision where `upper` is not cleared.
+/// Returns the active lines that some triangle hides, decided in double precision where `upper` is not cleared.
 /// `starts_under` and `ends_under`: lines whose end is not above that surface.
 unsigned hidden_exactly(const Scene& surface, const UpperScene& upper, const SightLines& lines, unsigned starts_under,
                         unsigned ends_under);
