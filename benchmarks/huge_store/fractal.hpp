@@ -18,7 +18,7 @@ class Fractal {
 
   explicit Fractal(std::uint64_t seed) : seed_(seed) {}
 
-  /// Decimetres: of stage 0 1, then 2^0.85 times as much per stage.
+  /// Decimetres: 1 for stage 0, then 2^0.85 times as much per stage.
   static std::int32_t amplitude(int stage);
   /// Decimetres: no more lies between the surface and the one of this stage's posts alone.
   static double greatest_deviation(int stage);

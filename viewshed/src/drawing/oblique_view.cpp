@@ -16,7 +16,7 @@ namespace {
 
 /// Pixels are averages of so many by so many samples.
 constexpr int kSamples = 2;
-/// Of the picture's longer side, left free around the surface.
+/// This share of the picture's longer side is left free around the surface.
 constexpr double kMargin = 0.02;
 constexpr double kAmbient = 0.42;
 /// Surfaces steeper than this are walls: the cosine of their slope.

@@ -54,7 +54,7 @@ std::optional<double> VisibilitySampler::ground(Point2 place) const {
   return height ? std::optional(*height * units.resolution) : std::nullopt;
 }
 
-/// What of the rim lines within the radius may cross.
+/// Returns the part of the rim that lines within the radius may cross.
 std::vector<RimEdge> VisibilitySampler::rim_near(const Point3& eye) const {
   const double reach = targets_.radius / surface_.units().resolution + 1;
   std::vector<RimEdge> near;

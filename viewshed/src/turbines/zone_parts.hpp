@@ -25,7 +25,7 @@ struct ZonePart {
 /// Holds all lines to every turbine, and from the radar as far as the turbines' radii reach.
 Window window_of(const ZoneRequest& request);
 
-/// Also holds every cell of the zone's grid, since the radar's heights are computed for all.
+/// With a radar it also holds every cell of the zone's grid, where the radar's heights are computed.
 Window window_of(const Zone& zone);
 
 ZonePart whole_zone(const Zone& zone);

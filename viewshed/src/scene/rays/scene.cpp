@@ -15,7 +15,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// What the filters below see of a packet; Embree hands back the pointer to the first member.
+/// The data of a packet that the filters below see; Embree hands back the pointer to the first member.
 struct HiddenPacket {
   RayContext context;
   const SightLines* lines;
