@@ -28,7 +28,7 @@ Posts scaled_surface(const Fractal& fractal, int stage, const PostBox& box) {
   return surface;
 }
 
-/// Of heights - scaled / 2^stage over the box, rounded outwards to grid units.
+/// The extremes of heights - scaled / 2^stage over the box, rounded outwards to grid units.
 HeightBounds extremes(const Posts& heights, const Posts& scaled, int stage, const PostBox& box) {
   std::int32_t lo = 0, hi = 0;
   const auto width = static_cast<std::size_t>(box.columns.count());

@@ -23,7 +23,7 @@ class Deviation {
   Deviation(const Square& square, const Fractal& fractal, const std::vector<FractalLevel>& levels);
 
   /// Finds that of all levels over the cell; `heights` of the full surface's posts about it, in decimetres. Safe for
-  /// concurrent use for different cells. About 2 ns a post and level.
+  /// concurrent use for different cells. About 2 ns per post and level.
   void find(const Cell& cell, const Posts& heights);
 
   /// T_k + lo <= T_0 <= T_k + hi over the ground in the cell, k being the level; grid units. Precondition: found there.

@@ -18,13 +18,13 @@ class Fractal {
 
   explicit Fractal(std::uint64_t seed) : seed_(seed) {}
 
-  /// Decimetres: of stage 0 1, then 2^0.85 times as much a stage.
+  /// Decimetres: 1 for stage 0, then 2^0.85 times as much per stage.
   static std::int32_t amplitude(int stage);
   /// Decimetres: no more lies between the surface and the one of this stage's posts alone.
   static double greatest_deviation(int stage);
 
   /// The heights of all posts of the box, in decimetres, and perhaps of some about it. Columns and rows are the
-  /// stage's own, at least 0. Cost: 2 ns a post.
+  /// stage's own, at least 0. Cost: 2 ns per post.
   Posts heights(int stage, const PostBox& box) const;
 
  private:

@@ -23,7 +23,7 @@ struct FractalStoreReport {
 };
 
 /// A square of posts 1 m apart, its side rounded up to a multiple of the coarsest level's spacing, so that its border's
-/// ends belong to every level. The same bytes with any number of threads, but for the time noted. Throws InputError,
+/// ends belong to every level. Any number of threads writes equal bytes, but for the time noted. Throws InputError,
 /// FileError, Cancelled; until it returns, the file at `path` is what it was.
 FractalStoreReport write_fractal_store(const std::string& path, const FractalStoreOptions& options, Progress& progress);
 

@@ -18,7 +18,7 @@ struct PostRange {
   std::int64_t count() const { return std::int64_t{last} - first + 1; }
   /// How many are multiples of 2^steps.
   std::int64_t count_of_every(int steps) const { return (last >> steps) - ((first - 1) >> steps); }
-  /// Of the lattice whose spacing is 2^steps times as large: the fewest that reach as far.
+  /// The fewest posts that reach as far on the lattice whose spacing is 2^steps times as large.
   PostRange coarser(int steps) const {
     return {first >> steps, static_cast<std::int32_t>((std::int64_t{last} + (1 << steps) - 1) >> steps)};
   }

@@ -1,4 +1,4 @@
-// Block codec: points a second both ways, and bytes a point, on synthetic terrain like the real thing.
+// Block codec: points per second both ways, and bytes per point, on synthetic terrain like the real thing.
 //
 //   itin_benchmarks --benchmark_filter=Block
 #include "store/block_codec.hpp"

@@ -1,4 +1,4 @@
-// Adjacency and full topology of a window: the cost a triangle, on a square lattice in Morton order.
+// Adjacency and full topology of a window: the cost per triangle, on a square lattice in Morton order.
 #include <algorithm>
 #include <vector>
 

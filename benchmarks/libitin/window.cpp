@@ -1,4 +1,4 @@
-// What deciding one triangle against a window costs, for triangles as small against the window as in a real query.
+// The cost of deciding one triangle against a window, for triangles as small against the window as in a real query.
 #include <random>
 #include <vector>
 

@@ -73,7 +73,7 @@ BENCHMARK(window_of_a_million)
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 
-/// The same window where only its posts are wanted.
+/// Reads that window where only its posts are wanted.
 void posts_of_a_million(benchmark::State& state) {
   const std::string path = make_store(false);
   itin::set_thread_count(static_cast<int>(state.range(0)));

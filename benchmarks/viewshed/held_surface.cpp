@@ -37,7 +37,7 @@ std::string data(const std::string& name) {
   return std::string(ITIN_SOURCE_DIR) + "/scripts/demo-data/" + name;
 }
 
-/// Imports it, once a process.
+/// Imports it, once per process.
 Walk make_walk(bool town) {
   const std::string name = "itin-walk-" + std::to_string(getpid()) + (town ? "-town.itin" : ".itin");
   Walk walk{(std::filesystem::temp_directory_path() / name).string(), {}, town ? 200.0 : 8000.0};

@@ -50,7 +50,7 @@ void BM_Bins(benchmark::State& state) {
 }
 BENCHMARK(BM_Bins)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-/// What `--precise` does once the surface is in memory: cells as large as those of the terrain, and finer ones.
+/// Does what `--precise` does once the surface is in memory: cells as large as those of the terrain, and finer ones.
 void BM_Sweep(benchmark::State& state) {
   const Request request = whole(state.range(0));
   const RasterGrid tiles = grid_of_tiles(*request.grid);

@@ -56,7 +56,7 @@ class Lookout {
   double between(double a, double b) { return std::uniform_real_distribution<double>(a, b)(random_); }
 
   void expect(const Sector::Horizon& known, const Quadrant& quadrant, double slope) {
-    // To where the slab begins, or a hair nearer: the ground may begin with it. Rising so much a bin.
+    // To where the slab begins, or a hair nearer: the ground may begin with it. Rising so much per bin.
     const auto clearance = [&](double rise, double share) {
       const double along = share * quadrant.begin(known.hidden.slab), metres = bins_.bin_size() * unit_;
       const Point2 at = quadrant.position(along, slope * along);

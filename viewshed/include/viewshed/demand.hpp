@@ -1,4 +1,4 @@
-// What sites are to serve: cells or points with weights, and sets of them.
+// Demand that sites are to serve: cells or points with weights, and sets of them.
 //
 //   const viewshed::Demand demand({3.0, 1.0, 2.5});  // three households
 //   viewshed::DemandSet served;
@@ -40,7 +40,7 @@ class DemandSet {
   std::vector<Block> blocks_;
 };
 
-/// What is in both. O(blocks).
+/// Contains the members of both. O(blocks).
 DemandSet intersection(const DemandSet& a, const DemandSet& b);
 /// Whether every member of `a` is one of `b`.
 bool is_subset(const DemandSet& a, const DemandSet& b);

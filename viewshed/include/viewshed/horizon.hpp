@@ -58,10 +58,10 @@ struct Horizon {
   std::vector<SightedTarget> targets;
 };
 
-/// Of the request's one observer, on `surface` as far as its radius; `ground` is what observer and targets stand on
-/// unless the request says on the surface. Ground that is missing passes. Cost: a few microseconds an azimuth, besides
-/// 0.1 microseconds a triangle. Throws InputError (a step that makes no turn or is not from 0.001 to 10 degrees,
-/// an observer or target outside the data, an observer beneath a roof), Cancelled.
+/// Computes the horizon of the request's one observer, on `surface` as far as its radius; observer and targets stand on
+/// `ground` unless the request says on the surface. Ground that is missing passes. Cost: a few microseconds per
+/// azimuth, besides 0.1 microseconds per triangle. Throws InputError (a step that makes no turn or is not from 0.001 to
+/// 10 degrees, an observer or target outside the data, an observer beneath a roof), Cancelled.
 Horizon horizon(const Tin& surface, const Tin& ground, const Request& request, const HorizonOptions& options,
                 Progress& progress);
 

@@ -39,7 +39,7 @@ struct Segment {
 
 inline constexpr std::uint64_t kAnyNumberOfCells = std::numeric_limits<std::uint64_t>::max();
 
-/// What a plan is for: the result of compute(), or that of compute_certified().
+/// A plan is for the result of compute(), or for that of compute_certified().
 enum class Certainty { kExact, kCertified };
 
 class Plan {
@@ -61,7 +61,7 @@ class Plan {
   const RasterGrid& grid() const { return grid_; }
   /// The nearest to an observer first.
   const std::vector<Segment>& segments() const { return segments_; }
-  /// What decide() computes: the viewshed of the segment's observers on its cells.
+  /// decide() computes this: the viewshed of the segment's observers on its cells.
   Request request_of(std::size_t segment) const;
   /// Equal for plans with the same segments of the same request on the same store, and for no others.
   std::uint64_t id() const { return id_; }

@@ -1,6 +1,6 @@
-// What each of many sites serves, better and better: first all of them over one coarse envelope of the surface, then,
-// for those that are asked about again, exactly. Cells are swept over the full surface, which takes no longer than a
-// coarse look, so that they are exact at once where the memory holds it.
+// Bounds what each of many sites serves, tighter and tighter: first all of them over one coarse envelope of the
+// surface, then, for those that are asked about again, exactly. Cells are swept over the full surface, which takes no
+// longer than a coarse look, so that they are exact at once where the memory holds it.
 //
 //   viewshed::SiteSurvey survey;
 //   const Point2 hill{310375, 183525};
@@ -47,7 +47,7 @@ struct SiteStand {
 std::vector<std::optional<double>> ground_under(const Store& store, const std::vector<Point2>& positions,
                                                 const ThemeChoice& themes, Progress& progress);
 
-/// What leaves a link clear: at least this fraction of the first Fresnel zone's radius free of ground, everywhere.
+/// A link is clear if at least this fraction of the first Fresnel zone's radius is free of ground, everywhere.
 struct FresnelCriterion {
   double wavelength = 0;  ///< metres
   double fraction = 0.6;
@@ -62,7 +62,7 @@ struct SiteTargets {
 };
 
 struct SiteSurvey {
-  std::vector<SiteStand> stands;  ///< one an option
+  std::vector<SiteStand> stands;  ///< one per option
   SiteTargets targets;
   double radius = 10000;  ///< metres: no site serves farther
   Earth earth;
@@ -92,7 +92,7 @@ DemandSet with_ground(const Store& store, const SiteTargets& targets, Progress& 
 /// Everything within the radius of a site, with or without ground.
 DemandSet within_reach(const SiteTargets& targets, Point2 position, double radius);
 
-/// What is known of what each site serves takes no more bytes than this; see SiteSurvey::memory_bytes.
+/// The bounds on what each site serves take no more bytes than this; see SiteSurvey::memory_bytes.
 std::uint64_t bytes_of_coverage(const SiteSurvey& survey);
 
 class SiteCoverage final : public Coverage {
@@ -114,7 +114,7 @@ class SiteCoverage final : public Coverage {
   /// How often an option was refined after the first look, and how often that can be at most.
   int stage(std::size_t option) const;
   int last_stage() const;
-  /// What was known of an option after the first look.
+  /// The bounds of an option after the first pass.
   const CoverageBounds& first_bounds(std::size_t option) const;
   /// In words: "tolerance 4 m", "exact", ...
   std::string stage_name(int stage) const;

@@ -32,8 +32,8 @@ struct Proposal {
   double visibility_index = 0;  ///< 0 to 1
 };
 
-/// In order of their squares, from the north-west. The same store and request propose the same sites. Throws InputError
-/// if no ground lies in the area, or it has too many squares.
+/// Returns the sites in order of their squares, from the north-west. Equal stores and requests give equal sites. Throws
+/// InputError if no ground lies in the area, or it has too many squares.
 std::vector<Proposal> propose_sites(const Store& store, const Window& area, const ProposalRequest& request,
                                     Progress& progress);
 

@@ -27,7 +27,7 @@
 
 namespace itin::viewshed {
 
-/// A site that may be chosen. Of the options of one place (mast heights) at most one is.
+/// A site that may be chosen. At most one of the options of one place (mast heights) is.
 struct SiteOption {
   std::size_t place = 0;
   double cost = 1;
@@ -39,7 +39,7 @@ struct CoverageBounds {
   bool exact = false;  ///< then both are the same
 };
 
-/// What each option serves, known better and better.
+/// Bounds on what each option serves, which become tighter and tighter.
 class Coverage {
  public:
   virtual ~Coverage() = default;

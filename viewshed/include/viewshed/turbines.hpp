@@ -50,7 +50,7 @@ struct ZoneRequest {
   Detail detail = Detail::tolerance(0);  ///< of the surface; not used with a Tin
   std::optional<ThemeChoice> themes;     ///< of the screened surface, likewise; nothing: bare ground alone
   NoData nodata = NoData::kUnknown;
-  /// What a survey of a store may take, bytes, about: it is made in parts where the surface does not fit. The results
+  /// A survey of a store may take about so many bytes: it is made in parts where the surface does not fit. The results
   /// are the same. Nothing: any.
   std::optional<std::uint64_t> memory_bytes;
   std::optional<Observer> radar;  ///< whose horizon is looked for besides, over bare ground
@@ -115,12 +115,12 @@ struct Zone {
 };
 
 /// On given surfaces; `screened` may be null, and must cover what `ground` does. Turbines without ground become
-/// misplaced. Cost: 0.5 microseconds a triangle and a tenth of a microsecond a line, of processor time. Memory: 80
-/// bytes a triangle and 40 bytes a cell, twice with a screened surface; 170 a triangle with a radar. The result does
-/// not depend on the number of threads. Throws InputError (nothing to see, unusable numbers), Cancelled.
+/// misplaced. Cost: 0.5 microseconds per triangle and a tenth of a microsecond per line, of processor time. Memory: 80
+/// bytes per triangle and 40 bytes per cell, twice with a screened surface; 170 per triangle with a radar. The result
+/// does not depend on the number of threads. Throws InputError (nothing to see, unusable numbers), Cancelled.
 Zone survey_turbines(const Tin& ground, const Tin* screened, const ZoneRequest& request, Progress& progress);
 
-/// On the surface of a store: one retrieval within the turbines' radii, or one a part. Throws also what triangulate()
+/// On the surface of a store: one retrieval within the turbines' radii, or one per part. Throws also what triangulate()
 /// throws, and InputError where memory_bytes is not enough for some part, saying about how much is.
 Zone survey_turbines(const Store& store, const ZoneRequest& request, Progress& progress);
 

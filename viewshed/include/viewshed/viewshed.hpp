@@ -55,7 +55,7 @@ struct Observer {
   std::optional<AngleRange> elevation = std::nullopt;
 };
 
-/// What ground without data does to sight lines.
+/// How ground without data affects sight lines.
 enum class NoData {
   /// Mode kVisible: a line that nothing known hides is undecided. Other modes: it passes, and a warning says so if any
   /// could be concerned.
@@ -64,14 +64,14 @@ enum class NoData {
   kClear   ///< they pass
 };
 
-/// What decides sight lines to cells. The result never depends on it.
+/// The algorithm that decides sight lines to cells. The result never depends on it.
 enum class Engine {
   kAuto,   ///< whichever takes less time, as benchmarks/README.md measured it
   kSweep,  ///< a sweep of the surface about each observer
   kRays    ///< Embree's rays; not in mode kHeight, which asks more than a ray tells
 };
 
-/// What a cell is told about the observers that see it.
+/// The value that a cell gets from the observers that see it.
 enum class Mode {
   kVisible,     ///< whether any does
   kCount,       ///< how many do
@@ -83,7 +83,7 @@ enum class Mode {
   kProbability  ///< how probably any of them does where heights are uncertain: the greatest of theirs
 };
 
-/// What is known of a line of sight. The numbers are those of rasters.
+/// Says whether a line of sight is clear, as far as that is known. Rasters hold these numbers.
 enum class Verdict : std::uint8_t {
   kHidden = 0,
   kVisible = 1,
@@ -91,9 +91,9 @@ enum class Verdict : std::uint8_t {
   kOutside = 255   ///< outside every field of view, or no ground to look at
 };
 
-/// What is known of the errors of the surface's vertices: normal, with this standard deviation; those of vertices x
-/// apart are correlated as exp(-x / correlation_length), or not at all where that is 0. Between vertices they are
-/// linear, and what stands on the surface moves with it.
+/// The errors of the surface's vertices are normal, with this standard deviation; those of vertices x apart are
+/// correlated as exp(-x / correlation_length), or not at all where that is 0. Between vertices they are linear, and
+/// what stands on the surface moves with it.
 struct VerticalError {
   double sigma = 0;               ///< metres, positive
   double correlation_length = 0;  ///< metres
@@ -109,14 +109,14 @@ struct Request {
   std::optional<AngleRange> azimuth;
   std::optional<AngleRange> elevation;
   // The cells: one of the two, or neither. Then the cell size is the least of 1, 2, 5, 10, ... (or their decimal
-  // fractions) metres that gives at most kDefaultCells cells a side.
+  // fractions) metres that gives at most kDefaultCells cells per side.
   std::optional<double> cell_size;
   std::optional<RasterGrid> grid;
   Earth earth;
   Detail detail = Detail::tolerance(0);      ///< of the surface; not used with a Tin
   ThemeChoice themes = ThemeChoice::none();  ///< likewise
-  // What both ends stand on: the ground without standing features, or the surface with them. Without a ground of its
-  // own, compute() takes the surface for both.
+  // Both ends stand on the ground without standing features, or on the surface with them. Without a ground of its own,
+  // compute() takes the surface for both.
   bool observers_on_surface = false;
   bool targets_on_surface = false;
   NoData nodata = NoData::kUnknown;
@@ -208,14 +208,13 @@ constexpr std::size_t which_grids(std::size_t observers) {
 }
 
 /// On a given surface. The Tin must hold every triangle that sight lines cross; where it ends there is no data.
-/// Cost: O(n) for n triangles (about 0.1 microseconds each) and about 50 ns a cell and observer, in mode kHeight 150;
-/// memory 9 bytes a post of a raster, 50 a triangle of others, and a tenth of a megabyte a thread. The result does not
-/// depend on the number of threads. Throws InputError (an observer outside the data, by name; an unusable radius, cell
-/// size or angle; more than 65534 observers to count), Cancelled.
+/// Cost: O(n) for n triangles (about 0.1 microseconds each) and about 50 ns per cell and observer, in mode kHeight 150;
+/// memory 9 bytes per post of a raster, 50 per triangle of others, and a tenth of a megabyte per thread. The result
+/// does not depend on the number of threads. Throws InputError (an observer outside the data, by name; an unusable
+/// radius, cell size or angle; more than 65534 observers to count), Cancelled.
 Result compute(const Tin& tin, const Request& request, Progress& progress);
 
-/// The same, with the ground on which ends stand that are not on the surface. It must cover what the surface
-/// covers.
+/// Ends that are not on the surface stand on `ground`, which must cover what the surface covers. Otherwise as above.
 Result compute(const Tin& tin, const Tin& ground, const Request& request, Progress& progress);
 
 struct ComputeOptions {
@@ -224,7 +223,7 @@ struct ComputeOptions {
   bool lattices = true;  ///< a raster is swept over its posts alone
 };
 
-/// What sight lines were looked at over. Opaque: draw_map() and compute_on_surface() take it.
+/// The surface over which sight lines were decided. Opaque: draw_map() and compute_on_surface() take it.
 struct Surface;
 
 /// A result, and what it was made on, for maps and single observers while the store is open.
@@ -241,26 +240,26 @@ struct Surveyed {
 /// surface, and the others take the places where their lines come near the ground, and no more; with themes that stand
 /// on the ground, at a tolerance, and in modes that ask more than whether a cell is seen, they take all ground under
 /// the lines. The answer is the same to the last bit, in every mode. Cost, on one core: about a microsecond a point; a
-/// fifth of that for rasters, and 9 bytes a post. Throws as compute() on a Tin and triangulate() do, and InputError
+/// fifth of that for rasters, and 9 bytes per post. Throws as compute() on a Tin and triangulate() do, and InputError
 /// where the line to a single cell does not fit into the memory.
 Surveyed compute_with_surface(const Store& store, const Request& request, const ComputeOptions& options,
                               Progress& progress);
 
-/// What is certain of the full surface, without reading all of it: no cell called certain differs from the full
-/// surface's exact answer. Both ends of a sight line stand on the full surface (level 0 of the terrain), whatever the
-/// tolerance. Lines of themes that are no terrain lie on the surface and change nothing. Where Request::themes includes
-/// themes that stand on it, the full surface is the one with them; certificates do not cover these, so that all ground
-/// under the sight lines is read at full detail.
-/// At request.detail, in request.mode kVisible. By the certificates of the store's index cells (law 2): the full
-/// surface lies between two envelopes of the level asked for. Finer levels, as small as they are, stand in about every
-/// observer, for coarse ground there would hide everything. With several observers a cell is certainly visible when it
-/// is to one of them, and certainly hidden when it is to all. Under NoData::kUnknown a line across a void and back is
-/// never certainly visible. Cost: as a plain viewshed twice over. Where exact answers cost no more, every cell is
-/// decided, but for such lines across voids, as by compute_with_surface() at tolerance 0: with themes that stand on the
-/// ground, where the level has half of all points or more, or a hundred-and-twenty-eighth of those of a large raster,
-/// or of any surface if that is over a million and a half. Other levels of more than a million and a half points are
-/// looked at sector by sector about each observer. Throws as compute() does, and InputError where such themes and voids
-/// come together, under another rule than NoData::kClear, in a window that takes more than a gigabyte.
+/// Computes what is certain of the full surface, without reading all of it: no cell called certain differs from the
+/// full surface's exact answer. Both ends of a sight line stand on the full surface (level 0 of the terrain), whatever
+/// the tolerance. Lines of themes that are no terrain lie on the surface and change nothing. Where Request::themes
+/// includes themes that stand on it, the full surface is the one with them; certificates do not cover these, so that
+/// all ground under the sight lines is read at full detail. At request.detail, in request.mode kVisible. By the
+/// certificates of the store's index cells (law 2): the full surface lies between two envelopes of the level asked for.
+/// Finer levels, as small as they are, stand in about every observer, for coarse ground there would hide everything.
+/// With several observers a cell is certainly visible when it is to one of them, and certainly hidden when it is to
+/// all. Under NoData::kUnknown a line across a void and back is never certainly visible. Cost: as a plain viewshed
+/// twice over. Where exact answers cost no more, every cell is decided, but for such lines across voids, as by
+/// compute_with_surface() at tolerance 0: with themes that stand on the ground, where the level has half of all points
+/// or more, or a hundred-and-twenty-eighth of those of a large raster, or of any surface if that is over a million and
+/// a half. Other levels of more than a million and a half points are looked at sector by sector about each observer.
+/// Throws as compute() does, and InputError where such themes and voids come together, under another rule than
+/// NoData::kClear, in a window that takes more than a gigabyte.
 Surveyed compute_certified(const Store& store, const Request& request, const ComputeOptions& options,
                            Progress& progress);
 
@@ -270,8 +269,7 @@ Result compute(const Store& store, const Request& request, Progress& progress);
 /// The request for one of its observers alone, on the cells of all.
 Request alone(const Result& result, std::size_t observer);
 
-/// The same for the request of one observer alone on a surface that was retrieved for all; `store` is where it came
-/// from.
+/// Computes the request of one observer alone on a surface that was retrieved for all from `store`.
 Result compute_on_surface(const Store& store, const Surveyed& surveyed, const Request& request, Progress& progress);
 
 struct GeotiffOptions {
@@ -285,7 +283,7 @@ struct GeotiffOptions {
 /// of distance and number of the nearest (nodata NaN). Throws FileError.
 void write_geotiff(const std::string& path, const Result& result, const GeotiffOptions& options);
 
-/// What is seen as polygons in a GeoPackage, one a class as write_regions() writes them: visible and hidden; the
+/// Writes what is seen as polygons to a GeoPackage, one per class as write_regions() does: visible and hidden; the
 /// undecided; a class for every count, nearest observer or theme that hides. Throws FileError.
 void write_polygons(const std::string& path, const Result& result, const std::string& crs_wkt, bool overwrite);
 

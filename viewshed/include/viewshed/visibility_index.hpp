@@ -47,10 +47,10 @@ struct VisibilityIndex {
   RetrievalStatistics retrieval;
 };
 
-/// The same store and request give the same numbers, whatever the number of threads and the memory: each line is hidden
-/// or not as SightLine, and so every viewshed, has it. Cost: retrieval of the observers' cells and the radius about
-/// them, and one to two microseconds a target. Throws InputError (values out of range, no ground in the area, too
-/// little memory for a single observer), and what triangulate() throws.
+/// A store and a request always give the same numbers, whatever the number of threads and the memory: each line is
+/// hidden or not as SightLine, and so every viewshed, has it. Cost: retrieval of the observers' cells and the radius
+/// about them, and one to two microseconds per target. Throws InputError (values out of range, no ground in the area,
+/// too little memory for a single observer), and what triangulate() throws.
 VisibilityIndex visibility_index(const Store& store, const IndexRequest& request, Progress& progress);
 
 /// Two bands, Float32: the share and its standard error; nodata NaN. Throws FileError.

@@ -26,7 +26,7 @@ double link_clearance_m(const RadioLink& link, Point2 turbine, double frequency_
 
 inline constexpr std::uint8_t kLinkClear = 0;
 inline constexpr std::uint8_t kLinkExcluded = 1;
-/// One value a cell, for its centre.
+/// One value per cell, for its centre.
 std::vector<std::uint8_t> link_exclusion(const RasterGrid& grid, const std::vector<RadioLink>& links,
                                          double frequency_ghz, double rotor_radius_m);
 

@@ -1,4 +1,5 @@
-// What sight lines are looked at over: a Tin or, where a raster's full surface was asked for, its posts alone.
+// The surface over which sight lines are decided: a Tin or, where a raster's full surface was asked for, its posts
+// alone.
 #pragma once
 
 #include <cstdint>
@@ -35,17 +36,18 @@ struct Surface {
 
 /// Every lattice, however large.
 inline constexpr std::uint64_t kAnyLattice = std::uint64_t{1} << 31;
-/// Of a lattice that is swept.
+/// A lattice that is swept takes this much.
 inline constexpr std::uint64_t kBytesPerPost = 9;
 
-/// Of all its data, metres.
+/// Holds all data of the store, metres.
 Box extent_of(const Store& store);
 
 /// That of triangulate(). A lattice if it is one of at most so many posts, at full detail.
 Surface retrieve_surface(const Store& store, const Window& window, const Detail& detail, const ThemeChoice& themes,
                          std::uint64_t most_posts, Progress& progress);
 
-/// The same, or nothing where it is no such lattice. Without heights they are read later on, while the store is open.
+/// Returns nothing where the surface is no such lattice. Heights that are not read now are read later, while the store
+/// is open.
 std::optional<Surface> retrieve_lattice(const Store& store, const Window& window, const Detail& detail,
                                         const ThemeChoice& themes, LatticeReader::Heights heights,
                                         std::uint64_t most_posts, Progress& progress);

@@ -132,7 +132,7 @@ void BinnedHeights::add(std::span<const std::uint32_t> tiles) {
 // So that the tiles of both have the same numbers.
 static_assert(RunBounds::kSide == LatticeTin::kSide);
 
-/// Of a cell with one triangle nothing is known where that is not.
+/// In a cell with one triangle, nothing is known outside that.
 void BinnedHeights::bound_tile(std::uint32_t tile) {
   constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::lowest();
   using HeightRange = RunBounds::Range<std::int32_t>;

@@ -29,8 +29,8 @@ namespace itin::viewshed {
 
 class BinnedHeights {
  public:
-  /// Of what must outlive it. About two triangles' worth a bin, 50 bytes a triangle; where it is a lattice its cells,
-  /// for a fraction of that.
+  /// The surface must outlive it. A bin has about two triangles' worth, at 50 bytes per triangle; a lattice's bins are
+  /// its cells, for a fraction of that.
   explicit BinnedHeights(const Tin& tin);
   explicit BinnedHeights(const LatticeTin& lattice);
   BinnedHeights(const BinnedHeights&) = delete;
@@ -52,7 +52,7 @@ class BinnedHeights {
                                    std::max(std::abs(row), std::abs(row - static_cast<double>(rows()))));
   }
 
-  /// Rounded outwards. What has not been read is bare.
+  /// Rounded outwards. Unread ground counts as bare.
   const RunBounds& runs() const { return runs_; }
   /// After heights of these tiles of the lattice have been read: they count from now on.
   void add(std::span<const std::uint32_t> tiles);
@@ -93,22 +93,22 @@ class BinnedHeights {
   const std::vector<RimEdge>& rim() const { return rim_; }
   /// Whether each triangle lies in one bin alone.
   bool partition() const { return lattice_ != nullptr; }
-  /// Of the surface at a position, if it is there; grid units. kUnread where it has not been read.
+  /// The surface's height at a position, if it is there; grid units. kUnread where it has not been read.
   std::optional<double> height_at(Point2 units) const;
   /// Whether there is ground at every position between two corners, and none of it has been read.
   bool all_unread(Point2 north_west, Point2 south_east) const;
-  /// Of the surface, grid units.
+  /// The surface's greatest absolute height, grid units.
   double greatest_magnitude() const { return greatest_magnitude_; }
 
  private:
   BinnedHeights(const Tin& tin, std::optional<LatticeTin> lattice);
 
   using Range = RunBounds::Range<float>;
-  /// What of a Tin that is no lattice is worked out once.
+  /// These are computed once for a Tin that is no lattice.
   struct Listed {
     TriangleBins bins;
-    std::vector<UpperPlane> upper_planes;  ///< a bin
-    std::vector<std::int32_t> tops;        ///< a triangle: its highest vertex
+    std::vector<UpperPlane> upper_planes;  ///< per bin
+    std::vector<std::int32_t> tops;        ///< per triangle: its highest vertex
   };
   std::uint32_t cell(RasterGrid::Cell bin) const {
     return lattice_->cell(static_cast<std::uint32_t>(bin.column), static_cast<std::uint32_t>(bin.row));

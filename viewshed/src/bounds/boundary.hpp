@@ -16,10 +16,10 @@ struct BoundaryEdge {
   std::uint32_t triangle = 0;
 };
 
-/// In ascending order of the triangles they belong to. O(n) time, 40 bytes a triangle while running.
+/// In ascending order of the triangles they belong to. O(n) time, 40 bytes per triangle while running.
 std::vector<BoundaryEdge> boundary_edges(const Tin& tin);
 
-/// The same by their ends.
+/// Gives the ends of each of these edges.
 std::vector<RimEdge> rim_of(const Tin& tin, const std::vector<BoundaryEdge>& boundary);
 
 /// Whether a sight line from a position on the surface can cross ground without data: whether the surface begins anew

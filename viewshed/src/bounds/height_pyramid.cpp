@@ -12,7 +12,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Some two triangles' worth a bin; a power of two a side.
+/// Some two triangles' worth per bin; a power of two per side.
 RasterGrid grid_of_bins(const Tin& tin) {
   const Box box = tin.bounds();
   if (box.empty()) return {{0, 0}, 1, 1, 1, 1};

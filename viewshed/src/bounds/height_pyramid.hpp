@@ -67,9 +67,9 @@ struct LineBundle {
 
 class HeightPyramid {
  public:
-  /// Of what must outlive it. About 20 bytes a triangle of even size.
+  /// The surface must outlive it. Takes about 20 bytes per triangle of even size.
   explicit HeightPyramid(const Tin& tin);
-  /// All of whose heights are read. Less than two bytes a post.
+  /// All heights of the lattice must have been read. Takes less than two bytes per post.
   explicit HeightPyramid(const LatticeTin& lattice);
 
   const Grid& units() const { return units_; }
@@ -85,7 +85,7 @@ class HeightPyramid {
   }
   /// A triangle that holds a position in grid units, if there is one.
   std::optional<std::uint32_t> triangle_at(Point2 units) const;
-  /// Of the surface there, grid units.
+  /// The surface's height there, grid units.
   std::optional<double> height_at(Point2 units) const;
 
  private:
@@ -130,10 +130,10 @@ class HeightPyramid {
     Stretch stretch;  ///< within the block
   };
 
-  /// What of a Tin is worked out once.
+  /// These are computed once for a Tin.
   struct Listed {
     TriangleBins bins;
-    std::vector<std::int32_t> tops;  ///< a triangle
+    std::vector<std::int32_t> tops;  ///< per triangle
   };
 
   void build_blocks();

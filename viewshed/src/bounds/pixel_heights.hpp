@@ -12,7 +12,7 @@ namespace itin::viewshed {
 /// At their centres, metres; NaN where there is no surface. O(triangles + pixels).
 std::vector<float> heights_at(const Tin& tin, const RasterGrid& pixels);
 
-/// The same in O(pixels). Precondition: all heights are read.
+/// A lattice takes O(pixels). Precondition: all heights are read.
 std::vector<float> heights_at(const LatticeTin& lattice, const RasterGrid& pixels);
 
 }  // namespace itin::viewshed

@@ -62,7 +62,7 @@ class RunBounds {
 
 class RunBounds::Lines {
  public:
-  /// Of runs.
+  /// The number of runs in a line.
   std::int64_t a_line() const { return a_line_; }
   /// At most as high as a run and the one beside it in the next line; -infinity where a part of them is bare.
   float low(std::int64_t run, std::int64_t line) const {

@@ -1,4 +1,4 @@
-// What all eyes together know of the cells, judged one group of eyes and cells after another.
+// The verdicts of all eyes together on the cells, judged one group of eyes and cells after another.
 //
 //   CertifiedCells cells(grid, tiles, stage);
 //   cells.judge(EnvelopeJudge(scene, grid, tiles, eyes), eyes.size(), by_tile(parts, tiles));
@@ -24,7 +24,7 @@ class CertifiedCells {
   CertifiedCells(const RasterGrid& grid, const RasterGrid& tiles, Stage& stage)
       : grid_(grid), tiles_(tiles), stage_(stage), verdicts_(tiles.cell_count()) {}
 
-  /// What one eye certainly sees is not asked of the others. Throws Cancelled.
+  /// A cell that one eye certainly sees is not judged for the others. Throws Cancelled.
   void judge(const TileJudge& judge, std::size_t eyes, std::span<const PartsOfTile> cells);
 
   /// Adds the counts and the sight lines to the result's.

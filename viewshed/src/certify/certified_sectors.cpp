@@ -68,8 +68,8 @@ class CertifiedSectors {
     }
   }
 
-  /// The same over a sector, without finer ground that lies beside it. All that lies about the eye belongs to it: where
-  /// the window ends, coarse ground stays beside finer one, and would hide everything.
+  /// Restricts the request to a sector, without finer ground that lies beside it. All that lies about the eye belongs
+  /// to it: where the window ends, coarse ground stays beside finer one, and would hide everything.
   static EnvelopeRequest within(std::vector<Point2> sector, const Eye& eye, EnvelopeRequest wanted) {
     for (const FineDisc& disc : wanted.discs)
       if (disc.centre == eye.position) add_corners(disc_box(disc.centre, disc.radius), sector);

@@ -31,7 +31,8 @@ Surveyed decide_exactly(const Store& store, const Request& request, const Comput
   return surveyed;
 }
 
-/// What the level takes at a time does not follow the memory, since what it leaves undecided would follow it, too.
+/// The part of the level read at a time does not depend on the memory, or what it leaves undecided would depend on it,
+/// too.
 void require_memory(const Store& store, const Request& request, CertifiedWay way, std::uint64_t memory) {
   constexpr std::uint64_t kBytesPerPointOfLevel = 715;
   const int level = level_within(store.metadata(), request.detail.coarsest());

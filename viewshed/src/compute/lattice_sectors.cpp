@@ -34,11 +34,11 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Of a post whose height is not read: a bit, and its share of a leaf and of a tile.
+/// A post whose height is not read takes a bit, and its share of a leaf and of a tile.
 constexpr double kBytesPerUnreadPost = 0.5;
-/// Of a sector's tiles, before one has been looked at.
+/// The share of a sector's tiles that counts as seen before any sector has been surveyed.
 constexpr double kFirstShareSeen = 0.25;
-/// Of the surface that maps are drawn over, at most.
+/// The surface that maps are drawn over has at most so many points.
 constexpr std::uint64_t kCoarsePoints = 200000;
 
 class LatticeSectors {
@@ -120,10 +120,10 @@ class LatticeSectors {
     return (box.width() / tile_side_m_ + 2) * (box.height() / tile_side_m_ + 2) < LatticeTin::kMostTiles;
   }
 
-  /// Of a sector of whose tiles such a share is seen.
+  /// The memory of a sector of whose tiles such a share is seen.
   double bytes_of(const std::vector<Point2>& hull, double share) const {
     const double posts = area_of(hull) * posts_per_square_metre_;
-    // Of the tiles of a lattice a convex shape meets so many on average, however it is turned.
+    // A convex shape meets so many tiles of a lattice on average, however it is turned.
     const double side = tile_side_m_;
     const double tiles = area_of(hull) / (side * side) + 2 * length_of(hull) / (std::numbers::pi * side) + 1;
     return kBytesPerUnreadPost * posts + share * tiles * LatticeTin::kCells * kBytesPerPost;

@@ -1,8 +1,7 @@
 // Precise viewsheds of rasters whose posts do not fit into the memory: sector by sector about each observer.
 //
-// Of the posts of a sector (sight_sectors.hpp) only those are read that the observer may see (reveal.hpp). How many
-// that will be is guessed from the sectors before; what turns out not to fit comes again in narrower ones, down to a
-// single cell.
+// Only those posts of a sector (sight_sectors.hpp) are read that the observer may see (reveal.hpp). How many that will
+// be is guessed from the sectors before; what turns out not to fit comes again in narrower ones, down to a single cell.
 #pragma once
 
 #include <cstdint>

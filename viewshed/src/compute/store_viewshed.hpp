@@ -14,7 +14,7 @@ namespace itin::viewshed {
 std::optional<Surveyed> compute_over_lattice(const Store& store, const Request& request, std::uint64_t most_posts,
                                              Progress& progress);
 
-/// Of every surface, mode and detail.
+/// Takes every surface, mode and detail.
 Surveyed compute_over_tin(const Store& store, const Request& request, Progress& progress);
 
 }  // namespace itin::viewshed

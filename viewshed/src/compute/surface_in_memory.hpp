@@ -1,4 +1,4 @@
-// What a viewshed is computed over, once it has been read: triangles, or the posts of a lattice.
+// The surface that a viewshed is computed over, once it has been read: triangles, or the posts of a lattice.
 #pragma once
 
 #include <memory>

@@ -30,7 +30,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Of an envelope, which has two surfaces and two scenes; and half of the memory is for what is refined meanwhile.
+/// An envelope has two surfaces and two scenes; and half of the memory is for what is refined meanwhile.
 constexpr std::uint64_t kBytesPerEnvelopePoint = 2400;
 /// The coarse pass reads so much less than the full surface.
 constexpr std::uint64_t kCoarseShare = 12;

@@ -8,10 +8,10 @@
 
 namespace itin::viewshed {
 
-/// What level ground has.
+/// The shade of level ground.
 inline constexpr double kLevelShade = 0.643;
 
-/// One value a pixel: 0 (darkest) to 1 (brightest), NaN where its height, metres, is. Light comes from the north-west
+/// One value per pixel: 0 (darkest) to 1 (brightest), NaN where its height, metres, is. Light comes from the north-west
 /// and, weaker, from the west, north and south-west, so that no slope direction is lost.
 std::vector<float> hillshade(std::span<const float> heights, const RasterGrid& pixels);
 

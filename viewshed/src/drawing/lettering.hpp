@@ -18,7 +18,7 @@ class Lettering {
   /// `baseline` is where the text stands; `size` is the font's height in pixels.
   void draw(Canvas& canvas, const std::string& text, Point2 baseline, int size, Colour colour,
             Align align = Align::kLeft) const;
-  /// The same with a white rim, to be read over anything.
+  /// Draws the text with a white rim, so that it can be read over anything.
   void draw_with_rim(Canvas& canvas, const std::string& text, Point2 baseline, int size, Colour colour) const;
   int width(const std::string& text, int size) const;
 

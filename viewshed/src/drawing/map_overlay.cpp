@@ -22,7 +22,7 @@ constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<Colour, 7> kPalette{
     {{0, 114, 178}, {230, 159, 0}, {0, 158, 115}, {204, 121, 167}, {86, 180, 233}, {213, 94, 0}, {240, 228, 66}}};
 
-/// Of step i of n, weak to strong.
+/// The opacity of step i of n, weak to strong.
 double opacity_of(int i, int n) {
   return n == 1 ? kOpacity : 0.25 + 0.6 * i / (n - 1);
 }
@@ -100,7 +100,7 @@ double MapOverlay::value(std::size_t cell) const {
   return kNoValue;
 }
 
-/// Of the scale of blockers.
+/// The theme's number on the scale of blockers.
 double MapOverlay::blocker_value(std::uint32_t theme) const {
   const auto known = std::find(blockers_.begin(), blockers_.end(), theme);
   return known == blockers_.end() ? kNoValue : static_cast<double>(known - blockers_.begin() + 1);

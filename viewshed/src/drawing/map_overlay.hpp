@@ -1,4 +1,4 @@
-// What a map lays over the ground for each mode, and how its legend says so.
+// The colours that a map lays over the ground for each mode, and the legend that explains them.
 #pragma once
 
 #include <optional>
@@ -46,7 +46,7 @@ class MapOverlay {
   const std::vector<Step>& scale() const { return steps_; }
 
  private:
-  /// What the scale is about; NaN where it has nothing to say.
+  /// The value that the scale shows; NaN where it shows none.
   double value(std::size_t cell) const;
   void make_scale();
   void scale_counts();

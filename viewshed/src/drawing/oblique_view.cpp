@@ -16,7 +16,7 @@ namespace {
 
 /// Pixels are averages of so many by so many samples.
 constexpr int kSamples = 2;
-/// Of the picture's longer side, left free around the surface.
+/// This share of the picture's longer side is left free around the surface.
 constexpr double kMargin = 0.02;
 constexpr double kAmbient = 0.42;
 /// Surfaces steeper than this are walls: the cosine of their slope.
@@ -145,7 +145,7 @@ class View {
   std::array<double, 3> light_{};
   std::vector<Seen> seen_;
   double left_ = std::numeric_limits<double>::infinity(), right_ = -left_, low_ = left_, high_ = -left_;
-  double scale_ = 1;  ///< samples a metre
+  double scale_ = 1;  ///< samples per metre
   int width_ = 0, height_ = 0;
   std::vector<Colour> colours_;
   std::vector<float> depths_;

@@ -6,7 +6,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// What U+00C0 to U+017F look like without accents, in order.
+/// U+00C0 to U+017F without accents, in order.
 constexpr std::string_view kLatin =
     "AAAAAAACEEEEIIIIDNOOOOOxOUUUUYTs"
     "aaaaaaaceeeeiiiidnooooo/ouuuuyty"

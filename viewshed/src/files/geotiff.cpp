@@ -32,8 +32,8 @@ std::string text_of(const AngleRange& range) {
 
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
-/// What each observer has of its own or, where it has none, all have: once where that is the same for all, else one by
-/// one, `-` for none.
+/// Adds each observer's own value or, where it has none, that of all: once where all are equal, else one by one, `-`
+/// for none.
 template <class Value>
 void add_of_observers(const std::string& name, const Request& request, std::optional<Value> Observer::*own,
                       const std::optional<Value>& of_all, Metadata& items) {

@@ -12,7 +12,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// What is told in both directions: `exchange` passes every field to an archive, which writes it or reads it.
+/// Serves both directions: `exchange` passes every field to an archive, which writes it or reads it.
 template <class Archive, class R>
 void exchange(Archive& archive, R& result) {
   archive(result.visible, result.count, result.which, result.angle_deg, result.nearest, result.distance_m,
@@ -89,7 +89,7 @@ class SegmentReader {
     all.resize(count(sizeof *all.data()));
     take(all.data(), all.size() * sizeof *all.data());
   }
-  /// Of values of so many bytes at least.
+  /// Reads a count of values that take at least `size` bytes each.
   std::size_t count(std::size_t size) {
     std::uint64_t n = 0;
     get(n);

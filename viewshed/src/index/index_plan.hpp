@@ -37,8 +37,8 @@ struct IndexSegment {
 /// Whether a surface of about so many points fits, over which so many lines are asked about.
 using SurfaceFits = std::function<bool(std::uint64_t points, std::uint64_t lines)>;
 
-/// Of the cells, those that lie in the area, halved until the ground about each block fits. Throws InputError where
-/// that about a single observer does not.
+/// Takes the cells that lie in the area, halved until the ground about each block fits. Throws InputError where the
+/// ground about a single observer does not.
 std::vector<IndexSegment> index_segments(const Store& store, const IndexRequest& request, const RasterGrid& grid,
                                          const CellBlock& cells, const SurfaceFits& fits);
 

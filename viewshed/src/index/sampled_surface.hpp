@@ -23,9 +23,9 @@ namespace itin::viewshed {
 /// many lines, rays find most of those that are hidden (Scene) in less time.
 class SampledSurface {
  public:
-  /// Of what must outlive it and has all its heights, to be asked about so many lines. Throws std::bad_alloc.
+  /// The surface must outlive it and have all its heights; about `lines` lines will be tested. Throws std::bad_alloc.
   SampledSurface(const Surface& surface, const Earth& earth, std::uint64_t lines);
-  /// What a Tin of so many points takes, bytes, about. A lattice takes kBytesPerPost.
+  /// The memory that a Tin of so many points takes, bytes, about. A lattice takes kBytesPerPost.
   static std::uint64_t bytes(std::uint64_t points, std::uint64_t lines);
 
   const Grid& units() const { return pyramid_.units(); }
@@ -37,7 +37,7 @@ class SampledSurface {
   struct Work {
     Occluder occluder;
   };
-  /// One bit a line: 1 hidden. Ends of active lines differ horizontally. Safe for concurrent use.
+  /// One bit per line: 1 hidden. Ends of active lines differ horizontally. Safe for concurrent use.
   unsigned hidden(const SightLines& lines, Work& work) const;
 
  private:

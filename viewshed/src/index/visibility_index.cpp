@@ -38,7 +38,8 @@ void validate(const IndexRequest& request) {
   require(request.nodata != NoData::kUnknown, "ground without data must block or be clear for a visibility index");
 }
 
-/// Of targets seen among those on ground: with one more of either kind, so that none or all seen is no certainty.
+/// The standard error of the share seen among targets on ground, with one more of either kind, so that none or all seen
+/// is no certainty.
 double standard_error(const VisibilitySampler::Tally& tally) {
   const double n = tally.on_ground + 2, p = (tally.seen + 1) / n;
   return std::sqrt(p * (1 - p) / n);

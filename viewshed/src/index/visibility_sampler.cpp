@@ -39,7 +39,7 @@ class Random {
 struct VisibilitySampler::Packet {
   SightLines lines;
   std::array<Point2, SightLines::kSize> targets;  ///< metres
-  unsigned on_ground = 0;                         ///< one bit a target
+  unsigned on_ground = 0;                         ///< one bit per target
 };
 
 VisibilitySampler::VisibilitySampler(const SampledSurface& surface, const SampledSurface& ground,
@@ -54,7 +54,7 @@ std::optional<double> VisibilitySampler::ground(Point2 place) const {
   return height ? std::optional(*height * units.resolution) : std::nullopt;
 }
 
-/// What of the rim lines within the radius may cross.
+/// Returns the part of the rim that lines within the radius may cross.
 std::vector<RimEdge> VisibilitySampler::rim_near(const Point3& eye) const {
   const double reach = targets_.radius / surface_.units().resolution + 1;
   std::vector<RimEdge> near;

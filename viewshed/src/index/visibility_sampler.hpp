@@ -20,7 +20,7 @@ class VisibilitySampler {
     unsigned seen = 0;       ///< of those
   };
 
-  /// What is looked for from every eye.
+  /// The targets of every eye.
   struct Targets {
     double radius = 0;  ///< metres
     double height = 0;  ///< metres above the ground
@@ -34,8 +34,8 @@ class VisibilitySampler {
 
   /// Called with every target on ground, metres, and whether it is seen.
   using Told = std::function<void(Point2 target, bool seen)>;
-  /// From an eye at this elevation, metres, to targets spread evenly over the disc about it. The same seed gives the
-  /// same targets. Safe for concurrent use.
+  /// Tests lines from an eye at this elevation, metres, to targets spread evenly over the disc about it. A seed always
+  /// gives the same targets. Safe for concurrent use.
   Tally look(Point2 eye, double elevation, std::uint64_t seed, const Told& told = nullptr) const;
 
  private:

@@ -53,7 +53,7 @@ class EnvelopeScene {
   double drop;  ///< by curvature, grid units for a squared grid unit
 
  private:
-  /// Of the upper surface, grid units; -infinity where there is none.
+  /// The upper surface's height, grid units; -infinity where there is none.
   double upper_height(const Eye& eye, std::span<const std::uint32_t> triangles) const;
 
   const RasterGrid& tiles_;
@@ -67,7 +67,7 @@ struct Doubtful {
   std::size_t row, column;    ///< of the packet in its tile
 };
 
-/// Of a tile: rows and columns from the first to the last.
+/// Cells of a tile: rows and columns from the first to the last.
 struct CellBlock {
   std::size_t row0, row1, column0, column1;
 };
@@ -78,10 +78,10 @@ class CertifiedPass {
 
   /// Cells along the side of the smallest block that is decided as a whole.
   static constexpr std::size_t kBlockSide = 8, kBlocks = Tile::kSide / kBlockSide;
-  /// One value a block of a tile, row by row.
+  /// One value per block of a tile, row by row.
   using BlockValues = std::array<double, kBlocks * kBlocks>;
 
-  /// What a tile's cells share between observers.
+  /// Holds what a tile's cells share between observers.
   struct TileWork {
     TileWork(const Grid& units, const RasterGrid& grid, const Tile& t) : tile(t), centres(units, grid, t) {}
     Tile tile;

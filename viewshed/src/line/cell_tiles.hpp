@@ -33,7 +33,7 @@ struct Tile {
   }
 };
 
-/// One value a cell of a tile, row by row, kSide to a row.
+/// One value per cell of a tile, row by row, kSide to a row.
 template <class T>
 using TileValues = std::array<T, Tile::kSide * Tile::kSide>;
 

@@ -31,8 +31,8 @@ inline double area_of(const std::vector<Point2>& hull) {
   return doubled / 2;
 }
 
-/// Whether a side of the hull, counterclockwise, has all these places beyond it. Of two convex shapes that are apart
-/// one has such a side; so a box that has none meets the hull, or may.
+/// Whether a side of the hull, counterclockwise, has all these places beyond it. If two convex shapes are apart, one
+/// has such a side; so a box that has none meets the hull, or may.
 inline bool beyond_a_side(const std::vector<Point2>& hull, std::span<const Point2> places) {
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const Point2 &a = hull[i], &b = hull[(i + 1) % hull.size()];

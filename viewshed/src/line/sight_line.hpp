@@ -161,7 +161,7 @@ class SightLine {
   const Point3& from() const { return from_; }
   double dx() const { return dx_; }
   double dy() const { return dy_; }
-  /// Of the ground above the straight line, by curvature: bulge() s (1 - s).
+  /// Curvature raises the ground above the straight line by bulge() s (1 - s).
   double bulge() const { return bulge_; }
   double to_z() const { return from_.z + dz_; }
 
@@ -209,10 +209,10 @@ class SightLine {
     return {dx_ * y - dy_ * x, along, p.z - from_.z - along * dz_};
   }
 
-  /// Of the curved ground above the straight line.
+  /// The height of the curved ground above the straight line.
   double rise(const Section& under, double s) const { return under.straight(s) + bulge_ * s * (1 - s); }
 
-  /// Of the ground above the line over the part of [low, high] between the ends.
+  /// The greatest height of the ground above the line over the part of [low, high] between the ends.
   double highest(const Section& under) const {
     const double first = std::max(under.low, 0.0), last = std::min(under.high, 1.0);
     double result = std::max(rise(under, first), rise(under, last));

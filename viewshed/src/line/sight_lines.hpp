@@ -12,7 +12,7 @@ struct SightLines {
   static constexpr unsigned kSize = 16;
   alignas(64) std::array<double, kSize> from_x{}, from_y{}, from_z{};
   alignas(64) std::array<double, kSize> to_x{}, to_y{}, to_z{};
-  unsigned active = 0;  ///< one bit a line; ends of active lines differ horizontally
+  unsigned active = 0;  ///< one bit per line; ends of active lines differ horizontally
 
   /// All from one eye.
   void start_at(const Point3& eye) {

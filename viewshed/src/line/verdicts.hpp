@@ -1,4 +1,4 @@
-// What certified viewsheds say of a tile's cells.
+// The verdicts of certified viewsheds on a tile's cells.
 #pragma once
 
 #include <algorithm>
@@ -44,7 +44,7 @@ class Verdicts {
  public:
   Verdicts() { values_.fill(Verdict::kOutside); }
 
-  /// What a cell is to be judged as next: what one observer certainly sees need not be asked of the others.
+  /// The verdict with which the next observer begins: a cell that one certainly sees need not be judged for the others.
   Verdict open(std::size_t cell) const {
     return values_[cell] == Verdict::kVisible ? Verdict::kOutside : Verdict::kUndecided;
   }

@@ -10,7 +10,7 @@ namespace itin::viewshed {
 
 class BlockerObservation final : public Observation {
  public:
-  /// Of one tile; its blockers are numbered as in the table, which must outlive it.
+  /// Observes one tile; its blockers are numbered as in the table, which must outlive it.
   explicit BlockerObservation(BlockerTable& table);
 
   bool open(const Look& look) const override { return value(look.cell) != Verdict::kVisible; }
@@ -21,7 +21,7 @@ class BlockerObservation final : public Observation {
   void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override;
 
   BlockerTable& table_;
-  /// Of the nearest observer that was asked for so far; of two as near the first.
+  /// These are of the nearest observer so far; the first of two counts that are equally near.
   TileValues<double> squared_;
   TileValues<std::uint32_t> observer_;
   TileValues<std::uint32_t> blocker_;

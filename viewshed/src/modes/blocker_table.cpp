@@ -13,7 +13,7 @@ std::vector<std::uint32_t> BlockerTable::numbers_of(std::span<const BlockingTria
 }
 
 void BlockerTable::give(Result& result) const {
-  // What hid a cell from one observer may have given way to what hides it from a nearer one.
+  // A blocker that hid a cell from one observer may have given way to one that hides it from a nearer observer.
   std::vector<bool> hides(numbers_.size());
   for (const std::uint32_t blocker : result.blocker)
     if (blocker < kMissingGround) hides[blocker] = true;

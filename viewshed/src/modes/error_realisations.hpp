@@ -20,10 +20,10 @@ class ErrorRealisations {
  public:
   static constexpr std::size_t kCount = 512;
 
-  /// The same in every process.
+  /// Every process makes equal realisations.
   ErrorRealisations();
 
-  /// Of mean 0 and standard deviation 1, independent of those of other numbers.
+  /// They have mean 0 and standard deviation 1, and are independent of those of other numbers.
   std::span<const float, kCount> of(std::uint64_t number) const;
 
  private:

@@ -16,8 +16,8 @@ struct Regression {
   double deviation = 0;
 };
 
-/// Of the others `among` each other, and `with` the variable itself, whose variance is `variance`. Those of
-/// which nothing is left given those before them are passed over.
+/// Takes the covariances of the others `among` each other and `with` the variable itself, whose variance is `variance`.
+/// Others that those before them determine are passed over.
 Regression regress(std::size_t count, const Covariances& among, const std::array<double, kMostGiven>& with,
                    double variance) {
   constexpr double kNothing = 1e-9;
@@ -62,7 +62,7 @@ void ErrorsAlongLine::begin(const ErrorSum& from, const ErrorSum& to) {
   for (Drawn& vertex : vertices_) vertex.used = 0;
 }
 
-/// Of the first ends, and of the second ones, those in one triangle have one world's luck.
+/// First ends in one triangle share their random numbers, and so do second ends.
 void ErrorsAlongLine::draw_end(std::size_t which, const ErrorSum& sum, std::span<const Drawn* const> given) {
   ends_[which].sum = sum;
   // Numbers beyond those of vertices.
@@ -93,8 +93,8 @@ std::uint64_t ErrorsAlongLine::number_of(std::uint32_t vertex) const {
          static_cast<std::uint32_t>(p.y + kGridHalfSide);
 }
 
-/// Sets the errors of `out.sum`, given those of the ends, or of the first, and of vertices. What they leave open is
-/// that of `number`.
+/// Sets the errors of `out.sum`, given those of the ends, or of the first, and of vertices. The realisations of
+/// `number` decide what these leave open.
 void ErrorsAlongLine::draw(Drawn& out, std::uint64_t number, std::span<const Drawn* const> given) const {
   Covariances among{};
   std::array<double, kMostGiven> with{};

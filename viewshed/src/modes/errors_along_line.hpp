@@ -33,12 +33,13 @@ struct ErrorSum {
 /// For one thread. 10 kB.
 class ErrorsAlongLine {
  public:
-  using Errors = std::array<float, ErrorRealisations::kCount>;  ///< one a world
+  using Errors = std::array<float, ErrorRealisations::kCount>;  ///< one per world
 
   /// `correlation`: L in grid units. All must outlive it.
   ErrorsAlongLine(const Tin& tin, double correlation, const ErrorRealisations& worlds);
 
-  /// A line between places whose heights have these errors. What it has of the eye of the line before serves again.
+  /// A line between places whose heights have these errors. Values of the eye are reused where the line before began at
+  /// it.
   void begin(const ErrorSum& from, const ErrorSum& to);
   const Errors& from() const { return ends_[0].errors; }
   const Errors& to() const { return ends_[1].errors; }

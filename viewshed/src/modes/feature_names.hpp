@@ -6,8 +6,8 @@
 
 namespace itin::viewshed {
 
-/// What the store that a result was made of knows of it: the names of its themes, and of its blockers which features
-/// they are part of.
+/// Takes names from the store that the result was made of: those of its themes, and the features that its blockers are
+/// part of.
 void name_features(const Store& store, Result& result);
 
 }  // namespace itin::viewshed

@@ -1,4 +1,4 @@
-// What first hides a target from an eye: of the triangles that rise above the sight line, the nearest to the eye.
+// Finds what first hides a target from an eye: of the triangles that rise above the sight line, the nearest to the eye.
 //
 //   const FirstBlocker blockers(tin, earth);
 //   const std::optional<FirstBlocker::Blocker> blocker = blockers.find(eye, target);
@@ -27,8 +27,8 @@ class FirstBlocker {
     std::uint32_t triangle = 0;
     double at = 0;  ///< fraction of the line's length where it first rises above it
   };
-  /// Ends in grid units. Nothing for a line that no ground hides. Of triangles that begin to hide at one place the
-  /// first by number.
+  /// Ends in grid units. Nothing for a line that no ground hides. If several triangles begin to hide at one place, the
+  /// first by number counts.
   std::optional<Blocker> find(const Point3& from, const Point3& to) const;
 
  private:

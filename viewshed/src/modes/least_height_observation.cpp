@@ -44,7 +44,7 @@ bool LeastHeightObservation::raise(const TileLook& tile, const Look& look) {
     lowest = std::max(lowest, (eye.elevation + range->first) / resolution);
     highest = std::min(highest, (eye.elevation + range->second) / resolution);
   }
-  // What is known to be seen by another observer, unless the target that counts as visible is higher.
+  // Heights that another observer is known to see need no line, unless the target that counts as visible is higher.
   highest = std::min(highest, std::max(ground + least_[look.cell] / resolution, wanted));
   if (lowest > highest) return false;
   work.targets[look.cell] = highest, lowest_[look.cell] = lowest, wanted_[look.cell] = wanted;

@@ -7,7 +7,7 @@ namespace itin::viewshed {
 
 class LeastHeightObservation final : public Observation {
  public:
-  /// Of one tile.
+  /// Observes one tile.
   LeastHeightObservation();
 
   bool open(const Look& look) const override;
@@ -19,7 +19,7 @@ class LeastHeightObservation final : public Observation {
   void settle(const TileLook& tile, const Look& look);
 
   TileValues<double> least_;  ///< metres above the ground; infinity where no height is seen
-  // Of the last observer's lines, grid units.
+  // These two belong to the last observer's lines, grid units.
   TileValues<double> lowest_;
   TileValues<double> wanted_;  ///< the target that counts as visible
 };

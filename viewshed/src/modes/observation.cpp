@@ -60,7 +60,7 @@ class ObserverBits final : public Observation {
         result.which[grid * result.grid.cell_count() + place + i] = row[i * grids_ + grid];
   }
   std::size_t grids_;
-  /// Of each of the tile's rows the words of its cells, cell by cell, up to the last that is seen.
+  /// Each of the tile's rows has the words of its cells, cell by cell, up to the last that is seen.
   std::array<std::vector<std::uint32_t>, Tile::kSide> rows_;
 };
 
@@ -87,7 +87,7 @@ class NearestObserver final : public Observation {
     numbers_.fill(0);
   }
   bool open(const Look& look) const override {
-    // Of two as near, the first.
+    // The first of two that are equally near counts.
     const double squared = look.squared_distance();
     return squared < squared_[look.cell] || (squared == squared_[look.cell] && look.observer + 1 < numbers_[look.cell]);
   }

@@ -1,4 +1,4 @@
-// What a mode keeps of the looks at a tile's cells.
+// The values that a mode keeps of the lines to a tile's cells.
 //
 //   const Observations observations(request, tin);
 //   const std::unique_ptr<Observation> observation = observations.of_tile();
@@ -49,7 +49,7 @@ struct TileLook {
   void for_each_cell(const Visit& visit) const;
 };
 
-/// What became of a line between places that differ horizontally; grid units.
+/// The outcome of a line between places that differ horizontally; grid units.
 struct Sight {
   const Eye& eye;
   Point3 from, to;
@@ -101,7 +101,8 @@ class Observation {
   TileValues<Verdict> values_;
 };
 
-/// What ground without data, beyond this rim, hides from the eye or leaves undecided, where that changes the result.
+/// Holds what ground without data, beyond this rim, hides from the eye or leaves undecided, where that changes the
+/// result.
 std::optional<VoidShadow> shadow_of(const Eye& eye, const std::vector<RimEdge>& rim, const Result& result);
 
 /// Makes the Observations of a request's mode. The request must outlive it, and it must outlive them.

@@ -25,7 +25,7 @@ void ProbabilityObservation::judge(const TileLook& tile, const Look& look, const
   if (sight.seen) mark_visible(look.cell);
   const VisibilityProbability::Odds odds =
       tile.studies->odds->of_line({sight.from, sight.to, !sight.eye.absolute, !sight.eye.target_absolute}, *scratch_);
-  // What no ground hides is behind missing ground that blocks.
+  // A hidden cell that no ground hides is behind missing ground that blocks.
   if (!sight.seen && odds.clear && nodata_ == NoData::kBlock) return;
   probabilities_[look.cell] = std::max(probabilities_[look.cell], static_cast<float>(odds.probability));
 }

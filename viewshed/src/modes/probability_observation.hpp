@@ -10,7 +10,7 @@ namespace itin::viewshed {
 
 class ProbabilityObservation final : public Observation {
  public:
-  /// Of one tile.
+  /// Observes one tile.
   explicit ProbabilityObservation(NoData nodata);
 
   std::uint64_t look(const TileLook& tile) override;

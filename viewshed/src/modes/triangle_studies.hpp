@@ -1,4 +1,4 @@
-// What some modes ask of every triangle of a surface.
+// Properties of every triangle of a surface that some modes need.
 #pragma once
 
 #include <optional>

@@ -47,7 +47,7 @@ class VisibilityProbability {
     bool clear = false;  ///< of ground, as the heights are
   };
   class Scratch;
-  /// Cost: about half a microsecond an edge that comes near the line, 20 microseconds a line over rolling ground.
+  /// Cost: about half a microsecond per edge that comes near the line, 20 microseconds per line over rolling ground.
   Odds of_line(const Line& line, Scratch& scratch) const;
 
  private:

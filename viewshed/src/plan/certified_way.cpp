@@ -12,7 +12,7 @@ namespace {
 
 /// A point of an envelope costs about as much as two of the full surface, or as so many posts of a lattice.
 constexpr std::uint64_t kEnvelopeCosts = 2, kEnvelopeCostsInPosts = 128;
-/// So few posts are looked at in a moment, whatever way is asked for.
+/// Lattices of at most so many posts take but a moment, whatever way is asked for.
 constexpr std::uint64_t kFewPosts = 100000;
 /// More take over a gigabyte: larger levels are looked at in sectors.
 constexpr std::uint64_t kMostEnvelopePoints = 1500000;

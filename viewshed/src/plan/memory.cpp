@@ -11,7 +11,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// What is known of a cell on the way and in the end.
+/// Counts what is kept of a cell on the way and in the end.
 std::uint64_t bytes_per_cell(const Request& request) {
   constexpr std::uint64_t kVerdict = 6;
   switch (request.mode) {

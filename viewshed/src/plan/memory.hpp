@@ -1,4 +1,4 @@
-// What a viewshed takes of the memory: its rasters, and each point of its surface.
+// The memory that a viewshed takes: for its rasters, and for each point of its surface.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ bool takes_a_lattice(const Store& store, const Request& request);
 /// the mode add.
 std::uint64_t bytes_per_point(const Request& request);
 
-/// What the rasters leave of the memory, or a quarter of it.
+/// Returns what the rasters leave of the memory, or a quarter of it.
 std::uint64_t memory_beside_rasters(std::uint64_t memory, const Store& store, const Request& request);
 
 }  // namespace itin::viewshed

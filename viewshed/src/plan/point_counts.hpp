@@ -12,7 +12,7 @@ namespace itin::viewshed {
 
 class PointCounts {
  public:
-  /// Of this level's surface, within the box. Reads the directory of the store alone.
+  /// Counts the points of this level's surface within the box. Reads the directory of the store alone.
   PointCounts(const Store& store, int level, const Box& box);
 
   /// About as many as a query of this window reads there, or more. Its parts must be convex and have no holes.

@@ -39,7 +39,7 @@ class SightSectors {
   Sector next(const Fits& fits) const;
   /// Whether all cells of a part are nearer to the eye than so many metres, along columns and rows.
   bool within(double reach, const Tile& part) const;
-  /// The sector's parts within that reach have been decided. What is left of it will come in narrower ones. Throws
+  /// The sector's parts within that reach have been decided. The rest of it will come in narrower ones. Throws
   /// InputError where it is but a single cell.
   void settle(const Sector& sector, double reach);
 
@@ -52,7 +52,7 @@ class SightSectors {
   std::size_t most_;         ///< parts of the next sector
 };
 
-/// Of all parts.
+/// The cells of all parts.
 std::size_t cell_count(std::span<const Tile> parts);
 
 /// Those of a tile, which are parts of it.

@@ -6,7 +6,7 @@
 //   stage.for_each(tiles.size(), [&](std::size_t i) { ...; return cells_in(tiles[i]); });
 //   stage.advance_to(cells);
 //
-// What is reported only grows, whatever threads do, and reaches 1 with the last step.
+// The reported fraction only grows, whatever threads do, and reaches 1 with the last step.
 #pragma once
 
 #include <cstddef>
@@ -21,10 +21,10 @@ namespace itin::viewshed {
 
 class Stage {
  public:
-  /// Of so many steps. `progress` must outlive it.
+  /// The stage has `steps` steps. `progress` must outlive it.
   Stage(std::string_view name, std::size_t steps, Progress& progress);
 
-  /// So many more are done, or as many as that in all. From any thread.
+  /// Adds `steps` finished steps; `advance_to` sets their total. From any thread.
   void advance(std::size_t steps);
   void advance_to(std::size_t step);
 

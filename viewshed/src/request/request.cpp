@@ -50,7 +50,7 @@ void validate_observer(const Request& request, const Observer& observer) {
   try {
     validate_view(request, observer);
   } catch (const InputError& error) {
-    // What the request says is not the observer's fault.
+    // Values of the request are not the observer's fault.
     const bool own =
         observer.target_height || observer.radius || observer.min_radius || observer.azimuth || observer.elevation;
     if (!own) throw;
@@ -72,7 +72,7 @@ void validate_cells(const Request& request) {
   }
 }
 
-/// The least of 1, 2, 5, 10, ... or their decimal fractions with at most kDefaultCells cells a side.
+/// The least of 1, 2, 5, 10, ... or their decimal fractions with at most kDefaultCells cells per side.
 double default_cell_size(const Box& box) {
   const double least = std::max(box.width(), box.height()) / kDefaultCells;
   const double decade = std::pow(10, std::floor(std::log10(least)));
@@ -81,7 +81,7 @@ double default_cell_size(const Box& box) {
   return 10 * decade;
 }
 
-/// So many a GeoTIFF can have.
+/// A GeoTIFF can have at most so many bands.
 constexpr std::size_t kMostBands = 65535;
 
 /// Every 32 observers take a band.
@@ -208,7 +208,7 @@ std::vector<Point2> hull_about(Point2 observer, const Box& box) {
 
 namespace {
 
-/// Of the window, for one observer.
+/// The part of the window that one observer needs.
 Window::Polygon part_of(const Request& request, const Observer& observer) {
   const std::optional<double> radius = radius_of(request, observer);
   if (!request.grid) return Window::disc(observer.position, *radius).parts().front();

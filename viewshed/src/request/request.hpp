@@ -1,4 +1,4 @@
-// What a Request means: its checks, and the cells it asks for.
+// Interprets a Request: its checks, and the cells it asks for.
 #pragma once
 
 #include <string>

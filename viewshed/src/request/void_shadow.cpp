@@ -75,8 +75,8 @@ bool VoidShadow::holds(double x, double y) const {
   });
 }
 
-/// Whether the line from the eye comes to this corner of the rim across ground without data. Of all edges that end
-/// there, the first one clockwise from the line tells on which side of it that lies.
+/// Whether the line from the eye comes to this corner of the rim across ground without data. The first of all edges
+/// that end there, clockwise from the line, tells on which side of it that lies.
 bool VoidShadow::comes_from_void(const Numbers& edges, const Vector& corner) const {
   const Vector to_eye{-corner.x, -corner.y};
   double nearest = kTurn;

@@ -1,4 +1,5 @@
-// What lies behind ground without data as an eye sees it: beyond an edge where the surface begins anew.
+// The part of the ground that lies behind ground without data as an eye sees it: beyond an edge where the surface
+// begins anew.
 //
 //   const VoidShadow shadow(surface.rim(), eye.units);
 //   if (shadow.holds(target.x, target.y)) ...           // hidden under NoData::kBlock
@@ -15,9 +16,9 @@
 
 namespace itin::viewshed {
 
-/// What becomes of lines that cross ground without data and come back.
+/// The outcome of lines that cross ground without data and come back.
 enum class Voids { kPass, kBlock, kDoubt };
-/// Of the request's lines: where its rule is kUnknown, Mode::kVisible alone leaves anything open.
+/// The outcome of the request's lines: where its rule is kUnknown, Mode::kVisible alone leaves anything open.
 Voids voids_of(const Request& request);
 /// For answers that leave nothing open: what is not known hides nothing.
 Voids voids_without_doubt(NoData rule);
@@ -32,8 +33,8 @@ class VoidShadow {
   /// eye's own. Both lie on the surface. Cost: the edges of one sector.
   bool holds(double x, double y) const;
 
-  /// Of a tile's cells, what is Verdict::kVisible and lies in it becomes Verdict::kHidden, or Verdict::kUndecided under
-  /// kDoubt.
+  /// Each of the tile's cells that is Verdict::kVisible and lies in it becomes Verdict::kHidden, or Verdict::kUndecided
+  /// under kDoubt.
   void apply_to(const TileCentres& centres, TileValues<Verdict>& values) const;
 
  private:

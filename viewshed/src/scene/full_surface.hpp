@@ -55,12 +55,12 @@ class FullSurface {
   const RadialSweep& sweep() const { return sweep_; }
   const RasterGrid& grid() const { return grid_; }
   const RasterGrid& tiles() const { return tiles_; }
-  /// Of what hides, metres, if there is any at that position.
+  /// The height of what hides, metres, if there is any at that position.
   std::optional<double> height(Point2 position) const;
   /// Where it ends.
   const std::vector<RimEdge>& rim() const { return heights_->rim(); }
 
-  /// What a tile's cells share between eyes, for one thread.
+  /// Holds what a tile's cells share between eyes, for one thread.
   struct TileWork {
     TileWork(const Grid& units, const RasterGrid& grid, const Tile& t) : tile(t), centres(units, grid, t) {}
     Tile tile;
@@ -77,20 +77,20 @@ class FullSurface {
     }
   };
   std::unique_ptr<TileWork> begin(std::size_t tile) const;
-  /// Of the cells in these parts of the tile alone. Precondition: the surface is a lattice.
+  /// Begins the cells in these parts of the tile alone. Precondition: the surface is a lattice.
   std::unique_ptr<TileWork> begin(std::size_t tile, std::span<const Tile> parts) const;
 
   /// Calls visit(cell, Eye::offset_to() it) for every cell.
   template <class Visit>
   void for_each_offset(const Eye& eye, const TileWork& work, const Visit& visit) const;
 
-  /// What all tiles share of an eye; rays share nothing.
+  /// Holds what all tiles share of an eye; rays share nothing.
   RadialSweep::View view_from(const Eye& eye) const {
     return rays_ ? sweep_.beginning(axis_of(eye)) : sweep_.view_of(axis_of(eye));
   }
-  /// The same, for the cells alone: what is beyond and beside them costs nothing.
+  /// Surveys the ground towards the cells alone: what is beyond and beside them costs nothing.
   RadialSweep::View view_of_cells(const Eye& eye) const;
-  /// The same, to be advanced.
+  /// Begins such a view, to be advanced.
   RadialSweep::View look_out(const Eye& eye) const { return sweep_.beginning(axis_of(eye)); }
   /// After heights of tiles of the lattice have been read: they count from now on.
   void add(std::span<const std::uint32_t> tiles) { heights_->add(tiles); }
@@ -103,7 +103,7 @@ class FullSurface {
   void raise_from(const RadialSweep::View& view, const RadialSweep::Lowest& lowest, TileWork& work) const {
     sweep_.raise_from(view, {work.tile, work.centres, work.targets}, lowest, work.scratch, work.seen);
   }
-  /// The same for a single place, given in metres; grid units.
+  /// Raises to a single place, given in metres; heights are in grid units.
   double raise_from(const RadialSweep::View& view, Point2 position, double lowest, double highest) const;
 
  private:

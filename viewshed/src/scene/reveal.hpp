@@ -41,7 +41,7 @@ bool asks_for_all_heights(const Request& request);
 /// Whether no tile with ground is left to read.
 bool all_read(const LatticeReader& reader);
 
-/// What lies about a position in metres.
+/// Reads what lies about a position in metres.
 void reveal_place(Point2 position, LatticeReader& reader, FullSurface& surface, Progress& progress);
 
 }  // namespace itin::viewshed

@@ -26,7 +26,7 @@ std::vector<double> ring_limits(const Zone& zone) {
   return limits;
 }
 
-/// Of each cell the ring about the nearest turbine; kNoRing where the cell has no value.
+/// Each cell has the ring about its nearest turbine; kNoRing where the cell has no value.
 constexpr std::uint8_t kNoRing = 255;
 std::vector<std::uint8_t> rings_of_cells(const Zone& zone, const std::vector<double>& limits) {
   std::vector<std::uint8_t> rings(zone.grid.cell_count(), kNoRing);

@@ -18,7 +18,7 @@ std::vector<std::string> farms_of(const Zone& zone) {
 std::vector<std::uint32_t> farm_combinations(const Zone& zone, const Visibility& visibility) {
   const std::vector<std::string> farms = farms_of(zone);
   const std::size_t cells = zone.grid.cell_count();
-  // Of each farm the words of its turbines' bits.
+  // Each farm has the words of its turbines' bits.
   std::vector<std::vector<std::uint32_t>> masks(farms.size(), std::vector<std::uint32_t>(zone.words));
   for (const Turbine& t : zone.request.turbines) {
     const auto farm = static_cast<std::size_t>(std::find(farms.begin(), farms.end(), t.farm) - farms.begin());

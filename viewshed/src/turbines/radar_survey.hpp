@@ -16,7 +16,7 @@
 
 namespace itin::viewshed {
 
-/// What is hidden up to so many metres above the ground is not looked for.
+/// Lines are tested up to this height above the ground, metres.
 inline constexpr double kRadarCeiling = 1000;
 
 class RadarSurvey {
@@ -30,7 +30,7 @@ class RadarSurvey {
  private:
   struct Screen;
   void survey_tile(const Screen& screen, std::size_t tile);
-  /// Of one turbine, metres from its tip down; 0: hidden.
+  /// The visible part of one turbine, metres from its tip down; 0: hidden.
   double seen_of(const Screen& screen, std::size_t turbine) const;
 
   Zone& zone_;

@@ -1,4 +1,4 @@
-// What an eye sees of one turbine, and of several together.
+// The view that an eye has of one turbine, and of several together.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace itin::viewshed {
 
-/// Of an upright axis at horizontal distance `distance` between two heights, as seen from `eye`: degrees. All
-/// elevations, the drop by curvature not yet taken off.
+/// The angle of an upright axis between two heights at horizontal distance `distance`, as seen from `eye`: degrees.
+/// Heights are elevations, the drop by curvature not yet taken off.
 double vertical_angle_deg(const Earth& earth, double distance, double eye, double low, double high);
 
 /// A part of the horizon, degrees clockwise from grid north.
@@ -17,7 +17,7 @@ struct Arc {
   double width = 0;
 };
 
-/// Of a rotor that faces the eye.
+/// The arc of a rotor that faces the eye.
 Arc rotor_arc(Point2 eye, Point2 turbine, double rotor_diameter);
 
 struct RotorHorizon {
@@ -25,7 +25,7 @@ struct RotorHorizon {
   double occupied = 0;  ///< degrees that their union covers
 };
 
-/// Of at least one arc; `arcs` is left in another order.
+/// Takes at least one arc; `arcs` is left in another order.
 RotorHorizon rotor_horizon(std::vector<Arc>& arcs);
 
 }  // namespace itin::viewshed

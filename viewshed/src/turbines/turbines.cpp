@@ -26,7 +26,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// What voids hide from each turbine, where they do.
+/// Returns what voids hide from each turbine, where they do.
 std::vector<VoidShadow> shadows(const FullSurface& surface, const ZoneRequest& request) {
   std::vector<VoidShadow> result;
   if (request.nodata != NoData::kBlock) return result;

@@ -24,7 +24,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Of one farm: a disc about its middle that holds every turbine's reach.
+/// A disc about the farm's middle that holds every turbine's reach.
 Window::Polygon farm_disc(const std::vector<const Turbine*>& farm) {
   Box box;
   for (const Turbine* t : farm) box.extend(t->position);
@@ -62,7 +62,7 @@ std::vector<std::size_t> numbers_to(std::size_t count) {
   return numbers;
 }
 
-/// Bytes a triangle, as measured on OS Terrain 50: of one surface, and of two.
+/// Bytes per triangle, as measured on OS Terrain 50: of one surface, and of two.
 constexpr double kBareGround = 160, kScreened = 270;
 
 class Partition {
@@ -77,7 +77,7 @@ class Partition {
     return memory(window, bytes_per_triangle) <= static_cast<double>(*zone_.request.memory_bytes);
   }
 
-  /// What is seen of turbines, from the cells in their reach.
+  /// Divides the survey of the turbines from the cells in their reach.
   void divide_turbines(double bytes_per_triangle, std::vector<ZonePart>& parts) const {
     Box farm;
     for (const Turbine& t : zone_.request.turbines) farm.extend(t.position);
@@ -98,7 +98,7 @@ class Partition {
         });
   }
 
-  /// What the radar sees, over all cells and of all turbines.
+  /// Divides the survey of what the radar sees, over all cells and of all turbines.
   void divide_radar(std::vector<ZonePart>& parts) const {
     const Point2 radar = zone_.request.radar->position;
     std::vector<Box> boxes;

@@ -14,7 +14,7 @@
 
 namespace itin::viewshed {
 
-/// What one reading of the ground decides, or of the ground and of what stands on it.
+/// The part that one reading of the ground decides, or of the ground and of what stands on it.
 struct ZonePart {
   Window window;                            ///< holds every sight line of what follows
   std::vector<std::size_t> tiles;           ///< of grid_of_tiles(zone.grid): from their cells turbines are looked for
@@ -25,12 +25,12 @@ struct ZonePart {
 /// Holds all lines to every turbine, and from the radar as far as the turbines' radii reach.
 Window window_of(const ZoneRequest& request);
 
-/// The same with every cell of the zone's grid, which the radar looks at.
+/// With a radar it also holds every cell of the zone's grid, where the radar's heights are computed.
 Window window_of(const Zone& zone);
 
 ZonePart whole_zone(const Zone& zone);
 
-/// Of what is told of the cells, in all.
+/// The memory of all results of the cells.
 std::uint64_t bytes_of_results(const Zone& zone);
 
 /// One part of everything where the zone's memory_bytes hold that, or are not given. Else tiles in the order of their

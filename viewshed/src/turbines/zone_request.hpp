@@ -1,4 +1,4 @@
-// What is asked about a zone of visibility, checked and laid out on the ground.
+// A request for a zone of visibility, checked and laid out on the ground.
 #pragma once
 
 #include <functional>

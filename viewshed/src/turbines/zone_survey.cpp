@@ -13,7 +13,7 @@
 
 namespace itin::viewshed {
 
-/// What is known of a tile's cells so far.
+/// Holds what is known of a tile's cells so far.
 struct ZoneSurvey::TileWork {
   TileWork(const FullSurface& surface, std::size_t number, std::size_t words)
       : place(surface.begin(number)), tile(place->tile), centres(place->centres), ground(place->ground), seen(words) {

@@ -22,7 +22,7 @@ class ZoneSurvey {
   /// `zone` has its request, grid and ground; eyes stand on `ground`, whose grid is the zone's. All must outlive it.
   ZoneSurvey(const FullSurface& ground, const Zone& zone);
 
-  /// What to look over, and each turbine's shadow of voids where these hide; else none.
+  /// The surface that hides, and each turbine's shadow of voids where these hide; else none.
   struct Screen {
     const RadialSweep& sweep;
     const std::vector<VoidShadow>& shadows;

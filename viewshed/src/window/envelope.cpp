@@ -30,7 +30,7 @@ GridBox box_of(const Tin& tin, const Triangle& t) {
   return box;
 }
 
-/// Of each vertex: the bounds over all its triangles.
+/// Each vertex gets the bounds over all its triangles.
 std::vector<HeightBounds> vertex_bounds(const Store& store, int level, const Tin& tin) {
   std::vector<HeightBounds> result(tin.vertices.size());
   if (level == 0) return result;

@@ -1,4 +1,4 @@
-// What a certified viewshed reads: the level asked for, and finer ones about the observers.
+// Retrieves what a certified viewshed reads: the level asked for, and finer ones about the observers.
 #pragma once
 
 #include <optional>
@@ -31,7 +31,7 @@ double points_per_square_metre(const Store& store, int level, const Request& req
 /// For request.detail.
 EnvelopeRequest certified_request(const Store& store, const Request& request);
 
-/// The same with another level than request.detail's. No features stand there.
+/// Takes another level than request.detail's. No features stand there.
 EnvelopeRequest certified_request(const Store& store, const Request& request, int level);
 
 }  // namespace itin::viewshed

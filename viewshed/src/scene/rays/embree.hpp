@@ -42,7 +42,7 @@ class EmbreeScene {
   /// Throws std::bad_alloc.
   EmbreeScene();
 
-  /// Three floats a vertex, three indices a triangle; `owner` is what filters get as geometryUserPtr.
+  /// Three floats per vertex, three indices per triangle; `owner` is what filters get as geometryUserPtr.
   Geometry triangles(const std::vector<float>& vertices, const std::vector<std::uint32_t>& indices, void* owner);
   void attach(const Geometry& geometry);
   /// Throws std::bad_alloc when Embree ran out of memory.

@@ -23,21 +23,21 @@
 
 namespace itin::viewshed {
 
-/// Of the active lines those that some triangle hides, decided in double precision where `upper` is not cleared.
+/// Returns the active lines that some triangle hides, decided in double precision where `upper` is not cleared.
 /// `starts_under` and `ends_under`: lines whose end is not above that surface.
 unsigned hidden_exactly(const Scene& surface, const UpperScene& upper, const SightLines& lines, unsigned starts_under,
                         unsigned ends_under);
 
 class ExactRays {
  public:
-  /// The Tin must outlive this; every line starts above one of the eyes, metres. Takes some 700 bytes a triangle.
+  /// The Tin must outlive this; every line starts above one of the eyes, metres. Takes some 700 bytes per triangle.
   /// Throws std::bad_alloc.
   ExactRays(const Tin& surface, const Earth& earth, const std::vector<Point2>& eyes);
 
   struct Work {
     Occluder occluder;
   };
-  /// One bit a line: 1 hidden. Lines start at one eye, and their ends differ horizontally. Safe for concurrent use.
+  /// One bit per line: 1 hidden. Lines start at one eye, and their ends differ horizontally. Safe for concurrent use.
   unsigned hidden(const SightLines& lines, Work& work) const;
 
  private:

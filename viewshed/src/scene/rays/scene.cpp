@@ -15,14 +15,14 @@ namespace itin::viewshed {
 
 namespace {
 
-/// What the filters below see of a packet; Embree hands back the pointer to the first member.
+/// The data of a packet that the filters below see; Embree hands back the pointer to the first member.
 struct HiddenPacket {
   RayContext context;
   const SightLines* lines;
   const SightLine* exact;
   std::array<std::uint32_t, SightLines::kSize> by{};  ///< triangles that hide a line
-  unsigned by_triangle = 0;                           ///< one bit a line: one of these does
-  unsigned doubtful = 0;  ///< one bit a line: Embree took a triangle for hiding that does not
+  unsigned by_triangle = 0;                           ///< one bit per line: one of these does
+  unsigned doubtful = 0;  ///< one bit per line: Embree took a triangle for hiding that does not
 };
 
 /// Keeps those of Embree's hits that hide: where `hides(packet, line, primitive)`.

@@ -46,7 +46,7 @@ class Scene {
   Scene& operator=(Scene&&) noexcept;
   ~Scene();
 
-  /// One bit a line: 1 hidden. Only bits of active lines are set. From any number of threads, each with its own
+  /// One bit per line: 1 hidden. Only bits of active lines are set. From any number of threads, each with its own
   /// occluder.
   unsigned hidden(const SightLines& lines, Occluder& occluder) const;
   /// One bit for each four lines, all four active or none: 1 where one triangle hides them all, and so whatever lies at

@@ -19,7 +19,7 @@ inline constexpr double kSag = 0.004;
 struct Tessellation {
   GridPoint centre;                    ///< z: middle of the heights
   std::vector<float> vertices;         ///< x, y, z in grid units about the centre
-  std::vector<std::uint32_t> indices;  ///< three a triangle
+  std::vector<std::uint32_t> indices;  ///< three per triangle
   std::vector<std::uint32_t> parents;  ///< of each triangle in the Tin; empty when none was cut
   double half_width = 0;               ///< greatest |x| or |y|, grid units
   double half_height = 0;              ///< greatest |z|, grid units

@@ -18,7 +18,7 @@ struct Event {
 };
 using Events = std::array<std::vector<Event>, SightLines::kSize>;
 
-/// What the filters see; Embree hands back the pointer to the first member.
+/// The data that the filters see; Embree hands back the pointer to the first member.
 struct PacketContext {
   RayContext context;
   const SightLines* lines;

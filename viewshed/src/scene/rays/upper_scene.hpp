@@ -39,7 +39,7 @@ class UpperScene {
   UpperScene& operator=(UpperScene&&) noexcept;
   ~UpperScene();
 
-  /// One bit a line: 0 clears the surface, 1 may not.
+  /// One bit per line: 0 clears the surface, 1 may not.
   unsigned touched(const SightLines& lines) const;
   /// For each active line what holds every part that does not clear the surface, but for a millimetre at its ends.
   /// `starts_under` and `ends_under`: lines whose end is not above the surface.

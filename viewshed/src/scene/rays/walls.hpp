@@ -11,7 +11,7 @@
 
 namespace itin::viewshed {
 
-/// Two triangles an edge, side by side in order, seen counterclockwise from outside the surface.
+/// Two triangles per edge, side by side in order, seen counterclockwise from outside the surface.
 struct Walls {
   std::vector<float> vertices;
   std::vector<std::uint32_t> indices;

@@ -14,7 +14,7 @@ namespace itin::viewshed {
 namespace {
 
 constexpr std::size_t kFirst = 16;  ///< slabs up to where sectors are twice as many for the first time
-/// So many sectors a slab: they are a bin wide where they become twice as many.
+/// Sectors per slab of distance: they are a bin wide where they become twice as many.
 constexpr std::size_t kSectorsPerSlab = 2 * Quadrant::kRun;
 constexpr std::size_t kRings = 8;  ///< up to there
 static_assert(kFirst % kRings == 0);
@@ -29,7 +29,7 @@ void HorizonHierarchy::advance(const Quadrant& quadrant, const Sector::Axis& axi
     const std::size_t step = widest_ / kRings, ring = (front_.slab / step + 1) * step, end = std::min(slab, ring);
     const auto [first, last] = sectors();
     const double width = 2 / static_cast<double>(front_.below.size());
-    // What is not looked at may rise.
+    // Slopes that are not surveyed may hide anything.
     std::fill_n(front_.above.begin(), first, kFloatInfinity);
     std::fill_n(front_.above.rbegin(), front_.above.size() - last, kFloatInfinity);
     parallel_for(

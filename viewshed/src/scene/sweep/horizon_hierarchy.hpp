@@ -1,5 +1,5 @@
-// What hides lines up to an axis, and above what nothing does, in all directions of a quadrant and up to distances that
-// double, so that far away sectors need not be looked along from the axis.
+// Bounds below which lines up to an axis are hidden, and above which none is, in all directions of a quadrant and up to
+// distances that double, so that far away sectors need not be looked along from the axis.
 //
 // A sector one bin wide at some distance spans hardly more lines of bins nearer by than one that is one bin wide there.
 // So a fan knows, for every distance, sectors one to two bins wide at their ends, each looked along from where the
@@ -24,11 +24,11 @@ class HorizonHierarchy {
     farthest_ = from <= to ? slab : 0;
   }
 
-  /// Looks on up to a slab, if it has not come as far yet. Memory: at most 1280 bytes a slab. Uses all threads.
+  /// Looks on up to a slab, if it has not come as far yet. Memory: at most 1280 bytes per slab. Uses all threads.
   void advance(const Quadrant& quadrant, const Sector::Axis& axis, std::size_t slab);
 
-  /// What is known by now for lines within slopes [from, to] that begin in slab `nearest`: of the farthest slab up to
-  /// there.
+  /// The bound known by now for lines within slopes [from, to] that begin in slab `nearest`: that of the farthest slab
+  /// up to there.
   Sector::Horizon known(double from, double to, std::size_t nearest) const;
 
  private:

@@ -66,7 +66,7 @@ class RadialSweep::Task {
     if (from > to) return;
     // A hair more, against rounding.
     from -= 1e-9, to += 1e-9;
-    // What lies before the tile may hide even the highest of its ends.
+    // Ground before the tile may hide even the highest of its ends.
     if (view_.hides(fan.known(from, to, quadrant.slab_at(nearest_)).hidden,
                     {from, to, nearest_, farthest_, least_drop()}, highest_)) {
       for_each_cell(quadrant, -kInfinity, kInfinity, [&](const Cell& cell) { heights_[cell.index] = kHidden; });
@@ -102,7 +102,7 @@ class RadialSweep::Task {
     cells_per_bin_ = minors_ > 1 ? static_cast<double>(minors_ - 1) / extent : 1;
   }
 
-  /// Of the cells within the quadrant; empty where none is.
+  /// The range of slopes of the cells within the quadrant; empty where none is.
   std::pair<double, double> slopes() const {
     double from = kInfinity, to = -kInfinity;
     for (const double v : {across_[0], across_[number(minors_ - 1)]}) {
@@ -114,7 +114,7 @@ class RadialSweep::Task {
     return {std::max(from, -1.0), std::min(to, 1.0)};
   }
 
-  /// Of the tile's ends.
+  /// The least drop of the tile's ends.
   double least_drop() const {
     const auto ends = [](const auto& of, std::int64_t count) {
       return std::minmax_element(of.begin(), of.begin() + count);
@@ -138,7 +138,7 @@ class RadialSweep::Task {
       const std::size_t end = first_across(to * u);
       for (std::size_t k = first_across(from * u); k < end; ++k) {
         Cell cell{i * major_step + k * minor_step, i, u, across_[k], along_squared_[i] + across_squared_[k]};
-        // Of cells on a diagonal, each belongs to one quadrant.
+        // Each cell on a diagonal belongs to one quadrant.
         if (columns ? std::abs(cell.across) > u : std::abs(cell.across) >= u) continue;
         if (cell.squared <= radius_squared_ && !std::isnan(ends_.elevation[cell.index])) visit(cell);
       }
@@ -226,7 +226,8 @@ class RadialSweep::Task {
   double least(const Quadrant&, const Cell&, const Sight& sight) {
     return sight.least();
   }
-  /// What rises above a line by less than a grazing is only touched, though clearing it may take metres, near the eye.
+  /// A triangle that rises above a line by less than a grazing is only touched, though clearing it may take metres,
+  /// near the eye.
   double least(const Quadrant& quadrant, const Cell& cell, const HeightSight& sight) {
     const double lowest = lowest_->end[cell.index];
     double least = sight.least();
@@ -274,7 +275,7 @@ class RadialSweep::Task {
     return true;
   }
 
-  /// Of a line outward, in bins along.
+  /// A stretch of a line outward, in bins along.
   struct Stretch {
     double begin = 0, end = 0;
     double slope = 0;  ///< across / along
@@ -327,7 +328,7 @@ class RadialSweep::Task {
   std::int64_t majors_ = 0, minors_ = 0;
   double highest_ = 0;  ///< of the tile's ends
   double farthest_ = 0, nearest_ = 0, cells_per_bin_ = 1;
-  // What hid the last eye of this sector, and of the last one the eye as far away.
+  // The triangles that hid the last eye of this sector, and the last eye as far away.
   std::uint32_t last_ = kNoSilhouette;
   std::array<std::uint32_t, Tile::kSide> silhouettes_{};
 };
@@ -362,7 +363,7 @@ double RadialSweep::View::distance(const BinBox& box) const {
                   std::abs(row_ - std::clamp(row_, box.north, box.south)));
 }
 
-/// What of a box lies in a quadrant, with slopes from -1 to 1; nothing where none does.
+/// Returns the part of a box that lies in a quadrant, with slopes from -1 to 1; nothing where none does.
 std::optional<RadialSweep::View::Extent> RadialSweep::View::extent(const Quadrant& quadrant, const BinBox& box) const {
   const auto range = [](double a, double b) { return std::pair(std::min(a, b), std::max(a, b)); };
   const auto [near, far] = range(quadrant.along(box.west, box.north), quadrant.along(box.east, box.south));
@@ -396,7 +397,7 @@ void RadialSweep::View::advance(double reach) {
   for (std::size_t i = 0; i < quadrants_.size(); ++i) {
     const Quadrant& quadrant = quadrants_[i];
     if (quadrant.slabs() == 0) continue;
-    // What is farther away begins in that slab or beyond.
+    // Ground farther away begins in that slab or beyond.
     fans_[i].advance(quadrant, sector_axis_, quadrant.slab_at(std::min(reach, axis_.radius / bin_)));
   }
 }

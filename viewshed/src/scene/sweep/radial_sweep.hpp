@@ -6,7 +6,7 @@
 //   RadialSweep::Heights heights;                             // grid units, one a cell
 //   sweep.run(view, eyes, scratch, heights);
 //
-// Method. What hides from far away is told once for all tiles (horizon_hierarchy.hpp). The tile is cut into sectors
+// Method. Horizons of far ground are computed once for all tiles (horizon_hierarchy.hpp). The tile is cut into sectors
 // about the axis, each about a cell wide at its far end. Along a sector the bounds of BinnedHeights say for nearly
 // every slab and eye that it hides the whole axis, or that it hides nothing; what remains, mostly the slabs about a
 // line's silhouette and the ground before the eye, is decided triangle by triangle in double precision. An eye begins
@@ -45,20 +45,20 @@ class RadialSweep {
     double base = 0, top = 0;  ///< elevations; what of it is seen below its base does not count
     double radius = 0;         ///< eyes farther away do not look
   };
-  /// The other ends of lines, one a cell of a tile, NaN where none is.
+  /// The other ends of lines, one per cell of a tile, NaN where none is.
   struct Ends {
     const Tile& tile;
     const TileCentres& centres;
     const TileValues<double>& elevation;  ///< grid units
   };
-  /// Of each cell: where a sight line to its top is hidden NaN, else the least height seen, from base to top. Eyes at
-  /// the axis' own place (itin/same_place.hpp), and beyond its radius, are left out: infinity.
+  /// Each cell has the least height seen, from base to top, or NaN where a sight line to its top is hidden. Eyes at the
+  /// axis' own place (itin/same_place.hpp), and beyond its radius, are left out: infinity.
   using Heights = TileValues<double>;
 
-  /// What the tiles about an axis share. Refers to the sweep's surface.
+  /// Holds what the tiles about an axis share. Refers to the sweep's surface.
   class View;
   View view_of(const Axis& axis) const;
-  /// The same, to be advanced.
+  /// Begins a view, to be advanced.
   View beginning(const Axis& axis) const;
   /// An eye that looks as far as there is surface, but no farther than `radius` grid units.
   Axis axis_at(const Point3& eye, double radius) const;
@@ -73,7 +73,7 @@ class RadialSweep {
   /// NaN where hidden, infinity for a target at the eye's own place, else the eye's height.
   void look_from(const View& eye, const Ends& targets, Scratch& scratch, Heights& seen) const;
 
-  /// Of each cell's ends the lowest that counts, and one that is asked for besides: it need not lie within the range.
+  /// Each cell's lowest end that counts, and one that is wanted besides: it need not lie within the range.
   struct Lowest {
     const TileValues<double>& end;
     const TileValues<double>& wanted;

@@ -51,7 +51,7 @@ Sector::Horizon Sector::look_on(Horizon horizon, std::size_t end) const {
   for_each_slab(horizon.hidden.slab, end, [&](std::size_t k, std::int64_t first, std::int64_t last, bool inside) {
     pass(horizon.hidden, first, last, inside);
     const double rise = highest(k, first, last) + axis_.margin - axis_.top;
-    // What rises above the axis in its own slab may hide any line.
+    // Ground that rises above the axis in its own slab may hide any line.
     const double steepest = rise <= 0 ? rise * quadrant_.per_end(k)
                             : k == 0  ? kFloatInfinity
                                       : rise * quadrant_.per_end(k - 1);
@@ -73,7 +73,7 @@ void SectorProfile::survey(const Sector& sector, const Sector::Horizon& known, s
   });
 }
 
-/// Of a block's slabs, when they are asked for: most lines are decided by those before them.
+/// Computes the highs of a block's slabs when they are needed: most lines are decided by those before them.
 void SectorProfile::survey_highs(std::size_t block) {
   highs_known_[block] = true;
   block_high_[block] = -kFloatInfinity;

@@ -23,7 +23,7 @@ class Quadrant {
  public:
   enum Side : std::uint8_t { kEast, kWest, kSouth, kNorth };
 
-  /// Of what lies no farther along than `reach`, in bins.
+  /// Holds what lies no farther along than `reach`, in bins.
   Quadrant(const BinnedHeights& bins, double axis_column, double axis_row, Side side,
            double reach = std::numeric_limits<double>::infinity());
 
@@ -78,7 +78,7 @@ class Quadrant {
   std::vector<double> per_end_;
 };
 
-/// What lies within slopes [from, to] of a quadrant (across / along).
+/// The part of a quadrant within slopes [from, to] (across / along).
 class Sector {
  public:
   struct Axis {
@@ -98,7 +98,7 @@ class Sector {
     std::size_t slab = 0;
     double below = -std::numeric_limits<double>::infinity();
   };
-  /// The same for the slab `end`. Calls visit(hidden) for every slab before it.
+  /// Continues `hidden` to the slab `end`. Calls visit(hidden) for every slab before it.
   template <class Visit>
   Hidden look_on(Hidden hidden, std::size_t end, const Visit& visit) const;
 
@@ -139,8 +139,8 @@ class Sector {
 /// How low and how high a sector is, slab by slab.
 class SectorProfile {
  public:
-  /// Of the slabs before `count`; hidden_below() is asked about those from `nearest` on. What is known is of slabs up
-  /// to there. Reuses what memory it has.
+  /// Surveys the slabs before `count`; hidden_below() holds for those from `nearest` on. `known` is of slabs up to
+  /// there. Reuses what memory it has.
   void survey(const Sector& sector, const Sector::Horizon& known, std::size_t nearest, std::size_t count);
 
   /// Lines up to the axis' top that rise by less than this outward a bin, and begin in this slab, are certainly hidden.

@@ -13,7 +13,7 @@ namespace itin::viewshed {
 
 inline constexpr std::uint32_t kNoSilhouette = 0xffffffff;
 
-/// Of a triangle, counterclockwise.
+/// The corners of a triangle, counterclockwise.
 using Corners = std::array<GridPoint, 3>;
 
 /// How far from the axis the other end is, in bins, and the drop there, grid units.
@@ -49,7 +49,8 @@ class RaisedEnd {
     if (end <= least_) return true;
     silhouette_ = triangle;
     if (end > highest_ && hides(corners, highest_)) return false;
-    // What rises by less than a grazing is only touched, though clearing it takes a hair more than the highest.
+    // A triangle that rises by less than a grazing is only touched, though clearing it takes a hair more than the
+    // highest.
     least_ = std::min(end, highest_);
     raised();
     return true;

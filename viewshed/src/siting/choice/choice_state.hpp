@@ -41,7 +41,7 @@ struct ChoiceProblem {
   }
 };
 
-/// What the chosen sites serve besides existing ones: certainly, and perhaps.
+/// Demand that the chosen sites serve besides existing ones: certainly, and perhaps.
 struct ServedBounds {
   Served least, most;
 

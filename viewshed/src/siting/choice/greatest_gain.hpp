@@ -12,7 +12,7 @@ struct GreatestGain {
   std::size_t best = 0;  ///< the option that alone gains most
 };
 
-/// Of the options that are `open`, at most `count` of different places, within what the budget leaves after `spent`.
+/// Bounds the gain of at most `count` `open` options of different places, within what the budget leaves after `spent`.
 GreatestGain greatest_gain(const ChoiceProblem& problem, const Served& served, const std::vector<bool>& open,
                            std::size_t count, double spent);
 

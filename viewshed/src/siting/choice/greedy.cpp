@@ -9,7 +9,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// What an option would gain, a unit of cost where that counts.
+/// The gain of an option, per unit of cost where that counts.
 struct Bid {
   std::size_t option = 0;
   double upper = 0;

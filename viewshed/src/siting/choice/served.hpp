@@ -19,14 +19,14 @@ class Served {
       if (++counts_[element] == cover_) enough_[element / 64] |= std::uint64_t{1} << (element % 64);
     });
   }
-  /// What was added before.
+  /// Removes a set that was added before.
   void remove(const DemandSet& set) {
     for_each_element(set, [&](std::size_t element) {
       if (counts_[element]-- == cover_) enough_[element / 64] &= ~(std::uint64_t{1} << (element % 64));
     });
   }
 
-  /// Of the set's elements those that one more site still helps.
+  /// The weight of the set's elements that one more site still helps.
   Weight gain(const DemandSet& set) const {
     Weight sum = 0;
     for (const DemandSet::Block& block : set.blocks()) {

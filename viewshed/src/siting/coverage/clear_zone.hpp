@@ -29,8 +29,8 @@ class ClearZone {
   /// and memory.
   ClearZone(const Tin& lower, const Tin* upper, const Earth& earth, const FresnelCriterion& criterion);
 
-  /// One bit a line; the closer together their ends, the faster. Over the surface itself a zone is either certainly cut
-  /// or certainly clear. From any number of threads.
+  /// One bit per line; the closer together their ends, the faster. Over the surface itself a zone is either certainly
+  /// cut or certainly clear. From any number of threads.
   unsigned certainly_cut(const SightLines& to_highest_targets) const;
   /// Says nothing of the lines themselves across ground without data.
   unsigned certainly_clear(const SightLines& to_lowest_targets) const;

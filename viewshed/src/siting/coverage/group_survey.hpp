@@ -1,4 +1,4 @@
-// What a group of sites serves, judged over one surface: what they see, and of that what their Fresnel zones leave.
+// Judges over one surface what a group of sites serves: what they see, and of that what their Fresnel zones leave.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,7 @@ namespace itin::viewshed {
 struct SiteLooks {
   const Request& request;
   std::span<const std::size_t> options;
-  /// One an option: what they leave open (in `possible`, not in `certain`) is judged.
+  /// One per option: what they leave open (in `possible`, not in `certain`) is judged.
   std::span<const CoverageBounds* const> bounds;
 };
 
@@ -34,16 +34,16 @@ class GroupSurvey {
                                             Statistics& statistics) const = 0;
 };
 
-/// Of cells, over bounds of the surface. The survey must outlive it, as it must all of these. `zones`: whether they are
-/// judged, too.
+/// Surveys cells over bounds of the surface. The survey must outlive it, as it must all of these. `zones`: whether they
+/// are judged, too.
 std::unique_ptr<GroupSurvey> survey_cells(const SiteSurvey& survey, const Request& request, Envelope envelope,
                                           bool zones);
-/// Of cells, exact: what hides them, and the bare ground that they stand on where it is another. Rays decide where the
-/// positions of the sites are given, metres; then the surface is a Tin.
+/// Surveys cells exactly, over what hides them, and the bare ground that they stand on where it is another. Rays decide
+/// where the positions of the sites are given, metres; then the surface is a Tin.
 std::unique_ptr<GroupSurvey> survey_cells_exactly(const SiteSurvey& survey, Surface surface,
                                                   std::optional<Tin> bare_ground,
                                                   const std::vector<Point2>& eyes_of_rays);
-/// Of points; exact over an envelope of level 0.
+/// Surveys points; exact over an envelope of level 0.
 std::unique_ptr<GroupSurvey> survey_points(const SiteSurvey& survey, const Request& request, Envelope envelope,
                                            bool zones);
 

@@ -21,7 +21,7 @@ static_assert(Tile::kSide % CellBlocks::kSide == 0);
 
 using TileWords = std::array<std::uint64_t, kBlocks * kBlocks>;
 
-/// What one option serves of one tile.
+/// The part of one tile that one option serves.
 struct TileCover {
   std::size_t entry = 0;  ///< of the options
   TileWords certain{}, possible{};
@@ -92,7 +92,7 @@ DemandSet set_of(std::vector<DemandSet::Block>& blocks) {
   return set;
 }
 
-/// What every option serves of one tile. Returns how many sight lines that took.
+/// Judges what every option serves of one tile. Returns how many sight lines that took.
 std::uint64_t judge_tile(const TileJudge& judge, const std::optional<ClearZone>& zone, const SiteSurvey& survey,
                          const SiteLooks& looks, const RasterGrid& tiles, std::size_t t,
                          std::vector<TileCover>& covers) {

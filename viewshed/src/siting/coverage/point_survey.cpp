@@ -67,7 +67,7 @@ class PointPass {
             const Request& request, const std::vector<GroundBounds>& grounds)
       : scene_(scene), zone_(zone), survey_(survey), request_(request), grounds_(grounds) {}
 
-  /// The bits of `open` that are certainly visible, and those that are certainly hidden. Of points `first` and on.
+  /// The bits of `open` that are certainly visible, and those that are certainly hidden, for points `first` and on.
   struct Verdict {
     std::uint64_t visible = 0, hidden = 0;
   };
@@ -111,7 +111,7 @@ class PointPass {
     verdict.hidden |= std::uint64_t{unseen} << at;
   }
 
-  /// Of what is seen or may be, leaves what the Fresnel zones leave.
+  /// Keeps of what is seen or may be only what the Fresnel zones leave.
   void judge_zones(const Packet& packet, unsigned all, unsigned& seen, unsigned& unseen) const {
     // One by one: points may lie far apart.
     SightLines low = packet.low, high = packet.high;

@@ -63,12 +63,12 @@ DemandSet within_reach(const SiteTargets& targets, Point2 position, double radiu
 
 namespace {
 
-/// Of the cells or points that may lie within a radius, more rather than fewer.
+/// Counts the blocks of cells or points that may lie within a radius, more rather than fewer.
 double blocks_in_reach(const SiteTargets& targets, double radius) {
   if (!targets.grid) return std::ceil(static_cast<double>(targets.points.size()) / 64);
   const RasterGrid& grid = *targets.grid;
   constexpr double kSide = CellBlocks::kSide;
-  // What meets a disc lies within one a block's diagonal wider.
+  // Blocks that meet a disc lie within one that is a block's diagonal wider.
   const double columns = radius / (kSide * grid.cell_width()) + std::sqrt(2),
                rows = radius / (kSide * grid.cell_height()) + std::sqrt(2);
   return std::min(std::numbers::pi * columns * rows, static_cast<double>(CellBlocks(grid).count()));

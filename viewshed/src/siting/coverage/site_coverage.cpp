@@ -25,10 +25,10 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Peak memory a point: of an envelope, and of a surface that is swept.
+/// Peak memory per point: of an envelope, and of a surface that is swept.
 constexpr std::uint64_t kBytesPerRayPoint = 1200, kBytesPerSweptPoint = 400;
-/// Of the full surface's points the first look reads so many at most: fewer where a second look is cheap, since the
-/// memory holds the full surface for all of them.
+/// The first pass reads at most one in so many of the full surface's points: fewer where a second pass is cheap, since
+/// the memory holds the full surface for all of them.
 constexpr std::uint64_t kFirstShare = 2, kFirstShareOfWhole = 8;
 /// Points of the full surface about each site.
 constexpr double kSiteNearPoints = 128;
