@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include <itin/grid_units.hpp>
 #include <viewshed/viewshed.hpp>
 
-#include "line/grid_units.hpp"
 #include "line/sight_line.hpp"
 #include "request/eye.hpp"
 #include "request/field_of_view.hpp"

@@ -8,11 +8,11 @@
 #include <gtest/gtest.h>
 
 #include <itin/error.hpp>
+#include <itin/grid_units.hpp>
 #include <itin/import.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/viewshed.hpp>
 
-#include "line/grid_units.hpp"
 #include "request/eye.hpp"
 #include "scene/rays/scene.hpp"
 #include "support/brute_force_viewshed.hpp"

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include <itin/earth.hpp>
+#include <itin/grid_units.hpp>
 
-#include "line/grid_units.hpp"
 #include "support/exact_line_of_sight.hpp"
 #include "support/seed.hpp"
 #include "support/terrain_tin.hpp"

@@ -10,11 +10,11 @@
 #include <gtest/gtest.h>
 
 #include <itin/grazing.hpp>
+#include <itin/grid_units.hpp>
 #include <itin/same_place.hpp>
 #include <viewshed/viewshed.hpp>
 
 #include "bounds/boundary.hpp"
-#include "line/grid_units.hpp"
 #include "support/exact_line_of_sight.hpp"
 #include "support/seed.hpp"
 #include "support/terrain_tin.hpp"

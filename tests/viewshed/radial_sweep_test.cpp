@@ -10,11 +10,11 @@
 
 #include <gtest/gtest.h>
 
+#include <itin/grid_units.hpp>
 #include <itin/same_place.hpp>
 
 #include "bounds/boundary.hpp"
 #include "bounds/surface_heights.hpp"
-#include "line/grid_units.hpp"
 #include "support/delaunay_tin.hpp"
 #include "support/exact_line_of_sight.hpp"
 #include "support/real_terrain.hpp"

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <limits>
 
+#include <itin/grid_units.hpp>
 #include <itin/lattice_tin.hpp>
 #include <itin/parallel.hpp>
 
 #include "bounds/surface_heights.hpp"
 #include "bounds/triangle_bins.hpp"
-#include "line/grid_units.hpp"
 
 namespace itin::viewshed {
 

@@ -6,11 +6,11 @@
 
 #include <itin/error.hpp>
 #include <itin/geodesic.hpp>
+#include <itin/grid_units.hpp>
 #include <viewshed/horizon.hpp>
 
 #include "bounds/height_pyramid.hpp"
 #include "bounds/surface_heights.hpp"
-#include "line/grid_units.hpp"
 #include "line/sight_line.hpp"
 #include "modes/first_blocker.hpp"
 #include "progress/stage.hpp"

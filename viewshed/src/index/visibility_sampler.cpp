@@ -7,10 +7,10 @@
 #include <iterator>
 #include <numbers>
 
+#include <itin/grid_units.hpp>
 #include <itin/same_place.hpp>
 
 #include "bounds/boundary.hpp"
-#include "line/grid_units.hpp"
 #include "request/void_shadow.hpp"
 
 namespace itin::viewshed {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "line/grid_units.hpp"
+#include <itin/grid_units.hpp>
 
 namespace itin::viewshed {
 

@@ -3,8 +3,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
-
-#include "line/grid_units.hpp"
+#include <itin/grid_units.hpp>
 
 namespace itin::viewshed {
 

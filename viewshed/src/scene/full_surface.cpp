@@ -9,9 +9,8 @@
 #include <utility>
 
 #include <itin/grazing.hpp>
+#include <itin/grid_units.hpp>
 #include <itin/lattice_tin.hpp>
-
-#include "line/grid_units.hpp"
 
 namespace itin::viewshed {
 

@@ -7,10 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include <itin/grid_units.hpp>
 #include <itin/lattice_reader.hpp>
 #include <itin/parallel.hpp>
-
-#include "line/grid_units.hpp"
 
 namespace itin::viewshed {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "line/grid_units.hpp"
+#include <itin/grid_units.hpp>
 
 namespace itin::viewshed {
 

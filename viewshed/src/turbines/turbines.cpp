@@ -4,12 +4,12 @@
 #include <utility>
 #include <vector>
 
+#include <itin/grid_units.hpp>
 #include <itin/silent_progress.hpp>
 #include <viewshed/surface.hpp>
 #include <viewshed/turbines.hpp>
 
 #include "bounds/boundary.hpp"
-#include "line/grid_units.hpp"
 #include "progress/stage.hpp"
 #include "progress/stopwatch.hpp"
 #include "request/request.hpp"

@@ -6,10 +6,9 @@
 #include <limits>
 #include <memory>
 
+#include <itin/grid_units.hpp>
 #include <itin/parallel.hpp>
 #include <itin/same_place.hpp>
-
-#include "line/grid_units.hpp"
 
 namespace itin::viewshed {
 

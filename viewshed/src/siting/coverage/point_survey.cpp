@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include <itin/grid_units.hpp>
 #include <itin/parallel.hpp>
 
 #include "bounds/surface_heights.hpp"
 #include "judge/certified_pass.hpp"
-#include "line/grid_units.hpp"
 #include "line/sight_line.hpp"
 #include "progress/stage.hpp"
 #include "siting/coverage/clear_zone.hpp"
