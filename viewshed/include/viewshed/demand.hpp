@@ -1,4 +1,4 @@
-// Demand that sites are to serve: cells or points with weights, and sets of them.
+// The demand that sites are to serve: cells or points with weights, and sets of them.
 //
 //   const viewshed::Demand demand({3.0, 1.0, 2.5});  // three households
 //   viewshed::DemandSet served;

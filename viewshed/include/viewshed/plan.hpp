@@ -61,7 +61,7 @@ class Plan {
   const RasterGrid& grid() const { return grid_; }
   /// The nearest to an observer first.
   const std::vector<Segment>& segments() const { return segments_; }
-  /// decide() computes this: the viewshed of the segment's observers on its cells.
+  /// The request that decide() computes: the viewshed of the segment's observers on its cells.
   Request request_of(std::size_t segment) const;
   /// Equal for plans with the same segments of the same request on the same store, and for no others.
   std::uint64_t id() const { return id_; }

@@ -90,7 +90,7 @@ struct Misplaced {
 struct RadarView {
   double ground_m = 0;  ///< under the radar
   std::vector<float>
-      height_m;  ///< a cell: the least height above its ground that is seen; NaN above 1000 m or no ground
+      height_m;  ///< per cell: the least height above its ground that is seen; NaN above 1000 m or no ground
   std::vector<double> turbine_m;  ///< what is seen of each turbine of the request, from its tip down; 0: hidden
 };
 

@@ -26,7 +26,7 @@ struct IndexRequest {
   double height = 2;       ///< of observers above the ground, metres
   double target_height = 0;
   double radius = 5000;    ///< metres
-  unsigned targets = 128;  ///< an observer
+  unsigned targets = 128;  ///< per observer
   Earth earth = {};
   Detail detail = Detail::tolerance(0);
   ThemeChoice themes = ThemeChoice::none();

@@ -92,7 +92,7 @@ class HeightPyramid {
   static constexpr double kHair = 1e-7;  ///< bins, against rounding; less than TriangleBins allows its triangles
 
   struct Block {
-    std::uint32_t level = 0;  ///< 2^level bins a side
+    std::uint32_t level = 0;  ///< 2^level bins per side
     std::uint32_t column = 0, row = 0;
   };
   /// Fractions of the lines' lengths.
@@ -165,7 +165,7 @@ class HeightPyramid {
   Grid units_;
   RasterGrid bin_grid_;
   std::optional<Listed> listed_;
-  std::vector<std::vector<std::int32_t>> highest_;  ///< a level, row by row; a lattice's cells tell their own
+  std::vector<std::vector<std::int32_t>> highest_;  ///< per level, row by row; a lattice's cells tell their own
 };
 
 inline std::int32_t HeightPyramid::highest_of_cell(std::uint32_t cell) const {

@@ -22,7 +22,7 @@ inline constexpr double kUnread = -std::numeric_limits<double>::infinity();
 void scan_convert(const Tin& tin, std::span<const std::uint32_t> triangles, const Tile& tile,
                   const TileCentres& centres, TileValues<double>& heights);
 
-/// The same for triangles that overlap: the greatest height.
+/// Triangles may overlap here: a centre gets the greatest height.
 void scan_convert_highest(const Tin& tin, std::span<const std::uint32_t> triangles, const Tile& tile,
                           const TileCentres& centres, TileValues<double>& heights);
 

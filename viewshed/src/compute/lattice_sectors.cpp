@@ -187,7 +187,7 @@ class LatticeSectors {
   double tile_side_m_ = 0;                                  ///< of a tile of the lattice, as far as it is known
   bool is_lattice_ = false;                                 ///< as far as has been read
   std::optional<Stage> stage_;                              ///< its steps are cells, of all observers
-  std::vector<std::unique_ptr<Observation>> observations_;  ///< a tile
+  std::vector<std::unique_ptr<Observation>> observations_;  ///< per tile
 };
 
 }  // namespace

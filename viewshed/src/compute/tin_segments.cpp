@@ -295,7 +295,7 @@ class TinSegments {
   std::optional<GroundTiles> ground_;
   std::optional<EnvelopeScene> coarse_;                     ///< unless whole lines are needed
   std::optional<Stage> stage_;                              ///< its steps are cells, of all observers
-  std::vector<std::unique_ptr<Observation>> observations_;  ///< a tile
+  std::vector<std::unique_ptr<Observation>> observations_;  ///< per tile
 };
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace itin::viewshed {
 
 namespace {
 
-constexpr int kSubsamples = 4;  ///< a side
+constexpr int kSubsamples = 4;  ///< per side
 
 /// The share of a pixel's area for which `inside(x, y)` holds.
 template <class Inside>

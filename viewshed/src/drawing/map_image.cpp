@@ -283,7 +283,7 @@ class MapDrawing {
   const Result& result_;
   const MapOptions& options_;
   RasterGrid pixels_;
-  std::vector<float> shades_;  ///< of the ground, a pixel
+  std::vector<float> shades_;  ///< of the ground, per pixel
   int width_, height_;         ///< of the map proper, pixels
   int unit_;                   ///< everything else is measured in this, pixels
   Canvas canvas_;

@@ -81,7 +81,7 @@ class Panorama {
 
   const Tin& surface_;
   const Eye& eye_;
-  double drop_;     ///< grid units of drop a squared grid unit
+  double drop_;     ///< grid units of drop per squared grid unit
   double grazing_;  ///< grid units
   double reach_;    ///< likewise
   HeightPyramid pyramid_;

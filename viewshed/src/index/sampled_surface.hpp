@@ -44,7 +44,7 @@ class SampledSurface {
   bool hidden(const Point3& from, const Point3& to) const;
 
   const Surface& surface_;
-  double drop_;     ///< grid units of drop a squared grid unit
+  double drop_;     ///< grid units of drop per squared grid unit
   double grazing_;  ///< grid units
   HeightPyramid pyramid_;
   std::optional<Scene> rays_;

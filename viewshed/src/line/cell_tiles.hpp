@@ -65,8 +65,8 @@ struct TileCentres {
   TileCentres(const Grid& units, const RasterGrid& grid, const Tile& tile);
   Point2 at(std::size_t cell) const { return {x[cell % Tile::kSide], y[cell / Tile::kSide]}; }
 
-  std::array<double, Tile::kSide> x{};  ///< a column
-  std::array<double, Tile::kSide> y{};  ///< a row
+  std::array<double, Tile::kSide> x{};  ///< per column
+  std::array<double, Tile::kSide> y{};  ///< per row
 };
 
 /// About a tile's cells, or about their centres alone.

@@ -19,7 +19,7 @@ namespace itin::viewshed {
 
 class SightLine {
  public:
-  /// In grid units; `drop` is the drop's coefficient a grid unit, `grazing` is kGrazing in grid units.
+  /// In grid units; `drop` is the drop's coefficient per grid unit, `grazing` is kGrazing in grid units.
   SightLine(const Point3& from, const Point3& to, double drop, double grazing)
       : from_(from), dx_(to.x - from.x), dy_(to.y - from.y), dz_(to.z - from.z), grazing_(grazing) {
     const double squared = dx_ * dx_ + dy_ * dy_;

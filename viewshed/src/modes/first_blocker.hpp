@@ -33,7 +33,7 @@ class FirstBlocker {
 
  private:
   const Tin& tin_;
-  double drop_;     ///< grid units of drop a squared grid unit
+  double drop_;     ///< grid units of drop per squared grid unit
   double grazing_;  ///< grid units
   HeightPyramid pyramid_;
 };

@@ -78,7 +78,7 @@ class VisibilityProbability {
   void narrow(Margins& least, const Line& line, const Crossing& c, ErrorsAlongLine& errors) const;
 
   const Tin& tin_;
-  double drop_;         ///< grid units of drop a squared grid unit
+  double drop_;         ///< grid units of drop per squared grid unit
   double grazing_;      ///< grid units
   double sigma_;        ///< grid units
   double correlation_;  ///< L in grid units

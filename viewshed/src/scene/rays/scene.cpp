@@ -218,7 +218,7 @@ class Scene::Impl {
   }
 
   const Tin& tin_;
-  double drop_;  ///< grid units of drop a squared grid unit
+  double drop_;  ///< grid units of drop per squared grid unit
   double sag_;
   Tessellation tessellation_;
   RasterGrid location_;

@@ -25,7 +25,7 @@ struct Tessellation {
   double half_height = 0;              ///< greatest |z|, grid units
 };
 
-/// `drop` is the drop's coefficient a grid unit: grid units of drop a squared grid unit of distance.
+/// `drop` is the drop's coefficient per grid unit: grid units of drop per squared grid unit of distance.
 Tessellation tessellate(const Tin& tin, double drop);
 
 }  // namespace itin::viewshed

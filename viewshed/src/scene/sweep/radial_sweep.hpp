@@ -89,7 +89,7 @@ class RadialSweep {
   class Task;
 
   const BinnedHeights& bins_;
-  double drop_;     ///< grid units of drop a squared grid unit
+  double drop_;     ///< grid units of drop per squared grid unit
   double grazing_;  ///< grid units
 };
 

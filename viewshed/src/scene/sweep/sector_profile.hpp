@@ -83,7 +83,7 @@ class Sector {
  public:
   struct Axis {
     double top = 0;     ///< the height that hiding is about
-    double drop = 0;    ///< grid units of drop a squared bin
+    double drop = 0;    ///< grid units of drop per squared bin
     double margin = 0;  ///< grid units by which bounds must decide: above all rounding
   };
 
@@ -92,7 +92,7 @@ class Sector {
   const Quadrant& quadrant() const { return quadrant_; }
   const Axis& axis() const { return axis_; }
 
-  /// Lines up to the axis' top that rise by less than `below` outward a bin, and begin in this slab or farther away,
+  /// Lines up to the axis' top that rise by less than `below` outward per bin, and begin in this slab or farther away,
   /// are certainly hidden, by what lies nearer than the slab.
   struct Hidden {
     std::size_t slab = 0;
@@ -133,7 +133,7 @@ class Sector {
   const Quadrant& quadrant_;
   double from_, to_;
   Axis axis_;
-  double least_, greatest_;  ///< squared distances a squared distance along
+  double least_, greatest_;  ///< squared distances per squared distance along
 };
 
 /// How low and how high a sector is, slab by slab.
@@ -143,11 +143,12 @@ class SectorProfile {
   /// there. Reuses what memory it has.
   void survey(const Sector& sector, const Sector::Horizon& known, std::size_t nearest, std::size_t count);
 
-  /// Lines up to the axis' top that rise by less than this outward a bin, and begin in this slab, are certainly hidden.
+  /// Lines up to the axis' top that rise by less than this outward per bin, and begin in this slab, are certainly
+  /// hidden.
   double hidden_below(std::size_t slab) const { return hidden_below_[slab - nearest_]; }
 
   /// Calls visit(slab) from `last` inwards for every slab that may rise above a line of height line.at_axis() at the
-  /// axis that rises by line.slope() outward a bin; both may change meanwhile, and visit ends the search by returning
+  /// axis that rises by line.slope() outward per bin; both may change meanwhile, and visit ends the search by returning
   /// false.
   template <class Line, class Visit>
   void search(std::size_t last, const Line& line, const Visit& visit);

@@ -41,7 +41,7 @@ struct ChoiceProblem {
   }
 };
 
-/// Demand that the chosen sites serve besides existing ones: certainly, and perhaps.
+/// The demand that the chosen sites serve besides existing ones: certainly, and perhaps.
 struct ServedBounds {
   Served least, most;
 

@@ -44,7 +44,7 @@ class ClearZone {
   };
   unsigned cut(const Bounded& surface, const SightLines& lines) const;
 
-  double drop_;  ///< grid units a squared grid unit
+  double drop_;  ///< grid units per squared grid unit
   FresnelCriterion criterion_;
   Bounded lower_;
   std::optional<Bounded> upper_;
