@@ -9,8 +9,8 @@
 #include <itin/error.hpp>
 #include <itin/import.hpp>
 #include <itin/triangulate.hpp>
-#include <viewshed/viewshed.hpp>
 #include <viewshed/site_coverage.hpp>
+#include <viewshed/viewshed.hpp>
 
 #include "bounds/surface_heights.hpp"
 #include "support/delaunay_tin.hpp"

@@ -12,8 +12,8 @@
 
 #include <itin/error.hpp>
 #include <itin/import.hpp>
-#include <viewshed/viewshed.hpp>
 #include <viewshed/surface.hpp>
+#include <viewshed/viewshed.hpp>
 
 #include "compute/lattice_sectors.hpp"
 #include "support/full_detail.hpp"
