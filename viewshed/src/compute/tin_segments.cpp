@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <span>
+#include <utility>
 
 #include <itin/level_choice.hpp>
 #include <itin/parallel.hpp>
@@ -17,9 +19,11 @@
 #include "judge/certified_pass.hpp"
 #include "line/cell_tiles.hpp"
 #include "modes/observation.hpp"
+#include "plan/azimuth_order.hpp"
 #include "plan/ground_tiles.hpp"
 #include "plan/memory.hpp"
 #include "plan/observer_raster.hpp"
+#include "plan/partition.hpp"
 #include "progress/stage.hpp"
 #include "progress/stopwatch.hpp"
 #include "request/request.hpp"
@@ -142,8 +146,8 @@ class TinSegments {
     // The edges of a segment's window are no voids, and features never reach beyond the ground.
     const std::optional<VoidShadow> shadow = shadow_of(eye, rim_, surveyed_.result);
     std::atomic<std::uint64_t> lines = 0;
-    for (const std::vector<std::size_t>& cells : segments(eye, needed)) {
-      const OwnedSurface segment = refine(cells, needed);
+    for (const auto& [cells, ground] : segments(eye, needed)) {
+      const OwnedSurface segment = refine(cells, ground);
       std::optional<TriangleStudies> studies;
       if (needs_triangles(request_)) studies.emplace(request_, segment.surface.tin);
       const RadialSweep::View view = segment.full.view_from(eye);
@@ -166,8 +170,8 @@ class TinSegments {
     const std::vector<TileSet> needed = coarse_pass(coarse_look, raster);
     // The scene's memory is free for the segments, when no other observer needs it.
     if (observer + 1 == request_.observers.size()) coarse_.reset();
-    for (const std::vector<std::size_t>& cells : segments(eye, needed)) {
-      const OwnedSurface segment = refine(cells, needed);
+    for (const auto& [cells, ground] : segments(eye, needed)) {
+      const OwnedSurface segment = refine(cells, ground);
       const RadialSweep::View view = segment.full.view_from(eye);
       raster.judge(cells, [&](std::size_t i, TileValues<Verdict>& values) {
         const auto work = segment.full.begin(cells[i]);
@@ -240,37 +244,33 @@ class TinSegments {
     return needed;
   }
 
-  /// Tiles of cells in order of their azimuth, so that they share the ground on the way, as many together as the
-  /// memory holds.
-  std::vector<std::vector<std::size_t>> segments(const Eye& eye, const std::vector<TileSet>& needed) const {
-    std::vector<std::pair<double, std::size_t>> order;
-    for (std::size_t tile = 0; tile < needed.size(); ++tile) {
-      if (needed[tile].empty()) continue;
+  struct GroundSegment {
+    std::vector<std::size_t> cells;  ///< tiles of them
+    TileSet ground;                  ///< all that they need
+  };
+
+  /// Tiles of cells next to each other in azimuth, as many together as the memory holds.
+  std::vector<GroundSegment> segments(const Eye& eye, const std::vector<TileSet>& needed) const {
+    std::vector<std::size_t> order;
+    for (std::size_t tile = 0; tile < needed.size(); ++tile)
+      if (!needed[tile].empty()) order.push_back(tile);
+    const auto centre = [&](std::size_t tile) {
       const RasterGrid::Cell cell = place_of(tiles_, tile);
-      const Point2 centre = tiles_.centre(cell.column, cell.row);
-      order.emplace_back(std::atan2(centre.x - eye.position.x, centre.y - eye.position.y), tile);
-    }
-    std::sort(order.begin(), order.end());
-    std::vector<std::vector<std::size_t>> result;
-    TileSet together(ground_->count());
-    for (const auto& [azimuth, tile] : order) {
-      TileSet wider = together;
-      wider |= needed[tile];
-      if (result.empty() || ground_->points(wider) > budget()) {
-        result.emplace_back();
-        wider = needed[tile];
-      }
-      result.back().push_back(tile);
-      together = std::move(wider);
+      return tiles_.centre(cell.column, cell.row);
+    };
+    sort_by_azimuth(eye.position, centre, order);
+    const auto fits = [&](const TileSet& ground) { return ground_->points(ground) <= budget(); };
+    std::vector<GroundSegment> result;
+    for (std::span<const std::size_t> left = order; !left.empty(); left = left.subspan(result.back().cells.size())) {
+      const auto with = [&](TileSet ground, std::size_t i) { return ground |= needed[left[i]]; };
+      auto run = longest_run(left.size(), TileSet(ground_->count()), with, fits);
+      result.push_back({{left.begin(), left.begin() + static_cast<std::ptrdiff_t>(run.count)}, std::move(run.sum)});
     }
     return result;
   }
 
-  /// All the ground that the cells need.
-  OwnedSurface refine(const std::vector<std::size_t>& cells, const std::vector<TileSet>& needed) {
+  OwnedSurface refine(const std::vector<std::size_t>& cells, const TileSet& ground) {
     surveyed_.result.statistics.lines_seconds += watch_.lap();
-    TileSet ground(ground_->count());
-    for (const std::size_t tile : cells) ground |= needed[tile];
     return retrieve(ground_->window(ground), window_over(cells));
   }
 

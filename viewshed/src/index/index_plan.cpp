@@ -1,10 +1,14 @@
 #include "index/index_plan.hpp"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
 #include <itin/level_choice.hpp>
 #include <viewshed/site_proposal.hpp>
+
+#include "plan/partition.hpp"
 
 namespace itin::viewshed {
 
@@ -20,40 +24,43 @@ class IndexPlan {
         level_(level_within(store.metadata(), request.detail.coarsest())),
         margin_(2 * store.metadata().grid.resolution) {}
 
-  void divide(const CellBlock& cells, std::vector<IndexSegment>& segments) const {
-    const Box eyes = eyes_of(cells);
-    if (eyes.empty()) return;
-    const double reach = request_.radius + margin_;
-    const Box box{eyes.xmin - reach, eyes.ymin - reach, eyes.xmax + reach, eyes.ymax + reach};
-    const std::uint64_t points = store_.points_about(level_, box);
-    if (fits_(points, cells.count() * request_.targets)) {
-      segments.push_back({cells, Window::box(box)});
-    } else if (cells.count() > 1) {
-      const bool wide = static_cast<double>(cells.columns) * grid_.cell_width() >=
-                        static_cast<double>(cells.rows) * grid_.cell_height();
-      const bool across = wide ? cells.columns > 1 : cells.rows == 1;
-      CellBlock first = cells, rest = cells;
-      if (across) {
-        first.columns /= 2;
-        rest.column += first.columns, rest.columns -= first.columns;
-      } else {
-        first.rows /= 2;
-        rest.row += first.rows, rest.rows -= first.rows;
-      }
-      divide(first, segments);
-      divide(rest, segments);
-    } else {
-      throw InputError(
-          fmt::format("the ground about a single observer has some {} points, more than the memory holds: give a "
-                      "smaller `radius`, a "
-                      "coarser `tolerance`, or more `memory_bytes` than {}",
-                      points, request_.memory_bytes));
-    }
+  std::vector<IndexSegment> divide(const CellRectangle& cells) const {
+    std::vector<IndexSegment> segments;
+    for (const Block& block : parts_that_fit(
+             Block{cells, {}, 0}, [&](Block& b) { return fits(b); }, [&](const Block& b) { return cut(b); }))
+      if (!block.ground.empty()) segments.push_back({block.cells, Window::box(block.ground)});
+    return segments;
   }
 
  private:
+  struct Block {
+    CellRectangle cells;
+    Box ground;                ///< under the sight lines of the observers in the area; empty where there are none
+    std::uint64_t points = 0;  ///< of that ground
+  };
+
+  bool fits(Block& block) const {
+    const Box eyes = eyes_of(block.cells);
+    if (eyes.empty()) return true;
+    const double reach = request_.radius + margin_;
+    block.ground = {eyes.xmin - reach, eyes.ymin - reach, eyes.xmax + reach, eyes.ymax + reach};
+    block.points = store_.points_about(level_, block.ground);
+    return fits_(block.points, block.cells.count() * request_.targets);
+  }
+
+  std::pair<Block, Block> cut(const Block& block) const {
+    if (block.cells.count() > 1) {
+      const auto [first, rest] = halves(block.cells);
+      return {{first, {}, 0}, {rest, {}, 0}};
+    }
+    throw InputError(
+        fmt::format("the ground about a single observer has some {} points, more than the memory holds: give a "
+                    "smaller `radius`, a coarser `tolerance`, or more `memory_bytes` than {}",
+                    block.points, request_.memory_bytes));
+  }
+
   /// About the centres in the area.
-  Box eyes_of(const CellBlock& cells) const {
+  Box eyes_of(const CellRectangle& cells) const {
     Box box;
     for (std::size_t i = 0; i < cells.count(); ++i) {
       const RasterGrid::Cell cell = cells.cell(i);
@@ -74,10 +81,8 @@ class IndexPlan {
 }  // namespace
 
 std::vector<IndexSegment> index_segments(const Store& store, const IndexRequest& request, const RasterGrid& grid,
-                                         const CellBlock& cells, const SurfaceFits& fits) {
-  std::vector<IndexSegment> segments;
-  IndexPlan(store, request, grid, fits).divide(cells, segments);
-  return segments;
+                                         const CellRectangle& cells, const SurfaceFits& fits) {
+  return IndexPlan(store, request, grid, fits).divide(cells);
 }
 
 }  // namespace itin::viewshed

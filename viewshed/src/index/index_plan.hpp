@@ -12,25 +12,12 @@
 #include <itin/window.hpp>
 #include <viewshed/visibility_index.hpp>
 
+#include "line/cell_tiles.hpp"
+
 namespace itin::viewshed {
 
-struct CellBlock {
-  std::int64_t column = 0, row = 0;  ///< of its north-west cell
-  std::int64_t columns = 0, rows = 0;
-
-  std::uint64_t count() const { return static_cast<std::uint64_t>(columns * rows); }
-  RasterGrid::Cell cell(std::size_t i) const {
-    const auto n = static_cast<std::int64_t>(i);
-    return {column + n % columns, row + n / columns};
-  }
-};
-
-inline CellBlock all_cells(const RasterGrid& grid) {
-  return {0, 0, grid.columns(), grid.rows()};
-}
-
 struct IndexSegment {
-  CellBlock cells;
+  CellRectangle cells;
   Window window;  ///< holds every sight line of their observers
 };
 
@@ -40,6 +27,6 @@ using SurfaceFits = std::function<bool(std::uint64_t points, std::uint64_t lines
 /// Takes the cells that lie in the area, halved until the ground about each block fits. Throws InputError where the
 /// ground about a single observer does not.
 std::vector<IndexSegment> index_segments(const Store& store, const IndexRequest& request, const RasterGrid& grid,
-                                         const CellBlock& cells, const SurfaceFits& fits);
+                                         const CellRectangle& cells, const SurfaceFits& fits);
 
 }  // namespace itin::viewshed

@@ -80,12 +80,12 @@ class IndexWork {
   }
 
  private:
-  std::vector<IndexSegment> plan(const CellBlock& cells, const SurfaceFits& fits) const {
+  std::vector<IndexSegment> plan(const CellRectangle& cells, const SurfaceFits& fits) const {
     return index_segments(store_, request_, index_.grid, cells, fits);
   }
 
   /// `all`: the cells are those of the whole index.
-  void sample_triangles(const CellBlock& cells, bool all) {
+  void sample_triangles(const CellRectangle& cells, bool all) {
     const auto parts = plan(cells, [&](std::uint64_t points, std::uint64_t lines) {
       const std::uint64_t ground = stands_ ? SampledSurface::bytes(points, 0) : 0;
       return SampledSurface::bytes(points, lines) + ground <= memory_;

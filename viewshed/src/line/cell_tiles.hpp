@@ -41,6 +41,23 @@ using TileValues = std::array<T, Tile::kSide * Tile::kSide>;
 RasterGrid grid_of_tiles(const RasterGrid& cells);
 Tile tile_at(const RasterGrid& cells, const RasterGrid& tiles, std::size_t index);
 
+/// A rectangle of cells of any size.
+struct CellRectangle {
+  std::int64_t column = 0, row = 0;  ///< of its north-west cell
+  std::int64_t columns = 0, rows = 0;
+
+  std::uint64_t count() const { return static_cast<std::uint64_t>(columns * rows); }
+  /// Its cells row by row, the north-west one first.
+  RasterGrid::Cell cell(std::size_t i) const {
+    const auto n = static_cast<std::int64_t>(i);
+    return {column + n % columns, row + n / columns};
+  }
+};
+
+inline CellRectangle all_cells(const RasterGrid& grid) {
+  return {0, 0, grid.columns(), grid.rows()};
+}
+
 /// The inverse of RasterGrid::index().
 RasterGrid::Cell place_of(const RasterGrid& grid, std::size_t index);
 
@@ -77,5 +94,9 @@ Box box_of_cell(const RasterGrid& grid, RasterGrid::Cell cell);
 
 /// From a position to the nearest place of a box, metres squared; 0 within it.
 double squared_distance(Point2 position, const Box& box);
+
+inline Point2 middle_of(const Box& box) {
+  return {(box.xmin + box.xmax) / 2, (box.ymin + box.ymax) / 2};
+}
 
 }  // namespace itin::viewshed

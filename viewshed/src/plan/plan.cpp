@@ -1,9 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <numeric>
-#include <span>
 #include <tuple>
 #include <utility>
 
@@ -14,6 +12,7 @@
 #include "line/cell_tiles.hpp"
 #include "plan/certified_way.hpp"
 #include "plan/memory.hpp"
+#include "plan/partition.hpp"
 #include "plan/plan_id.hpp"
 #include "plan/point_counts.hpp"
 #include "request/request.hpp"
@@ -82,45 +81,36 @@ class Division {
         points_(store, request) {}
 
   std::vector<Segment> run() {
-    const std::vector<std::uint32_t> all = all_observers(request_);
-    divide(cells({0, 0}, grid_.columns(), grid_.rows()), all);
+    segments_ = parts_that_fit(
+        whole_of(request_, grid_), [&](Segment& segment) { return fits_or_is_tile(segment); }, halves_of);
+    std::erase_if(segments_, [](const Segment& segment) { return segment.observers.empty(); });
     std::sort(segments_.begin(), segments_.end(), [](const Segment& a, const Segment& b) {
       return std::tie(a.distance_m, a.north_west.row, a.north_west.column) <
              std::tie(b.distance_m, b.north_west.row, b.north_west.column);
     });
-    place_the_rest(all);
+    place_the_rest();
     return std::move(segments_);
   }
 
  private:
-  /// That nobody has looked at yet.
-  static Segment cells(RasterGrid::Cell north_west, std::int64_t columns, std::int64_t rows) {
-    return {north_west, columns, rows, {}, 0, 0};
-  }
-
-  void divide(Segment segment, std::span<const std::uint32_t> observers) {
-    look_from(segment, observers);
-    if (segment.observers.empty()) return;
+  /// A tile is read piece by piece where it does not fit.
+  bool fits_or_is_tile(Segment& segment) const {
+    leave_those_that_reach(segment);
     const bool tile = segment.columns <= Tile::kSide && segment.rows <= Tile::kSide;
-    if (fits(segment) || tile) {
-      segments_.push_back(std::move(segment));
-      return;
-    }
-    for (const Segment& half : halves(segment)) divide(half, segment.observers);
+    return segment.observers.empty() || fits(segment) || tile;
   }
 
-  /// Those of the observers that reach the segment.
-  void look_from(Segment& segment, std::span<const std::uint32_t> observers) const {
+  void leave_those_that_reach(Segment& segment) const {
     const Box box = grid_.part(segment.north_west, segment.columns, segment.rows).bounds();
     double nearest = std::numeric_limits<double>::infinity();
-    for (const std::uint32_t number : observers) {
+    std::erase_if(segment.observers, [&](std::uint32_t number) {
       const Observer& observer = request_.observers[number];
       const double squared = squared_distance(observer.position, box);
       const std::optional<double> radius = radius_of(request_, observer);
-      if (radius && squared > *radius * *radius) continue;
-      segment.observers.push_back(number);
+      if (radius && squared > *radius * *radius) return true;
       nearest = std::min(nearest, squared);
-    }
+      return false;
+    });
     segment.distance_m = std::sqrt(nearest);
   }
 
@@ -131,32 +121,29 @@ class Division {
            segment.points <= memory_beside_rasters(memory_, store_, request) / bytes_per_point_;
   }
 
-  /// Across the longer side, between tiles.
-  static std::vector<Segment> halves(const Segment& whole) {
-    const auto half = [](std::int64_t cells) { return (cells / Tile::kSide + 1) / 2 * Tile::kSide; };
-    Segment first = cells(whole.north_west, whole.columns, whole.rows), second = first;
-    if (whole.columns >= whole.rows) {
-      first.columns = half(whole.columns);
-      second.north_west.column += first.columns, second.columns -= first.columns;
-    } else {
-      first.rows = half(whole.rows);
-      second.north_west.row += first.rows, second.rows -= first.rows;
-    }
-    return {first, second};
+  /// Between tiles, for those who reach the whole.
+  static std::pair<Segment, Segment> halves_of(const Segment& whole) {
+    const CellRectangle cells{whole.north_west.column, whole.north_west.row, whole.columns, whole.rows};
+    const auto [first, rest] = halves(cells, [](std::int64_t n) { return (n / Tile::kSide + 1) / 2 * Tile::kSide; });
+    const auto segment = [&](const CellRectangle& c) {
+      return Segment{{c.column, c.row}, c.columns, c.rows, whole.observers, 0, 0};
+    };
+    return {segment(first), segment(rest)};
   }
 
   /// Observers that reach no cell are looked for on the ground as all are: the first segment has them.
-  void place_the_rest(std::span<const std::uint32_t> all) {
-    std::vector<bool> placed(all.size());
+  void place_the_rest() {
+    std::vector<bool> placed(request_.observers.size());
     for (const Segment& segment : segments_)
       for (const std::uint32_t number : segment.observers) placed[number] = true;
     if (segments_.empty()) {
-      segments_.push_back(cells({0, 0}, std::min(grid_.columns(), Tile::kSide), std::min(grid_.rows(), Tile::kSide)));
+      segments_.push_back(
+          {{0, 0}, std::min(grid_.columns(), Tile::kSide), std::min(grid_.rows(), Tile::kSide), {}, 0, 0});
       fits(segments_.front());
     }
     std::vector<std::uint32_t>& first = segments_.front().observers;
-    std::copy_if(all.begin(), all.end(), std::back_inserter(first),
-                 [&](std::uint32_t number) { return !placed[number]; });
+    for (std::uint32_t number = 0; number < placed.size(); ++number)
+      if (!placed[number]) first.push_back(number);
     std::sort(first.begin(), first.end());
   }
 

@@ -9,6 +9,8 @@
 #include <itin/error.hpp>
 
 #include "line/hulls.hpp"
+#include "plan/azimuth_order.hpp"
+#include "plan/partition.hpp"
 
 namespace itin::viewshed {
 
@@ -36,9 +38,7 @@ SightSectors::SightSectors(const RasterGrid& cells, const Eye& eye) : cells_(cel
       const double squared = squared_distance(eye.position, box);
       if (!eye.view.reaches(squared)) continue;
       const int ring = std::ilogb(std::max(1.0, std::sqrt(squared) / (Tile::kSide * cells.cell_width())));
-      const double azimuth =
-          std::atan2((box.xmin + box.xmax) / 2 - eye.position.x, (box.ymin + box.ymax) / 2 - eye.position.y);
-      places.push_back({ring, azimuth, part});
+      places.push_back({ring, azimuth(eye.position, middle_of(box)), part});
     }
   }
   std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
@@ -50,16 +50,12 @@ SightSectors::SightSectors(const RasterGrid& cells, const Eye& eye) : cells_(cel
 }
 
 SightSectors::Sector SightSectors::next(const Fits& fits) const {
-  const std::span<const Tile> parts = parts_;
-  Sector sector{{}, {eye_.position}};
-  while (sector.parts.size() < most_) {
-    std::vector<Point2> corners = sector.hull;
-    add_corners(box_of(cells_, parts[parts.size() - sector.parts.size() - 1]), corners);
-    std::vector<Point2> wider = hull_of(std::move(corners));
-    if (!sector.parts.empty() && !fits(wider)) break;
-    sector = {parts.last(sector.parts.size() + 1), std::move(wider)};
-  }
-  return sector;
+  const auto with = [&](std::vector<Point2> hull, std::size_t i) {
+    add_corners(box_of(cells_, parts_[parts_.size() - i - 1]), hull);
+    return hull_of(std::move(hull));
+  };
+  auto run = longest_run(most_, std::vector<Point2>{eye_.position}, with, fits);
+  return {std::span(parts_).last(run.count), std::move(run.sum)};
 }
 
 bool SightSectors::within(double reach, const Tile& part) const {
@@ -79,16 +75,9 @@ void SightSectors::settle(const Sector& sector, double reach) {
 }
 
 void SightSectors::divide_next() {
-  Tile rest = parts_.back(), first = rest;
-  if (rest.columns > 1 && rest.columns >= rest.rows) {
-    first.columns /= 2;
-    rest.column += first.columns, rest.columns -= first.columns;
-  } else if (rest.rows > 1) {
-    first.rows /= 2;
-    rest.row += first.rows, rest.rows -= first.rows;
-  } else {
+  if (parts_.back().columns * parts_.back().rows == 1)
     throw InputError("the sight line to a single cell does not fit into the memory: give more `memory_bytes`");
-  }
+  const auto [first, rest] = halves(parts_.back());
   parts_.back() = rest;
   parts_.push_back(first);
 }

@@ -17,6 +17,8 @@
 
 #include "line/cell_tiles.hpp"
 #include "line/hulls.hpp"
+#include "plan/azimuth_order.hpp"
+#include "plan/partition.hpp"
 #include "plan/point_counts.hpp"
 #include "request/request.hpp"
 
@@ -28,7 +30,7 @@ namespace {
 Window::Polygon farm_disc(const std::vector<const Turbine*>& farm) {
   Box box;
   for (const Turbine* t : farm) box.extend(t->position);
-  const Point2 middle{(box.xmin + box.xmax) / 2, (box.ymin + box.ymax) / 2};
+  const Point2 middle = middle_of(box);
   double radius = 0;
   for (const Turbine* t : farm)
     radius = std::max(radius, std::hypot(t->position.x - middle.x, t->position.y - middle.y) + t->radius);
@@ -90,12 +92,11 @@ class Partition {
         in_some_reach.push_back(i);
     }
     if (in_some_reach.empty()) return;
-    sort_by_azimuth({(farm.xmin + farm.xmax) / 2, (farm.ymin + farm.ymax) / 2}, boxes, in_some_reach);
-    divide(
-        in_some_reach, bytes_per_triangle, [&](Numbers of) { return about_turbines_in_reach(boxes, of); },
-        [&](Window window, Numbers of) {
-          parts.push_back({std::move(window), {of.begin(), of.end()}, {}, {}});
-        });
+    sort_by_azimuth(
+        middle_of(farm), [&](std::size_t i) { return middle_of(boxes[i]); }, in_some_reach);
+    const auto window_over = [&](Numbers of) { return about_turbines_in_reach(boxes, of); };
+    for (const Ground& ground : divide(in_some_reach, bytes_per_triangle, window_over))
+      parts.push_back({window_of(ground), {ground.of.begin(), ground.of.end()}, {}, {}});
   }
 
   /// Divides the survey of what the radar sees, over all cells and of all turbines.
@@ -105,20 +106,24 @@ class Partition {
     for (std::size_t i = 0; i < tiles_.cell_count(); ++i) boxes.push_back(box_about(i));
     for (const Turbine& t : zone_.request.turbines) boxes.push_back(disc_box(t.position, margin_));
     std::vector<std::size_t> all = numbers_to(boxes.size());
-    sort_by_azimuth(radar, boxes, all);
-    divide(
-        all, kBareGround, [&](Numbers of) { return about_radar(boxes, of); },
-        [&](Window window, Numbers of) {
-          ZonePart& part = parts.emplace_back(ZonePart{std::move(window), {}, {}, {}});
-          for (const std::size_t i : of) {
-            if (i < tiles_.cell_count()) part.radar_tiles.push_back(i);
-            if (i >= tiles_.cell_count()) part.radar_turbines.push_back(i - tiles_.cell_count());
-          }
-        });
+    sort_by_azimuth(
+        radar, [&](std::size_t i) { return middle_of(boxes[i]); }, all);
+    for (const Ground& ground : divide(all, kBareGround, [&](Numbers of) { return about_radar(boxes, of); })) {
+      ZonePart& part = parts.emplace_back(ZonePart{window_of(ground), {}, {}, {}});
+      for (const std::size_t i : ground.of) {
+        if (i < tiles_.cell_count()) part.radar_tiles.push_back(i);
+        if (i >= tiles_.cell_count()) part.radar_turbines.push_back(i - tiles_.cell_count());
+      }
+    }
   }
 
  private:
   using Numbers = std::span<const std::size_t>;
+  struct Ground {
+    Numbers of;
+    std::vector<Point2> hull;  ///< holds all their sight lines
+  };
+  static Window window_of(const Ground& ground) { return Window::polygons({{ground.hull, {}}}); }
 
   double memory(const std::vector<Point2>& window, double bytes_per_triangle) const {
     const double triangles = 2 * static_cast<double>(points_.within(Window::polygons({{window, {}}})));
@@ -126,17 +131,20 @@ class Partition {
   }
 
   /// Cuts them in halves until the ground under each fits.
-  template <class WindowOver, class Add>
-  void divide(Numbers of, double bytes_per_triangle, const WindowOver& window_over, const Add& add) const {
-    std::vector<Point2> window = window_over(of);
-    if (fits(window, bytes_per_triangle)) {
-      add(Window::polygons({{std::move(window), {}}}), of);
-    } else if (of.size() > 1) {
-      divide(of.first(of.size() / 2), bytes_per_triangle, window_over, add);
-      divide(of.subspan(of.size() / 2), bytes_per_triangle, window_over, add);
-    } else {
-      refuse(memory(window, bytes_per_triangle));
-    }
+  template <class HullOver>
+  std::vector<Ground> divide(Numbers of, double bytes_per_triangle, const HullOver& hull_over) const {
+    const auto ground = [](Numbers some) { return Ground{some, {}}; };
+    return parts_that_fit(
+        ground(of),
+        [&](Ground& part) {
+          part.hull = hull_over(part.of);
+          return fits(part.hull, bytes_per_triangle);
+        },
+        [&](const Ground& part) {
+          if (part.of.size() == 1) refuse(memory(part.hull, bytes_per_triangle));
+          const auto [first, rest] = halves(part.of);
+          return std::pair(ground(first), ground(rest));
+        });
   }
 
   [[noreturn]] void refuse(double needed) const {
@@ -144,15 +152,6 @@ class Partition {
         fmt::format("this takes about {:.2g} GB of memory, more than the {:.2g} GB allowed: give a coarser "
                     "`tolerance`, a greater `cell_size`, a smaller `radius`, or more `memory_bytes`",
                     needed / 1e9, static_cast<double>(*zone_.request.memory_bytes) / 1e9));
-  }
-
-  /// From the south clockwise about a place.
-  static void sort_by_azimuth(Point2 about, const std::vector<Box>& boxes, std::vector<std::size_t>& numbers) {
-    const auto azimuth = [&](std::size_t i) {
-      return std::atan2((boxes[i].xmin + boxes[i].xmax) / 2 - about.x, (boxes[i].ymin + boxes[i].ymax) / 2 - about.y);
-    };
-    std::sort(numbers.begin(), numbers.end(),
-              [&](std::size_t a, std::size_t b) { return std::pair(azimuth(a), a) < std::pair(azimuth(b), b); });
   }
 
   Box box_about(std::size_t tile) const {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@
 #include <viewshed/site_coverage.hpp>
 #include <viewshed/surface.hpp>
 
+#include "plan/partition.hpp"
 #include "progress/stopwatch.hpp"
 #include "request/request.hpp"
 #include "siting/coverage/cell_blocks.hpp"
@@ -221,7 +223,9 @@ class SiteCoverage::Impl {
     return points * (swept ? kBytesPerSweptPoint : kBytesPerRayPoint) + sets <= memory();
   }
 
-  std::uint64_t points_of(const std::vector<std::size_t>& options, int level) const {
+  using Options = std::span<std::size_t>;
+
+  std::uint64_t points_of(Options options, int level) const {
     Box box;
     for (const std::size_t option : options) box.extend(disc_box(survey_.stands[option].position, survey_.radius));
     return store_.points_about(level, box);
@@ -229,7 +233,18 @@ class SiteCoverage::Impl {
 
   /// Neighbours together, as many as the memory holds.
   std::vector<std::vector<std::size_t>> groups(std::vector<std::size_t> options, int level) const {
-    if (options.size() < 2 || fits(points_of(options, level), options.size(), level)) return {std::move(options)};
+    const auto fit_or_is_one = [&](Options some) {
+      return some.size() < 2 || fits(points_of(some, level), some.size(), level);
+    };
+    std::vector<std::vector<std::size_t>> result;
+    for (const Options some :
+         parts_that_fit(Options(options), fit_or_is_one, [&](Options group) { return halves_across(group); }))
+      result.emplace_back(some.begin(), some.end());
+    return result;
+  }
+
+  /// Those in the west and in the east, or in the south and in the north.
+  std::pair<Options, Options> halves_across(Options options) const {
     Box box;
     for (const std::size_t option : options) box.extend(survey_.stands[option].position);
     std::sort(options.begin(), options.end(), [&](std::size_t a, std::size_t b) {
@@ -237,10 +252,7 @@ class SiteCoverage::Impl {
       const double pa = box.width() > box.height() ? p.x : p.y, pb = box.width() > box.height() ? q.x : q.y;
       return pa != pb ? pa < pb : a < b;
     });
-    const auto half = options.begin() + static_cast<std::ptrdiff_t>(options.size() / 2);
-    std::vector<std::vector<std::size_t>> result = groups({options.begin(), half}, level);
-    for (auto& group : groups({half, options.end()}, level)) result.push_back(std::move(group));
-    return result;
+    return halves(options);
   }
 
   /// Takes the options, all at one stage, to the next.
