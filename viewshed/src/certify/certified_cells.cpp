@@ -14,18 +14,17 @@ void CertifiedCells::judge(const TileJudge& judge, std::size_t eyes, std::span<c
 }
 
 std::uint64_t CertifiedCells::judge(const TileJudge& judge, std::size_t eyes, const PartsOfTile& cells) {
-  const auto work = judge.begin(cells.tile);
   const Tile tile = tile_at(grid_, tiles_, cells.tile);
   Verdicts& verdicts = verdicts_[cells.tile];
-  std::uint64_t lines = 0;
-  for (std::size_t eye = 0; eye < eyes; ++eye) {
-    TileValues<Verdict> values;
-    values.fill(Verdict::kOutside);
-    for_each_cell(cells, tile, [&](std::size_t cell) { values[cell] = verdicts.open(cell); });
-    lines += work->judge(eye, values);
-    verdicts.add(values);
-  }
-  return lines;
+  const auto open = [&](std::size_t, TileValues<Verdict>& values) {
+    bool any = false;
+    for_each_cell(cells, tile, [&](std::size_t cell) {
+      if (verdicts.open(cell)) values[cell] = Verdict::kUndecided, any = true;
+    });
+    return any;
+  };
+  return judge_tile(judge, cells.tile, eyes, open,
+                    [&](std::size_t, const TileValues<Verdict>& values, auto&) { verdicts.add(values); });
 }
 
 void CertifiedCells::store(Result& result) const {

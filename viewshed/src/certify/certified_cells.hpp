@@ -12,8 +12,8 @@
 #include <viewshed/viewshed.hpp>
 
 #include "judge/tile_judge.hpp"
+#include "line/tile_parts.hpp"
 #include "line/verdicts.hpp"
-#include "plan/sight_sectors.hpp"
 #include "progress/stage.hpp"
 
 namespace itin::viewshed {

@@ -49,7 +49,7 @@ class CertifiedSectors {
     Stage stage("cells judged", eyes.size() * cells, progress_);
     cells_.emplace(result.grid, tiles_, stage);
     for (std::size_t i = 0; i < eyes.size(); ++i) {
-      look(eyes[i]);
+      judge_from(eyes[i]);
       stage.advance_to((i + 1) * cells);
     }
     cells_->store(result);
@@ -58,7 +58,7 @@ class CertifiedSectors {
   }
 
  private:
-  void look(const Eye& eye) {
+  void judge_from(const Eye& eye) {
     SightSectors sectors(surveyed_.result.grid, eye);
     while (!sectors.empty()) {
       const SightSectors::Sector sector = sectors.next(

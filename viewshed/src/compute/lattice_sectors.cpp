@@ -1,7 +1,6 @@
 #include "compute/lattice_sectors.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <iterator>
 #include <memory>
@@ -20,12 +19,11 @@
 #include "bounds/boundary.hpp"
 #include "compute/store_viewshed.hpp"
 #include "line/hulls.hpp"
-#include "modes/observation.hpp"
+#include "modes/observe.hpp"
 #include "plan/sight_sectors.hpp"
 #include "progress/stage.hpp"
 #include "progress/stopwatch.hpp"
 #include "request/request.hpp"
-#include "request/void_shadow.hpp"
 #include "scene/full_surface.hpp"
 #include "scene/reveal.hpp"
 #include "window/retrieval.hpp"
@@ -62,7 +60,7 @@ class LatticeSectors {
     observations_ = observations.of_tiles(tiles_);
     stage_.emplace("cells decided", eyes.size() * result.grid.cell_count(), progress_);
     for (std::uint32_t i = 0; i < eyes.size(); ++i)
-      if (!look(eyes[i], i)) return std::nullopt;
+      if (!observe_from(eyes[i], i)) return std::nullopt;
     store_all(observations_, tiles_, result);
     observations.finish(result);
     result.statistics.lines_seconds += watch_.lap();
@@ -87,7 +85,7 @@ class LatticeSectors {
   }
 
   /// False where the surface is no lattice.
-  bool look(const Eye& eye, std::uint32_t observer) {
+  bool observe_from(const Eye& eye, std::uint32_t observer) {
     SightSectors sectors(surveyed_.result.grid, eye);
     while (!sectors.empty()) {
       const SightSectors::Sector sector = sectors.next([&](const std::vector<Point2>& hull) {
@@ -103,7 +101,7 @@ class LatticeSectors {
         if (!reader && (!is_lattice_ || sector.parts.size() == 1)) return false;
         if (reader) {
           is_lattice_ = true;
-          reach = look_over(*reader, eye, observer, sectors, sector.parts);
+          reach = observe_over(*reader, eye, observer, sectors, sector.parts);
           learn(reader->lattice(), std::isinf(reach));
         }
       }
@@ -143,17 +141,16 @@ class LatticeSectors {
   }
 
   /// Decides the cells within a reach, metres, as far as what the eye may see fits into the memory.
-  double look_over(LatticeReader& reader, const Eye& eye, std::uint32_t observer, const SightSectors& sectors,
-                   std::span<const Tile> parts) {
+  double observe_over(LatticeReader& reader, const Eye& eye, std::uint32_t observer, const SightSectors& sectors,
+                      std::span<const Tile> parts) {
     Result& result = surveyed_.result;
     FullSurface surface(reader.lattice(), request_.earth, result.grid, tiles_);
     const double unread = kBytesPerUnreadPost * static_cast<double>(reader.lattice().triangle_count()) / 2;
     const double tiles =
         (static_cast<double>(memory_) - unread) / static_cast<double>(kBytesPerPost * LatticeTin::kCells);
-    const Revealed revealed = reveal(eye, reader, surface, static_cast<std::uint64_t>(std::max(0.0, tiles)), reading_);
+    Revealed revealed = reveal(eye, reader, surface, static_cast<std::uint64_t>(std::max(0.0, tiles)), reading_);
     // A bin less, against rounding.
     const double reach = (revealed.reach - 1) * reader.lattice().spacing * reader.lattice().grid.resolution;
-    const std::optional<VoidShadow> shadow = shadow_of(eye, surface.rim(), result);
     result.statistics.retrieval += reader.lattice().statistics;
     result.statistics.triangles += reader.lattice().triangle_count();
     result.statistics.retrieval_seconds += watch_.lap();
@@ -161,14 +158,8 @@ class LatticeSectors {
     std::copy_if(parts.begin(), parts.end(), std::back_inserter(decided),
                  [&](const Tile& part) { return sectors.within(reach, part); });
     const std::vector<PartsOfTile> cells = by_tile(decided, tiles_);
-    std::atomic<std::uint64_t> lines = 0;
-    stage_->for_each(cells.size(), [&](std::size_t i) {
-      const auto work = surface.begin(cells[i].tile, cells[i].parts);
-      lines += observations_[cells[i].tile]->look(
-          {surface, eye, revealed.view, observer, shadow ? &*shadow : nullptr, *work});
-      return cell_count(cells[i].parts);
-    });
-    result.statistics.lines += lines;
+    const ExactJudge judge(surface, {eye, std::move(revealed.view), shadow_of(eye, surface.rim(), result)});
+    result.statistics.lines += observe(judge, observer, cells, observations_, nullptr, *stage_);
     result.statistics.lines_seconds += watch_.lap();
     return reach;
   }

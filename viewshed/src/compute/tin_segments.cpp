@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
-#include <cmath>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -16,13 +15,13 @@
 #include <viewshed/surface.hpp>
 #include <viewshed/viewshed.hpp>
 
-#include "judge/certified_pass.hpp"
-#include "line/cell_tiles.hpp"
-#include "modes/observation.hpp"
+#include "judge/envelope_judge.hpp"
+#include "judge/exact_judge.hpp"
+#include "line/tile_parts.hpp"
+#include "modes/observe.hpp"
 #include "plan/azimuth_order.hpp"
 #include "plan/ground_tiles.hpp"
 #include "plan/memory.hpp"
-#include "plan/observer_raster.hpp"
 #include "plan/partition.hpp"
 #include "progress/stage.hpp"
 #include "progress/stopwatch.hpp"
@@ -42,11 +41,6 @@ constexpr std::uint64_t kCoarseShare = 12;
 Point2 along(const Grid& grid, const SightLines& lines, unsigned i, double s) {
   return {grid.origin.x + (lines.from_x[i] + s * (lines.to_x[i] - lines.from_x[i])) * grid.resolution,
           grid.origin.y + (lines.from_y[i] + s * (lines.to_y[i] - lines.from_y[i])) * grid.resolution};
-}
-
-template <class Visit>
-void for_each_line(unsigned active, const Visit& visit) {
-  for (; active != 0; active &= active - 1) visit(static_cast<unsigned>(std::countr_zero(active)));
 }
 
 class TinSegments {
@@ -70,7 +64,7 @@ class TinSegments {
     Observations observations(request_);
     observations_ = observations.of_tiles(tiles_);
     stage_.emplace("cells decided", eyes.size() * result.grid.cell_count(), progress_);
-    for (std::uint32_t i = 0; i < eyes.size(); ++i) look(eyes[i], i);
+    for (std::uint32_t i = 0; i < eyes.size(); ++i) observe_from(eyes[i], i);
     store_all(observations_, tiles_, result);
     observations.finish(result);
     result.statistics.lines_seconds += watch_.lap();
@@ -131,115 +125,123 @@ class TinSegments {
     result.statistics.scene_seconds += watch_.lap();
   }
 
-  void look(const Eye& eye, std::uint32_t observer) {
+  void observe_from(const Eye& eye, std::uint32_t observer) {
     if (whole_lines()) {
-      look_over(eye, observer);
+      observe_over_lines(eye, observer);
     } else {
-      look_certified(eye, observer);
+      observe_certified(eye, observer);
     }
     stage_->advance_to((observer + 1) * surveyed_.result.grid.cell_count());
   }
 
   /// All ground under all lines.
-  void look_over(const Eye& eye, std::uint32_t observer) {
+  void observe_over_lines(const Eye& eye, std::uint32_t observer) {
+    Result& result = surveyed_.result;
     const std::vector<TileSet> needed = under_lines(eye, observer);
     // The edges of a segment's window are no voids, and features never reach beyond the ground.
-    const std::optional<VoidShadow> shadow = shadow_of(eye, rim_, surveyed_.result);
-    std::atomic<std::uint64_t> lines = 0;
+    const auto shadow = shadow_of(eye, rim_, result);
     for (const auto& [cells, ground] : segments(eye, needed)) {
       const OwnedSurface segment = refine(cells, ground);
       std::optional<TriangleStudies> studies;
       if (needs_triangles(request_)) studies.emplace(request_, segment.surface.tin);
-      const RadialSweep::View view = segment.full.view_from(eye);
-      stage_->for_each(cells.size(), [&](std::size_t i) {
-        const auto work = segment.full.begin(cells[i]);
-        lines += observations_[cells[i]]->look(
-            {segment.full, eye, view, observer, shadow ? &*shadow : nullptr, *work, studies ? &*studies : nullptr});
-        return static_cast<std::size_t>(work->tile.columns * work->tile.rows);
-      });
+      const ExactJudge judge(segment.full, {eye, segment.full.view_from(eye), shadow});
+      result.statistics.lines += observe(judge, observer, all_cells(result.grid, tiles_, cells), observations_,
+                                         studies ? &*studies : nullptr, *stage_);
     }
-    surveyed_.result.statistics.lines += lines;
   }
 
-  void look_certified(const Eye& eye, std::uint32_t observer) {
-    ObserverRaster raster(surveyed_.result.grid, tiles_, *stage_);
-    for_each_look(eye, observer, [&](std::size_t tile, const Look& look, std::size_t place) {
-      if (!observations_[tile]->open(look)) raster.values()[place] = Verdict::kOutside;
+  /// One observer's verdicts on each tile, on their way.
+  using TileVerdicts = std::vector<TileValues<Verdict>>;
+
+  void observe_certified(const Eye& eye, std::uint32_t observer) {
+    TileVerdicts verdicts(tiles_.cell_count());
+    for (TileValues<Verdict>& values : verdicts) values.fill(Verdict::kOutside);
+    for_each_view(eye, observer, [&](std::size_t tile, const CellView& view) {
+      if (observations_[tile]->open(view)) verdicts[tile][view.cell] = Verdict::kUndecided;
     });
-    const EnvelopeScene::Look coarse_look = coarse_->look_from(eye);
-    const std::vector<TileSet> needed = coarse_pass(coarse_look, raster);
+    const auto [needed, shadow] = coarse_pass(eye, verdicts);
     // The scene's memory is free for the segments, when no other observer needs it.
     if (observer + 1 == request_.observers.size()) coarse_.reset();
     for (const auto& [cells, ground] : segments(eye, needed)) {
       const OwnedSurface segment = refine(cells, ground);
-      const RadialSweep::View view = segment.full.view_from(eye);
-      raster.judge(cells, [&](std::size_t i, TileValues<Verdict>& values) {
-        const auto work = segment.full.begin(cells[i]);
-        const std::uint64_t lines = segment.full.judge(eye, view, values, *work);
-        // The edges of the window are no voids.
-        if (coarse_look.shadow) coarse_look.shadow->apply_to(work->centres, values);
-        return lines;
-      });
+      // The edges of the window are no voids.
+      judge_undecided(ExactJudge(segment.full, {eye, segment.full.view_from(eye), shadow}), cells, verdicts);
     }
-    surveyed_.result.statistics.lines += raster.rays();
-    for_each_look(eye, observer, [&](std::size_t tile, const Look& look, std::size_t place) {
-      const Verdict value = raster.values()[place];
-      if (value == Verdict::kOutside) return;
-      observations_[tile]->enter(look.cell);
-      if (value == Verdict::kVisible) observations_[tile]->see(look);
-      if (value == Verdict::kUndecided) observations_[tile]->mark_undecided(look.cell);
+    for_each_view(eye, observer, [&](std::size_t tile, const CellView& view) {
+      observations_[tile]->add(view, verdicts[tile][view.cell]);
     });
   }
 
-  /// Calls visit(tile, look, place in the grid) for every cell; the looks know no heights.
+  /// Judges what is undecided of these tiles, for the judge's only eye.
+  void judge_undecided(const TileJudge& judge, const std::vector<std::size_t>& tiles, TileVerdicts& verdicts) {
+    const auto undecided = [](const TileValues<Verdict>& values) {
+      return static_cast<std::size_t>(std::count(values.begin(), values.end(), Verdict::kUndecided));
+    };
+    std::atomic<std::uint64_t> lines = 0;
+    stage_->for_each(tiles.size(), [&](std::size_t i) {
+      TileValues<Verdict>& values = verdicts[tiles[i]];
+      const std::size_t before = undecided(values);
+      lines += judge.begin(tiles[i])->judge(0, values);
+      return before - undecided(values);
+    });
+    surveyed_.result.statistics.lines += lines;
+  }
+
+  /// Calls visit(tile, view) for every cell; the views know no heights.
   template <class Visit>
-  void for_each_look(const Eye& eye, std::uint32_t observer, const Visit& visit) const {
+  void for_each_view(const Eye& eye, std::uint32_t observer, const Visit& visit) const {
     const RasterGrid& grid = surveyed_.result.grid;
     parallel_for(observations_.size(), [&](std::size_t i) {
       const Tile tile = tile_at(grid, tiles_, i);
       const TileCentres centres(store_.metadata().grid, grid, tile);
       for_each_cell(tile, [&](std::size_t cell, RasterGrid::Cell place) {
         const auto [dx, dy] = eye.offset_to(grid.centre(place.column, place.row), centres.at(cell));
-        visit(i, Look{cell, observer, dx, dy, 0}, grid.index(place));
+        visit(i, CellView{cell, observer, dx, dy, 0});
       });
     });
   }
 
-  /// The ground that each tile's undecided lines need at full detail.
-  std::vector<TileSet> coarse_pass(const EnvelopeScene::Look& look, ObserverRaster& raster) {
+  struct Coarse {
+    std::vector<TileSet> needed;  ///< the ground that each tile's undecided lines need at full detail
+    std::shared_ptr<const VoidShadow> shadow;
+  };
+
+  Coarse coarse_pass(const Eye& eye, TileVerdicts& verdicts) {
     std::vector<std::size_t> all(tiles_.cell_count());
     std::iota(all.begin(), all.end(), std::size_t{0});
     std::vector<TileSet> needed(all.size());
+    const EnvelopeJudge judge(*coarse_, surveyed_.result.grid, tiles_, {eye},
+                              [&](std::size_t tile, const EnvelopePacket& packet) {
+                                if (needed[tile].empty()) needed[tile] = TileSet(ground_->count());
+                                add_ground(packet, needed[tile]);
+                              });
+    judge_undecided(judge, all, verdicts);
+    return {std::move(needed), judge.view(0).shadow};
+  }
+
+  /// Under the targets, and where lines come near it.
+  void add_ground(const EnvelopePacket& packet, TileSet& tiles) const {
     const Grid& units = store_.metadata().grid;
-    const CertifiedPass pass(*coarse_, surveyed_.result.grid, tiles_);
-    raster.judge(all, [&](std::size_t tile, TileValues<Verdict>& values) {
-      const auto work = pass.begin(tile);
-      pass.judge(look, values, *work, [&](const Doubtful& d) {
-        if (needed[tile].empty()) needed[tile] = TileSet(ground_->count());
-        UpperScene::Stretches stretches;
-        coarse_->upper.find_stretches(d.lines, d.starts_under, d.ends_under, stretches);
-        for_each_line(d.lines.active, [&](unsigned i) {
-          const Point2 target = along(units, d.lines, i, 1);
-          ground_->add_line(target, target, needed[tile]);
-          for (const Stretch& s : stretches[i])
-            ground_->add_line(along(units, d.lines, i, s.from), along(units, d.lines, i, s.to), needed[tile]);
-        });
-      });
-      return work->rays;
+    UpperScene::Stretches stretches;
+    coarse_->upper.find_stretches(packet.low, packet.starts_under, packet.ends_under, stretches);
+    for_each_line(packet.low.active, [&](unsigned i) {
+      const Point2 target = along(units, packet.low, i, 1);
+      ground_->add_line(target, target, tiles);
+      for (const Stretch& s : stretches[i])
+        ground_->add_line(along(units, packet.low, i, s.from), along(units, packet.low, i, s.to), tiles);
     });
-    return needed;
   }
 
   /// The ground under all lines in view to each tile's open cells.
   std::vector<TileSet> under_lines(const Eye& eye, std::uint32_t observer) const {
     constexpr double kAnyHeight = 1e9;
     std::vector<TileSet> needed(tiles_.cell_count());
-    for_each_look(eye, observer, [&](std::size_t tile, const Look& look, std::size_t) {
-      const bool in_view = eye.view.contains(look.dx, look.dy, -kAnyHeight, kAnyHeight) != false;
-      if (!in_view || !observations_[tile]->open(look)) return;
+    for_each_view(eye, observer, [&](std::size_t tile, const CellView& view) {
+      const bool in_view = eye.view.contains(view.dx, view.dy, -kAnyHeight, kAnyHeight) != false;
+      if (!in_view || !observations_[tile]->open(view)) return;
       TileSet& tiles = needed[tile];
       if (tiles.empty()) tiles = TileSet(ground_->count());
-      ground_->add_line(eye.position, {eye.position.x + look.dx, eye.position.y + look.dy}, tiles);
+      ground_->add_line(eye.position, {eye.position.x + view.dx, eye.position.y + view.dy}, tiles);
     });
     return needed;
   }

@@ -1,11 +1,12 @@
 #include <algorithm>
+#include <utility>
 
 #include <viewshed/surface.hpp>
 #include <viewshed/viewshed.hpp>
 
 #include "bounds/surface_heights.hpp"
 #include "compute/surface_in_memory.hpp"
-#include "modes/look_around.hpp"
+#include "modes/observe.hpp"
 #include "progress/stopwatch.hpp"
 #include "request/eye.hpp"
 #include "request/request.hpp"
@@ -63,7 +64,7 @@ Result compute(const SurfaceInMemory& over, const Request& request, Progress& pr
   std::vector<RadialSweep::View> views;
   if (over.reader != nullptr && !all_read(*over.reader))
     for (const Eye& eye : eyes) views.push_back(reveal(eye, *over.reader, surface, kAnyTiles, progress).view);
-  look_around(surface, studies ? &*studies : nullptr, observations, eyes, views, result, progress);
+  observe_all(surface, studies ? &*studies : nullptr, observations, eyes, std::move(views), result, progress);
   result.statistics.lines_seconds = watch.lap();
   return result;
 }

@@ -1,8 +1,17 @@
-// Cells judged over the full surface itself: none stays undecided.
+// Cells judged over the full surface itself: none stays undecided, unless ground without data leaves it open.
+//
+//   const ExactJudge judge(surface, make_views(eyes.size(), [&](std::size_t i) {
+//                            return EyeView{eyes[i], surface.view_from(eyes[i]), shadow_of(eyes[i], rim, result)};
+//                          }));
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
+
+#include <itin/parallel.hpp>
 
 #include "judge/tile_judge.hpp"
 #include "request/void_shadow.hpp"
@@ -10,24 +19,59 @@
 
 namespace itin::viewshed {
 
+/// An eye over a surface in memory.
+struct EyeView {
+  Eye eye;
+  RadialSweep::View view;                              ///< the surface's, of this eye
+  std::shared_ptr<const VoidShadow> shadow = nullptr;  ///< where ground without data hides, or may
+};
+
 class ExactJudge final : public TileJudge {
  public:
-  /// Under NoData::kBlock ground that is missing hides. The surface must outlive it.
-  ExactJudge(const FullSurface& surface, const std::vector<Eye>& eyes, NoData nodata);
+  /// The surface must outlive it.
+  ExactJudge(const FullSurface& surface, std::vector<EyeView> views);
+  /// Of one eye.
+  ExactJudge(const FullSurface& surface, EyeView view);
 
-  std::unique_ptr<Work> begin(std::size_t tile) const override;
-  const Eye& eye(std::size_t number) const override { return views_[number]->eye; }
+  /// With what modes ask about a tile's ground and its lines besides.
+  class TileWork final : public Work {
+   public:
+    TileWork(const ExactJudge& judge, std::unique_ptr<FullSurface::TileWork> of)
+        : cells(*of), judge_(judge), cells_(std::move(of)) {}
+
+    std::uint64_t judge(std::size_t eye, TileValues<Verdict>& values) override;
+    TileTargets targets() override { return {cells.centres, cells.targets, cells.targets}; }
+    const FullSurface& surface() const { return judge_.surface_; }
+    const EyeView& view(std::size_t eye) const { return judge_.views_[eye]; }
+
+    FullSurface::TileWork& cells;
+
+   private:
+    const ExactJudge& judge_;
+    std::unique_ptr<FullSurface::TileWork> cells_;
+  };
+
+  std::unique_ptr<Work> begin(std::size_t tile) const override { return begin_exactly(tile); }
+  std::unique_ptr<TileWork> begin_exactly(std::size_t tile) const;
+  /// Only cells in these parts of the tile are asked about.
+  std::unique_ptr<TileWork> begin_exactly(std::size_t tile, std::span<const Tile> parts) const;
+  const Eye& eye(std::size_t number) const override { return views_[number].eye; }
+  const FullSurface& surface() const { return surface_; }
 
  private:
-  struct EyesView {
-    Eye eye;
-    RadialSweep::View view;
-    std::optional<VoidShadow> shadow;  ///< where ground without data hides
-  };
-  class ExactWork;
-
   const FullSurface& surface_;
-  std::vector<std::optional<EyesView>> views_;
+  const std::vector<EyeView> views_;
 };
+
+/// make(i) for each i in [0, count), on all threads.
+template <class Make>
+std::vector<EyeView> make_views(std::size_t count, const Make& make) {
+  std::vector<std::optional<EyeView>> made(count);
+  parallel_for(count, [&](std::size_t i) { made[i].emplace(make(i)); });
+  std::vector<EyeView> views;
+  views.reserve(count);
+  for (std::optional<EyeView>& view : made) views.push_back(std::move(*view));
+  return views;
+}
 
 }  // namespace itin::viewshed

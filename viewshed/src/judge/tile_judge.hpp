@@ -1,9 +1,10 @@
 // Which cells of a tile some eyes see, over whatever is known of the surface: itself (exact_judge.hpp), or two surfaces
 // that enclose it (envelope_judge.hpp).
 //
-//   const ExactJudge judge(surface, eyes, NoData::kClear);
-//   const auto work = judge.begin(tile);
-//   for (std::size_t eye = 0; eye < eyes.size(); ++eye) lines += work->judge(eye, values);
+//   const EnvelopeJudge judge(scene, grid, tiles, eyes);
+//   lines += judge_tile(judge, tile, eyes.size(),
+//                       [&](std::size_t eye, TileValues<Verdict>& values) { ... },                 // what is asked
+//                       [&](std::size_t eye, TileValues<Verdict>& values, auto& work) { ... });    // the answer
 #pragma once
 
 #include <cstdint>
@@ -50,5 +51,24 @@ class TileJudge {
   virtual std::unique_ptr<Work> begin(std::size_t tile) const = 0;
   virtual const Eye& eye(std::size_t number) const = 0;
 };
+
+/// Judges a tile for one eye after another; what all of them share is made once anything is asked. open(eye, values)
+/// makes Verdict::kUndecided what is asked, of values that are all Verdict::kOutside, and returns whether anything is;
+/// then close(eye, values, work) is called with what has become of them. Returns how many sight lines that took.
+template <class Open, class Close>
+std::uint64_t judge_tile(const TileJudge& judge, std::size_t tile, std::size_t eyes, const Open& open,
+                         const Close& close) {
+  std::unique_ptr<TileJudge::Work> work;
+  std::uint64_t lines = 0;
+  for (std::size_t eye = 0; eye < eyes; ++eye) {
+    TileValues<Verdict> values;
+    values.fill(Verdict::kOutside);
+    if (!open(eye, values)) continue;
+    if (!work) work = judge.begin(tile);
+    lines += work->judge(eye, values);
+    close(eye, values, *work);
+  }
+  return lines;
+}
 
 }  // namespace itin::viewshed

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 
 #include <itin/geometry.hpp>
 
@@ -21,6 +22,12 @@ struct SightLines {
     from_z.fill(eye.z);
   }
 };
+
+/// Calls visit(i) for each line whose bit is set.
+template <class Visit>
+void for_each_line(unsigned bits, const Visit& visit) {
+  for (; bits != 0; bits &= bits - 1) visit(static_cast<unsigned>(std::countr_zero(bits)));
+}
 
 /// Packets are four by four cells: the closer together, the fewer boxes of a scene they meet.
 inline constexpr unsigned kPacketSide = 4;

@@ -1,4 +1,4 @@
-// The verdicts of certified viewsheds on a tile's cells.
+// The verdicts on a tile's cells.
 #pragma once
 
 #include <algorithm>
@@ -39,33 +39,31 @@ inline void count(Verdict value, CellCounts& cells) {
   }
 }
 
-/// Every observer's verdict on a cell, made one. At first nobody looks.
+/// Every observer's verdict on a cell, made one: the first of visible, undecided, hidden and outside that any of them
+/// has. At first nobody looks.
 class Verdicts {
  public:
   Verdicts() { values_.fill(Verdict::kOutside); }
 
-  /// The verdict with which the next observer begins: a cell that one certainly sees need not be judged for the others.
-  Verdict open(std::size_t cell) const {
-    return values_[cell] == Verdict::kVisible ? Verdict::kOutside : Verdict::kUndecided;
-  }
+  Verdict operator[](std::size_t cell) const { return values_[cell]; }
+  /// A cell that one observer certainly sees need not be judged for the others.
+  bool open(std::size_t cell) const { return values_[cell] != Verdict::kVisible; }
 
+  void add(std::size_t cell, Verdict of_observer) {
+    Verdict& value = values_[cell];
+    if (of_observer == Verdict::kOutside || value == Verdict::kVisible) return;
+    if (of_observer != Verdict::kHidden || value == Verdict::kOutside) value = of_observer;
+  }
   void add(const TileValues<Verdict>& of_observer) {
-    for (std::size_t i = 0; i < values_.size(); ++i) {
-      const Verdict v = of_observer[i];
-      if (v == Verdict::kOutside || values_[i] == Verdict::kVisible) continue;
-      if (values_[i] == Verdict::kOutside || v == Verdict::kVisible) {
-        values_[i] = v;
-      } else if (v == Verdict::kUndecided) {
-        values_[i] = Verdict::kUndecided;
-      }
-    }
+    for (std::size_t cell = 0; cell < values_.size(); ++cell) add(cell, of_observer[cell]);
   }
 
   /// Counts the cells, and writes them to their places in the result.
   void store(const Tile& tile, Result& result, CellCounts& cells) const {
-    for_each_cell(tile, [&](std::size_t cell, RasterGrid::Cell place) {
-      result.visible[result.grid.index(place)] = values_[cell];
-      count(values_[cell], cells);
+    for_each_row(tile, [&](std::size_t cell, RasterGrid::Cell first) {
+      const auto columns = static_cast<std::size_t>(tile.columns);
+      std::copy_n(values_.data() + cell, columns, result.visible.data() + result.grid.index(first));
+      for (std::size_t i = cell; i < cell + columns; ++i) count(values_[i], cells);
     });
   }
 

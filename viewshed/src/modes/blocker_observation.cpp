@@ -11,9 +11,9 @@ BlockerObservation::BlockerObservation(BlockerTable& table) : table_(table) {
   blocker_.fill(kNoBlocker);
 }
 
-std::uint64_t BlockerObservation::look(const TileLook& tile) {
+std::uint64_t BlockerObservation::observe(const TileView& tile) {
   found_.clear();
-  const std::uint64_t lines = Observation::look(tile);
+  const std::uint64_t lines = Observation::observe(tile);
   std::vector<std::uint32_t> triangles;
   for (const std::size_t cell : found_) triangles.push_back(blocker_[cell]);
   std::sort(triangles.begin(), triangles.end());
@@ -31,22 +31,22 @@ std::uint64_t BlockerObservation::look(const TileLook& tile) {
   return lines;
 }
 
-void BlockerObservation::judge(const TileLook& tile, const Look& look, const Sight& sight) {
-  if (sight.seen) return see(look);
-  const double squared = look.squared_distance();
+void BlockerObservation::study(const TileView& tile, const CellView& view, const Sight& sight) {
+  if (sight.seen) return;
+  const double squared = view.squared_distance();
   const bool nearer =
-      squared < squared_[look.cell] || (squared == squared_[look.cell] && look.observer < observer_[look.cell]);
+      squared < squared_[view.cell] || (squared == squared_[view.cell] && view.observer < observer_[view.cell]);
   if (!nearer) return;
   const auto blocker = tile.studies->blockers->find(sight.from, sight.to);
-  squared_[look.cell] = squared;
-  observer_[look.cell] = look.observer;
-  blocker_[look.cell] = blocker ? blocker->triangle : kMissingGround;
-  if (blocker) found_.push_back(look.cell);
+  squared_[view.cell] = squared;
+  observer_[view.cell] = view.observer;
+  blocker_[view.cell] = blocker ? blocker->triangle : kMissingGround;
+  if (blocker) found_.push_back(view.cell);
 }
 
 void BlockerObservation::store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const {
   for (std::size_t i = 0; i < columns; ++i)
-    result.blocker[place + i] = value(cell + i) == Verdict::kHidden ? blocker_[cell + i] : kNoBlocker;
+    result.blocker[place + i] = verdicts()[cell + i] == Verdict::kHidden ? blocker_[cell + i] : kNoBlocker;
 }
 
 }  // namespace itin::viewshed

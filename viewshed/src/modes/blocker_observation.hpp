@@ -13,11 +13,11 @@ class BlockerObservation final : public Observation {
   /// Observes one tile; its blockers are numbered as in the table, which must outlive it.
   explicit BlockerObservation(BlockerTable& table);
 
-  bool open(const Look& look) const override { return value(look.cell) != Verdict::kVisible; }
-  std::uint64_t look(const TileLook& tile) override;
+  bool open(const CellView& view) const override { return verdicts().open(view.cell); }
+  std::uint64_t observe(const TileView& tile) override;
 
  private:
-  void judge(const TileLook& tile, const Look& look, const Sight& sight) override;
+  void study(const TileView& tile, const CellView& view, const Sight& sight) override;
   void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override;
 
   BlockerTable& table_;

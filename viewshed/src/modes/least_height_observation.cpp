@@ -12,55 +12,56 @@ LeastHeightObservation::LeastHeightObservation() {
   least_.fill(std::numeric_limits<double>::infinity());
 }
 
-bool LeastHeightObservation::open(const Look& look) const {
-  return least_[look.cell] > 0 || value(look.cell) != Verdict::kVisible;
+bool LeastHeightObservation::open(const CellView& view) const {
+  return least_[view.cell] > 0 || verdicts().open(view.cell);
 }
 
-std::uint64_t LeastHeightObservation::look(const TileLook& tile) {
-  FullSurface::TileWork& work = tile.work;
-  work.targets.fill(kNoSurface);
+std::uint64_t LeastHeightObservation::observe(const TileView& tile) {
+  FullSurface::TileWork& cells = tile.cells();
+  cells.targets.fill(kNoSurface);
   std::uint64_t lines = 0;
-  tile.for_each_cell([&](const Look& look) {
-    if (open(look)) lines += raise(tile, look) ? 1 : 0;
+  tile.for_each_cell([&](const CellView& view) {
+    if (open(view)) lines += raise(tile, view) ? 1 : 0;
   });
-  tile.surface.raise_from(tile.view, {lowest_, wanted_}, work);
-  tile.for_each_cell([&](const Look& look) {
-    if (!std::isnan(work.targets[look.cell]) && !std::isnan(work.seen[look.cell])) settle(tile, look);
+  tile.work.surface().raise_from(tile.from().view, {lowest_, wanted_}, cells);
+  tile.for_each_cell([&](const CellView& view) {
+    if (!std::isnan(cells.targets[view.cell]) && !std::isnan(cells.seen[view.cell])) settle(tile, view);
   });
   return lines;
 }
 
 /// Where its line may end, if it needs one.
-bool LeastHeightObservation::raise(const TileLook& tile, const Look& look) {
-  const Eye& eye = tile.eye;
-  FullSurface::TileWork& work = tile.work;
-  if (eye.view.contains(look.dx, look.dy, look.dz, kSky) == false) return false;
-  enter(look.cell);
-  const double resolution = tile.surface.units().resolution, ground = work.ground[look.cell];
+bool LeastHeightObservation::raise(const TileView& tile, const CellView& view) {
+  const Eye& eye = tile.eye();
+  FullSurface::TileWork& cells = tile.cells();
+  if (eye.view.contains(view.dx, view.dy, view.dz, kSky) == false) return false;
+  verdicts().add(view.cell, Verdict::kHidden);
+  const double resolution = tile.resolution(), ground = cells.ground[view.cell];
   // A target on the ground ends exactly there.
   const double wanted = ground + (eye.target(ground * resolution) - ground * resolution) / resolution;
   double lowest = ground, highest = kSky / resolution;
-  if (const auto range = eye.view.heights_at(look.squared_distance())) {
+  if (const auto range = eye.view.heights_at(view.squared_distance())) {
     lowest = std::max(lowest, (eye.elevation + range->first) / resolution);
     highest = std::min(highest, (eye.elevation + range->second) / resolution);
   }
   // Heights that another observer is known to see need no line, unless the target that counts as visible is higher.
-  highest = std::min(highest, std::max(ground + least_[look.cell] / resolution, wanted));
+  highest = std::min(highest, std::max(ground + least_[view.cell] / resolution, wanted));
   if (lowest > highest) return false;
-  work.targets[look.cell] = highest, lowest_[look.cell] = lowest, wanted_[look.cell] = wanted;
+  cells.targets[view.cell] = highest, lowest_[view.cell] = lowest, wanted_[view.cell] = wanted;
   return true;
 }
 
-void LeastHeightObservation::settle(const TileLook& tile, const Look& look) {
-  const FullSurface::TileWork& work = tile.work;
-  const Point3 highest = work.target(look.cell);
-  if (tile.shadow != nullptr && tile.shadow->holds(highest.x, highest.y)) return;
+void LeastHeightObservation::settle(const TileView& tile, const CellView& view) {
+  const FullSurface::TileWork& cells = tile.cells();
+  const Point3 highest = cells.target(view.cell);
+  if (const auto& shadow = tile.from().shadow; shadow && shadow->holds(highest.x, highest.y)) return;
   // At the eye's own place nothing hides.
-  const double found = work.seen[look.cell], seen = std::isinf(found) ? lowest_[look.cell] : found;
-  const double ground = work.ground[look.cell], wanted = wanted_[look.cell];
-  const double height = seen <= ground ? 0 : (seen - ground) * tile.surface.units().resolution;
-  least_[look.cell] = std::min(least_[look.cell], height);
-  if (wanted >= lowest_[look.cell] && wanted <= highest.z && seen <= wanted) mark_visible(look.cell);
+  const double found = cells.seen[view.cell], seen = std::isinf(found) ? lowest_[view.cell] : found;
+  const double ground = cells.ground[view.cell], wanted = wanted_[view.cell];
+  const double height = seen <= ground ? 0 : (seen - ground) * tile.resolution();
+  least_[view.cell] = std::min(least_[view.cell], height);
+  if (wanted >= lowest_[view.cell] && wanted <= highest.z && seen <= wanted)
+    verdicts().add(view.cell, Verdict::kVisible);
 }
 
 void LeastHeightObservation::store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const {

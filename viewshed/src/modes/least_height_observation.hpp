@@ -10,13 +10,13 @@ class LeastHeightObservation final : public Observation {
   /// Observes one tile.
   LeastHeightObservation();
 
-  bool open(const Look& look) const override;
-  std::uint64_t look(const TileLook& tile) override;
+  bool open(const CellView& view) const override;
+  std::uint64_t observe(const TileView& tile) override;
 
  private:
   void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override;
-  bool raise(const TileLook& tile, const Look& look);
-  void settle(const TileLook& tile, const Look& look);
+  bool raise(const TileView& tile, const CellView& view);
+  void settle(const TileView& tile, const CellView& view);
 
   TileValues<double> least_;  ///< metres above the ground; infinity where no height is seen
   // These two belong to the last observer's lines, grid units.

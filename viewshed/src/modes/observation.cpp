@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "line/verdicts.hpp"
 #include "modes/blocker_observation.hpp"
 #include "modes/least_height_observation.hpp"
 #include "modes/probability_observation.hpp"
@@ -24,7 +23,7 @@ void copy_row(const TileValues<T>& values, std::size_t cell, std::size_t columns
 
 class AnyObserver final : public Observation {
  public:
-  bool open(const Look& look) const override { return value(look.cell) != Verdict::kVisible; }
+  bool open(const CellView& view) const override { return verdicts().open(view.cell); }
 };
 
 class ObserverCount final : public Observation {
@@ -32,10 +31,10 @@ class ObserverCount final : public Observation {
   ObserverCount() { counts_.fill(0); }
 
  private:
-  void keep(const Look& look) override { ++counts_[look.cell]; }
+  void keep(const CellView& view) override { ++counts_[view.cell]; }
   void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override {
     for (std::size_t i = 0; i < columns; ++i)
-      result.count[place + i] = value(cell + i) == Verdict::kOutside ? kCountOutside : counts_[cell + i];
+      result.count[place + i] = verdicts()[cell + i] == Verdict::kOutside ? kCountOutside : counts_[cell + i];
   }
   TileValues<std::uint16_t> counts_;
 };
@@ -45,10 +44,10 @@ class ObserverBits final : public Observation {
   explicit ObserverBits(std::size_t observers) : grids_(which_grids(observers)) {}
 
  private:
-  void keep(const Look& look) override {
-    const ObserverBit bit = observer_bit(look.observer);
-    std::vector<std::uint32_t>& row = rows_[look.cell / Tile::kSide];
-    const std::size_t words = look.cell % Tile::kSide * grids_;
+  void keep(const CellView& view) override {
+    const ObserverBit bit = observer_bit(view.observer);
+    std::vector<std::uint32_t>& row = rows_[view.cell / Tile::kSide];
+    const std::size_t words = view.cell % Tile::kSide * grids_;
     if (row.size() <= words) row.resize(words + grids_);
     row[words + bit.grid] |= bit.mask;
   }
@@ -69,9 +68,9 @@ class GreatestAngle final : public Observation {
   explicit GreatestAngle(const Request& request) : view_(request, {}) { angles_.fill(kNoAngle); }
 
  private:
-  void keep(const Look& look) override {
-    const auto angle = static_cast<float>(view_.elevation(look.dx, look.dy, look.dz));
-    if (!(angles_[look.cell] >= angle)) angles_[look.cell] = angle;
+  void keep(const CellView& view) override {
+    const auto angle = static_cast<float>(view_.elevation(view.dx, view.dy, view.dz));
+    if (!(angles_[view.cell] >= angle)) angles_[view.cell] = angle;
   }
   void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override {
     copy_row(angles_, cell, columns, result.angle_deg.data() + place);
@@ -86,16 +85,16 @@ class NearestObserver final : public Observation {
     squared_.fill(std::numeric_limits<double>::infinity());
     numbers_.fill(0);
   }
-  bool open(const Look& look) const override {
+  bool open(const CellView& view) const override {
     // The first of two that are equally near counts.
-    const double squared = look.squared_distance();
-    return squared < squared_[look.cell] || (squared == squared_[look.cell] && look.observer + 1 < numbers_[look.cell]);
+    const double squared = view.squared_distance();
+    return squared < squared_[view.cell] || (squared == squared_[view.cell] && view.observer + 1 < numbers_[view.cell]);
   }
 
  private:
-  void keep(const Look& look) override {
-    squared_[look.cell] = look.squared_distance();
-    numbers_[look.cell] = look.observer + 1;
+  void keep(const CellView& view) override {
+    squared_[view.cell] = view.squared_distance();
+    numbers_[view.cell] = view.observer + 1;
   }
   void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override {
     copy_row(numbers_, cell, columns, result.nearest.data() + place);
@@ -110,44 +109,40 @@ class NearestObserver final : public Observation {
 
 }  // namespace
 
-std::uint64_t Observation::look(const TileLook& tile) {
-  FullSurface::TileWork& work = tile.work;
-  if (work.unread) {
-    tile.for_each_cell([&](const Look& look) {
-      if (tile.eye.view.contains(look.dx, look.dy, look.dz)) enter(look.cell);
+std::uint64_t Observation::observe(const TileView& tile) {
+  const FullSurface::TileWork& cells = tile.cells();
+  const Eye& eye = tile.eye();
+  if (cells.unread) {
+    tile.for_each_cell([&](const CellView& view) {
+      if (eye.view.contains(view.dx, view.dy, view.dz)) verdicts_.add(view.cell, Verdict::kHidden);
     });
     return 0;
   }
   TileValues<Verdict> values;
   values.fill(Verdict::kOutside);
-  tile.for_each_cell([&](const Look& look) {
-    if (open(look)) values[look.cell] = Verdict::kUndecided;
+  tile.for_each_cell([&](const CellView& view) {
+    if (open(view)) values[view.cell] = Verdict::kUndecided;
   });
-  const std::uint64_t lines = tile.surface.judge(tile.eye, tile.view, values, work);
-  if (tile.shadow != nullptr) tile.shadow->apply_to(work.centres, values);
-  const double resolution = tile.surface.units().resolution;
-  tile.for_each_cell([&](Look look) {
-    if (values[look.cell] == Verdict::kOutside) return;
-    enter(look.cell);
-    if (values[look.cell] == Verdict::kUndecided) return mark_undecided(look.cell);
-    const bool seen = values[look.cell] == Verdict::kVisible;
-    look.dz = tile.eye.target(work.ground[look.cell] * resolution) - tile.eye.elevation;
-    if (!std::isnan(work.targets[look.cell])) {
-      judge(tile, look, {tile.eye, tile.eye.units, work.target(look.cell), seen});
+  const std::uint64_t lines = tile.work.judge(tile.number, values);
+  verdicts_.add(values);
+  tile.for_each_cell([&](CellView view) {
+    const Verdict verdict = values[view.cell];
+    if (verdict != Verdict::kVisible && verdict != Verdict::kHidden) return;
+    const bool seen = verdict == Verdict::kVisible;
+    view.dz = eye.target(cells.ground[view.cell] * tile.resolution()) - eye.elevation;
+    if (!std::isnan(cells.targets[view.cell])) {
+      study(tile, view, {eye, eye.units, cells.target(view.cell), seen});
     } else if (seen) {
-      see(look);
+      keep(view);
     }
   });
   return lines;
 }
 
 void Observation::store(const Tile& tile, Result& result, CellCounts& cells) const {
-  const auto columns = static_cast<std::size_t>(tile.columns);
+  verdicts_.store(tile, result, cells);
   for_each_row(tile, [&](std::size_t cell, RasterGrid::Cell first) {
-    const std::size_t place = result.grid.index(first);
-    copy_row(values_, cell, columns, result.visible.data() + place);
-    store_row(cell, columns, place, result);
-    for (std::size_t i = cell; i < cell + columns; ++i) count(values_[i], cells);
+    store_row(cell, static_cast<std::size_t>(tile.columns), result.grid.index(first), result);
   });
 }
 
@@ -162,12 +157,6 @@ void Observation::prepare(Result& result) {
   if (mode == Mode::kProbability) result.probability.resize(cells);
   if (mode == Mode::kHeight) result.least_height_m.resize(cells);
   if (mode == Mode::kNearest) result.nearest.resize(cells), result.distance_m.resize(cells);
-}
-
-std::optional<VoidShadow> shadow_of(const Eye& eye, const std::vector<RimEdge>& rim, const Result& result) {
-  const Voids voids = voids_of(result.request);
-  if (voids == Voids::kPass || !result.crosses_voids) return std::nullopt;
-  return VoidShadow(rim, eye.units, voids);
 }
 
 std::vector<std::unique_ptr<Observation>> Observations::of_tiles(const RasterGrid& tiles) {

@@ -1,50 +1,50 @@
 // The values that a mode keeps of the lines to a tile's cells.
 //
-//   const Observations observations(request, tin);
+//   Observations observations(request);
 //   const std::unique_ptr<Observation> observation = observations.of_tile();
-//   // One observer after another.
-//   lines += observation->look({surface, eye, view, observer, nullptr, *surface.begin(i)});
+//   const auto work = judge.begin_exactly(i);
+//   lines += observation->observe({*work, eye, observer});     // one observer after another, in any order
 //   observation->store(tile_at(grid, tiles, i), result, cells);
-//
-// The result does not depend on the order of the looks.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include <viewshed/viewshed.hpp>
 
+#include "judge/exact_judge.hpp"
 #include "line/cell_tiles.hpp"
+#include "line/verdicts.hpp"
 #include "modes/blocker_table.hpp"
 #include "modes/triangle_studies.hpp"
 #include "request/eye.hpp"
-#include "request/void_shadow.hpp"
 #include "scene/full_surface.hpp"
 
 namespace itin::viewshed {
 
-/// An observer's look at the target in a cell.
-struct Look {
+/// An observer's view of the target in a cell.
+struct CellView {
   std::size_t cell = 0;           ///< in the tile
   std::uint32_t observer = 0;     ///< from 0
   double dx = 0, dy = 0, dz = 0;  ///< metres from the eye to the target, as Eye::offset_to()
   double squared_distance() const { return dx * dx + dy * dy; }
 };
 
-/// One observer's looks at the cells of a tile.
-struct TileLook {
-  const FullSurface& surface;
-  const Eye& eye;
-  const RadialSweep::View& view;  ///< the eye's
-  std::uint32_t observer;
-  const VoidShadow* shadow;  ///< shadow_of() the eye; may be null
-  FullSurface::TileWork& work;
+/// One observer's view of the cells of a tile.
+struct TileView {
+  ExactJudge::TileWork& work;
+  std::size_t number;                        ///< of the eye, in the judge
+  std::uint32_t observer;                    ///< from 0
   const TriangleStudies* studies = nullptr;  ///< of the surface, where the mode needs them
 
-  /// Calls visit(look) for every cell that has ground; the looks lead to the ground.
+  const EyeView& from() const { return work.view(number); }
+  const Eye& eye() const { return from().eye; }
+  FullSurface::TileWork& cells() const { return work.cells; }
+  double resolution() const { return work.surface().units().resolution; }
+
+  /// Calls visit(view) for every cell that has ground; the views are of the ground.
   template <class Visit>
   void for_each_cell(const Visit& visit) const;
 };
@@ -58,28 +58,20 @@ struct Sight {
 
 class Observation {
  public:
-  Observation() { values_.fill(Verdict::kOutside); }
+  Observation() = default;
   virtual ~Observation() = default;
   Observation(const Observation&) = delete;
   Observation& operator=(const Observation&) = delete;
 
-  /// The cell is in an observer's field of view.
-  void enter(std::size_t cell) {
-    if (values_[cell] == Verdict::kOutside) values_[cell] = Verdict::kHidden;
-  }
   /// Whether it could matter that the target is seen, whatever its height.
-  virtual bool open(const Look&) const { return true; }
-  /// The target is seen.
-  void see(const Look& look) {
-    mark_visible(look.cell);
-    keep(look);
+  virtual bool open(const CellView&) const { return true; }
+  /// One observer's verdict, where that is all that is known.
+  void add(const CellView& view, Verdict verdict) {
+    verdicts_.add(view.cell, verdict);
+    if (verdict == Verdict::kVisible) keep(view);
   }
-  /// The target is seen across ground without data, which may hide it.
-  void mark_undecided(std::size_t cell) {
-    if (values_[cell] != Verdict::kVisible) values_[cell] = Verdict::kUndecided;
-  }
-  /// Looks at every cell that is open. Returns how many sight lines that took.
-  virtual std::uint64_t look(const TileLook& tile);
+  /// Adds what the observer sees of every cell that is open. Returns how many sight lines that took.
+  virtual std::uint64_t observe(const TileView& tile);
   /// Counts the cells, and writes them to their places in the result.
   void store(const Tile& tile, Result& result, CellCounts& cells) const;
 
@@ -87,23 +79,21 @@ class Observation {
   static void prepare(Result& result);
 
  protected:
-  Verdict value(std::size_t cell) const { return values_[cell]; }
-  void mark_visible(std::size_t cell) { values_[cell] = Verdict::kVisible; }
+  Verdicts& verdicts() { return verdicts_; }
+  const Verdicts& verdicts() const { return verdicts_; }
 
  private:
-  virtual void keep(const Look&) {}
-  virtual void judge(const TileLook&, const Look& look, const Sight& sight) {
-    if (sight.seen) see(look);
+  /// The target is seen; its verdict has been added.
+  virtual void keep(const CellView&) {}
+  /// The same for a target that is seen or hidden, and that is not straight above or below the eye.
+  virtual void study(const TileView&, const CellView& view, const Sight& sight) {
+    if (sight.seen) keep(view);
   }
   /// A row of `columns` cells, from `cell` in the tile to `place` in the grid.
   virtual void store_row(std::size_t, std::size_t, std::size_t, Result&) const {}
 
-  TileValues<Verdict> values_;
+  Verdicts verdicts_;
 };
-
-/// Holds what ground without data, beyond this rim, hides from the eye or leaves undecided, where that changes the
-/// result.
-std::optional<VoidShadow> shadow_of(const Eye& eye, const std::vector<RimEdge>& rim, const Result& result);
 
 /// Makes the Observations of a request's mode. The request must outlive it, and it must outlive them.
 class Observations {
@@ -125,11 +115,12 @@ class Observations {
 void store_all(const std::vector<std::unique_ptr<Observation>>& observations, const RasterGrid& tiles, Result& result);
 
 template <class Visit>
-void TileLook::for_each_cell(const Visit& visit) const {
-  surface.for_each_offset(eye, work, [&](std::size_t cell, const Point2& offset) {
-    if (std::isnan(work.ground[cell])) return;
-    const double ground = work.ground[cell] * surface.units().resolution;
-    visit(Look{cell, observer, offset.x, offset.y, ground - eye.elevation});
+void TileView::for_each_cell(const Visit& visit) const {
+  const TileValues<double>& ground = cells().ground;
+  const double metres = resolution(), elevation = eye().elevation;
+  work.surface().for_each_offset(eye(), cells(), [&](std::size_t cell, const Point2& offset) {
+    if (std::isnan(ground[cell])) return;
+    visit(CellView{cell, observer, offset.x, offset.y, ground[cell] * metres - elevation});
   });
 }
 

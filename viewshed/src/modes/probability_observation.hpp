@@ -13,11 +13,11 @@ class ProbabilityObservation final : public Observation {
   /// Observes one tile.
   explicit ProbabilityObservation(NoData nodata);
 
-  std::uint64_t look(const TileLook& tile) override;
+  std::uint64_t observe(const TileView& tile) override;
 
  private:
-  void judge(const TileLook& tile, const Look& look, const Sight& sight) override;
-  void keep(const Look& look) override;
+  void study(const TileView& tile, const CellView& view, const Sight& sight) override;
+  void keep(const CellView& view) override;
   void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override;
 
   NoData nodata_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <tuple>
 #include <utility>
 
@@ -80,27 +79,6 @@ void SightSectors::divide_next() {
   const auto [first, rest] = halves(parts_.back());
   parts_.back() = rest;
   parts_.push_back(first);
-}
-
-std::size_t cell_count(std::span<const Tile> parts) {
-  std::size_t count = 0;
-  for (const Tile& part : parts) count += static_cast<std::size_t>(part.columns * part.rows);
-  return count;
-}
-
-std::vector<PartsOfTile> by_tile(std::span<const Tile> parts, const RasterGrid& tiles) {
-  std::map<std::size_t, std::vector<Tile>> of_tiles;
-  for (const Tile& part : parts)
-    of_tiles[tiles.index({part.column / Tile::kSide, part.row / Tile::kSide})].push_back(part);
-  std::vector<PartsOfTile> all;
-  for (auto& [tile, some] : of_tiles) all.push_back({tile, std::move(some)});
-  return all;
-}
-
-std::vector<PartsOfTile> all_cells(const RasterGrid& grid, const RasterGrid& tiles) {
-  std::vector<PartsOfTile> all(tiles.cell_count());
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = {i, {tile_at(grid, tiles, i)}};
-  return all;
 }
 
 }  // namespace itin::viewshed

@@ -18,7 +18,7 @@
 #include <itin/geometry.hpp>
 #include <itin/raster.hpp>
 
-#include "line/cell_tiles.hpp"
+#include "line/tile_parts.hpp"
 #include "request/eye.hpp"
 
 namespace itin::viewshed {
@@ -51,24 +51,5 @@ class SightSectors {
   std::vector<Tile> parts_;  ///< that are left, the next one last
   std::size_t most_;         ///< parts of the next sector
 };
-
-/// The cells of all parts.
-std::size_t cell_count(std::span<const Tile> parts);
-
-/// Those of a tile, which are parts of it.
-struct PartsOfTile {
-  std::size_t tile;
-  std::vector<Tile> parts;
-};
-std::vector<PartsOfTile> by_tile(std::span<const Tile> parts, const RasterGrid& tiles);
-/// Every tile, whole.
-std::vector<PartsOfTile> all_cells(const RasterGrid& grid, const RasterGrid& tiles);
-
-/// Calls visit(cell in the tile) for each cell of the parts.
-template <class Visit>
-void for_each_cell(const PartsOfTile& cells, const Tile& tile, const Visit& visit) {
-  for (const Tile& part : cells.parts)
-    for_each_cell(part, [&](std::size_t, RasterGrid::Cell place) { visit(tile.cell(place)); });
-}
 
 }  // namespace itin::viewshed

@@ -107,4 +107,10 @@ std::size_t VoidShadow::sector_of(const Vector& place) {
   return std::min(kSectors - 1, static_cast<std::size_t>(turns * kSectors));
 }
 
+std::shared_ptr<const VoidShadow> shadow_of(const Eye& eye, const std::vector<RimEdge>& rim, const Result& result) {
+  const Voids voids = voids_of(result.request);
+  if (voids == Voids::kPass || !result.crosses_voids) return nullptr;
+  return std::make_shared<const VoidShadow>(rim, eye.units, voids);
+}
+
 }  // namespace itin::viewshed

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <itin/geometry.hpp>
@@ -13,6 +14,7 @@
 #include <viewshed/viewshed.hpp>
 
 #include "line/cell_tiles.hpp"
+#include "request/eye.hpp"
 
 namespace itin::viewshed {
 
@@ -60,5 +62,9 @@ class VoidShadow {
   std::vector<Edge> edges_;       ///< none where no edge faces away
   std::vector<Numbers> sectors_;  ///< clockwise from the south; as edges_
 };
+
+/// Holds what ground without data, beyond this rim, hides from the eye or leaves undecided; null where that changes
+/// nothing in the result.
+std::shared_ptr<const VoidShadow> shadow_of(const Eye& eye, const std::vector<RimEdge>& rim, const Result& result);
 
 }  // namespace itin::viewshed

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -72,18 +71,17 @@ std::optional<double> FullSurface::height(Point2 position) const {
 }
 
 std::unique_ptr<FullSurface::TileWork> FullSurface::begin(std::size_t tile) const {
-  auto work = std::make_unique<TileWork>(units(), grid_, tile_at(grid_, tiles_, tile));
-  if (of_tiles_) {
-    scan_convert(*targets_on_, of_tiles_->triangles(tile), work->tile, work->centres, work->ground);
-  } else {
-    find_ground({&work->tile, 1}, *work);
-  }
-  return work;
+  const Tile whole = tile_at(grid_, tiles_, tile);
+  return begin(tile, {&whole, 1});
 }
 
 std::unique_ptr<FullSurface::TileWork> FullSurface::begin(std::size_t tile, std::span<const Tile> parts) const {
   auto work = std::make_unique<TileWork>(units(), grid_, tile_at(grid_, tiles_, tile));
-  find_ground(parts, *work);
+  if (of_tiles_) {
+    scan_convert(*targets_on_, of_tiles_->triangles(tile), work->tile, work->centres, work->ground);
+  } else {
+    find_ground(parts, *work);
+  }
   return work;
 }
 
@@ -123,10 +121,8 @@ void FullSurface::cast_rays_to_targets(const Eye& eye, TileWork& work) const {
       }
       if (lines.active == 0) continue;
       const unsigned hidden = rays_->hidden(lines, work.rays);
-      for (unsigned rest = lines.active; rest != 0; rest &= rest - 1) {
-        const auto i = static_cast<unsigned>(std::countr_zero(rest));
-        work.seen[cells[i]] = (hidden >> i & 1) != 0 ? kNoSurface : eye.units.z;
-      }
+      for_each_line(lines.active,
+                    [&](unsigned i) { work.seen[cells[i]] = (hidden >> i & 1) != 0 ? kNoSurface : eye.units.z; });
     }
   }
 }

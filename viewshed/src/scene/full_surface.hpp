@@ -77,7 +77,7 @@ class FullSurface {
     }
   };
   std::unique_ptr<TileWork> begin(std::size_t tile) const;
-  /// Begins the cells in these parts of the tile alone. Precondition: the surface is a lattice.
+  /// Only cells in these parts of the tile are asked about: others may have no ground.
   std::unique_ptr<TileWork> begin(std::size_t tile, std::span<const Tile> parts) const;
 
   /// Calls visit(cell, Eye::offset_to() it) for every cell.

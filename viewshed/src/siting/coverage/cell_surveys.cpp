@@ -16,10 +16,11 @@ class EnvelopeCells final : public GroupSurvey {
     if (zones) zone_.emplace(scene_.envelope.lower, &scene_.envelope.upper, survey.earth, *survey.fresnel);
   }
 
-  std::vector<CoverageBounds> judge(const SiteLooks& looks, Progress& progress, Statistics& statistics) const override {
+  std::vector<CoverageBounds> judge(const SitesToJudge& sites, Progress& progress,
+                                    Statistics& statistics) const override {
     const EnvelopeJudge judge(scene_, *survey_.targets.grid, tiles_,
-                              eyes_of(scene_.envelope.lower.grid, survey_, looks));
-    return judge_tiles(judge, zone_, survey_, looks, progress, statistics);
+                              eyes_of(scene_.envelope.lower.grid, survey_, sites));
+    return judge_tiles(judge, zone_, survey_, sites, progress, statistics);
   }
 
  private:
@@ -39,9 +40,17 @@ class ExactCells final : public GroupSurvey {
     if (survey.fresnel) zone_.emplace(surface_.surface.tin, nullptr, survey.earth, *survey.fresnel);
   }
 
-  std::vector<CoverageBounds> judge(const SiteLooks& looks, Progress& progress, Statistics& statistics) const override {
-    const ExactJudge judge(surface_.full, eyes_of(surface_.full.units(), survey_, looks), survey_.nodata);
-    auto result = judge_tiles(judge, zone_, survey_, looks, progress, statistics);
+  std::vector<CoverageBounds> judge(const SitesToJudge& sites, Progress& progress,
+                                    Statistics& statistics) const override {
+    const FullSurface& surface = surface_.full;
+    const std::vector<Eye> eyes = eyes_of(surface.units(), survey_, sites);
+    const ExactJudge judge(surface, make_views(eyes.size(), [&](std::size_t i) {
+                             EyeView view{eyes[i], surface.view_from(eyes[i])};
+                             if (survey_.nodata == NoData::kBlock)
+                               view.shadow = std::make_shared<const VoidShadow>(surface.rim(), eyes[i].units);
+                             return view;
+                           }));
+    auto result = judge_tiles(judge, zone_, survey_, sites, progress, statistics);
     for (CoverageBounds& bounds : result) bounds.exact = true;
     return result;
   }

@@ -6,9 +6,9 @@ Eye eye_at(const Grid& grid, const Request& request, const SiteStand& stand) {
   return eye_of(grid, request, {stand.name, stand.position, stand.elevation(), true}, stand.ground);
 }
 
-std::vector<Eye> eyes_of(const Grid& grid, const SiteSurvey& survey, const SiteLooks& looks) {
+std::vector<Eye> eyes_of(const Grid& grid, const SiteSurvey& survey, const SitesToJudge& sites) {
   std::vector<Eye> eyes;
-  for (const std::size_t option : looks.options) eyes.push_back(eye_at(grid, looks.request, survey.stands[option]));
+  for (const std::size_t option : sites.options) eyes.push_back(eye_at(grid, sites.request, survey.stands[option]));
   return eyes;
 }
 

@@ -15,7 +15,7 @@
 namespace itin::viewshed {
 
 /// Some of the survey's sites, and what is known of them.
-struct SiteLooks {
+struct SitesToJudge {
   const Request& request;
   std::span<const std::size_t> options;
   /// One per option: what they leave open (in `possible`, not in `certain`) is judged.
@@ -30,7 +30,7 @@ class GroupSurvey {
   virtual ~GroupSurvey() = default;
 
   /// The new bounds. Throws Cancelled.
-  virtual std::vector<CoverageBounds> judge(const SiteLooks& looks, Progress& progress,
+  virtual std::vector<CoverageBounds> judge(const SitesToJudge& sites, Progress& progress,
                                             Statistics& statistics) const = 0;
 };
 
@@ -52,7 +52,7 @@ Request request_of(const SiteSurvey& survey, std::span<const std::size_t> option
 
 Eye eye_at(const Grid& grid, const Request& request, const SiteStand& stand);
 
-/// Each look's.
-std::vector<Eye> eyes_of(const Grid& grid, const SiteSurvey& survey, const SiteLooks& looks);
+/// Each site's.
+std::vector<Eye> eyes_of(const Grid& grid, const SiteSurvey& survey, const SitesToJudge& sites);
 
 }  // namespace itin::viewshed

@@ -55,11 +55,10 @@ std::size_t cell_in_tile(std::size_t block, unsigned bit) {
   return row * Tile::kSide + column;
 }
 
-/// Opens in `values` what the bounds leave open. Returns whether anything is.
+/// Opens in `values`, which are all outside, what the bounds leave open. Returns whether anything is.
 bool open(const CellBlocks& blocks, const Tile& tile, const CoverageBounds& bounds, TileCover& cover,
           TileValues<Verdict>& values) {
   bool any = false;
-  values.fill(Verdict::kOutside);
   for (std::size_t b = 0; b < cover.certain.size(); ++b) {
     if (!in_grid(tile, b)) continue;
     const std::uint32_t number = block_of(blocks, tile, b);
@@ -93,28 +92,26 @@ DemandSet set_of(std::vector<DemandSet::Block>& blocks) {
 }
 
 /// Judges what every option serves of one tile. Returns how many sight lines that took.
-std::uint64_t judge_tile(const TileJudge& judge, const std::optional<ClearZone>& zone, const SiteSurvey& survey,
-                         const SiteLooks& looks, const RasterGrid& tiles, std::size_t t,
+std::uint64_t cover_tile(const TileJudge& judge, const std::optional<ClearZone>& zone, const SiteSurvey& survey,
+                         const SitesToJudge& sites, const RasterGrid& tiles, std::size_t t,
                          std::vector<TileCover>& covers) {
   const RasterGrid& grid = *survey.targets.grid;
   const CellBlocks blocks(grid);
   const Tile tile = tile_at(grid, tiles, t);
-  std::unique_ptr<TileJudge::Work> work;
-  std::uint64_t rays = 0;
   const Box box = box_of(grid, tile);
-  for (std::size_t i = 0; i < looks.options.size(); ++i) {
-    if (squared_distance(survey.stands[looks.options[i]].position, box) > survey.radius * survey.radius) continue;
+  const auto open_some = [&](std::size_t i, TileValues<Verdict>& values) {
+    if (squared_distance(survey.stands[sites.options[i]].position, box) > survey.radius * survey.radius) return false;
     TileCover cover{.entry = i};
-    TileValues<Verdict> values;
-    if (open(blocks, tile, *looks.bounds[i], cover, values)) {
-      if (!work) work = judge.begin(t);
-      rays += work->judge(i, values);
-      if (zone) cut_zones(*zone, judge.eye(i), work->targets(), values);
-      close(values, cover);
-    }
+    const bool any = open(blocks, tile, *sites.bounds[i], cover, values);
     if (cover.any()) covers.push_back(cover);
-  }
-  return rays;
+    return any;
+  };
+  const auto close_them = [&](std::size_t i, TileValues<Verdict>& values, TileJudge::Work& work) {
+    if (zone) cut_zones(*zone, judge.eye(i), work.targets(), values);
+    close(values, covers.back());
+    if (!covers.back().any()) covers.pop_back();
+  };
+  return judge_tile(judge, t, sites.options.size(), open_some, close_them);
 }
 
 std::vector<CoverageBounds> gather(const SiteSurvey& survey, const RasterGrid& tiles, std::size_t options,
@@ -143,15 +140,15 @@ std::vector<CoverageBounds> gather(const SiteSurvey& survey, const RasterGrid& t
 }  // namespace
 
 std::vector<CoverageBounds> judge_tiles(const TileJudge& judge, const std::optional<ClearZone>& zone,
-                                        const SiteSurvey& survey, const SiteLooks& looks, Progress& progress,
+                                        const SiteSurvey& survey, const SitesToJudge& sites, Progress& progress,
                                         Statistics& statistics) {
   const RasterGrid tiles = grid_of_tiles(*survey.targets.grid);
   std::vector<std::vector<TileCover>> covers(tiles.cell_count());
   std::atomic<std::uint64_t> rays = 0;
   for_each_step(covers.size(), "sight lines of candidates", progress,
-                [&](std::size_t t) { rays += judge_tile(judge, zone, survey, looks, tiles, t, covers[t]); });
+                [&](std::size_t t) { rays += cover_tile(judge, zone, survey, sites, tiles, t, covers[t]); });
   statistics.lines += rays;
-  return gather(survey, tiles, looks.options.size(), covers);
+  return gather(survey, tiles, sites.options.size(), covers);
 }
 
 }  // namespace itin::viewshed

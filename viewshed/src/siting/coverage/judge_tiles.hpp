@@ -1,7 +1,7 @@
 // Goes through the tiles of a grid, and within a tile from one site to the next.
 //
-//   const ExactJudge judge(surface, eyes_of(surface.units(), survey, looks), survey.nodata);
-//   std::vector<CoverageBounds> after = judge_tiles(judge, zone, survey, looks, progress, statistics);
+//   const EnvelopeJudge judge(scene, grid, tiles, eyes_of(units, survey, sites));
+//   std::vector<CoverageBounds> after = judge_tiles(judge, zone, survey, sites, progress, statistics);
 #pragma once
 
 #include <optional>
@@ -13,10 +13,10 @@
 
 namespace itin::viewshed {
 
-/// The judge's eyes are those of the looks, in their order; where a zone is given, what is seen must leave it clear. On
+/// The judge has the eyes of the sites, in their order; where a zone is given, what is seen must leave it clear. On
 /// all threads. The bounds are not yet said to be exact.
 std::vector<CoverageBounds> judge_tiles(const TileJudge& judge, const std::optional<ClearZone>& zone,
-                                        const SiteSurvey& survey, const SiteLooks& looks, Progress& progress,
+                                        const SiteSurvey& survey, const SitesToJudge& sites, Progress& progress,
                                         Statistics& statistics);
 
 }  // namespace itin::viewshed

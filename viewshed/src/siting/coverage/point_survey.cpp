@@ -8,7 +8,7 @@
 #include <itin/parallel.hpp>
 
 #include "bounds/surface_heights.hpp"
-#include "judge/certified_pass.hpp"
+#include "judge/envelope_scene.hpp"
 #include "line/sight_line.hpp"
 #include "progress/stage.hpp"
 #include "siting/coverage/clear_zone.hpp"
@@ -50,120 +50,97 @@ unsigned hidden_exactly(const EnvelopeScene& scene, const SightLines& lines, uns
   UpperScene::Stretches stretches;
   scene.upper.find_stretches(lines, starts_under, ends_under, stretches);
   unsigned result = 0;
-  for (unsigned active = lines.active; active != 0; active &= active - 1) {
-    const auto i = static_cast<unsigned>(std::countr_zero(active));
+  for_each_line(lines.active, [&](unsigned i) {
     const bool hidden = std::any_of(stretches[i].begin(), stretches[i].end(), [&](const Stretch& s) {
       return scene.lower.hidden_between(lines, i, s.from, s.to);
     });
     if (hidden) result |= 1U << i;
-  }
+  });
   return result;
 }
 
-/// Judges packets of points as CertifiedPass does those of cells.
+/// Judges points, sixteen at a time.
 class PointPass {
  public:
   PointPass(const EnvelopeScene& scene, const std::optional<ClearZone>& zone, const SiteSurvey& survey,
-            const Request& request, const std::vector<GroundBounds>& grounds)
-      : scene_(scene), zone_(zone), survey_(survey), request_(request), grounds_(grounds) {}
+            const std::vector<GroundBounds>& grounds)
+      : scene_(scene), zone_(zone), survey_(survey), grounds_(grounds) {}
 
-  /// The bits of `open` that are certainly visible, and those that are certainly hidden, for points `first` and on.
-  struct Verdict {
-    std::uint64_t visible = 0, hidden = 0;
+  /// The bits of `open` that are certainly served, and those that certainly are not, for points `first` and on.
+  struct Served {
+    std::uint64_t certain = 0, never = 0;
   };
-  Verdict judge(const EnvelopeScene::Look& look, std::size_t first, std::uint64_t open, Occluder& occluder) const {
-    Verdict verdict;
-    for (unsigned packet = 0; packet < 64; packet += SightLines::kSize)
-      judge_packet(look, first, packet, static_cast<unsigned>(open >> packet & 0xffff), occluder, verdict);
-    return verdict;
+  Served judge(const EnvelopeScene::View& view, std::size_t first, std::uint64_t open, Occluder& occluder) const {
+    Served served;
+    for (unsigned at = 0; at < 64; at += SightLines::kSize) {
+      const Decided decided = judge_packet(view, first + at, static_cast<unsigned>(open >> at & 0xffff), occluder);
+      served.certain |= std::uint64_t{decided.visible} << at;
+      served.never |= std::uint64_t{decided.hidden} << at;
+    }
+    return served;
   }
 
  private:
-  struct Packet {
-    SightLines low, high;
-    unsigned starts_under = 0, ends_under = 0;
-  };
+  using Decided = EnvelopeScene::Decided;
 
-  void judge_packet(const EnvelopeScene::Look& look, std::size_t first, unsigned at, unsigned open, Occluder& occluder,
-                    Verdict& verdict) const {
-    if (open == 0) return;
-    Packet packet;
-    for (SightLines* const lines : {&packet.low, &packet.high}) lines->start_at(look.eye.units);
-    for (; open != 0; open &= open - 1) {
-      const auto i = static_cast<unsigned>(std::countr_zero(open));
-      fill(look, first + at + i, i, std::uint64_t{1} << (at + i), packet, verdict);
-    }
-    const unsigned all = packet.low.active;
-    if (all == 0) return;
-    packet.low.active = all & ~(packet.starts_under | packet.ends_under);
-    const unsigned visible = packet.low.active & ~scene_.upper.touched(packet.low);
-    packet.high.active = all & ~visible;
-    const unsigned hidden = packet.high.active == 0 ? 0 : scene_.lower.hidden(packet.high, occluder);
-    unsigned seen = visible, unseen = hidden;
-    packet.low.active = all & ~visible & ~hidden;
+  Decided judge_packet(const EnvelopeScene::View& view, std::size_t first, unsigned open, Occluder& occluder) const {
+    Decided decided;
+    if (open == 0) return decided;
+    EnvelopePacket packet(view.eye);
+    for_each_line(open, [&](unsigned i) {
+      const Verdict verdict = aim(view, first + i, i, packet);
+      if (verdict == Verdict::kVisible) decided.visible |= 1U << i;
+      if (verdict == Verdict::kHidden) decided.hidden |= 1U << i;
+    });
+    const unsigned lines = packet.low.active;
+    if (lines == 0) return decided;
+    Decided of_lines = scene_.decide(packet, occluder);
     if (scene_.exact && packet.low.active != 0) {
-      const unsigned walked = hidden_exactly(scene_, packet.low, packet.starts_under, packet.ends_under);
-      seen |= packet.low.active & ~walked;
-      unseen |= walked;
+      const unsigned hidden = hidden_exactly(scene_, packet.low, packet.starts_under, packet.ends_under);
+      of_lines.visible |= packet.low.active & ~hidden;
+      of_lines.hidden |= hidden;
     }
-    if (zone_) judge_zones(packet, all, seen, unseen);
-    verdict.visible |= std::uint64_t{seen} << at;
-    verdict.hidden |= std::uint64_t{unseen} << at;
+    if (zone_) judge_zones(packet, lines, of_lines);
+    decided.visible |= of_lines.visible;
+    decided.hidden |= of_lines.hidden;
+    return decided;
   }
 
   /// Keeps of what is seen or may be only what the Fresnel zones leave.
-  void judge_zones(const Packet& packet, unsigned all, unsigned& seen, unsigned& unseen) const {
+  void judge_zones(const EnvelopePacket& packet, unsigned lines, Decided& decided) const {
     // One by one: points may lie far apart.
     SightLines low = packet.low, high = packet.high;
-    for (unsigned rest = all & ~unseen; rest != 0; rest &= rest - 1) {
-      const unsigned bit = rest & -rest;
+    for_each_line(lines & ~decided.hidden, [&](unsigned i) {
+      const unsigned bit = 1U << i;
       low.active = high.active = bit;
       if (zone_->certainly_cut(high) != 0) {
-        unseen |= bit;
-        seen &= ~bit;
-      } else if ((seen & bit) != 0 && !scene_.exact && zone_->certainly_clear(low) == 0) {
-        seen &= ~bit;
+        decided.hidden |= bit;
+        decided.visible &= ~bit;
+      } else if ((decided.visible & bit) != 0 && !scene_.exact && zone_->certainly_clear(low) == 0) {
+        decided.visible &= ~bit;
       }
-    }
+    });
   }
 
-  void fill(const EnvelopeScene::Look& look, std::size_t point, unsigned i, std::uint64_t bit, Packet& packet,
-            Verdict& verdict) const {
+  /// Aims a line at the point's target, unless it is decided without.
+  Verdict aim(const EnvelopeScene::View& view, std::size_t point, unsigned i, EnvelopePacket& packet) const {
     const Grid& grid = scene_.envelope.lower.grid;
     const GroundBounds& ground = grounds_[point];
     const Point2 p = survey_.targets.points[point];
-    const double dx = p.x - look.eye.position.x, dy = p.y - look.eye.position.y;
-    if (std::isnan(ground.low) || dx * dx + dy * dy > survey_.radius * survey_.radius) {
-      verdict.hidden |= bit;
-      return;
-    }
-    const double x = easting_in_units(grid, p.x), y = northing_in_units(grid, p.y);
-    if (look.eye.stands_at({x, y})) {
-      verdict.visible |= bit;
-      return;
-    }
-    if (look.shadow && look.shadow->holds(x, y)) {
-      verdict.hidden |= bit;
-      return;
-    }
-    const double metre = 1 / grid.resolution;
-    const auto target = [&](double units) { return (units * grid.resolution + request_.target_height) * metre; };
+    const double dx = p.x - view.eye.position.x, dy = p.y - view.eye.position.y, squared = dx * dx + dy * dy;
+    if (std::isnan(ground.low) || squared > survey_.radius * survey_.radius) return Verdict::kHidden;
+    const Point2 place{easting_in_units(grid, p.x), northing_in_units(grid, p.y)};
+    if (view.eye.stands_at(place)) return Verdict::kVisible;
+    if (view.shadow && view.shadow->holds(place.x, place.y)) return Verdict::kHidden;
+    const auto target = [&](double units) { return view.eye.target(units * grid.resolution) * (1 / grid.resolution); };
     const double low = target(ground.low), high = target(scene_.exact ? ground.low : ground.high);
-    packet.low.to_x[i] = packet.high.to_x[i] = x;
-    packet.low.to_y[i] = packet.high.to_y[i] = y;
-    packet.low.to_z[i] = low;
-    packet.high.to_z[i] = high;
-    packet.low.active |= 1U << i;
-    const double dz = low - look.eye.units.z;
-    const double clear = 2 * scene_.upper.error_bound(std::sqrt((dx * dx + dy * dy) * metre * metre + dz * dz));
-    if (look.eye.units.z < look.upper + clear) packet.starts_under |= 1U << i;
-    if (low < ground.high + clear) packet.ends_under |= 1U << i;
+    scene_.aim(view, {place, low, high, ground.high, squared}, i, packet);
+    return Verdict::kUndecided;
   }
 
   const EnvelopeScene& scene_;
   const std::optional<ClearZone>& zone_;
   const SiteSurvey& survey_;
-  const Request& request_;
   const std::vector<GroundBounds>& grounds_;
 };
 
@@ -191,14 +168,15 @@ class PointSurvey final : public GroupSurvey {
     });
   }
 
-  std::vector<CoverageBounds> judge(const SiteLooks& looks, Progress& progress, Statistics& statistics) const override {
-    const PointPass pass(scene_, zone_, survey_, looks.request, grounds_);
-    std::vector<CoverageBounds> result(looks.options.size());
+  std::vector<CoverageBounds> judge(const SitesToJudge& sites, Progress& progress,
+                                    Statistics& statistics) const override {
+    const PointPass pass(scene_, zone_, survey_, grounds_);
+    std::vector<CoverageBounds> result(sites.options.size());
     std::atomic<std::uint64_t> rays = 0;
     for_each_step(result.size(), "sight lines of candidates", progress, [&](std::size_t i) {
-      const EnvelopeScene::Look look =
-          scene_.look_from(eye_at(scene_.envelope.lower.grid, looks.request, survey_.stands[looks.options[i]]));
-      rays += judge(pass, look, *looks.bounds[i], result[i]);
+      const EnvelopeScene::View view =
+          scene_.view_from(eye_at(scene_.envelope.lower.grid, sites.request, survey_.stands[sites.options[i]]));
+      rays += judge(pass, view, *sites.bounds[i], result[i]);
     });
     statistics.lines += rays;
     return result;
@@ -206,7 +184,7 @@ class PointSurvey final : public GroupSurvey {
 
  private:
   /// Returns how many sight lines that took.
-  std::uint64_t judge(const PointPass& pass, const EnvelopeScene::Look& look, const CoverageBounds& before,
+  std::uint64_t judge(const PointPass& pass, const EnvelopeScene::View& view, const CoverageBounds& before,
                       CoverageBounds& after) const {
     Occluder occluder;
     std::uint64_t rays = 0;
@@ -214,9 +192,9 @@ class PointSurvey final : public GroupSurvey {
     for (const DemandSet::Block& block : before.possible.blocks()) {
       const std::uint64_t known = certain_of(before.certain, block.number, certain);
       const std::uint64_t open = block.members & ~known;
-      const PointPass::Verdict verdict = pass.judge(look, std::size_t{64} * block.number, open, occluder);
-      after.certain.add(block.number, known | verdict.visible);
-      after.possible.add(block.number, block.members & ~verdict.hidden);
+      const PointPass::Served served = pass.judge(view, std::size_t{64} * block.number, open, occluder);
+      after.certain.add(block.number, known | served.certain);
+      after.possible.add(block.number, block.members & ~served.never);
       rays += static_cast<std::uint64_t>(std::popcount(open));
     }
     after.exact = scene_.exact;

@@ -1,13 +1,8 @@
-#include "modes/look_around.hpp"
+#include "modes/observe.hpp"
 
 #include <algorithm>
-#include <memory>
-#include <optional>
+#include <atomic>
 #include <utility>
-
-#include <itin/parallel.hpp>
-
-#include "progress/stage.hpp"
 
 namespace itin::viewshed {
 
@@ -21,15 +16,15 @@ struct TileTally {
 /// Eyes whose views are in memory at a time: a tile's ground is found anew for each group.
 constexpr std::size_t kGroup = 256;
 
-class LookAround {
+class AllEyes {
  public:
-  LookAround(const FullSurface& surface, const TriangleStudies* studies, Observations& observations,
-             const std::vector<Eye>& eyes, const std::vector<RadialSweep::View>& views, Result& result)
+  AllEyes(const FullSurface& surface, const TriangleStudies* studies, Observations& observations,
+          const std::vector<Eye>& eyes, std::vector<RadialSweep::View> views, Result& result)
       : surface_(surface),
         studies_(studies),
         observations_(observations),
         eyes_(eyes),
-        given_(views),
+        given_(std::move(views)),
         result_(result),
         kept_(surface.tiles().cell_count()),
         tallies_(kept_.size()) {}
@@ -40,9 +35,9 @@ class LookAround {
     for (first_ = 0; first_ < eyes_.size(); first_ += kGroup) {
       end_ = std::min(eyes_.size(), first_ + kGroup);
       progress.throw_if_cancelled();
-      make_views();
+      const ExactJudge judge(surface_, make_views(end_ - first_, [&](std::size_t i) { return view_of(first_ + i); }));
       stage.for_each(kept_.size(), [&](std::size_t tile) {
-        look_at(tile);
+        observe(judge, tile);
         return std::size_t{1};
       });
     }
@@ -53,25 +48,21 @@ class LookAround {
   }
 
  private:
-  void make_views() {
-    made_ = decltype(made_)(given_.empty() ? end_ - first_ : 0);
-    shadows_ = decltype(shadows_)(end_ - first_);
-    parallel_for(shadows_.size(), [&](std::size_t i) {
-      if (given_.empty()) made_[i].emplace(surface_.view_of_cells(eyes_[first_ + i]));
-      shadows_[i] = shadow_of(eyes_[first_ + i], surface_.rim(), result_);
-    });
-  }
-  const RadialSweep::View& view_of(std::size_t eye) const {
-    return given_.empty() ? *made_[eye - first_] : given_[eye];
+  EyeView view_of(std::size_t i) {
+    const Eye& eye = eyes_[i];
+    return {eye, given_.empty() ? surface_.view_of_cells(eye) : std::move(given_[i]),
+            shadow_of(eye, surface_.rim(), result_)};
   }
 
-  /// The group looks; after the last one the tile is done.
-  void look_at(std::size_t tile) {
+  /// For the group; after the last one the tile is done.
+  void observe(const ExactJudge& judge, std::size_t tile) {
     const Tile cells = tile_at(surface_.grid(), surface_.tiles(), tile);
     std::unique_ptr<Observation>& observation = kept_[tile];
     if (!observation) observation = observations_.of_tile();
-    if (const std::vector<std::uint32_t> eyes = eyes_near(cells); !eyes.empty())
-      tallies_[tile].lines += look(eyes, *surface_.begin(tile), *observation);
+    if (const std::vector<std::uint32_t> eyes = eyes_near(cells); !eyes.empty()) {
+      const auto work = judge.begin_exactly(tile);
+      for (const std::uint32_t i : eyes) tallies_[tile].lines += observation->observe({*work, i - first_, i, studies_});
+    }
     if (end_ < eyes_.size()) return;
     observation->store(cells, result_, tallies_[tile].cells);
     observation.reset();
@@ -91,38 +82,37 @@ class LookAround {
     return observers;
   }
 
-  std::uint64_t look(const std::vector<std::uint32_t>& eyes, FullSurface::TileWork& work,
-                     Observation& observation) const {
-    std::uint64_t lines = 0;
-    for (const std::uint32_t i : eyes) {
-      const auto& shadow = shadows_[i - first_];
-      lines += observation.look({surface_, eyes_[i], view_of(i), i, shadow ? &*shadow : nullptr, work, studies_});
-    }
-    return lines;
-  }
-
   const FullSurface& surface_;
   const TriangleStudies* studies_;
   Observations& observations_;
   const std::vector<Eye>& eyes_;
-  const std::vector<RadialSweep::View>& given_;  ///< each eye's, or none
+  std::vector<RadialSweep::View> given_;  ///< each eye's, or none
   Result& result_;
   std::vector<std::unique_ptr<Observation>> kept_;  ///< each tile's, from the first group to the last
   std::vector<TileTally> tallies_;
-  // The group at hand: its eyes, and what each of them has.
-  std::size_t first_ = 0, end_ = 0;
-  std::vector<std::optional<RadialSweep::View>> made_;
-  std::vector<std::optional<VoidShadow>> shadows_;
+  std::size_t first_ = 0, end_ = 0;  ///< the eyes of the group at hand
 };
 
 }  // namespace
 
-void look_around(const FullSurface& surface, const TriangleStudies* studies, Observations& observations,
-                 const std::vector<Eye>& eyes, const std::vector<RadialSweep::View>& views, Result& result,
+void observe_all(const FullSurface& surface, const TriangleStudies* studies, Observations& observations,
+                 const std::vector<Eye>& eyes, std::vector<RadialSweep::View> views, Result& result,
                  Progress& progress) {
   Observation::prepare(result);
-  LookAround(surface, studies, observations, eyes, views, result).run(progress);
+  AllEyes(surface, studies, observations, eyes, std::move(views), result).run(progress);
   observations.finish(result);
+}
+
+std::uint64_t observe(const ExactJudge& judge, std::uint32_t observer, std::span<const PartsOfTile> cells,
+                      const std::vector<std::unique_ptr<Observation>>& observations, const TriangleStudies* studies,
+                      Stage& stage) {
+  std::atomic<std::uint64_t> lines = 0;
+  stage.for_each(cells.size(), [&](std::size_t i) {
+    const auto work = judge.begin_exactly(cells[i].tile, cells[i].parts);
+    lines += observations[cells[i].tile]->observe({*work, 0, observer, studies});
+    return cell_count(cells[i].parts);
+  });
+  return lines;
 }
 
 }  // namespace itin::viewshed

@@ -1,0 +1,92 @@
+// Decides sight lines by two surfaces that enclose the full one: certainly visible, certainly hidden, or left open.
+//
+//   const EnvelopeScene scene(envelop(...), request, tiles, Voids::kDoubt);
+//   const EnvelopeScene::View view = scene.view_from(eye);
+//   EnvelopePacket packet(eye);
+//   scene.aim(view, target, 0, packet);
+//   const EnvelopeScene::Decided decided = scene.decide(packet, occluder);   // packet.low.active is left open
+//
+// A target is between a lowest and a highest place. A line to the lowest that clears the upper surface sees whatever
+// the full surface is; one to the highest that the lower surface hides does not.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include <viewshed/viewshed.hpp>
+
+#include "bounds/triangle_bins.hpp"
+#include "line/sight_lines.hpp"
+#include "request/eye.hpp"
+#include "request/void_shadow.hpp"
+#include "scene/rays/scene.hpp"
+#include "scene/rays/upper_scene.hpp"
+#include "window/envelope.hpp"
+
+namespace itin::viewshed {
+
+/// Sixteen targets that one eye looks for.
+struct EnvelopePacket {
+  explicit EnvelopePacket(const Eye& eye) {
+    for (SightLines* const lines : {&low, &high}) lines->start_at(eye.units);
+  }
+
+  SightLines low, high;       ///< to the lowest and to the highest target; active in `low`: those that are asked about
+  unsigned starts_under = 0;  ///< one bit per line: where the eye is not above the upper surface
+  unsigned ends_under = 0;    ///< where the lowest target is not
+  unsigned behind_void = 0;   ///< left open unless they are hidden
+  unsigned perhaps_outside = 0;  ///< of the field of view: left open
+};
+
+/// A target at another place than the eye's; grid units, but for its horizontal distance, squared metres.
+struct EnvelopeTarget {
+  Point2 place;
+  double low = 0, high = 0;
+  double surface = 0;  ///< the upper one under it
+  double squared_m = 0;
+};
+
+class EnvelopeScene {
+ public:
+  /// `tiles` must outlive it.
+  EnvelopeScene(Envelope envelope, const Request& request, const RasterGrid& tiles, Voids voids);
+  EnvelopeScene(const EnvelopeScene&) = delete;
+  EnvelopeScene& operator=(const EnvelopeScene&) = delete;
+
+  struct View {
+    Eye eye;
+    double upper = 0;  ///< grid units: the upper surface there, or -infinity where there is none
+    std::shared_ptr<const VoidShadow> shadow = nullptr;  ///< unless voids are passed
+  };
+  View view_from(const Eye& eye) const;
+
+  /// Makes line `i` of the packet lead to the target.
+  void aim(const View& view, const EnvelopeTarget& target, unsigned i, EnvelopePacket& packet) const;
+
+  /// One bit per line.
+  struct Decided {
+    unsigned visible = 0, hidden = 0;
+    unsigned lines = 0;  ///< the number of lines that were cast
+  };
+  /// Leaves active in packet.low what is not decided.
+  Decided decide(EnvelopePacket& packet, Occluder& occluder) const;
+
+  Envelope envelope;
+  Scene lower;
+  UpperScene upper;
+  TriangleBins bins;
+  std::optional<TriangleBins> ground_bins;  ///< of the bare ground, where the envelope has it
+  Voids voids;
+  bool exact;   ///< both surfaces are the full one, of level 0
+  double drop;  ///< by curvature, grid units for a squared grid unit
+
+ private:
+  /// The upper surface's height, grid units; -infinity where there is none.
+  double upper_height(const Eye& eye, std::span<const std::uint32_t> triangles) const;
+
+  const RasterGrid& tiles_;
+};
+
+}  // namespace itin::viewshed

@@ -1,0 +1,35 @@
+// Some cells of a tile: boxes of them.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <itin/raster.hpp>
+
+#include "line/cell_tiles.hpp"
+
+namespace itin::viewshed {
+
+/// The cells of all parts.
+std::size_t cell_count(std::span<const Tile> parts);
+
+/// Those of a tile, which are parts of it.
+struct PartsOfTile {
+  std::size_t tile;
+  std::vector<Tile> parts;
+};
+std::vector<PartsOfTile> by_tile(std::span<const Tile> parts, const RasterGrid& tiles);
+/// These tiles, whole, or every one.
+std::vector<PartsOfTile> all_cells(const RasterGrid& grid, const RasterGrid& tiles,
+                                   std::span<const std::size_t> numbers);
+std::vector<PartsOfTile> all_cells(const RasterGrid& grid, const RasterGrid& tiles);
+
+/// Calls visit(cell in the tile) for each cell of the parts.
+template <class Visit>
+void for_each_cell(const PartsOfTile& cells, const Tile& tile, const Visit& visit) {
+  for (const Tile& part : cells.parts)
+    for_each_cell(part, [&](std::size_t, RasterGrid::Cell place) { visit(tile.cell(place)); });
+}
+
+}  // namespace itin::viewshed
