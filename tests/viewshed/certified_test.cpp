@@ -13,6 +13,7 @@
 #include <itin/triangulate.hpp>
 #include <viewshed/viewshed.hpp>
 
+#include "certify/certified_blocks.hpp"
 #include "request/eye.hpp"
 #include "scene/rays/scene.hpp"
 #include "support/brute_force_viewshed.hpp"
@@ -74,6 +75,12 @@ Terrain cardiff(int side, double void_radius = 0) {
   });
 }
 
+/// What the level decides, even where the exact answer costs less.
+Result certify(const Store& store, const Request& request, Progress& progress) {
+  if (request.detail.coarsest() == 0) return compute_certified(store, request, {}, progress).result;
+  return certify_by_blocks(store, request, progress).result;
+}
+
 std::vector<Verdict> brute_force(const Terrain& terrain, const Request& request, const RasterGrid& cells) {
   return test::brute_force(terrain.full(), terrain.full(), request, cells);
 }
@@ -82,7 +89,7 @@ std::vector<Verdict> brute_force(const Terrain& terrain, const Request& request,
 double expect_certain(const Terrain& terrain, Request request, double tolerance, const std::vector<Verdict>& truth) {
   request.detail = Detail::tolerance(tolerance);
   NoProgress progress;
-  const Result result = compute_certified(terrain.store(), request, {}, progress).result;
+  const Result result = certify(terrain.store(), request, progress);
   EXPECT_EQ(result.visible.size(), truth.size());
   std::uint64_t decided = 0, in_view = 0, wrong = 0;
   for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -180,11 +187,11 @@ TEST(Certified, UnknownVoidsLeaveLinesUndecided) {
   const Terrain terrain = cardiff(50, 6);
   Request request = look(terrain.at(1700, 1400), 200, 2, 41);
   NoProgress progress;
-  const Result clear = compute_certified(terrain.store(), request, {}, progress).result;
+  const Result clear = certify(terrain.store(), request, progress);
   request.nodata = NoData::kUnknown;
-  const Result unknown = compute_certified(terrain.store(), request, {}, progress).result;
+  const Result unknown = certify(terrain.store(), request, progress);
   request.nodata = NoData::kBlock;
-  const Result block = compute_certified(terrain.store(), request, {}, progress).result;
+  const Result block = certify(terrain.store(), request, progress);
   EXPECT_GT(unknown.cells.undecided, clear.cells.undecided);
   EXPECT_GT(block.cells.hidden, clear.cells.hidden);
   for (std::size_t i = 0; i < clear.visible.size(); ++i) {
@@ -203,7 +210,7 @@ TEST(Certified, RingsAndSeveralObservers) {
   NoProgress progress;
   Request request = first;
   request.detail = Detail::rings(first.observers[0].position, {{600, 0}, {1500, 0.5}, {9000, 4}});
-  const Result rings = compute_certified(terrain.store(), request, {}, progress).result;
+  const Result rings = certify(terrain.store(), request, progress);
   const auto truth = brute_force(terrain, first, rings.grid), other = brute_force(terrain, second, rings.grid);
   for (std::size_t i = 0; i < truth.size(); ++i) {
     if (rings.visible[i] == Verdict::kVisible) {
@@ -216,7 +223,7 @@ TEST(Certified, RingsAndSeveralObservers) {
   request = first;
   request.observers.push_back(second.observers[0]);
   request.detail = Detail::tolerance(1);
-  const Result both = compute_certified(terrain.store(), request, {}, progress).result;
+  const Result both = certify(terrain.store(), request, progress);
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const bool seen = truth[i] == Verdict::kVisible || other[i] == Verdict::kVisible;
     if (both.visible[i] == Verdict::kVisible) {

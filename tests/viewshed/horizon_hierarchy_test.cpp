@@ -10,6 +10,7 @@
 #include <itin/earth.hpp>
 #include <itin/grid_units.hpp>
 
+#include "bounds/binned_heights.hpp"
 #include "support/exact_line_of_sight.hpp"
 #include "support/seed.hpp"
 #include "support/terrain_tin.hpp"

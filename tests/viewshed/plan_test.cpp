@@ -11,6 +11,7 @@
 #include <itin/error.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/plan.hpp>
+#include <viewshed/surface.hpp>
 
 #include "support/hills_and_town.hpp"
 #include "support/same_result.hpp"
@@ -65,7 +66,6 @@ class Plans : public testing::Test {
   std::mt19937 random_{test::seed()};
   NoProgress progress_;
   std::uint64_t visible_ = 0, hidden_ = 0;
-  int coarse_ = 0;  ///< plans over a coarse level
 };
 
 TEST_F(Plans, MakeTheWholeInEveryMode) {
@@ -113,28 +113,45 @@ TEST_F(Plans, MakeTheWholeInATown) {
   }
 }
 
-/// Over the full surface in segments, over a coarse level at once.
+/// Over the full surface in segments.
 TEST_F(Plans, MakeTheWholeOfWhatIsCertain) {
   for (const bool town : {false, true}) {
     const Store store(town ? town_path() : hills_path());
-    for (const double tolerance : {1.0, 16.0}) {
-      SCOPED_TRACE(tolerance);
-      Request request = town ? over_town() : over_hills();
-      request.detail = Detail::tolerance(tolerance);
-      const Result whole = compute_certified(store, request, {}, progress_).result;
-      const Plan plan(store, request, {}, 6000, Certainty::kCertified);
-      if (town) {
-        EXPECT_GT(plan.segments().size(), 2U);
-      }
-      coarse_ += plan.decides_exactly() ? 0 : 1;
-      const Result parts = merged(store, plan);
-      EXPECT_TRUE(parts.certified);
-      EXPECT_EQ(parts.ground_m, whole.ground_m);
-      test::expect_same_result(whole, parts);
-      EXPECT_NE(plan.id(), Plan(store, request, {}, 6000).id());
-    }
+    Request request = town ? over_town() : over_hills();
+    request.detail = Detail::tolerance(4);
+    const Result whole = compute_certified(store, request, {}, progress_).result;
+    const Plan plan(store, request, {}, 6000, Certainty::kCertified);
+    EXPECT_TRUE(plan.decides_exactly());
+    EXPECT_GT(plan.segments().size(), 2U);
+    const Result parts = merged(store, plan);
+    EXPECT_TRUE(parts.certified);
+    EXPECT_EQ(parts.ground_m, whole.ground_m);
+    test::expect_same_result(whole, parts);
+    EXPECT_NE(plan.id(), Plan(store, request, {}, 6000).id());
   }
-  EXPECT_EQ(coarse_, 1);
+}
+
+/// Over a level that costs less than the full surface, which is one segment.
+TEST_F(Plans, MakeTheWholeOfWhatALevelIsCertainOf) {
+  const std::vector<double> z = test::fractal_heights(513, 300, 0.55, 12);
+  test::write_raster(stores_->file("large.tif"), {300000, 210000, 25, 400, 400, 27700},
+                     [&](int c, int r) { return z[static_cast<std::size_t>(r) * 513 + static_cast<std::size_t>(c)]; });
+  ImportOptions options;
+  options.sources = {stores_->file("large.tif")};
+  options.to_crs = "EPSG:32630";  // so that posts lie on no lattice
+  import_terrain(stores_->file("large.itin"), options, progress_);
+  const Store store(stores_->file("large.itin"));
+  Request request;
+  const Box box = extent_of(store);
+  request.observers = {{"mast", {(box.xmin + box.xmax) / 2, (box.ymin + box.ymax) / 2}, 30}};
+  request.cell_size = 100;
+  request.detail = Detail::tolerance(16);
+  const Result whole = compute_certified(store, request, {}, progress_).result;
+  EXPECT_GT(whole.cells.undecided, 0U);
+  EXPECT_GT(whole.cells.hidden, 1000U);
+  const Plan plan(store, request, {}, 600, Certainty::kCertified);
+  EXPECT_FALSE(plan.decides_exactly());
+  test::expect_same_result(whole, merged(store, plan));
 }
 
 /// With either engine, and with ends on the roofs.

@@ -9,6 +9,7 @@
 #include <itin/triangulate.hpp>
 #include <viewshed/viewshed.hpp>
 
+#include "certify/certified_blocks.hpp"
 #include "support/brute_force_viewshed.hpp"
 #include "support/full_detail.hpp"
 #include "support/raster_file.hpp"
@@ -142,6 +143,29 @@ TEST_F(StandingCertified, EveryCellIsCertain) {
                             : truth[i] == Verdict::kHidden ? Verdict::kHidden
                                                            : Verdict::kOutside;
     ASSERT_EQ(result.visible[i], certain) << i;
+  }
+}
+
+/// Coarse levels know nothing of features; these hide more, and targets may stand on them.
+TEST_F(StandingCertified, CoarseLevelsAreNeverWrongAboutFeatures) {
+  make();
+  NoProgress progress;
+  for (const bool on_surface : {false, true}) {
+    Request r = request(3, 2, on_surface, on_surface);
+    r.observers.front().radius = 2000;
+    const std::vector<Verdict> truth = test::brute_force(surface_, ground_, r, compute(*store_, r, progress).grid);
+    for (const double tolerance : {2.0, 8.0, 32.0}) {
+      r.detail = Detail::tolerance(tolerance);
+      const Result result = certify_by_blocks(*store_, r, progress).result;
+      EXPECT_GT(result.cells.undecided, 0U);
+      if (!on_surface && tolerance == 2) {
+        EXPECT_GT(result.cells.hidden, truth.size() / 50);
+      }
+      for (std::size_t i = 0; i < truth.size(); ++i)
+        if (result.visible[i] != Verdict::kUndecided) {
+          ASSERT_EQ(result.visible[i], truth[i]) << i << " at " << tolerance;
+        }
+    }
   }
 }
 

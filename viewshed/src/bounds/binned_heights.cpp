@@ -91,17 +91,15 @@ double greatest_magnitude_of(std::int32_t z, double greatest) {
 BinnedHeights::BinnedHeights(const Tin& tin) : BinnedHeights(tin, lattice_of(tin)) {}
 
 BinnedHeights::BinnedHeights(const Tin& tin, std::optional<LatticeTin> lattice)
-    : tin_(&tin),
+    : BinBounds(tin.grid, lattice ? bin_grid(*lattice) : bin_grid(tin)),
+      tin_(&tin),
       own_(std::move(lattice)),
-      lattice_(own_ ? &*own_ : nullptr),
-      units_(tin.grid),
-      grid_(own_ ? bin_grid(*own_) : bin_grid(tin)),
-      runs_(grid_.columns(), grid_.rows()) {
+      lattice_(own_ ? &*own_ : nullptr) {
   own_ ? bound_lattice() : bound_tin();
 }
 
 BinnedHeights::BinnedHeights(const LatticeTin& lattice)
-    : lattice_(&lattice), units_(lattice.grid), grid_(bin_grid(lattice)), runs_(grid_.columns(), grid_.rows()) {
+    : BinBounds(lattice.grid, bin_grid(lattice)), lattice_(&lattice) {
   bound_lattice();
 }
 

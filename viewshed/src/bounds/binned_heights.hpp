@@ -1,11 +1,9 @@
-// How low and how high a surface is within small squares: bounds that hold at every point of a square, not only at
-// vertices. A lattice's squares are its cells, and their bounds are told from the posts when they are asked for.
+// How low and how high a surface is within bins (bin_bounds.hpp), and of which triangles that is. A lattice's bins are
+// its cells, and their bounds are told from the posts when they are asked for.
 //
 //   BinnedHeights bins(tin);
 //   bins.upper_plane(bin).at(column, row)                            // grid units
 //   bins.for_each_triangle(bin, [&](std::uint32_t t) { return use(bins.corners(t)); });
-//
-// Positions are in bins, columns counted eastwards and rows southwards from the north-west corner.
 #pragma once
 
 #include <algorithm>
@@ -21,39 +19,18 @@
 #include <itin/raster.hpp>
 #include <itin/tin.hpp>
 
+#include "bounds/bin_bounds.hpp"
 #include "bounds/boundary.hpp"
-#include "bounds/run_bounds.hpp"
 #include "bounds/triangle_bins.hpp"
 
 namespace itin::viewshed {
 
-class BinnedHeights {
+class BinnedHeights : public BinBounds {
  public:
   /// The surface must outlive it. A bin has about two triangles' worth, at 50 bytes per triangle; a lattice's bins are
   /// its cells, for a fraction of that.
   explicit BinnedHeights(const Tin& tin);
   explicit BinnedHeights(const LatticeTin& lattice);
-  BinnedHeights(const BinnedHeights&) = delete;
-  BinnedHeights& operator=(const BinnedHeights&) = delete;
-
-  const Grid& units() const { return units_; }
-  std::int64_t columns() const { return grid_.columns(); }
-  std::int64_t rows() const { return grid_.rows(); }
-  /// Grid units.
-  double bin_size() const { return grid_.cell_width() / units_.resolution; }
-  /// In bins, of a position in grid units.
-  double column_at(double x) const { return grid_.column_at(units_.origin.x + x * units_.resolution); }
-  double row_at(double y) const { return grid_.row_at(units_.origin.y + y * units_.resolution); }
-
-  /// At least as far from a position as any of the surface; grid units.
-  double farthest_from(double x, double y) const {
-    const double column = column_at(x), row = row_at(y);
-    return bin_size() * std::hypot(std::max(std::abs(column), std::abs(column - static_cast<double>(columns()))),
-                                   std::max(std::abs(row), std::abs(row - static_cast<double>(rows()))));
-  }
-
-  /// Rounded outwards. Unread ground counts as bare.
-  const RunBounds& runs() const { return runs_; }
   /// After heights of these tiles of the lattice have been read: they count from now on.
   void add(std::span<const std::uint32_t> tiles);
   bool holds(RasterGrid::Cell bin) const { return bin.column < columns() && bin.row < rows(); }
@@ -97,8 +74,6 @@ class BinnedHeights {
   std::optional<double> height_at(Point2 units) const;
   /// Whether there is ground at every position between two corners, and none of it has been read.
   bool all_unread(Point2 north_west, Point2 south_east) const;
-  /// The surface's greatest absolute height, grid units.
-  double greatest_magnitude() const { return greatest_magnitude_; }
 
  private:
   BinnedHeights(const Tin& tin, std::optional<LatticeTin> lattice);
@@ -124,11 +99,7 @@ class BinnedHeights {
   const Tin* tin_ = nullptr;
   std::optional<LatticeTin> own_;        ///< made of the Tin
   const LatticeTin* lattice_ = nullptr;  ///< else it is the Tin
-  Grid units_;
-  RasterGrid grid_;
   std::optional<Listed> listed_;
-  RunBounds runs_;
-  double greatest_magnitude_ = 0;
   std::vector<RimEdge> rim_;
 };
 

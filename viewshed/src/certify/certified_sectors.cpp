@@ -9,8 +9,10 @@
 #include <itin/silent_progress.hpp>
 #include <viewshed/surface.hpp>
 
+#include "certify/certified_blocks.hpp"
 #include "certify/certified_cells.hpp"
-#include "judge/envelope_judge.hpp"
+#include "certify/exact_nearby.hpp"
+#include "judge/block_judge.hpp"
 #include "line/hulls.hpp"
 #include "plan/sight_sectors.hpp"
 #include "progress/stage.hpp"
@@ -24,11 +26,9 @@ namespace {
 
 class CertifiedSectors {
  public:
-  CertifiedSectors(const Store& store, const Request& request, Voids voids, std::uint64_t most_points,
-                   Progress& progress)
+  CertifiedSectors(const Store& store, const Request& request, std::uint64_t most_points, Progress& progress)
       : store_(store),
         request_(request),
-        voids_(voids),
         most_points_(static_cast<double>(most_points)),
         whole_(certified_request(store, request)),
         points_per_square_metre_(points_per_square_metre(store, whole_.level, request)),
@@ -45,10 +45,12 @@ class CertifiedSectors {
         std::make_shared<Surface>(Surface{coverage_of(store_, window_of(request_), progress_), nullptr, {}});
     result.grid = cells_of(request_, extent_of(store_));
     tiles_ = grid_of_tiles(result.grid);
+    rises_ = rises_of_targets(store_, request_, result.grid, tiles_);
     const std::size_t cells = result.grid.cell_count();
     Stage stage("cells judged", eyes.size() * cells, progress_);
     cells_.emplace(result.grid, tiles_, stage);
     for (std::size_t i = 0; i < eyes.size(); ++i) {
+      nearby_ = decide_nearby(store_, request_, request_.observers[i], result.grid, result.statistics, progress_);
       judge_from(eyes[i]);
       stage.advance_to((i + 1) * cells);
     }
@@ -63,7 +65,7 @@ class CertifiedSectors {
     while (!sectors.empty()) {
       const SightSectors::Sector sector = sectors.next(
           [&](const std::vector<Point2>& hull) { return area_of(hull) * points_per_square_metre_ <= most_points_; });
-      judge(eye, envelop(store_, within(sector.hull, eye, whole_), reading_), sector.parts);
+      judge(eye, envelop(store_, within(sector.hull, eye, whole_), reading_), box_about(sector.hull), sector.parts);
       sectors.settle(sector, std::numeric_limits<double>::infinity());
     }
   }
@@ -79,21 +81,27 @@ class CertifiedSectors {
     return wanted;
   }
 
-  void judge(const Eye& eye, Envelope envelope, std::span<const Tile> parts) {
+  void judge(const Eye& eye, Envelope envelope, const Box& box, std::span<const Tile> parts) {
     Result& result = surveyed_.result;
     result.statistics.retrieval += envelope.lower.statistics;
     result.statistics.triangles += envelope.lower.triangles.size();
     result.statistics.retrieval_seconds += watch_.lap();
-    const EnvelopeScene scene(std::move(envelope), request_, tiles_, voids_);
-    const EnvelopeJudge judge(scene, result.grid, tiles_, {eye});
+    BoundedEnvelope bounded(std::move(envelope), tiles_, rises_);
+    bounded.bound(intersection(box, bounded.envelope().lower.bounds()));
+    const BlockJudge judge(bounded, request_, result.grid, tiles_, eye, nearby_ ? &*nearby_ : nullptr);
     result.statistics.scene_seconds += watch_.lap();
     cells_->judge(judge, 1, by_tile(parts, tiles_));
     result.statistics.lines_seconds += watch_.lap();
   }
 
+  static Box box_about(std::span<const Point2> hull) {
+    Box box;
+    for (const Point2& corner : hull) box.extend(corner);
+    return box;
+  }
+
   const Store& store_;
   const Request& request_;
-  Voids voids_;
   double most_points_;
   EnvelopeRequest whole_;  ///< of all sectors together
   double points_per_square_metre_;
@@ -102,14 +110,15 @@ class CertifiedSectors {
   Stopwatch watch_;
   Surveyed surveyed_;
   RasterGrid tiles_;
+  std::vector<double> rises_;  ///< of targets, in each tile
+  std::optional<ExactNearby> nearby_;
   std::optional<CertifiedCells> cells_;
 };
 
 }  // namespace
 
-Surveyed certify_by_sectors(const Store& store, const Request& request, Voids voids, std::uint64_t most_points,
-                            Progress& progress) {
-  return CertifiedSectors(store, request, voids, most_points, progress).run();
+Surveyed certify_by_sectors(const Store& store, const Request& request, std::uint64_t most_points, Progress& progress) {
+  return CertifiedSectors(store, request, most_points, progress).run();
 }
 
 }  // namespace itin::viewshed

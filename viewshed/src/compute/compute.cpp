@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <viewshed/surface.hpp>
 #include <viewshed/viewshed.hpp>
 
 #include "compute/lattice_sectors.hpp"

@@ -10,27 +10,34 @@ namespace itin::viewshed {
 
 namespace {
 
-/// A point of an envelope costs about as much as two of the full surface, or as so many posts of a lattice.
-constexpr std::uint64_t kEnvelopeCosts = 2, kEnvelopeCostsInPosts = 128;
-/// Lattices of at most so many posts take but a moment, whatever way is asked for.
-constexpr std::uint64_t kFewPosts = 100000;
-/// More take over a gigabyte: larger levels are looked at in sectors.
-constexpr std::uint64_t kMostEnvelopePoints = 1500000;
+/// A level that leaves out less than this share of the points is looked at exactly.
+constexpr std::uint64_t kLeastShare = 2;
+/// Costs as those of exact answers over so many posts: of a point that is triangulated; of bounds, blocks and finer
+/// levels about the observer.
+constexpr std::uint64_t kPostsPerPoint = 40, kPostsPerBlocks = 2500000;
+/// Bounds know nothing of features, and decide far less among them: then they must be cheaper by this factor.
+constexpr std::uint64_t kFeaturesFactor = 4;
+/// More take over a gigabyte: larger levels are looked at in sectors, where they leave out nearly everything.
+constexpr std::uint64_t kMostPoints = 1500000, kVastShare = 128;
+
+bool may_be_lattice(const Store& store, const Request& request, std::uint64_t points) {
+  const std::uint64_t most_posts = ComputeOptions().memory_bytes / kBytesPerPost;
+  return points <= most_posts && LatticeReader::may_open(store, window_of(request), ThemeChoice::none(), most_posts);
+}
 
 }  // namespace
 
 CertifiedWay certified_way(const Store& store, const Request& request) {
-  if (features_stand(store, request)) return CertifiedWay::kExactly;
   const int level = level_within(store.metadata(), request.detail.coarsest());
   const Box box = box_of_window(store, request);
   const std::uint64_t points = store.points_about(level, box), all = store.points_about(0, box);
-  if (kEnvelopeCosts * points >= all) return CertifiedWay::kExactly;
-  const bool large = points > kMostEnvelopePoints;
-  if (kEnvelopeCostsInPosts * points < all) return large ? CertifiedWay::kBySectors : CertifiedWay::kAtOnce;
-  const std::uint64_t most_posts = ComputeOptions().memory_bytes / kBytesPerPost;
-  const bool exactly = large || (all > kFewPosts && all <= most_posts &&
-                                 LatticeReader::may_open(store, window_of(request), ThemeChoice::none(), most_posts));
-  return exactly ? CertifiedWay::kExactly : CertifiedWay::kAtOnce;
+  if (kLeastShare * points >= all) return CertifiedWay::kExactly;
+  if (points > kMostPoints) return kVastShare * points < all ? CertifiedWay::kBySectors : CertifiedWay::kExactly;
+  const bool features = features_stand(store, request);
+  const std::uint64_t cost = (kPostsPerPoint * points + kPostsPerBlocks) * (features ? kFeaturesFactor : 1);
+  if (cost >= kPostsPerPoint * all) return CertifiedWay::kExactly;
+  return cost < all || features || !may_be_lattice(store, request, all) ? CertifiedWay::kByBlocks
+                                                                        : CertifiedWay::kExactly;
 }
 
 }  // namespace itin::viewshed

@@ -16,17 +16,6 @@ namespace {
 /// Points of one level about one observer, and about all of them; never more than this share of the full surface.
 constexpr double kNearPoints = 16000, kAllNearPoints = 400000, kNearShare = 1.0 / 64;
 
-/// The greatest radius, in steps of a square root of 2, within which a level has no more points than that.
-double radius_with(const Store& store, int level, Point2 centre, double points) {
-  const Box all = extent_of(store);
-  const double greatest = std::max(all.width(), all.height());
-  double radius = store.metadata().grid.resolution;
-  while (radius < greatest &&
-         static_cast<double>(store.points_about(level, disc_box(centre, std::sqrt(2) * radius))) <= points)
-    radius *= std::sqrt(2);
-  return radius;
-}
-
 }  // namespace
 
 std::optional<double> height_at(const Store& store, Point2 position, const ThemeChoice& themes, Progress& progress,
@@ -56,6 +45,17 @@ std::vector<Eye> eyes_on_surface(const Store& store, const Request& request, con
 double points_per_square_metre(const Store& store, int level, const Request& request) {
   const Box box = box_of_window(store, request);
   return static_cast<double>(store.points_about(level, box)) / (box.width() * box.height());
+}
+
+double radius_with(const Store& store, int level, Point2 centre, double points) {
+  const Box all = extent_of(store);
+  const double greatest = std::max(all.width(), all.height());
+  double radius = store.metadata().grid.resolution;
+  // In steps of a square root of 2.
+  while (radius < greatest &&
+         static_cast<double>(store.points_about(level, disc_box(centre, std::sqrt(2) * radius))) <= points)
+    radius *= std::sqrt(2);
+  return radius;
 }
 
 EnvelopeRequest certified_request(const Store& store, const Request& request, int level) {

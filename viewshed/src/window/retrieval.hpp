@@ -28,6 +28,9 @@ std::vector<Eye> eyes_on_surface(const Store& store, const Request& request, con
 /// How densely points of this level and coarser ones lie there, about.
 double points_per_square_metre(const Store& store, int level, const Request& request);
 
+/// The greatest radius about a position within which a level has about so many points at most, metres.
+double radius_with(const Store& store, int level, Point2 centre, double points);
+
 /// For request.detail.
 EnvelopeRequest certified_request(const Store& store, const Request& request);
 

@@ -20,8 +20,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
-#include <span>
 #include <vector>
 
 #include <itin/earth.hpp>
@@ -29,7 +27,7 @@
 #include "bounds/binned_heights.hpp"
 #include "line/cell_tiles.hpp"
 #include "line/sight_line.hpp"
-#include "scene/sweep/horizon_hierarchy.hpp"
+#include "scene/sweep/horizon_view.hpp"
 #include "scene/sweep/sector_profile.hpp"
 
 namespace itin::viewshed {
@@ -39,12 +37,7 @@ class RadialSweep {
   /// `surface` must outlive it.
   RadialSweep(const Earth& earth, const BinnedHeights& surface);
 
-  /// Grid units.
-  struct Axis {
-    double x = 0, y = 0;
-    double base = 0, top = 0;  ///< elevations; what of it is seen below its base does not count
-    double radius = 0;         ///< eyes farther away do not look
-  };
+  using Axis = HorizonView::Axis;
   /// The other ends of lines, one per cell of a tile, NaN where none is.
   struct Ends {
     const Tile& tile;
@@ -55,8 +48,8 @@ class RadialSweep {
   /// axis' own place (itin/same_place.hpp), and beyond its radius, are left out: infinity.
   using Heights = TileValues<double>;
 
-  /// Holds what the tiles about an axis share. Refers to the sweep's surface.
-  class View;
+  /// What the tiles about an axis share.
+  using View = HorizonView;
   View view_of(const Axis& axis) const;
   /// Begins a view, to be advanced.
   View beginning(const Axis& axis) const;
@@ -91,46 +84,6 @@ class RadialSweep {
   const BinnedHeights& bins_;
   double drop_;     ///< grid units of drop per squared grid unit
   double grazing_;  ///< grid units
-};
-
-/// Closed, in bins.
-struct BinBox {
-  double west = 0, north = 0, east = 0, south = 0;
-};
-
-class RadialSweep::View {
- public:
-  /// At first it knows of nothing that hides.
-  View(const BinnedHeights& bins, const Axis& axis, double drop, double grazing);
-
-  /// Whether a box lies within the axis' radius, at least in part.
-  bool reaches(const BinBox& box) const;
-  /// How far a box is away from the axis, in bins along columns or rows.
-  double distance(const BinBox& box) const;
-  /// Ends will be asked about in these boxes only, and near the axis.
-  void narrow(std::span<const BinBox> boxes);
-  /// Looks on at what hides up to so many bins away along columns and rows; what is farther away will be asked about
-  /// later. Infinity completes it.
-  void advance(double reach);
-  /// Whether every end in the box up to an elevation, grid units, is certainly hidden, by what has been looked at.
-  bool hides(const BinBox& box, double elevation) const;
-
- private:
-  friend class RadialSweep;
-  /// Ends within a quadrant: between slopes, and as far along.
-  struct Extent {
-    double from = 0, to = 0;
-    double nearest = 0, farthest = 0;
-    double least_drop = 0;  ///< grid units
-  };
-  bool hides(const Sector::Hidden& known, const Extent& ends, double elevation) const;
-  std::optional<Extent> extent(const Quadrant& quadrant, const BinBox& box) const;
-
-  Axis axis_;
-  Sector::Axis sector_axis_;
-  std::vector<Quadrant> quadrants_;
-  std::vector<HorizonHierarchy> fans_;  ///< of each quadrant
-  double column_, row_, bin_;           ///< where the axis is, in bins, and how wide these are, grid units
 };
 
 }  // namespace itin::viewshed

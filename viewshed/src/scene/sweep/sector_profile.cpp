@@ -7,9 +7,7 @@
 
 namespace itin::viewshed {
 
-namespace {}  // namespace
-
-Quadrant::Quadrant(const BinnedHeights& bins, double axis_column, double axis_row, Side side, double reach)
+Quadrant::Quadrant(const BinBounds& bins, double axis_column, double axis_row, Side side, double reach)
     : bins_(bins),
       along_columns_(side == kEast || side == kWest),
       runs_(along_columns_ ? bins.runs().eastwards() : bins.runs().southwards()),

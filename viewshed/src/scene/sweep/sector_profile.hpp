@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-#include "bounds/binned_heights.hpp"
+#include "bounds/bin_bounds.hpp"
 
 namespace itin::viewshed {
 
@@ -24,7 +24,7 @@ class Quadrant {
   enum Side : std::uint8_t { kEast, kWest, kSouth, kNorth };
 
   /// Holds what lies no farther along than `reach`, in bins.
-  Quadrant(const BinnedHeights& bins, double axis_column, double axis_row, Side side,
+  Quadrant(const BinBounds& bins, double axis_column, double axis_row, Side side,
            double reach = std::numeric_limits<double>::infinity());
 
   bool along_columns() const { return along_columns_; }
@@ -63,12 +63,12 @@ class Quadrant {
     const std::int64_t major = run_of(slab) * static_cast<std::int64_t>(kRun) + at;
     return along_columns_ ? RasterGrid::Cell{major, line} : RasterGrid::Cell{line, major};
   }
-  const BinnedHeights& bins() const { return bins_; }
+  const BinBounds& bins() const { return bins_; }
 
  private:
   std::int64_t run_of(std::size_t slab) const { return first_run_ + outward_ * static_cast<std::int64_t>(slab); }
 
-  const BinnedHeights& bins_;
+  const BinBounds& bins_;
   bool along_columns_;
   RunBounds::Lines runs_;
   std::int64_t outward_;

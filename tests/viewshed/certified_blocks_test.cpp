@@ -1,0 +1,200 @@
+// What the blocks of a coarse level hide, against the full surface and its exact answer.
+#include "certify/certified_blocks.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <itin/import.hpp>
+#include <itin/store.hpp>
+#include <itin/triangulate.hpp>
+#include <viewshed/viewshed.hpp>
+
+#include "bounds/binned_heights.hpp"
+#include "bounds/envelope_bounds.hpp"
+#include "support/full_detail.hpp"
+#include "support/raster_file.hpp"
+#include "support/seed.hpp"
+#include "support/temporary_directory.hpp"
+#include "support/terrain_tin.hpp"
+#include "window/envelope.hpp"
+
+namespace itin::viewshed {
+namespace {
+
+constexpr int kPostsPerSide = 193;
+constexpr double kPostStep = 25, kFirstEast = 300000, kFirstNorth = 200000;
+
+class CertifiedBlocks : public testing::Test {
+ protected:
+  void make(double void_radius) {
+    std::filesystem::remove(directory_.file("t.itin"));
+    const std::vector<double> z = test::fractal_heights(257, 300, 0.6, random_());
+    test::write_raster(directory_.file("t.tif"),
+                       {kFirstEast, kFirstNorth, kPostStep, kPostsPerSide, kPostsPerSide, 27700}, [&](int c, int r) {
+                         const bool missing = std::hypot(c - 75, r - 105) < void_radius;
+                         return missing ? NAN : z[static_cast<std::size_t>(r) * 257 + static_cast<std::size_t>(c)];
+                       });
+    ImportOptions options;
+    options.sources = {directory_.file("t.tif")};
+    import_terrain(directory_.file("t.itin"), options, progress_);
+    store_.emplace(directory_.file("t.itin"));
+  }
+
+  Point2 anywhere() {
+    std::uniform_real_distribution<double> share(0.02, 0.98);
+    return {kFirstEast + share(random_) * kPostsPerSide * kPostStep,
+            kFirstNorth - share(random_) * kPostsPerSide * kPostStep};
+  }
+
+  Request request_from(Point2 position) const {
+    Request request;
+    Observer observer;
+    observer.position = position;
+    observer.height = 40;
+    request.observers.push_back(observer);
+    request.target_height = 10;
+    request.cell_size = 31;
+    request.mode = Mode::kVisible;
+    return request;
+  }
+
+  /// Returns the share of the cells in view that the level decides.
+  double expect_nothing_wrong(Request request, double tolerance) {
+    const Result exact = test::compute_at_full_detail(*store_, request, {}, progress_).result;
+    request.detail = Detail::tolerance(tolerance);
+    const Result blocks = certify_by_blocks(*store_, request, progress_).result;
+    EXPECT_EQ(blocks.visible.size(), exact.visible.size());
+    CellCounts cells;
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < exact.visible.size(); ++i) {
+      const Verdict value = blocks.visible[i];
+      // The level may not know the elevation angle well enough.
+      wrong += value == Verdict::kUndecided ? exact.visible[i] == Verdict::kOutside && !request.elevation
+                                            : value != exact.visible[i];
+      ++(value == Verdict::kOutside     ? cells.outside
+         : value == Verdict::kUndecided ? cells.undecided
+         : value == Verdict::kVisible   ? cells.visible
+                                        : cells.hidden);
+    }
+    EXPECT_EQ(wrong, 0U) << "tolerance " << tolerance;
+    EXPECT_EQ(blocks.cells.visible, cells.visible);
+    EXPECT_EQ(blocks.cells.hidden, cells.hidden);
+    EXPECT_EQ(blocks.cells.undecided, cells.undecided);
+    EXPECT_EQ(blocks.cells.outside, cells.outside);
+    return static_cast<double>(cells.visible + cells.hidden) /
+           static_cast<double>(std::max<std::uint64_t>(1, exact.cells.visible + exact.cells.hidden));
+  }
+
+  std::mt19937 random_{test::seed()};
+  NoProgress progress_;
+  test::TemporaryDirectory directory_;
+  std::optional<Store> store_;
+};
+
+TEST_F(CertifiedBlocks, AreNeverWrong) {
+  for (const double void_radius : {0.0, 25.0}) {
+    make(void_radius);
+    double decided = 0;
+    for (const NoData rule : {NoData::kClear, NoData::kBlock, NoData::kUnknown}) {
+      for (const double tolerance : {2.0, 8.0, 32.0}) {
+        Point2 place = anywhere();
+        while (std::hypot((place.x - kFirstEast) / kPostStep - 75, (kFirstNorth - place.y) / kPostStep - 105) <
+               void_radius + 2)
+          place = anywhere();
+        Request request = request_from(place);
+        request.nodata = rule;
+        decided += expect_nothing_wrong(request, tolerance) / 9;
+      }
+    }
+    EXPECT_GT(decided, 0.3);
+  }
+}
+
+TEST_F(CertifiedBlocks, KeepToFieldsOfView) {
+  make(0);
+  Request request = request_from({kFirstEast + 2400.7, kFirstNorth - 2300.3});
+  request.radius = 1900;
+  request.min_radius = 200;
+  expect_nothing_wrong(request, 8);
+  request.azimuth = AngleRange{300, 100};
+  expect_nothing_wrong(request, 8);
+  request.elevation = AngleRange{-4, 1};
+  expect_nothing_wrong(request, 8);
+  request.elevation.reset();
+  request.target_absolute = true;
+  request.target_height = 120;
+  expect_nothing_wrong(request, 8);
+}
+
+TEST_F(CertifiedBlocks, OfSeveralObserversAgree) {
+  make(0);
+  Request request = request_from(anywhere());
+  for (const double radius : {600.0, 1500.0, 1e5}) {
+    Observer observer = request.observers.front();
+    observer.position = anywhere();
+    observer.radius = radius;
+    request.observers.push_back(observer);
+  }
+  expect_nothing_wrong(request, 8);
+  request.earth = Earth::flat();
+  expect_nothing_wrong(request, 8);
+}
+
+TEST_F(CertifiedBlocks, TakeCellsOfAllSizes) {
+  make(0);
+  Request request = request_from({kFirstEast + 2412.5, kFirstNorth - 2312.5});  // on a post
+  for (const double cell : {3.0, 25.0, 400.0, 1700.0}) {
+    request.cell_size = cell;
+    request.radius = cell < 5 ? std::optional(700.0) : std::nullopt;
+    expect_nothing_wrong(request, 16);
+  }
+}
+
+/// What the class promises, at random places.
+TEST_F(CertifiedBlocks, EnclosedHeightsAreWithinTheirBounds) {
+  make(20);
+  const Tin full = triangulate(*store_, Window::all(), Detail::tolerance(0), progress_);
+  const BinnedHeights heights(full);
+  const Box all = full.bounds();
+  for (const double bin : {7.0, 60.0, 333.0}) {
+    EnvelopeRequest wanted;
+    wanted.level = static_cast<int>(store_->metadata().levels.size()) - 2;
+    const Point2 middle = anywhere();
+    wanted.discs = {{middle, 400, 0}, {middle, 900, 2}};
+    const Envelope envelope = envelop(*store_, wanted, progress_);
+    const Box box{all.xmin - 100, all.ymin + 500, all.xmax - 700, all.ymax + 100};
+    const EnvelopeBounds bounds(envelope.lower, envelope.upper, envelope.outline, box, bin);
+    const auto lines = bounds.runs().eastwards();
+    std::size_t covered = 0, bare = 0;
+    for (int i = 0; i < 20000; ++i) {
+      const Point2 p = anywhere();
+      const double x = (p.x - bounds.units().origin.x) / bounds.units().resolution,
+                   y = (p.y - bounds.units().origin.y) / bounds.units().resolution;
+      const double column = bounds.column_at(x), row = bounds.row_at(y);
+      if (column < 0 || row < 0 || column >= static_cast<double>(bounds.columns()) ||
+          row >= static_cast<double>(bounds.rows()))
+        continue;
+      const BinBox place{column, row, column, row};
+      const std::optional<double> height = heights.height_at({x, y});
+      if (!height) {
+        ++bare;
+        ASSERT_FALSE(bounds.covers(place));
+        continue;
+      }
+      const auto run = static_cast<std::int64_t>(column) / RunBounds::kRun, line = static_cast<std::int64_t>(row);
+      ASSERT_LE(lines.low(run, line), *height + 1e-3);
+      ASSERT_GE(lines.high(run, line), *height - 1e-3);
+      ASSERT_GE(bounds.highest(place), *height - 1e-3);
+      ASSERT_GE(bounds.highest({column - 1, row - 2, column + 3, row}), *height - 1e-3);
+      covered += bounds.covers(place) ? 1 : 0;
+    }
+    EXPECT_GT(covered, bin < 100 ? 5000U : 100U);
+    EXPECT_GT(bare, 10U);
+  }
+}
+
+}  // namespace
+}  // namespace itin::viewshed

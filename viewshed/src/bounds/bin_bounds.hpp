@@ -1,0 +1,62 @@
+// How low and how high a surface is within small squares, its bins: bounds that hold at every point of a square, not
+// only at vertices. What the surface is made of, the classes derived from this know (binned_heights.hpp: triangles, or
+// posts; envelope_bounds.hpp: two surfaces that enclose it).
+//
+// Positions are in bins, columns counted eastwards and rows southwards from the north-west corner.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include <itin/geometry.hpp>
+#include <itin/raster.hpp>
+#include <itin/tin.hpp>
+
+#include "bounds/run_bounds.hpp"
+
+namespace itin::viewshed {
+
+/// Closed, in bins.
+struct BinBox {
+  double west = 0, north = 0, east = 0, south = 0;
+};
+
+class BinBounds {
+ public:
+  BinBounds(const BinBounds&) = delete;
+  BinBounds& operator=(const BinBounds&) = delete;
+
+  const Grid& units() const { return units_; }
+  std::int64_t columns() const { return grid_.columns(); }
+  std::int64_t rows() const { return grid_.rows(); }
+  /// Grid units.
+  double bin_size() const { return grid_.cell_width() / units_.resolution; }
+  /// In bins, of a position in grid units.
+  double column_at(double x) const { return grid_.column_at(units_.origin.x + x * units_.resolution); }
+  double row_at(double y) const { return grid_.row_at(units_.origin.y + y * units_.resolution); }
+
+  /// At least as far from a position as any of the surface; grid units.
+  double farthest_from(double x, double y) const {
+    const double column = column_at(x), row = row_at(y);
+    return bin_size() * std::hypot(std::max(std::abs(column), std::abs(column - static_cast<double>(columns()))),
+                                   std::max(std::abs(row), std::abs(row - static_cast<double>(rows()))));
+  }
+
+  /// Rounded outwards. Unread ground counts as bare.
+  const RunBounds& runs() const { return runs_; }
+  /// The surface's greatest absolute height, grid units.
+  double greatest_magnitude() const { return greatest_magnitude_; }
+
+ protected:
+  BinBounds(const Grid& units, const RasterGrid& grid)
+      : units_(units), grid_(grid), runs_(grid.columns(), grid.rows()) {}
+  ~BinBounds() = default;
+
+  const Grid units_;
+  const RasterGrid grid_;
+  RunBounds runs_;
+  double greatest_magnitude_ = 0;
+};
+
+}  // namespace itin::viewshed

@@ -1,0 +1,165 @@
+#include "bounds/envelope_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <itin/parallel.hpp>
+
+#include "bounds/triangle_in_bins.hpp"
+#include "line/cell_tiles.hpp"
+#include "line/rounded_outwards.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+RasterGrid bin_grid(const Box& box, double bin) {
+  if (box.empty()) return {{0, 0}, bin, bin, 1, 1};
+  // Half a bin more than needed all around, so that the edges lie inside.
+  const auto count = [&](double length) { return static_cast<std::int64_t>(std::ceil(length / bin)) + 1; };
+  return {{box.xmin - bin / 2, box.ymax + bin / 2}, bin, bin, count(box.width()), count(box.height())};
+}
+
+/// Grid units. Features bend the ground about them, at positions rounded to the grid: there it is no lower and no
+/// higher than the bare one is so near, but for a rounded height.
+constexpr double kStepsBeside = 2, kStepsUp = 1;
+
+/// How low and how high a triangle is about the middle of a bin, as far as its plane reaches within the bin, and no
+/// farther than its corners do.
+class Slope {
+ public:
+  /// `bin` is its side, grid units.
+  Slope(const Tin& tin, std::uint32_t triangle, double bin) {
+    const auto [a, b, c] = tin.corners(triangle);
+    least_ = std::min({a.z, b.z, c.z}), greatest_ = std::max({a.z, b.z, c.z});
+    corner_ = {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)};
+    const double bx = 1.0 * b.x - a.x, by = 1.0 * b.y - a.y, bz = 1.0 * b.z - a.z;
+    const double cx = 1.0 * c.x - a.x, cy = 1.0 * c.y - a.y, cz = 1.0 * c.z - a.z;
+    const double doubled_area = bx * cy - by * cx;
+    is_plane_ = doubled_area != 0;
+    if (!is_plane_) return;
+    x_ = (bz * cy - by * cz) / doubled_area, y_ = (bx * cz - bz * cx) / doubled_area;
+    // Rounding is far less than the last two terms.
+    spread_ =
+        (std::abs(x_) + std::abs(y_)) * (bin / 2 + kStepsBeside) * (1 + 1e-6) + 1e-9 * (greatest_ - least_) + 1e-3;
+  }
+
+  double middle(double x, double y) const { return corner_.z + x_ * (x - corner_.x) + y_ * (y - corner_.y); }
+  double low(double middle) const { return is_plane_ ? std::max(least_, middle - spread_) : least_; }
+  double high(double middle) const { return is_plane_ ? std::min(greatest_, middle + spread_) : greatest_; }
+
+ private:
+  Point3 corner_;
+  bool is_plane_ = false;
+  double x_ = 0, y_ = 0, spread_ = 0;
+  double least_ = 0, greatest_ = 0;
+};
+
+}  // namespace
+
+EnvelopeBounds::EnvelopeBounds(const Tin& lower, const Tin& upper, const std::vector<BoundaryEdge>& outline,
+                               const Box& box, double bin)
+    : BinBounds(lower.grid, bin_grid(box, bin)),
+      low_(grid_.cell_count(), kFloatInfinity),
+      high_(grid_.cell_count(), -kFloatInfinity) {
+  for (const Tin* const tin : {&lower, &upper})
+    for (const GridPoint& v : tin->vertices)
+      greatest_magnitude_ = std::max(greatest_magnitude_, std::abs(static_cast<double>(v.z)));
+  bound(lower, upper);
+  settle(lower, outline);
+  bound_runs();
+}
+
+/// Bins.
+double EnvelopeBounds::slack() const {
+  return std::max(1e-6, kStepsBeside / bin_size());
+}
+
+/// In tiles of bins, each by one thread.
+void EnvelopeBounds::bound(const Tin& lower, const Tin& upper) {
+  const RasterGrid tiles = grid_of_tiles(grid_);
+  const TriangleBins triangles(lower, tiles);
+  parallel_for(tiles.cell_count(), [&](std::size_t i) {
+    const Tile tile = tile_at(grid_, tiles, i);
+    const Bins within{tile.column, tile.column + tile.columns - 1, tile.row, tile.row + tile.rows - 1};
+    for (const std::uint32_t t : triangles.triangles(i)) bound_triangle(lower, upper, t, within);
+  });
+}
+
+void EnvelopeBounds::bound_triangle(const Tin& lower, const Tin& upper, std::uint32_t triangle, const Bins& within) {
+  const TriangleInBins in_bins(lower, lower.triangles[triangle], grid_, slack());
+  const Slope low(lower, triangle, bin_size()), high(upper, triangle, bin_size());
+  for (std::int64_t row = std::max(in_bins.box().north, within.north);
+       row <= std::min(in_bins.box().south, within.south); ++row) {
+    const auto [first, last] = in_bins.columns_in(row);
+    const double y = (grid_.centre_y(row) - units_.origin.y) / units_.resolution;
+    for (std::int64_t column = std::max(first, within.west); column <= std::min(last, within.east); ++column) {
+      const double x = (grid_.centre_x(column) - units_.origin.x) / units_.resolution;
+      const std::size_t bin = grid_.index({column, row});
+      low_[bin] = std::min(low_[bin], static_cast<float>(low.low(low.middle(x, y)) - kStepsUp));
+      high_[bin] = std::max(high_[bin], static_cast<float>(high.high(high.middle(x, y)) + kStepsUp));
+    }
+  }
+}
+
+/// A bin that a triangle meets and the outline does not is covered throughout; elsewhere nothing is known of how low
+/// the ground is. What has been rounded to the nearest float before is rounded outwards now.
+void EnvelopeBounds::settle(const Tin& tin, const std::vector<BoundaryEdge>& outline) {
+  for (const BoundaryEdge& edge : outline) {
+    const TriangleInBins in_bins(tin, {edge.from, edge.to, edge.to}, grid_, slack());
+    for (std::int64_t row = in_bins.box().north; row <= in_bins.box().south; ++row) {
+      const auto [first, last] = in_bins.columns_in(row);
+      for (std::int64_t column = first; column <= last; ++column) low_[grid_.index({column, row})] = -kFloatInfinity;
+    }
+  }
+  parallel_for(static_cast<std::size_t>(rows()), [&](std::size_t row) {
+    for (std::int64_t column = 0; column < columns(); ++column) {
+      const std::size_t bin = grid_.index({column, static_cast<std::int64_t>(row)});
+      float &low = low_[bin], &high = high_[bin];
+      low = low == kFloatInfinity ? -kFloatInfinity : std::nextafter(low, -kFloatInfinity);
+      if (high != -kFloatInfinity) high = std::nextafter(high, kFloatInfinity);
+    }
+  });
+}
+
+void EnvelopeBounds::bound_runs() {
+  const auto range_of = [&](std::int64_t column, std::int64_t row) {
+    const std::size_t bin = grid_.index({column, row});
+    return RunBounds::Range<float>{low_[bin], high_[bin]};
+  };
+  const auto same = [](float z) { return z; };
+  parallel_for(runs_.tile_count(), [&](std::size_t tile) { runs_.bound<float>(tile, range_of, same, same); });
+}
+
+EnvelopeBounds::Bins EnvelopeBounds::bins_of(const BinBox& box) const {
+  constexpr double kHair = 1e-6;
+  const auto bin = [](double v, std::int64_t count) {
+    return static_cast<std::int64_t>(std::clamp(std::floor(v), -1.0, static_cast<double>(count)));
+  };
+  return {bin(box.west - kHair, columns()), bin(box.east + kHair, columns()), bin(box.north - kHair, rows()),
+          bin(box.south + kHair, rows())};
+}
+
+float EnvelopeBounds::highest(const BinBox& box) const {
+  const Bins bins = bins_of(box);
+  const auto first = std::max<std::int64_t>(0, bins.west), end = std::min(bins.east + 1, columns());
+  float highest = -kFloatInfinity;
+  for (auto row = std::max<std::int64_t>(0, bins.north); row <= std::min(bins.south, rows() - 1); ++row) {
+    const float* const of_row = high_.data() + row * columns();
+    for (auto column = first; column < end; ++column) highest = std::max(highest, of_row[column]);
+  }
+  return highest;
+}
+
+bool EnvelopeBounds::covers(const BinBox& box) const {
+  const Bins bins = bins_of(box);
+  if (bins.west < 0 || bins.north < 0 || bins.east >= columns() || bins.south >= rows()) return false;
+  for (auto row = bins.north; row <= bins.south; ++row) {
+    const float* const of_row = low_.data() + row * columns();
+    if (std::any_of(of_row + bins.west, of_row + bins.east + 1, [](float low) { return low == -kFloatInfinity; }))
+      return false;
+  }
+  return true;
+}
+
+}  // namespace itin::viewshed

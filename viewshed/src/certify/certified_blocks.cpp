@@ -1,0 +1,90 @@
+#include "certify/certified_blocks.hpp"
+
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <viewshed/surface.hpp>
+
+#include "certify/certified_cells.hpp"
+#include "certify/exact_nearby.hpp"
+#include "judge/block_judge.hpp"
+#include "line/tile_parts.hpp"
+#include "progress/stage.hpp"
+#include "progress/stopwatch.hpp"
+#include "request/request.hpp"
+#include "window/retrieval.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// All that may be in the eye's view.
+Box reach_of(const Eye& eye, const Box& extent) {
+  const double reach = eye.view.farthest();
+  return std::isfinite(reach) ? intersection(disc_box(eye.position, reach), extent) : extent;
+}
+
+std::vector<PartsOfTile> tiles_in_reach(const Eye& eye, const RasterGrid& grid, const RasterGrid& tiles) {
+  std::vector<std::size_t> within;
+  for (std::size_t i = 0; i < tiles.cell_count(); ++i) {
+    const Tile tile = tile_at(grid, tiles, i);
+    if (eye.view.reaches(squared_distance(eye.position, box_of_centres(grid, tile)))) within.push_back(i);
+  }
+  return all_cells(grid, tiles, within);
+}
+
+}  // namespace
+
+std::vector<double> rises_of_targets(const Store& store, const Request& request, const RasterGrid& grid,
+                                     const RasterGrid& tiles) {
+  std::vector<double> rises;
+  if (!request.targets_on_surface || !features_stand(store, request)) return rises;
+  const double resolution = store.metadata().grid.resolution;
+  for (std::size_t i = 0; i < tiles.cell_count(); ++i) {
+    const Box box = box_of(grid, tile_at(grid, tiles, i));
+    // A grid unit more, against rounding.
+    rises.push_back(store.greatest_feature_height(request.themes, box) / resolution + 1);
+  }
+  return rises;
+}
+
+Surveyed certify_by_blocks(const Store& store, const Request& request, Progress& progress) {
+  Surveyed surveyed;
+  Result& result = surveyed.result;
+  result.request = request;
+  result.certified = true;
+  surveyed.whole = false;
+  Stopwatch watch;
+  const std::vector<Eye> eyes = eyes_on_surface(store, request, Detail::tolerance(0), result.ground_m, progress);
+  EnvelopeRequest wanted = certified_request(store, request);
+  wanted.observers.clear();  // of rays, and none is cast
+  Envelope envelope = envelop(store, wanted, progress);
+  result.statistics.retrieval = envelope.lower.statistics;
+  result.statistics.triangles = envelope.lower.triangles.size();
+  result.statistics.retrieval_seconds = watch.lap();
+
+  result.grid = cells_of(request, extent_of(store));
+  const RasterGrid tiles = grid_of_tiles(result.grid);
+  const std::vector<double> rises = rises_of_targets(store, request, result.grid, tiles);
+  BoundedEnvelope bounded(std::move(envelope), tiles, rises);
+  result.statistics.scene_seconds = watch.lap();
+
+  const std::size_t count = result.grid.cell_count();
+  Stage stage("cells judged", eyes.size() * count, progress);
+  CertifiedCells cells(result.grid, tiles, stage);
+  for (std::size_t i = 0; i < eyes.size(); ++i) {
+    bounded.bound(reach_of(eyes[i], bounded.envelope().lower.bounds()));
+    const auto nearby = decide_nearby(store, request, request.observers[i], result.grid, result.statistics, progress);
+    const BlockJudge judge(bounded, request, result.grid, tiles, eyes[i], nearby ? &*nearby : nullptr);
+    cells.judge(judge, 1, tiles_in_reach(eyes[i], result.grid, tiles));
+    stage.advance_to((i + 1) * count);
+  }
+  cells.store(result);
+  result.statistics.lines_seconds = watch.lap();
+  surveyed.surface = std::make_shared<Surface>(Surface{bounded.envelope().lower, nullptr, {}});
+  return surveyed;
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,64 @@
+#include "certify/exact_nearby.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <itin/silent_progress.hpp>
+
+#include "request/request.hpp"
+#include "window/retrieval.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// As far as about so many points of the full surface lie, and no more than this share of them.
+constexpr double kPointsNearby = 32000, kShareNearby = 1.0 / 64;
+
+double reach_of(const Store& store, const Request& request, const Observer& observer) {
+  const auto all = static_cast<double>(store.points_about(0, box_of_window(store, request)));
+  const double reach = radius_with(store, 0, observer.position, std::min(kPointsNearby, kShareNearby * all));
+  return std::min(reach, radius_of(request, observer).value_or(std::numeric_limits<double>::infinity()));
+}
+
+struct Part {
+  RasterGrid::Cell first;
+  std::int64_t columns = 0, rows = 0;
+};
+
+/// The cells that meet a box.
+Part cells_within(const RasterGrid& grid, const Box& box) {
+  const auto at = [](double v, std::int64_t count) {
+    return static_cast<std::int64_t>(std::clamp(v, 0.0, static_cast<double>(count)));
+  };
+  const std::int64_t west = at(std::floor(grid.column_at(box.xmin)), grid.columns()),
+                     east = at(std::ceil(grid.column_at(box.xmax)), grid.columns()),
+                     north = at(std::floor(grid.row_at(box.ymax)), grid.rows()),
+                     south = at(std::ceil(grid.row_at(box.ymin)), grid.rows());
+  return {{west, north}, east - west, south - north};
+}
+
+}  // namespace
+
+std::optional<ExactNearby> decide_nearby(const Store& store, const Request& request, const Observer& observer,
+                                         const RasterGrid& grid, Statistics& statistics, Progress& progress) {
+  const double reach = reach_of(store, request, observer);
+  const Part part = cells_within(grid, disc_box(observer.position, reach));
+  if (part.columns <= 0 || part.rows <= 0 || reach < std::max(grid.cell_width(), grid.cell_height()) ||
+      reach <= observer.min_radius.value_or(request.min_radius))
+    return std::nullopt;
+  Request nearby = request;
+  nearby.observers = {observer};
+  nearby.observers.front().radius = reach;
+  nearby.detail = Detail::tolerance(0);
+  nearby.grid = grid.part(part.first, part.columns, part.rows);
+  nearby.cell_size.reset();
+  SilentProgress reading(progress);
+  Surveyed exact = compute_with_surface(store, nearby, {}, reading);
+  statistics.lines += exact.result.statistics.lines;
+  return ExactNearby{part.first, part.columns, part.rows, std::move(exact.result.visible)};
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,180 @@
+#include "judge/block_judge.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include <itin/grazing.hpp>
+#include <itin/parallel.hpp>
+
+#include "bounds/surface_heights.hpp"
+
+namespace itin::viewshed {
+
+class BlockJudge::BlockWork final : public TileJudge::Work {
+ public:
+  BlockWork(const BlockJudge& judge, std::size_t tile)
+      : judge_(judge),
+        number_(tile),
+        tile_(tile_at(judge.grid_, judge.tiles_, tile)),
+        centres_(judge.surface_.bounds().units(), judge.grid_, tile_),
+        all_{0, static_cast<std::size_t>(tile_.rows), 0, static_cast<std::size_t>(tile_.columns)},
+        rise_(judge.surface_.rise(tile)),
+        covered_(judge.surface_.bounds().covers(box_of(all_))) {}
+
+  std::uint64_t judge(std::size_t, TileValues<Verdict>& values) override {
+    const TileValues<Verdict> asked = values;
+    hide(all_, asked, values);
+    if (!is_simple()) settle(asked, values);
+    if (judge_.nearby_ != nullptr) take_nearby(asked, values);
+    return 0;
+  }
+
+  TileTargets targets() override {
+    const Heights& heights = this->heights();
+    const double metres = judge_.surface_.bounds().units().resolution;
+    for (std::size_t cell = 0; cell < low_.size(); ++cell) {
+      low_[cell] = judge_.eye_.target(heights.low[cell] * metres) / metres;
+      high_[cell] = judge_.eye_.target(heights.high[cell] * metres) / metres;
+    }
+    return {centres_, low_, high_};
+  }
+
+ private:
+  /// Cells of the tile, from the first ones to before the last.
+  struct Block {
+    std::size_t row, row_end, column, column_end;
+  };
+  /// Of the surface at cell centres, grid units; kNoSurface where none is.
+  struct Heights {
+    TileValues<double> low, high;
+  };
+
+  /// About the centres, in bins.
+  BinBox box_of(const Block& block) const {
+    const BinBounds& bins = judge_.surface_.bounds();
+    return {bins.column_at(centres_.x[block.column]), bins.row_at(centres_.y[block.row]),
+            bins.column_at(centres_.x[block.column_end - 1]), bins.row_at(centres_.y[block.row_end - 1])};
+  }
+
+  /// Hides the block where that is certain, else what it can of its quarters, down to about a bin.
+  void hide(const Block& block, const TileValues<Verdict>& asked, TileValues<Verdict>& values) const {
+    const BinBox box = box_of(block);
+    const double metres = judge_.surface_.bounds().units().resolution;
+    const double highest = judge_.surface_.bounds().highest(box) + rise_;
+    if (highest == -std::numeric_limits<double>::infinity()) return;
+    if (judge_.horizon_.hides(box, judge_.eye_.target(highest * metres) / metres)) {
+      for (std::size_t row = block.row; row < block.row_end; ++row)
+        for (std::size_t cell = row * Tile::kSide + block.column; cell < row * Tile::kSide + block.column_end; ++cell)
+          if (asked[cell] == Verdict::kUndecided) values[cell] = Verdict::kHidden;
+      return;
+    }
+    const std::size_t rows = block.row_end - block.row, columns = block.column_end - block.column;
+    if (std::max(box.east - box.west, box.south - box.north) <= kSmallest) return;
+    const std::size_t row = block.row + (rows + 1) / 2, column = block.column + (columns + 1) / 2;
+    for (const auto& [first_row, row_end] : {std::pair(block.row, row), std::pair(row, block.row_end)})
+      for (const auto& [first, end] : {std::pair(block.column, column), std::pair(column, block.column_end)})
+        if (first_row < row_end && first < end) hide({first_row, row_end, first, end}, asked, values);
+  }
+
+  /// Whether every cell has ground and is in view, and none has a rule of its own.
+  bool is_simple() const {
+    const Eye& eye = judge_.eye_;
+    const double west = centres_.x[0] - eye.units.x, east = centres_.x[all_.column_end - 1] - eye.units.x,
+                 north = centres_.y[0] - eye.units.y, south = centres_.y[all_.row_end - 1] - eye.units.y;
+    const double x = std::max({west, -east, 0.0}), y = std::max({south, -north, 0.0});
+    const double far_x = std::max(-west, east), far_y = std::max(north, -south);
+    const double metres = judge_.surface_.bounds().units().resolution * judge_.surface_.bounds().units().resolution;
+    // The eye's own place lies in no such tile.
+    return covered_ && !eye.target_absolute && !judge_.shadow_ && x + y > 1 &&
+           eye.view.holds((x * x + y * y) * metres * (1 - 1e-9), (far_x * far_x + far_y * far_y) * metres * (1 + 1e-9));
+  }
+
+  /// Each cell's own rules.
+  void settle(const TileValues<Verdict>& asked, TileValues<Verdict>& values) {
+    const Heights& heights = this->heights();
+    for_each_cell(tile_, [&](std::size_t cell, RasterGrid::Cell place) {
+      if (asked[cell] == Verdict::kUndecided)
+        values[cell] = settled(judge_.grid_.centre(place.column, place.row), cell, heights, values[cell]);
+    });
+  }
+  Verdict settled(Point2 centre, std::size_t cell, const Heights& heights, Verdict known) const {
+    if (std::isnan(heights.low[cell])) return Verdict::kOutside;
+    const Eye& eye = judge_.eye_;
+    const double metres = judge_.surface_.bounds().units().resolution;
+    const Point2 place = centres_.at(cell);
+    const auto [dx, dy] = eye.offset_to(centre, place);
+    const double low = eye.target(heights.low[cell] * metres), high = eye.target(heights.high[cell] * metres);
+    const std::optional<bool> in_view = eye.view.contains(dx, dy, low - eye.elevation, high - eye.elevation);
+    if (in_view == false) return Verdict::kOutside;
+    if (!in_view) return Verdict::kUndecided;
+    if (high < heights.low[cell] * metres - kGrazing) return Verdict::kHidden;  // an elevation below the ground
+    if (eye.stands_at(place)) return Verdict::kVisible;
+    return judge_.shadow_ && judge_.shadow_->holds(place.x, place.y) ? Verdict::kHidden : known;
+  }
+
+  void take_nearby(const TileValues<Verdict>& asked, TileValues<Verdict>& values) const {
+    const ExactNearby& nearby = *judge_.nearby_;
+    if (tile_.column >= nearby.first.column + nearby.columns || tile_.column + tile_.columns <= nearby.first.column ||
+        tile_.row >= nearby.first.row + nearby.rows || tile_.row + tile_.rows <= nearby.first.row)
+      return;
+    for_each_cell(tile_, [&](std::size_t cell, RasterGrid::Cell place) {
+      const Verdict exact = nearby.at(place);
+      if (asked[cell] == Verdict::kUndecided && exact != Verdict::kOutside) values[cell] = exact;
+    });
+  }
+
+  const Heights& heights() {
+    if (!heights_) {
+      heights_ = std::make_unique<Heights>();
+      const auto triangles = judge_.surface_.triangles().triangles(number_);
+      scan_convert(judge_.surface_.envelope().lower, triangles, tile_, centres_, heights_->low);
+      scan_convert_highest(judge_.surface_.envelope().upper, triangles, tile_, centres_, heights_->high);
+      for (double& height : heights_->high) height += rise_;
+    }
+    return *heights_;
+  }
+
+  static constexpr double kSmallest = 0.5;  ///< bins: what lies closer together shares nearly all that is known
+
+  const BlockJudge& judge_;
+  std::size_t number_;
+  Tile tile_;
+  TileCentres centres_;
+  Block all_;
+  double rise_;   ///< of targets above the surface, grid units
+  bool covered_;  ///< there is ground at every cell
+  std::unique_ptr<Heights> heights_;
+  TileValues<double> low_, high_;
+};
+
+namespace {
+
+HorizonView horizon_of(const EnvelopeBounds& bounds, const Request& request, const Eye& eye) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const double resolution = bounds.units().resolution;
+  const auto axis = HorizonView::axis_at(bounds, eye.units, eye.view.farthest() / resolution + 1);
+  HorizonView view(bounds, axis, request.earth.drop_coefficient() * resolution, kGrazing / resolution);
+  view.advance(kInfinity);
+  return view;
+}
+
+}  // namespace
+
+BlockJudge::BlockJudge(const BoundedEnvelope& surface, const Request& request, const RasterGrid& grid,
+                       const RasterGrid& tiles, const Eye& eye, const ExactNearby* nearby)
+    : surface_(surface),
+      grid_(grid),
+      tiles_(tiles),
+      eye_(eye),
+      nearby_(nearby),
+      horizon_(horizon_of(surface.bounds(), request, eye)) {
+  if (voids_of(request) == Voids::kBlock)
+    shadow_.emplace(rim_of(surface.envelope().upper, surface.envelope().outline), eye.units);
+}
+
+std::unique_ptr<TileJudge::Work> BlockJudge::begin(std::size_t tile) const {
+  return std::make_unique<BlockWork>(*this, tile);
+}
+
+}  // namespace itin::viewshed
