@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <numbers>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <ogr_spatialref.h>
@@ -48,12 +50,23 @@ std::optional<GridScale> scale_of(std::span<const Point2> ends, const Ellipsoid&
   return GridScale{1 / std::sqrt(mean + spread), 1 / std::sqrt(mean - spread)};
 }
 
+/// Whether it shows the whole world on a cylinder about the equator.
+bool lies_about_equator(const OGRSpatialReference& crs) {
+  constexpr std::array<std::string_view, 6> kProjections{SRS_PT_MERCATOR_1SP,       SRS_PT_MERCATOR_2SP,
+                                                         SRS_PT_EQUIRECTANGULAR,    SRS_PT_CYLINDRICAL_EQUAL_AREA,
+                                                         SRS_PT_MILLER_CYLINDRICAL, SRS_PT_GALL_STEREOGRAPHIC};
+  const char* const projection = crs.GetAttrValue("PROJECTION");
+  return projection != nullptr && std::find(kProjections.begin(), kProjections.end(), projection) != kProjections.end();
+}
+
 }  // namespace
 
 ScaleMeter::ScaleMeter(const Crs& crs) {
   if (!crs.metric()) throw InputError(fmt::format("{}: its axes are not in metres", crs.name));
   const QuietGdal quiet;
-  const std::unique_ptr<OGRSpatialReference> geographic(horizontal_crs(crs.wkt, crs.name).CloneGeogCS());
+  const OGRSpatialReference projected = horizontal_crs(crs.wkt, crs.name);
+  if (lies_about_equator(projected)) allowed_ = kGreatestScaleErrorOfWorld;
+  const std::unique_ptr<OGRSpatialReference> geographic(projected.CloneGeogCS());
   if (!geographic) throw InputError(fmt::format("{}: has no ellipsoid", crs.name));
   degrees_ = geographic->GetAngularUnits() * 180 / std::numbers::pi;
   const double inverse_flattening = geographic->GetInvFlattening();
@@ -77,7 +90,7 @@ std::optional<GridScale> ScaleMeter::at(std::span<const Point2> places) const {
     const auto scale = scale_of(std::span(ends).subspan(i, kEnds), ellipsoid_);
     if (!scale) continue;
     if (!extremes) extremes = scale;
-    extremes = {std::min(extremes->least, scale->least), std::max(extremes->greatest, scale->greatest)};
+    extremes = {std::min(extremes->least, scale->least), std::max(extremes->greatest, scale->greatest), allowed_};
   }
   return extremes;
 }

@@ -26,6 +26,7 @@ class ScaleMeter {
 
  private:
   Ellipsoid ellipsoid_;
+  double allowed_ = kGreatestScaleError;
   double degrees_ = 1;  ///< of one of its geographic CRS's units
   std::optional<PointTransform> to_geographic_;
 };

@@ -58,7 +58,7 @@ void TrueScale::require(const std::string& path, std::span<const Point2> places,
                           "its own, in pieces where it is wide",
                           nearer_crs(places));
   throw InputError(fmt::format("{}: lengths in {}, the store's CRS, are {} there, where {} % are allowed; {}", path,
-                               crs_.name, error_in_words(scale), 100 * kGreatestScaleError, remedy));
+                               crs_.name, error_in_words(scale), 100 * scale.allowed, remedy));
 }
 
 /// The UTM zone where it serves, else a projection about the middle, which is true for hundreds of kilometres around.
