@@ -17,11 +17,13 @@ std::uint64_t CertifiedCells::judge(const TileJudge& judge, std::size_t eyes, co
   const Tile tile = tile_at(grid_, tiles_, cells.tile);
   Verdicts& verdicts = verdicts_[cells.tile];
   const auto open = [&](std::size_t, TileValues<Verdict>& values) {
-    bool any = false;
+    std::size_t count = 0;
     for_each_cell(cells, tile, [&](std::size_t cell) {
-      if (verdicts.open(cell)) values[cell] = Verdict::kUndecided, any = true;
+      const bool asked = verdicts.open(cell);
+      values[cell] = asked ? Verdict::kUndecided : Verdict::kOutside;
+      count += asked ? 1 : 0;
     });
-    return any;
+    return count > 0;
   };
   return judge_tile(judge, cells.tile, eyes, open,
                     [&](std::size_t, const TileValues<Verdict>& values, auto&) { verdicts.add(values); });

@@ -66,7 +66,7 @@ class BlockJudge::BlockWork final : public TileJudge::Work {
     if (judge_.horizon_.hides(box, judge_.eye_.target(highest * metres) / metres)) {
       for (std::size_t row = block.row; row < block.row_end; ++row)
         for (std::size_t cell = row * Tile::kSide + block.column; cell < row * Tile::kSide + block.column_end; ++cell)
-          if (asked[cell] == Verdict::kUndecided) values[cell] = Verdict::kHidden;
+          values[cell] = asked[cell] == Verdict::kUndecided ? Verdict::kHidden : asked[cell];
       return;
     }
     const std::size_t rows = block.row_end - block.row, columns = block.column_end - block.column;

@@ -50,9 +50,11 @@ class Verdicts {
   bool open(std::size_t cell) const { return values_[cell] != Verdict::kVisible; }
 
   void add(std::size_t cell, Verdict of_observer) {
-    Verdict& value = values_[cell];
-    if (of_observer == Verdict::kOutside || value == Verdict::kVisible) return;
-    if (of_observer != Verdict::kHidden || value == Verdict::kOutside) value = of_observer;
+    // Without branches, so that many cells are added at once.
+    const Verdict value = values_[cell];
+    const bool kept = of_observer == Verdict::kOutside || value == Verdict::kVisible ||
+                      (of_observer == Verdict::kHidden && value != Verdict::kOutside);
+    values_[cell] = kept ? value : of_observer;
   }
   void add(const TileValues<Verdict>& of_observer) {
     for (std::size_t cell = 0; cell < values_.size(); ++cell) add(cell, of_observer[cell]);
@@ -63,7 +65,11 @@ class Verdicts {
     for_each_row(tile, [&](std::size_t cell, RasterGrid::Cell first) {
       const auto columns = static_cast<std::size_t>(tile.columns);
       std::copy_n(values_.data() + cell, columns, result.visible.data() + result.grid.index(first));
-      for (std::size_t i = cell; i < cell + columns; ++i) count(values_[i], cells);
+      const auto count = [&, row = values_.begin() + static_cast<std::ptrdiff_t>(cell)](Verdict verdict) {
+        return static_cast<std::uint64_t>(std::count(row, row + tile.columns, verdict));
+      };
+      cells.visible += count(Verdict::kVisible), cells.hidden += count(Verdict::kHidden);
+      cells.undecided += count(Verdict::kUndecided), cells.outside += count(Verdict::kOutside);
     });
   }
 
