@@ -26,6 +26,7 @@ constexpr std::array kNames{
     Names{"from", "--from"},
     Names{"height", "--height"},
     Names{"height_field", "--height-field"},
+    Names{"hub", "--hub"},
     Names{"kind", "--kind"},
     Names{"layer", "--layer"},
     Names{"max_gap", "--max-gap"},

@@ -1,6 +1,7 @@
 // itin site: the few best of many sites.
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -58,6 +59,9 @@ class SiteVerb final : public Verb {
     inputs_document_ = hash_inputs(progress);
     const SiteInputs inputs = read_site_inputs(store, options_, progress);
     require_memory(store, inputs);
+    const std::optional<viewshed::SiteStand> hub_stand = hub(store, progress);
+    viewshed::ChoiceGoal goal = this->goal(store, inputs, hub_stand, progress);
+    viewshed::check_goal(inputs.options, goal);
 
     viewshed::SiteCoverage coverage(store, site_survey(options_, inputs), progress);
     SiteWork work(place("site.work"), key(), options_.resume, inputs.stands.size(), coverage);
@@ -65,12 +69,13 @@ class SiteVerb final : public Verb {
       work.add(option, stage, bounds);
     };
     coverage.look_first();
-    SiteResult site{options_, inputs, coverage, choose(store, inputs, coverage, progress), {}, {}};
-    const std::optional<viewshed::SiteStand> hub_stand = hub(store, progress);
+    add_existing(inputs, coverage, goal);
+    SiteResult site{
+        options_, inputs, coverage, viewshed::choose(inputs.demand, inputs.options, coverage, goal, progress), {}, {}};
     coverage.release_surfaces();
     site.links = site_links(store, options_, inputs, site.choice, hub_stand, progress);
     site.rasters = site_rasters(store, options_, inputs, coverage, site.choice, progress);
-    Result result = write(store, site, hub_stand, progress);
+    Result result = write(store, site, progress);
     if (work.restored() > 0)
       result.text += fmt::format("used of an earlier run: {}\n", counted(work.restored(), "result"));
     work.remove();
@@ -124,19 +129,31 @@ class SiteVerb final : public Verb {
     return viewshed::SiteStand{"hub", p, options_.hub->height.value_or(20), *ground.front()};
   }
 
-  viewshed::ChoiceGoal goal(const SiteInputs& inputs, viewshed::SiteCoverage& coverage) const {
+  /// All but what existing sites serve. Refers to the inputs.
+  viewshed::ChoiceGoal goal(const Store& store, const SiteInputs& inputs,
+                            const std::optional<viewshed::SiteStand>& hub_stand, Progress& progress) const {
     viewshed::ChoiceGoal goal;
     goal.count = options_.count;
     goal.budget = options_.budget;
+    if (options_.share) goal.wanted = 0;
     goal.cover = options_.cover;
     goal.exact_chosen = options_.exact_final;
     goal.swaps = options_.swaps;
+    if (options_.min_spacing)
+      goal.compatible = [this, &inputs](std::size_t a, std::size_t b) {
+        const Point2 p = inputs.stands[a].position, q = inputs.stands[b].position;
+        return std::hypot(p.x - q.x, p.y - q.y) >= *options_.min_spacing;
+      };
+    if (options_.intervisible) goal.network = link_network(store, options_, inputs, hub_stand, progress);
+    return goal;
+  }
+
+  void add_existing(const SiteInputs& inputs, viewshed::SiteCoverage& coverage, viewshed::ChoiceGoal& goal) const {
     for (std::size_t i = inputs.options.size(); i < inputs.stands.size(); ++i) {
       while (!coverage.bounds(i).exact) coverage.refine({&i, 1});
       goal.existing.push_back(coverage.bounds(i).certain);
     }
     if (options_.share) goal.wanted = wanted(inputs, goal);
-    return goal;
   }
 
   /// The share is of all demand; what existing sites serve counts towards it.
@@ -145,23 +162,7 @@ class SiteVerb final : public Verb {
     return std::max<viewshed::Weight>(0, all - viewshed::served_by(inputs.demand, goal.existing, goal.cover));
   }
 
-  viewshed::Choice choose(const Store& store, const SiteInputs& inputs, viewshed::SiteCoverage& coverage,
-                          Progress& progress) const {
-    viewshed::ChoiceGoal goal = this->goal(inputs, coverage);
-    const SiteLinks links(store, link_rules(options_), progress);
-    const SiteRules rules(inputs.stands, inputs.options.size(), options_.min_spacing, options_.intervisible,
-                          hub(store, progress), links);
-    if (rules.any()) {
-      goal.may_join = [&](std::size_t option, std::span<const std::size_t> chosen) {
-        return rules.may_join(option, chosen);
-      };
-      goal.holds_together = [&](std::span<const std::size_t> chosen) { return rules.holds_together(chosen); };
-    }
-    return viewshed::choose(inputs.demand, inputs.options, coverage, goal, progress);
-  }
-
-  Result write(const Store& store, const SiteResult& site, const std::optional<viewshed::SiteStand>& hub_stand,
-               Progress& progress) {
+  Result write(const Store& store, const SiteResult& site, Progress& progress) {
     const std::string& crs = store.metadata().crs_wkt;
     Result result;
     warn(site, result.warnings);
@@ -173,7 +174,7 @@ class SiteVerb final : public Verb {
     write_site_rasters(site, options_.directory, crs, json_text(parameters()), policy_.overwrite);
     write_site_tables(site, options_.directory, policy_.overwrite);
     write_site_layers(site, options_.directory, crs, policy_.overwrite);
-    const auto profiles = write_site_profiles(store, site, hub_stand, options_.directory, policy_.overwrite, progress);
+    const auto profiles = write_site_profiles(store, site, options_.directory, policy_.overwrite, progress);
     for (const SiteProfile& profile : profiles)
       result.document["outputs"].push_back({{"path", profile.path}, {"what", "profile of the link " + profile.what}});
     write_site_report(site, profiles, parameters(), inputs_document_, options_.directory, policy_.overwrite);

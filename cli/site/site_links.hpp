@@ -1,78 +1,37 @@
-// Lines of sight between sites: who sees whom, and what that asks of a choice.
+// Lines of sight between sites: between the chosen ones for the report, and those that hold a choice together.
 #pragma once
 
-#include <functional>
-#include <map>
+#include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include <itin/store.hpp>
 #include <profile/line_of_sight.hpp>
 #include <viewshed/site_coverage.hpp>
+#include <viewshed/siting.hpp>
+
+#include "site/site_inputs.hpp"
 
 namespace itin::cli {
 
-/// The rules that lines between sites are judged by.
-struct LinkRules {
-  ThemeChoice themes;
-  Earth earth;
-  std::optional<viewshed::FresnelCriterion> fresnel;
-
-  bool met_by(const profile::SightLine& line) const { return line.clears(fresnel ? fresnel->fraction : 0); }
+/// A line of sight between two sites, or a site and the hub.
+struct SiteLink {
+  viewshed::SiteStand from, to;
+  double distance_m = 0;
+  profile::SightLine line;
+  bool visible = false;  ///< as --nodata has it
+  bool clear = false;    ///< visible, and the zone is as clear as it must be
 };
 
-/// Remembers what it has looked at. Over the full surface with the themes.
-class SiteLinks {
- public:
-  SiteLinks(const Store& store, LinkRules rules, Progress& progress)
-      : store_(store), rules_(std::move(rules)), progress_(progress) {}
+/// Between all chosen sites, and to the hub; where links hold the choice together, existing sites take part.
+std::vector<SiteLink> site_links(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
+                                 const viewshed::Choice& choice, const std::optional<viewshed::SiteStand>& hub,
+                                 Progress& progress);
 
-  bool at_one_place(const viewshed::SiteStand& a, const viewshed::SiteStand& b) const;
-  profile::SightLine between(const viewshed::SiteStand& a, const viewshed::SiteStand& b) const;
-  bool connect(const viewshed::SiteStand& a, const viewshed::SiteStand& b) const {
-    return rules_.met_by(between(a, b));
-  }
-  /// As above, for options by their number; asking again costs nothing.
-  bool connect(const std::vector<viewshed::SiteStand>& stands, std::size_t a, std::size_t b) const;
-
- private:
-  const Store& store_;
-  LinkRules rules_;
-  Progress& progress_;
-  mutable std::map<std::pair<std::size_t, std::size_t>, bool> seen_;
-};
-
-/// Minimum spacing and intervisibility.
-class SiteRules {
- public:
-  /// Refers to everything given.
-  SiteRules(const std::vector<viewshed::SiteStand>& stands, std::size_t options, std::optional<double> min_spacing,
-            bool intervisible, std::optional<viewshed::SiteStand> hub, const SiteLinks& links)
-      : stands_(stands),
-        options_(options),
-        min_spacing_(min_spacing),
-        intervisible_(intervisible),
-        hub_(std::move(hub)),
-        links_(links) {}
-
-  bool any() const { return min_spacing_ || intervisible_; }
-  bool may_join(std::size_t option, std::span<const std::size_t> chosen) const;
-  bool holds_together(std::span<const std::size_t> chosen) const;
-
- private:
-  bool spaced(std::size_t a, std::size_t b) const;
-  bool sees_hub(std::size_t option) const;
-  /// A first site without a hub must see some other place that may follow it.
-  bool sees_another_candidate(std::size_t option) const;
-
-  const std::vector<viewshed::SiteStand>& stands_;
-  std::size_t options_;
-  std::optional<double> min_spacing_;
-  bool intervisible_;
-  std::optional<viewshed::SiteStand> hub_;
-  const SiteLinks& links_;
-  mutable std::map<std::size_t, bool> sees_hub_, sees_another_;
-};
+/// The links among options, existing sites and the hub, as `itin los` judges them. Refers to the store, the options and
+/// the progress.
+std::shared_ptr<viewshed::LinkNetwork> link_network(const Store& store, const SiteOptions& options,
+                                                    const SiteInputs& inputs,
+                                                    const std::optional<viewshed::SiteStand>& hub, Progress& progress);
 
 }  // namespace itin::cli

@@ -111,8 +111,8 @@ void SiteOptions::declare_choice(CLI::App& app) {
   reads(app.add_option("--existing", existing, "Sites that serve already, from a vector file")->type_name("FILE"));
   reads(app.add_option("--forbidden", forbidden, "No site in these polygons (a file, or WKT)")->type_name("AREA"));
   app.add_option("--k-cover", cover_text_, "What fewer sites serve counts for nothing (default: 1)")->type_name("N");
-  app.add_flag("--intervisible", intervisible, "Every chosen site sees another one, or the hub");
-  app.add_option("--hub", hub_text_, "A given end of the links between sites (implies --intervisible)")
+  app.add_flag("--intervisible", intervisible, "Chosen sites reach each other by links between them and existing ones; relays may be bought");
+  app.add_option("--hub", hub_text_, "Chosen sites reach this place by such links (implies --intervisible)")
       ->type_name("x,y[,h]");
   app.add_option("--exact-final", exact_final_text_, "The chosen sites' coverage is exact (default: on)")
       ->type_name("on|off");

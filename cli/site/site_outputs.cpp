@@ -52,22 +52,13 @@ std::string candidates_table(const SiteResult& r) {
   return text;
 }
 
-std::string link_end(const SiteResult& r, std::size_t chosen) {
-  return r.stand(r.choice.chosen[chosen]).name;
-}
-
-bool is_clear(const SiteResult& r, const SiteLink& link) {
-  return link_rules(r.options).met_by(link.line);
-}
-
 std::string links_csv(const SiteResult& r) {
   std::string text = "from,to,distance_m,verdict,clearance_m,critical_x,critical_y,critical_z";
   text += r.options.frequency_ghz ? ",fresnel_fraction,clear\n" : "\n";
   const auto out = std::back_inserter(text);
   for (const SiteLink& link : r.links) {
-    fmt::format_to(out, "{},{},{:.3f},{}", csv_cell(link_end(r, link.from)),
-                   link.to ? csv_cell(link_end(r, *link.to)) : "hub", link.distance_m,
-                   link.line.visible() ? "visible" : "hidden");
+    fmt::format_to(out, "{},{},{:.3f},{}", csv_cell(link.from.name), csv_cell(link.to.name), link.distance_m,
+                   link.visible ? "visible" : "hidden");
     if (link.line.clearance) {
       fmt::format_to(out, ",{:.3f},{:.3f},{:.3f},{:.3f}", *link.line.clearance, link.line.critical.x,
                      link.line.critical.y, link.line.critical.z);
@@ -76,7 +67,7 @@ std::string links_csv(const SiteResult& r) {
     }
     if (r.options.frequency_ghz) {
       text += link.line.fresnel_fraction ? fmt::format(",{:.4f}", *link.line.fresnel_fraction) : ",";
-      text += is_clear(r, link) ? ",yes" : ",no";
+      text += link.clear ? ",yes" : ",no";
     }
     text += '\n';
   }
@@ -127,7 +118,6 @@ VectorLayer candidates_layer(const SiteResult& r) {
   return layer;
 }
 
-/// Links to the hub are drawn to their critical point's side: the hub's own place is in the parameters.
 VectorLayer links_layer(const SiteResult& r) {
   VectorLayer layer{"links",
                     VectorLayer::Shape::kLines,
@@ -139,15 +129,13 @@ VectorLayer links_layer(const SiteResult& r) {
                      {"fresnel_fraction", Type::kNumber}},
                     {}};
   for (const SiteLink& link : r.links) {
-    if (!link.to) continue;
-    const viewshed::SiteStand &a = r.stand(r.choice.chosen[link.from]), &b = r.stand(r.choice.chosen[*link.to]);
+    const viewshed::SiteStand &a = link.from, &b = link.to;
     VectorLayer::Value clearance, fraction;
     if (link.line.clearance) clearance = *link.line.clearance;
     if (link.line.fresnel_fraction) fraction = *link.line.fresnel_fraction;
     layer.features.push_back(
         {{{a.position.x, a.position.y, a.elevation()}, {b.position.x, b.position.y, b.elevation()}},
-         {a.name, b.name, link.distance_m, std::string(link.line.visible() ? "visible" : "hidden"), clearance,
-          fraction}});
+         {a.name, b.name, link.distance_m, std::string(link.visible ? "visible" : "hidden"), clearance, fraction}});
   }
   return layer;
 }
@@ -219,13 +207,13 @@ Document site_document(const SiteResult& r, const StoreMetadata& metadata) {
   }
   document["links"] = Document::array();
   for (const SiteLink& link : r.links) {
-    Document entry{{"from", link_end(r, link.from)},
-                   {"to", link.to ? link_end(r, *link.to) : "hub"},
+    Document entry{{"from", link.from.name},
+                   {"to", link.to.name},
                    {"distance_m", link.distance_m},
-                   {"verdict", link.line.visible() ? "visible" : "hidden"}};
+                   {"verdict", link.visible ? "visible" : "hidden"}};
     if (link.line.clearance) entry["clearance_m"] = *link.line.clearance;
     if (link.line.fresnel_fraction) entry["fresnel_fraction"] = *link.line.fresnel_fraction;
-    if (r.options.frequency_ghz) entry["clear"] = is_clear(r, link);
+    if (r.options.frequency_ghz) entry["clear"] = link.clear;
     document["links"].push_back(std::move(entry));
   }
   return document;

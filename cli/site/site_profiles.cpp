@@ -52,8 +52,7 @@ profile::LosReport report_of(const Store& store, const SiteOptions& options, con
 
 }  // namespace
 
-std::vector<SiteProfile> write_site_profiles(const Store& store, const SiteResult& r,
-                                             const std::optional<SiteStand>& hub, const std::string& directory,
+std::vector<SiteProfile> write_site_profiles(const Store& store, const SiteResult& r, const std::string& directory,
                                              bool overwrite, Progress& progress) {
   namespace fs = std::filesystem;
   const fs::path folder = fs::path(directory) / "links";
@@ -61,9 +60,8 @@ std::vector<SiteProfile> write_site_profiles(const Store& store, const SiteResul
   std::set<std::string> taken;
   for (const SiteLink& link : r.links) {
     progress.throw_if_cancelled();
-    if (!link.line.visible() || link.distance_m == 0) continue;
-    const SiteStand& from = r.stand(r.choice.chosen[link.from]);
-    const SiteStand& to = link.to ? r.stand(r.choice.chosen[*link.to]) : *hub;
+    if (!link.visible || link.distance_m == 0) continue;
+    const SiteStand &from = link.from, &to = link.to;
     std::error_code failed;
     fs::create_directory(folder, failed);
     if (failed) throw FileError(folder.string(), "cannot be made (" + failed.message() + "); name another place");

@@ -1,7 +1,6 @@
-// Profiles of the links between chosen sites.
+// Profiles of the links between sites.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +19,7 @@ struct SiteProfile {
 
 /// Draws the links in sight, as `itin los --report` does, into the folder `links` of the directory. In the order of the
 /// result's links. Throws FileError, Cancelled.
-std::vector<SiteProfile> write_site_profiles(const Store& store, const SiteResult& result,
-                                             const std::optional<viewshed::SiteStand>& hub,
-                                             const std::string& directory, bool overwrite, Progress& progress);
+std::vector<SiteProfile> write_site_profiles(const Store& store, const SiteResult& result, const std::string& directory,
+                                             bool overwrite, Progress& progress);
 
 }  // namespace itin::cli

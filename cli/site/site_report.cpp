@@ -138,9 +138,7 @@ std::string closest_html(const SiteResult& r) {
 std::string links_html(const SiteResult& r) {
   HtmlTable table({"From", "To", "Verdict", "km", "Clearance m", "of F1"}, 3);
   for (const SiteLink& link : r.links) {
-    table.add({r.stand(r.choice.chosen[link.from]).name,
-               link.to ? r.stand(r.choice.chosen[*link.to]).name : std::string("hub"), outcome_of(r.options, link),
-               fmt::format("{:.2f}", link.distance_m / 1000),
+    table.add({link.from.name, link.to.name, outcome_of(r.options, link), fmt::format("{:.2f}", link.distance_m / 1000),
                link.line.clearance ? fmt::format("{:+.1f}", *link.line.clearance) : "",
                link.line.fresnel_fraction ? fmt::format("{:+.2f}", *link.line.fresnel_fraction) : ""});
   }

@@ -97,14 +97,10 @@ viewshed::SiteSurvey site_survey(const SiteOptions& options, const SiteInputs& i
   return survey;
 }
 
-LinkRules link_rules(const SiteOptions& options) {
-  return {options.themes.choice(), options.earth.earth(), options.criterion()};
-}
-
 const char* outcome_of(const SiteOptions& options, const SiteLink& link) {
-  if (!link.line.visible()) return "hidden";
+  if (!link.visible) return "hidden";
   if (!options.frequency_ghz) return "visible";
-  return link_rules(options).met_by(link.line) ? "clear" : "in sight, zone cut";
+  return link.clear ? "clear" : "in sight, zone cut";
 }
 
 std::size_t SiteResult::refined() const {
@@ -125,7 +121,10 @@ std::string SiteResult::reason(std::size_t option) const {
   if (!margin) return "out of the question at every step (spacing, links, cost, or another mast of its place)";
   const double unit = inputs.demand.in_metric(1);
   return fmt::format("at step {} it gains {} {:.10g}{}, the one taken {:.10g}", margin->step + 1,
-                     exact ? "exactly" : "at most", margin->upper * unit, options.budget ? " a unit of cost" : "",
+                     exact ? "exactly" : "at most", margin->upper * unit,
+                     options.budget         ? " a unit of cost"
+                     : options.intervisible ? " per site of its way"
+                                            : "",
                      margin->chosen * unit);
 }
 
@@ -142,24 +141,6 @@ SiteRasters site_rasters(const Store& store, const SiteOptions& options, const S
   for (std::size_t i = 0; i < sites.size(); ++i)
     best.add(inputs.stands[sites[i]], static_cast<std::uint16_t>(i + 1), cells.served[i]);
   return std::move(best).rasters();
-}
-
-std::vector<SiteLink> site_links(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
-                                 const viewshed::Choice& choice, const std::optional<SiteStand>& hub,
-                                 Progress& progress) {
-  const SiteLinks links(store, link_rules(options), progress);
-  std::vector<SiteLink> result;
-  const auto add = [&](std::size_t from, std::optional<std::size_t> to, const SiteStand& a, const SiteStand& b) {
-    result.push_back(
-        {from, to, std::hypot(a.position.x - b.position.x, a.position.y - b.position.y), links.between(a, b)});
-  };
-  for (std::size_t i = 0; i < choice.chosen.size(); ++i) {
-    const SiteStand& a = inputs.stands[choice.chosen[i].option];
-    for (std::size_t j = i + 1; j < choice.chosen.size(); ++j) add(i, j, a, inputs.stands[choice.chosen[j].option]);
-    if (hub) add(i, std::nullopt, a, *hub);
-    progress.report("links", static_cast<double>(i + 1) / static_cast<double>(choice.chosen.size()));
-  }
-  return result;
 }
 
 }  // namespace itin::cli

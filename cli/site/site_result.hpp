@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include <profile/line_of_sight.hpp>
 #include <viewshed/site_coverage.hpp>
 #include <viewshed/siting.hpp>
 
@@ -12,14 +11,6 @@
 #include "site/site_links.hpp"
 
 namespace itin::cli {
-
-/// A line of sight between two chosen sites, or a site and the hub.
-struct SiteLink {
-  std::size_t from = 0;             ///< in the order of choice
-  std::optional<std::size_t> to{};  ///< none: the hub
-  double distance_m = 0;
-  profile::SightLine line;
-};
 
 /// For links: "clear" as served is meant, "hidden", or in sight only.
 const char* outcome_of(const SiteOptions& options, const SiteLink& link);
@@ -64,11 +55,5 @@ viewshed::SiteSurvey site_survey(const SiteOptions& options, const SiteInputs& i
 /// From exact coverage (or what is certain of it) of the chosen and the existing sites.
 SiteRasters site_rasters(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
                          const viewshed::SiteCoverage& coverage, const viewshed::Choice& choice, Progress& progress);
-
-LinkRules link_rules(const SiteOptions& options);
-/// Between all chosen sites, and to the hub.
-std::vector<SiteLink> site_links(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
-                                 const viewshed::Choice& choice, const std::optional<viewshed::SiteStand>& hub,
-                                 Progress& progress);
 
 }  // namespace itin::cli

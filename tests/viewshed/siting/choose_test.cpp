@@ -1,9 +1,7 @@
 // The choice on bounds against greedy, swaps and the optimum of exact coverage, done the slow way.
 #include <algorithm>
 #include <iostream>
-#include <map>
 #include <random>
-#include <set>
 
 #include <gtest/gtest.h>
 
@@ -11,107 +9,27 @@
 #include <viewshed/siting.hpp>
 
 #include "support/seed.hpp"
+#include "viewshed/siting/simulated_siting.hpp"
 
 namespace itin::viewshed {
 namespace {
 
-using Truth = std::vector<std::vector<bool>>;  ///< options by elements
+using test::Instance;
+using test::options_of;
+using test::set_of;
+using test::Simulated;
+using test::Truth;
 
-DemandSet set_of(const std::vector<bool>& members) {
-  DemandSet set;
-  for (std::size_t first = 0; first < members.size(); first += 64) {
-    std::uint64_t word = 0;
-    for (std::size_t i = first; i < std::min(members.size(), first + 64); ++i)
-      if (members[i]) word |= std::uint64_t{1} << (i - first);
-    set.add(static_cast<std::uint32_t>(first / 64), word);
-  }
-  return set;
+bool all_pairs(const std::vector<std::size_t>& chosen, const auto& compatible) {
+  for (const std::size_t a : chosen)
+    for (const std::size_t b : chosen)
+      if (a < b && !compatible(a, b)) return false;
+  return true;
 }
-
-/// Bounds that close in three steps, at random.
-class Simulated final : public Coverage {
- public:
-  Simulated(const Truth& truth, double doubt, std::mt19937& random) : truth_(truth), bounds_(truth.size()) {
-    std::bernoulli_distribution unsure(doubt);
-    for (std::size_t i = 0; i < truth.size(); ++i) {
-      std::vector<bool> certain = truth[i], possible = truth[i];
-      for (std::size_t e = 0; e < truth[i].size(); ++e)
-        if (unsure(random)) certain[e] = false, possible[e] = true;
-      bounds_[i] = {set_of(certain), set_of(possible), false};
-    }
-  }
-  const CoverageBounds& bounds(std::size_t option) const override { return bounds_[option]; }
-  void refine(std::span<const std::size_t> options) override {
-    for (const std::size_t option : options) {
-      EXPECT_FALSE(bounds_[option].exact);
-      const DemandSet exact = set_of(truth_[option]);
-      if (++steps_[option] == 2) {
-        bounds_[option] = {exact, exact, true};
-      } else {
-        // Half of the doubt goes.
-        const std::size_t half = truth_[option].size() / 2;
-        std::vector<bool> certain(truth_[option].size()), possible = certain;
-        for (std::size_t e = 0; e < certain.size(); ++e) {
-          certain[e] = e < half ? truth_[option][e] : bounds_[option].certain.contains(e);
-          possible[e] = e < half ? truth_[option][e] : bounds_[option].possible.contains(e);
-        }
-        bounds_[option] = {set_of(certain), set_of(possible), false};
-      }
-      refined_.insert(option);
-    }
-  }
-  std::size_t refined() const { return refined_.size(); }
-
- private:
-  const Truth& truth_;
-  std::vector<CoverageBounds> bounds_;
-  std::map<std::size_t, int> steps_;
-  std::set<std::size_t> refined_;
-};
-
-struct Instance {
-  Truth truth;
-  std::vector<double> weights;
-  std::vector<SiteOption> options;
-
-  Instance(std::size_t sites, std::size_t elements, std::size_t heights, std::mt19937& random) {
-    std::uniform_real_distribution<double> share(0.02, 0.3);
-    std::uniform_int_distribution<int> weight(0, 4), cost(1, 6);
-    for (std::size_t e = 0; e < elements; ++e) weights.push_back(weight(random) * 0.25);
-    for (std::size_t s = 0; s < sites; ++s) {
-      std::vector<bool> sees(elements);
-      for (std::size_t h = 0; h < heights; ++h) {
-        std::bernoulli_distribution more(share(random));
-        for (std::size_t e = 0; e < elements; ++e) sees[e] = sees[e] || more(random);
-        truth.push_back(sees);
-        options.push_back({s, static_cast<double>(cost(random))});
-      }
-    }
-  }
-
-  double sum(const std::vector<std::size_t>& chosen, int cover, bool capped) const {
-    double result = 0;
-    for (std::size_t e = 0; e < weights.size(); ++e) {
-      int seen = 0;
-      for (const std::size_t option : chosen) seen += truth[option][e];
-      result += weights[e] * (capped ? std::min(seen, cover) : static_cast<int>(seen >= cover));
-    }
-    return result;
-  }
-  double cost(const std::vector<std::size_t>& chosen) const {
-    double result = 0;
-    for (const std::size_t option : chosen) result += options[option].cost;
-    return result;
-  }
-  bool same_place(std::size_t option, const std::vector<std::size_t>& chosen) const {
-    return std::any_of(chosen.begin(), chosen.end(),
-                       [&](std::size_t other) { return options[other].place == options[option].place; });
-  }
-};
 
 bool within(const Instance& instance, const ChoiceGoal& goal, const std::vector<std::size_t>& chosen) {
   return (!goal.count || chosen.size() <= *goal.count) && (!goal.budget || instance.cost(chosen) <= *goal.budget) &&
-         (!goal.holds_together || goal.holds_together(chosen));
+         (!goal.compatible || all_pairs(chosen, goal.compatible));
 }
 
 std::vector<std::size_t> slow_greedy(const Instance& instance, const ChoiceGoal& goal, bool per_cost) {
@@ -156,11 +74,6 @@ void slow_swaps(const Instance& instance, const ChoiceGoal& goal, std::vector<st
 std::vector<std::size_t> sorted(std::vector<std::size_t> v) {
   std::sort(v.begin(), v.end());
   return v;
-}
-std::vector<std::size_t> options_of(const Choice& choice) {
-  std::vector<std::size_t> result;
-  for (const ChosenSite& site : choice.chosen) result.push_back(site.option);
-  return result;
 }
 
 /// By trying every set.
@@ -288,24 +201,17 @@ TEST_F(Choosing, AWantedShareEndsTheChoiceAndLeavesNothingNeedless) {
   }
 }
 
-TEST_F(Choosing, RulesOnWhoMayJoinHold) {
+TEST_F(Choosing, NoTwoThatExcludeEachOtherAreChosen) {
   for (int trial = 0; trial < 40; ++trial) {
     const Instance instance(30, 100, 1, random_);
     ChoiceGoal goal{.count = 5};
     goal.swaps = false;
-    goal.may_join = [](std::size_t option, std::span<const std::size_t> chosen) {
-      return std::all_of(chosen.begin(), chosen.end(), [&](std::size_t c) { return (c ^ option) % 8 != 0; });
-    };
-    goal.holds_together = [&](std::span<const std::size_t> chosen) {
-      for (std::size_t i = 0; i < chosen.size(); ++i)
-        if (!goal.may_join(chosen[i], chosen.first(i))) return false;
-      return true;
-    };
+    goal.compatible = [](std::size_t a, std::size_t b) { return (a ^ b) % 8 != 0; };
     const Choice choice = choose_on_bounds(instance, goal, 0.3);
     ASSERT_EQ(options_of(choice), slow_greedy(instance, goal, false));
     goal.swaps = true;
     const std::vector<std::size_t> swapped = options_of(choose_on_bounds(instance, goal, 0.3));
-    EXPECT_TRUE(goal.holds_together(swapped));
+    EXPECT_TRUE(all_pairs(swapped, goal.compatible));
   }
 }
 

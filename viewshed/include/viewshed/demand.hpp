@@ -42,6 +42,8 @@ class DemandSet {
 
 /// Contains the members of both. O(blocks).
 DemandSet intersection(const DemandSet& a, const DemandSet& b);
+/// Contains the members of either. O(blocks).
+DemandSet set_union(const DemandSet& a, const DemandSet& b);
 /// Whether every member of `a` is one of `b`.
 bool is_subset(const DemandSet& a, const DemandSet& b);
 

@@ -14,10 +14,14 @@
 //
 // An element served by fewer than `cover` sites counts for nothing in the value; greedy and swaps work on the sum of
 // min(served, cover), of which it is a bound, and which is submodular.
+//
+// Over a network of links a step takes an option with the relays on its cheapest way, the best by gain per site (or per
+// unit of cost), and sites that have become needless are given up. Every choice on the way is connected.
 #pragma once
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -49,6 +53,32 @@ class Coverage {
   virtual void refine(std::span<const std::size_t> options) = 0;
 };
 
+/// Links among sites, which are numbered: the options first, behind them those that stand already. Keeps what it has
+/// learned of them. Not for concurrent use.
+class LinkNetwork {
+ public:
+  /// Says which of `others` a site has links with. A link has no direction; each pair is asked about once at most.
+  using Linked = std::function<std::vector<std::size_t>(std::size_t site, std::span<const std::size_t> others)>;
+  /// `hub` is one of the sites that stand: every chosen site must reach it by chosen and standing sites. Without a hub
+  /// the chosen ones must reach each other so.
+  LinkNetwork(std::size_t options, std::size_t standing, std::optional<std::size_t> hub, Linked linked);
+
+  std::size_t options() const { return options_; }
+  std::size_t sites() const { return sites_; }
+  std::optional<std::size_t> hub() const { return hub_; }
+  /// Those of `others` that the site has links with.
+  std::vector<std::size_t> linked(std::size_t site, std::span<const std::size_t> others);
+
+ private:
+  enum class Link : unsigned char { kUnknown, kNone, kThere };
+  Link& between(std::size_t a, std::size_t b);
+
+  std::size_t options_, sites_;
+  std::optional<std::size_t> hub_;
+  Linked ask_;
+  std::vector<Link> links_;  ///< of each pair
+};
+
 struct ChoiceGoal {
   // At least one; the choice ends at the first that is reached.
   std::optional<std::size_t> count{};
@@ -58,10 +88,8 @@ struct ChoiceGoal {
   std::vector<DemandSet> existing{};
   bool exact_chosen = true;  ///< false: bounds of chosen sites may stay open, and there are no swaps
   bool swaps = true;
-  /// Whether an option may join those chosen so far; and whether a whole choice holds together (after a swap). Where
-  /// not given, everything may.
-  std::function<bool(std::size_t option, std::span<const std::size_t> chosen)> may_join{};
-  std::function<bool(std::span<const std::size_t> chosen)> holds_together{};
+  std::function<bool(std::size_t a, std::size_t b)> compatible{};  ///< may both be chosen; not given: any two may
+  std::shared_ptr<LinkNetwork> network{};                          ///< holds the choice together; none: nothing need
   std::size_t batch = 2;  ///< options refined together, at most; changes the speed, never the answer
 };
 
@@ -87,7 +115,10 @@ struct Choice {
   std::vector<std::optional<Margin>> closest;  ///< of each option: the step at which it came nearest to being taken
 };
 
-/// Throws InputError for a goal without an end, Cancelled, and whatever refine() throws.
+/// Throws InputError for a goal without an end, and Error where no choice within the goal reaches the network's hub.
+void check_goal(const std::vector<SiteOption>& options, const ChoiceGoal& goal);
+
+/// Throws what check_goal() throws, Cancelled, and whatever refine() and the network throw.
 Choice choose(const Demand& demand, const std::vector<SiteOption>& options, Coverage& coverage, const ChoiceGoal& goal,
               Progress& progress);
 

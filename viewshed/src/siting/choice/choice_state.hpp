@@ -1,6 +1,7 @@
 // A choice on its way: what is given, what is chosen so far, and what the next site would gain, between bounds.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -11,22 +12,17 @@
 
 namespace itin::viewshed {
 
-struct ChoiceProblem {
-  const Demand& demand;
+/// What may be chosen, whatever it serves.
+struct ChoiceRules {
   const std::vector<SiteOption>& options;
-  Coverage& coverage;
   const ChoiceGoal& goal;
-  Progress& progress;
 
   bool may_join(std::size_t option, std::span<const std::size_t> chosen) const {
-    return !goal.may_join || goal.may_join(option, chosen);
+    return !goal.compatible ||
+           std::all_of(chosen.begin(), chosen.end(), [&](std::size_t c) { return goal.compatible(option, c); });
   }
-  bool holds_together(std::span<const std::size_t> chosen) const {
-    return !goal.holds_together || goal.holds_together(chosen);
-  }
-  void refine_fully(std::size_t option) const {
-    while (!coverage.bounds(option).exact) coverage.refine({&option, 1});
-  }
+  /// Whether a whole choice is allowed, but for its cost.
+  bool holds_together(std::span<const std::size_t> chosen) const;
   double cost_of(std::span<const std::size_t> chosen) const {
     double sum = 0;
     for (const std::size_t option : chosen) sum += options[option].cost;
@@ -38,6 +34,16 @@ struct ChoiceProblem {
     for (const std::size_t other : chosen)
       if (options[other].place == options[option].place) return true;
     return false;
+  }
+};
+
+struct ChoiceProblem : ChoiceRules {
+  const Demand& demand;
+  Coverage& coverage;
+  Progress& progress;
+
+  void refine_fully(std::size_t option) const {
+    while (!coverage.bounds(option).exact) coverage.refine({&option, 1});
   }
 };
 
@@ -53,10 +59,13 @@ struct ServedBounds {
   void add(const CoverageBounds& bounds) { least.add(bounds.certain), most.add(bounds.possible); }
 };
 
-/// Adds sites to `chosen` until the goal is reached or nothing is gained: the best by gain, or by gain a unit of cost.
-/// `closest` is kept up to date.
-void extend_greedily(const ChoiceProblem& problem, bool per_cost, std::vector<std::size_t>& chosen,
-                     std::vector<std::optional<Margin>>& closest);
+/// What greedy steps are compared by: a step takes an option, over a network with the relays on its way.
+enum class StepMeasure { kGain, kGainPerSite, kGainPerCost };
+
+/// Adds sites to `chosen` until the goal is reached or nothing is gained: the best by the measure, and none of the
+/// barred. `closest` is kept up to date.
+void extend_greedily(const ChoiceProblem& problem, StepMeasure measure, const std::vector<bool>& barred,
+                     std::vector<std::size_t>& chosen, std::vector<std::optional<Margin>>& closest);
 
 /// Exchanges chosen sites for better ones, the best exchange first, until none gains. Returns how many. Every chosen
 /// one must be exact.
@@ -64,6 +73,12 @@ std::size_t swap(const ChoiceProblem& problem, std::vector<std::size_t>& chosen)
 
 /// Leaves out sites, the least useful first, as long as the wanted value is reached without them.
 void drop_needless(const ChoiceProblem& problem, std::vector<std::size_t>& chosen);
+
+/// Gives up sites that serve nothing by themselves and that no link needs. Returns how many.
+std::size_t drop_idle(const ChoiceProblem& problem, std::vector<std::size_t>& chosen);
+
+/// A bound on the value of every choice of `open` options within the goal, by their gains alone.
+Weight bound_gains(const ChoiceProblem& problem, const std::vector<bool>& open);
 
 /// A bound on the value of every choice within the goal, from those that begin with a prefix of `chosen`.
 Weight bound_optimum(const ChoiceProblem& problem, std::span<const std::size_t> chosen);

@@ -42,6 +42,18 @@ DemandSet intersection(const DemandSet& a, const DemandSet& b) {
   return result;
 }
 
+DemandSet set_union(const DemandSet& a, const DemandSet& b) {
+  DemandSet result;
+  auto x = a.blocks().begin(), y = b.blocks().begin();
+  while (x != a.blocks().end() || y != b.blocks().end()) {
+    const bool from_a = y == b.blocks().end() || (x != a.blocks().end() && x->number <= y->number);
+    const bool from_b = x == a.blocks().end() || (y != b.blocks().end() && y->number <= x->number);
+    const std::uint32_t number = from_a ? x->number : y->number;
+    result.add(number, (from_a ? x++->members : 0) | (from_b ? y++->members : 0));
+  }
+  return result;
+}
+
 bool is_subset(const DemandSet& a, const DemandSet& b) {
   return intersection(a, b) == a;
 }

@@ -4,17 +4,18 @@
 #include <itin/parallel.hpp>
 
 #include "siting/choice/choice_state.hpp"
+#include "siting/choice/ways.hpp"
 
 namespace itin::viewshed {
 
 namespace {
 
-/// The gain of an option, per unit of cost where that counts.
+/// The gain of an option with the relays on its way, by the measure of steps.
 struct Bid {
   std::size_t option = 0;
   double upper = 0;
   double lower = 0;
-  bool open = true;  ///< may be taken at all
+  bool open = false;  ///< may be taken at all
 
   friend bool operator<(const Bid& a, const Bid& b) {
     return a.upper != b.upper ? a.upper > b.upper : a.option < b.option;
@@ -27,9 +28,15 @@ struct Bid {
 
 class Greedy {
  public:
-  Greedy(const ChoiceProblem& problem, bool per_cost, std::vector<std::size_t>& chosen,
-         std::vector<std::optional<Margin>>& closest)
-      : problem_(problem), per_cost_(per_cost), chosen_(chosen), closest_(closest), served_(problem, chosen) {}
+  Greedy(const ChoiceProblem& problem, StepMeasure measure, const std::vector<bool>& barred,
+         std::vector<std::size_t>& chosen, std::vector<std::optional<Margin>>& closest)
+      : problem_(problem),
+        measure_(measure),
+        barred_(barred),
+        chosen_(chosen),
+        closest_(closest),
+        served_(problem, chosen),
+        ways_(next_ways()) {}
 
   void run() {
     while (!reached()) {
@@ -57,21 +64,35 @@ class Greedy {
                                static_cast<double>(chosen_.size()) / static_cast<double>(*problem_.goal.count));
   }
 
+  Ways next_ways() const {
+    const WayRules rules{.most_sites = problem_.goal.count.value_or(problem_.options.size()),
+                         .by_cost = measure_ == StepMeasure::kGainPerCost};
+    return ways_to_options(problem_, chosen_, rules, barred_);
+  }
+
+  double unit_of(const Way& way) const {
+    if (measure_ == StepMeasure::kGain) return 1;
+    return measure_ == StepMeasure::kGainPerCost ? way.cost : static_cast<double>(way.sites);
+  }
+
   Bid bid(std::size_t option) const {
-    Bid result{.option = option};
-    const SiteOption& site = problem_.options[option];
-    result.open = !problem_.place_taken(option, chosen_) && problem_.affordable(spent_ + site.cost);
-    if (!result.open) return result;
-    const CoverageBounds& bounds = problem_.coverage.bounds(option);
-    const double unit = per_cost_ ? site.cost : 1;
-    result.upper = static_cast<double>(served_.least.gain(bounds.possible)) / unit;
-    result.lower =
-        bounds.exact && all_exact_ ? result.upper : static_cast<double>(served_.most.gain(bounds.certain)) / unit;
-    return result;
+    const std::optional<Way>& way = ways_[option];
+    if (!way) return {.option = option};
+    std::vector<const DemandSet*> certain, possible;
+    bool exact = all_exact_;
+    for (const std::size_t site : ways_.to(option)) {
+      const CoverageBounds& bounds = problem_.coverage.bounds(site);
+      certain.push_back(&bounds.certain), possible.push_back(&bounds.possible);
+      exact = exact && bounds.exact;
+    }
+    const double unit = unit_of(*way);
+    const double upper = static_cast<double>(served_.least.gain(possible)) / unit;
+    const double lower = exact ? upper : static_cast<double>(served_.most.gain(certain)) / unit;
+    return {.option = option, .upper = upper, .lower = lower, .open = true};
   }
 
   std::vector<Bid> all_bids() {
-    spent_ = problem_.cost_of(chosen_);
+    ways_ = next_ways();
     all_exact_ = std::all_of(chosen_.begin(), chosen_.end(),
                              [&](std::size_t option) { return problem_.coverage.bounds(option).exact; });
     std::vector<Bid> bids(problem_.options.size());
@@ -106,7 +127,7 @@ class Greedy {
     double known = 0;
     for (const Bid& b : order.first(std::min(order.size(), 4 * problem_.goal.batch))) {
       if (b.upper < known || batch.size() >= problem_.goal.batch) break;
-      if (!problem_.coverage.bounds(b.option).exact && problem_.may_join(b.option, chosen_)) batch.push_back(b.option);
+      if (problem_.may_join(b.option, chosen_)) add_open(ways_.to(b.option), batch);
       known = std::max(known, b.lower);
     }
     if (!batch.empty()) {
@@ -115,11 +136,17 @@ class Greedy {
       return;
     }
     // Both are exact: what the chosen ones serve is not.
-    for (const std::size_t option : chosen_)
-      if (!problem_.coverage.bounds(option).exact) batch.push_back(option);
+    add_open(chosen_, batch);
     problem_.coverage.refine(batch);
     served_ = ServedBounds(problem_, chosen_);
     bids = all_bids();
+  }
+
+  /// Adds those of the options whose bounds are open.
+  void add_open(std::span<const std::size_t> options, std::vector<std::size_t>& batch) const {
+    for (const std::size_t option : options)
+      if (!problem_.coverage.bounds(option).exact && std::find(batch.begin(), batch.end(), option) == batch.end())
+        batch.push_back(option);
   }
 
   void remember(const std::vector<Bid>& order, const Bid& taken) {
@@ -133,25 +160,28 @@ class Greedy {
   }
 
   void take(const Bid& next) {
-    if (problem_.goal.exact_chosen || problem_.goal.wanted) problem_.refine_fully(next.option);
-    chosen_.push_back(next.option);
-    served_.add(problem_.coverage.bounds(next.option));
+    for (const std::size_t option : ways_.to(next.option)) {
+      if (problem_.goal.exact_chosen || problem_.goal.wanted) problem_.refine_fully(option);
+      chosen_.push_back(option);
+      served_.add(problem_.coverage.bounds(option));
+    }
   }
 
   const ChoiceProblem& problem_;
-  bool per_cost_;
+  StepMeasure measure_;
+  const std::vector<bool>& barred_;
   std::vector<std::size_t>& chosen_;
   std::vector<std::optional<Margin>>& closest_;
   ServedBounds served_;
-  double spent_ = 0;
+  Ways ways_;  ///< from what is chosen
   bool all_exact_ = true;
 };
 
 }  // namespace
 
-void extend_greedily(const ChoiceProblem& problem, bool per_cost, std::vector<std::size_t>& chosen,
-                     std::vector<std::optional<Margin>>& closest) {
-  Greedy(problem, per_cost, chosen, closest).run();
+void extend_greedily(const ChoiceProblem& problem, StepMeasure measure, const std::vector<bool>& barred,
+                     std::vector<std::size_t>& chosen, std::vector<std::optional<Margin>>& closest) {
+  Greedy(problem, measure, barred, chosen, closest).run();
 }
 
 }  // namespace itin::viewshed

@@ -6,6 +6,7 @@
 
 #include "siting/choice/choice_state.hpp"
 #include "siting/choice/greatest_gain.hpp"
+#include "siting/choice/ways.hpp"
 
 namespace itin::viewshed {
 
@@ -59,6 +60,15 @@ GreatestGain greatest_gain(const ChoiceProblem& problem, const Served& served, c
   return result;
 }
 
+Weight bound_gains(const ChoiceProblem& problem, const std::vector<bool>& open) {
+  Served served(problem.demand, problem.goal.cover);
+  Weight sum = 0;
+  for (const DemandSet& set : problem.goal.existing) sum += served.gain(set), served.add(set);
+  const Weight existing = served.value();
+  sum += greatest_gain(problem, served, open, problem.goal.count.value_or(problem.options.size()), 0).sum;
+  return sum / problem.goal.cover - existing;
+}
+
 Weight bound_optimum(const ChoiceProblem& problem, std::span<const std::size_t> chosen) {
   const int cover = problem.goal.cover;
   std::size_t count = problem.options.size();
@@ -74,19 +84,20 @@ Weight bound_optimum(const ChoiceProblem& problem, std::span<const std::size_t> 
   }
   known = sum;
   const Weight existing = served.value();
-  for (std::size_t i = 0; i < problem.options.size(); ++i) everything.add(problem.coverage.bounds(i).possible);
+  const std::vector<bool> open = extensions(problem, {}, {}, count).open;
+  for (std::size_t i = 0; i < problem.options.size(); ++i)
+    if (open[i] || !problem.goal.network) everything.add(problem.coverage.bounds(i).possible);
   Weight bound = everything.value() - existing;
-  const std::vector<bool> all(problem.options.size(), true);
   const auto tighten = [&](Weight most) { bound = std::min(bound, most / cover - existing); };
   for (const std::size_t option : chosen) {
-    tighten(sum + greatest_gain(problem, served, all, count, 0).sum);
+    tighten(sum + greatest_gain(problem, served, open, count, 0).sum);
     // With open bounds: what may be served counts in the sum, what certainly is leaves nothing to gain.
     const CoverageBounds& bounds = problem.coverage.bounds(option);
     sum += served.gain(bounds.possible);
     known += served.gain(bounds.certain);
     served.add(bounds.certain);
   }
-  tighten(sum + greatest_gain(problem, served, all, count, 0).sum);
+  tighten(sum + greatest_gain(problem, served, open, count, 0).sum);
   tighten(search_optimum(problem, count, known));
   return bound;
 }

@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <cmath>
 #include <queue>
 #include <tuple>
 
 #include "siting/choice/choice_state.hpp"
 #include "siting/choice/greatest_gain.hpp"
+#include "siting/choice/ways.hpp"
 
 namespace itin::viewshed {
 
@@ -16,9 +18,9 @@ constexpr std::size_t kMostNodes = 5000;
 /// Choices that hold some options and none of some others.
 struct Node {
   Weight bound = 0;  ///< of the sum of min(served, cover) over all of them
-  std::vector<std::uint32_t> in, out;
-  std::uint32_t branch = 0;  ///< the option of the greatest gain
-  bool complete = false;     ///< nothing can be added
+  std::vector<std::size_t> in, out;
+  std::size_t branch = 0;  ///< the option of the greatest gain, or the first on the way to it
+  bool complete = false;   ///< nothing can be added
 
   friend bool operator<(const Node& a, const Node& b) {
     if (a.bound != b.bound) return a.bound < b.bound;
@@ -36,7 +38,8 @@ class Search {
     double blocks = 0;
     for (std::size_t i = 0; i < problem.options.size(); ++i)
       blocks += static_cast<double>(problem.coverage.bounds(i).possible.blocks().size());
-    const double node = 2 * std::max(blocks, 1.0) + static_cast<double>(problem.demand.block_count()) * 40;
+    double node = 2 * std::max(blocks, 1.0) + static_cast<double>(problem.demand.block_count()) * 40;
+    if (problem.goal.network) node += std::pow(static_cast<double>(problem.goal.network->sites()), 2);
     most_nodes_ = std::min(kMostNodes, static_cast<std::size_t>(kWork / node));
   }
 
@@ -49,7 +52,7 @@ class Search {
       const Node best = open.top();
       if (best.complete || best.bound <= known || nodes >= most_nodes_) return std::max(best.bound, known);
       open.pop();
-      std::vector<std::uint32_t> in = best.in, out = best.out;
+      std::vector<std::size_t> in = best.in, out = best.out;
       in.push_back(best.branch);
       out.push_back(best.branch);
       open.push(evaluate(std::move(in), best.out, count));
@@ -58,25 +61,24 @@ class Search {
   }
 
  private:
-  Node evaluate(std::vector<std::uint32_t> in, std::vector<std::uint32_t> out, std::size_t count) const {
+  Node evaluate(std::vector<std::size_t> in, std::vector<std::size_t> out, std::size_t count) const {
     Served served = nothing_;
     Weight sum = existing_;
     double spent = 0;
-    std::vector<bool> open(problem_.options.size(), true);
-    for (const std::uint32_t option : in) {
+    for (const std::size_t option : in) {
       const DemandSet& set = problem_.coverage.bounds(option).possible;
       sum += served.gain(set);
       served.add(set);
       spent += problem_.options[option].cost;
-      for (std::size_t other = 0; other < open.size(); ++other)
-        if (problem_.options[other].place == problem_.options[option].place) open[other] = false;
     }
-    for (const std::uint32_t option : out) open[option] = false;
-    const GreatestGain most = greatest_gain(problem_, served, open, count - in.size(), spent);
+    std::vector<bool> barred(problem_.options.size());
+    for (const std::size_t option : out) barred[option] = true;
+    const Extensions further = extensions(problem_, in, barred, count);
+    const GreatestGain most = greatest_gain(problem_, served, further.open, count - in.size(), spent);
     return {.bound = sum + most.sum,
             .in = std::move(in),
             .out = std::move(out),
-            .branch = static_cast<std::uint32_t>(most.best),
+            .branch = further.first[most.best],
             .complete = most.sum == 0};
   }
 

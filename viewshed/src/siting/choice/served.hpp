@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <viewshed/demand.hpp>
@@ -35,6 +36,8 @@ class Served {
     }
     return sum;
   }
+  /// The gain of several sets together: the sum over elements of as many of them as still help.
+  Weight gain(std::span<const DemandSet* const> sets) const;
   /// Served by enough sites.
   Weight value() const {
     Weight sum = 0;

@@ -104,4 +104,24 @@ void drop_needless(const ChoiceProblem& problem, std::vector<std::size_t>& chose
   }
 }
 
+std::size_t drop_idle(const ChoiceProblem& problem, std::vector<std::size_t>& chosen) {
+  if (!problem.goal.network) return 0;
+  Served served = ServedBounds(problem, chosen).least;
+  std::size_t count = 0;
+  for (std::size_t s = chosen.size(); s-- > 0;) {
+    const DemandSet& set = problem.coverage.bounds(chosen[s]).certain;
+    std::vector<std::size_t> rest = chosen;
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(s));
+    served.remove(set);
+    if (served.gain(set) == 0 && problem.holds_together(rest)) {
+      chosen = std::move(rest);
+      s = chosen.size();  // those that linked it may be idle now
+      ++count;
+    } else {
+      served.add(set);
+    }
+  }
+  return count;
+}
+
 }  // namespace itin::viewshed

@@ -1,0 +1,36 @@
+#include "siting/choice/served.hpp"
+
+#include <utility>
+
+namespace itin::viewshed {
+
+Weight Served::gain(std::span<const DemandSet* const> sets) const {
+  if (sets.size() == 1) return gain(*sets.front());
+  // Layer number n holds what more than n of the sets hold.
+  std::vector<DemandSet> layers;
+  for (const DemandSet* set : sets) {
+    DemandSet carry = *set;
+    for (DemandSet& layer : layers) {
+      DemandSet both = intersection(layer, carry);
+      layer = set_union(layer, carry);
+      carry = std::move(both);
+    }
+    if (!carry.empty()) layers.push_back(std::move(carry));
+  }
+  Weight sum = 0;
+  for (std::size_t n = 0; n < layers.size(); ++n) {
+    DemandSet helped;
+    for (const DemandSet::Block& block : layers[n].blocks()) {
+      std::uint64_t members = 0;
+      for (std::uint64_t rest = block.members; rest != 0; rest &= rest - 1) {
+        const std::size_t element = std::size_t{64} * block.number + static_cast<std::size_t>(__builtin_ctzll(rest));
+        if (counts_[element] + n < static_cast<std::size_t>(cover_)) members |= rest & -rest;
+      }
+      helped.add(block.number, members);
+    }
+    sum += demand_->weight(helped);
+  }
+  return sum;
+}
+
+}  // namespace itin::viewshed

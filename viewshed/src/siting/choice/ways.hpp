@@ -1,0 +1,58 @@
+// How options can join a choice: by themselves, or over a network together with the relays that link them with it.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "siting/choice/choice_state.hpp"
+
+namespace itin::viewshed {
+
+/// How an option is linked with a choice: by itself, or by others that must be added before it.
+struct Way {
+  std::optional<std::size_t> before{};  ///< the option before it; none: it is linked with the choice
+  std::size_t sites = 0;                ///< number of options on the way, itself included
+  double cost = 0;                      ///< of these
+};
+
+/// To each option that can be added.
+class Ways {
+ public:
+  explicit Ways(std::vector<std::optional<Way>> ways) : ways_(std::move(ways)) {}
+  const std::optional<Way>& operator[](std::size_t option) const { return ways_[option]; }
+  /// The options on the way, from the choice on. Precondition: there is one.
+  std::vector<std::size_t> to(std::size_t option) const;
+
+ private:
+  std::vector<std::optional<Way>> ways_;
+};
+
+struct WayRules {
+  std::size_t most_sites = 0;  ///< of the choice together with the way
+  bool by_cost = false;        ///< the cheapest way, otherwise the one of fewest options
+  /// For bounds: ways lead to every option that any allowed choice may hold besides the given one. They keep within the
+  /// budget if they are by cost, otherwise within the number of sites, and may hold options that exclude each other.
+  bool relaxed = false;
+};
+
+/// From a connected choice (from the hub where it is empty; without a hub everything may begin). None
+/// comes through a barred option; empty: none is barred. Options that `compatible` forbids are left out only where
+/// there is a network.
+Ways ways_to_options(const ChoiceRules& rules, std::span<const std::size_t> chosen, const WayRules& way,
+                     const std::vector<bool>& barred);
+
+/// What choices of at most `count` sites may hold that hold all of `chosen` and nothing barred.
+struct Extensions {
+  std::vector<bool> open;
+  std::vector<std::size_t> first;  ///< of each open option: what a way to it begins with
+};
+Extensions extensions(const ChoiceRules& rules, std::span<const std::size_t> chosen, const std::vector<bool>& barred,
+                      std::size_t count);
+
+/// The options that links may ever join in one choice: a set for each connected part. Where there is no network, or a
+/// hub, one set of all.
+std::vector<std::vector<bool>> separate_parts(const ChoiceRules& rules);
+
+}  // namespace itin::viewshed
