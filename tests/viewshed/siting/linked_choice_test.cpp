@@ -151,11 +151,8 @@ TEST_F(LinkedChoice, IsConnectedAndBoundedAmongAllThatAre) {
     EXPECT_DOUBLE_EQ(value, c.value(chosen));
     EXPECT_LE(value, optimum + 1e-9);
     EXPECT_GE(bound, optimum - 1e-9) << "trial " << trial;
-    if (optimum == 0) continue;
-    if (getenv("DBG") && value < 0.5 * optimum)
-      std::cout << "trial " << trial << " value " << value << " optimum " << optimum << " cover " << c.goal.cover
-                << " count " << c.goal.count.value_or(0) << " budget " << c.goal.budget.value_or(0) << " hub "
-                << c.graph.hub << " compat " << (c.goal.compatible != nullptr) << " chosen " << chosen.size() << '\n';
+    // With k-coverage the value is not what greedy and exchanges work on.
+    if (optimum == 0 || c.goal.cover > 1) continue;
     ++compared, best_found += value > optimum - 1e-9, tight += bound < optimum + 1e-6;
     worst = std::min(worst, value / optimum), sum += value / optimum;
   }
@@ -164,7 +161,7 @@ TEST_F(LinkedChoice, IsConnectedAndBoundedAmongAllThatAre) {
             << '\n';
   EXPECT_GT(unreachable, 0);
   EXPECT_GT(compared, 150);
-  EXPECT_GT(sum, 0.95 * compared);
+  EXPECT_GT(sum, 0.98 * compared);
 }
 
 TEST_F(LinkedChoice, OnBoundsIsThatOfExactCoverage) {

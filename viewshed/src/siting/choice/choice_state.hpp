@@ -16,7 +16,9 @@ namespace itin::viewshed {
 struct ChoiceRules {
   const std::vector<SiteOption>& options;
   const ChoiceGoal& goal;
+  std::vector<bool> barred{};  ///< options that are left out; empty: none is
 
+  bool is_barred(std::size_t option) const { return !barred.empty() && barred[option]; }
   bool may_join(std::size_t option, std::span<const std::size_t> chosen) const {
     return !goal.compatible ||
            std::all_of(chosen.begin(), chosen.end(), [&](std::size_t c) { return goal.compatible(option, c); });
@@ -62,10 +64,10 @@ struct ServedBounds {
 /// What greedy steps are compared by: a step takes an option, over a network with the relays on its way.
 enum class StepMeasure { kGain, kGainPerSite, kGainPerCost };
 
-/// Adds sites to `chosen` until the goal is reached or nothing is gained: the best by the measure, and none of the
-/// barred. `closest` is kept up to date.
-void extend_greedily(const ChoiceProblem& problem, StepMeasure measure, const std::vector<bool>& barred,
-                     std::vector<std::size_t>& chosen, std::vector<std::optional<Margin>>& closest);
+/// Adds sites to `chosen` until the goal is reached or nothing is gained: the best by the measure. `closest` is kept up
+/// to date.
+void extend_greedily(const ChoiceProblem& problem, StepMeasure measure, std::vector<std::size_t>& chosen,
+                     std::vector<std::optional<Margin>>& closest);
 
 /// Exchanges chosen sites for better ones, the best exchange first, until none gains. Returns how many. Every chosen
 /// one must be exact.

@@ -17,69 +17,113 @@ Weight value_of(const ChoiceProblem& problem, std::span<const std::size_t> chose
 struct Attempt {
   std::vector<std::size_t> chosen;
   std::size_t swaps = 0;
+  std::optional<std::size_t> start{};  ///< what it began with
 };
 
 /// Greedy, and swaps until neither changes anything.
-Attempt attempt(const ChoiceProblem& problem, StepMeasure measure, const std::vector<bool>& barred,
-                std::vector<std::optional<Margin>>& closest) {
+Attempt attempt(const ChoiceProblem& problem, StepMeasure measure, std::vector<std::optional<Margin>>& closest) {
   Attempt result;
   std::vector<std::size_t>& chosen = result.chosen;
-  extend_greedily(problem, measure, barred, chosen, closest);
+  extend_greedily(problem, measure, chosen, closest);
+  if (!chosen.empty()) result.start = chosen.front();
   if (!problem.goal.exact_chosen || !problem.goal.swaps) return result;
   for (;;) {
     const std::size_t swaps = swap(problem, chosen);
     if (swaps + drop_idle(problem, chosen) == 0) break;
     result.swaps += swaps;
-    extend_greedily(problem, measure, barred, chosen, closest);
+    extend_greedily(problem, measure, chosen, closest);
   }
   drop_needless(problem, chosen);
   return result;
 }
 
-/// Options that links may join, and what a choice among them can be worth.
+/// Under a budget by gain per unit of cost and by gain alone, of which the better is within a constant factor of the
+/// best (Khuller, Moss and Naor 1999); over a network also by gain per site, since ways take several.
+std::vector<StepMeasure> measures_for(const ChoiceGoal& goal) {
+  std::vector<StepMeasure> measures;
+  if (goal.budget) measures.push_back(StepMeasure::kGainPerCost);
+  if (goal.network) measures.push_back(StepMeasure::kGainPerSite);
+  measures.push_back(StepMeasure::kGain);
+  return measures;
+}
+
+/// Choices that are left to look among: of options that links may join.
 struct Part {
   std::size_t number = 0;
-  std::vector<bool> barred;  ///< all the others
-  Weight bound = 0;
+  std::vector<bool> barred;  ///< all the other options
+  Weight bound = 0;          ///< on the value
+  std::size_t starts = 1;    ///< how many more attempts begin here
 };
 
-/// The most promising first.
-std::vector<Part> parts_of(const ChoiceProblem& problem) {
-  std::vector<std::vector<bool>> sets = separate_parts(problem);
-  if (sets.size() == 1) return {Part{}};
-  std::vector<Part> parts;
-  for (std::vector<bool>& set : sets) {
-    const Weight bound = bound_gains(problem, set);
-    set.flip();
-    parts.push_back({parts.size(), std::move(set), bound});
-  }
-  std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.bound > b.bound; });
-  return parts;
-}
-
-/// The best attempt, of equals the first: in each part of the network that may hold a better one, and under a budget by
-/// gain per unit of cost and by gain alone, of which the better is within a constant factor of the best (Khuller, Moss
-/// and Naor 1999).
-Attempt best_attempt(const ChoiceProblem& problem, std::vector<std::optional<Margin>>& closest) {
-  std::vector<StepMeasure> measures{StepMeasure::kGain};
-  if (problem.goal.network) measures.insert(measures.begin(), StepMeasure::kGainPerSite);
-  if (problem.goal.budget) measures.insert(measures.begin(), StepMeasure::kGainPerCost);
-  Attempt best;
-  const Weight existing = value_of(problem, {});
-  Weight value = existing;
-  std::size_t best_part = 0;
-  for (const Part& part : parts_of(problem)) {
-    const bool enough = problem.goal.wanted && value - existing >= *problem.goal.wanted;
-    if (!best.chosen.empty() && (enough || part.bound < value - existing)) break;
-    for (const StepMeasure measure : measures) {
-      Attempt other = attempt(problem, measure, part.barred, closest);
-      const Weight reached = value_of(problem, other.chosen);
-      if (!best.chosen.empty() && (reached < value || (reached == value && part.number >= best_part))) continue;
-      best = std::move(other), value = reached, best_part = part.number;
+/// Where a hub does not say where a choice begins, the best site by itself may be a dead end: other starts follow, as
+/// long as a choice without the earlier ones can be better.
+class Attempts {
+ public:
+  Attempts(const ChoiceProblem& problem, std::vector<std::optional<Margin>>& closest)
+      : problem_(problem), closest_(closest), existing_(value_of(problem, {})) {
+    const std::vector<std::vector<bool>> sets = separate_parts(problem);
+    for (std::size_t number = 0; number < sets.size(); ++number) {
+      Part part{.number = number, .barred = sets[number]};
+      part.barred.flip();
+      if (problem.goal.network && !problem.goal.network->hub()) part.starts = kStarts;
+      rate(part);
+      parts_.push_back(std::move(part));
     }
   }
-  return best;
-}
+
+  Attempt best() && {
+    while (!parts_.empty()) {
+      const auto next = std::max_element(parts_.begin(), parts_.end(),
+                                         [](const Part& a, const Part& b) { return a.bound < b.bound; });
+      if (!best_.chosen.empty() && next->bound < worth_) break;
+      begin_in(*next);
+      if (next->starts == 0) parts_.erase(next);
+    }
+    return std::move(best_);
+  }
+
+ private:
+  static constexpr std::size_t kStarts = 8;
+
+  void rate(Part& part) const {
+    std::vector<bool> open = part.barred;
+    open.flip();
+    part.bound = bound_gains(problem_, open);
+  }
+
+  void begin_in(Part& part) {
+    ChoiceProblem problem = problem_;
+    problem.barred = part.barred;
+    part.starts -= 1;
+    for (const StepMeasure measure : measures_for(problem.goal)) {
+      Attempt other = attempt(problem, measure, closest_);
+      if (other.start) part.barred[*other.start] = true;
+      if (!other.start) part.starts = 0;
+      keep_better(std::move(other), part.number);
+    }
+    if (part.starts > 0) rate(part);
+  }
+
+  /// Of equals the one in the first part, and there the earliest: the order of parts depends on bounds.
+  void keep_better(Attempt other, std::size_t part) {
+    const Weight worth = worth_of(other);
+    if (other.chosen.empty()) return;
+    if (!best_.chosen.empty() && (worth < worth_ || (worth == worth_ && part >= part_))) return;
+    best_ = std::move(other), worth_ = worth, part_ = part;
+  }
+  Weight worth_of(const Attempt& attempt) const {
+    const Weight value = value_of(problem_, attempt.chosen) - existing_;
+    return problem_.goal.network && problem_.goal.wanted ? std::min(value, *problem_.goal.wanted) : value;
+  }
+
+  const ChoiceProblem& problem_;
+  std::vector<std::optional<Margin>>& closest_;
+  Weight existing_;
+  std::vector<Part> parts_;
+  Attempt best_;
+  Weight worth_ = 0;
+  std::size_t part_ = 0;
+};
 
 /// The order in which they gain most, each linked with those before it, and what they gain.
 std::vector<ChosenSite> in_order(const ChoiceProblem& problem, std::vector<std::size_t> rest, bool keep) {
@@ -115,7 +159,7 @@ void check_goal(const std::vector<SiteOption>& options, const ChoiceGoal& goal) 
   for (const SiteOption& option : options)
     if (!(option.cost > 0)) throw InputError("the cost of a site must be a positive number");
   if (!goal.network || !goal.network->hub()) return;
-  const std::vector<bool> open = extensions({options, goal}, {}, {}, goal.count.value_or(options.size())).open;
+  const std::vector<bool> open = extensions({options, goal, {}}, {}, goal.count.value_or(options.size())).open;
   if (std::find(open.begin(), open.end(), true) == open.end())
     throw Error(
         "`hub`: no choice reaches it: no site that may be chosen has a clear link with it, or with an existing site "
@@ -125,10 +169,10 @@ void check_goal(const std::vector<SiteOption>& options, const ChoiceGoal& goal) 
 Choice choose(const Demand& demand, const std::vector<SiteOption>& options, Coverage& coverage, const ChoiceGoal& goal,
               Progress& progress) {
   check_goal(options, goal);
-  const ChoiceProblem problem{{options, goal}, demand, coverage, progress};
+  const ChoiceProblem problem{{options, goal, {}}, demand, coverage, progress};
   Choice choice;
   choice.closest.resize(options.size());
-  Attempt best = best_attempt(problem, choice.closest);
+  Attempt best = Attempts(problem, choice.closest).best();
   choice.swaps = best.swaps;
   choice.existing = value_of(problem, {});
   choice.chosen = in_order(problem, std::move(best.chosen), choice.swaps == 0 && !goal.budget && !goal.network);

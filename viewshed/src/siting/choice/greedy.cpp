@@ -28,11 +28,10 @@ struct Bid {
 
 class Greedy {
  public:
-  Greedy(const ChoiceProblem& problem, StepMeasure measure, const std::vector<bool>& barred,
-         std::vector<std::size_t>& chosen, std::vector<std::optional<Margin>>& closest)
+  Greedy(const ChoiceProblem& problem, StepMeasure measure, std::vector<std::size_t>& chosen,
+         std::vector<std::optional<Margin>>& closest)
       : problem_(problem),
         measure_(measure),
-        barred_(barred),
         chosen_(chosen),
         closest_(closest),
         served_(problem, chosen),
@@ -67,7 +66,7 @@ class Greedy {
   Ways next_ways() const {
     const WayRules rules{.most_sites = problem_.goal.count.value_or(problem_.options.size()),
                          .by_cost = measure_ == StepMeasure::kGainPerCost};
-    return ways_to_options(problem_, chosen_, rules, barred_);
+    return ways_to_options(problem_, chosen_, rules);
   }
 
   double unit_of(const Way& way) const {
@@ -169,7 +168,6 @@ class Greedy {
 
   const ChoiceProblem& problem_;
   StepMeasure measure_;
-  const std::vector<bool>& barred_;
   std::vector<std::size_t>& chosen_;
   std::vector<std::optional<Margin>>& closest_;
   ServedBounds served_;
@@ -179,9 +177,9 @@ class Greedy {
 
 }  // namespace
 
-void extend_greedily(const ChoiceProblem& problem, StepMeasure measure, const std::vector<bool>& barred,
-                     std::vector<std::size_t>& chosen, std::vector<std::optional<Margin>>& closest) {
-  Greedy(problem, measure, barred, chosen, closest).run();
+void extend_greedily(const ChoiceProblem& problem, StepMeasure measure, std::vector<std::size_t>& chosen,
+                     std::vector<std::optional<Margin>>& closest) {
+  Greedy(problem, measure, chosen, closest).run();
 }
 
 }  // namespace itin::viewshed

@@ -84,7 +84,7 @@ Weight bound_optimum(const ChoiceProblem& problem, std::span<const std::size_t> 
   }
   known = sum;
   const Weight existing = served.value();
-  const std::vector<bool> open = extensions(problem, {}, {}, count).open;
+  const std::vector<bool> open = extensions(problem, {}, count).open;
   for (std::size_t i = 0; i < problem.options.size(); ++i)
     if (open[i] || !problem.goal.network) everything.add(problem.coverage.bounds(i).possible);
   Weight bound = everything.value() - existing;

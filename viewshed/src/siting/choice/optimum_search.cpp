@@ -71,9 +71,10 @@ class Search {
       served.add(set);
       spent += problem_.options[option].cost;
     }
-    std::vector<bool> barred(problem_.options.size());
-    for (const std::size_t option : out) barred[option] = true;
-    const Extensions further = extensions(problem_, in, barred, count);
+    ChoiceRules rules = problem_;
+    rules.barred.resize(problem_.options.size());
+    for (const std::size_t option : out) rules.barred[option] = true;
+    const Extensions further = extensions(rules, in, count);
     const GreatestGain most = greatest_gain(problem_, served, further.open, count - in.size(), spent);
     return {.bound = sum + most.sum,
             .in = std::move(in),

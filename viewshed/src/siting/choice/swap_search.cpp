@@ -38,7 +38,7 @@ std::vector<Exchange> exchanges(const ChoiceProblem& problem, const std::vector<
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(s));
     const double spent = problem.cost_of(rest);
     for (std::size_t option = 0; option < problem.options.size(); ++option) {
-      if (option == chosen[s] || problem.place_taken(option, rest) ||
+      if (option == chosen[s] || problem.is_barred(option) || problem.place_taken(option, rest) ||
           !problem.affordable(spent + problem.options[option].cost))
         continue;
       const CoverageBounds& bounds = problem.coverage.bounds(option);

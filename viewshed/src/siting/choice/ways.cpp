@@ -55,11 +55,10 @@ bool all_reached(LinkNetwork& network, std::size_t source, std::span<const std::
 
 class WaySearch {
  public:
-  WaySearch(const ChoiceRules& rules, std::span<const std::size_t> chosen, const WayRules& way,
-            const std::vector<bool>& barred)
+  WaySearch(const ChoiceRules& rules, std::span<const std::size_t> chosen, const WayRules& way)
       : rules_(rules), chosen_(chosen), way_(way), spent_(rules.cost_of(chosen)), ways_(rules.options.size()) {
     for (std::size_t option = 0; option < rules.options.size(); ++option)
-      if ((barred.empty() || !barred[option]) && !rules.place_taken(option, chosen)) candidates_.push_back(option);
+      if (!rules.is_barred(option) && !rules.place_taken(option, chosen)) candidates_.push_back(option);
   }
 
   Ways run() && {
@@ -142,20 +141,18 @@ std::vector<std::size_t> Ways::to(std::size_t option) const {
   return result;
 }
 
-Ways ways_to_options(const ChoiceRules& rules, std::span<const std::size_t> chosen, const WayRules& way,
-                     const std::vector<bool>& barred) {
-  return WaySearch(rules, chosen, way, barred).run();
+Ways ways_to_options(const ChoiceRules& rules, std::span<const std::size_t> chosen, const WayRules& way) {
+  return WaySearch(rules, chosen, way).run();
 }
 
-Extensions extensions(const ChoiceRules& rules, std::span<const std::size_t> chosen, const std::vector<bool>& barred,
-                      std::size_t count) {
+Extensions extensions(const ChoiceRules& rules, std::span<const std::size_t> chosen, std::size_t count) {
   const std::size_t options = rules.options.size();
-  Ways ways = ways_to_options(rules, chosen, {.most_sites = count, .relaxed = true}, barred);
+  Ways ways = ways_to_options(rules, chosen, {.most_sites = count, .relaxed = true});
   Extensions result{std::vector<bool>(options), std::vector<std::size_t>(options)};
   for (std::size_t option = 0; option < options; ++option) result.open[option] = ways[option].has_value();
   if (rules.goal.budget) {
     // A way that fits into the budget begins with an option that does.
-    ways = ways_to_options(rules, chosen, {.most_sites = count, .by_cost = true, .relaxed = true}, barred);
+    ways = ways_to_options(rules, chosen, {.most_sites = count, .by_cost = true, .relaxed = true});
     for (std::size_t option = 0; option < options; ++option)
       result.open[option] = result.open[option] && ways[option].has_value();
   }

@@ -37,19 +37,16 @@ struct WayRules {
   bool relaxed = false;
 };
 
-/// From a connected choice (from the hub where it is empty; without a hub everything may begin). None
-/// comes through a barred option; empty: none is barred. Options that `compatible` forbids are left out only where
-/// there is a network.
-Ways ways_to_options(const ChoiceRules& rules, std::span<const std::size_t> chosen, const WayRules& way,
-                     const std::vector<bool>& barred);
+/// From a connected choice (from the hub where it is empty; without a hub everything may begin), over options that are
+/// not barred. Options that `compatible` forbids are left out only where there is a network.
+Ways ways_to_options(const ChoiceRules& rules, std::span<const std::size_t> chosen, const WayRules& way);
 
-/// What choices of at most `count` sites may hold that hold all of `chosen` and nothing barred.
+/// What choices of at most `count` sites may hold that hold all of `chosen`.
 struct Extensions {
   std::vector<bool> open;
   std::vector<std::size_t> first;  ///< of each open option: what a way to it begins with
 };
-Extensions extensions(const ChoiceRules& rules, std::span<const std::size_t> chosen, const std::vector<bool>& barred,
-                      std::size_t count);
+Extensions extensions(const ChoiceRules& rules, std::span<const std::size_t> chosen, std::size_t count);
 
 /// The options that links may ever join in one choice: a set for each connected part. Where there is no network, or a
 /// hub, one set of all.
