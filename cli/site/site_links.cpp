@@ -1,14 +1,15 @@
 #include "site/site_links.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include <itin/cross_section.hpp>
+#include <itin/parallel.hpp>
 #include <itin/same_place.hpp>
 #include <itin/triangulate.hpp>
-#include <profile/links.hpp>
-
-#include "options/radio_options.hpp"
+#include <profile/fresnel.hpp>
+#include <profile/los.hpp>
 
 namespace itin::cli {
 
@@ -42,20 +43,42 @@ SiteLink link_between(const Store& store, const SiteOptions& options, const Site
   return link;
 }
 
-/// The question that `itin los --links` would be asked.
-profile::LinkQuery link_query(const SiteOptions& options) {
-  profile::LinkQuery query;
-  query.earth = options.earth.earth();
-  query.themes = options.themes.choice();
-  query.from_on_surface = query.to_on_surface = options.on_surface;
-  query.gaps_block = options.nodata == viewshed::NoData::kBlock;
-  if (options.frequency_ghz) {
-    query.radio.emplace();
-    query.radio->frequency_ghz = *options.frequency_ghz;
-    query.radio->effective_earth_km = effective_earth_km(query.earth);
+/// Judges many links as `itin los` does. Keeps the tiles of the surface that it has triangulated.
+class LinkJudge {
+ public:
+  LinkJudge(const Store& store, const SiteOptions& options)
+      : options_(options), surface_(store, Detail::tolerance(0), options.themes.choice(), cache(options)) {
+    if (options.themes.choice().includes_standing(store.metadata().themes))
+      ground_.emplace(store, Detail::tolerance(0), ThemeChoice::none(), cache(options));
+    query_.earth = options.earth.earth();
+    query_.from_on_surface = query_.to_on_surface = options.on_surface;
+    query_.gaps_block = options.nodata == viewshed::NoData::kBlock;
   }
-  return query;
-}
+
+  bool clear(const SiteStand& a, const SiteStand& b) const {
+    const profile::Profile line = profile::from_section(surface_.between(a.position, b.position));
+    if (const auto criterion = options_.criterion()) {
+      const auto zone =
+          profile::fresnel_clearance(line, {a.elevation(), b.elevation()}, query_.earth, criterion->wavelength);
+      if (zone && zone->fraction < criterion->fraction) return false;
+    }
+    profile::LosQuery query = query_;
+    query.from_height_m = a.height, query.to_height_m = b.height;
+    profile::Profile ground;
+    if (ground_) ground = profile::from_section(ground_->between(a.position, b.position));
+    return profile::analyse(line, query, std::move(ground)).verdict != profile::SightVerdict::kHidden;
+  }
+
+ private:
+  static SectionSurface::Options cache(const SiteOptions& options) {
+    return {std::min(SectionSurface::Options().cache_bytes, options.memory_bytes / 8)};
+  }
+
+  const SiteOptions& options_;
+  profile::LosQuery query_;
+  SectionSurface surface_;
+  std::optional<SectionSurface> ground_;  ///< under standing features
+};
 
 }  // namespace
 
@@ -85,18 +108,16 @@ std::shared_ptr<viewshed::LinkNetwork> link_network(const Store& store, const Si
   if (hub) stands.push_back(*hub);
   const std::size_t standing = stands.size() - inputs.options.size();
   const auto last = hub ? std::optional(stands.size() - 1) : std::nullopt;
-  const auto linked = [&store, &progress, query = link_query(options), fraction = options.fresnel,
+  const auto linked = [&progress, judge = std::make_shared<const LinkJudge>(store, options),
                        stands = std::move(stands)](std::size_t site, std::span<const std::size_t> others) {
-    std::vector<profile::Link> links;
-    const SiteStand& from = stands[site];
-    for (const std::size_t other : others)
-      links.push_back({{}, from.position, from.height, stands[other].position, stands[other].height});
-    const std::vector<profile::LinkResult> rows = profile::survey_links(store, links, query, progress);
+    std::vector<char> clear(others.size());
+    parallel_for(others.size(), [&](std::size_t i) {
+      progress.throw_if_cancelled();
+      clear[i] = judge->clear(stands[site], stands[others[i]]);
+    });
     std::vector<std::size_t> result;
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      if (rows[i].verdict && *rows[i].verdict != profile::SightVerdict::kHidden &&
-          (!rows[i].fresnel_fraction || *rows[i].fresnel_fraction >= fraction))
-        result.push_back(others[i]);
+    for (std::size_t i = 0; i < others.size(); ++i)
+      if (clear[i]) result.push_back(others[i]);
     return result;
   };
   return std::make_shared<viewshed::LinkNetwork>(inputs.options.size(), standing, last, linked);
