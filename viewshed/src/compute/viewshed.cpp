@@ -50,7 +50,7 @@ Result compute(const SurfaceInMemory& over, const Request& request, Progress& pr
   const RasterGrid tiles = grid_of_tiles(result.grid);
   if (over.reader != nullptr && asks_for_all_heights(request)) over.reader->read_all(progress);
   auto heights = over.heights          ? over.heights
-                 : over.tin != nullptr ? std::make_shared<BinnedHeights>(*over.tin)
+                 : over.tin != nullptr ? std::make_shared<BinnedHeights>(*over.tin, result.grid.cell_area())
                                        : std::make_shared<BinnedHeights>(*over.lattice);
   FullSurface surface(std::move(heights), over.tin, request.targets_on_surface ? nullptr : over.bare, request.earth,
                       result.grid, tiles);
