@@ -60,11 +60,10 @@ Result compute(const SurfaceInMemory& over, const Request& request, Progress& pr
   result.statistics.scene_seconds = watch.lap();
   std::optional<TriangleStudies> studies;
   if (needs_triangles(request)) studies.emplace(request, *over.tin);
-  Observations observations(request);
   std::vector<RadialSweep::View> views;
   if (over.reader != nullptr && !all_read(*over.reader))
     for (const Eye& eye : eyes) views.push_back(reveal(eye, *over.reader, surface, kAnyTiles, progress).view);
-  observe_all(surface, studies ? &*studies : nullptr, observations, eyes, std::move(views), result, progress);
+  observe_all(surface, studies ? &*studies : nullptr, eyes, std::move(views), result, progress);
   result.statistics.lines_seconds = watch.lap();
   return result;
 }
