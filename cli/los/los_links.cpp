@@ -42,15 +42,19 @@ class TableWriter {
     if (columns.radio) text_ += ",fresnel_fraction,ld_db";
     if (columns.object) text_ += ",hidden_below_m,hub_visible_m,hub_fraction,tip_visible_m,tip_fraction";
     if (columns.errors) text_ += ",message";
-    text_ += ",geodesic_distance_m\n";
+    text_ += ",geodesic_distance_m,gap_m\n";
   }
 
   void add(const std::string& id, const LinkResult& r, const std::optional<double>& geodesic_m) {
     const auto out = std::back_inserter(text_);
-    const std::string distance = r.verdict || r.distance_m > 0 ? fmt::format("{}", r.distance_m) : "";
-    fmt::format_to(out, "{},{},{},{},{}", csv_cell(id), distance, r.verdict ? name_of(*r.verdict) : "error",
-                   cell(r.clearance_m), cell(r.critical_m));
-    if (columns_.radio) fmt::format_to(out, ",{},{}", cell(r.fresnel_fraction), cell(r.ld_db));
+    const auto& found = r.found;
+    fmt::format_to(out, "{},{},{},{},{}", csv_cell(id), found ? fmt::format("{}", r.distance_m) : "",
+                   found ? name_of(found->verdict) : "error", found ? cell(found->clearance_m) : "",
+                   found && found->critical ? fmt::format("{}", found->critical->distance_m) : "");
+    if (columns_.radio) {
+      fmt::format_to(out, ",{},{}", found && found->fresnel ? fmt::format("{}", found->fresnel->fraction) : "",
+                     r.losses ? fmt::format("{}", r.losses->ld_db) : "");
+    }
     if (columns_.object && r.visible) {
       fmt::format_to(out, ",{},{},{},{},{}", r.visible->from_m, r.visible->hub_visible_m, r.visible->hub_fraction,
                      r.visible->tip_visible_m, r.visible->tip_fraction);
@@ -58,7 +62,7 @@ class TableWriter {
       text_ += ",,,,,";
     }
     if (columns_.errors) text_ += "," + csv_cell(r.message);
-    text_ += "," + cell(geodesic_m) + "\n";
+    text_ += "," + cell(geodesic_m) + (found ? fmt::format(",{}\n", r.gap_m) : ",\n");
   }
 
   const std::string& text() const { return text_; }
@@ -97,7 +101,7 @@ std::string table_text(const LinkTable& table, const std::vector<LinkResult>& re
       writer.add(bad->id, error, std::nullopt);
       ++bad;
     } else {
-      writer.add(table.links[i].id, results[i], results[i].verdict ? geodesic_m(table.links[i]) : std::nullopt);
+      writer.add(table.links[i].id, results[i], results[i].found ? geodesic_m(table.links[i]) : std::nullopt);
       ++i;
     }
   }
@@ -112,11 +116,12 @@ Counts counts_of(const LinkTable& table, const std::vector<LinkResult>& results)
   Counts counts;
   counts.error = table.bad.size();
   for (const LinkResult& r : results) {
-    counts.error += !r.verdict;
-    counts.visible += r.verdict == profile::SightVerdict::kVisible;
-    counts.hidden += r.verdict == profile::SightVerdict::kHidden;
-    counts.undecided += r.verdict == profile::SightVerdict::kUndecided;
-    counts.gaps += r.has_gaps;
+    counts.error += !r.found;
+    counts.gaps += r.gap_m > 0;
+    if (!r.found) continue;
+    counts.visible += r.found->verdict == profile::SightVerdict::kVisible;
+    counts.hidden += r.found->verdict == profile::SightVerdict::kHidden;
+    counts.undecided += r.found->verdict == profile::SightVerdict::kUndecided;
   }
   return counts;
 }
@@ -124,7 +129,7 @@ Counts counts_of(const LinkTable& table, const std::vector<LinkResult>& results)
 /// The first error in rows that cannot be read, else in links.
 std::string first_error(const LinkTable& table, const std::vector<LinkResult>& results, const StoreMetadata& metadata) {
   if (!table.bad.empty()) return fmt::format("line {}: {}", table.bad.front().line, table.bad.front().message);
-  const auto first = std::find_if(results.begin(), results.end(), [](const LinkResult& r) { return !r.verdict; });
+  const auto first = std::find_if(results.begin(), results.end(), [](const LinkResult& r) { return !r.found; });
   const Link& link = table.links[static_cast<std::size_t>(first - results.begin())];
   const bool on = is_on_the_data(link.from, metadata) && is_on_the_data(link.to, metadata);
   return fmt::format("{}: {}{}", link.id, first->message, on ? "" : "; the data is " + extent_of(metadata));
@@ -174,14 +179,15 @@ LosLinks::Survey LosLinks::run(const Store& store, const LinkTable& table, const
                                                                  .from_on_surface = surface.from_on_surface(),
                                                                  .to_on_surface = surface.to_on_surface(),
                                                                  .radio = query.radio,
+                                                                 .criteria = query.criteria,
                                                                  .object = query.object,
-                                                                 .gaps_block = surface.gaps_block()},
+                                                                 .nodata = surface.nodata()},
                                                                 progress);
   const Counts counts = counts_of(table, results);
   const Columns columns{query.radio.has_value(), query.object.has_value(), counts.error > 0};
   write_file(output_, table_text(table, results, columns, metadata.crs_wkt), overwrite);
   Survey survey;
-  for (const LinkResult& r : results) survey.computed.push_back(r.verdict.has_value());
+  for (const LinkResult& r : results) survey.computed.push_back(r.found.has_value());
   Result& result = survey.result;
   result.document["crs"] = crs_identifier(metadata.crs_wkt);
   result.document["surface"] = surface_document(metadata, surface.detail(), surface.themes());
@@ -190,12 +196,13 @@ LosLinks::Survey LosLinks::run(const Store& store, const LinkTable& table, const
   result.document["outputs"] = Document::array({output_});
   const std::size_t all = results.size() + table.bad.size();
   result.text = fmt::format("{}: {}, {} visible", output_, counted(all, "link"), grouped(counts.visible));
-  if (counts.undecided > 0) result.text += fmt::format(", {} undecided at this tolerance", grouped(counts.undecided));
+  if (counts.undecided > 0) result.text += fmt::format(", {} undecided", grouped(counts.undecided));
   result.text += "\n";
-  if (counts.gaps > 0 && !surface.gaps_clear()) {
-    result.warnings.push_back(fmt::format("{} of {} cross ground without data, which {}; see --nodata", counts.gaps,
-                                          counted(all, "link"),
-                                          surface.gaps_block() ? "blocks them" : "counts as clear"));
+  if (counts.gaps > 0 && surface.nodata() != profile::NoData::kClear) {
+    result.warnings.push_back(fmt::format(
+        "{} of {} cross ground without data, which {}; see --nodata", counts.gaps, counted(all, "link"),
+        surface.nodata() == profile::NoData::kBlock ? "counts as blocking"
+                                                    : "leaves undecided those that known ground does not hide"));
   }
   if (counts.error > 0)
     result.failure = fmt::format("{}: {} of {} could not be computed; see the column message; the first: {}", output_,

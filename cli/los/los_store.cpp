@@ -11,14 +11,10 @@ namespace itin::cli {
 
 namespace {
 
-std::vector<std::string> warnings_about(const profile::LosReport& report, bool gaps_clear) {
+std::vector<std::string> warnings_about(const profile::LosReport& report) {
   std::vector<std::string> warnings;
-  const std::size_t gaps = report.profile.gaps.size();
-  if (gaps > 0 && !gaps_clear) {
-    warnings.push_back(fmt::format("the line crosses ground without data {}, which {}; see gaps, --nodata",
-                                   gaps == 1 ? "once" : fmt::format("{} times", gaps),
-                                   report.query.gaps_block ? "blocks it" : "counts as clear"));
-  }
+  const std::string gaps = gap_text(report);
+  if (!gaps.empty() && report.query.nodata != profile::NoData::kClear) warnings.push_back(gaps + "; see --nodata");
   if (report.query.radio && !report.losses && report.profile.has_length())
     warnings.emplace_back("an antenna is within a feature; no losses are given");
   return warnings;
@@ -37,7 +33,9 @@ void LosStoreOptions::declare(CLI::App& app) {
   in_crs_.declare(app);
   detail_.declare(app);
   themes_.declare(app);
-  app.add_option("--nodata", nodata_text_, "What ground without data does to the sight line (default: unknown)")
+  app.add_option("--nodata", nodata_text_,
+                 "What ground without data does to the sight line: unknown (default) leaves it undecided, unless known "
+                 "ground hides it")
       ->type_name("unknown|block|clear");
 }
 
@@ -50,22 +48,24 @@ void LosStoreOptions::validate(std::optional<double> object_tip_m) {
   }
   from_height_ = from_.height.value_or(2);
   to_height_ = to_.height.value_or(object_tip_m.value_or(2));
-  parse_choice("--observer-on", from_on_, {"ground", "surface"});
-  parse_choice("--target-on", to_on_, {"ground", "surface"});
-  if (!nodata_text_.empty()) parse_choice("--nodata", nodata_text_, {"unknown", "block", "clear"});
-  detail_.validate();
-  themes_.validate();
+  validate_choices();
   if (!absolute_heights_ && (from_height_ < 0 || to_height_ < 0)) {
     throw InputError("--from, --to: a height must not be negative; for an elevation give --absolute-heights");
   }
 }
 
-void LosStoreOptions::validate_surface() {
-  if (!nodata_text_.empty()) parse_choice("--nodata", nodata_text_, {"unknown", "block", "clear"});
-  detail_.validate();
-  themes_.validate();
+void LosStoreOptions::validate_choices() {
+  using enum profile::NoData;
+  constexpr profile::NoData kRules[] = {kUnknown, kBlock, kClear};
+  nodata_ = kRules[parse_choice("--nodata", nodata_text_, {"unknown", "block", "clear"})];
   parse_choice("--observer-on", from_on_, {"ground", "surface"});
   parse_choice("--target-on", to_on_, {"ground", "surface"});
+  detail_.validate();
+  themes_.validate();
+}
+
+void LosStoreOptions::validate_surface() {
+  validate_choices();
   if (detail_.has_rings()) throw InputError("--rings have no one centre for many links; give --tolerance");
   if (absolute_heights_) throw InputError("--absolute-heights is not for --links, whose heights are above the ground");
 }
@@ -76,7 +76,7 @@ Document LosStoreOptions::surface_parameters() const {
   parameters["observer_on"] = from_on_;
   parameters["target_on"] = to_on_;
   if (!in_crs_.crs.empty()) parameters["in_crs"] = in_crs_.crs;
-  parameters["nodata"] = nodata_text_.empty() ? "unknown" : nodata_text_;
+  parameters["nodata"] = nodata_text_;
   return parameters;
 }
 
@@ -102,11 +102,11 @@ LosStoreOptions::Result LosStoreOptions::run(const Store& store, profile::LosQue
   const profile::StoreLine line{ends.from, ends.to, detail_.detail(ends.from), themes(), absolute_heights_};
   query.from_height_m = ends.from_height, query.to_height_m = ends.to_height;
   query.from_on_surface = from_on_surface(), query.to_on_surface = to_on_surface();
-  query.gaps_block = gaps_block();
+  query.nodata = nodata();
   Result result;
   result.report = profile::analyse(store, line, query);
   result.surface = surface_document(store.metadata(), line.detail, line.themes);
-  result.warnings = warnings_about(result.report, gaps_clear());
+  result.warnings = warnings_about(result.report);
   return result;
 }
 

@@ -68,15 +68,11 @@ void RadioOptions::validate() {
   if (radio_->over_sea > 1) throw InputError(fmt::format("--over-sea '{}': expected 0 to 1", over_sea_text_));
 }
 
-double effective_earth_km(const Earth& earth) {
-  return 1 / (2 * earth.drop_coefficient()) / 1000;
-}
-
 std::optional<profile::RadioPath> RadioOptions::radio(const Earth& earth) const {
   if (!radio_) return std::nullopt;
   if (earth.drop_coefficient() == 0) throw InputError("--frequency takes a curved Earth; leave out --curvature off");
   profile::RadioPath path = *radio_;
-  path.effective_earth_km = effective_earth_km(earth);
+  path.effective_earth_km = profile::effective_earth_km(earth);
   return path;
 }
 

@@ -13,9 +13,6 @@
 
 namespace itin::cli {
 
-/// Radius of the Earth over which rays are straight. Precondition: its surface drops.
-double effective_earth_km(const Earth& earth);
-
 class RadioOptions {
  public:
   void declare(CLI::App& app);

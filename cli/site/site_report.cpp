@@ -136,13 +136,14 @@ std::string closest_html(const SiteResult& r) {
 }
 
 std::string links_html(const SiteResult& r) {
-  HtmlTable table({"From", "To", "Verdict", "km", "Clearance m", "of F1"}, 3);
+  HtmlTable table({"From", "To", "Verdict", "km", "Clearance m", "of F1", "No data m"}, 3);
   for (const SiteLink& link : r.links) {
     table.add({r.stand(r.choice.chosen[link.from]).name,
                link.to ? r.stand(r.choice.chosen[*link.to]).name : std::string("hub"), outcome_of(r.options, link),
-               fmt::format("{:.2f}", link.distance_m / 1000),
-               link.line.clearance ? fmt::format("{:+.1f}", *link.line.clearance) : "",
-               link.line.fresnel_fraction ? fmt::format("{:+.2f}", *link.line.fresnel_fraction) : ""});
+               fmt::format("{:.3f}", link.line.distance_m / 1000),
+               link.found().clearance_m ? fmt::format("{:.2f}", *link.found().clearance_m) : "",
+               link.found().fresnel ? fmt::format("{:.2f}", link.found().fresnel->fraction) : "",
+               link.line.gap_m > 0 ? fmt::format("{:.0f}", link.line.gap_m) : ""});
   }
   return table.finish();
 }
@@ -160,7 +161,7 @@ std::string map(const std::string& directory, const char* name, const char* what
 
 std::string drawings(const std::vector<SiteProfile>& profiles) {
   if (profiles.empty()) return {};
-  std::string html = "<h2>Profiles of the links in sight</h2>\n";
+  std::string html = "<h2>Profiles of the links that are not hidden</h2>\n";
   for (const SiteProfile& profile : profiles)
     html += "<p class=\"note\">" + escaped_markup(profile.what) + "</p>\n" +
             image(profile.path, "image/svg+xml", "profile of " + profile.what);

@@ -98,13 +98,24 @@ viewshed::SiteSurvey site_survey(const SiteOptions& options, const SiteInputs& i
 }
 
 LinkRules link_rules(const SiteOptions& options) {
-  return {options.themes.choice(), options.earth.earth(), options.criterion()};
+  constexpr profile::NoData kRules[] = {profile::NoData::kUnknown, profile::NoData::kBlock, profile::NoData::kClear};
+  LinkRules rules{{.earth = options.earth.earth(),
+                   .themes = options.themes.choice(),
+                   .from_on_surface = options.on_surface,
+                   .to_on_surface = options.on_surface,
+                   .nodata = kRules[static_cast<int>(options.nodata)]},
+                  options.fresnel};
+  if (options.frequency_ghz) {
+    rules.query.radio.emplace().frequency_ghz = *options.frequency_ghz;
+    rules.query.radio->effective_earth_km = profile::effective_earth_km(options.earth.earth());
+  }
+  return rules;
 }
 
 const char* outcome_of(const SiteOptions& options, const SiteLink& link) {
-  if (!link.line.visible()) return "hidden";
-  if (!options.frequency_ghz) return "visible";
-  return link_rules(options).met_by(link.line) ? "clear" : "in sight, zone cut";
+  const profile::SightVerdict verdict = link.found().verdict;
+  if (verdict != profile::SightVerdict::kVisible || !options.frequency_ghz) return name_of(verdict);
+  return link_rules(options).met_by(link.found()) ? "clear" : "in sight, zone cut";
 }
 
 std::size_t SiteResult::refined() const {
@@ -150,8 +161,7 @@ std::vector<SiteLink> site_links(const Store& store, const SiteOptions& options,
   const SiteLinks links(store, link_rules(options), progress);
   std::vector<SiteLink> result;
   const auto add = [&](std::size_t from, std::optional<std::size_t> to, const SiteStand& a, const SiteStand& b) {
-    result.push_back(
-        {from, to, std::hypot(a.position.x - b.position.x, a.position.y - b.position.y), links.between(a, b)});
+    result.push_back({from, to, links.between(a, b)});
   };
   for (std::size_t i = 0; i < choice.chosen.size(); ++i) {
     const SiteStand& a = inputs.stands[choice.chosen[i].option];

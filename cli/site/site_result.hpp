@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <profile/line_of_sight.hpp>
+#include <profile/links.hpp>
 #include <viewshed/site_coverage.hpp>
 #include <viewshed/siting.hpp>
 
@@ -17,11 +17,12 @@ namespace itin::cli {
 struct SiteLink {
   std::size_t from = 0;             ///< in the order of choice
   std::optional<std::size_t> to{};  ///< none: the hub
-  double distance_m = 0;
-  profile::SightLine line;
+  profile::LinkResult line;
+
+  const profile::LineFindings& found() const { return *line.found; }
 };
 
-/// For links: "clear" as served is meant, "hidden", or in sight only.
+/// For links: "clear" as served is meant, "hidden", "undecided", or in sight only.
 const char* outcome_of(const SiteOptions& options, const SiteLink& link);
 
 /// An option's coverage in the demand's own measure.

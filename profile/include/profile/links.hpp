@@ -4,7 +4,7 @@
 //   profile::LinkQuery query;
 //   query.radio = profile::RadioPath{.frequency_ghz = 7.5};
 //   for (const profile::LinkResult& row : profile::survey_links(store, table.links, query, progress))
-//     std::cout << (row.verdict ? profile::name_of(*row.verdict) : row.message) << '\n';
+//     std::cout << (row.found ? profile::name_of(row.found->verdict) : row.message) << '\n';
 #pragma once
 
 #include <optional>
@@ -32,6 +32,11 @@ struct Link {
   double from_height = 0;
   Point2 to;
   double to_height = 0;
+  // Of this link alone, where its file tells.
+  std::string from_name = {}, to_name = {};
+  std::optional<double> frequency_ghz = {};
+  std::optional<Polarisation> polarisation = {};
+  std::vector<Criterion> criteria = {};
 };
 
 /// Antenna heights of links whose file gives none, above what their ends stand on.
@@ -66,27 +71,32 @@ struct LinkQuery {
   ThemeChoice themes = ThemeChoice::none();  ///< raised features on the surface
   /// Whether an end within a raised feature stands on it, or else on the ground under it.
   bool from_on_surface = false, to_on_surface = false;
-  std::optional<RadioPath> radio;    ///< gives fresnel_fraction and ld_db
-  std::optional<TallObject> object;  ///< the object at each second end; gives visible
-  bool gaps_block = false;           ///< ground without data stops the ray
+  // Of links that have none of their own.
+  std::optional<RadioPath> radio = {};    ///< gives Fresnel clearances and losses
+  std::vector<Criterion> criteria = {};   ///< with a fraction > 0 only for links with a frequency
+  std::optional<TallObject> object = {};  ///< the object at each second end; gives visible
+  NoData nodata = NoData::kUnknown;
 };
 
 struct LinkResult {
   double distance_m = 0;
-  std::optional<SightVerdict> verdict;  ///< nothing: an error
-  std::optional<double> clearance_m;
-  std::optional<double> critical_m;  ///< where that is, from the first end
-  std::optional<double> fresnel_fraction;
-  std::optional<double> ld_db;  ///< nothing also where an antenna is within a feature
+  std::optional<LineFindings> found;  ///< nothing: an error. Without obstructions and curves
+  EndGrounds stands_on;               ///< elevations of what the ends stand on
+  double gap_m = 0;                   ///< of the distance, without data
+  std::optional<RadioPath> radio;
+  std::optional<PathLosses> losses;  ///< nothing also where an antenna is within a feature
   std::optional<VisibleHeight> visible;
-  bool has_gaps = false;  ///< crosses ground without data
-  std::string message;    ///< of an error
+  std::string message;  ///< of an error
 };
 
 /// One result per link, in order, whatever the number of threads. Links over one area share the tiles that are read and
 /// triangulated for them, and answers are those of analyse() to the last bit. A link that cannot be computed (no ground
-/// under an end) is an error row. Throws CorruptStore, FileError, Cancelled.
+/// under an end) is an error row. Required heights are found for links with a frequency or criteria. Throws
+/// CorruptStore, FileError, Cancelled.
 std::vector<LinkResult> survey_links(const Store& store, const std::vector<Link>& links, const LinkQuery& query,
                                      Progress& progress);
+
+/// One link, by itself. Throws InputError where it cannot be computed, CorruptStore, FileError.
+LinkResult survey_link(const Store& store, const Link& link, const LinkQuery& query);
 
 }  // namespace itin::profile

@@ -41,6 +41,7 @@ struct Profile {
 
   /// Whether anything lies between the ends.
   bool has_length() const { return length_m > 0 && !one_place; }
+  double gap_length_m() const;
   /// Whether the ground is continuous from point i to point i + 1.
   bool joined(std::size_t i) const;
   /// The theme of the feature between point i and point i + 1.

@@ -15,7 +15,8 @@ namespace {
 // A4 across.
 constexpr double kWidth = 842, kHeight = 595, kMargin = 36;
 
-const Lettering kPlain{8.5, kReportInk, Align::kLeft, false, 0}, kBold{8.5, kReportInk, Align::kLeft, true, 0};
+const Lettering kPlain{8.5, kReportInk, Align::kLeft, false, 0}, kBold{8.5, kReportInk, Align::kLeft, true, 0},
+    kHeadline{10, kReportInk, Align::kLeft, false, 0}, kNoteLettering{7.5, kReportGrey, Align::kLeft, false, 0};
 
 /// Sets tables one below the other in a column.
 class Column {
@@ -26,7 +27,7 @@ class Column {
   double y() const { return y_; }
   bool has_room_for(const Table& table) const {
     const double rows = static_cast<double>(table.rows.size() + (table.header.empty() ? 0 : 1));
-    return y_ + kTitle + rows * kRow + (table.note.empty() ? 0 : kNote) <= kHeight - kMargin;
+    return y_ + kTitle + rows * kRow + kNote * static_cast<double>(note_lines(table).size()) <= kHeight - kMargin;
   }
 
   void set(const Table& table) {
@@ -37,15 +38,19 @@ class Column {
     const std::vector<double> widths = column_widths(table);
     if (!table.header.empty()) row(table.header, widths, kBold);
     for (const auto& cells : table.rows) row(cells, widths, kPlain);
-    if (!table.note.empty()) {
+    for (const std::string& line : note_lines(table)) {
       y_ += kNote;
-      drawing_.text({left_, y_}, drawing_.fitted(table.note, width_, {7.5, kReportGrey, Align::kLeft, false, 0}),
-                    {7.5, kReportGrey, Align::kLeft, false, 0});
+      drawing_.text({left_, y_}, line, kNoteLettering);
     }
     y_ += 16;
   }
 
  private:
+  std::vector<std::string> note_lines(const Table& table) const {
+    if (table.note.empty()) return {};
+    return drawing_.lines(table.note, width_, kNoteLettering);
+  }
+
   /// The widths that the columns' texts need; where that is too much, the widest give way.
   std::vector<double> column_widths(const Table& table) const {
     const std::size_t columns = table.header.empty() ? table.rows.front().size() : table.header.size();
@@ -97,13 +102,14 @@ void draw_title(Drawing& drawing, const std::string& title) {
 
 void draw_first_page(Drawing& drawing, const LosReport& report) {
   draw_title(drawing, report.title);
-  drawing.text({kMargin, 63},
-               drawing.fitted(verdict_line(report), kWidth - 2 * kMargin, {10, kReportInk, Align::kLeft, false, 0}),
-               {10, kReportInk, Align::kLeft, false, 0});
+  double top = 50;
+  for (const std::string& line : drawing.lines(verdict_line(report), kWidth - 2 * kMargin, kHeadline))
+    drawing.text({kMargin, top += 13}, line, kHeadline);
+  top += 19;
   const double half = (kWidth - 2 * kMargin) / 2;
   const auto end = [&](double x, const char* name, const std::vector<std::string>& lines) {
-    drawing.text({x, 82}, name, kBold);
-    double y = 82;
+    drawing.text({x, top}, name, kBold);
+    double y = top;
     for (const std::string& line : lines) {
       drawing.text({x + 16, y}, drawing.fitted(line, half - 20, kPlain), kPlain);
       y += 11;
@@ -113,7 +119,8 @@ void draw_first_page(Drawing& drawing, const LosReport& report) {
   end(kMargin + half, "B", report.to_lines);
   const double lines = static_cast<double>(std::max(report.from_lines.size(), report.to_lines.size()));
   const double facts_height = 11 * static_cast<double>(report.facts.size());
-  draw_sight_chart(drawing, {kMargin, 82 + 11 * lines + 2, kWidth - kMargin, kHeight - kMargin - facts_height}, report);
+  draw_sight_chart(drawing, {kMargin, top + 11 * lines + 2, kWidth - kMargin, kHeight - kMargin - facts_height},
+                   report);
   double y = kHeight - kMargin - facts_height + 12;
   for (const auto& [name, value] : report.facts) {
     drawing.text({kMargin, y}, name, {8, kReportGrey, Align::kLeft, true, 0});

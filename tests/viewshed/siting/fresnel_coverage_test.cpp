@@ -96,14 +96,15 @@ class FresnelSites : public ::testing::Test {
     query.earth = survey_.earth;
     query.themes = themes;
     query.radio = profile::RadioPath{.frequency_ghz = frequency_ghz_, .effective_earth_km = 8500};
-    query.gaps_block = survey_.nodata == NoData::kBlock;
+    query.nodata = survey_.nodata == NoData::kBlock ? profile::NoData::kBlock : profile::NoData::kClear;
     query.to_on_surface = survey_.targets.on_surface;
     const std::vector<profile::LinkResult> results = survey_links(*store_, links, query, progress_);
     std::vector<std::uint64_t> members(element_count(grid) / 64);
     for (std::size_t i = 0; i < results.size(); ++i) {
-      in_sight_ += results[i].verdict == profile::SightVerdict::kVisible;
-      if (results[i].verdict == profile::SightVerdict::kVisible &&
-          results[i].fresnel_fraction.value_or(1) >= survey_.fresnel->fraction)
+      const auto& found = results[i].found;
+      if (!found || found->verdict != profile::SightVerdict::kVisible) continue;
+      ++in_sight_;
+      if (!found->fresnel || found->fresnel->fraction >= survey_.fresnel->fraction)
         members[elements[i] / 64] |= std::uint64_t{1} << elements[i] % 64;
     }
     DemandSet set;
