@@ -23,16 +23,18 @@ std::string place(const std::string& directory, const char* name) {
 }
 
 std::string sites_csv(const SiteResult& r) {
-  std::string text = "order,id,x,y,height_m,ground_m,cost,gain,cumulative,coverage,first_certain,first_possible\n";
+  std::string text =
+      "order,id,x,y,height_m,ground_m,cost,gain,cumulative,coverage,first_certain,first_possible,stands_on_m\n";
   const auto out = std::back_inserter(text);
   for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
     const viewshed::ChosenSite& site = r.choice.chosen[i];
     const viewshed::SiteStand& stand = r.stand(site);
     const CoverageSummary now = r.summary(r.coverage.bounds(site.option)),
                           first = r.summary(r.coverage.first_bounds(site.option));
-    fmt::format_to(out, "{},{},{},{},{},{:.3f},{},{},{},{},{},{}\n", i + 1, csv_cell(stand.name), stand.position.x,
-                   stand.position.y, stand.height, stand.ground, r.inputs.options[site.option].cost,
-                   r.in_metric(site.gain), r.in_metric(site.cumulative), now.certain, first.certain, first.possible);
+    fmt::format_to(out, "{},{},{},{},{},{:.3f},{},{},{},{},{},{},{:.3f}\n", i + 1, csv_cell(stand.name),
+                   stand.position.x, stand.position.y, stand.height, r.ground_m[i], r.inputs.options[site.option].cost,
+                   r.in_metric(site.gain), r.in_metric(site.cumulative), now.certain, first.certain, first.possible,
+                   stand.ground);
   }
   return text;
 }
@@ -189,15 +191,18 @@ Document site_document(const SiteResult& r, const StoreMetadata& metadata) {
   document["upper_bound"] = r.in_metric(r.choice.upper_bound);
   document["gap_percent"] = viewshed::gap_percent(r.choice);
   document["demand"] = r.in_metric(r.inputs.total);
+  document["served_percent"] = r.served_percent();
   document["served_by_existing"] = r.in_metric(r.choice.existing);
   document["chosen"] = Document::array();
-  for (const viewshed::ChosenSite& site : r.choice.chosen) {
+  for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
+    const viewshed::ChosenSite& site = r.choice.chosen[i];
     const viewshed::SiteStand& stand = r.stand(site);
     document["chosen"].push_back({{"id", stand.name},
                                   {"x", stand.position.x},
                                   {"y", stand.position.y},
                                   {"height_m", stand.height},
-                                  {"ground_m", stand.ground},
+                                  {"ground_m", r.ground_m[i]},
+                                  {"stands_on_m", stand.ground},
                                   {"cost", r.inputs.options[site.option].cost},
                                   {"gain", r.in_metric(site.gain)},
                                   {"cumulative", r.in_metric(site.cumulative)},

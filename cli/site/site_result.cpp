@@ -118,6 +118,14 @@ const char* outcome_of(const SiteOptions& options, const SiteLink& link) {
   return link_rules(options).met_by(link.found()) ? "clear" : "in sight, zone cut";
 }
 
+double SiteResult::served() const {
+  return in_metric(choice.value + choice.existing);
+}
+
+double SiteResult::served_percent() const {
+  return inputs.total == 0 ? 0 : 100 * served() / in_metric(inputs.total);
+}
+
 std::size_t SiteResult::refined() const {
   std::size_t count = 0;
   for (std::size_t i = 0; i < inputs.options.size(); ++i) count += coverage.stage(i) > 0;
@@ -149,10 +157,21 @@ SiteRasters site_rasters(const Store& store, const SiteOptions& options, const S
   } else {
     cells = on_cells(store, options, inputs, sites, progress);
   }
-  BestServer best(*cells.targets.grid, viewshed::with_ground(store, cells.targets, progress));
+  BestServer best(*cells.targets.grid,
+                  inputs.cells.empty() ? viewshed::with_ground(store, cells.targets, progress) : inputs.cells);
   for (std::size_t i = 0; i < sites.size(); ++i)
     best.add(inputs.stands[sites[i]], static_cast<std::uint16_t>(i + 1), cells.served[i]);
   return std::move(best).rasters();
+}
+
+std::vector<double> site_grounds(const Store& store, const SiteInputs& inputs, const viewshed::Choice& choice,
+                                 Progress& progress) {
+  std::vector<Point2> positions;
+  for (const viewshed::ChosenSite& site : choice.chosen) positions.push_back(inputs.stands[site.option].position);
+  std::vector<double> grounds;
+  for (const auto& ground : viewshed::ground_under(store, positions, ThemeChoice::none(), progress))
+    grounds.push_back(ground.value());
+  return grounds;
 }
 
 std::vector<SiteLink> site_links(const Store& store, const SiteOptions& options, const SiteInputs& inputs,

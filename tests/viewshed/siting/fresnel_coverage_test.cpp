@@ -1,4 +1,5 @@
 // Sites that serve what their Fresnel zones leave clear: bounds, the last look and the choice against itin los --links.
+#include <atomic>
 #include <cmath>
 #include <iostream>
 #include <random>
@@ -183,6 +184,21 @@ TEST_F(FresnelSites, BoundsHoldAndTheLastLookIsThatOfLines) {
   make_fractal(70, 150, true);
   make_survey(6);
   expect_law_four();
+}
+
+TEST_F(FresnelSites, AreKeptAsTheyAreJudged) {
+  make_fractal(40, 100, false);
+  make_survey(70);
+  struct StopAfterFirst final : Progress {
+    std::atomic<std::size_t> kept = 0;
+    void report(std::string_view, double) override {}
+    bool cancelled() const override { return kept > 0; }
+  } progress;
+  SiteCoverage coverage(*store_, survey_, progress);
+  coverage.on_refined = [&](std::size_t, int, const CoverageBounds&) { ++progress.kept; };
+  EXPECT_THROW(coverage.look_first(), Cancelled);
+  EXPECT_GT(progress.kept, 0U);
+  EXPECT_LT(progress.kept, 70U);
 }
 
 TEST_F(FresnelSites, LikewiseAmongHouses) {
