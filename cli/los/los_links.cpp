@@ -1,17 +1,14 @@
 #include "los/los_links.hpp"
 
 #include <algorithm>
-#include <iterator>
 
 #include <fmt/format.h>
 
 #include <itin/coordinates.hpp>
 #include <itin/error.hpp>
-#include <itin/geodesic.hpp>
-#include <itin/output_file.hpp>
+#include <profile/link_output.hpp>
 
 #include "options/off_the_data.hpp"
-#include "output/csv_cell.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
 #include "program/values.hpp"
@@ -23,90 +20,6 @@ namespace {
 using profile::Link;
 using profile::LinkResult;
 using profile::LinkTable;
-
-/// Every digit.
-std::string cell(const std::optional<double>& value) {
-  return value ? fmt::format("{}", *value) : "";
-}
-
-/// The columns behind those that every table has; the last is geodesic_distance_m, which came to them later.
-struct Columns {
-  bool radio = false, object = false, errors = false;
-};
-
-/// Writes one row per row of the file, in its order.
-class TableWriter {
- public:
-  explicit TableWriter(const Columns& columns) : columns_(columns) {
-    text_ = "id,distance_m,verdict,clearance_m,critical_m";
-    if (columns.radio) text_ += ",fresnel_fraction,ld_db";
-    if (columns.object) text_ += ",hidden_below_m,hub_visible_m,hub_fraction,tip_visible_m,tip_fraction";
-    if (columns.errors) text_ += ",message";
-    text_ += ",geodesic_distance_m,gap_m\n";
-  }
-
-  void add(const std::string& id, const LinkResult& r, const std::optional<double>& geodesic_m) {
-    const auto out = std::back_inserter(text_);
-    const auto& found = r.found;
-    fmt::format_to(out, "{},{},{},{},{}", csv_cell(id), found ? fmt::format("{}", r.distance_m) : "",
-                   found ? name_of(found->verdict) : "error", found ? cell(found->clearance_m) : "",
-                   found && found->critical ? fmt::format("{}", found->critical->distance_m) : "");
-    if (columns_.radio) {
-      fmt::format_to(out, ",{},{}", found && found->fresnel ? fmt::format("{}", found->fresnel->fraction) : "",
-                     r.losses ? fmt::format("{}", r.losses->ld_db) : "");
-    }
-    if (columns_.object && r.visible) {
-      fmt::format_to(out, ",{},{},{},{},{}", r.visible->from_m, r.visible->hub_visible_m, r.visible->hub_fraction,
-                     r.visible->tip_visible_m, r.visible->tip_fraction);
-    } else if (columns_.object) {
-      text_ += ",,,,,";
-    }
-    if (columns_.errors) text_ += "," + csv_cell(r.message);
-    text_ += "," + cell(geodesic_m) + (found ? fmt::format(",{}\n", r.gap_m) : ",\n");
-  }
-
-  const std::string& text() const { return text_; }
-
- private:
-  Columns columns_;
-  std::string text_;
-};
-
-/// Between a link's ends on WGS 84.
-class GeodesicDistance {
- public:
-  explicit GeodesicDistance(const std::string& crs_wkt) : to_geographic_(crs_wkt, "EPSG:4326") {}
-
-  std::optional<double> operator()(const profile::Link& link) const {
-    try {
-      return geodesic(to_geographic_(link.from), to_geographic_(link.to)).distance_m;
-    } catch (const InputError&) {
-      return std::nullopt;  // an end is no place on the ground
-    }
-  }
-
- private:
-  CoordinateTransform to_geographic_;
-};
-
-std::string table_text(const LinkTable& table, const std::vector<LinkResult>& results, const Columns& columns,
-                       const std::string& crs_wkt) {
-  const GeodesicDistance geodesic_m(crs_wkt);
-  TableWriter writer(columns);
-  auto bad = table.bad.begin();
-  for (std::size_t row = 1, i = 0; i < results.size() || bad != table.bad.end(); ++row) {
-    if (bad != table.bad.end() && bad->row == row) {
-      LinkResult error;
-      error.message = fmt::format("line {}: {}", bad->line, bad->message);
-      writer.add(bad->id, error, std::nullopt);
-      ++bad;
-    } else {
-      writer.add(table.links[i].id, results[i], results[i].found ? geodesic_m(table.links[i]) : std::nullopt);
-      ++i;
-    }
-  }
-  return writer.text();
-}
 
 struct Counts {
   std::size_t visible = 0, hidden = 0, undecided = 0, error = 0, gaps = 0;
@@ -145,19 +58,31 @@ void LosLinks::declare(CLI::App& app) {
                  "Height of both ends of the lines of a file (default: 2, and at the second end the tip of "
                  "--visible-height)")
       ->type_name("METRES");
-  writes(app.add_option("-o,--output", output_, "With --links: the table to write (.csv)")->type_name("FILE"));
+  writes(app.add_option("-o,--output", outputs_,
+                        "With --links: what to write: the table (.csv), the links as lines with its columns (.gpkg, "
+                        ".kml), a page that sums them up (.pdf); may be given again")
+             ->type_name("FILE")
+             ->expected(1)
+             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll));
 }
 
 void LosLinks::validate(const std::optional<profile::TallObject>& object) {
-  if (!output_.ends_with(".csv")) throw InputError(fmt::format("-o '{}': --links writes a table, .csv", output_));
+  if (outputs_.empty()) throw InputError("--links takes -o FILE.csv: the table to write");
+  for (const std::string& output : outputs_) {
+    try {
+      profile::require_link_format(output);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("-o {}", error.what()));
+    }
+  }
   if (object) heights_.to_m = object->tip_m;
   if (height_text_.empty()) return;
   heights_.from_m = heights_.to_m = parse_height("--link-height", height_text_, Range::kNotNegative);
 }
 
 void LosLinks::require_none() const {
-  if (!output_.empty())
-    throw InputError(fmt::format("-o '{}' is of use with --links; for one line give --report", output_));
+  if (!outputs_.empty())
+    throw InputError(fmt::format("-o '{}' is of use with --links; for one line give --report", outputs_.front()));
   if (!height_text_.empty()) throw InputError("--link-height is of use with --links only");
 }
 
@@ -170,22 +95,22 @@ LinkTable LosLinks::table(const Store& store, const LosStoreOptions& surface) co
 }
 
 LosLinks::Survey LosLinks::run(const Store& store, const LinkTable& table, const LosStoreOptions& surface,
-                               const profile::LosQuery& query, bool overwrite, Progress& progress) const {
+                               const profile::LosQuery& query, const Page& page, bool overwrite,
+                               Progress& progress) const {
   const StoreMetadata& metadata = store.metadata();
-  const std::vector<LinkResult> results = profile::survey_links(store, table.links,
-                                                                {.earth = query.earth,
-                                                                 .detail = surface.detail(),
-                                                                 .themes = surface.themes(),
-                                                                 .from_on_surface = surface.from_on_surface(),
-                                                                 .to_on_surface = surface.to_on_surface(),
-                                                                 .radio = query.radio,
-                                                                 .criteria = query.criteria,
-                                                                 .object = query.object,
-                                                                 .nodata = surface.nodata()},
-                                                                progress);
+  const profile::LinkQuery links{.earth = query.earth,
+                                 .detail = surface.detail(),
+                                 .themes = surface.themes(),
+                                 .from_on_surface = surface.from_on_surface(),
+                                 .to_on_surface = surface.to_on_surface(),
+                                 .radio = query.radio,
+                                 .criteria = query.criteria,
+                                 .object = query.object,
+                                 .nodata = surface.nodata()};
+  const std::vector<LinkResult> results = profile::survey_links(store, table.links, links, progress);
+  const profile::LinkSurvey written{table, results, links, metadata.crs_wkt, page.title, page.facts};
+  for (const std::string& output : outputs_) profile::write_links(written, output, overwrite);
   const Counts counts = counts_of(table, results);
-  const Columns columns{query.radio.has_value(), query.object.has_value(), counts.error > 0};
-  write_file(output_, table_text(table, results, columns, metadata.crs_wkt), overwrite);
   Survey survey;
   for (const LinkResult& r : results) survey.computed.push_back(r.found.has_value());
   Result& result = survey.result;
@@ -193,11 +118,14 @@ LosLinks::Survey LosLinks::run(const Store& store, const LinkTable& table, const
   result.document["surface"] = surface_document(metadata, surface.detail(), surface.themes());
   result.document["links"] = {
       {"visible", counts.visible}, {"hidden", counts.hidden}, {"undecided", counts.undecided}, {"error", counts.error}};
-  result.document["outputs"] = Document::array({output_});
+  result.document["outputs"] = outputs_;
   const std::size_t all = results.size() + table.bad.size();
-  result.text = fmt::format("{}: {}, {} visible", output_, counted(all, "link"), grouped(counts.visible));
+  result.text = fmt::format("{}: {}, {} visible", outputs_.front(), counted(all, "link"), grouped(counts.visible));
   if (counts.undecided > 0) result.text += fmt::format(", {} undecided", grouped(counts.undecided));
   result.text += "\n";
+  for (const std::string& column : table.other_columns)
+    result.warnings.push_back(
+        fmt::format("{}: the column '{}' means nothing to this program; it is kept", path_, column));
   if (counts.gaps > 0 && surface.nodata() != profile::NoData::kClear) {
     result.warnings.push_back(fmt::format(
         "{} of {} cross ground without data, which {}; see --nodata", counts.gaps, counted(all, "link"),
@@ -205,8 +133,9 @@ LosLinks::Survey LosLinks::run(const Store& store, const LinkTable& table, const
                                                     : "leaves undecided those that known ground does not hide"));
   }
   if (counts.error > 0)
-    result.failure = fmt::format("{}: {} of {} could not be computed; see the column message; the first: {}", output_,
-                                 counts.error, counted(all, "link"), first_error(table, results, metadata));
+    result.failure =
+        fmt::format("{}: {} of {} could not be computed; see the column message; the first: {}", outputs_.front(),
+                    counts.error, counted(all, "link"), first_error(table, results, metadata));
   return survey;
 }
 

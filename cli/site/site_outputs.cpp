@@ -6,12 +6,12 @@
 #include <fmt/format.h>
 
 #include <itin/coordinates.hpp>
+#include <itin/csv_cell.hpp>
 #include <itin/error.hpp>
 #include <itin/output_file.hpp>
 #include <itin/raster.hpp>
 #include <itin/vector_export.hpp>
 
-#include "output/csv_cell.hpp"
 #include "output/store_document.hpp"
 
 namespace itin::cli {

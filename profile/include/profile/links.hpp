@@ -37,6 +37,7 @@ struct Link {
   std::optional<double> frequency_ghz = {};
   std::optional<Polarisation> polarisation = {};
   std::vector<Criterion> criteria = {};
+  std::vector<std::string> others = {};  ///< the cells of LinkTable::other_columns
 };
 
 /// Antenna heights of links whose file gives none, above what their ends stand on.
@@ -50,15 +51,19 @@ struct BadLink {
   std::size_t line = 0;  ///< of the file, from 1
   std::string id;        ///< as far as there is one
   std::string message;
+  std::vector<std::string> others = {};  ///< as Link::others
 };
 struct LinkTable {
   std::vector<Link> links;
-  std::vector<BadLink> bad;  ///< in order
+  std::vector<BadLink> bad;                ///< in order
+  std::vector<std::string> other_columns;  ///< their names: not understood, but kept for the output
 };
 
 /// A CSV table `id,x1,y1,h1,x2,y2,h2`, or a file of lines, whose ends are the links' ends at `heights` above the
 /// surface. A table may have a header line; one with all these names may have its columns in another order and others
-/// besides; for x and y stands easting and northing, or lon and lat, each with 1 or 2 behind it. In the CRS `to_crs`
+/// besides: `name1`, `name2`, `frequency`, `polarisation`, `criteria` (blanks between several) of each link, and those
+/// that are kept; for x and y stands easting and northing, or lon and lat, each with 1 or 2 behind it. Semicolons or
+/// tabs may separate, and then commas be decimal. In the CRS `to_crs`
 /// (WKT); CSV tables are taken to be in `csv_crs`, if that is empty in longitude and latitude where the header calls
 /// them so, else in `to_crs`. Throws FileError naming the feature of a file of lines, InputError for an unknown CRS and
 /// for a file without links.

@@ -20,16 +20,13 @@
 #include <itin/detail.hpp>
 #include <itin/earth.hpp>
 #include <itin/geometry.hpp>
+#include <itin/store.hpp>
 #include <itin/theme.hpp>
 #include <itin/tin.hpp>
 #include <profile/diffraction.hpp>
 #include <profile/fresnel.hpp>
 #include <profile/profile.hpp>
 #include <profile/required_heights.hpp>
-
-namespace itin {
-class Store;
-}
 
 namespace itin::profile {
 
@@ -155,6 +152,7 @@ struct LosReport : LineFindings {
   std::map<std::pair<std::uint16_t, std::int64_t>, std::string> features;  ///< names by theme and feature
 
   // Of a line over a store.
+  std::vector<SourceInfo> sources;  ///< of the surface under the line, as triangulated there
   RetrievalStatistics statistics;
   std::uint64_t triangles = 0;  ///< crossed by the line
 };
