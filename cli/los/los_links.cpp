@@ -44,15 +44,18 @@ std::string first_error(const LinkTable& table, const std::vector<LinkResult>& r
   if (!table.bad.empty()) return fmt::format("line {}: {}", table.bad.front().line, table.bad.front().message);
   const auto first = std::find_if(results.begin(), results.end(), [](const LinkResult& r) { return !r.found; });
   const Link& link = table.links[static_cast<std::size_t>(first - results.begin())];
-  const bool on = is_on_the_data(link.from, metadata) && is_on_the_data(link.to, metadata);
-  return fmt::format("{}: {}{}", link.id, first->message, on ? "" : "; the data is " + extent_of(metadata));
+  const Point2 end = is_on_the_data(link.from, metadata) ? link.to : link.from;
+  const std::optional<std::string> off = off_the_data(end, {}, metadata);
+  return fmt::format("{}: {}{}", link.id, first->message, off ? "; it " + *off : "");
 }
 
 }  // namespace
 
 void LosLinks::declare(CLI::App& app) {
-  reads(app.add_option("--links", path_,
-                       "Many links: a table id,x1,y1,h1,x2,y2,h2 (.csv; also lon1,lat1,lon2,lat2), or a file of lines")
+  reads(app.add_option(
+               "--links", path_,
+               "Many links: a table id,x1,y1,h1,x2,y2,h2 (.csv; also lon1,lat1,lon2,lat2, or position1,position2 with "
+               "grid references; and name1,name2,frequency,polarisation,criteria of each), or a file of lines")
             ->type_name("FILE"));
   app.add_option("--link-height", height_text_,
                  "Height of both ends of the lines of a file (default: 2, and at the second end the tip of "

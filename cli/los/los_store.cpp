@@ -23,7 +23,10 @@ std::vector<std::string> warnings_about(const profile::LosReport& report) {
 }  // namespace
 
 void LosStoreOptions::declare(CLI::App& app) {
-  app.add_option("--from", from_text_, "The first end; h is 2 where not given")->type_name("x,y[,h]");
+  app.add_option(
+         "--from", from_text_,
+         "The first end; h is 2 where not given. For x,y also degrees with N, S, E or W, or an OS grid reference")
+      ->type_name("x,y[,h]");
   app.add_option("--to", to_text_, "The second end; h is 2 where not given")->type_name("x,y[,h]");
   app.add_flag("--absolute-heights", absolute_heights_, "Every h is an elevation, not a height above the surface");
   app.add_option("--observer-on", from_on_,
@@ -82,8 +85,10 @@ Document LosStoreOptions::surface_parameters() const {
 
 Document LosStoreOptions::parameters() const {
   const auto end = [&](const Place& place, double height) {
-    return Document{
+    Document document{
         {"x", place.position.x}, {"y", place.position.y}, {absolute_heights_ ? "elevation_m" : "height_m", height}};
+    if (!place.crs.empty()) document["crs"] = place.crs;
+    return document;
   };
   Document parameters{{"from", end(from_, from_height_)}, {"to", end(to_, to_height_)}};
   parameters.update(surface_parameters());
@@ -92,7 +97,7 @@ Document LosStoreOptions::parameters() const {
 
 LosStoreOptions::Result LosStoreOptions::run(const Store& store, profile::LosQuery query) const {
   const auto end = [&](const char* option, const std::string& text, const Place& place) {
-    return on_the_data(fmt::format("{} '{}'", option, text), place.position, in_crs_, store.metadata());
+    return on_the_data(fmt::format("{} '{}'", option, text), place, in_crs_, store.metadata());
   };
   const Ends ends{end("--from", from_text_, from_), end("--to", to_text_, to_), from_height_, to_height_};
   return run(store, std::move(query), ends);

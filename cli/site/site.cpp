@@ -118,7 +118,7 @@ class SiteVerb final : public Verb {
 
   std::optional<viewshed::SiteStand> hub(const Store& store, Progress& progress) const {
     if (!options_.hub) return std::nullopt;
-    const Point2 p = on_the_data("--hub", options_.hub->position, options_.in_crs, store.metadata());
+    const Point2 p = on_the_data("--hub", *options_.hub, options_.in_crs, store.metadata());
     const auto ground = viewshed::ground_under(
         store, {p}, options_.on_surface ? options_.themes.choice() : ThemeChoice::none(), progress);
     if (!ground.front()) throw InputError("--hub: there is no data there; move it onto the data");

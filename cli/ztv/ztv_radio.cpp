@@ -50,7 +50,7 @@ Document ZtvRadioOptions::parameters() const {
 void ZtvRadioOptions::load(const InCrs& in_crs, const StoreMetadata& metadata) {
   if (radar_place_) {
     const std::string what = fmt::format("--radar '{}'", radar_text_);
-    const Point2 position = on_the_data(what, radar_place_->position, in_crs, metadata);
+    const Point2 position = on_the_data(what, *radar_place_, in_crs, metadata);
     radar_ = viewshed::Observer{"radar", position, *radar_place_->height};
   }
   if (links_path_.empty()) return;

@@ -13,6 +13,7 @@
 #include <itin/height_limit.hpp>
 #include <itin/paths.hpp>
 #include <itin/position_columns.hpp>
+#include <itin/written_position.hpp>
 #include <profile/links.hpp>
 #include <profile/radio_text.hpp>
 
@@ -45,6 +46,7 @@ constexpr ExtraName kExtraNames[] = {
 struct Columns {
   std::array<std::size_t, kLinkColumns> of{0, 1, 2, 3, 4, 5, 6};  ///< the cell that each of kLinkNames is in
   bool geographic = false;                                        ///< positions are longitude and latitude
+  bool written = false;  ///< x1 and y1 are one cell as written_position() has it
   std::vector<std::pair<std::size_t, Extra>> extras;
   std::vector<std::size_t> others;
 };
@@ -70,8 +72,15 @@ void add_further(const std::vector<std::string>& names, Columns& columns) {
   }
 }
 
-/// By name where a header has all of them, x1 and y1 or what position_columns() has in place of them; else the columns
-/// are in the usual order.
+/// The column of an end's position as people write it.
+std::optional<std::size_t> written_column(const std::vector<std::string>& names, const char* end) {
+  for (const char* name : {"position", "gridref", "grid_ref", "ngr"})
+    if (const auto found = column_of(names, (std::string(name) + end).c_str())) return found;
+  return std::nullopt;
+}
+
+/// By name where a header has all of them, x1 and y1 or what position_columns() or written_column() have in place of
+/// them; else the columns are in the usual order.
 Columns columns_of(const std::vector<std::string>& names, const std::string& path) {
   const auto from = position_columns(names, "1"), to = position_columns(names, "2");
   Columns columns;
@@ -79,6 +88,11 @@ Columns columns_of(const std::vector<std::string>& names, const std::string& pat
   if (columns.geographic != (to && to->geographic))
     throw InputError(path + ": its header names longitude and latitude for one end only; give both ends alike");
   const auto id = column_of(names, "id"), h1 = column_of(names, "h1"), h2 = column_of(names, "h2");
+  const auto position1 = written_column(names, "1"), position2 = written_column(names, "2");
+  if (!from && !to && position1 && position2 && id && h1 && h2) {
+    columns.of = {*id, *position1, *position1, *h1, *position2, *position2, *h2};
+    columns.written = true;
+  }
   if (from && to && id && h1 && h2) columns.of = {*id, from->x, from->y, *h1, to->x, to->y, *h2};
   add_further(names, columns);
   return columns;
@@ -152,6 +166,33 @@ class TableReader {
     return i < cells.size() ? cells[i] : "";
   }
 
+  double number_of(const std::vector<std::string>& cells, std::size_t i) const {
+    const std::string& text = cells[columns_.of[i]];
+    auto value = number_in(text, separator_);
+    if (!value && columns_.geographic)
+      value = i % 3 == 1 ? written_angle(with_points(text), 'E', 'W') : written_angle(with_points(text), 'N', 'S');
+    if (!value || !std::isfinite(*value)) throw InputError(fmt::format("{} '{}' is no number", kLinkNames[i], text));
+    return *value;
+  }
+  double height_of(const std::vector<std::string>& cells, std::size_t i) const {
+    const double height = number_of(cells, i);
+    require_height(height, kLinkNames[i]);
+    return height;
+  }
+  /// Of the end whose x is in the column `i`, in the CRS asked for.
+  Point2 position_of(const std::vector<std::string>& cells, std::size_t i) const {
+    if (!columns_.written) {
+      const Point2 p{number_of(cells, i), number_of(cells, i + 1)};
+      return transform_ ? (*transform_)(p) : p;
+    }
+    const std::string& text = cells[columns_.of[i]];
+    const auto written = written_position(with_points(text));
+    if (!written)
+      throw InputError(
+          fmt::format("'{}' is no grid reference, and no latitude and longitude with their letters", text));
+    return CoordinateTransform(written->crs, to_crs_)(written->position);
+  }
+
   /// Frequencies and criteria are numbers, too.
   std::string with_points(std::string cell) const {
     if (separator_ != ',') std::replace(cell.begin(), cell.end(), ',', '.');
@@ -161,7 +202,7 @@ class TableReader {
   /// `header` is empty where there is none.
   void understand(const std::vector<std::string>& header) {
     columns_ = columns_of(header, path_);
-    width_ = std::max(header.size(), kLinkColumns);
+    width_ = columns_.written ? header.size() : std::max(header.size(), kLinkColumns);
     for (const std::size_t i : columns_.others) table_.other_columns.push_back(header[i]);
     const std::string crs = csv_crs_.empty() && columns_.geographic ? kGeographicColumnsCrs : csv_crs_;
     if (!crs.empty()) transform_.emplace(crs, to_crs_);
@@ -176,16 +217,8 @@ class TableReader {
   Link link_of(const std::vector<std::string>& cells) const {
     if (cells.size() != width_)
       throw InputError(fmt::format("has {} columns instead of {}: id,x1,y1,h1,x2,y2,h2", cells.size(), width_));
-    std::array<double, kLinkColumns> v{};
-    for (std::size_t i = 1; i < kLinkColumns; ++i) {
-      const auto value = number_in(cells[columns_.of[i]], separator_);
-      if (!value || !std::isfinite(*value))
-        throw InputError(fmt::format("{} '{}' is no number", kLinkNames[i], cells[columns_.of[i]]));
-      v[i] = *value;
-    }
-    for (const std::size_t h : {std::size_t{3}, std::size_t{6}}) require_height(v[h], kLinkNames[h]);
-    Link link{cells[columns_.of[0]], {v[1], v[2]}, v[3], {v[4], v[5]}, v[6]};
-    if (transform_) link.from = (*transform_)(link.from), link.to = (*transform_)(link.to);
+    Link link{cells[columns_.of[0]], position_of(cells, 1), height_of(cells, 3), position_of(cells, 4),
+              height_of(cells, 6)};
     for (const auto& [i, extra] : columns_.extras) {
       if (cells[i].empty()) continue;
       try {
