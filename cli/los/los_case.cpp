@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <itin/coordinates.hpp>
+#include <profile/report_text.hpp>
 
 #include "los/los_document.hpp"
 

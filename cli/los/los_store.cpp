@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <profile/report_text.hpp>
 
 #include "options/off_the_data.hpp"
 #include "output/store_document.hpp"

@@ -8,6 +8,7 @@
 #include <itin/error.hpp>
 #include <profile/fresnel.hpp>
 #include <profile/los.hpp>
+#include <profile/report_text.hpp>
 #include <profile/required_heights.hpp>
 
 #include "published_profile.hpp"

@@ -178,16 +178,6 @@ Point2 position_at(const LosReport& report, double distance_m);
 /// Elevation and distance of the ray at a distance, metres; a straight line in the drawing's effective Earth.
 double ray_elevation_m(const LosReport& report, double distance_m);
 
-/// "no data over 1.200 km of the line, which leaves it undecided; nothing hides it on known ground"; empty without
-/// gaps.
-std::string gap_text(const LosReport& report);
-/// "Visible", or "Undecided: " and why; after a colon as well what is without data.
-std::string verdict_text(const LosReport& report);
-/// "meets by 0.40 F1 (3.10 m)", "fails by ...", "undecided".
-std::string outcome_text(const CriterionResult& result);
-/// Metres with two decimals, never less than the height that is required; "none is enough".
-std::string required_text(const std::optional<double>& height_m);
-
 /// "terrain", or the theme's name, and of a feature that is known: "buildings, Town Hall".
 std::string cause_of(const LosReport& report, std::uint16_t theme, std::int64_t feature = -1);
 

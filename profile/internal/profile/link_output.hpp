@@ -22,9 +22,9 @@ struct LinkSurvey {
   std::vector<std::pair<std::string, std::string>> facts;  ///< the inputs and the settings: name, value
 };
 
-/// By the name's ending: .csv (a row per row of the table), .gpkg and .kml (the links that could be computed, as lines),
-/// .pdf (one page: how many there are of which verdict, and those that want attention first). Equal surveys give equal
-/// bytes. Throws as require_link_format() does, and FileError.
+/// By the name's ending: .csv (a row per row of the table), .gpkg and .kml (the links that could be computed, as
+/// lines), .pdf (one page: how many there are of which verdict, and those that want attention first). Equal surveys
+/// give equal bytes. Throws as require_link_format() does, and FileError.
 void write_links(const LinkSurvey& survey, const std::string& path, bool overwrite);
 
 /// Throws InputError for another ending.

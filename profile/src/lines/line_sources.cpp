@@ -1,10 +1,12 @@
 #include "lines/line_sources.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <itin/progress.hpp>
 #include <itin/same_place.hpp>
@@ -14,6 +16,9 @@
 namespace itin::profile {
 
 namespace {
+
+/// Of one sort in a line of text.
+constexpr std::size_t kMostNames = 8;
 
 /// All but the name of a source.
 std::string about(const SourceInfo& source, const StatedHeights& heights) {
@@ -48,17 +53,19 @@ std::vector<SourceInfo> sources_under(const Store& store, const StoreLine& line)
 
 std::vector<std::string> described(const std::vector<SourceInfo>& sources, const StoreMetadata& metadata) {
   const StatedHeights heights(metadata);
-  std::vector<std::pair<std::string, std::string>> sorts;  // names, and what they have in common
+  std::vector<std::pair<std::vector<std::string>, std::string>> sorts;  // names, and what they have in common
   for (const SourceInfo& source : sources) {
     const std::string text = about(source, heights);
-    if (!sorts.empty() && sorts.back().second == text) {
-      sorts.back().first += ", " + named(source);
-    } else {
-      sorts.emplace_back(named(source), text);
-    }
+    if (sorts.empty() || sorts.back().second != text) sorts.push_back({{}, text});
+    sorts.back().first.push_back(named(source));
   }
   std::vector<std::string> lines;
-  for (const auto& [names, text] : sorts) lines.push_back(names + ": " + text);
+  for (auto& [names, text] : sorts) {
+    const std::size_t more = names.size() - std::min(names.size(), kMostNames);
+    names.resize(names.size() - more);
+    const std::string rest = more > 0 ? fmt::format(" and {} more, which the JSON document lists", more) : "";
+    lines.push_back(fmt::format("{}{}: {}", fmt::join(names, ", "), rest, text));
+  }
   return lines;
 }
 

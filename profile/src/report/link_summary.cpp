@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <profile/report_text.hpp>
+
 #include "report/link_columns.hpp"
 #include "report/page.hpp"
 

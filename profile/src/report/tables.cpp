@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <profile/report_text.hpp>
+
 namespace itin::profile {
 
 namespace {
@@ -30,7 +32,9 @@ std::vector<std::string> criterion_row(const CriterionResult& c) {
 
 Table criteria_table(const LosReport& report, const LineFindings& found, const std::string& of) {
   Table table{"Verdicts" + of, {"K", "wanted", "clearance", "least of F1", "verdict"}, {}, ""};
-  table.rows.push_back({"as above", "line of sight", clearance_text(found.clearance_m),
+  const double drop = report.query.earth.drop_coefficient();
+  const std::string k = drop == 0 ? "flat" : fmt::format("{:.4g}", 1 / (2 * drop * report.query.earth.radius));
+  table.rows.push_back({k, "line of sight", clearance_text(found.clearance_m),
                         found.fresnel ? fraction_text(found.fresnel->fraction) : "", name_of(found.verdict)});
   for (const CriterionResult& c : found.criteria) table.rows.push_back(criterion_row(c));
   table.note = gap_text(report);

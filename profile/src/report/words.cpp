@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include <itin/grazing.hpp>
-#include <profile/los.hpp>
+#include <profile/report_text.hpp>
 
 #include "report/tables.hpp"
 
