@@ -33,7 +33,6 @@ Document sources_document(const std::vector<SourceInfo>& sources) {
     list.push_back({{"path", source.path},
                     {"kind", source.kind},
                     {"sha256", source.sha256},
-                    {"imported", source.imported},
                     {"spacing_m", source.spacing},
                     {"note", source.note.empty() ? Document(nullptr) : Document(source.note)}});
   }

@@ -26,7 +26,6 @@ std::string about(const SourceInfo& source, const StatedHeights& heights) {
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
   if (source.theme.empty() && source.spacing > 0) add(fmt::format("posts every {:.4g} m", source.spacing));
   if (const auto axis = heights.of(source)) add(described(*axis));
-  add("imported " + source.imported.substr(0, source.imported.find('T')));
   if (!source.note.empty()) add(source.note);
   return text;
 }
@@ -64,7 +63,7 @@ std::vector<std::string> described(const std::vector<SourceInfo>& sources, const
     const std::size_t more = names.size() - std::min(names.size(), kMostNames);
     names.resize(names.size() - more);
     const std::string rest = more > 0 ? fmt::format(" and {} more, which the JSON document lists", more) : "";
-    lines.push_back(fmt::format("{}{}: {}", fmt::join(names, ", "), rest, text));
+    lines.push_back(fmt::format("{}{}{}{}", fmt::join(names, ", "), rest, text.empty() ? "" : ": ", text));
   }
   return lines;
 }

@@ -126,7 +126,7 @@ Table object_table(const LosReport& report) {
             fmt::format("{:.2f} m, {:.0f} %", seen.hub_visible_m, 100 * seen.hub_fraction)},
            {fmt::format("Up to the tip, {:g} m", object.tip_m),
             fmt::format("{:.2f} m, {:.0f} %", seen.tip_visible_m, 100 * seen.tip_fraction)}},
-          ""};
+          report.profile.gaps.empty() ? "" : "Over known ground alone: what has no data may hide more."};
 }
 
 }  // namespace
