@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include <itin/same_place.hpp>
-#include <itin/triangulate.hpp>
 
 namespace itin::cli {
 
@@ -22,13 +21,8 @@ bool SiteLinks::at_one_place(const SiteStand& a, const SiteStand& b) const {
   return same_place(store_.metadata().grid, a.position, b.position);
 }
 
-profile::SightLine SiteLinks::between(const SiteStand& a, const SiteStand& b) const {
-  if (at_one_place(a, b)) return {};
-  const Window window = Window::corridor(a.position, b.position, 4 * store_.metadata().grid.resolution);
-  const Tin tin = triangulate(store_, window, Detail::tolerance(0), progress_, rules_.themes);
-  const std::optional<double> wavelength = rules_.fresnel ? std::optional(rules_.fresnel->wavelength) : std::nullopt;
-  return profile::SightLines(tin, rules_.earth, wavelength)
-      .between({a.position.x, a.position.y, a.elevation()}, {b.position.x, b.position.y, b.elevation()});
+profile::LinkResult SiteLinks::between(const SiteStand& a, const SiteStand& b) const {
+  return survey_link(store_, {{}, a.position, a.height, b.position, b.height}, rules_.query);
 }
 
 bool SiteLinks::connect(const std::vector<SiteStand>& stands, std::size_t a, std::size_t b) const {

@@ -8,30 +8,32 @@
 #include <vector>
 
 #include <itin/store.hpp>
-#include <profile/line_of_sight.hpp>
+#include <profile/links.hpp>
 #include <viewshed/site_coverage.hpp>
 
 namespace itin::cli {
 
-/// The rules that lines between sites are judged by.
+/// How lines between sites are judged.
 struct LinkRules {
-  ThemeChoice themes;
-  Earth earth;
-  std::optional<viewshed::FresnelCriterion> fresnel;
+  profile::LinkQuery query;
+  double fraction = 0;  ///< of the first Fresnel zone that must be clear, where there is a frequency
 
-  bool met_by(const profile::SightLine& line) const { return line.clears(fresnel ? fresnel->fraction : 0); }
+  /// Known to be in sight, with so much of the zone clear.
+  bool met_by(const profile::LineFindings& found) const {
+    return found.verdict == profile::SightVerdict::kVisible && (!found.fresnel || found.fresnel->fraction >= fraction);
+  }
 };
 
-/// Remembers what it has looked at. Over the full surface with the themes.
+/// Remembers what it has looked at.
 class SiteLinks {
  public:
   SiteLinks(const Store& store, LinkRules rules, Progress& progress)
       : store_(store), rules_(std::move(rules)), progress_(progress) {}
 
   bool at_one_place(const viewshed::SiteStand& a, const viewshed::SiteStand& b) const;
-  profile::SightLine between(const viewshed::SiteStand& a, const viewshed::SiteStand& b) const;
+  profile::LinkResult between(const viewshed::SiteStand& a, const viewshed::SiteStand& b) const;
   bool connect(const viewshed::SiteStand& a, const viewshed::SiteStand& b) const {
-    return rules_.met_by(between(a, b));
+    return rules_.met_by(*between(a, b).found);
   }
   /// As above, for options by their number; asking again costs nothing.
   bool connect(const std::vector<viewshed::SiteStand>& stands, std::size_t a, std::size_t b) const;

@@ -9,6 +9,7 @@
 #include <itin/error.hpp>
 #include <profile/fresnel.hpp>
 
+#include "options/radio_options.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
 #include "program/json_text.hpp"
@@ -205,7 +206,7 @@ void SiteOptions::validate_demand() {
 }
 
 void SiteOptions::validate_links() {
-  frequency_ghz = number("--frequency", frequency_text_, Range::kPositive);
+  if (!frequency_text_.empty()) frequency_ghz = parse_frequency(frequency_text_);
   if (!frequency_ghz) {
     if (!fresnel_text_.empty()) throw InputError("--fresnel takes a --frequency: the zone's radius depends on it");
     return;

@@ -98,13 +98,32 @@ viewshed::SiteSurvey site_survey(const SiteOptions& options, const SiteInputs& i
 }
 
 LinkRules link_rules(const SiteOptions& options) {
-  return {options.themes.choice(), options.earth.earth(), options.criterion()};
+  constexpr profile::NoData kRules[] = {profile::NoData::kUnknown, profile::NoData::kBlock, profile::NoData::kClear};
+  LinkRules rules{{.earth = options.earth.earth(),
+                   .themes = options.themes.choice(),
+                   .from_on_surface = options.on_surface,
+                   .to_on_surface = options.on_surface,
+                   .nodata = kRules[static_cast<int>(options.nodata)]},
+                  options.fresnel};
+  if (options.frequency_ghz) {
+    rules.query.radio.emplace().frequency_ghz = *options.frequency_ghz;
+    rules.query.radio->effective_earth_km = profile::effective_earth_km(options.earth.earth());
+  }
+  return rules;
 }
 
 const char* outcome_of(const SiteOptions& options, const SiteLink& link) {
-  if (!link.line.visible()) return "hidden";
-  if (!options.frequency_ghz) return "visible";
-  return link_rules(options).met_by(link.line) ? "clear" : "in sight, zone cut";
+  const profile::SightVerdict verdict = link.found().verdict;
+  if (verdict != profile::SightVerdict::kVisible || !options.frequency_ghz) return name_of(verdict);
+  return link_rules(options).met_by(link.found()) ? "clear" : "in sight, zone cut";
+}
+
+double SiteResult::served() const {
+  return in_metric(choice.value + choice.existing);
+}
+
+double SiteResult::served_percent() const {
+  return inputs.total == 0 ? 0 : 100 * served() / in_metric(inputs.total);
 }
 
 std::size_t SiteResult::refined() const {
@@ -138,10 +157,21 @@ SiteRasters site_rasters(const Store& store, const SiteOptions& options, const S
   } else {
     cells = on_cells(store, options, inputs, sites, progress);
   }
-  BestServer best(*cells.targets.grid, viewshed::with_ground(store, cells.targets, progress));
+  BestServer best(*cells.targets.grid,
+                  inputs.cells.empty() ? viewshed::with_ground(store, cells.targets, progress) : inputs.cells);
   for (std::size_t i = 0; i < sites.size(); ++i)
     best.add(inputs.stands[sites[i]], static_cast<std::uint16_t>(i + 1), cells.served[i]);
   return std::move(best).rasters();
+}
+
+std::vector<double> site_grounds(const Store& store, const SiteInputs& inputs, const viewshed::Choice& choice,
+                                 Progress& progress) {
+  std::vector<Point2> positions;
+  for (const viewshed::ChosenSite& site : choice.chosen) positions.push_back(inputs.stands[site.option].position);
+  std::vector<double> grounds;
+  for (const auto& ground : viewshed::ground_under(store, positions, ThemeChoice::none(), progress))
+    grounds.push_back(ground.value());
+  return grounds;
 }
 
 std::vector<SiteLink> site_links(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
@@ -150,8 +180,7 @@ std::vector<SiteLink> site_links(const Store& store, const SiteOptions& options,
   const SiteLinks links(store, link_rules(options), progress);
   std::vector<SiteLink> result;
   const auto add = [&](std::size_t from, std::optional<std::size_t> to, const SiteStand& a, const SiteStand& b) {
-    result.push_back(
-        {from, to, std::hypot(a.position.x - b.position.x, a.position.y - b.position.y), links.between(a, b)});
+    result.push_back({from, to, links.between(a, b)});
   };
   for (std::size_t i = 0; i < choice.chosen.size(); ++i) {
     const SiteStand& a = inputs.stands[choice.chosen[i].option];

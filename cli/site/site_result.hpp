@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <profile/line_of_sight.hpp>
+#include <profile/links.hpp>
 #include <viewshed/site_coverage.hpp>
 #include <viewshed/siting.hpp>
 
@@ -17,11 +17,12 @@ namespace itin::cli {
 struct SiteLink {
   std::size_t from = 0;             ///< in the order of choice
   std::optional<std::size_t> to{};  ///< none: the hub
-  double distance_m = 0;
-  profile::SightLine line;
+  profile::LinkResult line;
+
+  const profile::LineFindings& found() const { return *line.found; }
 };
 
-/// For links: "clear" as served is meant, "hidden", or in sight only.
+/// For links: "clear" as served is meant, "hidden", "undecided", or in sight only.
 const char* outcome_of(const SiteOptions& options, const SiteLink& link);
 
 /// An option's coverage in the demand's own measure.
@@ -44,6 +45,7 @@ struct SiteResult {
   viewshed::Choice choice;
   std::vector<SiteLink> links;
   SiteRasters rasters;
+  std::vector<double> ground_m;  ///< elevation of the ground under each chosen site, which may stand on a roof
 
   const viewshed::SiteStand& stand(const viewshed::ChosenSite& site) const { return inputs.stands[site.option]; }
   const Candidate& candidate(std::size_t option) const { return inputs.candidates[inputs.options[option].place]; }
@@ -52,6 +54,9 @@ struct SiteResult {
             inputs.demand.in_metric(inputs.demand.weight(bounds.possible))};
   }
   double in_metric(viewshed::Weight weight) const { return inputs.demand.in_metric(weight); }
+  /// By the chosen and the existing sites together, in the demand's own measure, and as a share of all demand.
+  double served() const;
+  double served_percent() const;
   std::size_t refined() const;
   /// Why an option is not part of the choice, in words.
   std::string reason(std::size_t option) const;
@@ -60,6 +65,10 @@ struct SiteResult {
 
 /// The survey that lines of sight are computed for.
 viewshed::SiteSurvey site_survey(const SiteOptions& options, const SiteInputs& inputs);
+
+/// Elevations of the bare ground under the chosen sites.
+std::vector<double> site_grounds(const Store& store, const SiteInputs& inputs, const viewshed::Choice& choice,
+                                 Progress& progress);
 
 /// From exact coverage (or what is certain of it) of the chosen and the existing sites.
 SiteRasters site_rasters(const Store& store, const SiteOptions& options, const SiteInputs& inputs,

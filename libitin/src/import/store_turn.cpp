@@ -21,9 +21,10 @@ namespace itin {
 namespace {
 
 /// As the store names it: without the folder, which says nothing of the data, nor anything to whoever gets the store.
-SourceInfo recorded(SourceInfo source) {
+SourceInfo recorded(SourceInfo source, const ImportOptions& options) {
   const std::filesystem::path path(source.path);
   source.path = (path.has_filename() ? path : path.parent_path()).filename().string();
+  if (!options.source_note.empty()) source.note = options.source_note;
   return source;
 }
 
@@ -118,16 +119,16 @@ void StoreTurn::collect(Progress& progress) {
   if (base_ != nullptr) stored_ = add_stored(*base_, sorter_, collection_, progress);
   for (const auto& source : additions_.plan.sources) {
     add_source(*source, progress);
-    sources_.push_back(recorded(source->info()));
+    sources_.push_back(recorded(source->info(), options_));
     sources_.back().replaces = options_.replace;
   }
   for (const auto& layer : additions_.plan.lines) {
     add_lines(*layer, progress);
-    sources_.push_back(recorded(layer->info()));
+    sources_.push_back(recorded(layer->info(), options_));
   }
   for (FootprintFile& file : additions_.footprints) {
     add_footprints(file);
-    sources_.push_back(recorded(file.info));
+    sources_.push_back(recorded(file.info, options_));
   }
   if (repair_) sources_.push_back(inferred_source());
   if (!additions_.empty()) require_points(report_, options_, stored_.count > 0);

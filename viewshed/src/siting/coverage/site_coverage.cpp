@@ -35,6 +35,8 @@ constexpr std::uint64_t kBytesPerRayPoint = 1200, kBytesPerSweptPoint = 400;
 constexpr std::uint64_t kFirstShare = 2, kFirstShareOfWhole = 8;
 /// Points of the full surface about each site.
 constexpr double kSiteNearPoints = 128;
+/// Options; fewer of them make less of what they share.
+constexpr std::size_t kJudgedTogether = 32;
 /// No coarse look at so few points: the full surface is as fast.
 constexpr std::uint64_t kFewPoints = 40000;
 
@@ -303,6 +305,16 @@ class SiteCoverage::Impl {
     std::unique_ptr<GroupSurvey> own;
     if (level > 0 || !whole_fits_) own = survey_of(group, level, themed);
     const GroupSurvey& survey = own ? *own : whole_survey(themed);
+    // Few at a time: a run that is killed goes on from what has been settled.
+    for (std::size_t first = 0; first < options.size(); first += kJudgedTogether) {
+      const auto begin = options.begin() + static_cast<std::ptrdiff_t>(first);
+      const auto count = static_cast<std::ptrdiff_t>(std::min(kJudgedTogether, options.size() - first));
+      judge_some({begin, begin + count}, survey, stage, level, themed);
+    }
+  }
+
+  void judge_some(const std::vector<std::size_t>& options, const GroupSurvey& survey, int stage, int level,
+                  bool themed) {
     Stopwatch watch;
     std::vector<const CoverageBounds*> before;
     for (const std::size_t option : options) before.push_back(&states_[option].bounds);
