@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
     query.radio = itin::profile::RadioPath{.frequency_ghz = 26};
     const itin::profile::LosReport report = itin::profile::analyse(store, line, query);
     std::cout << name_of(report.verdict) << ", " << report.profile.length_m << " m\n";
-    if (report.clearance_m) std::cout << "least clearance " << *report.clearance_m << " m\n";
+    if (report.clearance_m) std::cout << "clearance " << *report.clearance_m << " m\n";
     if (report.critical)
       std::cout << "tightest at " << report.critical->distance_m << " m, over "
                 << cause_of(report, report.critical->theme, report.critical->feature) << '\n';
@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
                                                     {"back", line.to, number(7), line.from, number(4)}};
     itin::NoProgress progress;
     for (const itin::profile::LinkResult& link : survey_links(store, links, surface, progress))
-      std::cout << (link.verdict ? name_of(*link.verdict) : link.message) << '\n';
+      std::cout << (link.found ? name_of(link.found->verdict) : link.message) << '\n';
 
     // The surface under the line: every breakpoint of its triangles, nothing sampled.
     itin::profile::Chart chart;

@@ -1,9 +1,11 @@
 // itin los: line-of-sight verdicts and reports.
 
+#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
 
+#include <itin/coordinates.hpp>
 #include <itin/error.hpp>
 #include <itin/height_limit.hpp>
 #include <itin/store.hpp>
@@ -81,7 +83,7 @@ class LosVerb final : public Verb {
     if (links_.given()) return run_links(progress);
     for (const std::string& path : reports_.paths()) policy_.require_writable(path);
     LosCase one = store_.empty() ? run_profile() : run_store();
-    add_warnings(one.result);
+    if (query_.radio) warn_of_refraction(query_.radio->effective_earth_km, one.result);
     reports_.write(one, command(), reports_.paths(), policy_.overwrite);
     one.result.document["outputs"] = reports_.paths();
     one.result.text = text_of(one.report);
@@ -103,6 +105,7 @@ class LosVerb final : public Verb {
       line_.validate(radio_.object() ? std::optional(radio_.object()->tip_m) : std::nullopt);
     }
     links_.require_none();
+    radio_.require_frequency();
     reports_.validate(!store_.empty());
   }
 
@@ -137,13 +140,16 @@ class LosVerb final : public Verb {
   }
 
   Result run_links(Progress& progress) {
-    policy_.require_writable(links_.output());
+    for (const std::string& output : links_.outputs()) policy_.require_writable(output);
     const Store store(store_);
     const profile::LinkTable table = links_.table(store, line_);
     std::vector<LosReports::Job> jobs = reports_.jobs(table.links, policy_);
-    LosLinks::Survey survey = links_.run(store, table, line_, query_, policy_.overwrite, progress);
+    const LosLinks::Page page{reports_.title(), facts_of_links(store)};
+    LosLinks::Survey survey = links_.run(store, table, line_, query_, page, policy_.overwrite, progress);
     survey.result.document["refraction"] = earth_.document();
-    add_warnings(survey.result);
+    const bool radio = query_.radio || std::any_of(table.links.begin(), table.links.end(),
+                                                   [](const profile::Link& l) { return l.frequency_ghz.has_value(); });
+    if (radio) warn_of_refraction(profile::effective_earth_km(query_.earth), survey.result);
     warn_of_scale(store.metadata(), survey.result.warnings);
     // A link without a verdict has no report; the table says why.
     std::erase_if(jobs, [&](const LosReports::Job& job) { return !survey.computed[job.link]; });
@@ -158,13 +164,20 @@ class LosVerb final : public Verb {
     return std::move(survey.result);
   }
 
-  void add_warnings(Result& result) const {
-    if (query_.radio && earth_.is_default()) {
-      result.warnings.push_back(
-          fmt::format("radio at the refraction of light, an effective Earth of {:.0f} km; the usual one of radio is "
-                      "--effective-earth 4/3",
-                      query_.radio->effective_earth_km));
-    }
+  std::vector<std::pair<std::string, std::string>> facts_of_links(const Store& store) const {
+    const StoreMetadata& metadata = store.metadata();
+    return {{"Store", std::filesystem::path(store.path()).filename().string()},
+            {"CRS", fmt::format("{} ({})", crs_title(metadata.crs_wkt), crs_identifier(metadata.crs_wkt))},
+            {"Refraction", query_.earth.convention()},
+            {"Program", "itin " ITIN_VERSION}};
+  }
+
+  void warn_of_refraction(double effective_earth_km, Result& result) const {
+    if (!earth_.is_default()) return;
+    result.warnings.push_back(
+        fmt::format("radio at the refraction of light, an effective Earth of {:.0f} km; the usual one of radio is "
+                    "--effective-earth 4/3",
+                    effective_earth_km));
   }
 
   std::string store_, profile_csv_, heights_text_;

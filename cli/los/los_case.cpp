@@ -3,16 +3,13 @@
 #include <fmt/format.h>
 
 #include <itin/coordinates.hpp>
+#include <profile/report_text.hpp>
 
 #include "los/los_document.hpp"
 
 namespace itin::cli {
 
 namespace {
-
-std::string optional_metres(const std::optional<double>& value) {
-  return value ? fmt::format("{:.2f} m", *value) : "none is enough";
-}
 
 void add_radio_fact(profile::LosReport& report) {
   const profile::RadioPath& radio = *report.query.radio;
@@ -28,6 +25,34 @@ void add_facts(profile::LosReport& report) {
   report.facts.emplace_back("Refraction", report.query.earth.convention());
   if (report.query.radio) add_radio_fact(report);
   report.facts.emplace_back("Program", "itin " ITIN_VERSION);
+}
+
+Document sources_document(const std::vector<SourceInfo>& sources) {
+  Document list = Document::array();
+  for (const SourceInfo& source : sources) {
+    list.push_back({{"path", source.path},
+                    {"kind", source.kind},
+                    {"sha256", source.sha256},
+                    {"spacing_m", source.spacing},
+                    {"note", source.note.empty() ? Document(nullptr) : Document(source.note)}});
+  }
+  return list;
+}
+
+std::string text_of_findings(const profile::LosReport& report, const profile::LineFindings& found) {
+  std::string text;
+  for (const profile::Obstruction& o : found.obstructions) {
+    text += fmt::format("obstructed from {:.1f} to {:.1f} m, {:.2f} m deep at {:.1f} m ({})\n", o.from_m, o.to_m,
+                        o.depth_m, o.peak_at_m, cause_of(report, o.theme, o.feature));
+  }
+  for (const profile::CriterionResult& c : found.criteria)
+    text += fmt::format("K = {:.4g}, {:g} F1: {}\n", c.criterion.k, c.criterion.fraction, outcome_text(c));
+  for (const profile::NamedHeights& r : found.required) {
+    text += fmt::format("for {}: first end {}, second end {}, both {}\n", r.name,
+                        profile::required_text(r.heights.from_alone_m), profile::required_text(r.heights.to_alone_m),
+                        profile::required_text(r.heights.both_equal_m));
+  }
+  return text;
 }
 
 }  // namespace
@@ -50,6 +75,7 @@ LosCase los_case(const Store& store, LosStoreOptions::Result line, const LosHead
   one.result.warnings = std::move(line.warnings);
   one.result.document["crs"] = crs_identifier(store.metadata().crs_wkt);
   one.result.document["surface"] = std::move(line.surface);
+  one.result.document["sources"] = sources_document(one.report.sources);
   one.result.document["statistics"] = {{"points_read", one.report.statistics.points_read},
                                        {"blocks_read", one.report.statistics.blocks_read},
                                        {"triangles", one.report.triangles}};
@@ -58,27 +84,22 @@ LosCase los_case(const Store& store, LosStoreOptions::Result line, const LosHead
 
 std::string text_of(const profile::LosReport& report) {
   std::string text = fmt::format("{}, {:.1f} m", name_of(report.verdict), report.profile.length_m);
-  if (report.clearance_m && report.critical) {
-    text += fmt::format("; least clearance {:.2f} m at {:.1f} m ({})", *report.clearance_m, report.critical->distance_m,
+  if (report.critical) {
+    text += fmt::format("; clearance {:.2f} m at {:.1f} m ({})", *report.clearance_m, report.critical->distance_m,
                         cause_of(report, report.critical->theme, report.critical->feature));
   }
   text += "\n";
+  const std::string gaps = gap_text(report);
+  if (!gaps.empty()) text += gaps + "\n";
   if (report.geodesic_m)
     text +=
         fmt::format("{:.1f} m on the grid, {:.1f} m geodesic (WGS 84)\n", report.profile.length_m, *report.geodesic_m);
-  for (const profile::Obstruction& o : report.obstructions) {
-    text += fmt::format("obstructed from {:.1f} to {:.1f} m, {:.2f} m deep at {:.1f} m ({})\n", o.from_m, o.to_m,
-                        o.depth_m, o.peak_at_m, cause_of(report, o.theme, o.feature));
-  }
-  for (const profile::CriterionResult& c : report.criteria) {
-    text += fmt::format("K = {:.4g}, {:g} F1: {}", c.criterion.k, c.criterion.fraction, name_of(c.verdict));
-    if (c.clearance_f1) text += fmt::format(", {:.3f} F1", *c.clearance_f1);
-    text += "\n";
-  }
-  for (const profile::NamedHeights& r : report.required) {
-    text +=
-        fmt::format("for {}: first end {}, second end {}, both {}\n", r.name, optional_metres(r.heights.from_alone_m),
-                    optional_metres(r.heights.to_alone_m), optional_metres(r.heights.both_equal_m));
+  if (report.bare) text += "with clutter:\n";
+  text += text_of_findings(report, report);
+  if (report.bare) {
+    text += fmt::format("bare ground: {}; clearance {:.2f} m at {:.1f} m\n", name_of(report.bare->verdict),
+                        *report.bare->clearance_m, report.bare->critical->distance_m);
+    text += text_of_findings(report, *report.bare);
   }
   if (report.losses) {
     const profile::PathLosses& l = *report.losses;

@@ -9,6 +9,7 @@ namespace itin::cli {
 
 namespace {
 
+using profile::LineFindings;
 using profile::LosEnd;
 using profile::LosReport;
 
@@ -31,9 +32,9 @@ Document feature_number(std::int64_t number) {
   return number < 0 ? Document(nullptr) : Document(number);
 }
 
-Document critical_document(const LosReport& report) {
-  if (!report.critical) return nullptr;
-  const profile::ProfilePoint& p = *report.critical;
+Document critical_document(const LosReport& report, const LineFindings& found) {
+  if (!found.critical) return nullptr;
+  const profile::ProfilePoint& p = *found.critical;
   const bool placed = !report.crs_wkt.empty();
   return {{"distance_m", p.distance_m},
           {"x", placed ? Document(p.x) : Document(nullptr)},
@@ -44,9 +45,9 @@ Document critical_document(const LosReport& report) {
           {"feature_number", feature_number(p.feature)}};
 }
 
-Document obstructions_document(const LosReport& report) {
+Document obstructions_document(const LosReport& report, const LineFindings& found) {
   Document list = Document::array();
-  for (const profile::Obstruction& o : report.obstructions) {
+  for (const profile::Obstruction& o : found.obstructions) {
     list.push_back({{"from_m", o.from_m},
                     {"to_m", o.to_m},
                     {"peak_at_m", o.peak_at_m},
@@ -59,23 +60,25 @@ Document obstructions_document(const LosReport& report) {
   return list;
 }
 
-Document criteria_document(const LosReport& report) {
+Document criteria_document(const LineFindings& found) {
   Document list = Document::array();
-  for (const profile::CriterionResult& c : report.criteria) {
+  for (const profile::CriterionResult& c : found.criteria) {
     list.push_back({{"k", c.criterion.k},
                     {"fraction", c.criterion.fraction},
                     {"verdict", name_of(c.verdict)},
                     {"clearance_m", number(c.clearance_m)},
-                    {"clearance_f1", number(c.clearance_f1)}});
+                    {"clearance_f1", number(c.clearance_f1)},
+                    {"margin_m", number(c.margin_m)},
+                    {"margin_f1", number(c.margin_f1)}});
   }
   return list;
 }
 
-Document heights_document(const LosReport& report) {
+Document heights_document(const LineFindings& found) {
   Document list = Document::array();
-  for (const profile::NamedHeights& named : report.required) {
+  for (const profile::NamedHeights& named : found.required) {
     Document curve = Document::array();
-    for (const profile::HeightPair& pair : named.heights.curve) {
+    for (const profile::HeightPair& pair : named.curve) {
       curve.push_back({{"h1_m", pair.from_m}, {"h2_m", number(pair.to_m)}});
     }
     list.push_back({{"name", named.name},
@@ -132,6 +135,16 @@ Document visible_document(const LosReport& report) {
           {"tip", {{"visible_m", seen.tip_visible_m}, {"fraction", seen.tip_fraction}}}};
 }
 
+Document findings_document(const LosReport& report, const LineFindings& found) {
+  return {{"verdict", name_of(found.verdict)},
+          {"known_verdict", name_of(found.known_verdict)},
+          {"clearance_m", number(found.clearance_m)},
+          {"critical", critical_document(report, found)},
+          {"obstructions", obstructions_document(report, found)},
+          {"criteria", criteria_document(found)},
+          {"required_heights", heights_document(found)}};
+}
+
 }  // namespace
 
 Document end_document(const profile::LosEnd& end) {
@@ -154,17 +167,17 @@ Document los_document(const LosReport& report) {
   Document document;
   document["distance_m"] = report.profile.length_m;
   document["geodesic_distance_m"] = number(report.geodesic_m);
-  document["verdict"] = name_of(report.verdict);
-  document["clearance_m"] = number(report.clearance_m);
-  document["critical"] = critical_document(report);
-  document["obstructions"] = obstructions_document(report);
-  document["criteria"] = criteria_document(report);
-  document["required_heights"] = heights_document(report);
+  document.update(findings_document(report, report));
+  if (report.bare) {
+    document["bare"] = findings_document(report, *report.bare);
+    if (report.bare->fresnel) document["bare"]["fresnel_fraction"] = report.bare->fresnel->fraction;
+  }
   if (report.losses) document["radio"] = radio_document(report);
   if (report.visible) document["visible_height"] = visible_document(report);
   Document gaps = Document::array();
   for (const auto& [from, to] : report.profile.gaps) gaps.push_back({from, to});
   document["gaps"] = gaps;
+  document["gap_m"] = report.profile.gap_length_m();
   return document;
 }
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -20,7 +21,7 @@ class LosLinks {
  public:
   void declare(CLI::App& app);
   bool given() const { return !path_.empty(); }
-  const std::string& output() const { return output_; }
+  const std::vector<std::string>& outputs() const { return outputs_; }
   /// `object`: what stands at each second end, whose tip is then the height of those that the file does not tell.
   /// Throws InputError.
   void validate(const std::optional<profile::TallObject>& object);
@@ -30,17 +31,23 @@ class LosLinks {
   /// In the store's CRS. Throws FileError, InputError.
   profile::LinkTable table(const Store& store, const LosStoreOptions& surface) const;
 
+  /// What the page says besides the links.
+  struct Page {
+    std::string title;
+    std::vector<std::pair<std::string, std::string>> facts;
+  };
   struct Survey {
     Result result;
     std::vector<bool> computed;  ///< for each link, whether it has a verdict
   };
-  /// Writes the table. Where a link could not be computed the result says so as its failure. Throws FileError,
+  /// Writes the outputs. Where a link could not be computed the result says so as its failure. Throws FileError,
   /// InputError, CorruptStore, Cancelled.
   Survey run(const Store& store, const profile::LinkTable& table, const LosStoreOptions& surface,
-             const profile::LosQuery& query, bool overwrite, Progress& progress) const;
+             const profile::LosQuery& query, const Page& page, bool overwrite, Progress& progress) const;
 
  private:
-  std::string path_, output_, height_text_;
+  std::string path_, height_text_;
+  std::vector<std::string> outputs_;
   profile::LinkHeights heights_{2, 2};
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <profile/report_text.hpp>
 
 #include "options/off_the_data.hpp"
 #include "output/store_document.hpp"
@@ -11,14 +12,10 @@ namespace itin::cli {
 
 namespace {
 
-std::vector<std::string> warnings_about(const profile::LosReport& report, bool gaps_clear) {
+std::vector<std::string> warnings_about(const profile::LosReport& report) {
   std::vector<std::string> warnings;
-  const std::size_t gaps = report.profile.gaps.size();
-  if (gaps > 0 && !gaps_clear) {
-    warnings.push_back(fmt::format("the line crosses ground without data {}, which {}; see gaps, --nodata",
-                                   gaps == 1 ? "once" : fmt::format("{} times", gaps),
-                                   report.query.gaps_block ? "blocks it" : "counts as clear"));
-  }
+  const std::string gaps = gap_text(report);
+  if (!gaps.empty() && report.query.nodata != profile::NoData::kClear) warnings.push_back(gaps + "; see --nodata");
   if (report.query.radio && !report.losses && report.profile.has_length())
     warnings.emplace_back("an antenna is within a feature; no losses are given");
   return warnings;
@@ -27,7 +24,10 @@ std::vector<std::string> warnings_about(const profile::LosReport& report, bool g
 }  // namespace
 
 void LosStoreOptions::declare(CLI::App& app) {
-  app.add_option("--from", from_text_, "The first end; h is 2 where not given")->type_name("x,y[,h]");
+  app.add_option(
+         "--from", from_text_,
+         "The first end; h is 2 where not given. For x,y also degrees with N, S, E or W, or an OS grid reference")
+      ->type_name("x,y[,h]");
   app.add_option("--to", to_text_, "The second end; h is 2 where not given")->type_name("x,y[,h]");
   app.add_flag("--absolute-heights", absolute_heights_, "Every h is an elevation, not a height above the surface");
   app.add_option("--observer-on", from_on_,
@@ -37,7 +37,9 @@ void LosStoreOptions::declare(CLI::App& app) {
   in_crs_.declare(app);
   detail_.declare(app);
   themes_.declare(app);
-  app.add_option("--nodata", nodata_text_, "What ground without data does to the sight line (default: unknown)")
+  app.add_option("--nodata", nodata_text_,
+                 "What ground without data does to the sight line: unknown (default) leaves it undecided, unless known "
+                 "ground hides it")
       ->type_name("unknown|block|clear");
 }
 
@@ -50,22 +52,24 @@ void LosStoreOptions::validate(std::optional<double> object_tip_m) {
   }
   from_height_ = from_.height.value_or(2);
   to_height_ = to_.height.value_or(object_tip_m.value_or(2));
-  parse_choice("--observer-on", from_on_, {"ground", "surface"});
-  parse_choice("--target-on", to_on_, {"ground", "surface"});
-  if (!nodata_text_.empty()) parse_choice("--nodata", nodata_text_, {"unknown", "block", "clear"});
-  detail_.validate();
-  themes_.validate();
+  validate_choices();
   if (!absolute_heights_ && (from_height_ < 0 || to_height_ < 0)) {
     throw InputError("--from, --to: a height must not be negative; for an elevation give --absolute-heights");
   }
 }
 
-void LosStoreOptions::validate_surface() {
-  if (!nodata_text_.empty()) parse_choice("--nodata", nodata_text_, {"unknown", "block", "clear"});
-  detail_.validate();
-  themes_.validate();
+void LosStoreOptions::validate_choices() {
+  using enum profile::NoData;
+  constexpr profile::NoData kRules[] = {kUnknown, kBlock, kClear};
+  nodata_ = kRules[parse_choice("--nodata", nodata_text_, {"unknown", "block", "clear"})];
   parse_choice("--observer-on", from_on_, {"ground", "surface"});
   parse_choice("--target-on", to_on_, {"ground", "surface"});
+  detail_.validate();
+  themes_.validate();
+}
+
+void LosStoreOptions::validate_surface() {
+  validate_choices();
   if (detail_.has_rings()) throw InputError("--rings have no one centre for many links; give --tolerance");
   if (absolute_heights_) throw InputError("--absolute-heights is not for --links, whose heights are above the ground");
 }
@@ -76,14 +80,16 @@ Document LosStoreOptions::surface_parameters() const {
   parameters["observer_on"] = from_on_;
   parameters["target_on"] = to_on_;
   if (!in_crs_.crs.empty()) parameters["in_crs"] = in_crs_.crs;
-  parameters["nodata"] = nodata_text_.empty() ? "unknown" : nodata_text_;
+  parameters["nodata"] = nodata_text_;
   return parameters;
 }
 
 Document LosStoreOptions::parameters() const {
   const auto end = [&](const Place& place, double height) {
-    return Document{
+    Document document{
         {"x", place.position.x}, {"y", place.position.y}, {absolute_heights_ ? "elevation_m" : "height_m", height}};
+    if (!place.crs.empty()) document["crs"] = place.crs;
+    return document;
   };
   Document parameters{{"from", end(from_, from_height_)}, {"to", end(to_, to_height_)}};
   parameters.update(surface_parameters());
@@ -92,7 +98,7 @@ Document LosStoreOptions::parameters() const {
 
 LosStoreOptions::Result LosStoreOptions::run(const Store& store, profile::LosQuery query) const {
   const auto end = [&](const char* option, const std::string& text, const Place& place) {
-    return on_the_data(fmt::format("{} '{}'", option, text), place.position, in_crs_, store.metadata());
+    return on_the_data(fmt::format("{} '{}'", option, text), place, in_crs_, store.metadata());
   };
   const Ends ends{end("--from", from_text_, from_), end("--to", to_text_, to_), from_height_, to_height_};
   return run(store, std::move(query), ends);
@@ -102,11 +108,11 @@ LosStoreOptions::Result LosStoreOptions::run(const Store& store, profile::LosQue
   const profile::StoreLine line{ends.from, ends.to, detail_.detail(ends.from), themes(), absolute_heights_};
   query.from_height_m = ends.from_height, query.to_height_m = ends.to_height;
   query.from_on_surface = from_on_surface(), query.to_on_surface = to_on_surface();
-  query.gaps_block = gaps_block();
+  query.nodata = nodata();
   Result result;
   result.report = profile::analyse(store, line, query);
   result.surface = surface_document(store.metadata(), line.detail, line.themes);
-  result.warnings = warnings_about(result.report, gaps_clear());
+  result.warnings = warnings_about(result.report);
   return result;
 }
 

@@ -32,8 +32,7 @@ class LosStoreOptions {
   const ThemeChoice& themes() const { return themes_.choice(); }
   bool from_on_surface() const { return from_on_ == "surface"; }
   bool to_on_surface() const { return to_on_ == "surface"; }
-  bool gaps_block() const { return nodata_text_ == "block"; }
-  bool gaps_clear() const { return nodata_text_ == "clear"; }
+  profile::NoData nodata() const { return nodata_; }
   const std::string& in_crs() const { return in_crs_.crs; }
   Document parameters() const;
 
@@ -53,7 +52,10 @@ class LosStoreOptions {
   Result run(const Store& store, profile::LosQuery query, const Ends& ends) const;
 
  private:
-  std::string from_text_, to_text_, nodata_text_;
+  void validate_choices();
+
+  std::string from_text_, to_text_, nodata_text_ = "unknown";
+  profile::NoData nodata_ = profile::NoData::kUnknown;
   std::string from_on_ = "ground", to_on_ = "ground";
   bool absolute_heights_ = false;
   InCrs in_crs_;

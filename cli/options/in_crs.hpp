@@ -8,12 +8,16 @@
 
 #include <itin/geometry.hpp>
 
+#include "program/values.hpp"
+
 namespace itin::cli {
 
 struct InCrs {
   std::string crs;  ///< empty: the store's
 
   void declare(CLI::App& app);
+  /// For a place that may say its CRS itself.
+  InCrs of(const Place& place) const { return place.crs.empty() ? *this : InCrs{place.crs}; }
   /// Takes points to the CRS `wkt`. Throws InputError for an unknown CRS, and when called for a point that has no
   /// place in it.
   std::function<Point2(Point2)> transform_to(const std::string& wkt) const;

@@ -72,7 +72,7 @@ std::vector<ObserverPlace> ObserverOptions::places_given(const StoreMetadata& me
   for (std::size_t i = 0; i < given_.size(); ++i) {
     const std::string what = fmt::format("--observer '{}'", observers_[i]);
     places.push_back({fmt::format("{}", i + 1),
-                      on_the_data(what, given_[i].position, in_crs_, metadata),
+                      on_the_data(what, given_[i], in_crs_, metadata),
                       given_[i].height.value_or(height_),
                       absolute_heights_,
                       {}});

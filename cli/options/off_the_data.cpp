@@ -80,9 +80,10 @@ std::optional<std::string> off_the_data(Point2 given, const InCrs& in_crs, const
                      likely_mistake(given, in_crs, metadata));
 }
 
-Point2 on_the_data(const std::string& what, Point2 given, const InCrs& in_crs, const StoreMetadata& metadata) {
-  if (const auto off = off_the_data(given, in_crs, metadata)) throw InputError(what + ": " + *off);
-  return in_crs.transform_to(metadata.crs_wkt)(given);
+Point2 on_the_data(const std::string& what, const Place& place, const InCrs& in_crs, const StoreMetadata& metadata) {
+  const InCrs own = in_crs.of(place);
+  if (const auto off = off_the_data(place.position, own, metadata)) throw InputError(what + ": " + *off);
+  return own.transform_to(metadata.crs_wkt)(place.position);
 }
 
 void require_on_the_data(const std::string& what, Point2 place, const InCrs& in_crs, const StoreMetadata& metadata) {

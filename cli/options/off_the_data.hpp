@@ -20,8 +20,8 @@ bool is_on_the_data(Point2 place, const StoreMetadata& metadata);
 /// that are swapped, or longitude and latitude without --in-crs.
 std::optional<std::string> off_the_data(Point2 given, const InCrs& in_crs, const StoreMetadata& metadata);
 
-/// `given` in the store's CRS. Throws InputError, which begins with `what`, where it lies off the data.
-Point2 on_the_data(const std::string& what, Point2 given, const InCrs& in_crs, const StoreMetadata& metadata);
+/// The place in the store's CRS. Throws InputError, which begins with `what`, where it lies off the data.
+Point2 on_the_data(const std::string& what, const Place& place, const InCrs& in_crs, const StoreMetadata& metadata);
 
 /// Throws InputError, which begins with `what`, where `place`, read from a file and in the store's CRS by now, lies off
 /// the data.

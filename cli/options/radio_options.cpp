@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <profile/radio_text.hpp>
 
 #include "program/values.hpp"
 
@@ -10,14 +11,14 @@ namespace itin::cli {
 
 namespace {
 
-profile::Criterion parse_criterion(const std::string& text) {
-  const std::size_t colon = text.find(':');
-  if (colon == std::string::npos) {
-    throw InputError(fmt::format("--criterion '{}': expected K:fraction, such as 4/3:1.0", text));
+/// What the library makes of an option's text; its complaint names the option.
+template <class Parse>
+auto parsed(const char* option, const std::string& text, const Parse& parse) {
+  try {
+    return parse(text);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{} '{}': {}", option, text, error.what()));
   }
-  const double k = parse_ratio("--criterion", text.substr(0, colon));
-  const double fraction = parse_number("--criterion", text.substr(colon + 1), Range::kNotNegative);
-  return {k, fraction};
 }
 
 profile::TallObject parse_object(const std::string& text) {
@@ -30,8 +31,13 @@ profile::TallObject parse_object(const std::string& text) {
 
 }  // namespace
 
+double parse_frequency(const std::string& text) {
+  return parsed("--frequency", text, profile::parse_frequency_ghz);
+}
+
 void RadioOptions::declare(CLI::App& app) {
-  app.add_option("--frequency", frequency_text_, "Work out Fresnel zones and diffraction at this frequency")
+  app.add_option("--frequency", frequency_text_,
+                 "Work out Fresnel zones and diffraction at this frequency: GHz, or 7500MHz")
       ->type_name("GHZ");
   app.add_option("--polarisation", polarisation_text_, "Of the wave, horizontal or vertical (default: h)")
       ->type_name("h|v");
@@ -48,35 +54,35 @@ void RadioOptions::declare(CLI::App& app) {
 }
 
 void RadioOptions::validate() {
-  for (const std::string& text : criteria_text_) criteria_.push_back(parse_criterion(text));
+  for (const std::string& text : criteria_text_)
+    criteria_.push_back(parsed("--criterion", text, profile::parse_criterion));
   if (!object_text_.empty()) object_ = parse_object(object_text_);
   if (frequency_text_.empty()) {
     if (!polarisation_text_.empty() || !over_sea_text_.empty()) {
       throw InputError("--polarisation and --over-sea are of use with --frequency only");
     }
-    for (const profile::Criterion& c : criteria_) {
-      if (c.fraction > 0) throw InputError("--criterion with a fraction of the Fresnel zone takes a --frequency");
-    }
     return;
   }
   radio_.emplace();
-  radio_->frequency_ghz = parse_number("--frequency", frequency_text_, Range::kPositive);
-  if (!polarisation_text_.empty() && parse_choice("--polarisation", polarisation_text_, {"h", "v"}) == 1) {
-    radio_->polarisation = profile::Polarisation::kVertical;
-  }
+  radio_->frequency_ghz = parse_frequency(frequency_text_);
+  if (!polarisation_text_.empty())
+    radio_->polarisation = parsed("--polarisation", polarisation_text_, profile::parse_polarisation);
   if (!over_sea_text_.empty()) radio_->over_sea = parse_number("--over-sea", over_sea_text_, Range::kNotNegative);
   if (radio_->over_sea > 1) throw InputError(fmt::format("--over-sea '{}': expected 0 to 1", over_sea_text_));
 }
 
-double effective_earth_km(const Earth& earth) {
-  return 1 / (2 * earth.drop_coefficient()) / 1000;
+void RadioOptions::require_frequency() const {
+  for (const profile::Criterion& c : criteria_) {
+    if (c.fraction > 0 && !radio_)
+      throw InputError("--criterion with a fraction of the Fresnel zone takes a --frequency");
+  }
 }
 
 std::optional<profile::RadioPath> RadioOptions::radio(const Earth& earth) const {
   if (!radio_) return std::nullopt;
   if (earth.drop_coefficient() == 0) throw InputError("--frequency takes a curved Earth; leave out --curvature off");
   profile::RadioPath path = *radio_;
-  path.effective_earth_km = effective_earth_km(earth);
+  path.effective_earth_km = profile::effective_earth_km(earth);
   return path;
 }
 

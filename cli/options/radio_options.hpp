@@ -13,14 +13,16 @@
 
 namespace itin::cli {
 
-/// Radius of the Earth over which rays are straight. Precondition: its surface drops.
-double effective_earth_km(const Earth& earth);
+/// The value of --frequency, GHz. Throws InputError.
+double parse_frequency(const std::string& text);
 
 class RadioOptions {
  public:
   void declare(CLI::App& app);
   /// Throws InputError.
   void validate();
+  /// Throws InputError where a criterion takes a frequency and there is none: links may bring their own.
+  void require_frequency() const;
   /// With the effective radius of this Earth; nothing without a frequency. Throws InputError for a flat Earth.
   std::optional<profile::RadioPath> radio(const Earth& earth) const;
   const std::vector<profile::Criterion>& criteria() const { return criteria_; }

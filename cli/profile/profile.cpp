@@ -82,9 +82,9 @@ class ProfileVerb final : public Verb {
     if (line && !path_.empty()) throw InputError("--path takes the place of --from, --via and --to");
     if (path_.empty() && (from_text_.empty() || to_text_.empty())) throw InputError("give --from and --to, or --path");
     if (path_.empty()) {
-      given_.push_back(parse_place("--from", from_text_).position);
-      for (const std::string& text : via_text_) given_.push_back(parse_place("--via", text).position);
-      given_.push_back(parse_place("--to", to_text_).position);
+      given_.push_back(parse_place("--from", from_text_));
+      for (const std::string& text : via_text_) given_.push_back(parse_place("--via", text));
+      given_.push_back(parse_place("--to", to_text_));
     }
     if (!tolerance_texts_.empty() && !rings_text_.empty()) {
       throw InputError("--tolerance and --rings exclude each other");
@@ -102,7 +102,7 @@ class ProfileVerb final : public Verb {
     Document parameters{{"store", store_}};
     if (path_.empty()) {
       parameters["points"] = Document::array();
-      for (const Point2& p : given_) parameters["points"].push_back({p.x, p.y});
+      for (const Place& p : given_) parameters["points"].push_back({p.position.x, p.position.y});
     } else {
       parameters["path"] = path_;
     }
@@ -174,14 +174,14 @@ class ProfileVerb final : public Verb {
         throw FileError(path_, fmt::format("has {}; a profile follows one", counted(paths.size(), "line")));
       return paths.front().corners;
     }
-    std::vector<Point2> corners(given_.size());
-    std::transform(given_.begin(), given_.end(), corners.begin(), in_crs_.transform_to(metadata.crs_wkt));
+    std::vector<Point2> corners;
+    for (const Place& p : given_) corners.push_back(in_crs_.of(p).transform_to(metadata.crs_wkt)(p.position));
     return corners;
   }
 
   std::string where_it_begins(const StoreMetadata& metadata) const {
     if (given_.empty()) return fmt::format("; the data is {}", extent_of(metadata));
-    const auto off = off_the_data(given_.front(), in_crs_, metadata);
+    const auto off = off_the_data(given_.front().position, in_crs_.of(given_.front()), metadata);
     return off ? fmt::format("; --from '{}' {}", from_text_, *off) : "";
   }
 
@@ -236,7 +236,7 @@ class ProfileVerb final : public Verb {
 
   std::string store_, from_text_, to_text_, path_, rings_text_;
   std::vector<std::string> via_text_, tolerance_texts_, outputs_;
-  std::vector<Point2> given_;
+  std::vector<Place> given_;
   std::vector<double> tolerances_;
   std::vector<Ring> rings_;
   InCrs in_crs_;

@@ -8,6 +8,7 @@
 
 #include <itin/error.hpp>
 #include <itin/height_limit.hpp>
+#include <itin/written_position.hpp>
 
 namespace itin::cli {
 
@@ -167,8 +168,24 @@ std::vector<Ring> parse_rings(std::string_view option, std::string_view text) {
   return rings;
 }
 
+namespace {
+
+/// A position that says its CRS itself, and a height behind a comma.
+std::optional<Place> written_place(std::string_view option, std::string_view text) {
+  if (const auto alone = written_position(text)) return Place{alone->position, std::nullopt, alone->crs};
+  const std::size_t comma = text.rfind(',');
+  if (comma == std::string_view::npos) return std::nullopt;
+  const auto position = written_position(text.substr(0, comma));
+  if (!position) return std::nullopt;
+  return Place{position->position, parse_height(option, text.substr(comma + 1)), position->crs};
+}
+
+}  // namespace
+
 Place parse_place(std::string_view option, std::string_view text) {
-  constexpr std::string_view kShape = "x,y or x,y,h";
+  constexpr std::string_view kShape =
+      "x,y or x,y,h; for x,y also degrees with N, S, E or W, or an OS grid reference such as ST1037583525";
+  if (const auto written = written_place(option, text)) return *written;
   const bool with_height = split(text, ',').size() == 3;
   const std::vector<double> v = parse_tuple(option, text, with_height ? 3 : 2, kShape);
   Place place{{v[0], v[1]}, std::nullopt};
@@ -178,6 +195,7 @@ Place parse_place(std::string_view option, std::string_view text) {
 }
 
 bool looks_like_place(std::string_view text) {
+  if (written_position(text) || written_position(text.substr(0, text.rfind(',')))) return true;
   const std::vector<std::string_view> parts = split(text, ',');
   return (parts.size() == 2 || parts.size() == 3) && whole_text_as<double>(parts[0]).has_value();
 }

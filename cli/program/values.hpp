@@ -65,10 +65,12 @@ Box parse_box(std::string_view option, std::string_view text);
 /// `radius:tolerance,...`, nearest first.
 std::vector<Ring> parse_rings(std::string_view option, std::string_view text);
 
-/// `x,y` or `x,y,h` with h as parse_height() has it.
+/// `x,y` or `x,y,h` with h as parse_height() has it; for x,y also what written_position() understands, which says its
+/// CRS itself.
 struct Place {
   Point2 position;
   std::optional<double> height;
+  std::string crs = {};  ///< of the position; empty: as the call says
 };
 Place parse_place(std::string_view option, std::string_view text);
 

@@ -70,10 +70,11 @@ class SiteVerb final : public Verb {
     };
     coverage.look_first();
     add_existing(inputs, coverage, goal);
-    SiteResult site{
-        options_, inputs, coverage, viewshed::choose(inputs.demand, inputs.options, coverage, goal, progress), {}, {}};
+    SiteResult site{options_, inputs, coverage, {}, {}, {}, {}};
+    site.choice = viewshed::choose(inputs.demand, inputs.options, coverage, goal, progress);
     coverage.release_surfaces();
     site.links = site_links(store, options_, inputs, site.choice, hub_stand, progress);
+    site.ground_m = site_grounds(store, inputs, site.choice, progress);
     site.rasters = site_rasters(store, options_, inputs, coverage, site.choice, progress);
     Result result = write(store, site, progress);
     if (work.restored() > 0)
@@ -122,7 +123,7 @@ class SiteVerb final : public Verb {
 
   std::optional<viewshed::SiteStand> hub(const Store& store, Progress& progress) const {
     if (!options_.hub) return std::nullopt;
-    const Point2 p = on_the_data("--hub", options_.hub->position, options_.in_crs, store.metadata());
+    const Point2 p = on_the_data("--hub", *options_.hub, options_.in_crs, store.metadata());
     const auto ground = viewshed::ground_under(
         store, {p}, options_.on_surface ? options_.themes.choice() : ThemeChoice::none(), progress);
     if (!ground.front()) throw InputError("--hub: there is no data there; move it onto the data");
@@ -151,7 +152,8 @@ class SiteVerb final : public Verb {
   void add_existing(const SiteInputs& inputs, viewshed::SiteCoverage& coverage, viewshed::ChoiceGoal& goal) const {
     for (std::size_t i = inputs.options.size(); i < inputs.stands.size(); ++i) {
       while (!coverage.bounds(i).exact) coverage.refine({&i, 1});
-      goal.existing.push_back(coverage.bounds(i).certain);
+      const viewshed::DemandSet& served = coverage.bounds(i).certain;
+      goal.existing.push_back(inputs.cells.empty() ? served : intersection(served, inputs.cells));
     }
     if (options_.share) goal.wanted = wanted(inputs, goal);
   }
@@ -215,7 +217,6 @@ class SiteVerb final : public Verb {
   }
 
   std::string text(const SiteResult& site, std::size_t files) const {
-    const double total = site.in_metric(site.inputs.total);
     std::string text;
     for (const viewshed::ChosenSite& chosen : site.choice.chosen) {
       const viewshed::SiteStand& stand = site.stand(chosen);
@@ -223,10 +224,13 @@ class SiteVerb final : public Verb {
           fmt::format("{:<16} {:>12.2f} {:>12.2f}  {:>5g} m  +{:<10.10g} {:.10g}\n", stand.name, stand.position.x,
                       stand.position.y, stand.height, site.in_metric(chosen.gain), site.in_metric(chosen.cumulative));
     }
-    text += fmt::format("served: {:.10g} of {:.10g} ({:.1f} %); no choice serves more than {:.10g} (gap {:.1f} %)\n",
-                        site.in_metric(site.choice.value), total,
-                        total == 0 ? 0 : 100 * site.in_metric(site.choice.value) / total,
-                        site.in_metric(site.choice.upper_bound), viewshed::gap_percent(site.choice));
+    text +=
+        fmt::format("served: {:.10g} of {:.10g} ({:.1f} %){}; no choice serves more than {:.10g} (gap {:.1f} %)\n",
+                    site.served(), site.in_metric(site.inputs.total), site.served_percent(),
+                    site.choice.existing > 0
+                        ? fmt::format(", {:.10g} of it by existing sites", site.in_metric(site.choice.existing))
+                        : "",
+                    site.in_metric(site.choice.upper_bound + site.choice.existing), viewshed::gap_percent(site.choice));
     text += fmt::format(
         "{}, {}, {} looked at again; {} left out\n", counted(site.inputs.candidates.size(), "candidate"),
         counted(site.inputs.options.size(), "option"), grouped(site.refined()), grouped(site.inputs.rejected.size()));

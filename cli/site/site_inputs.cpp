@@ -176,8 +176,8 @@ class InputReader {
           viewshed::within_reach(inputs_.targets, of_options[i].position, options_.radius);
       for (const auto& block : reach.blocks()) reached[block.number] |= block.members;
     }
-    for (const auto& block : ground.blocks())
-      inputs_.total += inputs_.demand.weight(block.number, block.members & reached[block.number]);
+    for (const auto& block : ground.blocks()) inputs_.cells.add(block.number, block.members & reached[block.number]);
+    inputs_.total = inputs_.demand.weight(inputs_.cells);
   }
 
   void read_weights(RasterValues weights) {

@@ -27,7 +27,8 @@ struct SiteInputs {
   std::vector<viewshed::SiteStand> stands;
   viewshed::SiteTargets targets;
   viewshed::Demand demand;
-  viewshed::Weight total = 0;             ///< all demand; of cells those with ground within the radius of an option
+  viewshed::DemandSet cells;              ///< where cells are the demand: those with ground within an option's radius
+  viewshed::Weight total = 0;             ///< all demand
   std::vector<std::string> rejected;      ///< a line for each row that is not used, and why
   std::size_t demand_without_ground = 0;  ///< points
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <itin/store.hpp>
-#include <profile/line_of_sight.hpp>
+#include <profile/links.hpp>
 #include <viewshed/site_coverage.hpp>
 #include <viewshed/siting.hpp>
 
@@ -14,13 +14,24 @@
 
 namespace itin::cli {
 
+/// How lines between sites are judged.
+struct LinkRules {
+  profile::LinkQuery query;
+  double fraction = 0;  ///< of the first Fresnel zone that must be clear, where there is a frequency
+
+  /// Known to be in sight, with so much of the zone clear.
+  bool met_by(const profile::LineFindings& found) const {
+    return found.verdict == profile::SightVerdict::kVisible && (!found.fresnel || found.fresnel->fraction >= fraction);
+  }
+};
+LinkRules link_rules(const SiteOptions& options);
+
 /// A line of sight between two sites, or a site and the hub.
 struct SiteLink {
   viewshed::SiteStand from, to;
-  double distance_m = 0;
-  profile::SightLine line;
-  bool visible = false;  ///< as --nodata has it
-  bool clear = false;    ///< visible, and the zone is as clear as it must be
+  profile::LinkResult line;
+
+  const profile::LineFindings& found() const { return *line.found; }
 };
 
 /// Between all chosen sites, and to the hub; where links hold the choice together, existing sites take part.
@@ -28,8 +39,7 @@ std::vector<SiteLink> site_links(const Store& store, const SiteOptions& options,
                                  const viewshed::Choice& choice, const std::optional<viewshed::SiteStand>& hub,
                                  Progress& progress);
 
-/// The links among options, existing sites and the hub, as `itin los` judges them. Refers to the store, the options and
-/// the progress.
+/// The links among options, existing sites and the hub that meet the rules. Refers to the store and the progress.
 std::shared_ptr<viewshed::LinkNetwork> link_network(const Store& store, const SiteOptions& options,
                                                     const SiteInputs& inputs,
                                                     const std::optional<viewshed::SiteStand>& hub, Progress& progress);

@@ -9,6 +9,7 @@
 #include <itin/error.hpp>
 #include <profile/fresnel.hpp>
 
+#include "options/radio_options.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
 #include "program/json_text.hpp"
@@ -111,7 +112,8 @@ void SiteOptions::declare_choice(CLI::App& app) {
   reads(app.add_option("--existing", existing, "Sites that serve already, from a vector file")->type_name("FILE"));
   reads(app.add_option("--forbidden", forbidden, "No site in these polygons (a file, or WKT)")->type_name("AREA"));
   app.add_option("--k-cover", cover_text_, "What fewer sites serve counts for nothing (default: 1)")->type_name("N");
-  app.add_flag("--intervisible", intervisible, "Chosen sites reach each other by links between them and existing ones; relays may be bought");
+  app.add_flag("--intervisible", intervisible,
+               "Chosen sites reach each other by links between them and existing ones; relays may be bought");
   app.add_option("--hub", hub_text_, "Chosen sites reach this place by such links (implies --intervisible)")
       ->type_name("x,y[,h]");
   app.add_option("--exact-final", exact_final_text_, "The chosen sites' coverage is exact (default: on)")
@@ -205,7 +207,7 @@ void SiteOptions::validate_demand() {
 }
 
 void SiteOptions::validate_links() {
-  frequency_ghz = number("--frequency", frequency_text_, Range::kPositive);
+  if (!frequency_text_.empty()) frequency_ghz = parse_frequency(frequency_text_);
   if (!frequency_ghz) {
     if (!fresnel_text_.empty()) throw InputError("--fresnel takes a --frequency: the zone's radius depends on it");
     return;

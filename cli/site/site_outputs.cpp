@@ -6,12 +6,12 @@
 #include <fmt/format.h>
 
 #include <itin/coordinates.hpp>
+#include <itin/csv_cell.hpp>
 #include <itin/error.hpp>
 #include <itin/output_file.hpp>
 #include <itin/raster.hpp>
 #include <itin/vector_export.hpp>
 
-#include "output/csv_cell.hpp"
 #include "output/store_document.hpp"
 
 namespace itin::cli {
@@ -23,16 +23,18 @@ std::string place(const std::string& directory, const char* name) {
 }
 
 std::string sites_csv(const SiteResult& r) {
-  std::string text = "order,id,x,y,height_m,ground_m,cost,gain,cumulative,coverage,first_certain,first_possible\n";
+  std::string text =
+      "order,id,x,y,height_m,ground_m,cost,gain,cumulative,coverage,first_certain,first_possible,stands_on_m\n";
   const auto out = std::back_inserter(text);
   for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
     const viewshed::ChosenSite& site = r.choice.chosen[i];
     const viewshed::SiteStand& stand = r.stand(site);
     const CoverageSummary now = r.summary(r.coverage.bounds(site.option)),
                           first = r.summary(r.coverage.first_bounds(site.option));
-    fmt::format_to(out, "{},{},{},{},{},{:.3f},{},{},{},{},{},{}\n", i + 1, csv_cell(stand.name), stand.position.x,
-                   stand.position.y, stand.height, stand.ground, r.inputs.options[site.option].cost,
-                   r.in_metric(site.gain), r.in_metric(site.cumulative), now.certain, first.certain, first.possible);
+    fmt::format_to(out, "{},{},{},{},{},{:.3f},{},{},{},{},{},{},{:.3f}\n", i + 1, csv_cell(stand.name),
+                   stand.position.x, stand.position.y, stand.height, r.ground_m[i], r.inputs.options[site.option].cost,
+                   r.in_metric(site.gain), r.in_metric(site.cumulative), now.certain, first.certain, first.possible,
+                   stand.ground);
   }
   return text;
 }
@@ -52,24 +54,29 @@ std::string candidates_table(const SiteResult& r) {
   return text;
 }
 
+bool is_clear(const SiteResult& r, const SiteLink& link) {
+  return link_rules(r.options).met_by(link.found());
+}
+
 std::string links_csv(const SiteResult& r) {
   std::string text = "from,to,distance_m,verdict,clearance_m,critical_x,critical_y,critical_z";
-  text += r.options.frequency_ghz ? ",fresnel_fraction,clear\n" : "\n";
+  text += r.options.frequency_ghz ? ",fresnel_fraction,clear,gap_m\n" : ",gap_m\n";
   const auto out = std::back_inserter(text);
   for (const SiteLink& link : r.links) {
-    fmt::format_to(out, "{},{},{:.3f},{}", csv_cell(link.from.name), csv_cell(link.to.name), link.distance_m,
-                   link.visible ? "visible" : "hidden");
-    if (link.line.clearance) {
-      fmt::format_to(out, ",{:.3f},{:.3f},{:.3f},{:.3f}", *link.line.clearance, link.line.critical.x,
-                     link.line.critical.y, link.line.critical.z);
+    const profile::LineFindings& found = link.found();
+    fmt::format_to(out, "{},{},{:.3f},{}", csv_cell(link.from.name), csv_cell(link.to.name), link.line.distance_m,
+                   name_of(found.verdict));
+    if (found.critical) {
+      fmt::format_to(out, ",{:.3f},{:.3f},{:.3f},{:.3f}", *found.clearance_m, found.critical->x, found.critical->y,
+                     found.critical->ground_m);
     } else {
       text += ",,,,";
     }
     if (r.options.frequency_ghz) {
-      text += link.line.fresnel_fraction ? fmt::format(",{:.4f}", *link.line.fresnel_fraction) : ",";
-      text += link.clear ? ",yes" : ",no";
+      text += found.fresnel ? fmt::format(",{:.4f}", found.fresnel->fraction) : ",";
+      text += is_clear(r, link) ? ",yes" : ",no";
     }
-    text += '\n';
+    fmt::format_to(out, ",{:.3f}\n", link.line.gap_m);
   }
   return text;
 }
@@ -126,16 +133,18 @@ VectorLayer links_layer(const SiteResult& r) {
                      {"distance_m", Type::kNumber},
                      {"verdict", Type::kText},
                      {"clearance_m", Type::kNumber},
-                     {"fresnel_fraction", Type::kNumber}},
+                     {"fresnel_fraction", Type::kNumber},
+                     {"gap_m", Type::kNumber}},
                     {}};
   for (const SiteLink& link : r.links) {
     const viewshed::SiteStand &a = link.from, &b = link.to;
     VectorLayer::Value clearance, fraction;
-    if (link.line.clearance) clearance = *link.line.clearance;
-    if (link.line.fresnel_fraction) fraction = *link.line.fresnel_fraction;
+    if (link.found().clearance_m) clearance = *link.found().clearance_m;
+    if (link.found().fresnel) fraction = link.found().fresnel->fraction;
     layer.features.push_back(
         {{{a.position.x, a.position.y, a.elevation()}, {b.position.x, b.position.y, b.elevation()}},
-         {a.name, b.name, link.distance_m, std::string(link.visible ? "visible" : "hidden"), clearance, fraction}});
+         {a.name, b.name, link.line.distance_m, std::string(name_of(link.found().verdict)), clearance, fraction,
+          link.line.gap_m}});
   }
   return layer;
 }
@@ -176,15 +185,18 @@ Document site_document(const SiteResult& r, const StoreMetadata& metadata) {
   document["upper_bound"] = r.in_metric(r.choice.upper_bound);
   document["gap_percent"] = viewshed::gap_percent(r.choice);
   document["demand"] = r.in_metric(r.inputs.total);
+  document["served_percent"] = r.served_percent();
   document["served_by_existing"] = r.in_metric(r.choice.existing);
   document["chosen"] = Document::array();
-  for (const viewshed::ChosenSite& site : r.choice.chosen) {
+  for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
+    const viewshed::ChosenSite& site = r.choice.chosen[i];
     const viewshed::SiteStand& stand = r.stand(site);
     document["chosen"].push_back({{"id", stand.name},
                                   {"x", stand.position.x},
                                   {"y", stand.position.y},
                                   {"height_m", stand.height},
-                                  {"ground_m", stand.ground},
+                                  {"ground_m", r.ground_m[i]},
+                                  {"stands_on_m", stand.ground},
                                   {"cost", r.inputs.options[site.option].cost},
                                   {"gain", r.in_metric(site.gain)},
                                   {"cumulative", r.in_metric(site.cumulative)},
@@ -209,11 +221,12 @@ Document site_document(const SiteResult& r, const StoreMetadata& metadata) {
   for (const SiteLink& link : r.links) {
     Document entry{{"from", link.from.name},
                    {"to", link.to.name},
-                   {"distance_m", link.distance_m},
-                   {"verdict", link.visible ? "visible" : "hidden"}};
-    if (link.line.clearance) entry["clearance_m"] = *link.line.clearance;
-    if (link.line.fresnel_fraction) entry["fresnel_fraction"] = *link.line.fresnel_fraction;
-    if (r.options.frequency_ghz) entry["clear"] = link.clear;
+                   {"distance_m", link.line.distance_m},
+                   {"verdict", name_of(link.found().verdict)},
+                   {"gap_m", link.line.gap_m}};
+    if (link.found().clearance_m) entry["clearance_m"] = *link.found().clearance_m;
+    if (link.found().fresnel) entry["fresnel_fraction"] = link.found().fresnel->fraction;
+    if (r.options.frequency_ghz) entry["clear"] = is_clear(r, link);
     document["links"].push_back(std::move(entry));
   }
   return document;

@@ -92,7 +92,7 @@ std::string curve(const SiteResult& r) {
 }
 
 std::string sites_html(const SiteResult& r) {
-  HtmlTable table({"", "Site", "Easting", "Northing", "Mast m", "Ground m", "Cost", "Gain", "Together",
+  HtmlTable table({"", "Site", "Easting", "Northing", "Mast m", "Ground m", "Stands on m", "Cost", "Gain", "Together",
                    "First look: at least", "at most", "Alone, in the end"},
                   2);
   for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
@@ -102,9 +102,10 @@ std::string sites_html(const SiteResult& r) {
                           now = r.summary(r.coverage.bounds(site.option));
     table.add({fmt::format("{}", i + 1), stand.name, fmt::format("{:.0f}", stand.position.x),
                fmt::format("{:.0f}", stand.position.y), fmt::format("{:g}", stand.height),
-               fmt::format("{:.1f}", stand.ground), fmt::format("{:g}", r.inputs.options[site.option].cost),
-               amount(r.in_metric(site.gain)), amount(r.in_metric(site.cumulative)), amount(first.certain),
-               amount(first.possible), amount(now.certain)});
+               fmt::format("{:.1f}", r.ground_m[i]), fmt::format("{:.1f}", stand.ground),
+               fmt::format("{:g}", r.inputs.options[site.option].cost), amount(r.in_metric(site.gain)),
+               amount(r.in_metric(site.cumulative)), amount(first.certain), amount(first.possible),
+               amount(now.certain)});
   }
   return table.finish();
 }
@@ -136,11 +137,13 @@ std::string closest_html(const SiteResult& r) {
 }
 
 std::string links_html(const SiteResult& r) {
-  HtmlTable table({"From", "To", "Verdict", "km", "Clearance m", "of F1"}, 3);
+  HtmlTable table({"From", "To", "Verdict", "km", "Clearance m", "of F1", "No data m"}, 3);
   for (const SiteLink& link : r.links) {
-    table.add({link.from.name, link.to.name, outcome_of(r.options, link), fmt::format("{:.2f}", link.distance_m / 1000),
-               link.line.clearance ? fmt::format("{:+.1f}", *link.line.clearance) : "",
-               link.line.fresnel_fraction ? fmt::format("{:+.2f}", *link.line.fresnel_fraction) : ""});
+    table.add({link.from.name, link.to.name, outcome_of(r.options, link),
+               fmt::format("{:.3f}", link.line.distance_m / 1000),
+               link.found().clearance_m ? fmt::format("{:.2f}", *link.found().clearance_m) : "",
+               link.found().fresnel ? fmt::format("{:.2f}", link.found().fresnel->fraction) : "",
+               link.line.gap_m > 0 ? fmt::format("{:.0f}", link.line.gap_m) : ""});
   }
   return table.finish();
 }
@@ -158,7 +161,7 @@ std::string map(const std::string& directory, const char* name, const char* what
 
 std::string drawings(const std::vector<SiteProfile>& profiles) {
   if (profiles.empty()) return {};
-  std::string html = "<h2>Profiles of the links in sight</h2>\n";
+  std::string html = "<h2>Profiles of the links that are not hidden</h2>\n";
   for (const SiteProfile& profile : profiles)
     html += "<p class=\"note\">" + escaped_markup(profile.what) + "</p>\n" +
             image(profile.path, "image/svg+xml", "profile of " + profile.what);
@@ -186,13 +189,16 @@ std::string looks(const SiteResult& r) {
 }
 
 std::string summary(const SiteResult& r) {
-  const double total = std::max(r.in_metric(r.inputs.total), 1e-300);
+  const std::string existing = r.choice.existing > 0
+                                   ? fmt::format(", {} of it by {}", amount(r.in_metric(r.choice.existing)),
+                                                 counted(r.inputs.existing(), "existing site"))
+                                   : "";
   return fmt::format(
-      "<p class=\"figure\">Served by {}: {} of a demand of {} ({:.1f} %). No choice within the same limits serves "
-      "more than {}: at most {:.1f} % were left on the table.</p>\n<p>{}{}</p>\n",
-      counted(r.choice.chosen.size(), "site"), amount(r.in_metric(r.choice.value)), amount(r.in_metric(r.inputs.total)),
-      100 * r.in_metric(r.choice.value) / total, amount(r.in_metric(r.choice.upper_bound)),
-      viewshed::gap_percent(r.choice), looks(r),
+      "<p class=\"figure\">Served: {} of a demand of {} ({:.1f} %){}. No choice within the same limits serves more "
+      "than "
+      "{}: at most {:.1f} % of that were missed.</p>\n<p>{}{}</p>\n",
+      amount(r.served()), amount(r.in_metric(r.inputs.total)), r.served_percent(), existing,
+      amount(r.in_metric(r.choice.upper_bound + r.choice.existing)), viewshed::gap_percent(r.choice), looks(r),
       r.choice.swaps > 0 ? fmt::format(" More was gained by {} after greedy.", counted(r.choice.swaps, "exchange"))
                          : "");
 }
@@ -203,8 +209,8 @@ void write_site_report(const SiteResult& r, const std::vector<SiteProfile>& prof
                        const Document& inputs, const std::string& directory, bool overwrite) {
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Sites</title><style>{}</style></head>"
-      "<body>\n<h1>{} sites chosen from {} candidates</h1>\n",
-      kStyle, r.choice.chosen.size(), r.inputs.candidates.size());
+      "<body>\n<h1>{} chosen from {}</h1>\n",
+      kStyle, counted(r.choice.chosen.size(), "site"), counted(r.inputs.candidates.size(), "candidate"));
   html += summary(r);
   html += map(directory, "coverage.png", "map of what the choice serves");
   html += "<h2>Coverage curve</h2>\n" + curve(r);

@@ -98,9 +98,17 @@ viewshed::SiteSurvey site_survey(const SiteOptions& options, const SiteInputs& i
 }
 
 const char* outcome_of(const SiteOptions& options, const SiteLink& link) {
-  if (!link.visible) return "hidden";
-  if (!options.frequency_ghz) return "visible";
-  return link.clear ? "clear" : "in sight, zone cut";
+  const profile::SightVerdict verdict = link.found().verdict;
+  if (verdict != profile::SightVerdict::kVisible || !options.frequency_ghz) return name_of(verdict);
+  return link_rules(options).met_by(link.found()) ? "clear" : "in sight, zone cut";
+}
+
+double SiteResult::served() const {
+  return in_metric(choice.value + choice.existing);
+}
+
+double SiteResult::served_percent() const {
+  return inputs.total == 0 ? 0 : 100 * served() / in_metric(inputs.total);
 }
 
 std::size_t SiteResult::refined() const {
@@ -137,10 +145,21 @@ SiteRasters site_rasters(const Store& store, const SiteOptions& options, const S
   } else {
     cells = on_cells(store, options, inputs, sites, progress);
   }
-  BestServer best(*cells.targets.grid, viewshed::with_ground(store, cells.targets, progress));
+  BestServer best(*cells.targets.grid,
+                  inputs.cells.empty() ? viewshed::with_ground(store, cells.targets, progress) : inputs.cells);
   for (std::size_t i = 0; i < sites.size(); ++i)
     best.add(inputs.stands[sites[i]], static_cast<std::uint16_t>(i + 1), cells.served[i]);
   return std::move(best).rasters();
+}
+
+std::vector<double> site_grounds(const Store& store, const SiteInputs& inputs, const viewshed::Choice& choice,
+                                 Progress& progress) {
+  std::vector<Point2> positions;
+  for (const viewshed::ChosenSite& site : choice.chosen) positions.push_back(inputs.stands[site.option].position);
+  std::vector<double> grounds;
+  for (const auto& ground : viewshed::ground_under(store, positions, ThemeChoice::none(), progress))
+    grounds.push_back(ground.value());
+  return grounds;
 }
 
 }  // namespace itin::cli

@@ -12,7 +12,7 @@
 
 namespace itin::cli {
 
-/// For links: "clear" as served is meant, "hidden", or in sight only.
+/// For links: "clear" as served is meant, "hidden", "undecided", or in sight only.
 const char* outcome_of(const SiteOptions& options, const SiteLink& link);
 
 /// An option's coverage in the demand's own measure.
@@ -35,6 +35,7 @@ struct SiteResult {
   viewshed::Choice choice;
   std::vector<SiteLink> links;
   SiteRasters rasters;
+  std::vector<double> ground_m;  ///< elevation of the ground under each chosen site, which may stand on a roof
 
   const viewshed::SiteStand& stand(const viewshed::ChosenSite& site) const { return inputs.stands[site.option]; }
   const Candidate& candidate(std::size_t option) const { return inputs.candidates[inputs.options[option].place]; }
@@ -43,6 +44,9 @@ struct SiteResult {
             inputs.demand.in_metric(inputs.demand.weight(bounds.possible))};
   }
   double in_metric(viewshed::Weight weight) const { return inputs.demand.in_metric(weight); }
+  /// By the chosen and the existing sites together, in the demand's own measure, and as a share of all demand.
+  double served() const;
+  double served_percent() const;
   std::size_t refined() const;
   /// Why an option is not part of the choice, in words.
   std::string reason(std::size_t option) const;
@@ -51,6 +55,10 @@ struct SiteResult {
 
 /// The survey that lines of sight are computed for.
 viewshed::SiteSurvey site_survey(const SiteOptions& options, const SiteInputs& inputs);
+
+/// Elevations of the bare ground under the chosen sites.
+std::vector<double> site_grounds(const Store& store, const SiteInputs& inputs, const viewshed::Choice& choice,
+                                 Progress& progress);
 
 /// From exact coverage (or what is certain of it) of the chosen and the existing sites.
 SiteRasters site_rasters(const Store& store, const SiteOptions& options, const SiteInputs& inputs,

@@ -107,7 +107,8 @@ SiteWork::SiteWork(std::string path, const std::string& key, bool resume, std::s
   std::error_code failed;
   if (keep > 0) std::filesystem::resize_file(path_, keep, failed);
   file_.reset(failed ? nullptr : std::fopen(path_.c_str(), keep > 0 ? "ab" : "wb"));
-  const bool written = file_ && (keep > 0 || std::fwrite(head.data(), 1, head.size(), file_.get()) == head.size());
+  const bool written = file_ && (keep > 0 || (std::fwrite(head.data(), 1, head.size(), file_.get()) == head.size() &&
+                                              std::fflush(file_.get()) == 0));
   if (!written) throw FileError(path_, "cannot be written; it keeps what --resume needs");
 }
 

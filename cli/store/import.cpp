@@ -83,6 +83,10 @@ class ImportVerb final : public Verb {
         "other imports say");
     app.add_flag("--replace", options_.replace,
                  "Take the place of coarser terrain within the sources' coverage, in whatever order they come");
+    app.add_option("--source-note", options_.source_note,
+                   "Product, date and licence of these sources, for the reports of lines over them (default: the "
+                   "copyright that a GeoTIFF states)")
+        ->type_name("TEXT");
     app.add_option("--levels", levels_,
                    "Tolerances of a new store's levels (default: those of 0.5,1,2,4,8,16,32 that are no less than "
                    "--resolution)")
@@ -129,6 +133,7 @@ class ImportVerb final : public Verb {
     given("base", base_);
     given("roof", roof_);
     if (options_.thickness) parameters["thickness_m"] = *options_.thickness;
+    given("source_note", options_.source_note);
     if (options_.band) parameters["band"] = *options_.band;
     given("name_field", options_.name_field);
     given("layer", options_.layer);

@@ -1,14 +1,12 @@
 // itin info: what a store holds.
 
-#include <algorithm>
-#include <map>
 #include <optional>
 
 #include <fmt/format.h>
 
 #include <itin/coordinates.hpp>
-#include <itin/error.hpp>
 #include <itin/height_axis.hpp>
+#include <itin/stated_heights.hpp>
 #include <itin/store.hpp>
 
 #include "options/store_scale.hpp"
@@ -25,39 +23,6 @@ double bytes_per_vertex(const Store& store) {
   return vertices == 0 ? 0 : static_cast<double>(store.file_bytes()) / static_cast<double>(vertices);
 }
 
-/// The meaning of the heights of sources.
-class SourceHeights {
- public:
-  explicit SourceHeights(const StoreMetadata& metadata) : metadata_(metadata) {
-    for (const SourceInfo& source : metadata.sources)
-      if (const std::string& crs = source.source_crs; !crs.empty() && !axes_.contains(crs)) axes_[crs] = axis_in(crs);
-  }
-
-  /// Nothing where a source has none, or its CRS is not understood here.
-  std::optional<HeightAxis> of(const SourceInfo& source) const {
-    if (source.source_crs.empty() || lies_on_ground(source)) return std::nullopt;
-    return axes_.at(source.source_crs);
-  }
-
- private:
-  static std::optional<HeightAxis> axis_in(const std::string& crs) {
-    try {
-      return height_axis(crs);
-    } catch (const InputError&) {
-      return std::nullopt;
-    }
-  }
-
-  bool lies_on_ground(const SourceInfo& source) const {
-    const auto theme = std::find_if(metadata_.themes.begin(), metadata_.themes.end(),
-                                    [&](const ThemeInfo& t) { return t.name == source.theme; });
-    return theme != metadata_.themes.end() && !is_terrain(theme->kind) && theme->footprint_blocks == 0;
-  }
-
-  const StoreMetadata& metadata_;
-  std::map<std::string, std::optional<HeightAxis>> axes_;  ///< by CRS: many tiles have one
-};
-
 Document heights_document(const std::optional<HeightAxis>& heights) {
   if (!heights) return nullptr;
   return {{"datum", heights->datum.empty() ? Document(nullptr) : Document(heights->datum)},
@@ -66,15 +31,7 @@ Document heights_document(const std::optional<HeightAxis>& heights) {
           {"direction", heights->down ? "down" : "up"}};
 }
 
-/// "heights above Ordnance Datum Newlyn, unit: metre".
-std::string heights_text(const HeightAxis& heights) {
-  const std::string unit =
-      heights.metres == 1 ? heights.unit : fmt::format("{} ({:.9g} m)", heights.unit, heights.metres);
-  return fmt::format("{} {}, unit: {}", heights.down ? "depths below" : "heights above",
-                     heights.datum.empty() ? "a datum that is not stated" : heights.datum, unit);
-}
-
-Document sources_document(const StoreMetadata& metadata, const SourceHeights& heights) {
+Document sources_document(const StoreMetadata& metadata, const StatedHeights& heights) {
   Document sources = Document::array();
   for (const SourceInfo& source : metadata.sources) {
     sources.push_back({{"path", source.path},
@@ -86,12 +43,13 @@ Document sources_document(const StoreMetadata& metadata, const SourceHeights& he
                        {"heights", heights_document(heights.of(source))},
                        {"vertices", source.vertices},
                        {"spacing_m", source.spacing},
-                       {"replaces", source.replaces}});
+                       {"replaces", source.replaces},
+                       {"note", source.note.empty() ? Document(nullptr) : Document(source.note)}});
   }
   return sources;
 }
 
-Document info_document(const Store& store, const SourceHeights& heights) {
+Document info_document(const Store& store, const StatedHeights& heights) {
   const StoreMetadata& metadata = store.metadata();
   Document document;
   document["crs"] = crs_identifier(metadata.crs_wkt);
@@ -109,7 +67,7 @@ Document info_document(const Store& store, const SourceHeights& heights) {
   return document;
 }
 
-std::string info_text(const Store& store, const SourceHeights& heights) {
+std::string info_text(const Store& store, const StatedHeights& heights) {
   const StoreMetadata& metadata = store.metadata();
   const Box bounds = metadata.grid.box(metadata.bounds);
   std::string text =
@@ -131,7 +89,8 @@ std::string info_text(const Store& store, const SourceHeights& heights) {
                                                       : "by need";
     text += fmt::format("  {}  {}{}  {:>13} vertices, {}  {}\n", source.imported, source.kind,
                         source.replaces ? " (replacing)" : "", grouped(source.vertices), spacing, source.path);
-    if (const auto axis = heights.of(source)) text += fmt::format("{:22}  {}\n", "", heights_text(*axis));
+    if (const auto axis = heights.of(source)) text += fmt::format("{:22}  {}\n", "", described(*axis));
+    if (!source.note.empty()) text += fmt::format("{:22}  {}\n", "", source.note);
   }
   return text;
 }
@@ -145,7 +104,7 @@ class InfoVerb final : public Verb {
   Document parameters() const override { return {{"store", store_}}; }
   Result execute(Progress&) override {
     const Store store(store_);
-    const SourceHeights heights(store.metadata());
+    const StatedHeights heights(store.metadata());
     Result result{info_document(store, heights), info_text(store, heights), {}, {}};
     warn_of_scale(store.metadata(), result.warnings);
     return result;

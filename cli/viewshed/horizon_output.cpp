@@ -1,5 +1,6 @@
 #include "viewshed/horizon_output.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 
@@ -25,15 +26,15 @@ std::string theme_name(std::uint16_t theme, const StoreMetadata& metadata) {
 }
 
 std::string table(const viewshed::Horizon& horizon, const StoreMetadata& metadata) {
-  std::string text = "azimuth_deg,elevation_deg,distance_m,x,y,z,theme\n";
+  std::string text = "azimuth_deg,elevation_deg,distance_m,x,y,z,theme,data_edge\n";
   for (const viewshed::HorizonPoint& p : horizon.points) {
     if (!p.sky) {
-      text += fmt::format("{:.10g},,,,,,\n", p.azimuth_deg);
+      text += fmt::format("{:.10g},,,,,,,\n", p.azimuth_deg);
       continue;
     }
     const Point3& at = p.sky->position;
-    text += fmt::format("{:.10g},{:.6f},{:.3f},{:.3f},{:.3f},{:.3f},{}\n", p.azimuth_deg, p.sky->elevation_deg,
-                        p.sky->distance_m, at.x, at.y, at.z, theme_name(p.sky->theme, metadata));
+    text += fmt::format("{:.10g},{:.6f},{:.3f},{:.3f},{:.3f},{:.3f},{},{:d}\n", p.azimuth_deg, p.sky->elevation_deg,
+                        p.sky->distance_m, at.x, at.y, at.z, theme_name(p.sky->theme, metadata), p.sky->data_edge);
   }
   return text;
 }
@@ -65,6 +66,7 @@ Document document(const viewshed::Horizon& horizon, const viewshed::Request& req
       point["y"] = p.sky->position.y;
       point["z"] = p.sky->position.z;
       point["theme"] = theme_name(p.sky->theme, metadata);
+      point["data_edge"] = p.sky->data_edge;
     }
     points.push_back(std::move(point));
   }
@@ -87,7 +89,7 @@ profile::Panorama panorama(const viewshed::Horizon& horizon, const viewshed::Req
       fmt::format("Eye at {:.1f} m; azimuths from grid north; {}", horizon.eye_elevation_m, request.earth.convention());
   for (const viewshed::HorizonPoint& p : horizon.points)
     drawing.skyline.push_back({p.azimuth_deg, p.sky ? p.sky->elevation_deg : std::numeric_limits<double>::quiet_NaN(),
-                               p.sky ? p.sky->distance_m : 0});
+                               p.sky ? p.sky->distance_m : 0, p.sky && p.sky->data_edge});
   for (const viewshed::SightedTarget& t : horizon.targets)
     drawing.places.push_back({t.target.name, t.azimuth_deg, t.elevation_deg, t.distance_m, t.visible});
   return drawing;
@@ -138,7 +140,7 @@ std::vector<viewshed::HorizonTarget> HorizonOutput::targets(const viewshed::Requ
 }
 
 Document HorizonOutput::write(viewshed::Surveyed& surveyed, const StoreMetadata& metadata, const Document& refraction,
-                              bool overwrite, Progress& progress) const {
+                              bool overwrite, Progress& progress, std::vector<std::string>& warnings) const {
   if (paths_.empty()) return nullptr;
   const viewshed::Request& request = surveyed.result.request;
   const Tin& surface = surveyed.surface->listed(progress);
@@ -152,6 +154,12 @@ Document HorizonOutput::write(viewshed::Surveyed& surveyed, const StoreMetadata&
                                   : profile::draw_panorama(panorama(horizon, request), path);
     write_file(path, bytes, overwrite);
   }
+  const auto ends = std::count_if(horizon.points.begin(), horizon.points.end(),
+                                  [](const viewshed::HorizonPoint& p) { return p.sky && p.sky->data_edge; });
+  if (ends > 0)
+    warnings.push_back(
+        fmt::format("the sky line is the edge of the data in {} of {} directions; what lies behind may rise higher",
+                    ends, horizon.points.size()));
   return targets_document(horizon);
 }
 

@@ -21,10 +21,11 @@ class HorizonOutput {
   void validate();
   const std::vector<std::string>& paths() const { return paths_; }
 
-  /// Computes and writes what was asked for, if anything; the document of the horizon's targets, or null. Throws
+  /// Computes and writes what was asked for, if anything; the document of the horizon's targets, or null. `warnings`
+  /// gets one where the sky line is the edge of the data. Throws
   /// InputError, FileError.
   Document write(viewshed::Surveyed& surveyed, const StoreMetadata& metadata, const Document& refraction,
-                 bool overwrite, Progress& progress) const;
+                 bool overwrite, Progress& progress, std::vector<std::string>& warnings) const;
 
  private:
   std::vector<viewshed::HorizonTarget> targets(const viewshed::Request& request, const StoreMetadata& metadata) const;

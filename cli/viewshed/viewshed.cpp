@@ -168,7 +168,8 @@ class ViewshedVerb final : public Verb {
     warn_of_scale(metadata, result.warnings);
     outputs_.write(surveyed, context, result.warnings, progress);
     outputs_.write_each([&](std::size_t i) { return survey_alone(store, surveyed, i, progress); }, context);
-    const Document targets = horizon_.write(surveyed, metadata, earth_.document(), outputs_.overwrite(), progress);
+    const Document targets =
+        horizon_.write(surveyed, metadata, earth_.document(), outputs_.overwrite(), progress, result.warnings);
     // Certified and exact answers are about the full surface.
     const Detail detail = precise_ || certified_ ? Detail::tolerance(0) : request_.detail;
     const Document features =

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <itin/coordinates.hpp>
+#include <itin/csv_cell.hpp>
 #include <itin/error.hpp>
 #include <itin/output_file.hpp>
 #include <itin/store.hpp>
@@ -19,7 +20,6 @@
 #include "options/radius_preset.hpp"
 #include "options/store_scale.hpp"
 #include "options/surface_options.hpp"
-#include "output/csv_cell.hpp"
 #include "output/output_folder.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"

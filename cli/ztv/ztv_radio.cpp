@@ -5,12 +5,13 @@
 
 #include <fmt/format.h>
 
+#include <itin/csv_cell.hpp>
 #include <itin/error.hpp>
 #include <profile/links.hpp>
 #include <viewshed/link_exclusion.hpp>
 
 #include "options/off_the_data.hpp"
-#include "output/csv_cell.hpp"
+#include "options/radio_options.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
 
@@ -31,7 +32,7 @@ void ZtvRadioOptions::declare(CLI::App& app) {
 
 void ZtvRadioOptions::validate() {
   if (links_path_.empty() != frequency_text_.empty()) throw InputError("--links and --frequency go together");
-  if (!frequency_text_.empty()) frequency_ghz_ = parse_number("--frequency", frequency_text_, Range::kPositive);
+  if (!frequency_text_.empty()) frequency_ghz_ = parse_frequency(frequency_text_);
   if (radar_text_.empty()) return;
   radar_place_ = parse_place("--radar", radar_text_);
   if (!radar_place_->height) throw InputError(fmt::format("--radar '{}': expected x,y,h", radar_text_));
@@ -49,7 +50,7 @@ Document ZtvRadioOptions::parameters() const {
 void ZtvRadioOptions::load(const InCrs& in_crs, const StoreMetadata& metadata) {
   if (radar_place_) {
     const std::string what = fmt::format("--radar '{}'", radar_text_);
-    const Point2 position = on_the_data(what, radar_place_->position, in_crs, metadata);
+    const Point2 position = on_the_data(what, *radar_place_, in_crs, metadata);
     radar_ = viewshed::Observer{"radar", position, *radar_place_->height};
   }
   if (links_path_.empty()) return;

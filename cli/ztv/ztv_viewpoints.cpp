@@ -12,6 +12,7 @@
 
 #include <itin/coordinates.hpp>
 #include <itin/cross_section.hpp>
+#include <itin/csv_cell.hpp>
 #include <itin/error.hpp>
 #include <itin/geodesic.hpp>
 #include <itin/output_file.hpp>
@@ -22,7 +23,6 @@
 #include <profile/wireline.hpp>
 
 #include "options/site_list.hpp"
-#include "output/csv_cell.hpp"
 #include "program/call_files.hpp"
 #include "program/field_names.hpp"
 #include "program/values.hpp"

@@ -1,6 +1,8 @@
 // Loops over threads: within each other, and when one throws.
 #include <atomic>
 #include <chrono>
+#include <mutex>
+#include <set>
 #include <stdexcept>
 #include <string_view>
 #include <thread>
@@ -54,6 +56,43 @@ TEST(ParallelFor, StaysOnItsThreadWhereItIsTheOnlyOne) {
   parallel_for(threads.size(), [&](std::size_t i) { threads[i] = std::this_thread::get_id(); });
   set_thread_count(0);
   for (const std::thread::id& id : threads) EXPECT_EQ(id, std::this_thread::get_id());
+}
+
+/// How many threads take part in loops within each other.
+std::size_t threads_of_a_loop() {
+  std::mutex mutex;
+  std::set<std::thread::id> threads;
+  parallel_for(40, [&](std::size_t) {
+    parallel_for(20, [&](std::size_t) {
+      std::this_thread::sleep_for(std::chrono::microseconds(50));
+      const std::lock_guard lock(mutex);
+      threads.insert(std::this_thread::get_id());
+    });
+  });
+  return threads.size();
+}
+
+TEST(ThreadLimit, BindsTheCallsOfOneThread) {
+  set_thread_count(6);
+  const int before = thread_count();
+  {
+    const ThreadLimit three(3);
+    EXPECT_EQ(thread_count(), 3);
+    EXPECT_LE(threads_of_a_loop(), 3U);
+    int beside = 0;
+    std::jthread([&] { beside = thread_count(); }).join();
+    EXPECT_EQ(beside, before);
+    {
+      const ThreadLimit one(1);
+      EXPECT_EQ(threads_of_a_loop(), 1U);
+    }
+    EXPECT_EQ(thread_count(), 3);
+    const ThreadLimit more(100);
+    EXPECT_EQ(thread_count(), 3) << "no more than it had";
+  }
+  EXPECT_EQ(thread_count(), before);
+  set_thread_count(0);
+  EXPECT_THROW(ThreadLimit(0), InputError);
 }
 
 // A body that goes on while another one throws must find its own loops whole.

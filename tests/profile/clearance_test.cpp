@@ -8,6 +8,7 @@
 #include <itin/error.hpp>
 #include <profile/fresnel.hpp>
 #include <profile/los.hpp>
+#include <profile/report_text.hpp>
 #include <profile/required_heights.hpp>
 
 #include "published_profile.hpp"
@@ -108,13 +109,14 @@ TEST(RequiredHeights, AreJustEnough) {
     expect_just(*heights.from_alone_m, planned.to_m, *heights.from_alone_m);
     expect_just(planned.from_m, *heights.to_alone_m, *heights.to_alone_m);
     expect_just(*heights.both_equal_m, *heights.both_equal_m, *heights.both_equal_m);
-    ASSERT_EQ(heights.curve.size(), static_cast<std::size_t>(kCurvePoints));
-    for (std::size_t i = 0; i < heights.curve.size(); ++i) {
-      const HeightPair& pair = heights.curve[i];
+    const std::vector<HeightPair> curve = height_curve(profile, planned, requirement, heights.both_equal_m);
+    ASSERT_EQ(curve.size(), static_cast<std::size_t>(kCurvePoints));
+    for (std::size_t i = 0; i < curve.size(); ++i) {
+      const HeightPair& pair = curve[i];
       if (!pair.to_m) continue;
       EXPECT_LE(shortfall(pair.from_m, *pair.to_m), 1e-6);
-      if (i > 0 && heights.curve[i - 1].to_m) {
-        EXPECT_LE(*pair.to_m, *heights.curve[i - 1].to_m + 1e-9);
+      if (i > 0 && curve[i - 1].to_m) {
+        EXPECT_LE(*pair.to_m, *curve[i - 1].to_m + 1e-9);
       }
     }
   }
@@ -186,9 +188,16 @@ TEST(Analyse, AgreesWithDenseSamplingAndWithItsMirrorImage) {
     double sampled = std::numeric_limits<double>::infinity(), cut = 0;
     sample(profile, report.antennas, earth, [&](double, double clearance) { sampled = std::min(sampled, clearance); });
     for (const Obstruction& o : report.obstructions) cut = std::max(cut, o.depth_m);
-    EXPECT_LE(*report.clearance_m, sampled + 1e-9);
-    EXPECT_NEAR(*report.clearance_m, sampled, 0.05);
+    EXPECT_EQ(report.verdict == SightVerdict::kHidden, cut > 0);
     EXPECT_NEAR(cut, std::max(0.0, -*report.clearance_m), 1e-9);
+    if (cut > 0) {
+      EXPECT_LE(*report.clearance_m, sampled + 1e-9);
+      EXPECT_NEAR(*report.clearance_m, sampled, 0.05);
+    } else {
+      const auto zone = fresnel_clearance(profile, report.antennas, earth, 0.1);
+      EXPECT_NEAR(*report.clearance_m, zone->clearance_m, 1e-6);
+      EXPECT_GE(*report.clearance_m, sampled - 0.05);
+    }
     const LosReport back = analyse(reversed(profile), query(to, from, earth));
     EXPECT_EQ(report.verdict, back.verdict);
     EXPECT_EQ(report.obstructions.size(), back.obstructions.size());
@@ -206,10 +215,13 @@ TEST(Analyse, JudgesCriteriaOnTheirOwnEarth) {
   ASSERT_EQ(report.criteria.size(), 3U);
   const double clearance = 15 - 1e8 / (2 * 4.0 / 3 * 6371000), f1 = fresnel_radius_m(1e4, 1e4, wavelength_m(20));
   EXPECT_NEAR(*report.criteria[0].clearance_f1, clearance / f1, 1e-6);
-  EXPECT_EQ(report.criteria[0].verdict, CriterionVerdict::kClear);
-  EXPECT_EQ(report.criteria[1].verdict, clearance / f1 >= 1 ? CriterionVerdict::kClear : CriterionVerdict::kMarginal);
+  for (const CriterionResult& c : {report.criteria[0], report.criteria[1]}) {
+    EXPECT_EQ(c.verdict, clearance / f1 >= c.criterion.fraction ? CriterionVerdict::kMeets : CriterionVerdict::kFails);
+    EXPECT_NEAR(*c.margin_m, clearance - c.criterion.fraction * f1, 1e-6);
+    EXPECT_NEAR(*c.margin_f1, clearance / f1 - c.criterion.fraction, 1e-6);
+  }
   EXPECT_NEAR(*report.criteria[2].clearance_m, 15 - 1e8 / (2 * 0.5 * 6371000), 1e-6);
-  EXPECT_EQ(report.criteria[2].verdict, CriterionVerdict::kObstructed);
+  EXPECT_EQ(report.criteria[2].verdict, CriterionVerdict::kFails);
 }
 
 TEST(Analyse, LeavesOpenWhatTheCertificateCannotDecide) {
@@ -219,6 +231,72 @@ TEST(Analyse, LeavesOpenWhatTheCertificateCannotDecide) {
   EXPECT_EQ(analyse(profile, q).verdict, SightVerdict::kVisible);
   q.clearance_error_m = 6;
   EXPECT_EQ(analyse(profile, q).verdict, SightVerdict::kUndecided);
+}
+
+/// Level ground at 0 m but for a rise of 12 m, with nothing known from 3 to 4 km.
+Profile with_a_gap() {
+  Profile profile = even_profile(1000, {0, 12, 0, 0, 0, 0});
+  profile.gaps = {{3000, 4000}};
+  return profile;
+}
+
+TEST(Analyse, LeavesOpenWhatLiesBeyondKnownGround) {
+  LosQuery q = query(20, 20, Earth::flat());
+  q.criteria = {{4.0 / 3, 0}};
+  const LosReport open = analyse(with_a_gap(), q);
+  EXPECT_EQ(open.verdict, SightVerdict::kUndecided);
+  EXPECT_EQ(open.known_verdict, SightVerdict::kVisible);
+  EXPECT_EQ(open.criteria[0].verdict, CriterionVerdict::kUndecided);
+  EXPECT_EQ(gap_text(open),
+            "no data over 1000.0 m of the line, which leaves it undecided; nothing hides it on known ground");
+  EXPECT_EQ(outcome_text(open.criteria[0]).substr(0, 17), "undecided; met by");
+  q.nodata = NoData::kBlock;
+  EXPECT_EQ(analyse(with_a_gap(), q).verdict, SightVerdict::kHidden);
+  EXPECT_EQ(outcome_text(analyse(with_a_gap(), q).criteria[0]), "fails: ground without data counts as blocking");
+  q.nodata = NoData::kClear;
+  EXPECT_EQ(analyse(with_a_gap(), q).verdict, SightVerdict::kVisible);
+  EXPECT_EQ(analyse(with_a_gap(), q).criteria[0].verdict, CriterionVerdict::kMeets);
+  q.nodata = NoData::kUnknown, q.from_height_m = q.to_height_m = 5;
+  const LosReport hidden = analyse(with_a_gap(), q);
+  EXPECT_EQ(hidden.verdict, SightVerdict::kHidden);
+  EXPECT_EQ(hidden.criteria[0].verdict, CriterionVerdict::kFails);
+  EXPECT_EQ(verdict_text(hidden), "Hidden: no data over 1000.0 m of the line; known ground hides it");
+}
+
+TEST(Analyse, NamesNoFootAsTheCriticalPoint) {
+  // The eye's foot is 2 m below the ray, the rise at 2 km 3 m: it is the rise that a planner looks at.
+  const Profile profile = even_profile(1000, {0, 0, 9, 0, 0});
+  const LosReport report = analyse(profile, query(2, 22, Earth::flat()));
+  EXPECT_NEAR(report.critical->distance_m, 2000, 1e-6);
+  EXPECT_NEAR(*report.clearance_m, 3, 1e-6);
+  LosQuery radio = query(2, 22, Earth::flat());
+  radio.radio = RadioPath{.frequency_ghz = 6};
+  const LosReport with_frequency = analyse(profile, radio);
+  EXPECT_NEAR(with_frequency.critical->distance_m, report.critical->distance_m, 1e-6);
+  EXPECT_NEAR(*with_frequency.clearance_m, *report.clearance_m, 1e-6);
+}
+
+TEST(Analyse, JudgesClutterWhereTheLossesHaveIt) {
+  Profile profile = even_profile(1000, {0, 0, 0, 0, 0});
+  for (ProfilePoint& p : profile.points) p.clutter_m = 25;
+  LosQuery q = query(20, 20, Earth::effective_earth(4.0 / 3));
+  q.radio = RadioPath{.frequency_ghz = 6, .effective_earth_km = 6371 * 4.0 / 3};
+  const LosReport report = analyse(profile, q);
+  EXPECT_EQ(report.verdict, SightVerdict::kHidden);
+  EXPECT_EQ(cause_of(report, report.critical->theme), "clutter");
+  EXPECT_GT(*report.required[0].heights.both_equal_m, 25);
+  EXPECT_EQ(report.stands_on.from_m, 0);
+  ASSERT_TRUE(report.bare);
+  EXPECT_EQ(report.bare->verdict, SightVerdict::kVisible);
+  EXPECT_LT(*report.bare->required[0].heights.both_equal_m, 5);
+  EXPECT_EQ(report.losses->ld_db, path_losses(with_spacing(profile, 80), report.antennas, *q.radio).ld_db);
+}
+
+TEST(RequiredText, NeverRoundsBelowWhatIsRequired) {
+  EXPECT_EQ(required_text(14.661), "14.67 m");
+  EXPECT_EQ(required_text(14.66), "14.66 m");
+  EXPECT_EQ(required_text(0), "0.00 m");
+  EXPECT_EQ(required_text(std::nullopt), "none is enough");
 }
 
 TEST(Analyse, TakesALineWithoutLength) {

@@ -70,6 +70,16 @@ class Links : public testing::Test {
     return analyse(along(query.themes), of_one, along(ThemeChoice::none()));
   }
 
+  static void expect_same(const LineFindings& found, const LineFindings& expected) {
+    EXPECT_EQ(found.verdict, expected.verdict);
+    EXPECT_TRUE(test::same_bits(*found.clearance_m, *expected.clearance_m));
+    EXPECT_EQ(found.critical->distance_m, expected.critical->distance_m);
+    EXPECT_EQ(found.fresnel ? std::optional(found.fresnel->fraction) : std::nullopt,
+              expected.fresnel ? std::optional(expected.fresnel->fraction) : std::nullopt);
+    for (std::size_t i = 0; i < found.required.size(); ++i)
+      EXPECT_EQ(found.required[i].heights.both_equal_m, expected.required[i].heights.both_equal_m);
+  }
+
   void expect_reports(const std::vector<Link>& links, const LinkQuery& query) {
     NoProgress progress;
     const std::vector<LinkResult> results = survey_links(*store_, links, query, progress);
@@ -77,24 +87,24 @@ class Links : public testing::Test {
     for (std::size_t i = 0; i < std::min<std::size_t>(links.size(), 100); ++i) {
       SCOPED_TRACE(i);
       if (i == 1) {
-        EXPECT_FALSE(results[i].verdict);
+        EXPECT_FALSE(results[i].found);
         EXPECT_FALSE(results[i].message.empty());
         continue;
       }
       const LosReport expected = report(links[i], query);
-      EXPECT_EQ(results[i].verdict, expected.verdict);
-      EXPECT_TRUE(test::same_bits(*results[i].clearance_m, *expected.clearance_m));
-      EXPECT_EQ(results[i].critical_m, expected.critical->distance_m);
-      EXPECT_EQ(results[i].ld_db, expected.losses ? std::optional(expected.losses->ld_db) : std::nullopt);
-      EXPECT_EQ(results[i].fresnel_fraction,
-                expected.fresnel ? std::optional(expected.fresnel->fraction) : std::nullopt);
+      expect_same(*results[i].found, expected);
+      EXPECT_EQ(results[i].losses ? std::optional(results[i].losses->ld_db) : std::nullopt,
+                expected.losses ? std::optional(expected.losses->ld_db) : std::nullopt);
+      EXPECT_EQ(results[i].stands_on.to_m, expected.stands_on.to_m);
+      if (i < 10) expect_same(*survey_link(*store_, links[i], query).found, expected);
       ASSERT_EQ(results[i].visible.has_value(), expected.visible.has_value());
       if (expected.visible) {
         EXPECT_EQ(results[i].visible->tip_visible_m, expected.visible->tip_visible_m);
       }
     }
-    undecided_ = std::count_if(results.begin(), results.end(),
-                               [](const LinkResult& r) { return r.verdict == SightVerdict::kUndecided; });
+    undecided_ = std::count_if(results.begin(), results.end(), [](const LinkResult& r) {
+      return r.found && r.found->verdict == SightVerdict::kUndecided;
+    });
   }
 
   test::TemporaryDirectory directory_;
@@ -127,7 +137,7 @@ TEST_F(Links, AtAHeightBelowTheGroundAreErrors) {
   NoProgress progress;
   const std::vector<Link> one = {{"low", {300100, 199700}, -1, {300200, 199700}, 2}};
   const std::vector<LinkResult> results = survey_links(*store_, one, {}, progress);
-  EXPECT_FALSE(results[0].verdict);
+  EXPECT_FALSE(results[0].found);
   EXPECT_NE(results[0].message, "");
 }
 

@@ -83,7 +83,20 @@ TEST(Horizon, OfACurvedPlaneIsTheSea) {
   for (const HorizonPoint& p : result.points) {
     EXPECT_NEAR(p.sky->distance_m, distance, 2);
     EXPECT_NEAR(p.sky->elevation_deg, dip, 1e-4);
+    EXPECT_FALSE(p.sky->data_edge);
   }
+}
+
+TEST(Horizon, MarksWhereTheDataEnds) {
+  // From 100 m up the sea would end 38 km away, but only 20 km of it are known.
+  const Tin sea = test::lattice_tin(41, 41, 1000, [](std::int32_t, std::int32_t) { return 0.0; });
+  Request request = look({kCorner.x + 20000, kCorner.y + 20000}, 100);
+  for (const HorizonPoint& p : run(sea, request, {.step_deg = 10, .targets = {}}).points)
+    EXPECT_TRUE(p.sky->data_edge) << p.azimuth_deg;
+  // What lies beyond the radius is not asked for.
+  request.radius = 15000;
+  for (const HorizonPoint& p : run(sea, request, {.step_deg = 10, .targets = {}}).points)
+    EXPECT_FALSE(p.sky->data_edge) << p.azimuth_deg;
 }
 
 TEST(Horizon, TargetsAreInSightOrNot) {

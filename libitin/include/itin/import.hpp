@@ -52,6 +52,8 @@ struct ImportOptions {
   double max_gap = 0;                 ///< metres, scattered points: ground is not triangulated over longer edges;
                                       ///< 0: 100 times the mean spacing of the source
   bool allow_mixed_vertical = false;  ///< take heights as they are, though they refer to different vertical datums
+  std::string source_note;            ///< product, date and licence of the sources, for reports; default: the
+                                      ///< copyright that a raster states
   bool repair = true;                 ///< import_lines() of contours: infer points where their triangles are flat
   bool replace = false;               ///< these sources take the place of coarser ones within their coverage
   std::vector<double> tolerances;     ///< metres; default: those of 0.5,1,2,4,8,16,32 that are no less than the

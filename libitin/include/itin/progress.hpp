@@ -10,6 +10,7 @@
 //   const Tin tin = triangulate(store, Window::all(), Detail::tolerance(8), bar);
 #pragma once
 
+#include <memory>
 #include <string_view>
 
 #include <itin/error.hpp>
@@ -38,7 +39,25 @@ class NoProgress final : public Progress {
 
 /// Limits all calls of the process to this many threads in all; 0 means all cores. No result depends on it.
 void set_thread_count(int threads);
-/// How many threads calls may use now, at least 1.
+/// How many threads calls of this thread may use now, at least 1.
 int thread_count();
+
+/// Limits the calls of one thread for as long as it lives, the thread itself among them; those of other threads keep
+/// their own limits. To be made and destroyed by the thread, the last one first. No result depends on it.
+///
+///   const ThreadLimit two(2);
+///   const auto result = viewshed::compute(store, request, progress);
+class ThreadLimit {
+ public:
+  /// At least 1. Throws InputError for less.
+  explicit ThreadLimit(int threads);
+  ~ThreadLimit();
+  ThreadLimit(const ThreadLimit&) = delete;
+  ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
 
 }  // namespace itin

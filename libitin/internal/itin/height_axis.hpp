@@ -19,6 +19,9 @@ struct HeightAxis {
   friend bool operator==(const HeightAxis&, const HeightAxis&) = default;
 };
 
+/// "heights above Ordnance Datum Newlyn, unit: metre".
+std::string described(const HeightAxis& axis);
+
 /// As an import takes heights in this CRS (SourceInfo::source_crs, say): by its vertical part; where it has none, in
 /// the unit of its axes, or in metres where these are angles. Throws InputError.
 HeightAxis height_axis(const std::string& crs);

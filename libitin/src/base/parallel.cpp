@@ -1,3 +1,4 @@
+#include <itin/error.hpp>
 #include <itin/parallel.hpp>
 
 #ifdef ITIN_PARALLEL
@@ -7,6 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <tbb/global_control.h>
@@ -21,6 +23,21 @@ namespace itin {
 #ifdef ITIN_PARALLEL
 
 namespace {
+
+/// The arena of the ThreadLimit that this thread made, or that it works for; null where there is none.
+thread_local tbb::task_arena* limited = nullptr;
+
+/// Works for an arena for as long as it lives.
+class InArena {
+ public:
+  explicit InArena(tbb::task_arena* arena) : before_(std::exchange(limited, arena)) {}
+  ~InArena() { limited = before_; }
+  InArena(const InArena&) = delete;
+  InArena& operator=(const InArena&) = delete;
+
+ private:
+  tbb::task_arena* before_;
+};
 
 std::mutex control_mutex;
 std::unique_ptr<tbb::global_control> control;
@@ -68,10 +85,14 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& bod
     return;
   }
   const Progress* const progress = stopper();
-  run_on_threads(count, [&](std::size_t i) {
-    const Stoppable here(progress);
-    body(i);
-  });
+  const auto run = [&] {
+    run_on_threads(count, [&, arena = limited](std::size_t i) {
+      const Stoppable here(progress);
+      const InArena working(arena);
+      body(i);
+    });
+  };
+  limited != nullptr ? limited->execute(run) : run();
 }
 
 void set_thread_count(int threads) {
@@ -84,8 +105,18 @@ void set_thread_count(int threads) {
 }
 
 int thread_count() {
-  return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  const auto all = static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  return limited != nullptr ? std::min(all, limited->max_concurrency()) : all;
 }
+
+class ThreadLimit::Impl {
+ public:
+  explicit Impl(int threads) : arena_(threads), working_(&arena_) {}
+
+ private:
+  tbb::task_arena arena_;
+  InArena working_;
+};
 
 #else
 
@@ -99,6 +130,17 @@ int thread_count() {
   return 1;
 }
 
+class ThreadLimit::Impl {};
+
 #endif
+
+ThreadLimit::ThreadLimit(int threads) {
+  if (threads < 1) throw InputError("threads: give at least 1");
+#ifdef ITIN_PARALLEL
+  impl_ = std::make_unique<Impl>(std::min(threads, thread_count()));
+#endif
+}
+
+ThreadLimit::~ThreadLimit() = default;
 
 }  // namespace itin

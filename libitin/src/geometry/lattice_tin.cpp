@@ -152,9 +152,11 @@ Tin LatticeTin::tin() const {
   return result;
 }
 
-std::optional<LatticeTin> lattice_of(const Tin& tin) {
-  const std::size_t count = tin.triangles.size();
-  if (count == 0 || !tin.standing.empty()) return std::nullopt;
+namespace {
+
+/// A lattice over all of the Tin's vertices, without cells; nothing where its first triangle is none of a lattice, or
+/// most of the lattice would be empty.
+std::optional<LatticeTin> lattice_about(const Tin& tin) {
   const GridBox first = box_of(tin, tin.triangles[0]);
   GridBox all;
   for (const GridPoint& v : tin.vertices) all.extend(v.x, v.y);
@@ -162,7 +164,8 @@ std::optional<LatticeTin> lattice_of(const Tin& tin) {
   if (spacing != std::int64_t{first.ymax} - first.ymin) return std::nullopt;
   const std::int64_t west = all.xmin - spacing, north = all.ymax + spacing;
   const std::int64_t columns = (all.xmax - west) / spacing + 1, rows = (north - all.ymin) / spacing + 1;
-  if (columns * rows > kEmptiest * static_cast<std::int64_t>(count) / 2 + 4 * (columns + rows)) return std::nullopt;
+  const auto count = static_cast<std::int64_t>(tin.triangles.size());
+  if (columns * rows > kEmptiest * count / 2 + 4 * (columns + rows)) return std::nullopt;
   LatticeTin lattice;
   lattice.grid = tin.grid, lattice.statistics = tin.statistics;
   lattice.west = static_cast<std::int32_t>(west), lattice.north = static_cast<std::int32_t>(north);
@@ -173,35 +176,53 @@ std::optional<LatticeTin> lattice_of(const Tin& tin) {
     lattice.tiles[t].halves = std::make_unique<std::array<std::uint8_t, LatticeTin::kCells>>();
     lattice.make_heights(t);
   }
+  return lattice;
+}
+
+/// From any thread. Returns false where the triangle is not half a cell.
+bool add(const Tin& tin, const Triangle& triangle, LatticeTin& lattice) {
+  const GridBox box = box_of(tin, triangle);
+  const std::int64_t spacing = lattice.spacing;
+  const std::int64_t east = std::int64_t{box.xmin} - lattice.west, south = std::int64_t{lattice.north} - box.ymax,
+                     column = east / spacing, row = south / spacing;
+  const std::uint8_t half = half_of(tin, triangle, box);
+  if (half == 0 || column * spacing != east || row * spacing != south || std::int64_t{box.xmax} - box.xmin != spacing ||
+      std::int64_t{box.ymax} - box.ymin != spacing)
+    return false;
   // Triangles of one cell may be dealt with by two threads.
-  const auto add = [&](std::uint32_t cell, std::uint8_t half) {
-    std::uint8_t& halves = (*lattice.tiles[cell / LatticeTin::kCells].halves)[cell % LatticeTin::kCells];
-    std::atomic_ref(halves).fetch_or(half, std::memory_order_relaxed);
-  };
-  std::atomic<bool> odd = false;
-  parallel_for((count + kChunk - 1) / kChunk, [&](std::size_t chunk) {
-    for (std::size_t t = chunk * kChunk; t < std::min(count, (chunk + 1) * kChunk) && !odd; ++t) {
-      const GridBox box = box_of(tin, tin.triangles[t]);
-      const std::int64_t east = box.xmin - west, south = north - box.ymax, column = east / spacing,
-                         row = south / spacing;
-      const std::uint8_t half = half_of(tin, tin.triangles[t], box);
-      if (half == 0 || column * spacing != east || row * spacing != south ||
-          std::int64_t{box.xmax} - box.xmin != spacing || std::int64_t{box.ymax} - box.ymin != spacing) {
-        odd = true;
-        return;
-      }
-      add(lattice.cell(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row)), half);
-    }
-  });
-  if (odd) return std::nullopt;
+  const std::uint32_t cell = lattice.cell(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row));
+  std::uint8_t& halves = (*lattice.tiles[cell / LatticeTin::kCells].halves)[cell % LatticeTin::kCells];
+  std::atomic_ref(halves).fetch_or(half, std::memory_order_relaxed);
+  return true;
+}
+
+void set_heights(const Tin& tin, LatticeTin& lattice) {
   const auto [lowest, highest] = std::minmax_element(tin.vertices.begin(), tin.vertices.end(),
                                                      [](const GridPoint& a, const GridPoint& b) { return a.z < b.z; });
   lattice.lowest = lowest->z, lattice.highest = highest->z;
+  const std::int64_t west = lattice.west, north = lattice.north;
   for (const GridPoint& v : tin.vertices)
     lattice.for_each_tile_of(
-        static_cast<std::uint32_t>((v.x - west) / spacing), static_cast<std::uint32_t>((north - v.y) / spacing),
+        static_cast<std::uint32_t>((v.x - west) / lattice.spacing),
+        static_cast<std::uint32_t>((north - v.y) / lattice.spacing),
         [&](std::uint32_t tile, std::uint32_t post) { (*lattice.tiles[tile].heights)[post] = v.z; });
-  for (std::uint32_t t = 0; t < lattice.tiles.size(); ++t) lattice.settle(t);
+}
+
+}  // namespace
+
+std::optional<LatticeTin> lattice_of(const Tin& tin) {
+  const std::size_t count = tin.triangles.size();
+  if (count == 0 || !tin.standing.empty()) return std::nullopt;
+  std::optional<LatticeTin> lattice = lattice_about(tin);
+  if (!lattice) return std::nullopt;
+  std::atomic<bool> odd = false;
+  parallel_for((count + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+    for (std::size_t t = chunk * kChunk; t < std::min(count, (chunk + 1) * kChunk) && !odd; ++t)
+      if (!add(tin, tin.triangles[t], *lattice)) odd = true;
+  });
+  if (odd) return std::nullopt;
+  set_heights(tin, *lattice);
+  for (std::uint32_t t = 0; t < lattice->tiles.size(); ++t) lattice->settle(t);
   return lattice;
 }
 

@@ -47,10 +47,20 @@ void add_set_aside(const StoreRows& rows, PointSorter& sorter, StoredPoints& sto
   }
 }
 
+bool has_contours(const Store& store) {
+  const std::vector<ThemeInfo>& themes = store.metadata().themes;
+  return std::any_of(themes.begin(), themes.end(), [](const auto& t) { return t.kind == ThemeKind::Contours; });
+}
+
 }  // namespace
 
 bool repairs(const Store* store) {
   return store != nullptr && !store->metadata().sources.empty() && store->metadata().sources.back().kind == kInferred;
+}
+
+bool will_repair(const ImportOptions& options, const Store* store) {
+  if (options.kind != ThemeKind::Contours) return repairs(store);
+  return options.repair && (store == nullptr || !has_contours(*store) || repairs(store));
 }
 
 std::vector<SourceInfo> imported_sources(const Store* store) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <itin/import.hpp>
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
 
@@ -14,6 +15,8 @@ namespace itin {
 
 /// Whether a store's contours are repaired. The store may be null, here and below.
 bool repairs(const Store* store);
+/// Whether they will be after an import into it: unless any import of contours said otherwise.
+bool will_repair(const ImportOptions& options, const Store* store);
 
 /// All but the last one if that stands for inferred points.
 std::vector<SourceInfo> imported_sources(const Store* store);

@@ -51,6 +51,64 @@ double fringe(const GridBox& box, std::size_t points) {
   return std::ceil(kFringe * std::sqrt(area / static_cast<double>(points)));
 }
 
+bool lies_in(const GridBox& box, const SelectedVertex& v) {
+  return box.contains(v.point.x, v.point.y);
+}
+
+/// Where the ground of a surface ends, as far as all triangles about it are known.
+struct GroundEdges {
+  struct Edge {
+    Segment segment;
+    std::uint64_t owner;  ///< it belongs to the tile of this one of its ends, the first on the curve
+  };
+  std::vector<Edge> segments;
+  std::vector<std::uint8_t> touched;  ///< vertices that ground meets
+};
+
+GroundEdges ground_edges(const RegionMesh& region, const GapRule& gaps, const GridBox& box) {
+  std::vector<std::uint8_t> ground;
+  for (const auto& [a, b, c] : region.mesh.triangles)
+    ground.push_back(gaps.ground(region.vertices[a], region.vertices[b], region.vertices[c]));
+  GroundEdges edges{{}, std::vector<std::uint8_t>(region.vertices.size(), 0)};
+  for (std::size_t t = 0; t < ground.size(); ++t) {
+    if (!ground[t]) continue;
+    for (int i = 0; i < 3; ++i) {
+      edges.touched[region.mesh.triangles[t][i]] = 1;
+      const std::uint32_t n = region.mesh.neighbours[t][i];
+      if (n != kNoTriangle && ground[n]) continue;
+      const std::uint32_t from = region.mesh.triangles[t][(i + 1) % 3], to = region.mesh.triangles[t][(i + 2) % 3];
+      // All triangles at a vertex in the box are known, so its edges are; farther away some neighbours are missing.
+      if (!lies_in(box, region.vertices[from]) && !lies_in(box, region.vertices[to])) continue;
+      const std::uint64_t owner = std::min(code_of(region.vertices[from]), code_of(region.vertices[to]));
+      edges.segments.push_back({segment(region, from, to), owner});
+    }
+  }
+  return edges;
+}
+
+std::vector<Candidacy> candidacy_of(const RegionMesh& region, const GroundEdges& edges, const GridBox& box) {
+  std::vector<Segment> segments;
+  for (const GroundEdges::Edge& edge : edges.segments) segments.push_back(edge.segment);
+  const std::vector<std::uint64_t> corners = corners_of(segments);
+  std::vector<Candidacy> candidacy;
+  for (std::uint32_t v = 0; v < region.vertices.size(); ++v) {
+    const bool free = edges.touched[v] && lies_in(box, region.vertices[v]);
+    const bool corner = free && std::binary_search(corners.begin(), corners.end(), code_of(region.vertices[v]));
+    candidacy.push_back(corner ? Candidacy::kCorner : free ? Candidacy::kFree : Candidacy::kNone);
+  }
+  return candidacy;
+}
+
+/// Points that no ground meets, or no triangle at all: fewer than three, or all in line.
+std::vector<std::uint64_t> isolated_of(const std::vector<RawPoint>& points, const TileSurvey& survey) {
+  std::vector<std::uint64_t> grounded, isolated;
+  for (std::size_t v = 0; v < survey.candidacy.size(); ++v)
+    if (survey.candidacy[v] != Candidacy::kNone) grounded.push_back(code_of(survey.surface.vertices[v]));
+  for (const RawPoint& p : points)
+    if (!std::binary_search(grounded.begin(), grounded.end(), p.code)) isolated.push_back(p.code);
+  return isolated;
+}
+
 }  // namespace
 
 GridBox reach_of(const CurveRange& tile) {
@@ -73,46 +131,11 @@ TileSurvey survey_tile(const WorkingIndex& index, const CurveRange& tile,
   survey.verge = widened(points, margin / 2);
   survey.surface = ground_points == nullptr ? triangulate_region(index, everything, box)
                                             : triangulate_region(*ground_points, everything, box);
-  const RegionMesh& region = survey.surface;
-  const GapRule gaps(gap_bases);
-  std::vector<std::uint8_t> ground;
-  for (const auto& [a, b, c] : region.mesh.triangles)
-    ground.push_back(gaps.ground(region.vertices[a], region.vertices[b], region.vertices[c]));
-
-  std::vector<std::uint8_t> touched(region.vertices.size(), 0);
-  const auto in_box = [&](std::uint32_t v) {
-    return box.contains(region.vertices[v].point.x, region.vertices[v].point.y);
-  };
-  std::vector<Segment> edges;
-  for (std::size_t t = 0; t < ground.size(); ++t) {
-    if (!ground[t]) continue;
-    for (int i = 0; i < 3; ++i) {
-      touched[region.mesh.triangles[t][i]] = 1;
-      const std::uint32_t n = region.mesh.neighbours[t][i];
-      if (n != kNoTriangle && ground[n]) continue;
-      const std::uint32_t from = region.mesh.triangles[t][(i + 1) % 3], to = region.mesh.triangles[t][(i + 2) % 3];
-      // All triangles at a vertex in the box are known, so its edges are; farther away some neighbours are missing.
-      if (!in_box(from) && !in_box(to)) continue;
-      edges.push_back(segment(region, from, to));
-      // An edge belongs to the tile of its end first on the curve.
-      const std::uint64_t owner = std::min(code_of(region.vertices[from]), code_of(region.vertices[to]));
-      if (tile.cell.contains(owner)) survey.outline.push_back(edges.back());
-    }
-  }
-
-  const std::vector<std::uint64_t> corners = corners_of(edges);
-  std::vector<std::uint64_t> grounded;
-  for (std::uint32_t v = 0; v < region.vertices.size(); ++v) {
-    const std::uint64_t code = code_of(region.vertices[v]);
-    const bool free = touched[v] && in_box(v);
-    const bool corner = free && std::binary_search(corners.begin(), corners.end(), code);
-    survey.candidacy.push_back(corner ? Candidacy::kCorner : free ? Candidacy::kFree : Candidacy::kNone);
-    if (free) grounded.push_back(code);
-  }
-  // Points that no triangle meets at all (fewer than three, or all in line) are isolated, too.
-  for (const RawPoint& p : own) {
-    if (!std::binary_search(grounded.begin(), grounded.end(), p.code)) survey.isolated.push_back(p.code);
-  }
+  const GroundEdges edges = ground_edges(survey.surface, GapRule(gap_bases), box);
+  for (const auto& [segment, owner] : edges.segments)
+    if (tile.cell.contains(owner)) survey.outline.push_back(segment);
+  survey.candidacy = candidacy_of(survey.surface, edges, box);
+  survey.isolated = isolated_of(own, survey);
   return survey;
 }
 

@@ -13,13 +13,13 @@
 #include "pyramid/certify.hpp"
 #include "pyramid/contour_repair.hpp"
 #include "pyramid/coverage.hpp"
+#include "pyramid/level_writer.hpp"
 #include "pyramid/part_masks.hpp"
 #include "pyramid/proposal.hpp"
 #include "pyramid/replacement.hpp"
 #include "pyramid/set_points_aside.hpp"
 #include "pyramid/working_index.hpp"
 #include "store/lateral_tolerance.hpp"
-#include "store/leaf_cutter.hpp"
 
 namespace itin {
 
@@ -137,48 +137,6 @@ void count_lines(const PlacedLines& placed, std::size_t themes, PyramidReport& r
   }
 }
 
-/// Writes one level's quadtree; its leaves take the bounds of the working leaves in them.
-class LevelWriter {
- public:
-  LevelWriter(const WorkingIndex& index, const LeafBounds& bounds, int level, StoreWriter& writer)
-      : index_(index),
-        bounds_(bounds),
-        level_(level),
-        writer_(writer),
-        cutter_(kLeafCapacity, [this](const Cell& cell, std::uint32_t count) { write(cell, count); }) {}
-  LevelWriter(const LevelWriter&) = delete;
-
-  void add(const RawPoint& p) {
-    points_.push_back({morton_x(p.code), morton_y(p.code), p.z});
-    sources_.push_back(p.source);
-    cutter_.add(p.code);
-  }
-  void finish() { cutter_.finish(); }
-
- private:
-  void write(const Cell& cell, std::uint32_t count) {
-    // The working tree is the finer one: it holds every level's points and has the same capacity.
-    DifferenceRange range;
-    for (; leaf_ < index_.ranges().size() && index_.ranges()[leaf_].cell.code < cell.end(); ++leaf_)
-      range.add(bounds_.at(leaf_, level_));
-    if (count == 0 && range.empty()) return;
-    if (range.empty()) range = {0, 0};
-    writer_.add_leaf(level_, cell, std::span(points_).first(count), std::span(sources_).first(count), range.lo,
-                     range.hi);
-    points_.erase(points_.begin(), points_.begin() + count);
-    sources_.erase(sources_.begin(), sources_.begin() + count);
-  }
-
-  const WorkingIndex& index_;
-  const LeafBounds& bounds_;
-  int level_;
-  StoreWriter& writer_;
-  std::vector<GridPoint> points_;
-  std::vector<std::uint16_t> sources_;
-  std::uint32_t leaf_ = 0;
-  LeafCutter<std::function<void(const Cell&, std::uint32_t)>> cutter_;
-};
-
 /// A vertex that covers a point of the ground stands for it while levels are made, and is its line's in the store.
 std::uint16_t own_source(const RawPoint& p, const std::vector<CoveredPoint>& covered) {
   const auto at = std::lower_bound(covered.begin(), covered.end(), p.code,
@@ -186,30 +144,207 @@ std::uint16_t own_source(const RawPoint& p, const std::vector<CoveredPoint>& cov
   return at != covered.end() && at->point.code == p.code ? at->line : p.source;
 }
 
-void write_levels(const WorkingIndex& index, LeafBounds& bounds, const std::vector<CurveRange>& tiles, int levels,
-                  const std::vector<CoveredPoint>& covered, StoreWriter& writer, PyramidReport& report,
-                  Progress& progress) {
-  for (std::uint32_t leaf = 0; leaf < index.ranges().size(); ++leaf) {
-    // The full surface differs from itself by nothing, wherever there is ground.
-    if (levels > 1 && !bounds.at(leaf, 1).empty()) bounds.at(leaf, 0) = {0, 0};
-  }
-  std::size_t done = 0;
-  for (int k = 0; k < levels; ++k) {
-    LevelWriter level(index, bounds, k, writer);
-    for (const CurveRange& tile : tiles) {
-      progress.throw_if_cancelled();
-      for (RawPoint p : index.read(tile)) {
-        if (p.level != k) continue;
-        p.source = own_source(p, covered);
-        level.add(p);
-        report.vertices_of_source[p.source] += 1;
-      }
-      progress.report("writing", static_cast<double>(++done) /
-                                     static_cast<double>(tiles.size() * static_cast<std::size_t>(levels)));
-    }
-    level.finish();
-  }
+Sources ground_sources(const std::vector<SourceInfo>& sources) {
+  Sources ground;
+  for (std::size_t s = 0; s < sources.size(); ++s)
+    if (is_ground(sources[s])) ground.insert(static_cast<std::uint16_t>(s));
+  return ground;
 }
+
+void append(std::vector<Segment>& segments, const std::vector<Segment>& more) {
+  segments.insert(segments.end(), more.begin(), more.end());
+}
+
+/// In this order, each step once.
+class PyramidBuild {
+ public:
+  PyramidBuild(const PyramidSources& of, StoreWriter& writer, Progress& progress)
+      : points_(of.points),
+        sources_(of.sources),
+        lines_(of.lines),
+        inferred_(of.inferred),
+        levels_(static_cast<int>(of.tolerances.size())),
+        bases_(gap_bases(of.sources, of.grid)),
+        writer_(writer),
+        progress_(progress) {
+    for (const double metres : of.tolerances) {
+      whole_units_.push_back(static_cast<std::int32_t>(std::floor(metres / of.grid.resolution + 1e-9)));
+      units_.push_back(whole_units_.back());
+    }
+    report_.vertices_of_source.assign(sources_.size(), 0);
+    index_points();
+  }
+
+  PyramidReport run() {
+    find_coverage();
+    place();
+    repair_contours();
+    generalise();
+    propose_with_lines();
+    write_ground(certify_levels());
+    write_lines();
+    set_points_aside(imported(), sources_, writer_, progress_);
+    report_.placed = std::move(placed_.terrain);
+    append(report_.placed, placed_.features);
+    return std::move(report_);
+  }
+
+ private:
+  void index_points() {
+    index_.emplace(points_, levels_, kLeafCapacity);
+    tiles_ = index_->tiles(tile_points(points_.size()));
+  }
+
+  /// All points that were imported, also where those of the surface are more by now.
+  const SortedPoints& imported() const { return imported_ ? *imported_ : points_; }
+
+  /// 1. Without lines the levels are proposed in the same go.
+  void find_coverage() {
+    report_.replaced = drop_replaced(*index_, tiles_, sources_, bases_, terrain_codes(lines_), progress_);
+    const Sources* const only = ground_.size() < sources_.size() ? &ground_ : nullptr;
+    Proposal proposal = lines_.empty() ? propose_levels(*index_, tiles_, bases_, units_, progress_)
+                                       : find_ground(*index_, tiles_, bases_, only, progress_);
+    report_.isolated = index_->drop(std::move(proposal.isolated));
+    outline_ = join_collinear(std::move(proposal.outline));
+  }
+
+  /// 2. Lines lie on the ground.
+  void place() {
+    if (lines_.empty()) return;
+    placed_ = place_lines(lines_, *index_, tiles_, ground_, bases_, outline_, progress_);
+    index_->drop(placed_.strays);
+  }
+
+  /// 3. Points are inferred where contours leave the surface flat.
+  void repair_contours() {
+    if (of_kind(placed_.terrain, ThemeKind::Contours, lines_).empty()) return;
+    const FlatSurvey flat = survey_flat(*index_, tiles_, placed_, outline_, lines_, progress_);
+    report_.flat_before = report_.flat_after = flat.triangles();
+    const auto source =
+        std::find_if(sources_.begin(), sources_.end(), [](const auto& s) { return s.kind == kInferred; });
+    if (source == sources_.end()) return;
+    SortedPoints with = points_.with(raw_points(inferred_ != nullptr ? *inferred_ : flat.inferred(),
+                                                static_cast<std::size_t>(source - sources_.begin())),
+                                     kDropped);
+    imported_ = std::exchange(points_, std::move(with));
+    index_points();
+    report_.flat_after = survey_flat(*index_, tiles_, placed_, outline_, lines_, progress_).triangles();
+  }
+
+  /// 4. The terrain's lines at all levels.
+  void generalise() {
+    placed_.standing = standing_segments(lines_);
+    placed_.ground = ground_segments(lines_);
+    hierarchy_ = generalised(placed_, outline_, lines_, units_);
+    set_lines();
+  }
+
+  void set_lines() {
+    std::vector<Segment> segments = outline_;
+    if (hierarchy_) {
+      for (const auto& [code, level] : hierarchy_->levels()) index_->promote(code, level);
+      append(segments, hierarchy_->segments());
+    }
+    index_->set_segments(std::move(segments));
+  }
+
+  /// 5. Every end of the outline and of lines on the ground is in all levels.
+  void propose_with_lines() {
+    if (lines_.empty()) return;
+    std::vector<Segment> whole = outline_;
+    append(whole, placed_.features);
+    for (const Segment& s : whole) {
+      index_->promote(morton(s.ax, s.ay), levels_ - 1);
+      index_->promote(morton(s.bx, s.by), levels_ - 1);
+    }
+    propose_levels_with_lines(*index_, tiles_, units_, progress_);
+  }
+
+  /// 6.
+  LeafBounds certify_levels() {
+    const auto restore = [&](const std::vector<FailedPlace>& failed) {
+      bool any = false;
+      for (const FailedPlace& place : failed) any |= hierarchy_ && hierarchy_->restore(place.box, place.level);
+      if (!any) return false;
+      set_lines();
+      return true;
+    };
+    return certify(*index_, whole_units_, restore, progress_);
+  }
+
+  /// 7. Points and bounds, level by level.
+  void write_ground(LeafBounds bounds) {
+    for (std::uint32_t leaf = 0; leaf < index_->ranges().size(); ++leaf) {
+      // The full surface differs from itself by nothing, wherever there is ground.
+      if (levels_ > 1 && !bounds.at(leaf, 1).empty()) bounds.at(leaf, 0) = {0, 0};
+    }
+    const std::vector<CoveredPoint>& covered = imported().covered();
+    const double steps = static_cast<double>(tiles_.size() * static_cast<std::size_t>(levels_));
+    std::size_t done = 0;
+    for (int k = 0; k < levels_; ++k) {
+      LevelWriter level(*index_, bounds, k, writer_);
+      for (const CurveRange& tile : tiles_) {
+        progress_.throw_if_cancelled();
+        for (RawPoint p : index_->read(tile)) {
+          if (p.level != k) continue;
+          p.source = own_source(p, covered);
+          level.add(p);
+          report_.vertices_of_source[p.source] += 1;
+        }
+        progress_.report("writing", static_cast<double>(++done) / steps);
+      }
+      level.finish();
+    }
+  }
+
+  /// 8. Features with their vertices, parts, and the segments of all lines.
+  void write_lines() {
+    const std::vector<GridPoint> draped = write_draped();
+    count_lines(placed_, lines_.themes() + lines_.parts.size(), report_);
+    std::vector<Segment> segments = index_->all_segments();
+    for (const std::vector<Segment>* const more : {&placed_.features, &placed_.standing, &placed_.ground})
+      append(segments, *more);
+    const std::vector<Segment> masked = write_parts(lines_, *index_, tiles_, draped, segments, writer_, progress_);
+    for (std::size_t p = 0; p < lines_.parts.size(); ++p) {
+      report_.line_vertices[lines_.themes() + p] = lines_.parts[p].vertices.size();
+      report_.vertices_of_source[lines_.parts[p].source] += lines_.parts[p].vertices.size();
+    }
+    append(segments, masked);
+    writer_.add_segments(segments);
+  }
+
+  /// The vertices of lines on the ground.
+  std::vector<GridPoint> write_draped() {
+    const std::vector<ThemeVertex> crossings = crossings_of_ground(lines_);
+    if (placed_.features.empty() && crossings.empty()) return {};
+    std::vector<std::uint64_t> ends = placed_.ends;
+    for (const ThemeVertex& v : crossings) ends.push_back(v.code);
+    std::sort(ends.begin(), ends.end());
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    std::vector<GridPoint> draped = drape(ends, *index_, tiles_, progress_);
+    write_features(placed_, crossings, lines_, draped, writer_, report_);
+    return draped;
+  }
+
+  SortedPoints& points_;
+  const std::vector<SourceInfo>& sources_;
+  const ThemeLines& lines_;
+  const std::vector<GridPoint>* inferred_;
+  const int levels_;
+  const std::vector<std::array<double, 4>> bases_;
+  StoreWriter& writer_;
+  Progress& progress_;
+  const Sources ground_ = ground_sources(sources_);
+  std::vector<double> units_;  ///< tolerances in grid units
+  std::vector<std::int32_t> whole_units_;
+  std::optional<SortedPoints> imported_;  ///< where `points_` has become those of the surface
+  std::optional<WorkingIndex> index_;
+  std::vector<CurveRange> tiles_;
+  std::vector<Segment> outline_;
+  PlacedLines placed_;
+  std::optional<LineHierarchy> hierarchy_;
+  PyramidReport report_;
+};
 
 }  // namespace
 
@@ -217,112 +352,8 @@ bool is_ground(const SourceInfo& source) {
   return source.theme.empty() ? source.kind != kInferred : source.kind == name_of(ThemeKind::Contours);
 }
 
-PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>& sources, const Grid& grid,
-                            const std::vector<double>& tolerances, const ThemeLines& lines,
-                            const std::vector<GridPoint>* inferred, StoreWriter& writer, Progress& progress) {
-  const int levels = static_cast<int>(tolerances.size());
-  std::optional<SortedPoints> imported;  // all of them, where `points` has become those of the surface
-  std::optional<WorkingIndex> working(std::in_place, points, levels, kLeafCapacity);
-  std::vector<CurveRange> tiles = working->tiles(tile_points(points.size()));
-  PyramidReport report;
-  report.vertices_of_source.assign(sources.size(), 0);
-
-  std::vector<double> in_units;
-  std::vector<std::int32_t> in_whole_units;
-  for (const double metres : tolerances) {
-    in_whole_units.push_back(static_cast<std::int32_t>(std::floor(metres / grid.resolution + 1e-9)));
-    in_units.push_back(in_whole_units.back());
-  }
-  const std::vector<std::array<double, 4>> bases = gap_bases(sources, grid);
-  Sources ground;
-  for (std::size_t s = 0; s < sources.size(); ++s) {
-    if (is_ground(sources[s])) ground.insert(static_cast<std::uint16_t>(s));
-  }
-  const Sources* const only = ground.size() < sources.size() ? &ground : nullptr;
-  report.replaced = drop_replaced(*working, tiles, sources, bases, terrain_codes(lines), progress);
-  Proposal proposal = lines.empty() ? propose_levels(*working, tiles, bases, in_units, progress)
-                                    : find_ground(*working, tiles, bases, only, progress);
-  report.isolated = working->drop(std::move(proposal.isolated));
-  const std::vector<Segment> outline = join_collinear(std::move(proposal.outline));
-  PlacedLines placed;
-  if (!lines.empty()) {
-    placed = place_lines(lines, *working, tiles, ground, bases, outline, progress);
-    working->drop(placed.strays);
-  }
-  if (!of_kind(placed.terrain, ThemeKind::Contours, lines).empty()) {
-    const FlatSurvey flat = survey_flat(*working, tiles, placed, outline, lines, progress);
-    report.flat_before = report.flat_after = flat.triangles();
-    const auto source = std::find_if(sources.begin(), sources.end(), [](const auto& s) { return s.kind == kInferred; });
-    if (source != sources.end()) {
-      SortedPoints with = points.with(raw_points(inferred != nullptr ? *inferred : flat.inferred(),
-                                                 static_cast<std::size_t>(source - sources.begin())),
-                                      kDropped);
-      imported = std::exchange(points, std::move(with));
-      working.emplace(points, levels, kLeafCapacity);
-      tiles = working->tiles(tile_points(points.size()));
-      report.flat_after = survey_flat(*working, tiles, placed, outline, lines, progress).triangles();
-    }
-  }
-  WorkingIndex& index = *working;
-  placed.standing = standing_segments(lines);
-  placed.ground = ground_segments(lines);
-  std::optional<LineHierarchy> hierarchy = generalised(placed, outline, lines, in_units);
-  const auto set_lines = [&] {
-    std::vector<Segment> segments = outline;
-    if (hierarchy) {
-      for (const auto& [code, level] : hierarchy->levels()) index.promote(code, level);
-      const std::vector<Segment> of_lines = hierarchy->segments();
-      segments.insert(segments.end(), of_lines.begin(), of_lines.end());
-    }
-    index.set_segments(std::move(segments));
-  };
-  set_lines();
-  if (!lines.empty()) {
-    std::vector<Segment> whole = outline;
-    whole.insert(whole.end(), placed.features.begin(), placed.features.end());
-    for (const Segment& s : whole) {
-      index.promote(morton(s.ax, s.ay), levels - 1);
-      index.promote(morton(s.bx, s.by), levels - 1);
-    }
-    propose_levels_with_lines(index, tiles, in_units, progress);
-  }
-
-  const auto restore = [&](const std::vector<FailedPlace>& failed) {
-    bool any = false;
-    for (const FailedPlace& place : failed) any |= hierarchy && hierarchy->restore(place.box, place.level);
-    if (!any) return false;
-    set_lines();
-    return true;
-  };
-  LeafBounds bounds = certify(index, in_whole_units, restore, progress);
-  const SortedPoints& whole_ground = imported ? *imported : points;
-  write_levels(index, bounds, tiles, levels, whole_ground.covered(), writer, report, progress);
-  std::vector<GridPoint> draped;
-  const std::vector<ThemeVertex> crossings = crossings_of_ground(lines);
-  if (!placed.features.empty() || !crossings.empty()) {
-    std::vector<std::uint64_t> ends = placed.ends;
-    for (const ThemeVertex& v : crossings) ends.push_back(v.code);
-    std::sort(ends.begin(), ends.end());
-    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-    draped = drape(ends, index, tiles, progress);
-    write_features(placed, crossings, lines, draped, writer, report);
-  }
-  count_lines(placed, lines.themes() + lines.parts.size(), report);
-  std::vector<Segment> segments = index.all_segments();
-  segments.insert(segments.end(), placed.features.begin(), placed.features.end());
-  segments.insert(segments.end(), placed.standing.begin(), placed.standing.end());
-  segments.insert(segments.end(), placed.ground.begin(), placed.ground.end());
-  const std::vector<Segment> masked = write_parts(lines, index, tiles, draped, segments, writer, progress);
-  for (std::size_t p = 0; p < lines.parts.size(); ++p) {
-    report.line_vertices[lines.themes() + p] = lines.parts[p].vertices.size();
-    report.vertices_of_source[lines.parts[p].source] += lines.parts[p].vertices.size();
-  }
-  segments.insert(segments.end(), masked.begin(), masked.end());
-  writer.add_segments(segments);
-  set_points_aside(whole_ground, sources, writer, progress);
-  report.placed = std::move(placed.terrain);
-  report.placed.insert(report.placed.end(), placed.features.begin(), placed.features.end());
-  return report;
+PyramidReport build_pyramid(const PyramidSources& of, StoreWriter& writer, Progress& progress) {
+  return PyramidBuild(of, writer, progress).run();
 }
 
 }  // namespace itin

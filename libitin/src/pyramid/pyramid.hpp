@@ -32,13 +32,20 @@ struct PyramidReport {
   std::uint64_t flat_after = 0;              ///< those that the repair did not mend
 };
 
-/// Finds the coverage, gives every point its level, certifies the levels and writes it all. `sources` gives the gap
-/// bases. Out of core: memory follows the leaves (about 100 bytes for 512 points) and the tiles in work, not the
-/// points. The result depends on the set of points, the lines and the gap bases alone. The vertices of terrain lines
-/// must be among the points. Contours are repaired (contour_repair.hpp) where one of the sources is kInferred: it gets
-/// the points, those of an earlier repair (`inferred`, in Morton order) if they are given. Throws FileError, Cancelled.
-PyramidReport build_pyramid(SortedPoints& points, const std::vector<SourceInfo>& sources, const Grid& grid,
-                            const std::vector<double>& tolerances, const ThemeLines& lines,
-                            const std::vector<GridPoint>* inferred, StoreWriter& writer, Progress& progress);
+/// What a pyramid is built of.
+struct PyramidSources {
+  SortedPoints& points;  ///< the vertices of terrain lines among them; where contours are repaired, points are added
+  const std::vector<SourceInfo>& sources;  ///< they give the gap bases
+  const Grid& grid;
+  const std::vector<double>& tolerances;  ///< of the levels, metres
+  const ThemeLines& lines;
+  const std::vector<GridPoint>* inferred = nullptr;  ///< by an earlier repair of contours, in Morton order
+};
+
+/// Finds the coverage, gives every point its level, certifies the levels and writes it all. Out of core: memory follows
+/// the leaves (about 100 bytes for 512 points) and the tiles in work, not the points. The result depends on the set of
+/// points, the lines and the gap bases alone. Contours are repaired (contour_repair.hpp) where one of the sources is
+/// kInferred: it gets the points, those of an earlier repair if they are given. Throws FileError, Cancelled.
+PyramidReport build_pyramid(const PyramidSources& of, StoreWriter& writer, Progress& progress);
 
 }  // namespace itin

@@ -37,11 +37,13 @@ LevelInfo level_from_json(const json& j, double resolution) {
 }
 
 ordered_json source_to_json(const SourceInfo& source) {
-  return {{"path", source.path},         {"kind", source.kind},
-          {"theme", source.theme},       {"imported", source.imported},
-          {"sha256", source.sha256},     {"source_crs", source.source_crs},
-          {"vertices", source.vertices}, {"gap_basis_m", source.gap_basis},
-          {"spacing_m", source.spacing}, {"replaces", source.replaces}};
+  ordered_json j{{"path", source.path},         {"kind", source.kind},
+                 {"theme", source.theme},       {"imported", source.imported},
+                 {"sha256", source.sha256},     {"source_crs", source.source_crs},
+                 {"vertices", source.vertices}, {"gap_basis_m", source.gap_basis},
+                 {"spacing_m", source.spacing}, {"replaces", source.replaces}};
+  if (!source.note.empty()) j["note"] = source.note;
+  return j;
 }
 
 SourceInfo source_from_json(const json& j) {
@@ -56,6 +58,7 @@ SourceInfo source_from_json(const json& j) {
   source.gap_basis = j.at("gap_basis_m").get<std::array<double, 4>>();
   source.spacing = j.at("spacing_m").get<double>();
   source.replaces = j.at("replaces").get<bool>();
+  source.note = j.value("note", "");
   return source;
 }
 

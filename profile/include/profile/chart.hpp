@@ -38,6 +38,7 @@ struct SkylinePoint {
   double azimuth_deg = 0;
   double elevation_deg = 0;  ///< NaN: no ground in that direction
   double distance_m = 0;
+  bool data_edge = false;  ///< the data ends there
 };
 
 struct PanoramaPlace {

@@ -20,6 +20,7 @@
 #include <optional>
 #include <string>
 
+#include <itin/earth.hpp>
 #include <profile/fresnel.hpp>
 #include <profile/profile.hpp>
 
@@ -35,6 +36,11 @@ struct RadioPath {
 };
 
 inline constexpr double kClutterFreeM = 50;
+/// Elevation of the obstacle at a point of the profile: its ground, and its clutter unless an end is too near.
+double clutter_top_m(const Profile& profile, const ProfilePoint& point);
+
+/// Radius of the Earth over which rays are straight. Precondition: its surface drops.
+double effective_earth_km(const Earth& earth);
 
 /// P.525-4 section 2.3: 20 log10(4 pi d / lambda), dB.
 double free_space_loss_db(double distance_m, double wavelength);

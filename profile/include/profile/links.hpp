@@ -4,7 +4,7 @@
 //   profile::LinkQuery query;
 //   query.radio = profile::RadioPath{.frequency_ghz = 7.5};
 //   for (const profile::LinkResult& row : profile::survey_links(store, table.links, query, progress))
-//     std::cout << (row.verdict ? profile::name_of(*row.verdict) : row.message) << '\n';
+//     std::cout << (row.found ? profile::name_of(row.found->verdict) : row.message) << '\n';
 #pragma once
 
 #include <optional>
@@ -32,6 +32,12 @@ struct Link {
   double from_height = 0;
   Point2 to;
   double to_height = 0;
+  // Of this link alone, where its file tells.
+  std::string from_name = {}, to_name = {};
+  std::optional<double> frequency_ghz = {};
+  std::optional<Polarisation> polarisation = {};
+  std::vector<Criterion> criteria = {};
+  std::vector<std::string> others = {};  ///< the cells of LinkTable::other_columns
 };
 
 /// Antenna heights of links whose file gives none, above what their ends stand on.
@@ -45,18 +51,22 @@ struct BadLink {
   std::size_t line = 0;  ///< of the file, from 1
   std::string id;        ///< as far as there is one
   std::string message;
+  std::vector<std::string> others = {};  ///< as Link::others
 };
 struct LinkTable {
   std::vector<Link> links;
-  std::vector<BadLink> bad;  ///< in order
+  std::vector<BadLink> bad;                ///< in order
+  std::vector<std::string> other_columns;  ///< their names: not understood, but kept for the output
 };
 
 /// A CSV table `id,x1,y1,h1,x2,y2,h2`, or a file of lines, whose ends are the links' ends at `heights` above the
 /// surface. A table may have a header line; one with all these names may have its columns in another order and others
-/// besides; for x and y stands easting and northing, or lon and lat, each with 1 or 2 behind it. In the CRS `to_crs`
-/// (WKT); CSV tables are taken to be in `csv_crs`, if that is empty in longitude and latitude where the header calls
-/// them so, else in `to_crs`. Throws FileError naming the feature of a file of lines, InputError for an unknown CRS and
-/// for a file without links.
+/// besides: `name1`, `name2`, `frequency`, `polarisation`, `criteria` (blanks between several) of each link, and those
+/// that are kept; for x and y stands easting and northing, or lon and lat, each with 1 or 2 behind it, or one column
+/// `position` (`gridref`) with a grid reference. Semicolons or tabs may separate, and then commas be decimal. In the
+/// CRS `to_crs` (WKT); CSV tables are taken to be in `csv_crs`, if that is empty in longitude and latitude where the
+/// header calls them so, else in `to_crs`. Throws FileError naming the feature of a file of lines, InputError for an
+/// unknown CRS and for a file without links.
 LinkTable read_link_table(const std::string& path, const std::string& to_crs, const LinkHeights& heights,
                           const std::string& csv_crs = {});
 
@@ -66,27 +76,32 @@ struct LinkQuery {
   ThemeChoice themes = ThemeChoice::none();  ///< raised features on the surface
   /// Whether an end within a raised feature stands on it, or else on the ground under it.
   bool from_on_surface = false, to_on_surface = false;
-  std::optional<RadioPath> radio;    ///< gives fresnel_fraction and ld_db
-  std::optional<TallObject> object;  ///< the object at each second end; gives visible
-  bool gaps_block = false;           ///< ground without data stops the ray
+  // Of links that have none of their own.
+  std::optional<RadioPath> radio = {};    ///< gives Fresnel clearances and losses
+  std::vector<Criterion> criteria = {};   ///< with a fraction > 0 only for links with a frequency
+  std::optional<TallObject> object = {};  ///< the object at each second end; gives visible
+  NoData nodata = NoData::kUnknown;
 };
 
 struct LinkResult {
   double distance_m = 0;
-  std::optional<SightVerdict> verdict;  ///< nothing: an error
-  std::optional<double> clearance_m;
-  std::optional<double> critical_m;  ///< where that is, from the first end
-  std::optional<double> fresnel_fraction;
-  std::optional<double> ld_db;  ///< nothing also where an antenna is within a feature
+  std::optional<LineFindings> found;  ///< nothing: an error. Without obstructions and curves
+  EndGrounds stands_on;               ///< elevations of what the ends stand on
+  double gap_m = 0;                   ///< of the distance, without data
+  std::optional<RadioPath> radio;
+  std::optional<PathLosses> losses;  ///< nothing also where an antenna is within a feature
   std::optional<VisibleHeight> visible;
-  bool has_gaps = false;  ///< crosses ground without data
-  std::string message;    ///< of an error
+  std::string message;  ///< of an error
 };
 
 /// One result per link, in order, whatever the number of threads. Links over one area share the tiles that are read and
 /// triangulated for them, and answers are those of analyse() to the last bit. A link that cannot be computed (no ground
-/// under an end) is an error row. Throws CorruptStore, FileError, Cancelled.
+/// under an end) is an error row. Required heights are found for links with a frequency or criteria. Throws
+/// CorruptStore, FileError, Cancelled.
 std::vector<LinkResult> survey_links(const Store& store, const std::vector<Link>& links, const LinkQuery& query,
                                      Progress& progress);
+
+/// One link, by itself. Throws InputError where it cannot be computed, CorruptStore, FileError.
+LinkResult survey_link(const Store& store, const Link& link, const LinkQuery& query);
 
 }  // namespace itin::profile

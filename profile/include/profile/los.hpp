@@ -20,6 +20,7 @@
 #include <itin/detail.hpp>
 #include <itin/earth.hpp>
 #include <itin/geometry.hpp>
+#include <itin/store.hpp>
 #include <itin/theme.hpp>
 #include <itin/tin.hpp>
 #include <profile/diffraction.hpp>
@@ -27,16 +28,13 @@
 #include <profile/profile.hpp>
 #include <profile/required_heights.hpp>
 
-namespace itin {
-class Store;
-}
-
 namespace itin::profile {
 
 enum class SightVerdict { kVisible, kHidden, kUndecided };
-/// How a criterion comes out: the fraction is met; the ray is free but not the fraction; the ray is cut; the surface's
-/// certified error leaves it open.
-enum class CriterionVerdict { kClear, kMarginal, kObstructed, kUndecided };
+/// The certified error of a coarse surface, or ground without data, leaves a criterion undecided.
+enum class CriterionVerdict { kMeets, kFails, kUndecided };
+/// What ground without data does to a ray over it. Under kUnknown the ray is undecided, unless known ground hides it.
+enum class NoData { kUnknown, kBlock, kClear };
 const char* name_of(SightVerdict verdict);
 const char* name_of(CriterionVerdict verdict);
 
@@ -57,15 +55,19 @@ struct Criterion {
 };
 struct CriterionResult {
   Criterion criterion;
-  CriterionVerdict verdict = CriterionVerdict::kClear;
-  std::optional<double> clearance_m;   ///< least
+  CriterionVerdict verdict = CriterionVerdict::kMeets;
+  // Over known ground, at the critical point on this Earth.
+  std::optional<double> clearance_m;
   std::optional<double> clearance_f1;  ///< least ratio to F1; nothing without a frequency
+  std::optional<double> margin_m;      ///< clearance beyond the fraction wanted there; negative: it is missing
+  std::optional<double> margin_f1;     ///< likewise, as a fraction of F1
 };
 struct NamedHeights {
-  std::string name;  ///< "line of sight", "0.6 F1", "4/3:1"
+  std::string name;  ///< "line of sight", "0.6 F1", "K = 1.333, 1 F1"
   double k = 0;      ///< effective Earth factor; infinity without curvature
   double fraction = 0;
   RequiredHeights heights;
+  std::vector<HeightPair> curve;  ///< ascending in from_m, descending in to_m
 };
 
 /// The tall object at the second end, such as a wind turbine.
@@ -84,7 +86,7 @@ struct LosQuery {
   /// How far the clearance over the full surface may lie from the one on this profile, metres: the width of the
   /// surface's certified error. A clearance nearer to 0 leaves the verdict undecided.
   double clearance_error_m = 0;
-  bool gaps_block = false;  ///< ground without data stops the ray
+  NoData nodata = NoData::kUnknown;
   /// The losses take the profile's points alone, as published cases have them; otherwise points are added on the
   /// straight ground between them, at most 100 m and a 50th of the length apart.
   bool points_as_given = false;
@@ -114,20 +116,29 @@ struct LosEnd {
   std::optional<Site> site;
 };
 
-struct LosReport {
-  LosQuery query;
-  Profile profile;
-  Profile ground;        ///< without standing features; no points where the profile has none either
-  EndGrounds stands_on;  ///< elevations of what the ends stand on
-  Antennas antennas;     ///< elevations
+/// The judgement on a ray over a profile.
+struct LineFindings {
   SightVerdict verdict = SightVerdict::kVisible;
-  std::optional<double> clearance_m;
+  SightVerdict known_verdict = SightVerdict::kVisible;  ///< over known ground alone
+  /// Where the ray is cut deepest or, if it is free, where its clearance is the least fraction of the Fresnel zone (of
+  /// any frequency): never the foot of a mast that stands free. Nothing where no ground lies between the ends.
   std::optional<ProfilePoint> critical;
+  std::optional<double> clearance_m;  ///< there; negative where the ray is cut
   std::vector<Obstruction> obstructions;
-  LosEnd from, to;
   std::vector<CriterionResult> criteria;
   std::vector<NamedHeights> required;
-  std::optional<FresnelClearance> fresnel;
+  std::optional<FresnelClearance> fresnel;  ///< nothing without a frequency
+};
+
+/// The findings are about all that stands on the ground, clutter included.
+struct LosReport : LineFindings {
+  LosQuery query;
+  Profile profile;                   ///< with standing features, of which clutter is one
+  Profile ground;                    ///< without them; no points where the profile has none either
+  std::optional<LineFindings> bare;  ///< over the ground without the profile's clutter, where it has any
+  EndGrounds stands_on;              ///< elevations of what the ends stand on
+  Antennas antennas;                 ///< elevations
+  LosEnd from, to;
   std::optional<PathLosses> losses;  ///< nothing without a frequency, or where an antenna is within a feature
   std::optional<VisibleHeight> visible;
 
@@ -141,6 +152,7 @@ struct LosReport {
   std::map<std::pair<std::uint16_t, std::int64_t>, std::string> features;  ///< names by theme and feature
 
   // Of a line over a store.
+  std::vector<SourceInfo> sources;  ///< of the surface under the line, as triangulated there
   RetrievalStatistics statistics;
   std::uint64_t triangles = 0;  ///< crossed by the line
 };
@@ -148,7 +160,8 @@ struct LosReport {
 /// The elevation under each end: of the surface or of the ground, as the query says.
 EndGrounds stands_on(const Profile& profile, const Profile& ground, const LosQuery& query);
 
-/// `ground`: the same line without standing features, for a profile that has them. Throws InputError where there is no
+/// `ground`: the same line without standing features, for a profile that has them. The clutter of a profile without
+/// `ground` stands on it, but nearer to an end than kClutterFreeM. Throws InputError where there is no
 /// ground at an end, a height is negative, or a criterion asks for a part of the Fresnel zone without a frequency. O(n)
 /// but for logarithmic factors.
 LosReport analyse(Profile profile, const LosQuery& query, Profile ground = {});

@@ -41,6 +41,7 @@ struct Profile {
 
   /// Whether anything lies between the ends.
   bool has_length() const { return length_m > 0 && !one_place; }
+  double gap_length_m() const;
   /// Whether the ground is continuous from point i to point i + 1.
   bool joined(std::size_t i) const;
   /// The theme of the feature between point i and point i + 1.
@@ -73,11 +74,11 @@ Profile from_section(const CrossSection& section);
 std::vector<std::string> theme_names(const StoreMetadata& metadata);
 
 /// A profile that others hand in: `d_km,h_m[,clutter_m]`, one row per point, a header line optional. Columns are
-/// separated by commas, semicolons or tabs; a first line that is not numbers is a header, whose names (of any case, in
-/// this order) are checked; empty lines and lines that begin with # are skipped; a decimal point, whatever the locale.
-/// Distances ascend (two equal ones are a vertical face) and begin anywhere: the first is the profile's origin. Throws
-/// InputError, naming `name` and the line, for anything else, for numbers that are not finite, negative clutter, and
-/// fewer than two rows.
+/// separated by commas, semicolons or tabs, whichever the first line has; a first line that is not numbers is a header,
+/// whose names (of any case, in this order) are checked; empty lines and lines that begin with # are skipped; the
+/// decimal sign is a point, or a comma where commas separate nothing. Distances ascend (two equal ones are a vertical
+/// face) and begin anywhere: the first is the profile's origin. Throws InputError, naming `name` and the line, for
+/// anything else, for numbers that are not finite, negative clutter, and fewer than two rows.
 Profile read_profile_csv(std::istream& text, const std::string& name);
 /// Reads such a profile from a file. Throws FileError where it cannot be read.
 Profile read_profile_csv(const std::string& path);

@@ -34,19 +34,24 @@ struct RequiredHeights {
   std::optional<double> from_alone_m;  ///< nothing: no height is enough while the other end stands where it does
   std::optional<double> to_alone_m;    ///< nothing: as for from_alone_m
   std::optional<double> both_equal_m;  ///< nothing: ground in the way at an end itself
-  std::vector<HeightPair> curve;       ///< ascending in from_m, descending in to_m
 };
 
 /// `from_m`, `to_m`: heights of the two ends as planned, above their ground. Precondition: the profile has ground at
 /// both ends and length_m > 0. Every height is good to 1e-9 relative to the profile's range of elevations; nothing is
-/// sampled but the curve, at kCurvePoints heights. O(n) for each height.
-inline constexpr int kCurvePoints = 25;
+/// sampled. O(n) for each height.
 struct PlannedHeights {
   double from_m = 0;
   double to_m = 0;
 };
 RequiredHeights required_heights(const Profile& profile, const PlannedHeights& planned, const Requirement& requirement,
                                  const std::optional<EndGrounds>& grounds = {});
+
+inline constexpr int kCurvePoints = 25;
+/// The second end's height against the first's, at kCurvePoints heights ascending in from_m; descending in to_m. Empty
+/// where `both_equal_m`, which required_heights() found, is nothing. Precondition and cost: as there.
+std::vector<HeightPair> height_curve(const Profile& profile, const PlannedHeights& planned,
+                                     const Requirement& requirement, const std::optional<double>& both_equal_m,
+                                     const std::optional<EndGrounds>& grounds = {});
 
 /// The visible part of an upright object at the second end, seen from an antenna or eye at the first.
 struct VisibleHeight {

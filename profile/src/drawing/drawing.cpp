@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <sstream>
 #include <string_view>
 
 #include <itin/error.hpp>
@@ -169,6 +170,20 @@ void Drawing::text(Point2 anchor, const std::string& text, const Lettering& lett
   cairo_move_to(cairo, shift, 0);
   cairo_show_text(cairo, text.c_str());
   cairo_restore(cairo);
+}
+
+std::vector<std::string> Drawing::lines(const std::string& text, double width, const Lettering& lettering) const {
+  std::vector<std::string> lines(1);
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const std::string longer = lines.back().empty() ? word : lines.back() + " " + word;
+    if (lines.back().empty() || text_width(longer, lettering) <= width) {
+      lines.back() = longer;
+    } else {
+      lines.push_back(word);
+    }
+  }
+  return lines;
 }
 
 void Drawing::clip(const Box& box) {

@@ -62,6 +62,9 @@ class Drawing {
   /// The text cut to a width, with an ellipsis.
   std::string fitted(std::string text, double width, const Lettering& lettering) const;
 
+  /// The text broken at blanks into lines of a width.
+  std::vector<std::string> lines(const std::string& text, double width, const Lettering& lettering) const;
+
   /// Until unclip(), nothing is drawn outside the box.
   void clip(const Box& box);
   void unclip();

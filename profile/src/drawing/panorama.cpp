@@ -21,6 +21,9 @@ constexpr Colour kSky{0.93, 0.96, 0.98}, kSeen{0.00, 0.45, 0.70}, kHidden{0.84, 
 constexpr std::array<Colour, 5> kNearToFar{
     {{0.36, 0.36, 0.33}, {0.47, 0.48, 0.46}, {0.57, 0.59, 0.60}, {0.67, 0.70, 0.72}, {0.77, 0.80, 0.83}}};
 
+/// The sky line where the data ends.
+const Stroke kDataEdge{{0.80, 0.10, 0.45, 1}, 2.2, {}};
+
 std::string rounded_distance(double metres) {
   return metres >= 10000  ? fmt::format("{:.0f} km", metres / 1000)
          : metres >= 1000 ? fmt::format("{:.1f} km", metres / 1000)
@@ -111,7 +114,9 @@ class PanoramaPage {
     const std::array<Point2, 4> piece{Point2{from, a}, {to, b}, {to, frame_.ymax}, {from, frame_.ymax}};
     drawing_.polygon(piece, shade(std::min(p.distance_m, q.distance_m)));
     const std::array<Point2, 2> edge{Point2{from, a}, {to, b}};
-    drawing_.polyline(edge, {kInk, 0.6, {}});
+    const bool ends = p.data_edge && q.data_edge;
+    if (ends) has_data_edge_ = true;
+    drawing_.polyline(edge, ends ? kDataEdge : Stroke{kInk, 0.6, {}});
   }
 
   void draw_grid() {
@@ -187,6 +192,12 @@ class PanoramaPage {
       drawing_.text({x + 28, y}, text, {.size = 8, .colour = kInk});
       x += 90;
     }
+    if (has_data_edge_) {
+      const std::array<Point2, 2> sample{Point2{x, y - 3}, {x + 24, y - 3}};
+      drawing_.polyline(sample, kDataEdge);
+      drawing_.text({x + 28, y}, "edge of the data", {.size = 8, .colour = kInk});
+      x += 110;
+    }
     if (panorama_.places.empty()) return;
     for (const bool visible : {true, false}) {
       draw_mark({x + 4, y - 3}, visible);
@@ -201,6 +212,7 @@ class PanoramaPage {
   std::vector<double> azimuths_;
   double step_ = 0;
   std::vector<double> limits_;
+  bool has_data_edge_ = false;
   Axis x_, y_;
 };
 

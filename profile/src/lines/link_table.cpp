@@ -1,10 +1,10 @@
 // Links from files.
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <optional>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -13,7 +13,11 @@
 #include <itin/height_limit.hpp>
 #include <itin/paths.hpp>
 #include <itin/position_columns.hpp>
+#include <itin/written_position.hpp>
 #include <profile/links.hpp>
+#include <profile/radio_text.hpp>
+
+#include "lines/delimited.hpp"
 
 namespace itin::profile {
 
@@ -23,43 +27,28 @@ constexpr std::size_t kLinkColumns = 7;
 constexpr std::array<const char*, kLinkColumns> kLinkNames = {"id", "x1", "y1", "h1", "x2", "y2", "h2"};
 constexpr const char* kUtf8Mark = "\xEF\xBB\xBF";
 
-/// The cells of a row of CSV, without their quotes.
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    if (c == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"') {
-      cells.back() += c;
-      ++i;
-    } else if (c == '"') {
-      quoted = !quoted;
-    } else if (c == ',' && !quoted) {
-      cells.emplace_back();
-    } else if (c != '\r') {
-      cells.back() += c;
-    }
-  }
-  return cells;
-}
-
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
-  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
-}
-
-std::optional<double> cell_number(const std::string& text) {
-  const std::string digits = trimmed(text);
-  double value = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
+/// Columns that a header may have besides those.
+enum class Extra { kName1, kName2, kFrequency, kPolarisation, kCriteria };
+struct ExtraName {
+  const char* name;
+  Extra extra;
+};
+constexpr ExtraName kExtraNames[] = {
+    {"name1", Extra::kName1},         {"site1", Extra::kName1},
+    {"name2", Extra::kName2},         {"site2", Extra::kName2},
+    {"frequency", Extra::kFrequency}, {"frequency_ghz", Extra::kFrequency},
+    {"pol", Extra::kPolarisation},    {"polarisation", Extra::kPolarisation},
+    {"criteria", Extra::kCriteria},   {"polarization", Extra::kPolarisation},
+    {"criterion", Extra::kCriteria},
+};
 
 /// The columns of a link table.
 struct Columns {
   std::array<std::size_t, kLinkColumns> of{0, 1, 2, 3, 4, 5, 6};  ///< the cell that each of kLinkNames is in
   bool geographic = false;                                        ///< positions are longitude and latitude
+  bool written = false;  ///< x1 and y1 are one cell as written_position() has it
+  std::vector<std::pair<std::size_t, Extra>> extras;
+  std::vector<std::size_t> others;
 };
 
 std::optional<std::size_t> column_of(const std::vector<std::string>& names, const char* name) {
@@ -69,82 +58,183 @@ std::optional<std::size_t> column_of(const std::vector<std::string>& names, cons
   return static_cast<std::size_t>(found - names.begin());
 }
 
-/// By name where a header has all of them, x1 and y1 or what position_columns() has in place of them; else the columns
-/// are in the usual order.
-Columns columns_of(std::vector<std::string> names, const std::string& path) {
-  for (std::string& name : names) name = trimmed(name);
+/// Sorts the columns that hold no link's ends.
+void add_further(const std::vector<std::string>& names, Columns& columns) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (std::find(columns.of.begin(), columns.of.end(), i) != columns.of.end()) continue;
+    const auto extra = std::find_if(std::begin(kExtraNames), std::end(kExtraNames),
+                                    [&](const ExtraName& e) { return same_column_name(names[i], e.name); });
+    if (extra != std::end(kExtraNames)) {
+      columns.extras.emplace_back(i, extra->extra);
+    } else {
+      columns.others.push_back(i);
+    }
+  }
+}
+
+/// The column of an end's position as people write it.
+std::optional<std::size_t> written_column(const std::vector<std::string>& names, const char* end) {
+  for (const char* name : {"position", "gridref", "grid_ref", "ngr"})
+    if (const auto found = column_of(names, (std::string(name) + end).c_str())) return found;
+  return std::nullopt;
+}
+
+/// By name where a header has all of them, x1 and y1 or what position_columns() or written_column() have in place of
+/// them; else the columns are in the usual order.
+Columns columns_of(const std::vector<std::string>& names, const std::string& path) {
   const auto from = position_columns(names, "1"), to = position_columns(names, "2");
   Columns columns;
   columns.geographic = from && from->geographic;
   if (columns.geographic != (to && to->geographic))
     throw InputError(path + ": its header names longitude and latitude for one end only; give both ends alike");
   const auto id = column_of(names, "id"), h1 = column_of(names, "h1"), h2 = column_of(names, "h2");
+  const auto position1 = written_column(names, "1"), position2 = written_column(names, "2");
+  if (!from && !to && position1 && position2 && id && h1 && h2) {
+    columns.of = {*id, *position1, *position1, *h1, *position2, *position2, *h2};
+    columns.written = true;
+  }
   if (from && to && id && h1 && h2) columns.of = {*id, from->x, from->y, *h1, to->x, to->y, *h2};
+  add_further(names, columns);
   return columns;
 }
 
 /// A first line with no number where the coordinates are is a header.
-bool is_header(const std::vector<std::string>& cells) {
+bool is_header(const std::vector<std::string>& cells, char separator) {
   return std::none_of(cells.begin() + 1, cells.end(),
-                      [](const std::string& cell) { return cell_number(cell).has_value(); });
+                      [&](const std::string& cell) { return number_in(cell, separator).has_value(); });
+}
+
+std::vector<Criterion> criteria_in(const std::string& cell) {
+  std::vector<Criterion> criteria;
+  std::istringstream words(cell);
+  for (std::string word; words >> word;) criteria.push_back(parse_criterion(word));
+  return criteria;
+}
+
+/// `numbers`: the cell with decimal points.
+void set(Extra extra, const std::string& cell, const std::string& numbers, Link& link) {
+  switch (extra) {
+    case Extra::kName1:
+      link.from_name = cell;
+      break;
+    case Extra::kName2:
+      link.to_name = cell;
+      break;
+    case Extra::kFrequency:
+      link.frequency_ghz = parse_frequency_ghz(numbers);
+      break;
+    case Extra::kPolarisation:
+      link.polarisation = parse_polarisation(cell);
+      break;
+    case Extra::kCriteria:
+      link.criteria = criteria_in(numbers);
+      break;
+  }
 }
 
 class TableReader {
  public:
-  TableReader(const std::string& path, const std::string& to_crs, const std::string& csv_crs)
-      : path_(path), to_crs_(to_crs), csv_crs_(csv_crs), file_(path) {
+  TableReader(const std::string& path, const std::string& to_crs, const std::string& csv_crs, LinkTable& table)
+      : path_(path), to_crs_(to_crs), csv_crs_(csv_crs), file_(path), table_(table) {
     if (!file_) throw FileError(path, "cannot be opened");
   }
 
-  /// Calls take(link) or refuse(row, number of its line, id, what is wrong) for each row.
-  template <class Take, class Refuse>
-  void read(const Take& take, const Refuse& refuse) {
+  void read() {
     std::string line;
     std::size_t row = 0;
     for (std::size_t number = 1; std::getline(file_, line); ++number) {
       if (number == 1 && line.starts_with(kUtf8Mark)) line.erase(0, 3);
       if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-      const std::vector<std::string> cells = cells_of(line);
+      if (number == 1) separator_ = separator_of(line);
+      const std::vector<std::string> cells = cells_of(line, separator_);
       if (number == 1) {
-        const bool header = is_header(cells);
+        const bool header = is_header(cells, separator_);
         understand(header ? cells : std::vector<std::string>());
         if (header) continue;
       }
       ++row;
       try {
-        take(link_of(cells));
+        table_.links.push_back(link_of(cells));
       } catch (const InputError& error) {
-        refuse(row, number, columns_.of[0] < cells.size() ? cells[columns_.of[0]] : "", error.what());
+        table_.bad.push_back({row, number, cell(cells, columns_.of[0]), error.what(), others_of(cells)});
       }
     }
   }
 
  private:
+  static std::string cell(const std::vector<std::string>& cells, std::size_t i) {
+    return i < cells.size() ? cells[i] : "";
+  }
+
+  double number_of(const std::vector<std::string>& cells, std::size_t i) const {
+    const std::string& text = cells[columns_.of[i]];
+    auto value = number_in(text, separator_);
+    if (!value && columns_.geographic)
+      value = i % 3 == 1 ? written_angle(with_points(text), 'E', 'W') : written_angle(with_points(text), 'N', 'S');
+    if (!value || !std::isfinite(*value)) throw InputError(fmt::format("{} '{}' is no number", kLinkNames[i], text));
+    return *value;
+  }
+  double height_of(const std::vector<std::string>& cells, std::size_t i) const {
+    const double height = number_of(cells, i);
+    require_height(height, kLinkNames[i]);
+    return height;
+  }
+  /// Of the end whose x is in the column `i`, in the CRS asked for.
+  Point2 position_of(const std::vector<std::string>& cells, std::size_t i) const {
+    if (!columns_.written) {
+      const Point2 p{number_of(cells, i), number_of(cells, i + 1)};
+      return transform_ ? (*transform_)(p) : p;
+    }
+    const std::string& text = cells[columns_.of[i]];
+    const auto written = written_position(with_points(text));
+    if (!written)
+      throw InputError(
+          fmt::format("'{}' is no grid reference, and no latitude and longitude with their letters", text));
+    return CoordinateTransform(written->crs, to_crs_)(written->position);
+  }
+
+  /// Frequencies and criteria are numbers, too.
+  std::string with_points(std::string cell) const {
+    if (separator_ != ',') std::replace(cell.begin(), cell.end(), ',', '.');
+    return cell;
+  }
+
   /// `header` is empty where there is none.
   void understand(const std::vector<std::string>& header) {
     columns_ = columns_of(header, path_);
-    width_ = std::max(header.size(), kLinkColumns);
+    width_ = columns_.written ? header.size() : std::max(header.size(), kLinkColumns);
+    for (const std::size_t i : columns_.others) table_.other_columns.push_back(header[i]);
     const std::string crs = csv_crs_.empty() && columns_.geographic ? kGeographicColumnsCrs : csv_crs_;
     if (!crs.empty()) transform_.emplace(crs, to_crs_);
+  }
+
+  std::vector<std::string> others_of(const std::vector<std::string>& cells) const {
+    std::vector<std::string> others;
+    for (const std::size_t i : columns_.others) others.push_back(cell(cells, i));
+    return others;
   }
 
   Link link_of(const std::vector<std::string>& cells) const {
     if (cells.size() != width_)
       throw InputError(fmt::format("has {} columns instead of {}: id,x1,y1,h1,x2,y2,h2", cells.size(), width_));
-    std::array<double, kLinkColumns> v{};
-    for (std::size_t i = 1; i < kLinkColumns; ++i) {
-      const auto value = cell_number(cells[columns_.of[i]]);
-      if (!value) throw InputError(fmt::format("{} '{}' is no number", kLinkNames[i], cells[columns_.of[i]]));
-      v[i] = *value;
+    Link link{cells[columns_.of[0]], position_of(cells, 1), height_of(cells, 3), position_of(cells, 4),
+              height_of(cells, 6)};
+    for (const auto& [i, extra] : columns_.extras) {
+      if (cells[i].empty()) continue;
+      try {
+        set(extra, cells[i], with_points(cells[i]), link);
+      } catch (const InputError& error) {
+        throw InputError(fmt::format("'{}': {}", cells[i], error.what()));
+      }
     }
-    for (const std::size_t h : {std::size_t{3}, std::size_t{6}}) require_height(v[h], kLinkNames[h]);
-    Link link{cells[columns_.of[0]], {v[1], v[2]}, v[3], {v[4], v[5]}, v[6]};
-    if (transform_) link.from = (*transform_)(link.from), link.to = (*transform_)(link.to);
+    link.others = others_of(cells);
     return link;
   }
 
   std::string path_, to_crs_, csv_crs_;
   std::ifstream file_;
+  LinkTable& table_;
+  char separator_ = ',';
   std::optional<CoordinateTransform> transform_;
   Columns columns_;
   std::size_t width_ = kLinkColumns;
@@ -167,11 +257,7 @@ LinkTable read_link_table(const std::string& path, const std::string& to_crs, co
                           const std::string& csv_crs) {
   LinkTable table;
   if (is_table(path)) {
-    TableReader(path, to_crs, csv_crs)
-        .read([&](Link link) { table.links.push_back(std::move(link)); },
-              [&](std::size_t row, std::size_t line, const std::string& id, const std::string& message) {
-                table.bad.push_back({row, line, id, message});
-              });
+    TableReader(path, to_crs, csv_crs, table).read();
   } else {
     table.links = read_lines(path, to_crs, heights);
   }

@@ -13,15 +13,65 @@
 #include <profile/links.hpp>
 #include <profile/profile.hpp>
 
-#include "lines/line_clearance.hpp"
+#include "lines/findings.hpp"
 #include "lines/link_sharing.hpp"
-#include "lines/sight_verdict.hpp"
+#include "lines/losses.hpp"
 
 namespace itin::profile {
 
 namespace {
 
-/// The surface, and where features stand on it the ground under them.
+/// The line's surface and, where features stand on it, the ground under them.
+struct Sections {
+  Profile surface;
+  Profile ground;
+};
+
+LosQuery query_of(const Link& link, const LinkQuery& all, double clearance_error_m) {
+  LosQuery query;
+  query.from_height_m = link.from_height, query.to_height_m = link.to_height;
+  query.from_on_surface = all.from_on_surface, query.to_on_surface = all.to_on_surface;
+  query.earth = all.earth, query.nodata = all.nodata, query.object = all.object;
+  query.criteria = link.criteria.empty() ? all.criteria : link.criteria;
+  query.clearance_error_m = clearance_error_m;
+  query.radio = all.radio;
+  if (link.frequency_ghz) {
+    if (!query.radio) query.radio.emplace().effective_earth_km = effective_earth_km(all.earth);
+    query.radio->frequency_ghz = *link.frequency_ghz;
+  }
+  if (query.radio && link.polarisation) query.radio->polarisation = *link.polarisation;
+  return query;
+}
+
+LinkResult result_of(const Sections& sections, const LosQuery& query) {
+  require_valid(sections.surface, query, sections.ground);
+  LinkResult result;
+  result.distance_m = sections.surface.length_m;
+  result.gap_m = sections.surface.gap_length_m();
+  result.radio = query.radio;
+  result.stands_on = stands_on(sections.surface, sections.ground, query);
+  const Antennas antennas{result.stands_on.from_m + query.from_height_m, result.stands_on.to_m + query.to_height_m};
+  const Sight sight{sections.surface, antennas, result.stands_on};
+  result.found = findings(sight, query);
+  result.found->obstructions = {};
+  if (query.radio || !query.criteria.empty()) add_required_heights(sight, query, *result.found);
+  result.losses =
+      losses_over(sections.surface, antennas, query, sections.ground.points.empty() ? nullptr : &sections.ground);
+  if (query.object) {
+    result.visible = visible_height(sections.surface, query.from_height_m, query.object->hub_m, query.object->tip_m,
+                                    query.earth, result.stands_on);
+  }
+  return result;
+}
+
+void require_ground(const Profile& profile, const Link& link) {
+  if (has_ground_at_ends(profile)) return;
+  const bool first = profile.points.empty() || profile.points.front().distance_m > 0;
+  const Point2 p = first ? link.from : link.to;
+  throw InputError(fmt::format("no ground under its {} end, {:.10g} {:.10g}", first ? "first" : "second", p.x, p.y));
+}
+
+/// Many links over one surface.
 class Surfaces {
  public:
   Surfaces(const Store& store, const LinkQuery& query, const std::vector<Link>& links)
@@ -31,57 +81,16 @@ class Surfaces {
   }
 
   LinkResult survey(const Link& link) const {
-    if (link.from_height < 0 || link.to_height < 0) throw InputError("a height above ground is negative");
-    const Profile profile = from_section(surface_ ? surface_->between(link.from, link.to)
-                                                  : cross_section(store_, link.from, link.to, query_.detail));
-    LinkResult result;
-    result.distance_m = profile.length_m;
-    if (!has_ground_at_ends(profile)) {
-      result.message = end_without_ground(profile, link);
-      return result;
-    }
-    std::optional<Profile> bare;
-    if (ground_) bare = from_section(ground_->between(link.from, link.to));
-    const EndGrounds grounds = grounds_of(profile, bare);
-    const Antennas antennas{grounds.from_m + link.from_height, grounds.to_m + link.to_height};
-    const auto line = line_clearance(profile, antennas, query_.earth);
+    Sections sections;
+    sections.surface = from_section(surface_ ? surface_->between(link.from, link.to)
+                                             : cross_section(store_, link.from, link.to, query_.detail));
+    require_ground(sections.surface, link);
+    if (ground_) sections.ground = from_section(ground_->between(link.from, link.to));
     const double error = clearance_error(store_, query_.detail, query_.themes, link.from, link.to);
-    result.has_gaps = !profile.gaps.empty();
-    result.verdict = sight_verdict(profile, line->clearance_m, {error, query_.gaps_block});
-    result.clearance_m = line->clearance_m;
-    result.critical_m = line->critical.distance_m;
-    if (query_.object) {
-      const auto& [hub, tip] = *query_.object;
-      result.visible = visible_height(profile, link.from_height, hub, tip, query_.earth, grounds);
-    }
-    if (query_.radio && profile.has_length()) add_radio(profile, bare ? &*bare : nullptr, antennas, result);
-    return result;
+    return result_of(sections, query_of(link, query_, error));
   }
 
  private:
-  static std::string end_without_ground(const Profile& profile, const Link& link) {
-    const bool first = profile.points.empty() || profile.points.front().distance_m > 0;
-    const Point2 p = first ? link.from : link.to;
-    return fmt::format("no ground under its {} end, {:.10g} {:.10g}", first ? "first" : "second", p.x, p.y);
-  }
-
-  EndGrounds grounds_of(const Profile& profile, const std::optional<Profile>& bare) const {
-    EndGrounds grounds = ends_of(profile);
-    if (bare && !query_.from_on_surface) grounds.from_m = ends_of(*bare).from_m;
-    if (bare && !query_.to_on_surface) grounds.to_m = ends_of(*bare).to_m;
-    return grounds;
-  }
-
-  void add_radio(const Profile& profile, const Profile* bare, const Antennas& antennas, LinkResult& result) const {
-    const auto fresnel = fresnel_clearance(profile, antennas, query_.earth, wavelength_m(query_.radio->frequency_ghz));
-    if (fresnel) result.fresnel_fraction = fresnel->fraction;
-    const EndGrounds top = ends_of(profile);
-    if (antennas.from_m < top.from_m || antennas.to_m < top.to_m) return;
-    // A report takes the same points (los.cpp).
-    const Profile dense = with_spacing(profile, std::min(100.0, profile.length_m / 50));
-    result.ld_db = path_losses(dense, antennas, *query_.radio, bare).ld_db;
-  }
-
   const Store& store_;
   const LinkQuery& query_;
   bool standing_;
@@ -130,6 +139,17 @@ std::vector<LinkResult> survey_links(const Store& store, const std::vector<Link>
     progress.report("links", static_cast<double>(done) / static_cast<double>(links.size()));
   });
   return results;
+}
+
+LinkResult survey_link(const Store& store, const Link& link, const LinkQuery& query) {
+  const auto along = [&](const ThemeChoice& themes) {
+    return from_section(cross_section(store, link.from, link.to, query.detail, themes));
+  };
+  Sections sections{along(query.themes), {}};
+  require_ground(sections.surface, link);
+  if (query.themes.includes_standing(store.metadata().themes)) sections.ground = along(ThemeChoice::none());
+  return result_of(sections,
+                   query_of(link, query, clearance_error(store, query.detail, query.themes, link.from, link.to)));
 }
 
 }  // namespace itin::profile

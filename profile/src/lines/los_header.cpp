@@ -3,7 +3,6 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -12,14 +11,12 @@
 #include <itin/geodesic.hpp>
 #include <itin/level_choice.hpp>
 
+#include "lines/azimuth.hpp"
+#include "lines/line_sources.hpp"
+
 namespace itin::profile {
 
 namespace {
-
-double grid_azimuth_deg(Point2 from, Point2 to) {
-  const double azimuth = std::atan2(to.x - from.x, to.y - from.y) * 180 / std::numbers::pi;
-  return azimuth < 0 ? azimuth + 360 : azimuth;
-}
 
 void add_sites(const StoreLine& line, LosReport& report) {
   const CoordinateTransform to_geographic(report.crs_wkt, "EPSG:4326");
@@ -60,26 +57,19 @@ std::string names_in(const std::vector<std::string>& themes) {
   return names.empty() ? "none" : names;
 }
 
-std::string sources_of(const StoreMetadata& metadata) {
-  std::string sources;
-  for (const SourceInfo& source : metadata.sources) {
-    if (sources.size() > 160) return sources + ", ...";
-    sources +=
-        fmt::format("{}{}{}", sources.empty() ? "" : ", ", std::filesystem::path(source.path).filename().string(),
-                    source.sha256.empty() ? "" : " (SHA-256 " + source.sha256.substr(0, 12) + ")");
-  }
-  return sources;
-}
-
-std::vector<std::pair<std::string, std::string>> facts_about(const Store& store, const StoreLine& line) {
+std::vector<std::pair<std::string, std::string>> facts_about(const Store& store, const StoreLine& line,
+                                                             const std::vector<SourceInfo>& sources) {
   const StoreMetadata& metadata = store.metadata();
   const CertifiedError error = certified_error(metadata, line.detail);
-  return {{"Store", std::filesystem::path(store.path()).filename().string()},
-          {"Sources", sources_of(metadata)},
-          {"CRS", fmt::format("{} ({})", crs_title(metadata.crs_wkt), crs_identifier(metadata.crs_wkt))},
-          {"Surface",
-           fmt::format("tolerance {:g} m, certified error {:+.2f} to {:+.2f} m; themes: {}", line.detail.coarsest(),
-                       error.lo, error.hi, names_in(line.themes.names(metadata.themes)))}};
+  std::vector<std::pair<std::string, std::string>> facts = {
+      {"Store", std::filesystem::path(store.path()).filename().string()}};
+  for (const std::string& text : described(sources, metadata)) facts.emplace_back("Source", text);
+  facts.insert(facts.end(),
+               {{"CRS", fmt::format("{} ({})", crs_title(metadata.crs_wkt), crs_identifier(metadata.crs_wkt))},
+                {"Surface", fmt::format("tolerance {:g} m, certified error {:+.2f} to {:+.2f} m; themes: {}",
+                                        line.detail.coarsest(), error.lo, error.hi,
+                                        names_in(line.themes.names(metadata.themes)))}});
+  return facts;
 }
 
 std::string angle_text(double degrees) {
@@ -106,7 +96,8 @@ void add_header(const Store& store, const StoreLine& line, LosReport& report) {
   report.themes = theme_names(metadata);
   name_features(store, report);
   add_sites(line, report);
-  report.facts = facts_about(store, line);
+  report.sources = sources_under(store, line);
+  report.facts = facts_about(store, line, report.sources);
   const std::string crs = crs_identifier(metadata.crs_wkt);
   report.from_lines = lines_about(report.from, crs);
   report.to_lines = lines_about(report.to, crs);

@@ -5,6 +5,12 @@
 
 namespace itin::profile {
 
+double Profile::gap_length_m() const {
+  double length = 0;
+  for (const auto& [from, to] : gaps) length += to - from;
+  return length;
+}
+
 bool Profile::joined(std::size_t i) const {
   const double from = points[i].distance_m, to = points[i + 1].distance_m;
   if (from == to) return true;

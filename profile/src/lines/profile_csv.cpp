@@ -1,10 +1,8 @@
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -14,37 +12,13 @@
 #include <itin/height_limit.hpp>
 #include <profile/profile.hpp>
 
+#include "lines/delimited.hpp"
+
 namespace itin::profile {
 
 namespace {
 
 constexpr std::string_view kProfileColumns[] = {"d_km", "h_m", "clutter_m"};
-
-std::string trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r\"";
-  const std::size_t first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
-  return std::string(text.substr(first, text.find_last_not_of(kBlank) - first + 1));
-}
-
-std::vector<std::string> split(std::string_view line) {
-  std::vector<std::string> fields;
-  for (std::size_t start = 0; start <= line.size();) {
-    const std::size_t end = std::min(line.find_first_of(",;\t", start), line.size());
-    fields.push_back(trimmed(line.substr(start, end - start)));
-    start = end + 1;
-  }
-  return fields;
-}
-
-/// Also "nan" and "inf", which are numbers to the parser and refused by the caller with a reason.
-std::optional<double> parsed_number(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
 
 class Reader {
  public:
@@ -53,10 +27,11 @@ class Reader {
   void read(std::string line) {
     ++line_;
     if (line_ == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
-    const std::string content = trimmed(line);
-    if (content.empty() || content.front() == '#') return;
-    const std::vector<std::string> fields = split(content);
-    if (columns_ == 0 && !parsed_number(fields.front())) return read_header(fields);
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    if (first == std::string::npos || line[first] == '#') return;
+    if (columns_ == 0) separator_ = separator_of(line);
+    const std::vector<std::string> fields = cells_of(line, separator_);
+    if (columns_ == 0 && !number_in(fields.front(), separator_)) return read_header(fields);
     if (columns_ == 0) set_columns(fields.size());
     read_row(fields);
   }
@@ -91,7 +66,7 @@ class Reader {
   }
   double value(const std::vector<std::string>& fields, std::size_t column) const {
     const std::string& text = fields[column];
-    const auto parsed = parsed_number(text);
+    const auto parsed = number_in(text, separator_);
     if (!parsed) fail(fmt::format("{} '{}' is not a number", kProfileColumns[column], text));
     if (!std::isfinite(*parsed)) fail(fmt::format("{} '{}' is not a finite number", kProfileColumns[column], text));
     return *parsed;
@@ -113,6 +88,7 @@ class Reader {
 
   const std::string& name_;
   std::size_t line_ = 0, columns_ = 0;
+  char separator_ = ',';
   Profile profile_;
 };
 

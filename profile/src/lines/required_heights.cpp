@@ -134,14 +134,21 @@ double curve_end(const HeightDemand& demand, const PlannedHeights& planned, doub
 RequiredHeights required_heights(const Profile& profile, const PlannedHeights& planned, const Requirement& requirement,
                                  const std::optional<EndGrounds>& grounds) {
   const HeightDemand demand(profile, requirement, grounds.value_or(ends_of(profile)));
-  RequiredHeights heights{demand.from_alone(planned.to_m), demand.to_alone(planned.from_m), demand.both(), {}};
-  if (!heights.both_equal_m) return heights;
-  const double end = curve_end(demand, planned, *heights.both_equal_m);
+  return {demand.from_alone(planned.to_m), demand.to_alone(planned.from_m), demand.both()};
+}
+
+std::vector<HeightPair> height_curve(const Profile& profile, const PlannedHeights& planned,
+                                     const Requirement& requirement, const std::optional<double>& both_equal_m,
+                                     const std::optional<EndGrounds>& grounds) {
+  std::vector<HeightPair> curve;
+  if (!both_equal_m) return curve;
+  const HeightDemand demand(profile, requirement, grounds.value_or(ends_of(profile)));
+  const double end = curve_end(demand, planned, *both_equal_m);
   for (int i = 0; i < kCurvePoints; ++i) {
     const double from = end * i / (kCurvePoints - 1);
-    heights.curve.push_back({from, demand.to_alone(from)});
+    curve.push_back({from, demand.to_alone(from)});
   }
-  return heights;
+  return curve;
 }
 
 VisibleHeight visible_height(const Profile& profile, double eye_m, double hub_m, double tip_m, const Earth& earth,

@@ -9,18 +9,17 @@
 
 namespace itin::profile {
 
-struct VerdictTerms {
-  double clearance_error_m = 0;  ///< a clearance nearer to 0 leaves it open
-  bool gaps_block = false;       ///< ground without data stops the ray
-};
-
-inline SightVerdict sight_verdict(const Profile& profile, const std::optional<double>& clearance_m,
-                                  const VerdictTerms& terms) {
-  if (!profile.has_length()) return SightVerdict::kVisible;
-  if (terms.gaps_block && !profile.gaps.empty()) return SightVerdict::kHidden;
-  if (!clearance_m) return SightVerdict::kVisible;
-  if (std::abs(*clearance_m) < terms.clearance_error_m) return SightVerdict::kUndecided;
+/// Over known ground alone. A clearance nearer to 0 than `error_m` leaves it open.
+inline SightVerdict known_verdict(const Profile& profile, const std::optional<double>& clearance_m, double error_m) {
+  if (!profile.has_length() || !clearance_m) return SightVerdict::kVisible;
+  if (std::abs(*clearance_m) < error_m) return SightVerdict::kUndecided;
   return *clearance_m >= -kGrazing ? SightVerdict::kVisible : SightVerdict::kHidden;
+}
+
+inline SightVerdict sight_verdict(const Profile& profile, SightVerdict known, NoData nodata) {
+  const bool whole = profile.gaps.empty() || !profile.has_length();
+  if (whole || known == SightVerdict::kHidden || nodata == NoData::kClear) return known;
+  return nodata == NoData::kBlock ? SightVerdict::kHidden : SightVerdict::kUndecided;
 }
 
 }  // namespace itin::profile

@@ -23,14 +23,17 @@ constexpr double kHairM = 1e-6;
 
 enum class Ground { kBare, kWithClutter, kSmooth };
 
+double from_end(const Profile& profile, const ProfilePoint& p) {
+  return std::min(p.distance_m, profile.length_m - p.distance_m);
+}
+
 std::vector<Edge> edges_of(const Profile& profile, Ground ground) {
   std::vector<Edge> edges;
   edges.reserve(profile.points.size());
   for (const ProfilePoint& p : profile.points) {
-    const double from_end = std::min(p.distance_m, profile.length_m - p.distance_m);
-    if (from_end <= 0) continue;
-    const double clutter = ground == Ground::kWithClutter && from_end > kClutterFreeM - kHairM ? p.clutter_m : 0;
-    edges.push_back({p.distance_m / 1000, ground == Ground::kSmooth ? 0 : p.ground_m + clutter});
+    if (from_end(profile, p) <= 0) continue;
+    const double height = ground == Ground::kWithClutter ? clutter_top_m(profile, p) : p.ground_m;
+    edges.push_back({p.distance_m / 1000, ground == Ground::kSmooth ? 0 : height});
   }
   return edges;
 }
@@ -134,6 +137,14 @@ void require_valid(const Profile& profile, const Antennas& antennas, const Radio
 }
 
 }  // namespace
+
+double clutter_top_m(const Profile& profile, const ProfilePoint& point) {
+  return point.ground_m + (from_end(profile, point) > kClutterFreeM - kHairM ? point.clutter_m : 0);
+}
+
+double effective_earth_km(const Earth& earth) {
+  return 1 / (2 * earth.drop_coefficient()) / 1000;
+}
 
 double free_space_loss_db(double distance_m, double wavelength) {
   return 20 * std::log10(4 * std::numbers::pi * distance_m / wavelength);

@@ -17,6 +17,17 @@ std::string number(double value, int decimals) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "";
 }
 
+/// Metres without data between a point and the next.
+double gap_behind(const Profile& profile, std::size_t i) {
+  if (i + 1 == profile.points.size() || profile.joined(i)) return 0;
+  return profile.points[i + 1].distance_m - profile.points[i].distance_m;
+}
+
+/// The classes of rasters: 0 hidden, 1 visible, 2 undecided.
+char seen_beyond(NoData rule) {
+  return rule == NoData::kUnknown ? '2' : rule == NoData::kBlock ? '0' : '1';
+}
+
 }  // namespace
 
 std::string report_csv(const LosReport& report) {
@@ -26,14 +37,17 @@ std::string report_csv(const LosReport& report) {
   const double wavelength = report.query.radio ? wavelength_m(report.query.radio->frequency_ghz) : 0;
   std::string csv =
       "distance_m,x,y,lon,lat,ground_m,feature_top_m,bulge_m,ray_m,f1_m,clearance_m,clearance_f1,v,visible,"
-      "theme\n";
+      "theme,gap_m\n";
+  char beyond_gaps = '1';  // what is seen of a point that no known ground hides
   double steepest = -std::numeric_limits<double>::infinity();
-  for (const ProfilePoint& p : report.profile.points) {
+  for (std::size_t i = 0; i < report.profile.points.size(); ++i) {
+    const ProfilePoint& p = report.profile.points[i];
     const double d = p.distance_m, bulge = drop * d * (length - d), ray = ray_elevation_m(report, d);
     const double clearance = ray - p.ground_m - bulge, radius = fresnel_radius_m(d, length - d, wavelength);
     // Seen from the first end: no ground before it rises higher.
     const double slope = d > 0 ? (p.ground_m - report.antennas.from_m) / d - drop * d : steepest;
     const bool visible = slope >= steepest;
+    const double gap = gap_behind(report.profile, i);
     steepest = std::max(steepest, slope);
     csv += number(d, 3) + ",";
     if (to_geographic) {
@@ -50,7 +64,8 @@ std::string report_csv(const LosReport& report) {
       csv += number(clearance / radius, 4) + "," + number(-std::sqrt(2.0) * clearance / radius, 4);
     else
       csv += ",";
-    csv += (visible ? ",1," : ",0,") + cause_of(report, p.theme) + "\n";
+    csv += fmt::format(",{},{},{}\n", visible ? beyond_gaps : '0', cause_of(report, p.theme), number(gap, 3));
+    if (gap > 0) beyond_gaps = seen_beyond(report.query.nodata);
   }
   return csv;
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "report/formats.hpp"
+#include "report/page.hpp"
 #include "report/sight_chart.hpp"
 #include "report/tables.hpp"
 #include "report/trade_off_chart.hpp"
@@ -12,98 +13,13 @@ namespace itin::profile {
 
 namespace {
 
-// A4 across.
-constexpr double kWidth = 842, kHeight = 595, kMargin = 36;
-
-const Lettering kPlain{8.5, kReportInk, Align::kLeft, false, 0}, kBold{8.5, kReportInk, Align::kLeft, true, 0};
-
-/// Sets tables one below the other in a column.
-class Column {
- public:
-  Column(Drawing& drawing, double left, double width, double top)
-      : drawing_(drawing), left_(left), width_(width), y_(top) {}
-
-  double y() const { return y_; }
-  bool has_room_for(const Table& table) const {
-    const double rows = static_cast<double>(table.rows.size() + (table.header.empty() ? 0 : 1));
-    return y_ + kTitle + rows * kRow + (table.note.empty() ? 0 : kNote) <= kHeight - kMargin;
-  }
-
-  void set(const Table& table) {
-    drawing_.text({left_, y_ + 10}, table.title, {10, kReportInk, Align::kLeft, true, 0});
-    y_ += kTitle;
-    const Point2 rule[] = {{left_, y_}, {left_ + width_, y_}};
-    drawing_.polyline(rule, {kReportGrey, 0.6, {}});
-    const std::vector<double> widths = column_widths(table);
-    if (!table.header.empty()) row(table.header, widths, kBold);
-    for (const auto& cells : table.rows) row(cells, widths, kPlain);
-    if (!table.note.empty()) {
-      y_ += kNote;
-      drawing_.text({left_, y_}, drawing_.fitted(table.note, width_, {7.5, kReportGrey, Align::kLeft, false, 0}),
-                    {7.5, kReportGrey, Align::kLeft, false, 0});
-    }
-    y_ += 16;
-  }
-
- private:
-  /// The widths that the columns' texts need; where that is too much, the widest give way.
-  std::vector<double> column_widths(const Table& table) const {
-    const std::size_t columns = table.header.empty() ? table.rows.front().size() : table.header.size();
-    std::vector<double> widths(columns, 0);
-    const auto widen = [&](const std::vector<std::string>& cells, const Lettering& lettering) {
-      for (std::size_t i = 0; i < cells.size(); ++i) {
-        widths[i] = std::max(widths[i], drawing_.text_width(cells[i], lettering) + 10);
-      }
-    };
-    widen(table.header, kBold);
-    for (const auto& cells : table.rows) widen(cells, kPlain);
-    double narrow = 0;
-    std::size_t wide = columns;
-    std::vector<double> ascending = widths;
-    std::sort(ascending.begin(), ascending.end());
-    for (const double w : ascending) {
-      const double share = (width_ - narrow) / static_cast<double>(wide);
-      if (w > share) {
-        for (double& width : widths) width = std::min(width, share);
-        break;
-      }
-      narrow += w, --wide;
-    }
-    return widths;
-  }
-
-  void row(const std::vector<std::string>& cells, const std::vector<double>& widths, const Lettering& lettering) {
-    y_ += kRow;
-    double x = left_;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      drawing_.text({x, y_}, drawing_.fitted(cells[i], widths[i] - 3, lettering), lettering);
-      x += widths[i];
-    }
-  }
-
-  static constexpr double kTitle = 16, kRow = 11.5, kNote = 10;
-
-  Drawing& drawing_;
-  double left_, width_, y_;
-};
-
-/// Smaller where it would not fit, and cut where it must be.
-void draw_title(Drawing& drawing, const std::string& title) {
-  Lettering lettering{16, kReportInk, Align::kLeft, true, 0};
-  const double width = kWidth - 2 * kMargin;
-  while (lettering.size > 10 && drawing.text_width(title, lettering) > width) lettering.size -= 1;
-  drawing.text({kMargin, 46}, drawing.fitted(title, width, lettering), lettering);
-}
-
 void draw_first_page(Drawing& drawing, const LosReport& report) {
   draw_title(drawing, report.title);
-  drawing.text({kMargin, 63},
-               drawing.fitted(verdict_line(report), kWidth - 2 * kMargin, {10, kReportInk, Align::kLeft, false, 0}),
-               {10, kReportInk, Align::kLeft, false, 0});
+  const double top = draw_headline(drawing, verdict_line(report)) + 19;
   const double half = (kWidth - 2 * kMargin) / 2;
   const auto end = [&](double x, const char* name, const std::vector<std::string>& lines) {
-    drawing.text({x, 82}, name, kBold);
-    double y = 82;
+    drawing.text({x, top}, name, kBold);
+    double y = top;
     for (const std::string& line : lines) {
       drawing.text({x + 16, y}, drawing.fitted(line, half - 20, kPlain), kPlain);
       y += 11;
@@ -112,16 +28,11 @@ void draw_first_page(Drawing& drawing, const LosReport& report) {
   end(kMargin, "A", report.from_lines);
   end(kMargin + half, "B", report.to_lines);
   const double lines = static_cast<double>(std::max(report.from_lines.size(), report.to_lines.size()));
-  const double facts_height = 11 * static_cast<double>(report.facts.size());
-  draw_sight_chart(drawing, {kMargin, 82 + 11 * lines + 2, kWidth - kMargin, kHeight - kMargin - facts_height}, report);
-  double y = kHeight - kMargin - facts_height + 12;
-  for (const auto& [name, value] : report.facts) {
-    drawing.text({kMargin, y}, name, {8, kReportGrey, Align::kLeft, true, 0});
-    drawing.text({kMargin + 62, y},
-                 drawing.fitted(value, kWidth - 2 * kMargin - 62, {8, kReportGrey, Align::kLeft, false, 0}),
-                 {8, kReportGrey, Align::kLeft, false, 0});
-    y += 11;
-  }
+  const Facts facts = fact_lines(drawing, report.facts);
+  const double facts_height = kFactRow * static_cast<double>(facts.size());
+  draw_sight_chart(drawing, {kMargin, top + 11 * lines + 2, kWidth - kMargin, kHeight - kMargin - facts_height},
+                   report);
+  draw_facts(drawing, facts, kHeight - kMargin - facts_height + 12);
 }
 
 /// Two columns of tables per page, and as many pages as they take.
@@ -154,7 +65,7 @@ class TablePages {
     for (const std::size_t i : {0U, 1U}) columns_.emplace_back(drawing_, left_of(i), kHalf, kTop);
   }
 
-  Column& place(const Table& table, std::size_t preferred) {
+  PageColumn& place(const Table& table, std::size_t preferred) {
     for (const std::size_t i : {preferred, 1 - preferred}) {
       if (columns_[i].has_room_for(table)) return columns_[i];
     }
@@ -164,7 +75,7 @@ class TablePages {
 
   Drawing& drawing_;
   const LosReport& report_;
-  std::vector<Column> columns_;
+  std::vector<PageColumn> columns_;
 };
 
 }  // namespace

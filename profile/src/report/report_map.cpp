@@ -40,11 +40,12 @@ class Path {
     const Point2 p = position(d, aside);
     return {p.x, p.y, elevation(d) + up};
   }
-  std::vector<Point3> ray_line() const {
+  std::vector<Point3> ray_line(double from, double to) const {
     std::vector<Point3> line;
-    for (int i = 0; i <= kRayParts; ++i) line.push_back(ray(report_.profile.length_m * i / kRayParts));
+    for (int i = 0; i <= kRayParts; ++i) line.push_back(ray(from + (to - from) * i / kRayParts));
     return line;
   }
+  std::vector<Point3> ray_line() const { return ray_line(0, report_.profile.length_m); }
   std::vector<Point3> ground_line() const {
     std::vector<Point3> line;
     for (const ProfilePoint& p : report_.profile.points) line.push_back({p.x, p.y, p.ground_m});
@@ -82,10 +83,12 @@ class Kml {
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<kml xmlns=\"http://www.opengis.net/kml/2.2\">\n<Document>\n"
         "<name>{}</name>\n<description>{}</description>\n",
         escaped_markup(report.title), escaped_markup(verdict_line(report)));
-    style("ray", report.verdict == SightVerdict::kHidden ? "ff2020d0" : "ff20a020", 3);
+    constexpr const char* kVerdictColours[] = {"ff20a020", "ff2020d0", "ff20a0e0"};  // green, red, amber
+    style("ray", kVerdictColours[static_cast<int>(report.verdict)], 3);
     style("ground", "ff335577", 2);
     style("cut", "ff0000ff", 5);
     style("zone", "66e08040", 1);
+    style("gap", "ff909090", 5);
   }
   void point(const std::string& name, const Point3& p) {
     open(name, "");
@@ -123,6 +126,14 @@ class Kml {
   std::string text_;
 };
 
+Point3 place_of(const ProfilePoint& p) {
+  return {p.x, p.y, p.ground_m};
+}
+
+std::string gap_name(double from_m, double to_m) {
+  return "No data, " + distance_text(to_m - from_m);
+}
+
 std::string obstruction_name(const LosReport& report, const Obstruction& o) {
   return fmt::format("{}, {:.2f} m above the ray", cause_of(report, o.theme, o.feature), o.depth_m);
 }
@@ -135,15 +146,13 @@ std::string report_kml(const LosReport& report) {
   Kml kml(report);
   kml.point(fmt::format("A, {:g} m", report.query.from_height_m), path.ray(0));
   kml.point(fmt::format("B, {:g} m", report.query.to_height_m), path.ray(length));
-  if (const auto tightest = tightest_point(report)) {
-    const Point2 p = path.position(tightest->distance_m);
-    kml.point("Critical point, " + critical_line(report), {p.x, p.y, tightest->ground_m});
-  }
+  if (report.critical) kml.point("Critical point, " + critical_line(report), place_of(*report.critical));
   kml.line("Ray", "ray", path.ray_line());
   kml.line("Ground", "ground", path.ground_line());
   for (const Obstruction& o : report.obstructions) {
     kml.line(obstruction_name(report, o), "cut", path.obstruction_line(o));
   }
+  for (const auto& [from, to] : report.profile.gaps) kml.line(gap_name(from, to), "gap", path.ray_line(from, to));
   if (report.query.radio && length > 0) {
     kml.open_folder("First Fresnel zone");
     for (int i = 0; i < kZoneLines; ++i) {
@@ -166,21 +175,22 @@ std::vector<VectorLayer> report_layers(const LosReport& report) {
                     {"clearance_m", kNumber},
                     {"fresnel_fraction", kNumber},
                     {"ld_db", kNumber},
-                    {"geodesic_distance_m", kNumber}},
+                    {"geodesic_distance_m", kNumber},
+                    {"gap_m", kNumber},
+                    {"known_verdict", kText}},
                    {}};
   line.features.push_back(
       {path.ray_line(),
        {std::string(name_of(report.verdict)), report.profile.length_m, metres(report.clearance_m),
         metres(report.fresnel ? std::optional(report.fresnel->fraction) : std::nullopt),
-        metres(report.losses ? std::optional(report.losses->ld_db) : std::nullopt), metres(report.geodesic_m)}});
+        metres(report.losses ? std::optional(report.losses->ld_db) : std::nullopt), metres(report.geodesic_m),
+        report.profile.gap_length_m(), std::string(name_of(report.known_verdict))}});
   VectorLayer ends{"points", Shape::kPoints, {{"what", kText}, {"distance_m", kNumber}, {"height_m", kNumber}}, {}};
   ends.features.push_back({{path.ray(0)}, {std::string("from"), 0.0, report.query.from_height_m}});
   ends.features.push_back(
       {{path.ray(report.profile.length_m)}, {std::string("to"), report.profile.length_m, report.query.to_height_m}});
-  if (const auto tightest = tightest_point(report)) {
-    const Point2 p = path.position(tightest->distance_m);
-    ends.features.push_back({{{p.x, p.y, tightest->ground_m}}, {std::string("critical"), tightest->distance_m, {}}});
-  }
+  if (report.critical)
+    ends.features.push_back({{place_of(*report.critical)}, {std::string("critical"), report.critical->distance_m, {}}});
   VectorLayer ground{"ground", Shape::kLines, {{"points", kWhole}}, {}};
   if (report.profile.points.size() > 1) {
     ground.features.push_back({path.ground_line(), {static_cast<std::int64_t>(report.profile.points.size())}});
@@ -194,7 +204,9 @@ std::vector<VectorLayer> report_layers(const LosReport& report) {
     cuts.features.push_back(
         {path.obstruction_line(o), {o.from_m, o.to_m, o.peak_at_m, o.depth_m, cause_of(report, o.theme, o.feature)}});
   }
-  return {line, ends, ground, cuts};
+  VectorLayer gaps{"gaps", Shape::kLines, {{"from_m", kNumber}, {"to_m", kNumber}}, {}};
+  for (const auto& [from, to] : report.profile.gaps) gaps.features.push_back({path.ray_line(from, to), {from, to}});
+  return {line, ends, ground, cuts, gaps};
 }
 
 }  // namespace itin::profile

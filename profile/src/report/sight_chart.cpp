@@ -18,9 +18,9 @@ namespace {
 constexpr int kArcParts = 240;
 constexpr Colour kChartGround{0.80, 0.74, 0.62, 1}, kGroundLine{0.42, 0.33, 0.20, 1}, kRay{0.05, 0.25, 0.60, 1},
     kZone{0.20, 0.45, 0.85, 0.13}, kInnerZone{0.20, 0.45, 0.85, 0.16}, kZoneLine{0.20, 0.45, 0.85, 1},
-    kWorst{0.75, 0.35, 0.05, 1}, kCut{0.80, 0.10, 0.10, 0.45}, kMarker{0.75, 0.05, 0.05, 1},
-    kClutter{0.45, 0.65, 0.35, 0.8}, kNoData{0.9, 0.9, 0.9, 1}, kWhite{1, 1, 1, 0.85},
-    kFeatureLine{0.30, 0.20, 0.20, 1}, kChartSeen{0.00, 0.62, 0.45, 1}, kUnseen{0.62, 0.62, 0.62, 1};
+    kWorst{0.75, 0.35, 0.05, 1}, kCut{0.80, 0.10, 0.10, 0.45}, kMarker{0.75, 0.05, 0.05, 1}, kNoData{0.9, 0.9, 0.9, 1},
+    kWhite{1, 1, 1, 0.85}, kFeatureLine{0.30, 0.20, 0.20, 1}, kChartSeen{0.00, 0.62, 0.45, 1},
+    kUnseen{0.62, 0.62, 0.62, 1};
 
 /// Everything drawn, in metres over the chord between the ends' verticals.
 class SightChart {
@@ -76,7 +76,7 @@ class SightChart {
     for (const ProfilePoint& p : dense_.points) {
       const double d = p.distance_m, curve = std::max(drop_, worst_drop_) * d * (length_ - d);
       low = std::min(low, p.ground_m + bulge(d));
-      high = std::max({high, p.ground_m + p.clutter_m + curve, ray(d) + radius(d)});
+      high = std::max({high, p.ground_m + curve, ray(d) + radius(d)});
     }
     if (report_.query.object) high = std::max(high, report_.stands_on.to_m + report_.query.object->tip_m);
     const double span = std::max({high - low, length_ / 200, 1.0});
@@ -129,15 +129,8 @@ class SightChart {
 
   void draw_ground() {
     for_each_run(ground_, [&](std::size_t first, std::size_t last) {
-      std::vector<Point2> ground, canopy;
-      bool clutter = false;
-      for (std::size_t i = first; i <= last; ++i) {
-        const ProfilePoint& p = ground_.points[i];
-        ground.push_back(at(p));
-        canopy.push_back(at(p.distance_m, p.ground_m + p.clutter_m + bulge(p.distance_m)));
-        clutter = clutter || p.clutter_m > 0;
-      }
-      if (clutter) fill_below(canopy, kClutter), has_clutter_ = true;
+      std::vector<Point2> ground;
+      for (std::size_t i = first; i <= last; ++i) ground.push_back(at(ground_.points[i]));
       fill_below(ground, kChartGround);
       drawing_.polyline(ground, {kGroundLine, 0.9, {}});
     });
@@ -267,9 +260,8 @@ class SightChart {
 
   /// Its label hangs from the top of the chart, clear of the ray, on a line down to the point.
   void draw_critical() {
-    const auto tightest = tightest_point(report_);
-    if (!tightest) return;
-    const Point2 point = at(tightest->distance_m, tightest->ground_m + bulge(tightest->distance_m));
+    if (!report_.critical) return;
+    const Point2 point = at(*report_.critical);
     const Lettering lettering{8.5, kMarker, Align::kLeft, false, 0};
     const std::string text =
         drawing_.fitted("Critical point, " + critical_line(report_), frame_.box.width() - 12, lettering);
@@ -293,7 +285,6 @@ class SightChart {
       items.push_back({"0.6 F1", {kZoneLine, 0.6, {3, 2}}, false});
     }
     if (worst_k_ > 0) items.push_back({fmt::format("Terrain at K = {:.4g}", worst_k_), {kWorst, 0.9, {4, 2}}, false});
-    if (has_clutter_) items.push_back({"Clutter", {kClutter, 1, {}}, true});
     for (const std::uint16_t theme : themes_)
       items.push_back({cause_of(report_, theme), {theme_colour(theme), 1, {}}, true});
     if (!report_.obstructions.empty()) items.push_back({"Above the ray", {kCut, 1, {}}, true});
@@ -312,7 +303,6 @@ class SightChart {
   Profile dense_;
   Profile ground_;  ///< dense, too; without standing features
   ChartFrame frame_;
-  bool has_clutter_ = false;
   std::set<std::uint16_t> themes_;
 };
 

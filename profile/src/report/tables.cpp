@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <itin/grazing.hpp>
+#include <profile/report_text.hpp>
 
 namespace itin::profile {
 
@@ -13,37 +13,35 @@ namespace {
 
 constexpr std::size_t kMostObstructions = 12;
 
-std::string metres(const std::optional<double>& value) {
-  return value && std::isfinite(*value) ? fmt::format("{:.2f} m", *value) : "none is enough";
+std::string clearance_text(const std::optional<double>& clearance_m) {
+  return clearance_m ? fmt::format("{:.2f} m", *clearance_m) : "";
+}
+std::string fraction_text(double fraction) {
+  return fmt::format("{:.2f} F1", fraction);
 }
 
-std::string capitalised(std::string text) {
-  text[0] = static_cast<char>(text[0] - 'a' + 'A');
-  return text;
+/// Behind a title, where the line is judged with its clutter and without it.
+constexpr const char *kWithClutter = ", with clutter", *kBareGround = ", bare ground";
+
+std::vector<std::string> criterion_row(const CriterionResult& c) {
+  const bool open = c.verdict == CriterionVerdict::kUndecided;
+  return {fmt::format("{:.4g}", c.criterion.k), fmt::format("{:g} F1", c.criterion.fraction),
+          clearance_text(c.clearance_m), c.clearance_f1 ? fraction_text(*c.clearance_f1) : "",
+          open ? name_of(c.verdict) : outcome_text(c)};
 }
 
-/// The theme of the feature at a distance; 0: none.
-std::uint16_t theme_at(const Profile& profile, double distance_m) {
-  for (std::size_t i = 0; i + 1 < profile.points.size(); ++i) {
-    const bool holds = profile.points[i].distance_m <= distance_m && distance_m <= profile.points[i + 1].distance_m;
-    if (holds && profile.theme_between(i) != 0) return profile.theme_between(i);
-  }
-  return 0;
-}
-
-Table criteria_table(const LosReport& report) {
-  Table table{"Verdicts", {"K", "wanted", "least clearance", "least of F1", "verdict"}, {}, ""};
-  table.rows.push_back(
-      {"as above", "line of sight", report.clearance_m ? fmt::format("{:.2f} m", *report.clearance_m) : "",
-       report.fresnel ? fmt::format("{:.3f} F1", report.fresnel->fraction) : "", name_of(report.verdict)});
-  for (const CriterionResult& c : report.criteria) {
-    table.rows.push_back({fmt::format("{:.4g}", c.criterion.k), fmt::format("{:g} F1", c.criterion.fraction),
-                          c.clearance_m ? fmt::format("{:.2f} m", *c.clearance_m) : "",
-                          c.clearance_f1 ? fmt::format("{:.3f} F1", *c.clearance_f1) : "", name_of(c.verdict)});
-  }
+Table criteria_table(const LosReport& report, const LineFindings& found, const std::string& of) {
+  Table table{"Verdicts" + of, {"K", "wanted", "clearance", "least of F1", "verdict"}, {}, ""};
+  const double drop = report.query.earth.drop_coefficient();
+  const std::string k = drop == 0 ? "flat" : fmt::format("{:.4g}", 1 / (2 * drop * report.query.earth.radius));
+  table.rows.push_back({k, "line of sight", clearance_text(found.clearance_m),
+                        found.fresnel ? fraction_text(found.fresnel->fraction) : "", name_of(found.verdict)});
+  for (const CriterionResult& c : found.criteria) table.rows.push_back(criterion_row(c));
+  table.note = gap_text(report);
+  if (!table.note.empty()) table.note[0] = 'N', table.note += ".";
   if (report.query.clearance_error_m > 0) {
-    table.note = fmt::format("Undecided: the surface's certified error of {:.2f} m leaves it open.",
-                             report.query.clearance_error_m);
+    table.note += fmt::format("{}Undecided: the surface's certified error of {:.2f} m leaves it open.",
+                              table.note.empty() ? "" : " ", report.query.clearance_error_m);
   }
   return table;
 }
@@ -67,17 +65,21 @@ Table obstructions_table(const LosReport& report) {
   return table;
 }
 
-Table heights_table(const LosReport& report) {
+constexpr const char* kKnownGround = " Over known ground alone: what has no data may ask for more.";
+
+Table heights_table(const LosReport& report, const LineFindings& found, const std::string& of) {
   const LosQuery& query = report.query;
   std::string above = base_name(query.from_on_surface);
   if (query.from_on_surface != query.to_on_surface)
     above += fmt::format(" (A) and {} (B)", base_name(query.to_on_surface));
-  Table table{"Required heights above " + above, {"for", "first end alone", "second end alone", "both equal"}, {}, ""};
-  for (const NamedHeights& named : report.required) {
-    table.rows.push_back({named.name, metres(named.heights.from_alone_m), metres(named.heights.to_alone_m),
-                          metres(named.heights.both_equal_m)});
+  Table table{
+      "Required heights above " + above + of, {"for", "first end alone", "second end alone", "both equal"}, {}, ""};
+  for (const NamedHeights& named : found.required) {
+    table.rows.push_back({named.name, required_text(named.heights.from_alone_m),
+                          required_text(named.heights.to_alone_m), required_text(named.heights.both_equal_m)});
   }
-  table.note = "Alone: the other end stays at its planned height. Where criteria differ the greatest height rules.";
+  table.note = "Alone: the other end stays at its planned height. Where criteria differ the greatest height governs.";
+  if (!report.profile.gaps.empty()) table.note += kKnownGround;
   return table;
 }
 
@@ -93,6 +95,8 @@ Table losses_table(const LosReport& report) {
                 {"Delta-Bullington, Ld (P.452 4.2.3)", db(l.ld_db)},
                 {"For comparison: Deygout, three edges (P.526-12 4.4.2)", db(l.deygout_db)},
                 {"Free space + delta-Bullington", db(l.free_space_db + l.ld_db)}};
+  if (report.bare) table.note = fmt::format("With clutter, but within {:g} m of the ends.", kClutterFreeM);
+  if (!report.profile.gaps.empty()) table.note += kKnownGround;
   return table;
 }
 
@@ -103,7 +107,7 @@ Table geometry_table(const LosReport& report) {
   table.rows = {
       {"Path (P.452)", l.horizons.trans_horizon ? "trans-horizon" : "line-of-sight"},
       {"Least clearance / F1",
-       report.fresnel ? fmt::format("{:.3f} at {}", report.fresnel->fraction, distance_text(report.fresnel->distance_m))
+       report.fresnel ? fmt::format("{:.2f} at {}", report.fresnel->fraction, distance_text(report.fresnel->distance_m))
                       : "none"},
       {"Horizon angles", fmt::format("{:.3f} and {:.3f} mrad", l.horizons.theta_t_mrad, l.horizons.theta_r_mrad)},
       {"Horizon distances", km(l.horizons.dlt_km) + " and " + km(l.horizons.dlr_km)},
@@ -122,17 +126,7 @@ Table object_table(const LosReport& report) {
             fmt::format("{:.2f} m, {:.0f} %", seen.hub_visible_m, 100 * seen.hub_fraction)},
            {fmt::format("Up to the tip, {:g} m", object.tip_m),
             fmt::format("{:.2f} m, {:.0f} %", seen.tip_visible_m, 100 * seen.tip_fraction)}},
-          ""};
-}
-
-/// The tightest place of a free path. Where no frequency is given, and the least clearance is that of an end over its
-/// own foot, any wavelength finds the same place.
-std::optional<FresnelClearance> tightest_zone(const LosReport& report) {
-  if (*report.clearance_m < -kGrazing) return std::nullopt;
-  if (report.fresnel) return report.fresnel;
-  const double d = report.critical->distance_m;
-  if (d > 0 && d < report.profile.length_m) return std::nullopt;
-  return fresnel_clearance(report.profile, report.antennas, report.query.earth, 1);
+          report.profile.gaps.empty() ? "" : "Over known ground alone: what has no data may hide more."};
 }
 
 }  // namespace
@@ -145,42 +139,24 @@ std::string distance_text(double metres) {
   return metres < 2000 ? fmt::format("{:.1f} m", metres) : fmt::format("{:.3f} km", metres / 1000);
 }
 
-std::optional<TightestPoint> tightest_point(const LosReport& report) {
-  if (!report.critical || !report.clearance_m) return std::nullopt;
-  if (const auto zone = tightest_zone(report)) {
-    const double d = zone->distance_m,
-                 bulge = report.query.earth.drop_coefficient() * d * (report.profile.length_m - d);
-    const std::optional<double> fraction = report.fresnel ? std::optional(zone->fraction) : std::nullopt;
-    return TightestPoint{d,
-                         ray_elevation_m(report, d) - bulge - zone->clearance_m,
-                         zone->clearance_m,
-                         fraction,
-                         theme_at(report.profile, d),
-                         -1};
-  }
-  const ProfilePoint& p = *report.critical;
-  TightestPoint point{p.distance_m, p.ground_m, *report.clearance_m, {}, p.theme, p.feature};
-  if (report.query.radio) {
-    const double radius = fresnel_radius_m(p.distance_m, report.profile.length_m - p.distance_m,
-                                           wavelength_m(report.query.radio->frequency_ghz));
-    if (radius > 0) point.fraction = point.clearance_m / radius;
-  }
-  return point;
-}
-
 std::string critical_line(const LosReport& report) {
-  const auto point = tightest_point(report);
-  if (!point) return "no ground between the ends";
-  return fmt::format("{}: clearance {:.2f} m{}; {}", distance_text(point->distance_m), point->clearance_m,
-                     point->fraction ? fmt::format(", {:.2f} F1", *point->fraction) : "",
-                     cause_of(report, point->theme, point->feature));
+  if (!report.critical) return "no ground between the ends";
+  const ProfilePoint& p = *report.critical;
+  const std::string place = fmt::format("{}: clearance {:.2f} m", distance_text(p.distance_m), *report.clearance_m);
+  const std::string cause = cause_of(report, p.theme, p.feature);
+  if (!report.fresnel) return place + "; " + cause;
+  const std::string fraction = fraction_text(report.fresnel->fraction);
+  const std::string at = distance_text(report.fresnel->distance_m);
+  if (at == distance_text(p.distance_m)) return fmt::format("{}, {}; {}", place, fraction, cause);
+  return fmt::format("{}; {}; least of F1 {} at {}", place, cause, fraction, at);
 }
 
 std::string verdict_line(const LosReport& report) {
   std::string distance = distance_text(report.profile.length_m);
   if (report.geodesic_m) distance += fmt::format(" on the grid, {} geodesic", distance_text(*report.geodesic_m));
-  return fmt::format("{}. Distance {}; critical point at {}.", capitalised(name_of(report.verdict)), distance,
-                     critical_line(report));
+  const std::string bare = report.bare ? fmt::format(" Over bare ground {}.", name_of(report.bare->verdict)) : "";
+  return fmt::format("{}{}.{} Distance {}; critical point at {}.", verdict_text(report),
+                     report.bare ? kWithClutter : "", bare, distance, critical_line(report));
 }
 
 Table facts_table(const LosReport& report) {
@@ -201,9 +177,13 @@ Table ends_table(const LosReport& report) {
 }
 
 std::vector<Table> result_tables(const LosReport& report) {
-  std::vector<Table> tables = {criteria_table(report)};
+  std::vector<Table> tables;
+  const char* of = report.bare ? kWithClutter : "";
+  tables.push_back(criteria_table(report, report, of));
+  if (report.bare) tables.push_back(criteria_table(report, *report.bare, kBareGround));
   if (!report.obstructions.empty()) tables.push_back(obstructions_table(report));
-  if (!report.required.empty()) tables.push_back(heights_table(report));
+  if (!report.required.empty()) tables.push_back(heights_table(report, report, of));
+  if (report.bare && !report.required.empty()) tables.push_back(heights_table(report, *report.bare, kBareGround));
   if (report.losses) tables.push_back(geometry_table(report)), tables.push_back(losses_table(report));
   if (report.visible) tables.push_back(object_table(report));
   return tables;

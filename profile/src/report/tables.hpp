@@ -17,18 +17,10 @@ struct Table {
   std::string note;  ///< below the rows; may be empty
 };
 
-/// "Hidden", with the clearance and where it is least, in one line.
+/// The verdict, the distances and the critical point, in sentences.
 std::string verdict_line(const LosReport& report);
-/// The point a planner looks at: where the ray is cut deepest, or, on a free path, where the Fresnel zone is tightest,
-/// if there is a frequency or if the least clearance in metres is that of a mast over its own foot.
-struct TightestPoint {
-  double distance_m = 0, ground_m = 0, clearance_m = 0;
-  std::optional<double> fraction;  ///< of F1
-  std::uint16_t theme = 0;
-  std::int64_t feature = -1;
-};
-std::optional<TightestPoint> tightest_point(const LosReport& report);
-/// "4532.1 m: clearance 3.20 m, 0.45 F1; terrain".
+/// The critical point: "4532.1 m: clearance 3.20 m, 0.45 F1; terrain". A ray that is cut has its least of F1 behind
+/// that, where it is elsewhere.
 std::string critical_line(const LosReport& report);
 
 Table facts_table(const LosReport& report);

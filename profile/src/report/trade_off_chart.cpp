@@ -28,7 +28,7 @@ std::pair<double, double> ranges(const LosReport& report) {
 
 bool has_trade_off(const LosReport& report) {
   return std::any_of(report.required.begin(), report.required.end(),
-                     [](const NamedHeights& named) { return !named.heights.curve.empty(); });
+                     [](const NamedHeights& named) { return !named.curve.empty(); });
 }
 
 void draw_trade_off_chart(Drawing& drawing, const Box& area, const LosReport& report) {
@@ -47,7 +47,7 @@ void draw_trade_off_chart(Drawing& drawing, const Box& area, const LosReport& re
   for (std::size_t i = 0; i < report.required.size(); ++i) {
     const Stroke stroke{kCurves[i % std::size(kCurves)], 1.3, {}};
     std::vector<Point2> curve;
-    for (const HeightPair& pair : report.required[i].heights.curve) {
+    for (const HeightPair& pair : report.required[i].curve) {
       if (pair.to_m) curve.push_back(frame.at(pair.from_m, *pair.to_m));
     }
     // From the curve's last point on, the second end needs no more than that.

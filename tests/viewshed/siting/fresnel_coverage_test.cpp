@@ -1,4 +1,5 @@
 // Sites that serve what their Fresnel zones leave clear: bounds, the last look and the choice against itin los --links.
+#include <atomic>
 #include <cmath>
 #include <iostream>
 #include <random>
@@ -96,14 +97,15 @@ class FresnelSites : public ::testing::Test {
     query.earth = survey_.earth;
     query.themes = themes;
     query.radio = profile::RadioPath{.frequency_ghz = frequency_ghz_, .effective_earth_km = 8500};
-    query.gaps_block = survey_.nodata == NoData::kBlock;
+    query.nodata = survey_.nodata == NoData::kBlock ? profile::NoData::kBlock : profile::NoData::kClear;
     query.to_on_surface = survey_.targets.on_surface;
     const std::vector<profile::LinkResult> results = survey_links(*store_, links, query, progress_);
     std::vector<std::uint64_t> members(element_count(grid) / 64);
     for (std::size_t i = 0; i < results.size(); ++i) {
-      in_sight_ += results[i].verdict == profile::SightVerdict::kVisible;
-      if (results[i].verdict == profile::SightVerdict::kVisible &&
-          results[i].fresnel_fraction.value_or(1) >= survey_.fresnel->fraction)
+      const auto& found = results[i].found;
+      if (!found || found->verdict != profile::SightVerdict::kVisible) continue;
+      ++in_sight_;
+      if (!found->fresnel || found->fresnel->fraction >= survey_.fresnel->fraction)
         members[elements[i] / 64] |= std::uint64_t{1} << elements[i] % 64;
     }
     DemandSet set;
@@ -182,6 +184,21 @@ TEST_F(FresnelSites, BoundsHoldAndTheLastLookIsThatOfLines) {
   make_fractal(70, 150, true);
   make_survey(6);
   expect_law_four();
+}
+
+TEST_F(FresnelSites, AreKeptAsTheyAreJudged) {
+  make_fractal(40, 100, false);
+  make_survey(70);
+  struct StopAfterFirst final : Progress {
+    std::atomic<std::size_t> kept = 0;
+    void report(std::string_view, double) override {}
+    bool cancelled() const override { return kept > 0; }
+  } progress;
+  SiteCoverage coverage(*store_, survey_, progress);
+  coverage.on_refined = [&](std::size_t, int, const CoverageBounds&) { ++progress.kept; };
+  EXPECT_THROW(coverage.look_first(), Cancelled);
+  EXPECT_GT(progress.kept, 0U);
+  EXPECT_LT(progress.kept, 70U);
 }
 
 TEST_F(FresnelSites, LikewiseAmongHouses) {

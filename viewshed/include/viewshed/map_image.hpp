@@ -21,7 +21,9 @@ struct MapOptions {
   std::string title = "Viewshed";
   std::string subtitle;                             ///< empty: observer and target heights, radius, refraction
   std::string seen = "Visible", unseen = "Hidden";  ///< in the legend, where cells are one of the two
-  int map_pixels = 1600;                            ///< of the longer side of the map proper, 200 to 16000
+  std::string observers = {};                       ///< what the legend calls them; empty: "Observers"
+  std::string outside = "Outside the field of view, or no data";
+  int map_pixels = 1600;  ///< of the longer side of the map proper, 200 to 16000
 };
 
 /// 8-bit sRGB, row by row from the north-west.

@@ -18,11 +18,20 @@ namespace {
 
 constexpr std::size_t kBinsPerChunk = 4096;
 
-RasterGrid bin_grid(const Tin& tin) {
+/// A bin for every two triangles; or, for cells that are far smaller, a bin for so many of them, as long as triangles
+/// have no more bins than that, and all together no more than take but a moment.
+double bin_count(double triangles, double cells) {
+  constexpr double kTrianglesPerBin = 2, kCellsPerBin = 16, kBinsPerTriangle = 64, kMostFineBins = 1 << 20;
+  return std::max(triangles / kTrianglesPerBin,
+                  std::min({cells / kCellsPerBin, triangles * kBinsPerTriangle, kMostFineBins}));
+}
+
+RasterGrid bin_grid(const Tin& tin, double cell_area) {
   const Box box = tin.bounds();
   if (box.empty()) return {{0, 0}, 1, 1, 1, 1};
   const double width = std::max(box.width(), tin.grid.resolution), height = std::max(box.height(), tin.grid.resolution);
-  const double bin = std::sqrt(2 * width * height / static_cast<double>(tin.triangles.size()));
+  const double area = width * height;
+  const double bin = std::sqrt(area / bin_count(static_cast<double>(tin.triangles.size()), area / cell_area));
   // Half a bin more than needed all around, so that the edges lie inside.
   const auto count = [&](double length) { return static_cast<std::int64_t>(std::ceil(length / bin)) + 1; };
   return {{box.xmin - bin / 2, box.ymax + bin / 2}, bin, bin, count(width), count(height)};
@@ -88,10 +97,10 @@ double greatest_magnitude_of(std::int32_t z, double greatest) {
 
 }  // namespace
 
-BinnedHeights::BinnedHeights(const Tin& tin) : BinnedHeights(tin, lattice_of(tin)) {}
+BinnedHeights::BinnedHeights(const Tin& tin, double cell_area) : BinnedHeights(tin, lattice_of(tin), cell_area) {}
 
-BinnedHeights::BinnedHeights(const Tin& tin, std::optional<LatticeTin> lattice)
-    : BinBounds(tin.grid, lattice ? bin_grid(*lattice) : bin_grid(tin)),
+BinnedHeights::BinnedHeights(const Tin& tin, std::optional<LatticeTin> lattice, double cell_area)
+    : BinBounds(tin.grid, lattice ? bin_grid(*lattice) : bin_grid(tin, cell_area)),
       tin_(&tin),
       own_(std::move(lattice)),
       lattice_(own_ ? &*own_ : nullptr) {

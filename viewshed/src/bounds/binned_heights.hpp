@@ -27,9 +27,10 @@ namespace itin::viewshed {
 
 class BinnedHeights : public BinBounds {
  public:
-  /// The surface must outlive it. A bin has about two triangles' worth, at 50 bytes per triangle; a lattice's bins are
-  /// its cells, for a fraction of that.
-  explicit BinnedHeights(const Tin& tin);
+  /// The surface must outlive it. A bin has about two triangles' worth, at 50 bytes per triangle, or less where cells
+  /// of this area, square metres, are far smaller: many lines are decided by what is known of bins. A lattice's bins
+  /// are its cells, for a fraction of that.
+  explicit BinnedHeights(const Tin& tin, double cell_area = std::numeric_limits<double>::infinity());
   explicit BinnedHeights(const LatticeTin& lattice);
   /// After heights of these tiles of the lattice have been read: they count from now on.
   void add(std::span<const std::uint32_t> tiles);
@@ -76,7 +77,7 @@ class BinnedHeights : public BinBounds {
   bool all_unread(Point2 north_west, Point2 south_east) const;
 
  private:
-  BinnedHeights(const Tin& tin, std::optional<LatticeTin> lattice);
+  BinnedHeights(const Tin& tin, std::optional<LatticeTin> lattice, double cell_area);
 
   using Range = RunBounds::Range<float>;
   /// These are computed once for a Tin that is no lattice.

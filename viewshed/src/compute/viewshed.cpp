@@ -50,7 +50,7 @@ Result compute(const SurfaceInMemory& over, const Request& request, Progress& pr
   const RasterGrid tiles = grid_of_tiles(result.grid);
   if (over.reader != nullptr && asks_for_all_heights(request)) over.reader->read_all(progress);
   auto heights = over.heights          ? over.heights
-                 : over.tin != nullptr ? std::make_shared<BinnedHeights>(*over.tin)
+                 : over.tin != nullptr ? std::make_shared<BinnedHeights>(*over.tin, result.grid.cell_area())
                                        : std::make_shared<BinnedHeights>(*over.lattice);
   FullSurface surface(std::move(heights), over.tin, request.targets_on_surface ? nullptr : over.bare, request.earth,
                       result.grid, tiles);
@@ -60,11 +60,10 @@ Result compute(const SurfaceInMemory& over, const Request& request, Progress& pr
   result.statistics.scene_seconds = watch.lap();
   std::optional<TriangleStudies> studies;
   if (needs_triangles(request)) studies.emplace(request, *over.tin);
-  Observations observations(request);
   std::vector<RadialSweep::View> views;
   if (over.reader != nullptr && !all_read(*over.reader))
     for (const Eye& eye : eyes) views.push_back(reveal(eye, *over.reader, surface, kAnyTiles, progress).view);
-  observe_all(surface, studies ? &*studies : nullptr, observations, eyes, std::move(views), result, progress);
+  observe_all(surface, studies ? &*studies : nullptr, eyes, std::move(views), result, progress);
   result.statistics.lines_seconds = watch.lap();
   return result;
 }

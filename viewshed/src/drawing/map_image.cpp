@@ -254,10 +254,11 @@ class MapDrawing {
   void draw_legend() {
     int row = 0;
     for (const MapOverlay::Key& key : overlay_.keys()) draw_key(row++, key.tints, 0, share_text(key.text, key.cells));
-    if (row < 3 && result_.cells.outside > 0) draw_key(row, {}, kOutsideFade, "Outside the field of view, or no data");
+    if (row < 3 && result_.cells.outside > 0) draw_key(row, {}, kOutsideFade, options_.outside);
     const double y = top_ + height_ + 6.9 * unit_;
     draw_mark({left_ + 1.0 * unit_, y});
-    letters_.draw(canvas_, result_.request.observers.size() == 1 ? "Observer" : "Observers",
+    const char* observers = result_.request.observers.size() == 1 ? "Observer" : "Observers";
+    letters_.draw(canvas_, options_.observers.empty() ? observers : options_.observers,
                   {left_ + 2.6 * unit_, y + 0.4 * unit_}, unit_, kInk);
     const std::string earth = result_.request.earth.convention();
     letters_.draw(canvas_, earth, {static_cast<double>(left_ + width_), y + 0.4 * unit_},

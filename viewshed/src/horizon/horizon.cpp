@@ -29,6 +29,9 @@ std::size_t azimuths_in_a_turn(double step) {
   return static_cast<std::size_t>(count);
 }
 
+/// Grid units: a step that rounding does not swallow, and that no triangle is thin enough to hide in.
+constexpr double kStepBehind = 1e-2;
+
 class Panorama {
  public:
   Panorama(const Tin& surface, const Request& request, const Eye& eye)
@@ -76,7 +79,24 @@ class Panorama {
             {eye_.position.x + distance * std::sin(azimuth / kDegreesPerRadian),
              eye_.position.y + distance * std::cos(azimuth / kDegreesPerRadian),
              (eye_.units.z + s * rise - bulge * s * (1 - s)) * unit},
-            surface_.theme(t)};
+            surface_.theme(t),
+            ends_behind({eye_.units.x + s * line.dx(), eye_.units.y + s * line.dy()}, line)};
+  }
+
+  /// Whether no ground lies behind a place in the line's direction, within reach.
+  bool ends_behind(Point2 place, const SightLine& line) const {
+    const double step = kStepBehind / std::hypot(line.dx(), line.dy());
+    const Point2 behind{place.x + step * line.dx(), place.y + step * line.dy()};
+    if (std::hypot(behind.x - eye_.units.x, behind.y - eye_.units.y) >= reach_) return false;
+    constexpr double kBelowAll = -1e12;
+    LineBundle bundle(SightLine({place.x, place.y, kBelowAll}, {behind.x, behind.y, kBelowAll}, drop_, grazing_));
+    bool ground = false;
+    pyramid_.search(bundle, [&](std::uint32_t triangle) {
+      const Triangle& t = surface_.triangles[triangle];
+      ground =
+          ground || height_over({surface_.vertices[t[0]], surface_.vertices[t[1]], surface_.vertices[t[2]]}, behind);
+    });
+    return !ground;
   }
 
   const Tin& surface_;

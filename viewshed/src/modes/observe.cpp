@@ -18,11 +18,11 @@ constexpr std::size_t kGroup = 256;
 
 class AllEyes {
  public:
-  AllEyes(const FullSurface& surface, const TriangleStudies* studies, Observations& observations,
-          const std::vector<Eye>& eyes, std::vector<RadialSweep::View> views, Result& result)
+  AllEyes(const FullSurface& surface, const TriangleStudies* studies, const std::vector<Eye>& eyes,
+          std::vector<RadialSweep::View> views, Result& result)
       : surface_(surface),
         studies_(studies),
-        observations_(observations),
+        observations_(result.request),
         eyes_(eyes),
         given_(std::move(views)),
         result_(result),
@@ -30,6 +30,7 @@ class AllEyes {
         tallies_(kept_.size()) {}
 
   void run(Progress& progress) {
+    Observation::prepare(result_);
     const std::size_t groups = (eyes_.size() + kGroup - 1) / kGroup;
     Stage stage("sight lines", groups * kept_.size(), progress);
     for (first_ = 0; first_ < eyes_.size(); first_ += kGroup) {
@@ -45,6 +46,7 @@ class AllEyes {
       result_.cells += tally.cells;
       result_.statistics.lines += tally.lines;
     }
+    observations_.finish(result_);
   }
 
  private:
@@ -84,7 +86,7 @@ class AllEyes {
 
   const FullSurface& surface_;
   const TriangleStudies* studies_;
-  Observations& observations_;
+  Observations observations_;
   const std::vector<Eye>& eyes_;
   std::vector<RadialSweep::View> given_;  ///< each eye's, or none
   Result& result_;
@@ -95,12 +97,9 @@ class AllEyes {
 
 }  // namespace
 
-void observe_all(const FullSurface& surface, const TriangleStudies* studies, Observations& observations,
-                 const std::vector<Eye>& eyes, std::vector<RadialSweep::View> views, Result& result,
-                 Progress& progress) {
-  Observation::prepare(result);
-  AllEyes(surface, studies, observations, eyes, std::move(views), result).run(progress);
-  observations.finish(result);
+void observe_all(const FullSurface& surface, const TriangleStudies* studies, const std::vector<Eye>& eyes,
+                 std::vector<RadialSweep::View> views, Result& result, Progress& progress) {
+  AllEyes(surface, studies, eyes, std::move(views), result).run(progress);
 }
 
 std::uint64_t observe(const ExactJudge& judge, std::uint32_t observer, std::span<const PartsOfTile> cells,

@@ -160,11 +160,11 @@ RasterGrid checked_cells(const Store& store, const Request& request, Certainty c
   return cells_of(request, extent_of(store));
 }
 
-std::vector<Segment> divided(const Store& store, Request request, const ComputeOptions& options, const RasterGrid& grid,
-                             std::uint64_t most_cells, Certainty certainty, bool exactly) {
-  if (!exactly) return {whole_of(request, grid)};
-  if (certainty == Certainty::kCertified) request.detail = Detail::tolerance(0);
-  return Division(store, request, options, grid, most_cells).run();
+/// The request whose surface is read where segments are decided exactly.
+Request exact_request(const Request& request, Certainty certainty) {
+  Request exact = request;
+  if (certainty == Certainty::kCertified) exact.detail = Detail::tolerance(0);
+  return exact;
 }
 
 }  // namespace
@@ -176,7 +176,8 @@ Plan::Plan(const Store& store, const Request& request, const ComputeOptions& opt
       certainty_(certainty),
       exactly_(certainty == Certainty::kExact || certified_way(store, request) == CertifiedWay::kExactly),
       grid_(checked_cells(store, request, certainty)),
-      segments_(divided(store, request, options, grid_, most_cells, certainty, exactly_)),
+      segments_(exactly_ ? Division(store, exact_request(request, certainty), options, grid_, most_cells).run()
+                         : std::vector{whole_of(request, grid_)}),
       id_(id_of(store.metadata(), *this)) {}
 
 Request Plan::request_of(std::size_t segment) const {

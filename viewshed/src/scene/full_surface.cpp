@@ -15,7 +15,8 @@ namespace itin::viewshed {
 
 FullSurface::FullSurface(const Tin& surface, const Tin* bare_ground, const Earth& earth, const RasterGrid& grid,
                          const RasterGrid& tiles)
-    : FullSurface(std::make_shared<BinnedHeights>(surface), &surface, bare_ground, earth, grid, tiles) {}
+    : FullSurface(std::make_shared<BinnedHeights>(surface, grid.cell_area()), &surface, bare_ground, earth, grid,
+                  tiles) {}
 
 FullSurface::FullSurface(const LatticeTin& surface, const Earth& earth, const RasterGrid& grid, const RasterGrid& tiles)
     : FullSurface(std::make_shared<BinnedHeights>(surface), nullptr, nullptr, earth, grid, tiles) {}

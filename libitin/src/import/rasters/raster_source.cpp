@@ -110,6 +110,7 @@ struct OpenedRaster {
   Lattice lattice;
   Crs crs;
   SourceHeights heights;
+  std::string copyright;  ///< as the file states it
 };
 
 class RasterTerrain final : public TerrainSource {
@@ -123,6 +124,7 @@ class RasterTerrain final : public TerrainSource {
     info_.path = path_;
     info_.kind = "terrain";
     info_.source_crs = raster.heights.crs;
+    info_.note = raster.copyright;
     measure_steps();
   }
 
@@ -236,9 +238,10 @@ class RasterFile final : public SourceFile {
     const HeightBand band(*dataset, path, options.band);
     RasterWindows(band, options.memory_bytes).require_small_blocks(*dataset);
     present_ = RasterWindows::present(band);
-    raster_ = {path, options.band, options.memory_bytes, lattice_of(*dataset, path), {}, {}};
+    raster_ = {path, options.band, options.memory_bytes, lattice_of(*dataset, path), {}, {}, {}};
     raster_.crs = source_crs(path, options.crs, crs_text(*dataset));
     raster_.heights = source_heights(path, raster_.crs.heights_given ? std::nullopt : band.stated_unit(), raster_.crs);
+    if (const char* copyright = dataset->GetMetadataItem("TIFFTAG_COPYRIGHT")) raster_.copyright = copyright;
     if (!raster_.heights.warning.empty()) warnings_.push_back(raster_.heights.warning);
   }
 

@@ -58,6 +58,12 @@ SourceHeights source_heights(const std::string& path, const std::optional<Linear
   return heights;
 }
 
+std::string described(const HeightAxis& axis) {
+  const std::string unit = axis.metres == 1 ? axis.unit : fmt::format("{} ({:.9g} m)", axis.unit, axis.metres);
+  return fmt::format("{} {}, unit: {}", axis.down ? "depths below" : "heights above",
+                     axis.datum.empty() ? "a datum that is not stated" : axis.datum, unit);
+}
+
 HeightAxis height_axis(const std::string& crs) {
   return axis_of(parse_crs(crs, "CRS"));
 }

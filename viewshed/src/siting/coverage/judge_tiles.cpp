@@ -91,64 +91,87 @@ DemandSet set_of(std::vector<DemandSet::Block>& blocks) {
   return set;
 }
 
-/// Judges what every option serves of one tile. Returns how many sight lines that took.
-std::uint64_t cover_tile(const TileJudge& judge, const std::optional<ClearZone>& zone, const SiteSurvey& survey,
-                         const SitesToJudge& sites, const RasterGrid& tiles, std::size_t t,
-                         std::vector<TileCover>& covers) {
-  const RasterGrid& grid = *survey.targets.grid;
-  const CellBlocks blocks(grid);
-  const Tile tile = tile_at(grid, tiles, t);
-  const Box box = box_of(grid, tile);
-  const auto open_some = [&](std::size_t i, TileValues<Verdict>& values) {
-    if (squared_distance(survey.stands[sites.options[i]].position, box) > survey.radius * survey.radius) return false;
-    TileCover cover{.entry = i};
-    const bool any = open(blocks, tile, *sites.bounds[i], cover, values);
-    if (cover.any()) covers.push_back(cover);
-    return any;
-  };
-  const auto close_them = [&](std::size_t i, TileValues<Verdict>& values, TileJudge::Work& work) {
-    if (zone) cut_zones(*zone, judge.eye(i), work.targets(), values);
-    close(values, covers.back());
-    if (!covers.back().any()) covers.pop_back();
-  };
-  return judge_tile(judge, t, sites.options.size(), open_some, close_them);
-}
+/// What every site serves, tile by tile.
+class SiteTiles {
+ public:
+  SiteTiles(const TileJudge& judge, const std::optional<ClearZone>& zone, const SiteSurvey& survey,
+            const SitesToJudge& sites)
+      : judge_(judge),
+        zone_(zone),
+        survey_(survey),
+        sites_(sites),
+        grid_(*survey.targets.grid),
+        tiles_(grid_of_tiles(grid_)),
+        blocks_(grid_),
+        covers_(tiles_.cell_count()) {}
 
-std::vector<CoverageBounds> gather(const SiteSurvey& survey, const RasterGrid& tiles, std::size_t options,
-                                   const std::vector<std::vector<TileCover>>& covers) {
-  const CellBlocks blocks(*survey.targets.grid);
-  std::vector<std::vector<DemandSet::Block>> certain(options), possible(options);
-  for (std::size_t t = 0; t < covers.size(); ++t) {
-    const Tile tile = tile_at(*survey.targets.grid, tiles, t);
-    for (const TileCover& cover : covers[t]) {
-      for (std::size_t b = 0; b < cover.possible.size(); ++b) {
-        if (cover.possible[b] == 0) continue;
-        const std::uint32_t number = block_of(blocks, tile, b);
-        possible[cover.entry].push_back({number, cover.possible[b]});
-        if (cover.certain[b] != 0) certain[cover.entry].push_back({number, cover.certain[b]});
+  std::vector<CoverageBounds> run(Progress& progress, Statistics& statistics) {
+    std::atomic<std::uint64_t> lines = 0;
+    for_each_step(covers_.size(), "sight lines of candidates", progress, [&](std::size_t t) { lines += judge(t); });
+    statistics.lines += lines;
+    return gather();
+  }
+
+ private:
+  /// Returns how many sight lines that took.
+  std::uint64_t judge(std::size_t t) {
+    const Tile tile = tile_at(grid_, tiles_, t);
+    const Box box = box_of(grid_, tile);
+    std::vector<TileCover>& covers = covers_[t];
+    const auto open_some = [&](std::size_t i, TileValues<Verdict>& values) {
+      const Point2 position = survey_.stands[sites_.options[i]].position;
+      if (squared_distance(position, box) > survey_.radius * survey_.radius) return false;
+      TileCover cover{.entry = i};
+      const bool any = open(blocks_, tile, *sites_.bounds[i], cover, values);
+      if (cover.any()) covers.push_back(cover);
+      return any;
+    };
+    const auto close_them = [&](std::size_t i, TileValues<Verdict>& values, TileJudge::Work& work) {
+      if (zone_) cut_zones(*zone_, judge_.eye(i), work.targets(), values);
+      close(values, covers.back());
+      if (!covers.back().any()) covers.pop_back();
+    };
+    return judge_tile(judge_, t, sites_.options.size(), open_some, close_them);
+  }
+
+  std::vector<CoverageBounds> gather() const {
+    const std::size_t options = sites_.options.size();
+    std::vector<std::vector<DemandSet::Block>> certain(options), possible(options);
+    for (std::size_t t = 0; t < covers_.size(); ++t) {
+      const Tile tile = tile_at(grid_, tiles_, t);
+      for (const TileCover& cover : covers_[t]) {
+        for (std::size_t b = 0; b < cover.possible.size(); ++b) {
+          if (cover.possible[b] == 0) continue;
+          const std::uint32_t number = block_of(blocks_, tile, b);
+          possible[cover.entry].push_back({number, cover.possible[b]});
+          if (cover.certain[b] != 0) certain[cover.entry].push_back({number, cover.certain[b]});
+        }
       }
     }
+    std::vector<CoverageBounds> result(options);
+    parallel_for(options, [&](std::size_t i) {
+      result[i].certain = set_of(certain[i]);
+      result[i].possible = set_of(possible[i]);
+    });
+    return result;
   }
-  std::vector<CoverageBounds> result(options);
-  parallel_for(options, [&](std::size_t i) {
-    result[i].certain = set_of(certain[i]);
-    result[i].possible = set_of(possible[i]);
-  });
-  return result;
-}
+
+  const TileJudge& judge_;
+  const std::optional<ClearZone>& zone_;
+  const SiteSurvey& survey_;
+  const SitesToJudge& sites_;
+  const RasterGrid& grid_;
+  const RasterGrid tiles_;
+  const CellBlocks blocks_;
+  std::vector<std::vector<TileCover>> covers_;  ///< each tile's
+};
 
 }  // namespace
 
 std::vector<CoverageBounds> judge_tiles(const TileJudge& judge, const std::optional<ClearZone>& zone,
                                         const SiteSurvey& survey, const SitesToJudge& sites, Progress& progress,
                                         Statistics& statistics) {
-  const RasterGrid tiles = grid_of_tiles(*survey.targets.grid);
-  std::vector<std::vector<TileCover>> covers(tiles.cell_count());
-  std::atomic<std::uint64_t> rays = 0;
-  for_each_step(covers.size(), "sight lines of candidates", progress,
-                [&](std::size_t t) { rays += cover_tile(judge, zone, survey, sites, tiles, t, covers[t]); });
-  statistics.lines += rays;
-  return gather(survey, tiles, sites.options.size(), covers);
+  return SiteTiles(judge, zone, survey, sites).run(progress, statistics);
 }
 
 }  // namespace itin::viewshed

@@ -21,6 +21,7 @@
 #include "request/request.hpp"
 #include "siting/coverage/cell_blocks.hpp"
 #include "siting/coverage/group_survey.hpp"
+#include "siting/coverage/site_window.hpp"
 #include "window/envelope.hpp"
 
 namespace itin::viewshed {
@@ -34,44 +35,10 @@ constexpr std::uint64_t kBytesPerRayPoint = 1200, kBytesPerSweptPoint = 400;
 constexpr std::uint64_t kFirstShare = 2, kFirstShareOfWhole = 8;
 /// Points of the full surface about each site.
 constexpr double kSiteNearPoints = 128;
+/// Options; fewer of them make less of what they share.
+constexpr std::size_t kJudgedTogether = 32;
 /// No coarse look at so few points: the full surface is as fast.
 constexpr std::uint64_t kFewPoints = 40000;
-
-/// Few rectangles that hold the discs about all positions: a window of hundreds of discs takes long to classify.
-Window window_about(const std::vector<SiteStand>& stands, const std::vector<std::size_t>& options, double radius) {
-  Box box;
-  for (const std::size_t option : options) box.extend(disc_box(stands[option].position, radius));
-  const RasterGrid cells = RasterGrid::aligned(box, radius / 4);
-  std::vector<bool> met(cells.cell_count());
-  for (const std::size_t option : options) {
-    const Box disc = disc_box(stands[option].position, radius);
-    // Aligned cells may end a hair within the box.
-    const auto within = [](double at, std::int64_t count) {
-      return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(at)), 0, count - 1);
-    };
-    const std::int64_t west = within(cells.column_at(disc.xmin), cells.columns()),
-                       east = within(cells.column_at(disc.xmax), cells.columns()),
-                       north = within(cells.row_at(disc.ymax), cells.rows()),
-                       south = within(cells.row_at(disc.ymin), cells.rows());
-    for (std::int64_t row = north; row <= south; ++row)
-      for (std::int64_t column = west; column <= east; ++column) met[cells.index({column, row})] = true;
-  }
-  std::vector<Window::Polygon> runs;
-  const Point2 corner = cells.north_west();
-  const double side = cells.cell_width();
-  for (std::int64_t row = 0; row < cells.rows(); ++row) {
-    for (std::int64_t column = 0; column < cells.columns(); ++column) {
-      const std::int64_t first = column;
-      while (column < cells.columns() && met[cells.index({column, row})]) ++column;
-      if (column == first) continue;
-      const double west = corner.x + static_cast<double>(first) * side,
-                   east = corner.x + static_cast<double>(column) * side,
-                   north = corner.y - static_cast<double>(row) * side, south = north - side;
-      runs.push_back({{{west, south}, {east, south}, {east, north}, {west, north}}, {}});
-    }
-  }
-  return Window::polygons(std::move(runs));
-}
 
 }  // namespace
 
@@ -338,6 +305,16 @@ class SiteCoverage::Impl {
     std::unique_ptr<GroupSurvey> own;
     if (level > 0 || !whole_fits_) own = survey_of(group, level, themed);
     const GroupSurvey& survey = own ? *own : whole_survey(themed);
+    // Few at a time: a run that is killed goes on from what has been settled.
+    for (std::size_t first = 0; first < options.size(); first += kJudgedTogether) {
+      const auto begin = options.begin() + static_cast<std::ptrdiff_t>(first);
+      const auto count = static_cast<std::ptrdiff_t>(std::min(kJudgedTogether, options.size() - first));
+      judge_some({begin, begin + count}, survey, stage, level, themed);
+    }
+  }
+
+  void judge_some(const std::vector<std::size_t>& options, const GroupSurvey& survey, int stage, int level,
+                  bool themed) {
     Stopwatch watch;
     std::vector<const CoverageBounds*> before;
     for (const std::size_t option : options) before.push_back(&states_[option].bounds);

@@ -1,4 +1,6 @@
 // Cells of CSV tables.
+//
+//   csv_cell("a, b")    // "a, b" in quotes
 #pragma once
 
 #include <optional>
@@ -6,7 +8,7 @@
 
 #include <fmt/format.h>
 
-namespace itin::cli {
+namespace itin {
 
 /// Quoted where it has to be.
 inline std::string csv_cell(const std::string& text) {
@@ -21,4 +23,4 @@ inline std::string csv_cell(const std::optional<double>& value, int decimals) {
   return value ? fmt::format("{:.{}f}", *value, decimals) : "";
 }
 
-}  // namespace itin::cli
+}  // namespace itin

@@ -1,0 +1,32 @@
+// The meaning of the heights of a store's sources.
+//
+//   const StatedHeights heights(store.metadata());
+//   for (const SourceInfo& source : store.metadata().sources)
+//     if (const auto axis = heights.of(source)) std::cout << described(*axis) << '\n';
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include <itin/height_axis.hpp>
+#include <itin/store.hpp>
+
+namespace itin {
+
+class StatedHeights {
+ public:
+  /// Refers to the metadata, which must outlive it.
+  explicit StatedHeights(const StoreMetadata& metadata);
+
+  /// Of one of these sources. Nothing where it has none, or its CRS is not understood here.
+  std::optional<HeightAxis> of(const SourceInfo& source) const;
+
+ private:
+  bool lies_on_ground(const SourceInfo& source) const;
+
+  const StoreMetadata& metadata_;
+  std::map<std::string, std::optional<HeightAxis>> axes_;  ///< by CRS: many tiles have one
+};
+
+}  // namespace itin

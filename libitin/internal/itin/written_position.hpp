@@ -1,0 +1,29 @@
+// Positions as people write them: degrees with minutes and seconds, and references to Great Britain's National Grid.
+//
+//   if (const auto place = written_position("ST 10375 83525")) use(place->position, place->crs);     // EPSG:27700
+//   if (const auto place = written_position("51\xC2\xB0 32' 37.3\" N, 3\xC2\xB0 17' 36.2\" W")) ...  // EPSG:4326
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <itin/geometry.hpp>
+
+namespace itin {
+
+struct WrittenPosition {
+  Point2 position;  ///< easting and northing, or longitude and latitude
+  std::string crs;  ///< in which: EPSG:27700 or EPSG:4326
+};
+
+/// A latitude and a longitude, each with its letter N, S, E or W behind it, in either order; or two letters and an even
+/// number of digits of the National Grid, of whose square the south-western corner is meant. Nothing for other texts,
+/// numbers without letters among them.
+std::optional<WrittenPosition> written_position(std::string_view text);
+
+/// Degrees, with minutes and seconds (below 60) where they are given, negative for S and W: "51 32 37.3 N", "-3.2934".
+/// Nothing where the text is no angle, or has a letter other than `positive` and `negative`.
+std::optional<double> written_angle(std::string_view text, char positive, char negative);
+
+}  // namespace itin

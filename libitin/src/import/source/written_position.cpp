@@ -1,0 +1,119 @@
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <vector>
+
+#include <itin/written_position.hpp>
+
+namespace itin {
+
+namespace {
+
+constexpr double kSquare = 100000;  ///< metres, of two letters
+
+char upper(char c) {
+  return static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+}
+
+bool is_digit(char c) {
+  return std::isdigit(static_cast<unsigned char>(c)) != 0;
+}
+
+/// From A, without I.
+std::optional<int> letter_number(char c) {
+  const char letter = upper(c);
+  if (letter < 'A' || letter > 'Z' || letter == 'I') return std::nullopt;
+  return letter - 'A' - (letter > 'I' ? 1 : 0);
+}
+
+double digits_value(std::string_view digits) {
+  // Three digits are hundreds of metres.
+  double value = 0, unit = kSquare;
+  for (const char c : digits) value += (c - '0') * (unit /= 10);
+  return value;
+}
+
+/// Ordnance Survey: squares of 500 km in rows of five from VAAAA, each of 25 squares of 100 km.
+std::optional<Point2> national_grid(std::string_view text) {
+  std::string compact;
+  std::copy_if(text.begin(), text.end(), std::back_inserter(compact), [](char c) { return c != ' '; });
+  if (compact.size() < 4 || compact.size() > 12 || compact.size() % 2 != 0) return std::nullopt;
+  const auto large = letter_number(compact[0]), small = letter_number(compact[1]);
+  const std::string_view digits = std::string_view(compact).substr(2);
+  if (!large || !small || !std::all_of(digits.begin(), digits.end(), is_digit)) return std::nullopt;
+  const double east = (*large % 5 - 2) * 5 + *small % 5, north = (3 - *large / 5) * 5 + 4 - *small / 5;
+  if (east < 0 || east > 6 || north < 0 || north > 12) return std::nullopt;
+  const std::size_t half = digits.size() / 2;
+  return Point2{east * kSquare + digits_value(digits.substr(0, half)),
+                north * kSquare + digits_value(digits.substr(half))};
+}
+
+/// The numbers of a text of them and of marks (degrees, primes, colons, blanks) between; nothing for other letters.
+std::optional<std::vector<double>> numbers_among_marks(std::string_view text) {
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < text.size();) {
+    if (std::isalpha(static_cast<unsigned char>(text[i])) != 0) return std::nullopt;
+    if (!is_digit(text[i])) {
+      ++i;
+      continue;
+    }
+    double value = 0;
+    const auto [end, error] =
+        std::from_chars(text.data() + i, text.data() + text.size(), value, std::chars_format::fixed);
+    if (error != std::errc()) return std::nullopt;
+    numbers.push_back(value);
+    i = static_cast<std::size_t>(end - text.data());
+  }
+  return numbers;
+}
+
+/// Where the text's next hemisphere letter is.
+std::size_t next_letter(std::string_view text, std::size_t from) {
+  return text.find_first_of("NSEWnsew", from);
+}
+
+}  // namespace
+
+std::optional<double> written_angle(std::string_view text, char positive, char negative) {
+  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  double sign = 1;
+  bool lettered = false;
+  if (!text.empty() && (upper(text.back()) == positive || upper(text.back()) == negative)) {
+    sign = upper(text.back()) == negative ? -1 : 1, lettered = true;
+    text.remove_suffix(1);
+  }
+  if (!text.empty() && (text.front() == '-' || text.front() == '+')) {
+    if (lettered) return std::nullopt;
+    sign = text.front() == '-' ? -1 : 1;
+    text.remove_prefix(1);
+  }
+  const auto numbers = numbers_among_marks(text);
+  if (!numbers || numbers->empty() || numbers->size() > 3) return std::nullopt;
+  double degrees = 0, unit = 1;
+  for (std::size_t i = 0; i < numbers->size(); ++i, unit /= 60) {
+    const bool last = i + 1 == numbers->size();
+    if ((i > 0 && (*numbers)[i] >= 60) || (!last && (*numbers)[i] != std::floor((*numbers)[i]))) return std::nullopt;
+    degrees += (*numbers)[i] * unit;
+  }
+  return sign * degrees;
+}
+
+std::optional<WrittenPosition> written_position(std::string_view text) {
+  if (const auto grid = national_grid(text)) return WrittenPosition{*grid, "EPSG:27700"};
+  const std::size_t first = next_letter(text, 0);
+  if (first == std::string_view::npos) return std::nullopt;
+  const std::size_t second = next_letter(text, first + 1);
+  if (second == std::string_view::npos || text.find_first_not_of(' ', second + 1) != std::string_view::npos)
+    return std::nullopt;
+  std::string_view one = text.substr(0, first + 1), other = text.substr(first + 1, second - first);
+  while (!other.empty() && (other.front() == ',' || other.front() == ' ')) other.remove_prefix(1);
+  const char letter = upper(one.back());
+  if (letter == 'E' || letter == 'W') std::swap(one, other);
+  const auto latitude = written_angle(one, 'N', 'S'), longitude = written_angle(other, 'E', 'W');
+  if (!latitude || !longitude || std::abs(*latitude) > 90 || std::abs(*longitude) > 180) return std::nullopt;
+  return WrittenPosition{{*longitude, *latitude}, "EPSG:4326"};
+}
+
+}  // namespace itin

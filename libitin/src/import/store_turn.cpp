@@ -1,0 +1,230 @@
+#include "import/store_turn.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include <itin/error.hpp>
+
+#include "import/empty_import.hpp"
+#include "import/source/source_context.hpp"
+#include "import/source/source_order.hpp"
+#include "import/source/true_scale.hpp"
+#include "import/vectors/line_layer.hpp"
+#include "store/store_file.hpp"
+#include "store/store_format.hpp"
+
+namespace itin {
+
+namespace {
+
+/// As the store names it: without the folder, which says nothing of the data, nor anything to whoever gets the store.
+SourceInfo recorded(SourceInfo source, const ImportOptions& options) {
+  const std::filesystem::path path(source.path);
+  source.path = (path.has_filename() ? path : path.parent_path()).filename().string();
+  if (!options.source_note.empty()) source.note = options.source_note;
+  return source;
+}
+
+SourceInfo inferred_source() {
+  SourceInfo source;
+  source.path = "inferred from contours";
+  source.kind = kInferred;
+  source.imported = utc_now();
+  return source;
+}
+
+/// Files may not say how far they reach, or say it wrongly.
+void require_true_scale(const ImportPlan& plan, const std::string& path, const GridBox& bounds) {
+  if (!bounds.empty()) plan.scale->require(path, plan.grid.box(bounds));
+}
+
+std::string directory_of(const std::string& path) {
+  const std::string parent = std::filesystem::path(path).parent_path().string();
+  return parent.empty() ? "." : parent;
+}
+
+std::vector<SourceRank> ranks_for_sorting(const std::vector<SourceInfo>& sources) {
+  const std::vector<std::uint32_t> order = ranks_of(sources);
+  std::vector<SourceRank> ranks;
+  for (std::size_t s = 0; s < sources.size(); ++s)
+    ranks.push_back({sources[s].spacing, is_ground(sources[s]), !sources[s].theme.empty(), order[s]});
+  return ranks;
+}
+
+/// Sums over the parts of each theme.
+std::vector<ThemeInfo> counted_themes(const LineCollection& collection, const ThemeLines& lines,
+                                      const PyramidReport& pyramid) {
+  std::vector<ThemeInfo> themes = collection.themes();
+  for (std::size_t t = 0; t < themes.size(); ++t) {
+    themes[t].segments = pyramid.segments[t];
+    themes[t].vertices = pyramid.line_vertices[t];
+  }
+  for (std::size_t p = 0; p < lines.parts.size(); ++p) {
+    ThemeInfo& theme = themes[lines.parts[p].part.theme - std::size_t{1}];
+    theme.segments += pyramid.segments[themes.size() + p];
+    theme.vertices += pyramid.line_vertices[themes.size() + p];
+  }
+  return themes;
+}
+
+}  // namespace
+
+SetAsideCounts counts_of(const Store* store) {
+  return store == nullptr ? SetAsideCounts{} : set_aside_list(file_of(*store).rows()).counts;
+}
+
+StoreTurn::StoreTurn(const Target& target, const TurnSources& of, const ImportOptions& options, ImportReport& report)
+    : target_(target),
+      base_(of.base),
+      ground_(of.ground),
+      additions_(of.additions),
+      options_(options),
+      report_(report),
+      repair_(will_repair(options, of.base)),
+      sources_(imported_sources(of.base)),
+      sorter_(directory_of(target.passing), options.memory_bytes / 2),
+      collection_(of.ground == nullptr ? LinesAs::imported : LinesAs::laid, options.memory_bytes) {
+  require_numbers();
+}
+
+bool StoreTurn::run(RaisedFeatures& raised, Progress& progress) {
+  collect(progress);
+  if (ground_ != nullptr) collection_.raise(*ground_, raised, progress);
+  const ThemeLines lines = collection_.finish(sources_, ground_, progress);
+  add_line_vertices(lines);
+  const bool done =
+      target_.last || !collection_.stands() || (ground_ != nullptr && !collection_.changes_terrain(lines));
+  std::optional<StoreWriter> passing;
+  if (!done) passing.emplace(target_.passing, additions_.plan.crs_wkt, additions_.plan.grid, target_.tolerances);
+  StoreWriter& writer = done ? target_.writer : *passing;
+  const PyramidReport pyramid = build(lines, done ? target_.tolerances : std::vector<double>{0.0}, writer, progress);
+  set_aside(pyramid, lines, writer);
+  count(pyramid, lines);
+  commit(pyramid, lines, writer);
+  return done;
+}
+
+void StoreTurn::require_numbers() const {
+  const std::size_t added =
+      additions_.plan.sources.size() + additions_.plan.lines.size() + additions_.footprints.size();
+  // One more may stand for inferred points.
+  if (sources_.size() + added >= format::kMaxSources)
+    throw InputError("a store holds at most 32,766 sources; merge some of them first");
+}
+
+void StoreTurn::collect(Progress& progress) {
+  if (base_ != nullptr) stored_ = add_stored(*base_, sorter_, collection_, progress);
+  for (const auto& source : additions_.plan.sources) {
+    add_source(*source, progress);
+    sources_.push_back(recorded(source->info(), options_));
+    sources_.back().replaces = options_.replace;
+  }
+  for (const auto& layer : additions_.plan.lines) {
+    add_lines(*layer, progress);
+    sources_.push_back(recorded(layer->info(), options_));
+  }
+  for (FootprintFile& file : additions_.footprints) {
+    add_footprints(file);
+    sources_.push_back(recorded(file.info, options_));
+  }
+  if (repair_) sources_.push_back(inferred_source());
+  if (!additions_.empty()) require_points(report_, options_, stored_.count > 0);
+}
+
+void StoreTurn::add_source(TerrainSource& source, Progress& progress) {
+  std::vector<RawPoint> raw;
+  const ReadCounts counts = source.read(
+      [&](std::span<const GridPoint> points) {
+        raw.clear();
+        for (const GridPoint& p : points) raw.push_back({morton(p.x, p.y), p.z, next_number(), 0});
+        sorter_.add(raw);
+      },
+      progress);
+  require_true_scale(additions_.plan, source.info().path, counts.bounds);
+  report_.read += counts.read;
+  report_.voids += counts.voids;
+  report_.filtered += counts.filtered;
+  report_.warnings.insert(report_.warnings.end(), counts.warnings.begin(), counts.warnings.end());
+}
+
+void StoreTurn::add_lines(LineLayer& layer, Progress& progress) {
+  const std::uint32_t theme = collection_.theme(options_.theme, *options_.kind, false);
+  const ReadCounts counts = layer.read(
+      {additions_.plan.grid, additions_.plan.crs_wkt},
+      [&](std::span<const GridPoint> line) {
+        collection_.add(theme, next_number(), line);
+        collection_.require_room(layer.path());
+      },
+      progress);
+  require_true_scale(additions_.plan, layer.path(), counts.bounds);
+  collection_.add_features(theme, layer.features());
+  report_.read += counts.read;
+  report_.read_features += layer.features();
+  report_.voids += counts.voids;
+  report_.filtered += counts.filtered;
+  report_.features += layer.features();
+  report_.warnings.insert(report_.warnings.end(), counts.warnings.begin(), counts.warnings.end());
+}
+
+void StoreTurn::add_footprints(FootprintFile& file) {
+  const std::uint32_t theme = collection_.theme(options_.theme, *options_.kind, true);
+  report_.read_features += file.footprints.features.size();
+  report_.read += file.vertices;
+  report_.filtered += file.footprints.filtered;
+  for (FootprintFeature& feature : file.footprints.features)
+    collection_.add_footprint(theme, {std::move(feature), next_number()});
+  collection_.require_room(file.info.path);
+}
+
+/// The vertices of the terrain's lines are points of the full surface.
+void StoreTurn::add_line_vertices(const ThemeLines& lines) {
+  for (const std::uint32_t v : lines.terrain_vertices()) {
+    const GridPoint& p = lines.lines.vertices[v];
+    sorter_.add({code_of(p), p.z, lines.sources[v], 0});
+  }
+}
+
+PyramidReport StoreTurn::build(const ThemeLines& lines, const std::vector<double>& tolerances, StoreWriter& writer,
+                               Progress& progress) {
+  std::uint64_t duplicates = 0;
+  SortedPoints points = sorter_.finish(ranks_for_sorting(sources_), progress, &duplicates);
+  report_.duplicates += duplicates;
+  // Ground that features stand on stays as it is.
+  const bool keep = ground_ != nullptr && collection_.stands();
+  return build_pyramid({points, sources_, additions_.plan.grid, tolerances, lines, keep ? &stored_.inferred : nullptr},
+                       writer, progress);
+}
+
+void StoreTurn::set_aside(const PyramidReport& pyramid, const ThemeLines& lines, StoreWriter& writer) const {
+  const std::vector<SetAsideLines> of_themes = set_aside_of(collection_.imported(), pyramid.placed, lines);
+  for (std::size_t t = 0; t < of_themes.size(); ++t) writer.set_aside(static_cast<std::uint16_t>(t + 1), of_themes[t]);
+  const SetAsideCounts before = counts_of(ground_);
+  writer.count_set_aside({pyramid.replaced, pyramid.isolated, ground_ != nullptr ? before.segments : pyramid.left_out,
+                          ground_ != nullptr ? before.crossings : lines.lines.crossings});
+}
+
+void StoreTurn::count(const PyramidReport& pyramid, const ThemeLines& lines) {
+  if (ground_ != nullptr) report_.crossings = std::max(report_.crossings, lines.lines.crossings);
+  report_.flat_before = pyramid.flat_before;
+  report_.flat_after = pyramid.flat_after;
+  if (repair_) report_.inferred = pyramid.vertices_of_source.back();
+  report_.vertices = 0;
+  for (std::size_t s = 0; s < sources_.size(); ++s) {
+    sources_[s].vertices = pyramid.vertices_of_source[s];
+    report_.vertices += sources_[s].vertices;
+  }
+  require_ground(report_, options_);
+}
+
+void StoreTurn::commit(const PyramidReport& pyramid, const ThemeLines& lines, StoreWriter& writer) {
+  std::vector<ThemeInfo> themes = counted_themes(collection_, lines, pyramid);
+  writer.add_footprints(themes, collection_.footprints());
+  std::vector<ThemePart> parts;
+  for (const PlacedPart& part : lines.parts) parts.push_back(part.part);
+  writer.commit(std::move(sources_), std::move(themes), std::move(parts));
+}
+
+}  // namespace itin

@@ -1,0 +1,90 @@
+// One turn of an import: a store is written of all that another one holds and of what is added to it.
+//
+//   const Target target{writer, path, tolerances, passing};
+//   const bool done = StoreTurn(target, {base, ground, additions}, options, report).run(raised, progress);
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <itin/import.hpp>
+#include <itin/store.hpp>
+
+#include "import/footprints/footprint_file.hpp"
+#include "import/source/terrain_source.hpp"
+#include "import/stored_sources.hpp"
+#include "import/vectors/line_collection.hpp"
+#include "pyramid/pyramid.hpp"
+#include "pyramid/sorted_points.hpp"
+#include "store/set_aside.hpp"
+#include "store/store_writer.hpp"
+
+namespace itin {
+
+/// The sources that one import adds to a store.
+struct Additions {
+  ImportPlan plan;
+  std::vector<FootprintFile> footprints;
+
+  /// As in every turn after the first.
+  bool empty() const { return plan.sources.empty() && plan.lines.empty() && footprints.empty(); }
+};
+
+/// Where the store goes, and where what comes before it.
+struct Target {
+  StoreWriter& writer;
+  std::string path;
+  std::vector<double> tolerances;
+  std::string passing = {};  ///< the path of what comes before it
+  bool last = false;         ///< it goes where it is to go, whatever
+};
+
+/// The stores may be null.
+struct TurnSources {
+  const Store* base;    ///< it is in the new store
+  const Store* ground;  ///< features are raised on it; null: lines are laid as they were imported, footprints only kept
+  Additions& additions;
+};
+
+class StoreTurn {
+ public:
+  /// All must outlive it. Counts into the report.
+  StoreTurn(const Target& target, const TurnSources& of, const ImportOptions& options, ImportReport& report);
+
+  /// Standing features are raised on the ground, and cut its lines there. Returns false where features need another
+  /// turn, on the ground of the passing store that was written instead, which has no points at other levels: this one
+  /// has other ground than they were raised on, or they were not.
+  bool run(RaisedFeatures& raised, Progress& progress);
+
+ private:
+  void require_numbers() const;
+  void collect(Progress& progress);
+  void add_source(TerrainSource& source, Progress& progress);
+  void add_lines(LineLayer& layer, Progress& progress);
+  void add_footprints(FootprintFile& file);
+  std::uint16_t next_number() const { return static_cast<std::uint16_t>(sources_.size()); }
+  void add_line_vertices(const ThemeLines& lines);
+  PyramidReport build(const ThemeLines& lines, const std::vector<double>& tolerances, StoreWriter& writer,
+                      Progress& progress);
+  void set_aside(const PyramidReport& pyramid, const ThemeLines& lines, StoreWriter& writer) const;
+  void count(const PyramidReport& pyramid, const ThemeLines& lines);
+  void commit(const PyramidReport& pyramid, const ThemeLines& lines, StoreWriter& writer);
+
+  const Target& target_;
+  const Store* base_;
+  const Store* ground_;
+  Additions& additions_;
+  const ImportOptions& options_;
+  ImportReport& report_;
+  const bool repair_;                ///< of contours
+  std::vector<SourceInfo> sources_;  ///< of the new store; the last one stands for inferred points where it is repaired
+  PointSorter sorter_;
+  LineCollection collection_;
+  StoredPoints stored_;
+};
+
+/// The numbers of what a store, which may be null, sets aside.
+SetAsideCounts counts_of(const Store* store);
+
+}  // namespace itin

@@ -1,0 +1,32 @@
+#include "pyramid/level_writer.hpp"
+
+#include <span>
+
+namespace itin {
+
+LevelWriter::LevelWriter(const WorkingIndex& index, const LeafBounds& bounds, int level, StoreWriter& writer)
+    : index_(index),
+      bounds_(bounds),
+      level_(level),
+      writer_(writer),
+      cutter_(kLeafCapacity, [this](const Cell& cell, std::uint32_t count) { write(cell, count); }) {}
+
+void LevelWriter::add(const RawPoint& p) {
+  points_.push_back({morton_x(p.code), morton_y(p.code), p.z});
+  sources_.push_back(p.source);
+  cutter_.add(p.code);
+}
+
+void LevelWriter::write(const Cell& cell, std::uint32_t count) {
+  // The working tree is the finer one: it holds every level's points and has the same capacity.
+  DifferenceRange range;
+  for (; leaf_ < index_.ranges().size() && index_.ranges()[leaf_].cell.code < cell.end(); ++leaf_)
+    range.add(bounds_.at(leaf_, level_));
+  if (count == 0 && range.empty()) return;
+  if (range.empty()) range = {0, 0};
+  writer_.add_leaf(level_, cell, std::span(points_).first(count), std::span(sources_).first(count), range.lo, range.hi);
+  points_.erase(points_.begin(), points_.begin() + count);
+  sources_.erase(sources_.begin(), sources_.begin() + count);
+}
+
+}  // namespace itin

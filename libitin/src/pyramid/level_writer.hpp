@@ -1,0 +1,45 @@
+// One level's quadtree on its way into a store.
+//
+//   LevelWriter level(index, bounds, k, writer);
+//   for (const RawPoint& p : points_of_level_k) level.add(p);   // in Morton order
+//   level.finish();
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include <itin/geometry.hpp>
+
+#include "pyramid/certify.hpp"
+#include "pyramid/working_index.hpp"
+#include "store/leaf_cutter.hpp"
+#include "store/store_writer.hpp"
+
+namespace itin {
+
+/// Leaves take the bounds of the working leaves in them.
+class LevelWriter {
+ public:
+  /// All must outlive it.
+  LevelWriter(const WorkingIndex& index, const LeafBounds& bounds, int level, StoreWriter& writer);
+  LevelWriter(const LevelWriter&) = delete;
+  LevelWriter& operator=(const LevelWriter&) = delete;
+
+  void add(const RawPoint& p);
+  void finish() { cutter_.finish(); }
+
+ private:
+  void write(const Cell& cell, std::uint32_t count);
+
+  const WorkingIndex& index_;
+  const LeafBounds& bounds_;
+  int level_;
+  StoreWriter& writer_;
+  std::vector<GridPoint> points_;
+  std::vector<std::uint16_t> sources_;
+  std::uint32_t leaf_ = 0;
+  LeafCutter<std::function<void(const Cell&, std::uint32_t)>> cutter_;
+};
+
+}  // namespace itin

@@ -1,0 +1,33 @@
+// The table of many links, as files.
+//
+//   const LinkSurvey survey{table, results, query, store.metadata().crs_wkt, "Backhaul", {}};
+//   for (const char* path : {"links.csv", "links.gpkg", "links.kml", "links.pdf"}) write_links(survey, path, false);
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <profile/links.hpp>
+
+namespace itin::profile {
+
+/// Refers to what it was made of. One result per link of the table.
+struct LinkSurvey {
+  const LinkTable& table;
+  const std::vector<LinkResult>& results;
+  const LinkQuery& query;
+  std::string crs_wkt;
+  std::string title;
+  std::vector<std::pair<std::string, std::string>> facts;  ///< the inputs and the settings: name, value
+};
+
+/// By the name's ending: .csv (a row per row of the table), .gpkg and .kml (the links that could be computed, as
+/// lines), .pdf (one page: how many there are of which verdict, and those that want attention first). Equal surveys
+/// give equal bytes. Throws as require_link_format() does, and FileError.
+void write_links(const LinkSurvey& survey, const std::string& path, bool overwrite);
+
+/// Throws InputError for another ending.
+void require_link_format(const std::string& path);
+
+}  // namespace itin::profile

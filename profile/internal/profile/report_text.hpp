@@ -1,0 +1,24 @@
+// What a report says in words, for every format and for the program's own text.
+//
+//   std::cout << verdict_text(report) << '\n';
+//   for (const CriterionResult& c : report.criteria) std::cout << outcome_text(c) << '\n';
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <profile/los.hpp>
+
+namespace itin::profile {
+
+/// "no data over 1.200 km of the line, which leaves it undecided; nothing hides it on known ground"; empty without
+/// gaps.
+std::string gap_text(const LosReport& report);
+/// "Visible", or "Undecided: " and why; after a colon as well what is without data.
+std::string verdict_text(const LosReport& report);
+/// "meets by 0.40 F1 (3.10 m)", "fails by ...", "undecided".
+std::string outcome_text(const CriterionResult& result);
+/// Metres with two decimals, never less than the height that is required; "none is enough".
+std::string required_text(const std::optional<double>& height_m);
+
+}  // namespace itin::profile

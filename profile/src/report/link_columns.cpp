@@ -1,0 +1,250 @@
+#include "report/link_columns.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <itin/coordinates.hpp>
+#include <itin/error.hpp>
+
+#include "lines/azimuth.hpp"
+
+namespace itin::profile {
+
+namespace {
+
+using Value = VectorLayer::Value;
+using enum VectorLayer::Type;
+
+Value number(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? Value(*value) : Value();
+}
+
+std::optional<Geodesic> geodesic_of(const Link& link, const CoordinateTransform& to_geographic) {
+  try {
+    return geodesic(to_geographic(link.from), to_geographic(link.to));
+  } catch (const InputError&) {
+    return std::nullopt;  // an end is no place on the ground
+  }
+}
+
+bool same(const Criterion& a, const Criterion& b) {
+  return a.k == b.k && a.fraction == b.fraction;
+}
+
+/// Those of all links, in the order in which they come.
+std::vector<Criterion> criteria_of(const std::vector<LinkRow>& rows) {
+  std::vector<Criterion> all;
+  for (const LinkRow& row : rows) {
+    if (row.found() == nullptr) continue;
+    for (const CriterionResult& c : row.found()->criteria)
+      if (std::none_of(all.begin(), all.end(), [&](const Criterion& other) { return same(c.criterion, other); }))
+        all.push_back(c.criterion);
+  }
+  return all;
+}
+
+bool any(const std::vector<LinkRow>& rows, const std::function<bool(const LinkRow&)>& holds) {
+  return std::any_of(rows.begin(), rows.end(), holds);
+}
+
+/// Builds the list. Those that the contract names come first, in its order.
+class ColumnList {
+ public:
+  ColumnList(const LinkSurvey& survey, const std::vector<LinkRow>& rows) : survey_(survey), rows_(rows) {}
+
+  std::vector<LinkColumn> build() {
+    radio_ = any(rows_, [](const LinkRow& r) { return r.result != nullptr && r.result->radio.has_value(); });
+    add_verdict();
+    if (radio_) add_fresnel();
+    if (survey_.query.object) add_object();
+    if (any(rows_, [](const LinkRow& r) { return r.found() == nullptr; }))
+      text("message", [](const LinkRow& r) { return Value(r.message); });
+    of_geodesic("geodesic_distance_m", &Geodesic::distance_m);
+    of_result("gap_m", [](const LinkResult& r) { return Value(r.gap_m); });
+    add_ends();
+    if (radio_) add_radio();
+    const std::vector<Criterion> criteria = criteria_of(rows_);
+    for (const Criterion& c : criteria) add_criterion(c);
+    if (radio_ || !criteria.empty()) add_required("line_of_sight", [](const LinkRow&) { return std::size_t{0}; });
+    if (radio_) {
+      add_required("0.6_f1", [](const LinkRow& r) -> std::optional<std::size_t> {
+        return r.result->radio ? std::optional<std::size_t>(1) : std::nullopt;
+      });
+    }
+    for (const Criterion& c : criteria) add_required(name_of_criterion(c), place_of(c));
+    add_others();
+    return std::move(columns_);
+  }
+
+ private:
+  using OfRow = std::function<Value(const LinkRow&)>;
+  using Place = std::function<std::optional<std::size_t>(const LinkRow&)>;
+
+  void add(const std::string& name, VectorLayer::Type type, OfRow value) {
+    columns_.push_back({name, type, std::move(value)});
+  }
+  void text(const std::string& name, OfRow value) { add(name, kText, std::move(value)); }
+  /// Of links that have been computed.
+  void of_result(const std::string& name, std::function<Value(const LinkResult&)> value,
+                 VectorLayer::Type type = kNumber) {
+    add(name, type,
+        [value = std::move(value)](const LinkRow& r) { return r.found() == nullptr ? Value() : value(*r.result); });
+  }
+  void of_geodesic(const std::string& name, double Geodesic::*member) {
+    add(name, kNumber, [member](const LinkRow& r) { return r.geodesic ? Value((*r.geodesic).*member) : Value(); });
+  }
+
+  void add_verdict() {
+    text("id", [](const LinkRow& r) { return Value(r.id); });
+    of_result("distance_m", [](const LinkResult& r) { return Value(r.distance_m); });
+    text("verdict", [](const LinkRow& r) { return Value(verdict_of(r)); });
+    of_result("clearance_m", [](const LinkResult& r) { return number(r.found->clearance_m); });
+    of_result("critical_m",
+              [](const LinkResult& r) { return r.found->critical ? Value(r.found->critical->distance_m) : Value(); });
+  }
+  void add_fresnel() {
+    of_result("fresnel_fraction",
+              [](const LinkResult& r) { return r.found->fresnel ? Value(r.found->fresnel->fraction) : Value(); });
+    of_result("ld_db", [](const LinkResult& r) { return r.losses ? Value(r.losses->ld_db) : Value(); });
+  }
+  void add_object() {
+    const auto seen = [&](const char* name, double VisibleHeight::*member) {
+      of_result(name, [member](const LinkResult& r) { return r.visible ? Value((*r.visible).*member) : Value(); });
+    };
+    seen("hidden_below_m", &VisibleHeight::from_m);
+    seen("hub_visible_m", &VisibleHeight::hub_visible_m);
+    seen("hub_fraction", &VisibleHeight::hub_fraction);
+    seen("tip_visible_m", &VisibleHeight::tip_visible_m);
+    seen("tip_fraction", &VisibleHeight::tip_fraction);
+  }
+  void add_ends() {
+    of_result(
+        "known_verdict", [](const LinkResult& r) { return Value(std::string(name_of(r.found->known_verdict))); },
+        kText);
+    const auto named = [](const LinkRow& r) {
+      return r.link != nullptr && !(r.link->from_name + r.link->to_name).empty();
+    };
+    if (any(rows_, named)) {
+      text("name1", [](const LinkRow& r) { return r.link != nullptr ? Value(r.link->from_name) : Value(); });
+      text("name2", [](const LinkRow& r) { return r.link != nullptr ? Value(r.link->to_name) : Value(); });
+    }
+    of_result(survey_.query.from_on_surface ? "stands_on1_m" : "ground1_m",
+              [](const LinkResult& r) { return Value(r.stands_on.from_m); });
+    of_result(survey_.query.to_on_surface ? "stands_on2_m" : "ground2_m",
+              [](const LinkResult& r) { return Value(r.stands_on.to_m); });
+    for (const bool there : {true, false}) {
+      add(there ? "azimuth_grid1_deg" : "azimuth_grid2_deg", kNumber, [there](const LinkRow& r) {
+        if (r.found() == nullptr) return Value();
+        return Value(there ? grid_azimuth_deg(r.link->from, r.link->to) : grid_azimuth_deg(r.link->to, r.link->from));
+      });
+      of_geodesic(there ? "azimuth_true1_deg" : "azimuth_true2_deg",
+                  there ? &Geodesic::azimuth_deg : &Geodesic::back_azimuth_deg);
+    }
+  }
+  void add_radio() {
+    const auto of_radio = [&](const char* name, VectorLayer::Type type, std::function<Value(const RadioPath&)> value) {
+      of_result(
+          name, [value](const LinkResult& r) { return r.radio ? value(*r.radio) : Value(); }, type);
+    };
+    of_radio("frequency_ghz", kNumber, [](const RadioPath& path) { return Value(path.frequency_ghz); });
+    of_radio("polarisation", kText, [](const RadioPath& path) {
+      return Value(std::string(path.polarisation == Polarisation::kVertical ? "v" : "h"));
+    });
+    of_result("fresnel_fraction_at_m",
+              [](const LinkResult& r) { return r.found->fresnel ? Value(r.found->fresnel->distance_m) : Value(); });
+    of_result("free_space_db", [](const LinkResult& r) { return r.losses ? Value(r.losses->free_space_db) : Value(); });
+  }
+
+  static std::string name_of_criterion(const Criterion& c) { return fmt::format("k{:.4g}_{:g}_f1", c.k, c.fraction); }
+  static const CriterionResult* result_of(const LinkRow& row, const Criterion& wanted) {
+    for (const CriterionResult& c : row.found()->criteria)
+      if (same(c.criterion, wanted)) return &c;
+    return nullptr;
+  }
+  void add_criterion(const Criterion& criterion) {
+    const std::string name = name_of_criterion(criterion);
+    const auto of = [&](const char* what, VectorLayer::Type type, std::function<Value(const CriterionResult&)> value) {
+      add(name + what, type, [criterion, value = std::move(value)](const LinkRow& row) {
+        const CriterionResult* c = row.found() != nullptr ? result_of(row, criterion) : nullptr;
+        return c != nullptr ? value(*c) : Value();
+      });
+    };
+    of("", kText, [](const CriterionResult& c) { return Value(std::string(profile::name_of(c.verdict))); });
+    of("_clearance_m", kNumber, [](const CriterionResult& c) { return number(c.clearance_m); });
+    of("_clearance_f1", kNumber, [](const CriterionResult& c) { return number(c.clearance_f1); });
+    of("_margin_m", kNumber, [](const CriterionResult& c) { return number(c.margin_m); });
+  }
+  /// Where among the required heights of a link those of a criterion are.
+  static Place place_of(const Criterion& criterion) {
+    return [criterion](const LinkRow& row) -> std::optional<std::size_t> {
+      const CriterionResult* c = result_of(row, criterion);
+      if (c == nullptr) return std::nullopt;
+      return static_cast<std::size_t>(c - row.found()->criteria.data()) + (row.result->radio ? 2 : 1);
+    };
+  }
+  void add_required(const std::string& name, const Place& place) {
+    const auto of = [&](const char* what, std::optional<double> RequiredHeights::*member) {
+      add("required_" + name + what, kNumber, [place, member](const LinkRow& row) {
+        const auto at = row.found() != nullptr ? place(row) : std::nullopt;
+        return at && *at < row.found()->required.size() ? number(row.found()->required[*at].heights.*member) : Value();
+      });
+    };
+    of("_h1_m", &RequiredHeights::from_alone_m);
+    of("_h2_m", &RequiredHeights::to_alone_m);
+    of("_both_m", &RequiredHeights::both_equal_m);
+  }
+
+  /// Those of the table that were not understood; a name that is taken gets a mark.
+  void add_others() {
+    for (std::size_t i = 0; i < survey_.table.other_columns.size(); ++i) {
+      std::string name = survey_.table.other_columns[i];
+      const auto taken = [&] {
+        return name.empty() ||
+               std::any_of(columns_.begin(), columns_.end(), [&](const LinkColumn& c) { return c.name == name; });
+      };
+      while (taken()) name += "_given";
+      text(name, [i](const LinkRow& r) {
+        return r.others != nullptr && i < r.others->size() ? Value((*r.others)[i]) : Value();
+      });
+    }
+  }
+
+  const LinkSurvey& survey_;
+  const std::vector<LinkRow>& rows_;
+  bool radio_ = false;
+  std::vector<LinkColumn> columns_;
+};
+
+}  // namespace
+
+std::string verdict_of(const LinkRow& row) {
+  return row.found() != nullptr ? name_of(row.found()->verdict) : "error";
+}
+
+std::vector<LinkRow> link_rows(const LinkSurvey& survey) {
+  const CoordinateTransform to_geographic(survey.crs_wkt, "EPSG:4326");
+  std::vector<LinkRow> rows;
+  auto bad = survey.table.bad.begin();
+  for (std::size_t row = 1, i = 0; i < survey.results.size() || bad != survey.table.bad.end(); ++row) {
+    if (bad != survey.table.bad.end() && bad->row == row) {
+      rows.push_back(
+          {bad->id, nullptr, nullptr, fmt::format("line {}: {}", bad->line, bad->message), &bad->others, {}});
+      ++bad;
+      continue;
+    }
+    const Link& link = survey.table.links[i];
+    const LinkResult& result = survey.results[i];
+    rows.push_back({link.id, &link, &result, result.message, &link.others,
+                    result.found ? geodesic_of(link, to_geographic) : std::nullopt});
+    ++i;
+  }
+  return rows;
+}
+
+std::vector<LinkColumn> link_columns(const LinkSurvey& survey, const std::vector<LinkRow>& rows) {
+  return ColumnList(survey, rows).build();
+}
+
+}  // namespace itin::profile

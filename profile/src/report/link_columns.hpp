@@ -1,0 +1,42 @@
+// What is said of each of many links: one list of columns for every format.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <itin/geodesic.hpp>
+#include <itin/vector_export.hpp>
+#include <profile/link_output.hpp>
+
+namespace itin::profile {
+
+/// A row of the table, in its order.
+struct LinkRow {
+  std::string id;
+  const Link* link = nullptr;          ///< null: the row could not be read
+  const LinkResult* result = nullptr;  ///< null: as above
+  std::string message;                 ///< of an error
+  const std::vector<std::string>* others = nullptr;
+  std::optional<Geodesic> geodesic;  ///< between the ends on WGS 84
+
+  /// Null where the link could not be computed.
+  const LineFindings* found() const { return result != nullptr && result->found ? &*result->found : nullptr; }
+};
+std::vector<LinkRow> link_rows(const LinkSurvey& survey);
+
+struct LinkColumn {
+  std::string name;
+  VectorLayer::Type type;
+  std::function<VectorLayer::Value(const LinkRow&)> value;
+};
+std::vector<LinkColumn> link_columns(const LinkSurvey& survey, const std::vector<LinkRow>& rows);
+
+/// "visible", "hidden", "undecided" or "error".
+std::string verdict_of(const LinkRow& row);
+
+/// One page.
+std::string link_summary(const LinkSurvey& survey, const std::vector<LinkRow>& rows);
+
+}  // namespace itin::profile

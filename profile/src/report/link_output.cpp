@@ -1,0 +1,115 @@
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include <itin/coordinates.hpp>
+#include <itin/csv_cell.hpp>
+#include <itin/error.hpp>
+#include <itin/markup.hpp>
+#include <itin/output_file.hpp>
+
+#include "report/link_columns.hpp"
+
+namespace itin::profile {
+
+namespace {
+
+std::string link_ending_of(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending;
+}
+
+/// Every digit of a number.
+std::string as_text(const VectorLayer::Value& value) {
+  if (const auto* number = std::get_if<double>(&value)) return fmt::format("{}", *number);
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *whole);
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  return {};
+}
+
+std::string links_csv(const std::vector<LinkRow>& rows, const std::vector<LinkColumn>& columns) {
+  std::string csv;
+  const auto add = [&](std::size_t i, const std::string& cell) { csv += (i == 0 ? "" : ",") + csv_cell(cell); };
+  for (std::size_t i = 0; i < columns.size(); ++i) add(i, columns[i].name);
+  csv += '\n';
+  for (const LinkRow& row : rows) {
+    for (std::size_t i = 0; i < columns.size(); ++i) add(i, as_text(columns[i].value(row)));
+    csv += '\n';
+  }
+  return csv;
+}
+
+/// From antenna to antenna.
+std::vector<Point3> line_of(const LinkRow& row) {
+  const Link& link = *row.link;
+  const EndGrounds& ground = row.result->stands_on;
+  return {{link.from.x, link.from.y, ground.from_m + link.from_height},
+          {link.to.x, link.to.y, ground.to_m + link.to_height}};
+}
+
+VectorLayer links_layer(const std::vector<LinkRow>& rows, const std::vector<LinkColumn>& columns) {
+  VectorLayer layer{"links", VectorLayer::Shape::kLines, {}, {}};
+  for (const LinkColumn& column : columns) layer.fields.emplace_back(column.name, column.type);
+  for (const LinkRow& row : rows) {
+    if (row.found() == nullptr) continue;
+    VectorLayer::Feature feature{line_of(row), {}};
+    for (const LinkColumn& column : columns) feature.values.push_back(column.value(row));
+    layer.features.push_back(std::move(feature));
+  }
+  return layer;
+}
+
+constexpr std::pair<const char*, const char*> kVerdictStyles[] = {
+    {"visible", "ff20a020"}, {"hidden", "ff2020d0"}, {"undecided", "ff20a0e0"}, {"error", "ff909090"}};
+
+std::string links_kml(const LinkSurvey& survey, const std::vector<LinkRow>& rows,
+                      const std::vector<LinkColumn>& columns) {
+  const CoordinateTransform to_geographic(survey.crs_wkt, "EPSG:4326");
+  std::string kml = fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<kml xmlns=\"http://www.opengis.net/kml/2.2\">\n<Document>\n"
+      "<name>{}</name>\n",
+      escaped_markup(survey.title));
+  for (const auto& [name, colour] : kVerdictStyles)
+    kml += fmt::format("<Style id=\"{}\"><LineStyle><color>{}</color><width>3</width></LineStyle></Style>\n", name,
+                       colour);
+  for (const LinkRow& row : rows) {
+    if (row.found() == nullptr) continue;
+    kml += fmt::format("<Placemark><name>{}</name><styleUrl>#{}</styleUrl><ExtendedData>", escaped_markup(row.id),
+                       verdict_of(row));
+    for (const LinkColumn& column : columns)
+      kml += fmt::format("<Data name=\"{}\"><value>{}</value></Data>", escaped_markup(column.name),
+                         escaped_markup(as_text(column.value(row))));
+    kml += "</ExtendedData><LineString><altitudeMode>absolute</altitudeMode><coordinates>";
+    for (const Point3& p : line_of(row)) {
+      const Point2 lon_lat = to_geographic({p.x, p.y});
+      kml += fmt::format("{:.8f},{:.8f},{:.2f} ", lon_lat.x, lon_lat.y, p.z);
+    }
+    kml.back() = '<';
+    kml += "/coordinates></LineString></Placemark>\n";
+  }
+  return kml + "</Document>\n</kml>\n";
+}
+
+}  // namespace
+
+void require_link_format(const std::string& path) {
+  for (const char* known : {".csv", ".gpkg", ".kml", ".pdf"})
+    if (link_ending_of(path) == known) return;
+  throw InputError(
+      fmt::format("'{}': links are written as a table, .csv, as lines, .gpkg or .kml, or as a page, .pdf", path));
+}
+
+void write_links(const LinkSurvey& survey, const std::string& path, bool overwrite) {
+  require_link_format(path);
+  const std::vector<LinkRow> rows = link_rows(survey);
+  const std::string ending = link_ending_of(path);
+  if (ending == ".pdf") return write_file(path, link_summary(survey, rows), overwrite);
+  const std::vector<LinkColumn> columns = link_columns(survey, rows);
+  if (ending == ".gpkg") return write_geopackage(path, survey.crs_wkt, {links_layer(rows, columns)}, overwrite);
+  write_file(path, ending == ".csv" ? links_csv(rows, columns) : links_kml(survey, rows, columns), overwrite);
+}
+
+}  // namespace itin::profile

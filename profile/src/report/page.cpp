@@ -1,0 +1,115 @@
+#include "report/page.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace itin::profile {
+
+namespace {
+
+constexpr double kFactName = 62, kTitleRow = 16, kRow = 11.5, kNoteRow = 10;
+
+const Lettering kHeadline{10, kReportInk, Align::kLeft, false, 0}, kNote{7.5, kReportGrey, Align::kLeft, false, 0},
+    kFact{8, kReportGrey, Align::kLeft, false, 0};
+
+}  // namespace
+
+void draw_title(Drawing& drawing, const std::string& title) {
+  Lettering lettering{16, kReportInk, Align::kLeft, true, 0};
+  const double width = kWidth - 2 * kMargin;
+  while (lettering.size > 10 && drawing.text_width(title, lettering) > width) lettering.size -= 1;
+  drawing.text({kMargin, 46}, drawing.fitted(title, width, lettering), lettering);
+}
+
+double draw_headline(Drawing& drawing, const std::string& text) {
+  double y = 50;
+  for (const std::string& line : drawing.lines(text, kWidth - 2 * kMargin, kHeadline))
+    drawing.text({kMargin, y += 13}, line, kHeadline);
+  return y;
+}
+
+Facts fact_lines(const Drawing& drawing, const Facts& facts) {
+  Facts lines;
+  for (const auto& [name, value] : facts) {
+    std::string before = name;
+    for (std::string& line : drawing.lines(value, kWidth - 2 * kMargin - kFactName, kFact))
+      lines.emplace_back(std::exchange(before, ""), std::move(line));
+  }
+  return lines;
+}
+
+void draw_facts(Drawing& drawing, const Facts& lines, double y) {
+  for (const auto& [name, line] : lines) {
+    drawing.text({kMargin, y}, name, {8, kReportGrey, Align::kLeft, true, 0});
+    drawing.text({kMargin + kFactName, y}, line, kFact);
+    y += kFactRow;
+  }
+}
+
+bool PageColumn::has_room_for(const Table& table, double bottom) const {
+  return table.rows.size() <= rows_that_fit(table, bottom);
+}
+
+std::size_t PageColumn::rows_that_fit(const Table& table, double bottom) const {
+  const double rest = bottom - y_ - kTitleRow - (table.header.empty() ? 0 : kRow) -
+                      kNoteRow * static_cast<double>(note_lines(table).size());
+  return rest < 0 ? 0 : static_cast<std::size_t>(rest / kRow);
+}
+
+void PageColumn::set(const Table& table) {
+  drawing_.text({left_, y_ + 10}, table.title, {10, kReportInk, Align::kLeft, true, 0});
+  y_ += kTitleRow;
+  const Point2 rule[] = {{left_, y_}, {left_ + width_, y_}};
+  drawing_.polyline(rule, {kReportGrey, 0.6, {}});
+  const std::vector<double> widths = column_widths(table);
+  if (!table.header.empty()) row(table.header, widths, kBold);
+  for (const auto& cells : table.rows) row(cells, widths, kPlain);
+  for (const std::string& line : note_lines(table)) {
+    y_ += kNoteRow;
+    drawing_.text({left_, y_}, line, kNote);
+  }
+  y_ += 16;
+}
+
+std::vector<std::string> PageColumn::note_lines(const Table& table) const {
+  if (table.note.empty()) return {};
+  return drawing_.lines(table.note, width_, kNote);
+}
+
+/// The widths that the columns' texts need; where that is too much, the widest give way.
+std::vector<double> PageColumn::column_widths(const Table& table) const {
+  const std::size_t columns = table.header.empty() ? table.rows.front().size() : table.header.size();
+  std::vector<double> widths(columns, 0);
+  const auto widen = [&](const std::vector<std::string>& cells, const Lettering& lettering) {
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      widths[i] = std::max(widths[i], drawing_.text_width(cells[i], lettering) + 10);
+    }
+  };
+  widen(table.header, kBold);
+  for (const auto& cells : table.rows) widen(cells, kPlain);
+  double narrow = 0;
+  std::size_t wide = columns;
+  std::vector<double> ascending = widths;
+  std::sort(ascending.begin(), ascending.end());
+  for (const double w : ascending) {
+    const double share = (width_ - narrow) / static_cast<double>(wide);
+    if (w > share) {
+      for (double& width : widths) width = std::min(width, share);
+      break;
+    }
+    narrow += w, --wide;
+  }
+  return widths;
+}
+
+void PageColumn::row(const std::vector<std::string>& cells, const std::vector<double>& widths,
+                     const Lettering& lettering) {
+  y_ += kRow;
+  double x = left_;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    drawing_.text({x, y_}, drawing_.fitted(cells[i], widths[i] - 3, lettering), lettering);
+    x += widths[i];
+  }
+}
+
+}  // namespace itin::profile

@@ -1,0 +1,67 @@
+// What every format says in the same words.
+#include <cctype>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <itin/grazing.hpp>
+#include <profile/report_text.hpp>
+
+#include "report/tables.hpp"
+
+namespace itin::profile {
+
+namespace {
+
+const char* meaning_of(NoData rule) {
+  constexpr const char* kMeanings[] = {"leaves it undecided", "counts as blocking", "counts as clear"};
+  return kMeanings[static_cast<int>(rule)];
+}
+
+std::string amount(double metres) {
+  return std::abs(metres) < 0.005 ? "less than 0.01 m" : fmt::format("{:.2f} m", std::abs(metres));
+}
+
+}  // namespace
+
+std::string gap_text(const LosReport& report) {
+  const double gap = report.profile.has_length() ? report.profile.gap_length_m() : 0;
+  if (gap == 0) return {};
+  const std::string none = fmt::format("no data over {} of the line", distance_text(gap));
+  if (report.known_verdict == SightVerdict::kHidden) return none + "; known ground hides it";
+  return fmt::format("{}, which {}; {}", none, meaning_of(report.query.nodata),
+                     report.known_verdict == SightVerdict::kVisible
+                         ? "nothing hides it on known ground"
+                         : "the certified error leaves known ground open as well");
+}
+
+std::string verdict_text(const LosReport& report) {
+  std::string text = name_of(report.verdict);
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  const std::string gaps = gap_text(report);
+  if (!gaps.empty()) return text + ": " + gaps;
+  if (report.verdict != SightVerdict::kUndecided) return text;
+  return text +
+         fmt::format(": the surface's certified error of {:.2f} m leaves it open", report.query.clearance_error_m);
+}
+
+std::string outcome_text(const CriterionResult& result) {
+  const char* verdict = name_of(result.verdict);
+  if (!result.margin_m) return verdict;
+  const bool met = *result.margin_m >= -kGrazing;
+  const std::string by = result.margin_f1
+                             ? fmt::format("{:.2f} F1 ({})", std::abs(*result.margin_f1), amount(*result.margin_m))
+                             : amount(*result.margin_m);
+  if (result.verdict == CriterionVerdict::kUndecided)
+    return fmt::format("undecided; {} by {} as far as is known", met ? "met" : "missed", by);
+  if (result.verdict == CriterionVerdict::kFails && met) return "fails: ground without data counts as blocking";
+  return fmt::format("{} by {}", verdict, by);
+}
+
+std::string required_text(const std::optional<double>& height_m) {
+  if (!height_m || !std::isfinite(*height_m)) return "none is enough";
+  // A ray that grazes is free: no centimetre more for a micrometre.
+  return fmt::format("{:.2f} m", std::max(0.0, std::ceil((*height_m - kGrazing) * 100) / 100));
+}
+
+}  // namespace itin::profile

@@ -1,0 +1,49 @@
+#include "siting/coverage/site_window.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include <itin/raster.hpp>
+
+#include "request/request.hpp"
+
+namespace itin::viewshed {
+
+Window window_about(const std::vector<SiteStand>& stands, const std::vector<std::size_t>& options, double radius) {
+  Box box;
+  for (const std::size_t option : options) box.extend(disc_box(stands[option].position, radius));
+  const RasterGrid cells = RasterGrid::aligned(box, radius / 4);
+  std::vector<bool> met(cells.cell_count());
+  for (const std::size_t option : options) {
+    const Box disc = disc_box(stands[option].position, radius);
+    // Aligned cells may end a hair within the box.
+    const auto within = [](double at, std::int64_t count) {
+      return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(at)), 0, count - 1);
+    };
+    const std::int64_t west = within(cells.column_at(disc.xmin), cells.columns()),
+                       east = within(cells.column_at(disc.xmax), cells.columns()),
+                       north = within(cells.row_at(disc.ymax), cells.rows()),
+                       south = within(cells.row_at(disc.ymin), cells.rows());
+    for (std::int64_t row = north; row <= south; ++row)
+      for (std::int64_t column = west; column <= east; ++column) met[cells.index({column, row})] = true;
+  }
+  std::vector<Window::Polygon> runs;
+  const Point2 corner = cells.north_west();
+  const double side = cells.cell_width();
+  for (std::int64_t row = 0; row < cells.rows(); ++row) {
+    for (std::int64_t column = 0; column < cells.columns(); ++column) {
+      const std::int64_t first = column;
+      while (column < cells.columns() && met[cells.index({column, row})]) ++column;
+      if (column == first) continue;
+      const double west = corner.x + static_cast<double>(first) * side,
+                   east = corner.x + static_cast<double>(column) * side,
+                   north = corner.y - static_cast<double>(row) * side, south = north - side;
+      runs.push_back({{{west, south}, {east, south}, {east, north}, {west, north}}, {}});
+    }
+  }
+  return Window::polygons(std::move(runs));
+}
+
+}  // namespace itin::viewshed
