@@ -124,6 +124,9 @@ struct LineFindings {
   /// any frequency): never the foot of a mast that stands free. Nothing where no ground lies between the ends.
   std::optional<ProfilePoint> critical;
   std::optional<double> clearance_m;  ///< there; negative where the ray is cut
+  /// Where the ray is least above the surface, the feet of the antennas included.
+  std::optional<ProfilePoint> lowest;
+  std::optional<double> least_clearance_m;  ///< there
   std::vector<Obstruction> obstructions;
   std::vector<CriterionResult> criteria;
   std::vector<NamedHeights> required;
