@@ -87,7 +87,7 @@ class ColumnList {
     columns_.push_back({name, type, std::move(value)});
   }
   void text(const std::string& name, OfRow value) { add(name, kText, std::move(value)); }
-  /// Of links that have been computed.
+  /// Fills only rows of links that have been computed.
   void of_result(const std::string& name, std::function<Value(const LinkResult&)> value,
                  VectorLayer::Type type = kNumber) {
     add(name, type,
