@@ -32,9 +32,9 @@ Document feature_number(std::int64_t number) {
   return number < 0 ? Document(nullptr) : Document(number);
 }
 
-Document critical_document(const LosReport& report, const LineFindings& found) {
-  if (!found.critical) return nullptr;
-  const profile::ProfilePoint& p = *found.critical;
+Document place_document(const LosReport& report, const std::optional<profile::ProfilePoint>& place) {
+  if (!place) return nullptr;
+  const profile::ProfilePoint& p = *place;
   const bool placed = !report.crs_wkt.empty();
   return {{"distance_m", p.distance_m},
           {"x", placed ? Document(p.x) : Document(nullptr)},
@@ -43,6 +43,13 @@ Document critical_document(const LosReport& report, const LineFindings& found) {
           {"theme", cause(report, p.theme)},
           {"feature", feature(report, p.theme, p.feature)},
           {"feature_number", feature_number(p.feature)}};
+}
+
+/// What reports call the critical point.
+Document tightest_document(const LosReport& report, const LineFindings& found) {
+  Document place = place_document(report, found.critical);
+  if (found.critical) place["clearance_m"] = number(found.clearance_m);
+  return place;
 }
 
 Document obstructions_document(const LosReport& report, const LineFindings& found) {
@@ -138,8 +145,9 @@ Document visible_document(const LosReport& report) {
 Document findings_document(const LosReport& report, const LineFindings& found) {
   return {{"verdict", name_of(found.verdict)},
           {"known_verdict", name_of(found.known_verdict)},
-          {"clearance_m", number(found.clearance_m)},
-          {"critical", critical_document(report, found)},
+          {"clearance_m", number(found.least_clearance_m)},
+          {"critical", place_document(report, found.lowest)},
+          {"tightest", tightest_document(report, found)},
           {"obstructions", obstructions_document(report, found)},
           {"criteria", criteria_document(found)},
           {"required_heights", heights_document(found)}};

@@ -62,7 +62,7 @@ void write_site_maps(const Store& store, const SiteResult& r, const std::string&
   viewshed::Result result = as_viewshed(r);
   viewshed::MapOptions options;
   options.map_pixels = kMapPixels;
-  // Of weighted demand the area is another share than what is served.
+  // Where demand is weighted, its area is another share than what is served.
   const bool of_area = r.options.demand != "cells";
   options.seen = of_area ? "Area served" : "Served", options.unseen = of_area ? "Area not served" : "Not served";
   options.observers = result.request.observers.size() == 1 ? "Site" : "Sites";

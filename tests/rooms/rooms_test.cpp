@@ -110,6 +110,21 @@ TEST(Libraries, NameNoOptionOfTheCommandLine) {
   }
 }
 
+/// A comment is a sentence: its subject is not to be looked for in the line before.
+TEST(Comments, BeginWithTheirSubject) {
+  const std::regex opening("\\s*//[/!]? *(Of|The same|So many|So few|Likewise)\\b.*");
+  for (const char* folder : {"libitin", "viewshed", "profile", "cli"}) {
+    for (const fs::path& file : sources_below(kRoot / folder)) {
+      std::ifstream stream(file);
+      std::string before;
+      for (std::string line; std::getline(stream, line); before = line) {
+        const bool begins = before.find("//") == std::string::npos;
+        EXPECT_FALSE(begins && std::regex_match(line, opening)) << file << ": " << line;
+      }
+    }
+  }
+}
+
 }  // namespace
 
 }  // namespace itin::test

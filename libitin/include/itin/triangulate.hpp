@@ -42,7 +42,7 @@ Tin triangulate(const Store& store, const Window& window, const Detail& detail, 
 std::vector<std::optional<double>> heights_at(const Store& store, const std::vector<Point2>& positions,
                                               const Detail& detail, const ThemeChoice& themes, Progress& progress);
 
-/// The same under the centres of a raster's cells, rounded to float; NaN where there is no ground.
+/// Gives the heights under the centres of a raster's cells, rounded to float; NaN where there is no ground.
 std::vector<float> heights_at(const Store& store, const RasterGrid& cells, const Detail& detail,
                               const ThemeChoice& themes, Progress& progress);
 

@@ -3,8 +3,8 @@
 //   grid_scale("EPSG:3857", {-350000, 6700000, -340000, 6710000})->greatest    // 1.60: web Mercator in Wales
 //
 // A store's lengths are lengths on its grid. UTM zones are true to 0.1 %, and national grids to 0.5 % wherever they are
-// used (Lambert-93 is 0.3 % too long in Corsica, and 0.4 % are Norway's at Vardo and Spain's at Menorca), and are taken as
-// they are. Mercator's projection, and others about the equator that show the whole world, must be true to 0.2 %.
+// used (Lambert-93 is 0.3 % too long in Corsica, and 0.4 % are Norway's at Vardo and Spain's at Menorca), and are taken
+// as they are. Mercator's projection, and others about the equator that show the whole world, must be true to 0.2 %.
 #pragma once
 
 #include <algorithm>

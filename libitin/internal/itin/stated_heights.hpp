@@ -19,7 +19,7 @@ class StatedHeights {
   /// Refers to the metadata, which must outlive it.
   explicit StatedHeights(const StoreMetadata& metadata);
 
-  /// Of one of these sources. Nothing where it has none, or its CRS is not understood here.
+  /// What is known of one of these sources. Nothing where it has none, or its CRS is not understood here.
   std::optional<HeightAxis> of(const SourceInfo& source) const;
 
  private:

@@ -32,7 +32,7 @@ struct Link {
   double from_height = 0;
   Point2 to;
   double to_height = 0;
-  // Of this link alone, where its file tells.
+  // What its file tells of this link alone:
   std::string from_name = {}, to_name = {};
   std::optional<double> frequency_ghz = {};
   std::optional<Polarisation> polarisation = {};
@@ -76,7 +76,7 @@ struct LinkQuery {
   ThemeChoice themes = ThemeChoice::none();  ///< raised features on the surface
   /// Whether an end within a raised feature stands on it, or else on the ground under it.
   bool from_on_surface = false, to_on_surface = false;
-  // Of links that have none of their own.
+  // For links that have none of their own:
   std::optional<RadioPath> radio = {};    ///< gives Fresnel clearances and losses
   std::vector<Criterion> criteria = {};   ///< with a fraction > 0 only for links with a frequency
   std::optional<TallObject> object = {};  ///< the object at each second end; gives visible

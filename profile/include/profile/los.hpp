@@ -124,6 +124,9 @@ struct LineFindings {
   /// any frequency): never the foot of a mast that stands free. Nothing where no ground lies between the ends.
   std::optional<ProfilePoint> critical;
   std::optional<double> clearance_m;  ///< there; negative where the ray is cut
+  /// Where the ray is least above the surface, the feet of the antennas included.
+  std::optional<ProfilePoint> lowest;
+  std::optional<double> least_clearance_m;  ///< there
   std::vector<Obstruction> obstructions;
   std::vector<CriterionResult> criteria;
   std::vector<NamedHeights> required;
@@ -151,7 +154,7 @@ struct LosReport : LineFindings {
   std::vector<std::string> themes;                         ///< names by ProfilePoint::theme; 0 is the terrain
   std::map<std::pair<std::uint16_t, std::int64_t>, std::string> features;  ///< names by theme and feature
 
-  // Of a line over a store.
+  // Known for a line over a store alone:
   std::vector<SourceInfo> sources;  ///< of the surface under the line, as triangulated there
   RetrievalStatistics statistics;
   std::uint64_t triangles = 0;  ///< crossed by the line
@@ -166,7 +169,7 @@ EndGrounds stands_on(const Profile& profile, const Profile& ground, const LosQue
 /// but for logarithmic factors.
 LosReport analyse(Profile profile, const LosQuery& query, Profile ground = {});
 
-/// The same of a line over a store, with what stands on its ground. The surface's certified error about the line is
+/// Judges a line over a store, with what stands on its ground. The surface's certified error about the line is
 /// added to query.clearance_error_m, so that over a coarse surface a verdict is certain or undecided; the report's
 /// query has the sum, and heights above what the ends stand on. Throws InputError also for an elevation below that, for
 /// themes that the store does not have, and for an end that has no longitude and latitude; CorruptStore, FileError.

@@ -116,6 +116,8 @@ LineFindings findings(const Sight& sight, const LosQuery& query) {
   if (clearance.critical) {
     found.critical = clearance.critical->point;
     found.clearance_m = clearance.critical->clearance_m;
+    found.lowest = clearance.line->critical;
+    found.least_clearance_m = least;
     found.obstructions = std::move(clearance.line->obstructions);
   }
   if (query.radio) found.fresnel = clearance.zone;

@@ -17,7 +17,7 @@ namespace itin::profile {
 
 namespace {
 
-/// Of one sort in a line of text.
+/// Names those of one sort in a line of text.
 constexpr std::size_t kMostNames = 8;
 
 /// All but the name of a source.

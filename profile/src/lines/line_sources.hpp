@@ -9,7 +9,8 @@
 
 namespace itin::profile {
 
-/// Of the triangles that the line crosses or comes near to; in the store's order. Throws CorruptStore.
+/// Lists the sources of the triangles that the line crosses or comes near to; in the store's order. Throws
+/// CorruptStore.
 std::vector<SourceInfo> sources_under(const Store& store, const StoreLine& line);
 
 /// A line of text for each sort of sources: their names, posting, vertical datum and note.

@@ -179,7 +179,7 @@ class TableReader {
     require_height(height, kLinkNames[i]);
     return height;
   }
-  /// Of the end whose x is in the column `i`, in the CRS asked for.
+  /// Reads the end whose x is in the column `i`, in the CRS asked for.
   Point2 position_of(const std::vector<std::string>& cells, std::size_t i) const {
     if (!columns_.written) {
       const Point2 p{number_of(cells, i), number_of(cells, i + 1)};

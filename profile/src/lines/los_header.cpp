@@ -40,6 +40,7 @@ void name_features(const Store& store, LosReport& report) {
     wanted[theme].features.push_back(&feature);
   };
   if (report.critical) want(report.critical->theme, report.critical->distance_m, report.critical->feature);
+  if (report.lowest) want(report.lowest->theme, report.lowest->distance_m, report.lowest->feature);
   for (Obstruction& o : report.obstructions) want(o.theme, o.peak_at_m, o.feature);
   for (const auto& [theme, these] : wanted) {
     const auto found = features_at(store, theme, these.places);

@@ -64,6 +64,7 @@ class ColumnList {
     of_geodesic("geodesic_distance_m", &Geodesic::distance_m);
     of_result("gap_m", [](const LinkResult& r) { return Value(r.gap_m); });
     add_ends();
+    add_tightest();
     if (radio_) add_radio();
     const std::vector<Criterion> criteria = criteria_of(rows_);
     for (const Criterion& c : criteria) add_criterion(c);
@@ -86,7 +87,7 @@ class ColumnList {
     columns_.push_back({name, type, std::move(value)});
   }
   void text(const std::string& name, OfRow value) { add(name, kText, std::move(value)); }
-  /// Of links that have been computed.
+  /// Fills only rows of links that have been computed.
   void of_result(const std::string& name, std::function<Value(const LinkResult&)> value,
                  VectorLayer::Type type = kNumber) {
     add(name, type,
@@ -100,10 +101,15 @@ class ColumnList {
     text("id", [](const LinkRow& r) { return Value(r.id); });
     of_result("distance_m", [](const LinkResult& r) { return Value(r.distance_m); });
     text("verdict", [](const LinkRow& r) { return Value(verdict_of(r)); });
-    of_result("clearance_m", [](const LinkResult& r) { return number(r.found->clearance_m); });
-    of_result("critical_m",
-              [](const LinkResult& r) { return r.found->critical ? Value(r.found->critical->distance_m) : Value(); });
+    of_result("clearance_m", [](const LinkResult& r) { return number(r.found->least_clearance_m); });
+    of_result("critical_m", [](const LinkResult& r) { return distance_to(r.found->lowest); });
   }
+  /// What reports call the critical point.
+  void add_tightest() {
+    of_result("tightest_clearance_m", [](const LinkResult& r) { return number(r.found->clearance_m); });
+    of_result("tightest_m", [](const LinkResult& r) { return distance_to(r.found->critical); });
+  }
+  static Value distance_to(const std::optional<ProfilePoint>& p) { return p ? Value(p->distance_m) : Value(); }
   void add_fresnel() {
     of_result("fresnel_fraction",
               [](const LinkResult& r) { return r.found->fresnel ? Value(r.found->fresnel->fraction) : Value(); });

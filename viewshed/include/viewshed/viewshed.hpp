@@ -246,17 +246,17 @@ Surveyed compute_with_surface(const Store& store, const Request& request, const 
                               Progress& progress);
 
 /// Computes what is certain of the full surface, without reading all of it: no cell called certain differs from the
-/// full surface's exact answer, at request.detail, in request.mode kVisible. Both ends of a sight line stand on the full
-/// surface, whatever the tolerance. The certificates of the store's index cells (law 2) tell how low and how high the
-/// full surface is about the level asked for; a block of cells is hidden that rises nowhere above the ground before it,
-/// and what lies near an observer is decided exactly. All else is undecided: what is in sight, mostly, and what is
+/// full surface's exact answer, at request.detail, in request.mode kVisible. Both ends of a sight line stand on the
+/// full surface, whatever the tolerance. The certificates of the store's index cells (law 2) tell how low and how high
+/// the full surface is about the level asked for; a block of cells is hidden that rises nowhere above the ground before
+/// it, and what lies near an observer is decided exactly. All else is undecided: what is in sight, mostly, and what is
 /// nearly so. Features of Request::themes count as compute_with_surface() has them: they hide nothing but near the
 /// observer, and targets may stand on them. With several observers a cell is certainly visible when it is to one of
-/// them, and certainly hidden when it is to all. Under NoData::kUnknown a line across a void and back is never certainly
-/// visible. Cost: about 2 microseconds per point of the level and 10 nanoseconds per cell and observer, and bounds of 0.1
-/// seconds. Where exact answers cost no more, every cell is decided, but for such lines across voids, as by
-/// compute_with_surface() at tolerance 0. Levels of more than a million and a half points are looked at sector by sector
-/// about each observer. Throws as compute() does.
+/// them, and certainly hidden when it is to all. Under NoData::kUnknown a line across a void and back is never
+/// certainly visible. Cost: about 2 microseconds per point of the level and 10 nanoseconds per cell and observer, and
+/// bounds of 0.1 seconds. Where exact answers cost no more, every cell is decided, but for such lines across voids, as
+/// by compute_with_surface() at tolerance 0. Levels of more than a million and a half points are looked at sector by
+/// sector about each observer. Throws as compute() does.
 Surveyed compute_certified(const Store& store, const Request& request, const ComputeOptions& options,
                            Progress& progress);
 

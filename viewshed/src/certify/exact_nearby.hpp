@@ -11,8 +11,8 @@
 
 namespace itin::viewshed {
 
-/// Of the cells of `grid`; nothing where none lies that near. Adds the lines that it takes to the statistics. Throws as
-/// compute_with_surface() does.
+/// Decides cells of `grid`; nothing where none lies that near. Adds the lines that it takes to the statistics. Throws
+/// as compute_with_surface() does.
 std::optional<ExactNearby> decide_nearby(const Store& store, const Request& request, const Observer& observer,
                                          const RasterGrid& grid, Statistics& statistics, Progress& progress);
 

@@ -27,15 +27,16 @@ Surveyed decide_exactly(const Store& store, const Request& request, const Comput
 /// The part of the level read at a time does not depend on the memory, or what it leaves undecided would depend on it,
 /// too.
 void require_memory(const Store& store, const Request& request, CertifiedWay way, std::uint64_t memory) {
-  constexpr std::uint64_t kBytesPerPointOfLevel = 715;
+  constexpr std::uint64_t kBytesPerPointOfLevel = 715, kBytesOfBounds = 40000000;
   const int level = level_within(store.metadata(), request.detail.coarsest());
   const std::uint64_t points =
       way == CertifiedWay::kBySectors ? kPointsOfSector : store.points_about(level, box_of_window(store, request));
-  if (points * kBytesPerPointOfLevel > memory)
+  const std::uint64_t bytes = points * kBytesPerPointOfLevel + kBytesOfBounds;
+  if (bytes > memory)
     throw InputError(
         fmt::format("the level takes {:.0f} MB at a time: give more `memory_bytes`, a coarser tolerance or "
                     "a smaller `radius`",
-                    static_cast<double>(points * kBytesPerPointOfLevel) / 1e6));
+                    static_cast<double>(bytes) / 1e6));
 }
 
 }  // namespace

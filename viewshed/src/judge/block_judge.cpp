@@ -45,7 +45,7 @@ class BlockJudge::BlockWork final : public TileJudge::Work {
   struct Block {
     std::size_t row, row_end, column, column_end;
   };
-  /// Of the surface at cell centres, grid units; kNoSurface where none is.
+  /// The least and the greatest height of the surface at cell centres, grid units; kNoSurface where none is.
   struct Heights {
     TileValues<double> low, high;
   };

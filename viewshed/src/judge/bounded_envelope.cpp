@@ -8,7 +8,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// So many bins per triangle follow the slopes of a level, and no more bins than that take but a moment.
+/// This number of bins per triangle follows the slopes of a level, and no more bins than that take but a moment.
 constexpr double kBinsPerTriangle = 64, kMostBins = 1 << 21;
 
 }  // namespace

@@ -30,7 +30,7 @@ class ExactJudge final : public TileJudge {
  public:
   /// The surface must outlive it.
   ExactJudge(const FullSurface& surface, std::vector<EyeView> views);
-  /// Of one eye.
+  /// Serves one eye.
   ExactJudge(const FullSurface& surface, EyeView view);
 
   /// With what modes ask about a tile's ground and its lines besides.

@@ -85,7 +85,7 @@ class Observation {
  private:
   /// The target is seen; its verdict has been added.
   virtual void keep(const CellView&) {}
-  /// The same for a target that is seen or hidden, and that is not straight above or below the eye.
+  /// Studies a target that is seen or hidden, and that is not straight above or below the eye.
   virtual void study(const TileView&, const CellView& view, const Sight& sight) {
     if (sight.seen) keep(view);
   }
