@@ -104,7 +104,7 @@ class Attempts {
     if (part.starts > 0) rate(part);
   }
 
-  /// Of equals the one in the first part, and there the earliest: the order of parts depends on bounds.
+  /// Among equals the earliest in the first part is kept, since the order of parts depends on bounds.
   void keep_better(Attempt other, std::size_t part) {
     const Weight worth = worth_of(other);
     if (other.chosen.empty()) return;
