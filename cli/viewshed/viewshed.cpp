@@ -345,6 +345,10 @@ class ViewshedVerb final : public Verb {
       text += fmt::format("certainly visible: {}; certainly hidden: {}; undecided: {} ({:.1f} % decided)\n",
                           counted(cells.visible, "cell"), grouped(cells.hidden), grouped(cells.undecided),
                           decided_percent(cells));
+      if (cells.undecided > 0)
+        text +=
+            "undecided at this tolerance, or across ground without data: --mode visible decides the former, "
+            "--nodata block or clear the latter\n";
     } else {
       text +=
           fmt::format("visible: {} of {} ({:.1f} %), {:.2f} km2\n", grouped(cells.visible), counted(decided, "cell"),
