@@ -1,7 +1,5 @@
 #include "output/output_path.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <unistd.h>
 
@@ -34,12 +32,6 @@ void OutputPolicy::require_writable(const std::string& path) const {
   if (access(directory.c_str(), W_OK) != 0) {
     throw FileError(path, "its directory is not writable; change its permissions or name another place");
   }
-}
-
-std::string ending_of(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return ending;
 }
 
 std::string file_name(const std::string& name) {

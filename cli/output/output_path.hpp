@@ -27,9 +27,6 @@ class OutputPolicy {
   std::optional<CallFiles> files_;
 };
 
-/// With its dot, in small letters: ".csv".
-std::string ending_of(const std::string& path);
-
 /// The name with an underscore for each character that some file systems do not allow.
 std::string file_name(const std::string& name);
 

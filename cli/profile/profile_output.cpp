@@ -10,6 +10,7 @@
 
 #include <itin/coordinates.hpp>
 #include <itin/error.hpp>
+#include <itin/file_ending.hpp>
 #include <itin/output_file.hpp>
 #include <profile/chart.hpp>
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/file_ending.hpp>
 #include <itin/output_file.hpp>
 #include <profile/chart.hpp>
 #include <viewshed/surface.hpp>

@@ -1,11 +1,10 @@
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <filesystem>
 
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/file_ending.hpp>
 #include <itin/tin_export.hpp>
 
 #include "export/tin_formats.hpp"
@@ -26,13 +25,6 @@ constexpr std::array<Format, 5> kFormats{{{".ply", write_ply},
                                           {".glb", write_glb},
                                           {".gpkg", write_geopackage},
                                           {".geojson", write_geojson}}};
-
-std::string ending_of(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
 
 Writer writer_for(const std::string& path) {
   const std::string ending = ending_of(path);

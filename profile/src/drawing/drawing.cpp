@@ -4,14 +4,13 @@
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
 #include <cairo.h>
-#include <cctype>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 #include <sstream>
 #include <string_view>
 
 #include <itin/error.hpp>
+#include <itin/file_ending.hpp>
 
 namespace itin::profile {
 
@@ -97,8 +96,7 @@ struct Drawing::Surface {
 };
 
 std::optional<Drawing::Format> Drawing::format_of(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string ending = ending_of(path);
   if (ending == ".svg") return Format::kSvg;
   if (ending == ".pdf") return Format::kPdf;
   if (ending == ".png") return Format::kPng;

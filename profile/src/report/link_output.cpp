@@ -7,6 +7,7 @@
 #include <itin/coordinates.hpp>
 #include <itin/csv_cell.hpp>
 #include <itin/error.hpp>
+#include <itin/file_ending.hpp>
 #include <itin/markup.hpp>
 #include <itin/output_file.hpp>
 
@@ -15,12 +16,6 @@
 namespace itin::profile {
 
 namespace {
-
-std::string link_ending_of(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return ending;
-}
 
 /// Every digit of a number.
 std::string as_text(const VectorLayer::Value& value) {
@@ -97,7 +92,7 @@ std::string links_kml(const LinkSurvey& survey, const std::vector<LinkRow>& rows
 
 void require_link_format(const std::string& path) {
   for (const char* known : {".csv", ".gpkg", ".kml", ".pdf"})
-    if (link_ending_of(path) == known) return;
+    if (ending_of(path) == known) return;
   throw InputError(
       fmt::format("'{}': links are written as a table, .csv, as lines, .gpkg or .kml, or as a page, .pdf", path));
 }
@@ -105,7 +100,7 @@ void require_link_format(const std::string& path) {
 void write_links(const LinkSurvey& survey, const std::string& path, bool overwrite) {
   require_link_format(path);
   const std::vector<LinkRow> rows = link_rows(survey);
-  const std::string ending = link_ending_of(path);
+  const std::string ending = ending_of(path);
   if (ending == ".pdf") return write_file(path, link_summary(survey, rows), overwrite);
   const std::vector<LinkColumn> columns = link_columns(survey, rows);
   if (ending == ".gpkg") return write_geopackage(path, survey.crs_wkt, {links_layer(rows, columns)}, overwrite);

@@ -1,10 +1,7 @@
-#include <algorithm>
-#include <cctype>
-#include <filesystem>
-
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/file_ending.hpp>
 #include <itin/output_file.hpp>
 #include <profile/los.hpp>
 
@@ -13,12 +10,6 @@
 namespace itin::profile {
 
 namespace {
-
-std::string ending_of(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return ending;
-}
 
 std::string bytes_of(const LosReport& report, const std::string& json, const std::string& path) {
   const std::string ending = ending_of(path);

@@ -1,10 +1,7 @@
 #include "import/points/point_source.hpp"
 
-#include <algorithm>
-#include <cctype>
-#include <filesystem>
-
 #include <itin/error.hpp>
+#include <itin/file_ending.hpp>
 
 #include "import/lidar/las_reader.hpp"
 #include "import/points/delimited_text.hpp"
@@ -14,8 +11,7 @@
 namespace itin {
 
 bool is_delimited_text(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string ending = ending_of(path);
   return ending == ".csv" || ending == ".xyz" || ending == ".txt" || ending == ".tsv";
 }
 
