@@ -23,10 +23,7 @@ class LinkJudge {
   }
 
   bool linked(const SiteStand& a, const SiteStand& b) const {
-    profile::LosQuery query;
-    query.from_height_m = a.height, query.to_height_m = b.height;
-    query.from_on_surface = rules_.query.from_on_surface, query.to_on_surface = rules_.query.to_on_surface;
-    query.earth = rules_.query.earth, query.radio = rules_.query.radio, query.nodata = rules_.query.nodata;
+    const profile::LosQuery query = los_query(link_between(a, b), rules_.query);
     profile::Profile ground;
     if (ground_) ground = profile::from_section(ground_->between(a.position, b.position));
     profile::Profile line = profile::from_section(surface_.between(a.position, b.position));
@@ -56,6 +53,10 @@ LinkRules link_rules(const SiteOptions& options) {
   return rules;
 }
 
+profile::Link link_between(const SiteStand& from, const SiteStand& to) {
+  return {{}, from.position, from.height, to.position, to.height};
+}
+
 std::vector<SiteLink> site_links(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
                                  const viewshed::Choice& choice, const std::optional<SiteStand>& hub,
                                  Progress& progress) {
@@ -71,8 +72,7 @@ std::vector<SiteLink> site_links(const Store& store, const SiteOptions& options,
   for (std::size_t i = 0; i < ends.size(); ++i) {
     for (std::size_t j = i + 1; j < ends.size(); ++j) {
       progress.throw_if_cancelled();
-      const profile::Link link{{}, ends[i].position, ends[i].height, ends[j].position, ends[j].height};
-      result.push_back({ends[i], ends[j], survey_link(store, link, query)});
+      result.push_back({ends[i], ends[j], survey_link(store, link_between(ends[i], ends[j]), query)});
     }
     progress.report("links", static_cast<double>(i + 1) / static_cast<double>(ends.size()));
   }

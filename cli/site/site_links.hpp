@@ -26,6 +26,9 @@ struct LinkRules {
 };
 LinkRules link_rules(const SiteOptions& options);
 
+/// Between antennas or eyes at two sites.
+profile::Link link_between(const viewshed::SiteStand& from, const viewshed::SiteStand& to);
+
 /// A line of sight between two sites, or a site and the hub.
 struct SiteLink {
   viewshed::SiteStand from, to;

@@ -20,11 +20,8 @@ using viewshed::SiteStand;
 profile::LosReport report_of(const Store& store, const SiteOptions& options, const SiteStand& from,
                              const SiteStand& to) {
   const profile::LinkQuery rules = link_rules(options).query;
-  profile::LosQuery query;
-  query.from_height_m = from.height, query.to_height_m = to.height;
-  query.from_on_surface = rules.from_on_surface, query.to_on_surface = rules.to_on_surface;
-  query.earth = rules.earth, query.radio = rules.radio, query.nodata = rules.nodata;
-  profile::LosReport report = analyse(store, {from.position, to.position, rules.detail, rules.themes}, query);
+  profile::LosReport report = analyse(store, {from.position, to.position, rules.detail, rules.themes},
+                                      los_query(link_between(from, to), rules));
   report.title = fmt::format("{} to {}", from.name, to.name);
   report.facts = {{"Store", std::filesystem::path(store.path()).filename().string()}};
   const auto about = [](const SiteStand& stand) -> std::vector<std::string> {

@@ -101,6 +101,9 @@ struct LinkResult {
 std::vector<LinkResult> survey_links(const Store& store, const std::vector<Link>& links, const LinkQuery& query,
                                      Progress& progress);
 
+/// The query of one link: its own frequency, polarisation and criteria, or those of `query`.
+LosQuery los_query(const Link& link, const LinkQuery& query);
+
 /// One link, by itself. Throws InputError where it cannot be computed, CorruptStore, FileError.
 LinkResult survey_link(const Store& store, const Link& link, const LinkQuery& query);
 

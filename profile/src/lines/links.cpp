@@ -27,22 +27,6 @@ struct Sections {
   Profile ground;
 };
 
-LosQuery query_of(const Link& link, const LinkQuery& all, double clearance_error_m) {
-  LosQuery query;
-  query.from_height_m = link.from_height, query.to_height_m = link.to_height;
-  query.from_on_surface = all.from_on_surface, query.to_on_surface = all.to_on_surface;
-  query.earth = all.earth, query.nodata = all.nodata, query.object = all.object;
-  query.criteria = link.criteria.empty() ? all.criteria : link.criteria;
-  query.clearance_error_m = clearance_error_m;
-  query.radio = all.radio;
-  if (link.frequency_ghz) {
-    if (!query.radio) query.radio.emplace().effective_earth_km = effective_earth_km(all.earth);
-    query.radio->frequency_ghz = *link.frequency_ghz;
-  }
-  if (query.radio && link.polarisation) query.radio->polarisation = *link.polarisation;
-  return query;
-}
-
 LinkResult result_of(const Sections& sections, const LosQuery& query) {
   require_valid(sections.surface, query, sections.ground);
   LinkResult result;
@@ -71,29 +55,37 @@ void require_ground(const Profile& profile, const Link& link) {
   throw InputError(fmt::format("no ground under its {} end, {:.10g} {:.10g}", first ? "first" : "second", p.x, p.y));
 }
 
+/// `along(bare)` is the link's profile over the surface, or over the ground without what stands on it.
+template <class Along>
+LinkResult survey(const Store& store, const LinkQuery& query, const Link& link, const Along& along) {
+  Sections sections{along(false), {}};
+  require_ground(sections.surface, link);
+  if (query.themes.includes_standing(store.metadata().themes)) sections.ground = along(true);
+  LosQuery own = los_query(link, query);
+  own.clearance_error_m = clearance_error(store, query.detail, query.themes, link.from, link.to);
+  return result_of(sections, own);
+}
+
 /// Many links over one surface.
 class Surfaces {
  public:
-  Surfaces(const Store& store, const LinkQuery& query, const std::vector<Link>& links)
-      : store_(store), query_(query), standing_(query.themes.includes_standing(store.metadata().themes)) {
-    if (standing_ || sharing_pays(store, query.detail, links)) surface_.emplace(store, query.detail, query.themes);
-    if (standing_) ground_.emplace(store, query.detail);
+  Surfaces(const Store& store, const LinkQuery& query, const std::vector<Link>& links) : store_(store), query_(query) {
+    const bool standing = query.themes.includes_standing(store.metadata().themes);
+    if (standing || sharing_pays(store, query.detail, links)) surface_.emplace(store, query.detail, query.themes);
+    if (standing) ground_.emplace(store, query.detail);
   }
 
   LinkResult survey(const Link& link) const {
-    Sections sections;
-    sections.surface = from_section(surface_ ? surface_->between(link.from, link.to)
-                                             : cross_section(store_, link.from, link.to, query_.detail));
-    require_ground(sections.surface, link);
-    if (ground_) sections.ground = from_section(ground_->between(link.from, link.to));
-    const double error = clearance_error(store_, query_.detail, query_.themes, link.from, link.to);
-    return result_of(sections, query_of(link, query_, error));
+    return profile::survey(store_, query_, link, [&](bool bare) {
+      const std::optional<SectionSurface>& over = bare ? ground_ : surface_;
+      return from_section(over ? over->between(link.from, link.to)
+                               : cross_section(store_, link.from, link.to, query_.detail));
+    });
   }
 
  private:
   const Store& store_;
   const LinkQuery& query_;
-  bool standing_;
   std::optional<SectionSurface> surface_;  ///< where none, every link is retrieved by itself
   std::optional<SectionSurface> ground_;
 };
@@ -141,15 +133,26 @@ std::vector<LinkResult> survey_links(const Store& store, const std::vector<Link>
   return results;
 }
 
+LosQuery los_query(const Link& link, const LinkQuery& all) {
+  LosQuery query;
+  query.from_height_m = link.from_height, query.to_height_m = link.to_height;
+  query.from_on_surface = all.from_on_surface, query.to_on_surface = all.to_on_surface;
+  query.earth = all.earth, query.nodata = all.nodata, query.object = all.object;
+  query.criteria = link.criteria.empty() ? all.criteria : link.criteria;
+  query.radio = all.radio;
+  if (link.frequency_ghz) {
+    if (!query.radio) query.radio.emplace().effective_earth_km = effective_earth_km(all.earth);
+    query.radio->frequency_ghz = *link.frequency_ghz;
+  }
+  if (query.radio && link.polarisation) query.radio->polarisation = *link.polarisation;
+  return query;
+}
+
 LinkResult survey_link(const Store& store, const Link& link, const LinkQuery& query) {
-  const auto along = [&](const ThemeChoice& themes) {
-    return from_section(cross_section(store, link.from, link.to, query.detail, themes));
-  };
-  Sections sections{along(query.themes), {}};
-  require_ground(sections.surface, link);
-  if (query.themes.includes_standing(store.metadata().themes)) sections.ground = along(ThemeChoice::none());
-  return result_of(sections,
-                   query_of(link, query, clearance_error(store, query.detail, query.themes, link.from, link.to)));
+  return survey(store, query, link, [&](bool bare) {
+    return from_section(
+        cross_section(store, link.from, link.to, query.detail, bare ? ThemeChoice::none() : query.themes));
+  });
 }
 
 }  // namespace itin::profile
