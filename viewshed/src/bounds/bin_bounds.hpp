@@ -22,6 +22,13 @@ struct BinBox {
   double west = 0, north = 0, east = 0, south = 0;
 };
 
+/// Square bins of this side, metres, over a box of this size and half a bin more all around, so that its edges lie
+/// inside.
+inline RasterGrid bins_over(Point2 north_west, double width, double height, double bin) {
+  const auto count = [&](double length) { return static_cast<std::int64_t>(std::ceil(length / bin)) + 1; };
+  return {{north_west.x - bin / 2, north_west.y + bin / 2}, bin, bin, count(width), count(height)};
+}
+
 class BinBounds {
  public:
   BinBounds(const BinBounds&) = delete;

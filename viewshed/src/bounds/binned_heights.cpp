@@ -32,9 +32,7 @@ RasterGrid bin_grid(const Tin& tin, double cell_area) {
   const double width = std::max(box.width(), tin.grid.resolution), height = std::max(box.height(), tin.grid.resolution);
   const double area = width * height;
   const double bin = std::sqrt(area / bin_count(static_cast<double>(tin.triangles.size()), area / cell_area));
-  // Half a bin more than needed all around, so that the edges lie inside.
-  const auto count = [&](double length) { return static_cast<std::int64_t>(std::ceil(length / bin)) + 1; };
-  return {{box.xmin - bin / 2, box.ymax + bin / 2}, bin, bin, count(width), count(height)};
+  return bins_over({box.xmin, box.ymax}, width, height, bin);
 }
 
 /// A square with some slack, grid units.

@@ -15,9 +15,7 @@ namespace {
 
 RasterGrid bin_grid(const Box& box, double bin) {
   if (box.empty()) return {{0, 0}, bin, bin, 1, 1};
-  // Half a bin more than needed all around, so that the edges lie inside.
-  const auto count = [&](double length) { return static_cast<std::int64_t>(std::ceil(length / bin)) + 1; };
-  return {{box.xmin - bin / 2, box.ymax + bin / 2}, bin, bin, count(box.width()), count(box.height())};
+  return bins_over({box.xmin, box.ymax}, box.width(), box.height(), bin);
 }
 
 /// Grid units. Features bend the ground about them, at positions rounded to the grid: there it is no lower and no

@@ -74,9 +74,10 @@ Surveyed certify_by_blocks(const Store& store, const Request& request, Progress&
   const std::size_t count = result.grid.cell_count();
   Stage stage("cells judged", eyes.size() * count, progress);
   CertifiedCells cells(result.grid, tiles, stage);
+  const Surroundings surroundings(store, request, result.grid);
   for (std::size_t i = 0; i < eyes.size(); ++i) {
     bounded.bound(reach_of(eyes[i], bounded.envelope().lower.bounds()));
-    const auto nearby = decide_nearby(store, request, request.observers[i], result.grid, result.statistics, progress);
+    const auto nearby = surroundings.decide(request.observers[i], result.statistics, progress);
     const BlockJudge judge(bounded, request, result.grid, tiles, eyes[i], nearby ? &*nearby : nullptr);
     cells.judge(judge, 1, tiles_in_reach(eyes[i], result.grid, tiles));
     stage.advance_to((i + 1) * count);

@@ -49,8 +49,9 @@ class CertifiedSectors {
     const std::size_t cells = result.grid.cell_count();
     Stage stage("cells judged", eyes.size() * cells, progress_);
     cells_.emplace(result.grid, tiles_, stage);
+    const Surroundings surroundings(store_, request_, result.grid);
     for (std::size_t i = 0; i < eyes.size(); ++i) {
-      nearby_ = decide_nearby(store_, request_, request_.observers[i], result.grid, result.statistics, progress_);
+      nearby_ = surroundings.decide(request_.observers[i], result.statistics, progress_);
       judge_from(eyes[i]);
       stage.advance_to((i + 1) * cells);
     }

@@ -17,12 +17,6 @@ namespace {
 /// As far as about so many points of the full surface lie, and no more than this share of them.
 constexpr double kPointsNearby = 32000, kShareNearby = 1.0 / 64;
 
-double reach_of(const Store& store, const Request& request, const Observer& observer) {
-  const auto all = static_cast<double>(store.points_about(0, box_of_window(store, request)));
-  const double reach = radius_with(store, 0, observer.position, std::min(kPointsNearby, kShareNearby * all));
-  return std::min(reach, radius_of(request, observer).value_or(std::numeric_limits<double>::infinity()));
-}
-
 struct Part {
   RasterGrid::Cell first;
   std::int64_t columns = 0, rows = 0;
@@ -42,21 +36,33 @@ Part cells_within(const RasterGrid& grid, const Box& box) {
 
 }  // namespace
 
-std::optional<ExactNearby> decide_nearby(const Store& store, const Request& request, const Observer& observer,
-                                         const RasterGrid& grid, Statistics& statistics, Progress& progress) {
-  const double reach = reach_of(store, request, observer);
-  const Part part = cells_within(grid, disc_box(observer.position, reach));
-  if (part.columns <= 0 || part.rows <= 0 || reach < std::max(grid.cell_width(), grid.cell_height()) ||
-      reach <= observer.min_radius.value_or(request.min_radius))
+Surroundings::Surroundings(const Store& store, const Request& request, const RasterGrid& grid)
+    : store_(store),
+      request_(request),
+      grid_(grid),
+      points_(std::min(kPointsNearby,
+                       kShareNearby * static_cast<double>(store.points_about(0, box_of_window(store, request))))) {}
+
+double Surroundings::reach_of(const Observer& observer) const {
+  return std::min(radius_with(store_, 0, observer.position, points_),
+                  radius_of(request_, observer).value_or(std::numeric_limits<double>::infinity()));
+}
+
+std::optional<ExactNearby> Surroundings::decide(const Observer& observer, Statistics& statistics,
+                                                Progress& progress) const {
+  const double reach = reach_of(observer);
+  const Part part = cells_within(grid_, disc_box(observer.position, reach));
+  if (part.columns <= 0 || part.rows <= 0 || reach < std::max(grid_.cell_width(), grid_.cell_height()) ||
+      reach <= observer.min_radius.value_or(request_.min_radius))
     return std::nullopt;
-  Request nearby = request;
+  Request nearby = request_;
   nearby.observers = {observer};
   nearby.observers.front().radius = reach;
   nearby.detail = Detail::tolerance(0);
-  nearby.grid = grid.part(part.first, part.columns, part.rows);
+  nearby.grid = grid_.part(part.first, part.columns, part.rows);
   nearby.cell_size.reset();
   SilentProgress reading(progress);
-  Surveyed exact = compute_with_surface(store, nearby, {}, reading);
+  Surveyed exact = compute_with_surface(store_, nearby, {}, reading);
   statistics.lines += exact.result.statistics.lines;
   return ExactNearby{part.first, part.columns, part.rows, std::move(exact.result.visible)};
 }

@@ -11,9 +11,22 @@
 
 namespace itin::viewshed {
 
-/// Decides cells of `grid`; nothing where none lies that near. Adds the lines that it takes to the statistics. Throws
-/// as compute_with_surface() does.
-std::optional<ExactNearby> decide_nearby(const Store& store, const Request& request, const Observer& observer,
-                                         const RasterGrid& grid, Statistics& statistics, Progress& progress);
+class Surroundings {
+ public:
+  /// All must outlive it.
+  Surroundings(const Store& store, const Request& request, const RasterGrid& grid);
+
+  /// Decides cells of the grid; nothing where none lies that near to the observer. Adds the lines that it takes to the
+  /// statistics. Throws as compute_with_surface() does.
+  std::optional<ExactNearby> decide(const Observer& observer, Statistics& statistics, Progress& progress) const;
+
+ private:
+  double reach_of(const Observer& observer) const;
+
+  const Store& store_;
+  const Request& request_;
+  const RasterGrid& grid_;
+  double points_;  ///< about so many of the full surface are read about each observer
+};
 
 }  // namespace itin::viewshed

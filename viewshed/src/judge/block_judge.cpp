@@ -1,11 +1,10 @@
 #include "judge/block_judge.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
+#include <utility>
 
 #include <itin/grazing.hpp>
-#include <itin/parallel.hpp>
 
 #include "bounds/surface_heights.hpp"
 

@@ -21,24 +21,6 @@ inline std::vector<std::uint8_t> codes_of(const std::vector<Verdict>& verdicts) 
   return codes;
 }
 
-/// Adds a cell of this value.
-inline void count(Verdict value, CellCounts& cells) {
-  switch (value) {
-    case Verdict::kVisible:
-      ++cells.visible;
-      break;
-    case Verdict::kHidden:
-      ++cells.hidden;
-      break;
-    case Verdict::kUndecided:
-      ++cells.undecided;
-      break;
-    case Verdict::kOutside:
-      ++cells.outside;
-      break;
-  }
-}
-
 /// Every observer's verdict on a cell, made one: the first of visible, undecided, hidden and outside that any of them
 /// has. At first nobody looks.
 class Verdicts {
