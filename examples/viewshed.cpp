@@ -25,13 +25,14 @@ int main(int argc, char** argv) {
     request.themes = itin::ThemeChoice::all();  // buildings stand in the way
 
     // Keeps the surface, which the map is drawn over.
-    const itin::viewshed::Surveyed surveyed = itin::viewshed::compute_with_surface(store, request, {}, progress);
-    const itin::viewshed::Result& result = surveyed.result;
+    const itin::viewshed::ViewshedWithSurface computed =
+        itin::viewshed::compute_with_surface(store, request, {}, progress);
+    const itin::viewshed::Result& result = computed.result;
     for (const std::string& warning : result.warnings) std::cerr << warning << '\n';
     std::cout << result.cells.visible << " cells are visible, " << result.cells.hidden << " hidden\n";
 
     itin::viewshed::write_geotiff("viewshed.tif", result, {store.metadata().crs_wkt, {}, true});
-    const auto map = itin::viewshed::draw_map(*surveyed.surface, result, progress, {.title = "From the street"});
+    const auto map = itin::viewshed::draw_map(*computed.surface, result, progress, {.title = "From the street"});
     itin::viewshed::write_image("viewshed.png", map, true);
   } catch (const itin::Error& error) {
     std::cerr << error.what() << '\n';

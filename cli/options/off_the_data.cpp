@@ -38,7 +38,7 @@ Point2 as_given(Point2 place, const InCrs& in_crs, const StoreMetadata& metadata
   }
 }
 
-bool looks_like_degrees(Point2 p) {
+bool may_be_degrees(Point2 p) {
   return std::abs(p.x) <= 180 && std::abs(p.y) <= 180;
 }
 
@@ -46,7 +46,7 @@ std::string likely_mistake(Point2 given, const InCrs& in_crs, const StoreMetadat
   const Point2 swapped{given.y, given.x};
   if (within(swapped, in_crs, metadata))
     return fmt::format("its coordinates are swapped: give {:.10g},{:.10g}", swapped.x, swapped.y);
-  if (in_crs.crs.empty() && looks_like_degrees(given)) {
+  if (in_crs.crs.empty() && may_be_degrees(given)) {
     const InCrs lon_lat{kLonLat};
     if (within(given, lon_lat, metadata)) return fmt::format("it is in degrees: give --in-crs {}, too", kLonLat);
     if (within(swapped, lon_lat, metadata))

@@ -130,7 +130,7 @@ class ProfileVerb final : public Verb {
     }
     profile::Profile ground;
     if (std::any_of(outputs_.begin(), outputs_.end(), is_chart) &&
-        themes_.choice().includes_standing(store.metadata().themes)) {
+        themes_.choice().includes_raised(store.metadata().themes)) {
       ground = along(store, corners, profiles.front().detail, ThemeChoice::none(), cost, progress);
     }
     if (profiles.front().profile.points.empty()) {

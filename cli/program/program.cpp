@@ -89,7 +89,7 @@ std::vector<std::string> repeat_observer(const std::vector<std::string>& argumen
   bool listing = false;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const bool value = i > 0 && arguments[i - 1] == option;
-    const bool another = !value && listing && looks_like_place(arguments[i]);
+    const bool another = !value && listing && may_be_place(arguments[i]);
     if (another) repeated.push_back(option);
     repeated.push_back(arguments[i]);
     listing = value || another;

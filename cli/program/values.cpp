@@ -194,7 +194,7 @@ Place parse_place(std::string_view option, std::string_view text) {
   return place;
 }
 
-bool looks_like_place(std::string_view text) {
+bool may_be_place(std::string_view text) {
   if (written_position(text) || written_position(text.substr(0, text.rfind(',')))) return true;
   const std::vector<std::string_view> parts = split(text, ',');
   return (parts.size() == 2 || parts.size() == 3) && whole_text_as<double>(parts[0]).has_value();

@@ -75,6 +75,6 @@ struct Place {
 Place parse_place(std::string_view option, std::string_view text);
 
 /// Whether `text` could be a place: no more than a hint, to tell it from a file name.
-bool looks_like_place(std::string_view text);
+bool may_be_place(std::string_view text);
 
 }  // namespace itin::cli

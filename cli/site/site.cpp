@@ -59,21 +59,21 @@ class SiteVerb final : public Verb {
     inputs_document_ = hash_inputs(progress);
     const SiteInputs inputs = read_site_inputs(store, options_, progress);
     require_memory(store, inputs);
-    const std::optional<viewshed::SiteStand> hub_stand = hub(store, progress);
-    viewshed::ChoiceGoal goal = this->goal(store, inputs, hub_stand, progress);
+    const std::optional<viewshed::SitePosition> hub_position = hub(store, progress);
+    viewshed::ChoiceGoal goal = this->goal(store, inputs, hub_position, progress);
     viewshed::check_goal(inputs.options, goal);
 
     viewshed::SiteCoverage coverage(store, site_survey(options_, inputs), progress);
-    SiteWork work(place("site.work"), key(), options_.resume, inputs.stands.size(), coverage);
+    SiteWork work(place("site.work"), key(), options_.resume, inputs.positions.size(), coverage);
     coverage.on_refined = [&](std::size_t option, int stage, const viewshed::CoverageBounds& bounds) {
       work.add(option, stage, bounds);
     };
-    coverage.look_first();
+    coverage.explore();
     add_existing(inputs, coverage, goal);
     SiteResult site{options_, inputs, coverage, {}, {}, {}, {}};
     site.choice = viewshed::choose(inputs.demand, inputs.options, coverage, goal, progress);
     coverage.release_surfaces();
-    site.links = site_links(store, options_, inputs, site.choice, hub_stand, progress);
+    site.links = site_links(store, options_, inputs, site.choice, hub_position, progress);
     site.ground_m = site_grounds(store, inputs, site.choice, progress);
     site.rasters = site_rasters(store, options_, inputs, coverage, site.choice, progress);
     Result result = write(store, site, progress);
@@ -100,16 +100,16 @@ class SiteVerb final : public Verb {
 
   /// For the maps, beside what is known of all sites. Where demand is points, they are of cells about the chosen sites.
   void require_memory(const Store& store, const SiteInputs& inputs) const {
-    const RasterGrid grid = inputs.targets.grid
-                                ? *inputs.targets.grid
-                                : viewshed::grid_of_reach(store, inputs.stands, options_.radius, options_.cell_size());
+    const RasterGrid grid =
+        inputs.targets.grid ? *inputs.targets.grid
+                            : viewshed::grid_of_reach(store, inputs.positions, options_.radius, options_.cell_size());
     const std::uint64_t needed =
         bytes_of_site_maps(store, grid) + viewshed::bytes_of_coverage(site_survey(options_, inputs));
     if (needed <= options_.memory_bytes) return;
     throw InputError(fmt::format(
         "maps of {} cells, and what {} may serve of them, take some {:.2g} GB, more than the {:.2g} GB of --memory: "
         "give a greater --cell, a smaller --radius, fewer sites, or more",
-        grouped(grid.cell_count()), counted(inputs.stands.size(), "site"), static_cast<double>(needed) / 1e9,
+        grouped(grid.cell_count()), counted(inputs.positions.size(), "site"), static_cast<double>(needed) / 1e9,
         static_cast<double>(options_.memory_bytes) / 1e9));
   }
 
@@ -121,18 +121,18 @@ class SiteVerb final : public Verb {
                        json_text(options_.earth.document()));
   }
 
-  std::optional<viewshed::SiteStand> hub(const Store& store, Progress& progress) const {
+  std::optional<viewshed::SitePosition> hub(const Store& store, Progress& progress) const {
     if (!options_.hub) return std::nullopt;
     const Point2 p = on_the_data("--hub", *options_.hub, options_.in_crs, store.metadata());
     const auto ground = viewshed::ground_under(
         store, {p}, options_.on_surface ? options_.themes.choice() : ThemeChoice::none(), progress);
     if (!ground.front()) throw InputError("--hub: there is no data there; move it onto the data");
-    return viewshed::SiteStand{"hub", p, options_.hub->height.value_or(20), *ground.front()};
+    return viewshed::SitePosition{"hub", p, options_.hub->height.value_or(20), *ground.front()};
   }
 
   /// All but what existing sites serve. Refers to the inputs.
   viewshed::ChoiceGoal goal(const Store& store, const SiteInputs& inputs,
-                            const std::optional<viewshed::SiteStand>& hub_stand, Progress& progress) const {
+                            const std::optional<viewshed::SitePosition>& hub_position, Progress& progress) const {
     viewshed::ChoiceGoal goal;
     goal.count = options_.count;
     goal.budget = options_.budget;
@@ -142,15 +142,15 @@ class SiteVerb final : public Verb {
     goal.swaps = options_.swaps;
     if (options_.min_spacing)
       goal.compatible = [this, &inputs](std::size_t a, std::size_t b) {
-        const Point2 p = inputs.stands[a].position, q = inputs.stands[b].position;
+        const Point2 p = inputs.positions[a].position, q = inputs.positions[b].position;
         return std::hypot(p.x - q.x, p.y - q.y) >= *options_.min_spacing;
       };
-    if (options_.intervisible) goal.network = link_network(store, options_, inputs, hub_stand, progress);
+    if (options_.intervisible) goal.network = link_network(store, options_, inputs, hub_position, progress);
     return goal;
   }
 
   void add_existing(const SiteInputs& inputs, viewshed::SiteCoverage& coverage, viewshed::ChoiceGoal& goal) const {
-    for (std::size_t i = inputs.options.size(); i < inputs.stands.size(); ++i) {
+    for (std::size_t i = inputs.options.size(); i < inputs.positions.size(); ++i) {
       while (!coverage.bounds(i).exact) coverage.refine({&i, 1});
       const viewshed::DemandSet& served = coverage.bounds(i).certain;
       goal.existing.push_back(inputs.cells.empty() ? served : intersection(served, inputs.cells));
@@ -219,10 +219,10 @@ class SiteVerb final : public Verb {
   std::string text(const SiteResult& site, std::size_t files) const {
     std::string text;
     for (const viewshed::ChosenSite& chosen : site.choice.chosen) {
-      const viewshed::SiteStand& stand = site.stand(chosen);
+      const viewshed::SitePosition& place = site.place_of(chosen);
       text +=
-          fmt::format("{:<16} {:>12.2f} {:>12.2f}  {:>5g} m  +{:<10.10g} {:.10g}\n", stand.name, stand.position.x,
-                      stand.position.y, stand.height, site.in_metric(chosen.gain), site.in_metric(chosen.cumulative));
+          fmt::format("{:<16} {:>12.2f} {:>12.2f}  {:>5g} m  +{:<10.10g} {:.10g}\n", place.name, place.position.x,
+                      place.position.y, place.height, site.in_metric(chosen.gain), site.in_metric(chosen.cumulative));
     }
     text +=
         fmt::format("served: {:.10g} of {:.10g} ({:.1f} %){}; no choice serves more than {:.10g} (gap {:.1f} %)\n",

@@ -18,7 +18,7 @@ namespace itin::cli {
 
 namespace {
 
-using viewshed::SiteStand;
+using viewshed::SitePosition;
 
 class InputReader {
  public:
@@ -119,7 +119,7 @@ class InputReader {
         if (!(candidate.cost + mast.cost > 0))
           throw InputError(fmt::format("candidate {}: its cost is 0; costs must be positive", candidate.id));
         inputs_.options.push_back({kept.size(), candidate.cost + mast.cost});
-        inputs_.stands.push_back({candidate.id, candidate.position, mast.height, *ground[i]});
+        inputs_.positions.push_back({candidate.id, candidate.position, mast.height, *ground[i]});
       }
       kept.push_back(candidate);
     }
@@ -144,7 +144,7 @@ class InputReader {
         reject(fmt::format("{}: feature {}: {}", query.path, sites[i].feature,
                            ground[i] ? "its height is negative" : "there is no data there"));
       } else {
-        inputs_.stands.push_back({sites[i].name, sites[i].position, height, *ground[i]});
+        inputs_.positions.push_back({sites[i].name, sites[i].position, height, *ground[i]});
       }
     }
   }
@@ -163,8 +163,8 @@ class InputReader {
   }
 
   void read_cells() {
-    const std::vector<SiteStand> of_options(
-        inputs_.stands.begin(), inputs_.stands.begin() + static_cast<std::ptrdiff_t>(inputs_.options.size()));
+    const std::vector<SitePosition> of_options(
+        inputs_.positions.begin(), inputs_.positions.begin() + static_cast<std::ptrdiff_t>(inputs_.options.size()));
     const RasterGrid grid = viewshed::grid_of_reach(store_, of_options, options_.radius, options_.cell_size());
     inputs_.targets.grid = grid;
     inputs_.demand = viewshed::Demand(viewshed::element_count(grid));

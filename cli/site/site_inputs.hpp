@@ -24,7 +24,7 @@ struct SiteInputs {
   std::vector<Candidate> candidates;
   // Options are a candidate with a mast, in order; existing sites follow in `stands`.
   std::vector<viewshed::SiteOption> options;
-  std::vector<viewshed::SiteStand> stands;
+  std::vector<viewshed::SitePosition> positions;
   viewshed::SiteTargets targets;
   viewshed::Demand demand;
   viewshed::DemandSet cells;              ///< where cells are the demand: those with ground within an option's radius
@@ -32,7 +32,7 @@ struct SiteInputs {
   std::vector<std::string> rejected;      ///< a line for each row that is not used, and why
   std::size_t demand_without_ground = 0;  ///< points
 
-  std::size_t existing() const { return stands.size() - options.size(); }
+  std::size_t existing() const { return positions.size() - options.size(); }
 };
 
 /// Throws InputError where nothing is left to choose from, FileError.

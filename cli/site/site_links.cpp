@@ -11,18 +11,18 @@ namespace itin::cli {
 
 namespace {
 
-using viewshed::SiteStand;
+using viewshed::SitePosition;
 
 /// Judges many links one after another: keeps the tiles of the surface that it has triangulated.
 class LinkJudge {
  public:
   LinkJudge(const Store& store, LinkRules rules, const SectionSurface::Options& cache)
       : rules_(std::move(rules)), surface_(store, rules_.query.detail, rules_.query.themes, cache) {
-    if (rules_.query.themes.includes_standing(store.metadata().themes))
+    if (rules_.query.themes.includes_raised(store.metadata().themes))
       ground_.emplace(store, rules_.query.detail, ThemeChoice::none(), cache);
   }
 
-  bool linked(const SiteStand& a, const SiteStand& b) const {
+  bool linked(const SitePosition& a, const SitePosition& b) const {
     const profile::LosQuery query = los_query(link_between(a, b), rules_.query);
     profile::Profile ground;
     if (ground_) ground = profile::from_section(ground_->between(a.position, b.position));
@@ -33,7 +33,7 @@ class LinkJudge {
  private:
   LinkRules rules_;
   SectionSurface surface_;
-  std::optional<SectionSurface> ground_;  ///< under standing features
+  std::optional<SectionSurface> ground_;  ///< under the raised features
 };
 
 }  // namespace
@@ -53,17 +53,17 @@ LinkRules link_rules(const SiteOptions& options) {
   return rules;
 }
 
-profile::Link link_between(const SiteStand& from, const SiteStand& to) {
+profile::Link link_between(const SitePosition& from, const SitePosition& to) {
   return {{}, from.position, from.height, to.position, to.height};
 }
 
 std::vector<SiteLink> site_links(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
-                                 const viewshed::Choice& choice, const std::optional<SiteStand>& hub,
+                                 const viewshed::Choice& choice, const std::optional<SitePosition>& hub,
                                  Progress& progress) {
-  std::vector<SiteStand> ends;
-  for (const viewshed::ChosenSite& site : choice.chosen) ends.push_back(inputs.stands[site.option]);
-  for (std::size_t i = inputs.options.size(); i < inputs.stands.size() && options.intervisible; ++i) {
-    ends.push_back(inputs.stands[i]);
+  std::vector<SitePosition> ends;
+  for (const viewshed::ChosenSite& site : choice.chosen) ends.push_back(inputs.positions[site.option]);
+  for (std::size_t i = inputs.options.size(); i < inputs.positions.size() && options.intervisible; ++i) {
+    ends.push_back(inputs.positions[i]);
     ends.back().name = "existing " + ends.back().name;
   }
   if (hub) ends.push_back(*hub);
@@ -80,26 +80,26 @@ std::vector<SiteLink> site_links(const Store& store, const SiteOptions& options,
 }
 
 std::shared_ptr<viewshed::LinkNetwork> link_network(const Store& store, const SiteOptions& options,
-                                                    const SiteInputs& inputs, const std::optional<SiteStand>& hub,
+                                                    const SiteInputs& inputs, const std::optional<SitePosition>& hub,
                                                     Progress& progress) {
-  std::vector<SiteStand> stands = inputs.stands;
-  if (hub) stands.push_back(*hub);
-  const std::size_t standing = stands.size() - inputs.options.size();
-  const auto last = hub ? std::optional(stands.size() - 1) : std::nullopt;
+  std::vector<SitePosition> positions = inputs.positions;
+  if (hub) positions.push_back(*hub);
+  const std::size_t existing = positions.size() - inputs.options.size();
+  const auto last = hub ? std::optional(positions.size() - 1) : std::nullopt;
   const SectionSurface::Options cache{std::min(SectionSurface::Options().cache_bytes, options.memory_bytes / 8)};
   const auto linked = [&progress, judge = std::make_shared<const LinkJudge>(store, link_rules(options), cache),
-                       stands = std::move(stands)](std::size_t site, std::span<const std::size_t> others) {
+                       positions = std::move(positions)](std::size_t site, std::span<const std::size_t> others) {
     std::vector<char> clear(others.size());
     parallel_for(others.size(), [&](std::size_t i) {
       progress.throw_if_cancelled();
-      clear[i] = judge->linked(stands[site], stands[others[i]]);
+      clear[i] = judge->linked(positions[site], positions[others[i]]);
     });
     std::vector<std::size_t> result;
     for (std::size_t i = 0; i < others.size(); ++i)
       if (clear[i]) result.push_back(others[i]);
     return result;
   };
-  return std::make_shared<viewshed::LinkNetwork>(inputs.options.size(), standing, last, linked);
+  return std::make_shared<viewshed::LinkNetwork>(inputs.options.size(), existing, last, linked);
 }
 
 }  // namespace itin::cli

@@ -27,11 +27,11 @@ struct LinkRules {
 LinkRules link_rules(const SiteOptions& options);
 
 /// Between antennas or eyes at two sites.
-profile::Link link_between(const viewshed::SiteStand& from, const viewshed::SiteStand& to);
+profile::Link link_between(const viewshed::SitePosition& from, const viewshed::SitePosition& to);
 
 /// A line of sight between two sites, or a site and the hub.
 struct SiteLink {
-  viewshed::SiteStand from, to;
+  viewshed::SitePosition from, to;
   profile::LinkResult line;
 
   const profile::LineFindings& found() const { return *line.found; }
@@ -39,12 +39,13 @@ struct SiteLink {
 
 /// Between all chosen sites, and to the hub; where links hold the choice together, existing sites take part.
 std::vector<SiteLink> site_links(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
-                                 const viewshed::Choice& choice, const std::optional<viewshed::SiteStand>& hub,
+                                 const viewshed::Choice& choice, const std::optional<viewshed::SitePosition>& hub,
                                  Progress& progress);
 
 /// The links among options, existing sites and the hub that meet the rules. Refers to the store and the progress.
 std::shared_ptr<viewshed::LinkNetwork> link_network(const Store& store, const SiteOptions& options,
                                                     const SiteInputs& inputs,
-                                                    const std::optional<viewshed::SiteStand>& hub, Progress& progress);
+                                                    const std::optional<viewshed::SitePosition>& hub,
+                                                    Progress& progress);
 
 }  // namespace itin::cli

@@ -33,8 +33,8 @@ viewshed::Result as_viewshed(const SiteResult& r) {
   result.request.radius = r.options.radius;
   result.request.target_height = r.options.target_height;
   for (const viewshed::ChosenSite& site : r.choice.chosen) {
-    const viewshed::SiteStand& stand = r.stand(site);
-    result.request.observers.push_back({stand.name, stand.position, stand.height});
+    const viewshed::SitePosition& place = r.place_of(site);
+    result.request.observers.push_back({place.name, place.position, place.height});
   }
   for (const std::uint16_t n : r.rasters.redundancy) {
     const bool outside = n == SiteRasters::kNoDemand, served = !outside && n >= r.options.cover;

@@ -28,13 +28,13 @@ std::string sites_csv(const SiteResult& r) {
   const auto out = std::back_inserter(text);
   for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
     const viewshed::ChosenSite& site = r.choice.chosen[i];
-    const viewshed::SiteStand& stand = r.stand(site);
+    const viewshed::SitePosition& place = r.place_of(site);
     const CoverageSummary now = r.summary(r.coverage.bounds(site.option)),
                           first = r.summary(r.coverage.first_bounds(site.option));
-    fmt::format_to(out, "{},{},{},{},{},{:.3f},{},{},{},{},{},{},{:.3f}\n", i + 1, csv_cell(stand.name),
-                   stand.position.x, stand.position.y, stand.height, r.ground_m[i], r.inputs.options[site.option].cost,
+    fmt::format_to(out, "{},{},{},{},{},{:.3f},{},{},{},{},{},{},{:.3f}\n", i + 1, csv_cell(place.name),
+                   place.position.x, place.position.y, place.height, r.ground_m[i], r.inputs.options[site.option].cost,
                    r.in_metric(site.gain), r.in_metric(site.cumulative), now.certain, first.certain, first.possible,
-                   stand.ground);
+                   place.ground);
   }
   return text;
 }
@@ -44,10 +44,10 @@ std::string candidates_table(const SiteResult& r) {
       "id,x,y,height_m,cost,looked_at,first_certain,first_possible,certain,possible,proposed_as,outcome\n";
   const auto out = std::back_inserter(text);
   for (std::size_t i = 0; i < r.inputs.options.size(); ++i) {
-    const viewshed::SiteStand& stand = r.inputs.stands[i];
+    const viewshed::SitePosition& place = r.inputs.positions[i];
     const CoverageSummary now = r.summary(r.coverage.bounds(i)), first = r.summary(r.coverage.first_bounds(i));
-    fmt::format_to(out, "{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(stand.name), stand.position.x,
-                   stand.position.y, stand.height, r.inputs.options[i].cost,
+    fmt::format_to(out, "{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(place.name), place.position.x,
+                   place.position.y, place.height, r.inputs.options[i].cost,
                    csv_cell(r.coverage.stage_name(r.coverage.stage(i))), first.certain, first.possible, now.certain,
                    now.possible, r.candidate(i).why, csv_cell(r.reason(i)));
   }
@@ -95,10 +95,10 @@ VectorLayer sites_layer(const SiteResult& r) {
                     {}};
   for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
     const viewshed::ChosenSite& site = r.choice.chosen[i];
-    const viewshed::SiteStand& stand = r.stand(site);
+    const viewshed::SitePosition& place = r.place_of(site);
     layer.features.push_back(
-        {{{stand.position.x, stand.position.y, stand.ground}},
-         {static_cast<std::int64_t>(i + 1), stand.name, stand.height, r.inputs.options[site.option].cost,
+        {{{place.position.x, place.position.y, place.ground}},
+         {static_cast<std::int64_t>(i + 1), place.name, place.height, r.inputs.options[site.option].cost,
           r.in_metric(site.gain), r.in_metric(site.cumulative)}});
   }
   return layer;
@@ -116,10 +116,10 @@ VectorLayer candidates_layer(const SiteResult& r) {
                      {"outcome", Type::kText}},
                     {}};
   for (std::size_t i = 0; i < r.inputs.options.size(); ++i) {
-    const viewshed::SiteStand& stand = r.inputs.stands[i];
+    const viewshed::SitePosition& place = r.inputs.positions[i];
     const CoverageSummary now = r.summary(r.coverage.bounds(i));
-    layer.features.push_back({{{stand.position.x, stand.position.y, stand.ground}},
-                              {stand.name, stand.height, r.inputs.options[i].cost,
+    layer.features.push_back({{{place.position.x, place.position.y, place.ground}},
+                              {place.name, place.height, r.inputs.options[i].cost,
                                r.coverage.stage_name(r.coverage.stage(i)), now.certain, now.possible, r.reason(i)}});
   }
   return layer;
@@ -137,7 +137,7 @@ VectorLayer links_layer(const SiteResult& r) {
                      {"gap_m", Type::kNumber}},
                     {}};
   for (const SiteLink& link : r.links) {
-    const viewshed::SiteStand &a = link.from, &b = link.to;
+    const viewshed::SitePosition &a = link.from, &b = link.to;
     VectorLayer::Value clearance, fraction;
     if (link.found().clearance_m) clearance = *link.found().clearance_m;
     if (link.found().fresnel) fraction = link.found().fresnel->fraction;
@@ -190,13 +190,13 @@ Document site_document(const SiteResult& r, const StoreMetadata& metadata) {
   document["chosen"] = Document::array();
   for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
     const viewshed::ChosenSite& site = r.choice.chosen[i];
-    const viewshed::SiteStand& stand = r.stand(site);
-    document["chosen"].push_back({{"id", stand.name},
-                                  {"x", stand.position.x},
-                                  {"y", stand.position.y},
-                                  {"height_m", stand.height},
+    const viewshed::SitePosition& place = r.place_of(site);
+    document["chosen"].push_back({{"id", place.name},
+                                  {"x", place.position.x},
+                                  {"y", place.position.y},
+                                  {"height_m", place.height},
                                   {"ground_m", r.ground_m[i]},
-                                  {"stands_on_m", stand.ground},
+                                  {"stands_on_m", place.ground},
                                   {"cost", r.inputs.options[site.option].cost},
                                   {"gain", r.in_metric(site.gain)},
                                   {"cumulative", r.in_metric(site.cumulative)},
@@ -268,10 +268,10 @@ void write_site_rasters(const SiteResult& r, const std::string& directory, const
                description);
   description.band_name = "nearest site that serves the cell; 0 none";
   for (std::size_t i = 0; i < r.choice.chosen.size(); ++i)
-    description.metadata.emplace_back(fmt::format("site_{}", i + 1), r.stand(r.choice.chosen[i]).name);
+    description.metadata.emplace_back(fmt::format("site_{}", i + 1), r.place_of(r.choice.chosen[i]).name);
   for (std::size_t i = 0; i < r.inputs.existing(); ++i)
     description.metadata.emplace_back(fmt::format("site_{}", r.choice.chosen.size() + i + 1),
-                                      "existing " + r.inputs.stands[r.inputs.options.size() + i].name);
+                                      "existing " + r.inputs.positions[r.inputs.options.size() + i].name);
   write_raster(place(directory, "best-server.tif"), rasters.grid, std::span<const std::uint16_t>(rasters.best_server),
                description);
 }

@@ -15,18 +15,18 @@ namespace itin::cli {
 
 namespace {
 
-using viewshed::SiteStand;
+using viewshed::SitePosition;
 
-profile::LosReport report_of(const Store& store, const SiteOptions& options, const SiteStand& from,
-                             const SiteStand& to) {
+profile::LosReport report_of(const Store& store, const SiteOptions& options, const SitePosition& from,
+                             const SitePosition& to) {
   const profile::LinkQuery rules = link_rules(options).query;
   profile::LosReport report = analyse(store, {from.position, to.position, rules.detail, rules.themes},
                                       los_query(link_between(from, to), rules));
   report.title = fmt::format("{} to {}", from.name, to.name);
   report.facts = {{"Store", std::filesystem::path(store.path()).filename().string()}};
-  const auto about = [](const SiteStand& stand) -> std::vector<std::string> {
-    return {fmt::format("{}: {:.2f}, {:.2f}; {:g} m on {:.2f} m", stand.name, stand.position.x, stand.position.y,
-                        stand.height, stand.ground)};
+  const auto about = [](const SitePosition& place) -> std::vector<std::string> {
+    return {fmt::format("{}: {:.2f}, {:.2f}; {:g} m on {:.2f} m", place.name, place.position.x, place.position.y,
+                        place.height, place.ground)};
   };
   report.from_lines = about(from), report.to_lines = about(to);
   return report;
@@ -43,7 +43,7 @@ std::vector<SiteProfile> write_site_profiles(const Store& store, const SiteResul
   for (const SiteLink& link : r.links) {
     progress.throw_if_cancelled();
     if (link.found().verdict == profile::SightVerdict::kHidden || link.line.distance_m == 0) continue;
-    const SiteStand &from = link.from, &to = link.to;
+    const SitePosition &from = link.from, &to = link.to;
     std::error_code failed;
     fs::create_directory(folder, failed);
     if (failed) throw FileError(folder.string(), "cannot be made (" + failed.message() + "); name another place");

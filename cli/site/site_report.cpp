@@ -80,7 +80,7 @@ std::string curve(const SiteResult& r) {
         "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"#0072b2\" opacity=\".25\"/>"
         "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n",
         x(at) - 6, y(share), 12.0, y(before) - y(share), x(at), kHeight - kBottom + 16,
-        escaped_markup(r.stand(r.choice.chosen[i]).name));
+        escaped_markup(r.place_of(r.choice.chosen[i]).name));
   }
   svg += fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"#0072b2\" stroke-width=\"2.5\"/>\n", line);
   const double bound = static_cast<double>(r.choice.upper_bound) / total;
@@ -97,12 +97,12 @@ std::string sites_html(const SiteResult& r) {
                   2);
   for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
     const viewshed::ChosenSite& site = r.choice.chosen[i];
-    const viewshed::SiteStand& stand = r.stand(site);
+    const viewshed::SitePosition& place = r.place_of(site);
     const CoverageSummary first = r.summary(r.coverage.first_bounds(site.option)),
                           now = r.summary(r.coverage.bounds(site.option));
-    table.add({fmt::format("{}", i + 1), stand.name, fmt::format("{:.0f}", stand.position.x),
-               fmt::format("{:.0f}", stand.position.y), fmt::format("{:g}", stand.height),
-               fmt::format("{:.1f}", r.ground_m[i]), fmt::format("{:.1f}", stand.ground),
+    table.add({fmt::format("{}", i + 1), place.name, fmt::format("{:.0f}", place.position.x),
+               fmt::format("{:.0f}", place.position.y), fmt::format("{:g}", place.height),
+               fmt::format("{:.1f}", r.ground_m[i]), fmt::format("{:.1f}", place.ground),
                fmt::format("{:g}", r.inputs.options[site.option].cost), amount(r.in_metric(site.gain)),
                amount(r.in_metric(site.cumulative)), amount(first.certain), amount(first.possible),
                amount(now.certain)});
@@ -131,7 +131,7 @@ std::string closest_html(const SiteResult& r) {
   HtmlTable table({"Candidate", "Looked at", "Outcome"}, 3);
   for (std::size_t i = 0; i < std::min<std::size_t>(order.size(), 10); ++i) {
     const std::size_t option = order[i].second;
-    table.add({r.inputs.stands[option].name, r.coverage.stage_name(r.coverage.stage(option)), r.reason(option)});
+    table.add({r.inputs.positions[option].name, r.coverage.stage_name(r.coverage.stage(option)), r.reason(option)});
   }
   return table.finish();
 }
@@ -177,7 +177,7 @@ std::string left_out(const SiteResult& r) {
 }
 
 /// How few candidates had to be looked at closely, and why that was enough.
-std::string looks(const SiteResult& r) {
+std::string times_examined(const SiteResult& r) {
   const std::string options =
       counted(r.inputs.candidates.size(), "candidate") + ", " + counted(r.inputs.options.size(), "option");
   if (r.coverage.last_stage() == 0) return options + "; the first look at each was exact.";
@@ -198,7 +198,7 @@ std::string summary(const SiteResult& r) {
       "than "
       "{}: at most {:.1f} % of that were missed.</p>\n<p>{}{}</p>\n",
       amount(r.served()), amount(r.in_metric(r.inputs.total)), r.served_percent(), existing,
-      amount(r.in_metric(r.choice.upper_bound + r.choice.existing)), viewshed::gap_percent(r.choice), looks(r),
+      amount(r.in_metric(r.choice.upper_bound + r.choice.existing)), viewshed::gap_percent(r.choice), times_examined(r),
       r.choice.swaps > 0 ? fmt::format(" More was gained by {} after greedy.", counted(r.choice.swaps, "exchange"))
                          : "");
 }

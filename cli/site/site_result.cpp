@@ -11,13 +11,13 @@ namespace itin::cli {
 namespace {
 
 using viewshed::DemandSet;
-using viewshed::SiteStand;
+using viewshed::SitePosition;
 
 /// Sites that serve, the chosen ones in their order and the existing ones behind them.
 std::vector<std::size_t> serving(const SiteInputs& inputs, const viewshed::Choice& choice) {
   std::vector<std::size_t> result;
   for (const viewshed::ChosenSite& site : choice.chosen) result.push_back(site.option);
-  for (std::size_t i = inputs.options.size(); i < inputs.stands.size(); ++i) result.push_back(i);
+  for (std::size_t i = inputs.options.size(); i < inputs.positions.size(); ++i) result.push_back(i);
   return result;
 }
 
@@ -31,11 +31,11 @@ class BestServer {
     for_each_cell(ground, [&](std::size_t i, Point2) { rasters_.redundancy[i] = rasters_.best_server[i] = 0; });
   }
 
-  void add(const SiteStand& stand, std::uint16_t number, const DemandSet& served) {
+  void add(const SitePosition& place, std::uint16_t number, const DemandSet& served) {
     for_each_cell(served, [&](std::size_t i, Point2 centre) {
       if (rasters_.redundancy[i] == SiteRasters::kNoDemand) return;
       ++rasters_.redundancy[i];
-      const double distance = std::hypot(centre.x - stand.position.x, centre.y - stand.position.y);
+      const double distance = std::hypot(centre.x - place.position.x, centre.y - place.position.y);
       if (distance < nearest_[i]) nearest_[i] = distance, rasters_.best_server[i] = number;
     });
   }
@@ -66,10 +66,10 @@ struct OnCells {
 OnCells on_cells(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
                  const std::vector<std::size_t>& sites, Progress& progress) {
   viewshed::SiteSurvey survey = site_survey(options, inputs);
-  survey.stands.clear();
-  for (const std::size_t site : sites) survey.stands.push_back(inputs.stands[site]);
+  survey.positions.clear();
+  for (const std::size_t site : sites) survey.positions.push_back(inputs.positions[site]);
   survey.targets.points.clear();
-  survey.targets.grid = viewshed::grid_of_reach(store, survey.stands, options.radius, options.cell_size());
+  survey.targets.grid = viewshed::grid_of_reach(store, survey.positions, options.radius, options.cell_size());
   survey.tolerance = 0;
   OnCells result{survey.targets, {}};
   viewshed::SiteCoverage coverage(store, survey, progress);
@@ -84,7 +84,7 @@ OnCells on_cells(const Store& store, const SiteOptions& options, const SiteInput
 
 viewshed::SiteSurvey site_survey(const SiteOptions& options, const SiteInputs& inputs) {
   viewshed::SiteSurvey survey;
-  survey.stands = inputs.stands;
+  survey.positions = inputs.positions;
   survey.targets = inputs.targets;
   survey.radius = options.radius;
   survey.earth = options.earth.earth();
@@ -148,14 +148,14 @@ SiteRasters site_rasters(const Store& store, const SiteOptions& options, const S
   BestServer best(*cells.targets.grid,
                   inputs.cells.empty() ? viewshed::with_ground(store, cells.targets, progress) : inputs.cells);
   for (std::size_t i = 0; i < sites.size(); ++i)
-    best.add(inputs.stands[sites[i]], static_cast<std::uint16_t>(i + 1), cells.served[i]);
+    best.add(inputs.positions[sites[i]], static_cast<std::uint16_t>(i + 1), cells.served[i]);
   return std::move(best).rasters();
 }
 
 std::vector<double> site_grounds(const Store& store, const SiteInputs& inputs, const viewshed::Choice& choice,
                                  Progress& progress) {
   std::vector<Point2> positions;
-  for (const viewshed::ChosenSite& site : choice.chosen) positions.push_back(inputs.stands[site.option].position);
+  for (const viewshed::ChosenSite& site : choice.chosen) positions.push_back(inputs.positions[site.option].position);
   std::vector<double> grounds;
   for (const auto& ground : viewshed::ground_under(store, positions, ThemeChoice::none(), progress))
     grounds.push_back(ground.value());

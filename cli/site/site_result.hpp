@@ -37,7 +37,9 @@ struct SiteResult {
   SiteRasters rasters;
   std::vector<double> ground_m;  ///< elevation of the ground under each chosen site, which may stand on a roof
 
-  const viewshed::SiteStand& stand(const viewshed::ChosenSite& site) const { return inputs.stands[site.option]; }
+  const viewshed::SitePosition& place_of(const viewshed::ChosenSite& site) const {
+    return inputs.positions[site.option];
+  }
   const Candidate& candidate(std::size_t option) const { return inputs.candidates[inputs.options[option].place]; }
   CoverageSummary summary(const viewshed::CoverageBounds& bounds) const {
     return {inputs.demand.in_metric(inputs.demand.weight(bounds.certain)),

@@ -107,7 +107,7 @@ class ImportVerb final : public Verb {
     } else if (!options_.theme.empty()) {
       throw InputError("--theme: terrain has no theme; leave it out");
     }
-    validate_standing();
+    validate_raised();
     options_.repair = !no_repair_;
     if (!classes_.empty()) options_.classes = parse_wholes("--class", classes_, 0, 255);
     if (!band_.empty()) options_.band = parse_whole("--band", band_, 1, 65535);
@@ -161,7 +161,7 @@ class ImportVerb final : public Verb {
   }
 
  private:
-  void validate_standing() {
+  void validate_raised() {
     if (!height_.empty()) options_.height = parse_height("--height", height_, Range::kPositive);
     if (!thickness_.empty()) options_.thickness = parse_number("--thickness", thickness_, Range::kPositive);
     parse_choice("--roof", roof_.empty() ? "flat" : roof_, {"flat", "gabled", "hipped", "skeleton"});

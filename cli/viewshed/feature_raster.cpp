@@ -117,7 +117,7 @@ std::vector<std::string> FeatureRaster::paths() const {
 
 void FeatureRaster::require_themes(const StoreMetadata& metadata, const ThemeChoice& themes) const {
   if (path_.empty()) return;
-  if (!themes.includes_standing(metadata.themes))
+  if (!themes.includes_raised(metadata.themes))
     throw InputError("--features: none of the chosen themes stands on the ground; name some by --themes");
   if (metadata.themes.size() > kMostThemes)
     throw InputError(fmt::format("--features: the store has {} themes, and a byte counts to {}", metadata.themes.size(),
@@ -141,7 +141,7 @@ Document FeatureRaster::write(const Store& store, const RasterGrid& grid, const 
   Document found = Document::array();
   for (std::size_t i = 0; i < metadata.themes.size(); ++i) {
     const ThemeInfo& theme = metadata.themes[i];
-    if (!theme.stands() || !surface.themes.includes(theme)) continue;
+    if (!theme.is_raised() || !surface.themes.includes(theme)) continue;
     const int number = static_cast<int>(i) + 1;
     description.classes.push_back(class_of(number, theme.name));
     description.metadata.emplace_back("cells " + theme.name, fmt::format("{}", cells[i + 1]));

@@ -140,12 +140,13 @@ std::vector<viewshed::HorizonTarget> HorizonOutput::targets(const viewshed::Requ
   return targets;
 }
 
-Document HorizonOutput::write(viewshed::Surveyed& surveyed, const StoreMetadata& metadata, const Document& refraction,
-                              bool overwrite, Progress& progress, std::vector<std::string>& warnings) const {
+Document HorizonOutput::write(viewshed::ViewshedWithSurface& computed, const StoreMetadata& metadata,
+                              const Document& refraction, bool overwrite, Progress& progress,
+                              std::vector<std::string>& warnings) const {
   if (paths_.empty()) return nullptr;
-  const viewshed::Request& request = surveyed.result.request;
-  const Tin& surface = surveyed.surface->listed(progress);
-  const viewshed::Horizon horizon = viewshed::horizon(surface, surveyed.ground ? *surveyed.ground : surface, request,
+  const viewshed::Request& request = computed.result.request;
+  const Tin& surface = computed.surface->listed(progress);
+  const viewshed::Horizon horizon = viewshed::horizon(surface, computed.ground ? *computed.ground : surface, request,
                                                       {step_deg_, targets(request, metadata)}, progress);
   for (const std::string& path : paths_) {
     const std::string ending = ending_of(path);

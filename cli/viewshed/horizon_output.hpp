@@ -24,7 +24,7 @@ class HorizonOutput {
   /// Computes and writes what was asked for, if anything; the document of the horizon's targets, or null. `warnings`
   /// gets one where the sky line is the edge of the data. Throws
   /// InputError, FileError.
-  Document write(viewshed::Surveyed& surveyed, const StoreMetadata& metadata, const Document& refraction,
+  Document write(viewshed::ViewshedWithSurface& computed, const StoreMetadata& metadata, const Document& refraction,
                  bool overwrite, Progress& progress, std::vector<std::string>& warnings) const;
 
  private:

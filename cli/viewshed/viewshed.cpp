@@ -154,8 +154,8 @@ class ViewshedVerb final : public Verb {
     if (!horizon_.paths().empty() && places_.size() > 1)
       throw InputError("--horizon is that of one observer; give one");
     outputs_.prepare(request_);
-    viewshed::Surveyed surveyed = survey(store, request_, progress);
-    if (!horizon_.paths().empty() && !surveyed.whole)
+    viewshed::ViewshedWithSurface computed = survey(store, request_, progress);
+    if (!horizon_.paths().empty() && !computed.whole)
       throw InputError("--horizon takes the whole surface in memory: give more --memory or a smaller --radius");
     const ViewshedOutputs::Context context{metadata.crs_wkt,
                                            surface_document(metadata, request_.detail, request_.themes),
@@ -164,20 +164,20 @@ class ViewshedVerb final : public Verb {
                                             {"observer_on", request_.observers_on_surface ? "surface" : "ground"},
                                             {"target_on", target_on_}}};
     Result result;
-    result.warnings = surveyed.result.warnings;
+    result.warnings = computed.result.warnings;
     warn_of_scale(metadata, result.warnings);
-    outputs_.write(surveyed, context, result.warnings, progress);
-    outputs_.write_each([&](std::size_t i) { return survey_alone(store, surveyed, i, progress); }, context);
+    outputs_.write(computed, context, result.warnings, progress);
+    outputs_.write_each([&](std::size_t i) { return compute_for_observer(store, computed, i, progress); }, context);
     const Document targets =
-        horizon_.write(surveyed, metadata, earth_.document(), outputs_.overwrite(), progress, result.warnings);
+        horizon_.write(computed, metadata, earth_.document(), outputs_.overwrite(), progress, result.warnings);
     // Certified and exact answers are about the full surface.
     const Detail detail = precise_ || certified_ ? Detail::tolerance(0) : request_.detail;
     const Document features =
-        features_.write(store, surveyed.result.grid, {detail, request_.themes}, outputs_.overwrite(), progress);
-    result.document = document(surveyed.result, metadata, context.surface);
+        features_.write(store, computed.result.grid, {detail, request_.themes}, outputs_.overwrite(), progress);
+    result.document = document(computed.result, metadata, context.surface);
     if (!features.is_null()) result.document["features"] = features;
     if (!targets.empty()) result.document["horizon_targets"] = targets;
-    result.text = text(surveyed.result);
+    result.text = text(computed.result);
     return result;
   }
 
@@ -268,13 +268,13 @@ class ViewshedVerb final : public Verb {
   }
   bool request_detail_given() const { return detail_.detail({}).coarsest() > 0; }
 
-  viewshed::Surveyed survey(const Store& store, const viewshed::Request& request, Progress& progress) const {
+  viewshed::ViewshedWithSurface survey(const Store& store, const viewshed::Request& request, Progress& progress) const {
     if (certified_) return viewshed::compute_certified(store, request, compute_options_, progress);
     return viewshed::compute_with_surface(store, request, compute_options_, progress);
   }
-  viewshed::Result survey_alone(const Store& store, const viewshed::Surveyed& all, std::size_t observer,
-                                Progress& progress) const {
-    const viewshed::Request request = viewshed::alone(all.result, observer);
+  viewshed::Result compute_for_observer(const Store& store, const viewshed::ViewshedWithSurface& all,
+                                        std::size_t observer, Progress& progress) const {
+    const viewshed::Request request = viewshed::request_for_observer(all.result, observer);
     return all.whole ? viewshed::compute_on_surface(store, all, request, progress)
                      : survey(store, request, progress).result;
   }

@@ -79,18 +79,18 @@ void ViewshedOutputs::write_raster(const std::string& path, const viewshed::Resu
   viewshed::write_geotiff(path, result, options);
 }
 
-void ViewshedOutputs::write(viewshed::Surveyed& surveyed, const Context& context, std::vector<std::string>& warnings,
-                            Progress& progress) const {
+void ViewshedOutputs::write(viewshed::ViewshedWithSurface& computed, const Context& context,
+                            std::vector<std::string>& warnings, Progress& progress) const {
   std::optional<viewshed::MapImage> map;
   if (!image_.empty()) {
-    map = viewshed::draw_map(*surveyed.surface, surveyed.result, progress);
+    map = viewshed::draw_map(*computed.surface, computed.result, progress);
     warnings.insert(warnings.end(), map->warnings.begin(), map->warnings.end());
   }
   for (const std::string& path : outputs_) {
     if (is_polygons(path)) {
-      viewshed::write_polygons(path, surveyed.result, context.crs_wkt, policy_.overwrite);
+      viewshed::write_polygons(path, computed.result, context.crs_wkt, policy_.overwrite);
     } else {
-      write_raster(path, surveyed.result, context);
+      write_raster(path, computed.result, context);
     }
   }
   if (map) viewshed::write_image(image_, *map, policy_.overwrite);

@@ -32,7 +32,7 @@ class ViewshedOutputs {
     Document surface;
     std::vector<std::pair<std::string, std::string>> parameters;  ///< that a result does not tell
   };
-  void write(viewshed::Surveyed& surveyed, const Context& context, std::vector<std::string>& warnings,
+  void write(viewshed::ViewshedWithSurface& computed, const Context& context, std::vector<std::string>& warnings,
              Progress& progress) const;
   /// Calls compute(observer) for every observer whose own raster is wanted.
   using Compute = std::function<viewshed::Result(std::size_t)>;

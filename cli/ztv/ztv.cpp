@@ -143,7 +143,7 @@ class ZtvVerb final : public Verb {
     request_.radar = radio_.radar();
     request_.detail = detail_.detail({});
     themes_.choice().check(metadata.themes);
-    if (themes_.choice().includes_standing(metadata.themes)) request_.themes = themes_.choice();
+    if (themes_.choice().includes_raised(metadata.themes)) request_.themes = themes_.choice();
     if (!like_.empty()) request_.grid = raster_grid_like(like_, metadata.crs_wkt);
   }
 

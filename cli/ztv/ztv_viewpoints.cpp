@@ -53,8 +53,8 @@ struct Sight {
 };
 
 /// `ground` is what the turbine stands on; both ends keep their bare ground whatever the surface.
-Sight look(const SectionSurface& surface, const Viewpoint& from, const Turbine& turbine, double ground,
-           const Earth& earth) {
+Sight sight_to(const SectionSurface& surface, const Viewpoint& from, const Turbine& turbine, double ground,
+               const Earth& earth) {
   Sight sight;
   const CrossSection section = surface.between(from.position, turbine.position);
   const Point2 foot = section.one_place ? from.position : turbine.position;
@@ -194,10 +194,10 @@ struct View {
 };
 
 /// One sight a turbine of the zone.
-std::vector<Sight> look_at_all(const View& view, const Viewpoint& from, const Zone& zone) {
+std::vector<Sight> sights_to_all(const View& view, const Viewpoint& from, const Zone& zone) {
   std::vector<Sight> sights(zone.request.turbines.size());
   parallel_for(sights.size(), [&](std::size_t k) {
-    sights[k] = look(view.surface, from, zone.request.turbines[k], zone.ground_m[k], zone.request.earth);
+    sights[k] = sight_to(view.surface, from, zone.request.turbines[k], zone.ground_m[k], zone.request.earth);
   });
   return sights;
 }
@@ -251,9 +251,9 @@ ViewpointOptions::Written ViewpointOptions::write(const std::string& folder, con
     const std::size_t number = ++written.rows;
     try {
       const Viewpoint v = viewpoint_of(row, number, ground, zone.request.observer_height);
-      const std::vector<Sight> sights = look_at_all(bare, v, zone);
+      const std::vector<Sight> sights = sights_to_all(bare, v, zone);
       std::vector<Sight> over_features;
-      if (screened) over_features = look_at_all(*screened, v, zone);
+      if (screened) over_features = sights_to_all(*screened, v, zone);
       for (std::size_t k = 0; k < sights.size(); ++k)
         table += row_of(v, zone.request.turbines[k], sights[k], screened ? &over_features[k] : nullptr);
       write_wireline(folder, bare, v, zone, sights, field_deg_, progress, written);

@@ -275,7 +275,7 @@ class Trial:
             return r.choice(self.corners)
         return (X0 + post(), Y0 + post()) if kind == "post" else self.place()
 
-    def look_closely(self):
+    def refine(self):
         """In every mode on a few cells about the observer, who stands on the middle one's centre or a little beside."""
         r, place = self.random, self.place_of_a_kind()
         eye, height, target = self.beside(place), r.choice([0, 1.5, 2, 30]), r.choice([0, 0, 1.5, 10])
@@ -409,7 +409,7 @@ class Trial:
         for what in self.random.sample(kinds, self.random.randint(0, 5)):
             self.add(what)
         itin("check", self.store, "--quiet")
-        for ask in [self.look] * 3 + [self.look_closely] * 3 + [self.look_at_turbines, self.choose_site]:
+        for ask in [self.look] * 3 + [self.refine] * 3 + [self.look_at_turbines, self.choose_site]:
             try:
                 ask()
             except Refusal as refusal:

@@ -110,7 +110,7 @@ class Links : public testing::Test {
   test::TemporaryDirectory directory_;
   std::optional<Store> store_;
   std::mt19937 random_{5};
-  std::ptrdiff_t undecided_ = 0;  ///< of those surveyed last
+  std::ptrdiff_t undecided_ = 0;  ///< of those computed last
 };
 
 TEST_F(Links, HaveTheAnswersOfTheirReports) {

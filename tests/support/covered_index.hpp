@@ -1,4 +1,4 @@
-// An index over points with holes in their coverage, the outline surveyed as an import does.
+// An index over points with holes in their coverage, the outline computed as an import does.
 #pragma once
 
 #include <set>

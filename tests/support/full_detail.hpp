@@ -5,8 +5,9 @@
 
 namespace itin::test {
 
-inline viewshed::Surveyed compute_at_full_detail(const Store& store, viewshed::Request request,
-                                                 const viewshed::ComputeOptions& options, Progress& progress) {
+inline viewshed::ViewshedWithSurface compute_at_full_detail(const Store& store, viewshed::Request request,
+                                                            const viewshed::ComputeOptions& options,
+                                                            Progress& progress) {
   request.detail = Detail::tolerance(0);
   return compute_with_surface(store, request, options, progress);
 }

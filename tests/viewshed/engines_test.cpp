@@ -237,20 +237,20 @@ TEST_F(EnginesInTown, SitesServeTheSame) {
   const auto ground = ground_under(store, places, ThemeChoice::none(), progress_);
   SiteSurvey survey;
   for (std::size_t i = 0; i < places.size(); ++i)
-    if (ground[i]) survey.stands.push_back({std::to_string(i), places[i], 6, *ground[i]});
-  ASSERT_GE(survey.stands.size(), 2U);
+    if (ground[i]) survey.positions.push_back({std::to_string(i), places[i], 6, *ground[i]});
+  ASSERT_GE(survey.positions.size(), 2U);
   survey.radius = 150;
   survey.nodata = NoData::kClear;
   survey.themes = ThemeChoice::all();
   survey.targets.height = 1.5;
-  survey.targets.grid = grid_of_reach(store, survey.stands, survey.radius, 3);
+  survey.targets.grid = grid_of_reach(store, survey.positions, survey.radius, 3);
   std::vector<std::vector<std::uint64_t>> served;
   for (const Engine engine : {Engine::kSweep, Engine::kRays}) {
     survey.engine = engine;
     SiteCoverage coverage(store, survey, progress_);
-    coverage.look_first();
+    coverage.explore();
     served.emplace_back();
-    for (std::size_t option = 0; option < survey.stands.size(); ++option) {
+    for (std::size_t option = 0; option < survey.positions.size(); ++option) {
       while (!coverage.bounds(option).exact) coverage.refine(std::vector{option});
       for (const DemandSet::Block& block : coverage.bounds(option).certain.blocks()) {
         served.back().push_back(block.number);

@@ -77,7 +77,7 @@ class Judges : public testing::Test {
 TEST_F(Judges, BoundsNeverContradictTheSurface) {
   const ExactJudge exact(surface_, views());
   for (const double metres : {1.0, 6.0}) {
-    const EnvelopeScene scene(envelope(metres), request_, tiles_, Voids::kPass);
+    const EnvelopeScene scene(envelope(metres), request_, tiles_, NoData::kClear);
     const EnvelopeJudge bounds(scene, grid_, tiles_, eyes_);
     std::size_t decided = 0;
     for (std::size_t tile = 0; tile < tiles_.cell_count(); ++tile) {
@@ -96,7 +96,7 @@ TEST_F(Judges, BoundsNeverContradictTheSurface) {
 }
 
 TEST_F(Judges, WhatStaysUndecidedIsTold) {
-  const EnvelopeScene scene(envelope(2), request_, tiles_, Voids::kPass);
+  const EnvelopeScene scene(envelope(2), request_, tiles_, NoData::kClear);
   std::mutex mutex;
   std::size_t told = 0, undecided = 0;
   const EnvelopeJudge judge(scene, grid_, tiles_, eyes_, [&](std::size_t tile, const EnvelopePacket& packet) {

@@ -256,7 +256,7 @@ class LookingAround {
     Tally tally;
     const RadialSweep::View view = sweep_.view_of(sweep_.axis_at(eye, INFINITY));
     ground_.for_each_tile(target_height, [&](const RadialSweep::Ends& targets) {
-      sweep_.look_from(view, targets, work_->scratch, work_->found);
+      sweep_.decide(view, targets, work_->scratch, work_->found);
       for_each_line(eye, targets, [&](std::size_t cell, const SightLine& line) {
         const bool hidden = hides(line);
         EXPECT_EQ(std::isnan(work_->found[cell]), hidden) << "cell " << cell;

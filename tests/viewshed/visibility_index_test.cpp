@@ -126,7 +126,7 @@ class VisibilityIndexTest : public testing::Test {
     profile::LosQuery query;
     query.from_height_m = index.height, query.to_height_m = index.target_height;
     query.earth = index.earth;
-    const bool standing = index.themes.includes_standing(store.metadata().themes);
+    const bool standing = index.themes.includes_raised(store.metadata().themes);
     // Missing ground alone leaves a line undecided.
     return profile::analyse(along(index.themes), query, standing ? along(ThemeChoice::none()) : profile::Profile{})
                .verdict != profile::SightVerdict::kHidden;

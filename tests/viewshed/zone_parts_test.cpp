@@ -1,4 +1,4 @@
-// Zones of visibility surveyed in parts, against the same all at once.
+// Zones of visibility computed in parts, against the same all at once.
 #include "turbines/zone_parts.hpp"
 
 #include <bit>

@@ -112,6 +112,6 @@ ImportReport import_terrain(const std::string& store_path, const ImportOptions& 
 ImportReport import_lines(const std::string& store_path, const ImportOptions& options, Progress& progress);
 
 /// Whether features that import_lines() imports with these options stand on the ground.
-bool stands(const ImportOptions& options);
+bool builds_features(const ImportOptions& options);
 
 }  // namespace itin

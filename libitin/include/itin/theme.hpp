@@ -47,7 +47,7 @@ struct ThemeInfo {
   /// Blocks of a store that keep its footprints as they were imported; none for lines on the ground.
   std::uint32_t footprint_blocks = 0;
 
-  bool stands() const { return footprint_blocks > 0; }
+  bool is_raised() const { return footprint_blocks > 0; }
 };
 
 /// Those features of a standing theme that are there at the same tolerances: whole buildings, or none of them.
@@ -75,7 +75,7 @@ class ThemeChoice {
 
   bool includes(const ThemeInfo& theme) const;
   /// Whether some theme that it includes stands on the ground.
-  bool includes_standing(const std::vector<ThemeInfo>& themes) const;
+  bool includes_raised(const std::vector<ThemeInfo>& themes) const;
   /// Throws InputError for a name that the store does not have.
   void check(const std::vector<ThemeInfo>& themes) const;
   /// The names of the themes it includes, those of the terrain with them, in the store's order. Throws as check() does.

@@ -10,8 +10,8 @@
 #include "cross_section/read_once.hpp"
 #include "cross_section/retrieval.hpp"
 #include "cross_section/section_walk.hpp"
+#include "triangulate/raised_index.hpp"
 #include "triangulate/region.hpp"
-#include "triangulate/standing_index.hpp"
 
 namespace itin {
 
@@ -72,7 +72,7 @@ CrossSection retrieve_section(const PointIndex& index, const Selection& selectio
 CrossSection cross_section(const Store& store, Point2 from, Point2 to, const Detail& detail,
                            const ThemeChoice& themes) {
   const Selection selection = selection_of(store.metadata(), detail, themes);
-  const StandingIndex index(store, selection);
+  const RaisedIndex index(store, selection);
   return retrieve_section(index, selection, SectionLine(store.metadata().grid, from, to));
 }
 

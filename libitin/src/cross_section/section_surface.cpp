@@ -15,8 +15,8 @@
 #include "cross_section/section_tile.hpp"
 #include "cross_section/section_walk.hpp"
 #include "store/block_cache.hpp"
+#include "triangulate/raised_index.hpp"
 #include "triangulate/region.hpp"
-#include "triangulate/standing_index.hpp"
 
 namespace itin {
 
@@ -174,7 +174,7 @@ class SectionSurface::Impl {
  private:
   Grid grid_;
   Selection selection_;
-  StandingIndex index_;
+  RaisedIndex index_;
   TileCache tiles_;
 };
 

@@ -174,10 +174,10 @@ class GlbWriter {
                                                                     {0.13, 0.25, 0.50, 1},
                                                                     {0.52, 0.40, 0.10, 1},
                                                                     {0.35, 0.13, 0.40, 1}}};
-    OrderedJson look = {{"metallicFactor", 0}, {"roughnessFactor", 1}};
-    if (theme != 0) look["baseColorFactor"] = kColours[(theme - 1U) % kColours.size()];
+    OrderedJson material = {{"metallicFactor", 0}, {"roughnessFactor", 1}};
+    if (theme != 0) material["baseColorFactor"] = kColours[(theme - 1U) % kColours.size()];
     return {{"name", theme == 0 ? "terrain" : theme_name(options_, theme)},
-            {"pbrMetallicRoughness", look},
+            {"pbrMetallicRoughness", material},
             {"doubleSided", true}};
   }
 

@@ -86,7 +86,7 @@ FeatureMesh build_feature_mesh(std::span<const FootprintFeature> features, const
     prepared[i] = prepare(features[i], static_cast<std::uint32_t>(i), options, terrain);
   });
   std::vector<GridBox> boxes;
-  for (const Preparation& p : prepared) boxes.push_back(p.stands ? box_of(p.feature) : GridBox{});
+  for (const Preparation& p : prepared) boxes.push_back(p.raised ? box_of(p.feature) : GridBox{});
   const auto groups = groups_of(boxes);
   std::vector<GroupMesh> meshes(groups.size());
   std::atomic<std::size_t> done = 0;
@@ -94,7 +94,7 @@ FeatureMesh build_feature_mesh(std::span<const FootprintFeature> features, const
     progress.throw_if_cancelled();
     std::vector<PreparedFeature> members;
     for (const std::uint32_t i : groups[g])
-      if (prepared[i].stands) members.push_back(std::move(prepared[i].feature));
+      if (prepared[i].raised) members.push_back(std::move(prepared[i].feature));
     if (!members.empty())
       meshes[g] = build_group(std::move(members), options.wall_offset / options.grid.resolution, terrain, progress);
     progress.report("features", static_cast<double>(++done) / static_cast<double>(groups.size()));
@@ -104,7 +104,7 @@ FeatureMesh build_feature_mesh(std::span<const FootprintFeature> features, const
   std::uint64_t refused = 0;
   for (std::size_t i = 0; i < features.size(); ++i) {
     findings[i] = std::move(prepared[i].findings);
-    refused += prepared[i].stands ? 0 : 1;
+    refused += prepared[i].raised ? 0 : 1;
   }
   for (const GroupMesh& mesh : meshes) {
     assembly.add(mesh);

@@ -16,7 +16,7 @@ struct Footing {
 };
 
 /// How far a position lies off a segment, grid units, and the segment's height next to it.
-Footing footing(const StandingSegment& segment, const GridPoint& p) {
+Footing footing(const RaisedSegment& segment, const GridPoint& p) {
   const GridPoint &a = segment.a, &b = segment.b;
   const double dx = 1.0 * b.x - a.x, dy = 1.0 * b.y - a.y, px = 1.0 * p.x - a.x, py = 1.0 * p.y - a.y;
   const double squared = dx * dx + dy * dy;
@@ -26,7 +26,7 @@ Footing footing(const StandingSegment& segment, const GridPoint& p) {
 
 }  // namespace
 
-std::vector<PartVertex> part_vertices(const StandingPart& part, const std::vector<Position>& ends) {
+std::vector<PartVertex> part_vertices(const RaisedPart& part, const std::vector<Position>& ends) {
   constexpr std::int32_t kHeightUnknown = std::numeric_limits<std::int32_t>::min();
   std::vector<GridPoint> fresh;
   for (const Position& p : ends) {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "features/standing_theme.hpp"
+#include "features/raised_theme.hpp"
 
 namespace itin {
 
@@ -16,6 +16,6 @@ struct PartVertex {
 /// The part's own vertices and those at `ends` (any order, repetitions allowed), each once, in Morton order. A new one
 /// lies within a grid step of some of the part's segments and has the greatest height of these there; of feet, where it
 /// lies on one: what rises beside them is steep.
-std::vector<PartVertex> part_vertices(const StandingPart& part, const std::vector<Position>& ends);
+std::vector<PartVertex> part_vertices(const RaisedPart& part, const std::vector<Position>& ends);
 
 }  // namespace itin

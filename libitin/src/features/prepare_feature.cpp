@@ -29,9 +29,9 @@ class Preparing {
 
   Preparation run() {
     try {
-      out_.stands = place() && (out_.feature.drapes() ? raise_from_terrain() : found()) && add_surfaces();
+      out_.raised = place() && (out_.feature.drapes() ? raise_from_terrain() : found()) && add_surfaces();
     } catch (const OverlayError& error) {
-      out_.stands = refuse(error.what());
+      out_.raised = refuse(error.what());
     }
     return std::move(out_);
   }

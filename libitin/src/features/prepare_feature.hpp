@@ -12,7 +12,7 @@ namespace itin {
 struct Preparation {
   PreparedFeature feature;
   std::vector<std::string> findings;  ///< one line each; if it cannot stand, the last says why
-  bool stands = false;
+  bool raised = false;
 };
 
 Preparation prepare(const FootprintFeature& feature, std::uint32_t number, const FeatureOptions& options,

@@ -56,12 +56,12 @@ ThemeChoice ThemeChoice::with_ground_lines() const {
 
 bool ThemeChoice::includes(const ThemeInfo& theme) const {
   if (is_terrain(theme.kind)) return true;
-  if (!theme.stands() && !ground_lines_) return false;
+  if (!theme.is_raised() && !ground_lines_) return false;
   return all_ || std::find(names_.begin(), names_.end(), theme.name) != names_.end();
 }
 
-bool ThemeChoice::includes_standing(const std::vector<ThemeInfo>& themes) const {
-  return std::any_of(themes.begin(), themes.end(), [&](const ThemeInfo& t) { return t.stands() && includes(t); });
+bool ThemeChoice::includes_raised(const std::vector<ThemeInfo>& themes) const {
+  return std::any_of(themes.begin(), themes.end(), [&](const ThemeInfo& t) { return t.is_raised() && includes(t); });
 }
 
 void ThemeChoice::check(const std::vector<ThemeInfo>& themes) const {

@@ -15,10 +15,10 @@
 
 #include "base/stoppable.hpp"
 #include "import/footprints/footprint_file.hpp"
+#include "import/raised_warnings.hpp"
 #include "import/source/source_context.hpp"
 #include "import/source/terrain_source.hpp"
-#include "import/standing_warnings.hpp"
-#include "import/store_turn.hpp"
+#include "import/store_pass.hpp"
 #include "import/stored_sources.hpp"
 #include "store/store_writer.hpp"
 
@@ -87,7 +87,7 @@ void report_counts(const SetAsideCounts& before, const SetAsideCounts& now, Impo
 
 Additions plan_additions(const ImportOptions& options, const Store* store, Progress& progress) {
   Additions additions;
-  if (stands(options)) {
+  if (builds_features(options)) {
     additions.footprints = read_footprint_files(options, store->metadata(), progress);
     additions.plan = plan_nothing(store->metadata());
     for (FootprintFile& file : additions.footprints) {
@@ -109,8 +109,8 @@ constexpr int kMostRaised = 3;
 bool may_stand_on(const Store* store) {
   if (store == nullptr) return false;
   const std::vector<ThemeInfo>& themes = store->metadata().themes;
-  const auto stands = [](const ThemeInfo& theme) { return theme.stands(); };
-  return std::all_of(themes.begin(), themes.end(), stands) || std::none_of(themes.begin(), themes.end(), stands);
+  const auto raised = [](const ThemeInfo& theme) { return theme.is_raised(); };
+  return std::all_of(themes.begin(), themes.end(), raised) || std::none_of(themes.begin(), themes.end(), raised);
 }
 
 /// Raised features need their ground finished first, and give vertices to lines of the ground where they cross them.
@@ -125,14 +125,14 @@ void write_in_turns(Target target, const Store* existing, Additions additions, c
     raisings += ground != nullptr ? 1 : 0;
     passing.emplace_back(fmt::format("{}.ground{}", target.path, passing.size()));
     target.passing = passing.back().path(), target.last = raisings == kMostRaised;
-    if (StoreTurn(target, {base, ground, additions}, options, report).run(raised, progress)) break;
+    if (StorePass(target, {base, ground, additions}, options, report).run(raised, progress)) break;
     base = ground = &before.emplace(passing.back().path());
     additions = Additions{plan_nothing(base->metadata()), {}};
   }
   report.features += raised.features;
   report.refused += raised.refused;
-  const std::vector<std::string> warnings = standing_warnings(
-      raised, existing != nullptr ? &existing->metadata() : nullptr, imported_sources(existing).size());
+  const std::vector<std::string> warnings =
+      raised_warnings(raised, existing != nullptr ? &existing->metadata() : nullptr, imported_sources(existing).size());
   report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
 }
 
@@ -189,7 +189,7 @@ ImportReport import_lines(const std::string& store_path, const ImportOptions& op
                                  store_path, name_of(*options.kind)));
   }
   ImportReport report = import_sources(store_path, lines, progress);
-  if (may_stand(*options.kind) && !stands(options)) {
+  if (may_stand(*options.kind) && !builds_features(options)) {
     report.warnings.push_back(
         fmt::format("{} without heights are outlines on the ground; to make them stand, give "
                     "`height_field` or `height`, and another `theme`",

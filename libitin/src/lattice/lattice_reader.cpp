@@ -14,8 +14,8 @@
 
 #include "lattice/lattice_cover.hpp"
 #include "triangulate/grid_window.hpp"
+#include "triangulate/raised_index.hpp"
 #include "triangulate/selection.hpp"
-#include "triangulate/standing_index.hpp"
 #include "triangulate/window_leaves.hpp"
 
 namespace itin {
@@ -96,7 +96,7 @@ class LatticeReader::Work {
   }
 
   Selection selection_;
-  StandingIndex index_;
+  RaisedIndex index_;
   Window whole_;
   GridWindow window_;
   bool everything_;

@@ -233,7 +233,7 @@ class PyramidBuild {
 
   /// 4. The terrain's lines at all levels.
   void generalise() {
-    placed_.standing = standing_segments(lines_);
+    placed_.standing = raised_segments(lines_);
     placed_.ground = ground_segments(lines_);
     hierarchy_ = generalised(placed_, outline_, lines_, units_);
     set_lines();

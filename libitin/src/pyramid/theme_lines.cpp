@@ -129,10 +129,10 @@ std::vector<std::uint32_t> ThemeLines::terrain_vertices() const {
   return vertices;
 }
 
-std::vector<Segment> standing_segments(const ThemeLines& lines) {
+std::vector<Segment> raised_segments(const ThemeLines& lines) {
   std::vector<Segment> segments;
   for (const PlanarEdge& e : lines.lines.edges) {
-    if (!lines.stands(e)) continue;
+    if (!lines.is_raised(e)) continue;
     const GridPoint &a = lines.lines.vertices[e.from], &b = lines.lines.vertices[e.to];
     segments.push_back({a.x, a.y, b.x, b.y, static_cast<std::uint16_t>(e.owner + 1)});
   }

@@ -11,7 +11,7 @@
 #include "features/ground_border.hpp"
 #include "features/part_vertices.hpp"
 #include "features/planar.hpp"
-#include "features/standing_theme.hpp"
+#include "features/raised_theme.hpp"
 #include "pyramid/source_index.hpp"
 #include "pyramid/working_index.hpp"
 
@@ -46,11 +46,11 @@ struct ThemeLines {
   std::vector<PlacedBorder> borders;  ///< of this ground
 
   std::size_t themes() const { return terrain.size(); }
-  bool stands(const PlanarEdge& e) const { return e.owner >= themes(); }
+  bool is_raised(const PlanarEdge& e) const { return e.owner >= themes(); }
   /// Whether it is an edge of the full surface about features: it changes nothing where these are not there.
-  bool keeps_ground(const PlanarEdge& e) const { return !stands(e) && standing[e.owner]; }
+  bool keeps_ground(const PlanarEdge& e) const { return !is_raised(e) && standing[e.owner]; }
   /// Whether it is a line on the ground.
-  bool lies(const PlanarEdge& e) const { return !stands(e) && !standing[e.owner]; }
+  bool lies(const PlanarEdge& e) const { return !is_raised(e) && !standing[e.owner]; }
   /// The numbers of the vertices of the terrain's lines, ascending: points of the full surface.
   std::vector<std::uint32_t> terrain_vertices() const;
   /// Whether no line lies on the ground.
@@ -72,7 +72,7 @@ struct PlacedLines {
 };
 
 /// The segments of the parts of standing themes, which lie on the ground already.
-std::vector<Segment> standing_segments(const ThemeLines& lines);
+std::vector<Segment> raised_segments(const ThemeLines& lines);
 Segment segment_of(const BorderEdge& border);
 /// The segments that keep the ground about standing features.
 std::vector<Segment> ground_segments(const ThemeLines& lines);

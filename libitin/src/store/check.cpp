@@ -172,7 +172,8 @@ class Inspection {
     }
     for (std::size_t theme = 1; theme <= metadata.themes.size(); ++theme) {
       sum += vertices_[static_cast<std::size_t>(format::vertex_tree(static_cast<int>(theme)))];
-      if (metadata.themes[theme - 1].stands()) segments_[theme] = 0;  // they keep the ground, and are none of features
+      if (metadata.themes[theme - 1].is_raised())
+        segments_[theme] = 0;  // they keep the ground, and are none of features
       for (std::size_t p = 0; p < metadata.parts.size(); ++p) {
         if (metadata.parts[p].theme != theme) continue;
         const std::size_t number = metadata.themes.size() + p + 1;

@@ -96,7 +96,7 @@ double HeightPredictor::offset_on_lattice(std::uint32_t x, std::uint32_t y) cons
   const auto stride = static_cast<std::ptrdiff_t>(stride_);
   std::size_t there = 0;
   std::int64_t z = 0, xz = 0, yz = 0;
-  const auto look = [&](std::size_t number, const Offset& b) {
+  const auto at_offset = [&](std::size_t number, const Offset& b) {
     const Sample* const s = latest(here + static_cast<std::size_t>(b.y * stride + b.x));
     there |= std::size_t{s != nullptr} << number;
     const std::int64_t wz = s != nullptr ? b.weight() * above_last(*s) : 0;
@@ -104,7 +104,7 @@ double HeightPredictor::offset_on_lattice(std::uint32_t x, std::uint32_t y) cons
   };
   // Without a loop, for all factors are constants then.
   [&]<std::size_t... i>(std::index_sequence<i...>) {
-    (look(i, kAround[i]), ...);
+    (at_offset(i, kAround[i]), ...);
   }
   (std::make_index_sequence<kAround.size()>());
   return there == 0

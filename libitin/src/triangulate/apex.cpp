@@ -174,7 +174,7 @@ std::optional<SelectedVertex> ApexSearch::nearest_circle(const ApexFrame& frame,
   for (const auto& [key, leaf_key, i] : order) {
     if (last != nullptr && last->key == leaf_key) continue;  // it meets several parts
     last = &leaves_[i];
-    if (frame.cap_meets(search.reach, last->cell.box()) && !hidden(*last, search)) look_in(*last, search);
+    if (frame.cap_meets(search.reach, last->cell.box()) && !hidden(*last, search)) search_leaf(*last, search);
   }
   return search.best;
 }
@@ -187,7 +187,7 @@ bool ApexSearch::hidden(const Leaf& leaf, Search& search) {
   return hide(nearest, search.frame.a, search.frame.b, intersection(leaf.cell.box(), search.box));
 }
 
-void ApexSearch::look_in(const Leaf& leaf, Search& search) {
+void ApexSearch::search_leaf(const Leaf& leaf, Search& search) {
   const Position a = search.frame.a, b = search.frame.b;
   const auto block = blocks_.read(leaf);
   for (std::size_t k = 0; k < block->points.size(); ++k) {

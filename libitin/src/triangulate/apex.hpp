@@ -80,7 +80,7 @@ class ApexSearch {
                                              const GridBox& known, Segments segments);
   std::optional<SelectedVertex> nearest_circle(const ApexFrame& frame, double lambda, const Position* beyond,
                                                const GridBox& known, Segments segments);
-  void look_in(const Leaf& leaf, Search& search);
+  void search_leaf(const Leaf& leaf, Search& search);
 
   const PointIndex& index_;
   const Selection& selection_;

@@ -99,7 +99,7 @@ bool Enclosure::shut_in(std::uint32_t t, int edge, End end) {
     if (u == kNoTriangle || !known(u, limit, box_of(a, b))) return false;
     int k = 0;
     while (corner(u, k) != eye) ++k;
-    look_through(u, k, corner(u, k + 1), corner(u, k + 2));
+    see_through(u, k, corner(u, k + 1), corner(u, k + 2));
     const int on = end == End::kFirst ? 2 : 1;
     if (orientation(a, b, corner(u, k + on)) <= 0) break;
     u = mesh_.neighbours[u][(k + 3 - on) % 3];
@@ -108,7 +108,7 @@ bool Enclosure::shut_in(std::uint32_t t, int edge, End end) {
 }
 
 /// Notes what is seen of the triangle beyond an edge of t.
-void Enclosure::look_through(std::uint32_t t, int edge, Position right, Position left) {
+void Enclosure::see_through(std::uint32_t t, int edge, Position right, Position left) {
   if ((mesh_.constrained[t] >> edge & 1) == 0) cones_.push_back({t, edge, right, left});
 }
 
@@ -143,8 +143,8 @@ bool Enclosure::follow(Position eye, const ApexFrame& frame, double lambda, cons
     // The edge from the entry's right end to the apex, and from there to its left end.
     const Position leftmost = orientation(eye, apex, left) > 0 ? apex : left;
     const Position rightmost = orientation(eye, right, apex) > 0 ? apex : right;
-    if (orientation(eye, right, leftmost) >= 0) look_through(u, (j + 1) % 3, right, leftmost);
-    if (orientation(eye, rightmost, left) >= 0) look_through(u, (j + 2) % 3, rightmost, left);
+    if (orientation(eye, right, leftmost) >= 0) see_through(u, (j + 1) % 3, right, leftmost);
+    if (orientation(eye, rightmost, left) >= 0) see_through(u, (j + 2) % 3, rightmost, left);
   }
   return true;
 }

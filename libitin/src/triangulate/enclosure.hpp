@@ -47,7 +47,7 @@ class Enclosure {
   Position corner(std::uint32_t t, int i) const { return vertices_[mesh_.triangles[t][i % 3]].position(); }
   bool known(std::uint32_t t, const GridBox& limit, const GridBox& near);
   bool shut_in(std::uint32_t t, int edge, End eye);
-  void look_through(std::uint32_t t, int edge, Position right, Position left);
+  void see_through(std::uint32_t t, int edge, Position right, Position left);
   bool known_beyond_hull(Position eye, const Cone& cone, const GridBox& limit);
   bool follow(Position eye, const ApexFrame& frame, double lambda, const GridBox& limit);
 

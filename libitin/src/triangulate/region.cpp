@@ -51,7 +51,7 @@ class RegionTriangulation {
       for (int rounds = 0;; ++rounds) {
         stop_if_asked();
         do mark_ground();
-        while (look_farther());
+        while (extend());
         const Mending mending = mend();
         if (mending == Mending::kDone) break;
         if (mending == Mending::kInVain) require_more_ground();
@@ -260,7 +260,7 @@ class RegionTriangulation {
 
   /// Reads the ground that thin triangles see past the lines beside them, beyond what is known. True when there was
   /// some.
-  bool look_farther() {
+  bool extend() {
     std::vector<Cell> missing;
     // The outline alone shuts in little, and triangles across the sea see far.
     const bool lines =
@@ -301,10 +301,10 @@ class RegionTriangulation {
     for (std::uint32_t t = 0; t < mesh().triangles.size(); ++t) {
       if (ground_[t] != Ground::kYes) continue;
       if (!grown_.settled(t)) prove(t, intruders, fresh);
-      look_beyond_hull(t, intruders);
+      seek_beyond_hull(t, intruders);
     }
     for (const SegmentEdge& edge : outline_) {
-      if (edge.left == kNoTriangle) look_left_of(edge.from, edge.to, intruders);
+      if (edge.left == kNoTriangle) seek_left_of(edge.from, edge.to, intruders);
     }
     if (intruders.empty() && fresh.empty()) return Mending::kDone;
     bool inserted = !fresh.empty();
@@ -341,17 +341,17 @@ class RegionTriangulation {
     return in_circle_perturbed(corner(t, 0), corner(t, 1), corner(t, 2), v.position()) > 0;
   }
 
-  void look_beyond_hull(std::uint32_t t, std::vector<SelectedVertex>& intruders) {
+  void seek_beyond_hull(std::uint32_t t, std::vector<SelectedVertex>& intruders) {
     const auto& v = mesh().triangles[t];
     for (int i = 0; i < 3; ++i) {
       if (mesh().neighbours[t][i] == kNoTriangle && !on_outline(t, i))
-        look_left_of(v[(i + 2) % 3], v[(i + 1) % 3], intruders);
+        seek_left_of(v[(i + 2) % 3], v[(i + 1) % 3], intruders);
     }
   }
 
   /// Where the region reaches beyond a hull edge, or just to it, and there is ground, the next triangle's vertex is
   /// missing, unless the edge is on the hull of the whole surface.
-  void look_left_of(std::uint32_t from, std::uint32_t to, std::vector<SelectedVertex>& intruders) {
+  void seek_left_of(std::uint32_t from, std::uint32_t to, std::vector<SelectedVertex>& intruders) {
     const Position p = position(from), q = position(to);
     if (!tile_reaches_left_of(p, q) || hull_.contains({from, to})) return;
     auto found = search_.apex(p, q);

@@ -8,8 +8,8 @@
 
 #include "base/stoppable.hpp"
 #include "triangulate/assembly.hpp"
+#include "triangulate/raised_index.hpp"
 #include "triangulate/region.hpp"
-#include "triangulate/standing_index.hpp"
 
 namespace itin {
 
@@ -63,7 +63,7 @@ class TilePlan {
 void name_themes(Tin& tin, const StoreMetadata& metadata) {
   if (metadata.parts.empty()) return;
   std::erase_if(tin.lines, [&](const LineEdge& e) {
-    return e.theme <= metadata.themes.size() && metadata.themes[e.theme - std::size_t{1}].stands();
+    return e.theme <= metadata.themes.size() && metadata.themes[e.theme - std::size_t{1}].is_raised();
   });
   for (LineEdge& e : tin.lines) {
     if (e.theme > metadata.themes.size()) e.theme = metadata.parts[e.theme - metadata.themes.size() - 1].theme;
@@ -80,7 +80,7 @@ Tin triangulate(const Store& store, const Window& window, const Detail& detail, 
   const StoreMetadata& metadata = store.metadata();
   const Selection selection = selection_of(metadata, detail, themes);
   const GridWindow grid_window(window, metadata.grid, metadata.bounds);
-  const StandingIndex index(store, selection);
+  const RaisedIndex index(store, selection);
   const TilePlan plan(index, selection, grid_window);
 
   std::vector<RegionMesh> regions(plan.cells().size());

@@ -57,12 +57,11 @@ class TileVerification {
     std::vector<std::uint8_t> in_doubt(of_leaves.size());
     for (std::size_t i = 0; i < of_leaves.size(); ++i)
       in_doubt[i] = of_leaves[i].lo < cover.leaves()[i].lo || of_leaves[i].hi > cover.leaves()[i].hi ? 1 : 0;
-    if (std::find(in_doubt.begin(), in_doubt.end(), 1) != in_doubt.end()) look_closely(level, coarse, cover, in_doubt);
+    if (std::find(in_doubt.begin(), in_doubt.end(), 1) != in_doubt.end()) refine(level, coarse, cover, in_doubt);
   }
 
   /// Checks certificates in doubt again, now only over those parts of triangles that lie in the cell.
-  void look_closely(int level, const RegionMesh& coarse, const LeafCover& cover,
-                    const std::vector<std::uint8_t>& in_doubt) {
+  void refine(int level, const RegionMesh& coarse, const LeafCover& cover, const std::vector<std::uint8_t>& in_doubt) {
     const HeightDifference difference(coarse);
     std::vector<Extremes> of_leaves(in_doubt.size());
     const auto compare_in = [&](std::uint32_t t, std::size_t leaf) {

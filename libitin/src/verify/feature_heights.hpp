@@ -6,7 +6,7 @@
 #include <itin/store.hpp>
 
 #include "store/store_file.hpp"
-#include "triangulate/standing_index.hpp"
+#include "triangulate/raised_index.hpp"
 #include "verify/false_cell.hpp"
 
 namespace itin {
@@ -33,7 +33,7 @@ class PartHeights {
   const ThemeInfo& theme_;
   int tree_;
   Selection ground_, selection_;
-  StandingIndex standing_;
+  RaisedIndex standing_;
 };
 
 }  // namespace itin

@@ -60,7 +60,7 @@ template <class Along>
 LinkResult survey(const Store& store, const LinkQuery& query, const Link& link, const Along& along) {
   Sections sections{along(false), {}};
   require_ground(sections.surface, link);
-  if (query.themes.includes_standing(store.metadata().themes)) sections.ground = along(true);
+  if (query.themes.includes_raised(store.metadata().themes)) sections.ground = along(true);
   LosQuery own = los_query(link, query);
   own.clearance_error_m = clearance_error(store, query.detail, query.themes, link.from, link.to);
   return result_of(sections, own);
@@ -70,7 +70,7 @@ LinkResult survey(const Store& store, const LinkQuery& query, const Link& link, 
 class Surfaces {
  public:
   Surfaces(const Store& store, const LinkQuery& query, const std::vector<Link>& links) : store_(store), query_(query) {
-    const bool standing = query.themes.includes_standing(store.metadata().themes);
+    const bool standing = query.themes.includes_raised(store.metadata().themes);
     if (standing || sharing_pays(store, query.detail, links)) surface_.emplace(store, query.detail, query.themes);
     if (standing) ground_.emplace(store, query.detail);
   }

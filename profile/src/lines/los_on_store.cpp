@@ -45,7 +45,7 @@ LosReport analyse(const Store& store, const StoreLine& line, LosQuery query) {
   CrossSection section = cross_section(store, line.from, line.to, line.detail, line.themes);
   Profile profile = from_section(section), ground;
   require_ground(line, profile);
-  if (line.themes.includes_standing(store.metadata().themes)) {
+  if (line.themes.includes_raised(store.metadata().themes)) {
     const CrossSection bare = cross_section(store, line.from, line.to, line.detail);
     ground = from_section(bare);
     section.statistics += bare.statistics;

@@ -1,5 +1,5 @@
 // Standing features only raise the surface: nowhere is it lower than the bare terrain, and outside of footprints it is
-// the bare terrain. On random footprints over rough ground; standing_theme_test.cpp looks at real ones.
+// the bare terrain. On random footprints over rough ground; raised_theme_test.cpp looks at real ones.
 #include <cmath>
 #include <gmock/gmock.h>
 #include <iostream>

@@ -64,11 +64,12 @@ class FresnelSites : public ::testing::Test {
     for (std::size_t i = 0; i < 2 * count; ++i)
       positions.push_back({kNorthWest.x + draw(0, side_ * kStep), kNorthWest.y - draw(0, side_ * kStep)});
     const auto ground = ground_under(*store_, positions, ThemeChoice::none(), progress_);
-    for (std::size_t i = 0; i < positions.size() && survey_.stands.size() < count; ++i)
-      if (ground[i]) survey_.stands.push_back({std::to_string(i), positions[i], std::round(draw(2, 40)), *ground[i]});
+    for (std::size_t i = 0; i < positions.size() && survey_.positions.size() < count; ++i)
+      if (ground[i])
+        survey_.positions.push_back({std::to_string(i), positions[i], std::round(draw(2, 40)), *ground[i]});
     survey_.radius = 1200;
     survey_.targets.height = draw(0.5, 10);
-    survey_.targets.grid = grid_of_reach(*store_, survey_.stands, survey_.radius, 80);
+    survey_.targets.grid = grid_of_reach(*store_, survey_.positions, survey_.radius, 80);
     survey_.tolerance = 2;
     // With little memory zones are judged over the coarse surface, too.
     if (draw(0, 1) < 0.5) survey_.memory_bytes = 4000000;
@@ -81,16 +82,16 @@ class FresnelSites : public ::testing::Test {
   /// The verdict of itin los on each pair.
   DemandSet served(std::size_t option, const ThemeChoice& themes) {
     const RasterGrid& grid = *survey_.targets.grid;
-    const SiteStand& stand = survey_.stands[option];
+    const SitePosition& place = survey_.positions[option];
     std::vector<std::size_t> elements;
     std::vector<profile::Link> links;
     for (std::int64_t row = 0; row < grid.rows(); ++row) {
       for (std::int64_t column = 0; column < grid.columns(); ++column) {
         const Point2 p = grid.centre(column, row);
-        const double dx = p.x - stand.position.x, dy = p.y - stand.position.y;
+        const double dx = p.x - place.position.x, dy = p.y - place.position.y;
         if (dx * dx + dy * dy > survey_.radius * survey_.radius) continue;
         elements.push_back(element_of(grid, {column, row}));
-        links.push_back({"", stand.position, stand.height, p, survey_.targets.height});
+        links.push_back({"", place.position, place.height, p, survey_.targets.height});
       }
     }
     profile::LinkQuery query;
@@ -114,8 +115,8 @@ class FresnelSites : public ::testing::Test {
   }
   std::vector<DemandSet> all_served() {
     std::vector<DemandSet> sets;
-    const bool standing = survey_.themes.includes_standing(store_->metadata().themes);
-    for (std::size_t i = 0; i < survey_.stands.size(); ++i) {
+    const bool standing = survey_.themes.includes_raised(store_->metadata().themes);
+    for (std::size_t i = 0; i < survey_.positions.size(); ++i) {
       sets.push_back(served(i, survey_.themes));
       // Sites keep to what the bare terrain allows, also where a house's edge lowers the ground beside it by a hair.
       if (standing && !survey_.targets.on_surface)
@@ -130,7 +131,7 @@ class FresnelSites : public ::testing::Test {
     SiteCoverage coverage(*store_, survey, progress_);
     std::vector<std::size_t> all;
     for (std::size_t i = 0; i < truth.size(); ++i) all.push_back(i);
-    coverage.look_first();
+    coverage.explore();
     for (int stage = 0;; ++stage) {
       for (const std::size_t i : all) {
         const CoverageBounds& bounds = coverage.bounds(i);
@@ -160,9 +161,9 @@ class FresnelSites : public ::testing::Test {
     SiteSurvey survey = survey_;
     if (!with_zone) survey.fresnel.reset();
     SiteCoverage coverage(*store_, survey, progress_);
-    coverage.look_first();
+    coverage.explore();
     std::vector<SiteOption> options;
-    for (std::size_t i = 0; i < survey.stands.size(); ++i) options.push_back({i, 1});
+    for (std::size_t i = 0; i < survey.positions.size(); ++i) options.push_back({i, 1});
     ChoiceGoal goal{.count = count};
     goal.swaps = false;
     return choose(Demand(element_count(*survey.targets.grid)), options, coverage, goal, progress_);
@@ -196,7 +197,7 @@ TEST_F(FresnelSites, AreKeptAsTheyAreJudged) {
   } progress;
   SiteCoverage coverage(*store_, survey_, progress);
   coverage.on_refined = [&](std::size_t, int, const CoverageBounds&) { ++progress.kept; };
-  EXPECT_THROW(coverage.look_first(), Cancelled);
+  EXPECT_THROW(coverage.explore(), Cancelled);
   EXPECT_GT(progress.kept, 0U);
   EXPECT_LT(progress.kept, 70U);
 }
@@ -252,10 +253,10 @@ TEST_F(FresnelSites, TheZoneChangesTheChoice) {
   const std::vector<Point2> positions{{kNorthWest.x + 1500, kNorthWest.y - 1500},
                                       {kNorthWest.x + 75, kNorthWest.y - 1525}};
   const auto ground = ground_under(*store_, positions, ThemeChoice::none(), progress_);
-  survey_.stands = {{"plain", positions[0], 8, *ground[0]}, {"hill", positions[1], 8, *ground[1]}};
+  survey_.positions = {{"plain", positions[0], 8, *ground[0]}, {"hill", positions[1], 8, *ground[1]}};
   survey_.radius = 1300;
   survey_.targets.height = 1.5;
-  survey_.targets.grid = grid_of_reach(*store_, survey_.stands, survey_.radius, 50);
+  survey_.targets.grid = grid_of_reach(*store_, survey_.positions, survey_.radius, 50);
   frequency_ghz_ = 0.45;
   survey_.fresnel = FresnelCriterion{profile::wavelength_m(frequency_ghz_), 0.6};
   EXPECT_EQ(choose_by_bounds(1, false).chosen.at(0).option, 0U);

@@ -19,16 +19,16 @@ using test::options_of;
 using test::set_of;
 using test::Simulated;
 
-/// Links drawn at random: the options first, then what stands, the hub last.
+/// Links drawn at random: the options first, then the existing sites, the hub last.
 struct Graph {
-  std::size_t options = 0, standing = 0;
+  std::size_t options = 0, existing = 0;
   bool hub = false;
   std::set<std::pair<std::size_t, std::size_t>> links;
 
-  Graph(std::size_t options_count, std::size_t standing_count, bool with_hub, double share, std::mt19937& random)
-      : options(options_count), standing(standing_count), hub(with_hub) {
+  Graph(std::size_t options_count, std::size_t existing_count, bool with_hub, double share, std::mt19937& random)
+      : options(options_count), existing(existing_count), hub(with_hub) {
     std::bernoulli_distribution there(share);
-    for (std::size_t b = 0; b < options + standing; ++b)
+    for (std::size_t b = 0; b < options + existing; ++b)
       for (std::size_t a = 0; a < b; ++a)
         if (there(random)) links.emplace(a, b);
   }
@@ -36,7 +36,7 @@ struct Graph {
 
   std::shared_ptr<LinkNetwork> network() const {
     auto asked = std::make_shared<std::set<std::pair<std::size_t, std::size_t>>>();
-    return std::make_shared<LinkNetwork>(options, standing, hub ? std::optional(options + standing - 1) : std::nullopt,
+    return std::make_shared<LinkNetwork>(options, existing, hub ? std::optional(options + existing - 1) : std::nullopt,
                                          [this, asked](std::size_t site, std::span<const std::size_t> others) {
                                            std::vector<std::size_t> result;
                                            for (const std::size_t other : others) {
@@ -50,8 +50,8 @@ struct Graph {
   /// Spreads from the first site until nothing more is reached.
   bool connects(const std::vector<std::size_t>& chosen) const {
     if (chosen.empty()) return true;
-    std::set<std::size_t> reached{hub ? options + standing - 1 : chosen.front()}, open(chosen.begin(), chosen.end());
-    for (std::size_t site = options; site < options + standing; ++site) open.insert(site);
+    std::set<std::size_t> reached{hub ? options + existing - 1 : chosen.front()}, open(chosen.begin(), chosen.end());
+    for (std::size_t site = options; site < options + existing; ++site) open.insert(site);
     for (std::size_t before = 0; before != reached.size();) {
       before = reached.size();
       for (const std::size_t site : open)
@@ -175,13 +175,13 @@ TEST_F(LinkedChoice, OnBoundsIsThatOfExactCoverage) {
 }
 
 /// Everything that a choice of fixed coverage needs.
-Choice choose_among(const std::vector<std::vector<bool>>& truth, ChoiceGoal goal, std::size_t standing,
+Choice choose_among(const std::vector<std::vector<bool>>& truth, ChoiceGoal goal, std::size_t existing,
                     std::optional<std::size_t> hub, std::set<std::pair<std::size_t, std::size_t>> links) {
   std::mt19937 random(1);
   Simulated coverage(truth, 0, random);
   std::vector<SiteOption> options;
   for (std::size_t i = 0; i < truth.size(); ++i) options.push_back({.place = i});
-  goal.network = std::make_shared<LinkNetwork>(truth.size(), standing, hub,
+  goal.network = std::make_shared<LinkNetwork>(truth.size(), existing, hub,
                                                [&](std::size_t site, std::span<const std::size_t> others) {
                                                  std::vector<std::size_t> result;
                                                  for (const std::size_t other : others)

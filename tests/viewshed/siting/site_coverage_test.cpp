@@ -47,20 +47,20 @@ class Sites : public ::testing::Test {
     for (std::size_t i = 0; i < 2 * count; ++i)
       positions.push_back({kSitesCorner.x + anywhere(random_), kSitesCorner.y - anywhere(random_)});
     const auto ground = ground_under(*store_, positions, ThemeChoice::none(), progress_);
-    for (std::size_t i = 0; i < positions.size() && survey_.stands.size() < count; ++i)
+    for (std::size_t i = 0; i < positions.size() && survey_.positions.size() < count; ++i)
       if (ground[i])
-        survey_.stands.push_back({std::to_string(i), positions[i], std::round(height(random_)), *ground[i]});
+        survey_.positions.push_back({std::to_string(i), positions[i], std::round(height(random_)), *ground[i]});
     survey_.radius = kRadius;
     survey_.targets.height = 2;
-    survey_.targets.grid = grid_of_reach(*store_, survey_.stands, kRadius, 60);
+    survey_.targets.grid = grid_of_reach(*store_, survey_.positions, kRadius, 60);
     survey_.tolerance = 4;
   }
 
   /// The answer of test::compute_at_full_detail() for one site.
   DemandSet precise(std::size_t option) {
-    const SiteStand& stand = survey_.stands[option];
+    const SitePosition& place = survey_.positions[option];
     Request request;
-    request.observers = {{stand.name, stand.position, stand.height}};
+    request.observers = {{place.name, place.position, place.height}};
     request.target_height = survey_.targets.height;
     request.radius = kRadius;
     request.grid = survey_.targets.grid;
@@ -84,7 +84,7 @@ class Sites : public ::testing::Test {
 
   std::vector<DemandSet> all_precise() {
     std::vector<DemandSet> sets;
-    for (std::size_t i = 0; i < survey_.stands.size(); ++i) sets.push_back(precise(i));
+    for (std::size_t i = 0; i < survey_.positions.size(); ++i) sets.push_back(precise(i));
     return sets;
   }
 
@@ -100,7 +100,7 @@ class Sites : public ::testing::Test {
   void expect_bounds_at_every_stage(SiteCoverage& coverage, const std::vector<DemandSet>& truth) {
     std::vector<std::size_t> all;
     for (std::size_t i = 0; i < truth.size(); ++i) all.push_back(i);
-    coverage.look_first();
+    coverage.explore();
     for (int stage = 0;; ++stage) {
       for (const std::size_t i : all) {
         EXPECT_EQ(coverage.stage(i), stage);
@@ -143,7 +143,7 @@ TEST_F(Sites, WhatIsKnownOfThemTakesNoMoreThanIsCountedOn) {
   make_survey(8);
   const auto counted = [&](const SiteCoverage& coverage) {
     std::uint64_t blocks = 0;
-    for (std::size_t i = 0; i < survey_.stands.size(); ++i)
+    for (std::size_t i = 0; i < survey_.positions.size(); ++i)
       for (const CoverageBounds* bounds : {&coverage.bounds(i), &coverage.first_bounds(i)})
         for (const DemandSet* set : {&bounds->certain, &bounds->possible}) blocks += set->blocks().capacity();
     return sizeof(DemandSet::Block) * blocks;
@@ -151,10 +151,10 @@ TEST_F(Sites, WhatIsKnownOfThemTakesNoMoreThanIsCountedOn) {
   std::uint64_t most = 0;
   SiteCoverage coverage(*store_, survey_, progress_);
   most = std::max(most, counted(coverage));
-  coverage.look_first();
+  coverage.explore();
   most = std::max(most, counted(coverage));
   coverage.release_surfaces();
-  std::vector<std::size_t> all(survey_.stands.size());
+  std::vector<std::size_t> all(survey_.positions.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   while (coverage.stage(0) < coverage.last_stage()) {
     coverage.refine(all);
@@ -195,7 +195,7 @@ TEST_F(Sites, PointsAreServedAsCellsAtTheSamePlaces) {
   const std::vector<DemandSet> truth = all_precise();
   SiteCoverage coverage(*store_, test::survey_of_points(survey_), progress_);
   std::vector<std::size_t> all{0, 1, 2, 3, 4};
-  coverage.look_first();
+  coverage.explore();
   const auto inside = [&](const DemandSet& set) { return test::without_padding(*survey_.targets.grid, set); };
   for (;;) {
     for (const std::size_t i : all) {
@@ -233,7 +233,7 @@ TEST_F(Sites, TheChoiceIsThatOfBruteForce) {
   }
 
   SiteCoverage coverage(*store_, survey_, progress_);
-  coverage.look_first();
+  coverage.explore();
   ChoiceGoal goal{.count = 6};
   goal.swaps = false;
   goal.batch = 2;
@@ -251,12 +251,12 @@ TEST_F(Sites, WhatWasFoundCanBePutBack) {
   make_terrain(80, 200, false);
   make_survey(6);
   SiteCoverage coverage(*store_, survey_, progress_);
-  coverage.look_first();
+  coverage.explore();
   SiteCoverage other(*store_, survey_, progress_);
   std::size_t told = 0;
   other.on_refined = [&](std::size_t, int, const CoverageBounds&) { ++told; };
   for (std::size_t i = 0; i < 3; ++i) other.restore(i, coverage.stage(i), coverage.bounds(i));
-  other.look_first();
+  other.explore();
   EXPECT_GE(told, 3U);
   for (std::size_t i = 0; i < 6; ++i) {
     EXPECT_EQ(other.stage(i), 0);
@@ -265,7 +265,7 @@ TEST_F(Sites, WhatWasFoundCanBePutBack) {
     EXPECT_TRUE(other.first_bounds(i).possible == coverage.first_bounds(i).possible);
   }
   told = 0;
-  other.look_first();
+  other.explore();
   EXPECT_EQ(told, 0U);
 }
 
@@ -283,7 +283,7 @@ TEST_F(Sites, SitesAreProposedOnSummitsAndSpaced) {
     chosen += p.visibility_index;
   }
   // They see more than places at random.
-  survey_.stands.clear();
+  survey_.positions.clear();
   make_survey(30);
   EXPECT_TRUE(std::any_of(proposals.begin(), proposals.end(), [](const Proposal& p) { return p.summit; }));
   EXPECT_EQ(propose_sites(*store_, area, request, progress_).size(), proposals.size());
@@ -314,10 +314,10 @@ TEST(SitesInTown, FeaturesOnlyHide) {
   SiteSurvey survey;
   const std::vector<Point2> positions{{321800, 4297750}, {321700, 4297700}};
   const auto ground = ground_under(store, positions, ThemeChoice::none(), progress);
-  for (std::size_t i = 0; i < positions.size(); ++i) survey.stands.push_back({"s", positions[i], 10, *ground[i]});
+  for (std::size_t i = 0; i < positions.size(); ++i) survey.positions.push_back({"s", positions[i], 10, *ground[i]});
   survey.radius = 200;
   survey.targets.height = 1.5;
-  survey.targets.grid = grid_of_reach(store, survey.stands, survey.radius, 4);
+  survey.targets.grid = grid_of_reach(store, survey.positions, survey.radius, 4);
   SiteCoverage bare(store, survey, progress);
   survey.themes = ThemeChoice::all();
   SiteCoverage themed(store, survey, progress);

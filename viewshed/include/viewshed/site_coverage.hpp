@@ -5,10 +5,10 @@
 //   viewshed::SiteSurvey survey;
 //   const Point2 hill{310375, 183525};
 //   if (const auto ground = viewshed::ground_under(store, {hill}, ThemeChoice::none(), progress)[0])
-//     survey.stands = {{"Garth Hill", hill, 20, *ground}};
-//   survey.targets.grid = viewshed::grid_of_reach(store, survey.stands, survey.radius, 100);
+//     survey.positions = {{"Garth Hill", hill, 20, *ground}};
+//   survey.targets.grid = viewshed::grid_of_reach(store, survey.positions, survey.radius, 100);
 //   viewshed::SiteCoverage coverage(store, survey, progress);
-//   coverage.look_first();
+//   coverage.explore();
 //   const std::size_t cells = coverage.bounds(0).certain.size();  // certainly served by the first
 //
 // Exact means every triangle of the full surface in double precision, as compute(). Where themes that stand on
@@ -34,7 +34,7 @@
 namespace itin::viewshed {
 
 /// A site on its ground.
-struct SiteStand {
+struct SitePosition {
   std::string name;
   Point2 position;
   double height = 0;  ///< metres above the ground
@@ -62,7 +62,7 @@ struct SiteTargets {
 };
 
 struct SiteSurvey {
-  std::vector<SiteStand> stands;  ///< one per option
+  std::vector<SitePosition> positions;  ///< one per option
   SiteTargets targets;
   double radius = 10000;  ///< metres: no site serves farther
   Earth earth;
@@ -79,7 +79,8 @@ struct SiteSurvey {
 
 /// The grid of the contract: over what lies within the radius of a site, and the data. Throws InputError if there is
 /// none.
-RasterGrid grid_of_reach(const Store& store, const std::vector<SiteStand>& stands, double radius, double cell_size);
+RasterGrid grid_of_reach(const Store& store, const std::vector<SitePosition>& positions, double radius,
+                         double cell_size);
 
 /// A grid's cells as elements of a demand: `count` elements, of which the padding about the grid is never served.
 std::size_t element_count(const RasterGrid& grid);
@@ -97,7 +98,7 @@ std::uint64_t bytes_of_coverage(const SiteSurvey& survey);
 
 class SiteCoverage final : public Coverage {
  public:
-  /// The store and the progress must outlive it. Before look_first() all that is known is the radius. Throws
+  /// The store and the progress must outlive it. Before explore() all that is known is the radius. Throws
   /// InputError, also where three quarters of memory_bytes do not hold what each site may serve.
   SiteCoverage(const Store& store, SiteSurvey survey, Progress& progress);
   SiteCoverage(const Store&& store, SiteSurvey survey, Progress& progress) = delete;
@@ -107,7 +108,7 @@ class SiteCoverage final : public Coverage {
   /// Throws as compute_certified() does.
   void refine(std::span<const std::size_t> options) override;
   /// At every option that was not looked at yet.
-  void look_first();
+  void explore();
   /// Frees the memory of the surfaces. They are read again where options are refined after this.
   void release_surfaces();
 

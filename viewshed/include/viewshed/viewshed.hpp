@@ -227,7 +227,7 @@ struct ComputeOptions {
 struct Surface;
 
 /// A result, and what it was made on, for maps and single observers while the store is open.
-struct Surveyed {
+struct ViewshedWithSurface {
   std::shared_ptr<Surface> surface;  ///< a coarse one where the memory did not hold that of the request
   std::optional<Tin> ground;         ///< what ends stand on, where that is not the surface
   bool whole = true;                 ///< `surface` is that of the request
@@ -242,8 +242,8 @@ struct Surveyed {
 /// the lines. The answer is the same to the last bit, in every mode. Cost, on one core: about a microsecond a point; a
 /// fifth of that for rasters, and 9 bytes per post. Throws as compute() on a Tin and triangulate() do, and InputError
 /// where the line to a single cell does not fit into the memory.
-Surveyed compute_with_surface(const Store& store, const Request& request, const ComputeOptions& options,
-                              Progress& progress);
+ViewshedWithSurface compute_with_surface(const Store& store, const Request& request, const ComputeOptions& options,
+                                         Progress& progress);
 
 /// Computes what is certain of the full surface, without reading all of it: no cell called certain differs from the
 /// full surface's exact answer, at request.detail, in request.mode kVisible. Both ends of a sight line stand on the
@@ -257,17 +257,18 @@ Surveyed compute_with_surface(const Store& store, const Request& request, const 
 /// bounds of 0.1 seconds. Where exact answers cost no more, every cell is decided, but for such lines across voids, as
 /// by compute_with_surface() at tolerance 0. Levels of more than a million and a half points are looked at sector by
 /// sector about each observer. Throws as compute() does.
-Surveyed compute_certified(const Store& store, const Request& request, const ComputeOptions& options,
-                           Progress& progress);
+ViewshedWithSurface compute_certified(const Store& store, const Request& request, const ComputeOptions& options,
+                                      Progress& progress);
 
 /// The result alone, in the memory of ComputeOptions.
 Result compute(const Store& store, const Request& request, Progress& progress);
 
 /// The request for one of its observers alone, on the cells of all.
-Request alone(const Result& result, std::size_t observer);
+Request request_for_observer(const Result& result, std::size_t observer);
 
 /// Computes the request of one observer alone on a surface that was retrieved for all from `store`.
-Result compute_on_surface(const Store& store, const Surveyed& surveyed, const Request& request, Progress& progress);
+Result compute_on_surface(const Store& store, const ViewshedWithSurface& computed, const Request& request,
+                          Progress& progress);
 
 struct GeotiffOptions {
   std::string crs_wkt;

@@ -40,7 +40,7 @@ std::vector<PartsOfTile> tiles_in_reach(const Eye& eye, const RasterGrid& grid, 
 std::vector<double> rises_of_targets(const Store& store, const Request& request, const RasterGrid& grid,
                                      const RasterGrid& tiles) {
   std::vector<double> rises;
-  if (!request.targets_on_surface || !features_stand(store, request)) return rises;
+  if (!request.targets_on_surface || !has_raised_features(store, request)) return rises;
   const double resolution = store.metadata().grid.resolution;
   for (std::size_t i = 0; i < tiles.cell_count(); ++i) {
     const Box box = box_of(grid, tile_at(grid, tiles, i));
@@ -50,12 +50,12 @@ std::vector<double> rises_of_targets(const Store& store, const Request& request,
   return rises;
 }
 
-Surveyed certify_by_blocks(const Store& store, const Request& request, Progress& progress) {
-  Surveyed surveyed;
-  Result& result = surveyed.result;
+ViewshedWithSurface certify_by_blocks(const Store& store, const Request& request, Progress& progress) {
+  ViewshedWithSurface computed;
+  Result& result = computed.result;
   result.request = request;
   result.certified = true;
-  surveyed.whole = false;
+  computed.whole = false;
   Stopwatch watch;
   const std::vector<Eye> eyes = eyes_on_surface(store, request, Detail::tolerance(0), result.ground_m, progress);
   EnvelopeRequest wanted = certified_request(store, request);
@@ -84,8 +84,8 @@ Surveyed certify_by_blocks(const Store& store, const Request& request, Progress&
   }
   cells.store(result);
   result.statistics.lines_seconds = watch.lap();
-  surveyed.surface = std::make_shared<Surface>(Surface{bounded.envelope().lower, nullptr, {}});
-  return surveyed;
+  computed.surface = std::make_shared<Surface>(Surface{bounded.envelope().lower, nullptr, {}});
+  return computed;
 }
 
 }  // namespace itin::viewshed

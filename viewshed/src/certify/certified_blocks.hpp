@@ -12,7 +12,7 @@ namespace itin::viewshed {
 /// Hides block by block what ground hides that the level is certain of (judge/block_judge.hpp), and decides exactly
 /// what lies near each observer; all else is undecided. Features hide nothing but near the observer. Also returns the
 /// coarse surface. Throws as compute_certified() does.
-Surveyed certify_by_blocks(const Store& store, const Request& request, Progress& progress);
+ViewshedWithSurface certify_by_blocks(const Store& store, const Request& request, Progress& progress);
 
 /// For each tile of the cells, by how much targets may stand above the bare surface there, grid units; empty where none
 /// does.

@@ -35,13 +35,13 @@ class CertifiedSectors {
         progress_(progress),
         reading_(progress) {}
 
-  Surveyed run() {
-    Result& result = surveyed_.result;
+  ViewshedWithSurface run() {
+    Result& result = computed_.result;
     result.request = request_;
     result.certified = true;
-    surveyed_.whole = false;
+    computed_.whole = false;
     const std::vector<Eye> eyes = eyes_on_surface(store_, request_, Detail::tolerance(0), result.ground_m, progress_);
-    surveyed_.surface =
+    computed_.surface =
         std::make_shared<Surface>(Surface{coverage_of(store_, window_of(request_), progress_), nullptr, {}});
     result.grid = cells_of(request_, extent_of(store_));
     tiles_ = grid_of_tiles(result.grid);
@@ -57,12 +57,12 @@ class CertifiedSectors {
     }
     cells_->store(result);
     result.statistics.lines_seconds += watch_.lap();
-    return std::move(surveyed_);
+    return std::move(computed_);
   }
 
  private:
   void judge_from(const Eye& eye) {
-    SightSectors sectors(surveyed_.result.grid, eye);
+    SightSectors sectors(computed_.result.grid, eye);
     while (!sectors.empty()) {
       const SightSectors::Sector sector = sectors.next(
           [&](const std::vector<Point2>& hull) { return area_of(hull) * points_per_square_metre_ <= most_points_; });
@@ -83,7 +83,7 @@ class CertifiedSectors {
   }
 
   void judge(const Eye& eye, Envelope envelope, const Box& box, std::span<const Tile> parts) {
-    Result& result = surveyed_.result;
+    Result& result = computed_.result;
     result.statistics.retrieval += envelope.lower.statistics;
     result.statistics.triangles += envelope.lower.triangles.size();
     result.statistics.retrieval_seconds += watch_.lap();
@@ -109,7 +109,7 @@ class CertifiedSectors {
   Progress& progress_;
   SilentProgress reading_;  ///< of a sector
   Stopwatch watch_;
-  Surveyed surveyed_;
+  ViewshedWithSurface computed_;
   RasterGrid tiles_;
   std::vector<double> rises_;  ///< of targets, in each tile
   std::optional<ExactNearby> nearby_;
@@ -118,7 +118,8 @@ class CertifiedSectors {
 
 }  // namespace
 
-Surveyed certify_by_sectors(const Store& store, const Request& request, std::uint64_t most_points, Progress& progress) {
+ViewshedWithSurface certify_by_sectors(const Store& store, const Request& request, std::uint64_t most_points,
+                                       Progress& progress) {
   return CertifiedSectors(store, request, most_points, progress).run();
 }
 

@@ -62,7 +62,7 @@ std::optional<ExactNearby> Surroundings::decide(const Observer& observer, Statis
   nearby.grid = grid_.part(part.first, part.columns, part.rows);
   nearby.cell_size.reset();
   SilentProgress reading(progress);
-  Surveyed exact = compute_with_surface(store_, nearby, {}, reading);
+  ViewshedWithSurface exact = compute_with_surface(store_, nearby, {}, reading);
   statistics.lines += exact.result.statistics.lines;
   return ExactNearby{part.first, part.columns, part.rows, std::move(exact.result.visible)};
 }

@@ -15,13 +15,14 @@ namespace itin::viewshed {
 namespace {
 
 /// The exact answer, but where ground without data leaves it open.
-Surveyed decide_exactly(const Store& store, const Request& request, const ComputeOptions& options, Progress& progress) {
+ViewshedWithSurface decide_exactly(const Store& store, const Request& request, const ComputeOptions& options,
+                                   Progress& progress) {
   Request exact = request;
   exact.detail = Detail::tolerance(0);
-  Surveyed surveyed = compute_with_surface(store, exact, options, progress);
-  surveyed.result.request = request;
-  surveyed.result.certified = true;
-  return surveyed;
+  ViewshedWithSurface computed = compute_with_surface(store, exact, options, progress);
+  computed.result.request = request;
+  computed.result.certified = true;
+  return computed;
 }
 
 /// The part of the level read at a time does not depend on the memory, or what it leaves undecided would depend on it,
@@ -41,13 +42,13 @@ void require_memory(const Store& store, const Request& request, CertifiedWay way
 
 }  // namespace
 
-Surveyed compute_certified(const Store& store, const Request& request, const ComputeOptions& options,
-                           Progress& progress) {
+ViewshedWithSurface compute_certified(const Store& store, const Request& request, const ComputeOptions& options,
+                                      Progress& progress) {
   return compute_certified(store, request, certified_way(store, request), options, progress);
 }
 
-Surveyed compute_certified(const Store& store, const Request& request, CertifiedWay way, const ComputeOptions& options,
-                           Progress& progress) {
+ViewshedWithSurface compute_certified(const Store& store, const Request& request, CertifiedWay way,
+                                      const ComputeOptions& options, Progress& progress) {
   validate_certified(request);
   if (way == CertifiedWay::kExactly) return decide_exactly(store, request, options, progress);
   require_memory(store, request, way, options.memory_bytes);

@@ -8,7 +8,7 @@
 namespace itin::viewshed {
 
 /// As compute_certified(), which goes by certified_way() of its request.
-Surveyed compute_certified(const Store& store, const Request& request, CertifiedWay way, const ComputeOptions& options,
-                           Progress& progress);
+ViewshedWithSurface compute_certified(const Store& store, const Request& request, CertifiedWay way,
+                                      const ComputeOptions& options, Progress& progress);
 
 }  // namespace itin::viewshed

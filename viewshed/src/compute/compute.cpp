@@ -32,35 +32,36 @@ std::uint64_t points_of(const Store& store, const Request& request) {
 }
 
 /// The first rung that the memory allows.
-Surveyed climb(const Store& store, const Request& request, const ComputeOptions& options, Progress& progress) {
+ViewshedWithSurface climb(const Store& store, const Request& request, const ComputeOptions& options,
+                          Progress& progress) {
   const std::uint64_t memory = memory_beside_rasters(options.memory_bytes, store, request);
   const std::uint64_t points = points_of(store, request);
   const bool lattice = options.lattices && takes_a_lattice(store, request);
   if (lattice && points <= memory / kBytesPerPost)
-    if (auto surveyed = compute_over_lattice(store, request, memory / kBytesPerPost, progress))
-      return std::move(*surveyed);
+    if (auto computed = compute_over_lattice(store, request, memory / kBytesPerPost, progress))
+      return std::move(*computed);
   if (points <= memory / bytes_per_point(request)) return compute_over_tin(store, request, progress);
   if (lattice)
-    if (auto surveyed = compute_by_lattice_sectors(store, request, memory / kSectorShare, progress))
-      return std::move(*surveyed);
+    if (auto computed = compute_by_lattice_sectors(store, request, memory / kSectorShare, progress))
+      return std::move(*computed);
   return compute_in_tin_segments(store, request, memory, progress);
 }
 
 }  // namespace
 
-Surveyed compute_with_surface(const Store& store, const Request& request, const ComputeOptions& options,
-                              Progress& progress) {
+ViewshedWithSurface compute_with_surface(const Store& store, const Request& request, const ComputeOptions& options,
+                                         Progress& progress) {
   validate(request);
-  Surveyed surveyed = climb(store, request, options, progress);
-  name_features(store, surveyed.result);
-  return surveyed;
+  ViewshedWithSurface computed = climb(store, request, options, progress);
+  name_features(store, computed.result);
+  return computed;
 }
 
 Result compute(const Store& store, const Request& request, Progress& progress) {
   return compute_with_surface(store, request, {}, progress).result;
 }
 
-Request alone(const Result& result, std::size_t observer) {
+Request request_for_observer(const Result& result, std::size_t observer) {
   Request request = result.request;
   request.observers = {result.request.observers[observer]};
   request.cell_size.reset();

@@ -40,7 +40,7 @@ class HeldSurface::Impl {
     if (posts_) return;
     require_memory(bytes_per_point(Request()), options);
     triangles_.emplace(triangulate(store, window, detail, progress, themes));
-    if (themes.includes_standing(store.metadata().themes))
+    if (themes.includes_raised(store.metadata().themes))
       bare_ = triangulate(store, window, detail, progress, ThemeChoice::none());
   }
 

@@ -34,7 +34,7 @@ namespace {
 
 /// A post whose height is not read takes a bit, and its share of a leaf and of a tile.
 constexpr double kBytesPerUnreadPost = 0.5;
-/// The share of a sector's tiles that counts as seen before any sector has been surveyed.
+/// The share of a sector's tiles that counts as seen before any sector has been computed.
 constexpr double kFirstShareSeen = 0.25;
 /// The surface that maps are drawn over has at most so many points.
 constexpr std::uint64_t kCoarsePoints = 200000;
@@ -50,10 +50,10 @@ class LatticeSectors {
         progress_(progress),
         reading_(progress) {}
 
-  std::optional<Surveyed> run() {
-    Result& result = surveyed_.result;
+  std::optional<ViewshedWithSurface> run() {
+    Result& result = computed_.result;
     result.request = request_;
-    surveyed_.whole = false;
+    computed_.whole = false;
     const std::vector<Eye> eyes = eyes_on_surface(store_, request_, Detail::tolerance(0), result.ground_m, progress_);
     retrieve_coarse();
     Observations observations(request_);
@@ -64,21 +64,21 @@ class LatticeSectors {
     store_all(observations_, tiles_, result);
     observations.finish(result);
     result.statistics.lines_seconds += watch_.lap();
-    return std::move(surveyed_);
+    return std::move(computed_);
   }
 
  private:
   void retrieve_coarse() {
-    Result& result = surveyed_.result;
+    Result& result = computed_.result;
     const Box box = box_of_window(store_, request_);
     const int level = finest_level_of(store_, box, kCoarsePoints);
-    surveyed_.surface = std::make_shared<Surface>();
-    Tin& coarse = surveyed_.surface->tin;
+    computed_.surface = std::make_shared<Surface>();
+    Tin& coarse = computed_.surface->tin;
     coarse =
         triangulate(store_, window_of(request_), detail_of(store_.metadata(), level), progress_, ThemeChoice::none());
     result.grid = cells_of(request_, extent_of(store_));
     tiles_ = grid_of_tiles(result.grid);
-    look_for_voids(coarse.grid, rim_of(coarse, boundary_edges(coarse)), result);
+    find_voids(coarse.grid, rim_of(coarse, boundary_edges(coarse)), result);
     posts_per_square_metre_ = points_per_square_metre(store_, 0, request_);
     tile_side_m_ = LatticeTin::kSide / std::sqrt(posts_per_square_metre_);
     result.statistics.retrieval_seconds += watch_.lap();
@@ -86,7 +86,7 @@ class LatticeSectors {
 
   /// False where the surface is no lattice.
   bool observe_from(const Eye& eye, std::uint32_t observer) {
-    SightSectors sectors(surveyed_.result.grid, eye);
+    SightSectors sectors(computed_.result.grid, eye);
     while (!sectors.empty()) {
       const SightSectors::Sector sector = sectors.next([&](const std::vector<Point2>& hull) {
         return bytes_of(hull, share_seen_) <= static_cast<double>(memory_) && has_numbers(hull);
@@ -107,7 +107,7 @@ class LatticeSectors {
       }
       sectors.settle(sector, reach);
     }
-    stage_->advance_to((observer + 1) * surveyed_.result.grid.cell_count());
+    stage_->advance_to((observer + 1) * computed_.result.grid.cell_count());
     return true;
   }
 
@@ -143,7 +143,7 @@ class LatticeSectors {
   /// Decides the cells within a reach, metres, as far as what the eye may see fits into the memory.
   double observe_over(LatticeReader& reader, const Eye& eye, std::uint32_t observer, const SightSectors& sectors,
                       std::span<const Tile> parts) {
-    Result& result = surveyed_.result;
+    Result& result = computed_.result;
     FullSurface surface(reader.lattice(), request_.earth, result.grid, tiles_);
     const double unread = kBytesPerUnreadPost * static_cast<double>(reader.lattice().triangle_count()) / 2;
     const double tiles =
@@ -172,7 +172,7 @@ class LatticeSectors {
   Progress& progress_;
   SilentProgress reading_;  ///< of a sector
   Stopwatch watch_;
-  Surveyed surveyed_;
+  ViewshedWithSurface computed_;
   RasterGrid tiles_;
   double posts_per_square_metre_ = 0;
   double tile_side_m_ = 0;                                  ///< of a tile of the lattice, as far as it is known
@@ -183,9 +183,9 @@ class LatticeSectors {
 
 }  // namespace
 
-std::optional<Surveyed> compute_by_lattice_sectors(const Store& store, const Request& request, std::uint64_t memory,
-                                                   Progress& progress) {
-  if (features_stand(store, request)) return std::nullopt;
+std::optional<ViewshedWithSurface> compute_by_lattice_sectors(const Store& store, const Request& request,
+                                                              std::uint64_t memory, Progress& progress) {
+  if (has_raised_features(store, request)) return std::nullopt;
   return LatticeSectors(store, request, memory, progress).run();
 }
 

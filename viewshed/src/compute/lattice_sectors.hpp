@@ -16,7 +16,7 @@ namespace itin::viewshed {
 /// The full surface's answer, and a coarse surface. Nothing where the surface is no lattice. `memory` is for the
 /// surface alone, bytes. Precondition: takes_a_lattice(). Throws as compute_with_surface() does, and InputError where
 /// the line to a single cell does not fit.
-std::optional<Surveyed> compute_by_lattice_sectors(const Store& store, const Request& request, std::uint64_t memory,
-                                                   Progress& progress);
+std::optional<ViewshedWithSurface> compute_by_lattice_sectors(const Store& store, const Request& request,
+                                                              std::uint64_t memory, Progress& progress);
 
 }  // namespace itin::viewshed

@@ -15,16 +15,16 @@ namespace itin::viewshed {
 
 namespace {
 
-Surveyed survey(const Request& request, Surveyed surveyed, double seconds, Progress& progress) {
-  surveyed.result = compute(*surveyed.surface, surveyed.ground ? &*surveyed.ground : nullptr, request, progress);
-  surveyed.result.statistics.retrieval_seconds = seconds;
-  return surveyed;
+ViewshedWithSurface survey(const Request& request, ViewshedWithSurface computed, double seconds, Progress& progress) {
+  computed.result = compute(*computed.surface, computed.ground ? &*computed.ground : nullptr, request, progress);
+  computed.result.statistics.retrieval_seconds = seconds;
+  return computed;
 }
 
 }  // namespace
 
-std::optional<Surveyed> compute_over_lattice(const Store& store, const Request& request, std::uint64_t most_posts,
-                                             Progress& progress) {
+std::optional<ViewshedWithSurface> compute_over_lattice(const Store& store, const Request& request,
+                                                        std::uint64_t most_posts, Progress& progress) {
   Stopwatch watch;
   auto surface = retrieve_lattice(store, window_of(request), request.detail, request.themes,
                                   heights_for(request, store.points_about(0, box_of_window(store, request))),
@@ -34,22 +34,23 @@ std::optional<Surveyed> compute_over_lattice(const Store& store, const Request& 
                 progress);
 }
 
-Surveyed compute_over_tin(const Store& store, const Request& request, Progress& progress) {
+ViewshedWithSurface compute_over_tin(const Store& store, const Request& request, Progress& progress) {
   Stopwatch watch;
-  Surveyed surveyed;
-  surveyed.surface = std::make_shared<Surface>();
-  Tin& tin = surveyed.surface->tin;
+  ViewshedWithSurface computed;
+  computed.surface = std::make_shared<Surface>();
+  Tin& tin = computed.surface->tin;
   tin = triangulate(store, window_of(request), request.detail, progress, request.themes);
-  surveyed.surface->extent = extent_of(store);
+  computed.surface->extent = extent_of(store);
   const double seconds = watch.lap();
   // Beside a feature the surface is not to the last digit the ground, also where the window holds no part of it.
-  if (features_stand(store, request) && !(request.observers_on_surface && request.targets_on_surface))
-    surveyed.ground = triangulate(store, window_of(request), request.detail, progress, ThemeChoice::none());
-  return survey(request, std::move(surveyed), seconds, progress);
+  if (has_raised_features(store, request) && !(request.observers_on_surface && request.targets_on_surface))
+    computed.ground = triangulate(store, window_of(request), request.detail, progress, ThemeChoice::none());
+  return survey(request, std::move(computed), seconds, progress);
 }
 
-Result compute_on_surface(const Store& store, const Surveyed& surveyed, const Request& request, Progress& progress) {
-  Result result = compute(*surveyed.surface, surveyed.ground ? &*surveyed.ground : nullptr, request, progress);
+Result compute_on_surface(const Store& store, const ViewshedWithSurface& computed, const Request& request,
+                          Progress& progress) {
+  Result result = compute(*computed.surface, computed.ground ? &*computed.ground : nullptr, request, progress);
   name_features(store, result);
   return result;
 }

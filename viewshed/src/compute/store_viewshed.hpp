@@ -11,10 +11,10 @@
 namespace itin::viewshed {
 
 /// Nothing where the surface is no lattice of at most so many posts. Precondition: takes_a_lattice().
-std::optional<Surveyed> compute_over_lattice(const Store& store, const Request& request, std::uint64_t most_posts,
-                                             Progress& progress);
+std::optional<ViewshedWithSurface> compute_over_lattice(const Store& store, const Request& request,
+                                                        std::uint64_t most_posts, Progress& progress);
 
 /// Takes every surface, mode and detail.
-Surveyed compute_over_tin(const Store& store, const Request& request, Progress& progress);
+ViewshedWithSurface compute_over_tin(const Store& store, const Request& request, Progress& progress);
 
 }  // namespace itin::viewshed

@@ -48,17 +48,17 @@ class TinSegments {
   TinSegments(const Store& store, const Request& request, std::uint64_t memory, Progress& progress)
       : store_(store),
         request_(request),
-        features_(features_stand(store, request)),
+        features_(has_raised_features(store, request)),
         full_(level_within(store.metadata(), request.detail.coarsest()) == 0),
         box_(box_of_window(store, request)),
         memory_(memory),
         progress_(progress),
         reading_(progress) {}
 
-  Surveyed run() {
-    Result& result = surveyed_.result;
+  ViewshedWithSurface run() {
+    Result& result = computed_.result;
     result.request = request_;
-    surveyed_.whole = false;
+    computed_.whole = false;
     const std::vector<Eye> eyes = eyes_on_surface(store_, request_, request_.detail, result.ground_m, progress_);
     retrieve_coarse();
     Observations observations(request_);
@@ -68,7 +68,7 @@ class TinSegments {
     store_all(observations_, tiles_, result);
     observations.finish(result);
     result.statistics.lines_seconds += watch_.lap();
-    return std::move(surveyed_);
+    return std::move(computed_);
   }
 
  private:
@@ -88,7 +88,7 @@ class TinSegments {
 
   Tin triangulated(const Window& window, const ThemeChoice& themes) {
     Tin tin = triangulate(store_, window, request_.detail, reading_, themes);
-    Statistics& statistics = surveyed_.result.statistics;
+    Statistics& statistics = computed_.result.statistics;
     statistics.retrieval += tin.statistics;
     statistics.retrieval_seconds += watch_.lap();
     return tin;
@@ -99,7 +99,7 @@ class TinSegments {
     Tin tin = triangulated(window, features_ ? request_.themes : ThemeChoice::none());
     std::optional<Tin> ground;
     if (features_ && !request_.targets_on_surface) ground = triangulated(targets, ThemeChoice::none());
-    Result& result = surveyed_.result;
+    Result& result = computed_.result;
     result.statistics.triangles += tin.triangles.size();
     return {{std::move(tin), nullptr, {}},
             std::move(ground),
@@ -111,17 +111,17 @@ class TinSegments {
 
   void retrieve_coarse() {
     Envelope envelope = envelop(store_, certified_request(store_, request_, coarse_level()), progress_);
-    Result& result = surveyed_.result;
+    Result& result = computed_.result;
     result.statistics.retrieval += envelope.lower.statistics;
     result.statistics.triangles += envelope.lower.triangles.size();
     result.statistics.retrieval_seconds += watch_.lap();
     result.grid = cells_of(request_, extent_of(store_));
     tiles_ = grid_of_tiles(result.grid);
     rim_ = rim_of(envelope.lower, envelope.outline);
-    look_for_voids(envelope.lower.grid, rim_, result);
+    find_voids(envelope.lower.grid, rim_, result);
     ground_.emplace(store_, level_within(store_.metadata(), request_.detail.finest()), envelope.lower.bounds());
-    surveyed_.surface = std::make_shared<Surface>(Surface{envelope.lower, nullptr, {}});
-    if (!whole_lines()) coarse_.emplace(std::move(envelope), request_, tiles_, voids_of(request_));
+    computed_.surface = std::make_shared<Surface>(Surface{envelope.lower, nullptr, {}});
+    if (!whole_lines()) coarse_.emplace(std::move(envelope), request_, tiles_, missing_ground_rule(request_));
     result.statistics.scene_seconds += watch_.lap();
   }
 
@@ -131,12 +131,12 @@ class TinSegments {
     } else {
       observe_certified(eye, observer);
     }
-    stage_->advance_to((observer + 1) * surveyed_.result.grid.cell_count());
+    stage_->advance_to((observer + 1) * computed_.result.grid.cell_count());
   }
 
   /// All ground under all lines.
   void observe_over_lines(const Eye& eye, std::uint32_t observer) {
-    Result& result = surveyed_.result;
+    Result& result = computed_.result;
     const std::vector<TileSet> needed = under_lines(eye, observer);
     // The edges of a segment's window are no voids, and features never reach beyond the ground.
     const auto shadow = shadow_of(eye, rim_, result);
@@ -184,13 +184,13 @@ class TinSegments {
       lines += judge.begin(tiles[i])->judge(0, values);
       return before - undecided(values);
     });
-    surveyed_.result.statistics.lines += lines;
+    computed_.result.statistics.lines += lines;
   }
 
   /// Calls visit(tile, view) for every cell; the views know no heights.
   template <class Visit>
   void for_each_view(const Eye& eye, std::uint32_t observer, const Visit& visit) const {
-    const RasterGrid& grid = surveyed_.result.grid;
+    const RasterGrid& grid = computed_.result.grid;
     parallel_for(observations_.size(), [&](std::size_t i) {
       const Tile tile = tile_at(grid, tiles_, i);
       const TileCentres centres(store_.metadata().grid, grid, tile);
@@ -210,7 +210,7 @@ class TinSegments {
     std::vector<std::size_t> all(tiles_.cell_count());
     std::iota(all.begin(), all.end(), std::size_t{0});
     std::vector<TileSet> needed(all.size());
-    const EnvelopeJudge judge(*coarse_, surveyed_.result.grid, tiles_, {eye},
+    const EnvelopeJudge judge(*coarse_, computed_.result.grid, tiles_, {eye},
                               [&](std::size_t tile, const EnvelopePacket& packet) {
                                 if (needed[tile].empty()) needed[tile] = TileSet(ground_->count());
                                 add_ground(packet, needed[tile]);
@@ -272,7 +272,7 @@ class TinSegments {
   }
 
   OwnedSurface refine(const std::vector<std::size_t>& cells, const TileSet& ground) {
-    surveyed_.result.statistics.lines_seconds += watch_.lap();
+    computed_.result.statistics.lines_seconds += watch_.lap();
     return retrieve(ground_->window(ground), window_over(cells));
   }
 
@@ -291,7 +291,7 @@ class TinSegments {
   Progress& progress_;
   SilentProgress reading_;  ///< of a segment
   Stopwatch watch_;
-  Surveyed surveyed_;
+  ViewshedWithSurface computed_;
   RasterGrid tiles_;
   std::vector<RimEdge> rim_;  ///< where ground ends
   std::optional<GroundTiles> ground_;
@@ -302,7 +302,8 @@ class TinSegments {
 
 }  // namespace
 
-Surveyed compute_in_tin_segments(const Store& store, const Request& request, std::uint64_t memory, Progress& progress) {
+ViewshedWithSurface compute_in_tin_segments(const Store& store, const Request& request, std::uint64_t memory,
+                                            Progress& progress) {
   return TinSegments(store, request, memory, progress).run();
 }
 

@@ -15,6 +15,7 @@ namespace itin::viewshed {
 
 /// The answer of the surface at the request's detail, and a coarse surface. `memory` is for the surfaces alone, bytes.
 /// Throws as compute_with_surface() does.
-Surveyed compute_in_tin_segments(const Store& store, const Request& request, std::uint64_t memory, Progress& progress);
+ViewshedWithSurface compute_in_tin_segments(const Store& store, const Request& request, std::uint64_t memory,
+                                            Progress& progress);
 
 }  // namespace itin::viewshed

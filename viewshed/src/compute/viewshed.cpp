@@ -56,7 +56,7 @@ Result compute(const SurfaceInMemory& over, const Request& request, Progress& pr
                       result.grid, tiles);
   if (casts_rays(request)) surface.cast_rays(request.earth, positions_of(request));
   const std::vector<Eye> eyes = eyes_over(over, surface, result, progress);
-  look_for_voids(over.units(), surface.rim(), result);
+  find_voids(over.units(), surface.rim(), result);
   result.statistics.scene_seconds = watch.lap();
   std::optional<TriangleStudies> studies;
   if (needs_triangles(request)) studies.emplace(request, *over.tin);

@@ -141,7 +141,7 @@ Horizon horizon(const Tin& surface, const Tin& ground, const Request& request, c
   const double start = azimuths ? azimuths->from : 0;
   for (std::size_t i = 0; i < turn; ++i) {
     const double azimuth = std::fmod(start + 360.0 * static_cast<double>(i) / static_cast<double>(turn) + 360, 360);
-    if (eye.view.looks_towards(azimuth)) result.points.push_back({azimuth, std::nullopt});
+    if (eye.view.faces(azimuth)) result.points.push_back({azimuth, std::nullopt});
   }
   const Panorama panorama(surface, request, eye);
   for_each_step(result.points.size(), "horizon", progress,

@@ -51,7 +51,7 @@ class IndexWork {
   IndexWork(const Store& store, const IndexRequest& request, Progress& progress)
       : store_(store),
         request_(request),
-        stands_(request.themes.includes_standing(store.metadata().themes)),
+        stands_(request.themes.includes_raised(store.metadata().themes)),
         progress_(progress),
         quiet_(progress) {
     index_.grid =
@@ -123,8 +123,8 @@ class IndexWork {
     any_eye_ = true;
     const GridPoint seed = store_.metadata().grid.quantise({place.x, place.y, 0});
     const VisibilitySampler::Tally tally =
-        sampler.look(place, *height + request_.height,
-                     std::uint64_t{static_cast<std::uint32_t>(seed.x)} << 32 | static_cast<std::uint32_t>(seed.y));
+        sampler.observe(place, *height + request_.height,
+                        std::uint64_t{static_cast<std::uint32_t>(seed.x)} << 32 | static_cast<std::uint32_t>(seed.y));
     lines_ += tally.on_ground;
     if (tally.on_ground == 0) return;
     index_.share[index_.grid.index(cell)] = static_cast<float>(tally.seen) / static_cast<float>(tally.on_ground);

@@ -66,8 +66,8 @@ std::vector<RimEdge> VisibilitySampler::rim_near(const Point3& eye) const {
   return near;
 }
 
-VisibilitySampler::Tally VisibilitySampler::look(Point2 eye, double elevation, std::uint64_t seed,
-                                                 const Told& told) const {
+VisibilitySampler::Tally VisibilitySampler::observe(Point2 eye, double elevation, std::uint64_t seed,
+                                                    const TargetSeen& on_target) const {
   const Grid& units = surface_.units();
   const Point3 from{easting_in_units(units, eye.x), northing_in_units(units, eye.y), elevation / units.resolution};
   Random random(seed);
@@ -100,9 +100,9 @@ VisibilitySampler::Tally VisibilitySampler::look(Point2 eye, double elevation, s
     tally.asked += size;
     tally.on_ground += static_cast<unsigned>(std::popcount(packet.on_ground));
     tally.seen += static_cast<unsigned>(std::popcount(packet.on_ground & ~hidden));
-    for (unsigned rest = told ? packet.on_ground : 0; rest != 0; rest &= rest - 1) {
+    for (unsigned rest = on_target ? packet.on_ground : 0; rest != 0; rest &= rest - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(rest));
-      told(packet.targets[i], (hidden >> i & 1) == 0);
+      on_target(packet.targets[i], (hidden >> i & 1) == 0);
     }
   }
   return tally;

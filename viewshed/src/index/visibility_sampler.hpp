@@ -33,10 +33,10 @@ class VisibilitySampler {
   std::optional<double> ground(Point2 place) const;
 
   /// Called with every target on ground, metres, and whether it is seen.
-  using Told = std::function<void(Point2 target, bool seen)>;
+  using TargetSeen = std::function<void(Point2 target, bool seen)>;
   /// Tests lines from an eye at this elevation, metres, to targets spread evenly over the disc about it. A seed always
   /// gives the same targets. Safe for concurrent use.
-  Tally look(Point2 eye, double elevation, std::uint64_t seed, const Told& told = nullptr) const;
+  Tally observe(Point2 eye, double elevation, std::uint64_t seed, const TargetSeen& on_target = nullptr) const;
 
  private:
   struct Packet;

@@ -181,7 +181,7 @@ class EnvelopeJudge::TileWork final : public TileJudge::Work {
     if (high < low_[cell] - grazing_ && in_view) return Verdict::kHidden;  // below the ground
     if (in_view && eye.stands_at(place)) return Verdict::kVisible;
     if (view_->shadow && view_->shadow->holds(place.x, place.y)) {
-      if (scene_.voids == Voids::kBlock && in_view) return Verdict::kHidden;
+      if (scene_.rule == NoData::kBlock && in_view) return Verdict::kHidden;
       packet.behind_void |= 1U << i;
     }
     if (!in_view) packet.perhaps_outside |= 1U << i;

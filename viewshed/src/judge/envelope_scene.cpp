@@ -13,12 +13,12 @@
 
 namespace itin::viewshed {
 
-EnvelopeScene::EnvelopeScene(Envelope e, const Request& request, const RasterGrid& tiles, Voids v)
+EnvelopeScene::EnvelopeScene(Envelope e, const Request& request, const RasterGrid& tiles, NoData r)
     : envelope(std::move(e)),
       lower(envelope.lower, request.earth),
       upper(envelope.upper, envelope.pieces, request.earth),
       bins(envelope.lower, tiles),
-      voids(v),
+      rule(r),
       exact(envelope.exact),
       drop(request.earth.drop_coefficient() * envelope.lower.grid.resolution),
       tiles_(tiles) {
@@ -33,8 +33,8 @@ EnvelopeScene::View EnvelopeScene::view_from(const Eye& eye) const {
     std::iota(all.begin(), all.end(), 0U);
   }
   View view{eye, upper_height(eye, tile ? bins.triangles(tiles_.index(*tile)) : all)};
-  if (voids != Voids::kPass)
-    view.shadow = std::make_shared<const VoidShadow>(rim_of(envelope.upper, envelope.outline), eye.units, voids);
+  if (rule != NoData::kClear)
+    view.shadow = std::make_shared<const VoidShadow>(rim_of(envelope.upper, envelope.outline), eye.units, rule);
   return view;
 }
 

@@ -1,6 +1,6 @@
 // Decides sight lines by two surfaces that enclose the full one: certainly visible, certainly hidden, or left open.
 //
-//   const EnvelopeScene scene(envelop(...), request, tiles, Voids::kDoubt);
+//   const EnvelopeScene scene(envelop(...), request, tiles, NoData::kUnknown);
 //   const EnvelopeScene::View view = scene.view_from(eye);
 //   EnvelopePacket packet(eye);
 //   scene.aim(view, target, 0, packet);
@@ -51,7 +51,7 @@ struct EnvelopeTarget {
 class EnvelopeScene {
  public:
   /// `tiles` must outlive it.
-  EnvelopeScene(Envelope envelope, const Request& request, const RasterGrid& tiles, Voids voids);
+  EnvelopeScene(Envelope envelope, const Request& request, const RasterGrid& tiles, NoData rule);
   EnvelopeScene(const EnvelopeScene&) = delete;
   EnvelopeScene& operator=(const EnvelopeScene&) = delete;
 
@@ -78,7 +78,7 @@ class EnvelopeScene {
   UpperScene upper;
   TriangleBins bins;
   std::optional<TriangleBins> ground_bins;  ///< of the bare ground, where the envelope has it
-  Voids voids;
+  NoData rule;  ///< of missing ground
   bool exact;   ///< both surfaces are the full one, of level 0
   double drop;  ///< by curvature, grid units for a squared grid unit
 

@@ -33,7 +33,7 @@ CertifiedWay certified_way(const Store& store, const Request& request) {
   const std::uint64_t points = store.points_about(level, box), all = store.points_about(0, box);
   if (kLeastShare * points >= all) return CertifiedWay::kExactly;
   if (points > kMostPoints) return kVastShare * points < all ? CertifiedWay::kBySectors : CertifiedWay::kExactly;
-  const bool features = features_stand(store, request);
+  const bool features = has_raised_features(store, request);
   const std::uint64_t cost = (kPostsPerPoint * points + kPostsPerBlocks) * (features ? kFeaturesFactor : 1);
   if (cost >= kPostsPerPoint * all) return CertifiedWay::kExactly;
   return cost < all || features || !may_be_lattice(store, request, all) ? CertifiedWay::kByBlocks

@@ -36,7 +36,7 @@ class FieldOfView {
   /// Metres from the observer to the target (Eye::offset_to). An observer's own place has every azimuth; of it the eye
   /// has every elevation, and the rest is straight above or below.
   bool contains(double dx, double dy, double dz) const { return contains(dx, dy, dz, dz).value(); }
-  bool looks_towards(double azimuth_deg) const { return !azimuth_ || azimuth_within(azimuth_deg); }
+  bool faces(double azimuth_deg) const { return !azimuth_ || azimuth_within(azimuth_deg); }
   /// From how far to how far above the eye a target at this squared distance is in view, metres; nothing: any.
   std::optional<std::pair<double, double>> heights_at(double squared) const {
     if (!elevation_) return std::nullopt;

@@ -156,8 +156,8 @@ void validate_certified(const Request& request) {
   if (request.mode != Mode::kVisible) throw InputError("certificates tell what is visible, and nothing else");
 }
 
-bool features_stand(const Store& store, const Request& request) {
-  return request.themes.includes_standing(store.metadata().themes);
+bool has_raised_features(const Store& store, const Request& request) {
+  return request.themes.includes_raised(store.metadata().themes);
 }
 
 RasterGrid cells_of(const Request& request, const Box& extent) {
@@ -263,7 +263,7 @@ Box box_of_window(const Store& store, const Request& request) {
   return within.empty() ? window.bounds() : within;
 }
 
-void look_for_voids(const Grid& units, const std::vector<RimEdge>& rim, Result& result) {
+void find_voids(const Grid& units, const std::vector<RimEdge>& rim, Result& result) {
   for (const Observer& observer : result.request.observers) {
     const double reach = radius_of(result.request, observer).value_or(std::numeric_limits<double>::infinity());
     result.crosses_voids = result.crosses_voids || surface_resumes(units, rim, observer.position, reach,

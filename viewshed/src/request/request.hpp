@@ -26,7 +26,7 @@ void validate_certified(const Request& request);
 
 /// Whether a theme that stands on the ground is chosen. Certificates know nothing of it: where it does, only level 0
 /// says what is there.
-bool features_stand(const Store& store, const Request& request);
+bool has_raised_features(const Store& store, const Request& request);
 /// Whether rays decide the request's lines to cells.
 bool casts_rays(const Request& request);
 /// Whether the request's mode asks more of the surface's triangles than sight lines.
@@ -62,6 +62,6 @@ Box box_of_window(const Store& store, const Request& request);
 
 /// Whether sight lines of the result's request may cross ground without data, with a warning where neither the request
 /// nor its answer says what becomes of them. `rim` is where the surface ends, in these units.
-void look_for_voids(const Grid& units, const std::vector<RimEdge>& rim, Result& result);
+void find_voids(const Grid& units, const std::vector<RimEdge>& rim, Result& result);
 
 }  // namespace itin::viewshed

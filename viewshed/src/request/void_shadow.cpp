@@ -14,13 +14,12 @@ constexpr double kTurn = 2 * std::numbers::pi;
 
 }  // namespace
 
-Voids voids_of(const Request& request) {
-  const bool doubt = request.mode == Mode::kVisible && request.nodata == NoData::kUnknown;
-  return doubt ? Voids::kDoubt : voids_without_doubt(request.nodata);
+NoData missing_ground_rule(const Request& request) {
+  return request.mode == Mode::kVisible ? request.nodata : decided_missing_ground_rule(request.nodata);
 }
 
-Voids voids_without_doubt(NoData rule) {
-  return rule == NoData::kBlock ? Voids::kBlock : Voids::kPass;
+NoData decided_missing_ground_rule(NoData rule) {
+  return rule == NoData::kUnknown ? NoData::kClear : rule;
 }
 
 double VoidShadow::cross(const Vector& a, const Vector& b) {
@@ -36,8 +35,8 @@ bool VoidShadow::reaches(const Vector& line, const Vector& place) {
   return dot(line, place) > 0 && dot(place, place) <= dot(line, line);
 }
 
-VoidShadow::VoidShadow(const std::vector<RimEdge>& rim, const Point3& eye, Voids voids)
-    : eye_(eye), shaded_(voids == Voids::kDoubt ? Verdict::kUndecided : Verdict::kHidden) {
+VoidShadow::VoidShadow(const std::vector<RimEdge>& rim, const Point3& eye, NoData rule)
+    : eye_(eye), shaded_(rule == NoData::kUnknown ? Verdict::kUndecided : Verdict::kHidden) {
   const auto from_eye = [&](const GridPlace& p) { return Vector{p.x - eye.x, p.y - eye.y}; };
   // The surface lies to the left: seen from its right side it begins here.
   const auto faces_away = [](const Edge& edge) { return cross(edge.from, edge.to) < 0; };
@@ -108,9 +107,9 @@ std::size_t VoidShadow::sector_of(const Vector& place) {
 }
 
 std::shared_ptr<const VoidShadow> shadow_of(const Eye& eye, const std::vector<RimEdge>& rim, const Result& result) {
-  const Voids voids = voids_of(result.request);
-  if (voids == Voids::kPass || !result.crosses_voids) return nullptr;
-  return std::make_shared<const VoidShadow>(rim, eye.units, voids);
+  const NoData rule = missing_ground_rule(result.request);
+  if (rule == NoData::kClear || !result.crosses_voids) return nullptr;
+  return std::make_shared<const VoidShadow>(rim, eye.units, rule);
 }
 
 }  // namespace itin::viewshed

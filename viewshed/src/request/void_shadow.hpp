@@ -18,25 +18,24 @@
 
 namespace itin::viewshed {
 
-/// The outcome of lines that cross ground without data and come back.
-enum class Voids { kPass, kBlock, kDoubt };
-/// The outcome of the request's lines: where its rule is kUnknown, Mode::kVisible alone leaves anything open.
-Voids voids_of(const Request& request);
+/// The rule for lines that cross ground without data and come back: the request's own, but kClear in place of kUnknown
+/// in every mode but kVisible, which alone leaves anything open.
+NoData missing_ground_rule(const Request& request);
 /// For answers that leave nothing open: what is not known hides nothing.
-Voids voids_without_doubt(NoData rule);
+NoData decided_missing_ground_rule(NoData rule);
 
 class VoidShadow {
  public:
-  /// Grid units; `voids` is what lies in it: hidden or in doubt. Cost: the edges, each as often as the sectors of the
-  /// horizon it spans, if any faces away from the eye.
-  VoidShadow(const std::vector<RimEdge>& rim, const Point3& eye, Voids voids = Voids::kBlock);
+  /// Grid units; what lies in it is hidden under kBlock and undecided under kUnknown. Cost: the edges, each as often as
+  /// the sectors of the horizon it spans, if any faces away from the eye.
+  VoidShadow(const std::vector<RimEdge>& rim, const Point3& eye, NoData rule = NoData::kBlock);
 
   /// Whether the line from the eye to a place comes back to the surface, be it at the place itself, but not at the
   /// eye's own. Both lie on the surface. Cost: the edges of one sector.
   bool holds(double x, double y) const;
 
   /// Each of the tile's cells that is Verdict::kVisible and lies in it becomes Verdict::kHidden, or Verdict::kUndecided
-  /// under kDoubt.
+  /// under kUnknown.
   void apply_to(const TileCentres& centres, TileValues<Verdict>& values) const;
 
  private:

@@ -92,7 +92,7 @@ std::uint64_t FullSurface::judge(const Eye& eye, const RadialSweep::View& view, 
   if (rays_) {
     cast_rays_to_targets(eye, work);
   } else {
-    sweep_.look_from(view, {work.tile, work.centres, work.targets}, work.scratch, work.seen);
+    sweep_.decide(view, {work.tile, work.centres, work.targets}, work.scratch, work.seen);
   }
   std::uint64_t lines = 0;
   for_each_cell(work.tile, [&](std::size_t cell, RasterGrid::Cell) {
@@ -103,7 +103,7 @@ std::uint64_t FullSurface::judge(const Eye& eye, const RadialSweep::View& view, 
   return lines;
 }
 
-/// As RadialSweep::look_from(): `work.seen` of a target is the eye's height, or no number where it is hidden.
+/// As RadialSweep::decide(): `work.seen` of a target is the eye's height, or no number where it is hidden.
 void FullSurface::cast_rays_to_targets(const Eye& eye, TileWork& work) const {
   const auto rows = static_cast<std::size_t>(work.tile.rows), columns = static_cast<std::size_t>(work.tile.columns);
   SightLines lines;

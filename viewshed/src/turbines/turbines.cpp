@@ -67,16 +67,16 @@ class ZoneWork {
     Stopwatch watch;
     if (!part.tiles.empty()) {
       const ZoneSurvey survey(ground, zone_);
-      look(survey, ground, part, zone_.bare, stage);
-      if (screen != nullptr) look(survey, *screen, part, *zone_.screened, stage);
+      observe(survey, ground, part, zone_.bare, stage);
+      if (screen != nullptr) observe(survey, *screen, part, *zone_.screened, stage);
     }
     if (radar_) radar_->run(ground, part, stage);
     zone_.statistics.lines_seconds += watch.lap();
   }
 
  private:
-  void look(const ZoneSurvey& survey, const FullSurface& surface, const ZonePart& part, Visibility& visibility,
-            Stage& stage) {
+  void observe(const ZoneSurvey& survey, const FullSurface& surface, const ZonePart& part, Visibility& visibility,
+               Stage& stage) {
     const std::vector<VoidShadow> behind_voids = shadows(surface, zone_.request);
     zone_.statistics.lines += survey.run({surface.sweep(), behind_voids}, part.tiles, visibility, stage);
   }
@@ -123,11 +123,11 @@ Zone survey_turbines(const Store& store, const ZoneRequest& request, Progress& p
   Zone zone = lay_out(request, outline.bounds(), height);
   warn_of_voids(outline, zone);
   ZoneWork work(store.metadata().grid, height, zone);
-  const bool stands = request.themes && request.themes->includes_standing(store.metadata().themes);
-  if (stands) zone.screened = zone.bare;
+  const bool screens = request.themes && request.themes->includes_raised(store.metadata().themes);
+  if (screens) zone.screened = zone.bare;
 
-  auto lattice = stands ? std::nullopt : lattice_under(store, zone, progress);
-  const std::vector<ZonePart> parts = lattice ? std::vector{whole_zone(zone)} : zone_parts(store, zone, stands);
+  auto lattice = screens ? std::nullopt : lattice_under(store, zone, progress);
+  const std::vector<ZonePart> parts = lattice ? std::vector{whole_zone(zone)} : zone_parts(store, zone, screens);
   const RasterGrid tiles = grid_of_tiles(zone.grid);
   const auto owned = [&](Surface surface) {
     zone.statistics.retrieval_seconds += watch.lap();
@@ -143,13 +143,13 @@ Zone survey_turbines(const Store& store, const ZoneRequest& request, Progress& p
       return retrieve_surface(store, part.window, request.detail, themes, kAnyLattice, reading);
     };
     const auto ground = owned(lattice ? std::move(*lattice) : retrieve(ThemeChoice::none()));
-    const auto screen = stands && !part.tiles.empty() ? owned(retrieve(*request.themes)) : nullptr;
+    const auto screen = screens && !part.tiles.empty() ? owned(retrieve(*request.themes)) : nullptr;
     zone.statistics.scene_seconds += watch.lap();
-    if (!stage) stage.emplace("sight lines", steps_of(parts, stands), progress);
+    if (!stage) stage.emplace("sight lines", steps_of(parts, screens), progress);
     work.survey(ground->full, screen ? &screen->full : nullptr, part, *stage);
     watch.lap();
   }
-  if (request.themes && !stands) {
+  if (request.themes && !screens) {
     zone.screened = zone.bare;
     zone.warnings.emplace_back("none of the themes has features that stand on the ground: nothing screens");
   }

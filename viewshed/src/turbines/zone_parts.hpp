@@ -1,4 +1,4 @@
-// A zone of visibility cut into parts that are surveyed one after another, so that the surface under each fits into the
+// A zone of visibility cut into parts that are computed one after another, so that the surface under each fits into the
 // memory.
 //
 //   for (const ZonePart& part : zone_parts(store, zone, screened)) ...

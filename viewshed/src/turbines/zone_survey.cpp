@@ -77,7 +77,7 @@ std::uint64_t ZoneSurvey::decide(std::size_t tile, const Screen& screen, const V
   const auto work = std::make_unique<TileWork>(ground_, tile, zone_.words);
   const double eye_height = zone_.request.observer_height / ground_.units().resolution;
   for (std::size_t i = 0; i < work->ground.size(); ++i) work->place->targets[i] = work->ground[i] + eye_height;
-  for (const std::size_t k : near) look_at(k, screen, *views[k], *work);
+  for (const std::size_t k : near) observe(k, screen, *views[k], *work);
   store(*work, result);
   return work->lines;
 }
@@ -87,7 +87,7 @@ bool ZoneSurvey::in_reach(const Axis& axis, const Tile& tile) const {
   return squared_distance(axis.position, box_of_centres(zone_.grid, tile)) <= axis.radius_squared;
 }
 
-void ZoneSurvey::look_at(std::size_t turbine, const Screen& screen, const RadialSweep::View& view,
+void ZoneSurvey::observe(std::size_t turbine, const Screen& screen, const RadialSweep::View& view,
                          TileWork& work) const {
   const Axis& axis = axes_[turbine];
   screen.sweep.run(view, {work.tile, work.centres, work.place->targets}, work.place->scratch, work.place->seen);

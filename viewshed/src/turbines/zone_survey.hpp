@@ -45,7 +45,7 @@ class ZoneSurvey {
   Views views_over(const RadialSweep& sweep) const;
   std::uint64_t decide(std::size_t tile, const Screen& screen, const Views& views, Visibility& result) const;
   bool in_reach(const Axis& axis, const Tile& tile) const;
-  void look_at(std::size_t turbine, const Screen& screen, const RadialSweep::View& view, TileWork& work) const;
+  void observe(std::size_t turbine, const Screen& screen, const RadialSweep::View& view, TileWork& work) const;
   void record(std::size_t turbine, std::size_t cell, double distance, double least, TileWork& work) const;
   void store(const TileWork& work, Visibility& result) const;
   void store_horizon(const TileWork& work, std::size_t from_cell, std::size_t to_cell, Point2 eye, Visibility& result,

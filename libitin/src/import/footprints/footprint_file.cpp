@@ -82,7 +82,7 @@ std::string why_empty(const std::vector<std::string>& warnings) {
 
 }  // namespace
 
-bool stands(const ImportOptions& options) {
+bool builds_features(const ImportOptions& options) {
   if (options.kind != ThemeKind::Buildings && options.kind != ThemeKind::Vegetation && options.kind != ThemeKind::Walls)
     return false;
   return options.height || !options.height_field.empty() || !options.eaves_field.empty() ||

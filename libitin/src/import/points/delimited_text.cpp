@@ -85,7 +85,7 @@ std::optional<double> number_in(std::string_view text) {
 }
 
 /// Also what is no valid number, such as one with a decimal comma: such a line is no header, but a bad row.
-bool looks_numeric(std::string_view text) {
+bool is_numeric(std::string_view text) {
   return text.find_first_of("0123456789") != std::string_view::npos &&
          text.find_first_not_of("0123456789+-.,eE") == std::string_view::npos;
 }
@@ -171,7 +171,7 @@ void DelimitedText::understand(std::string_view line, const std::string& z_field
   separator_ = separator_of(trimmed(line));
   std::vector<std::string_view> fields;
   split(line, separator_, std::numeric_limits<std::size_t>::max(), fields);
-  has_header_ = std::none_of(fields.begin(), fields.end(), looks_numeric);
+  has_header_ = std::none_of(fields.begin(), fields.end(), is_numeric);
   if (has_header_)
     choose_columns({fields.begin(), fields.end()}, z_field);
   else if (!z_field.empty())

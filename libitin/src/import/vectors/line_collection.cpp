@@ -38,7 +38,7 @@ std::optional<Position> apex_of(const Store& ground, Position from, Position to)
   return std::nullopt;
 }
 
-const GridPoint* vertex_at(const StandingPart& part, Position p) {
+const GridPoint* vertex_at(const RaisedPart& part, Position p) {
   const std::uint64_t code = morton(p.x, p.y);
   const auto at = std::lower_bound(part.vertices.begin(), part.vertices.end(), code,
                                    [](const GridPoint& q, std::uint64_t c) { return code_of(q) < c; });
@@ -73,7 +73,7 @@ void LineCollection::require_room(const std::string& source) const {
 void LineCollection::take_themes(const StoreMetadata& metadata) {
   themes_ = metadata.themes;
   footprints_.resize(themes_.size());
-  for (const ThemeInfo& theme : themes_) stands_.push_back(theme.stands());
+  for (const ThemeInfo& theme : themes_) raised_.push_back(theme.is_raised());
   for (const SourceInfo& source : metadata.sources) theme_of_source_.push_back(source.theme);
   find_first_sources(metadata.sources);
   keeps_set_aside_ = metadata.format_version >= format::kFirstVersionThatSetsAside;
@@ -95,7 +95,7 @@ void LineCollection::take_segments(const PointIndex& index) {
   index.segments(index.bounds(), stored_);
   // The lines that keep the ground about features are made again with the features.
   std::erase_if(stored_, [&](const Segment& s) {
-    return s.theme == kCoverage || s.finest > 0 || s.theme > themes_.size() || stands_[s.theme - std::size_t{1}];
+    return s.theme == kCoverage || s.finest > 0 || s.theme > themes_.size() || raised_[s.theme - std::size_t{1}];
   });
   line_vertices_ += stored_.size();
   std::sort(stored_.begin(), stored_.end());
@@ -169,13 +169,13 @@ void LineCollection::take_footprints(const Store& store) {
       add_footprint(static_cast<std::uint32_t>(t), std::move(footprint));
 }
 
-std::uint32_t LineCollection::theme(const std::string& name, ThemeKind kind, bool stands) {
+std::uint32_t LineCollection::theme(const std::string& name, ThemeKind kind, bool raised) {
   const auto found = std::find_if(themes_.begin(), themes_.end(), [&](const ThemeInfo& t) { return t.name == name; });
   if (found == themes_.end()) {
     if (themes_.size() == format::kMaxThemes)
       throw InputError(fmt::format("a store holds at most {} themes", format::kMaxThemes));
     themes_.push_back({name, kind, 0, 0, 0});
-    stands_.push_back(stands);
+    raised_.push_back(raised);
     footprints_.emplace_back();
     return static_cast<std::uint32_t>(themes_.size() - 1);
   }
@@ -183,9 +183,9 @@ std::uint32_t LineCollection::theme(const std::string& name, ThemeKind kind, boo
     throw InputError(fmt::format("theme '{}': holds {} already, not {}; choose another name with `theme`", name,
                                  name_of(found->kind), name_of(kind)));
   const auto number = static_cast<std::uint32_t>(found - themes_.begin());
-  if (stands_[number] != stands)
+  if (raised_[number] != raised)
     throw InputError(fmt::format("theme '{}': holds {}; choose another name with `theme`", name,
-                                 stands ? "outlines on the ground, not features with heights"
+                                 raised ? "outlines on the ground, not features with heights"
                                         : "features with heights, not outlines on the ground"));
   return number;
 }
@@ -206,7 +206,7 @@ void LineCollection::add_footprint(std::uint32_t theme, StoredFootprint footprin
   footprints_[theme].push_back(std::move(footprint));
 }
 
-bool LineCollection::stands() const {
+bool LineCollection::is_raised() const {
   return std::any_of(footprints_.begin(), footprints_.end(), [](const auto& of_theme) { return !of_theme.empty(); });
 }
 
@@ -215,12 +215,12 @@ void LineCollection::raise(const Store& ground, RaisedFeatures& report, Progress
   changed_.resize(themes_.size());
   for (std::uint32_t t = 0; t < themes_.size(); ++t) {
     if (footprints_[t].empty()) continue;
-    StandingTheme standing = stand(ground, in_order_of_content(footprints_[t]), memory_bytes_, progress);
+    RaisedFeatureTheme standing = stand(ground, in_order_of_content(footprints_[t]), memory_bytes_, progress);
     themes_[t].features = standing.built;
     report.features += standing.built;
     report.refused += standing.refused;
     report.themes.push_back({themes_[t].name, standing.built, std::move(standing.reports)});
-    for (StandingPart& part : standing.parts) parts_.push_back({t, std::move(part)});
+    for (RaisedPart& part : standing.parts) parts_.push_back({t, std::move(part)});
     for (const auto& [a, b] : standing.ground.pieces) keep({{a.x, a.y, 0}, {b.x, b.y, 0}, t});
     changed_[t] = std::move(standing.ground);
   }
@@ -243,7 +243,7 @@ void LineCollection::place_parts(ThemeLines& result) {
     const auto owner = static_cast<std::uint32_t>(themes_.size() + result.parts.size());
     if (owner >= format::kMaxThemes)
       throw InputError(fmt::format("a store holds at most {} themes and parts of themes", format::kMaxThemes));
-    for (const StandingSegment& s : own.part.segments) segments_.push_back({s.a, s.b, owner});
+    for (const RaisedSegment& s : own.part.segments) segments_.push_back({s.a, s.b, owner});
     PlacedPart& placed = result.parts.emplace_back();
     placed.part = {static_cast<std::uint16_t>(own.theme + 1), own.part.coarsest};
     placed.rank = static_cast<int>(std::find(by_rank.begin(), by_rank.end(), own.theme) - by_rank.begin());
@@ -265,7 +265,7 @@ void LineCollection::keep_or_raise(const OwnedSegment& ground_line, const std::v
   const Position a{ground_line.a.x, ground_line.a.y}, b{ground_line.b.x, ground_line.b.y};
   for (std::size_t p = 0; p < parts_.size(); ++p) {
     if (parts_[p].theme != ground_line.owner || !masks[p].middle_inside(a, b)) continue;
-    StandingPart& part = parts_[p].part;
+    RaisedPart& part = parts_[p].part;
     const GridPoint *top_a = vertex_at(part, a), *top_b = vertex_at(part, b);
     if (top_a == nullptr || top_b == nullptr) continue;
     part.segments.push_back({*top_a, *top_b, false});
@@ -317,19 +317,19 @@ void LineCollection::put_in_order(ThemeLines& result) {
   });
   std::vector<std::uint32_t> number(order.size());
   std::vector<ThemeInfo> themes;
-  std::vector<bool> stands;
+  std::vector<bool> raised;
   std::vector<std::vector<StoredFootprint>> footprints;
   std::vector<ChangedGround> changed(order.size());
   changed_.resize(order.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) {
     number[order[i]] = i;
     themes.push_back(themes_[order[i]]);
-    stands.push_back(stands_[order[i]]);
+    raised.push_back(raised_[order[i]]);
     footprints.push_back(std::move(footprints_[order[i]]));
     changed[i] = std::move(changed_[order[i]]);
     result.terrain.push_back(is_terrain(themes.back().kind));
     result.kinds.push_back(themes.back().kind);
-    result.standing.push_back(stands.back());
+    result.standing.push_back(raised.back());
   }
   for (ThemeVertex& end : ground_ends_) end.theme = number[end.theme];
   for (OwnedSegment& s : segments_) s.owner = number[s.owner];
@@ -338,7 +338,7 @@ void LineCollection::put_in_order(ThemeLines& result) {
   std::sort(imported_.begin(), imported_.end());
   imported_.erase(std::unique(imported_.begin(), imported_.end()), imported_.end());
   themes_ = std::move(themes);
-  stands_ = std::move(stands);
+  raised_ = std::move(raised);
   footprints_ = std::move(footprints);
   changed_ = std::move(changed);
 }
@@ -370,7 +370,7 @@ ThemeLines LineCollection::finish(const std::vector<SourceInfo>& sources, const 
     for (const std::uint32_t v : {e.from, e.to}) {
       owner[v] = std::min(owner[v], e.owner);
       const GridPoint& p = result.lines.vertices[v];
-      if (result.stands(e)) ends[e.owner - themes_.size()].push_back({p.x, p.y});
+      if (result.is_raised(e)) ends[e.owner - themes_.size()].push_back({p.x, p.y});
     }
   }
   for (std::size_t p = 0; p < parts_.size(); ++p) result.parts[p].vertices = part_vertices(parts_[p].part, ends[p]);

@@ -15,7 +15,7 @@
 
 #include "features/ground_border.hpp"
 #include "features/mask_index.hpp"
-#include "features/standing_theme.hpp"
+#include "features/raised_theme.hpp"
 #include "import/source/imported_lines.hpp"
 #include "pyramid/theme_lines.hpp"
 #include "store/point_index.hpp"
@@ -25,7 +25,7 @@ namespace itin {
 struct RaisedTheme {
   std::string name;
   std::uint64_t built = 0;  ///< features that stand
-  std::vector<StandingReport> reports;
+  std::vector<RaisedReport> reports;
 };
 
 /// The features raised for all imports so far.
@@ -58,14 +58,14 @@ class LineCollection {
   void take_footprints(const Store& store);
 
   /// The number of a theme, which is made if there is none of the name. Throws InputError where one has another kind,
-  /// or stands where the other does not.
-  std::uint32_t theme(const std::string& name, ThemeKind kind, bool stands);
+  /// or is raised where the other is not.
+  std::uint32_t theme(const std::string& name, ThemeKind kind, bool raised);
   void add(std::uint32_t theme, std::uint16_t source, std::span<const GridPoint> line);
   void add_features(std::uint32_t theme, std::uint64_t count) { themes_[theme].features += count; }
 
   void add_footprint(std::uint32_t theme, StoredFootprint footprint);
-  /// Whether any theme stands.
-  bool stands() const;
+  /// Whether any theme is raised.
+  bool is_raised() const;
   /// Builds all standing themes on a store's ground. Throws InputError where that takes more than the memory.
   void raise(const Store& ground, RaisedFeatures& report, Progress& progress);
 
@@ -87,7 +87,7 @@ class LineCollection {
   };
   struct OwnPart {
     std::uint32_t theme;
-    StandingPart part;
+    RaisedPart part;
   };
   std::uint16_t source_of_stored(const Segment& s) const;
   void add_lines();
@@ -105,7 +105,7 @@ class LineCollection {
   std::uint64_t line_vertices_ = 0, feature_vertices_ = 0;  ///< so far
   std::vector<ThemeInfo> themes_;
   std::vector<std::uint16_t> first_source_;               ///< by theme, and then by part
-  std::vector<bool> stands_;                              ///< by theme
+  std::vector<bool> raised_;                              ///< by theme
   std::vector<std::vector<StoredFootprint>> footprints_;  ///< by theme
   std::vector<OwnPart> parts_;
   bool keeps_set_aside_ = true;                            ///< the store does

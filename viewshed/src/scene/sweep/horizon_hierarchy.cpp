@@ -29,19 +29,19 @@ void HorizonHierarchy::advance(const Quadrant& quadrant, const Sector::Axis& axi
     const std::size_t step = widest_ / kRings, ring = (front_.slab / step + 1) * step, end = std::min(slab, ring);
     const auto [first, last] = sectors();
     const double width = 2 / static_cast<double>(front_.below.size());
-    // Slopes that are not surveyed may hide anything.
+    // Slopes that are not computed may hide anything.
     std::fill_n(front_.above.begin(), first, kFloatInfinity);
     std::fill_n(front_.above.rbegin(), front_.above.size() - last, kFloatInfinity);
-    parallel_for(
-        (last - first + kSectorsPerTask - 1) / kSectorsPerTask, [&, first = first, last = last](std::size_t task) {
-          const std::size_t begin = first + task * kSectorsPerTask;
-          for (std::size_t i = begin; i < std::min(last, begin + kSectorsPerTask); ++i) {
-            const double from = static_cast<double>(i) * width - 1;
-            const Sector sector(quadrant, from, from + width, axis);
-            const auto [hidden, above] = sector.look_on({{front_.slab, front_.below[i]}, front_.above[i]}, end);
-            front_.below[i] = rounded_down(hidden.below), front_.above[i] = rounded_up(above);
-          }
-        });
+    parallel_for((last - first + kSectorsPerTask - 1) / kSectorsPerTask, [&, first = first,
+                                                                          last = last](std::size_t task) {
+      const std::size_t begin = first + task * kSectorsPerTask;
+      for (std::size_t i = begin; i < std::min(last, begin + kSectorsPerTask); ++i) {
+        const double from = static_cast<double>(i) * width - 1;
+        const Sector sector(quadrant, from, from + width, axis);
+        const auto [hidden, above] = sector.continue_horizon({{front_.slab, front_.below[i]}, front_.above[i]}, end);
+        front_.below[i] = rounded_down(hidden.below), front_.above[i] = rounded_up(above);
+      }
+    });
     front_.slab = end;
     if (end == ring) rings_.push_back(front_);
   }

@@ -45,7 +45,7 @@ class RadialSweep::Task {
     highest_ = -kInfinity;
     for (const double elevation : ends_.elevation)
       if (elevation > highest_) highest_ = elevation;
-    for (std::size_t i = 0; i < view_.quadrants_.size(); ++i) look_from(view_.quadrants_[i], view_.fans_[i]);
+    for (std::size_t i = 0; i < view_.quadrants_.size(); ++i) decide_quadrant(view_.quadrants_[i], view_.fans_[i]);
     leave_out_own_place();
   }
 
@@ -59,7 +59,7 @@ class RadialSweep::Task {
     }
   }
 
-  void look_from(const Quadrant& quadrant, const HorizonHierarchy& fan) {
+  void decide_quadrant(const Quadrant& quadrant, const HorizonHierarchy& fan) {
     place_cells(quadrant);
     if (farthest_ <= 0 || quadrant.slabs() == 0) return;
     auto [from, to] = slopes();
@@ -150,18 +150,18 @@ class RadialSweep::Task {
   };
 
   void sweep(const Quadrant& quadrant, const HorizonHierarchy& fan, const Slopes& sector, const Slopes& cells) {
-    bool surveyed = false;
+    bool computed = false;
     last_ = kNoSilhouette;
     double along = -1, hidden_below = 0;  // of ends this far away
     for_each_cell(quadrant, cells.from, cells.to, [&](Cell cell) {
-      if (!std::exchange(surveyed, true)) survey(quadrant, fan, sector.from, sector.to);
+      if (!std::exchange(computed, true)) survey(quadrant, fan, sector.from, sector.to);
       if (cell.along != along) {
         along = cell.along;
         hidden_below = axis_.top + along * profile_.hidden_below(quadrant.slab_at(along));
       }
       heights_[cell.index] = kHidden;
       cell.hidden_below = hidden_below + sweep_.drop_ * cell.squared;
-      if (ends_.elevation[cell.index] >= cell.hidden_below) look(quadrant, cell);
+      if (ends_.elevation[cell.index] >= cell.hidden_below) decide(quadrant, cell);
     });
   }
 
@@ -187,23 +187,23 @@ class RadialSweep::Task {
                                                    : static_cast<std::size_t>(std::ceil(at));
   }
 
-  void look(const Quadrant& quadrant, const Cell& cell) {
+  void decide(const Quadrant& quadrant, const Cell& cell) {
     const Point3 top{axis_.x, axis_.y, axis_.top};
     const double elevation = ends_.elevation[cell.index];
     const SweptEnd end{cell.along, sweep_.drop_ * cell.squared};
     switch (kind_) {
       case Kind::kAxis: {
         const SightLine line = line_between(other_end(cell, elevation), top);
-        return look(quadrant, cell, AxisSight(line, axis_.base, end, view_.sector_axis_.margin));
+        return decide(quadrant, cell, AxisSight(line, axis_.base, end, view_.sector_axis_.margin));
       }
       case Kind::kPoint: {
         const SightLine line = line_between(top, other_end(cell, elevation));
-        return look(quadrant, cell, PointSight(line, end));
+        return decide(quadrant, cell, PointSight(line, end));
       }
       case Kind::kHeight: {
         const HeightSight::Range range{lowest_->end[cell.index], elevation, cell.hidden_below};
         const SightLine line = line_between(top, other_end(cell, range.lowest));
-        look(quadrant, cell, HeightSight(line, range, end, view_.sector_axis_.margin));
+        decide(quadrant, cell, HeightSight(line, range, end, view_.sector_axis_.margin));
       }
     }
   }
@@ -217,7 +217,7 @@ class RadialSweep::Task {
   }
 
   template <class Sight>
-  void look(const Quadrant& quadrant, const Cell& cell, Sight sight) {
+  void decide(const Quadrant& quadrant, const Cell& cell, Sight sight) {
     if (decide(quadrant, cell, sight)) heights_[cell.index] = least(quadrant, cell, sight);
     last_ = silhouettes_[cell.major] = sight.silhouette();
   }
@@ -356,7 +356,7 @@ void RadialSweep::run(const View& axis, const Ends& eyes, Scratch& scratch, Heig
   Task(*this, axis, Kind::kAxis, eyes, nullptr, scratch, heights).run();
 }
 
-void RadialSweep::look_from(const View& eye, const Ends& targets, Scratch& scratch, Heights& seen) const {
+void RadialSweep::decide(const View& eye, const Ends& targets, Scratch& scratch, Heights& seen) const {
   Task(*this, eye, Kind::kPoint, targets, nullptr, scratch, seen).run();
 }
 

@@ -64,7 +64,7 @@ class RadialSweep {
 
   /// The other way round, from an eye to targets, exact to the last bit as the line from the eye over every triangle:
   /// NaN where hidden, infinity for a target at the eye's own place, else the eye's height.
-  void look_from(const View& eye, const Ends& targets, Scratch& scratch, Heights& seen) const;
+  void decide(const View& eye, const Ends& targets, Scratch& scratch, Heights& seen) const;
 
   /// Each cell's lowest end that counts, and one that is wanted besides: it need not lie within the range.
   struct Lowest {
@@ -73,7 +73,7 @@ class RadialSweep {
   };
   /// How high a cell's end must be for the eye to see it: from the lowest up to `highest`; NaN where that is hidden,
   /// infinity for a cell at the eye's own place. The line to a height found touches the surface, or the height is one
-  /// of the three given: it is at most one of them just where look_from() sees that. Cost: some tenths of a microsecond
+  /// of the three given: it is at most one of them just where decide() sees that. Cost: some tenths of a microsecond
   /// a cell that does not see the lowest.
   void raise_from(const View& eye, const Ends& highest, const Lowest& lowest, Scratch& scratch, Heights& least) const;
 

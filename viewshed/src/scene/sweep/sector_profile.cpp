@@ -45,7 +45,7 @@ double Sector::greatest_drop(std::size_t slab) const {
                         : drop_at(std::max(0.0, quadrant_.begin(slab)), least_);
 }
 
-Sector::Horizon Sector::look_on(Horizon horizon, std::size_t end) const {
+Sector::Horizon Sector::continue_horizon(Horizon horizon, std::size_t end) const {
   for_each_slab(horizon.hidden.slab, end, [&](std::size_t k, std::int64_t first, std::int64_t last, bool inside) {
     pass(horizon.hidden, first, last, inside);
     const double rise = highest(k, first, last) + axis_.margin - axis_.top;
@@ -66,7 +66,7 @@ void SectorProfile::survey(const Sector& sector, const Sector::Horizon& known, s
   high_.resize(count), group_high_.resize(blocks * kBlock / kGroup), block_high_.resize(blocks);
   highs_known_.assign(blocks, false);
   hidden_below_.resize(count - nearest);
-  sector.look_on(known.hidden, count, [&](const Sector::Hidden& at) {
+  sector.continue_horizon(known.hidden, count, [&](const Sector::Hidden& at) {
     if (at.slab >= nearest) hidden_below_[at.slab - nearest] = at.below;
   });
 }

@@ -100,14 +100,14 @@ class Sector {
   };
   /// Continues `hidden` to the slab `end`. Calls visit(hidden) for every slab before it.
   template <class Visit>
-  Hidden look_on(Hidden hidden, std::size_t end, const Visit& visit) const;
+  Hidden continue_horizon(Hidden hidden, std::size_t end, const Visit& visit) const;
 
   /// And of those to the top itself that rise by at least `above` it certainly hides none.
   struct Horizon {
     Hidden hidden;
     double above = -std::numeric_limits<double>::infinity();
   };
-  Horizon look_on(Horizon horizon, std::size_t end) const;
+  Horizon continue_horizon(Horizon horizon, std::size_t end) const;
 
   /// Calls visit(slab, first line, last line, whether all of them lie within the bins) from slab `first` on, before
   /// `end`.
@@ -204,7 +204,7 @@ inline void Sector::pass(Hidden& hidden, std::int64_t first, std::int64_t last, 
 }
 
 template <class Visit>
-Sector::Hidden Sector::look_on(Hidden hidden, std::size_t end, const Visit& visit) const {
+Sector::Hidden Sector::continue_horizon(Hidden hidden, std::size_t end, const Visit& visit) const {
   for_each_slab(hidden.slab, end, [&](std::size_t, std::int64_t first, std::int64_t last, bool inside) {
     visit(hidden);
     pass(hidden, first, last, inside);

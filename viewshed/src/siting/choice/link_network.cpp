@@ -5,9 +5,9 @@
 
 namespace itin::viewshed {
 
-LinkNetwork::LinkNetwork(std::size_t options, std::size_t standing, std::optional<std::size_t> hub, Linked linked)
+LinkNetwork::LinkNetwork(std::size_t options, std::size_t existing, std::optional<std::size_t> hub, Linked linked)
     : options_(options),
-      sites_(options + standing),
+      sites_(options + existing),
       hub_(hub),
       ask_(std::move(linked)),
       links_(sites_ * (sites_ + 1) / 2, Link::kUnknown) {}

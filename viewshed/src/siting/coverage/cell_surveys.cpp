@@ -12,7 +12,7 @@ class EnvelopeCells final : public GroupSurvey {
   EnvelopeCells(const SiteSurvey& survey, const Request& request, Envelope envelope, bool zones)
       : survey_(survey),
         tiles_(grid_of_tiles(*survey.targets.grid)),
-        scene_(std::move(envelope), request, tiles_, voids_without_doubt(survey.nodata)) {
+        scene_(std::move(envelope), request, tiles_, decided_missing_ground_rule(survey.nodata)) {
     if (zones) zone_.emplace(scene_.envelope.lower, &scene_.envelope.upper, survey.earth, *survey.fresnel);
   }
 

@@ -50,7 +50,7 @@ std::unique_ptr<GroupSurvey> survey_points(const SiteSurvey& survey, const Reque
 /// The request of one option or several, for the parts of viewsheds that take one.
 Request request_of(const SiteSurvey& survey, std::span<const std::size_t> options);
 
-Eye eye_at(const Grid& grid, const Request& request, const SiteStand& stand);
+Eye eye_at(const Grid& grid, const Request& request, const SitePosition& place);
 
 /// Each site's.
 std::vector<Eye> eyes_of(const Grid& grid, const SiteSurvey& survey, const SitesToJudge& sites);

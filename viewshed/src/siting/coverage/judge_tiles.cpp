@@ -119,7 +119,7 @@ class SiteTiles {
     const Box box = box_of(grid_, tile);
     std::vector<TileCover>& covers = covers_[t];
     const auto open_some = [&](std::size_t i, TileValues<Verdict>& values) {
-      const Point2 position = survey_.stands[sites_.options[i]].position;
+      const Point2 position = survey_.positions[sites_.options[i]].position;
       if (squared_distance(position, box) > survey_.radius * survey_.radius) return false;
       TileCover cover{.entry = i};
       const bool any = open(blocks_, tile, *sites_.bounds[i], cover, values);

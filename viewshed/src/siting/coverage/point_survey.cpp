@@ -155,7 +155,7 @@ class PointSurvey final : public GroupSurvey {
   PointSurvey(const SiteSurvey& survey, const Request& request, Envelope envelope, bool zones)
       : survey_(survey),
         bins_(bins_of_points(survey.targets.points)),
-        scene_(std::move(envelope), request, bins_, voids_without_doubt(survey.nodata)),
+        scene_(std::move(envelope), request, bins_, decided_missing_ground_rule(survey.nodata)),
         grounds_(survey.targets.points.size()) {
     if (zones) {
       zone_.emplace(scene_.envelope.lower, scene_.exact ? nullptr : &scene_.envelope.upper, survey.earth,
@@ -175,7 +175,7 @@ class PointSurvey final : public GroupSurvey {
     std::atomic<std::uint64_t> rays = 0;
     for_each_step(result.size(), "sight lines of candidates", progress, [&](std::size_t i) {
       const EnvelopeScene::View view =
-          scene_.view_from(eye_at(scene_.envelope.lower.grid, sites.request, survey_.stands[sites.options[i]]));
+          scene_.view_from(eye_at(scene_.envelope.lower.grid, sites.request, survey_.positions[sites.options[i]]));
       rays += judge(pass, view, *sites.bounds[i], result[i]);
     });
     statistics.lines += rays;

@@ -107,7 +107,7 @@ class Proposer {
   /// The share seen; what has no ground is not seen.
   double visibility_index(std::uint32_t v) const {
     const Point3 post = tin_.point(v);
-    const auto tally = sampler_.look({post.x, post.y}, post.z + request_.mast_height, tin_.id(v));
+    const auto tally = sampler_.observe({post.x, post.y}, post.z + request_.mast_height, tin_.id(v));
     return static_cast<double>(tally.seen) / tally.asked;
   }
 

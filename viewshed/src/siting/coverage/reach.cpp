@@ -80,7 +80,7 @@ double blocks_in_reach(const SiteTargets& targets, double radius) {
 std::uint64_t bytes_of_coverage(const SiteSurvey& survey) {
   constexpr double kSets = 4;
   const double of_set = sizeof(DemandSet::Block) * std::ceil(blocks_in_reach(survey.targets, survey.radius));
-  return static_cast<std::uint64_t>(kSets * of_set * static_cast<double>(survey.stands.size()));
+  return static_cast<std::uint64_t>(kSets * of_set * static_cast<double>(survey.positions.size()));
 }
 
 namespace {

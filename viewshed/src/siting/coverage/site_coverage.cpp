@@ -47,9 +47,10 @@ std::vector<std::optional<double>> ground_under(const Store& store, const std::v
   return heights_at(store, positions, Detail::tolerance(0), themes, progress);
 }
 
-RasterGrid grid_of_reach(const Store& store, const std::vector<SiteStand>& stands, double radius, double cell_size) {
+RasterGrid grid_of_reach(const Store& store, const std::vector<SitePosition>& positions, double radius,
+                         double cell_size) {
   Request request;
-  for (const SiteStand& stand : stands) request.observers.push_back({stand.name, stand.position, stand.height});
+  for (const SitePosition& place : positions) request.observers.push_back({place.name, place.position, place.height});
   request.radius = radius;
   request.cell_size = cell_size;
   return cells_of(request, extent_of(store));
@@ -71,24 +72,24 @@ class SiteCoverage::Impl {
       : store_(store),
         survey_(std::move(survey)),
         progress_(progress),
-        themed_(survey_.themes.includes_standing(store.metadata().themes)) {
-    if (survey_.stands.empty()) throw InputError("no site to look from: give at least one on the data");
+        themed_(survey_.themes.includes_raised(store.metadata().themes)) {
+    if (survey_.positions.empty()) throw InputError("no site to look from: give at least one on the data");
     require_room_for_sets();
     Box box;
-    for (const SiteStand& stand : survey_.stands) box.extend(disc_box(stand.position, survey_.radius));
+    for (const SitePosition& place : survey_.positions) box.extend(disc_box(place.position, survey_.radius));
     choose_levels(box);
     // A target on a roof is seen from afar as one so high above the bare ground may be.
     if (survey_.targets.on_surface && themed_) raise_ = store.greatest_feature_height(survey_.themes, box);
-    states_.resize(survey_.stands.size());
+    states_.resize(survey_.positions.size());
     parallel_for(states_.size(), [&](std::size_t i) {
-      const CoverageBounds reach{{}, within_reach(survey_.targets, survey_.stands[i].position, survey_.radius)};
+      const CoverageBounds reach{{}, within_reach(survey_.targets, survey_.positions[i].position, survey_.radius)};
       // Copies have no room to grow: bytes_of_coverage() counts on that.
       states_[i].bounds = states_[i].first = reach;
     });
   }
 
   /// Over the envelopes of all options, group by group, so that what is found does not depend on what was found before.
-  void look_first() {
+  void explore() {
     for (const std::vector<std::size_t>& group : groups(all_options(), levels_.front())) {
       std::vector<std::size_t> fresh;
       std::copy_if(group.begin(), group.end(), std::back_inserter(fresh),
@@ -144,12 +145,12 @@ class SiteCoverage::Impl {
     throw InputError(fmt::format(
         "what {} sites may serve takes {:.2g} GB, too much for {:.2g} GB of memory: give a greater `cell_size`, a "
         "smaller `radius`, fewer sites, or more `memory_bytes`",
-        survey_.stands.size(), static_cast<double>(sets_) / 1e9, static_cast<double>(survey_.memory_bytes) / 1e9));
+        survey_.positions.size(), static_cast<double>(sets_) / 1e9, static_cast<double>(survey_.memory_bytes) / 1e9));
   }
 
   void choose_levels(const Box& box) {
     const std::uint64_t all = store_.points_about(0, box);
-    whole_fits_ = fits(all * (themed_ ? 3 : 1), survey_.stands.size(), 0) || read_whole_lattice();
+    whole_fits_ = fits(all * (themed_ ? 3 : 1), survey_.positions.size(), 0) || read_whole_lattice();
     // To look at cells exactly takes no longer than to look at them coarsely.
     const bool exact_at_once = all <= kFewPoints || (survey_.targets.grid && whole_fits_);
     const int first = survey_.tolerance ? level_within(store_.metadata(), *survey_.tolerance)
@@ -172,7 +173,7 @@ class SiteCoverage::Impl {
   }
 
   std::vector<std::size_t> all_options() const {
-    std::vector<std::size_t> all(survey_.stands.size());
+    std::vector<std::size_t> all(survey_.positions.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     return all;
   }
@@ -186,7 +187,7 @@ class SiteCoverage::Impl {
   bool fits(std::uint64_t points, std::size_t options, int level) const {
     const bool swept = judges_cells_exactly(level) && !casts_rays();
     // Judging them makes bounds anew, which mostly hold half of what is within reach.
-    const std::uint64_t sets = sets_ / survey_.stands.size() * options / 2;
+    const std::uint64_t sets = sets_ / survey_.positions.size() * options / 2;
     return points * (swept ? kBytesPerSweptPoint : kBytesPerRayPoint) + sets <= memory();
   }
 
@@ -194,7 +195,7 @@ class SiteCoverage::Impl {
 
   std::uint64_t points_of(Options options, int level) const {
     Box box;
-    for (const std::size_t option : options) box.extend(disc_box(survey_.stands[option].position, survey_.radius));
+    for (const std::size_t option : options) box.extend(disc_box(survey_.positions[option].position, survey_.radius));
     return store_.points_about(level, box);
   }
 
@@ -213,9 +214,9 @@ class SiteCoverage::Impl {
   /// Those in the west and in the east, or in the south and in the north.
   std::pair<Options, Options> halves_across(Options options) const {
     Box box;
-    for (const std::size_t option : options) box.extend(survey_.stands[option].position);
+    for (const std::size_t option : options) box.extend(survey_.positions[option].position);
     std::sort(options.begin(), options.end(), [&](std::size_t a, std::size_t b) {
-      const Point2 p = survey_.stands[a].position, q = survey_.stands[b].position;
+      const Point2 p = survey_.positions[a].position, q = survey_.positions[b].position;
       const double pa = box.width() > box.height() ? p.x : p.y, pb = box.width() > box.height() ? q.x : q.y;
       return pa != pb ? pa < pb : a < b;
     });
@@ -263,7 +264,7 @@ class SiteCoverage::Impl {
     statistics_.retrieval_seconds += watch.lap();
     std::vector<Point2> eyes_of_rays;
     if (casts_rays())
-      for (const std::size_t option : group) eyes_of_rays.push_back(survey_.stands[option].position);
+      for (const std::size_t option : group) eyes_of_rays.push_back(survey_.positions[option].position);
     auto survey = survey_cells_exactly(survey_, std::move(surface), std::move(bare_ground), eyes_of_rays);
     statistics_.scene_seconds += watch.lap();
     return survey;
@@ -329,8 +330,8 @@ class SiteCoverage::Impl {
   }
 
   Window window_of(const std::vector<std::size_t>& group) const {
-    return group.size() > 1 ? window_about(survey_.stands, group, survey_.radius)
-                            : Window::disc(survey_.stands[group.front()].position, survey_.radius);
+    return group.size() > 1 ? window_about(survey_.positions, group, survey_.radius)
+                            : Window::disc(survey_.positions[group.front()].position, survey_.radius);
   }
 
   /// Less about each site than a single viewshed reads: they are many.
@@ -339,7 +340,7 @@ class SiteCoverage::Impl {
     read.level = level;
     read.window = window_of(group);
     for (const std::size_t option : group) {
-      const Point2 position = survey_.stands[option].position;
+      const Point2 position = survey_.positions[option].position;
       read.observers.push_back(position);
       if (level == 0) continue;
       const double points = static_cast<double>(store_.points_about(0, disc_box(position, survey_.radius)));
@@ -381,8 +382,8 @@ const CoverageBounds& SiteCoverage::bounds(std::size_t option) const {
 void SiteCoverage::refine(std::span<const std::size_t> options) {
   impl_->refine(options);
 }
-void SiteCoverage::look_first() {
-  impl_->look_first();
+void SiteCoverage::explore() {
+  impl_->explore();
 }
 void SiteCoverage::release_surfaces() {
   impl_->release_surfaces();

@@ -11,13 +11,14 @@
 
 namespace itin::viewshed {
 
-Window window_about(const std::vector<SiteStand>& stands, const std::vector<std::size_t>& options, double radius) {
+Window window_about(const std::vector<SitePosition>& positions, const std::vector<std::size_t>& options,
+                    double radius) {
   Box box;
-  for (const std::size_t option : options) box.extend(disc_box(stands[option].position, radius));
+  for (const std::size_t option : options) box.extend(disc_box(positions[option].position, radius));
   const RasterGrid cells = RasterGrid::aligned(box, radius / 4);
   std::vector<bool> met(cells.cell_count());
   for (const std::size_t option : options) {
-    const Box disc = disc_box(stands[option].position, radius);
+    const Box disc = disc_box(positions[option].position, radius);
     // Aligned cells may end a hair within the box.
     const auto within = [](double at, std::int64_t count) {
       return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(at)), 0, count - 1);

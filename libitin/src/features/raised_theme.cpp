@@ -1,4 +1,4 @@
-#include "features/standing_theme.hpp"
+#include "features/raised_theme.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -115,7 +115,7 @@ class Standing {
       lateral_.push_back(level.lateral_tolerance / grid_.resolution);
   }
 
-  StandingTheme run(Progress& progress) {
+  RaisedFeatureTheme run(Progress& progress) {
     const auto pieces = cut_into_pieces();
     std::size_t done = 0;
     for (const auto& [place, groups] : pieces) {
@@ -249,7 +249,7 @@ class Standing {
       stop_if_asked();
       const GridPoint &a = mesh.vertices[s.from], &b = mesh.vertices[s.to];
       top[s.feature] = std::max({top[s.feature], a.z, b.z});
-      StandingPart& part = part_of(levels[s.feature], footprints_[numbers[s.feature]].source);
+      RaisedPart& part = part_of(levels[s.feature], footprints_[numbers[s.feature]].source);
       part.segments.push_back({a, b, s.kind == SegmentClass::foot});
       level_of_vertex[s.from] = level_of_vertex[s.to] = levels[s.feature];
     }
@@ -283,7 +283,7 @@ class Standing {
     }
   }
 
-  StandingPart& part_of(int level, std::uint16_t source) {
+  RaisedPart& part_of(int level, std::uint16_t source) {
     const auto [at, fresh] = parts_.try_emplace(level);
     if (fresh) at->second.coarsest = level, at->second.source = source;
     at->second.source = std::min(at->second.source, source);
@@ -322,14 +322,14 @@ class Standing {
   Grid grid_;
   FeatureOptions options_;
   std::vector<double> lateral_;
-  std::map<int, StandingPart> parts_;
-  StandingTheme theme_;
+  std::map<int, RaisedPart> parts_;
+  RaisedFeatureTheme theme_;
 };
 
 }  // namespace
 
-StandingTheme stand(const Store& ground, std::span<const StoredFootprint> footprints, std::uint64_t memory_bytes,
-                    Progress& progress) {
+RaisedFeatureTheme stand(const Store& ground, std::span<const StoredFootprint> footprints, std::uint64_t memory_bytes,
+                         Progress& progress) {
   return Standing(ground, footprints, memory_bytes).run(progress);
 }
 

@@ -1,4 +1,4 @@
-#include "triangulate/standing_index.hpp"
+#include "triangulate/raised_index.hpp"
 
 #include <algorithm>
 #include <tuple>
@@ -13,7 +13,7 @@ constexpr std::size_t kCacheBytes = std::size_t{64} << 20;
 
 }  // namespace
 
-StandingIndex::StandingIndex(const Store& store, const Selection& selection)
+RaisedIndex::RaisedIndex(const Store& store, const Selection& selection)
     : base_(store.points()), themes_(store.metadata().themes.size()), cache_(kCacheBytes) {
   const StoreMetadata& metadata = store.metadata();
   const auto last = static_cast<int>(themes_);
@@ -23,8 +23,9 @@ StandingIndex::StandingIndex(const Store& store, const Selection& selection)
   for (std::size_t p = 0; p < metadata.parts.size(); ++p) {
     const ThemeInfo& own = metadata.themes[metadata.parts[p].theme - std::size_t{1}];
     const bool chosen = selection.includes(static_cast<std::uint16_t>(themes_ + p + 1));
-    const auto rank = std::count_if(metadata.themes.begin(), metadata.themes.end(),
-                                    [&](const ThemeInfo& theme) { return theme.stands() && comes_before(theme, own); });
+    const auto rank = std::count_if(metadata.themes.begin(), metadata.themes.end(), [&](const ThemeInfo& theme) {
+      return theme.is_raised() && comes_before(theme, own);
+    });
     themes_of_parts_.push_back(metadata.parts[p].theme);
     ranks_.push_back(chosen ? static_cast<int>(rank) : kNotThere);
     any_ = any_ || chosen;
@@ -32,7 +33,7 @@ StandingIndex::StandingIndex(const Store& store, const Selection& selection)
 }
 
 /// Ascending codes of where what has rank `below` makes way.
-std::vector<std::uint64_t> StandingIndex::masks(const GridBox& box, int below) const {
+std::vector<std::uint64_t> RaisedIndex::masks(const GridBox& box, int below) const {
   std::vector<Leaf> leaves;
   base_.leaves(base_.level_count(), box, leaves);
   std::vector<std::uint64_t> codes;
@@ -47,7 +48,7 @@ std::vector<std::uint64_t> StandingIndex::masks(const GridBox& box, int below) c
   return codes;
 }
 
-std::shared_ptr<const Block> StandingIndex::block(const Leaf& leaf) const {
+std::shared_ptr<const Block> RaisedIndex::block(const Leaf& leaf) const {
   if (!any_) return base_.block(leaf);
   if (auto cached = cache_.find(leaf.key)) return std::static_pointer_cast<const Block>(std::move(cached));
   std::shared_ptr<const Block> whole = base_.block(leaf);
@@ -71,7 +72,7 @@ std::shared_ptr<const Block> StandingIndex::block(const Leaf& leaf) const {
   return rest;
 }
 
-void StandingIndex::segments(const GridBox& box, std::vector<Segment>& out) const {
+void RaisedIndex::segments(const GridBox& box, std::vector<Segment>& out) const {
   if (!any_) return base_.segments(box, out);
   std::vector<Segment> found;
   base_.segments(box, found);

@@ -122,7 +122,7 @@ std::set<TriangleCorners> global(const Store& store, const Detail& detail, const
   return result;
 }
 
-class StandingThemes : public testing::Test {
+class RaisedFeatures : public testing::Test {
  protected:
   std::string path(const std::string& name) const { return directory_.file(name); }
 
@@ -216,7 +216,7 @@ double rolling(int c, int r) {
   return 100 + 8 * std::sin(c * 0.3) + 6 * std::cos(r * 0.23) + 0.3 * ((c * 7 + r * 13) % 5);
 }
 
-TEST_F(StandingThemes, WindowEqualsWholeWithAllThatStands) {
+TEST_F(RaisedFeatures, WindowEqualsWholeWithAllThatStands) {
   std::mt19937 random(test::seed());
   const auto in = [&](double low, double high) {
     return low + (high - low) * static_cast<double>(random() % 100000) / 100000;
@@ -262,7 +262,7 @@ TEST_F(StandingThemes, WindowEqualsWholeWithAllThatStands) {
        ThemeChoice::parse("woods"), ThemeChoice::parse("roads,walls").with_ground_lines()});
 }
 
-TEST_F(StandingThemes, AHouseHasItsHeightAndTheGroundItsOwn) {
+TEST_F(RaisedFeatures, AHouseHasItsHeightAndTheGroundItsOwn) {
   ground(10, [](int, int) { return 50.0; });
   const std::set<TriangleCorners> bare = triangles_of(whole(ThemeChoice::none()));
   // 40 m by 30 m about posts, which must not poke into the roof.
@@ -287,7 +287,7 @@ TEST_F(StandingThemes, AHouseHasItsHeightAndTheGroundItsOwn) {
 }
 
 /// Blocks are gone as soon as nobody holds them; sanitizers tell whether somebody should have.
-TEST_F(StandingThemes, AreTheSameWithoutACache) {
+TEST_F(RaisedFeatures, AreTheSameWithoutACache) {
   ground(10, [](int c, int r) { return 50.0 + (c * 7 + r * 5) % 4; });
   raise(ThemeKind::Buildings, "houses",
         {box(300102, 199702, 300142, 199732, 9), box(300042, 199642, 300062, 199662, 6)});
@@ -297,7 +297,7 @@ TEST_F(StandingThemes, AreTheSameWithoutACache) {
             triangles_of(whole(ThemeChoice::all())));
 }
 
-TEST_F(StandingThemes, ACourtyardIsGround) {
+TEST_F(RaisedFeatures, ACourtyardIsGround) {
   ground(10, [](int c, int r) { return 50 + 0.1 * c + 0.05 * r; });
   LineFeature ring = box(300100, 199700, 300160, 199760, 12);
   test::write_lines(path("court.geojson"), {ring}, true);
@@ -318,7 +318,7 @@ TEST_F(StandingThemes, ACourtyardIsGround) {
   EXPECT_GT(height(tin, 300107, 199730), height(bare, 300107, 199730) + 5);
 }
 
-TEST_F(StandingThemes, ABlockOfHousesIsDroppedAsAWhole) {
+TEST_F(RaisedFeatures, ABlockOfHousesIsDroppedAsAWhole) {
   ground(10, [](int, int) { return 50.0; });
   // A terrace 30 m long, and a shed of 3 m.
   raise(ThemeKind::Buildings, "houses",
@@ -336,7 +336,7 @@ TEST_F(StandingThemes, ABlockOfHousesIsDroppedAsAWhole) {
   EXPECT_THAT(features(32), testing::Pointwise(testing::DoubleNear(1e-9), {50.0, 50.0, 50.0, 50.0}));
 }
 
-TEST_F(StandingThemes, WoodsFollowTheTerrainAndGiveWayToHouses) {
+TEST_F(RaisedFeatures, WoodsFollowTheTerrainAndGiveWayToHouses) {
   ground(10, rolling);
   raise(ThemeKind::Vegetation, "woods", {box(300103, 199603, 300297, 199797, 15)});
   raise(ThemeKind::Buildings, "houses", {box(300181, 199681, 300199, 199699, 8)});
@@ -348,7 +348,7 @@ TEST_F(StandingThemes, WoodsFollowTheTerrainAndGiveWayToHouses) {
   EXPECT_NEAR(height(all, 300120, 199620) - height(bare, 300120, 199620), 15, 0.05);
 }
 
-TEST_F(StandingThemes, FeaturesFollowWhenTheirGroundChanges) {
+TEST_F(RaisedFeatures, FeaturesFollowWhenTheirGroundChanges) {
   ground(10, [](int, int) { return 50.0; });
   raise(ThemeKind::Buildings, "houses", {box(300102, 199702, 300142, 199732, 9)});
   EXPECT_NEAR(height(whole(ThemeChoice::all()), 300120, 199715), 59, 1e-9);
@@ -365,7 +365,7 @@ TEST_F(StandingThemes, FeaturesFollowWhenTheirGroundChanges) {
   EXPECT_THAT(directory_.names(), testing::Not(testing::Contains(testing::HasSubstr("ground"))));
 }
 
-TEST_F(StandingThemes, WhatCannotStandIsNamed) {
+TEST_F(RaisedFeatures, WhatCannotStandIsNamed) {
   ground(10, [](int, int) { return 50.0; });
   const ImportReport report = raise(ThemeKind::Buildings, "houses",
                                     {box(300102, 199702, 300142, 199732, 9), box(300580, 199702, 300700, 199732, 9),
@@ -379,7 +379,7 @@ TEST_F(StandingThemes, WhatCannotStandIsNamed) {
 }
 
 /// The lower house has no ground of its own there before the higher one is left out.
-TEST_F(StandingThemes, WhatALeftOutHouseCoveredOverAVoidIsNotBuiltEither) {
+TEST_F(RaisedFeatures, WhatALeftOutHouseCoveredOverAVoidIsNotBuiltEither) {
   ground(10, [](int c, int r) { return std::hypot(c - 25, r - 25) < 2 ? std::nan("") : 50.0; });
   const ImportReport report = raise(ThemeKind::Buildings, "houses",
                                     {box(300200, 199720, 300310, 199770, 12), box(300180, 199735, 300330, 199755, 9)});
@@ -389,7 +389,7 @@ TEST_F(StandingThemes, WhatALeftOutHouseCoveredOverAVoidIsNotBuiltEither) {
 }
 
 /// In every cell, what stands is at most as much above the ground as the store says.
-TEST_F(StandingThemes, NothingRisesAboveTheGreatestHeight) {
+TEST_F(RaisedFeatures, NothingRisesAboveTheGreatestHeight) {
   ground(10, rolling);
   std::vector<LineFeature> houses, woods;
   for (int i = 0; i < 12; ++i)
@@ -417,7 +417,7 @@ TEST_F(StandingThemes, NothingRisesAboveTheGreatestHeight) {
 
 /// A surface model made by others: what stands brings the terrain closer to it within the footprints, and leaves it
 /// alone outside.
-TEST_F(StandingThemes, AlexandriaComesCloserToItsSurfaceModel) {
+TEST_F(RaisedFeatures, AlexandriaComesCloserToItsSurfaceModel) {
   const std::string data = std::string(ITIN_DATA_DIR) + "/alexandria-va-2m/";
   if (!std::filesystem::exists(data + "dsm.tif")) GTEST_SKIP() << data << " is not there";
   NoProgress progress;
@@ -473,7 +473,7 @@ TEST_F(StandingThemes, AlexandriaComesCloserToItsSurfaceModel) {
 }
 
 /// The heights of the Delft buildings against those of the city's own model.
-TEST_F(StandingThemes, DelftHasItsRoofs) {
+TEST_F(RaisedFeatures, DelftHasItsRoofs) {
   const std::string model = std::string(ITIN_DATA_DIR) + "/ahn3-bgt-delft/output/testarea.json";
   const std::string points = std::string(ITIN_DATA_DIR) + "/derived-las/ahn3_cropped_2.las";
   if (!std::filesystem::exists(model) || !std::filesystem::exists(points)) GTEST_SKIP() << model << " is not there";

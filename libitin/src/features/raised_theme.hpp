@@ -20,37 +20,37 @@
 
 namespace itin {
 
-struct StandingSegment {
+struct RaisedSegment {
   GridPoint a, b;
   bool outline = false;  ///< between a feature and the ground
 };
 
-struct StandingPart {
+struct RaisedPart {
   int coarsest = 0;
   std::uint16_t source = 0;  ///< the first of its features'
-  std::vector<StandingSegment> segments;
+  std::vector<RaisedSegment> segments;
   std::vector<GridPoint> vertices;  ///< in Morton order: the ends of segments, and others
   std::vector<GridPolygon> masks;   ///< where others make way
   std::vector<FeatureReach> reaches;
 };
 
 /// A finding about a feature.
-struct StandingReport {
+struct RaisedReport {
   std::uint16_t source;  ///< the feature's
   std::string text;      ///< one line
 };
 
-struct StandingTheme {
+struct RaisedFeatureTheme {
   ChangedGround ground;
-  std::vector<StandingPart> parts;  ///< the finest first, none without features
-  std::vector<StandingReport> reports;
+  std::vector<RaisedPart> parts;  ///< the finest first, none without features
+  std::vector<RaisedReport> reports;
   std::uint64_t built = 0, refused = 0;
 };
 
 /// Footprints that reach beyond the ground are refused. Reads the ground in pieces of about a square kilometre; memory
 /// follows these and the features. Throws InputError where the ground about features that hang together takes more than
 /// `memory_bytes`, Cancelled, and what triangulate() throws.
-StandingTheme stand(const Store& ground, std::span<const StoredFootprint> footprints, std::uint64_t memory_bytes,
-                    Progress& progress);
+RaisedFeatureTheme stand(const Store& ground, std::span<const StoredFootprint> footprints, std::uint64_t memory_bytes,
+                         Progress& progress);
 
 }  // namespace itin

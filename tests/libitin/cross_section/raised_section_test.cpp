@@ -32,7 +32,7 @@ using test::mirrored;
 using test::text;
 
 /// 60 x 60 posts every 10 m from (300000, 199400), and what tests put on them.
-class StandingSections : public testing::Test {
+class RaisedSections : public testing::Test {
  protected:
   void ground(double (*height)(int, int)) {
     test::write_raster(path("t.tif"), {300000, 200000, 10, 60, 60, 27700}, height);
@@ -92,7 +92,7 @@ double rolling(int c, int r) {
   return 100 + 8 * std::sin(c * 0.3) + 6 * std::cos(r * 0.23) + 0.3 * ((c * 7 + r * 13) % 5);
 }
 
-TEST_F(StandingSections, EqualTheWindowsTrianglesCutByTheLine) {
+TEST_F(RaisedSections, EqualTheWindowsTrianglesCutByTheLine) {
   std::mt19937 random(test::seed());
   const auto in = [&](double low, double high) {
     return low + (high - low) * static_cast<double>(random() % 100000) / 100000;
@@ -155,7 +155,7 @@ double flat(int, int) {
   return 50;
 }
 
-TEST_F(StandingSections, AHouseHasItsFootAndItsEavesAtEitherWall) {
+TEST_F(RaisedSections, AHouseHasItsFootAndItsEavesAtEitherWall) {
   ground(flat);
   raise(ThemeKind::Buildings, "houses", {box(300102, 199702, 300142, 199732, 9)});
   const Store store(path("s.itin"));
@@ -178,7 +178,7 @@ TEST_F(StandingSections, AHouseHasItsFootAndItsEavesAtEitherWall) {
   EXPECT_NEAR(at_eaves.back(), 46.95, 1e-9);
 }
 
-TEST_F(StandingSections, FeaturesAreKnownByPlace) {
+TEST_F(RaisedSections, FeaturesAreKnownByPlace) {
   ground(flat);
   raise(ThemeKind::Buildings, "houses",
         {box(300102, 199702, 300142, 199732, 9), box(300142, 199702, 300162, 199732, 5)});
@@ -195,7 +195,7 @@ TEST_F(StandingSections, FeaturesAreKnownByPlace) {
   EXPECT_TRUE(features_at(store, 2, {{300210, 199710}}).front());
 }
 
-TEST_F(StandingSections, UnknownThemesAreRefused) {
+TEST_F(RaisedSections, UnknownThemesAreRefused) {
   ground(flat);
   const Store store(path("s.itin"));
   const auto ask = [&] {

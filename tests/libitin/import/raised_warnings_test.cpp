@@ -1,4 +1,4 @@
-#include "import/standing_warnings.hpp"
+#include "import/raised_warnings.hpp"
 
 #include <gmock/gmock.h>
 
@@ -24,24 +24,24 @@ StoreMetadata store_with(std::uint64_t houses) {
   return before;
 }
 
-TEST(StandingWarnings, OfOlderSourcesAreNotRepeated) {
+TEST(RaisedWarnings, OfOlderSourcesAreNotRepeated) {
   const StoreMetadata before = store_with(4);
-  EXPECT_THAT(standing_warnings(town(4), &before, 2), ElementsAre("theme 'woods': b: has a hole"));
-  EXPECT_THAT(standing_warnings(town(4), &before, 3), IsEmpty());
-  EXPECT_EQ(standing_warnings(town(4), nullptr, 0).size(), 2U);
+  EXPECT_THAT(raised_warnings(town(4), &before, 2), ElementsAre("theme 'woods': b: has a hole"));
+  EXPECT_THAT(raised_warnings(town(4), &before, 3), IsEmpty());
+  EXPECT_EQ(raised_warnings(town(4), nullptr, 0).size(), 2U);
 }
 
-TEST(StandingWarnings, TellWhatNoLongerStands) {
+TEST(RaisedWarnings, TellWhatNoLongerStands) {
   const StoreMetadata before = store_with(5);
-  EXPECT_THAT(standing_warnings(town(4), &before, 3),
+  EXPECT_THAT(raised_warnings(town(4), &before, 3),
               ElementsAre("theme 'houses': 1 of its features stood before, and do not on this ground",
                           "theme 'houses': a: left out: has no area"));
 }
 
-TEST(StandingWarnings, AreTwentyATheme) {
+TEST(RaisedWarnings, AreTwentyATheme) {
   RaisedFeatures raised;
-  raised.themes = {{"houses", 0, std::vector<StandingReport>(50, {0, "a: left out"})}};
-  const auto warnings = standing_warnings(raised, nullptr, 0);
+  raised.themes = {{"houses", 0, std::vector<RaisedReport>(50, {0, "a: left out"})}};
+  const auto warnings = raised_warnings(raised, nullptr, 0);
   ASSERT_EQ(warnings.size(), 21U);
   EXPECT_THAT(warnings.back(), HasSubstr("30 more like these"));
 }

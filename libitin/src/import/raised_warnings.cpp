@@ -1,4 +1,4 @@
-#include "import/standing_warnings.hpp"
+#include "import/raised_warnings.hpp"
 
 #include <algorithm>
 
@@ -14,20 +14,20 @@ namespace {
 std::uint64_t lost(const RaisedTheme& theme, const StoreMetadata* before) {
   if (before == nullptr) return 0;
   const auto found = std::find_if(before->themes.begin(), before->themes.end(),
-                                  [&](const ThemeInfo& t) { return t.name == theme.name && t.stands(); });
+                                  [&](const ThemeInfo& t) { return t.name == theme.name && t.is_raised(); });
   return found == before->themes.end() || found->features <= theme.built ? 0 : found->features - theme.built;
 }
 
 }  // namespace
 
-std::vector<std::string> standing_warnings(const RaisedFeatures& raised, const StoreMetadata* before,
-                                           std::size_t first_new) {
+std::vector<std::string> raised_warnings(const RaisedFeatures& raised, const StoreMetadata* before,
+                                         std::size_t first_new) {
   std::vector<std::string> warnings;
   for (const RaisedTheme& theme : raised.themes) {
     const std::uint64_t fewer = lost(theme, before);
     Findings findings(fmt::format("theme '{}'", theme.name));
     if (fewer > 0) findings.add(fmt::format("{} of its features stood before, and do not on this ground", fewer));
-    for (const StandingReport& report : theme.reports)
+    for (const RaisedReport& report : theme.reports)
       if (fewer > 0 || report.source >= first_new) findings.add(report.text);
     for (std::string& line : findings.lines()) warnings.push_back(std::move(line));
   }

@@ -26,7 +26,7 @@ constexpr double kTownStep = 25;
 constexpr Point2 kTownCorner{300000, 200000}, kEye{300437.3, 199487.1};  // nothing stands on the eye
 
 /// Fractal hills with houses turned every way, and a wood.
-class StandingCertified : public testing::Test {
+class RaisedCertified : public testing::Test {
  protected:
   void make(double void_radius = 0) {
     const std::uint32_t seed = test::seed();
@@ -109,7 +109,7 @@ class StandingCertified : public testing::Test {
   Tin surface_, ground_;
 };
 
-TEST_F(StandingCertified, PreciseIsTheWalkOverEveryTriangle) {
+TEST_F(RaisedCertified, PreciseIsTheWalkOverEveryTriangle) {
   make();
   for (const double target : {0.0, 2.0}) {
     expect_exact(request(3, target, false, false));
@@ -125,12 +125,12 @@ TEST_F(StandingCertified, PreciseIsTheWalkOverEveryTriangle) {
   expect_exact(part);
 }
 
-TEST_F(StandingCertified, PreciseAcrossVoids) {
+TEST_F(RaisedCertified, PreciseAcrossVoids) {
   make(6);
   expect_exact(request(30, 2, false, false));
 }
 
-TEST_F(StandingCertified, EveryCellIsCertain) {
+TEST_F(RaisedCertified, EveryCellIsCertain) {
   make();
   Request r = request(3, 2, false, false);
   NoProgress progress;
@@ -147,7 +147,7 @@ TEST_F(StandingCertified, EveryCellIsCertain) {
 }
 
 /// Coarse levels know nothing of features; these hide more, and targets may stand on them.
-TEST_F(StandingCertified, CoarseLevelsAreNeverWrongAboutFeatures) {
+TEST_F(RaisedCertified, CoarseLevelsAreNeverWrongAboutFeatures) {
   make();
   NoProgress progress;
   for (const bool on_surface : {false, true}) {
@@ -169,7 +169,7 @@ TEST_F(StandingCertified, CoarseLevelsAreNeverWrongAboutFeatures) {
   }
 }
 
-TEST_F(StandingCertified, LinesAcrossVoidsStayOpen) {
+TEST_F(RaisedCertified, LinesAcrossVoidsStayOpen) {
   make(6);
   Request r = request(30, 2, false, false);
   NoProgress progress;

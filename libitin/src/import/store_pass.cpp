@@ -1,4 +1,4 @@
-#include "import/store_turn.hpp"
+#include "import/store_pass.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -76,7 +76,7 @@ SetAsideCounts counts_of(const Store* store) {
   return store == nullptr ? SetAsideCounts{} : set_aside_list(file_of(*store).rows()).counts;
 }
 
-StoreTurn::StoreTurn(const Target& target, const TurnSources& of, const ImportOptions& options, ImportReport& report)
+StorePass::StorePass(const Target& target, const PassSources& of, const ImportOptions& options, ImportReport& report)
     : target_(target),
       base_(of.base),
       ground_(of.ground),
@@ -90,13 +90,13 @@ StoreTurn::StoreTurn(const Target& target, const TurnSources& of, const ImportOp
   require_numbers();
 }
 
-bool StoreTurn::run(RaisedFeatures& raised, Progress& progress) {
+bool StorePass::run(RaisedFeatures& raised, Progress& progress) {
   collect(progress);
   if (ground_ != nullptr) collection_.raise(*ground_, raised, progress);
   const ThemeLines lines = collection_.finish(sources_, ground_, progress);
   add_line_vertices(lines);
   const bool done =
-      target_.last || !collection_.stands() || (ground_ != nullptr && !collection_.changes_terrain(lines));
+      target_.last || !collection_.is_raised() || (ground_ != nullptr && !collection_.changes_terrain(lines));
   std::optional<StoreWriter> passing;
   if (!done) passing.emplace(target_.passing, additions_.plan.crs_wkt, additions_.plan.grid, target_.tolerances);
   StoreWriter& writer = done ? target_.writer : *passing;
@@ -107,7 +107,7 @@ bool StoreTurn::run(RaisedFeatures& raised, Progress& progress) {
   return done;
 }
 
-void StoreTurn::require_numbers() const {
+void StorePass::require_numbers() const {
   const std::size_t added =
       additions_.plan.sources.size() + additions_.plan.lines.size() + additions_.footprints.size();
   // One more may stand for inferred points.
@@ -115,7 +115,7 @@ void StoreTurn::require_numbers() const {
     throw InputError("a store holds at most 32,766 sources; merge some of them first");
 }
 
-void StoreTurn::collect(Progress& progress) {
+void StorePass::collect(Progress& progress) {
   if (base_ != nullptr) stored_ = add_stored(*base_, sorter_, collection_, progress);
   for (const auto& source : additions_.plan.sources) {
     add_source(*source, progress);
@@ -134,7 +134,7 @@ void StoreTurn::collect(Progress& progress) {
   if (!additions_.empty()) require_points(report_, options_, stored_.count > 0);
 }
 
-void StoreTurn::add_source(TerrainSource& source, Progress& progress) {
+void StorePass::add_source(TerrainSource& source, Progress& progress) {
   std::vector<RawPoint> raw;
   const ReadCounts counts = source.read(
       [&](std::span<const GridPoint> points) {
@@ -150,7 +150,7 @@ void StoreTurn::add_source(TerrainSource& source, Progress& progress) {
   report_.warnings.insert(report_.warnings.end(), counts.warnings.begin(), counts.warnings.end());
 }
 
-void StoreTurn::add_lines(LineLayer& layer, Progress& progress) {
+void StorePass::add_lines(LineLayer& layer, Progress& progress) {
   const std::uint32_t theme = collection_.theme(options_.theme, *options_.kind, false);
   const ReadCounts counts = layer.read(
       {additions_.plan.grid, additions_.plan.crs_wkt},
@@ -169,7 +169,7 @@ void StoreTurn::add_lines(LineLayer& layer, Progress& progress) {
   report_.warnings.insert(report_.warnings.end(), counts.warnings.begin(), counts.warnings.end());
 }
 
-void StoreTurn::add_footprints(FootprintFile& file) {
+void StorePass::add_footprints(FootprintFile& file) {
   const std::uint32_t theme = collection_.theme(options_.theme, *options_.kind, true);
   report_.read_features += file.footprints.features.size();
   report_.read += file.vertices;
@@ -180,25 +180,25 @@ void StoreTurn::add_footprints(FootprintFile& file) {
 }
 
 /// The vertices of the terrain's lines are points of the full surface.
-void StoreTurn::add_line_vertices(const ThemeLines& lines) {
+void StorePass::add_line_vertices(const ThemeLines& lines) {
   for (const std::uint32_t v : lines.terrain_vertices()) {
     const GridPoint& p = lines.lines.vertices[v];
     sorter_.add({code_of(p), p.z, lines.sources[v], 0});
   }
 }
 
-PyramidReport StoreTurn::build(const ThemeLines& lines, const std::vector<double>& tolerances, StoreWriter& writer,
+PyramidReport StorePass::build(const ThemeLines& lines, const std::vector<double>& tolerances, StoreWriter& writer,
                                Progress& progress) {
   std::uint64_t duplicates = 0;
   SortedPoints points = sorter_.finish(ranks_for_sorting(sources_), progress, &duplicates);
   report_.duplicates += duplicates;
   // Ground that features stand on stays as it is.
-  const bool keep = ground_ != nullptr && collection_.stands();
+  const bool keep = ground_ != nullptr && collection_.is_raised();
   return build_pyramid({points, sources_, additions_.plan.grid, tolerances, lines, keep ? &stored_.inferred : nullptr},
                        writer, progress);
 }
 
-void StoreTurn::set_aside(const PyramidReport& pyramid, const ThemeLines& lines, StoreWriter& writer) const {
+void StorePass::set_aside(const PyramidReport& pyramid, const ThemeLines& lines, StoreWriter& writer) const {
   const std::vector<SetAsideLines> of_themes = set_aside_of(collection_.imported(), pyramid.placed, lines);
   for (std::size_t t = 0; t < of_themes.size(); ++t) writer.set_aside(static_cast<std::uint16_t>(t + 1), of_themes[t]);
   const SetAsideCounts before = counts_of(ground_);
@@ -206,7 +206,7 @@ void StoreTurn::set_aside(const PyramidReport& pyramid, const ThemeLines& lines,
                           ground_ != nullptr ? before.crossings : lines.lines.crossings});
 }
 
-void StoreTurn::count(const PyramidReport& pyramid, const ThemeLines& lines) {
+void StorePass::count(const PyramidReport& pyramid, const ThemeLines& lines) {
   if (ground_ != nullptr) report_.crossings = std::max(report_.crossings, lines.lines.crossings);
   report_.flat_before = pyramid.flat_before;
   report_.flat_after = pyramid.flat_after;
@@ -219,7 +219,7 @@ void StoreTurn::count(const PyramidReport& pyramid, const ThemeLines& lines) {
   require_ground(report_, options_);
 }
 
-void StoreTurn::commit(const PyramidReport& pyramid, const ThemeLines& lines, StoreWriter& writer) {
+void StorePass::commit(const PyramidReport& pyramid, const ThemeLines& lines, StoreWriter& writer) {
   std::vector<ThemeInfo> themes = counted_themes(collection_, lines, pyramid);
   writer.add_footprints(themes, collection_.footprints());
   std::vector<ThemePart> parts;

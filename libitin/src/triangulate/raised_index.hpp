@@ -1,6 +1,6 @@
 // A store's vertices and lines with the chosen standing features among them, and without what makes way for these.
 //
-//   const StandingIndex index(store, selection);     // then as any PointIndex, with the same selection
+//   const RaisedIndex index(store, selection);     // then as any PointIndex, with the same selection
 //
 // The points that are there depend on the selection alone, never on the window, so all that holds for a store's
 // triangulations holds for these.
@@ -19,9 +19,9 @@
 namespace itin {
 
 /// Safe for concurrent use. Refers to the store, which must outlive it.
-class StandingIndex final : public PointIndex {
+class RaisedIndex final : public PointIndex {
  public:
-  StandingIndex(const Store& store, const Selection& selection);
+  RaisedIndex(const Store& store, const Selection& selection);
 
   int level_count() const override { return base_.level_count(); }
   GridBox bounds() const override { return base_.bounds(); }

@@ -1,7 +1,7 @@
 // One turn of an import: a store is written of all that another one holds and of what is added to it.
 //
 //   const Target target{writer, path, tolerances, passing};
-//   const bool done = StoreTurn(target, {base, ground, additions}, options, report).run(raised, progress);
+//   const bool done = StorePass(target, {base, ground, additions}, options, report).run(raised, progress);
 #pragma once
 
 #include <cstdint>
@@ -41,16 +41,16 @@ struct Target {
 };
 
 /// The stores may be null.
-struct TurnSources {
+struct PassSources {
   const Store* base;    ///< it is in the new store
   const Store* ground;  ///< features are raised on it; null: lines are laid as they were imported, footprints only kept
   Additions& additions;
 };
 
-class StoreTurn {
+class StorePass {
  public:
   /// All must outlive it. Counts into the report.
-  StoreTurn(const Target& target, const TurnSources& of, const ImportOptions& options, ImportReport& report);
+  StorePass(const Target& target, const PassSources& of, const ImportOptions& options, ImportReport& report);
 
   /// Standing features are raised on the ground, and cut its lines there. Returns false where features need another
   /// turn, on the ground of the passing store that was written instead, which has no points at other levels: this one
