@@ -96,7 +96,7 @@ class VisibilityIndexTest : public testing::Test {
     for (const Point2 eye : {Point2{301500, 197900}, {302225, 198725}, {301325, 197425}, {302800, 197300}}) {
       const std::optional<double> height = sampler.ground(eye);
       ASSERT_TRUE(height);
-      sampler.look(eye, *height + request.height, 7, [&](Point2 target, bool seen) {
+      sampler.observe(eye, *height + request.height, 7, [&](Point2 target, bool seen) {
         ++(seen ? visible : hidden);
         EXPECT_EQ(seen_in_viewshed(store, request, eye, target), seen) << eye.x << ' ' << target.x << ' ' << target.y;
         if (request.nodata == NoData::kClear) {
@@ -245,8 +245,8 @@ TEST_F(VisibilityIndexTest, RaysFindNothingElse) {
       other(many, many, {1500, 0, 4000}, NoData::kClear);
   for (const Point2 eye : {Point2{301500, 197900}, {302225, 198725}, {301025, 197025}}) {
     std::vector<bool> seen, seen_too;
-    one.look(eye, *one.ground(eye) + 3, 1, [&](Point2, bool s) { seen.push_back(s); });
-    other.look(eye, *other.ground(eye) + 3, 1, [&](Point2, bool s) { seen_too.push_back(s); });
+    one.observe(eye, *one.ground(eye) + 3, 1, [&](Point2, bool s) { seen.push_back(s); });
+    other.observe(eye, *other.ground(eye) + 3, 1, [&](Point2, bool s) { seen_too.push_back(s); });
     EXPECT_EQ(seen, seen_too);
   }
 }

@@ -49,7 +49,7 @@ void LeastFraction::consider(double t, double clearance) {
 
 /// The ratio is stationary where its numerator's and denominator's logarithmic derivatives agree: with the radius
 /// proportional to sqrt(t (1 - t)) that is at the roots of this cubic.
-void LeastFraction::consider_inside(const RayPiece& p) {
+void LeastFraction::consider_inside(const ClearancePiece& p) {
   const Cubic cubic{-p.square, 1.5 * p.square, p.linear / 2 + p.constant, -p.constant / 2};
   const std::array<double, 2> turns = stationary_points(cubic, p.from);
   const std::array<double, 4> bounds = {p.from, std::clamp(turns[0], p.from, p.to), std::clamp(turns[1], p.from, p.to),

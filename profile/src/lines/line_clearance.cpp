@@ -4,20 +4,20 @@
 #include <cmath>
 #include <tuple>
 
+#include <itin/clearance.hpp>
 #include <itin/grazing.hpp>
 
-#include "lines/ray.hpp"
-#include "lines/ray_piece.hpp"
+#include "lines/ground_pieces.hpp"
 
 namespace itin::profile {
 
 namespace {
 
 /// The part of a piece where the clearance is negative, if any: [first, second] within [from, to].
-std::optional<std::pair<double, double>> cut_part(const RayPiece& p) {
+std::optional<std::pair<double, double>> cut_part(const ClearancePiece& p) {
   const bool at_from = p.at(p.from) < 0, at_to = p.at(p.to) < 0;
   if (at_from && at_to) return std::pair{p.from, p.to};  // convex: negative all between
-  const double turn = p.square > 0 ? std::clamp(-p.linear / (2 * p.square), p.from, p.to) : at_from ? p.from : p.to;
+  const double turn = p.least_within(p.from, p.to);
   if (p.at(turn) >= 0) return std::nullopt;
   const auto border = [&](double outside, double inside) {
     for (double middle = (outside + inside) / 2; middle != outside && middle != inside;
@@ -36,14 +36,14 @@ class Walk {
         antennas_(antennas),
         drop_(earth.drop_coefficient()),
         mirrored_(runs_backwards(profile)),
-        ray_(mirrored_ ? antennas.to_m : antennas.from_m, mirrored_ ? antennas.from_m : antennas.to_m, profile.length_m,
-             drop_) {}
+        line_(mirrored_ ? antennas.to_m : antennas.from_m, mirrored_ ? antennas.from_m : antennas.to_m,
+              profile.length_m, drop_) {}
 
   std::optional<LineClearance> run() {
     if (profile_.points.empty()) return std::nullopt;
     if (!profile_.has_length()) return over_ends();
     for (const ProfilePoint& p : profile_.points) consider(p, clearance_over(p));
-    for_each_piece(profile_, antennas_, drop_, [&](const RayPiece& piece, std::size_t i) { take(piece, i); });
+    for_each_piece(profile_, antennas_, drop_, [&](const ClearancePiece& piece, std::size_t i) { take(piece, i); });
     settle();
     return result_;
   }
@@ -78,7 +78,7 @@ class Walk {
 
   double clearance_over(const ProfilePoint& p) const {
     if (profile_.length_m == 0) return std::min(antennas_.from_m, antennas_.to_m) - p.ground_m;
-    return ray_.clearance(seen(p));
+    return line_.clearance(seen(p));
   }
 
   void consider(const ProfilePoint& p, double clearance) {
@@ -102,20 +102,18 @@ class Walk {
     return p;
   }
 
-  void take(const RayPiece& piece, std::size_t i) {
+  void take(const ClearancePiece& piece, std::size_t i) {
     const GroundPoint a = seen(profile_.points[i]), b = seen(profile_.points[i + 1]);
-    if (const auto lowest = mirrored_ ? ray_.lowest_between(b, a) : ray_.lowest_between(a, b)) {
+    if (const auto lowest = mirrored_ ? line_.lowest_between(b, a) : line_.lowest_between(a, b)) {
       ProfilePoint p = between(i, mirrored_ ? profile_.length_m - lowest->distance : lowest->distance);
       p.ground_m = lowest->z;
-      consider(p, ray_.clearance(*lowest));
+      consider(p, line_.clearance(*lowest));
     }
     if (const auto cut = cut_part(piece)) add(piece, i, cut->first, cut->second);
   }
 
-  void add(const RayPiece& piece, std::size_t i, double from, double to) {
-    const double turn = piece.square > 0 ? std::clamp(-piece.linear / (2 * piece.square), from, to)
-                                         : (piece.at(from) < piece.at(to) ? from : to);
-    const double scale = profile_.length_m, depth = -piece.at(turn);
+  void add(const ClearancePiece& piece, std::size_t i, double from, double to) {
+    const double turn = piece.least_within(from, to), scale = profile_.length_m, depth = -piece.at(turn);
     const bool goes_on = !result_.obstructions.empty() && from == piece.from && last_ == i && last_open_;
     if (!goes_on) result_.obstructions.push_back({from * scale, to * scale, 0, 0, 0, 0, -1});
     Obstruction& o = result_.obstructions.back();
@@ -138,7 +136,7 @@ class Walk {
   const Antennas& antennas_;
   double drop_;
   bool mirrored_;
-  Ray ray_;
+  LineOverGround line_;
   bool found_ = false, last_open_ = false;
   std::size_t last_ = 0;
   LineClearance result_;

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <utility>
 
+#include <itin/clearance.hpp>
 #include <itin/fresnel_zone.hpp>
 #include <itin/grazing.hpp>
 #include <itin/section_line.hpp>
 #include <profile/line_of_sight.hpp>
 
-#include "lines/ray.hpp"
 #include "lines/triangle_buckets.hpp"
 
 namespace itin::profile {
@@ -49,8 +49,8 @@ class SightLines::Impl {
     // Whichever end was given first, all arithmetic is the same.
     if (line.is_mirrored() || (line.is_point() && b.z < a.z)) std::swap(a, b);
     const double length = line.length();
-    const Ray ray(a.z, b.z, length, drop_);
-    const RayOverGround over_ground{a.z, b.z, drop_ * length * length};
+    const LineOverGround over_metres(a.z, b.z, length, drop_);
+    const LineOverGround over_fractions(a.z, b.z, 1, drop_ * length * length);
     LeastClearance least;
     LeastFraction tightest(std::sqrt(wavelength_.value_or(0) * length));
     for (const std::uint32_t t : buckets_.near(line.start(), line.end())) {
@@ -59,11 +59,12 @@ class SightLines::Impl {
       const std::optional<SectionPiece> piece = line.clip(chord->from, chord->to);
       if (!piece) continue;
       if (line.is_one_place()) {
-        consider_ends(ray, *piece, least);
+        consider_ends(over_metres, *piece, least);
         continue;
       }
-      least.consider(ray, {piece->from.distance, piece->from.position.z}, {piece->to.distance, piece->to.position.z});
-      if (wavelength_) consider(over_ground, length, *piece, tightest);
+      least.consider(over_metres, {piece->from.distance, piece->from.position.z},
+                     {piece->to.distance, piece->to.position.z});
+      if (wavelength_) consider(over_fractions, length, *piece, tightest);
     }
     SightLine result;
     result.length = length;
@@ -75,17 +76,17 @@ class SightLines::Impl {
 
  private:
   /// Ends at one place have no ground between them: only that at the ends counts.
-  static void consider_ends(const Ray& ray, const SectionPiece& piece, LeastClearance& least) {
+  static void consider_ends(const LineOverGround& line, const SectionPiece& piece, LeastClearance& least) {
     for (const SectionCrossing* c : {&piece.from, &piece.to})
-      if (c->t == 0 || c->t == 1) least.consider(ray, GroundPoint{c->distance, c->position.z});
+      if (c->t == 0 || c->t == 1) least.consider(line, GroundPoint{c->distance, c->position.z});
   }
 
-  static void consider(const RayOverGround& ray, double length, const SectionPiece& piece, LeastFraction& tightest) {
-    const double from = piece.from.distance / length, to = piece.to.distance / length;
-    const double from_z = piece.from.position.z, to_z = piece.to.position.z;
-    tightest.consider(from, ray.clearance(from, from_z));
-    tightest.consider(to, ray.clearance(to, to_z));
-    if (from < to) tightest.consider_inside(ray.piece(from, from_z, to, to_z));
+  static void consider(const LineOverGround& line, double length, const SectionPiece& piece, LeastFraction& tightest) {
+    const GroundPoint from{piece.from.distance / length, piece.from.position.z};
+    const GroundPoint to{piece.to.distance / length, piece.to.position.z};
+    tightest.consider(from.distance, line.clearance(from));
+    tightest.consider(to.distance, line.clearance(to));
+    if (from.distance < to.distance) tightest.consider_inside(line.piece(from, to));
   }
 
   static Point3 position(const SectionLine& line, const GroundPoint& p) {

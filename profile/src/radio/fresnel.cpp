@@ -3,7 +3,7 @@
 #include <itin/fresnel_zone.hpp>
 #include <profile/fresnel.hpp>
 
-#include "lines/ray_piece.hpp"
+#include "lines/ground_pieces.hpp"
 
 namespace itin::profile {
 
@@ -16,13 +16,13 @@ std::optional<FresnelClearance> fresnel_clearance(const Profile& profile, const 
   const double length = profile.length_m;
   if (!profile.has_length()) return std::nullopt;
   LeastFraction tightest(std::sqrt(wavelength * length));
-  const RayOverGround ray{antennas.from_m, antennas.to_m, earth.drop_coefficient() * length * length};
+  const LineOverGround line(antennas.from_m, antennas.to_m, 1, earth.drop_coefficient() * length * length);
   for (const ProfilePoint& p : profile.points) {
     const double t = p.distance_m / length;
-    tightest.consider(t, ray.clearance(t, p.ground_m));
+    tightest.consider(t, line.clearance({t, p.ground_m}));
   }
   for_each_piece(profile, antennas, earth.drop_coefficient(),
-                 [&](const RayPiece& piece, std::size_t) { tightest.consider_inside(piece); });
+                 [&](const ClearancePiece& piece, std::size_t) { tightest.consider_inside(piece); });
   if (!tightest.least()) return std::nullopt;
   return FresnelClearance{tightest.least()->fraction, tightest.least()->t * length, tightest.least()->clearance};
 }

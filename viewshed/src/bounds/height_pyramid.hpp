@@ -50,7 +50,7 @@ struct LineBundle {
     to_west = std::min(to_west, x), to_east = std::max(to_east, x);
     to_south = std::min(to_south, y), to_north = std::max(to_north, y);
     from_z = std::min(from_z, from.z);
-    bulge = std::max(bulge, line.bulge());
+    bulge = std::max(bulge, line.bulge().drop);
   }
   /// Lowest height over the fractions [first, last].
   double lowest_over(double first, double last) const {

@@ -1,7 +1,7 @@
 // The exact side of a viewshed: whether one triangle rises above one sight line, in double precision.
 //
 // Coordinates are grid units (whole numbers at vertices). Along a line from `from` to `to`, at the fraction s of its
-// length d, the Earth's curvature raises the ground against the straight line by c d^2 s (1 - s), for drop = c d^2.
+// length d, the Earth's curvature raises the ground against the straight line by a Bulge over the length 1.
 // A triangle's section by the line's vertical plane is a straight piece, so the highest point of the ground over it is
 // at one of its ends or at the vertex of a parabola.
 #pragma once
@@ -12,6 +12,7 @@
 #include <limits>
 #include <optional>
 
+#include <itin/clearance.hpp>
 #include <itin/geometry.hpp>
 #include <itin/grazing.hpp>
 
@@ -24,7 +25,7 @@ class SightLine {
       : from_(from), dx_(to.x - from.x), dy_(to.y - from.y), dz_(to.z - from.z), grazing_(grazing) {
     const double squared = dx_ * dx_ + dy_ * dy_;
     per_squared_length_ = 1 / squared;
-    bulge_ = drop * squared;
+    bulge_ = {1, drop * squared};
   }
 
   /// The line to another height at the same place.
@@ -46,10 +47,10 @@ class SightLine {
     if (!under.meets_line() || highest(under) <= grazing_) return std::nullopt;
     const double first = std::max(under.low, 0.0), last = std::min(under.high, 1.0);
     if (rise(under, first) > grazing_) return first;
-    // The least root of p + q s + bulge s (1 - s) = grazing, which lies where the left side grows.
-    const double q = under.slope() + bulge_, missing = grazing_ - under.straight(0);
+    // The least root of p + q s + drop s (1 - s) = grazing, which lies where the left side grows.
+    const double drop = bulge_.drop, q = under.slope() + drop, missing = grazing_ - under.straight(0);
     if (q <= 0) return last;
-    const double root = std::sqrt(std::max(0.0, q * q - 4 * bulge_ * missing));
+    const double root = std::sqrt(std::max(0.0, q * q - 4 * drop * missing));
     return std::clamp(2 * missing / (q + root), first, last);
   }
 
@@ -62,7 +63,7 @@ class SightLine {
     const auto at = [&](std::size_t i, std::size_t j, double weight) {
       const double s = corners[i].along + weight * (corners[j].along - corners[i].along);
       const double rise = corners[i].rise + weight * (corners[j].rise - corners[i].rise);
-      if (s >= 0 && s <= 1) visit(i, j, weight, s, rise + bulge_ * s * (1 - s));
+      if (s >= 0 && s <= 1) visit(i, j, weight, s, rise + bulge_.at(s));
     };
     for (std::size_t i = 0; i < 3; ++i) {
       const double side = corners[i].side;
@@ -104,7 +105,7 @@ class SightLine {
     const auto consider = [&](double s) {
       if (rise(under, s) > rise(under, best)) best = s;
     };
-    if (bulge_ > 0) consider(std::clamp(0.5 + under.slope() / (2 * bulge_), first, last));
+    if (bulge_.drop > 0) consider(std::clamp(bulge_.summit(under.slope()), first, last));
     consider(last);
     return best;
   }
@@ -118,7 +119,7 @@ class SightLine {
     const Section under = section(a, b, c);
     if (!under.meets_line()) return -kInfinity;
     const double first = std::max(under.low, 0.0), last = std::min(under.high, 1.0);
-    // The ground's rise is p + q s + bulge s (1 - s); the end must rise by the greatest (rise - slack) / s.
+    // The ground's rise is p + q s + drop s (1 - s); the end must rise by the greatest (rise - slack) / s.
     const double q = under.slope(), p = under.straight(0);
     double slack = grazing_ / 2;
     if (first == 0) {
@@ -127,11 +128,11 @@ class SightLine {
     }
     const auto needed = [&](double s) {
       if (s > 0) return (rise(under, s) - slack) / s;
-      return p < slack ? -kInfinity : q + bulge_;
+      return p < slack ? -kInfinity : q + bulge_.drop;
     };
     double result = std::max(needed(first), needed(last));
-    if (bulge_ > 0 && p < slack)
-      result = std::max(result, needed(std::clamp(std::sqrt((slack - p) / bulge_), first, last)));
+    if (bulge_.drop > 0 && p < slack)
+      result = std::max(result, needed(std::clamp(std::sqrt((slack - p) / bulge_.drop), first, last)));
     return to_z() + result;
   }
 
@@ -142,13 +143,13 @@ class SightLine {
     const auto corner_at = [&](const GridPoint& p) {
       const double x = p.x - from_.x, y = p.y - from_.y;
       const double along = (x * dx_ + y * dy_) * per_squared_length_;
-      return Corner{dx_ * y - dy_ * x, along, p.z - from_.z - along * (dz - bulge_ * (1 - along))};
+      return Corner{dx_ * y - dy_ * x, along, p.z - from_.z - along * dz + bulge_.at(along)};
     };
     const Corner p = corner_at(a), q = corner_at(b), r = corner_at(c);
     if ((p.side > 0 && q.side > 0 && r.side > 0) || (p.side < 0 && q.side < 0 && r.side < 0)) return true;
     // Between corners curvature raises the ground above the straight piece.
     const double stretch = std::max({p.along, q.along, r.along}) - std::min({p.along, q.along, r.along});
-    const double limit = -margin - std::max(bulge_, 0.0) * stretch * stretch / 4;
+    const double limit = -margin - std::max(bulge_.drop, 0.0) * stretch * stretch / 4;
     if (std::max({p.rise, q.rise, r.rise}) <= limit) return true;
     const auto below = [&](const Corner& from, const Corner& to) {
       const double across = from.side - to.side;
@@ -161,8 +162,8 @@ class SightLine {
   const Point3& from() const { return from_; }
   double dx() const { return dx_; }
   double dy() const { return dy_; }
-  /// Curvature raises the ground above the straight line by bulge() s (1 - s).
-  double bulge() const { return bulge_; }
+  /// By fractions of the length.
+  const Bulge& bulge() const { return bulge_; }
   double to_z() const { return from_.z + dz_; }
 
  private:
@@ -210,20 +211,20 @@ class SightLine {
   }
 
   /// The height of the curved ground above the straight line.
-  double rise(const Section& under, double s) const { return under.straight(s) + bulge_ * s * (1 - s); }
+  double rise(const Section& under, double s) const { return under.straight(s) + bulge_.at(s); }
 
   /// The greatest height of the ground above the line over the part of [low, high] between the ends.
   double highest(const Section& under) const {
     const double first = std::max(under.low, 0.0), last = std::min(under.high, 1.0);
     double result = std::max(rise(under, first), rise(under, last));
-    if (bulge_ > 0) result = std::max(result, rise(under, std::clamp(0.5 + under.slope() / (2 * bulge_), first, last)));
+    if (bulge_.drop > 0) result = std::max(result, rise(under, std::clamp(bulge_.summit(under.slope()), first, last)));
     return result;
   }
 
   Point3 from_;
   double dx_, dy_, dz_;
   double per_squared_length_;
-  double bulge_;
+  Bulge bulge_;
   double grazing_;
 };
 

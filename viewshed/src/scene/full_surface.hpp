@@ -91,7 +91,7 @@ class FullSurface {
   /// Surveys the ground towards the cells alone: what is beyond and beside them costs nothing.
   RadialSweep::View view_of_cells(const Eye& eye) const;
   /// Begins such a view, to be advanced.
-  RadialSweep::View view_from(const Eye& eye) const { return sweep_.beginning(axis_of(eye)); }
+  RadialSweep::View begin_view(const Eye& eye) const { return sweep_.beginning(axis_of(eye)); }
   /// After heights of tiles of the lattice have been read: they count from now on.
   void add(std::span<const std::uint32_t> tiles) { heights_->add(tiles); }
 

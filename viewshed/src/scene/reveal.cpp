@@ -44,7 +44,7 @@ void read(const Tiles& tiles, LatticeReader& reader, FullSurface& surface, Progr
 Revealed reveal(const Eye& eye, LatticeReader& reader, FullSurface& surface, std::uint64_t most_tiles,
                 Progress& progress) {
   const LatticeTin& lattice = reader.lattice();
-  RadialSweep::View view = surface.view_from(eye);
+  RadialSweep::View view = surface.begin_view(eye);
   std::vector<std::pair<double, std::uint32_t>> left;  // the nearest last
   std::vector<BinBox> boxes;
   for (std::uint32_t t = 0; t < lattice.tiles.size(); ++t) {

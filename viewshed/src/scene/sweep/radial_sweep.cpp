@@ -161,7 +161,7 @@ class RadialSweep::Task {
       }
       heights_[cell.index] = kHidden;
       cell.hidden_below = hidden_below + sweep_.drop_ * cell.squared;
-      if (ends_.elevation[cell.index] >= cell.hidden_below) decide(quadrant, cell);
+      if (ends_.elevation[cell.index] >= cell.hidden_below) judge(quadrant, cell);
     });
   }
 
@@ -187,23 +187,23 @@ class RadialSweep::Task {
                                                    : static_cast<std::size_t>(std::ceil(at));
   }
 
-  void decide(const Quadrant& quadrant, const Cell& cell) {
+  void judge(const Quadrant& quadrant, const Cell& cell) {
     const Point3 top{axis_.x, axis_.y, axis_.top};
     const double elevation = ends_.elevation[cell.index];
     const SweptEnd end{cell.along, sweep_.drop_ * cell.squared};
     switch (kind_) {
       case Kind::kAxis: {
         const SightLine line = line_between(other_end(cell, elevation), top);
-        return decide(quadrant, cell, AxisSight(line, axis_.base, end, view_.sector_axis_.margin));
+        return judge(quadrant, cell, AxisSight(line, axis_.base, end, view_.sector_axis_.margin));
       }
       case Kind::kPoint: {
         const SightLine line = line_between(top, other_end(cell, elevation));
-        return decide(quadrant, cell, PointSight(line, end));
+        return judge(quadrant, cell, PointSight(line, end));
       }
       case Kind::kHeight: {
         const HeightSight::Range range{lowest_->end[cell.index], elevation, cell.hidden_below};
         const SightLine line = line_between(top, other_end(cell, range.lowest));
-        decide(quadrant, cell, HeightSight(line, range, end, view_.sector_axis_.margin));
+        judge(quadrant, cell, HeightSight(line, range, end, view_.sector_axis_.margin));
       }
     }
   }
@@ -217,7 +217,7 @@ class RadialSweep::Task {
   }
 
   template <class Sight>
-  void decide(const Quadrant& quadrant, const Cell& cell, Sight sight) {
+  void judge(const Quadrant& quadrant, const Cell& cell, Sight sight) {
     if (decide(quadrant, cell, sight)) heights_[cell.index] = least(quadrant, cell, sight);
     last_ = silhouettes_[cell.major] = sight.silhouette();
   }

@@ -54,22 +54,22 @@ class ZoneTest {
   static double slope(const Ground& g) { return g.to > g.from ? (g.to_rise - g.from_rise) / (g.to - g.from) : 0; }
   /// Clearance beyond what is asked for.
   double spare(const Ground& g, double s) const {
-    return -(g.from_rise + slope(g) * (s - g.from)) - line_.bulge() * s * (1 - s) - depth() * std::sqrt(s * (1 - s));
+    return -(g.from_rise + slope(g) * (s - g.from)) - line_.bulge().at(s) - depth() * std::sqrt(s * (1 - s));
   }
   /// No more than the lowest: that is convex, and so above its tangent in the middle.
   double lowest_spare(const Ground& g) const {
     const double s = (g.from + g.to) / 2, radius = std::sqrt(s * (1 - s));
-    const double middle = -(g.from_rise + g.to_rise) / 2 - line_.bulge() * s * (1 - s) - depth() * radius;
+    const double middle = -(g.from_rise + g.to_rise) / 2 - line_.bulge().at(s) - depth() * radius;
     if (radius == 0) return middle;
     const double half_rise = (g.to_rise - g.from_rise) / 2, half = (g.to - g.from) / 2;
-    return middle - std::abs(half_rise + half * (line_.bulge() * (1 - 2 * s) + depth() * (0.5 - s) / radius));
+    return middle - std::abs(half_rise + half * (line_.bulge().drop * (1 - 2 * s) + depth() * (0.5 - s) / radius));
   }
   double least_fraction(const Ground& g) const {
-    const RayOverGround ray{0, 0, line_.bulge()};
+    const LineOverGround flat(0, 0, 1, line_.bulge().drop);
     LeastFraction least(zone_);
-    least.consider(g.from, ray.clearance(g.from, g.from_rise));
-    least.consider(g.to, ray.clearance(g.to, g.to_rise));
-    if (g.from < g.to) least.consider_inside(ray.piece(g.from, g.from_rise, g.to, g.to_rise));
+    least.consider(g.from, flat.clearance({g.from, g.from_rise}));
+    least.consider(g.to, flat.clearance({g.to, g.to_rise}));
+    if (g.from < g.to) least.consider_inside(flat.piece({g.from, g.from_rise}, {g.to, g.to_rise}));
     return least.least() ? least.least()->fraction : fraction_;
   }
 

@@ -1,0 +1,105 @@
+// A straight line over the curved ground: the one place where clearances are computed, for single lines of sight, for
+// profiles, for Fresnel zones and for viewsheds (law 4).
+//
+//   const LineOverGround line(120.5, 98.0, 8000, earth.drop_coefficient());
+//   line.clearance({2500, ground});                               // above a place of the ground
+//   if (const auto lowest = line.lowest_between(a, b)) ...        // over straight ground between two places
+//
+// Heights and distances are in one unit, whichever: metres, grid units, or distances as fractions of a length 1.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+
+namespace itin {
+
+/// The Earth's surface against the chord between both ends of a line: it bulges above it, and straight ground with it.
+struct Bulge {
+  double length = 1;
+  double drop = 0;  ///< Earth::drop_coefficient(), or that times the squared length where the length is 1
+
+  double at(double distance) const { return drop * (distance * (length - distance)); }
+  /// Where straight ground that gains `slope` on the line in a unit of distance is highest against it: the bulge is a
+  /// parabola. Precondition: drop > 0.
+  double summit(double slope) const { return (length + slope / drop) / 2; }
+};
+
+/// A place of the ground under a line.
+struct GroundPoint {
+  double distance = 0;  ///< from the line's start
+  double z = 0;
+};
+
+/// Straight ground under a line: for distances d in [from, to] the clearance is constant + linear d + square d^2,
+/// convex.
+struct ClearancePiece {
+  double from = 0, to = 0;
+  double constant = 0, linear = 0, square = 0;
+
+  double at(double d) const { return constant + d * (linear + d * square); }
+  /// Where it is least in [first, last], part of the piece.
+  double least_within(double first, double last) const {
+    if (square > 0) return std::clamp(-linear / (2 * square), first, last);
+    return at(first) < at(last) ? first : last;
+  }
+};
+
+class LineOverGround {
+ public:
+  LineOverGround(double start_z, double end_z, double length, double drop)
+      : start_z_(start_z), end_z_(end_z), bulge_{length, drop} {}
+
+  double length() const { return bulge_.length; }
+
+  /// From the nearer end, so that a level line is level and the line from the other end the same.
+  double height(double distance) const {
+    const double left = length() - distance;
+    if (length() == 0) return start_z_;
+    if (distance == left) return (start_z_ + end_z_) / 2;
+    return distance < left ? start_z_ + (end_z_ - start_z_) * (distance / length())
+                           : end_z_ + (start_z_ - end_z_) * (left / length());
+  }
+
+  double clearance(const GroundPoint& p) const { return height(p.distance) - p.z - bulge_.at(p.distance); }
+
+  /// Where over the straight ground from a to b the clearance is least, if that is between them.
+  std::optional<GroundPoint> lowest_between(const GroundPoint& a, const GroundPoint& b) const {
+    const double width = b.distance - a.distance;
+    if (width <= 0 || bulge_.drop <= 0) return std::nullopt;
+    const double distance = bulge_.summit((b.z - a.z) / width - (end_z_ - start_z_) / length());
+    if (distance <= a.distance || distance >= b.distance) return std::nullopt;
+    return GroundPoint{distance, a.z + (distance - a.distance) / width * (b.z - a.z)};
+  }
+
+  /// Precondition: a is nearer to the start than b.
+  ClearancePiece piece(const GroundPoint& a, const GroundPoint& b) const {
+    const double slope = (b.z - a.z) / (b.distance - a.distance);
+    return {a.distance, b.distance, start_z_ - (a.z - slope * a.distance),
+            (end_z_ - start_z_) / length() - slope - bulge_.drop * length(), bulge_.drop};
+  }
+
+ private:
+  double start_z_, end_z_;
+  Bulge bulge_;
+};
+
+/// The least clearance over pieces of ground, and where it is: among several places, the one nearest to the line's
+/// start.
+struct LeastClearance {
+  std::optional<double> clearance;
+  GroundPoint place;
+
+  void consider(const LineOverGround& line, const GroundPoint& p) {
+    const double c = line.clearance(p);
+    if (clearance && (c > *clearance || (c == *clearance && p.distance >= place.distance))) return;
+    clearance = c;
+    place = p;
+  }
+  void consider(const LineOverGround& line, const GroundPoint& a, const GroundPoint& b) {
+    consider(line, a);
+    consider(line, b);
+    if (const auto lowest = line.lowest_between(a, b)) consider(line, *lowest);
+  }
+};
+
+}  // namespace itin
