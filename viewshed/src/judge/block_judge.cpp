@@ -7,6 +7,7 @@
 #include <itin/grazing.hpp>
 
 #include "bounds/surface_heights.hpp"
+#include "judge/bounded_target.hpp"
 
 namespace itin::viewshed {
 
@@ -98,17 +99,11 @@ class BlockJudge::BlockWork final : public TileJudge::Work {
     });
   }
   Verdict settled(Point2 centre, std::size_t cell, const Heights& heights, Verdict known) const {
-    if (std::isnan(heights.low[cell])) return Verdict::kOutside;
-    const Eye& eye = judge_.eye_;
     const double metres = judge_.surface_.bounds().units().resolution;
     const Point2 place = centres_.at(cell);
-    const auto [dx, dy] = eye.offset_to(centre, place);
-    const double low = eye.target(heights.low[cell] * metres), high = eye.target(heights.high[cell] * metres);
-    const std::optional<bool> in_view = eye.view.contains(dx, dy, low - eye.elevation, high - eye.elevation);
-    if (in_view == false) return Verdict::kOutside;
-    if (!in_view) return Verdict::kUndecided;
-    if (high < heights.low[cell] * metres - kGrazing) return Verdict::kHidden;  // an elevation below the ground
-    if (eye.stands_at(place)) return Verdict::kVisible;
+    const BoundedTarget target =
+        bounded_target(judge_.eye_, centre, place, heights.low[cell] * metres, heights.high[cell] * metres);
+    if (target.verdict != Verdict::kUndecided || !target.in_view) return target.verdict;
     return judge_.shadow_ && judge_.shadow_->holds(place.x, place.y) ? Verdict::kHidden : known;
   }
 

@@ -11,6 +11,7 @@
 #include <itin/parallel.hpp>
 
 #include "bounds/surface_heights.hpp"
+#include "judge/bounded_target.hpp"
 
 namespace itin::viewshed {
 
@@ -46,7 +47,6 @@ class EnvelopeJudge::TileWork final : public TileJudge::Work {
         columns_(static_cast<std::size_t>(tile_.columns)),
         resolution_(scene_.envelope.lower.grid.resolution),
         metre_(1 / resolution_),
-        grazing_(kGrazing / resolution_),
         centres_(scene_.envelope.lower.grid, judge.grid_, tile_) {
     const auto triangles = scene_.bins.triangles(number);
     scan_convert(scene_.envelope.lower, triangles, tile_, centres_, low_);
@@ -170,22 +170,17 @@ class EnvelopeJudge::TileWork final : public TileJudge::Work {
 
   /// Aims a line at the cell's target, unless it is decided without.
   Verdict aim(std::size_t cell, unsigned i, EnvelopePacket& packet) const {
-    const Eye& eye = view_->eye;
-    if (std::isnan(low_[cell])) return Verdict::kOutside;
-    const double low_m = eye.target(low_[cell] * resolution_), high_m = eye.target(high_[cell] * resolution_);
     const Point2 place = centres_.at(cell);
-    const auto [dx, dy] = eye.offset_to(metres_of(cell), place);
-    const std::optional<bool> in_view = eye.view.contains(dx, dy, low_m - eye.elevation, high_m - eye.elevation);
-    if (in_view == false) return Verdict::kOutside;
-    const double low = low_m * metre_, high = high_m * metre_;
-    if (high < low_[cell] - grazing_ && in_view) return Verdict::kHidden;  // below the ground
-    if (in_view && eye.stands_at(place)) return Verdict::kVisible;
+    const BoundedTarget target =
+        bounded_target(view_->eye, metres_of(cell), place, low_[cell] * resolution_, high_[cell] * resolution_);
+    if (target.verdict != Verdict::kUndecided) return target.verdict;
     if (view_->shadow && view_->shadow->holds(place.x, place.y)) {
-      if (scene_.rule == NoData::kBlock && in_view) return Verdict::kHidden;
+      if (scene_.rule == NoData::kBlock && target.in_view) return Verdict::kHidden;
       packet.behind_void |= 1U << i;
     }
-    if (!in_view) packet.perhaps_outside |= 1U << i;
-    scene_.aim(*view_, {place, low, high, high_[cell], dx * dx + dy * dy}, i, packet);
+    if (!target.in_view) packet.perhaps_outside |= 1U << i;
+    scene_.aim(*view_, {place, target.low * metre_, target.high * metre_, high_[cell], target.squared_distance}, i,
+               packet);
     return Verdict::kUndecided;
   }
 
@@ -200,7 +195,6 @@ class EnvelopeJudge::TileWork final : public TileJudge::Work {
   Tile tile_;
   std::size_t rows_, columns_;  ///< of the tile
   double resolution_, metre_;   ///< grid units in metres, and the other way round
-  double grazing_;              ///< grid units
   TileCentres centres_;
   TileValues<double> low_;   ///< the least height of what targets stand on, grid units
   TileValues<double> high_;  ///< the upper surface

@@ -78,9 +78,9 @@ class EnvelopeScene {
   UpperScene upper;
   TriangleBins bins;
   std::optional<TriangleBins> ground_bins;  ///< of the bare ground, where the envelope has it
-  NoData rule;  ///< of missing ground
-  bool exact;   ///< both surfaces are the full one, of level 0
-  double drop;  ///< by curvature, grid units for a squared grid unit
+  NoData rule;                              ///< of missing ground
+  bool exact;                               ///< both surfaces are the full one, of level 0
+  double drop;                              ///< by curvature, grid units for a squared grid unit
 
  private:
   /// The upper surface's height, grid units; -infinity where there is none.
