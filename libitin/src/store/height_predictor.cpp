@@ -80,15 +80,20 @@ HeightPredictor::HeightPredictor(std::uint32_t width, std::uint32_t height, std:
   while (buckets(shift_) > 2 * count) ++shift_;
   offset_shift_ = std::max(0, shift_ - 3);
   stride_ = ((width - 1) >> shift_) + 1 + 2 * kMargin;
-  latest_.resize(stride_ * (((height - 1) >> shift_) + 1 + 2 * kMargin));
-  samples_.reserve(count);
+  const std::size_t all = stride_ * (((height - 1) >> shift_) + 1 + 2 * kMargin);
+  if (on_lattice()) {
+    heights_.assign(all, kNoHeight);
+  } else {
+    latest_.resize(all);
+    samples_.reserve(count);
+  }
 }
 
 std::int64_t HeightPredictor::predict(std::uint32_t x, std::uint32_t y) const {
   const double limit = 2.0 * kHeightLimit;
-  const double above = shift_ == 0 ? offset_on_lattice(x, y) : offset_among(x, y);
+  const double above = on_lattice() ? offset_on_lattice(x, y) : offset_among(x, y);
   const double offset = std::clamp(above, -limit, limit) + limit + 0.5;
-  return samples_.back().z + static_cast<std::int64_t>(offset) - 2 * kHeightLimit;
+  return last_ + static_cast<std::int64_t>(offset) - 2 * kHeightLimit;
 }
 
 double HeightPredictor::offset_on_lattice(std::uint32_t x, std::uint32_t y) const {
@@ -96,10 +101,11 @@ double HeightPredictor::offset_on_lattice(std::uint32_t x, std::uint32_t y) cons
   const auto stride = static_cast<std::ptrdiff_t>(stride_);
   std::size_t there = 0;
   std::int64_t z = 0, xz = 0, yz = 0;
-  const auto at_offset = [&](std::size_t number, const Offset& b) {
-    const Sample* const s = latest(here + static_cast<std::size_t>(b.y * stride + b.x));
-    there |= std::size_t{s != nullptr} << number;
-    const std::int64_t wz = s != nullptr ? b.weight() * above_last(*s) : 0;
+  const auto at_offset = [&](std::size_t number, const Offset& b) __attribute__((always_inline)) {
+    const std::int64_t height = heights_[here + static_cast<std::size_t>(b.y * stride + b.x)];
+    const bool is_there = height != kNoHeight;
+    there |= std::size_t{is_there} << number;
+    const std::int64_t wz = is_there ? b.weight() * above_last(height) : 0;
     z += wz, xz += wz * b.x, yz += wz * b.y;
   };
   // Without a loop, for all factors are constants then.
@@ -123,12 +129,17 @@ double HeightPredictor::offset_among(std::uint32_t x, std::uint32_t y) const {
     const std::int64_t east = (static_cast<std::int64_t>(s->x) - x) >> offset_shift_,
                        north = (static_cast<std::int64_t>(s->y) - y) >> offset_shift_;
     const double weight = kWeights[static_cast<std::size_t>(east * east + north * north)];
-    moments.add(weight, static_cast<double>(east), static_cast<double>(north), static_cast<double>(above_last(*s)));
+    moments.add(weight, static_cast<double>(east), static_cast<double>(north), static_cast<double>(above_last(s->z)));
   }
   return moments.w == 0 ? 0 : Plane(moments).intercept(moments.z, moments.xz, moments.yz);
 }
 
 void HeightPredictor::add(std::uint32_t x, std::uint32_t y, std::int64_t z) {
+  last_ = z;
+  if (on_lattice()) {
+    heights_[bucket(x, y)] = z;
+    return;
+  }
   samples_.push_back({x, y, z});
   latest_[bucket(x, y)] = static_cast<std::uint16_t>(samples_.size());
 }
