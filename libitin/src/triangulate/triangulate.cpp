@@ -15,9 +15,12 @@ namespace itin {
 
 namespace {
 
-/// Large windows are cut into quadtree cells of about this many points: enough to make borders cheap, few enough to
-/// keep a cell's triangulation in the processor's cache.
-constexpr double kPointsPerTile = 32768;
+/// Windows are cut into quadtree cells of at most this many points: few enough to keep a cell's triangulation in the
+/// processor's cache.
+constexpr double kMostPerTile = 32768;
+/// Smaller windows are cut into some cells for each thread of an ordinary machine, but into none with so few points
+/// that its border is what costs. No result depends on it.
+constexpr double kTiles = 8, kLeastPerTile = 8192;
 
 /// Cells that cover the window.
 class TilePlan {
@@ -27,7 +30,9 @@ class TilePlan {
     selected_leaves(index_, selection_, window_.bounds(), leaves_);
     std::erase_if(leaves_, [&](const Leaf& leaf) { return leaf.level < selection_.finest_in(leaf.cell.box()); });
     std::vector<std::uint32_t> all(leaves_.size());
-    for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
+    double points = 0;
+    for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i, points += leaves_[i].points;
+    per_tile_ = std::clamp(points / kTiles, kLeastPerTile, kMostPerTile);
     split(Cell{}, all);
   }
 
@@ -45,7 +50,7 @@ class TilePlan {
       inside.push_back(i);
       points += leaves_[i].points * std::min(1.0, std::ldexp(1.0, 2 * (cell.log2_side - leaf.log2_side)));
     }
-    if (points <= kPointsPerTile || cell.log2_side == 0) {
+    if (points <= per_tile_ || cell.log2_side == 0) {
       cells_.push_back(cell);
       return;
     }
@@ -56,6 +61,7 @@ class TilePlan {
   const Selection& selection_;
   const GridWindow& window_;
   std::vector<Leaf> leaves_;
+  double per_tile_ = kMostPerTile;
   std::vector<Cell> cells_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <atomic>
 
+#include <itin/parallel.hpp>
+
 namespace itin::viewshed {
 
 void CertifiedCells::judge(const TileJudge& judge, std::size_t eyes, std::span<const PartsOfTile> cells) {
@@ -31,8 +33,10 @@ std::uint64_t CertifiedCells::judge(const TileJudge& judge, std::size_t eyes, co
 
 void CertifiedCells::store(Result& result) const {
   result.visible.resize(grid_.cell_count());
-  for (std::size_t tile = 0; tile < verdicts_.size(); ++tile)
-    verdicts_[tile].store(tile_at(grid_, tiles_, tile), result, result.cells);
+  std::vector<CellCounts> counts(verdicts_.size());
+  parallel_for(verdicts_.size(),
+               [&](std::size_t tile) { verdicts_[tile].store(tile_at(grid_, tiles_, tile), result, counts[tile]); });
+  for (const CellCounts& of_tile : counts) result.cells += of_tile;
   result.statistics.lines += lines_;
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <span>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -145,11 +146,11 @@ class Writer {
   static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
   template <class T>
-  void write(const std::vector<std::string>& bands, std::optional<double> nodata, const std::vector<T>& values) {
+  void write(const std::vector<std::string>& bands, std::optional<double> nodata, std::span<const T> values) {
     description_.band_name = bands.front();
     description_.further_bands.assign(bands.begin() + 1, bands.end());
     description_.nodata = nodata;
-    write_raster(path_, result_.grid, std::span<const T>(values), description_);
+    write_raster(path_, result_.grid, values, description_);
   }
 
   const std::string& path_;

@@ -58,9 +58,9 @@ RegionClasses classes_of_blockers(const Result& result) {
 
 void write_polygons(const std::string& path, const Result& result, const std::string& crs_wkt, bool overwrite) {
   RegionDescription description{crs_wkt, "viewshed", {}, overwrite};
-  const auto write = [&]<class T>(const std::vector<T>& values, RegionClasses classes) {
+  const auto write = [&](const auto& values, RegionClasses classes) {
     description.classes = std::move(classes);
-    write_regions(path, result.grid, std::span<const T>(values), description);
+    write_regions(path, result.grid, std::span(values), description);
   };
   switch (result.request.mode) {
     case Mode::kCount:

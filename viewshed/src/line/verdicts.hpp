@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
+#include <type_traits>
 #include <vector>
 
 #include <viewshed/viewshed.hpp>
@@ -15,10 +17,10 @@ namespace itin::viewshed {
 constexpr std::uint8_t code_of(Verdict verdict) {
   return static_cast<std::uint8_t>(verdict);
 }
-inline std::vector<std::uint8_t> codes_of(const std::vector<Verdict>& verdicts) {
-  std::vector<std::uint8_t> codes(verdicts.size());
-  std::transform(verdicts.begin(), verdicts.end(), codes.begin(), code_of);
-  return codes;
+/// The same memory: a verdict is its code.
+inline std::span<const std::uint8_t> codes_of(const std::vector<Verdict>& verdicts) {
+  static_assert(std::is_same_v<std::underlying_type_t<Verdict>, std::uint8_t>);
+  return {reinterpret_cast<const std::uint8_t*>(verdicts.data()), verdicts.size()};
 }
 
 /// Every observer's verdict on a cell, made one: the first of visible, undecided, hidden and outside that any of them
@@ -47,15 +49,25 @@ class Verdicts {
     for_each_row(tile, [&](std::size_t cell, RasterGrid::Cell first) {
       const auto columns = static_cast<std::size_t>(tile.columns);
       std::copy_n(values_.data() + cell, columns, result.visible.data() + result.grid.index(first));
-      const auto count = [&, row = values_.begin() + static_cast<std::ptrdiff_t>(cell)](Verdict verdict) {
-        return static_cast<std::uint64_t>(std::count(row, row + tile.columns, verdict));
-      };
-      cells.visible += count(Verdict::kVisible), cells.hidden += count(Verdict::kHidden);
-      cells.undecided += count(Verdict::kUndecided), cells.outside += count(Verdict::kOutside);
     });
+    cells += counts(tile);
   }
 
  private:
+  CellCounts counts(const Tile& tile) const {
+    const auto all = static_cast<std::uint64_t>(tile.rows * tile.columns);
+    const bool whole = all == values_.size();
+    const auto count = [&](Verdict verdict) {
+      if (whole) return static_cast<std::uint64_t>(std::count(values_.begin(), values_.end(), verdict));
+      std::uint64_t found = 0;
+      for_each_cell(tile, [&](std::size_t cell, RasterGrid::Cell) { found += values_[cell] == verdict ? 1 : 0; });
+      return found;
+    };
+    CellCounts counts{count(Verdict::kVisible), count(Verdict::kHidden), count(Verdict::kUndecided), 0};
+    counts.outside = all - counts.visible - counts.hidden - counts.undecided;
+    return counts;
+  }
+
   TileValues<Verdict> values_;
 };
 
