@@ -15,12 +15,10 @@ namespace itin {
 
 namespace {
 
-/// Windows are cut into quadtree cells of at most this many points: few enough to keep a cell's triangulation in the
-/// processor's cache.
-constexpr double kMostPerTile = 32768;
-/// Smaller windows are cut into some cells for each thread of an ordinary machine, but into none with so few points
-/// that its border is what costs. No result depends on it.
-constexpr double kTiles = 8, kLeastPerTile = 8192;
+/// Windows of more points than this are cut into quadtree cells: few enough points to keep a cell's triangulation in
+/// the processor's cache. There are some cells for each thread of an ordinary machine, but none with so few points that
+/// reading beyond its border is what costs. No result depends on it.
+constexpr double kMostPerTile = 32768, kLeastPerTile = 16384, kTiles = 8;
 
 /// Cells that cover the window.
 class TilePlan {
@@ -32,7 +30,7 @@ class TilePlan {
     std::vector<std::uint32_t> all(leaves_.size());
     double points = 0;
     for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i, points += leaves_[i].points;
-    per_tile_ = std::clamp(points / kTiles, kLeastPerTile, kMostPerTile);
+    if (points > kMostPerTile) per_tile_ = std::clamp(points / kTiles, kLeastPerTile, kMostPerTile);
     split(Cell{}, all);
   }
 
