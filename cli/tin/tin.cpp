@@ -1,9 +1,11 @@
 // itin tin: the triangulation of a window.
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <itin/coordinates.hpp>
 #include <itin/error.hpp>
@@ -44,6 +46,9 @@ class TinVerb final : public Verb {
         ->type_name("AZIMUTH,ELEVATION");
     app.add_option("--topology", topology_, "Write this structure of the triangulation: triangle, vertex or edge")
         ->type_name("KIND");
+    app.add_option("--lines", lines_, "Write the lines of these themes in place of triangles, joined (.gpkg)")
+        ->type_name("THEME,...")
+        ->delimiter(',');
     detail_.declare(app);
     themes_.declare(app);
     policy_.declare(app);
@@ -61,6 +66,8 @@ class TinVerb final : public Verb {
       view_.azimuth = look[0], view_.elevation = look[1];
     }
     if (!topology_.empty()) kind_ = topology_kind(topology_);
+    if (!lines_.empty() && output_.empty()) throw InputError("--lines: give --output FILE.gpkg with it");
+    if (!lines_.empty() && kind_) throw InputError("--lines and --topology write different files: give one of them");
   }
 
   Document parameters() const override {
@@ -75,6 +82,8 @@ class TinVerb final : public Verb {
     if (!image_.empty()) policy_.require_writable(image_);
     if (kind_) {
       require_topology_output(output_, policy_.overwrite);
+    } else if (!lines_.empty()) {
+      require_lines_output(output_, policy_.overwrite);
     } else if (!output_.empty()) {
       require_tin_output(output_, policy_.overwrite);
     }
@@ -83,11 +92,12 @@ class TinVerb final : public Verb {
     const Detail detail = detail_.detail(centre);
     const ThemeChoice themes = themes_.choice().with_ground_lines();
     themes.check(store.metadata().themes);
+    const std::vector<std::uint16_t> lines = line_themes(store.metadata(), themes);
     const Tin tin = triangulate(store, window, detail, progress, themes);
     if (tin.triangles.empty() && !image_.empty())
       throw InputError(window_.no_ground(store.metadata()) + "; there is nothing to draw");
     const Document surface = surface_document(store.metadata(), detail, themes);
-    if (!output_.empty()) write(tin, store.metadata(), surface, progress);
+    if (!output_.empty()) write(tin, lines, store.metadata(), surface, progress);
     if (!image_.empty()) viewshed::write_image(image_, viewshed::draw_oblique(tin, view_), policy_.overwrite);
     Result result{document(tin, store.metadata(), surface), text(tin), {}, {}};
     warn_of_scale(store.metadata(), result.warnings);
@@ -102,16 +112,39 @@ class TinVerb final : public Verb {
     query.update(detail_.parameters());
     query.update(themes_.parameters());
     if (kind_) query["topology"] = topology_;
+    if (!lines_.empty()) query["lines"] = lines_;
     return query;
   }
 
-  void write(const Tin& tin, const StoreMetadata& metadata, const Document& surface, Progress& progress) const {
+  static std::string theme_names(const StoreMetadata& metadata) {
+    if (metadata.themes.empty()) return "none";
+    return fmt::format("{}", fmt::join(ThemeChoice::all().names(metadata.themes), ", "));
+  }
+
+  /// The numbers of the themes whose lines are asked for.
+  std::vector<std::uint16_t> line_themes(const StoreMetadata& metadata, const ThemeChoice& themes) const {
+    std::vector<std::uint16_t> numbers;
+    for (const std::string& name : lines_) {
+      const auto theme = std::find_if(metadata.themes.begin(), metadata.themes.end(),
+                                      [&](const ThemeInfo& t) { return t.name == name; });
+      if (theme == metadata.themes.end())
+        throw InputError(fmt::format("--lines: the store has no theme '{}'; it has {}", name, theme_names(metadata)));
+      if (!themes.includes(*theme)) throw InputError(fmt::format("--lines: --themes leaves out '{}'", name));
+      numbers.push_back(static_cast<std::uint16_t>(theme - metadata.themes.begin() + 1));
+    }
+    return numbers;
+  }
+
+  void write(const Tin& tin, const std::vector<std::uint16_t>& lines, const StoreMetadata& metadata,
+             const Document& surface, Progress& progress) {
     TinExportOptions options;
     options.crs_wkt = metadata.crs_wkt;
     options.overwrite = policy_.overwrite;
     for (const ThemeInfo& theme : metadata.themes) options.theme_names.push_back(theme.name);
     options.metadata_json = json_text(Document{{"itin", ITIN_VERSION}, {"command", query()}, {"surface", surface}});
-    if (kind_) {
+    if (!lines.empty()) {
+      joined_ = export_lines(tin, lines, output_, options);
+    } else if (kind_) {
       export_topology(tin, *kind_, output_, options, progress);
     } else {
       export_tin(tin, output_, options, progress);
@@ -126,6 +159,7 @@ class TinVerb final : public Verb {
     document["vertices"] = tin.vertices.size();
     document["triangles"] = tin.triangles.size();
     document["line_edges"] = tin.lines.size();
+    if (joined_) document["lines"] = *joined_;
     document["outputs"] = outputs();
     document["statistics"] = {{"points_read", tin.statistics.points_read},
                               {"blocks_read", tin.statistics.blocks_read},
@@ -136,6 +170,11 @@ class TinVerb final : public Verb {
   std::string text(const Tin& tin) const {
     std::string text;
     for (const std::string& path : outputs()) {
+      if (joined_ && path == output_) {
+        text += fmt::format("{}: {}, {}\n", path, counted(*joined_, "line"),
+                            readable_bytes(std::filesystem::file_size(path)));
+        continue;
+      }
       text += fmt::format("{}: {}, {}, {}\n", path, counted(tin.vertices.size(), "vertex", "vertices"),
                           counted(tin.triangles.size(), "triangle"), readable_bytes(std::filesystem::file_size(path)));
     }
@@ -151,6 +190,8 @@ class TinVerb final : public Verb {
   }
 
   std::string store_, output_, topology_, image_, look_;
+  std::vector<std::string> lines_;
+  std::optional<std::size_t> joined_;  ///< lines written
   viewshed::ObliqueOptions view_;
   std::optional<TopologyKind> kind_;
   WindowOptions window_;

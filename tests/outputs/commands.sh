@@ -26,6 +26,7 @@ itin tin garth.itin --wedge 311000,184500,30,40,2000 --topology triangle -o wedg
 itin tin garth.itin --corridor 308600,182500,311000,185000,200 --topology edge -o corridor.json
 itin tin town.itin --all --themes all -o town.glb --image town.png
 itin tin contours.itin --all -o contours.geojson
+itin tin contours.itin --all --lines contours --tolerance 8 -o contour-lines.gpkg
 itin tin points.itin --all --tolerance 1 -o points.ply
 
 # Cross-sections and lines of sight.

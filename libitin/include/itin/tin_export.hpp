@@ -28,6 +28,8 @@
 // Coordinates are exact but for .glb: they quantise to the same grid positions.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -71,5 +73,14 @@ void export_tin(const Tin& tin, const std::string& path, const TinExportOptions&
 /// Indices count from 0. Errors as above.
 void export_topology(const Tin& tin, TopologyKind kind, const std::string& path, const TinExportOptions& options,
                      Progress& progress);
+
+/// Writes the lines of these themes (from 1), as long as they go on: a line ends where other than two of its theme's
+/// edges meet, and at the window's edge. A GeoPackage (.gpkg) with the layer `lines`: z, the theme's name, and
+/// `length_m`, horizontally. At a tolerance these are the lines generalised to it. Returns how many there are. Errors
+/// as above.
+std::size_t export_lines(const Tin& tin, const std::vector<std::uint16_t>& themes, const std::string& path,
+                         const TinExportOptions& options);
+/// Throws what export_lines() would throw before writing.
+void require_lines_output(const std::string& path, bool overwrite);
 
 }  // namespace itin
