@@ -17,7 +17,7 @@ namespace itin::viewshed {
 constexpr std::uint8_t code_of(Verdict verdict) {
   return static_cast<std::uint8_t>(verdict);
 }
-/// The same memory: a verdict is its code.
+/// In the memory of the verdicts, for a verdict is its code.
 inline std::span<const std::uint8_t> codes_of(const std::vector<Verdict>& verdicts) {
   static_assert(std::is_same_v<std::underlying_type_t<Verdict>, std::uint8_t>);
   return {reinterpret_cast<const std::uint8_t*>(verdicts.data()), verdicts.size()};
