@@ -42,6 +42,7 @@ class TinVerb final : public Verb {
             ->type_name("FILE"));
     writes(app.add_option("--image", image_, "A picture of the surface, seen obliquely (.png, .jpg, ...)")
                ->type_name("FILE"));
+    app.add_flag("--edges", view_.edges, "Draw the edges of all triangles into the picture");
     app.add_option("--look", look_, "Where the picture's viewer looks, and from how high, degrees (default: 340,40)")
         ->type_name("AZIMUTH,ELEVATION");
     app.add_option("--topology", topology_, "Write this structure of the triangulation: triangle, vertex or edge")
@@ -61,6 +62,7 @@ class TinVerb final : public Verb {
     if (output_.empty() && image_.empty()) throw InputError("give an output: --output FILE, or --image FILE.png");
     if (output_.empty() && !topology_.empty()) throw InputError("--topology: give --output FILE.json with it");
     if (!image_.empty()) viewshed::require_image_format(image_);
+    if (image_.empty() && view_.edges) throw InputError("--edges: give --image FILE.png with it");
     if (!look_.empty()) {
       const std::vector<double> look = parse_tuple("--look", look_, 2, "azimuth,elevation");
       view_.azimuth = look[0], view_.elevation = look[1];

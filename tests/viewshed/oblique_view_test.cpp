@@ -46,6 +46,24 @@ TEST(ObliqueView, HidesWhatIsBehindAWall) {
             colours(viewshed::draw_oblique(tin, {0, 20, 400})).size());
 }
 
+TEST(ObliqueView, DrawsEdgesWhereTrianglesMeet) {
+  // Triangles of 200 x 200 m: the middles of the squares' sides lie on edges, a quarter of a square away none is near.
+  const Tin plain = test::lattice_tin(3, 2, 200, [](auto, auto) { return 5.0; });
+  const viewshed::MapImage bare = viewshed::draw_oblique(plain, {0, 90, 400}),
+                           mesh = viewshed::draw_oblique(plain, {0, 90, 400, true});
+  ASSERT_EQ(mesh.rgb.size(), bare.rgb.size());
+  std::size_t darker = 0;
+  for (std::size_t i = 0; i < mesh.rgb.size(); ++i) {
+    EXPECT_LE(mesh.rgb[i], bare.rgb[i]);
+    darker += mesh.rgb[i] < bare.rgb[i] ? 1 : 0;
+  }
+  EXPECT_GT(darker, 0U);
+  EXPECT_LT(darker, mesh.rgb.size() / 10);
+  const auto on_edge = pixel(mesh, 0.5, 0.5), within = pixel(mesh, 0.25 + 0.02, 0.25);
+  EXPECT_LT(on_edge[0], within[0]);
+  EXPECT_EQ(within, pixel(bare, 0.25 + 0.02, 0.25));
+}
+
 TEST(ObliqueView, RefusesWhatCannotBeDrawn) {
   const Tin plain = test::lattice_tin(3, 3, 10, [](auto, auto) { return 5.0; });
   EXPECT_THROW(viewshed::draw_oblique(plain, {0, 0, 400}), InputError);

@@ -45,6 +45,7 @@ struct ObliqueOptions {
   double azimuth = 340;   ///< degrees clockwise from grid north: where the viewer looks
   double elevation = 40;  ///< degrees, above 0 up to 90: how high above the horizon the viewer is
   int pixels = 1600;      ///< of the picture's longer side, 200 to 16000
+  bool edges = false;     ///< those of all triangles, over the shading
 };
 
 /// Hidden parts are hidden exactly, up to a pixel. O(n) time for n triangles and O(pixels^2) memory, on one thread.

@@ -16,6 +16,9 @@ namespace {
 
 /// Pixels are averages of so many by so many samples.
 constexpr int kSamples = 2;
+/// Samples to either side of an edge.
+constexpr double kEdge = 0.8;
+constexpr double kEdgeShade = 0.45;
 /// This share of the picture's longer side is left free around the surface.
 constexpr double kMargin = 0.02;
 constexpr double kAmbient = 0.42;
@@ -33,7 +36,7 @@ struct Seen {
 
 class View {
  public:
-  View(const Tin& tin, const ObliqueOptions& options) : tin_(tin) {
+  View(const Tin& tin, const ObliqueOptions& options) : tin_(tin), edges_(options.edges) {
     const double degree = std::numbers::pi / 180;
     sin_a_ = std::sin(options.azimuth * degree), cos_a_ = std::cos(options.azimuth * degree);
     sin_e_ = std::sin(options.elevation * degree), cos_e_ = std::cos(options.elevation * degree);
@@ -90,6 +93,21 @@ class View {
     return {shaded(plain.red), shaded(plain.green), shaded(plain.blue)};
   }
 
+  static Colour darker(const Colour& c) {
+    const auto part = [](std::uint8_t value) { return static_cast<std::uint8_t>(std::lround(value * kEdgeShade)); };
+    return {part(c.red), part(c.green), part(c.blue)};
+  }
+
+  /// Each corner's barycentric coordinate at this distance from the side opposite.
+  static std::array<double, 3> weights_within(double distance, const std::array<Seen, 3>& s, double area) {
+    std::array<double, 3> weights{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Seen &p = s[(i + 1) % 3], &q = s[(i + 2) % 3];
+      weights[i] = distance * std::hypot(q.right - p.right, q.up - p.up) / std::abs(area);
+    }
+    return weights;
+  }
+
   /// Samples whose centres the triangle covers and that nothing nearer has taken.
   void fill(const Triangle& t) {
     std::array<Seen, 3> s{};
@@ -100,7 +118,8 @@ class View {
     const double area =
         (s[1].right - s[0].right) * (s[2].up - s[0].up) - (s[2].right - s[0].right) * (s[1].up - s[0].up);
     if (area == 0) return;
-    const Colour shade = colour(t);
+    const Colour shade = colour(t), edge = darker(shade);
+    const std::array<double, 3> edge_weights = weights_within(kEdge, s, area);
     const auto [low, high] = std::minmax({s[0].up, s[1].up, s[2].up});
     const int first = std::max(0, static_cast<int>(std::ceil(low)));
     const int last = std::min(height_ - 1, static_cast<int>(std::floor(high)));
@@ -121,7 +140,8 @@ class View {
             static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
         if (away >= depths_[i]) continue;
         depths_[i] = away;
-        colours_[i] = shade;
+        const bool on_edge = edges_ && (1 - wb - wc < edge_weights[0] || wb < edge_weights[1] || wc < edge_weights[2]);
+        colours_[i] = on_edge ? edge : shade;
       }
     }
   }
@@ -140,6 +160,7 @@ class View {
   }
 
   const Tin& tin_;
+  bool edges_;
   Point2 centre_;
   double sin_a_ = 0, cos_a_ = 1, sin_e_ = 0, cos_e_ = 1;
   std::array<double, 3> light_{};
