@@ -10,6 +10,7 @@
 #include <itin/error.hpp>
 #include <itin/paths.hpp>
 #include <itin/store.hpp>
+#include <itin/tin_export.hpp>
 
 #include "options/in_crs.hpp"
 #include "options/off_the_data.hpp"
@@ -19,6 +20,7 @@
 #include "output/store_document.hpp"
 #include "profile/profile_output.hpp"
 #include "program/call_files.hpp"
+#include "program/json_text.hpp"
 #include "program/values.hpp"
 #include "program/verb.hpp"
 
@@ -73,6 +75,8 @@ class ProfileVerb final : public Verb {
         writes(app.add_option("-o,--output", outputs_,
                               "What to write: .csv, .json, .geojson, or a chart: .svg, .pdf, .png; may be given again")
                    ->type_name("FILE")));
+    writes(app.add_option("--triangles", triangles_, "Write the triangles that the line crosses, as itin tin does")
+               ->type_name("FILE"));
     themes_.declare(app);
     policy_.declare(app);
   }
@@ -95,6 +99,8 @@ class ProfileVerb final : public Verb {
     if (!rings_text_.empty()) rings_ = parse_rings("--rings", rings_text_);
     if (tolerances_.empty()) tolerances_.push_back(0);
     for (const std::string& output : outputs_) require_profile_format(output);
+    if (!triangles_.empty() && tolerances_.size() > 1)
+      throw InputError("--triangles: the lines of several tolerances cross different ones; give one --tolerance");
     themes_.validate();
   }
 
@@ -120,6 +126,7 @@ class ProfileVerb final : public Verb {
 
   Result execute(Progress& progress) override {
     for (const std::string& output : outputs_) policy_.require_writable(output);
+    if (!triangles_.empty()) require_tin_output(triangles_, policy_.overwrite);
     const Store store(store_);
     const std::vector<Point2> corners = corners_in(store.metadata());
     Result result;
@@ -141,10 +148,11 @@ class ProfileVerb final : public Verb {
     result.document["crs"] = crs_identifier(store.metadata().crs_wkt);
     result.document["surface"] = surface_document(store.metadata(), profiles.front().detail, themes_.choice());
     result.document.update(profile_document(profiles, store.metadata()));
-    if (!outputs_.empty()) result.document["outputs"] = outputs_;
+    if (!outputs_.empty() || !triangles_.empty()) result.document["outputs"] = outputs();
     result.document["statistics"] = {
         {"points_read", cost.read.points_read}, {"blocks_read", cost.read.blocks_read}, {"triangles", cost.triangles}};
     write(store.metadata(), profiles, ground, corners, result.document);
+    if (!triangles_.empty()) write_triangles(store, corners, profiles.front().detail, progress);
     result.text = text(profiles, cost.read);
     return result;
   }
@@ -197,6 +205,22 @@ class ProfileVerb final : public Verb {
     return result;
   }
 
+  std::vector<std::string> outputs() const {
+    std::vector<std::string> paths = outputs_;
+    if (!triangles_.empty()) paths.push_back(triangles_);
+    return paths;
+  }
+
+  void write_triangles(const Store& store, const std::vector<Point2>& corners, const Detail& detail,
+                       Progress& progress) const {
+    TinExportOptions options;
+    options.crs_wkt = store.metadata().crs_wkt;
+    options.overwrite = policy_.overwrite;
+    for (const ThemeInfo& theme : store.metadata().themes) options.theme_names.push_back(theme.name);
+    options.metadata_json = json_text(Document{{"itin", ITIN_VERSION}, {"command", parameters()}});
+    export_tin(triangles_along(store, corners, detail, themes_.choice(), progress), triangles_, options, progress);
+  }
+
   void write(const StoreMetadata& metadata, const std::vector<SurfaceProfile>& profiles, const profile::Profile& ground,
              const std::vector<Point2>& corners, const Document& found) const {
     Document document{{"itin", ITIN_VERSION}, {"command", {{"verb", name()}}}};
@@ -229,12 +253,12 @@ class ProfileVerb final : public Verb {
       for (const auto& [from, to] : surface.profile.gaps) text += fmt::format(", no data {:.2f} to {:.2f} m", from, to);
       text += "\n";
     }
-    for (const std::string& output : outputs_) text += output + "\n";
+    for (const std::string& output : outputs()) text += output + "\n";
     return text + fmt::format("read {} in {}\n", counted(statistics.points_read, "point"),
                               counted(statistics.blocks_read, "block"));
   }
 
-  std::string store_, from_text_, to_text_, path_, rings_text_;
+  std::string store_, from_text_, to_text_, path_, rings_text_, triangles_;
   std::vector<std::string> via_text_, tolerance_texts_, outputs_;
   std::vector<Place> given_;
   std::vector<double> tolerances_;

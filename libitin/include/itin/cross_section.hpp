@@ -23,6 +23,7 @@
 
 #include <itin/detail.hpp>
 #include <itin/geometry.hpp>
+#include <itin/progress.hpp>
 #include <itin/theme.hpp>
 #include <itin/tin.hpp>
 
@@ -62,6 +63,12 @@ struct CrossSection {
 /// that the store does not have, CorruptStore, FileError.
 CrossSection cross_section(const Store& store, Point2 from, Point2 to, const Detail& detail,
                            const ThemeChoice& themes = ThemeChoice::none());
+
+/// The triangles that a path meets, be it at a corner: of all that a window query has there, those over which the
+/// cross-sections of its legs run. Memory follows the path. Throws InputError for fewer than two places, and as
+/// cross_section() and triangulate() do.
+Tin triangles_along(const Store& store, const std::vector<Point2>& path, const Detail& detail,
+                    const ThemeChoice& themes, Progress& progress);
 
 /// For many lines over one area: triangulates tiles once, keeps those used last, and walks lines through them. Safe for
 /// concurrent use. Refers to the Store, which must outlive it.

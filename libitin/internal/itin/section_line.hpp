@@ -9,6 +9,7 @@
 // lesser to the greater in (x, y), so that all arithmetic is the same from either end.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -70,6 +71,8 @@ class SectionLine {
   /// A vertex on the line.
   SectionCrossing crossing(const GridPoint& p) const;
 
+  /// Where the line, prolonged, enters and leaves a closed triangle; nothing where it misses it.
+  std::optional<SectionPiece> chord(const std::array<GridPoint, 3>& corners) const;
   /// The part of the line between two crossings, over which the surface is straight, that lies between the line's ends.
   std::optional<SectionPiece> clip(const SectionCrossing& from, const SectionCrossing& to) const;
 

@@ -104,6 +104,22 @@ SectionCrossing SectionLine::between(const SectionCrossing& from, const SectionC
   return at(t, {p.x, p.y, z}, SectionCrossing::Place::kWithin);
 }
 
+std::optional<SectionPiece> SectionLine::chord(const std::array<GridPoint, 3>& corners) const {
+  const std::array<Wide, 3> sides{side(corners[0]), side(corners[1]), side(corners[2])};
+  std::array<SectionCrossing, 6> crossings;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    if (sides[i] == 0) crossings[count++] = crossing(corners[i]);
+    if ((sides[i] < 0 && sides[j] > 0) || (sides[i] > 0 && sides[j] < 0))
+      crossings[count++] = crossing(corners[i], corners[j]);
+  }
+  if (count == 0) return std::nullopt;
+  const auto by_t = [](const SectionCrossing& a, const SectionCrossing& b) { return a.t < b.t; };
+  const auto [first, last] = std::minmax_element(crossings.begin(), crossings.begin() + count, by_t);
+  return SectionPiece{*first, *last};
+}
+
 std::optional<SectionPiece> SectionLine::clip(const SectionCrossing& from, const SectionCrossing& to) const {
   using Place = SectionCrossing::Place;
   if (to.place == Place::kBefore || from.place == Place::kBeyond) return std::nullopt;

@@ -13,28 +13,6 @@
 
 namespace itin::profile {
 
-namespace {
-
-/// Where the line, prolonged, enters and leaves a closed triangle; nothing where it misses it.
-std::optional<SectionPiece> chord_of(const SectionLine& line, const Tin& tin, const Triangle& triangle) {
-  std::array<SectionLine::Wide, 3> sides{};
-  for (std::size_t i = 0; i < 3; ++i) sides[i] = line.side(tin.vertices[triangle[i]]);
-  std::array<SectionCrossing, 6> crossings;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3;
-    const GridPoint &p = tin.vertices[triangle[i]], &q = tin.vertices[triangle[j]];
-    if (sides[i] == 0) crossings[count++] = line.crossing(p);
-    if ((sides[i] < 0 && sides[j] > 0) || (sides[i] > 0 && sides[j] < 0)) crossings[count++] = line.crossing(p, q);
-  }
-  if (count == 0) return std::nullopt;
-  const auto by_t = [](const SectionCrossing& a, const SectionCrossing& b) { return a.t < b.t; };
-  const auto [first, last] = std::minmax_element(crossings.begin(), crossings.begin() + count, by_t);
-  return SectionPiece{*first, *last};
-}
-
-}  // namespace
-
 bool SightLine::visible() const {
   return !clearance || *clearance >= -kGrazing;
 }
@@ -54,7 +32,7 @@ class SightLines::Impl {
     LeastClearance least;
     LeastFraction tightest(std::sqrt(wavelength_.value_or(0) * length));
     for (const std::uint32_t t : buckets_.near(line.start(), line.end())) {
-      const std::optional<SectionPiece> chord = chord_of(line, *tin_, tin_->triangles[t]);
+      const std::optional<SectionPiece> chord = line.chord(tin_->corners(t));
       if (!chord) continue;
       const std::optional<SectionPiece> piece = line.clip(chord->from, chord->to);
       if (!piece) continue;
