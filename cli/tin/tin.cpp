@@ -12,7 +12,6 @@
 #include <itin/store.hpp>
 #include <itin/tin_export.hpp>
 #include <itin/triangulate.hpp>
-#include <viewshed/map_image.hpp>
 
 #include "options/detail_options.hpp"
 #include "options/store_scale.hpp"
@@ -24,6 +23,7 @@
 #include "program/json_text.hpp"
 #include "program/values.hpp"
 #include "program/verb.hpp"
+#include "tin/picture_options.hpp"
 
 namespace itin::cli {
 
@@ -40,11 +40,7 @@ class TinVerb final : public Verb {
     writes(
         app.add_option("-o,--output", output_, "What to write: .ply, .obj, .glb, .gpkg or .geojson; a topology: .json")
             ->type_name("FILE"));
-    writes(app.add_option("--image", image_, "A picture of the surface, seen obliquely (.png, .jpg, ...)")
-               ->type_name("FILE"));
-    app.add_flag("--edges", view_.edges, "Draw the edges of all triangles into the picture");
-    app.add_option("--look", look_, "Where the picture's viewer looks, and from how high, degrees (default: 340,40)")
-        ->type_name("AZIMUTH,ELEVATION");
+    picture_.declare(app);
     app.add_option("--topology", topology_, "Write this structure of the triangulation: triangle, vertex or edge")
         ->type_name("KIND");
     app.add_option("--lines", lines_, "Write the lines of these themes in place of triangles, joined (.gpkg)")
@@ -59,14 +55,10 @@ class TinVerb final : public Verb {
     window_.validate();
     detail_.validate();
     themes_.validate();
-    if (output_.empty() && image_.empty()) throw InputError("give an output: --output FILE, or --image FILE.png");
+    if (output_.empty() && picture_.path().empty())
+      throw InputError("give an output: --output FILE, or --image FILE.png");
     if (output_.empty() && !topology_.empty()) throw InputError("--topology: give --output FILE.json with it");
-    if (!image_.empty()) viewshed::require_image_format(image_);
-    if (image_.empty() && view_.edges) throw InputError("--edges: give --image FILE.png with it");
-    if (!look_.empty()) {
-      const std::vector<double> look = parse_tuple("--look", look_, 2, "azimuth,elevation");
-      view_.azimuth = look[0], view_.elevation = look[1];
-    }
+    picture_.validate();
     if (!topology_.empty()) kind_ = topology_kind(topology_);
     if (!lines_.empty() && output_.empty()) throw InputError("--lines: give --output FILE.gpkg with it");
     if (!lines_.empty() && kind_) throw InputError("--lines and --topology write different files: give one of them");
@@ -75,13 +67,13 @@ class TinVerb final : public Verb {
   Document parameters() const override {
     Document parameters{{"store", store_}};
     if (!output_.empty()) parameters["output"] = output_;
-    if (!image_.empty()) parameters["image"] = image_;
+    if (!picture_.path().empty()) parameters["image"] = picture_.path();
     parameters.update(query());
     return parameters;
   }
 
   Result execute(Progress& progress) override {
-    if (!image_.empty()) policy_.require_writable(image_);
+    if (!picture_.path().empty()) policy_.require_writable(picture_.path());
     if (kind_) {
       require_topology_output(output_, policy_.overwrite);
     } else if (!lines_.empty()) {
@@ -96,11 +88,11 @@ class TinVerb final : public Verb {
     themes.check(store.metadata().themes);
     const std::vector<std::uint16_t> lines = line_themes(store.metadata(), themes);
     const Tin tin = triangulate(store, window, detail, progress, themes);
-    if (tin.triangles.empty() && !image_.empty())
+    if (tin.triangles.empty() && !picture_.path().empty())
       throw InputError(window_.no_ground(store.metadata()) + "; there is nothing to draw");
     const Document surface = surface_document(store.metadata(), detail, themes);
     if (!output_.empty()) write(tin, lines, store.metadata(), surface, progress);
-    if (!image_.empty()) viewshed::write_image(image_, viewshed::draw_oblique(tin, view_), policy_.overwrite);
+    if (!picture_.path().empty()) picture_.write(store, tin, detail, policy_.overwrite, progress);
     Result result{document(tin, store.metadata(), surface), text(tin), {}, {}};
     warn_of_scale(store.metadata(), result.warnings);
     if (tin.triangles.empty()) result.warnings.push_back(window_.no_ground(store.metadata()));
@@ -186,16 +178,16 @@ class TinVerb final : public Verb {
 
   std::vector<std::string> outputs() const {
     std::vector<std::string> paths;
-    for (const std::string& path : {output_, image_})
+    for (const std::string& path : {output_, picture_.path()})
       if (!path.empty()) paths.push_back(path);
     return paths;
   }
 
-  std::string store_, output_, topology_, image_, look_;
+  std::string store_, output_, topology_;
   std::vector<std::string> lines_;
   std::optional<std::size_t> joined_;  ///< lines written
-  viewshed::ObliqueOptions view_;
   std::optional<TopologyKind> kind_;
+  PictureOptions picture_;
   WindowOptions window_;
   DetailOptions detail_;
   ThemeOptions themes_;

@@ -1,10 +1,11 @@
 // Pictures for reports: a map of a viewshed with hillshade, observers, legend, scale bar, north arrow and title; and a
-// surface seen from afar and above.
+// surface seen from afar and above, or from a place.
 //
 //   const Tin tin = triangulate(store, Window::all(), request.detail, progress);
 //   const viewshed::Result result = viewshed::compute(tin, request, progress);
 //   viewshed::write_image("map.png", viewshed::draw_map(tin, result, {.title = "Mast at Caerphilly"}), false);
 //   viewshed::write_image("hills.png", viewshed::draw_oblique(tin, {.azimuth = 340, .elevation = 40}), false);
+//   viewshed::write_image("view.png", viewshed::draw_perspective(tin, {.eye = {318000, 176000, 52}}), false);
 #pragma once
 
 #include <cstdint>
@@ -51,6 +52,20 @@ struct ObliqueOptions {
 /// Hidden parts are hidden exactly, up to a pixel. O(n) time for n triangles and O(pixels^2) memory, on one thread.
 /// Throws InputError for options out of range and for a surface without triangles.
 MapImage draw_oblique(const Tin& tin, const ObliqueOptions& options = {});
+
+/// What an eye sees of a surface, in perspective, over the curved Earth; colours as above.
+struct PerspectiveOptions {
+  Point3 eye;          ///< its z an elevation, metres
+  double azimuth = 0;  ///< degrees clockwise from grid north, in the middle of the picture
+  double pitch = 0;    ///< degrees above the horizontal, between -90 and 90
+  double field = 60;   ///< degrees across the picture, 1 to 150
+  int pixels = 1600;   ///< of the picture's width, 200 to 16000; its height is nine sixteenths of that
+  Earth earth = {};
+  bool edges = false;  ///< those of all triangles, over the shading
+};
+
+/// Cost and errors are those of draw_oblique(). What is nearer than 0.1 m is not drawn.
+MapImage draw_perspective(const Tin& tin, const PerspectiveOptions& options);
 
 /// Throws InputError if OpenImageIO knows no format for the path's ending (png, jpg, tif, ...).
 void require_image_format(const std::string& path);
