@@ -39,6 +39,7 @@ constexpr std::array kNames{
     Names{"report", "--report"},
     Names{"resolution", "--resolution"},
     Names{"roof", "--roof"},
+    Names{"scale", "--sheet-scale"},
     Names{"theme", "--theme"},
     Names{"thickness", "--thickness"},
     Names{"to", "--to"},

@@ -18,6 +18,7 @@
 #include "options/earth_options.hpp"
 #include "options/off_the_data.hpp"
 #include "options/radius_preset.hpp"
+#include "options/sheet_options.hpp"
 #include "options/store_scale.hpp"
 #include "options/surface_options.hpp"
 #include "output/output_folder.hpp"
@@ -28,6 +29,7 @@
 #include "program/verb.hpp"
 #include "ztv/ztv_methods.hpp"
 #include "ztv/ztv_radio.hpp"
+#include "ztv/ztv_sheets.hpp"
 #include "ztv/ztv_turbines.hpp"
 #include "ztv/ztv_viewpoints.hpp"
 
@@ -57,6 +59,7 @@ class ZtvVerb final : public Verb {
     radius_.declare(app);
     viewpoints_.declare(app);
     radio_.declare(app);
+    sheets_.declare(app);
     detail_.declare(app);
     themes_.declare(app);
     earth_.declare(app);
@@ -73,6 +76,7 @@ class ZtvVerb final : public Verb {
     turbines_.validate();
     viewpoints_.validate(turbines_.in_crs());
     radio_.validate();
+    sheets_.validate();
     radius_.validate();
     detail_.validate();
     if (detail_.has_rings()) throw InputError("--rings lie about one observer; a ztv takes --tolerance");
@@ -101,6 +105,7 @@ class ZtvVerb final : public Verb {
     parameters["radius_preset"] = radius_.document();
     parameters.update(viewpoints_.parameters());
     parameters.update(radio_.parameters());
+    parameters.update(sheets_.parameters());
     parameters.update(detail_.parameters());
     parameters.update(themes_.parameters());
     parameters["nodata"] = nodata_text_.empty() ? "unknown" : nodata_text_;
@@ -175,6 +180,7 @@ class ZtvVerb final : public Verb {
       add(seen_.files);
       document["viewpoints"] = bad_rows_document(seen_.path, seen_.rows, seen_.rows - seen_.bad.size(), seen_.bad);
     }
+    if (sheets_.given()) add(write_ztv_sheets(folder, store, zone, sheets_, sheet_facts(metadata), progress));
     add_text("areas.csv", "km2 by band of turbines seen and by ring of distance to the nearest turbine",
              viewshed::area_table(zone));
     add_text("turbines.csv", "the turbines as understood, row by row, and what is wrong with those not used",
@@ -186,6 +192,13 @@ class ZtvVerb final : public Verb {
     for (const ZoneFile& file : files)
       document["outputs"].push_back(
           {{"path", (std::filesystem::path(output_) / file.name).string()}, {"what", file.what}});
+  }
+
+  ZtvSheetFacts sheet_facts(const StoreMetadata& metadata) const {
+    ZtvSheetFacts facts;
+    facts.viewpoints = seen_.places;
+    if (request_.themes) facts.themes = request_.themes->names(metadata.themes);
+    return facts;
   }
 
   std::string turbine_table(const Zone& zone) const {
@@ -307,6 +320,7 @@ class ZtvVerb final : public Verb {
   RadiusOptions radius_;
   ViewpointOptions viewpoints_;
   ZtvRadioOptions radio_;
+  SheetOptions sheets_;
   DetailOptions detail_;
   ThemeOptions themes_;
   EarthOptions earth_;

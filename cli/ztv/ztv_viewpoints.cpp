@@ -258,6 +258,7 @@ ViewpointOptions::Written ViewpointOptions::write(const std::string& folder, con
         table += row_of(v, zone.request.turbines[k], sights[k], screened ? &over_features[k] : nullptr);
       write_wireline(folder, bare, v, zone, sights, field_deg_, progress, written);
       if (screened) write_wireline(folder, *screened, v, zone, over_features, field_deg_, progress, written);
+      written.places.push_back({fmt::format("{} {}", number, v.name), v.position});
     } catch (const InputError& error) {
       written.bad.push_back({number, row.feature, in_options(error.what())});
     }

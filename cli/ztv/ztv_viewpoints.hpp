@@ -13,6 +13,7 @@
 
 #include "options/in_crs.hpp"
 #include "program/verb.hpp"
+#include "ztv/ztv_sheets.hpp"
 #include "ztv/ztv_turbines.hpp"
 
 namespace itin::cli {
@@ -30,6 +31,7 @@ class ViewpointOptions {
     std::size_t rows = 0;
     std::vector<BadRow> bad;
     std::string path;
+    std::vector<NamedPlace> places;  ///< of the viewpoints used
   };
   /// viewpoints.csv, and wireline-NAME.svg, .pdf and .png for each viewpoint. Throws FileError, Cancelled.
   Written write(const std::string& folder, const Store& store, const viewshed::Zone& zone, Progress& progress) const;

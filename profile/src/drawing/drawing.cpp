@@ -5,6 +5,7 @@
 #include <cairo-svg.h>
 #include <cairo.h>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <sstream>
 #include <string_view>
@@ -16,7 +17,6 @@ namespace itin::profile {
 
 namespace {
 
-constexpr double kPixelsPerPoint = 2;
 constexpr const char* kFont = "DejaVu Sans";
 
 cairo_status_t append(void* bytes, const unsigned char* data, unsigned int size) {
@@ -28,7 +28,8 @@ void require_success(cairo_status_t status) {
   if (status != CAIRO_STATUS_SUCCESS) throw Error(std::string("drawing failed: ") + cairo_status_to_string(status));
 }
 
-cairo_surface_t* make_surface(Drawing::Format format, double width, double height, std::string* bytes) {
+cairo_surface_t* make_surface(Drawing::Format format, double width, double height, double pixels_per_point,
+                              std::string* bytes) {
   switch (format) {
     case Drawing::Format::kSvg: {
       cairo_surface_t* svg = cairo_svg_surface_create_for_stream(append, bytes, width, height);
@@ -44,8 +45,8 @@ cairo_surface_t* make_surface(Drawing::Format format, double width, double heigh
     case Drawing::Format::kPng:
       break;
   }
-  return cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::lround(width * kPixelsPerPoint)),
-                                    static_cast<int>(std::lround(height * kPixelsPerPoint)));
+  return cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::lround(width * pixels_per_point)),
+                                    static_cast<int>(std::lround(height * pixels_per_point)));
 }
 
 /// Cairo numbers the surfaces of a process, and an SVG's only group bears the number though nothing refers to it.
@@ -65,6 +66,13 @@ void set_colour(cairo_t* cairo, const Colour& c) {
   cairo_set_source_rgba(cairo, c.red, c.green, c.blue, c.alpha);
 }
 
+/// As Cairo wants it: colours times their alpha.
+std::uint32_t times_alpha(std::uint32_t argb) {
+  const std::uint32_t alpha = argb >> 24;
+  const auto part = [&](unsigned shift) { return ((argb >> shift & 0xff) * alpha + 127) / 255 << shift; };
+  return alpha << 24 | part(16) | part(8) | part(0);
+}
+
 void trace(cairo_t* cairo, std::span<const Point2> points) {
   cairo_new_path(cairo);
   for (const Point2& p : points) cairo_line_to(cairo, p.x, p.y);
@@ -73,12 +81,12 @@ void trace(cairo_t* cairo, std::span<const Point2> points) {
 }  // namespace
 
 struct Drawing::Surface {
-  Surface(Format f, double width, double height)
-      : format(f), surface(make_surface(f, width, height, &bytes)), cairo(cairo_create(surface)) {
+  Surface(Format f, double width, double height, double pixels_per_point)
+      : format(f), surface(make_surface(f, width, height, pixels_per_point, &bytes)), cairo(cairo_create(surface)) {
     if (f == Format::kPng) {
       cairo_set_source_rgb(cairo, 1, 1, 1);
       cairo_paint(cairo);
-      cairo_scale(cairo, kPixelsPerPoint, kPixelsPerPoint);
+      cairo_scale(cairo, pixels_per_point, pixels_per_point);
     }
     cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
   }
@@ -103,8 +111,8 @@ std::optional<Drawing::Format> Drawing::format_of(const std::string& path) {
   return std::nullopt;
 }
 
-Drawing::Drawing(Format format, double width, double height)
-    : width_(width), height_(height), surface_(std::make_unique<Surface>(format, width, height)) {
+Drawing::Drawing(Format format, double width, double height, double pixels_per_point)
+    : width_(width), height_(height), surface_(std::make_unique<Surface>(format, width, height, pixels_per_point)) {
   require_success(cairo_status(surface_->cairo));
 }
 Drawing::~Drawing() = default;
@@ -134,6 +142,28 @@ void Drawing::circle(Point2 centre, double radius, const Colour& fill) {
   cairo_arc(surface_->cairo, centre.x, centre.y, radius, 0, 2 * std::numbers::pi);
   set_colour(surface_->cairo, fill);
   cairo_fill(surface_->cairo);
+}
+
+void Drawing::cells(const Box& box, int columns, int rows, std::span<const std::uint32_t> argb) {
+  cairo_surface_t* image = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, columns, rows);
+  unsigned char* const data = cairo_image_surface_get_data(image);
+  const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(image));
+  const auto width = static_cast<std::size_t>(columns);
+  for (std::size_t i = 0; i < argb.size(); ++i) {
+    const std::uint32_t pixel = times_alpha(argb[i]);
+    std::memcpy(data + i / width * stride + i % width * sizeof(pixel), &pixel, sizeof(pixel));
+  }
+  cairo_surface_mark_dirty(image);
+  cairo_t* cairo = surface_->cairo;
+  cairo_save(cairo);
+  cairo_translate(cairo, box.xmin, box.ymin);
+  cairo_scale(cairo, box.width() / columns, box.height() / rows);
+  cairo_set_source_surface(cairo, image, 0, 0);
+  cairo_pattern_set_filter(cairo_get_source(cairo), CAIRO_FILTER_NEAREST);
+  cairo_rectangle(cairo, 0, 0, columns, rows);
+  cairo_fill(cairo);
+  cairo_restore(cairo);
+  cairo_surface_destroy(image);
 }
 
 double Drawing::text_width(const std::string& text, const Lettering& lettering) const {
@@ -166,6 +196,15 @@ void Drawing::text(Point2 anchor, const std::string& text, const Lettering& lett
   cairo_translate(cairo, anchor.x, anchor.y);
   cairo_rotate(cairo, -lettering.turn_deg * std::numbers::pi / 180);
   cairo_move_to(cairo, shift, 0);
+  if (lettering.rim > 0) {
+    cairo_text_path(cairo, text.c_str());
+    cairo_set_source_rgba(cairo, 1, 1, 1, 0.85);
+    cairo_set_line_width(cairo, 2 * lettering.rim);
+    cairo_set_dash(cairo, nullptr, 0, 0);
+    cairo_stroke(cairo);
+    set_colour(cairo, lettering.colour);
+    cairo_move_to(cairo, shift, 0);
+  }
   cairo_show_text(cairo, text.c_str());
   cairo_restore(cairo);
 }

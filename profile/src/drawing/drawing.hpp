@@ -5,9 +5,10 @@
 //   drawing.text({100, 60}, "Caerphilly", {.size = 10, .align = Align::kCentre});
 //   write(drawing.finish());
 //
-// Lengths are points, 1/72 inch, y downwards. PNG has 2 pixels per point. The bytes depend on the calls alone.
+// Lengths are points, 1/72 inch, y downwards. The bytes depend on the calls alone.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -36,6 +37,7 @@ struct Lettering {
   Align align = Align::kLeft;
   bool bold = false;
   double turn_deg = 0;  ///< counterclockwise about the anchor
+  double rim = 0;       ///< width of a white edge that keeps what is below from the letters
 };
 
 class Drawing {
@@ -44,7 +46,8 @@ class Drawing {
   /// By the ending of a file's name, whatever its case; nothing for another ending.
   static std::optional<Format> format_of(const std::string& path);
 
-  Drawing(Format format, double width, double height);
+  /// `pixels_per_point` is that of PNG.
+  Drawing(Format format, double width, double height, double pixels_per_point = 2);
   ~Drawing();
   Drawing(const Drawing&) = delete;
   Drawing& operator=(const Drawing&) = delete;
@@ -56,6 +59,8 @@ class Drawing {
   void polygon(std::span<const Point2> points, const Colour& fill);
   void rectangle(const Box& box, const Colour& fill);
   void circle(Point2 centre, double radius, const Colour& fill);
+  /// Cells of equal size over a box, unsmoothed, row by row from the top: 0xAARRGGBB, no colour yet times its alpha.
+  void cells(const Box& box, int columns, int rows, std::span<const std::uint32_t> argb);
   /// The anchor is on the baseline, at the text's left end, centre or right end.
   void text(Point2 anchor, const std::string& text, const Lettering& lettering);
   double text_width(const std::string& text, const Lettering& lettering) const;

@@ -5,11 +5,9 @@
 #include <vector>
 
 #include <itin/raster.hpp>
+#include <viewshed/relief.hpp>
 
 namespace itin::viewshed {
-
-/// The shade of level ground.
-inline constexpr double kLevelShade = 0.643;
 
 /// One value per pixel: 0 (darkest) to 1 (brightest), NaN where its height, metres, is. Light comes from the north-west
 /// and, weaker, from the west, north and south-west, so that no slope direction is lost.

@@ -1,0 +1,60 @@
+#include "options/sheet_options.hpp"
+
+#include <chrono>
+#include <cstdlib>
+#include <sstream>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+
+#include "program/values.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+/// "23 November 2026": today, or the day that SOURCE_DATE_EPOCH gives.
+std::string today() {
+  std::time_t now = std::time(nullptr);
+  if (const char* const given = std::getenv("SOURCE_DATE_EPOCH"))
+    now = static_cast<std::time_t>(parse_number("SOURCE_DATE_EPOCH", given, Range::kNotNegative));
+  return fmt::format("{} {:%B %Y}", fmt::gmtime(now).tm_mday, fmt::gmtime(now));
+}
+
+}  // namespace
+
+void SheetOptions::declare(CLI::App& app) {
+  app.add_option("--sheets", papers_text_,
+                 "Maps on paper, to scale, with title block, legend, grid references and sources, as PDF and PNG: A3, "
+                 "A1 or both (default: none)")
+      ->type_name("A3,A1");
+  app.add_option("--sheet-scale", scale_text_,
+                 "Their scale's number, 100000 for 1:100,000 (default: the largest usual one that shows all)")
+      ->type_name("NUMBER");
+  app.add_option("--project", project_, "The project's name in title blocks")->type_name("NAME");
+  app.add_option("--date", date_, "The date in title blocks (default: today, UTC)")->type_name("TEXT");
+}
+
+void SheetOptions::validate() {
+  if (date_.empty()) date_ = today();
+  if (!scale_text_.empty() && papers_text_.empty()) throw InputError("--sheet-scale is of use with --sheets only");
+  if (!scale_text_.empty()) scale_ = parse_number("--sheet-scale", scale_text_, Range::kPositive);
+  if (papers_text_.empty()) return;
+  std::istringstream names(papers_text_);
+  for (std::string name; std::getline(names, name, ',');)
+    papers_.push_back(parse_choice("--sheets", name, {"A3", "A1"}) == 0 ? profile::PaperSize::kA3
+                                                                        : profile::PaperSize::kA1);
+}
+
+Document SheetOptions::parameters() const {
+  Document parameters = Document::object();
+  if (!given()) return parameters;
+  for (const profile::PaperSize paper : papers_) parameters["sheets"].push_back(profile::name_of(paper));
+  if (scale_ > 0) parameters["sheet_scale"] = scale_;
+  if (!project_.empty()) parameters["project"] = project_;
+  return parameters;
+}
+
+}  // namespace itin::cli

@@ -1,0 +1,121 @@
+#include "output/map_base.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include <itin/contour_lines.hpp>
+#include <itin/parallel.hpp>
+
+#include "output/store_document.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+constexpr double kPixel = 0.00025;    ///< metres on paper
+constexpr std::int64_t kCoarser = 3;  ///< pixels a side, whose mean contours follow
+constexpr profile::SheetColour kContour{150, 105, 60, 150};
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+struct Heights {
+  RasterGrid grid;
+  std::vector<float> values;
+};
+
+/// Means of squares of pixels; none where one of them has none.
+Heights smoothed(const viewshed::Relief& ground) {
+  const RasterGrid& fine = ground.pixels;
+  const std::int64_t columns = std::max<std::int64_t>(1, fine.columns() / kCoarser),
+                     rows = std::max<std::int64_t>(1, fine.rows() / kCoarser);
+  Heights result{{fine.north_west(), kCoarser * fine.cell_width(), kCoarser * fine.cell_height(), columns, rows}, {}};
+  result.values.assign(result.grid.cell_count(), kNaN);
+  if (fine.columns() < kCoarser || fine.rows() < kCoarser) return result;
+  for (std::int64_t row = 0; row < rows; ++row)
+    for (std::int64_t column = 0; column < columns; ++column) {
+      double sum = 0;
+      for (std::int64_t i = 0; i < kCoarser * kCoarser; ++i)
+        sum += ground.heights_m[fine.index({kCoarser * column + i % kCoarser, kCoarser * row + i / kCoarser})];
+      result.values[result.grid.index({column, row})] = static_cast<float>(sum / (kCoarser * kCoarser));
+    }
+  return result;
+}
+
+/// Of those that maps have, the one that draws at most some 16 lines between the lowest and the highest ground.
+double contour_interval(double relief) {
+  for (const double interval : {2.0, 5.0, 10.0, 20.0, 25.0, 50.0, 100.0})
+    if (relief <= 16 * interval) return interval;
+  return 200;
+}
+
+void add_contours(const Heights& heights, MapBase& base) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const float z : heights.values)
+    if (!std::isnan(z)) low = std::min<double>(low, z), high = std::max<double>(high, z);
+  if (!(high > low)) return;
+  const double interval = contour_interval(high - low);
+  profile::SheetLines plain{{}, kContour, 0.09, false}, index{{}, kContour, 0.2, false};
+  constexpr std::size_t kWorthALabel = 60;
+  for (double k = std::ceil(low / interval); k * interval < high; ++k) {
+    const bool fifth = std::fmod(k, 5) == 0;
+    for (auto& points : contour_lines(heights.grid, heights.values, k * interval)) {
+      const std::string label = fifth && points.size() > kWorthALabel ? fmt::format("{:g}", k * interval) : "";
+      (fifth ? index : plain).lines.push_back({std::move(points), label});
+    }
+  }
+  base.contours = {std::move(plain), std::move(index)};
+  base.keys.push_back({profile::SheetKey::Sample::kLine, kContour, fmt::format("Contours every {:g} m", interval)});
+}
+
+}  // namespace
+
+MapBase map_base(const Store& store, const profile::MapSheet& sheet, Progress& progress) {
+  const Box frame = profile::ground_in_frame(sheet);
+  const double pixel = kPixel * profile::scale_of(sheet);
+  const RasterGrid pixels({frame.xmin, frame.ymax}, pixel, pixel,
+                          static_cast<std::int64_t>(std::ceil(frame.width() / pixel)),
+                          static_cast<std::int64_t>(std::ceil(frame.height() / pixel)));
+  MapBase base{viewshed::relief(store, pixels, progress), {}, {}};
+  add_contours(smoothed(base.ground), base);
+  if (std::any_of(base.ground.heights_m.begin(), base.ground.heights_m.end(), [](float z) { return std::isnan(z); }))
+    base.keys.push_back({profile::SheetKey::Sample::kPatch, {237, 237, 242, 255}, "No terrain data"});
+  return base;
+}
+
+profile::SheetCells shaded(const viewshed::Relief& ground, const std::function<bool(Point2)>& studied) {
+  profile::SheetCells cells{ground.pixels, std::vector<profile::SheetColour>(ground.pixels.cell_count())};
+  parallel_for(static_cast<std::size_t>(ground.pixels.rows()), [&](std::size_t r) {
+    const auto row = static_cast<std::int64_t>(r);
+    for (std::int64_t column = 0; column < ground.pixels.columns(); ++column) {
+      const std::size_t i = ground.pixels.index({column, row});
+      if (std::isnan(ground.shades[i])) {
+        cells.colours[i].alpha = 0;
+        continue;
+      }
+      constexpr double kLevelGrey = 226, kContrast = 90, kFade = 0.6;
+      double grey = std::clamp(kLevelGrey + kContrast * (ground.shades[i] - viewshed::kLevelShade), 120.0, 250.0);
+      if (!studied(ground.pixels.centre(column, row))) grey += kFade * (255 - grey);
+      const auto level = static_cast<std::uint8_t>(std::lround(grey));
+      cells.colours[i] = {level, level, level, 255};
+    }
+  });
+  return cells;
+}
+
+std::vector<std::string> source_lines(const StoreMetadata& metadata) {
+  constexpr std::size_t kMostNames = 3;
+  std::vector<std::string> lines;
+  std::vector<std::string> unnoted;
+  for (const SourceInfo& source : metadata.sources) {
+    const std::string& line = source.note.empty() ? source.path : source.note;
+    std::vector<std::string>& to = source.note.empty() ? unnoted : lines;
+    if (std::find(to.begin(), to.end(), line) == to.end()) to.push_back(line);
+  }
+  for (std::size_t i = 0; i < std::min(unnoted.size(), kMostNames); ++i) lines.push_back(unnoted[i]);
+  if (unnoted.size() > kMostNames) lines.push_back("and " + counted(unnoted.size() - kMostNames, "more file"));
+  return lines;
+}
+
+}  // namespace itin::cli

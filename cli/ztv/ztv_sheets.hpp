@@ -1,0 +1,32 @@
+// The map sheets of `itin ztv`: every map of the zone on every paper asked for.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <itin/store.hpp>
+#include <viewshed/turbines.hpp>
+#include <viewshed/zone_files.hpp>
+
+#include "options/sheet_options.hpp"
+
+namespace itin::cli {
+
+struct NamedPlace {
+  std::string name;
+  Point2 position;
+};
+
+/// What title blocks say besides what the zone tells.
+struct ZtvSheetFacts {
+  std::vector<NamedPlace> viewpoints;
+  std::vector<std::string> themes;  ///< that screen
+};
+
+/// sheet-NAME-A3.pdf and .png of each map. Throws FileError, InputError (a scale that is too large), Cancelled.
+std::vector<viewshed::ZoneFile> write_ztv_sheets(const std::string& folder, const Store& store,
+                                                 const viewshed::Zone& zone, const SheetOptions& options,
+                                                 const ZtvSheetFacts& facts, Progress& progress);
+
+}  // namespace itin::cli

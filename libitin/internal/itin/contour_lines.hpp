@@ -1,0 +1,18 @@
+// Lines of equal value over a raster.
+//
+//   for (const std::vector<Point2>& line : contour_lines(grid, heights_m, 250)) ...
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <itin/raster.hpp>
+
+namespace itin {
+
+/// Where the values at the cells' centres, taken as linear between neighbours, equal `level`: polylines with higher
+/// values on their left, closed ones with their first point again at the end. A square of centres with a NaN has none.
+/// Precondition: values.size() == grid.cell_count(). O(cells).
+std::vector<std::vector<Point2>> contour_lines(const RasterGrid& grid, std::span<const float> values, double level);
+
+}  // namespace itin

@@ -1,0 +1,103 @@
+// A map on a sheet of paper, to scale: layers in a frame with the grid's references, and beside it a panel with title
+// block, legend, scale bar, north, statement, facts and sources.
+//
+//   profile::MapSheet sheet;
+//   sheet.area = {280000, 170000, 330000, 215000}, sheet.crs_wkt = store.metadata().crs_wkt;
+//   sheet.layers = {profile::SheetCells{grid, colours}, profile::SheetMarks{...}};
+//   sheet.title.title = "Zone of theoretical visibility: blade tips";
+//   write("ztv.pdf", profile::draw_map_sheet(sheet, "ztv.pdf"));
+//
+// It knows nothing of what the layers mean: viewsheds, zones and sites are all drawn by it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <itin/geometry.hpp>
+#include <itin/raster.hpp>
+
+namespace itin::profile {
+
+/// Landscape, as ISO 216 has them.
+enum class PaperSize { kA4, kA3, kA1 };
+/// "A3"
+const char* name_of(PaperSize paper);
+
+struct SheetColour {
+  std::uint8_t red = 0, green = 0, blue = 0, alpha = 255;
+};
+
+/// The cells of a grid, row by row from the north-west, each in its colour.
+struct SheetCells {
+  RasterGrid grid;
+  std::vector<SheetColour> colours;
+};
+
+/// A label stands where the line is farthest north: there it runs from west to east.
+struct SheetLine {
+  std::vector<Point2> points;
+  std::string label;
+};
+struct SheetLines {
+  std::vector<SheetLine> lines;
+  SheetColour colour;
+  double width_mm = 0.2;
+  bool dashed = false;
+};
+
+enum class SheetSymbol { kTurbine, kViewpoint, kMast };
+/// Labels that would cover another label or a mark are left out, those of later marks first.
+struct SheetMark {
+  Point2 at;
+  std::string label;
+};
+struct SheetMarks {
+  SheetSymbol symbol = SheetSymbol::kMast;
+  SheetColour colour;
+  std::vector<SheetMark> marks;
+};
+
+using SheetLayer = std::variant<SheetCells, SheetLines, SheetMarks>;
+
+/// One row of the legend; what is shown before the text looks as it does on the map.
+struct SheetKey {
+  enum class Sample { kPatch, kLine, kDashes, kTurbine, kViewpoint, kMast, kHeading };
+  Sample sample = Sample::kPatch;
+  SheetColour colour;
+  std::string text;
+};
+
+struct TitleBlock {
+  std::string project;                                     ///< may be empty
+  std::string title;                                       ///< what the map shows
+  std::string figure;                                      ///< its number; may be empty
+  std::string date;                                        ///< as it is to be printed
+  std::string statement;                                   ///< what the result takes into account and what not
+  std::vector<std::pair<std::string, std::string>> facts;  ///< name, value
+  std::vector<std::string> sources;                        ///< of the data, with their licences
+  std::string made_by;
+};
+
+struct MapSheet {
+  PaperSize paper = PaperSize::kA3;
+  double scale = 0;                ///< 1 : scale; 0: the largest of the usual ones at which the frame holds `area`
+  Box area;                        ///< in the middle of the frame, metres
+  std::string crs_wkt;             ///< whose grid is marked; the National Grid by its letters
+  std::vector<SheetLayer> layers;  ///< the lowest first
+  std::vector<SheetKey> legend;
+  TitleBlock title;
+};
+
+/// The scale at which it is drawn.
+double scale_of(const MapSheet& sheet);
+/// The ground inside the frame at that scale: what layers may fill.
+Box ground_in_frame(const MapSheet& sheet);
+
+/// The bytes of a file: .pdf or .png (200 dots per inch) by the name's ending. Equal sheets give equal bytes.
+/// Throws InputError for another ending, and for a scale at which the area is larger than the frame.
+std::string draw_map_sheet(const MapSheet& sheet, const std::string& path);
+
+}  // namespace itin::profile

@@ -1,0 +1,205 @@
+#include "sheet/map_frame.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include <itin/grid_reference.hpp>
+
+#include "drawing/palette.hpp"
+
+namespace itin::profile {
+
+namespace {
+
+constexpr Colour kGridInk{0.25, 0.35, 0.55};
+constexpr Colour kNothing{0.93, 0.93, 0.95};  ///< where the map has no layer
+
+/// The distance of grid lines: 20 mm apart at least, of those that maps have.
+double grid_step(double points_per_metre) {
+  for (const double step : {100.0, 500.0, 1000.0, 5000.0, 10000.0, 50000.0})
+    if (step * points_per_metre >= 20 * kPointsPerMillimetre) return step;
+  return 100000;
+}
+
+Colour opaque(SheetColour c) {
+  c.alpha = 255;
+  return drawn(c);
+}
+
+std::uint32_t argb(const SheetColour& c) {
+  return std::uint32_t{c.alpha} << 24 | std::uint32_t{c.red} << 16 | std::uint32_t{c.green} << 8 | c.blue;
+}
+
+}  // namespace
+
+void draw_symbol(Drawing& drawing, SheetSymbol symbol, Point2 at, double size, const SheetColour& colour) {
+  const Colour fill = drawn(colour);
+  if (symbol == SheetSymbol::kTurbine) {
+    const Point2 hub{at.x, at.y - 0.45 * size};
+    const auto blades = [&](const Stroke& stroke) {
+      drawing.polyline(std::array{at, hub}, stroke);
+      for (const double turn : {0.0, 2.0, 4.0}) {
+        const double a = turn * std::numbers::pi / 3, r = 0.5 * size;
+        drawing.polyline(std::array{hub, Point2{hub.x + r * std::sin(a), hub.y - r * std::cos(a)}}, stroke);
+      }
+    };
+    blades({{1, 1, 1, 0.9}, 0.34 * size, {}});
+    blades({fill, 0.15 * size, {}});
+    return;
+  }
+  drawing.circle(at, 0.5 * size, kPaper);
+  drawing.circle(at, 0.43 * size, fill);
+  if (symbol == SheetSymbol::kViewpoint) drawing.circle(at, 0.18 * size, kPaper);
+}
+
+MapFrame::MapFrame(Drawing& drawing, const Paper& paper, const Box& ground)
+    : drawing_(drawing), paper_(paper), ground_(ground), scale_(paper.frame.width() / ground.width()) {}
+
+Point2 MapFrame::at(Point2 p) const {
+  return {paper_.frame.xmin + (p.x - ground_.xmin) * scale_, paper_.frame.ymax - (p.y - ground_.ymin) * scale_};
+}
+
+void MapFrame::draw(const MapSheet& sheet) {
+  drawing_.clip(paper_.frame);
+  drawing_.rectangle(paper_.frame, kNothing);
+  for (const SheetLayer& layer : sheet.layers) std::visit([&](const auto& l) { draw_layer(l); }, layer);
+  // Labels above all layers: those of marks, then of lines, so that the former find a place.
+  for (const SheetLayer& layer : sheet.layers)
+    if (const auto* marks = std::get_if<SheetMarks>(&layer)) label_marks(*marks);
+  for (const SheetLayer& layer : sheet.layers)
+    if (const auto* lines = std::get_if<SheetLines>(&layer))
+      for (const SheetLine& line : lines->lines) label_line(line, lines->colour);
+  drawing_.unclip();
+  draw_grid(sheet.crs_wkt);
+  draw_frame();
+}
+
+void MapFrame::draw_layer(const SheetCells& cells) {
+  std::vector<std::uint32_t> pixels(cells.colours.size());
+  std::transform(cells.colours.begin(), cells.colours.end(), pixels.begin(), argb);
+  const Box box = cells.grid.bounds();
+  const Point2 top = at({box.xmin, box.ymax}), bottom = at({box.xmax, box.ymin});
+  drawing_.cells({top.x, top.y, bottom.x, bottom.y}, static_cast<int>(cells.grid.columns()),
+                 static_cast<int>(cells.grid.rows()), pixels);
+}
+
+void MapFrame::draw_layer(const SheetLines& lines) {
+  Stroke stroke{drawn(lines.colour), lines.width_mm * kPointsPerMillimetre * paper_.type, {}};
+  if (lines.dashed)
+    stroke.dashes = {2.2 * kPointsPerMillimetre * paper_.type, 1.4 * kPointsPerMillimetre * paper_.type};
+  std::vector<Point2> points;
+  for (const SheetLine& line : lines.lines) {
+    points.clear();
+    for (const Point2& p : line.points) points.push_back(at(p));
+    drawing_.polyline(points, stroke);
+  }
+}
+
+void MapFrame::draw_layer(const SheetMarks& marks) {
+  const double size = 3.4 * kPointsPerMillimetre * paper_.type;
+  for (const SheetMark& mark : marks.marks) {
+    const Point2 p = at(mark.at);
+    draw_symbol(drawing_, marks.symbol, p, size, marks.colour);
+    const double up = marks.symbol == SheetSymbol::kTurbine ? size : size / 2;
+    places_.take({p.x - 0.4 * size, p.y - up, p.x + 0.4 * size, p.y - up + size});
+  }
+}
+
+void MapFrame::label_line(const SheetLine& line, const SheetColour& colour) {
+  if (line.label.empty()) return;
+  const Lettering lettering{.size = 6 * paper_.type, .colour = opaque(colour), .align = Align::kCentre, .rim = 1.4};
+  const double half = drawing_.text_width(line.label, lettering) / 2 + 1, up = lettering.size / 2;
+  std::vector<Point2> north;
+  for (const Point2& p : line.points) north.push_back(at(p));
+  std::sort(north.begin(), north.end(), [](Point2 a, Point2 b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
+  for (const Point2& p : north) {
+    const Box box{p.x - half, p.y - up, p.x + half, p.y + up};
+    if (box.xmin < paper_.frame.xmin || box.xmax > paper_.frame.xmax || box.ymin < paper_.frame.ymin ||
+        box.ymax > paper_.frame.ymax || !places_.free(box))
+      continue;
+    drawing_.text({p.x, p.y + 0.35 * lettering.size}, line.label, lettering);
+    places_.take(box);
+    return;
+  }
+}
+
+void MapFrame::label_marks(const SheetMarks& marks) {
+  const double size = 3.4 * kPointsPerMillimetre * paper_.type,
+               up = marks.symbol == SheetSymbol::kTurbine ? 0.4 * size : 0;
+  const bool bold = marks.symbol == SheetSymbol::kViewpoint;
+  const Lettering lettering{.size = (bold ? 7 : 5.5) * paper_.type, .colour = kInk, .bold = bold, .rim = 1.4};
+  for (const SheetMark& mark : marks.marks) {
+    if (mark.label.empty()) continue;
+    const Point2 p = at(mark.at);
+    const double width = drawing_.text_width(mark.label, lettering), height = 0.75 * lettering.size;
+    // Beside, above and below, at its corners.
+    const double far = 0.55 * size, x0 = p.x - width / 2, y0 = p.y - up + height / 2;
+    const Point2 anchors[] = {{p.x + far, y0},
+                              {p.x - far - width, y0},
+                              {x0, p.y - up - 1.2 * far},
+                              {x0, p.y - up + 1.2 * far + height},
+                              {p.x + 0.7 * far, p.y - up - 0.8 * far},
+                              {p.x - 0.7 * far - width, p.y - up - 0.8 * far}};
+    for (const Point2& anchor : anchors) {
+      const Box box{anchor.x - 0.5, anchor.y - height, anchor.x + width + 0.5, anchor.y + 0.5};
+      if (!places_.free(box)) continue;
+      drawing_.text(anchor, mark.label, lettering);
+      places_.take(box);
+      break;
+    }
+  }
+}
+
+void MapFrame::draw_grid(const std::string& crs_wkt) {
+  const double step = grid_step(scale_), tick = 2 * kPointsPerMillimetre * paper_.type,
+               arm = 1.2 * kPointsPerMillimetre * paper_.type;
+  const Box& frame = paper_.frame;
+  const Stroke fine{kGridInk, 0.35 * paper_.type, {}};
+  const Lettering outside{.size = 5.5 * paper_.type, .colour = kInk, .align = Align::kCentre};
+  const Lettering inside{.size = 4.5 * paper_.type, .colour = kGridInk, .rim = 0.8};
+  const bool national = is_national_grid(crs_wkt);
+  const auto label = [](double metres) { return fmt::format("{:.10g}", metres / 1000); };
+  const auto first = [&](double from) { return std::ceil(from / step) * step; };
+  for (double x = first(ground_.xmin); x <= ground_.xmax; x += step) {
+    const double px = at({x, 0}).x;
+    drawing_.polyline(std::array{Point2{px, frame.ymin}, Point2{px, frame.ymin + tick}}, fine);
+    drawing_.polyline(std::array{Point2{px, frame.ymax}, Point2{px, frame.ymax - tick}}, fine);
+    drawing_.text({px, frame.ymin - 3}, label(x), outside);
+    drawing_.text({px, frame.ymax + 3 + 0.75 * outside.size}, label(x), outside);
+  }
+  for (double y = first(ground_.ymin); y <= ground_.ymax; y += step) {
+    const double py = at({0, y}).y;
+    drawing_.polyline(std::array{Point2{frame.xmin, py}, Point2{frame.xmin + tick, py}}, fine);
+    drawing_.polyline(std::array{Point2{frame.xmax, py}, Point2{frame.xmax - tick, py}}, fine);
+    Lettering turned = outside;
+    turned.turn_deg = 90;
+    drawing_.text({frame.xmin - 3, py}, label(y), turned);
+    drawing_.text({frame.xmax + 3 + 0.75 * outside.size, py}, label(y), turned);
+    for (double x = first(ground_.xmin); x <= ground_.xmax; x += step) {
+      const Point2 p = at({x, y});
+      drawing_.polyline(std::array{Point2{p.x - arm, p.y}, Point2{p.x + arm, p.y}}, fine);
+      drawing_.polyline(std::array{Point2{p.x, p.y - arm}, Point2{p.x, p.y + arm}}, fine);
+      const auto reference = national ? national_grid_reference({x, y}, step >= 10000  ? 1
+                                                                        : step >= 1000 ? 2
+                                                                                       : 3)
+                                      : std::nullopt;
+      const Box box{p.x + 1, p.y - 1 - inside.size, p.x + 1 + (reference ? drawing_.text_width(*reference, inside) : 0),
+                    p.y - 1};
+      if (reference && box.xmax < frame.xmax - tick && box.ymin > frame.ymin + tick && places_.free(box))
+        drawing_.text({p.x + 1, p.y - 1}, *reference, inside);
+    }
+  }
+}
+
+void MapFrame::draw_frame() {
+  const Box& f = paper_.frame;
+  drawing_.polyline(std::array{Point2{f.xmin, f.ymin}, Point2{f.xmax, f.ymin}, Point2{f.xmax, f.ymax},
+                               Point2{f.xmin, f.ymax}, Point2{f.xmin, f.ymin}},
+                    {kInk, 0.8 * paper_.type, {}});
+}
+
+}  // namespace itin::profile

@@ -1,0 +1,45 @@
+// The map of a sheet: its layers to scale in their frame, with the grid's references about it.
+#pragma once
+
+#include <itin/geometry.hpp>
+#include <profile/map_sheet.hpp>
+
+#include "drawing/drawing.hpp"
+#include "sheet/label_places.hpp"
+#include "sheet/paper.hpp"
+
+namespace itin::profile {
+
+inline Colour drawn(const SheetColour& c) {
+  return {c.red / 255.0, c.green / 255.0, c.blue / 255.0, c.alpha / 255.0};
+}
+
+/// A mark of a map or its legend; `size` is its height in points.
+void draw_symbol(Drawing& drawing, SheetSymbol symbol, Point2 at, double size, const SheetColour& colour);
+
+class MapFrame {
+ public:
+  /// `ground` fills the paper's frame.
+  MapFrame(Drawing& drawing, const Paper& paper, const Box& ground);
+
+  void draw(const MapSheet& sheet);
+  double points_per_metre() const { return scale_; }
+
+ private:
+  Point2 at(Point2 ground) const;
+  void draw_layer(const SheetCells& cells);
+  void draw_layer(const SheetLines& lines);
+  void draw_layer(const SheetMarks& marks);
+  void label_line(const SheetLine& line, const SheetColour& colour);
+  void label_marks(const SheetMarks& marks);
+  void draw_grid(const std::string& crs_wkt);
+  void draw_frame();
+
+  Drawing& drawing_;
+  const Paper& paper_;
+  Box ground_;
+  double scale_;  ///< points a metre
+  LabelPlaces places_;
+};
+
+}  // namespace itin::profile

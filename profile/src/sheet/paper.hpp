@@ -1,0 +1,20 @@
+// The parts of a sheet of paper: its edges, the map's frame and the panel beside it. Points, 1/72 inch.
+#pragma once
+
+#include <itin/geometry.hpp>
+#include <profile/map_sheet.hpp>
+
+namespace itin::profile {
+
+inline constexpr double kPointsPerMillimetre = 72 / 25.4;
+
+struct Paper {
+  double width, height;
+  double type;  ///< sizes of letters and symbols are times this one: A1 is read from farther away
+  Box frame;    ///< of the map
+  Box panel;
+};
+
+Paper paper_of(PaperSize size);
+
+}  // namespace itin::profile

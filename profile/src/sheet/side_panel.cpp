@@ -1,0 +1,214 @@
+#include "sheet/side_panel.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <itin/coordinates.hpp>
+
+#include "drawing/palette.hpp"
+#include "sheet/map_frame.hpp"
+
+namespace itin::profile {
+
+namespace {
+
+/// 100000 as "100,000".
+std::string with_commas(double number) {
+  std::string digits = fmt::format("{:.0f}", number);
+  for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, 1, ',');
+  return digits;
+}
+
+/// 1, 2 or 5 times a power of ten, at most v.
+double round_down(double v) {
+  const double decade = std::pow(10, std::floor(std::log10(v)));
+  return v >= 5 * decade ? 5 * decade : v >= 2 * decade ? 2 * decade : decade;
+}
+
+}  // namespace
+
+SidePanel::SidePanel(Drawing& drawing, const Paper& paper, const MapSheet& sheet, double scale)
+    : drawing_(drawing),
+      paper_(paper),
+      sheet_(sheet),
+      scale_(scale),
+      left_(paper.panel.xmin + 3 * kPointsPerMillimetre * paper.type),
+      right_(paper.panel.xmax - 3 * kPointsPerMillimetre * paper.type),
+      y_(paper.panel.ymin) {}
+
+void SidePanel::draw() {
+  draw_heading();
+  const double notes = notes_height(), foot = 17 * kPointsPerMillimetre * paper_.type;
+  draw_legend(paper_.panel.ymax - foot - notes - 24 * kPointsPerMillimetre * paper_.type);
+  draw_scale();
+  draw_notes();
+  draw_foot();
+  const Box& p = paper_.panel;
+  drawing_.polyline(std::array{Point2{p.xmin, p.ymin}, Point2{p.xmax, p.ymin}, Point2{p.xmax, p.ymax},
+                               Point2{p.xmin, p.ymax}, Point2{p.xmin, p.ymin}},
+                    {kInk, 0.8 * paper_.type, {}});
+}
+
+void SidePanel::rule() {
+  y_ += 1.5 * kPointsPerMillimetre * paper_.type;
+  if (!measuring_)
+    drawing_.polyline(std::array{Point2{paper_.panel.xmin, y_}, Point2{paper_.panel.xmax, y_}},
+                      {kInk, 0.4 * paper_.type, {}});
+  y_ += 1 * kPointsPerMillimetre * paper_.type;
+}
+
+void SidePanel::paragraph(const std::string& text, double size, bool bold) {
+  const Lettering lettering{.size = size * paper_.type, .colour = kInk, .bold = bold};
+  for (const std::string& line : drawing_.lines(text, right_ - left_, lettering)) {
+    y_ += 1.28 * lettering.size;
+    if (!measuring_) drawing_.text({left_, y_}, line, lettering);
+  }
+  y_ += 0.35 * lettering.size;
+}
+
+void SidePanel::draw_heading() {
+  y_ += 1.5 * kPointsPerMillimetre * paper_.type;
+  if (!sheet_.title.project.empty()) paragraph(sheet_.title.project, 9.5, false);
+  paragraph(sheet_.title.title, 12, true);
+  rule();
+}
+
+void SidePanel::draw_key(const SheetKey& key) {
+  using enum SheetKey::Sample;
+  const double row = 4.4 * kPointsPerMillimetre * paper_.type, width = 7 * kPointsPerMillimetre * paper_.type,
+               x = left_, middle = y_ + row / 2;
+  if (key.sample == kHeading) return paragraph(key.text, 7.5, true);
+  const Box patch{x, middle - 0.36 * row, x + width, middle + 0.36 * row};
+  const double size = 0.85 * row;
+  switch (key.sample) {
+    case kPatch: {
+      const double wash = 0.84;  // of level ground in the relief
+      drawing_.rectangle(patch, {wash, wash, wash});
+      drawing_.rectangle(patch, drawn(key.colour));
+      drawing_.polyline(
+          std::array{Point2{patch.xmin, patch.ymin}, Point2{patch.xmax, patch.ymin}, Point2{patch.xmax, patch.ymax},
+                     Point2{patch.xmin, patch.ymax}, Point2{patch.xmin, patch.ymin}},
+          {kFaint, 0.3 * paper_.type, {}});
+      break;
+    }
+    case kLine:
+    case kDashes: {
+      Stroke stroke{drawn(key.colour), 0.35 * kPointsPerMillimetre * paper_.type, {}};
+      if (key.sample == kDashes)
+        stroke.dashes = {2.2 * kPointsPerMillimetre * paper_.type, 1.4 * kPointsPerMillimetre * paper_.type};
+      drawing_.polyline(std::array{Point2{patch.xmin, middle}, Point2{patch.xmax, middle}}, stroke);
+      break;
+    }
+    case kTurbine:
+      draw_symbol(drawing_, SheetSymbol::kTurbine, {x + width / 2, middle + 0.4 * size}, size, key.colour);
+      break;
+    case kViewpoint:
+      draw_symbol(drawing_, SheetSymbol::kViewpoint, {x + width / 2, middle}, size, key.colour);
+      break;
+    default:
+      draw_symbol(drawing_, SheetSymbol::kMast, {x + width / 2, middle}, size, key.colour);
+  }
+  const Lettering lettering{.size = 7 * paper_.type, .colour = kInk};
+  const double text = x + width + 2 * kPointsPerMillimetre * paper_.type;
+  double baseline = middle + 0.36 * lettering.size;
+  for (const std::string& line : drawing_.lines(key.text, right_ - text, lettering)) {
+    drawing_.text({text, baseline}, line, lettering);
+    baseline += 1.2 * lettering.size;
+  }
+  y_ = std::max(y_ + row, baseline - 0.8 * lettering.size);
+}
+
+void SidePanel::draw_legend(double bottom) {
+  std::size_t left = sheet_.legend.size();
+  for (const SheetKey& key : sheet_.legend) {
+    if (y_ + 8 * kPointsPerMillimetre * paper_.type > bottom && left > 1) {
+      paragraph(fmt::format("and {} more", left), 7, false);
+      break;
+    }
+    draw_key(key);
+    --left;
+  }
+  rule();
+}
+
+void SidePanel::draw_scale() {
+  const double top = y_, points_per_metre = 1000 * kPointsPerMillimetre / scale_;
+  const double length = round_down(46 * kPointsPerMillimetre * paper_.type / points_per_metre),
+               bar = length * points_per_metre;
+  const double unit = length >= 2000 ? 1000 : 1;
+  const Lettering small{.size = 6.5 * paper_.type, .colour = kInk, .align = Align::kCentre};
+  drawing_.text({left_, y_ + 9 * paper_.type},
+                fmt::format("Scale 1:{} at {}", with_commas(scale_), name_of(sheet_.paper)),
+                {.size = 8.5 * paper_.type, .colour = kInk, .bold = true});
+  y_ += 13 * paper_.type;
+  constexpr int kParts = 4;
+  const double left = left_ + 2 * kPointsPerMillimetre * paper_.type, height = 1.6 * kPointsPerMillimetre * paper_.type;
+  for (int i = 0; i < kParts; ++i)
+    drawing_.rectangle({left + bar * i / kParts, y_, left + bar * (i + 1) / kParts, y_ + height},
+                       i % 2 == 0 ? kInk : kPaper);
+  drawing_.polyline(std::array{Point2{left, y_}, Point2{left + bar, y_}, Point2{left + bar, y_ + height},
+                               Point2{left, y_ + height}, Point2{left, y_}},
+                    {kInk, 0.4 * paper_.type, {}});
+  for (const int i : {0, 2, 4})
+    drawing_.text({left + bar * i / kParts, y_ + height + 8 * paper_.type},
+                  fmt::format("{:g}{}", length * i / kParts / unit,
+                              i < kParts ? ""
+                              : unit > 1 ? " km"
+                                         : " m"),
+                  small);
+  y_ += height + 10 * paper_.type;
+  draw_north({right_ - 6 * kPointsPerMillimetre * paper_.type, top + 14 * kPointsPerMillimetre * paper_.type});
+  y_ = std::max(y_, top + 16 * kPointsPerMillimetre * paper_.type);
+  rule();
+}
+
+void SidePanel::draw_north(Point2 foot) {
+  const double u = kPointsPerMillimetre * paper_.type;
+  const Point2 tip{foot.x, foot.y - 10 * u}, notch{foot.x, foot.y - 2.5 * u};
+  drawing_.polygon(std::array{tip, Point2{foot.x - 2.4 * u, foot.y}, notch}, kInk);
+  drawing_.polyline(std::array{tip, Point2{foot.x + 2.4 * u, foot.y}, notch}, {kInk, 0.4 * paper_.type, {}});
+  drawing_.text({foot.x, tip.y - 1 * u}, "N", {.size = 8 * paper_.type, .colour = kInk, .align = Align::kCentre});
+  drawing_.text({foot.x - 4 * u, foot.y}, "grid", {.size = 5 * paper_.type, .colour = kFaint, .align = Align::kRight});
+}
+
+void SidePanel::draw_notes() {
+  const TitleBlock& t = sheet_.title;
+  if (!t.statement.empty()) paragraph(t.statement, 7, true);
+  for (const auto& [name, value] : t.facts) paragraph(name + ": " + value, 6.3, false);
+  std::string sources;
+  for (const std::string& source : t.sources) sources += (sources.empty() ? "" : "; ") + source;
+  if (!sources.empty()) paragraph("Sources: " + sources, 6.3, false);
+  rule();
+}
+
+double SidePanel::notes_height() {
+  const double before = y_;
+  measuring_ = true;
+  draw_notes();
+  measuring_ = false;
+  const double height = y_ - before;
+  y_ = before;
+  return height;
+}
+
+void SidePanel::draw_foot() {
+  const TitleBlock& t = sheet_.title;
+  const double u = paper_.type;
+  const double y = paper_.panel.ymax;
+  const Lettering small{.size = 6.3 * u, .colour = kFaint}, plain{.size = 8.5 * u, .colour = kInk, .bold = true};
+  drawing_.polyline(std::array{Point2{paper_.panel.xmin, y - 36 * u}, Point2{paper_.panel.xmax, y - 36 * u}},
+                    {kInk, 0.4 * u, {}});
+  drawing_.text({left_, y - 27 * u}, "Date", small);
+  drawing_.text({left_, y - 16 * u}, t.date, plain);
+  const double middle = (left_ + right_) / 2;
+  if (!t.figure.empty()) {
+    drawing_.text({middle, y - 27 * u}, "Figure", small);
+    drawing_.text({middle, y - 16 * u}, t.figure, plain);
+  }
+  drawing_.text({left_, y - 5 * u}, drawing_.fitted(t.made_by, right_ - left_, small), small);
+}
+
+}  // namespace itin::profile

@@ -1,0 +1,36 @@
+// The panel beside a map: title, legend, scale bar and north, statement, facts, sources, title block.
+#pragma once
+
+#include <profile/map_sheet.hpp>
+
+#include "drawing/drawing.hpp"
+#include "sheet/paper.hpp"
+
+namespace itin::profile {
+
+class SidePanel {
+ public:
+  SidePanel(Drawing& drawing, const Paper& paper, const MapSheet& sheet, double scale);
+  void draw();
+
+ private:
+  void draw_heading();
+  void draw_legend(double bottom);
+  void draw_key(const SheetKey& key);
+  void draw_scale();
+  void draw_north(Point2 foot);
+  void paragraph(const std::string& text, double size, bool bold);
+  void draw_notes();
+  void draw_foot();
+  double notes_height();
+  void rule();
+
+  Drawing& drawing_;
+  const Paper& paper_;
+  const MapSheet& sheet_;
+  double scale_;  ///< 1 : scale
+  double left_, right_, y_;
+  bool measuring_ = false;  ///< moves y_ without drawing
+};
+
+}  // namespace itin::profile

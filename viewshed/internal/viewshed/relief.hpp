@@ -1,0 +1,28 @@
+// The ground under a map: its heights and shades at the pixels of a picture.
+//
+//   const Relief ground = relief(store, RasterGrid::aligned(box, 25), progress);
+#pragma once
+
+#include <vector>
+
+#include <itin/progress.hpp>
+#include <itin/raster.hpp>
+#include <itin/store.hpp>
+
+namespace itin::viewshed {
+
+/// NaN where there is no ground.
+struct Relief {
+  RasterGrid pixels;
+  std::vector<float> heights_m;
+  std::vector<float> shades;  ///< 0 (darkest) to 1, kLevelShade where it is level
+};
+
+/// The shade of level ground.
+inline constexpr double kLevelShade = 0.643;
+
+/// Reads the coarsest level that a pixel does not tell from the full terrain, at most about 1.5 million points. Throws
+/// what triangulate() throws.
+Relief relief(const Store& store, const RasterGrid& pixels, Progress& progress);
+
+}  // namespace itin::viewshed

@@ -1,0 +1,34 @@
+// What maps of a zone of visibility show: every cell in a class, with the class's name and colour.
+//
+//   for (const ZoneMap& map : zone_maps(zone)) draw(map.title, map.classes, map.class_of_cell);
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <viewshed/turbines.hpp>
+
+namespace itin::viewshed {
+
+/// Of cells without a value.
+inline constexpr std::uint8_t kNoMapClass = 255;
+
+struct ZoneMap {
+  struct Class {
+    std::string label;
+    std::uint8_t red = 0, green = 0, blue = 0, alpha = 255;
+    std::uint64_t cells = 0;
+  };
+  std::string name;     ///< as in the names of files: "tip-count-screened"
+  std::string title;    ///< "Blade tips theoretically visible"
+  std::string heading;  ///< of its legend
+  bool screened = false;
+  std::vector<Class> classes;
+  std::vector<std::uint8_t> class_of_cell;  ///< index of a class, or kNoMapClass
+};
+
+/// Tips seen, hubs where one is known, and combinations of farms where there are several; then all of them screened.
+std::vector<ZoneMap> zone_maps(const Zone& zone);
+
+}  // namespace itin::viewshed

@@ -1,0 +1,90 @@
+#include <algorithm>
+#include <map>
+
+#include <viewshed/zone_files.hpp>
+#include <viewshed/zone_maps.hpp>
+
+#include "turbines/farm_combinations.hpp"
+#include "turbines/value_bands.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+constexpr const char* kNone = "None visible";
+
+ZoneMap count_map(const Zone& zone, const std::vector<std::uint16_t>& counts) {
+  ZoneMap map;
+  const auto bands = count_bands(zone.request.turbines.size());
+  for (const ValueBand& b : bands)
+    map.classes.push_back({b.to > 0 ? b.label : kNone, b.red, b.green, b.blue, b.alpha, 0});
+  map.class_of_cell.assign(counts.size(), kNoMapClass);
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (counts[i] == kCountOutside) continue;
+    map.class_of_cell[i] = static_cast<std::uint8_t>(band_of(bands, counts[i]));
+    ++map.classes[map.class_of_cell[i]].cells;
+  }
+  return map;
+}
+
+/// The commonest combinations have classes of their own, the others one together.
+ZoneMap farm_map(const Zone& zone, const Visibility& visibility) {
+  constexpr std::size_t kMost = 12;
+  const std::vector<std::uint32_t> farms = farm_combinations(zone, visibility);
+  std::map<std::uint32_t, std::uint64_t> cells;
+  for (const std::uint32_t f : farms)
+    if (f != kOutsideFarms) ++cells[f];
+  std::vector<Combination> present = combinations_present(zone, {&farms});
+  std::erase_if(present, [](const Combination& c) { return c.farms == 0; });
+  std::stable_sort(present.begin(), present.end(),
+                   [&](const Combination& a, const Combination& b) { return cells[a.farms] > cells[b.farms]; });
+  ZoneMap map;
+  map.classes.push_back({kNone, 0, 0, 0, 0, cells[0]});
+  std::map<std::uint32_t, std::uint8_t> class_of{{0, 0}, {kOutsideFarms, kNoMapClass}};
+  for (std::size_t i = 0; i < present.size(); ++i) {
+    if (i <= kMost) {
+      ZoneMap::Class& c = map.classes.emplace_back();
+      c.label = i < kMost ? present[i].name : "other combinations";
+      if (i < kMost)
+        set_distinct_colour(i, c.red, c.green, c.blue);
+      else
+        c.red = c.green = c.blue = 90;
+    }
+    map.classes.back().cells += cells[present[i].farms];
+    class_of[present[i].farms] = static_cast<std::uint8_t>(map.classes.size() - 1);
+  }
+  for (const std::uint32_t f : farms) map.class_of_cell.push_back(class_of[f]);
+  return map;
+}
+
+void add(std::vector<ZoneMap>& maps, ZoneMap map, const char* name, const char* title, const char* heading,
+         bool screened) {
+  map.name = std::string(name) + (screened ? "-screened" : ""), map.title = title, map.heading = heading;
+  map.screened = screened;
+  maps.push_back(std::move(map));
+}
+
+}  // namespace
+
+std::vector<ZoneMap> zone_maps(const Zone& zone) {
+  std::vector<ZoneMap> maps;
+  const auto& turbines = zone.request.turbines;
+  const bool hubs =
+      std::any_of(turbines.begin(), turbines.end(), [](const Turbine& t) { return t.hub_height.has_value(); });
+  const std::size_t farms = farms_of(zone).size();
+  const auto add_all = [&](const Visibility& v, bool screened) {
+    add(maps, count_map(zone, v.tip_count), "tip-count", "Zone of theoretical visibility: blade tips",
+        "Turbines with their blade tip visible", screened);
+    if (hubs)
+      add(maps, count_map(zone, v.hub_count), "hub-count", "Zone of theoretical visibility: hubs",
+          "Turbines with their hub visible", screened);
+    if (farms > 1 && farms <= kMostFarms)
+      add(maps, farm_map(zone, v), "farms", "Cumulative zone of theoretical visibility: blade tips by wind farm",
+          "Wind farms with a blade tip visible", screened);
+  };
+  add_all(zone.bare, false);
+  if (zone.screened) add_all(*zone.screened, true);
+  return maps;
+}
+
+}  // namespace itin::viewshed
