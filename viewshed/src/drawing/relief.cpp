@@ -4,6 +4,7 @@
 #include <itin/triangulate.hpp>
 #include <viewshed/relief.hpp>
 
+#include "bounds/pixel_heights.hpp"
 #include "drawing/hillshade.hpp"
 
 namespace itin::viewshed {
@@ -14,8 +15,8 @@ Relief relief(const Store& store, const RasterGrid& pixels, Progress& progress) 
   const Box box = pixels.bounds();
   const int fine = level_within(store.metadata(), kTellable * pixels.cell_width());
   const int level = finest_level_of(store, box, kMostPoints, fine);
-  Relief result{
-      pixels, heights_at(store, pixels, detail_of(store.metadata(), level), ThemeChoice::none(), progress), {}};
+  const Tin tin = triangulate(store, Window::box(box), detail_of(store.metadata(), level), progress);
+  Relief result{pixels, heights_at(tin, pixels), {}};
   result.shades = hillshade(result.heights_m, pixels);
   return result;
 }
