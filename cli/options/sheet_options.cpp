@@ -27,8 +27,8 @@ std::string today() {
 
 void SheetOptions::declare(CLI::App& app) {
   app.add_option("--sheets", papers_text_,
-                 "Maps on paper, to scale, with title block, legend, grid references and sources, as PDF and PNG: A3, "
-                 "A1 or both (default: none)")
+                 "Maps on paper, to scale, with title block, legend, grid references and sources, as PDF and PNG on "
+                 "A3, A1 or both; for viewpoints, sheets of wirelines besides (default: none)")
       ->type_name("A3,A1");
   app.add_option("--sheet-scale", scale_text_,
                  "Their scale's number, 100000 for 1:100,000 (default: the largest usual one that shows all)")

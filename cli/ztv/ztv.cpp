@@ -176,7 +176,7 @@ class ZtvVerb final : public Verb {
     progress.report("polygons", 0);
     add(viewshed::write_zone_polygons(folder, zone, options));
     if (viewpoints_.given()) {
-      seen_ = viewpoints_.write(folder, store, zone, progress);
+      seen_ = viewpoints_.write(folder, store, zone, sheets_, progress);
       add(seen_.files);
       document["viewpoints"] = bad_rows_document(seen_.path, seen_.rows, seen_.rows - seen_.bad.size(), seen_.bad);
     }

@@ -97,7 +97,8 @@ class Furniture {
     add_turbines(zone);
     if (facts.viewpoints.empty()) return;
     profile::SheetMarks marks{profile::SheetSymbol::kViewpoint, kViewpoint, {}};
-    for (const NamedPlace& v : facts.viewpoints) marks.marks.push_back({v.position, v.name});
+    for (const NamedPlace& v : facts.viewpoints)
+      marks.marks.push_back({v.position, fmt::format("{} {}", v.number, v.name)});
     layers.emplace_back(std::move(marks));
     keys.push_back({SheetKey::Sample::kViewpoint, kViewpoint, "Viewpoint"});
   }

@@ -14,6 +14,7 @@
 namespace itin::cli {
 
 struct NamedPlace {
+  std::size_t number = 0;  ///< from 1
   std::string name;
   Point2 position;
 };

@@ -1,26 +1,18 @@
 #include "ztv/ztv_viewpoints.hpp"
 
 #include <algorithm>
-#include <cctype>
-#include <cmath>
-#include <filesystem>
 #include <optional>
-#include <set>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <itin/coordinates.hpp>
 #include <itin/cross_section.hpp>
 #include <itin/csv_cell.hpp>
 #include <itin/error.hpp>
-#include <itin/geodesic.hpp>
+#include <itin/grid_reference.hpp>
 #include <itin/output_file.hpp>
-#include <itin/parallel.hpp>
 #include <itin/site_table.hpp>
-#include <profile/profile.hpp>
-#include <profile/required_heights.hpp>
-#include <profile/wireline.hpp>
 
 #include "options/site_list.hpp"
 #include "program/call_files.hpp"
@@ -34,51 +26,6 @@ namespace {
 using viewshed::Turbine;
 using viewshed::Zone;
 
-struct Viewpoint {
-  std::size_t number = 0;
-  std::string name;
-  Point2 position;
-  double height = 0;
-  double ground = 0;
-};
-
-/// The part of one turbine that is seen from one viewpoint.
-struct Sight {
-  double distance = 0, azimuth = 0;
-  double least = 0;  ///< metres above the turbine's ground, from which on it is seen
-  bool tip = false;
-  std::optional<bool> hub;
-  double visible = 0, vertical_deg = 0, tip_deg = 0;
-  bool gaps = false;
-};
-
-/// `ground` is what the turbine stands on; both ends keep their bare ground whatever the surface.
-Sight sight_to(const SectionSurface& surface, const Viewpoint& from, const Turbine& turbine, double ground,
-               const Earth& earth) {
-  Sight sight;
-  const CrossSection section = surface.between(from.position, turbine.position);
-  const Point2 foot = section.one_place ? from.position : turbine.position;
-  const double dx = foot.x - from.position.x, dy = foot.y - from.position.y;
-  sight.distance = std::hypot(dx, dy);
-  sight.azimuth = std::fmod(std::atan2(dx, dy) * kDegreesPerRadian + 360, 360);
-  sight.gaps = !section.gaps.empty();
-  const profile::Profile profile = profile::from_section(section);
-  const double hub = turbine.hub_height.value_or(turbine.tip_height);
-  const auto seen = profile::visible_height(profile, from.height, hub, turbine.tip_height, earth,
-                                            profile::EndGrounds{from.ground, ground});
-  sight.least = std::max(0.0, seen.from_m);
-  sight.visible = turbine.tip_height - sight.least;
-  sight.tip = seen.tip_visible_m > 0;
-  if (turbine.hub_height) sight.hub = sight.tip && sight.least <= *turbine.hub_height;
-  const double eye = from.ground + from.height;
-  const auto angle = [&](double height) {
-    return profile::apparent_angle_deg(earth, sight.distance, ground + height - eye);
-  };
-  sight.tip_deg = angle(turbine.tip_height);
-  if (sight.tip) sight.vertical_deg = sight.tip_deg - angle(sight.least);
-  return sight;
-}
-
 const char* yes_or_no(bool value) {
   return value ? "yes" : "no";
 }
@@ -89,12 +36,12 @@ std::string hub_cell(const Sight& s) {
 
 std::string row_of(const Viewpoint& v, const Turbine& t, const Sight& s, const Sight* screened) {
   std::string row =
-      fmt::format("{},{},{:.3f},{:.3f},{:.2f},{},{},{},{:.2f},{:.4f},{},{},{:.3f},{:.5f},{:.5f},{},{}", v.number,
+      fmt::format("{},{},{:.1f},{:.1f},{:.2f},{},{},{},{:.1f},{:.2f},{},{},{:.2f},{:.4f},{:.4f},{},{}", v.number,
                   csv_cell(v.name), v.position.x, v.position.y, v.ground, t.number, csv_cell(t.name), csv_cell(t.farm),
                   s.distance, s.azimuth, hub_cell(s), yes_or_no(s.tip), s.visible, s.vertical_deg, s.tip_deg,
                   yes_or_no(s.distance <= t.radius), s.gaps ? "crosses ground without data" : "");
   if (screened != nullptr)
-    row += fmt::format(",{},{},{:.3f},{:.5f}", hub_cell(*screened), yes_or_no(screened->tip), screened->visible,
+    row += fmt::format(",{},{},{:.2f},{:.4f}", hub_cell(*screened), yes_or_no(screened->tip), screened->visible,
                        screened->vertical_deg);
   return row + "\n";
 }
@@ -105,101 +52,42 @@ constexpr const char* kHeader =
 constexpr const char* kScreenedHeader =
     ",hub_visible_screened,tip_visible_screened,visible_height_screened_m,vertical_angle_screened_deg";
 
-/// A name that every file system takes.
-std::string file_name(const Viewpoint& v, const std::string& suffix) {
-  std::string name;
-  for (const char c : v.name)
-    name += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' ? c : '_';
-  return fmt::format("wireline-{}-{}{}", v.number, name, suffix);
+constexpr const char* kSummaryHeader =
+    "viewpoint,viewpoint_name,x,y,grid_reference,ground_m,eye_m,turbines,nearest_turbine,nearest_m,"
+    "nearest_azimuth_grid_deg";
+constexpr const char* kSummarySeen =
+    ",hubs_visible{0},tips_visible{0},nearest_visible_turbine{0},nearest_visible{0}_m,horizontal_from{0}_deg,"
+    "horizontal_extent{0}_deg,vertical_angle{0}_deg";
+
+std::string summary_header(bool screened) {
+  std::string header = kSummaryHeader + fmt::format(kSummarySeen, "");
+  if (screened) header += fmt::format(kSummarySeen, "_screened");
+  return header + ",note" + (screened ? ",before_the_eye" : "") + "\n";
 }
 
-/// The widest gap between azimuths lies behind the viewer.
-profile::WirelineQuery field_of_view(const Viewpoint& v, const std::vector<Sight>& sights, double least_width) {
-  std::vector<double> azimuths;
-  for (const Sight& s : sights) azimuths.push_back(s.azimuth);
-  std::sort(azimuths.begin(), azimuths.end());
-  double widest = 360 - (azimuths.back() - azimuths.front()), from = azimuths.front();
-  for (std::size_t i = 0; i + 1 < azimuths.size(); ++i) {
-    const double gap = azimuths[i + 1] - azimuths[i];
-    if (gap > widest) widest = gap, from = azimuths[i + 1];
-  }
-  const double span = 360 - widest;
-  profile::WirelineQuery query;
-  query.eye = v.position;
-  query.width_deg = std::min(360.0, std::max(least_width, std::ceil(span + 10)));
-  query.from_deg = std::fmod(from + span / 2 - query.width_deg / 2 + 720, 360);
-  return query;
+std::string summary_cells(const Zone& zone, const std::vector<Sight>& sights, const Seen& seen) {
+  std::string cells = fmt::format(",{},{}", seen.hubs ? fmt::format("{}", *seen.hubs) : "", seen.tips);
+  if (!seen.nearest_seen) return cells + ",,,,,0";
+  return cells + fmt::format(",{},{:.0f},{:.1f},{:.1f},{:.3f}", zone.request.turbines[*seen.nearest_seen].number,
+                             sights[*seen.nearest_seen].distance, seen.span->from_deg, seen.span->width_deg,
+                             seen.vertical_deg);
 }
 
-profile::WirelineQuery wireline_of(const Viewpoint& v, const Zone& zone, const std::vector<Sight>& sights,
-                                   double least_width, const std::string& surface) {
-  profile::WirelineQuery query = field_of_view(v, sights, least_width);
-  query.title = fmt::format("Wireline from viewpoint {}: {}", v.number, v.name);
-  query.eye_elevation_m = v.ground + v.height;
-  query.earth = zone.request.earth;
-  const auto tips = std::count_if(sights.begin(), sights.end(), [](const Sight& s) { return s.tip; });
-  const auto hubs = std::count_if(sights.begin(), sights.end(), [](const Sight& s) { return s.hub.value_or(false); });
-  const auto nearest = std::min_element(sights.begin(), sights.end(),
-                                        [](const Sight& a, const Sight& b) { return a.distance < b.distance; });
-  const std::string of_hubs =
-      known_hubs(zone.request.turbines) > 0 ? fmt::format(" and {} their hub", hubs) : std::string();
-  query.notes = {
-      fmt::format("{:.0f}, {:.0f}; ground {:.1f} m, eye {:g} m above it. Of {} turbines {} have their tip seen"
-                  "{}; the nearest stands {:.2f} km away.",
-                  v.position.x, v.position.y, v.ground, v.height, sights.size(), tips, of_hubs,
-                  nearest->distance / 1000),
-      surface + "; " + zone.request.earth.convention()};
-  double reach = 20000;
-  for (std::size_t k = 0; k < sights.size(); ++k) {
-    const Turbine& t = zone.request.turbines[k];
-    query.turbines.push_back(
-        {fmt::format("{}", t.number), t.position, zone.ground_m[k], t.hub_height, t.tip_height, sights[k].tip});
-    reach = std::max(reach, sights[k].distance + 5000);
-  }
-  query.reach_m = std::min(reach, 60000.0);
-  return query;
-}
-
-}  // namespace
-
-void ViewpointOptions::declare(CLI::App& app) {
-  reads(app.add_option("--viewpoints", query_.path,
-                       "Viewpoints for a table and wirelines, from a vector file of points, or CSV with columns x,y or "
-                       "lon,lat; fields "
-                       "name, and height for eyes that stand higher or lower than --observer-height")
-            ->type_name("FILE"));
-  app.add_option("--wireline-field", field_text_, "Least width of a wireline (default: 53.5)")->type_name("DEGREES");
-}
-
-void ViewpointOptions::validate(const InCrs& in_crs) {
-  query_.crs = in_crs.crs;
-  if (field_text_.empty()) return;
-  if (!given()) throw InputError("--wireline-field is of use with --viewpoints only");
-  field_deg_ = parse_number("--wireline-field", field_text_, Range::kPositive);
-  if (field_deg_ > 360) throw InputError("--wireline-field: give at most 360 degrees");
-}
-
-Document ViewpointOptions::parameters() const {
-  if (!given()) return Document::object();
-  return {{"viewpoints", query_.path}, {"wireline_field_deg", field_deg_}};
-}
-
-namespace {
-
-/// A surface and what is written of the view over it.
-struct View {
-  const SectionSurface& surface;
-  std::string title;   ///< in a wireline's notes
-  std::string suffix;  ///< of its files' names
-};
-
-/// One sight a turbine of the zone.
-std::vector<Sight> sights_to_all(const View& view, const Viewpoint& from, const Zone& zone) {
-  std::vector<Sight> sights(zone.request.turbines.size());
-  parallel_for(sights.size(), [&](std::size_t k) {
-    sights[k] = sight_to(view.surface, from, zone.request.turbines[k], zone.ground_m[k], zone.request.earth);
-  });
-  return sights;
+/// `remark`: where there is a screened surface, what stands before the eye.
+std::string summary_row(const Viewpoint& v, const Zone& zone, const std::vector<Sight>& sights,
+                        const std::vector<Sight>& screened, const std::string& remark, bool national) {
+  const Seen seen = seen_of(zone, sights, all_turbines(zone));
+  const Sight& nearest = sights[seen.nearest];
+  const auto reference = national ? national_grid_reference(v.position) : std::nullopt;
+  std::string row =
+      fmt::format("{},{},{:.1f},{:.1f},{},{:.1f},{:.1f},{},{},{:.0f},{:.1f}", v.number, csv_cell(v.name), v.position.x,
+                  v.position.y, reference.value_or(""), v.ground, v.ground + v.height, seen.turbines,
+                  zone.request.turbines[seen.nearest].number, nearest.distance, nearest.azimuth);
+  row += summary_cells(zone, sights, seen);
+  if (!screened.empty()) row += summary_cells(zone, screened, seen_of(zone, screened, all_turbines(zone)));
+  row += seen.gaps ? ",some lines cross ground without data" : ",";
+  if (!screened.empty()) row += "," + csv_cell(remark);
+  return row + "\n";
 }
 
 Viewpoint viewpoint_of(const SiteRow& row, std::size_t number, const SectionSurface& ground, double usual_height) {
@@ -216,58 +104,123 @@ Viewpoint viewpoint_of(const SiteRow& row, std::size_t number, const SectionSurf
   return v;
 }
 
-void write_wireline(const std::string& folder, const View& view, const Viewpoint& v, const Zone& zone,
-                    const std::vector<Sight>& sights, double least_width, Progress& progress,
-                    ViewpointOptions::Written& written) {
-  const auto drawn =
-      profile::survey_wireline(view.surface, wireline_of(v, zone, sights, least_width, view.title), progress);
-  for (const char* ending : {".svg", ".pdf", ".png"}) {
-    const std::string name = file_name(v, view.suffix) + ending;
-    write_file(folder + "/" + name, profile::draw_wireline(drawn, name), true);
-    written.files.push_back({name, fmt::format("wireline from viewpoint {}, {}, to scale{}", v.number, v.name,
-                                               view.suffix.empty() ? "" : ", with what screens")});
+}  // namespace
+
+void ViewpointOptions::declare(CLI::App& app) {
+  reads(app.add_option("--viewpoints", query_.path,
+                       "Viewpoints for tables and wirelines, from a vector file of points, or CSV with columns x,y or "
+                       "lon,lat; fields "
+                       "name, and height for eyes that stand higher or lower than --observer-height")
+            ->type_name("FILE"));
+  app.add_option("--wireline-field", field_text_, "Least width of a wireline (default: 53.5)")->type_name("DEGREES");
+  app.add_option("--wireline-bearing", bearing_text_,
+                 "Bearing of every wireline's middle, from grid north (default: the middle of the turbines)")
+      ->type_name("DEGREES");
+  app.add_flag("--wireline-hidden", choice_.hidden_dashed, "Draw dashed in wirelines what hides of turbines");
+  app.add_option("--wirelines", wirelines_text_, "Wirelines only from viewpoints of these names or numbers")
+      ->type_name("NAME,...");
+  app.add_flag("--no-wirelines", no_wirelines_, "Write tables of viewpoints alone");
+}
+
+void ViewpointOptions::validate(const InCrs& in_crs) {
+  query_.crs = in_crs.crs;
+  const bool any = !field_text_.empty() || !bearing_text_.empty() || !wirelines_text_.empty() || no_wirelines_ ||
+                   choice_.hidden_dashed;
+  if (any && !given())
+    throw InputError(fmt::format("{} is of use with --viewpoints only", !field_text_.empty()     ? "--wireline-field"
+                                                                        : !bearing_text_.empty() ? "--wireline-bearing"
+                                                                        : !wirelines_text_.empty() ? "--wirelines"
+                                                                        : no_wirelines_            ? "--no-wirelines"
+                                                                                        : "--wireline-hidden"));
+  if (no_wirelines_ && !wirelines_text_.empty()) throw InputError("--wirelines and --no-wirelines exclude each other");
+  if (!field_text_.empty()) choice_.least_width_deg = parse_number("--wireline-field", field_text_, Range::kPositive);
+  if (choice_.least_width_deg > 360) throw InputError("--wireline-field: give at most 360 degrees");
+  if (!bearing_text_.empty()) {
+    choice_.bearing_deg = parse_number("--wireline-bearing", bearing_text_, Range::kNotNegative);
+    if (*choice_.bearing_deg > 360) throw InputError("--wireline-bearing: give 0 to 360 degrees");
+  }
+  std::istringstream names(wirelines_text_);
+  for (std::string name; std::getline(names, name, ',');) wirelines_.push_back(name);
+}
+
+Document ViewpointOptions::parameters() const {
+  if (!given()) return Document::object();
+  Document parameters{{"viewpoints", query_.path}, {"wireline_field_deg", choice_.least_width_deg}};
+  if (choice_.bearing_deg) parameters["wireline_bearing_deg"] = *choice_.bearing_deg;
+  if (choice_.hidden_dashed) parameters["wireline_hidden"] = true;
+  if (!wirelines_.empty()) parameters["wirelines"] = wirelines_;
+  if (no_wirelines_) parameters["wirelines"] = Document::array();
+  return parameters;
+}
+
+bool ViewpointOptions::has_wireline(const Viewpoint& v) const {
+  if (no_wirelines_) return false;
+  return wirelines_.empty() || std::any_of(wirelines_.begin(), wirelines_.end(), [&](const std::string& name) {
+           return name == v.name || name == fmt::format("{}", v.number);
+         });
+}
+
+void ViewpointOptions::require_wirelines_known(const std::vector<NamedPlace>& places) const {
+  for (const std::string& name : wirelines_) {
+    const bool known = std::any_of(places.begin(), places.end(), [&](const NamedPlace& p) {
+      return p.name == name || fmt::format("{}", p.number) == name;
+    });
+    if (!known)
+      throw InputError(fmt::format("--wirelines: '{}' is no viewpoint of {} that can be used", name, query_.path));
   }
 }
 
-}  // namespace
-
 ViewpointOptions::Written ViewpointOptions::write(const std::string& folder, const Store& store, const Zone& zone,
-                                                  Progress& progress) const {
+                                                  const SheetOptions& sheets, Progress& progress) const {
   Written written;
   written.path = query_.path;
+  const StoreMetadata& metadata = store.metadata();
   const SectionSurface ground(store, zone.request.detail);
-  const View bare{ground, "Bare ground", ""};
   std::optional<SectionSurface> features;
-  std::optional<View> screened;
+  std::string screened_title;
   if (zone.request.themes) {
     features.emplace(store, zone.request.detail, *zone.request.themes);
-    screened.emplace(
-        View{*features,
-             "Ground with " + fmt::format("{}", fmt::join(zone.request.themes->names(store.metadata().themes), ", ")),
-             "-screened"});
+    screened_title = fmt::format("Ground with {}", fmt::join(zone.request.themes->names(metadata.themes), ", "));
   }
-  std::string table = fmt::format("{}{}\n", kHeader, screened ? kScreenedHeader : "");
-  for (const SiteRow& row : read_site_rows(query_, {"name", "height"}, store.metadata().crs_wkt)) {
+  std::vector<std::string> theme_names;
+  for (const ThemeInfo& theme : metadata.themes) theme_names.push_back(theme.name);
+  const bool national = is_national_grid(metadata.crs_wkt);
+  std::string table = fmt::format("{}{}\n", kHeader, features ? kScreenedHeader : "");
+  std::string summary = summary_header(features.has_value());
+  WirelineWriter wirelines(folder, store, zone, choice_, sheets);
+  for (const SiteRow& row : read_site_rows(query_, {"name", "height"}, metadata.crs_wkt)) {
     const std::size_t number = ++written.rows;
     try {
       const Viewpoint v = viewpoint_of(row, number, ground, zone.request.observer_height);
-      const std::vector<Sight> sights = sights_to_all(bare, v, zone);
-      std::vector<Sight> over_features;
-      if (screened) over_features = sights_to_all(*screened, v, zone);
+      const std::vector<Sight> sights = sights_to_all(ground, v, zone);
+      std::vector<Sight> screened;
+      std::string remark;
+      if (features) {
+        screened = sights_to_all(*features, v, zone);
+        const Seen seen = seen_of(zone, screened, all_turbines(zone));
+        remark = before_the_eye(*features, v, zone.request.turbines[seen.nearest].position, theme_names);
+      }
       for (std::size_t k = 0; k < sights.size(); ++k)
-        table += row_of(v, zone.request.turbines[k], sights[k], screened ? &over_features[k] : nullptr);
-      write_wireline(folder, bare, v, zone, sights, field_deg_, progress, written);
-      if (screened) write_wireline(folder, *screened, v, zone, over_features, field_deg_, progress, written);
-      written.places.push_back({fmt::format("{} {}", number, v.name), v.position});
+        table += row_of(v, zone.request.turbines[k], sights[k], features ? &screened[k] : nullptr);
+      summary += summary_row(v, zone, sights, screened, remark, national);
+      written.places.push_back({number, v.name, v.position});
+      if (!has_wireline(v)) continue;
+      wirelines.write(v, {ground, "Bare ground", "", ""}, sights, progress);
+      if (features) wirelines.write(v, {*features, screened_title, "-screened", remark}, screened, progress);
     } catch (const InputError& error) {
       written.bad.push_back({number, row.feature, in_options(error.what())});
     }
   }
   if (written.rows == 0) throw InputError(none_in(query_, "viewpoint"));
+  require_wirelines_known(written.places);
   write_file(folder + "/viewpoints.csv", table, true);
-  written.files.insert(
-      written.files.begin(),
-      {"viewpoints.csv", "viewpoint by turbine: hub and tip visible, metres and degrees seen, azimuth"});
+  write_file(folder + "/viewpoints-summary.csv", summary, true);
+  written.files = {
+      {"viewpoints.csv", "viewpoint by turbine: hub and tip visible, metres and degrees seen, azimuth"},
+      {"viewpoints-summary.csv",
+       "a row for each viewpoint: hubs and tips visible, the nearest turbine, the part of the horizon that "
+       "the visible ones take up"}};
+  for (viewshed::ZoneFile& file : std::move(wirelines).files()) written.files.push_back(std::move(file));
   return written;
 }
 

@@ -1,4 +1,4 @@
-// The viewpoints of `itin ztv`: what is seen of every turbine from each, as a table, and a wireline for each.
+// The viewpoints of `itin ztv`: what is seen of every turbine from each, as tables, and wirelines.
 #pragma once
 
 #include <string>
@@ -12,9 +12,11 @@
 #include <viewshed/zone_files.hpp>
 
 #include "options/in_crs.hpp"
+#include "options/sheet_options.hpp"
 #include "program/verb.hpp"
 #include "ztv/ztv_sheets.hpp"
 #include "ztv/ztv_turbines.hpp"
+#include "ztv/ztv_wirelines.hpp"
 
 namespace itin::cli {
 
@@ -33,13 +35,20 @@ class ViewpointOptions {
     std::string path;
     std::vector<NamedPlace> places;  ///< of the viewpoints used
   };
-  /// viewpoints.csv, and wireline-NAME.svg, .pdf and .png for each viewpoint. Throws FileError, Cancelled.
-  Written write(const std::string& folder, const Store& store, const viewshed::Zone& zone, Progress& progress) const;
+  /// viewpoints.csv, viewpoints-summary.csv, and what WirelineWriter writes for the viewpoints chosen. Throws
+  /// FileError, InputError (a wireline of no viewpoint), Cancelled.
+  Written write(const std::string& folder, const Store& store, const viewshed::Zone& zone, const SheetOptions& sheets,
+                Progress& progress) const;
 
  private:
+  void require_wirelines_known(const std::vector<NamedPlace>& places) const;
+  bool has_wireline(const Viewpoint& v) const;
+
   SiteQuery query_;
-  std::string field_text_;
-  double field_deg_ = 53.5;  ///< of a wireline at least
+  std::string field_text_, bearing_text_, wirelines_text_;
+  std::vector<std::string> wirelines_;  ///< names; none: all
+  bool no_wirelines_ = false;
+  WirelineChoice choice_;
 };
 
 }  // namespace itin::cli

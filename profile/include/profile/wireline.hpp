@@ -31,6 +31,7 @@ struct WirelineTurbine {
   std::optional<double> hub_m;  ///< nothing: drawn as a mast
   double tip_m = 0;
   bool seen = true;  ///< labelled
+  std::string farm;  ///< each has its colour
 };
 
 struct WirelineQuery {
@@ -43,6 +44,7 @@ struct WirelineQuery {
   double width_deg = 53.5;  ///< in (0, 360]
   double step_deg = 0.05;
   double reach_m = 40000;
+  bool hidden_dashed = false;  ///< draws what the terrain hides of turbines as well
   std::vector<WirelineTurbine> turbines;
 };
 

@@ -12,6 +12,7 @@
 #include "drawing/axis.hpp"
 #include "drawing/drawing.hpp"
 #include "drawing/palette.hpp"
+#include "drawing/wireline_scene.hpp"
 
 namespace itin::profile {
 
@@ -21,17 +22,11 @@ constexpr double kPerDegree = 17;  ///< points: 53.5 degrees are 321 mm wide, to
 constexpr double kMillimetre = 72 / 25.4;
 constexpr double kLeft = 46, kRight = 16, kTop = 62, kBottom = 56;
 constexpr Colour kDegreeLine{0.90, 0.90, 0.90};
-constexpr Colour kTurbine{0.80, 0.16, 0.10};
-
-struct PlacedTurbine {
-  const WirelineTurbine* turbine;
-  double distance, across, base, top;  ///< metres; degrees from the left edge and of elevation
-};
 
 class WirelinePage {
  public:
   WirelinePage(const Wireline& view, Drawing::Format format)
-      : view_(view), query_(view.query), turbines_(place_turbines()) {
+      : view_(view), query_(view.query), turbines_(placed_turbines(query_)) {
     choose_elevations();
     width_ = query_.width_deg * kPerDegree;
     height_ = (high_ - low_) * kPerDegree;
@@ -43,31 +38,18 @@ class WirelinePage {
     drawing_->rectangle({0, 0, drawing_->width(), drawing_->height()}, kPaper);
     draw_heading();
     draw_grid();
-    drawing_->clip(frame_);
-    draw_terrain_and_turbines();
-    drawing_->unclip();
-    draw_labels();
+    WirelineScene(view_, frame_,
+                  [&](double across, double elevation) {
+                    return Point2{x_at(across), y_at(elevation)};
+                  },
+                  {0, query_.width_deg, 6})
+        .draw(*drawing_);
+    draw_farms();
     draw_axes();
     return drawing_->finish();
   }
 
  private:
-  std::vector<PlacedTurbine> place_turbines() const {
-    std::vector<PlacedTurbine> placed;
-    for (const WirelineTurbine& t : query_.turbines) {
-      const double dx = t.position.x - query_.eye.x, dy = t.position.y - query_.eye.y, d = std::hypot(dx, dy);
-      double across = std::fmod(std::atan2(dx, dy) * kDegreesPerRadian - query_.from_deg, 360);
-      if (across < 0) across += 360;
-      if (across > query_.width_deg || d > query_.reach_m || d == 0) continue;
-      const double foot = t.ground_m - query_.eye_elevation_m;
-      placed.push_back({&t, d, across, apparent_angle_deg(query_.earth, d, foot),
-                        apparent_angle_deg(query_.earth, d, foot + t.tip_m)});
-    }
-    std::stable_sort(placed.begin(), placed.end(),
-                     [](const PlacedTurbine& a, const PlacedTurbine& b) { return a.distance > b.distance; });
-    return placed;
-  }
-
   /// From a degree below the lowest skyline to above everything, but for what towers over the eye, such as a house
   /// beside it: that is cut off.
   void choose_elevations() {
@@ -105,101 +87,16 @@ class WirelinePage {
                          {e == 0 ? kFaint : kDegreeLine, 0.5, {}});
   }
 
-  /// From the farthest to the nearest: what is nearer covers what is behind it.
-  void draw_terrain_and_turbines() {
-    auto turbine = turbines_.begin();
-    for (auto band = view_.bands.rbegin(); band != view_.bands.rend(); ++band) {
-      // A turbine on a limit stands in front of the band behind it. Limits are at most a metre from turbines.
-      for (; turbine != turbines_.end() && turbine->distance >= band->to_m - 0.5; ++turbine) draw_turbine(*turbine);
-      draw_band(*band);
-    }
-    for (; turbine != turbines_.end(); ++turbine) draw_turbine(*turbine);
-  }
-
-  void draw_band(const WirelineBand& band) {
-    const std::size_t lines = band.angle_deg.size();
-    for (std::size_t first = 0; first < lines;) {
-      if (std::isnan(band.angle_deg[first])) {
-        ++first;
-        continue;
-      }
-      std::size_t last = first;
-      while (last + 1 < lines && !std::isnan(band.angle_deg[last + 1])) ++last;
-      draw_stretch(band, first, last);
-      first = last + 1;
-    }
-  }
-
-  Point2 at(const WirelineBand& band, std::size_t i) const {
-    const double across = std::min(static_cast<double>(i) * query_.step_deg, query_.width_deg);
-    return {x_at(across), y_at(std::max<double>(band.angle_deg[i], low_ - 1))};
-  }
-
-  void draw_stretch(const WirelineBand& band, std::size_t first, std::size_t last) {
-    std::vector<Point2> outline;
-    for (std::size_t i = first; i <= last; ++i) outline.push_back(at(band, i));
-    outline.push_back({outline.back().x, frame_.ymax + kPerDegree});
-    outline.push_back({outline.front().x, frame_.ymax + kPerDegree});
-    drawing_->polygon(outline, kPaper);
-    const Stroke stroke = stroke_of(band);
-    std::vector<Point2> crest;
-    for (std::size_t i = first; i <= last; ++i) {
-      if (band.crest[i]) crest.push_back(at(band, i));
-      if (band.crest[i] && i < last) continue;
-      if (crest.size() > 1) drawing_->polyline(crest, stroke);
-      crest.clear();
-    }
-  }
-
-  /// The farther, the fainter.
-  Stroke stroke_of(const WirelineBand& band) const {
-    const double far = std::log(band.to_m / 20) / std::log(query_.reach_m / 20);
-    const double grey = 0.05 + 0.55 * std::clamp(far, 0.0, 1.0);
-    return {{grey, grey, grey}, 1.1 - 0.6 * std::clamp(far, 0.0, 1.0), {}};
-  }
-
-  void draw_turbine(const PlacedTurbine& placed) {
-    const WirelineTurbine& t = *placed.turbine;
-    const Stroke stroke{kTurbine, 0.8, {}};
-    const double x = x_at(placed.across), foot = t.ground_m - query_.eye_elevation_m;
-    const auto y = [&](double height) {
-      return y_at(apparent_angle_deg(query_.earth, placed.distance, foot + height));
-    };
-    if (!t.hub_m || *t.hub_m >= t.tip_m) {
-      drawing_->polyline(std::array{Point2{x, y(0)}, Point2{x, y(t.tip_m)}}, stroke);
-      return;
-    }
-    const Point2 hub{x, y(*t.hub_m)};
-    drawing_->polyline(std::array{Point2{x, y(0)}, hub}, stroke);
-    const double radius = hub.y - y(t.tip_m);
-    for (const double turn : {0.0, 120.0, 240.0}) {
-      const double a = turn / kDegreesPerRadian;
-      drawing_->polyline(std::array{hub, Point2{hub.x + radius * std::sin(a), hub.y - radius * std::cos(a)}}, stroke);
-    }
-    std::vector<Point2> circle;
-    for (int i = 0; i <= 48; ++i) {
-      const double a = i * 2 * std::numbers::pi / 48;
-      circle.push_back({hub.x + radius * std::sin(a), hub.y - radius * std::cos(a)});
-    }
-    drawing_->polyline(circle, {kTurbine, 0.35, {}});
-  }
-
-  /// Numbers above the tips seen, in rows so that neighbours do not touch.
-  void draw_labels() {
-    std::vector<const PlacedTurbine*> seen;
-    for (const PlacedTurbine& t : turbines_)
-      if (t.turbine->seen) seen.push_back(&t);
-    std::sort(seen.begin(), seen.end(), [](const auto* a, const auto* b) { return a->across < b->across; });
-    std::array<double, 5> ends;
-    ends.fill(-1e9);
-    const Lettering lettering{.size = 6, .colour = kTurbine, .align = Align::kCentre};
-    for (const PlacedTurbine* t : seen) {
-      const double half = drawing_->text_width(t->turbine->label, lettering) / 2 + 1, x = x_at(t->across);
-      const auto row = std::find_if(ends.begin(), ends.end(), [&](double end) { return end < x - half; });
-      if (row == ends.end()) continue;
-      *row = x + half;
-      const double y = y_at(t->top) - 3 - 7 * static_cast<double>(row - ends.begin());
-      drawing_->text({x, std::max(y, frame_.ymin + 6)}, t->turbine->label, lettering);
+  /// The farms' names in their colours, where there are several.
+  void draw_farms() {
+    const std::vector<std::string> farms = farms_of(query_);
+    if (farms.size() < 2) return;
+    double x = frame_.xmax;
+    for (std::size_t f = farms.size(); f-- > 0;) {
+      const Lettering lettering{.size = 8, .colour = farm_colour(f), .align = Align::kRight, .bold = true};
+      const std::string name = farms[f].empty() ? "(no farm)" : farms[f];
+      drawing_->text({x, frame_.ymin - 6}, name, lettering);
+      x -= drawing_->text_width(name, lettering) + 10;
     }
   }
 

@@ -5,7 +5,7 @@
 #include <profile/map_sheet.hpp>
 
 #include "drawing/drawing.hpp"
-#include "sheet/label_places.hpp"
+#include "drawing/label_places.hpp"
 #include "sheet/paper.hpp"
 
 namespace itin::profile {

@@ -1,0 +1,125 @@
+#include "ztv/ztv_sights.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include <itin/geodesic.hpp>
+#include <itin/parallel.hpp>
+#include <profile/profile.hpp>
+#include <profile/required_heights.hpp>
+#include <profile/wireline.hpp>
+
+namespace itin::cli {
+
+namespace {
+
+using viewshed::Turbine;
+using viewshed::Zone;
+
+/// `ground` is what the turbine stands on; both ends keep their bare ground whatever the surface.
+Sight sight_to(const SectionSurface& surface, const Viewpoint& from, const Turbine& turbine, double ground,
+               const Earth& earth) {
+  Sight sight;
+  const CrossSection section = surface.between(from.position, turbine.position);
+  const Point2 foot = section.one_place ? from.position : turbine.position;
+  const double dx = foot.x - from.position.x, dy = foot.y - from.position.y;
+  sight.distance = std::hypot(dx, dy);
+  sight.azimuth = std::fmod(std::atan2(dx, dy) * kDegreesPerRadian + 360, 360);
+  sight.gaps = !section.gaps.empty();
+  const profile::Profile profile = profile::from_section(section);
+  const double hub = turbine.hub_height.value_or(turbine.tip_height);
+  const auto seen = profile::visible_height(profile, from.height, hub, turbine.tip_height, earth,
+                                            profile::EndGrounds{from.ground, ground});
+  sight.least = std::max(0.0, seen.from_m);
+  sight.visible = turbine.tip_height - sight.least;
+  sight.tip = seen.tip_visible_m > 0;
+  if (turbine.hub_height) sight.hub = sight.tip && sight.least <= *turbine.hub_height;
+  const double eye = from.ground + from.height;
+  const auto angle = [&](double height) {
+    return profile::apparent_angle_deg(earth, sight.distance, ground + height - eye);
+  };
+  sight.tip_deg = angle(turbine.tip_height);
+  if (sight.tip) sight.vertical_deg = sight.tip_deg - angle(sight.least);
+  return sight;
+}
+
+}  // namespace
+
+std::vector<Sight> sights_to_all(const SectionSurface& surface, const Viewpoint& from, const Zone& zone) {
+  std::vector<Sight> sights(zone.request.turbines.size());
+  parallel_for(sights.size(), [&](std::size_t k) {
+    sights[k] = sight_to(surface, from, zone.request.turbines[k], zone.ground_m[k], zone.request.earth);
+  });
+  return sights;
+}
+
+double Span::middle_deg() const {
+  return std::fmod(from_deg + width_deg / 2, 360);
+}
+
+/// The widest gap between azimuths lies behind the viewer.
+Span smallest_span(std::vector<double> azimuths) {
+  std::sort(azimuths.begin(), azimuths.end());
+  double widest = 360 - (azimuths.back() - azimuths.front()), from = azimuths.front();
+  for (std::size_t i = 0; i + 1 < azimuths.size(); ++i) {
+    const double gap = azimuths[i + 1] - azimuths[i];
+    if (gap > widest) widest = gap, from = azimuths[i + 1];
+  }
+  return {from, 360 - widest};
+}
+
+Seen seen_of(const Zone& zone, const std::vector<Sight>& sights, const std::vector<std::size_t>& turbines) {
+  Seen seen;
+  seen.turbines = turbines.size(), seen.nearest = turbines.front();
+  std::vector<double> azimuths;
+  for (const std::size_t k : turbines) {
+    const Sight& s = sights[k];
+    if (zone.request.turbines[k].hub_height) seen.hubs = seen.hubs.value_or(0) + (s.hub.value_or(false) ? 1 : 0);
+    if (s.distance < sights[seen.nearest].distance) seen.nearest = k;
+    seen.gaps = seen.gaps || s.gaps;
+    if (!s.tip) continue;
+    ++seen.tips;
+    const double half =
+        std::atan2(zone.request.turbines[k].rotor_diameter.value_or(0) / 2, s.distance) * kDegreesPerRadian;
+    azimuths.push_back(std::fmod(s.azimuth - half + 360, 360));
+    azimuths.push_back(std::fmod(s.azimuth + half, 360));
+    seen.vertical_deg = std::max(seen.vertical_deg, s.vertical_deg);
+    if (!seen.nearest_seen || s.distance < sights[*seen.nearest_seen].distance) seen.nearest_seen = k;
+  }
+  if (!azimuths.empty()) seen.span = smallest_span(azimuths);
+  return seen;
+}
+
+std::vector<std::size_t> all_turbines(const Zone& zone) {
+  std::vector<std::size_t> all(zone.request.turbines.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
+std::string before_the_eye(const SectionSurface& surface, const Viewpoint& from, Point2 to,
+                           const std::vector<std::string>& themes) {
+  constexpr double kClose = 100;
+  const double distance = std::hypot(to.x - from.position.x, to.y - from.position.y);
+  const double reach = std::min(1.0, kClose / std::max(distance, 1e-9)), eye = from.ground + from.height;
+  const CrossSection section = surface.between(from.position, {from.position.x + reach * (to.x - from.position.x),
+                                                               from.position.y + reach * (to.y - from.position.y)});
+  for (const Breakpoint& p : section.breakpoints) {
+    if (p.theme == 0 || p.position.z <= eye) continue;
+    const std::string& what = themes.at(p.theme - std::size_t{1});
+    if (p.distance == 0)
+      return fmt::format(
+          "The viewpoint stands within a feature of '{}' that rises {:.1f} m above the ground there, "
+          "above the eye: nothing is seen beyond it.",
+          what, p.position.z - from.ground);
+    return fmt::format(
+        "A feature of '{}' stands {:.0f} m before the eye in the direction of the nearest turbine; it "
+        "rises {:.1f} m above the eye there.",
+        what, p.distance, p.position.z - eye);
+  }
+  return "";
+}
+
+}  // namespace itin::cli

@@ -1,0 +1,63 @@
+// What an eye sees of the turbines of a zone, one by one and farm by farm.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <itin/cross_section.hpp>
+#include <viewshed/turbines.hpp>
+
+namespace itin::cli {
+
+struct Viewpoint {
+  std::size_t number = 0;
+  std::string name;
+  Point2 position;
+  double height = 0;  ///< of the eye above the ground
+  double ground = 0;
+};
+
+/// The part of one turbine that is seen from one viewpoint.
+struct Sight {
+  double distance = 0, azimuth = 0;
+  double least = 0;  ///< metres above the turbine's ground, from which on it is seen
+  bool tip = false;
+  std::optional<bool> hub;  ///< nothing: its height is not known
+  double visible = 0, vertical_deg = 0, tip_deg = 0;
+  bool gaps = false;
+};
+
+/// Both ends keep their bare ground whatever the surface.
+std::vector<Sight> sights_to_all(const SectionSurface& surface, const Viewpoint& from, const viewshed::Zone& zone);
+
+/// A part of the horizon, degrees clockwise from grid north.
+struct Span {
+  double from_deg = 0, width_deg = 0;
+  double middle_deg() const;
+};
+
+/// The smallest span that holds these azimuths.
+Span smallest_span(std::vector<double> azimuths);
+
+/// What is seen of some turbines together.
+struct Seen {
+  std::size_t turbines = 0, tips = 0;
+  std::optional<std::size_t> hubs;  ///< nothing: no hub's height is known
+  std::size_t nearest = 0;          ///< index in the request
+  std::optional<std::size_t> nearest_seen;
+  std::optional<Span> span;  ///< of the rotors whose tips are seen
+  double vertical_deg = 0;   ///< the greatest vertical angle that the visible part of a turbine takes up
+  bool gaps = false;
+};
+/// Of the turbines with these indices, at least one.
+Seen seen_of(const viewshed::Zone& zone, const std::vector<Sight>& sights, const std::vector<std::size_t>& turbines);
+std::vector<std::size_t> all_turbines(const viewshed::Zone& zone);
+
+/// What stands about the eye or close before it towards `to`, in a sentence; empty where nothing does. `surface` has
+/// the features of the themes named, by their numbers from 1.
+std::string before_the_eye(const SectionSurface& surface, const Viewpoint& from, Point2 to,
+                           const std::vector<std::string>& themes);
+
+}  // namespace itin::cli

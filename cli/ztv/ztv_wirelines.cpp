@@ -1,0 +1,196 @@
+#include "ztv/ztv_wirelines.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <itin/coordinates.hpp>
+#include <itin/grid_reference.hpp>
+#include <itin/output_file.hpp>
+#include <profile/wireline.hpp>
+#include <profile/wireline_sheet.hpp>
+
+#include "output/map_base.hpp"
+#include "output/store_document.hpp"
+#include "ztv/ztv_turbines.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+using profile::SheetKey;
+using viewshed::Turbine;
+using viewshed::Zone;
+
+constexpr double kCylinder = 90, kRoomBeside = 10;  ///< degrees
+
+/// A name that every file system takes.
+std::string file_name(const char* kind, const Viewpoint& v, const std::string& ending) {
+  std::string name;
+  for (const char c : v.name)
+    name += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' ? c : '_';
+  return fmt::format("{}-{}-{}{}", kind, v.number, name, ending);
+}
+
+double turned(double degrees) {
+  return std::fmod(degrees + 720, 360);
+}
+
+std::string turbines_in_words(const Zone& zone, const Seen& seen) {
+  std::string text = fmt::format("the blade tips of {} of {}", seen.tips, counted(seen.turbines, "turbine"));
+  if (seen.hubs) text += fmt::format(", the hubs of {}", *seen.hubs);
+  const std::size_t hubs = known_hubs(zone.request.turbines);
+  if (hubs < seen.turbines)
+    text += hubs == 0 ? "; hub heights are unknown for all turbines"
+                      : fmt::format("; hub heights are unknown for {}", seen.turbines - hubs);
+  return text;
+}
+
+std::string place_in_words(const Viewpoint& v, const std::string& crs_wkt) {
+  const auto reference = is_national_grid(crs_wkt) ? national_grid_reference(v.position) : std::nullopt;
+  const std::string numbers = fmt::format("{:.0f}, {:.0f}", v.position.x, v.position.y);
+  return reference ? fmt::format("{} ({})", *reference, numbers) : numbers;
+}
+
+std::string turbine_in_words(const Turbine& t) {
+  return fmt::format("turbine {}{}{}", t.number, t.name == fmt::format("{}", t.number) ? "" : " " + t.name,
+                     t.farm.empty() ? "" : " of " + t.farm);
+}
+
+using Facts = std::vector<std::pair<std::string, std::string>>;
+
+Facts facts_of(const Viewpoint& v, const ViewedSurface& view, const Zone& zone, const std::vector<Sight>& sights,
+               double centre_deg, const Store& store) {
+  const Seen seen = seen_of(zone, sights, all_turbines(zone));
+  Facts facts{{"Grid reference", place_in_words(v, store.metadata().crs_wkt)},
+              {"Ground", fmt::format("{:.1f} m", v.ground)},
+              {"Eye", fmt::format("{:g} m above the ground, {:.1f} m", v.height, v.ground + v.height)},
+              {"Bearing to the middle", fmt::format("{:.1f}° from grid north", centre_deg)},
+              {"Nearest turbine", fmt::format("{:.2f} km, {}", sights[seen.nearest].distance / 1000,
+                                              turbine_in_words(zone.request.turbines[seen.nearest]))},
+              {"Visible", turbines_in_words(zone, seen)},
+              {"Surface", view.title},
+              {"Earth", zone.request.earth.convention()}};
+  if (seen.gaps) facts.emplace_back("Terrain data", "some lines of sight cross ground without data");
+  if (!view.remark.empty()) facts.emplace_back("Remark", view.remark);
+  return facts;
+}
+
+profile::WirelineQuery query_of(const Viewpoint& v, const ViewedSurface& view, const Zone& zone,
+                                const std::vector<Sight>& sights, const WirelineChoice& choice, const Facts& facts) {
+  profile::WirelineQuery query;
+  query.eye = v.position;
+  query.eye_elevation_m = v.ground + v.height;
+  query.earth = zone.request.earth;
+  query.hidden_dashed = choice.hidden_dashed;
+  query.title = fmt::format("Wireline from viewpoint {}: {}", v.number, v.name);
+  const auto fact = [&](const char* name) {
+    const auto found = std::find_if(facts.begin(), facts.end(), [&](const auto& f) { return f.first == name; });
+    return found->second;
+  };
+  query.notes = {fmt::format("{}; ground {}, eye {}. Visible: {}. The nearest turbine: {}.", fact("Grid reference"),
+                             fact("Ground"), fact("Eye"), fact("Visible"), fact("Nearest turbine")),
+                 view.title + "; " + zone.request.earth.convention() + (view.remark.empty() ? "" : ". " + view.remark)};
+  double reach = 20000;
+  for (std::size_t k = 0; k < sights.size(); ++k) {
+    const Turbine& t = zone.request.turbines[k];
+    query.turbines.push_back(
+        {fmt::format("{}", t.number), t.position, zone.ground_m[k], t.hub_height, t.tip_height, sights[k].tip, t.farm});
+    reach = std::max(reach, sights[k].distance + 5000);
+  }
+  query.reach_m = std::min(reach, 60000.0);
+  return query;
+}
+
+/// One row a farm, and one of all where there are several.
+std::vector<std::vector<std::string>> farm_table(const Zone& zone, const std::vector<Sight>& sights) {
+  std::vector<std::vector<std::string>> rows{
+      {"Wind farm", "Turbines", "Hubs visible", "Tips visible", "Nearest, km", "Horizontal extent", "Vertical angle"}};
+  const auto add = [&](const std::string& name, const std::vector<std::size_t>& turbines) {
+    const Seen s = seen_of(zone, sights, turbines);
+    rows.push_back({name, fmt::format("{}", s.turbines), s.hubs ? fmt::format("{}", *s.hubs) : "unknown",
+                    fmt::format("{}", s.tips), fmt::format("{:.2f}", sights[s.nearest].distance / 1000),
+                    s.span ? fmt::format("{:.1f}°", s.span->width_deg) : "none",
+                    s.tips > 0 ? fmt::format("{:.2f}°", s.vertical_deg) : "none"});
+  };
+  const std::vector<std::string> farms = viewshed::farms_of(zone);
+  for (const std::string& farm : farms) {
+    std::vector<std::size_t> own;
+    for (std::size_t k = 0; k < sights.size(); ++k)
+      if (zone.request.turbines[k].farm == farm) own.push_back(k);
+    add(farm.empty() ? "All turbines" : farm, own);
+  }
+  if (farms.size() > 1) add("All", all_turbines(zone));
+  return rows;
+}
+
+profile::MapSheet location_map(const Store& store, const Zone& zone, const Viewpoint& v,
+                               const std::vector<Sight>& sights, Progress& progress) {
+  const Seen seen = seen_of(zone, sights, all_turbines(zone));
+  const Turbine& nearest = zone.request.turbines[seen.nearest];
+  profile::MapSheet sheet;
+  sheet.paper = profile::PaperSize::kA3;
+  sheet.crs_wkt = store.metadata().crs_wkt;
+  sheet.area.extend(v.position), sheet.area.extend(nearest.position);
+  const double room = std::max(1000.0, 0.35 * sights[seen.nearest].distance);
+  sheet.area = {sheet.area.xmin - room, sheet.area.ymin - room, sheet.area.xmax + room, sheet.area.ymax + room};
+  sheet.scale = 2 * profile::scale_of(sheet);
+  const MapBase base = map_base(store, sheet, progress);
+  sheet.layers = {shaded(base.ground, [](Point2) { return true; })};
+  sheet.layers.insert(sheet.layers.end(), base.contours.begin(), base.contours.end());
+  profile::SheetMarks turbines{profile::SheetSymbol::kTurbine, {170, 20, 20, 255}, {}};
+  for (const Turbine& t : zone.request.turbines) turbines.marks.push_back({t.position, fmt::format("{}", t.number)});
+  sheet.layers.emplace_back(std::move(turbines));
+  sheet.layers.emplace_back(profile::SheetMarks{
+      profile::SheetSymbol::kViewpoint, {20, 60, 140, 255}, {{v.position, fmt::format("{} {}", v.number, v.name)}}});
+  return sheet;
+}
+
+}  // namespace
+
+void WirelineWriter::add(const std::string& name, const std::string& what, const std::string& bytes) {
+  write_file(folder_ + "/" + name, bytes, true);
+  files_.push_back({name, what});
+}
+
+void WirelineWriter::write(const Viewpoint& v, const ViewedSurface& view, const std::vector<Sight>& sights,
+                           Progress& progress) {
+  std::vector<double> azimuths;
+  for (const Sight& s : sights) azimuths.push_back(s.azimuth);
+  const Span span = smallest_span(azimuths);
+  const double centre = choice_.bearing_deg.value_or(span.middle_deg());
+  const Facts facts = facts_of(v, view, zone_, sights, centre, store_);
+  profile::WirelineQuery query = query_of(v, view, zone_, sights, choice_, facts);
+  query.width_deg = std::min(360.0, std::max(choice_.least_width_deg, std::ceil(span.width_deg + kRoomBeside)));
+  query.from_deg = turned(centre - query.width_deg / 2);
+  const std::string of =
+      fmt::format("viewpoint {}, {}{}", v.number, v.name, view.suffix.empty() ? "" : ", with what screens");
+  const profile::Wireline drawn = profile::survey_wireline(view.surface, query, progress);
+  for (const char* ending : {".svg", ".pdf", ".png"}) {
+    const std::string name = file_name("wireline", v, view.suffix + ending);
+    add(name, "wireline from " + of + ", to scale", profile::draw_wireline(drawn, name));
+  }
+  if (!sheets_.given()) return;
+  const int fields = std::clamp(static_cast<int>(std::ceil((span.width_deg + kRoomBeside) / kCylinder)), 1, 4);
+  query.width_deg = fields * kCylinder, query.step_deg = 0.025;
+  query.from_deg = turned(centre - query.width_deg / 2);
+  const profile::Wireline wide = profile::survey_wireline(view.surface, query, progress);
+  profile::WirelineSheet sheet{query.title, facts, centre};
+  if (!sheets_.project().empty()) sheet.facts.insert(sheet.facts.begin(), {"Project", sheets_.project()});
+  sheet.facts.emplace_back("Date", sheets_.date());
+  std::string planar = file_name("wireline", v, view.suffix + "-planar.pdf");
+  add(planar, "sheet of 841 by 297 mm: planar wireline of 53.5 degrees from " + of,
+      profile::draw_planar_sheet(wide, sheet, planar));
+  std::string cylindrical = file_name("wireline", v, view.suffix + "-cylindrical.pdf");
+  add(cylindrical, fmt::format("sheets of 841 by 297 mm: {} of 90 degrees, cylindrical, from {}", fields, of),
+      profile::draw_cylindrical_sheets(wide, sheet, fields, cylindrical));
+  sheet.title = fmt::format("Viewpoint {}: {}", v.number, v.name);
+  const std::string name = file_name("viewpoint", v, view.suffix + ".pdf");
+  add(name, "sheet about " + of,
+      profile::draw_viewpoint_sheet(
+          wide, {sheet, farm_table(zone_, sights), location_map(store_, zone_, v, sights, progress)}, name));
+}
+
+}  // namespace itin::cli

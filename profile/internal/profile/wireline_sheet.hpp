@@ -1,0 +1,37 @@
+// Wirelines on paper, in the fields of view and at the principal distances of NatureScot's "Visual Representation of
+// Wind Farms", version 2.2. Its figures are from memory, consistent in themselves, and not confirmed from the text:
+// - planar: 53.5 by 18.2 degrees, 820 by 260 mm, principal distance 812.5 mm, on a page of 841 by 297 mm;
+// - cylindrical: 90 by 14.2 degrees, 820 by 130 mm, principal distance 522 mm, wider views in a series.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <profile/map_sheet.hpp>
+#include <profile/wireline.hpp>
+
+namespace itin::profile {
+
+struct WirelineSheet {
+  std::string title;
+  std::vector<std::pair<std::string, std::string>> facts;  ///< name, value
+  double centre_deg = 0;                                   ///< bearing of the middle, from grid north
+};
+
+/// One sheet, 53.5 degrees about the middle, planar. As PDF. `view` must hold that field. Throws InputError.
+std::string draw_planar_sheet(const Wireline& view, const WirelineSheet& sheet, const std::string& path);
+
+/// As many fields of 90 degrees about the middle as `fields` says, two on a page, cylindrical. Likewise.
+std::string draw_cylindrical_sheets(const Wireline& view, const WirelineSheet& sheet, int fields,
+                                    const std::string& path);
+
+/// What a viewpoint's sheet holds besides a wireline of 90 degrees: facts, what is seen of each farm, where it lies.
+struct ViewpointSheet {
+  WirelineSheet wireline;
+  std::vector<std::vector<std::string>> farms;  ///< a table, its header first
+  MapSheet map;                                 ///< its layers, scale and the middle of its area
+};
+std::string draw_viewpoint_sheet(const Wireline& view, const ViewpointSheet& sheet, const std::string& path);
+
+}  // namespace itin::profile

@@ -1,0 +1,44 @@
+#include "drawing/simplified.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace itin::profile {
+
+namespace {
+
+double distance_to_segment(Point2 p, Point2 a, Point2 b) {
+  const double dx = b.x - a.x, dy = b.y - a.y, length = dx * dx + dy * dy;
+  const double share = length > 0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / length, 0.0, 1.0) : 0;
+  return std::hypot(p.x - a.x - share * dx, p.y - a.y - share * dy);
+}
+
+}  // namespace
+
+std::vector<Point2> simplified(std::span<const Point2> points, double tolerance) {
+  if (points.size() < 3) return {points.begin(), points.end()};
+  std::vector<bool> kept(points.size(), false);
+  kept.front() = kept.back() = true;
+  std::vector<std::pair<std::size_t, std::size_t>> open{{0, points.size() - 1}};
+  while (!open.empty()) {
+    const auto [first, last] = open.back();
+    open.pop_back();
+    double farthest = tolerance;
+    std::size_t split = first;
+    for (std::size_t i = first + 1; i < last; ++i) {
+      const double distance = distance_to_segment(points[i], points[first], points[last]);
+      if (distance > farthest) farthest = distance, split = i;
+    }
+    if (split == first) continue;
+    kept[split] = true;
+    open.emplace_back(first, split);
+    open.emplace_back(split, last);
+  }
+  std::vector<Point2> result;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (kept[i]) result.push_back(points[i]);
+  return result;
+}
+
+}  // namespace itin::profile

@@ -1,0 +1,186 @@
+#include "drawing/wireline_scene.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <itin/geodesic.hpp>
+
+#include "drawing/label_places.hpp"
+#include "drawing/palette.hpp"
+#include "drawing/simplified.hpp"
+
+namespace itin::profile {
+
+namespace {
+
+constexpr double kTellable = 0.06;  ///< points: a fiftieth of a millimetre
+
+double elevation_of(const WirelineQuery& query, const PlacedTurbine& placed, double height) {
+  return apparent_angle_deg(query.earth, placed.distance, placed.turbine->ground_m + height - query.eye_elevation_m);
+}
+
+}  // namespace
+
+std::vector<PlacedTurbine> placed_turbines(const WirelineQuery& query) {
+  std::vector<PlacedTurbine> placed;
+  for (const WirelineTurbine& t : query.turbines) {
+    const double dx = t.position.x - query.eye.x, dy = t.position.y - query.eye.y, d = std::hypot(dx, dy);
+    double across = std::fmod(std::atan2(dx, dy) * kDegreesPerRadian - query.from_deg, 360);
+    if (across < 0) across += 360;
+    if (across > query.width_deg || d > query.reach_m || d == 0) continue;
+    PlacedTurbine& p = placed.emplace_back(PlacedTurbine{&t, d, across, 0, 0});
+    p.base = elevation_of(query, p, 0), p.top = elevation_of(query, p, t.tip_m);
+  }
+  std::stable_sort(placed.begin(), placed.end(),
+                   [](const PlacedTurbine& a, const PlacedTurbine& b) { return a.distance > b.distance; });
+  return placed;
+}
+
+std::vector<std::string> farms_of(const WirelineQuery& query) {
+  std::vector<std::string> farms;
+  for (const WirelineTurbine& t : query.turbines)
+    if (std::find(farms.begin(), farms.end(), t.farm) == farms.end()) farms.push_back(t.farm);
+  return farms;
+}
+
+Colour farm_colour(std::size_t farm) {
+  // Dark enough for thin lines, told apart with every kind of colour blindness; they repeat.
+  constexpr std::array<Colour, 7> kColours{{{0.80, 0.16, 0.10},
+                                            {0.00, 0.35, 0.70},
+                                            {0.00, 0.52, 0.38},
+                                            {0.60, 0.25, 0.60},
+                                            {0.75, 0.45, 0.00},
+                                            {0.10, 0.55, 0.75},
+                                            {0.35, 0.35, 0.35}}};
+  return kColours[farm % kColours.size()];
+}
+
+WirelineScene::WirelineScene(const Wireline& view, const Box& frame, WirelineProjection projection, const Part& part)
+    : view_(view),
+      frame_(frame),
+      at_(std::move(projection)),
+      part_(part),
+      farms_(farms_of(view.query)),
+      turbines_(placed_turbines(view.query)) {
+  std::erase_if(turbines_, [&](const PlacedTurbine& t) { return !within(t.across); });
+}
+
+/// From the farthest to the nearest: what is nearer covers what is behind it.
+void WirelineScene::draw(Drawing& drawing) const {
+  drawing.clip(frame_);
+  auto turbine = turbines_.begin();
+  for (auto band = view_.bands.rbegin(); band != view_.bands.rend(); ++band) {
+    // A turbine on a limit stands in front of the band behind it. Limits are at most a metre from turbines.
+    for (; turbine != turbines_.end() && turbine->distance >= band->to_m - 0.5; ++turbine)
+      draw_turbine(drawing, *turbine, false);
+    draw_band(drawing, *band);
+  }
+  for (; turbine != turbines_.end(); ++turbine) draw_turbine(drawing, *turbine, false);
+  if (view_.query.hidden_dashed)
+    for (const PlacedTurbine& t : turbines_) draw_turbine(drawing, t, true);
+  draw_labels(drawing);
+  drawing.unclip();
+}
+
+void WirelineScene::draw_band(Drawing& drawing, const WirelineBand& band) const {
+  const double step = view_.query.step_deg;
+  const auto begin = static_cast<std::size_t>(std::max(0.0, std::floor(part_.from_deg / step)));
+  const std::size_t lines =
+      std::min(band.angle_deg.size(), static_cast<std::size_t>(std::ceil(part_.to_deg / step)) + 1);
+  for (std::size_t first = begin; first < lines;) {
+    if (std::isnan(band.angle_deg[first])) {
+      ++first;
+      continue;
+    }
+    std::size_t last = first;
+    while (last + 1 < lines && !std::isnan(band.angle_deg[last + 1])) ++last;
+    draw_stretch(drawing, band, first, last);
+    first = last + 1;
+  }
+}
+
+void WirelineScene::draw_stretch(Drawing& drawing, const WirelineBand& band, std::size_t first,
+                                 std::size_t last) const {
+  const double below = frame_.ymax + 20;
+  const auto at = [&](std::size_t i) {
+    const Point2 p =
+        at_(std::min(static_cast<double>(i) * view_.query.step_deg, view_.query.width_deg), band.angle_deg[i]);
+    return Point2{p.x, std::min(p.y, below - 1)};
+  };
+  std::vector<Point2> outline;
+  for (std::size_t i = first; i <= last; ++i) outline.push_back(at(i));
+  outline = simplified(outline, kTellable);
+  outline.push_back({outline.back().x, below});
+  outline.push_back({outline.front().x, below});
+  drawing.polygon(outline, kPaper);
+  const Stroke stroke = stroke_of(band);
+  std::vector<Point2> crest;
+  for (std::size_t i = first; i <= last; ++i) {
+    if (band.crest[i]) crest.push_back(at(i));
+    if (band.crest[i] && i < last) continue;
+    if (crest.size() > 1) drawing.polyline(simplified(crest, kTellable), stroke);
+    crest.clear();
+  }
+}
+
+/// The farther, the fainter.
+Stroke WirelineScene::stroke_of(const WirelineBand& band) const {
+  const double far = std::log(band.to_m / 20) / std::log(view_.query.reach_m / 20);
+  const double grey = 0.05 + 0.55 * std::clamp(far, 0.0, 1.0);
+  return {{grey, grey, grey}, part_.weight * (1.1 - 0.6 * std::clamp(far, 0.0, 1.0)), {}};
+}
+
+Colour WirelineScene::colour_of(const WirelineTurbine& turbine) const {
+  return farm_colour(static_cast<std::size_t>(std::find(farms_.begin(), farms_.end(), turbine.farm) - farms_.begin()));
+}
+
+void WirelineScene::draw_turbine(Drawing& drawing, const PlacedTurbine& placed, bool dashed) const {
+  const WirelineTurbine& t = *placed.turbine;
+  Stroke stroke{colour_of(t), 0.8 * part_.weight, {}};
+  if (dashed) stroke.width *= 0.5, stroke.dashes = {1.5, 1.5};
+  // A point of the rotor's disc, or of the mast: metres to the right of the axis and above the ground.
+  const auto point = [&](double right, double height) {
+    return at_(placed.across + std::atan2(right, placed.distance) * kDegreesPerRadian,
+               elevation_of(view_.query, placed, height));
+  };
+  if (!t.hub_m || *t.hub_m >= t.tip_m) {
+    drawing.polyline(std::array{point(0, 0), point(0, t.tip_m)}, stroke);
+    return;
+  }
+  const double hub = *t.hub_m, radius = t.tip_m - hub;
+  drawing.polyline(std::array{point(0, 0), point(0, hub)}, stroke);
+  const auto on_rim = [&](double turn) { return point(radius * std::sin(turn), hub + radius * std::cos(turn)); };
+  for (const double turn : {0.0, 2.0, 4.0})
+    drawing.polyline(std::array{point(0, hub), on_rim(turn * std::numbers::pi / 3)}, stroke);
+  if (dashed) return;
+  std::vector<Point2> circle;
+  for (int i = 0; i <= 48; ++i) circle.push_back(on_rim(i * 2 * std::numbers::pi / 48));
+  drawing.polyline(circle, {stroke.colour, 0.35 * part_.weight, {}});
+}
+
+/// Numbers above the tips seen, each as low as no other is in its way, with a line down to its tip.
+void WirelineScene::draw_labels(Drawing& drawing) const {
+  std::vector<const PlacedTurbine*> seen;
+  for (const PlacedTurbine& t : turbines_)
+    if (t.turbine->seen) seen.push_back(&t);
+  std::sort(seen.begin(), seen.end(), [](const auto* a, const auto* b) { return a->across < b->across; });
+  LabelPlaces places;
+  for (const PlacedTurbine* t : seen) {
+    const Lettering lettering{
+        .size = part_.label_size, .colour = colour_of(*t->turbine), .align = Align::kCentre, .rim = 1};
+    const double half = drawing.text_width(t->turbine->label, lettering) / 2 + 1, row = 1.15 * lettering.size;
+    const Point2 tip = at_(t->across, t->top);
+    for (double y = tip.y - 4; y - row > frame_.ymin; y -= row) {
+      const Box box{tip.x - half, y - row, tip.x + half, y + 1};
+      if (!places.free(box)) continue;
+      places.take(box);
+      if (y < tip.y - 5) drawing.polyline(std::array{Point2{tip.x, y + 1}, tip}, {lettering.colour, 0.25, {}});
+      drawing.text({tip.x, y}, t->turbine->label, lettering);
+      break;
+    }
+  }
+}
+
+}  // namespace itin::profile

@@ -1,0 +1,61 @@
+// The terrain and turbines of a wireline in a frame, under any projection.
+//
+//   WirelineScene scene(view, frame, [&](double across, double elevation) { return Point2{...}; });
+//   scene.draw(drawing);
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <profile/wireline.hpp>
+
+#include "drawing/drawing.hpp"
+
+namespace itin::profile {
+
+/// Where a direction is drawn: degrees clockwise from the view's left edge, and of elevation.
+using WirelineProjection = std::function<Point2(double across_deg, double elevation_deg)>;
+
+struct PlacedTurbine {
+  const WirelineTurbine* turbine;
+  double distance, across, base, top;  ///< metres; degrees from the left edge and of elevation
+};
+
+/// Those within the field of view and its reach, from the farthest.
+std::vector<PlacedTurbine> placed_turbines(const WirelineQuery& query);
+
+/// Farms in the order of their first turbines, and the colour of each.
+std::vector<std::string> farms_of(const WirelineQuery& query);
+Colour farm_colour(std::size_t farm);
+
+class WirelineScene {
+ public:
+  /// Only what lies between the two degrees from the left edge is drawn. Labels have this size, points.
+  struct Part {
+    double from_deg = 0, to_deg = 360;
+    double label_size = 6;
+    double weight = 1;  ///< of all lines
+  };
+  WirelineScene(const Wireline& view, const Box& frame, WirelineProjection projection, const Part& part);
+
+  void draw(Drawing& drawing) const;
+
+ private:
+  void draw_band(Drawing& drawing, const WirelineBand& band) const;
+  void draw_stretch(Drawing& drawing, const WirelineBand& band, std::size_t first, std::size_t last) const;
+  void draw_turbine(Drawing& drawing, const PlacedTurbine& placed, bool dashed) const;
+  void draw_labels(Drawing& drawing) const;
+  Stroke stroke_of(const WirelineBand& band) const;
+  Colour colour_of(const WirelineTurbine& turbine) const;
+  bool within(double across) const { return across >= part_.from_deg && across <= part_.to_deg; }
+
+  const Wireline& view_;
+  Box frame_;
+  WirelineProjection at_;
+  Part part_;
+  std::vector<std::string> farms_;
+  std::vector<PlacedTurbine> turbines_;
+};
+
+}  // namespace itin::profile

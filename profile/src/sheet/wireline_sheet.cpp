@@ -1,0 +1,170 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+#include <profile/wireline_sheet.hpp>
+
+#include "drawing/drawing.hpp"
+#include "drawing/palette.hpp"
+#include "drawing/wireline_scene.hpp"
+#include "sheet/map_frame.hpp"
+#include "sheet/paper.hpp"
+#include "sheet/wireline_strip.hpp"
+
+namespace itin::profile {
+
+namespace {
+
+// Millimetres and degrees; see wireline_sheet.hpp.
+constexpr double kPageWidth = 841, kPageHeight = 297, kImageWidth = 820;
+constexpr double kPlanarField = 53.5, kPlanarHeight = 260, kPlanarPrincipal = 812.5;
+constexpr double kWeight = 1.6;
+constexpr double kCylinderField = 90, kCylinderHeight = 130, kCylinderPrincipal = 522;
+
+Drawing pdf(const std::string& path, double width_mm, double height_mm) {
+  if (Drawing::format_of(path) != Drawing::Format::kPdf)
+    throw InputError(fmt::format("{}: a wireline's sheet ends in .pdf", path));
+  return {Drawing::Format::kPdf, width_mm * kPointsPerMillimetre, height_mm * kPointsPerMillimetre};
+}
+
+Box box_mm(double left, double top, double width, double height) {
+  constexpr double k = kPointsPerMillimetre;
+  return {left * k, top * k, (left + width) * k, (top + height) * k};
+}
+
+/// Title and facts in columns below an image, from `top` on; and the farms' names in their colours.
+void draw_caption(Drawing& drawing, const Wireline& view, const WirelineSheet& sheet, const std::string& how,
+                  double top_mm) {
+  constexpr double k = kPointsPerMillimetre;
+  const double left = (kPageWidth - kImageWidth) / 2 * k, width = kImageWidth * k;
+  double y = top_mm * k;
+  drawing.text({left, y + 12}, sheet.title, {.size = 13, .colour = kInk, .bold = true});
+  const std::vector<std::string> farms = farms_of(view.query);
+  double x = left + width;
+  for (std::size_t f = farms.size(); farms.size() > 1 && f-- > 0;) {
+    const Lettering lettering{.size = 9, .colour = farm_colour(f), .align = Align::kRight, .bold = true};
+    const std::string name = farms[f].empty() ? "(no farm)" : farms[f];
+    drawing.text({x, y + 12}, name, lettering);
+    x -= drawing.text_width(name, lettering) + 12;
+  }
+  y += 24;
+  const double column = width / 5;
+  const Lettering lettering{.size = 8, .colour = kInk};
+  double at = left, row = y;
+  const double bottom = (kPageHeight - 5) * k;
+  const auto add = [&](const std::string& text) {
+    for (const std::string& line : drawing.lines(text, column - 14, lettering)) {
+      if (row > bottom && at + 1.01 * column < left + width) row = y, at += column;
+      drawing.text({at, row}, line, lettering);
+      row += 10;
+    }
+  };
+  add(how);
+  for (const auto& [name, value] : sheet.facts) add(name + ": " + value);
+}
+
+std::string seen_from(double principal_mm, const char* projection, double field) {
+  return fmt::format(
+      "{} projection, horizontal field of view {:g}°, principal distance {:g} mm on paper of {:g} by {:g} "
+      "mm: to be printed at full size and viewed flat at a comfortable arm's length.",
+      projection, field, principal_mm, kPageWidth, kPageHeight);
+}
+
+}  // namespace
+
+std::string draw_planar_sheet(const Wireline& view, const WirelineSheet& sheet, const std::string& path) {
+  Drawing drawing = pdf(path, kPageWidth, kPageHeight);
+  drawing.rectangle({0, 0, drawing.width(), drawing.height()}, kPaper);
+  draw_strip(drawing, view,
+             {StripProjection::kPlanar, box_mm((kPageWidth - kImageWidth) / 2, 4, kImageWidth, kPlanarHeight),
+              kPlanarPrincipal, sheet.centre_deg, kPlanarField, kWeight});
+  draw_caption(drawing, view, sheet, seen_from(kPlanarPrincipal, "Planar", kPlanarField), kPlanarHeight + 10);
+  return drawing.finish();
+}
+
+std::string draw_cylindrical_sheets(const Wireline& view, const WirelineSheet& sheet, int fields,
+                                    const std::string& path) {
+  Drawing drawing = pdf(path, kPageWidth, kPageHeight);
+  for (int i = 0; i < fields; ++i) {
+    const bool upper = i % 2 == 0;
+    if (upper) {
+      if (i > 0) drawing.new_page();
+      drawing.rectangle({0, 0, drawing.width(), drawing.height()}, kPaper);
+    }
+    const double centre = sheet.centre_deg + kCylinderField * (i - (fields - 1) / 2.0);
+    draw_strip(drawing, view,
+               {StripProjection::kCylindrical,
+                box_mm((kPageWidth - kImageWidth) / 2, upper ? 4 : 139.5, kImageWidth, kCylinderHeight),
+                kCylinderPrincipal, centre, kCylinderField, kWeight});
+    if (upper)
+      draw_caption(drawing, view, sheet, seen_from(kCylinderPrincipal, "Cylindrical", kCylinderField),
+                   2 * kCylinderHeight + 14);
+  }
+  return drawing.finish();
+}
+
+namespace {
+
+void draw_table(Drawing& drawing, const std::vector<std::vector<std::string>>& rows, Point2 at, double width) {
+  if (rows.empty()) return;
+  const auto columns = static_cast<double>(rows.front().size());
+  const double first = 0.26 * width, other = (width - first) / std::max(1.0, columns - 1);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const Lettering lettering{.size = 7.5, .colour = kInk, .bold = r == 0};
+    for (std::size_t c = 0; c < rows[r].size(); ++c) {
+      const double x = at.x + (c == 0 ? 0 : first + other * (static_cast<double>(c) - 1));
+      drawing.text({x, at.y}, drawing.fitted(rows[r][c], (c == 0 ? first : other) - 4, lettering), lettering);
+    }
+    at.y += 11;
+    if (r == 0)
+      drawing.polyline(std::array{Point2{at.x, at.y - 7.5}, Point2{at.x + width, at.y - 7.5}}, {kFaint, 0.5, {}});
+  }
+}
+
+}  // namespace
+
+std::string draw_viewpoint_sheet(const Wireline& view, const ViewpointSheet& sheet, const std::string& path) {
+  constexpr double k = kPointsPerMillimetre, kWidth = 420, kHeight = 297, kMargin = 10, kStrip = 63;
+  Drawing drawing = pdf(path, kWidth, kHeight);
+  drawing.rectangle({0, 0, drawing.width(), drawing.height()}, kPaper);
+  const double left = kMargin * k, width = 230 * k;
+  drawing.text({left, 16 * k}, drawing.fitted(sheet.wireline.title, width, {.size = 16, .colour = kInk, .bold = true}),
+               {.size = 16, .colour = kInk, .bold = true});
+  double y = 26 * k;
+  const Lettering name_of_fact{.size = 9, .colour = kFaint}, plain{.size = 9, .colour = kInk};
+  const double values = left + 55 * k;
+  for (const auto& [name, value] : sheet.wireline.facts) {
+    drawing.text({left, y}, name, name_of_fact);
+    for (const std::string& line : drawing.lines(value, left + width - values, plain)) {
+      drawing.text({values, y}, line, plain);
+      y += 12;
+    }
+    y += 2;
+  }
+  draw_table(drawing, sheet.farms, {left, y + 10}, width);
+  Paper paper = paper_of(PaperSize::kA3);
+  paper.frame = box_mm(255, 16, 150, 178);
+  const double metres = sheet.map.scale / (1000 * k);
+  const Point2 middle{(sheet.map.area.xmin + sheet.map.area.xmax) / 2, (sheet.map.area.ymin + sheet.map.area.ymax) / 2};
+  const double across = paper.frame.width() * metres / 2, up = paper.frame.height() * metres / 2;
+  MapFrame(drawing, paper, {middle.x - across, middle.y - up, middle.x + across, middle.y + up}).draw(sheet.map);
+  drawing.text({paper.frame.xmin, paper.frame.ymax + 22},
+               fmt::format("Location, 1:{:.0f} at A3; grid north is up", sheet.map.scale), name_of_fact);
+  const double image = kWidth - 2 * kMargin, principal = image / (std::numbers::pi / 2);
+  draw_strip(drawing, view,
+             {StripProjection::kCylindrical, box_mm(kMargin, 214, image, kStrip), principal, sheet.wireline.centre_deg,
+              kCylinderField});
+  drawing.text(
+      {left, (214 + kStrip + 9) * k},
+      fmt::format("Wireline, cylindrical, 90°, principal distance {:.0f} mm at A3: for orientation; the sheets "
+                  "at full size are separate.",
+                  principal),
+      name_of_fact);
+  return drawing.finish();
+}
+
+}  // namespace itin::profile

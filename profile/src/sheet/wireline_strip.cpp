@@ -1,0 +1,81 @@
+#include "sheet/wireline_strip.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+#include <itin/geodesic.hpp>
+
+#include "drawing/palette.hpp"
+#include "drawing/wireline_scene.hpp"
+#include "sheet/paper.hpp"
+
+namespace itin::profile {
+
+namespace {
+
+/// Degrees from the view's left edge to the middle of the strip.
+double middle_of(const Wireline& view, const WirelineStrip& strip) {
+  return std::fmod(strip.centre_deg - view.query.from_deg + 720, 360);
+}
+
+/// Points to the right of the strip's middle and above its horizon.
+Point2 on_paper(const WirelineStrip& strip, double from_middle_deg, double elevation_deg) {
+  const double principal = strip.principal_mm * kPointsPerMillimetre, azimuth = from_middle_deg / kDegreesPerRadian;
+  const double rise = std::tan(elevation_deg / kDegreesPerRadian);
+  if (strip.projection == StripProjection::kCylindrical) return {principal * azimuth, principal * rise};
+  return {principal * std::tan(azimuth), principal * rise / std::cos(azimuth)};
+}
+
+double middle_height(const Box& frame) {
+  return (frame.ymin + frame.ymax) / 2;
+}
+
+void draw_bearings(Drawing& drawing, const WirelineStrip& strip) {
+  const Box& f = strip.frame;
+  const double first = strip.centre_deg - strip.width_deg / 2, last = strip.centre_deg + strip.width_deg / 2;
+  for (double a = std::ceil(first / 5) * 5; a <= last + 1e-9; a += 5) {
+    const double x = (f.xmin + f.xmax) / 2 + on_paper(strip, a - strip.centre_deg, 0).x;
+    drawing.polyline(std::array{Point2{x, f.ymax}, Point2{x, f.ymax + 4}}, {kInk, 0.6, {}});
+    drawing.text({x, f.ymax + 12}, fmt::format("{:g}°", std::fmod(a + 720, 360)),
+                 {.size = 7, .colour = kInk, .align = Align::kCentre});
+  }
+}
+
+}  // namespace
+
+double horizon_shift(const Wireline& view, const WirelineStrip& strip) {
+  constexpr double kRoom = 22;  // points above a tip, for its number
+  double highest = 0;
+  for (const PlacedTurbine& t : placed_turbines(view.query)) {
+    const double across = t.across - middle_of(view, strip);
+    if (std::abs(across) <= strip.width_deg / 2) highest = std::max(highest, on_paper(strip, across, t.top).y);
+  }
+  return std::clamp(highest + kRoom - strip.frame.height() / 2, 0.0, strip.frame.height() * 0.4);
+}
+
+void draw_strip(Drawing& drawing, const Wireline& view, const WirelineStrip& strip) {
+  const double middle = middle_of(view, strip), half = strip.width_deg / 2;
+  if (middle - half < -1e-6 || middle + half > view.query.width_deg + 1e-6)
+    throw InputError(fmt::format("a wireline's strip of {:g} degrees about {:g} is not within its field of view",
+                                 strip.width_deg, strip.centre_deg));
+  const Box& f = strip.frame;
+  const Point2 origin{(f.xmin + f.xmax) / 2, middle_height(f) + horizon_shift(view, strip)};
+  drawing.polyline(std::array{Point2{f.xmin, origin.y}, Point2{f.xmax, origin.y}}, {kGrid, 0.5, {}});
+  WirelineScene(view, f,
+                [&](double across, double elevation) {
+                  const Point2 p = on_paper(strip, across - middle, elevation);
+                  return Point2{origin.x + p.x, origin.y - p.y};
+                },
+                {middle - half, middle + half, 6 + strip.weight, strip.weight})
+      .draw(drawing);
+  drawing.polyline(std::array{Point2{f.xmin, f.ymin}, Point2{f.xmax, f.ymin}, Point2{f.xmax, f.ymax},
+                              Point2{f.xmin, f.ymax}, Point2{f.xmin, f.ymin}},
+                   {kInk, 0.7, {}});
+  draw_bearings(drawing, strip);
+}
+
+}  // namespace itin::profile

@@ -1,0 +1,27 @@
+// A field of view of a wireline in a frame on paper, with bearings along its edges.
+#pragma once
+
+#include <profile/wireline.hpp>
+
+#include "drawing/drawing.hpp"
+
+namespace itin::profile {
+
+enum class StripProjection { kPlanar, kCylindrical };
+
+struct WirelineStrip {
+  StripProjection projection = StripProjection::kCylindrical;
+  Box frame;                ///< points
+  double principal_mm = 0;  ///< the distance from which it is seen as in nature
+  double centre_deg = 0;    ///< bearing of its middle
+  double width_deg = 90;
+  double weight = 1;  ///< of all lines: wide sheets are seen from farther away
+};
+
+/// How far the horizon must lie below the middle of the frame for the highest tip in it to be seen, points.
+double horizon_shift(const Wireline& view, const WirelineStrip& strip);
+
+/// Throws InputError where the view does not hold the field.
+void draw_strip(Drawing& drawing, const Wireline& view, const WirelineStrip& strip);
+
+}  // namespace itin::profile
