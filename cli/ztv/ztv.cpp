@@ -29,6 +29,7 @@
 #include "program/verb.hpp"
 #include "ztv/ztv_methods.hpp"
 #include "ztv/ztv_radio.hpp"
+#include "ztv/ztv_route.hpp"
 #include "ztv/ztv_sheets.hpp"
 #include "ztv/ztv_turbines.hpp"
 #include "ztv/ztv_viewpoints.hpp"
@@ -54,10 +55,15 @@ class ZtvVerb final : public Verb {
     replaces(app.add_option("-o,--output", output_, "The folder to write")->required()->type_name("DIR"));
     app.add_option("--cell", cell_text_, "Size of the rasters' cells (default: 50)")->type_name("METRES");
     reads(app.add_option("--like", like_, "Take the cells of this raster")->type_name("FILE"));
+    app.add_option("--bands", bands_text_,
+                   "Greatest number of turbines in each band of maps and tables, ascending (default: at most seven "
+                   "bands of equal width)")
+        ->type_name("N,...");
     app.add_option("--observer-height", observer_text_, "Of the eyes above the bare ground (default: 2)")
         ->type_name("METRES");
     radius_.declare(app);
     viewpoints_.declare(app);
+    route_.declare(app);
     radio_.declare(app);
     sheets_.declare(app);
     detail_.declare(app);
@@ -75,6 +81,7 @@ class ZtvVerb final : public Verb {
   void validate() override {
     turbines_.validate();
     viewpoints_.validate(turbines_.in_crs());
+    route_.validate();
     radio_.validate();
     sheets_.validate();
     radius_.validate();
@@ -85,6 +92,7 @@ class ZtvVerb final : public Verb {
     request_.earth = earth_.earth();
     if (!observer_text_.empty())
       request_.observer_height = parse_height("--observer-height", observer_text_, Range::kNotNegative);
+    if (!bands_text_.empty()) request_.count_bands = parse_bands();
     if (!cell_text_.empty() && !like_.empty()) throw InputError("--cell and --like exclude each other");
     if (like_.empty())
       request_.cell_size = cell_text_.empty() ? kDefaultCell : parse_number("--cell", cell_text_, Range::kPositive);
@@ -96,14 +104,26 @@ class ZtvVerb final : public Verb {
     }
   }
 
+  std::vector<std::size_t> parse_bands() const {
+    std::vector<std::size_t> bands;
+    for (const int most : parse_wholes("--bands", bands_text_, 1, 65534)) {
+      if (!bands.empty() && static_cast<std::size_t>(most) <= bands.back())
+        throw InputError("--bands: give ascending numbers");
+      bands.push_back(static_cast<std::size_t>(most));
+    }
+    return bands;
+  }
+
   Document parameters() const override {
     Document parameters{{"store", store_}};
     parameters.update(turbines_.parameters());
     parameters["observer_height_m"] = request_.observer_height;
     if (request_.cell_size) parameters["cell_m"] = *request_.cell_size;
+    if (!request_.count_bands.empty()) parameters["bands"] = request_.count_bands;
     if (!like_.empty()) parameters["like"] = like_;
     parameters["radius_preset"] = radius_.document();
     parameters.update(viewpoints_.parameters());
+    parameters.update(route_.parameters());
     parameters.update(radio_.parameters());
     parameters.update(sheets_.parameters());
     parameters.update(detail_.parameters());
@@ -180,9 +200,12 @@ class ZtvVerb final : public Verb {
       add(seen_.files);
       document["viewpoints"] = bad_rows_document(seen_.path, seen_.rows, seen_.rows - seen_.bad.size(), seen_.bad);
     }
+    if (route_.given()) add(route_.write(folder, store, zone, progress));
     if (sheets_.given()) add(write_ztv_sheets(folder, store, zone, sheets_, sheet_facts(metadata), progress));
     add_text("areas.csv", "km2 by band of turbines seen and by ring of distance to the nearest turbine",
              viewshed::area_table(zone));
+    add_text("area-totals.csv", "km2 by band of turbines seen and by combination of farms, over the whole study area",
+             viewshed::area_totals(zone));
     add_text("turbines.csv", "the turbines as understood, row by row, and what is wrong with those not used",
              turbine_table(zone));
     add_text("radius-preset.json", "the radii used, to edit and give by --radius-preset",
@@ -315,10 +338,11 @@ class ZtvVerb final : public Verb {
     return text;
   }
 
-  std::string store_, output_, cell_text_, like_, observer_text_, nodata_text_, memory_text_;
+  std::string store_, output_, cell_text_, like_, observer_text_, bands_text_, nodata_text_, memory_text_;
   TurbineOptions turbines_;
   RadiusOptions radius_;
   ViewpointOptions viewpoints_;
+  RouteOptions route_;
   ZtvRadioOptions radio_;
   SheetOptions sheets_;
   DetailOptions detail_;

@@ -53,6 +53,8 @@ struct ZoneRequest {
   /// A survey of a store may take about so many bytes: it is made in parts where the surface does not fit. The results
   /// are the same. Nothing: any.
   std::optional<std::uint64_t> memory_bytes;
+  /// The greatest number of turbines in each band of maps and tables, ascending; none: bands of equal width.
+  std::vector<std::size_t> count_bands;
   std::optional<Observer> radar;  ///< whose horizon is looked for besides, over bare ground
 };
 

@@ -20,15 +20,18 @@ struct ZoneMap {
     std::uint8_t red = 0, green = 0, blue = 0, alpha = 255;
     std::uint64_t cells = 0;
   };
-  std::string name;     ///< as in the names of files: "tip-count-screened"
-  std::string title;    ///< "Blade tips theoretically visible"
-  std::string heading;  ///< of its legend
+  std::string name;          ///< as in the names of files: "tip-count-screened"
+  std::string title;         ///< "Blade tips theoretically visible"
+  std::string heading;       ///< of its legend
+  const char* seen = "tip";  ///< "tip", "hub" or "farms"
   bool screened = false;
   std::vector<Class> classes;
   std::vector<std::uint8_t> class_of_cell;  ///< index of a class, or kNoMapClass
 };
 
 /// Tips seen, hubs where one is known, and combinations of farms where there are several; then all of them screened.
-std::vector<ZoneMap> zone_maps(const Zone& zone);
+/// The commonest combinations have classes of their own, `most_combinations` (up to 250) of them, the others one
+/// together. The first class of each map is of cells that see nothing.
+std::vector<ZoneMap> zone_maps(const Zone& zone, std::size_t most_combinations = 12);
 
 }  // namespace itin::viewshed

@@ -46,13 +46,19 @@ std::string style(const std::string& renderer) {
 
 }  // namespace
 
-std::vector<ValueBand> count_bands(std::size_t most) {
+std::vector<ValueBand> count_bands(std::size_t most, std::vector<std::size_t> limits) {
   constexpr std::size_t kMost = 7;
-  std::vector<ValueBand> bands{none()};
   const std::size_t width = std::max<std::size_t>(1, (most + kMost - 1) / kMost);
-  for (std::size_t from = 1; from <= most; from += width) {
-    const std::size_t to = std::min(most, from + width - 1);
+  if (limits.empty())
+    for (std::size_t to = width; to < most; to += width) limits.push_back(to);
+  limits.push_back(most);
+  std::vector<ValueBand> bands{none()};
+  std::size_t from = 1;
+  for (const std::size_t limit : limits) {
+    const std::size_t to = std::min(limit, most);
+    if (to < from) continue;
     bands.push_back({static_cast<double>(to), from == to ? fmt::format("{}", from) : fmt::format("{} - {}", from, to)});
+    from = to + 1;
   }
   colour_bands(bands);
   return bands;

@@ -14,8 +14,9 @@ struct ValueBand {
   std::uint8_t red = 0, green = 0, blue = 0, alpha = 255;
 };
 
-/// 0 (clear of colour), then 1 to `most` in at most seven bands of equal width.
-std::vector<ValueBand> count_bands(std::size_t most);
+/// 0 (clear of colour), then 1 to `most` in bands up to these limits, the last one up to `most`; without limits in at
+/// most seven bands of equal width.
+std::vector<ValueBand> count_bands(std::size_t most, std::vector<std::size_t> limits = {});
 /// 0 (clear of colour), then between the limits, the last open. `unit` as in "10 - 25 m".
 std::vector<ValueBand> limit_bands(const std::vector<double>& limits, const std::string& unit);
 /// The band that holds a value: the first whose limit it does not exceed.

@@ -15,7 +15,7 @@ constexpr const char* kNone = "None visible";
 
 ZoneMap count_map(const Zone& zone, const std::vector<std::uint16_t>& counts) {
   ZoneMap map;
-  const auto bands = count_bands(zone.request.turbines.size());
+  const auto bands = count_bands(zone.request.turbines.size(), zone.request.count_bands);
   for (const ValueBand& b : bands)
     map.classes.push_back({b.to > 0 ? b.label : kNone, b.red, b.green, b.blue, b.alpha, 0});
   map.class_of_cell.assign(counts.size(), kNoMapClass);
@@ -27,9 +27,7 @@ ZoneMap count_map(const Zone& zone, const std::vector<std::uint16_t>& counts) {
   return map;
 }
 
-/// The commonest combinations have classes of their own, the others one together.
-ZoneMap farm_map(const Zone& zone, const Visibility& visibility) {
-  constexpr std::size_t kMost = 12;
+ZoneMap farm_map(const Zone& zone, const Visibility& visibility, std::size_t most) {
   const std::vector<std::uint32_t> farms = farm_combinations(zone, visibility);
   std::map<std::uint32_t, std::uint64_t> cells;
   for (const std::uint32_t f : farms)
@@ -42,10 +40,10 @@ ZoneMap farm_map(const Zone& zone, const Visibility& visibility) {
   map.classes.push_back({kNone, 0, 0, 0, 0, cells[0]});
   std::map<std::uint32_t, std::uint8_t> class_of{{0, 0}, {kOutsideFarms, kNoMapClass}};
   for (std::size_t i = 0; i < present.size(); ++i) {
-    if (i <= kMost) {
+    if (i <= most) {
       ZoneMap::Class& c = map.classes.emplace_back();
-      c.label = i < kMost ? present[i].name : "other combinations";
-      if (i < kMost)
+      c.label = i < most ? present[i].name : "other combinations";
+      if (i < most)
         set_distinct_colour(i, c.red, c.green, c.blue);
       else
         c.red = c.green = c.blue = 90;
@@ -61,12 +59,13 @@ void add(std::vector<ZoneMap>& maps, ZoneMap map, const char* name, const char* 
          bool screened) {
   map.name = std::string(name) + (screened ? "-screened" : ""), map.title = title, map.heading = heading;
   map.screened = screened;
+  map.seen = map.name.starts_with("farms") ? "farms" : map.name.starts_with("hub") ? "hub" : "tip";
   maps.push_back(std::move(map));
 }
 
 }  // namespace
 
-std::vector<ZoneMap> zone_maps(const Zone& zone) {
+std::vector<ZoneMap> zone_maps(const Zone& zone, std::size_t most_combinations) {
   std::vector<ZoneMap> maps;
   const auto& turbines = zone.request.turbines;
   const bool hubs =
@@ -79,8 +78,9 @@ std::vector<ZoneMap> zone_maps(const Zone& zone) {
       add(maps, count_map(zone, v.hub_count), "hub-count", "Zone of theoretical visibility: hubs",
           "Turbines with their hub visible", screened);
     if (farms > 1 && farms <= kMostFarms)
-      add(maps, farm_map(zone, v), "farms", "Cumulative zone of theoretical visibility: blade tips by wind farm",
-          "Wind farms with a blade tip visible", screened);
+      add(maps, farm_map(zone, v, most_combinations), "farms",
+          "Cumulative zone of theoretical visibility: blade tips by wind farm", "Wind farms with a blade tip visible",
+          screened);
   };
   add_all(zone.bare, false);
   if (zone.screened) add_all(*zone.screened, true);

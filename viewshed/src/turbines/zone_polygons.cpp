@@ -12,7 +12,7 @@ namespace {
 
 void write_bands(const std::string& path, const std::string& layer, const Zone& zone,
                  const std::vector<std::uint16_t>& counts, const ZoneFileOptions& options) {
-  const auto bands = count_bands(zone.request.turbines.size());
+  const auto bands = count_bands(zone.request.turbines.size(), zone.request.count_bands);
   RegionDescription description{options.crs_wkt, layer, {}, true};
   for (std::size_t b = 1; b < bands.size(); ++b)
     description.classes.push_back({static_cast<std::uint32_t>(b), bands[b].label});

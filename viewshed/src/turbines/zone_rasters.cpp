@@ -71,7 +71,7 @@ const std::vector<Quantity>& quantities() {
 }
 
 void write_counts(const Zone& zone, const Visibility& v, const std::string& suffix, RasterFolder& folder) {
-  const auto bands = count_bands(zone.request.turbines.size());
+  const auto bands = count_bands(zone.request.turbines.size(), zone.request.count_bands);
   const auto what = [](const char* part) {
     return fmt::format("how many turbines have their {} seen; 65535: {}", part, kNoValue);
   };
@@ -107,7 +107,7 @@ std::vector<float> difference(const std::vector<T>& bare, const std::vector<T>& 
 }
 
 void write_differences(const Zone& zone, RasterFolder& folder) {
-  const auto bands = count_bands(zone.request.turbines.size());
+  const auto bands = count_bands(zone.request.turbines.size(), zone.request.count_bands);
   const auto what = [](const std::string& of) {
     return fmt::format("{}: bare ground less screened; NaN: {}", of, kNoValue);
   };

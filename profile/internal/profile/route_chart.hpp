@@ -1,0 +1,26 @@
+// What is seen along a route, as steps over its length: how many hubs and tips.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace itin::profile {
+
+struct RouteStep {
+  double from_m = 0, to_m = 0;
+  std::optional<std::size_t> hubs;  ///< nothing: no hub's height is known
+  std::size_t tips = 0;
+  bool known = true;  ///< whether there is ground
+};
+
+struct RouteChart {
+  std::string title, note;
+  std::vector<RouteStep> steps;  ///< one after the other
+  std::size_t turbines = 1;      ///< the chart's top
+};
+
+/// The bytes of a file: .svg, .pdf or .png by the name's ending. Throws InputError for another ending and for no steps.
+std::string draw_route_chart(const RouteChart& chart, const std::string& path);
+
+}  // namespace itin::profile
