@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -39,6 +41,9 @@ void complete(std::optional<double>& hub, std::optional<double>& rotor, std::opt
   }
   if (hub && *hub <= 0)
     throw InputError("its rotor_diameter is more than twice its tip_height: the hub is underground");
+  if (hub && rotor && *rotor / 2 > *hub)
+    throw InputError(fmt::format("its blades would reach {:g} m below the ground: hub {:g}, rotor {:g}",
+                                 *rotor / 2 - *hub, *hub, *rotor));
   if (hub && rotor && std::abs(*hub + *rotor / 2 - *tip) > 1)
     throw InputError(
         fmt::format("its heights contradict each other: hub {:g} and half the rotor {:g} are not the tip {:g}", *hub,
@@ -64,6 +69,21 @@ std::size_t known_hubs(const std::vector<viewshed::Turbine>& turbines) {
                                                 [](const viewshed::Turbine& t) { return t.hub_height.has_value(); }));
 }
 
+namespace {
+
+/// Two turbines at one place count twice, which is seldom meant.
+void warn_of_duplicates(TurbineList& list) {
+  std::map<std::pair<double, double>, std::size_t> first;
+  for (const viewshed::Turbine& t : list.turbines) {
+    const auto [at, fresh] = first.emplace(std::pair(t.position.x, t.position.y), t.number);
+    if (!fresh)
+      list.warnings.push_back(fmt::format("row {} stands at the same place as row {}, {:.10g},{:.10g}; both count",
+                                          t.number, at->second, t.position.x, t.position.y));
+  }
+}
+
+}  // namespace
+
 void TurbineOptions::declare(CLI::App& app) {
   reads(app.add_option(
                "--turbines", query_.path,
@@ -75,6 +95,14 @@ void TurbineOptions::declare(CLI::App& app) {
   app.add_option("--where", query_.where, "Only turbines that this SQL condition holds for")->type_name("SQL");
   app.add_option("--name-field", query_.name_field, "The field of that file that holds names (default: name)")
       ->type_name("FIELD");
+  const auto field = [&](const char* option, std::string& name, const char* what) {
+    app.add_option(option, name, fmt::format("The field of that file that holds {} (default: {})", what, name))
+        ->type_name("FIELD");
+  };
+  field("--hub-height-field", hub_field_, "hub heights");
+  field("--rotor-diameter-field", rotor_field_, "rotor diameters");
+  field("--tip-height-field", tip_field_, "heights of blade tips");
+  field("--farm-field", farm_field_, "farms");
   app.add_option("--hub-height", hub_text_, "Hub height of turbines that do not say")->type_name("METRES");
   app.add_option("--rotor-diameter", rotor_text_, "Rotor diameter of turbines that do not say")->type_name("METRES");
   app.add_option("--tip-height", tip_text_, "Height of the blades' highest tip, of turbines that do not say")
@@ -126,7 +154,7 @@ viewshed::Turbine TurbineOptions::turbine_of(const SiteRow& row) const {
 TurbineList TurbineOptions::read(const StoreMetadata& metadata, const std::function<double(double)>& radius) const {
   const std::string name_field = query_.name_field.empty() ? "name" : query_.name_field;
   const auto rows =
-      read_site_rows(query_, {"hub_height", "rotor_diameter", "tip_height", "farm", name_field}, metadata.crs_wkt);
+      read_site_rows(query_, {hub_field_, rotor_field_, tip_field_, farm_field_, name_field}, metadata.crs_wkt);
   TurbineList list;
   NoProgress quiet;
   list.sha256 = file_sha256(query_.path, quiet);
@@ -143,6 +171,7 @@ TurbineList TurbineOptions::read(const StoreMetadata& metadata, const std::funct
       list.bad.push_back({k, row.feature, in_options(error.what())});
     }
   }
+  warn_of_duplicates(list);
   if (list.rows == 0) throw InputError(none_in(query_, "turbine"));
   if (list.turbines.empty())
     throw InputError(fmt::format("{}: none of its rows can be used ({} in all); the first: {}", query_.path, list.rows,
@@ -160,6 +189,10 @@ Document TurbineOptions::parameters() const {
   };
   text("layer", query_.layer), text("where", query_.where), text("name_field", query_.name_field);
   metres("hub_height_m", hub_), metres("rotor_diameter_m", rotor_), metres("tip_height_m", tip_);
+  if (hub_field_ != "hub_height") parameters["hub_height_field"] = hub_field_;
+  if (rotor_field_ != "rotor_diameter") parameters["rotor_diameter_field"] = rotor_field_;
+  if (tip_field_ != "tip_height") parameters["tip_height_field"] = tip_field_;
+  if (farm_field_ != "farm") parameters["farm_field"] = farm_field_;
   text("farm", farm_), text("in_crs", in_crs_.crs);
   return parameters;
 }

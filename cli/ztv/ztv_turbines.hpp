@@ -37,6 +37,7 @@ struct TurbineList {
   std::vector<BadRow> bad;
   std::vector<std::int64_t> features;  ///< of every row
   std::string sha256;                  ///< of the file
+  std::vector<std::string> warnings;   ///< about rows that are used
 };
 
 class TurbineOptions {
@@ -57,6 +58,8 @@ class TurbineOptions {
 
   SiteQuery query_;
   std::string hub_text_, rotor_text_, tip_text_, farm_;
+  std::string hub_field_ = "hub_height", rotor_field_ = "rotor_diameter", tip_field_ = "tip_height",
+              farm_field_ = "farm";
   InCrs in_crs_;
   std::optional<double> hub_, rotor_, tip_;  ///< of rows that do not say
 };

@@ -13,6 +13,7 @@
 #include <itin/raster_regions.hpp>
 
 #include "export/pending_file.hpp"
+#include "export/polygon_style.hpp"
 #include "gdal/quiet_gdal.hpp"
 
 namespace itin {
@@ -111,6 +112,7 @@ void write_layer(const PendingFile& output, const RasterGrid& grid, Regions& reg
     row.SetGeometryDirectly(region.shape.release());
     require(layer->CreateFeature(&row) == OGRERR_NONE, path, "cannot be written");
   }
+  require(add_layer_style(*dataset, description.layer, polygon_style(description.classes)), path, "cannot be written");
   CPLErrorReset();
   dataset.reset();
   require(!QuietGdal::failed(), path, "cannot be written");

@@ -7,6 +7,7 @@
 #include <viewshed/viewshed.hpp>
 
 #include "line/verdicts.hpp"
+#include "turbines/value_bands.hpp"
 
 namespace itin::viewshed {
 
@@ -60,6 +61,10 @@ void write_polygons(const std::string& path, const Result& result, const std::st
   RegionDescription description{crs_wkt, "viewshed", {}, overwrite};
   const auto write = [&](const auto& values, RegionClasses classes) {
     description.classes = std::move(classes);
+    for (std::size_t i = 0; i < description.classes.size() && description.classes.size() > 1; ++i) {
+      RegionClass& c = description.classes[i];
+      set_distinct_colour(i, c.red, c.green, c.blue);
+    }
     write_regions(path, result.grid, std::span(values), description);
   };
   switch (result.request.mode) {

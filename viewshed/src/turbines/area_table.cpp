@@ -109,8 +109,8 @@ std::string area_totals(const Zone& zone) {
     std::uint64_t all = 0;
     for (const ZoneMap::Class& c : map.classes) all += c.cells;
     const auto add = [&](const std::string& name, std::uint64_t cells) {
-      fmt::format_to(std::back_inserter(text), "{},{},{},{:.{}f},{:.2f}\n", map.screened ? "screened" : "bare", map.seen,
-                     csv_cell(name), static_cast<double>(cells) * zone.grid.cell_area() / 1e6, decimals(zone),
+      fmt::format_to(std::back_inserter(text), "{},{},{},{:.{}f},{:.2f}\n", map.screened ? "screened" : "bare",
+                     map.seen, csv_cell(name), static_cast<double>(cells) * zone.grid.cell_area() / 1e6, decimals(zone),
                      100.0 * static_cast<double>(cells) / static_cast<double>(std::max<std::uint64_t>(1, all)));
     };
     for (const ZoneMap::Class& c : map.classes) add(c.label, c.cells);

@@ -99,14 +99,14 @@ std::string banded_style(const std::vector<ValueBand>& bands) {
   const double last = std::isfinite(bands.back().to) ? bands.back().to : bands[bands.size() - 2].to;
   std::string text = fmt::format(
       "    <rasterrenderer type=\"singlebandpseudocolor\" band=\"1\" opacity=\"0.7\" alphaBand=\"-1\" "
-      "classificationMin=\"0\" classificationMax=\"{0:g}\" nodataColor=\"\">\n"
+      "classificationMin=\"0\" classificationMax=\"{0:.10g}\" nodataColor=\"\">\n"
       "      <rasterTransparency/>\n      <rastershader>\n"
       "        <colorrampshader colorRampType=\"DISCRETE\" classificationMode=\"1\" clip=\"0\" minimumValue=\"0\" "
-      "maximumValue=\"{0:g}\">\n",
+      "maximumValue=\"{0:.10g}\">\n",
       last);
   for (const ValueBand& b : bands)
     text += fmt::format("          <item value=\"{}\" label=\"{}\" color=\"#{:02x}{:02x}{:02x}\" alpha=\"{}\"/>\n",
-                        std::isfinite(b.to) ? fmt::format("{:g}", b.to) : "inf", escaped_markup(b.label), b.red,
+                        std::isfinite(b.to) ? fmt::format("{:.10g}", b.to) : "inf", escaped_markup(b.label), b.red,
                         b.green, b.blue, b.alpha);
   return style(text + "        </colorrampshader>\n      </rastershader>\n    </rasterrenderer>\n");
 }

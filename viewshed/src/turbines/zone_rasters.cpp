@@ -79,6 +79,13 @@ void write_counts(const Zone& zone, const Visibility& v, const std::string& suff
   folder.write("tip-count" + suffix, what("tip"), v.tip_count, with_nodata(kCountOutside), banded_style(bands));
 }
 
+/// Whether any turbine of the first 32 is seen: which one it is, QGIS's identify tool tells.
+std::string seen_style() {
+  ValueBand any{4294967295.0, "some turbine of the first 32 seen"};
+  set_distinct_colour(3, any.red, any.green, any.blue);
+  return banded_style({{0, "none", 0, 0, 0, 0}, any});
+}
+
 void write_bits(const Zone& zone, const Visibility& v, const std::string& suffix, RasterFolder& folder) {
   RasterDescription description;
   const auto name = [](std::size_t word) { return fmt::format("turbines {} to {}", 32 * word + 1, 32 * word + 32); };
@@ -87,7 +94,7 @@ void write_bits(const Zone& zone, const Visibility& v, const std::string& suffix
   folder.write("turbines" + suffix,
                "which turbines have their tip seen: turbine k of the file is bit k - 1, 32 turbines a band; no nodata "
                "value, 0 where none is seen",
-               v.turbines, description, "");
+               v.turbines, description, seen_style());
 }
 
 void write_quantities(const Visibility& v, const std::string& suffix, RasterFolder& folder) {

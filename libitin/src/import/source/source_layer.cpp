@@ -33,12 +33,17 @@ std::vector<std::string> field_names(OGRLayer& layer) {
   return names;
 }
 
+bool holds_styles(OGRLayer& layer) {
+  return EQUAL(layer.GetName(), "layer_styles");
+}
+
 OGRLayer& choose_layer(GDALDataset& dataset, const std::string& path, const std::string& name) {
   std::vector<std::string> names;
-  for (OGRLayer* layer : dataset.GetLayers()) names.emplace_back(layer->GetName());
+  for (OGRLayer* layer : dataset.GetLayers())
+    if (!holds_styles(*layer)) names.emplace_back(layer->GetName());
   if (names.empty()) throw FileError(path, "has no layers");
   if (name.empty()) {
-    if (names.size() == 1) return *dataset.GetLayer(0);
+    if (names.size() == 1) return *dataset.GetLayerByName(names.front().c_str());
     throw FileError(path, fmt::format("has several layers; choose one with `layer`: {}", names));
   }
   if (OGRLayer* layer = dataset.GetLayerByName(name.c_str())) return *layer;

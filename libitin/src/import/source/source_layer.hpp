@@ -17,6 +17,9 @@ namespace itin {
 GDALDatasetUniquePtr open_vector_file(const std::string& path, const char* const* options,
                                       const std::string& what = "a vector file");
 
+/// Whether it is the table in which a GeoPackage keeps how QGIS draws its layers.
+bool holds_styles(OGRLayer& layer);
+
 /// The layer of that name; for an empty name the only one. Throws FileError.
 OGRLayer& choose_layer(GDALDataset& dataset, const std::string& path, const std::string& name);
 

@@ -92,6 +92,7 @@ std::vector<Window::Polygon> polygons_of_file(const std::string& path, const std
   if (!dataset) throw FileError(path, "neither well-known text nor a vector file that can be read");
   std::vector<Window::Polygon> parts;
   for (OGRLayer* layer : dataset->GetLayers()) {
+    if (holds_styles(*layer)) continue;
     append_layer(*layer, target_crs, parts);
     if (QuietGdal::failed()) throw FileError(path, QuietGdal::message("cannot be read"));
   }

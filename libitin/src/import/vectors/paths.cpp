@@ -55,6 +55,7 @@ std::vector<Path> read_paths(const std::string& path, const std::string& to_crs)
   const GDALDatasetUniquePtr dataset = open_vector_file(path, nullptr);
   std::vector<Path> paths;
   for (OGRLayer* layer : dataset->GetLayers()) {
+    if (holds_styles(*layer)) continue;
     std::optional<CoordinateTransform> transform;
     if (const OGRSpatialReference* own = layer->GetSpatialRef()) transform.emplace(wkt_of(*own), to_crs);
     while (const OGRFeatureUniquePtr feature = next_feature(*layer, path)) {

@@ -1,8 +1,13 @@
 #include "import/vectors/place_file.hpp"
 
 #include <cmath>
+#include <cstring>
+#include <memory>
+#include <utility>
 
 #include <cpl_conv.h>
+#include <cpl_csv.h>
+#include <cpl_vsi.h>
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
@@ -38,6 +43,40 @@ std::vector<std::string> open_options(const std::string& path, ColumnTypes types
   return options;
 }
 
+/// What is wrong with a row that has more values than the header has names, or a comma in its position; empty where
+/// nothing is. GDAL drops what is left over, so that a decimal comma would shift values from column to column unseen,
+/// and it takes 318,000 for 318.
+std::string wrong_values(const CPLStringList& cells, int columns, const std::vector<int>& position) {
+  if (cells.size() > columns)
+    return "it has more values than the header has columns; write numbers with a decimal point, texts with a comma in "
+           "quotes";
+  for (const int column : position)
+    if (column < cells.size() && std::strchr(cells[column], ',') != nullptr)
+      return fmt::format("its position '{}' has a comma; write numbers with a decimal point and no other mark",
+                         cells[column]);
+  return {};
+}
+
+/// Rows of a CSV file by GDAL's numbers, from 1, with what is wrong with them.
+std::map<std::int64_t, std::string> wrong_rows(const std::string& path, const std::vector<int>& position) {
+  std::map<std::int64_t, std::string> rows;
+  const std::unique_ptr<VSILFILE, decltype(&VSIFCloseL)> file(VSIFOpenL(path.c_str(), "rb"), &VSIFCloseL);
+  if (!file) return rows;
+  const char* const first = CPLReadLineL(file.get());
+  if (first == nullptr) return rows;
+  const char separator = CSVDetectSeperator(first);
+  VSIFSeekL(file.get(), 0, SEEK_SET);
+  const int columns = CPLStringList(CSVReadParseLine2L(file.get(), separator)).size();
+  for (std::int64_t row = 1;;) {
+    char** const values = CSVReadParseLine2L(file.get(), separator);
+    if (values == nullptr) return rows;
+    const CPLStringList cells(values);
+    if (cells.empty() || (cells.size() == 1 && *cells[0] == '\0')) continue;
+    if (std::string wrong = wrong_values(cells, columns, position); !wrong.empty()) rows.emplace(row, std::move(wrong));
+    ++row;
+  }
+}
+
 }  // namespace
 
 GDALDatasetUniquePtr open_place_file(const std::string& path, ColumnTypes types) {
@@ -52,6 +91,7 @@ Places::Places(GDALDataset& file, OGRLayer& layer, const SiteQuery& query, const
     : csv_(is_csv(file)) {
   const auto columns = csv_ ? columns_of(layer) : std::nullopt;
   if (columns) columns_ = {static_cast<int>(columns->x), static_cast<int>(columns->y)};
+  if (csv_) wrong_rows_ = wrong_rows(query.path, columns_);
   const OGRSpatialReference* own = layer.GetSpatialRef();
   std::string from_crs = own != nullptr ? wkt_of(*own) : query.crs;
   if (from_crs.empty() && columns && columns->geographic) from_crs = kGeographicColumnsCrs;
@@ -60,6 +100,7 @@ Places::Places(GDALDataset& file, OGRLayer& layer, const SiteQuery& query, const
 
 /// GDAL reads a coordinate that is no number as 0, or leaves the point out.
 std::string Places::wrong_coordinate(const OGRFeature& feature) const {
+  if (const auto wrong = wrong_rows_.find(feature.GetFID()); wrong != wrong_rows_.end()) return wrong->second;
   for (const int field : columns_) {
     const char* name = feature.GetFieldDefnRef(field)->GetNameRef();
     const std::string text = feature.IsFieldSetAndNotNull(field) ? feature.GetFieldAsString(field) : "";

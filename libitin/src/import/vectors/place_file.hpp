@@ -1,6 +1,8 @@
 // A file of places: points in any vector format GDAL reads, or rows of a CSV file with columns of coordinates.
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,6 +36,7 @@ class Places {
   std::string wrong_coordinate(const OGRFeature& feature) const;
 
   bool csv_;
+  std::map<std::int64_t, std::string> wrong_rows_;  ///< of a CSV file, by their numbers, and what is wrong with them
   std::vector<int> columns_;  ///< of x and y in a CSV file; none where its header names no position
   std::optional<CoordinateTransform> transform_;
 };

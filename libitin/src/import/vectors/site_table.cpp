@@ -11,12 +11,19 @@ namespace itin {
 
 namespace {
 
+/// Shapefiles cut names to ten letters. Negative: not there.
+int index_of(OGRLayer& layer, const std::string& name) {
+  constexpr std::size_t kOfShapefile = 10;
+  const int whole = layer.GetLayerDefn()->GetFieldIndex(name.c_str());
+  return whole >= 0 ? whole : layer.GetLayerDefn()->GetFieldIndex(name.substr(0, kOfShapefile).c_str());
+}
+
 class RowReader {
  public:
   RowReader(GDALDataset& file, OGRLayer& layer, const SiteQuery& query, const std::vector<std::string>& fields,
             const std::string& to_crs)
       : places_(file, layer, query, to_crs) {
-    for (const std::string& name : fields) fields_.push_back(layer.GetLayerDefn()->GetFieldIndex(name.c_str()));
+    for (const std::string& name : fields) fields_.push_back(index_of(layer, name));
   }
 
   SiteRow read(const OGRFeature& feature) const {

@@ -1,0 +1,16 @@
+// How QGIS draws regions, each class in its colour, kept within the GeoPackage.
+#pragma once
+
+#include <gdal_priv.h>
+
+#include <itin/raster_regions.hpp>
+
+namespace itin {
+
+/// QGIS's own style of a layer of polygons with a field `value`.
+std::string polygon_style(const std::vector<RegionClass>& classes);
+
+/// Adds the table `layer_styles`, from which QGIS takes a layer's style as it opens. Whether that worked.
+bool add_layer_style(GDALDataset& geopackage, const std::string& layer, const std::string& style);
+
+}  // namespace itin
