@@ -10,7 +10,10 @@ namespace itin::cli {
 
 void EarthOptions::declare(CLI::App& app) {
   app.add_option("--curvature", curvature_text_, "Whether the earth is curved (default: on)")->type_name("on|off");
-  app.add_option("--refraction", refraction_text_, "Coefficient k in drop = d^2 (1 - k) / (2 R) (default: 0.13)")
+  app.add_option(
+         "--refraction", refraction_text_,
+         "Coefficient k in drop = d^2 (1 - k) / (2 R); 0.075 in the form (1 - 2 k), as in guidance on wind farms, is "
+         "0.15 here (default: 0.13)")
       ->type_name("K");
   app.add_option("--earth-radius", radius_text_, "R (default: 6371000)")->type_name("METRES");
   app.add_option("--effective-earth", effective_text_, "Radio's factor K instead: drop = d^2 / (2 K R)")

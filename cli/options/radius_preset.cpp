@@ -14,10 +14,8 @@ namespace itin::cli {
 
 namespace {
 
-// Facts collected from guidance; not confirmed from the primary text, which the source says.
-constexpr const char* kBuiltinSource =
-    "built-in preset after UK practice for turbines by tip height; not confirmed from a primary text [check]: edit and "
-    "give it by --radius-preset";
+// Facts collected from guidance, not confirmed from the primary text: an assumption, then.
+constexpr const char* kBuiltinSource = "radii by tip height assumed after UK practice";
 
 }  // namespace
 
@@ -90,11 +88,12 @@ Document RadiusOptions::document() const {
 }
 
 std::string RadiusOptions::text() const {
-  if (fixed_) return fmt::format("Every turbine is looked for within {:g} km, as asked for.", *fixed_ / 1000);
-  std::string text = "A turbine is looked for within a radius by its tip height: ";
+  if (fixed_) return fmt::format("The study area extends to {:g} km from every turbine.", *fixed_ / 1000);
+  std::string text = "The study area extends to a distance from each turbine that depends on its tip height: ";
   for (const Step& step : steps_) {
-    text += std::isfinite(step.tip_up_to_m) ? fmt::format("up to {:g} m {:g} km, ", step.tip_up_to_m, step.radius_km)
-                                            : fmt::format("above {:g} km", step.radius_km);
+    text += std::isfinite(step.tip_up_to_m)
+                ? fmt::format("{:g} km for tips up to {:g} m, ", step.radius_km, step.tip_up_to_m)
+                : fmt::format("{:g} km above that", step.radius_km);
   }
   return text + " (" + source_ + ").";
 }

@@ -246,21 +246,20 @@ class ZtvVerb final : public Verb {
     ZtvMethods facts;
     facts.turbines_file = turbines_.path();
     facts.turbines_sha256 = list_.sha256;
-    facts.store = store_;
-    facts.crs = crs_title(metadata.crs_wkt);
     const Document of_surface = surface(metadata);
-    facts.surface = request_.detail.coarsest() > 0
-                        ? fmt::format(
-                              "It is generalised to a tolerance of {:g} m, with a certified error of {:.2f} to "
-                              "{:.2f} m against the full terrain.",
-                              request_.detail.coarsest(), of_surface["certified_error_m"][0].get<double>(),
-                              of_surface["certified_error_m"][1].get<double>())
-                        : "Every stored point is used.";
-    if (request_.themes) facts.themes = request_.themes->names(metadata.themes);
+    facts.surface =
+        request_.detail.coarsest() > 0
+            ? fmt::format(
+                  "The surface is generalised to a tolerance of {:g} m, with a certified error of {:.2f} to "
+                  "{:.2f} m against the full terrain.",
+                  request_.detail.coarsest(), of_surface["certified_error_m"][0].get<double>(),
+                  of_surface["certified_error_m"][1].get<double>())
+            : "Every point of the model is used.";
+    facts.wirelines = viewpoints_.draws_wirelines(), facts.sheets = sheets_.given();
     facts.radius = radius_.text();
     facts.further = radio_.methods(zone);
     facts.rows = list_.rows, facts.bad = list_.bad.size();
-    return methods_text(zone, facts);
+    return methods_text(zone, metadata, facts);
   }
 
   Document document(const Zone& zone, const StoreMetadata& metadata) const {

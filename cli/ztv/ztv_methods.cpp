@@ -1,12 +1,16 @@
 #include "ztv/ztv_methods.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <itin/coordinates.hpp>
+#include <itin/height_axis.hpp>
 #include <viewshed/zone_files.hpp>
 
+#include "output/map_base.hpp"
 #include "output/store_document.hpp"
 #include "ztv/ztv_turbines.hpp"
 
@@ -22,18 +26,85 @@ std::string turbines_in_words(const viewshed::Zone& zone, const ZtvMethods& fact
   const auto& turbines = zone.request.turbines;
   const auto [least, most] = std::minmax_element(
       turbines.begin(), turbines.end(), [](const auto& a, const auto& b) { return a.tip_height < b.tip_height; });
-  const std::size_t hubs = known_hubs(turbines);
-  std::string text = fmt::format("{} of {} in `{}` (SHA-256 {}); tips {} above the ground.",
-                                 counted(turbines.size(), "turbine"), counted(facts.rows, "row"), facts.turbines_file,
-                                 facts.turbines_sha256, range(least->tip_height, most->tip_height, "m"));
-  if (hubs < turbines.size())
-    text += fmt::format(" The hub's height is known of {} of them; the others are not counted among hubs.", hubs);
-  if (facts.bad > 0)
-    text += fmt::format(" Named in `turbines.csv`, because they could not be used: {}.", counted(facts.bad, "row"));
+  std::string text =
+      fmt::format("The assessment covers {}, with blade tips {} above the ground.",
+                  counted(turbines.size(), "wind turbine"), range(least->tip_height, most->tip_height, "m"));
   const std::vector<std::string> farms = viewshed::farms_of(zone);
-  if (farms.size() > 1) text += fmt::format(" Farms: {}.", fmt::join(farms, ", "));
+  if (farms.size() > 1) text += fmt::format(" The wind farms are {}.", fmt::join(farms, ", "));
+  const std::size_t unknown = turbines.size() - known_hubs(turbines);
+  if (unknown == turbines.size())
+    text += " Hub heights are unknown for all turbines; hubs are not assessed.";
+  else if (unknown > 0)
+    text += fmt::format(" Hub heights are unknown for {} of them; these are not counted among the hubs.", unknown);
+  text += fmt::format(" Positions and heights are those of the file `{}` (SHA-256 {}).", facts.turbines_file,
+                      facts.turbines_sha256);
+  if (facts.bad > 0)
+    text += fmt::format(" {} of its {} could not be used and {} named in `turbines.csv`.", counted(facts.bad, "row"),
+                        facts.rows, facts.bad == 1 ? "is" : "are");
   return text;
 }
+
+/// The sources of terrain, or of a theme, with their notes where they have any.
+std::string sources_in_words(const StoreMetadata& metadata, const std::string& theme) {
+  StoreMetadata only;
+  for (const SourceInfo& source : metadata.sources)
+    if (source.theme == theme) only.sources.push_back(source);
+  return fmt::format("{}", fmt::join(source_lines(only), "; "));
+}
+
+/// What heights count from, as the sources say.
+std::string datum_in_words(const StoreMetadata& metadata) {
+  std::set<std::string> datums;
+  for (const SourceInfo& source : metadata.sources)
+    if (source.theme.empty() && !source.source_crs.empty())
+      if (const std::string datum = height_axis(source.source_crs).datum; !datum.empty()) datums.insert(datum);
+  if (datums.empty())
+    return "Heights are taken as metres above one vertical datum, which the sources do not name; Ordnance Datum Newlyn "
+           "is "
+           "assumed for data of the Ordnance Survey.";
+  return fmt::format("Heights are metres above {}.", fmt::join(datums, " and "));
+}
+
+std::string terrain_in_words(const StoreMetadata& metadata, const ZtvMethods& facts) {
+  double spacing = 0;
+  for (const SourceInfo& source : metadata.sources)
+    if (source.theme.empty()) spacing = std::max(spacing, source.spacing);
+  std::string text = fmt::format("The terrain model is made from: {}. Coordinates are in {}.",
+                                 sources_in_words(metadata, ""), crs_title(metadata.crs_wkt));
+  if (spacing > 0) text += fmt::format(" Its points lie up to {:.3g} m apart.", spacing);
+  return text + " " + datum_in_words(metadata) + " " + facts.surface +
+         " The points are joined by triangles, on which heights between them are read; nothing is resampled.";
+}
+
+std::string screening_in_words(const viewshed::Zone& zone, const StoreMetadata& metadata) {
+  if (!zone.screened)
+    return "The results are for bare ground: the screening effect of buildings, walls and vegetation is not taken into "
+           "account, so that what is shown as visible may be hidden by them.";
+  std::string features;
+  for (const ThemeInfo& theme : metadata.themes) {
+    const std::vector<std::string> names = zone.request.themes->names(metadata.themes);
+    if (std::find(names.begin(), names.end(), theme.name) == names.end() || is_terrain(theme.kind)) continue;
+    features += fmt::format("{}{} ({}, {}, from {})", features.empty() ? "" : "; ", theme.name, name_of(theme.kind),
+                            counted(theme.features, "feature"), sources_in_words(metadata, theme.name));
+  }
+  return fmt::format(
+      "The results are given for bare ground and, with `-screened` in their names, with the screening effect of these "
+      "features: {}. Their heights are those of their sources. They are taken as solid in all seasons. The observer "
+      "stands on "
+      "the ground in both cases; an observer within a feature that is higher than the eye sees nothing.",
+      features);
+}
+
+constexpr const char* kWirelines =
+    "Wirelines are drawn from the same terrain model, curvature and refraction. Along each line of sight nothing is "
+    "sampled; "
+    "lines of sight follow each other every 0.05 degrees or less. Rotors face the viewer.";
+constexpr const char* kSheets =
+    " Wireline sheets have the fields of view, principal distances and paper sizes that are assumed for NatureScot's "
+    "Visual "
+    "Representation of Wind Farms, version 2.2: planar, 53.5 by 18.2 degrees at 812.5 mm, and cylindrical, 90 by 14.2 "
+    "degrees "
+    "at 522 mm, on paper of 841 by 297 mm.";
 
 }  // namespace
 
@@ -48,41 +119,44 @@ std::string refraction_in_words(const Earth& earth) {
         *earth.effective_factor, earth.radius / 1000, drops);
   return fmt::format(
       "The Earth's curvature and atmospheric refraction are allowed for: drop = d^2 (1 - k) / (2 R), with a refraction "
-      "coefficient k = {:g}, where k is the ratio of the Earth's radius to that of the sight line (so that it enters "
-      "once, not twice), and R = {:g} km; {}.",
+      "coefficient k = {:g}, where k is the ratio of the Earth's radius to that of the sight line, and R = {:g} km; "
+      "{}. "
+      "Guidance that states a coefficient in the form (1 - 2 k) means half as much by it: 0.075 there is k = 0.15 "
+      "here.",
       earth.refraction, earth.radius / 1000, drops);
 }
 
-std::string methods_text(const viewshed::Zone& zone, const ZtvMethods& facts) {
+std::string methods_text(const viewshed::Zone& zone, const StoreMetadata& metadata, const ZtvMethods& facts) {
   const viewshed::ZoneRequest& request = zone.request;
   std::string text = "# Zone of theoretical visibility: methods\n\n";
   const auto paragraph = [&](const std::string& heading, const std::string& body) {
     text += fmt::format("## {}\n\n{}\n\n", heading, body);
   };
   paragraph("Turbines", turbines_in_words(zone, facts));
-  paragraph("Terrain", fmt::format("`{}`, {}. {} The surface is a triangulation of the terrain's own points; heights "
-                                   "between them are those of its triangles, nothing is resampled.",
-                                   facts.store, facts.crs, facts.surface));
-  paragraph("Viewer",
-            fmt::format("An eye {:g} m above the bare ground at the centre of every cell of {:g} m by {:g} m.",
-                        request.observer_height, zone.grid.cell_width(), zone.grid.cell_height()));
-  paragraph("Radius", facts.radius + " A turbine counts only in cells within its own radius, measured horizontally.");
+  paragraph("Terrain", terrain_in_words(metadata, facts));
+  paragraph(
+      "Observer",
+      fmt::format("The observer's eyes are {:g} m above the bare ground, at the centre of every cell of {:g} m by "
+                  "{:g} m.",
+                  request.observer_height, zone.grid.cell_width(), zone.grid.cell_height()));
+  paragraph("Study area",
+            facts.radius + " Distances are horizontal; beyond its own distance a turbine is not counted.");
   paragraph("Curvature and refraction", refraction_in_words(request.earth));
-  paragraph("Visibility",
-            "For every eye and turbine the least height on the turbine's axis is found at which the straight line from "
-            "the eye clears the surface. It is exact for the surface: the height at which the line touches a triangle, "
-            "in double precision, with no step size. A line that touches the surface counts as clear. The tip is "
-            "seen where this height is no higher than the tip, the hub likewise; the visible height is the tip less "
-            "this height. A rotor is taken to face the eye. Nothing is said about haze, light, or a viewer's acuity.");
-  paragraph("Bare and screened",
-            zone.screened ? fmt::format("Results are given for bare ground and, with `-screened` in their names, with "
-                                        "these features standing on it: {}. Features are taken as solid. Eyes stand on "
-                                        "the ground in both; an eye within a feature sees nothing.",
-                                        fmt::join(facts.themes, ", "))
-                          : std::string("Bare ground alone: no buildings, walls or vegetation. What is shown as seen "
-                                        "may be screened by them."));
+  paragraph(
+      "Visibility",
+      "For every observer and turbine the lowest point of the turbine's axis is found that a straight line from the "
+      "eye "
+      "reaches without passing below the surface. The result is exact for the surface: it follows from the triangles "
+      "themselves, without a step size; a line that touches the surface counts as clear. The blade tip is visible "
+      "where "
+      "this point is no higher than the tip, the hub likewise; the visible height is the part of the turbine above "
+      "this "
+      "point. Rotors are taken to face the observer. Haze, light and the acuity of the eye are not taken into "
+      "account.");
+  paragraph("Screening", screening_in_words(zone, metadata));
+  if (facts.wirelines) paragraph("Wirelines", std::string(kWirelines) + (facts.sheets ? kSheets : ""));
   for (const std::string& further : facts.further) text += further + "\n\n";
-  text += fmt::format("Made by itin {}.\n", ITIN_VERSION);
+  text += fmt::format("Computed with itin {}.\n", ITIN_VERSION);
   return text;
 }
 

@@ -5,16 +5,15 @@
 #include <vector>
 
 #include <itin/earth.hpp>
+#include <itin/store.hpp>
 #include <viewshed/turbines.hpp>
 
 namespace itin::cli {
 
 struct ZtvMethods {
   std::string turbines_file, turbines_sha256;
-  std::string store;
-  std::string crs;      ///< title
   std::string surface;  ///< detail and certified error
-  std::vector<std::string> themes;
+  bool wirelines = false, sheets = false;
   std::string radius;  ///< sentence
   std::size_t rows = 0, bad = 0;
   std::vector<std::string> further;  ///< paragraphs about what else was asked for
@@ -24,6 +23,6 @@ struct ZtvMethods {
 std::string refraction_in_words(const Earth& earth);
 
 /// Markdown.
-std::string methods_text(const viewshed::Zone& zone, const ZtvMethods& facts);
+std::string methods_text(const viewshed::Zone& zone, const StoreMetadata& metadata, const ZtvMethods& facts);
 
 }  // namespace itin::cli

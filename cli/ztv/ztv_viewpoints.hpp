@@ -26,6 +26,7 @@ class ViewpointOptions {
   /// Throws InputError.
   void validate(const InCrs& in_crs);
   bool given() const { return !query_.path.empty(); }
+  bool draws_wirelines() const { return given() && !no_wirelines_; }
   Document parameters() const;
 
   struct Written {

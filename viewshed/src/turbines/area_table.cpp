@@ -5,21 +5,14 @@
 
 #include <fmt/format.h>
 
-#include <itin/csv_cell.hpp>
 #include <itin/parallel.hpp>
 #include <viewshed/zone_files.hpp>
-#include <viewshed/zone_maps.hpp>
 
 #include "turbines/value_bands.hpp"
 
 namespace itin::viewshed {
 
 namespace {
-
-/// As many of km2 as tell one cell from two.
-int decimals(const Zone& zone) {
-  return static_cast<int>(std::clamp(1 + std::ceil(-std::log10(zone.grid.cell_area() / 1e6)), 2.0, 6.0));
-}
 
 /// Outer limits of the rings, km; the last holds the farthest radius.
 std::vector<double> ring_limits(const Zone& zone) {
@@ -74,9 +67,9 @@ class AreaTable {
       for (const std::uint64_t n : cells[r]) all += n;
       if (all == 0) continue;
       for (std::size_t b = 0; b < bands.size(); ++b)
-        fmt::format_to(std::back_inserter(text_), "{},{},{},{:g},{:g},{:.{}f},{:.2f}\n", surface, seen, bands[b].label,
+        fmt::format_to(std::back_inserter(text_), "{},{},{},{:g},{:g},{:.6f},{:.3f}\n", surface, seen, bands[b].label,
                        r == 0 ? 0 : limits_[r - 1], limits_[r],
-                       static_cast<double>(cells[r][b]) * zone_.grid.cell_area() / 1e6, decimals(zone_),
+                       static_cast<double>(cells[r][b]) * zone_.grid.cell_area() / 1e6,
                        100.0 * static_cast<double>(cells[r][b]) / static_cast<double>(all));
     }
   }
@@ -100,24 +93,6 @@ std::string area_table(const Zone& zone) {
   add("bare", zone.bare);
   if (zone.screened) add("screened", *zone.screened);
   return std::move(table).text();
-}
-
-std::string area_totals(const Zone& zone) {
-  constexpr std::size_t kAnyCombination = 250;
-  std::string text = "surface,seen,class,area_km2,share_percent\n";
-  for (const ZoneMap& map : zone_maps(zone, kAnyCombination)) {
-    std::uint64_t all = 0;
-    for (const ZoneMap::Class& c : map.classes) all += c.cells;
-    const auto add = [&](const std::string& name, std::uint64_t cells) {
-      fmt::format_to(std::back_inserter(text), "{},{},{},{:.{}f},{:.2f}\n", map.screened ? "screened" : "bare",
-                     map.seen, csv_cell(name), static_cast<double>(cells) * zone.grid.cell_area() / 1e6, decimals(zone),
-                     100.0 * static_cast<double>(cells) / static_cast<double>(std::max<std::uint64_t>(1, all)));
-    };
-    for (const ZoneMap::Class& c : map.classes) add(c.label, c.cells);
-    add("any", all - map.classes.front().cells);
-    add("all", all);
-  }
-  return text;
 }
 
 }  // namespace itin::viewshed

@@ -1,0 +1,40 @@
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include <itin/csv_cell.hpp>
+#include <viewshed/zone_files.hpp>
+#include <viewshed/zone_maps.hpp>
+
+namespace itin::viewshed {
+
+namespace {
+
+/// As many of km2 as tell one cell from two.
+int decimals(const Zone& zone) {
+  return static_cast<int>(std::clamp(1 + std::ceil(-std::log10(zone.grid.cell_area() / 1e6)), 2.0, 6.0));
+}
+
+}  // namespace
+
+std::string area_totals(const Zone& zone) {
+  constexpr std::size_t kAnyCombination = 250;
+  std::string text = "surface,seen,class,area_km2,share_percent\n";
+  for (const ZoneMap& map : zone_maps(zone, kAnyCombination)) {
+    std::uint64_t all = 0;
+    for (const ZoneMap::Class& c : map.classes) all += c.cells;
+    const auto add = [&](const std::string& name, std::uint64_t cells) {
+      fmt::format_to(std::back_inserter(text), "{},{},{},{:.{}f},{:.2f}\n", map.screened ? "screened" : "bare",
+                     map.seen, csv_cell(name), static_cast<double>(cells) * zone.grid.cell_area() / 1e6, decimals(zone),
+                     100.0 * static_cast<double>(cells) / static_cast<double>(std::max<std::uint64_t>(1, all)));
+    };
+    for (const ZoneMap::Class& c : map.classes) add(c.label, c.cells);
+    add("any", all - map.classes.front().cells);
+    add("all", all);
+  }
+  return text;
+}
+
+}  // namespace itin::viewshed
