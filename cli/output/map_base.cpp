@@ -43,7 +43,7 @@ Heights smoothed(const viewshed::Relief& ground) {
   return result;
 }
 
-/// Of those that maps have, the one that draws at most some 16 lines between the lowest and the highest ground.
+/// The least interval usual in maps that draws at most some 16 lines between the lowest and the highest ground.
 double contour_interval(double relief) {
   for (const double interval : {2.0, 5.0, 10.0, 20.0, 25.0, 50.0, 100.0})
     if (relief <= 16 * interval) return interval;

@@ -131,9 +131,9 @@ class Furniture {
       profile::SheetMarks marks{profile::SheetSymbol::kTurbine, farm_colour(f), {}};
       for (const Turbine& t : zone.request.turbines)
         if (single || t.farm == farms[f]) marks.marks.push_back({t.position, fmt::format("{}", t.number)});
-      const std::string name = farms[f].empty() ? "" : " of " + farms[f];
+      const std::string turbines = counted(marks.marks.size(), "wind turbine") + ", numbered";
       keys.push_back({SheetKey::Sample::kTurbine, marks.colour,
-                      fmt::format("Wind turbine{} and its number ({})", name, marks.marks.size())});
+                      farms[f].empty() ? turbines : fmt::format("{}: {}", farms[f], turbines)});
       layers.emplace_back(std::move(marks));
     }
   }

@@ -51,7 +51,7 @@ struct Seen {
   double vertical_deg = 0;   ///< the greatest vertical angle that the visible part of a turbine takes up
   bool gaps = false;
 };
-/// Of the turbines with these indices, at least one.
+/// `turbines` are indices of the request, at least one.
 Seen seen_of(const viewshed::Zone& zone, const std::vector<Sight>& sights, const std::vector<std::size_t>& turbines);
 std::vector<std::size_t> all_turbines(const viewshed::Zone& zone);
 

@@ -57,7 +57,7 @@ std::vector<ZoneFile> write_zone_polygons(const std::string& folder, const Zone&
 /// km2 by band of counts and by ring of distance to the nearest turbine, as CSV. Every cell with a value is in one band
 /// and one ring.
 std::string area_table(const Zone& zone);
-/// The same areas over all rings, and those of combinations of farms, each with rows of all and of any turbine seen.
+/// km2 over all rings by band of counts and by combination of farms, as CSV, with rows of any turbine seen and of all.
 std::string area_totals(const Zone& zone);
 
 }  // namespace itin::viewshed

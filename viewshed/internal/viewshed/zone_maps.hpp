@@ -11,7 +11,7 @@
 
 namespace itin::viewshed {
 
-/// Of cells without a value.
+/// Cells without a value have it.
 inline constexpr std::uint8_t kNoMapClass = 255;
 
 struct ZoneMap {
