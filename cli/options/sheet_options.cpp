@@ -9,6 +9,7 @@
 
 #include <itin/error.hpp>
 
+#include "program/call_files.hpp"
 #include "program/values.hpp"
 
 namespace itin::cli {
@@ -30,6 +31,18 @@ void SheetOptions::declare(CLI::App& app) {
                  "Maps on paper, to scale, with title block, legend, grid references and sources, as PDF and PNG on "
                  "A3, A1 or both; for viewpoints, sheets of wirelines besides (default: none)")
       ->type_name("A3,A1");
+  declare_title_block(app);
+}
+
+void SheetOptions::declare_file(CLI::App& app) {
+  writes(app.add_option("--sheet", file_,
+                        "A map on paper, to scale, with title block, legend, grid references and sources (.pdf, .png)")
+             ->type_name("FILE"));
+  app.add_option("--paper", papers_text_, "Its size (default: A3)")->type_name("A3|A1");
+  declare_title_block(app);
+}
+
+void SheetOptions::declare_title_block(CLI::App& app) {
   app.add_option("--sheet-scale", scale_text_,
                  "Their scale's number, 100000 for 1:100,000 (default: the largest usual one that shows all)")
       ->type_name("NUMBER");
@@ -39,7 +52,9 @@ void SheetOptions::declare(CLI::App& app) {
 
 void SheetOptions::validate() {
   if (date_.empty()) date_ = today();
-  if (!scale_text_.empty() && papers_text_.empty()) throw InputError("--sheet-scale is of use with --sheets only");
+  if (!file_.empty() && papers_text_.empty()) papers_text_ = "A3";
+  if (!scale_text_.empty() && papers_text_.empty()) throw InputError("--sheet-scale is of use with a sheet only");
+  if (!file_.empty()) profile::require_sheet_format(file_);
   if (!scale_text_.empty()) scale_ = parse_number("--sheet-scale", scale_text_, Range::kPositive);
   if (papers_text_.empty()) return;
   std::istringstream names(papers_text_);

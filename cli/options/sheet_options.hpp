@@ -1,4 +1,4 @@
-// Map sheets: `--sheets`, `--sheet-scale`, `--project`, `--date`.
+// Map sheets: `--sheets`, or `--sheet` and `--paper`; `--sheet-scale`, `--project`, `--date`.
 #pragma once
 
 #include <optional>
@@ -15,19 +15,25 @@ namespace itin::cli {
 
 class SheetOptions {
  public:
+  /// `--sheets`: every map on every paper.
   void declare(CLI::App& app);
+  /// `--sheet` and `--paper`: one map in a file of its own.
+  void declare_file(CLI::App& app);
   /// Throws InputError.
   void validate();
   bool given() const { return !papers_.empty(); }
   Document parameters() const;
 
+  const std::string& file() const { return file_; }
   const std::vector<profile::PaperSize>& papers() const { return papers_; }
   double scale() const { return scale_; }
   const std::string& project() const { return project_; }
   const std::string& date() const { return date_; }
 
  private:
-  std::string papers_text_, scale_text_, project_, date_;
+  void declare_title_block(CLI::App& app);
+
+  std::string file_, papers_text_, scale_text_, project_, date_;
   std::vector<profile::PaperSize> papers_;
   double scale_ = 0;
 };

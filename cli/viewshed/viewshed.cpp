@@ -14,6 +14,7 @@
 #include "options/earth_options.hpp"
 #include "options/engine_option.hpp"
 #include "options/observer_options.hpp"
+#include "options/sheet_options.hpp"
 #include "options/store_scale.hpp"
 #include "options/surface_options.hpp"
 #include "output/store_document.hpp"
@@ -22,6 +23,7 @@
 #include "viewshed/feature_raster.hpp"
 #include "viewshed/horizon_output.hpp"
 #include "viewshed/viewshed_outputs.hpp"
+#include "viewshed/viewshed_sheet.hpp"
 
 namespace itin::cli {
 
@@ -61,6 +63,7 @@ class ViewshedVerb final : public Verb {
   void declare(CLI::App& app) override {
     reads(app.add_option("STORE", store_, "The store")->required());
     outputs_.declare(app);
+    sheet_.declare_file(app);
     horizon_.declare(app);
     features_.declare(app);
     app.add_option(
@@ -98,6 +101,7 @@ class ViewshedVerb final : public Verb {
   void validate() override {
     horizon_.validate();
     features_.validate();
+    sheet_.validate();
     outputs_.validate(other_outputs());
     observers_.validate();
     validate_targets();
@@ -167,6 +171,7 @@ class ViewshedVerb final : public Verb {
     result.warnings = computed.result.warnings;
     warn_of_scale(metadata, result.warnings);
     outputs_.write(computed, context, result.warnings, progress);
+    write_viewshed_sheet(store, computed.result, sheet_, outputs_.overwrite(), progress);
     outputs_.write_each([&](std::size_t i) { return compute_for_observer(store, computed, i, progress); }, context);
     const Document targets =
         horizon_.write(computed, metadata, earth_.document(), outputs_.overwrite(), progress, result.warnings);
@@ -185,6 +190,7 @@ class ViewshedVerb final : public Verb {
   std::vector<std::string> other_outputs() const {
     std::vector<std::string> paths = horizon_.paths();
     for (const std::string& path : features_.paths()) paths.push_back(path);
+    if (!sheet_.file().empty()) paths.push_back(sheet_.file());
     return paths;
   }
 
@@ -374,6 +380,7 @@ class ViewshedVerb final : public Verb {
   EarthOptions earth_;
   EngineOption engine_;
   ViewshedOutputs outputs_;
+  SheetOptions sheet_;
   HorizonOutput horizon_;
   FeatureRaster features_;
 

@@ -41,7 +41,8 @@ void ViewshedOutputs::validate(const std::vector<std::string>& others) {
   others_ = others;
   if (paths().empty() && each_.empty())
     throw InputError(
-        "give an output: --output FILE.tif or FILE.gpkg, --image FILE.png, --each DIR, --horizon FILE.csv, or "
+        "give an output: --output FILE.tif or FILE.gpkg, --image FILE.png, --sheet FILE.pdf, --each DIR, --horizon "
+        "FILE.csv, or "
         "--features FILE.tif");
   for (const std::string& path : outputs_) {
     const std::string ending = std::filesystem::path(path).extension().string();

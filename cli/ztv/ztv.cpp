@@ -47,7 +47,9 @@ constexpr double kDefaultCell = 50;
 class ZtvVerb final : public Verb {
  public:
   std::string name() const override { return "ztv"; }
-  std::string summary() const override { return "Write where wind turbines are seen: maps, tables, wirelines"; }
+  std::string summary() const override {
+    return "Write from where wind turbines are visible: maps, sheets, tables, wirelines";
+  }
 
   void declare(CLI::App& app) override {
     reads(app.add_option("STORE", store_, "The store")->required());
@@ -59,7 +61,8 @@ class ZtvVerb final : public Verb {
                    "Greatest number of turbines in each band of maps and tables, ascending (default: at most seven "
                    "bands of equal width)")
         ->type_name("N,...");
-    app.add_option("--observer-height", observer_text_, "Of the eyes above the bare ground (default: 2)")
+    app.add_option("--observer-height", observer_text_,
+                   "Height of the observer's eyes above the bare ground (default: 2)")
         ->type_name("METRES");
     radius_.declare(app);
     viewpoints_.declare(app);
@@ -202,15 +205,16 @@ class ZtvVerb final : public Verb {
     }
     if (route_.given()) add(route_.write(folder, store, zone, progress));
     if (sheets_.given()) add(write_ztv_sheets(folder, store, zone, sheets_, sheet_facts(metadata), progress));
-    add_text("areas.csv", "km2 by band of turbines seen and by ring of distance to the nearest turbine",
+    add_text("areas.csv", "km2 by band of turbines visible and by ring of distance to the nearest turbine",
              viewshed::area_table(zone));
-    add_text("area-totals.csv", "km2 by band of turbines seen and by combination of farms, over the whole study area",
+    add_text("area-totals.csv",
+             "km2 by band of turbines visible and by combination of farms, over the whole study area",
              viewshed::area_totals(zone));
-    add_text("turbines.csv", "the turbines as understood, row by row, and what is wrong with those not used",
+    add_text("turbines.csv", "the turbines row by row: heights and ground as used, and why a row is not used",
              turbine_table(zone));
     add_text("radius-preset.json", "the radii used, to edit and give by --radius-preset",
              json_text(radius_.document(), 2) + "\n");
-    add_text("methods.md", "how all this was worked out, for the application", methods(zone, metadata));
+    add_text("methods.md", "how the results were computed, for a chapter on methods", methods(zone, metadata));
     document["outputs"] = Document::array();
     for (const ZoneFile& file : files)
       document["outputs"].push_back(
@@ -304,7 +308,7 @@ class ZtvVerb final : public Verb {
   static std::string seen_from(const Document& areas) {
     std::string text = fmt::format("from {:.1f} km2", areas["any_tip_seen"].get<double>());
     if (!areas["any_hub_seen"].is_null())
-      text += fmt::format(", a hub from {:.1f}", areas["any_hub_seen"].get<double>());
+      text += fmt::format(", a hub from {:.1f} km2", areas["any_hub_seen"].get<double>());
     return text;
   }
 
@@ -330,9 +334,10 @@ class ZtvVerb final : public Verb {
 
   std::string text(const Zone& zone) const {
     const Document bare = areas(zone, zone.bare);
-    std::string text = fmt::format("{}: {} of {}; a tip is seen {}, of {:.1f}\n", output_, zone.request.turbines.size(),
-                                   counted(list_.rows, "turbine"), seen_from(bare), bare["studied"].get<double>());
-    if (zone.screened) text += fmt::format("screened: a tip {}\n", seen_from(areas(zone, *zone.screened)));
+    std::string text = fmt::format("{}: {} of {}; a blade tip is visible {}, of the {:.1f} km2 studied\n", output_,
+                                   zone.request.turbines.size(), counted(list_.rows, "turbine"), seen_from(bare),
+                                   bare["studied"].get<double>());
+    if (zone.screened) text += fmt::format("screened: a blade tip {}\n", seen_from(areas(zone, *zone.screened)));
     text += fmt::format("{}, {}; {}\n", counted(zone.statistics.triangles, "triangle"),
                         counted(zone.statistics.lines, "sight line"), request_.earth.convention());
     return text;

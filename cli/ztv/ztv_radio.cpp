@@ -128,7 +128,7 @@ std::vector<std::string> ZtvRadioOptions::methods(const Zone& zone) const {
     paragraphs.push_back(fmt::format(
         "## Radar\n\nA radar at {:.0f}, {:.0f}, {:g} m above its ground of {:.1f} m. `radar-height.tif` is the least "
         "height "
-        "above the ground that it sees over bare ground, with the curvature and refraction above; `turbines.csv` says "
+        "above the ground that it sees over bare ground, with curvature and refraction as stated; `turbines.csv` says "
         "how many metres of each turbine rise above its horizon. The heights are exact for the surface; between the "
         "terrain's points they depend on its triangles.",
         radar_->position.x, radar_->position.y, radar_->height, zone.radar->ground_m));
@@ -137,7 +137,7 @@ std::vector<std::string> ZtvRadioOptions::methods(const Zone& zone) const {
         "## Radio links\n\n{} links of `{}` at {:g} GHz (wavelength 0.299792458 / f). After Bacon (2002) a rotor must "
         "stay "
         "out of the second Fresnel zone, of radius sqrt(2 lambda d1 d2 / d), in plan: `link-exclusion.tif` for the "
-        "greatest rotor, {:g} m in radius; `turbines.csv` for each turbine's own. Heights do not count.",
+        "greatest rotor, {:g} m in radius; `turbines.csv` for each turbine's own. Heights are not taken into account.",
         links_.size(), links_path_, frequency_ghz_, study(zone).rotor_radius_m));
   return paragraphs;
 }
@@ -150,8 +150,9 @@ std::vector<std::string> ZtvRadioOptions::warnings(const Zone& zone) const {
   const auto unknown =
       std::count_if(turbines.begin(), turbines.end(), [](const Turbine& t) { return !t.rotor_diameter; });
   if (unknown > 0)
-    warnings.push_back(fmt::format("no rotor_diameter is known of {}: links are kept clear of the axis alone",
-                                   counted(static_cast<std::uint64_t>(unknown), "turbine")));
+    warnings.push_back(
+        fmt::format("the rotor diameter is unknown for {}: of these, links are kept clear of the axis alone",
+                    counted(static_cast<std::uint64_t>(unknown), "turbine")));
   return warnings;
 }
 

@@ -40,7 +40,7 @@ void complete(std::optional<double>& hub, std::optional<double>& rotor, std::opt
     hub = *tip - *rotor / 2;
   }
   if (hub && *hub <= 0)
-    throw InputError("its rotor_diameter is more than twice its tip_height: the hub is underground");
+    throw InputError("its rotor_diameter is more than twice its tip_height: the hub would lie below the ground");
   if (hub && rotor && *rotor / 2 > *hub)
     throw InputError(fmt::format("its blades would reach {:g} m below the ground: hub {:g}, rotor {:g}",
                                  *rotor / 2 - *hub, *hub, *rotor));
@@ -88,7 +88,7 @@ void TurbineOptions::declare(CLI::App& app) {
   reads(app.add_option(
                "--turbines", query_.path,
                "The turbines, from a vector file of points, or CSV with columns x,y or lon,lat. Fields hub_height and "
-               "rotor_diameter, or tip_height; farm; name. Turbine k has bit k - 1")
+               "rotor_diameter, or tip_height; farm; name. Turbine k has bit k - 1 in turbines.tif")
             ->required()
             ->type_name("FILE"));
   app.add_option("--layer", query_.layer, "The layer of that file")->type_name("NAME");
@@ -103,11 +103,12 @@ void TurbineOptions::declare(CLI::App& app) {
   field("--rotor-diameter-field", rotor_field_, "rotor diameters");
   field("--tip-height-field", tip_field_, "heights of blade tips");
   field("--farm-field", farm_field_, "farms");
-  app.add_option("--hub-height", hub_text_, "Hub height of turbines that do not say")->type_name("METRES");
-  app.add_option("--rotor-diameter", rotor_text_, "Rotor diameter of turbines that do not say")->type_name("METRES");
-  app.add_option("--tip-height", tip_text_, "Height of the blades' highest tip, of turbines that do not say")
+  app.add_option("--hub-height", hub_text_, "Hub height of turbines whose row gives none")->type_name("METRES");
+  app.add_option("--rotor-diameter", rotor_text_, "Rotor diameter of turbines whose row gives none")
       ->type_name("METRES");
-  app.add_option("--farm", farm_, "Farm of turbines that do not say")->type_name("NAME");
+  app.add_option("--tip-height", tip_text_, "Height of the highest blade tip, of turbines whose row gives none")
+      ->type_name("METRES");
+  app.add_option("--farm", farm_, "Farm of turbines whose row gives none")->type_name("NAME");
   in_crs_.declare(app);
 }
 
@@ -126,7 +127,7 @@ void TurbineOptions::require_options_of_one_turbine() const {
     complete(hub, rotor, tip);
   } catch (const InputError& error) {
     throw InputError(fmt::format(
-        "--hub-height, --rotor-diameter, --tip-height: no turbine is like that, {}; leave out or correct one of them",
+        "--hub-height, --rotor-diameter, --tip-height: no turbine can have these, {}; leave out or correct one of them",
         in_options(error.what())));
   }
 }

@@ -96,6 +96,9 @@ double scale_of(const MapSheet& sheet);
 /// The ground inside the frame at that scale: what layers may fill.
 Box ground_in_frame(const MapSheet& sheet);
 
+/// Throws InputError unless the name ends in .pdf or .png.
+void require_sheet_format(const std::string& path);
+
 /// The bytes of a file: .pdf or .png (200 dots per inch) by the name's ending. Equal sheets give equal bytes.
 /// Throws InputError for another ending, and for a scale at which the area is larger than the frame.
 std::string draw_map_sheet(const MapSheet& sheet, const std::string& path);

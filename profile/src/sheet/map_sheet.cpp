@@ -50,13 +50,17 @@ Box ground_in_frame(const MapSheet& sheet) {
   return {middle.x - x, middle.y - y, middle.x + x, middle.y + y};
 }
 
-std::string draw_map_sheet(const MapSheet& sheet, const std::string& path) {
+void require_sheet_format(const std::string& path) {
   const auto format = Drawing::format_of(path);
   // Cairo numbers the pictures in an SVG over a whole process: equal sheets would not be equal files.
   if (!format || *format == Drawing::Format::kSvg)
     throw InputError(fmt::format("{}: a map sheet ends in .pdf or .png", path));
+}
+
+std::string draw_map_sheet(const MapSheet& sheet, const std::string& path) {
+  require_sheet_format(path);
   const Paper paper = paper_of(sheet.paper);
-  Drawing drawing(*format, paper.width, paper.height, kPixelsPerPoint);
+  Drawing drawing(*Drawing::format_of(path), paper.width, paper.height, kPixelsPerPoint);
   drawing.rectangle({0, 0, paper.width, paper.height}, kPaper);
   MapFrame(drawing, paper, ground_in_frame(sheet)).draw(sheet);
   SidePanel(drawing, paper, sheet, scale_of(sheet)).draw();

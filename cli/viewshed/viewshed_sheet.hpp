@@ -1,0 +1,18 @@
+// A viewshed as a map on a sheet of paper: `--sheet`.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <itin/store.hpp>
+#include <viewshed/viewshed.hpp>
+
+#include "options/sheet_options.hpp"
+
+namespace itin::cli {
+
+/// Throws FileError, InputError (a scale that is too large), Cancelled.
+void write_viewshed_sheet(const Store& store, const viewshed::Result& result, const SheetOptions& options,
+                          bool overwrite, Progress& progress);
+
+}  // namespace itin::cli

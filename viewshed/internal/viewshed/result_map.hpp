@@ -1,0 +1,31 @@
+// What a map of a viewshed shows: every cell in a colour, and what the colours stand for.
+//
+//   const ResultMap map = result_map(result, {.seen = "Visible"});
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <viewshed/map_image.hpp>
+#include <viewshed/viewshed.hpp>
+
+namespace itin::viewshed {
+
+struct ResultMap {
+  struct Colour {
+    std::uint8_t red = 0, green = 0, blue = 0, alpha = 0;
+  };
+  struct Key {
+    Colour colour;
+    std::string text;
+  };
+  std::vector<Colour> cells;  ///< clear where nothing is shown
+  std::vector<Key> keys;      ///< of single colours, with their shares of the cells decided
+  std::string scale_title;
+  std::vector<Key> scale;  ///< empty where the mode has no more to tell
+};
+
+ResultMap result_map(const Result& result, const MapOptions& options);
+
+}  // namespace itin::viewshed
