@@ -40,8 +40,7 @@ TEST(MapSheet, EqualSheetsGiveEqualBytes) {
   MapSheet sheet = sheet_of(PaperSize::kA3, 30);
   sheet.layers = {SheetCells{RasterGrid({300000, 230000}, 15000, 15000, 2, 2), {{255, 0, 0, 255}, {}, {}, {}}},
                   SheetMarks{SheetSymbol::kTurbine, {}, {{{310000, 210000}, "1"}}}};
-  for (const char* name : {"a.pdf", "a.png"})
-    EXPECT_EQ(draw_map_sheet(sheet, name), draw_map_sheet(sheet, name));
+  for (const char* name : {"a.pdf", "a.png"}) EXPECT_EQ(draw_map_sheet(sheet, name), draw_map_sheet(sheet, name));
   EXPECT_THROW(draw_map_sheet(sheet, "a.svg"), InputError);
 }
 

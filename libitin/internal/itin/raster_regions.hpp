@@ -31,8 +31,9 @@ struct RegionDescription {
 
 /// Writes a GeoPackage with one multipolygon a class that has cells, in the order of the classes: fields `value`,
 /// `class` (its name) and `area_m2` (that of its cells). Outlines follow the cells' edges; cells that meet at a corner
-/// alone are apart. A second table, `layer_styles`, has QGIS open it in the classes' colours. Precondition: values.size() == grid.cell_count(). Equal calls write equal bytes. Throws FileError
-/// if the file exists and may not be replaced, or cannot be written.
+/// alone are apart. A second table, `layer_styles`, has QGIS open it in the classes' colours. Precondition:
+/// values.size() == grid.cell_count(). Equal calls write equal bytes. Throws FileError if the file exists and may not
+/// be replaced, or cannot be written.
 void write_regions(const std::string& path, const RasterGrid& grid, std::span<const std::uint8_t> values,
                    const RegionDescription& description);
 void write_regions(const std::string& path, const RasterGrid& grid, std::span<const std::uint16_t> values,

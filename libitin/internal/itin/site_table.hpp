@@ -23,8 +23,9 @@ struct SiteRow {
 };
 
 /// All rows that query.where lets pass, in the file's order; fields that the layer does not have are empty in every
-/// row. A name longer than the ten letters that a Shapefile keeps is found by these, too. query.height_field and name_field are not used. Throws FileError for a file, layer or filter that is missing or
-/// not understood, InputError for a CRS that is unknown and a filter that leaves nothing.
+/// row. A name longer than the ten letters that a Shapefile keeps is found by these, too. query.height_field and
+/// name_field are not used. Throws FileError for a file, layer or filter that is missing or not understood, InputError
+/// for a CRS that is unknown and a filter that leaves nothing.
 std::vector<SiteRow> read_site_rows(const SiteQuery& query, const std::vector<std::string>& fields,
                                     const std::string& to_crs);
 
