@@ -1,5 +1,6 @@
 // One viewshed after another from an observer who walks: read from the open store each time, or over a surface that is
-// held. Around Cardiff (a raster of 50 m) 8 km far, and in a town with its buildings 200 m far.
+// held, or over areas that are read as they are reached. Around Cardiff (a raster of 50 m) 8 km far, and in a town with
+// its buildings 200 m far.
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -83,6 +84,19 @@ void BM_WalkHeld(benchmark::State& state) {
   std::filesystem::remove(walk.path);
 }
 BENCHMARK(BM_WalkHeld)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+/// In half the memory that holds the whole walk.
+void BM_WalkPaged(benchmark::State& state) {
+  const Walk walk = make_walk(state.range(0) != 0);
+  const Store store(walk.path);
+  NoProgress progress;
+  const HeldSurface whole(store, walk.area, Detail::tolerance(0), ThemeChoice::all(), {}, progress);
+  PagedSurface pages(store, Detail::tolerance(0), ThemeChoice::all(), {.memory_bytes = whole.bytes() / 2});
+  walk_on(state, walk, [&](const Request& request) { return pages.compute(request, progress); });
+  state.counters["readings"] = static_cast<double>(pages.readings());
+  std::filesystem::remove(walk.path);
+}
+BENCHMARK(BM_WalkPaged)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
 }  // namespace itin::viewshed

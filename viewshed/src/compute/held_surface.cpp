@@ -5,11 +5,11 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
-#include <itin/level_choice.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/held_surface.hpp>
 #include <viewshed/surface.hpp>
 
+#include "compute/planned_surface.hpp"
 #include "compute/surface_in_memory.hpp"
 #include "modes/feature_names.hpp"
 #include "plan/memory.hpp"
@@ -38,19 +38,26 @@ class HeldSurface::Impl {
     const Window window = Window::box(area);
     if (options.lattices) retrieve_posts(window, options, progress);
     if (posts_) return;
-    require_memory(bytes_per_point(Request()), options);
+    require_memory(options.memory_bytes);
     triangles_.emplace(triangulate(store, window, detail, progress, themes));
     if (themes.includes_raised(store.metadata().themes))
       bare_ = triangulate(store, window, detail, progress, ThemeChoice::none());
   }
 
+  const Store& store() const { return store_; }
   const Box& area() const { return area_; }
+  const Detail& detail() const { return detail_; }
+  const ThemeChoice& themes() const { return themes_; }
+
+  std::uint64_t bytes() const {
+    const std::lock_guard lock(listing_);
+    return (posts_ ? bytes_held(store_, detail_, area_, Form::kPosts) : 0) +
+           (triangles_ ? bytes_held(store_, detail_, area_, Form::kTriangles) : 0);
+  }
 
   bool covers(const Request& request) const {
-    const Window window = window_of(request);
-    const Box all = extent_of(store_), asked = window.is_all() ? all : intersection(window.bounds(), all);
-    return asked.empty() || (asked.xmin >= area_.xmin && asked.ymin >= area_.ymin && asked.xmax <= area_.xmax &&
-                             asked.ymax <= area_.ymax);
+    const Box asked = area_under(store_, request);
+    return asked.empty() || intersection(area_, asked) == asked;
   }
 
   Result compute(Request request, Progress& progress) const {
@@ -75,10 +82,9 @@ class HeldSurface::Impl {
     post_heights_ = std::make_shared<BinnedHeights>(posts_->lattice());
   }
 
-  void require_memory(std::uint64_t bytes, const ComputeOptions& options) const {
-    const int level = level_within(store_.metadata(), detail_.coarsest());
-    const std::uint64_t needed = bytes * store_.points_about(level, area_);
-    if (needed > options.memory_bytes)
+  void require_memory(std::uint64_t memory) const {
+    const std::uint64_t needed = bytes_held(store_, detail_, area_, Form::kTriangles);
+    if (needed > memory)
       throw InputError(fmt::format("the surface takes about {:.0f} MB: give more `memory_bytes`, or a smaller area",
                                    static_cast<double>(needed) / 1e6));
   }
@@ -122,11 +128,25 @@ HeldSurface::~HeldSurface() = default;
 const Box& HeldSurface::area() const {
   return impl_->area();
 }
+const Detail& HeldSurface::detail() const {
+  return impl_->detail();
+}
+const ThemeChoice& HeldSurface::themes() const {
+  return impl_->themes();
+}
+std::uint64_t HeldSurface::bytes() const {
+  return impl_->bytes();
+}
 bool HeldSurface::covers(const Request& request) const {
   return impl_->covers(request);
 }
 Result HeldSurface::compute(const Request& request, Progress& progress) const {
   return impl_->compute(request, progress);
+}
+
+Result decide(const HeldSurface& surface, const Plan& plan, std::size_t segment, Progress& progress) {
+  require_surface_of(plan, surface.impl_->store(), surface.detail(), surface.themes());
+  return as_planned(plan, segment, surface.compute(plan.request_of(segment), progress));
 }
 
 }  // namespace itin::viewshed
