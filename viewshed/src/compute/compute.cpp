@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <itin/call_progress.hpp>
 #include <viewshed/surface.hpp>
 #include <viewshed/viewshed.hpp>
 
@@ -38,8 +39,10 @@ ViewshedWithSurface climb(const Store& store, const Request& request, const Comp
 ViewshedWithSurface compute_with_surface(const Store& store, const Request& request, const ComputeOptions& options,
                                          Progress& progress) {
   validate(request);
-  ViewshedWithSurface computed = climb(store, request, options, progress);
+  CallProgress call(progress);
+  ViewshedWithSurface computed = climb(store, request, options, call);
   name_features(store, computed.result);
+  call.finish();
   return computed;
 }
 

@@ -29,6 +29,9 @@ double side_for(const Box& box) {
   return std::exp2(std::ceil(std::log2(std::max({box.width(), box.height(), 1.0})) - 3));
 }
 
+/// The share of a call that reads first, about.
+constexpr double kReadingArea = 0.7;
+
 /// Waits for what another thread reads.
 template <class T>
 T await(const std::shared_future<T>& future, const Progress& progress) {
@@ -47,13 +50,13 @@ HeldAreas::HeldAreas(const Store& store, const Detail& detail, const ThemeChoice
       is_full_(level_within(store.metadata(), detail.coarsest()) == 0) {}
 
 std::shared_ptr<const HeldSurface> HeldAreas::get(const Box& whole, const Box& part, bool triangles,
-                                                  Progress& progress) {
+                                                  CallProgress& call) {
   for (;;) {
     const Claim claimed = claim(whole, part, triangles);
     if (!claimed.area) return nullptr;
-    if (claimed.to_read) return read(claimed.area, progress);
+    if (claimed.to_read) return read(claimed.area, call);
     // Where another thread's reading fails or is cancelled, this one tries.
-    if (Surface surface = await(claimed.area->surface, progress)) return surface;
+    if (Surface surface = await(claimed.area->surface, call)) return surface;
   }
 }
 
@@ -100,14 +103,16 @@ void HeldAreas::add(std::shared_ptr<Area> area) {
   areas_.erase(too_many, areas_.end());
 }
 
-HeldAreas::Surface HeldAreas::read(const std::shared_ptr<Area>& area, Progress& progress) {
+HeldAreas::Surface HeldAreas::read(const std::shared_ptr<Area>& area, CallProgress& call) {
   try {
     // A thread that waits for the loops of a limit of its own takes up no work of the caller's meanwhile, which might
     // wait for this very area.
     const ThreadLimit own(thread_count());
     ComputeOptions options = options_;
     options.lattices = area->form == Form::kPosts;
-    auto surface = std::make_shared<const HeldSurface>(store_, area->box, detail_, themes_, options, progress);
+    auto surface =
+        std::make_shared<const HeldSurface>(store_, area->box, detail_, themes_, options, call.step(kReadingArea));
+    call.step(1);
     area->read.set_value(surface);
     return surface;
   } catch (const InputError&) {

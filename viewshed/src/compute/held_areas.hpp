@@ -8,6 +8,7 @@
 #include <mutex>
 #include <vector>
 
+#include <itin/call_progress.hpp>
 #include <itin/store.hpp>
 #include <viewshed/held_surface.hpp>
 
@@ -21,8 +22,8 @@ class HeldAreas {
   HeldAreas(const Store& store, const Detail& detail, const ThemeChoice& themes, const ComputeOptions& options);
 
   /// A surface over all of `whole`, or over `part` of it, where the memory does not hold that; null where it does not
-  /// hold the part either. Throws what reading it throws.
-  std::shared_ptr<const HeldSurface> get(const Box& whole, const Box& part, bool triangles, Progress& progress);
+  /// hold the part either. Reading is a step of the call. Throws what reading throws.
+  std::shared_ptr<const HeldSurface> get(const Box& whole, const Box& part, bool triangles, CallProgress& call);
   /// Those that running calls use end with them.
   void drop_all();
 
@@ -34,7 +35,7 @@ class HeldAreas {
   struct Area {
     Box box;
     Form form;
-    std::uint64_t bytes;         ///< about
+    std::uint64_t bytes;           ///< about
     std::promise<Surface> read{};  ///< null where reading failed
     std::shared_future<Surface> surface = read.get_future().share();
   };
@@ -47,7 +48,7 @@ class HeldAreas {
   std::shared_ptr<Area> find(const Box& box, bool triangles);
   std::shared_ptr<Area> area_about(const Box& box, bool triangles) const;
   void add(std::shared_ptr<Area> area);
-  Surface read(const std::shared_ptr<Area>& area, Progress& progress);
+  Surface read(const std::shared_ptr<Area>& area, CallProgress& call);
   void give_up(Area& area);
 
   const Store& store_;

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/call_progress.hpp>
 #include <itin/error.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/held_surface.hpp>
@@ -20,6 +21,9 @@ namespace itin::viewshed {
 
 namespace {
 
+/// The share of a call that reads first, about.
+constexpr double kReading = 0.7;
+
 /// A surface with its heights binned.
 struct Binned {
   explicit Binned(Tin of) : tin(std::move(of)), heights(std::make_shared<BinnedHeights>(tin)) {}
@@ -35,13 +39,11 @@ class HeldSurface::Impl {
        const ComputeOptions& options, Progress& progress)
       : store_(store), area_(area), detail_(detail), themes_(themes) {
     if (area.empty()) throw InputError("area: it is empty; give a box in metres");
+    CallProgress call(progress);
     const Window window = Window::box(area);
-    if (options.lattices) retrieve_posts(window, options, progress);
-    if (posts_) return;
-    require_memory(options.memory_bytes);
-    triangles_.emplace(triangulate(store, window, detail, progress, themes));
-    if (themes.includes_raised(store.metadata().themes))
-      bare_ = triangulate(store, window, detail, progress, ThemeChoice::none());
+    if (options.lattices) retrieve_posts(window, options, call);
+    if (!posts_) retrieve_triangles(window, options.memory_bytes, call);
+    call.finish();
   }
 
   const Store& store() const { return store_; }
@@ -68,8 +70,11 @@ class HeldSurface::Impl {
           fmt::format("sight lines leave the surface that is held, {:.0f},{:.0f} to {:.0f},{:.0f}: give a "
                       "smaller `radius`, or hold a larger area",
                       area_.xmin, area_.ymin, area_.xmax, area_.ymax));
-    Result result = viewshed::compute(surface_for(request, progress), request, progress);
+    CallProgress call(progress);
+    const SurfaceInMemory over = surface_for(request, call);
+    Result result = viewshed::compute(over, request, call);
     name_features(store_, result);
+    call.finish();
     return result;
   }
 
@@ -82,6 +87,13 @@ class HeldSurface::Impl {
     post_heights_ = std::make_shared<BinnedHeights>(posts_->lattice());
   }
 
+  void retrieve_triangles(const Window& window, std::uint64_t memory, CallProgress& call) {
+    require_memory(memory);
+    const bool raised = themes_.includes_raised(store_.metadata().themes);
+    triangles_.emplace(triangulate(store_, window, detail_, call.step(raised ? 0.7 : 1), themes_));
+    if (raised) bare_ = triangulate(store_, window, detail_, call.step(1), ThemeChoice::none());
+  }
+
   void require_memory(std::uint64_t memory) const {
     const std::uint64_t needed = bytes_held(store_, detail_, area_, Form::kTriangles);
     if (needed > memory)
@@ -89,21 +101,23 @@ class HeldSurface::Impl {
                                    static_cast<double>(needed) / 1e6));
   }
 
-  SurfaceInMemory surface_for(const Request& request, Progress& progress) const {
+  SurfaceInMemory surface_for(const Request& request, CallProgress& call) const {
     SurfaceInMemory over{.bare = bare_ ? &*bare_ : nullptr, .extent = extent_of(store_)};
     if (posts_ && !needs_triangles(request) && !casts_rays(request)) {
       over.lattice = &posts_->lattice(), over.heights = post_heights_;
       return over;
     }
-    const Binned& triangles = listed(progress);
+    const Binned& triangles = listed(call);
     over.tin = &triangles.tin, over.heights = triangles.heights;
     return over;
   }
 
   /// The triangles of a lattice are listed when they are first asked for.
-  const Binned& listed(Progress& progress) const {
+  const Binned& listed(CallProgress& call) const {
     const std::lock_guard lock(listing_);
-    if (!triangles_) triangles_.emplace(triangulate(store_, Window::box(area_), detail_, progress, themes_));
+    if (triangles_) return *triangles_;
+    triangles_.emplace(triangulate(store_, Window::box(area_), detail_, call.step(kReading), themes_));
+    call.step(1);
     return *triangles_;
   }
 

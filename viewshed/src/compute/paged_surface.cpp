@@ -1,5 +1,6 @@
 #include <utility>
 
+#include <itin/call_progress.hpp>
 #include <viewshed/held_surface.hpp>
 
 #include "compute/held_areas.hpp"
@@ -23,15 +24,15 @@ class PagedSurface::Impl {
     request.detail = detail_, request.themes = themes_;
     validate(request);
     const Box under = area_under(store_, request);
+    CallProgress call(progress);
     if (!under.empty()) {  // else the store's result says so
       Box under_whole = area_under(store_, whole);
       under_whole.extend(under);
       const bool triangles = needs_triangles(request) || casts_rays(request);
-      if (const auto surface = areas_.get(under_whole, under, triangles, progress))
-        return surface->compute(request, progress);
+      if (const auto surface = areas_.get(under_whole, under, triangles, call)) return surface->compute(request, call);
       areas_.drop_all();
     }
-    return compute_with_surface(store_, request, options_, progress).result;
+    return compute_with_surface(store_, request, options_, call).result;
   }
 
  private:
