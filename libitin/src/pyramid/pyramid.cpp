@@ -177,13 +177,14 @@ class PyramidBuild {
   }
 
   PyramidReport run() {
-    progress_.step(kGround);
+    const bool alone = lines_.empty();
+    progress_.step(alone ? kGroundAlone : kGroundUnderLines);
     find_coverage();
-    progress_.step(kLines);
+    progress_.step(alone ? 0 : kLines);
     place();
     repair_contours();
     generalise();
-    progress_.step(kProposal);
+    progress_.step(alone ? 0 : kProposal);
     propose_with_lines();
     progress_.step(kCertificates);
     LeafBounds bounds = certify_levels();
@@ -198,7 +199,8 @@ class PyramidBuild {
 
  private:
   /// What a step takes of the time that is left, about.
-  static constexpr double kGround = 0.4, kLines = 0.1, kProposal = 0.3, kCertificates = 0.85;
+  static constexpr double kGroundAlone = 0.8, kGroundUnderLines = 0.2, kLines = 0.1, kProposal = 0.7,
+                          kCertificates = 0.85;
 
   void index_points() {
     index_.emplace(points_, levels_, kLeafCapacity);
