@@ -7,22 +7,19 @@
 //   near.observers = {{"here", {320000, 176000}, 2}};
 //   near.radius = 1500;
 //   const viewshed::Result result = surface.compute(near, progress);
-//
-//   viewshed::PagedSurface pages(store, Detail::tolerance(0), ThemeChoice::all(), {.memory_bytes = 512 << 20});
-//   for (near.observers[0].position.x = 320000; near.observers[0].position.x < 400000;
-//        near.observers[0].position.x += 10)
-//     std::cout << pages.compute(near, progress).cells.visible << '\n';
-//
-// Retrieval and what prepares a surface for its sight lines are paid once for each area.
-//
-// A server shows the cells nearest to the observer first, and drops the rest when the observer moves: `progress` then
-// says that it is cancelled, and decide() throws Cancelled.
-//
+//   // An observer who walks on, far beyond that area:
+//   viewshed::PagedSurface pages(store, Detail::tolerance(0), ThemeChoice::none(), {.memory_bytes = 512 << 20});
+//   double& east = near.observers.front().position.x;
+//   for (; east < 400000; east += 10) std::cout << pages.compute(near, progress).cells.visible << '\n';
+//   // A server shows the cells nearest to the observer first, until `progress` says that the observer has moved on:
 //   const viewshed::Plan plan(store, near, {}, 10000);
-//   for (std::size_t i = 0; i < plan.segments().size(); ++i) {
+//   for (std::size_t i = 0; i < plan.segments().size() && !progress.cancelled(); ++i) {
 //     const viewshed::Result tile = viewshed::decide(pages, plan, i, progress);
 //     std::cout << tile.grid.bounds().xmin << ' ' << tile.cells.visible << '\n';
 //   }
+//
+// Retrieval and what prepares a surface for its sight lines are paid once for each area. A call that is cancelled on
+// its way throws Cancelled, and what it was reading is read anew by the next.
 #pragma once
 
 #include <cstddef>
