@@ -59,10 +59,10 @@ Walk make_walk(bool town) {
 }
 
 template <class View>
-void walk_on(benchmark::State& state, const Walk& walk, const View& view) {
+void walk_on(benchmark::State& state, const Walk& walk, const View& view, double stride = 0.1) {
   double n = 0;
   std::uint64_t visible = 0;
-  for (auto _ : state) visible += view(walk.step(n += 0.1)).cells.visible;
+  for (auto _ : state) visible += view(walk.step(n += stride)).cells.visible;
   if (visible == 0) state.SkipWithError("nothing was seen");
 }
 
@@ -85,18 +85,23 @@ void BM_WalkHeld(benchmark::State& state) {
 }
 BENCHMARK(BM_WalkHeld)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-/// In half the memory that holds the whole walk.
-void BM_WalkPaged(benchmark::State& state) {
+/// In strides of a fortieth of the radius: read each time, or by areas in the memory that holds the whole walk.
+void BM_Strides(benchmark::State& state, bool paged) {
   const Walk walk = make_walk(state.range(0) != 0);
   const Store store(walk.path);
   NoProgress progress;
   const HeldSurface whole(store, walk.area, Detail::tolerance(0), ThemeChoice::all(), {}, progress);
-  PagedSurface pages(store, Detail::tolerance(0), ThemeChoice::all(), {.memory_bytes = whole.bytes() / 2});
-  walk_on(state, walk, [&](const Request& request) { return pages.compute(request, progress); });
+  PagedSurface pages(store, Detail::tolerance(0), ThemeChoice::all(), {.memory_bytes = whole.bytes()});
+  const double stride = walk.radius / 40 / (std::min(walk.area.width(), walk.area.height()) / 2 - walk.radius);
+  const auto view = [&](const Request& request) {
+    return paged ? pages.compute(request, progress) : compute(store, request, progress);
+  };
+  walk_on(state, walk, view, stride);
   state.counters["readings"] = static_cast<double>(pages.readings());
   std::filesystem::remove(walk.path);
 }
-BENCHMARK(BM_WalkPaged)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(BM_Strides, reading, false)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(BM_Strides, paged, true)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
 }  // namespace itin::viewshed
