@@ -1,5 +1,6 @@
 // One viewshed after another from an observer who walks: read from the open store each time, or over a surface that is
-// held. Around Cardiff (a raster of 50 m) 8 km far, and in a town with its buildings 200 m far.
+// held, or over areas that are read as they are reached. Around Cardiff (a raster of 50 m) 8 km far, and in a town with
+// its buildings 200 m far.
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -58,10 +59,10 @@ Walk make_walk(bool town) {
 }
 
 template <class View>
-void walk_on(benchmark::State& state, const Walk& walk, const View& view) {
+void walk_on(benchmark::State& state, const Walk& walk, const View& view, double stride = 0.1) {
   double n = 0;
   std::uint64_t visible = 0;
-  for (auto _ : state) visible += view(walk.step(n += 0.1)).cells.visible;
+  for (auto _ : state) visible += view(walk.step(n += stride)).cells.visible;
   if (visible == 0) state.SkipWithError("nothing was seen");
 }
 
@@ -83,6 +84,24 @@ void BM_WalkHeld(benchmark::State& state) {
   std::filesystem::remove(walk.path);
 }
 BENCHMARK(BM_WalkHeld)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+/// In strides of a fortieth of the radius: read each time, or by areas in the memory that holds the whole walk.
+void BM_Strides(benchmark::State& state, bool paged) {
+  const Walk walk = make_walk(state.range(0) != 0);
+  const Store store(walk.path);
+  NoProgress progress;
+  const HeldSurface whole(store, walk.area, Detail::tolerance(0), ThemeChoice::all(), {}, progress);
+  PagedSurface pages(store, Detail::tolerance(0), ThemeChoice::all(), {.memory_bytes = whole.bytes()});
+  const double stride = walk.radius / 40 / (std::min(walk.area.width(), walk.area.height()) / 2 - walk.radius);
+  const auto view = [&](const Request& request) {
+    return paged ? pages.compute(request, progress) : compute(store, request, progress);
+  };
+  walk_on(state, walk, view, stride);
+  state.counters["readings"] = static_cast<double>(pages.readings());
+  std::filesystem::remove(walk.path);
+}
+BENCHMARK_CAPTURE(BM_Strides, reading, false)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(BM_Strides, paged, true)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
 }  // namespace itin::viewshed

@@ -115,8 +115,6 @@ class LosVerb final : public Verb {
     return command;
   }
 
-  LosHeader header(const std::string& of = {}) const { return {reports_.title(of), earth_.document()}; }
-
   LosCase run_profile() {
     query_.from_height_m = heights_[0], query_.to_height_m = heights_[1];
     query_.points_as_given = true;
@@ -129,12 +127,12 @@ class LosVerb final : public Verb {
                             end.elevation_m),
                 fmt::format("elevation angle {:.3f}\xC2\xB0", end.elevation_angle_deg)};
     }
-    return los_case(std::move(report), header());
+    return los_case(std::move(report), reports_.title());
   }
 
   LosCase run_store() {
     const Store store(store_);
-    LosCase one = los_case(store, line_.run(store, query_), header());
+    LosCase one = los_case(store, line_.run(store, query_), reports_.title());
     warn_of_scale(store.metadata(), one.result.warnings);
     return one;
   }
@@ -146,7 +144,6 @@ class LosVerb final : public Verb {
     std::vector<LosReports::Job> jobs = reports_.jobs(table.links, policy_);
     const LosLinks::Page page{reports_.title(), facts_of_links(store)};
     LosLinks::Survey survey = links_.run(store, table, line_, query_, page, policy_.overwrite, progress);
-    survey.result.document["refraction"] = earth_.document();
     const bool radio = query_.radio || std::any_of(table.links.begin(), table.links.end(),
                                                    [](const profile::Link& l) { return l.frequency_ghz.has_value(); });
     if (radio) warn_of_refraction(profile::effective_earth_km(query_.earth), survey.result);
@@ -156,7 +153,7 @@ class LosVerb final : public Verb {
     const auto work = [&](std::size_t i) {
       const profile::Link& link = table.links[i];
       LosCase one = los_case(store, line_.run(store, query_, {link.from, link.to, link.from_height, link.to_height}),
-                             header(link.id));
+                             reports_.title(link.id));
       one.result.document["link"] = link.id;
       return one;
     };

@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <itin/coordinates.hpp>
+#include <profile/documents.hpp>
 #include <profile/report_text.hpp>
-
-#include "los/los_document.hpp"
 
 namespace itin::cli {
 
@@ -27,18 +25,6 @@ void add_facts(profile::LosReport& report) {
   report.facts.emplace_back("Program", "itin " ITIN_VERSION);
 }
 
-Document sources_document(const std::vector<SourceInfo>& sources) {
-  Document list = Document::array();
-  for (const SourceInfo& source : sources) {
-    list.push_back({{"path", source.path},
-                    {"kind", source.kind},
-                    {"sha256", source.sha256},
-                    {"spacing_m", source.spacing},
-                    {"note", source.note.empty() ? Document(nullptr) : Document(source.note)}});
-  }
-  return list;
-}
-
 std::string text_of_findings(const profile::LosReport& report, const profile::LineFindings& found) {
   std::string text;
   for (const profile::Obstruction& o : found.obstructions) {
@@ -57,28 +43,18 @@ std::string text_of_findings(const profile::LosReport& report, const profile::Li
 
 }  // namespace
 
-LosCase los_case(profile::LosReport report, const LosHeader& header) {
+LosCase los_case(profile::LosReport report, const std::string& title) {
   LosCase one{std::move(report), {}};
-  one.report.title = header.title;
+  one.report.title = title;
   add_facts(one.report);
-  Document& document = one.result.document;
-  document["crs"] = nullptr;
-  document["refraction"] = header.refraction;
-  document["from"] = end_document(one.report.from);
-  document["to"] = end_document(one.report.to);
-  document.update(los_document(one.report));
+  one.result.document = profile::los_document(one.report);
   return one;
 }
 
-LosCase los_case(const Store& store, LosStoreOptions::Result line, const LosHeader& header) {
-  LosCase one = los_case(std::move(line.report), header);
+LosCase los_case(const Store& store, LosStoreOptions::Result line, const std::string& title) {
+  LosCase one = los_case(std::move(line.report), title);
   one.result.warnings = std::move(line.warnings);
-  one.result.document["crs"] = crs_identifier(store.metadata().crs_wkt);
-  one.result.document["surface"] = std::move(line.surface);
-  one.result.document["sources"] = sources_document(one.report.sources);
-  one.result.document["statistics"] = {{"points_read", one.report.statistics.points_read},
-                                       {"blocks_read", one.report.statistics.blocks_read},
-                                       {"triangles", one.report.triangles}};
+  one.result.document = profile::los_document(store.metadata(), line.line, one.report);
   return one;
 }
 

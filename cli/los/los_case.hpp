@@ -16,16 +16,10 @@ struct LosCase {
   Result result;
 };
 
-/// The facts that are the same for every line of a call.
-struct LosHeader {
-  std::string title;
-  Document refraction;
-};
-
 /// The case of a profile from a file.
-LosCase los_case(profile::LosReport report, const LosHeader& header);
+LosCase los_case(profile::LosReport report, const std::string& title);
 /// The case of a line on a store.
-LosCase los_case(const Store& store, LosStoreOptions::Result line, const LosHeader& header);
+LosCase los_case(const Store& store, LosStoreOptions::Result line, const std::string& title);
 
 /// The report as text for people.
 std::string text_of(const profile::LosReport& report);

@@ -1,11 +1,12 @@
 #include "los/los_links.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include <itin/coordinates.hpp>
 #include <itin/error.hpp>
+#include <profile/documents.hpp>
 #include <profile/link_output.hpp>
 
 #include "options/off_the_data.hpp"
@@ -20,24 +21,6 @@ namespace {
 using profile::Link;
 using profile::LinkResult;
 using profile::LinkTable;
-
-struct Counts {
-  std::size_t visible = 0, hidden = 0, undecided = 0, error = 0, gaps = 0;
-};
-
-Counts counts_of(const LinkTable& table, const std::vector<LinkResult>& results) {
-  Counts counts;
-  counts.error = table.bad.size();
-  for (const LinkResult& r : results) {
-    counts.error += !r.found;
-    counts.gaps += r.gap_m > 0;
-    if (!r.found) continue;
-    counts.visible += r.found->verdict == profile::SightVerdict::kVisible;
-    counts.hidden += r.found->verdict == profile::SightVerdict::kHidden;
-    counts.undecided += r.found->verdict == profile::SightVerdict::kUndecided;
-  }
-  return counts;
-}
 
 /// The first error in rows that cannot be read, else in links.
 std::string first_error(const LinkTable& table, const std::vector<LinkResult>& results, const StoreMetadata& metadata) {
@@ -113,15 +96,16 @@ LosLinks::Survey LosLinks::run(const Store& store, const LinkTable& table, const
   const std::vector<LinkResult> results = profile::survey_links(store, table.links, links, progress);
   const profile::LinkSurvey written{table, results, links, metadata.crs_wkt, page.title, page.facts};
   for (const std::string& output : outputs_) profile::write_links(written, output, overwrite);
-  const Counts counts = counts_of(table, results);
   Survey survey;
   for (const LinkResult& r : results) survey.computed.push_back(r.found.has_value());
   Result& result = survey.result;
-  result.document["crs"] = crs_identifier(metadata.crs_wkt);
-  result.document["surface"] = surface_document(metadata, surface.detail(), surface.themes());
-  result.document["links"] = {
-      {"visible", counts.visible}, {"hidden", counts.hidden}, {"undecided", counts.undecided}, {"error", counts.error}};
+  result.document = profile::links_document(metadata, table, results, links);
+  const Document refraction = std::exchange(result.document["refraction"], nullptr);
+  result.document.erase("refraction");
   result.document["outputs"] = outputs_;
+  result.document["refraction"] = refraction;
+  const profile::LinkCounts counts = profile::counts_of(table, results);
+  const auto gaps = std::count_if(results.begin(), results.end(), [](const LinkResult& r) { return r.gap_m > 0; });
   const std::size_t all = results.size() + table.bad.size();
   result.text = fmt::format("{}: {}, {} visible", outputs_.front(), counted(all, "link"), grouped(counts.visible));
   if (counts.undecided > 0) result.text += fmt::format(", {} undecided", grouped(counts.undecided));
@@ -129,9 +113,9 @@ LosLinks::Survey LosLinks::run(const Store& store, const LinkTable& table, const
   for (const std::string& column : table.other_columns)
     result.warnings.push_back(
         fmt::format("{}: the column '{}' means nothing to this program; it is kept", path_, column));
-  if (counts.gaps > 0 && surface.nodata() != profile::NoData::kClear) {
+  if (gaps > 0 && surface.nodata() != profile::NoData::kClear) {
     result.warnings.push_back(fmt::format(
-        "{} of {} cross ground without data, which {}; see --nodata", counts.gaps, counted(all, "link"),
+        "{} of {} cross ground without data, which {}; see --nodata", gaps, counted(all, "link"),
         surface.nodata() == profile::NoData::kBlock ? "counts as blocking"
                                                     : "leaves undecided those that known ground does not hide"));
   }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/document.hpp>
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
 #include <profile/los.hpp>
@@ -13,7 +14,6 @@
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
 #include "program/field_names.hpp"
-#include "program/json_text.hpp"
 
 namespace itin::cli {
 

@@ -111,7 +111,7 @@ LosStoreOptions::Result LosStoreOptions::run(const Store& store, profile::LosQue
   query.nodata = nodata();
   Result result;
   result.report = profile::analyse(store, line, query);
-  result.surface = surface_document(store.metadata(), line.detail, line.themes);
+  result.line = line;
   result.warnings = warnings_about(result.report);
   return result;
 }

@@ -43,7 +43,7 @@ class LosStoreOptions {
   };
   struct Result {
     profile::LosReport report;
-    Document surface;
+    profile::StoreLine line;
     std::vector<std::string> warnings;
   };
   /// Completes the query by what the options say, and works out the report. Throws InputError, CorruptStore, FileError.

@@ -55,15 +55,4 @@ void EarthOptions::validate() {
   earth_.validate();
 }
 
-Document EarthOptions::document() const {
-  Document document{{"convention", earth_.convention()}, {"curvature", earth_.curvature}};
-  if (earth_.effective_factor) {
-    document["effective_earth"] = *earth_.effective_factor;
-  } else {
-    document["k"] = earth_.refraction;
-  }
-  document["earth_radius_m"] = earth_.radius;
-  return document;
-}
-
 }  // namespace itin::cli

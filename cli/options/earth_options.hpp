@@ -21,8 +21,6 @@ class EarthOptions {
   const Earth& earth() const { return earth_; }
   /// Whether nothing was said about refraction.
   bool is_default() const { return refraction_text_.empty() && effective_text_.empty() && effective_km_text_.empty(); }
-  /// The convention and its values: `refraction` of a document.
-  Document document() const;
 
  private:
   void require_no_refraction() const;

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <itin/level_choice.hpp>
-
 namespace itin::cli {
 
 namespace {
@@ -16,23 +14,6 @@ std::vector<std::uint64_t> query_vertices(const StoreMetadata& metadata) {
 }
 
 }  // namespace
-
-Document error_interval(const CertifiedError& error) {
-  return Document::array({error.lo, error.hi});
-}
-
-Document surface_document(const StoreMetadata& metadata, const Detail& detail, const ThemeChoice& themes) {
-  Document surface{{"tolerance_m", detail.coarsest()},
-                   {"certified_error_m", error_interval(certified_error(metadata, detail))}};
-  if (detail.rings().size() > 1) {
-    surface["centre"] = {{"x", detail.centre().x}, {"y", detail.centre().y}};
-    for (const Ring& ring : detail.rings()) {
-      surface["rings"].push_back({{"radius_m", ring.radius}, {"tolerance_m", ring.tolerance}});
-    }
-  }
-  surface["themes"] = themes.names(metadata.themes);
-  return surface;
-}
 
 Document themes_document(const StoreMetadata& metadata) {
   Document themes = Document::array();
@@ -82,10 +63,6 @@ std::string levels_table(const StoreMetadata& metadata) {
                          grouped(query[i]), level.certified_error.lo, level.certified_error.hi);
   }
   return table;
-}
-
-Document box_document(const Box& box) {
-  return {{"xmin", box.xmin}, {"ymin", box.ymin}, {"xmax", box.xmax}, {"ymax", box.ymax}};
 }
 
 std::string grouped(std::uint64_t number) {

@@ -5,19 +5,11 @@
 #include <string_view>
 #include <vector>
 
-#include <itin/detail.hpp>
 #include <itin/store.hpp>
 
 #include "program/verb.hpp"
 
 namespace itin::cli {
-
-/// [lo, hi] of a certificate.
-Document error_interval(const CertifiedError& error);
-
-/// `surface`: tolerance, certified error and themes of the surface that a query at this detail sees. With rings the
-/// tolerance is the coarsest, the error covers all, and the rings are listed.
-Document surface_document(const StoreMetadata& metadata, const Detail& detail, const ThemeChoice& themes);
 
 /// `themes`, in the store's order, as a document and as text.
 Document themes_document(const StoreMetadata& metadata);
@@ -29,9 +21,6 @@ Document levels_document(const StoreMetadata& metadata);
 
 /// `levels` as an aligned table.
 std::string levels_table(const StoreMetadata& metadata);
-
-/// [xmin, ymin, xmax, ymax] with names.
-Document box_document(const Box& box);
 
 /// 1234567 as "1,234,567".
 std::string grouped(std::uint64_t number);

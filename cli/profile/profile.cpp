@@ -7,10 +7,12 @@
 
 #include <itin/coordinates.hpp>
 #include <itin/cross_section.hpp>
+#include <itin/document.hpp>
 #include <itin/error.hpp>
 #include <itin/paths.hpp>
 #include <itin/store.hpp>
 #include <itin/tin_export.hpp>
+#include <profile/documents.hpp>
 
 #include "options/in_crs.hpp"
 #include "options/off_the_data.hpp"
@@ -20,7 +22,6 @@
 #include "output/store_document.hpp"
 #include "profile/profile_output.hpp"
 #include "program/call_files.hpp"
-#include "program/json_text.hpp"
 #include "program/values.hpp"
 #include "program/verb.hpp"
 
@@ -145,9 +146,7 @@ class ProfileVerb final : public Verb {
                                 where_it_begins(store.metadata()));
     }
     warn_of_scale(store.metadata(), result.warnings);
-    result.document["crs"] = crs_identifier(store.metadata().crs_wkt);
-    result.document["surface"] = surface_document(store.metadata(), profiles.front().detail, themes_.choice());
-    result.document.update(profile_document(profiles, store.metadata()));
+    result.document = profile::profile_document(store.metadata(), themes_.choice(), profiles);
     if (!outputs_.empty() || !triangles_.empty()) result.document["outputs"] = outputs();
     result.document["statistics"] = {
         {"points_read", cost.read.points_read}, {"blocks_read", cost.read.blocks_read}, {"triangles", cost.triangles}};

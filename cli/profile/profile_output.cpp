@@ -9,14 +9,15 @@
 #include <fmt/format.h>
 
 #include <itin/coordinates.hpp>
+#include <itin/document.hpp>
 #include <itin/error.hpp>
 #include <itin/file_ending.hpp>
 #include <itin/output_file.hpp>
 #include <profile/chart.hpp>
+#include <profile/documents.hpp>
 
 #include "output/output_path.hpp"
 #include "output/store_document.hpp"
-#include "program/json_text.hpp"
 
 namespace itin::cli {
 
@@ -24,12 +25,6 @@ namespace {
 
 using profile::Profile;
 using profile::ProfilePoint;
-
-Document gaps_document(const Profile& profile) {
-  Document gaps = Document::array();
-  for (const auto& [from, to] : profile.gaps) gaps.push_back({from, to});
-  return gaps;
-}
 
 std::string csv(const std::vector<SurfaceProfile>& profiles, const StoreMetadata& metadata) {
   const bool several = profiles.size() > 1;
@@ -86,7 +81,7 @@ std::string geojson(const ProfileOutput& output) {
       feature["properties"] = {{"tolerance_m", surface.detail.coarsest()},
                                {"length_m", surface.profile.length_m},
                                {"theme", names[theme]},
-                               {"gaps", gaps_document(surface.profile)}};
+                               {"gaps", profile::gaps_document(surface.profile)}};
       feature["geometry"] = {{"type", "MultiLineString"}, {"coordinates", lines_of(surface.profile, theme)}};
       document["features"].push_back(std::move(feature));
     }
@@ -128,27 +123,6 @@ void require_profile_format(const std::string& path) {
     if (ending == known) return;
   }
   throw InputError(fmt::format("-o '{}': a profile ends in .csv, .json, .geojson, .svg, .pdf or .png", path));
-}
-
-Document profile_document(const std::vector<SurfaceProfile>& profiles, const StoreMetadata& metadata) {
-  const std::vector<std::string> themes = profile::theme_names(metadata);
-  Document document;
-  document["length_m"] = profiles.front().profile.length_m;
-  document["gaps"] = gaps_document(profiles.front().profile);
-  document["profiles"] = Document::array();
-  for (const SurfaceProfile& surface : profiles) {
-    const Document about = surface_document(metadata, surface.detail, ThemeChoice::none());
-    Document entry{{"tolerance_m", surface.detail.coarsest()}, {"certified_error_m", about["certified_error_m"]}};
-    if (about.contains("rings")) entry["rings"] = about["rings"];
-    entry["gaps"] = gaps_document(surface.profile);
-    entry["breakpoints"] = Document::array();
-    for (const ProfilePoint& p : surface.profile.points) {
-      entry["breakpoints"].push_back(
-          {{"distance_m", p.distance_m}, {"x", p.x}, {"y", p.y}, {"z", p.ground_m}, {"theme", themes[p.theme]}});
-    }
-    document["profiles"].push_back(std::move(entry));
-  }
-  return document;
 }
 
 void write_profile(const ProfileOutput& output, const std::string& path) {

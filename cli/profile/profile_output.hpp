@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include <itin/detail.hpp>
 #include <itin/store.hpp>
 #include <profile/profile.hpp>
 
@@ -13,19 +12,11 @@
 
 namespace itin::cli {
 
-/// The surface at one detail along the whole path.
-struct SurfaceProfile {
-  Detail detail;
-  std::string name;  ///< "tolerance 2 m"
-  profile::Profile profile;
-};
+using profile::SurfaceProfile;
 
 /// Throws InputError unless the ending is one of those below.
 void require_profile_format(const std::string& path);
 bool is_chart(const std::string& path);
-
-/// `length_m`, `gaps` of the first profile, and `profiles`.
-Document profile_document(const std::vector<SurfaceProfile>& profiles, const StoreMetadata& metadata);
 
 struct ProfileOutput {
   const StoreMetadata& metadata;

@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <itin/document.hpp>
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
 
@@ -23,7 +24,6 @@
 #include "program/call_files.hpp"
 #include "program/field_names.hpp"
 #include "program/interruption.hpp"
-#include "program/json_text.hpp"
 #include "program/likely_meant.hpp"
 #include "program/stderr_progress.hpp"
 #include "program/thread_limit.hpp"

@@ -38,7 +38,7 @@ void StderrProgress::report(std::string_view stage, double reported) {
   if (!lock.owns_lock()) return;
   const auto now = Clock::now();
   const double fraction = std::clamp(reported, 0.0, 1.0);
-  const auto left = left_.after(stage, fraction, now);
+  const auto left = left_.after(fraction, now);
   if (now - last_drawn_ < (style_ == Style::kTerminal ? kRedraw : kPlainLine)) return;
   last_drawn_ = now;
   const std::string text = fmt::format("{} {:3.0f} %{}", stage, std::floor(100 * fraction),

@@ -6,13 +6,11 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
+#include <itin/document.hpp>
 #include <itin/progress.hpp>
 
 namespace itin::cli {
-
-using Document = nlohmann::ordered_json;
 
 /// The answer of a verb, for machines and for people; the program prints one of the two on stdout.
 struct Result {

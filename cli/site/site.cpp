@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/document.hpp>
 #include <itin/error.hpp>
 #include <itin/file_digest.hpp>
 #include <itin/output_file.hpp>
@@ -18,7 +19,6 @@
 #include "output/new_folder.hpp"
 #include "output/output_path.hpp"
 #include "output/store_document.hpp"
-#include "program/json_text.hpp"
 #include "program/verb.hpp"
 #include "site/site_inputs.hpp"
 #include "site/site_links.hpp"
@@ -118,7 +118,7 @@ class SiteVerb final : public Verb {
     Document hashes = Document::array();
     for (const Document& input : inputs_document_) hashes.push_back(input.at("sha256"));
     return fmt::format("{} {} {} {}", ITIN_VERSION, json_text(hashes), json_text(options_.parameters()),
-                       json_text(options_.earth.document()));
+                       json_text(earth_document(options_.earth.earth())));
   }
 
   std::optional<viewshed::SitePosition> hub(const Store& store, Progress& progress) const {

@@ -6,13 +6,13 @@
 
 #include <fmt/format.h>
 
+#include <itin/document.hpp>
 #include <itin/error.hpp>
 #include <profile/fresnel.hpp>
 
 #include "options/radio_options.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
-#include "program/json_text.hpp"
 
 namespace itin::cli {
 

@@ -179,7 +179,7 @@ Document site_document(const SiteResult& r, const StoreMetadata& metadata) {
   Document document;
   document["crs"] = crs_identifier(metadata.crs_wkt);
   document["surface"] = surface_document(metadata, Detail::tolerance(0), r.options.themes.choice());
-  document["refraction"] = r.options.earth.document();
+  document["refraction"] = earth_document(r.options.earth.earth());
   document["served"] = r.options.meaning_of_served();
   document["value"] = r.in_metric(r.choice.value);
   document["upper_bound"] = r.in_metric(r.choice.upper_bound);

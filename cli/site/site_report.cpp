@@ -9,12 +9,12 @@
 #include <fmt/format.h>
 
 #include <itin/base64.hpp>
+#include <itin/document.hpp>
 #include <itin/error.hpp>
 #include <itin/markup.hpp>
 #include <itin/output_file.hpp>
 
 #include "output/store_document.hpp"
-#include "program/json_text.hpp"
 
 namespace itin::cli {
 

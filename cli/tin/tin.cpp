@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include <itin/coordinates.hpp>
+#include <itin/document.hpp>
 #include <itin/error.hpp>
 #include <itin/store.hpp>
 #include <itin/tin_export.hpp>
@@ -20,7 +21,6 @@
 #include "output/output_path.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
-#include "program/json_text.hpp"
 #include "program/values.hpp"
 #include "program/verb.hpp"
 #include "tin/picture_options.hpp"

@@ -7,12 +7,12 @@
 
 #include <fmt/format.h>
 
+#include <itin/document.hpp>
 #include <itin/error.hpp>
 #include <itin/triangulate.hpp>
 
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
-#include "program/json_text.hpp"
 
 namespace itin::cli {
 

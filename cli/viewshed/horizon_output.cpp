@@ -10,12 +10,12 @@
 #include <itin/file_ending.hpp>
 #include <itin/output_file.hpp>
 #include <profile/chart.hpp>
+#include <viewshed/documents.hpp>
 #include <viewshed/surface.hpp>
 
 #include "options/site_list.hpp"
 #include "output/output_path.hpp"
 #include "program/call_files.hpp"
-#include "program/json_text.hpp"
 #include "program/values.hpp"
 
 namespace itin::cli {
@@ -38,48 +38,6 @@ std::string table(const viewshed::Horizon& horizon, const StoreMetadata& metadat
                         p.sky->distance_m, at.x, at.y, at.z, theme_name(p.sky->theme, metadata), p.sky->data_edge);
   }
   return text;
-}
-
-Document targets_document(const viewshed::Horizon& horizon) {
-  Document targets = Document::array();
-  for (const viewshed::SightedTarget& t : horizon.targets)
-    targets.push_back({{"name", t.target.name},
-                       {"x", t.target.position.x},
-                       {"y", t.target.position.y},
-                       {"elevation_m", t.elevation_m},
-                       {"azimuth_deg", t.azimuth_deg},
-                       {"elevation_deg", t.elevation_deg},
-                       {"distance_m", t.distance_m},
-                       {"visible", t.visible}});
-  return targets;
-}
-
-Document document(const viewshed::Horizon& horizon, const viewshed::Request& request, const StoreMetadata& metadata,
-                  const Document& refraction) {
-  const viewshed::Observer& observer = request.observers.front();
-  Document points = Document::array();
-  for (const viewshed::HorizonPoint& p : horizon.points) {
-    Document point{{"azimuth_deg", p.azimuth_deg}};
-    if (p.sky) {
-      point["elevation_deg"] = p.sky->elevation_deg;
-      point["distance_m"] = p.sky->distance_m;
-      point["x"] = p.sky->position.x;
-      point["y"] = p.sky->position.y;
-      point["z"] = p.sky->position.z;
-      point["theme"] = theme_name(p.sky->theme, metadata);
-      point["data_edge"] = p.sky->data_edge;
-    }
-    points.push_back(std::move(point));
-  }
-  return {{"itin", ITIN_VERSION},
-          {"observer",
-           {{"name", observer.name},
-            {"x", observer.position.x},
-            {"y", observer.position.y},
-            {"elevation_m", horizon.eye_elevation_m}}},
-          {"refraction", refraction},
-          {"sky_line", points},
-          {"targets", targets_document(horizon)}};
 }
 
 profile::Panorama panorama(const viewshed::Horizon& horizon, const viewshed::Request& request) {
@@ -140,9 +98,8 @@ std::vector<viewshed::HorizonTarget> HorizonOutput::targets(const viewshed::Requ
   return targets;
 }
 
-Document HorizonOutput::write(viewshed::ViewshedWithSurface& computed, const StoreMetadata& metadata,
-                              const Document& refraction, bool overwrite, Progress& progress,
-                              std::vector<std::string>& warnings) const {
+Document HorizonOutput::write(viewshed::ViewshedWithSurface& computed, const StoreMetadata& metadata, bool overwrite,
+                              Progress& progress, std::vector<std::string>& warnings) const {
   if (paths_.empty()) return nullptr;
   const viewshed::Request& request = computed.result.request;
   const Tin& surface = computed.surface->listed(progress);
@@ -150,10 +107,9 @@ Document HorizonOutput::write(viewshed::ViewshedWithSurface& computed, const Sto
                                                       {step_deg_, targets(request, metadata)}, progress);
   for (const std::string& path : paths_) {
     const std::string ending = ending_of(path);
-    const std::string bytes = ending == ".csv" ? table(horizon, metadata)
-                              : ending == ".json"
-                                  ? json_text(document(horizon, request, metadata, refraction), 2) + "\n"
-                                  : profile::draw_panorama(panorama(horizon, request), path);
+    const std::string bytes = ending == ".csv"    ? table(horizon, metadata)
+                              : ending == ".json" ? viewshed::json_of(horizon, request, metadata)
+                                                  : profile::draw_panorama(panorama(horizon, request), path);
     write_file(path, bytes, overwrite);
   }
   const auto ends = std::count_if(horizon.points.begin(), horizon.points.end(),
@@ -162,7 +118,7 @@ Document HorizonOutput::write(viewshed::ViewshedWithSurface& computed, const Sto
     warnings.push_back(
         fmt::format("the sky line is the edge of the data in {} of {} directions; what lies behind may rise higher",
                     ends, horizon.points.size()));
-  return targets_document(horizon);
+  return viewshed::targets_document(horizon);
 }
 
 }  // namespace itin::cli

@@ -24,8 +24,8 @@ class HorizonOutput {
   /// Computes and writes what was asked for, if anything; the document of the horizon's targets, or null. `warnings`
   /// gets one where the sky line is the edge of the data. Throws
   /// InputError, FileError.
-  Document write(viewshed::ViewshedWithSurface& computed, const StoreMetadata& metadata, const Document& refraction,
-                 bool overwrite, Progress& progress, std::vector<std::string>& warnings) const;
+  Document write(viewshed::ViewshedWithSurface& computed, const StoreMetadata& metadata, bool overwrite,
+                 Progress& progress, std::vector<std::string>& warnings) const;
 
  private:
   std::vector<viewshed::HorizonTarget> targets(const viewshed::Request& request, const StoreMetadata& metadata) const;

@@ -8,6 +8,7 @@
 #include <itin/coordinates.hpp>
 #include <itin/error.hpp>
 #include <itin/store.hpp>
+#include <viewshed/documents.hpp>
 #include <viewshed/viewshed.hpp>
 
 #include "options/detail_options.hpp"
@@ -173,13 +174,13 @@ class ViewshedVerb final : public Verb {
     outputs_.write(computed, context, result.warnings, progress);
     write_viewshed_sheet(store, computed.result, sheet_, outputs_.overwrite(), progress);
     outputs_.write_each([&](std::size_t i) { return compute_for_observer(store, computed, i, progress); }, context);
-    const Document targets =
-        horizon_.write(computed, metadata, earth_.document(), outputs_.overwrite(), progress, result.warnings);
+    const Document targets = horizon_.write(computed, metadata, outputs_.overwrite(), progress, result.warnings);
     // Certified and exact answers are about the full surface.
     const Detail detail = precise_ || certified_ ? Detail::tolerance(0) : request_.detail;
     const Document features =
         features_.write(store, computed.result.grid, {detail, request_.themes}, outputs_.overwrite(), progress);
-    result.document = document(computed.result, metadata, context.surface);
+    result.document = viewshed::viewshed_document(metadata, computed.result);
+    result.document["outputs"] = outputs_.paths();
     if (!features.is_null()) result.document["features"] = features;
     if (!targets.empty()) result.document["horizon_targets"] = targets;
     result.text = text(computed.result);
@@ -305,40 +306,6 @@ class ViewshedVerb final : public Verb {
     if (!like_.empty()) request_.grid = raster_grid_like(like_, metadata.crs_wkt);
   }
 
-  Document document(const viewshed::Result& result, const StoreMetadata& metadata, const Document& surface) const {
-    const viewshed::CellCounts& cells = result.cells;
-    const double area = result.grid.cell_area();
-    Document document;
-    document["crs"] = crs_identifier(metadata.crs_wkt);
-    document["surface"] = surface;
-    document["refraction"] = earth_.document();
-    document["grid"] = {{"bounds", box_document(result.grid.bounds())},
-                        {"columns", result.grid.columns()},
-                        {"rows", result.grid.rows()},
-                        {"cell_m", {result.grid.cell_width(), result.grid.cell_height()}}};
-    document["cells"] = {{"visible", cells.visible},
-                         {"hidden", cells.hidden},
-                         {"undecided", cells.undecided},
-                         {"outside", cells.outside}};
-    document["area_m2"] = {{"visible", static_cast<double>(cells.visible) * area},
-                           {"hidden", static_cast<double>(cells.hidden) * area},
-                           {"undecided", static_cast<double>(cells.undecided) * area},
-                           {"outside", static_cast<double>(cells.outside) * area}};
-    if (certified_) document["decided_percent"] = decided_percent(cells);
-    document["outputs"] = outputs_.paths();
-    const viewshed::Statistics& statistics = result.statistics;
-    document["statistics"] = {{"points_read", statistics.retrieval.points_read},
-                              {"blocks_read", statistics.retrieval.blocks_read},
-                              {"triangles", statistics.triangles},
-                              {"lines", statistics.lines}};
-    return document;
-  }
-
-  static double decided_percent(const viewshed::CellCounts& cells) {
-    const std::uint64_t decided = cells.visible + cells.hidden, all = decided + cells.undecided;
-    return all == 0 ? 100 : 100.0 * static_cast<double>(decided) / static_cast<double>(all);
-  }
-
   std::string text(const viewshed::Result& result) const {
     const viewshed::CellCounts& cells = result.cells;
     const std::uint64_t decided = cells.visible + cells.hidden;
@@ -350,7 +317,7 @@ class ViewshedVerb final : public Verb {
     if (certified_) {
       text += fmt::format("certainly visible: {}; certainly hidden: {}; undecided: {} ({:.1f} % decided)\n",
                           counted(cells.visible, "cell"), grouped(cells.hidden), grouped(cells.undecided),
-                          decided_percent(cells));
+                          viewshed::decided_percent(cells));
       if (cells.undecided > 0)
         text +=
             "undecided at this tolerance, or across ground without data: --mode visible decides the former, "

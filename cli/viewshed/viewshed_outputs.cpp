@@ -7,11 +7,11 @@
 
 #include <fmt/format.h>
 
+#include <itin/document.hpp>
 #include <itin/error.hpp>
 #include <viewshed/map_image.hpp>
 
 #include "program/call_files.hpp"
-#include "program/json_text.hpp"
 
 namespace itin::cli {
 

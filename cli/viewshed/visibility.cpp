@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <itin/coordinates.hpp>
+#include <itin/document.hpp>
 #include <itin/error.hpp>
 #include <itin/store.hpp>
 #include <viewshed/visibility_index.hpp>
@@ -17,7 +18,6 @@
 #include "output/output_path.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
-#include "program/json_text.hpp"
 #include "program/values.hpp"
 #include "program/verb.hpp"
 
@@ -120,7 +120,7 @@ class VisibilityVerb final : public Verb {
     Document& document = result.document;
     document["crs"] = crs_identifier(metadata.crs_wkt);
     document["surface"] = surface;
-    document["refraction"] = earth_.document();
+    document["refraction"] = earth_document(earth_.earth());
     document["observers"] = index.observers;
     document["mean_share"] = index.mean;
     document["mean_share_standard_error"] = index.mean_error;

@@ -8,6 +8,7 @@
 
 #include <itin/coordinates.hpp>
 #include <itin/csv_cell.hpp>
+#include <itin/document.hpp>
 #include <itin/error.hpp>
 #include <itin/output_file.hpp>
 #include <itin/store.hpp>
@@ -24,7 +25,6 @@
 #include "output/output_folder.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
-#include "program/json_text.hpp"
 #include "program/values.hpp"
 #include "program/verb.hpp"
 #include "ztv/ztv_methods.hpp"
@@ -270,7 +270,7 @@ class ZtvVerb final : public Verb {
     Document document;
     document["crs"] = crs_identifier(metadata.crs_wkt);
     document["surface"] = surface(metadata);
-    document["refraction"] = earth_.document();
+    document["refraction"] = earth_document(earth_.earth());
     document["grid"] = {{"bounds", box_document(zone.grid.bounds())},
                         {"columns", zone.grid.columns()},
                         {"rows", zone.grid.rows()},

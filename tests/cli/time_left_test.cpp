@@ -13,45 +13,29 @@ const TimeLeft::Clock::time_point kStart{};
 
 TEST(TimeLeft, SaysNothingUntilEnoughIsDone) {
   TimeLeft left;
-  EXPECT_FALSE(left.after("reading", 0, kStart));
-  EXPECT_FALSE(left.after("reading", 0.0001, kStart + seconds(2)));
-  EXPECT_FALSE(left.after("reading", 0.5, kStart + milliseconds(600)));
-  EXPECT_EQ(left.after("reading", 0.5, kStart + seconds(10)), seconds(10));
-  EXPECT_FALSE(left.after("reading", 1, kStart + seconds(20)));
+  EXPECT_FALSE(left.after(0, kStart));
+  EXPECT_FALSE(left.after(0.0001, kStart + seconds(2)));
+  EXPECT_FALSE(left.after(0.5, kStart + milliseconds(600)));
+  EXPECT_EQ(left.after(0.5, kStart + seconds(10)), seconds(10));
+  EXPECT_FALSE(left.after(1, kStart + seconds(20)));
 }
 
-/// A slow beginning of a stage of four minutes.
+/// A slow beginning of four minutes.
 TEST(TimeLeft, NeverSaysHoursInARunOfMinutes) {
   TimeLeft left;
   for (int t = 0; t <= 240; ++t) {
     const double fraction = t < 60 ? t * 0.001 : 0.06 + (t - 60) * 0.94 / 180;
-    const auto said = left.after("levels", fraction, kStart + seconds(t));
+    const auto said = left.after(fraction, kStart + seconds(t));
     EXPECT_LT(said.value_or(seconds(0)), seconds(20 * 60)) << t;
   }
 }
 
-TEST(TimeLeft, GoesOnWhereAStageIsEnteredAgain) {
+TEST(TimeLeft, BeginsAnewWithAnotherCall) {
   TimeLeft left;
-  for (int t = 0; t < 10; ++t) {
-    left.after("reading", t * 0.05, kStart + seconds(2 * t));
-    left.after("looking", t * 0.05, kStart + seconds(2 * t + 1));
-  }
-  EXPECT_EQ(left.after("reading", 0.5, kStart + seconds(20)), seconds(20));
-}
-
-TEST(TimeLeft, BeginsAnewWhereAStageFallsBack) {
-  TimeLeft left;
-  left.after("reading", 0, kStart);
-  left.after("reading", 1, kStart + seconds(100));
-  EXPECT_FALSE(left.after("reading", 0, kStart + seconds(200)));
-  EXPECT_EQ(left.after("reading", 0.25, kStart + seconds(210)), seconds(30));
-}
-
-TEST(TimeLeft, ReportsOutOfOrderChangeNothing) {
-  TimeLeft left;
-  left.after("reading", 0, kStart);
-  left.after("reading", 0.5, kStart + seconds(10));
-  EXPECT_EQ(left.after("reading", 0.49, kStart + seconds(10)), seconds(10));
+  left.after(0, kStart);
+  left.after(1, kStart + seconds(100));
+  EXPECT_FALSE(left.after(0, kStart + seconds(200)));
+  EXPECT_EQ(left.after(0.25, kStart + seconds(210)), seconds(30));
 }
 
 TEST(TimeLeft, IsToldNoFinerThanItIsKnown) {

@@ -19,9 +19,29 @@ class ToldProgress final : public Progress {
   void report(std::string_view stage, double fraction) override {
     const std::lock_guard lock(mutex_);
     told_[std::string(stage)].push_back(fraction);
+    all_.push_back(fraction);
   }
 
+  /// Whatever the stages.
+  const std::vector<double>& all() const { return all_; }
+
   const std::vector<double>& of(const std::string& stage) { return told_[stage]; }
+
+  /// The call's fraction only grows, and ends at 1.
+  void expect_whole_call() const {
+    ASSERT_FALSE(all_.empty());
+    EXPECT_GE(all_.front(), 0);
+    EXPECT_TRUE(std::is_sorted(all_.begin(), all_.end()));
+    EXPECT_EQ(all_.back(), 1);
+  }
+  /// It does so in steps of at most so much.
+  void expect_steps_up_to(double most) const {
+    double last = 0;
+    for (const double fraction : all_) {
+      EXPECT_LE(fraction - last, most) << "after " << last;
+      last = fraction;
+    }
+  }
 
   /// Only grows, and ends at 1.
   void expect_whole(const std::string& stage) {
@@ -34,6 +54,7 @@ class ToldProgress final : public Progress {
  private:
   std::mutex mutex_;
   std::map<std::string, std::vector<double>> told_;
+  std::vector<double> all_;
 };
 
 }  // namespace itin::test

@@ -21,7 +21,7 @@ namespace itin {
 class Progress {
  public:
   virtual ~Progress() = default;
-  /// `fraction` of the stage called `stage` is done, 0 to 1.
+  /// `fraction` of the call is done: it never decreases, and ends at 1. `stage` is what the call is doing.
   virtual void report(std::string_view stage, double fraction) = 0;
   /// True makes the running call throw Cancelled at its next opportunity.
   virtual bool cancelled() const { return false; }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/call_progress.hpp>
 #include <itin/error.hpp>
 #include <itin/file_ending.hpp>
 #include <itin/tin_export.hpp>
@@ -65,16 +66,20 @@ void require_topology_output(const std::string& path, bool overwrite) {
 void export_tin(const Tin& tin, const std::string& path, const TinExportOptions& options, Progress& progress) {
   const Writer write = writer_for(path);
   PendingFile output(path, options.overwrite);
-  write(tin, output, options, progress);
+  CallProgress call(progress);
+  write(tin, output, options, call);
   output.commit();
+  call.finish();
 }
 
 void export_topology(const Tin& tin, TopologyKind kind, const std::string& path, const TinExportOptions& options,
                      Progress& progress) {
   require_json(path);
   PendingFile output(path, options.overwrite);
-  write_topology_json(tin, kind, output, options, progress);
+  CallProgress call(progress);
+  write_topology_json(tin, kind, output, options, call);
   output.commit();
+  call.finish();
 }
 
 }  // namespace itin

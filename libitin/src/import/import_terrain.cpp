@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/call_progress.hpp>
 #include <itin/error.hpp>
 #include <itin/import.hpp>
 #include <itin/store.hpp>
@@ -113,9 +114,16 @@ bool may_stand_on(const Store* store) {
   return std::all_of(themes.begin(), themes.end(), raised) || std::none_of(themes.begin(), themes.end(), raised);
 }
 
+bool has_raised(const Store* store) {
+  if (store == nullptr) return false;
+  const std::vector<ThemeInfo>& themes = store->metadata().themes;
+  return std::any_of(themes.begin(), themes.end(), [](const ThemeInfo& theme) { return theme.is_raised(); });
+}
+
 /// Raised features need their ground finished first, and give vertices to lines of the ground where they cross them.
 void write_in_turns(Target target, const Store* existing, Additions additions, const ImportOptions& options,
-                    ImportReport& report, Progress& progress) {
+                    ImportReport& report, CallProgress& call) {
+  const bool raises = !additions.footprints.empty() || has_raised(existing);
   const Store* base = existing;
   const Store* ground = may_stand_on(base) && !additions.footprints.empty() ? base : nullptr;
   std::deque<Unfinished> passing;  // stores for the time of this import only
@@ -125,7 +133,7 @@ void write_in_turns(Target target, const Store* existing, Additions additions, c
     raisings += ground != nullptr ? 1 : 0;
     passing.emplace_back(fmt::format("{}.ground{}", target.path, passing.size()));
     target.passing = passing.back().path(), target.last = raisings == kMostRaised;
-    if (StorePass(target, {base, ground, additions}, options, report).run(raised, progress)) break;
+    if (StorePass(target, {base, ground, additions}, options, report).run(raised, call.step(raises ? 0.5 : 1))) break;
     base = ground = &before.emplace(passing.back().path());
     additions = Additions{plan_nothing(base->metadata()), {}};
   }
@@ -149,7 +157,8 @@ ImportReport import_sources(const std::string& store_path, const ImportOptions& 
   const Store* const store = existing ? &*existing : nullptr;
   check_resolution(options, store);
   const std::vector<double> tolerances = tolerances_of(options, store);
-  Additions additions = plan_additions(options, store, progress);
+  CallProgress call(progress);
+  Additions additions = plan_additions(options, store, call.step(builds_features(options) ? 0.1 : 0));
 
   ImportReport report;
   report.crs_name = additions.plan.crs_name;
@@ -161,12 +170,13 @@ ImportReport import_sources(const std::string& store_path, const ImportOptions& 
 
   const SetAsideCounts before = counts_of(store);
   StoreWriter writer(std::move(file), additions.plan.crs_wkt, additions.plan.grid, tolerances);
-  write_in_turns({writer, store_path, tolerances}, store, std::move(additions), options, report, progress);
+  write_in_turns({writer, store_path, tolerances}, store, std::move(additions), options, report, call);
 
   const Store written(store_path);
   report_counts(before, counts_of(&written), report);
   report.store_bytes = written.file_bytes();
   report.levels = written.metadata().levels;
+  call.finish();
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
 }

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include <itin/call_progress.hpp>
 #include <itin/error.hpp>
 
 #include "import/empty_import.hpp"
@@ -70,6 +71,10 @@ std::vector<ThemeInfo> counted_themes(const LineCollection& collection, const Th
   return themes;
 }
 
+/// Shares of an import's time, as rasters of millions of posts took it: of all of it; with features, of what is then
+/// left; and of the rest.
+constexpr double kCollecting = 0.05, kRaising = 0.6, kSorting = 0.03;
+
 }  // namespace
 
 SetAsideCounts counts_of(const Store* store) {
@@ -91,8 +96,9 @@ StorePass::StorePass(const Target& target, const PassSources& of, const ImportOp
 }
 
 bool StorePass::run(RaisedFeatures& raised, Progress& progress) {
-  collect(progress);
-  if (ground_ != nullptr) collection_.raise(*ground_, raised, progress);
+  CallProgress call(progress);
+  collect(call.step(kCollecting));
+  if (ground_ != nullptr) collection_.raise(*ground_, raised, call.step(kRaising));
   const ThemeLines lines = collection_.finish(sources_, ground_, progress);
   add_line_vertices(lines);
   const bool done =
@@ -100,7 +106,8 @@ bool StorePass::run(RaisedFeatures& raised, Progress& progress) {
   std::optional<StoreWriter> passing;
   if (!done) passing.emplace(target_.passing, additions_.plan.crs_wkt, additions_.plan.grid, target_.tolerances);
   StoreWriter& writer = done ? target_.writer : *passing;
-  const PyramidReport pyramid = build(lines, done ? target_.tolerances : std::vector<double>{0.0}, writer, progress);
+  const PyramidReport pyramid =
+      build(lines, done ? target_.tolerances : std::vector<double>{0.0}, writer, call.step(1));
   set_aside(pyramid, lines, writer);
   count(pyramid, lines);
   commit(pyramid, lines, writer);
@@ -116,14 +123,16 @@ void StorePass::require_numbers() const {
 }
 
 void StorePass::collect(Progress& progress) {
-  if (base_ != nullptr) stored_ = add_stored(*base_, sorter_, collection_, progress);
+  CallProgress call(progress);
+  auto left = static_cast<double>(additions_.plan.sources.size() + additions_.plan.lines.size()) + 1;
+  if (base_ != nullptr) stored_ = add_stored(*base_, sorter_, collection_, call.step(1 / left));
   for (const auto& source : additions_.plan.sources) {
-    add_source(*source, progress);
+    add_source(*source, call.step(1 / --left));
     sources_.push_back(recorded(source->info(), options_));
     sources_.back().replaces = options_.replace;
   }
   for (const auto& layer : additions_.plan.lines) {
-    add_lines(*layer, progress);
+    add_lines(*layer, call.step(1 / --left));
     sources_.push_back(recorded(layer->info(), options_));
   }
   for (FootprintFile& file : additions_.footprints) {
@@ -189,13 +198,14 @@ void StorePass::add_line_vertices(const ThemeLines& lines) {
 
 PyramidReport StorePass::build(const ThemeLines& lines, const std::vector<double>& tolerances, StoreWriter& writer,
                                Progress& progress) {
+  CallProgress call(progress);
   std::uint64_t duplicates = 0;
-  SortedPoints points = sorter_.finish(ranks_for_sorting(sources_), progress, &duplicates);
+  SortedPoints points = sorter_.finish(ranks_for_sorting(sources_), call.step(kSorting), &duplicates);
   report_.duplicates += duplicates;
   // Ground that features stand on stays as it is.
   const bool keep = ground_ != nullptr && collection_.is_raised();
   return build_pyramid({points, sources_, additions_.plan.grid, tolerances, lines, keep ? &stored_.inferred : nullptr},
-                       writer, progress);
+                       writer, call.step(1));
 }
 
 void StorePass::set_aside(const PyramidReport& pyramid, const ThemeLines& lines, StoreWriter& writer) const {

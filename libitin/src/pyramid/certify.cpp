@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include <itin/call_progress.hpp>
 #include <itin/detail.hpp>
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
@@ -354,10 +355,14 @@ std::vector<FailedPlace> failures(const LeafBounds& bounds, const std::vector<st
   return places;
 }
 
+/// The share of the first round, which looks at everything.
+constexpr double kFirstRound = 0.6;
+
 /// Mends what more vertices can mend.
 LeafBounds mend(WorkingIndex& index, const std::vector<std::int32_t>& tolerances, Progress& progress) {
   const int levels = static_cast<int>(tolerances.size());
   LeafBounds bounds(index.ranges().size(), levels);
+  CallProgress call(progress);
   Disturbed disturbed(index.ranges().size());
   for (std::uint32_t leaf = 0; leaf < index.ranges().size(); ++leaf) disturbed.mark(leaf, (1u << levels) - 2);
 
@@ -366,6 +371,7 @@ LeafBounds mend(WorkingIndex& index, const std::vector<std::int32_t>& tolerances
         disturbed_cells(index, round == 0 ? std::vector<Tiling>{{kFirstCell, ~0u}} : tilings(index), disturbed);
     if (tasks.empty()) return bounds;
     disturbed.clear();
+    call.step(round == 0 ? kFirstRound : 0.5);
 
     std::vector<CellOutcome> outcomes(tasks.size());
     std::atomic<std::size_t> done = 0;
@@ -373,7 +379,7 @@ LeafBounds mend(WorkingIndex& index, const std::vector<std::int32_t>& tolerances
       progress.throw_if_cancelled();
       outcomes[i] = CellVerification(index, tolerances, tasks[i]).run(round > 0, bounds);
       const double share = static_cast<double>(++done) / static_cast<double>(tasks.size());
-      progress.report(round == 0 ? "verifying the levels" : "mending the levels", share);
+      call.report(round == 0 ? "verifying the levels" : "mending the levels", share);
     });
 
     std::vector<Raise> raises;

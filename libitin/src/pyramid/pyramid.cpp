@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include <itin/call_progress.hpp>
 #include <itin/detail.hpp>
 #include <itin/parallel.hpp>
 
@@ -176,12 +177,19 @@ class PyramidBuild {
   }
 
   PyramidReport run() {
+    const bool alone = lines_.empty();
+    progress_.step(alone ? kGroundAlone : kGroundUnderLines);
     find_coverage();
+    progress_.step(alone ? 0 : kLines);
     place();
     repair_contours();
     generalise();
+    progress_.step(alone ? 0 : kProposal);
     propose_with_lines();
-    write_ground(certify_levels());
+    progress_.step(kCertificates);
+    LeafBounds bounds = certify_levels();
+    progress_.step(1);
+    write_ground(std::move(bounds));
     write_lines();
     set_points_aside(imported(), sources_, writer_, progress_);
     report_.placed = std::move(placed_.terrain);
@@ -190,6 +198,10 @@ class PyramidBuild {
   }
 
  private:
+  /// What a step takes of the time that is left, about.
+  static constexpr double kGroundAlone = 0.8, kGroundUnderLines = 0.2, kLines = 0.1, kProposal = 0.7,
+                          kCertificates = 0.85;
+
   void index_points() {
     index_.emplace(points_, levels_, kLeafCapacity);
     tiles_ = index_->tiles(tile_points(points_.size()));
@@ -333,7 +345,7 @@ class PyramidBuild {
   const int levels_;
   const std::vector<std::array<double, 4>> bases_;
   StoreWriter& writer_;
-  Progress& progress_;
+  CallProgress progress_;
   const Sources ground_ = ground_sources(sources_);
   std::vector<double> units_;  ///< tolerances in grid units
   std::vector<std::int32_t> whole_units_;

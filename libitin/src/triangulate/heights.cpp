@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include <itin/call_progress.hpp>
 #include <itin/grid_units.hpp>
 #include <itin/parallel.hpp>
 #include <itin/raster.hpp>
@@ -146,15 +147,17 @@ RetrievedHeights retrieve_heights(const Store& store, const std::vector<Point2>&
   std::vector<Place> places = places_of(metadata, positions);
   const std::vector<std::span<Place>> groups = groups_of(places, metadata);
   std::vector<RetrievalStatistics> statistics(groups.size());
+  CallProgress call(progress);
   std::atomic<std::size_t> done = 0;
   parallel_for(groups.size(), [&](std::size_t i) {
     SilentProgress quiet(progress);
     const Tin tin = triangulate(store, window_about(groups[i], positions, metadata.grid), detail, quiet, themes);
     HeightsOn(tin, result.metres).find(groups[i]);
     statistics[i] = tin.statistics;
-    progress.report("heights", static_cast<double>(++done) / static_cast<double>(groups.size()));
+    call.report("heights", static_cast<double>(++done) / static_cast<double>(groups.size()));
   });
   for (const RetrievalStatistics& s : statistics) result.statistics += s;
+  call.finish();
   return result;
 }
 

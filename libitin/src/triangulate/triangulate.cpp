@@ -2,6 +2,7 @@
 #include <atomic>
 #include <cmath>
 
+#include <itin/call_progress.hpp>
 #include <itin/parallel.hpp>
 #include <itin/store.hpp>
 #include <itin/triangulate.hpp>
@@ -88,15 +89,17 @@ Tin triangulate(const Store& store, const Window& window, const Detail& detail, 
   const TilePlan plan(index, selection, grid_window);
 
   std::vector<RegionMesh> regions(plan.cells().size());
+  CallProgress call(progress);
   std::atomic<std::size_t> done = 0;
   parallel_for(regions.size(), [&](std::size_t i) {
     progress.throw_if_cancelled();
     const Cell& cell = plan.cells()[i];
     regions[i] = triangulate_region(index, selection, square_of(cell), window.is_all() ? nullptr : &grid_window);
-    progress.report("triangulating", static_cast<double>(++done) / static_cast<double>(regions.size()));
+    call.report("triangulating", static_cast<double>(++done) / static_cast<double>(regions.size()));
   });
   Tin tin = assemble(std::move(regions), plan.cells(), metadata.grid);
   name_themes(tin, metadata);
+  call.finish();
   return tin;
 }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/call_progress.hpp>
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
 #include <itin/verify.hpp>
@@ -28,11 +29,14 @@ class Verifying {
     const StoreMetadata& metadata = store_.metadata();
     result_.damage = false_levels(file_of(store_));
     const std::vector<Selection> levels = selections_of_levels(metadata);
+    const std::size_t parts = metadata.parts.size();
+    progress_.step(parts > 0 ? 0.7 : 1);
     verify(
         "verifying certificates", "the terrain", tiles_of_ground(),
         [&](const Cell& tile) { return false_certificates(file_of(store_), levels, tile); },
         [&](const FalseCell& cell) { return false_certificate(cell, metadata.grid); });
-    for (std::size_t p = 0; p < metadata.parts.size(); ++p) {
+    for (std::size_t p = 0; p < parts; ++p) {
+      progress_.step(1 / static_cast<double>(parts - p));
       const PartHeights part(store_, p);
       verify(
           "verifying heights of features",
@@ -40,6 +44,7 @@ class Verifying {
           [&](const Cell& tile) { return part.higher_in(tile); },
           [&](const FalseCell& cell) { return part.higher(cell); });
     }
+    progress_.finish();
     return std::move(result_);
   }
 
@@ -85,7 +90,7 @@ class Verifying {
 
   const Store& store_;
   const VerifyOptions& options_;
-  Progress& progress_;
+  CallProgress progress_;
   Verification result_;
 };
 

@@ -101,6 +101,11 @@ struct LinkResult {
 std::vector<LinkResult> survey_links(const Store& store, const std::vector<Link>& links, const LinkQuery& query,
                                      Progress& progress);
 
+/// The JSON document that `itin los --links --json` prints, without the call and its outputs: how many links have which
+/// verdict.
+std::string json_of(const StoreMetadata& metadata, const LinkTable& table, const std::vector<LinkResult>& results,
+                    const LinkQuery& query);
+
 /// The query of one link: its own frequency, polarisation and criteria, or those of `query`.
 LosQuery los_query(const Link& link, const LinkQuery& query);
 

@@ -175,6 +175,11 @@ LosReport analyse(Profile profile, const LosQuery& query, Profile ground = {});
 /// themes that the store does not have, and for an end that has no longitude and latitude; CorruptStore, FileError.
 LosReport analyse(const Store& store, const StoreLine& line, LosQuery query);
 
+/// The JSON document that `itin los --json` prints, without the call and its outputs: of a profile, and of a line over
+/// a store, with what was read of it.
+std::string json_of(const LosReport& report);
+std::string json_of(const Store& store, const StoreLine& line, const LosReport& report);
+
 /// The position at a distance along the line, in the profile's CRS.
 Point2 position_at(const LosReport& report, double distance_m);
 

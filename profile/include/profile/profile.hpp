@@ -14,6 +14,8 @@
 #include <vector>
 
 #include <itin/cross_section.hpp>
+#include <itin/detail.hpp>
+#include <itin/theme.hpp>
 
 namespace itin {
 struct StoreMetadata;
@@ -82,6 +84,17 @@ std::vector<std::string> theme_names(const StoreMetadata& metadata);
 Profile read_profile_csv(std::istream& text, const std::string& name);
 /// Reads such a profile from a file. Throws FileError where it cannot be read.
 Profile read_profile_csv(const std::string& path);
+
+/// The surface at one detail along a line.
+struct SurfaceProfile {
+  Detail detail;
+  std::string name;  ///< "tolerance 2 m"
+  Profile profile;
+};
+/// The JSON document that `itin profile --json` prints, without the call and its outputs: `surface` is the first
+/// profile's, with these themes. Precondition: at least one profile.
+std::string json_of(const StoreMetadata& metadata, const ThemeChoice& themes,
+                    const std::vector<SurfaceProfile>& profiles);
 
 /// The profile as seen from the other end. Exact for distances that are multiples of 2^-30 m, as a CrossSection's are.
 Profile reversed(const Profile& profile);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/call_progress.hpp>
 #include <itin/error.hpp>
 #include <itin/geodesic.hpp>
 #include <itin/parallel.hpp>
@@ -102,6 +103,7 @@ Wireline survey_wireline(const SectionSurface& surface, const WirelineQuery& que
   const std::vector<double> limits = band_limits(query);
   const auto lines = static_cast<std::size_t>(std::ceil(query.width_deg / query.step_deg)) + 1;
   std::vector<LineOfBands> seen(lines, LineOfBands(limits, query.earth, query.eye_elevation_m));
+  CallProgress call(progress);
   std::atomic<std::size_t> done = 0;
   parallel_for(lines, [&](std::size_t i) {
     progress.throw_if_cancelled();
@@ -112,8 +114,7 @@ Wireline survey_wireline(const SectionSurface& surface, const WirelineQuery& que
     for (std::size_t p = 0; p + 1 < points.size(); ++p)
       if (!gap_between(section, points[p], points[p + 1])) seen[i].add(points[p], points[p + 1]);
     const std::size_t now = ++done;
-    if (now % 32 == 0 || now == lines)
-      progress.report("wireline", static_cast<double>(now) / static_cast<double>(lines));
+    if (now % 32 == 0 || now == lines) call.report("wireline", static_cast<double>(now) / static_cast<double>(lines));
   });
   Wireline view;
   view.query = query;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/call_progress.hpp>
 #include <itin/cross_section.hpp>
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
@@ -113,6 +114,7 @@ std::vector<LinkResult> survey_links(const Store& store, const std::vector<Link>
   const Surfaces surfaces(store, query, links);
   const std::vector<std::size_t> order = by_place(links);
   std::vector<LinkResult> results(links.size());
+  CallProgress call(progress);
   std::atomic<std::size_t> done = 0;
   constexpr std::size_t kBatch = 64;
   parallel_for((links.size() + kBatch - 1) / kBatch, [&](std::size_t batch) {
@@ -128,8 +130,9 @@ std::vector<LinkResult> survey_links(const Store& store, const std::vector<Link>
       }
     }
     done += end - batch * kBatch;
-    progress.report("links", static_cast<double>(done) / static_cast<double>(links.size()));
+    call.report("links", static_cast<double>(done) / static_cast<double>(links.size()));
   });
+  call.finish();
   return results;
 }
 

@@ -1,4 +1,5 @@
 // A surface that is kept in memory for many viewsheds: of one observer after another, from several threads at once.
+// HeldSurface holds one area; PagedSurface reads others as the observers move.
 //
 //   const viewshed::HeldSurface surface(store, {318000, 172000, 326000, 180000}, Detail::tolerance(0),
 //                                       ThemeChoice::all(), {}, progress);
@@ -6,17 +7,32 @@
 //   near.observers = {{"here", {320000, 176000}, 2}};
 //   near.radius = 1500;
 //   const viewshed::Result result = surface.compute(near, progress);
+//   // An observer who walks on, far beyond that area:
+//   viewshed::PagedSurface pages(store, Detail::tolerance(0), ThemeChoice::none(), {.memory_bytes = 512 << 20});
+//   double& east = near.observers.front().position.x;
+//   for (; east < 400000; east += 10) std::cout << pages.compute(near, progress).cells.visible << '\n';
+//   // A server shows the cells nearest to the observer first, until `progress` says that the observer has moved on:
+//   const viewshed::Plan plan(store, near, {}, 10000);
+//   for (std::size_t i = 0; i < plan.segments().size() && !progress.cancelled(); ++i) {
+//     const viewshed::Result tile = viewshed::decide(pages, plan, i, progress);
+//     std::cout << tile.grid.bounds().xmin << ' ' << tile.cells.visible << '\n';
+//   }
 //
-// Retrieval and what prepares a surface for its sight lines are paid once.
+// Retrieval and what prepares a surface for its sight lines are paid once for each area. A call that is cancelled on
+// its way throws Cancelled, and what it was reading is read anew by the next.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 #include <itin/detail.hpp>
 #include <itin/geometry.hpp>
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
 #include <itin/theme.hpp>
+#include <viewshed/plan.hpp>
 #include <viewshed/viewshed.hpp>
 
 namespace itin::viewshed {
@@ -35,6 +51,10 @@ class HeldSurface {
   ~HeldSurface();
 
   const Box& area() const;
+  const Detail& detail() const;
+  const ThemeChoice& themes() const;
+  /// About what it takes.
+  std::uint64_t bytes() const;
   /// Whether every sight line of the request lies over the area, or beyond all data.
   bool covers(const Request& request) const;
   /// As compute() on the store with this surface's detail and themes, which count instead of the request's; equal to
@@ -42,8 +62,50 @@ class HeldSurface {
   Result compute(const Request& request, Progress& progress) const;
 
  private:
+  friend Result decide(const HeldSurface& surface, const Plan& plan, std::size_t segment, Progress& progress);
   class Impl;
   std::unique_ptr<const Impl> impl_;
 };
+
+/// Areas of a store's surface, read as requests leave those that are held. Safe for concurrent use.
+///
+/// An area is of whole squares of a fixed grid, and larger than the request by an eighth of its width or more on every
+/// side, so that an observer may move on without reading; where the memory does not hold that much, it is smaller.
+/// Areas that were used longest ago are dropped for a new one, but a call that runs over them keeps them until it ends.
+/// Threads that need the same area read it once.
+class PagedSurface {
+ public:
+  /// `options.memory_bytes` bounds all areas together, beside what each running call takes for itself. The store must
+  /// outlive it.
+  PagedSurface(const Store& store, const Detail& detail, const ThemeChoice& themes, const ComputeOptions& options = {});
+  PagedSurface(Store&& store, const Detail& detail, const ThemeChoice& themes, const ComputeOptions& options) = delete;
+  PagedSurface(PagedSurface&&) noexcept;
+  PagedSurface& operator=(PagedSurface&&) noexcept;
+  ~PagedSurface();
+
+  const Detail& detail() const;
+  const ThemeChoice& themes() const;
+  /// The areas that are held, the one used last first.
+  std::vector<Box> areas() const;
+  /// How many areas have been read since it was made.
+  std::uint64_t readings() const;
+
+  /// As compute() on the store with this surface's detail and themes, which count instead of the request's; equal to
+  /// the last bit. A request whose surface exceeds the memory drops all areas and is computed from the store, in
+  /// segments. Throws as compute() does.
+  Result compute(const Request& request, Progress& progress);
+
+ private:
+  friend Result decide(PagedSurface& surface, const Plan& plan, std::size_t segment, Progress& progress);
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// As decide() on the plan's store, equal to the last bit. The surface must be of that store, and has the plan's detail
+/// and themes; that of a certified plan has tolerance 0. Throws InputError where it has others, where its area does not
+/// hold the segment, or where the plan is over a coarse level (see Plan::decides_exactly()), and as compute() does.
+Result decide(const HeldSurface& surface, const Plan& plan, std::size_t segment, Progress& progress);
+/// Reads an area for the whole plan, or for the segment alone where the memory does not hold that.
+Result decide(PagedSurface& surface, const Plan& plan, std::size_t segment, Progress& progress);
 
 }  // namespace itin::viewshed

@@ -66,4 +66,8 @@ struct Horizon {
 Horizon horizon(const Tin& surface, const Tin& ground, const Request& request, const HorizonOptions& options,
                 Progress& progress);
 
+/// The document that `itin viewshed --horizon FILE.json` writes, for the request that the horizon was computed for.
+/// `metadata` is that of the store that the surface was read from.
+std::string json_of(const Horizon& horizon, const Request& request, const StoreMetadata& metadata);
+
 }  // namespace itin::viewshed

@@ -270,6 +270,10 @@ Request request_for_observer(const Result& result, std::size_t observer);
 Result compute_on_surface(const Store& store, const ViewshedWithSurface& computed, const Request& request,
                           Progress& progress);
 
+/// The JSON document that `itin viewshed --json` prints, without the call and its outputs. `metadata` is that of the
+/// store that the result was computed on.
+std::string json_of(const Result& result, const StoreMetadata& metadata);
+
 struct GeotiffOptions {
   std::string crs_wkt;
   std::vector<std::pair<std::string, std::string>> metadata;  ///< added to what the request says of itself

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include <itin/call_progress.hpp>
 #include <viewshed/surface.hpp>
 
 #include "certify/certified_cells.hpp"
@@ -60,7 +61,8 @@ ViewshedWithSurface certify_by_blocks(const Store& store, const Request& request
   const std::vector<Eye> eyes = eyes_on_surface(store, request, Detail::tolerance(0), result.ground_m, progress);
   EnvelopeRequest wanted = certified_request(store, request);
   wanted.observers.clear();  // of rays, and none is cast
-  Envelope envelope = envelop(store, wanted, progress);
+  CallProgress call(progress);
+  Envelope envelope = envelop(store, wanted, call.step(0.4));
   result.statistics.retrieval = envelope.lower.statistics;
   result.statistics.triangles = envelope.lower.triangles.size();
   result.statistics.retrieval_seconds = watch.lap();
@@ -72,7 +74,7 @@ ViewshedWithSurface certify_by_blocks(const Store& store, const Request& request
   result.statistics.scene_seconds = watch.lap();
 
   const std::size_t count = result.grid.cell_count();
-  Stage stage("cells judged", eyes.size() * count, progress);
+  Stage stage("cells judged", eyes.size() * count, call.step(1));
   CertifiedCells cells(result.grid, tiles, stage);
   const Surroundings surroundings(store, request, result.grid);
   for (std::size_t i = 0; i < eyes.size(); ++i) {

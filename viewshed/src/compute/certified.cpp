@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/call_progress.hpp>
 #include <itin/error.hpp>
 #include <itin/level_choice.hpp>
 #include <viewshed/viewshed.hpp>
@@ -52,8 +53,12 @@ ViewshedWithSurface compute_certified(const Store& store, const Request& request
   validate_certified(request);
   if (way == CertifiedWay::kExactly) return decide_exactly(store, request, options, progress);
   require_memory(store, request, way, options.memory_bytes);
-  return way == CertifiedWay::kBySectors ? certify_by_sectors(store, request, kPointsOfSector, progress)
-                                         : certify_by_blocks(store, request, progress);
+  CallProgress call(progress);
+  ViewshedWithSurface computed = way == CertifiedWay::kBySectors
+                                     ? certify_by_sectors(store, request, kPointsOfSector, call)
+                                     : certify_by_blocks(store, request, call);
+  call.finish();
+  return computed;
 }
 
 }  // namespace itin::viewshed

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <itin/call_progress.hpp>
 #include <viewshed/surface.hpp>
 #include <viewshed/viewshed.hpp>
 
@@ -17,25 +18,11 @@ namespace itin::viewshed {
 
 namespace {
 
-/// Points of the surface that the request asks for, about.
-std::uint64_t points_of(const Store& store, const Request& request) {
-  const StoreMetadata& metadata = store.metadata();
-  const Box box = box_of_window(store, request);
-  const Detail& detail = request.detail;
-  std::uint64_t points = store.points_about(level_within(metadata, detail.coarsest()), box);
-  for (std::size_t i = 0; i + 1 < detail.rings().size(); ++i) {
-    const Ring& ring = detail.rings()[i];
-    const Box finer = intersection(disc_box(detail.centre(), ring.radius), box);
-    if (!finer.empty()) points += store.points_about(level_within(metadata, ring.tolerance), finer);
-  }
-  return points;
-}
-
 /// The first rung that the memory allows.
 ViewshedWithSurface climb(const Store& store, const Request& request, const ComputeOptions& options,
                           Progress& progress) {
   const std::uint64_t memory = memory_beside_rasters(options.memory_bytes, store, request);
-  const std::uint64_t points = points_of(store, request);
+  const std::uint64_t points = points_about(store, request.detail, box_of_window(store, request));
   const bool lattice = options.lattices && takes_a_lattice(store, request);
   if (lattice && points <= memory / kBytesPerPost)
     if (auto computed = compute_over_lattice(store, request, memory / kBytesPerPost, progress))
@@ -52,8 +39,10 @@ ViewshedWithSurface climb(const Store& store, const Request& request, const Comp
 ViewshedWithSurface compute_with_surface(const Store& store, const Request& request, const ComputeOptions& options,
                                          Progress& progress) {
   validate(request);
-  ViewshedWithSurface computed = climb(store, request, options, progress);
+  CallProgress call(progress);
+  ViewshedWithSurface computed = climb(store, request, options, call);
   name_features(store, computed.result);
+  call.finish();
   return computed;
 }
 

@@ -4,12 +4,13 @@
 
 #include <fmt/format.h>
 
+#include <itin/call_progress.hpp>
 #include <itin/error.hpp>
-#include <itin/level_choice.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/held_surface.hpp>
 #include <viewshed/surface.hpp>
 
+#include "compute/planned_surface.hpp"
 #include "compute/surface_in_memory.hpp"
 #include "modes/feature_names.hpp"
 #include "plan/memory.hpp"
@@ -19,6 +20,9 @@
 namespace itin::viewshed {
 
 namespace {
+
+/// The share of a call that reads first, about.
+constexpr double kReading = 0.7;
 
 /// A surface with its heights binned.
 struct Binned {
@@ -35,22 +39,27 @@ class HeldSurface::Impl {
        const ComputeOptions& options, Progress& progress)
       : store_(store), area_(area), detail_(detail), themes_(themes) {
     if (area.empty()) throw InputError("area: it is empty; give a box in metres");
+    CallProgress call(progress);
     const Window window = Window::box(area);
-    if (options.lattices) retrieve_posts(window, options, progress);
-    if (posts_) return;
-    require_memory(bytes_per_point(Request()), options);
-    triangles_.emplace(triangulate(store, window, detail, progress, themes));
-    if (themes.includes_raised(store.metadata().themes))
-      bare_ = triangulate(store, window, detail, progress, ThemeChoice::none());
+    if (options.lattices) retrieve_posts(window, options, call);
+    if (!posts_) retrieve_triangles(window, options.memory_bytes, call);
+    call.finish();
   }
 
+  const Store& store() const { return store_; }
   const Box& area() const { return area_; }
+  const Detail& detail() const { return detail_; }
+  const ThemeChoice& themes() const { return themes_; }
+
+  std::uint64_t bytes() const {
+    const std::lock_guard lock(listing_);
+    return (posts_ ? bytes_held(store_, detail_, area_, Form::kPosts) : 0) +
+           (triangles_ ? bytes_held(store_, detail_, area_, Form::kTriangles) : 0);
+  }
 
   bool covers(const Request& request) const {
-    const Window window = window_of(request);
-    const Box all = extent_of(store_), asked = window.is_all() ? all : intersection(window.bounds(), all);
-    return asked.empty() || (asked.xmin >= area_.xmin && asked.ymin >= area_.ymin && asked.xmax <= area_.xmax &&
-                             asked.ymax <= area_.ymax);
+    const Box asked = area_under(store_, request);
+    return asked.empty() || intersection(area_, asked) == asked;
   }
 
   Result compute(Request request, Progress& progress) const {
@@ -61,8 +70,11 @@ class HeldSurface::Impl {
           fmt::format("sight lines leave the surface that is held, {:.0f},{:.0f} to {:.0f},{:.0f}: give a "
                       "smaller `radius`, or hold a larger area",
                       area_.xmin, area_.ymin, area_.xmax, area_.ymax));
-    Result result = viewshed::compute(surface_for(request, progress), request, progress);
+    CallProgress call(progress);
+    const SurfaceInMemory over = surface_for(request, call);
+    Result result = viewshed::compute(over, request, call);
     name_features(store_, result);
+    call.finish();
     return result;
   }
 
@@ -75,29 +87,37 @@ class HeldSurface::Impl {
     post_heights_ = std::make_shared<BinnedHeights>(posts_->lattice());
   }
 
-  void require_memory(std::uint64_t bytes, const ComputeOptions& options) const {
-    const int level = level_within(store_.metadata(), detail_.coarsest());
-    const std::uint64_t needed = bytes * store_.points_about(level, area_);
-    if (needed > options.memory_bytes)
+  void retrieve_triangles(const Window& window, std::uint64_t memory, CallProgress& call) {
+    require_memory(memory);
+    const bool raised = themes_.includes_raised(store_.metadata().themes);
+    triangles_.emplace(triangulate(store_, window, detail_, call.step(raised ? 0.7 : 1), themes_));
+    if (raised) bare_ = triangulate(store_, window, detail_, call.step(1), ThemeChoice::none());
+  }
+
+  void require_memory(std::uint64_t memory) const {
+    const std::uint64_t needed = bytes_held(store_, detail_, area_, Form::kTriangles);
+    if (needed > memory)
       throw InputError(fmt::format("the surface takes about {:.0f} MB: give more `memory_bytes`, or a smaller area",
                                    static_cast<double>(needed) / 1e6));
   }
 
-  SurfaceInMemory surface_for(const Request& request, Progress& progress) const {
+  SurfaceInMemory surface_for(const Request& request, CallProgress& call) const {
     SurfaceInMemory over{.bare = bare_ ? &*bare_ : nullptr, .extent = extent_of(store_)};
     if (posts_ && !needs_triangles(request) && !casts_rays(request)) {
       over.lattice = &posts_->lattice(), over.heights = post_heights_;
       return over;
     }
-    const Binned& triangles = listed(progress);
+    const Binned& triangles = listed(call);
     over.tin = &triangles.tin, over.heights = triangles.heights;
     return over;
   }
 
   /// The triangles of a lattice are listed when they are first asked for.
-  const Binned& listed(Progress& progress) const {
+  const Binned& listed(CallProgress& call) const {
     const std::lock_guard lock(listing_);
-    if (!triangles_) triangles_.emplace(triangulate(store_, Window::box(area_), detail_, progress, themes_));
+    if (triangles_) return *triangles_;
+    triangles_.emplace(triangulate(store_, Window::box(area_), detail_, call.step(kReading), themes_));
+    call.step(1);
     return *triangles_;
   }
 
@@ -122,11 +142,25 @@ HeldSurface::~HeldSurface() = default;
 const Box& HeldSurface::area() const {
   return impl_->area();
 }
+const Detail& HeldSurface::detail() const {
+  return impl_->detail();
+}
+const ThemeChoice& HeldSurface::themes() const {
+  return impl_->themes();
+}
+std::uint64_t HeldSurface::bytes() const {
+  return impl_->bytes();
+}
 bool HeldSurface::covers(const Request& request) const {
   return impl_->covers(request);
 }
 Result HeldSurface::compute(const Request& request, Progress& progress) const {
   return impl_->compute(request, progress);
+}
+
+Result decide(const HeldSurface& surface, const Plan& plan, std::size_t segment, Progress& progress) {
+  require_surface_of(plan, surface.impl_->store(), surface.detail(), surface.themes());
+  return as_planned(plan, segment, surface.compute(plan.request_of(segment), progress));
 }
 
 }  // namespace itin::viewshed

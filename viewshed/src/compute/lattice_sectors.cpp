@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <itin/call_progress.hpp>
 #include <itin/error.hpp>
 #include <itin/lattice_reader.hpp>
 #include <itin/level_choice.hpp>
@@ -36,6 +37,8 @@ namespace {
 constexpr double kBytesPerUnreadPost = 0.5;
 /// The share of a sector's tiles that counts as seen before any sector has been computed.
 constexpr double kFirstShareSeen = 0.25;
+/// Its share of the time, about.
+constexpr double kCoarseSurface = 0.05;
 /// The surface that maps are drawn over has at most so many points.
 constexpr std::uint64_t kCoarsePoints = 200000;
 
@@ -55,10 +58,11 @@ class LatticeSectors {
     result.request = request_;
     computed_.whole = false;
     const std::vector<Eye> eyes = eyes_on_surface(store_, request_, Detail::tolerance(0), result.ground_m, progress_);
+    progress_.step(kCoarseSurface);
     retrieve_coarse();
     Observations observations(request_);
     observations_ = observations.of_tiles(tiles_);
-    stage_.emplace("cells decided", eyes.size() * result.grid.cell_count(), progress_);
+    stage_.emplace("cells decided", eyes.size() * result.grid.cell_count(), progress_.step(1));
     for (std::uint32_t i = 0; i < eyes.size(); ++i)
       if (!observe_from(eyes[i], i)) return std::nullopt;
     store_all(observations_, tiles_, result);
@@ -169,7 +173,7 @@ class LatticeSectors {
   std::uint64_t memory_;
   bool all_heights_;
   double share_seen_;  ///< of a sector's tiles, as far as it is known
-  Progress& progress_;
+  CallProgress progress_;
   SilentProgress reading_;  ///< of a sector
   Stopwatch watch_;
   ViewshedWithSurface computed_;

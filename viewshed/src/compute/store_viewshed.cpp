@@ -1,5 +1,6 @@
 #include "compute/store_viewshed.hpp"
 
+#include <itin/call_progress.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/surface.hpp>
 #include <viewshed/viewshed.hpp>
@@ -15,6 +16,9 @@ namespace itin::viewshed {
 
 namespace {
 
+/// Shares of the time that is left, about, for one observer.
+constexpr double kReadingPosts = 0.3, kTriangulating = 0.6;
+
 ViewshedWithSurface survey(const Request& request, ViewshedWithSurface computed, double seconds, Progress& progress) {
   computed.result = compute(*computed.surface, computed.ground ? &*computed.ground : nullptr, request, progress);
   computed.result.statistics.retrieval_seconds = seconds;
@@ -26,26 +30,29 @@ ViewshedWithSurface survey(const Request& request, ViewshedWithSurface computed,
 std::optional<ViewshedWithSurface> compute_over_lattice(const Store& store, const Request& request,
                                                         std::uint64_t most_posts, Progress& progress) {
   Stopwatch watch;
+  CallProgress call(progress);
   auto surface = retrieve_lattice(store, window_of(request), request.detail, request.themes,
                                   heights_for(request, store.points_about(0, box_of_window(store, request))),
-                                  most_posts, progress);
+                                  most_posts, call.step(kReadingPosts));
   if (!surface) return std::nullopt;
   return survey(request, {std::make_shared<Surface>(std::move(*surface)), std::nullopt, true, {}}, watch.lap(),
-                progress);
+                call.step(1));
 }
 
 ViewshedWithSurface compute_over_tin(const Store& store, const Request& request, Progress& progress) {
   Stopwatch watch;
+  CallProgress call(progress);
   ViewshedWithSurface computed;
   computed.surface = std::make_shared<Surface>();
   Tin& tin = computed.surface->tin;
-  tin = triangulate(store, window_of(request), request.detail, progress, request.themes);
+  tin = triangulate(store, window_of(request), request.detail, call.step(kTriangulating), request.themes);
   computed.surface->extent = extent_of(store);
   const double seconds = watch.lap();
   // Beside a feature the surface is not to the last digit the ground, also where the window holds no part of it.
   if (has_raised_features(store, request) && !(request.observers_on_surface && request.targets_on_surface))
-    computed.ground = triangulate(store, window_of(request), request.detail, progress, ThemeChoice::none());
-  return survey(request, std::move(computed), seconds, progress);
+    computed.ground =
+        triangulate(store, window_of(request), request.detail, call.step(kTriangulating), ThemeChoice::none());
+  return survey(request, std::move(computed), seconds, call.step(1));
 }
 
 Result compute_on_surface(const Store& store, const ViewshedWithSurface& computed, const Request& request,

@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include <itin/call_progress.hpp>
 #include <itin/level_choice.hpp>
 #include <itin/parallel.hpp>
 #include <itin/silent_progress.hpp>
@@ -37,6 +38,8 @@ namespace {
 constexpr std::uint64_t kBytesPerEnvelopePoint = 2400;
 /// The coarse pass reads so much less than the full surface.
 constexpr std::uint64_t kCoarseShare = 12;
+/// Its share of the time, about.
+constexpr double kCoarsePass = 0.1;
 
 Point2 along(const Grid& grid, const SightLines& lines, unsigned i, double s) {
   return {grid.origin.x + (lines.from_x[i] + s * (lines.to_x[i] - lines.from_x[i])) * grid.resolution,
@@ -60,10 +63,11 @@ class TinSegments {
     result.request = request_;
     computed_.whole = false;
     const std::vector<Eye> eyes = eyes_on_surface(store_, request_, request_.detail, result.ground_m, progress_);
+    progress_.step(kCoarsePass);
     retrieve_coarse();
     Observations observations(request_);
     observations_ = observations.of_tiles(tiles_);
-    stage_.emplace("cells decided", eyes.size() * result.grid.cell_count(), progress_);
+    stage_.emplace("cells decided", eyes.size() * result.grid.cell_count(), progress_.step(1));
     for (std::uint32_t i = 0; i < eyes.size(); ++i) observe_from(eyes[i], i);
     store_all(observations_, tiles_, result);
     observations.finish(result);
@@ -288,7 +292,7 @@ class TinSegments {
   bool full_;      ///< the surface is the full one
   Box box_;
   std::uint64_t memory_;  ///< bytes, without the rasters
-  Progress& progress_;
+  CallProgress progress_;
   SilentProgress reading_;  ///< of a segment
   Stopwatch watch_;
   ViewshedWithSurface computed_;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <itin/call_progress.hpp>
 #include <viewshed/surface.hpp>
 #include <viewshed/viewshed.hpp>
 
@@ -17,14 +18,13 @@ namespace itin::viewshed {
 
 namespace {
 
-Result begin_result(const SurfaceInMemory& over, const Request& request, Progress& progress) {
+Result begin_result(const SurfaceInMemory& over, const Request& request) {
   validate(request);
   Result result;
   result.statistics.triangles = over.lattice != nullptr ? over.lattice->triangle_count() : over.tin->triangles.size();
   result.statistics.retrieval = over.lattice != nullptr ? over.lattice->statistics : over.tin->statistics;
   if (result.statistics.triangles == 0) eye_of(over.units(), request, request.observers.front(), std::nullopt);
   result.request = request;
-  progress.report("scene", 0);
   result.grid = cells_of(request, over.extent);
   return result;
 }
@@ -46,25 +46,28 @@ std::vector<Eye> eyes_over(const SurfaceInMemory& over, FullSurface& surface, Re
 
 Result compute(const SurfaceInMemory& over, const Request& request, Progress& progress) {
   Stopwatch watch;
-  Result result = begin_result(over, request, progress);
+  CallProgress call(progress);
+  call.report("scene", 0);
+  Result result = begin_result(over, request);
   const RasterGrid tiles = grid_of_tiles(result.grid);
-  if (over.reader != nullptr && asks_for_all_heights(request)) over.reader->read_all(progress);
+  if (over.reader != nullptr && asks_for_all_heights(request)) over.reader->read_all(call);
   auto heights = over.heights          ? over.heights
                  : over.tin != nullptr ? std::make_shared<BinnedHeights>(*over.tin, result.grid.cell_area())
                                        : std::make_shared<BinnedHeights>(*over.lattice);
   FullSurface surface(std::move(heights), over.tin, request.targets_on_surface ? nullptr : over.bare, request.earth,
                       result.grid, tiles);
   if (casts_rays(request)) surface.cast_rays(request.earth, positions_of(request));
-  const std::vector<Eye> eyes = eyes_over(over, surface, result, progress);
+  const std::vector<Eye> eyes = eyes_over(over, surface, result, call);
   find_voids(over.units(), surface.rim(), result);
   result.statistics.scene_seconds = watch.lap();
   std::optional<TriangleStudies> studies;
   if (needs_triangles(request)) studies.emplace(request, *over.tin);
   std::vector<RadialSweep::View> views;
   if (over.reader != nullptr && !all_read(*over.reader))
-    for (const Eye& eye : eyes) views.push_back(reveal(eye, *over.reader, surface, kAnyTiles, progress).view);
-  observe_all(surface, studies ? &*studies : nullptr, eyes, std::move(views), result, progress);
+    for (const Eye& eye : eyes) views.push_back(reveal(eye, *over.reader, surface, kAnyTiles, call).view);
+  observe_all(surface, studies ? &*studies : nullptr, eyes, std::move(views), result, call);
   result.statistics.lines_seconds = watch.lap();
+  call.finish();
   return result;
 }
 

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/call_progress.hpp>
 #include <itin/error.hpp>
 #include <itin/silent_progress.hpp>
 #include <itin/triangulate.hpp>
@@ -76,6 +77,7 @@ class IndexWork {
       }
     }
     summarise();
+    progress_.finish();
     return std::move(index_);
   }
 
@@ -90,8 +92,10 @@ class IndexWork {
       const std::uint64_t ground = stands_ ? SampledSurface::bytes(points, 0) : 0;
       return SampledSurface::bytes(points, lines) + ground <= memory_;
     });
-    Progress& reading = all && parts.size() == 1 ? progress_ : quiet_;
+    const bool at_once = all && parts.size() == 1;
+    Progress& reading = at_once ? static_cast<Progress&>(progress_) : quiet_;
     const auto triangulated = [&](const IndexSegment& part, const ThemeChoice& themes) {
+      if (at_once) progress_.step(kTriangulating);
       return Surface{triangulate(store_, part.window, request_.detail, reading, themes), nullptr, {}};
     };
     for (const IndexSegment& part : parts)
@@ -109,7 +113,7 @@ class IndexWork {
     if (bare) ground.emplace(*bare, request_.earth, 0);
     const VisibilitySampler sampler(surface, ground ? *ground : surface,
                                     {request_.radius, request_.target_height, request_.targets}, request_.nodata);
-    if (!stage_) stage_.emplace("observers", index_.grid.cell_count(), progress_);
+    if (!stage_) stage_.emplace("observers", index_.grid.cell_count(), progress_.step(1));
     stage_->for_each(segment.cells.count(), [&](std::size_t i) {
       sample(sampler, segment.cells.cell(i));
       return std::size_t{1};
@@ -150,11 +154,12 @@ class IndexWork {
   }
 
   static constexpr std::uint64_t kBytesPerCell = 16;
+  static constexpr double kTriangulating = 0.3;  ///< its share of the time, about
 
   const Store& store_;
   const IndexRequest& request_;
   bool stands_;  ///< something, on the ground
-  Progress& progress_;
+  CallProgress progress_;
   SilentProgress quiet_;
   std::uint64_t memory_ = 0;  ///< bytes, without the rasters
   VisibilityIndex index_;

@@ -46,6 +46,21 @@ std::uint64_t bytes_per_point(const Request& request) {
   return kTriangles + (needs_triangles(request) ? kStudies : 0) + (casts_rays(request) ? kRays : 0);
 }
 
+std::uint64_t points_about(const Store& store, const Detail& detail, const Box& box) {
+  const StoreMetadata& metadata = store.metadata();
+  std::uint64_t points = store.points_about(level_within(metadata, detail.coarsest()), box);
+  for (std::size_t i = 0; i + 1 < detail.rings().size(); ++i) {
+    const Ring& ring = detail.rings()[i];
+    const Box finer = intersection(disc_box(detail.centre(), ring.radius), box);
+    if (!finer.empty()) points += store.points_about(level_within(metadata, ring.tolerance), finer);
+  }
+  return points;
+}
+
+std::uint64_t bytes_held(const Store& store, const Detail& detail, const Box& area, Form form) {
+  return points_about(store, detail, area) * (form == Form::kPosts ? kBytesPerPost : bytes_per_point(Request()));
+}
+
 std::uint64_t memory_beside_rasters(std::uint64_t memory, const Store& store, const Request& request) {
   const std::uint64_t cells = cells_of(request, extent_of(store)).cell_count();
   const std::uint64_t rasters = std::min(memory, bytes_per_cell(request) * cells);

@@ -19,6 +19,14 @@ bool takes_a_lattice(const Store& store, const Request& request);
 /// the mode add.
 std::uint64_t bytes_per_point(const Request& request);
 
+/// Points of the surface of this detail within the box, about.
+std::uint64_t points_about(const Store& store, const Detail& detail, const Box& box);
+
+/// A surface is held as triangles, or as the posts of a lattice.
+enum class Form : std::uint8_t { kTriangles, kPosts };
+/// What holding a surface takes, about, and the memory to retrieve it in.
+std::uint64_t bytes_held(const Store& store, const Detail& detail, const Box& area, Form form);
+
 /// Returns what the rasters leave of the memory, or a quarter of it.
 std::uint64_t memory_beside_rasters(std::uint64_t memory, const Store& store, const Request& request);
 

@@ -254,13 +254,16 @@ Window window_of(const Request& request) {
   return Window::polygons(std::move(parts));
 }
 
-Box box_of_window(const Store& store, const Request& request) {
+Box area_under(const Store& store, const Request& request) {
   const Window window = window_of(request);
   const Box all = extent_of(store);
-  if (window.is_all()) return all;
+  return window.is_all() ? all : intersection(window.bounds(), all);
+}
+
+Box box_of_window(const Store& store, const Request& request) {
+  const Box within = area_under(store, request);
   // An observer outside the data is told so later on.
-  const Box within = intersection(window.bounds(), all);
-  return within.empty() ? window.bounds() : within;
+  return within.empty() ? window_of(request).bounds() : within;
 }
 
 void find_voids(const Grid& units, const std::vector<RimEdge>& rim, Result& result) {

@@ -57,7 +57,9 @@ std::vector<Point2> hull_about(Point2 observer, const Box& box);
 /// The region that holds every sight line of the request: a convex one about each observer, or about observers that
 /// stand close together.
 Window window_of(const Request& request);
-/// About all that this may hold of the store.
+/// The part of the data that these lines lie over; empty where they lie over none.
+Box area_under(const Store& store, const Request& request);
+/// About all that the window may hold of the store.
 Box box_of_window(const Store& store, const Request& request);
 
 /// Whether sight lines of the result's request may cross ground without data, with a warning where neither the request

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include <itin/call_progress.hpp>
 #include <itin/grid_units.hpp>
 #include <itin/silent_progress.hpp>
 #include <viewshed/surface.hpp>
@@ -85,6 +86,9 @@ class ZoneWork {
   std::optional<RadarSurvey> radar_;
 };
 
+/// The share of the time, about, that reading takes.
+constexpr double kReading = 0.3;
+
 /// The ground of the whole zone, where that is a lattice and the memory holds it.
 std::optional<Surface> lattice_under(const Store& store, const Zone& zone, Progress& progress) {
   std::uint64_t most_posts = kAnyLattice;
@@ -126,7 +130,8 @@ Zone survey_turbines(const Store& store, const ZoneRequest& request, Progress& p
   const bool screens = request.themes && request.themes->includes_raised(store.metadata().themes);
   if (screens) zone.screened = zone.bare;
 
-  auto lattice = screens ? std::nullopt : lattice_under(store, zone, progress);
+  CallProgress call(progress);
+  auto lattice = screens ? std::nullopt : lattice_under(store, zone, call.step(kReading));
   const std::vector<ZonePart> parts = lattice ? std::vector{whole_zone(zone)} : zone_parts(store, zone, screens);
   const RasterGrid tiles = grid_of_tiles(zone.grid);
   const auto owned = [&](Surface surface) {
@@ -136,16 +141,17 @@ Zone survey_turbines(const Store& store, const ZoneRequest& request, Progress& p
     return std::make_unique<OwnedSurface>(std::move(surface), std::nullopt, request.earth, zone.grid, tiles);
   };
   SilentProgress quiet(progress);
-  Progress& reading = parts.size() == 1 ? progress : quiet;
+  const bool at_once = parts.size() == 1;
   std::optional<Stage> stage;
   for (const ZonePart& part : parts) {
     const auto retrieve = [&](const ThemeChoice& themes) {
+      Progress& reading = at_once ? call.step(kReading) : quiet;
       return retrieve_surface(store, part.window, request.detail, themes, kAnyLattice, reading);
     };
     const auto ground = owned(lattice ? std::move(*lattice) : retrieve(ThemeChoice::none()));
     const auto screen = screens && !part.tiles.empty() ? owned(retrieve(*request.themes)) : nullptr;
     zone.statistics.scene_seconds += watch.lap();
-    if (!stage) stage.emplace("sight lines", steps_of(parts, screens), progress);
+    if (!stage) stage.emplace("sight lines", steps_of(parts, screens), call.step(1));
     work.survey(ground->full, screen ? &screen->full : nullptr, part, *stage);
     watch.lap();
   }
@@ -153,6 +159,7 @@ Zone survey_turbines(const Store& store, const ZoneRequest& request, Progress& p
     zone.screened = zone.bare;
     zone.warnings.emplace_back("none of the themes has features that stand on the ground: nothing screens");
   }
+  call.finish();
   return zone;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include <itin/call_progress.hpp>
 #include <itin/certificate.hpp>
 #include <itin/level_choice.hpp>
 #include <itin/parallel.hpp>
@@ -160,7 +161,9 @@ class Builder {
 }  // namespace
 
 Envelope envelop(const Store& store, const EnvelopeRequest& request, Progress& progress) {
-  Builder builder(store, request.themes, progress);
+  CallProgress call(progress);
+  Builder builder(store, request.themes, call);
+  call.step(request.bare_ground ? 0.3 : 0.6);
   builder.add(request.window, request.level);
   builder.mark_outline();
   for (int level = request.level - 1; level >= 0; --level) {
@@ -173,14 +176,16 @@ Envelope envelop(const Store& store, const EnvelopeRequest& request, Progress& p
     }
     if (discs.empty()) continue;
     builder.clear(discs);
+    call.step(0.5);
     builder.add(Window::polygons(std::move(parts)), level);
   }
   Envelope envelope = std::move(builder).finish(request.observers);
   envelope.exact = request.level == 0;
   if (request.bare_ground) {
-    envelope.bare_ground = triangulate(store, *request.bare_ground, Detail::tolerance(0), progress);
+    envelope.bare_ground = triangulate(store, *request.bare_ground, Detail::tolerance(0), call.step(1));
     envelope.lower.statistics += envelope.bare_ground->statistics;
   }
+  call.finish();
   return envelope;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <itin/level_choice.hpp>
+#include <itin/silent_progress.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/surface.hpp>
 
@@ -20,11 +21,13 @@ constexpr double kNearPoints = 16000, kAllNearPoints = 400000, kNearShare = 1.0 
 
 std::optional<double> height_at(const Store& store, Point2 position, const ThemeChoice& themes, Progress& progress,
                                 const Detail& detail) {
-  return heights_at(store, {position}, detail, themes, progress).front();
+  SilentProgress quiet(progress);
+  return heights_at(store, {position}, detail, themes, quiet).front();
 }
 
 Tin coverage_of(const Store& store, const Window& window, Progress& progress) {
-  return triangulate(store, window, Detail::tolerance(store.metadata().levels.back().tolerance), progress);
+  SilentProgress quiet(progress);
+  return triangulate(store, window, Detail::tolerance(store.metadata().levels.back().tolerance), quiet);
 }
 
 std::vector<Eye> eyes_on_surface(const Store& store, const Request& request, const Detail& detail,
@@ -32,8 +35,9 @@ std::vector<Eye> eyes_on_surface(const Store& store, const Request& request, con
   const Grid& grid = store.metadata().grid;
   std::vector<Point2> positions;
   for (const Observer& observer : request.observers) positions.push_back(observer.position);
-  const auto heights = heights_at(store, positions, detail,
-                                  request.observers_on_surface ? request.themes : ThemeChoice::none(), progress);
+  SilentProgress quiet(progress);
+  const auto heights =
+      heights_at(store, positions, detail, request.observers_on_surface ? request.themes : ThemeChoice::none(), quiet);
   std::vector<Eye> eyes;
   for (std::size_t i = 0; i < heights.size(); ++i) {
     eyes.push_back(eye_of(grid, request, request.observers[i], heights[i]));

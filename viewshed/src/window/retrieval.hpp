@@ -1,4 +1,5 @@
-// Retrieves what a certified viewshed reads: the level asked for, and finer ones about the observers.
+// Retrieves what a certified viewshed reads: the level asked for, and finer ones about the observers. What little is
+// read of single places and of the coarsest level shows no progress of its own.
 #pragma once
 
 #include <optional>

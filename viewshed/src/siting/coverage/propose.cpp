@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/call_progress.hpp>
 #include <itin/error.hpp>
 #include <itin/level_choice.hpp>
 #include <itin/triangulate.hpp>
@@ -139,9 +140,11 @@ std::vector<Proposal> propose_sites(const Store& store, const Window& area, cons
                                  request.spacing, kMostSquares));
   box = {box.xmin - request.radius, box.ymin - request.radius, box.xmax + request.radius, box.ymax + request.radius};
   const Detail detail = detail_of(store.metadata(), finest_level_of(store, box, kPoints));
-  const Surface surface{triangulate(store, Window::box(box), detail, progress), nullptr, {}};
+  CallProgress call(progress);
+  const Surface surface{triangulate(store, Window::box(box), detail, call.step(0.3)), nullptr, {}};
   if (surface.tin.triangles.empty()) throw InputError("the search area holds no ground");
-  std::vector<Proposal> proposals = Proposer(surface, area, request).run(progress);
+  std::vector<Proposal> proposals = Proposer(surface, area, request).run(call.step(1));
+  call.finish();
   if (proposals.empty()) throw InputError("the search area holds no ground");
   return proposals;
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <itin/call_progress.hpp>
 #include <itin/parallel.hpp>
 #include <viewshed/site_coverage.hpp>
 
@@ -124,8 +125,11 @@ DemandSet points_with_ground(const Store& store, const std::vector<Point2>& poin
 }  // namespace
 
 DemandSet with_ground(const Store& store, const SiteTargets& targets, Progress& progress) {
-  return targets.grid ? cells_with_ground(store, *targets.grid, progress)
-                      : points_with_ground(store, targets.points, progress);
+  CallProgress call(progress);
+  DemandSet set =
+      targets.grid ? cells_with_ground(store, *targets.grid, call) : points_with_ground(store, targets.points, call);
+  call.finish();
+  return set;
 }
 
 }  // namespace itin::viewshed

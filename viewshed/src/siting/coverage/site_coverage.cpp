@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/call_progress.hpp>
 #include <itin/error.hpp>
 #include <itin/level_choice.hpp>
 #include <itin/parallel.hpp>
@@ -39,6 +40,9 @@ constexpr double kSiteNearPoints = 128;
 constexpr std::size_t kJudgedTogether = 32;
 /// No coarse look at so few points: the full surface is as fast.
 constexpr std::uint64_t kFewPoints = 40000;
+
+/// The share of the time, about, that reading a surface takes before it is judged from all sites.
+constexpr double kReading = 0.2;
 
 }  // namespace
 
@@ -90,12 +94,17 @@ class SiteCoverage::Impl {
 
   /// Over the envelopes of all options, group by group, so that what is found does not depend on what was found before.
   void explore() {
-    for (const std::vector<std::size_t>& group : groups(all_options(), levels_.front())) {
+    CallProgress call(progress_);
+    const auto together = groups(all_options(), levels_.front());
+    std::size_t left = together.size();
+    for (const std::vector<std::size_t>& group : together) {
+      call.step(1 / static_cast<double>(left--));
       std::vector<std::size_t> fresh;
       std::copy_if(group.begin(), group.end(), std::back_inserter(fresh),
                    [&](std::size_t option) { return states_[option].stage < 0; });
-      if (!fresh.empty()) judge_group(fresh, group, 0, levels_.front(), false);
+      if (!fresh.empty()) judge_group(fresh, group, 0, levels_.front(), false, call);
     }
+    call.finish();
   }
 
   /// Each option's next stage.
@@ -105,8 +114,11 @@ class SiteCoverage::Impl {
       if (!states_[option].bounds.exact)
         at_stage[static_cast<std::size_t>(states_[option].stage + 1)].push_back(option);
     }
-    for (const auto& some : at_stage)
-      if (!some.empty()) judge(some);
+    std::erase_if(at_stage, [](const auto& some) { return some.empty(); });
+    CallProgress call(progress_);
+    std::size_t left = at_stage.size();
+    for (const auto& some : at_stage) judge(some, call.step(1 / static_cast<double>(left--)));
+    call.finish();
   }
 
   struct State {
@@ -224,19 +236,24 @@ class SiteCoverage::Impl {
   }
 
   /// Takes the options, all at one stage, to the next.
-  void judge(const std::vector<std::size_t>& options) {
+  void judge(const std::vector<std::size_t>& options, Progress& progress) {
     const int stage = states_[options.front()].stage + 1;
     const bool themed = stage == static_cast<int>(levels_.size());
     const int level = themed ? 0 : levels_[static_cast<std::size_t>(stage)];
-    for (const std::vector<std::size_t>& group : groups(options, level))
-      judge_group(group, group, stage, level, themed);
+    CallProgress call(progress);
+    const auto together = groups(options, level);
+    std::size_t left = together.size();
+    for (const std::vector<std::size_t>& group : together)
+      judge_group(group, group, stage, level, themed, call.step(1 / static_cast<double>(left--)));
   }
 
   /// Over coarse surfaces zones take as long as over the full one, which is looked at next, if the memory holds it.
   bool zones_at(int level) const { return level == 0 || !whole_fits_; }
 
-  std::unique_ptr<GroupSurvey> survey_of(const std::vector<std::size_t>& group, int level, bool themed) {
-    return judges_cells_exactly(level) ? exact_cells(group, themed) : enveloped(group, level, themed);
+  std::unique_ptr<GroupSurvey> survey_of(const std::vector<std::size_t>& group, int level, bool themed,
+                                         Progress& progress) {
+    return judges_cells_exactly(level) ? exact_cells(group, themed, progress)
+                                       : enveloped(group, level, themed, progress);
   }
 
   Request request_of(std::span<const std::size_t> options, bool themed) const {
@@ -245,8 +262,9 @@ class SiteCoverage::Impl {
     return request;
   }
 
-  std::unique_ptr<GroupSurvey> exact_cells(const std::vector<std::size_t>& group, bool themed) {
+  std::unique_ptr<GroupSurvey> exact_cells(const std::vector<std::size_t>& group, bool themed, Progress& progress) {
     Stopwatch watch;
+    CallProgress call(progress);
     const Window window = window_of(group);
     const Detail full = Detail::tolerance(0);
     // Zones are cut by triangles one by one.
@@ -254,11 +272,11 @@ class SiteCoverage::Impl {
     Surface surface = whole_lattice_
                           ? std::move(*std::exchange(whole_lattice_, std::nullopt))
                           : retrieve_surface(store_, window, full, themed ? survey_.themes : ThemeChoice::none(),
-                                             most_posts, progress_);
+                                             most_posts, call.step(kReading));
     count(surface.statistics(), surface.triangle_count());
     std::optional<Tin> bare_ground;
     if (themed && !survey_.targets.on_surface) {
-      bare_ground = triangulate(store_, window, full, progress_, ThemeChoice::none());
+      bare_ground = triangulate(store_, window, full, call.step(kReading), ThemeChoice::none());
       count(bare_ground->statistics, bare_ground->triangles.size());
     }
     statistics_.retrieval_seconds += watch.lap();
@@ -270,7 +288,8 @@ class SiteCoverage::Impl {
     return survey;
   }
 
-  std::unique_ptr<GroupSurvey> enveloped(const std::vector<std::size_t>& group, int level, bool themed) {
+  std::unique_ptr<GroupSurvey> enveloped(const std::vector<std::size_t>& group, int level, bool themed,
+                                         Progress& progress) {
     Stopwatch watch;
     const Request request = request_of(group, themed);
     EnvelopeRequest read = what_to_read(group, level);
@@ -278,7 +297,7 @@ class SiteCoverage::Impl {
       read.themes = survey_.themes;
       if (!survey_.targets.on_surface) read.bare_ground = read.window;
     }
-    Envelope envelope = envelop(store_, read, progress_);
+    Envelope envelope = envelop(store_, read, progress);
     count(envelope.lower.statistics, envelope.lower.triangles.size());
     statistics_.retrieval_seconds += watch.lap();
     const bool zones = survey_.fresnel && zones_at(level);
@@ -294,33 +313,35 @@ class SiteCoverage::Impl {
   }
 
   /// The full surface about all sites, once and for all, where the memory holds it: bare, and then with the themes.
-  const GroupSurvey& whole_survey(bool themed) {
+  const GroupSurvey& whole_survey(bool themed, Progress& progress) {
     std::unique_ptr<GroupSurvey>& whole = whole_[themed ? 1 : 0];
-    if (!whole) whole = survey_of(all_options(), 0, themed);
+    if (!whole) whole = survey_of(all_options(), 0, themed, progress);
     return *whole;
   }
 
   /// `options` among those of the group, over whose surface they are looked at.
   void judge_group(const std::vector<std::size_t>& options, const std::vector<std::size_t>& group, int stage, int level,
-                   bool themed) {
+                   bool themed, Progress& progress) {
+    CallProgress call(progress);
     std::unique_ptr<GroupSurvey> own;
-    if (level > 0 || !whole_fits_) own = survey_of(group, level, themed);
-    const GroupSurvey& survey = own ? *own : whole_survey(themed);
+    if (level > 0 || !whole_fits_) own = survey_of(group, level, themed, call.step(kReading));
+    const GroupSurvey& survey = own ? *own : whole_survey(themed, call.step(whole_[themed ? 1 : 0] ? 0 : kReading));
     // Few at a time: a run that is killed goes on from what has been settled.
     for (std::size_t first = 0; first < options.size(); first += kJudgedTogether) {
       const auto begin = options.begin() + static_cast<std::ptrdiff_t>(first);
       const auto count = static_cast<std::ptrdiff_t>(std::min(kJudgedTogether, options.size() - first));
-      judge_some({begin, begin + count}, survey, stage, level, themed);
+      call.step(static_cast<double>(count) / static_cast<double>(options.size() - first));
+      judge_some({begin, begin + count}, survey, stage, level, themed, call);
     }
   }
 
-  void judge_some(const std::vector<std::size_t>& options, const GroupSurvey& survey, int stage, int level,
-                  bool themed) {
+  void judge_some(const std::vector<std::size_t>& options, const GroupSurvey& survey, int stage, int level, bool themed,
+                  Progress& progress) {
     Stopwatch watch;
     std::vector<const CoverageBounds*> before;
     for (const std::size_t option : options) before.push_back(&states_[option].bounds);
     std::vector<CoverageBounds> after =
-        survey.judge({request_of(options, themed), options, before}, progress_, statistics_);
+        survey.judge({request_of(options, themed), options, before}, progress, statistics_);
     for (std::size_t i = 0; i < options.size(); ++i) {
       if (themed_ && !themed) after[i].certain = {}, after[i].exact = false;  // features may hide it
       if (survey_.fresnel && !zones_at(level)) after[i].certain = {};         // or its zone is cut

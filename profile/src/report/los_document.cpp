@@ -1,24 +1,20 @@
-#include "los/los_document.hpp"
-
 #include <cmath>
 #include <optional>
 
+#include <itin/coordinates.hpp>
+#include <profile/documents.hpp>
 #include <profile/fresnel.hpp>
 
-namespace itin::cli {
+namespace itin::profile {
 
 namespace {
 
-using profile::LineFindings;
-using profile::LosEnd;
-using profile::LosReport;
-
-Document number(const std::optional<double>& value) {
+Document number_or_null(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? Document(*value) : Document(nullptr);
 }
 
 Document cause(const LosReport& report, std::uint16_t theme) {
-  return profile::cause_of(report, theme);
+  return cause_of(report, theme);
 }
 
 /// The name that the source gives the feature, or null.
@@ -32,9 +28,9 @@ Document feature_number(std::int64_t number) {
   return number < 0 ? Document(nullptr) : Document(number);
 }
 
-Document place_document(const LosReport& report, const std::optional<profile::ProfilePoint>& place) {
+Document place_document(const LosReport& report, const std::optional<ProfilePoint>& place) {
   if (!place) return nullptr;
-  const profile::ProfilePoint& p = *place;
+  const ProfilePoint& p = *place;
   const bool placed = !report.crs_wkt.empty();
   return {{"distance_m", p.distance_m},
           {"x", placed ? Document(p.x) : Document(nullptr)},
@@ -48,13 +44,13 @@ Document place_document(const LosReport& report, const std::optional<profile::Pr
 /// What reports call the critical point.
 Document tightest_document(const LosReport& report, const LineFindings& found) {
   Document place = place_document(report, found.critical);
-  if (found.critical) place["clearance_m"] = number(found.clearance_m);
+  if (found.critical) place["clearance_m"] = number_or_null(found.clearance_m);
   return place;
 }
 
 Document obstructions_document(const LosReport& report, const LineFindings& found) {
   Document list = Document::array();
-  for (const profile::Obstruction& o : found.obstructions) {
+  for (const Obstruction& o : found.obstructions) {
     list.push_back({{"from_m", o.from_m},
                     {"to_m", o.to_m},
                     {"peak_at_m", o.peak_at_m},
@@ -69,59 +65,59 @@ Document obstructions_document(const LosReport& report, const LineFindings& foun
 
 Document criteria_document(const LineFindings& found) {
   Document list = Document::array();
-  for (const profile::CriterionResult& c : found.criteria) {
+  for (const CriterionResult& c : found.criteria) {
     list.push_back({{"k", c.criterion.k},
                     {"fraction", c.criterion.fraction},
                     {"verdict", name_of(c.verdict)},
-                    {"clearance_m", number(c.clearance_m)},
-                    {"clearance_f1", number(c.clearance_f1)},
-                    {"margin_m", number(c.margin_m)},
-                    {"margin_f1", number(c.margin_f1)}});
+                    {"clearance_m", number_or_null(c.clearance_m)},
+                    {"clearance_f1", number_or_null(c.clearance_f1)},
+                    {"margin_m", number_or_null(c.margin_m)},
+                    {"margin_f1", number_or_null(c.margin_f1)}});
   }
   return list;
 }
 
 Document heights_document(const LineFindings& found) {
   Document list = Document::array();
-  for (const profile::NamedHeights& named : found.required) {
+  for (const NamedHeights& named : found.required) {
     Document curve = Document::array();
-    for (const profile::HeightPair& pair : named.curve) {
-      curve.push_back({{"h1_m", pair.from_m}, {"h2_m", number(pair.to_m)}});
+    for (const HeightPair& pair : named.curve) {
+      curve.push_back({{"h1_m", pair.from_m}, {"h2_m", number_or_null(pair.to_m)}});
     }
     list.push_back({{"name", named.name},
-                    {"k", number(named.k)},
+                    {"k", number_or_null(named.k)},
                     {"fraction", named.fraction},
-                    {"from_alone_m", number(named.heights.from_alone_m)},
-                    {"to_alone_m", number(named.heights.to_alone_m)},
-                    {"both_equal_m", number(named.heights.both_equal_m)},
+                    {"from_alone_m", number_or_null(named.heights.from_alone_m)},
+                    {"to_alone_m", number_or_null(named.heights.to_alone_m)},
+                    {"both_equal_m", number_or_null(named.heights.both_equal_m)},
                     {"curve", curve}});
   }
   return list;
 }
 
 Document radio_document(const LosReport& report) {
-  const profile::RadioPath& path = *report.query.radio;
-  const profile::PathLosses& losses = *report.losses;
+  const RadioPath& path = *report.query.radio;
+  const PathLosses& losses = *report.losses;
   Document radio{{"frequency_ghz", path.frequency_ghz},
-                 {"wavelength_m", profile::wavelength_m(path.frequency_ghz)},
+                 {"wavelength_m", wavelength_m(path.frequency_ghz)},
                  {"wavelength", "0.299792458 / f, f in GHz"},
                  {"effective_earth_km", path.effective_earth_km},
-                 {"polarisation", path.polarisation == profile::Polarisation::kVertical ? "v" : "h"},
+                 {"polarisation", path.polarisation == Polarisation::kVertical ? "v" : "h"},
                  {"over_sea", path.over_sea}};
-  radio["fresnel_fraction"] = report.fresnel ? number(report.fresnel->fraction) : Document(nullptr);
+  radio["fresnel_fraction"] = report.fresnel ? number_or_null(report.fresnel->fraction) : Document(nullptr);
   radio["fresnel_fraction_at_m"] = report.fresnel ? Document(report.fresnel->distance_m) : Document(nullptr);
   radio["path"] = losses.horizons.trans_horizon ? "trans-horizon" : "line-of-sight";
   radio["theta_t_mrad"] = losses.horizons.theta_t_mrad;
   radio["theta_r_mrad"] = losses.horizons.theta_r_mrad;
-  radio["dlt_km"] = number(losses.horizons.dlt_km);
-  radio["dlr_km"] = number(losses.horizons.dlr_km);
+  radio["dlt_km"] = number_or_null(losses.horizons.dlt_km);
+  radio["dlr_km"] = number_or_null(losses.horizons.dlr_km);
   radio["hst_m"] = losses.smooth.hst_m;
   radio["hsr_m"] = losses.smooth.hsr_m;
   radio["hstd_m"] = losses.smooth.hstd_m;
   radio["hsrd_m"] = losses.smooth.hsrd_m;
   radio["hte_m"] = report.antennas.from_m - losses.smooth.hstd_m;
   radio["hre_m"] = report.antennas.to_m - losses.smooth.hsrd_m;
-  radio["v"] = number(losses.largest_v);
+  radio["v"] = number_or_null(losses.largest_v);
   radio["losses_db"] = {{"free_space", losses.free_space_db},
                         {"knife_edge", losses.knife_edge_db},
                         {"bullington", losses.lba_db},
@@ -134,7 +130,7 @@ Document radio_document(const LosReport& report) {
 }
 
 Document visible_document(const LosReport& report) {
-  const profile::VisibleHeight& seen = *report.visible;
+  const VisibleHeight& seen = *report.visible;
   return {{"hub_m", report.query.object->hub_m},
           {"tip_m", report.query.object->tip_m},
           {"hidden_below_m", seen.from_m},
@@ -145,7 +141,7 @@ Document visible_document(const LosReport& report) {
 Document findings_document(const LosReport& report, const LineFindings& found) {
   return {{"verdict", name_of(found.verdict)},
           {"known_verdict", name_of(found.known_verdict)},
-          {"clearance_m", number(found.least_clearance_m)},
+          {"clearance_m", number_or_null(found.least_clearance_m)},
           {"critical", place_document(report, found.lowest)},
           {"tightest", tightest_document(report, found)},
           {"obstructions", obstructions_document(report, found)},
@@ -153,16 +149,14 @@ Document findings_document(const LosReport& report, const LineFindings& found) {
           {"required_heights", heights_document(found)}};
 }
 
-}  // namespace
-
-Document end_document(const profile::LosEnd& end) {
+Document end_document(const LosEnd& end) {
   const auto of_site = [&](auto member) { return end.site ? Document(member(*end.site)) : Document(nullptr); };
   return {{"x", of_site([](const LosEnd::Site& s) { return s.position.x; })},
           {"y", of_site([](const LosEnd::Site& s) { return s.position.y; })},
           {"lon", of_site([](const LosEnd::Site& s) { return s.lon_lat.x; })},
           {"lat", of_site([](const LosEnd::Site& s) { return s.lon_lat.y; })},
           {"ground_m", end.ground_m},
-          {"surface_m", number(end.surface_m)},
+          {"surface_m", number_or_null(end.surface_m)},
           {"stands_on", end.on_surface ? "surface" : "ground"},
           {"height_m", end.height_m},
           {"elevation_m", end.elevation_m},
@@ -171,10 +165,28 @@ Document end_document(const profile::LosEnd& end) {
           {"elevation_angle_deg", end.elevation_angle_deg}};
 }
 
+Document sources_document(const std::vector<SourceInfo>& sources) {
+  Document list = Document::array();
+  for (const SourceInfo& source : sources) {
+    list.push_back({{"path", source.path},
+                    {"kind", source.kind},
+                    {"sha256", source.sha256},
+                    {"spacing_m", source.spacing},
+                    {"note", source.note.empty() ? Document(nullptr) : Document(source.note)}});
+  }
+  return list;
+}
+
+}  // namespace
+
 Document los_document(const LosReport& report) {
   Document document;
+  document["crs"] = report.crs_wkt.empty() ? Document(nullptr) : Document(crs_identifier(report.crs_wkt));
+  document["refraction"] = earth_document(report.query.earth);
+  document["from"] = end_document(report.from);
+  document["to"] = end_document(report.to);
   document["distance_m"] = report.profile.length_m;
-  document["geodesic_distance_m"] = number(report.geodesic_m);
+  document["geodesic_distance_m"] = number_or_null(report.geodesic_m);
   document.update(findings_document(report, report));
   if (report.bare) {
     document["bare"] = findings_document(report, *report.bare);
@@ -182,11 +194,27 @@ Document los_document(const LosReport& report) {
   }
   if (report.losses) document["radio"] = radio_document(report);
   if (report.visible) document["visible_height"] = visible_document(report);
-  Document gaps = Document::array();
-  for (const auto& [from, to] : report.profile.gaps) gaps.push_back({from, to});
-  document["gaps"] = gaps;
+  document["gaps"] = gaps_document(report.profile);
   document["gap_m"] = report.profile.gap_length_m();
   return document;
 }
 
-}  // namespace itin::cli
+Document los_document(const StoreMetadata& metadata, const StoreLine& line, const LosReport& report) {
+  Document document = los_document(report);
+  document["surface"] = surface_document(metadata, line.detail, line.themes);
+  document["sources"] = sources_document(report.sources);
+  document["statistics"] = {{"points_read", report.statistics.points_read},
+                            {"blocks_read", report.statistics.blocks_read},
+                            {"triangles", report.triangles}};
+  return document;
+}
+
+std::string json_of(const LosReport& report) {
+  return result_text(los_document(report));
+}
+
+std::string json_of(const Store& store, const StoreLine& line, const LosReport& report) {
+  return result_text(los_document(store.metadata(), line, report));
+}
+
+}  // namespace itin::profile

@@ -1,0 +1,48 @@
+#include <itin/document.hpp>
+#include <itin/level_choice.hpp>
+
+namespace itin {
+
+std::string json_text(const Document& document, int indent) {
+  return document.dump(indent, ' ', false, Document::error_handler_t::replace);
+}
+
+std::string result_text(const Document& document) {
+  Document result{{"itin", ITIN_VERSION}};
+  result.update(document);
+  return json_text(result, 2) + "\n";
+}
+
+Document error_interval(const CertifiedError& error) {
+  return Document::array({error.lo, error.hi});
+}
+
+Document surface_document(const StoreMetadata& metadata, const Detail& detail, const ThemeChoice& themes) {
+  Document surface{{"tolerance_m", detail.coarsest()},
+                   {"certified_error_m", error_interval(certified_error(metadata, detail))}};
+  if (detail.rings().size() > 1) {
+    surface["centre"] = {{"x", detail.centre().x}, {"y", detail.centre().y}};
+    for (const Ring& ring : detail.rings()) {
+      surface["rings"].push_back({{"radius_m", ring.radius}, {"tolerance_m", ring.tolerance}});
+    }
+  }
+  surface["themes"] = themes.names(metadata.themes);
+  return surface;
+}
+
+Document earth_document(const Earth& earth) {
+  Document document{{"convention", earth.convention()}, {"curvature", earth.curvature}};
+  if (earth.effective_factor) {
+    document["effective_earth"] = *earth.effective_factor;
+  } else {
+    document["k"] = earth.refraction;
+  }
+  document["earth_radius_m"] = earth.radius;
+  return document;
+}
+
+Document box_document(const Box& box) {
+  return {{"xmin", box.xmin}, {"ymin", box.ymin}, {"xmax", box.xmax}, {"ymax", box.ymax}};
+}
+
+}  // namespace itin

@@ -1,0 +1,35 @@
+// Profiles, lines of sight and links as JSON documents, in the names that stay.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <itin/document.hpp>
+#include <profile/links.hpp>
+#include <profile/los.hpp>
+#include <profile/profile.hpp>
+
+namespace itin::profile {
+
+/// `crs`, `surface`, `length_m` and `gaps` of the first profile, and `profiles`.
+Document profile_document(const StoreMetadata& metadata, const ThemeChoice& themes,
+                          const std::vector<SurfaceProfile>& profiles);
+Document gaps_document(const Profile& profile);
+
+/// `crs`, `refraction`, `from`, `to`, `distance_m`, `verdict`, `known_verdict`, `clearance_m`, `critical`, `tightest`,
+/// `obstructions`, `criteria`, `required_heights`, likewise in `bare` for the ground without its clutter; `radio`,
+/// `visible_height`, `gaps`, `gap_m`. Positions are null in a profile without any.
+Document los_document(const LosReport& report);
+/// Adds `surface`, `sources` and `statistics`.
+Document los_document(const StoreMetadata& metadata, const StoreLine& line, const LosReport& report);
+
+struct LinkCounts {
+  std::size_t visible = 0, hidden = 0, undecided = 0, error = 0;
+};
+/// Rows that cannot be understood are errors, too.
+LinkCounts counts_of(const LinkTable& table, const std::vector<LinkResult>& results);
+/// `crs`, `surface`, `refraction`, and in `links` how many have which verdict.
+Document links_document(const StoreMetadata& metadata, const LinkTable& table, const std::vector<LinkResult>& results,
+                        const LinkQuery& query);
+
+}  // namespace itin::profile

@@ -1,0 +1,72 @@
+#include <itin/coordinates.hpp>
+#include <profile/documents.hpp>
+
+namespace itin::profile {
+
+Document gaps_document(const Profile& profile) {
+  Document gaps = Document::array();
+  for (const auto& [from, to] : profile.gaps) gaps.push_back({from, to});
+  return gaps;
+}
+
+Document profile_document(const StoreMetadata& metadata, const ThemeChoice& themes,
+                          const std::vector<SurfaceProfile>& profiles) {
+  const std::vector<std::string> names = theme_names(metadata);
+  Document document;
+  document["crs"] = crs_identifier(metadata.crs_wkt);
+  document["surface"] = surface_document(metadata, profiles.front().detail, themes);
+  document["length_m"] = profiles.front().profile.length_m;
+  document["gaps"] = gaps_document(profiles.front().profile);
+  document["profiles"] = Document::array();
+  for (const SurfaceProfile& surface : profiles) {
+    const Document about = surface_document(metadata, surface.detail, ThemeChoice::none());
+    Document entry{{"tolerance_m", surface.detail.coarsest()}, {"certified_error_m", about["certified_error_m"]}};
+    if (about.contains("rings")) entry["rings"] = about["rings"];
+    entry["gaps"] = gaps_document(surface.profile);
+    entry["breakpoints"] = Document::array();
+    for (const ProfilePoint& p : surface.profile.points) {
+      entry["breakpoints"].push_back(
+          {{"distance_m", p.distance_m}, {"x", p.x}, {"y", p.y}, {"z", p.ground_m}, {"theme", names[p.theme]}});
+    }
+    document["profiles"].push_back(std::move(entry));
+  }
+  return document;
+}
+
+LinkCounts counts_of(const LinkTable& table, const std::vector<LinkResult>& results) {
+  LinkCounts counts;
+  counts.error = table.bad.size();
+  for (const LinkResult& r : results) {
+    counts.error += !r.found;
+    if (!r.found) continue;
+    counts.visible += r.found->verdict == SightVerdict::kVisible;
+    counts.hidden += r.found->verdict == SightVerdict::kHidden;
+    counts.undecided += r.found->verdict == SightVerdict::kUndecided;
+  }
+  return counts;
+}
+
+Document links_document(const StoreMetadata& metadata, const LinkTable& table, const std::vector<LinkResult>& results,
+                        const LinkQuery& query) {
+  const LinkCounts counts = counts_of(table, results);
+  return {{"crs", crs_identifier(metadata.crs_wkt)},
+          {"surface", surface_document(metadata, query.detail, query.themes)},
+          {"refraction", earth_document(query.earth)},
+          {"links",
+           {{"visible", counts.visible},
+            {"hidden", counts.hidden},
+            {"undecided", counts.undecided},
+            {"error", counts.error}}}};
+}
+
+std::string json_of(const StoreMetadata& metadata, const ThemeChoice& themes,
+                    const std::vector<SurfaceProfile>& profiles) {
+  return result_text(profile_document(metadata, themes, profiles));
+}
+
+std::string json_of(const StoreMetadata& metadata, const LinkTable& table, const std::vector<LinkResult>& results,
+                    const LinkQuery& query) {
+  return result_text(links_document(metadata, table, results, query));
+}
+
+}  // namespace itin::profile

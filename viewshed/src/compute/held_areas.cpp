@@ -1,0 +1,153 @@
+#include "compute/held_areas.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include <itin/error.hpp>
+#include <itin/lattice_reader.hpp>
+#include <itin/level_choice.hpp>
+#include <itin/window.hpp>
+
+#include "request/request.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// The whole squares of a fixed grid that a box meets, once it is as much larger on every side. Their side is a power
+/// of two metres.
+Box squares_about(const Box& box, double side, double margin) {
+  const auto down = [&](double v) { return std::floor((v - margin) / side) * side; };
+  const auto up = [&](double v) { return std::ceil((v + margin) / side) * side; };
+  return {down(box.xmin), down(box.ymin), up(box.xmax), up(box.ymax)};
+}
+
+/// Between an eighth and a quarter of the box.
+double side_for(const Box& box) {
+  return std::exp2(std::ceil(std::log2(std::max({box.width(), box.height(), 1.0})) - 3));
+}
+
+/// The share of a call that reads first, about.
+constexpr double kReadingArea = 0.7;
+
+/// Waits for what another thread reads.
+template <class T>
+T await(const std::shared_future<T>& future, const Progress& progress) {
+  constexpr std::chrono::milliseconds kOften(20);
+  while (future.wait_for(kOften) != std::future_status::ready) progress.throw_if_cancelled();
+  return future.get();
+}
+
+}  // namespace
+
+HeldAreas::HeldAreas(const Store& store, const Detail& detail, const ThemeChoice& themes, const ComputeOptions& options)
+    : store_(store),
+      detail_(detail),
+      themes_(themes),
+      options_(options),
+      is_full_(level_within(store.metadata(), detail.coarsest()) == 0) {}
+
+std::shared_ptr<const HeldSurface> HeldAreas::get(const Box& whole, const Box& part, bool triangles,
+                                                  CallProgress& call) {
+  for (;;) {
+    const Claim claimed = claim(whole, part, triangles);
+    if (!claimed.area) return nullptr;
+    if (claimed.to_read) return read(claimed.area, call);
+    // Where another thread's reading fails or is cancelled, this one tries.
+    if (Surface surface = await(claimed.area->surface, call)) return surface;
+  }
+}
+
+HeldAreas::Claim HeldAreas::claim(const Box& whole, const Box& part, bool triangles) {
+  const std::lock_guard lock(mutex_);
+  if (auto held = find(part, triangles)) return {std::move(held), false};
+  auto area = area_about(whole, triangles);
+  if (!area) area = area_about(part, triangles);
+  if (area) add(area);
+  return {area, true};
+}
+
+std::shared_ptr<HeldAreas::Area> HeldAreas::find(const Box& box, bool triangles) {
+  const auto found = std::find_if(areas_.begin(), areas_.end(), [&](const auto& area) {
+    return intersection(area->box, box) == box && (area->form == Form::kTriangles || !triangles);
+  });
+  if (found == areas_.end()) return nullptr;
+  areas_.splice(areas_.begin(), areas_, found);
+  return *found;
+}
+
+std::shared_ptr<HeldAreas::Area> HeldAreas::area_about(const Box& box, bool triangles) const {
+  const double side = side_for(box);
+  for (const Box& area : {squares_about(box, side, side), squares_about(box, side, 0), box}) {
+    const bool posts =
+        !triangles && options_.lattices && is_full_ &&
+        LatticeReader::may_open(store_, Window::box(area), themes_, options_.memory_bytes / kBytesPerPost);
+    const Form form = posts ? Form::kPosts : Form::kTriangles;
+    const std::uint64_t bytes = bytes_held(store_, detail_, area, form);
+    if (bytes <= options_.memory_bytes) return std::make_shared<Area>(Area{.box = area, .form = form, .bytes = bytes});
+  }
+  return nullptr;
+}
+
+/// Drops as many as the memory does not hold beside it.
+void HeldAreas::add(std::shared_ptr<Area> area) {
+  ++readings_;
+  areas_.push_front(std::move(area));
+  std::uint64_t bytes = 0;
+  const auto too_many = std::find_if(areas_.begin(), areas_.end(), [&](const auto& held) {
+    bytes += held->bytes;
+    return bytes > options_.memory_bytes;
+  });
+  areas_.erase(too_many, areas_.end());
+}
+
+HeldAreas::Surface HeldAreas::read(const std::shared_ptr<Area>& area, CallProgress& call) {
+  try {
+    // A thread that waits for the loops of a limit of its own takes up no work of the caller's meanwhile, which might
+    // wait for this very area.
+    const ThreadLimit own(thread_count());
+    ComputeOptions options = options_;
+    options.lattices = area->form == Form::kPosts;
+    auto surface =
+        std::make_shared<const HeldSurface>(store_, area->box, detail_, themes_, options, call.step(kReadingArea));
+    call.step(1);
+    area->read.set_value(surface);
+    return surface;
+  } catch (const InputError&) {
+    // What seemed to be a lattice takes more as triangles.
+    give_up(*area);
+    return nullptr;
+  } catch (...) {
+    give_up(*area);
+    throw;
+  }
+}
+
+void HeldAreas::give_up(Area& area) {
+  {
+    const std::lock_guard lock(mutex_);
+    areas_.remove_if([&](const auto& held) { return held.get() == &area; });
+  }
+  area.read.set_value(nullptr);
+}
+
+void HeldAreas::drop_all() {
+  const std::lock_guard lock(mutex_);
+  areas_.clear();
+}
+
+std::vector<Box> HeldAreas::areas() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<Box> boxes;
+  for (const auto& area : areas_) boxes.push_back(area->box);
+  return boxes;
+}
+
+std::uint64_t HeldAreas::readings() const {
+  const std::lock_guard lock(mutex_);
+  return readings_;
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,64 @@
+// The areas of a paged surface: which to read for a request, which to drop for it, and who reads.
+#pragma once
+
+#include <cstdint>
+#include <future>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include <itin/call_progress.hpp>
+#include <itin/store.hpp>
+#include <viewshed/held_surface.hpp>
+
+#include "plan/memory.hpp"
+
+namespace itin::viewshed {
+
+/// Safe for concurrent use.
+class HeldAreas {
+ public:
+  HeldAreas(const Store& store, const Detail& detail, const ThemeChoice& themes, const ComputeOptions& options);
+
+  /// A surface over all of `whole`, or over `part` of it, where the memory does not hold that; null where it does not
+  /// hold the part either. Reading is a step of the call. Throws what reading throws.
+  std::shared_ptr<const HeldSurface> get(const Box& whole, const Box& part, bool triangles, CallProgress& call);
+  /// Those that running calls use end with them.
+  void drop_all();
+
+  std::vector<Box> areas() const;
+  std::uint64_t readings() const;
+
+ private:
+  using Surface = std::shared_ptr<const HeldSurface>;
+  struct Area {
+    Box box;
+    Form form;
+    std::uint64_t bytes;           ///< about
+    std::promise<Surface> read{};  ///< null where reading failed
+    std::shared_future<Surface> surface = read.get_future().share();
+  };
+  struct Claim {
+    std::shared_ptr<Area> area;  ///< null: none that the memory holds
+    bool to_read = false;        ///< by whoever claims it
+  };
+
+  Claim claim(const Box& whole, const Box& part, bool triangles);
+  std::shared_ptr<Area> find(const Box& box, bool triangles);
+  std::shared_ptr<Area> area_about(const Box& box, bool triangles) const;
+  void add(std::shared_ptr<Area> area);
+  Surface read(const std::shared_ptr<Area>& area, CallProgress& call);
+  void give_up(Area& area);
+
+  const Store& store_;
+  Detail detail_;
+  ThemeChoice themes_;
+  ComputeOptions options_;
+  bool is_full_;  ///< the surface, not a coarser one
+  mutable std::mutex mutex_;
+  std::list<std::shared_ptr<Area>> areas_;  ///< the one used last first
+  std::uint64_t readings_ = 0;
+};
+
+}  // namespace itin::viewshed

@@ -1,0 +1,74 @@
+#include <utility>
+
+#include <itin/call_progress.hpp>
+#include <viewshed/held_surface.hpp>
+
+#include "compute/held_areas.hpp"
+#include "compute/planned_surface.hpp"
+#include "request/request.hpp"
+
+namespace itin::viewshed {
+
+class PagedSurface::Impl {
+ public:
+  Impl(const Store& store, const Detail& detail, const ThemeChoice& themes, const ComputeOptions& options)
+      : store_(store), detail_(detail), themes_(themes), options_(options), areas_(store, detail, themes, options) {}
+
+  const Store& store() const { return store_; }
+  const Detail& detail() const { return detail_; }
+  const ThemeChoice& themes() const { return themes_; }
+  const HeldAreas& areas() const { return areas_; }
+
+  /// A part of `whole`.
+  Result compute(Request request, const Request& whole, Progress& progress) {
+    request.detail = detail_, request.themes = themes_;
+    validate(request);
+    const Box under = area_under(store_, request);
+    CallProgress call(progress);
+    if (!under.empty()) {  // else the store's result says so
+      Box under_whole = area_under(store_, whole);
+      under_whole.extend(under);
+      const bool triangles = needs_triangles(request) || casts_rays(request);
+      if (const auto surface = areas_.get(under_whole, under, triangles, call)) return surface->compute(request, call);
+      areas_.drop_all();
+    }
+    return compute_with_surface(store_, request, options_, call).result;
+  }
+
+ private:
+  const Store& store_;
+  Detail detail_;
+  ThemeChoice themes_;
+  ComputeOptions options_;
+  HeldAreas areas_;
+};
+
+PagedSurface::PagedSurface(const Store& store, const Detail& detail, const ThemeChoice& themes,
+                           const ComputeOptions& options)
+    : impl_(std::make_unique<Impl>(store, detail, themes, options)) {}
+PagedSurface::PagedSurface(PagedSurface&&) noexcept = default;
+PagedSurface& PagedSurface::operator=(PagedSurface&&) noexcept = default;
+PagedSurface::~PagedSurface() = default;
+
+const Detail& PagedSurface::detail() const {
+  return impl_->detail();
+}
+const ThemeChoice& PagedSurface::themes() const {
+  return impl_->themes();
+}
+std::vector<Box> PagedSurface::areas() const {
+  return impl_->areas().areas();
+}
+std::uint64_t PagedSurface::readings() const {
+  return impl_->areas().readings();
+}
+Result PagedSurface::compute(const Request& request, Progress& progress) {
+  return impl_->compute(request, request, progress);
+}
+
+Result decide(PagedSurface& surface, const Plan& plan, std::size_t segment, Progress& progress) {
+  require_surface_of(plan, surface.impl_->store(), surface.detail(), surface.themes());
+  return as_planned(plan, segment, surface.impl_->compute(plan.request_of(segment), plan.request(), progress));
+}
+
+}  // namespace itin::viewshed

@@ -1,0 +1,100 @@
+#include <itin/coordinates.hpp>
+#include <viewshed/documents.hpp>
+
+namespace itin::viewshed {
+
+namespace {
+
+Document of_verdicts(const CellCounts& cells, const auto& value) {
+  return {{"visible", value(cells.visible)},
+          {"hidden", value(cells.hidden)},
+          {"undecided", value(cells.undecided)},
+          {"outside", value(cells.outside)}};
+}
+
+Document grid_document(const RasterGrid& grid) {
+  return {{"bounds", box_document(grid.bounds())},
+          {"columns", grid.columns()},
+          {"rows", grid.rows()},
+          {"cell_m", {grid.cell_width(), grid.cell_height()}}};
+}
+
+Document statistics_document(const Statistics& statistics) {
+  return {{"points_read", statistics.retrieval.points_read},
+          {"blocks_read", statistics.retrieval.blocks_read},
+          {"triangles", statistics.triangles},
+          {"lines", statistics.lines}};
+}
+
+Document sky_line_document(const Horizon& horizon, const StoreMetadata& metadata) {
+  Document points = Document::array();
+  for (const HorizonPoint& p : horizon.points) {
+    Document point{{"azimuth_deg", p.azimuth_deg}};
+    if (p.sky) {
+      point["elevation_deg"] = p.sky->elevation_deg;
+      point["distance_m"] = p.sky->distance_m;
+      point["x"] = p.sky->position.x;
+      point["y"] = p.sky->position.y;
+      point["z"] = p.sky->position.z;
+      point["theme"] = p.sky->theme == 0 ? "terrain" : metadata.themes[p.sky->theme - std::size_t{1}].name;
+      point["data_edge"] = p.sky->data_edge;
+    }
+    points.push_back(std::move(point));
+  }
+  return points;
+}
+
+}  // namespace
+
+double decided_percent(const CellCounts& cells) {
+  const std::uint64_t decided = cells.visible + cells.hidden, all = decided + cells.undecided;
+  return all == 0 ? 100 : 100.0 * static_cast<double>(decided) / static_cast<double>(all);
+}
+
+Document viewshed_document(const StoreMetadata& metadata, const Result& result) {
+  const Request& request = result.request;
+  const double area = result.grid.cell_area();
+  Document document;
+  document["crs"] = crs_identifier(metadata.crs_wkt);
+  document["surface"] = surface_document(metadata, request.detail, request.themes);
+  document["refraction"] = earth_document(request.earth);
+  document["grid"] = grid_document(result.grid);
+  document["cells"] = of_verdicts(result.cells, [](std::uint64_t cells) { return cells; });
+  document["area_m2"] =
+      of_verdicts(result.cells, [&](std::uint64_t cells) { return static_cast<double>(cells) * area; });
+  if (result.certified) document["decided_percent"] = decided_percent(result.cells);
+  document["statistics"] = statistics_document(result.statistics);
+  return document;
+}
+
+Document targets_document(const Horizon& horizon) {
+  Document targets = Document::array();
+  for (const SightedTarget& t : horizon.targets)
+    targets.push_back({{"name", t.target.name},
+                       {"x", t.target.position.x},
+                       {"y", t.target.position.y},
+                       {"elevation_m", t.elevation_m},
+                       {"azimuth_deg", t.azimuth_deg},
+                       {"elevation_deg", t.elevation_deg},
+                       {"distance_m", t.distance_m},
+                       {"visible", t.visible}});
+  return targets;
+}
+
+std::string json_of(const Result& result, const StoreMetadata& metadata) {
+  return result_text(viewshed_document(metadata, result));
+}
+
+std::string json_of(const Horizon& horizon, const Request& request, const StoreMetadata& metadata) {
+  const Observer& observer = request.observers.front();
+  return result_text({{"observer",
+                       {{"name", observer.name},
+                        {"x", observer.position.x},
+                        {"y", observer.position.y},
+                        {"elevation_m", horizon.eye_elevation_m}}},
+                      {"refraction", earth_document(request.earth)},
+                      {"sky_line", sky_line_document(horizon, metadata)},
+                      {"targets", targets_document(horizon)}});
+}
+
+}  // namespace itin::viewshed
