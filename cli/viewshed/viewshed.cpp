@@ -8,6 +8,7 @@
 #include <itin/coordinates.hpp>
 #include <itin/error.hpp>
 #include <itin/store.hpp>
+#include <viewshed/missing_ground.hpp>
 #include <viewshed/viewshed.hpp>
 
 #include "options/detail_options.hpp"
@@ -18,6 +19,7 @@
 #include "options/surface_options.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
+#include "program/field_names.hpp"
 #include "program/verb.hpp"
 #include "viewshed/feature_raster.hpp"
 #include "viewshed/horizon_output.hpp"
@@ -157,14 +159,17 @@ class ViewshedVerb final : public Verb {
     viewshed::ViewshedWithSurface computed = survey(store, request_, progress);
     if (!horizon_.paths().empty() && !computed.whole)
       throw InputError("--horizon takes the whole surface in memory: give more --memory or a smaller --radius");
+    const viewshed::MissingGround missing = viewshed::missing_ground(store, computed.result, progress);
     const ViewshedOutputs::Context context{metadata.crs_wkt,
                                            surface_document(metadata, request_.detail, request_.themes),
                                            {{"mode", mode_name()},
                                             {"precise", precise_ ? "yes" : "no"},
                                             {"observer_on", request_.observers_on_surface ? "surface" : "ground"},
-                                            {"target_on", target_on_}}};
+                                            {"target_on", target_on_}},
+                                           missing};
     Result result;
     result.warnings = computed.result.warnings;
+    if (const auto warning = missing.warning("the area in view")) result.warnings.push_back(in_options(*warning));
     warn_of_scale(metadata, result.warnings);
     outputs_.write(computed, context, result.warnings, progress);
     outputs_.write_each([&](std::size_t i) { return compute_for_observer(store, computed, i, progress); }, context);
@@ -174,10 +179,10 @@ class ViewshedVerb final : public Verb {
     const Detail detail = precise_ || certified_ ? Detail::tolerance(0) : request_.detail;
     const Document features =
         features_.write(store, computed.result.grid, {detail, request_.themes}, outputs_.overwrite(), progress);
-    result.document = document(computed.result, metadata, context.surface);
+    result.document = document(computed.result, missing, metadata, context.surface);
     if (!features.is_null()) result.document["features"] = features;
     if (!targets.empty()) result.document["horizon_targets"] = targets;
-    result.text = text(computed.result);
+    result.text = text(computed.result, missing);
     return result;
   }
 
@@ -299,7 +304,8 @@ class ViewshedVerb final : public Verb {
     if (!like_.empty()) request_.grid = raster_grid_like(like_, metadata.crs_wkt);
   }
 
-  Document document(const viewshed::Result& result, const StoreMetadata& metadata, const Document& surface) const {
+  Document document(const viewshed::Result& result, const viewshed::MissingGround& missing,
+                    const StoreMetadata& metadata, const Document& surface) const {
     const viewshed::CellCounts& cells = result.cells;
     const double area = result.grid.cell_area();
     Document document;
@@ -313,11 +319,15 @@ class ViewshedVerb final : public Verb {
     document["cells"] = {{"visible", cells.visible},
                          {"hidden", cells.hidden},
                          {"undecided", cells.undecided},
-                         {"outside", cells.outside}};
+                         {"outside", cells.outside},
+                         {"no_data", missing.without_ground}};
     document["area_m2"] = {{"visible", static_cast<double>(cells.visible) * area},
                            {"hidden", static_cast<double>(cells.hidden) * area},
                            {"undecided", static_cast<double>(cells.undecided) * area},
-                           {"outside", static_cast<double>(cells.outside) * area}};
+                           {"outside", static_cast<double>(cells.outside) * area},
+                           {"no_data", static_cast<double>(missing.without_ground) * area},
+                           {"beyond_the_data", static_cast<double>(missing.beyond) * area}};
+    document["share_without_data"] = missing.share();
     if (certified_) document["decided_percent"] = decided_percent(cells);
     document["outputs"] = outputs_.paths();
     const viewshed::Statistics& statistics = result.statistics;
@@ -333,7 +343,7 @@ class ViewshedVerb final : public Verb {
     return all == 0 ? 100 : 100.0 * static_cast<double>(decided) / static_cast<double>(all);
   }
 
-  std::string text(const viewshed::Result& result) const {
+  std::string text(const viewshed::Result& result, const viewshed::MissingGround& missing) const {
     const viewshed::CellCounts& cells = result.cells;
     const std::uint64_t decided = cells.visible + cells.hidden;
     const double share = decided == 0 ? 0 : 100.0 * static_cast<double>(cells.visible) / static_cast<double>(decided);
@@ -357,6 +367,7 @@ class ViewshedVerb final : public Verb {
         text += fmt::format("undecided: {}, across ground without data; --nodata block or clear decides them\n",
                             counted(cells.undecided, "cell"));
     }
+    if (missing.share() > 0) text += fmt::format("no ground data: {} of the area in view\n", missing.text());
     text += fmt::format("{}, {}; {}\n", counted(result.statistics.triangles, "triangle"),
                         counted(result.statistics.lines, "line"), earth_.earth().convention());
     return text;

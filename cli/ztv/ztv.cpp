@@ -11,6 +11,7 @@
 #include <itin/error.hpp>
 #include <itin/output_file.hpp>
 #include <itin/store.hpp>
+#include <viewshed/missing_ground.hpp>
 #include <viewshed/turbines.hpp>
 #include <viewshed/zone_files.hpp>
 
@@ -23,6 +24,7 @@
 #include "output/output_folder.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
+#include "program/field_names.hpp"
 #include "program/json_text.hpp"
 #include "program/values.hpp"
 #include "program/verb.hpp"
@@ -239,6 +241,10 @@ class ZtvVerb final : public Verb {
     document["turbines"] = bad_rows_document(turbines_.path(), list_.rows, zone.request.turbines.size(), list_.bad);
     document["turbines"]["sha256"] = list_.sha256;
     document["farms"] = viewshed::farms_of(zone);
+    const viewshed::MissingGround missing = viewshed::missing_ground(zone);
+    document["study_area"] = {{"km2", missing.study_m2() / 1e6},
+                              {"without_data_km2", missing.missing_m2() / 1e6},
+                              {"share_without_data", missing.share()}};
     document["area_km2"]["bare"] = areas(zone, zone.bare);
     if (zone.screened) document["area_km2"]["screened"] = areas(zone, *zone.screened);
     document.update(radio_.document(zone));
@@ -275,6 +281,8 @@ class ZtvVerb final : public Verb {
 
   std::vector<std::string> warnings(const Zone& zone) const {
     std::vector<std::string> warnings = zone.warnings;
+    if (const auto warning = viewshed::missing_ground(zone).warning("the study area, all turbines' radii,"))
+      warnings.push_back(in_options(*warning));
     for (const BadRow& bad : list_.bad) warnings.push_back(bad_row_warning(turbines_.path(), bad));
     const auto of_radio = radio_.warnings(zone);
     warnings.insert(warnings.end(), of_radio.begin(), of_radio.end());
@@ -297,6 +305,8 @@ class ZtvVerb final : public Verb {
     std::string text = fmt::format("{}: {} of {}; a tip is seen {}, of {:.1f}\n", output_, zone.request.turbines.size(),
                                    counted(list_.rows, "turbine"), seen_from(bare), bare["studied"].get<double>());
     if (zone.screened) text += fmt::format("screened: a tip {}\n", seen_from(areas(zone, *zone.screened)));
+    if (const auto missing = viewshed::missing_ground(zone); missing.share() > 0)
+      text += fmt::format("no ground data: {} of the study area\n", missing.text());
     text += fmt::format("{}, {}; {}\n", counted(zone.statistics.triangles, "triangle"),
                         counted(zone.statistics.lines, "sight line"), request_.earth.convention());
     return text;

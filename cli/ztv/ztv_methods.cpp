@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <viewshed/missing_ground.hpp>
 #include <viewshed/zone_files.hpp>
 
 #include "output/store_document.hpp"
@@ -33,6 +34,20 @@ std::string turbines_in_words(const viewshed::Zone& zone, const ZtvMethods& fact
   const std::vector<std::string> farms = viewshed::farms_of(zone);
   if (farms.size() > 1) text += fmt::format(" Farms: {}.", fmt::join(farms, ", "));
   return text;
+}
+
+std::string nodata_in_words(viewshed::NoData rule) {
+  return rule == viewshed::NoData::kBlock ? "is taken to block them" : "is taken as clear";
+}
+
+std::string missing_in_words(const viewshed::Zone& zone) {
+  const viewshed::MissingGround missing = viewshed::missing_ground(zone);
+  if (missing.share() == 0) return "The terrain data cover the whole study area: all places within the radii.";
+  return fmt::format(
+      "{} of the study area, {:.1f} km2 within the radii, has no terrain data. Nothing is known of places there; they "
+      "are no part of the areas and percentages given, which are of the area with data. Where sight lines cross ground "
+      "without data, it {}.",
+      missing.text(), missing.study_m2() / 1e6, nodata_in_words(zone.request.nodata));
 }
 
 }  // namespace
@@ -67,6 +82,7 @@ std::string methods_text(const viewshed::Zone& zone, const ZtvMethods& facts) {
             fmt::format("An eye {:g} m above the bare ground at the centre of every cell of {:g} m by {:g} m.",
                         request.observer_height, zone.grid.cell_width(), zone.grid.cell_height()));
   paragraph("Radius", facts.radius + " A turbine counts only in cells within its own radius, measured horizontally.");
+  paragraph("Ground without data", missing_in_words(zone));
   paragraph("Curvature and refraction", refraction_in_words(request.earth));
   paragraph("Visibility",
             "For every eye and turbine the least height on the turbine's axis is found at which the straight line from "

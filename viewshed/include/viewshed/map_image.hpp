@@ -22,7 +22,8 @@ struct MapOptions {
   std::string subtitle;                             ///< empty: observer and target heights, radius, refraction
   std::string seen = "Visible", unseen = "Hidden";  ///< in the legend, where cells are one of the two
   std::string observers = {};                       ///< what the legend calls them; empty: "Observers"
-  std::string outside = "Outside the field of view, or no data";
+  std::string outside = "Outside the field of view";
+  std::string no_data = "No ground data";
   int map_pixels = 1600;  ///< of the longer side of the map proper, 200 to 16000
 };
 

@@ -55,7 +55,7 @@ std::vector<ZoneFile> write_link_raster(const std::string& folder, const Zone& z
 std::vector<ZoneFile> write_zone_polygons(const std::string& folder, const Zone& zone, const ZoneFileOptions& options);
 
 /// km2 by band of counts and by ring of distance to the nearest turbine, as CSV. Every cell with a value is in one band
-/// and one ring.
+/// and one ring; shares are of the ring's part with data, whose share of the ring is the last column.
 std::string area_table(const Zone& zone);
 
 }  // namespace itin::viewshed

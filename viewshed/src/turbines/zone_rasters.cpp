@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <itin/parallel.hpp>
+#include <viewshed/missing_ground.hpp>
 #include <viewshed/zone_files.hpp>
 
 #include "turbines/farm_combinations.hpp"
@@ -162,6 +163,21 @@ void write_farms(const Zone& zone, RasterFolder& folder) {
   if (zone.screened) write_farm_raster(screened, present, count, "farms-screened", folder);
 }
 
+/// Beside the others, whose cells without a value may be either.
+void write_study_area(const Zone& zone, RasterFolder& folder) {
+  constexpr std::uint8_t kNoGround = 0, kGround = 1, kOutsideStudy = 255;
+  const std::vector<std::uint8_t> missing = missing_ground(zone).cells;
+  std::vector<std::uint8_t> values(missing.size(), kOutsideStudy);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (missing[i] == 1 || zone.bare.tip_count[i] != kCountOutside) values[i] = missing[i] == 1 ? kNoGround : kGround;
+  RasterDescription description = with_nodata(kOutsideStudy);
+  description.classes = {{kNoGround, "no ground data", 120, 120, 120, 255}, {kGround, "studied", 0, 0, 0, 0}};
+  folder.write("study-area",
+               "1 where turbines are looked for, 0 where there is no ground data; 255: outside every turbine's radius",
+               values, description,
+               class_style({{kNoGround, "no ground data", 120, 120, 120, 255}, {kGround, "studied", 0, 0, 0, 0}}));
+}
+
 }  // namespace
 
 std::vector<ZoneFile> write_zone_rasters(const std::string& folder, const Zone& zone, const ZoneFileOptions& options) {
@@ -177,6 +193,7 @@ std::vector<ZoneFile> write_zone_rasters(const std::string& folder, const Zone& 
     write_differences(zone, files);
   }
   write_farms(zone, files);
+  write_study_area(zone, files);
   return std::move(files).files();
 }
 

@@ -93,6 +93,17 @@ void validate(const ZoneRequest& request) {
   request.earth.validate();
 }
 
+Request view_of(const ZoneRequest& zone) {
+  Request request;
+  for (const Turbine& turbine : zone.turbines) {
+    Observer& observer = request.observers.emplace_back();
+    observer.position = turbine.position;
+    observer.radius = turbine.radius;
+  }
+  request.grid = zone.grid;
+  return request;
+}
+
 Zone lay_out(const ZoneRequest& request, const Box& coverage,
              const std::function<std::optional<double>(Point2)>& ground) {
   Zone zone;
