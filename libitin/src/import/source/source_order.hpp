@@ -9,7 +9,7 @@
 
 namespace itin {
 
-/// The rank of each source: those that are ground by themselves come first, then what they hold decides. Equal ranks
+/// The rank of each source: those that are ground by themselves come first, the sea last, then what they hold decides. Equal ranks
 /// are of equal sources.
 std::vector<std::uint32_t> ranks_of(std::span<const SourceInfo> sources);
 
