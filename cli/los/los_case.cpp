@@ -27,18 +27,6 @@ void add_facts(profile::LosReport& report) {
   report.facts.emplace_back("Program", "itin " ITIN_VERSION);
 }
 
-Document sources_document(const std::vector<SourceInfo>& sources) {
-  Document list = Document::array();
-  for (const SourceInfo& source : sources) {
-    list.push_back({{"path", source.path},
-                    {"kind", source.kind},
-                    {"sha256", source.sha256},
-                    {"spacing_m", source.spacing},
-                    {"note", source.note.empty() ? Document(nullptr) : Document(source.note)}});
-  }
-  return list;
-}
-
 std::string text_of_findings(const profile::LosReport& report, const profile::LineFindings& found) {
   std::string text;
   for (const profile::Obstruction& o : found.obstructions) {
@@ -75,7 +63,7 @@ LosCase los_case(const Store& store, LosStoreOptions::Result line, const LosHead
   one.result.warnings = std::move(line.warnings);
   one.result.document["crs"] = crs_identifier(store.metadata().crs_wkt);
   one.result.document["surface"] = std::move(line.surface);
-  one.result.document["sources"] = sources_document(one.report.sources);
+  one.result.document["sources"] = used_sources_document(one.report.sources);
   one.result.document["statistics"] = {{"points_read", one.report.statistics.points_read},
                                        {"blocks_read", one.report.statistics.blocks_read},
                                        {"triangles", one.report.triangles}};

@@ -34,6 +34,18 @@ Document surface_document(const StoreMetadata& metadata, const Detail& detail, c
   return surface;
 }
 
+Document used_sources_document(const std::vector<SourceInfo>& sources) {
+  Document list = Document::array();
+  for (const SourceInfo& source : sources) {
+    list.push_back({{"path", source.path},
+                    {"kind", source.kind},
+                    {"sha256", source.sha256},
+                    {"spacing_m", source.spacing},
+                    {"note", source.note.empty() ? Document(nullptr) : Document(source.note)}});
+  }
+  return list;
+}
+
 Document themes_document(const StoreMetadata& metadata) {
   Document themes = Document::array();
   for (const ThemeInfo& theme : metadata.themes) {

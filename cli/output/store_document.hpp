@@ -20,6 +20,8 @@ Document error_interval(const CertifiedError& error);
 Document surface_document(const StoreMetadata& metadata, const Detail& detail, const ThemeChoice& themes);
 
 /// `themes`, in the store's order, as a document and as text.
+/// Those that something was made of.
+Document used_sources_document(const std::vector<SourceInfo>& sources);
 Document themes_document(const StoreMetadata& metadata);
 std::string themes_table(const StoreMetadata& metadata);
 

@@ -7,6 +7,7 @@
 
 #include <itin/coordinates.hpp>
 #include <itin/error.hpp>
+#include <itin/sources_in.hpp>
 #include <itin/store.hpp>
 #include <viewshed/missing_ground.hpp>
 #include <viewshed/viewshed.hpp>
@@ -160,13 +161,15 @@ class ViewshedVerb final : public Verb {
     if (!horizon_.paths().empty() && !computed.whole)
       throw InputError("--horizon takes the whole surface in memory: give more --memory or a smaller --radius");
     const viewshed::MissingGround missing = viewshed::missing_ground(store, computed.result, progress);
+    const std::vector<SourceInfo> sources = sources_in(store, computed.result.grid.bounds(), request_.themes);
     const ViewshedOutputs::Context context{metadata.crs_wkt,
                                            surface_document(metadata, request_.detail, request_.themes),
                                            {{"mode", mode_name()},
                                             {"precise", precise_ ? "yes" : "no"},
                                             {"observer_on", request_.observers_on_surface ? "surface" : "ground"},
                                             {"target_on", target_on_}},
-                                           missing};
+                                           missing,
+                                           described(sources, metadata)};
     Result result;
     result.warnings = computed.result.warnings;
     if (const auto warning = missing.warning("the area in view")) result.warnings.push_back(in_options(*warning));
@@ -180,6 +183,7 @@ class ViewshedVerb final : public Verb {
     const Document features =
         features_.write(store, computed.result.grid, {detail, request_.themes}, outputs_.overwrite(), progress);
     result.document = document(computed.result, missing, metadata, context.surface);
+    result.document["sources"] = used_sources_document(sources);
     if (!features.is_null()) result.document["features"] = features;
     if (!targets.empty()) result.document["horizon_targets"] = targets;
     result.text = text(computed.result, missing);

@@ -84,6 +84,7 @@ void ViewshedOutputs::write(viewshed::ViewshedWithSurface& computed, const Conte
   std::optional<viewshed::MapImage> map;
   if (!image_.empty()) {
     viewshed::MapOptions options;
+    options.sources = context.sources;
     if (context.missing.share() > 0) options.no_data += fmt::format(": {} of the area in view", context.missing.text());
     map = viewshed::draw_map(*computed.surface, computed.result, progress, options);
     warnings.insert(warnings.end(), map->warnings.begin(), map->warnings.end());

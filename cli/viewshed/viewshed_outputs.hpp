@@ -33,6 +33,7 @@ class ViewshedOutputs {
     Document surface;
     std::vector<std::pair<std::string, std::string>> parameters;  ///< that a result does not tell
     const viewshed::MissingGround& missing;
+    std::vector<std::string> sources;  ///< of the surface: sorts of them
   };
   void write(viewshed::ViewshedWithSurface& computed, const Context& context, std::vector<std::string>& warnings,
              Progress& progress) const;

@@ -10,6 +10,7 @@
 #include <itin/csv_cell.hpp>
 #include <itin/error.hpp>
 #include <itin/output_file.hpp>
+#include <itin/sources_in.hpp>
 #include <itin/store.hpp>
 #include <viewshed/missing_ground.hpp>
 #include <viewshed/turbines.hpp>
@@ -121,6 +122,7 @@ class ZtvVerb final : public Verb {
     Zone zone = viewshed::survey_turbines(store, request_, progress);
     for (const viewshed::Misplaced& m : zone.misplaced)
       list_.bad.push_back({m.number, list_.features[m.number - 1], m.message});
+    sources_ = sources_in(store, zone.grid.bounds(), request_.themes.value_or(ThemeChoice::none()));
     OutputFolder folder(output_, policy_);
     cli::Result result;
     result.document = document(zone, metadata);
@@ -222,6 +224,7 @@ class ZtvVerb final : public Verb {
                               request_.detail.coarsest(), of_surface["certified_error_m"][0].get<double>(),
                               of_surface["certified_error_m"][1].get<double>())
                         : "Every stored point is used.";
+    facts.sources = described(sources_, metadata);
     if (request_.themes) facts.themes = request_.themes->names(metadata.themes);
     facts.radius = radius_.text();
     facts.further = radio_.methods(zone);
@@ -233,6 +236,7 @@ class ZtvVerb final : public Verb {
     Document document;
     document["crs"] = crs_identifier(metadata.crs_wkt);
     document["surface"] = surface(metadata);
+    document["sources"] = used_sources_document(sources_);
     document["refraction"] = earth_.document();
     document["grid"] = {{"bounds", box_document(zone.grid.bounds())},
                         {"columns", zone.grid.columns()},
@@ -324,6 +328,7 @@ class ZtvVerb final : public Verb {
 
   TurbineList list_;
   viewshed::ZoneRequest request_;
+  std::vector<SourceInfo> sources_;  ///< of the surface
   ViewpointOptions::Written seen_;
 };
 

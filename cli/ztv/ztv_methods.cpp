@@ -75,9 +75,12 @@ std::string methods_text(const viewshed::Zone& zone, const ZtvMethods& facts) {
     text += fmt::format("## {}\n\n{}\n\n", heading, body);
   };
   paragraph("Turbines", turbines_in_words(zone, facts));
-  paragraph("Terrain", fmt::format("`{}`, {}. {} The surface is a triangulation of the terrain's own points; heights "
-                                   "between them are those of its triangles, nothing is resampled.",
-                                   facts.store, facts.crs, facts.surface));
+  paragraph(
+      "Terrain",
+      fmt::format(
+          "`{}`, {}. {} The surface is a triangulation of the terrain's own points; heights "
+          "between them are those of its triangles, nothing is resampled. Its sources within the study area:\n\n- {}",
+          facts.store, facts.crs, facts.surface, fmt::join(facts.sources, "\n- ")));
   paragraph("Viewer",
             fmt::format("An eye {:g} m above the bare ground at the centre of every cell of {:g} m by {:g} m.",
                         request.observer_height, zone.grid.cell_width(), zone.grid.cell_height()));

@@ -12,8 +12,9 @@ namespace itin::cli {
 struct ZtvMethods {
   std::string turbines_file, turbines_sha256;
   std::string store;
-  std::string crs;      ///< title
-  std::string surface;  ///< detail and certified error
+  std::string crs;                   ///< title
+  std::string surface;               ///< detail and certified error
+  std::vector<std::string> sources;  ///< of the terrain, and of what screens: sorts of them
   std::vector<std::string> themes;
   std::string radius;  ///< sentence
   std::size_t rows = 0, bad = 0;

@@ -10,6 +10,7 @@
 #include <itin/feature_at.hpp>
 #include <itin/geodesic.hpp>
 #include <itin/level_choice.hpp>
+#include <itin/sources_in.hpp>
 
 #include "lines/azimuth.hpp"
 #include "lines/line_sources.hpp"

@@ -24,7 +24,8 @@ struct MapOptions {
   std::string observers = {};                       ///< what the legend calls them; empty: "Observers"
   std::string outside = "Outside the field of view";
   std::string no_data = "No ground data";
-  int map_pixels = 1600;  ///< of the longer side of the map proper, 200 to 16000
+  std::vector<std::string> sources = {};  ///< lines below the legend; more than six are counted
+  int map_pixels = 1600;                  ///< of the longer side of the map proper, 200 to 16000
 };
 
 /// 8-bit sRGB, row by row from the north-west.

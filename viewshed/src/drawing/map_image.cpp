@@ -66,7 +66,9 @@ class MapDrawing {
         overlay_(result, options),
         has_void_(std::any_of(shades_.begin(), shades_.end(), [](float shade) { return std::isnan(shade); })),
         has_outside_(shows_outside()),
-        canvas_(std::max(width_, 40 * unit_) + 4 * unit_, height_ + 14 * unit_ + further_rows() * key_height(),
+        canvas_(std::max(width_, 40 * unit_) + 4 * unit_,
+                height_ + 14 * unit_ + further_rows() * key_height() +
+                    static_cast<int>(source_lines().size()) * source_height(),
                 kMapPaper),
         left_((canvas_.width() - width_) / 2),
         top_(6 * unit_) {}
@@ -110,7 +112,20 @@ class MapDrawing {
   }
 
   int key_height() const { return 7 * unit_ / 4; }
-  /// Of the legend, beyond the three that there is always room for.
+  /// Lines about sources, and one that counts the rest.
+  std::vector<std::string> source_lines() const {
+    constexpr std::size_t kMost = 6;
+    std::vector<std::string> lines = options_.sources;
+    if (lines.size() > kMost) {
+      lines.resize(kMost - 1);
+      lines.push_back(fmt::format("and {} more sorts of sources", options_.sources.size() - lines.size()));
+    }
+    if (!lines.empty()) lines.front() = "Ground: " + lines.front();
+    return lines;
+  }
+  int source_height() const { return 5 * unit_ / 4; }
+
+  /// Rows of the legend beyond the three that there is always room for.
   int further_rows() const {
     return std::max(0, static_cast<int>(overlay_.keys().size()) + (has_outside_ ? 1 : 0) + (has_void_ ? 1 : 0) - 3);
   }
@@ -299,6 +314,12 @@ class MapDrawing {
     const std::string earth = result_.request.earth.convention();
     letters_.draw(canvas_, earth, {static_cast<double>(left_ + width_), y + 0.4 * unit_},
                   fitting_size(earth, width_ / 2, unit_ * 9 / 10), kFaint, Align::kRight);
+    double below = y + 2.0 * unit_;
+    for (const std::string& line : source_lines()) {
+      letters_.draw(canvas_, line, {static_cast<double>(left_), below},
+                    fitting_size(line, canvas_.width() - 2 * left_, unit_ * 9 / 10), kFaint);
+      below += source_height();
+    }
     if (!overlay_.scale().empty()) draw_scale();
   }
 

@@ -105,7 +105,7 @@ class SeaFill::Lattices {
   void for_each_row(const Visit& visit) const {
     const PostLattice lattice = this->lattice();
     const auto seen = seen_.find(lattice);
-    const GridBox box = box_in_units();
+    const GridBox box = grid_.enclosing(box_);
     const auto first = [&](std::int64_t v, std::int64_t phase) { return -floor_divided(phase - v, lattice.spacing); };
     const auto last = [&](std::int64_t v, std::int64_t phase) { return floor_divided(v - phase, lattice.spacing); };
     const std::int64_t west = first(box.xmin, lattice.x), east = last(box.xmax, lattice.x),
@@ -128,17 +128,6 @@ class SeaFill::Lattices {
   }
 
  private:
-  /// The grid positions in the box.
-  GridBox box_in_units() const {
-    const auto units = [&](double v, double origin, double (*rounded)(double)) {
-      return static_cast<std::int32_t>(
-          std::clamp(rounded((v - origin) / grid_.resolution), -1.0 * kGridHalfSide, kGridHalfSide - 1.0));
-    };
-    const auto up = [](double v) { return std::ceil(v - 1e-6); };
-    const auto down = [](double v) { return std::floor(v + 1e-6); };
-    return {units(box_.xmin, grid_.origin.x, up), units(box_.ymin, grid_.origin.y, up),
-            units(box_.xmax, grid_.origin.x, down), units(box_.ymax, grid_.origin.y, down)};
-  }
   static void require_few(double posts) {
     if (posts > kMostSeaPosts)
       throw InputError(fmt::format(

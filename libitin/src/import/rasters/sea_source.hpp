@@ -24,7 +24,7 @@ class SeaFill {
   SeaFill(double level, const std::optional<Window>& area, const Box& box, const Grid& grid);
   ~SeaFill();
 
-  /// The same source. Its posts are left out of the sea.
+  /// Passes the source through. Its posts are left out of the sea.
   std::unique_ptr<TerrainSource> watch(std::unique_ptr<TerrainSource> source);
   /// Throws InputError when it is read, where the sea would have more posts than a store can hold.
   std::unique_ptr<TerrainSource> source() &&;
