@@ -66,7 +66,7 @@ void write_site_maps(const Store& store, const SiteResult& r, const std::string&
   const bool of_area = r.options.demand != "cells";
   options.seen = of_area ? "Area served" : "Served", options.unseen = of_area ? "Area not served" : "Not served";
   options.observers = result.request.observers.size() == 1 ? "Site" : "Sites";
-  options.outside = "Nothing to serve";
+  options.outside = "Nothing to serve, or no data";
   options.title = fmt::format("Served by {}", counted(r.choice.chosen.size(), "site"));
   options.subtitle = fmt::format(
       "radius {:g} km, targets {:g} m up{}{}", r.options.radius / 1000, r.options.target_height,

@@ -85,7 +85,10 @@ void ViewshedOutputs::write(viewshed::ViewshedWithSurface& computed, const Conte
   if (!image_.empty()) {
     viewshed::MapOptions options;
     options.sources = context.sources;
-    if (context.missing.share() > 0) options.no_data += fmt::format(": {} of the area in view", context.missing.text());
+    options.no_data = context.missing.cells;
+    options.outside = "Outside the field of view";
+    if (context.missing.share() > 0)
+      options.no_data_text += fmt::format(": {} of the area in view", context.missing.text());
     map = viewshed::draw_map(*computed.surface, computed.result, progress, options);
     warnings.insert(warnings.end(), map->warnings.begin(), map->warnings.end());
   }

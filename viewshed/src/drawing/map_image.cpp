@@ -64,7 +64,7 @@ class MapDrawing {
         height_(static_cast<int>(pixels_.rows())),
         unit_(std::max(10, static_cast<int>(std::lround(std::max(width_, height_) / 80.0)))),
         overlay_(result, options),
-        has_void_(std::any_of(shades_.begin(), shades_.end(), [](float shade) { return std::isnan(shade); })),
+        has_void_(std::find(options.no_data.begin(), options.no_data.end(), 1) != options.no_data.end()),
         has_outside_(shows_outside()),
         canvas_(std::max(width_, 40 * unit_) + 4 * unit_,
                 height_ + 14 * unit_ + further_rows() * key_height() +
@@ -100,18 +100,23 @@ class MapDrawing {
             rows};
   }
 
+  std::optional<std::size_t> cell_of(std::int64_t column, std::int64_t row) const {
+    const auto cell = result_.grid.cell_at(pixels_.centre(column, row));
+    return cell ? std::optional(result_.grid.index(*cell)) : std::nullopt;
+  }
+  bool lacks_ground(std::optional<std::size_t> cell) const {
+    return cell && *cell < options_.no_data.size() && options_.no_data[*cell] == 1;
+  }
   /// In the middle of some pixel.
   bool shows_outside() const {
     for (std::int64_t y = 0; y < pixels_.rows(); ++y)
-      for (std::int64_t x = 0; x < pixels_.columns(); ++x) {
-        const auto cell = result_.grid.cell_at(pixels_.centre(x, y));
-        if (!std::isnan(shades_[pixels_.index({x, y})]) && !(cell && overlay_.at(result_.grid.index(*cell))))
-          return true;
-      }
+      for (std::int64_t x = 0; x < pixels_.columns(); ++x)
+        if (const auto cell = cell_of(x, y); !lacks_ground(cell) && !(cell && overlay_.at(*cell))) return true;
     return false;
   }
 
   int key_height() const { return 7 * unit_ / 4; }
+
   /// Lines about sources, and one that counts the rest.
   std::vector<std::string> source_lines() const {
     constexpr std::size_t kMost = 6;
@@ -172,8 +177,12 @@ class MapDrawing {
       for (int x = 0; x < width_; ++x) {
         const float shade = shades_[pixels_.index({x, y})];
         const int px = left_ + x, py = top_ + y;
-        if (std::isnan(shade)) {
+        if (lacks_ground(cell_of(x, y))) {
           draw_void(px, py);
+          continue;
+        }
+        if (std::isnan(shade)) {  // beyond what was looked at, and so what was read
+          canvas_.blend(px, py, kVoid, 1);
           continue;
         }
         const auto grey =
@@ -291,7 +300,7 @@ class MapDrawing {
     for (int i = 0; i < width; ++i)
       for (int j = 0; j < height; ++j) draw_void(x + i, y + j);
     canvas_.frame(x, y, width, height, kFaint);
-    letters_.draw(canvas_, options_.no_data, {x + 2.6 * unit_, y + 1.05 * unit_}, unit_, kInk);
+    letters_.draw(canvas_, options_.no_data_text, {x + 2.6 * unit_, y + 1.05 * unit_}, unit_, kInk);
   }
 
   std::string share_text(const std::string& what, std::uint64_t cells) const {
@@ -345,7 +354,7 @@ class MapDrawing {
   int width_, height_;         ///< of the map proper, pixels
   int unit_;                   ///< everything else is measured in this, pixels
   MapOverlay overlay_;
-  bool has_void_, has_outside_;  ///< somewhere on the map there is no ground, or ground outside the field of view
+  bool has_void_, has_outside_;  ///< the map shows places in view without ground, or outside the field of view
   Canvas canvas_;
   int left_, top_;  ///< of the map proper on the canvas
   Lettering letters_;
