@@ -181,6 +181,9 @@ class ZtvVerb final : public Verb {
     }
     add_text("areas.csv", "km2 by band of turbines seen and by ring of distance to the nearest turbine",
              viewshed::area_table(zone));
+    if (viewshed::farms_of(zone).size() > 1)
+      add_text("farms.csv", "what the values of farms.tif stand for: combinations of farms, and km2 of each",
+               viewshed::combination_table(zone));
     add_text("turbines.csv", "the turbines as understood, row by row, and what is wrong with those not used",
              turbine_table(zone));
     add_text("radius-preset.json", "the radii used, to edit and give by --radius-preset",

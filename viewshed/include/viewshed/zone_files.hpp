@@ -58,4 +58,7 @@ std::vector<ZoneFile> write_zone_polygons(const std::string& folder, const Zone&
 /// and one ring; shares are of the ring's part with data, whose share of the ring is the last column.
 std::string area_table(const Zone& zone);
 
+/// What the values of farms.tif stand for and km2 of each, the largest first, as CSV.
+std::string combination_table(const Zone& zone);
+
 }  // namespace itin::viewshed

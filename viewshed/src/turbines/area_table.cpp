@@ -126,7 +126,7 @@ class AreaTable {
 std::string area_table(const Zone& zone) {
   AreaTable table(zone);
   const auto add = [&](const char* surface, const Visibility& v) {
-    table.add(surface, "hub", v.hub_count);
+    if (knows_hubs(zone)) table.add(surface, "hub", v.hub_count);
     table.add(surface, "tip", v.tip_count);
   };
   add("bare", zone.bare);
