@@ -23,7 +23,11 @@ void add_radio_fact(profile::LosReport& report) {
 
 void add_facts(profile::LosReport& report) {
   report.facts.emplace_back("Refraction", report.query.earth.convention());
-  if (report.query.radio) add_radio_fact(report);
+  if (report.query.radio) {
+    add_radio_fact(report);
+    report.facts.emplace_back("Not considered",
+                              "antenna gains and feeder losses, absorption by gases, rain, multipath and availability");
+  }
   report.facts.emplace_back("Program", "itin " ITIN_VERSION);
 }
 
@@ -49,11 +53,16 @@ LosCase los_case(profile::LosReport report, const LosHeader& header) {
   LosCase one{std::move(report), {}};
   one.report.title = header.title;
   add_facts(one.report);
+  one.report.facts.insert(one.report.facts.begin(), header.facts.begin(), header.facts.end());
+  if (!header.from_name.empty()) one.report.from_lines.insert(one.report.from_lines.begin(), header.from_name);
+  if (!header.to_name.empty()) one.report.to_lines.insert(one.report.to_lines.begin(), header.to_name);
   Document& document = one.result.document;
   document["crs"] = nullptr;
   document["refraction"] = header.refraction;
   document["from"] = end_document(one.report.from);
   document["to"] = end_document(one.report.to);
+  if (!header.from_name.empty()) document["from"]["name"] = header.from_name;
+  if (!header.to_name.empty()) document["to"]["name"] = header.to_name;
   document.update(los_document(one.report));
   return one;
 }

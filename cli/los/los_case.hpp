@@ -20,6 +20,8 @@ struct LosCase {
 struct LosHeader {
   std::string title;
   Document refraction;
+  std::vector<std::pair<std::string, std::string>> facts = {};  ///< that come first: name, value
+  std::string from_name = {}, to_name = {};                     ///< of the ends; may be empty
 };
 
 /// The case of a profile from a file.

@@ -1,0 +1,35 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <itin/coordinates.hpp>
+#include <itin/grid_reference.hpp>
+
+namespace itin {
+
+namespace {
+
+/// Letters of a five by five block from the north-west, without I.
+char letter(int index) {
+  return static_cast<char>('A' + index + (index > 7 ? 1 : 0));
+}
+
+}  // namespace
+
+bool is_national_grid(const std::string& crs_wkt) {
+  return crs_identifier(crs_wkt) == "EPSG:27700";
+}
+
+std::optional<std::string> national_grid_reference(Point2 position, int figures) {
+  constexpr double kSquare = 100000;
+  if (!(position.x >= 0 && position.x < 7 * kSquare && position.y >= 0 && position.y < 13 * kSquare))
+    return std::nullopt;
+  const int east = static_cast<int>(position.x / kSquare), north = static_cast<int>(position.y / kSquare);
+  const int down = 19 - north;
+  const double step = std::pow(10, 5 - figures);
+  const auto cut = [&](double v) { return static_cast<int>(std::fmod(v, kSquare) / step); };
+  return fmt::format("{}{} {:0{}} {:0{}}", letter(down - down % 5 + (east + 10) / 5), letter(down * 5 % 25 + east % 5),
+                     cut(position.x), figures, cut(position.y), figures);
+}
+
+}  // namespace itin
