@@ -3,6 +3,7 @@
 #include <itin/sources_in.hpp>
 
 #include "store/point_index.hpp"
+#include "store/store_format.hpp"
 
 namespace itin {
 
@@ -28,8 +29,10 @@ std::vector<SourceInfo> sources_in(const Store& store, const Box& box, const The
     const std::size_t theme = theme_of(leaf, metadata);
     if (theme > 0 && !themes.includes(metadata.themes[theme - 1])) continue;
     const std::shared_ptr<const Block> block = store.points().block(leaf);
+    const bool part = leaf.theme > metadata.themes.size();
     for (std::size_t i = 0; i < block->points.size(); ++i) {
-      const std::size_t source = block->sources[i];
+      if (part && block->sources[i] == format::kMask) continue;
+      const std::size_t source = part ? block->sources[i] & ~format::kOnOutline : block->sources[i];
       if (found[source] || !within.contains(block->points[i].x, block->points[i].y)) continue;
       found[source] = true, --left;
     }

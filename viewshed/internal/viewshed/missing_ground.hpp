@@ -27,7 +27,7 @@ struct MissingGround {
   double cell_area = 0;           ///< square metres
   bool bounded = true;            ///< the request says how far observers look, and not: as far as there is ground
 
-  /// Of all that observers look at, 0 to 1.
+  /// The part of all that observers look at, 0 to 1.
   double share() const;
   double study_m2() const { return static_cast<double>(with_ground + without_ground + beyond) * cell_area; }
   double missing_m2() const { return static_cast<double>(without_ground + beyond) * cell_area; }
