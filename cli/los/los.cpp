@@ -14,6 +14,7 @@
 
 #include "los/los_case.hpp"
 #include "los/los_links.hpp"
+#include "los/los_people.hpp"
 #include "los/los_reports.hpp"
 #include "los/los_store.hpp"
 #include "options/earth_options.hpp"
@@ -45,12 +46,14 @@ class LosVerb final : public Verb {
     earth_.declare_radius(app);
     radio_.declare(app);
     reports_.declare(app);
+    people_.declare(app);
     policy_.declare(app);
   }
 
   void validate() override {
     earth_.validate();
     radio_.validate();
+    people_.validate(links_.given());
     if (links_.given()) {
       if (store_.empty() || line_.given()) throw InputError("--links takes a STORE, and the place of --from and --to");
       reports_.validate_links();
@@ -76,6 +79,7 @@ class LosVerb final : public Verb {
       parameters.update(links_.given() ? line_.surface_parameters() : line_.parameters());
     }
     parameters.update(radio_.parameters());
+    parameters.update(people_.parameters());
     return parameters;
   }
 
@@ -115,6 +119,11 @@ class LosVerb final : public Verb {
     return command;
   }
 
+  LosHeader header() const { return {reports_.title(), people_.facts(), people_.from_name(), people_.to_name()}; }
+  LosHeader header(const profile::Link& link) const {
+    return {reports_.title(link.id), people_.facts(), link.from_name, link.to_name};
+  }
+
   LosCase run_profile() {
     query_.from_height_m = heights_[0], query_.to_height_m = heights_[1];
     query_.points_as_given = true;
@@ -127,12 +136,12 @@ class LosVerb final : public Verb {
                             end.elevation_m),
                 fmt::format("elevation angle {:.3f}\xC2\xB0", end.elevation_angle_deg)};
     }
-    return los_case(std::move(report), reports_.title());
+    return los_case(std::move(report), header());
   }
 
   LosCase run_store() {
     const Store store(store_);
-    LosCase one = los_case(store, line_.run(store, query_), reports_.title());
+    LosCase one = los_case(store, line_.run(store, query_), header());
     warn_of_scale(store.metadata(), one.result.warnings);
     return one;
   }
@@ -153,7 +162,7 @@ class LosVerb final : public Verb {
     const auto work = [&](std::size_t i) {
       const profile::Link& link = table.links[i];
       LosCase one = los_case(store, line_.run(store, query_, {link.from, link.to, link.from_height, link.to_height}),
-                             reports_.title(link.id));
+                             header(link));
       one.result.document["link"] = link.id;
       return one;
     };
@@ -163,10 +172,13 @@ class LosVerb final : public Verb {
 
   std::vector<std::pair<std::string, std::string>> facts_of_links(const Store& store) const {
     const StoreMetadata& metadata = store.metadata();
-    return {{"Store", std::filesystem::path(store.path()).filename().string()},
-            {"CRS", fmt::format("{} ({})", crs_title(metadata.crs_wkt), crs_identifier(metadata.crs_wkt))},
-            {"Refraction", query_.earth.convention()},
-            {"Program", "itin " ITIN_VERSION}};
+    std::vector<std::pair<std::string, std::string>> facts = people_.facts();
+    facts.insert(facts.end(),
+                 {{"Store", std::filesystem::path(store.path()).filename().string()},
+                  {"CRS", fmt::format("{} ({})", crs_title(metadata.crs_wkt), crs_identifier(metadata.crs_wkt))},
+                  {"Refraction", query_.earth.convention()},
+                  {"Program", "itin " ITIN_VERSION}});
+    return facts;
   }
 
   void warn_of_refraction(double effective_earth_km, Result& result) const {
@@ -182,6 +194,7 @@ class LosVerb final : public Verb {
   LosStoreOptions line_;
   LosLinks links_;
   LosReports reports_;
+  LosPeople people_;
   EarthOptions earth_;
   RadioOptions radio_;
   OutputPolicy policy_;

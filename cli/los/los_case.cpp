@@ -21,8 +21,22 @@ void add_radio_fact(profile::LosReport& report) {
 
 void add_facts(profile::LosReport& report) {
   report.facts.emplace_back("Refraction", report.query.earth.convention());
-  if (report.query.radio) add_radio_fact(report);
+  if (report.query.radio) {
+    add_radio_fact(report);
+    report.facts.emplace_back("Not considered",
+                              "antenna gains and feeder losses, absorption by gases, rain, multipath and availability");
+  }
   report.facts.emplace_back("Program", "itin " ITIN_VERSION);
+}
+
+void add_names(const LosHeader& header, profile::LosReport& report) {
+  if (!header.from_name.empty()) report.from_lines.insert(report.from_lines.begin(), header.from_name);
+  if (!header.to_name.empty()) report.to_lines.insert(report.to_lines.begin(), header.to_name);
+}
+
+void add_names(const LosHeader& header, Document& document) {
+  if (!header.from_name.empty()) document["from"]["name"] = header.from_name;
+  if (!header.to_name.empty()) document["to"]["name"] = header.to_name;
 }
 
 std::string text_of_findings(const profile::LosReport& report, const profile::LineFindings& found) {
@@ -43,18 +57,22 @@ std::string text_of_findings(const profile::LosReport& report, const profile::Li
 
 }  // namespace
 
-LosCase los_case(profile::LosReport report, const std::string& title) {
+LosCase los_case(profile::LosReport report, const LosHeader& header) {
   LosCase one{std::move(report), {}};
-  one.report.title = title;
+  one.report.title = header.title;
   add_facts(one.report);
+  one.report.facts.insert(one.report.facts.begin(), header.facts.begin(), header.facts.end());
+  add_names(header, one.report);
   one.result.document = profile::los_document(one.report);
+  add_names(header, one.result.document);
   return one;
 }
 
-LosCase los_case(const Store& store, LosStoreOptions::Result line, const std::string& title) {
-  LosCase one = los_case(std::move(line.report), title);
+LosCase los_case(const Store& store, LosStoreOptions::Result line, const LosHeader& header) {
+  LosCase one = los_case(std::move(line.report), header);
   one.result.warnings = std::move(line.warnings);
   one.result.document = profile::los_document(store.metadata(), line.line, one.report);
+  add_names(header, one.result.document);
   return one;
 }
 

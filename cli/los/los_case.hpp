@@ -2,6 +2,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <itin/store.hpp>
 #include <profile/los.hpp>
@@ -16,10 +18,17 @@ struct LosCase {
   Result result;
 };
 
+/// What the reports of all lines of a call begin with.
+struct LosHeader {
+  std::string title;
+  std::vector<std::pair<std::string, std::string>> facts = {};  ///< that come first: name, value
+  std::string from_name = {}, to_name = {};                     ///< of the ends; may be empty
+};
+
 /// The case of a profile from a file.
-LosCase los_case(profile::LosReport report, const std::string& title);
+LosCase los_case(profile::LosReport report, const LosHeader& header);
 /// The case of a line on a store.
-LosCase los_case(const Store& store, LosStoreOptions::Result line, const std::string& title);
+LosCase los_case(const Store& store, LosStoreOptions::Result line, const LosHeader& header);
 
 /// The report as text for people.
 std::string text_of(const profile::LosReport& report);

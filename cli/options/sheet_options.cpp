@@ -1,30 +1,16 @@
 #include "options/sheet_options.hpp"
 
-#include <chrono>
-#include <cstdlib>
 #include <sstream>
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
 
+#include "options/day_of_run.hpp"
 #include "program/call_files.hpp"
 #include "program/values.hpp"
 
 namespace itin::cli {
-
-namespace {
-
-/// "23 November 2026": today, or the day that SOURCE_DATE_EPOCH gives.
-std::string today() {
-  std::time_t now = std::time(nullptr);
-  if (const char* const given = std::getenv("SOURCE_DATE_EPOCH"))
-    now = static_cast<std::time_t>(parse_number("SOURCE_DATE_EPOCH", given, Range::kNotNegative));
-  return fmt::format("{} {:%B %Y}", fmt::gmtime(now).tm_mday, fmt::gmtime(now));
-}
-
-}  // namespace
 
 void SheetOptions::declare(CLI::App& app) {
   app.add_option("--sheets", papers_text_,
@@ -51,7 +37,7 @@ void SheetOptions::declare_title_block(CLI::App& app) {
 }
 
 void SheetOptions::validate() {
-  if (date_.empty()) date_ = today();
+  if (date_.empty()) date_ = day_of_run();
   if (!file_.empty() && papers_text_.empty()) papers_text_ = "A3";
   if (!scale_text_.empty() && papers_text_.empty()) throw InputError("--sheet-scale is of use with a sheet only");
   if (!file_.empty()) profile::require_sheet_format(file_);

@@ -104,18 +104,4 @@ profile::SheetCells shaded(const viewshed::Relief& ground, const std::function<b
   return cells;
 }
 
-std::vector<std::string> source_lines(const StoreMetadata& metadata) {
-  constexpr std::size_t kMostNames = 3;
-  std::vector<std::string> lines;
-  std::vector<std::string> unnoted;
-  for (const SourceInfo& source : metadata.sources) {
-    const std::string& line = source.note.empty() ? source.path : source.note;
-    std::vector<std::string>& to = source.note.empty() ? unnoted : lines;
-    if (std::find(to.begin(), to.end(), line) == to.end()) to.push_back(line);
-  }
-  for (std::size_t i = 0; i < std::min(unnoted.size(), kMostNames); ++i) lines.push_back(unnoted[i]);
-  if (unnoted.size() > kMostNames) lines.push_back("and " + counted(unnoted.size() - kMostNames, "more file"));
-  return lines;
-}
-
 }  // namespace itin::cli

@@ -25,7 +25,4 @@ MapBase map_base(const Store& store, const profile::MapSheet& sheet, Progress& p
 /// The relief in grey, faded where `studied` does not hold. `studied` is asked about positions on any thread.
 profile::SheetCells shaded(const viewshed::Relief& ground, const std::function<bool(Point2)>& studied);
 
-/// What the store was made of, each with its product, date and licence as far as the import tells.
-std::vector<std::string> source_lines(const StoreMetadata& metadata);
-
 }  // namespace itin::cli

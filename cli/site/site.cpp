@@ -10,6 +10,7 @@
 #include <itin/error.hpp>
 #include <itin/file_digest.hpp>
 #include <itin/output_file.hpp>
+#include <itin/sources_in.hpp>
 #include <itin/store.hpp>
 #include <viewshed/site_coverage.hpp>
 #include <viewshed/siting.hpp>
@@ -179,7 +180,10 @@ class SiteVerb final : public Verb {
     const auto profiles = write_site_profiles(store, site, options_.directory, policy_.overwrite, progress);
     for (const SiteProfile& profile : profiles)
       result.document["outputs"].push_back({{"path", profile.path}, {"what", "profile of the link " + profile.what}});
-    write_site_report(site, profiles, parameters(), inputs_document_, options_.directory, policy_.overwrite);
+    const std::vector<SourceInfo> sources = sources_in(store, site.rasters.grid.bounds(), options_.themes.choice());
+    result.document["sources"] = sources_document(sources);
+    write_site_report(site, profiles, parameters(), inputs_document_, described(sources, store.metadata()),
+                      options_.directory, policy_.overwrite);
     Document whole{{"itin", ITIN_VERSION}, {"command", {{"verb", name()}}}};
     whole["command"].update(parameters());
     whole.update(result.document);

@@ -206,7 +206,8 @@ std::string summary(const SiteResult& r) {
 }  // namespace
 
 void write_site_report(const SiteResult& r, const std::vector<SiteProfile>& profiles, const Document& parameters,
-                       const Document& inputs, const std::string& directory, bool overwrite) {
+                       const Document& inputs, const std::vector<std::string>& sources, const std::string& directory,
+                       bool overwrite) {
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Sites</title><style>{}</style></head>"
       "<body>\n<h1>{} chosen from {}</h1>\n",
@@ -221,6 +222,9 @@ void write_site_report(const SiteResult& r, const std::vector<SiteProfile>& prof
   html += drawings(profiles);
   html += "<h2>Redundancy</h2>\n" + map(directory, "redundancy.png", "map of how many sites serve a place");
   html += left_out(r);
+  html += "<h2>Sources of the ground</h2>\n<ul class=\"note\">\n";
+  for (const std::string& source : sources) html += "<li>" + escaped_markup(source) + "</li>\n";
+  html += "</ul>\n";
   html +=
       fmt::format("<h2>Parameters and inputs</h2>\n<p class=\"note\">{}. {}</p>\n<pre>{}</pre>\n<pre>{}</pre>\n",
                   escaped_markup(r.options.meaning_of_served()), escaped_markup(r.options.earth.earth().convention()),

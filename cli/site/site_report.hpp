@@ -19,8 +19,10 @@ std::uint64_t bytes_of_site_maps(const Store& store, const RasterGrid& grid);
 void write_site_maps(const Store& store, const SiteResult& result, const std::string& directory, bool overwrite,
                      Progress& progress, std::vector<std::string>& warnings);
 
-/// `parameters` and `inputs` are shown as they are; the maps and profiles are read from their files. Throws FileError.
+/// `sources` are those of the ground, sort by sort; `parameters` and `inputs` are shown as they are; the maps and
+/// profiles are read from their files. Throws FileError.
 void write_site_report(const SiteResult& result, const std::vector<SiteProfile>& profiles, const Document& parameters,
-                       const Document& inputs, const std::string& directory, bool overwrite);
+                       const Document& inputs, const std::vector<std::string>& sources, const std::string& directory,
+                       bool overwrite);
 
 }  // namespace itin::cli

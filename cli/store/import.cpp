@@ -83,6 +83,16 @@ class ImportVerb final : public Verb {
         "other imports say");
     app.add_flag("--replace", options_.replace,
                  "Take the place of coarser terrain within the sources' coverage, in whatever order they come");
+    app.add_option("--sea-level", sea_level_,
+                   "Rasters: fill ground that is missing within the box about the sources, voids included, with the "
+                   "level sea at this elevation on their datum. Any other ground takes its place, whenever it is "
+                   "imported")
+        ->type_name("METRES");
+    reads(app.add_option(
+                 "--sea-area", options_.sea_area,
+                 "Fill only within these polygons, well-known text or a vector file, and all of them, also beyond the "
+                 "sources (default: the box about the sources)")
+              ->type_name("WKT|FILE"));
     app.add_option("--source-note", options_.source_note,
                    "Product, date and licence of these sources, for the reports of lines over them (default: the "
                    "copyright that a GeoTIFF states)")
@@ -111,6 +121,7 @@ class ImportVerb final : public Verb {
     options_.repair = !no_repair_;
     if (!classes_.empty()) options_.classes = parse_wholes("--class", classes_, 0, 255);
     if (!band_.empty()) options_.band = parse_whole("--band", band_, 1, 65535);
+    if (!sea_level_.empty()) options_.sea_level = parse_number("--sea-level", sea_level_);
     if (!max_gap_.empty()) options_.max_gap = parse_number("--max-gap", max_gap_, Range::kPositive);
     if (!levels_.empty()) options_.tolerances = growing_levels();
     if (!resolution_.empty()) options_.resolution = parse_number("--resolution", resolution_, Range::kPositive);
@@ -140,6 +151,8 @@ class ImportVerb final : public Verb {
     given("where", options_.where);
     if (!options_.classes.empty()) parameters["classes"] = options_.classes;
     if (options_.max_gap > 0) parameters["max_gap_m"] = options_.max_gap;
+    if (options_.sea_level) parameters["sea_level_m"] = *options_.sea_level;
+    given("sea_area", options_.sea_area);
     parameters["replace"] = options_.replace;
     if (options_.kind == ThemeKind::Contours) parameters["repair"] = options_.repair;
     if (!options_.tolerances.empty()) parameters["tolerances_m"] = options_.tolerances;
@@ -196,6 +209,7 @@ class ImportVerb final : public Verb {
     document["flat_triangles"] = {{"before", report.flat_before}, {"after", report.flat_after}};
     document["inferred"] = report.inferred;
     document["vertices"] = report.vertices;
+    document["sea_vertices"] = report.sea;
     document["bytes"] = report.store_bytes;
     document["bytes_per_vertex"] = bytes_per_vertex(report);
     document["levels"] = levels_document(metadata);
@@ -216,6 +230,7 @@ class ImportVerb final : public Verb {
     mention(report.voids, "post", "without data");
     if (report.filtered > 0) text += fmt::format(", {} filtered out", grouped(report.filtered));
     if (report.duplicates > 0) text += fmt::format(", {} at places of others", counted(report.duplicates, "point"));
+    if (report.sea > 0) text += fmt::format(", {} of the sea", counted(report.sea, "vertex", "vertices"));
     mention(report.replaced, "coarser point", "replaced");
     mention(report.isolated, "isolated point", "left out");
     mention(report.refused, "feature", "that cannot stand");
@@ -246,7 +261,7 @@ class ImportVerb final : public Verb {
   std::string store_;
   std::string kind_ = "terrain";
   bool no_repair_ = false;
-  std::string classes_, band_, max_gap_, levels_, resolution_, memory_;
+  std::string classes_, band_, sea_level_, max_gap_, levels_, resolution_, memory_;
   std::string height_, base_, roof_, thickness_;
   ImportOptions options_;
 };

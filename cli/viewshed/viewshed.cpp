@@ -7,8 +7,10 @@
 
 #include <itin/coordinates.hpp>
 #include <itin/error.hpp>
+#include <itin/sources_in.hpp>
 #include <itin/store.hpp>
 #include <viewshed/documents.hpp>
+#include <viewshed/missing_ground.hpp>
 #include <viewshed/viewshed.hpp>
 
 #include "options/detail_options.hpp"
@@ -20,6 +22,7 @@
 #include "options/surface_options.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
+#include "program/field_names.hpp"
 #include "program/verb.hpp"
 #include "viewshed/feature_raster.hpp"
 #include "viewshed/horizon_output.hpp"
@@ -162,14 +165,19 @@ class ViewshedVerb final : public Verb {
     viewshed::ViewshedWithSurface computed = survey(store, request_, progress);
     if (!horizon_.paths().empty() && !computed.whole)
       throw InputError("--horizon takes the whole surface in memory: give more --memory or a smaller --radius");
+    const viewshed::MissingGround missing = viewshed::missing_ground(store, computed.result, progress);
+    const std::vector<SourceInfo> sources = sources_in(store, computed.result.grid.bounds(), request_.themes);
     const ViewshedOutputs::Context context{metadata.crs_wkt,
                                            surface_document(metadata, request_.detail, request_.themes),
                                            {{"mode", mode_name()},
                                             {"precise", precise_ ? "yes" : "no"},
                                             {"observer_on", request_.observers_on_surface ? "surface" : "ground"},
-                                            {"target_on", target_on_}}};
+                                            {"target_on", target_on_}},
+                                           missing,
+                                           described(sources, metadata)};
     Result result;
     result.warnings = computed.result.warnings;
+    if (const auto warning = missing.warning("the area in view")) result.warnings.push_back(in_options(*warning));
     warn_of_scale(metadata, result.warnings);
     outputs_.write(computed, context, result.warnings, progress);
     write_viewshed_sheet(store, computed.result, sheet_, outputs_.overwrite(), progress);
@@ -180,10 +188,12 @@ class ViewshedVerb final : public Verb {
     const Document features =
         features_.write(store, computed.result.grid, {detail, request_.themes}, outputs_.overwrite(), progress);
     result.document = viewshed::viewshed_document(metadata, computed.result);
+    viewshed::add_missing_ground(missing, result.document);
+    result.document["sources"] = sources_document(sources);
     result.document["outputs"] = outputs_.paths();
     if (!features.is_null()) result.document["features"] = features;
     if (!targets.empty()) result.document["horizon_targets"] = targets;
-    result.text = text(computed.result);
+    result.text = text(computed.result, missing);
     return result;
   }
 
@@ -306,7 +316,7 @@ class ViewshedVerb final : public Verb {
     if (!like_.empty()) request_.grid = raster_grid_like(like_, metadata.crs_wkt);
   }
 
-  std::string text(const viewshed::Result& result) const {
+  std::string text(const viewshed::Result& result, const viewshed::MissingGround& missing) const {
     const viewshed::CellCounts& cells = result.cells;
     const std::uint64_t decided = cells.visible + cells.hidden;
     const double share = decided == 0 ? 0 : 100.0 * static_cast<double>(cells.visible) / static_cast<double>(decided);
@@ -330,6 +340,7 @@ class ViewshedVerb final : public Verb {
         text += fmt::format("undecided: {}, across ground without data; --nodata block or clear decides them\n",
                             counted(cells.undecided, "cell"));
     }
+    if (missing.share() > 0) text += fmt::format("no ground data: {} of the area in view\n", missing.text());
     text += fmt::format("{}, {}; {}\n", counted(result.statistics.triangles, "triangle"),
                         counted(result.statistics.lines, "line"), earth_.earth().convention());
     return text;

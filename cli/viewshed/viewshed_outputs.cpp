@@ -84,12 +84,18 @@ void ViewshedOutputs::write(viewshed::ViewshedWithSurface& computed, const Conte
                             std::vector<std::string>& warnings, Progress& progress) const {
   std::optional<viewshed::MapImage> map;
   if (!image_.empty()) {
-    map = viewshed::draw_map(*computed.surface, computed.result, progress);
+    viewshed::MapOptions options;
+    options.sources = context.sources;
+    options.no_data = context.missing.cells;
+    options.outside = "Outside the field of view";
+    if (context.missing.share() > 0)
+      options.no_data_text += fmt::format(": {} of the area in view", context.missing.text());
+    map = viewshed::draw_map(*computed.surface, computed.result, progress, options);
     warnings.insert(warnings.end(), map->warnings.begin(), map->warnings.end());
   }
   for (const std::string& path : outputs_) {
     if (is_polygons(path)) {
-      viewshed::write_polygons(path, computed.result, context.crs_wkt, policy_.overwrite);
+      viewshed::write_polygons(path, computed.result, context.crs_wkt, policy_.overwrite, context.missing.cells);
     } else {
       write_raster(path, computed.result, context);
     }

@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include <itin/unfinished.hpp>
+#include <viewshed/missing_ground.hpp>
 #include <viewshed/viewshed.hpp>
 
 #include "output/new_folder.hpp"
@@ -31,6 +32,8 @@ class ViewshedOutputs {
     std::string crs_wkt;
     Document surface;
     std::vector<std::pair<std::string, std::string>> parameters;  ///< that a result does not tell
+    const viewshed::MissingGround& missing;
+    std::vector<std::string> sources;  ///< of the surface: sorts of them
   };
   void write(viewshed::ViewshedWithSurface& computed, const Context& context, std::vector<std::string>& warnings,
              Progress& progress) const;

@@ -7,6 +7,7 @@
 
 #include <itin/coordinates.hpp>
 #include <itin/output_file.hpp>
+#include <itin/sources_in.hpp>
 #include <viewshed/result_map.hpp>
 
 #include "output/map_base.hpp"
@@ -65,7 +66,7 @@ profile::TitleBlock title_block(const Store& store, const viewshed::Result& resu
                  {"Coordinates", crs_title(store.metadata().crs_wkt)}};
   if (request.radius)
     block.facts.insert(block.facts.begin() + 2, {"Radius", fmt::format("{:g} km", *request.radius / 1000)});
-  block.sources = source_lines(store.metadata());
+  block.sources = described(sources_in(store, result.grid.bounds(), request.themes), store.metadata());
   block.made_by = fmt::format("Drawn by itin {}", ITIN_VERSION);
   return block;
 }

@@ -11,7 +11,9 @@
 #include <itin/document.hpp>
 #include <itin/error.hpp>
 #include <itin/output_file.hpp>
+#include <itin/sources_in.hpp>
 #include <itin/store.hpp>
+#include <viewshed/missing_ground.hpp>
 #include <viewshed/turbines.hpp>
 #include <viewshed/zone_files.hpp>
 
@@ -25,6 +27,7 @@
 #include "output/output_folder.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
+#include "program/field_names.hpp"
 #include "program/values.hpp"
 #include "program/verb.hpp"
 #include "ztv/ztv_methods.hpp"
@@ -147,6 +150,7 @@ class ZtvVerb final : public Verb {
     Zone zone = viewshed::survey_turbines(store, request_, progress);
     for (const viewshed::Misplaced& m : zone.misplaced)
       list_.bad.push_back({m.number, list_.features[m.number - 1], m.message});
+    sources_ = sources_in(store, zone.grid.bounds(), request_.themes.value_or(ThemeChoice::none()));
     OutputFolder folder(output_, policy_);
     cli::Result result;
     result.document = document(zone, metadata);
@@ -210,6 +214,9 @@ class ZtvVerb final : public Verb {
     add_text("area-totals.csv",
              "km2 by band of turbines visible and by combination of farms, over the whole study area",
              viewshed::area_totals(zone));
+    if (viewshed::farms_of(zone).size() > 1)
+      add_text("farms.csv", "what the values of farms.tif stand for: combinations of farms, and km2 of each",
+               viewshed::combination_table(zone));
     add_text("turbines.csv", "the turbines row by row: heights and ground as used, and why a row is not used",
              turbine_table(zone));
     add_text("radius-preset.json", "the radii used, to edit and give by --radius-preset",
@@ -225,6 +232,7 @@ class ZtvVerb final : public Verb {
     ZtvSheetFacts facts;
     facts.viewpoints = seen_.places;
     if (request_.themes) facts.themes = request_.themes->names(metadata.themes);
+    facts.sources = sources_;
     return facts;
   }
 
@@ -259,6 +267,7 @@ class ZtvVerb final : public Verb {
                   request_.detail.coarsest(), of_surface["certified_error_m"][0].get<double>(),
                   of_surface["certified_error_m"][1].get<double>())
             : "Every point of the model is used.";
+    facts.sources = sources_;
     facts.wirelines = viewpoints_.draws_wirelines(), facts.sheets = sheets_.given();
     facts.radius = radius_.text();
     facts.further = radio_.methods(zone);
@@ -270,6 +279,7 @@ class ZtvVerb final : public Verb {
     Document document;
     document["crs"] = crs_identifier(metadata.crs_wkt);
     document["surface"] = surface(metadata);
+    document["sources"] = sources_document(sources_);
     document["refraction"] = earth_document(earth_.earth());
     document["grid"] = {{"bounds", box_document(zone.grid.bounds())},
                         {"columns", zone.grid.columns()},
@@ -278,6 +288,10 @@ class ZtvVerb final : public Verb {
     document["turbines"] = bad_rows_document(turbines_.path(), list_.rows, zone.request.turbines.size(), list_.bad);
     document["turbines"]["sha256"] = list_.sha256;
     document["farms"] = viewshed::farms_of(zone);
+    const viewshed::MissingGround missing = viewshed::missing_ground(zone);
+    document["study_area"] = {{"km2", missing.study_m2() / 1e6},
+                              {"without_data_km2", missing.missing_m2() / 1e6},
+                              {"share_without_data", missing.share()}};
     document["area_km2"]["bare"] = areas(zone, zone.bare);
     if (zone.screened) document["area_km2"]["screened"] = areas(zone, *zone.screened);
     document.update(radio_.document(zone));
@@ -314,6 +328,8 @@ class ZtvVerb final : public Verb {
 
   std::vector<std::string> warnings(const Zone& zone) const {
     std::vector<std::string> warnings = zone.warnings;
+    if (const auto warning = viewshed::missing_ground(zone).warning("the study area, all turbines' radii,"))
+      warnings.push_back(in_options(*warning));
     for (const BadRow& bad : list_.bad) warnings.push_back(bad_row_warning(turbines_.path(), bad));
     for (const std::string& warning : list_.warnings) warnings.push_back(turbines_.path() + ": " + warning);
     const auto of_radio = radio_.warnings(zone);
@@ -338,6 +354,8 @@ class ZtvVerb final : public Verb {
                                    zone.request.turbines.size(), counted(list_.rows, "turbine"), seen_from(bare),
                                    bare["studied"].get<double>());
     if (zone.screened) text += fmt::format("screened: a blade tip {}\n", seen_from(areas(zone, *zone.screened)));
+    if (const auto missing = viewshed::missing_ground(zone); missing.share() > 0)
+      text += fmt::format("no ground data: {} of the study area\n", missing.text());
     text += fmt::format("{}, {}; {}\n", counted(zone.statistics.triangles, "triangle"),
                         counted(zone.statistics.lines, "sight line"), request_.earth.convention());
     return text;
@@ -357,6 +375,7 @@ class ZtvVerb final : public Verb {
 
   TurbineList list_;
   viewshed::ZoneRequest request_;
+  std::vector<SourceInfo> sources_;  ///< of the surface
   ViewpointOptions::Written seen_;
 };
 

@@ -1,6 +1,7 @@
 #include "ztv/ztv_methods.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 #include <fmt/format.h>
@@ -8,9 +9,10 @@
 
 #include <itin/coordinates.hpp>
 #include <itin/height_axis.hpp>
+#include <itin/sources_in.hpp>
+#include <viewshed/missing_ground.hpp>
 #include <viewshed/zone_files.hpp>
 
-#include "output/map_base.hpp"
 #include "output/store_document.hpp"
 #include "ztv/ztv_turbines.hpp"
 
@@ -45,38 +47,38 @@ std::string turbines_in_words(const viewshed::Zone& zone, const ZtvMethods& fact
 }
 
 /// The sources of terrain, or of a theme, with their notes where they have any.
-std::string sources_in_words(const StoreMetadata& metadata, const std::string& theme) {
-  StoreMetadata only;
-  for (const SourceInfo& source : metadata.sources)
-    if (source.theme == theme) only.sources.push_back(source);
-  return fmt::format("{}", fmt::join(source_lines(only), "; "));
+std::string sources_in_words(const std::vector<SourceInfo>& sources, const StoreMetadata& metadata,
+                             const std::string& theme) {
+  std::vector<SourceInfo> of_theme;
+  std::copy_if(sources.begin(), sources.end(), std::back_inserter(of_theme),
+               [&](const SourceInfo& source) { return source.theme == theme; });
+  return fmt::format("{}", fmt::join(described(of_theme, metadata), "; "));
 }
 
 /// What heights count from, as the sources say.
-std::string datum_in_words(const StoreMetadata& metadata) {
+std::string datum_in_words(const std::vector<SourceInfo>& sources) {
   std::set<std::string> datums;
-  for (const SourceInfo& source : metadata.sources)
+  for (const SourceInfo& source : sources)
     if (source.theme.empty() && !source.source_crs.empty())
       if (const std::string datum = height_axis(source.source_crs).datum; !datum.empty()) datums.insert(datum);
   if (datums.empty())
     return "Heights are taken as metres above one vertical datum, which the sources do not name; Ordnance Datum Newlyn "
-           "is "
-           "assumed for data of the Ordnance Survey.";
+           "is assumed for data of the Ordnance Survey.";
   return fmt::format("Heights are metres above {}.", fmt::join(datums, " and "));
 }
 
 std::string terrain_in_words(const StoreMetadata& metadata, const ZtvMethods& facts) {
   double spacing = 0;
-  for (const SourceInfo& source : metadata.sources)
+  for (const SourceInfo& source : facts.sources)
     if (source.theme.empty()) spacing = std::max(spacing, source.spacing);
-  std::string text = fmt::format("The terrain model is made from: {}. Coordinates are in {}.",
-                                 sources_in_words(metadata, ""), crs_title(metadata.crs_wkt));
+  std::string text = fmt::format("The terrain model of the study area is made from: {}. Coordinates are in {}.",
+                                 sources_in_words(facts.sources, metadata, ""), crs_title(metadata.crs_wkt));
   if (spacing > 0) text += fmt::format(" Its points lie up to {:.3g} m apart.", spacing);
-  return text + " " + datum_in_words(metadata) + " " + facts.surface +
+  return text + " " + datum_in_words(facts.sources) + " " + facts.surface +
          " The points are joined by triangles, on which heights between them are read; nothing is resampled.";
 }
 
-std::string screening_in_words(const viewshed::Zone& zone, const StoreMetadata& metadata) {
+std::string screening_in_words(const viewshed::Zone& zone, const StoreMetadata& metadata, const ZtvMethods& facts) {
   if (!zone.screened)
     return "The results are for bare ground: the screening effect of buildings, walls and vegetation is not taken into "
            "account, so that what is shown as visible may be hidden by them.";
@@ -85,26 +87,37 @@ std::string screening_in_words(const viewshed::Zone& zone, const StoreMetadata& 
     const std::vector<std::string> names = zone.request.themes->names(metadata.themes);
     if (std::find(names.begin(), names.end(), theme.name) == names.end() || is_terrain(theme.kind)) continue;
     features += fmt::format("{}{} ({}, {}, from {})", features.empty() ? "" : "; ", theme.name, name_of(theme.kind),
-                            counted(theme.features, "feature"), sources_in_words(metadata, theme.name));
+                            counted(theme.features, "feature"), sources_in_words(facts.sources, metadata, theme.name));
   }
   return fmt::format(
       "The results are given for bare ground and, with `-screened` in their names, with the screening effect of these "
       "features: {}. Their heights are those of their sources. They are taken as solid in all seasons. The observer "
-      "stands on "
-      "the ground in both cases; an observer within a feature that is higher than the eye sees nothing.",
+      "stands on the ground in both cases; an observer within a feature that is higher than the eye sees nothing.",
       features);
 }
 
 constexpr const char* kWirelines =
     "Wirelines are drawn from the same terrain model, curvature and refraction. Along each line of sight nothing is "
-    "sampled; "
-    "lines of sight follow each other every 0.05 degrees or less. Rotors face the viewer.";
+    "sampled; lines of sight follow each other every 0.05 degrees or less. Rotors face the viewer.";
 constexpr const char* kSheets =
     " Wireline sheets have the fields of view, principal distances and paper sizes that are assumed for NatureScot's "
-    "Visual "
-    "Representation of Wind Farms, version 2.2: planar, 53.5 by 18.2 degrees at 812.5 mm, and cylindrical, 90 by 14.2 "
-    "degrees "
-    "at 522 mm, on paper of 841 by 297 mm.";
+    "Visual Representation of Wind Farms, version 2.2: planar, 53.5 by 18.2 degrees at 812.5 mm, and cylindrical, 90 "
+    "by "
+    "14.2 degrees at 522 mm, on paper of 841 by 297 mm.";
+
+std::string nodata_in_words(viewshed::NoData rule) {
+  return rule == viewshed::NoData::kBlock ? "is taken to block them" : "is taken as clear";
+}
+
+std::string missing_in_words(const viewshed::Zone& zone) {
+  const viewshed::MissingGround missing = viewshed::missing_ground(zone);
+  if (missing.share() == 0) return "The terrain data cover the whole study area: all places within the radii.";
+  return fmt::format(
+      "{} of the study area, {:.1f} km2 within the radii, has no terrain data. Nothing is known of places there; they "
+      "are no part of the areas and percentages given, which are of the area with data. Where sight lines cross ground "
+      "without data, it {}.",
+      missing.text(), missing.study_m2() / 1e6, nodata_in_words(zone.request.nodata));
+}
 
 }  // namespace
 
@@ -141,6 +154,7 @@ std::string methods_text(const viewshed::Zone& zone, const StoreMetadata& metada
                   request.observer_height, zone.grid.cell_width(), zone.grid.cell_height()));
   paragraph("Study area",
             facts.radius + " Distances are horizontal; beyond its own distance a turbine is not counted.");
+  paragraph("Ground without data", missing_in_words(zone));
   paragraph("Curvature and refraction", refraction_in_words(request.earth));
   paragraph(
       "Visibility",
@@ -153,7 +167,7 @@ std::string methods_text(const viewshed::Zone& zone, const StoreMetadata& metada
       "this "
       "point. Rotors are taken to face the observer. Haze, light and the acuity of the eye are not taken into "
       "account.");
-  paragraph("Screening", screening_in_words(zone, metadata));
+  paragraph("Screening", screening_in_words(zone, metadata, facts));
   if (facts.wirelines) paragraph("Wirelines", std::string(kWirelines) + (facts.sheets ? kSheets : ""));
   for (const std::string& further : facts.further) text += further + "\n\n";
   text += fmt::format("Computed with itin {}.\n", ITIN_VERSION);

@@ -12,7 +12,8 @@ namespace itin::cli {
 
 struct ZtvMethods {
   std::string turbines_file, turbines_sha256;
-  std::string surface;  ///< detail and certified error
+  std::string surface;              ///< detail and certified error
+  std::vector<SourceInfo> sources;  ///< of the terrain and of what screens, within the study area
   bool wirelines = false, sheets = false;
   std::string radius;  ///< sentence
   std::size_t rows = 0, bad = 0;

@@ -11,6 +11,8 @@
 #include <itin/coordinates.hpp>
 #include <itin/output_file.hpp>
 #include <itin/parallel.hpp>
+#include <itin/sources_in.hpp>
+#include <viewshed/missing_ground.hpp>
 #include <viewshed/zone_maps.hpp>
 
 #include "output/map_base.hpp"
@@ -206,17 +208,6 @@ std::string heights_in_words(const Zone& zone) {
   return fmt::format("{}, {} m to blade tip", zone.request.turbines.size(), tips);
 }
 
-/// The part of the study area without terrain, 0 to 1.
-double share_without_terrain(const Zone& zone, const viewshed::Relief& ground) {
-  std::uint64_t studied = 0, without = 0;
-  for (std::int64_t row = 0; row < ground.pixels.rows(); ++row)
-    for (std::int64_t column = 0; column < ground.pixels.columns(); ++column) {
-      if (beyond_study_area(zone, ground.pixels.centre(column, row)) > 0) continue;
-      ++studied, without += std::isnan(ground.heights_m[ground.pixels.index({column, row})]) ? 1U : 0U;
-    }
-  return static_cast<double>(without) / static_cast<double>(std::max<std::uint64_t>(1, studied));
-}
-
 std::string radii_in_words(const Zone& zone) {
   double least = std::numeric_limits<double>::infinity(), most = 0;
   for (const Turbine& t : zone.request.turbines) least = std::min(least, t.radius), most = std::max(most, t.radius);
@@ -226,22 +217,23 @@ std::string radii_in_words(const Zone& zone) {
 }
 
 profile::TitleBlock title_block(const Store& store, const Zone& zone, const ZoneMap& map, const SheetOptions& options,
-                                const ZtvSheetFacts& facts, double without_terrain) {
+                                const ZtvSheetFacts& facts) {
   const StoreMetadata& metadata = store.metadata();
   profile::TitleBlock block;
   block.project = options.project(), block.date = options.date();
   block.title = map.title + (map.screened ? ", screened" : "");
   block.statement = statement_of(map, facts);
-  block.facts = {{"Turbines", heights_in_words(zone)},
-                 {"Study area", radii_in_words(zone) + without_terrain_in_words(without_terrain)},
-                 {"Observer", fmt::format("eyes {:g} m above the ground at the centre of cells of {:g} m",
-                                          zone.request.observer_height, zone.grid.cell_width())},
-                 {"Earth", zone.request.earth.curvature
-                               ? "curvature and refraction are taken into account, " + zone.request.earth.convention()
-                               : "flat; curvature and refraction are not taken into account"},
-                 {"Terrain", terrain_in_words(metadata, zone.request.detail)},
-                 {"Coordinates", crs_title(metadata.crs_wkt)}};
-  block.sources = source_lines(metadata);
+  block.facts = {
+      {"Turbines", heights_in_words(zone)},
+      {"Study area", radii_in_words(zone) + without_terrain_in_words(viewshed::missing_ground(zone).share())},
+      {"Observer", fmt::format("eyes {:g} m above the ground at the centre of cells of {:g} m",
+                               zone.request.observer_height, zone.grid.cell_width())},
+      {"Earth", zone.request.earth.curvature
+                    ? "curvature and refraction are taken into account, " + zone.request.earth.convention()
+                    : "flat; curvature and refraction are not taken into account"},
+      {"Terrain", terrain_in_words(metadata, zone.request.detail)},
+      {"Coordinates", crs_title(metadata.crs_wkt)}};
+  block.sources = described(facts.sources, metadata);
   block.made_by = fmt::format("Drawn by itin {}", ITIN_VERSION);
   return block;
 }
@@ -260,7 +252,6 @@ std::vector<viewshed::ZoneFile> write_ztv_sheets(const std::string& folder, cons
     sheet.paper = paper, sheet.scale = options.scale(), sheet.area = study_area(zone);
     sheet.crs_wkt = store.metadata().crs_wkt;
     const MapBase base = map_base(store, sheet, progress);
-    const double without_terrain = share_without_terrain(zone, base.ground);
     const profile::SheetCells relief = shaded(base.ground, [&](Point2 p) { return beyond_study_area(zone, p) <= 0; });
     for (const ZoneMap& map : maps) {
       sheet.layers = {relief, classes_of(zone, map)};
@@ -270,7 +261,7 @@ std::vector<viewshed::ZoneFile> write_ztv_sheets(const std::string& folder, cons
       sheet.legend.push_back({SheetKey::Sample::kHeading, {}, "Map"});
       sheet.legend.insert(sheet.legend.end(), furniture.keys.begin(), furniture.keys.end());
       sheet.legend.insert(sheet.legend.end(), base.keys.begin(), base.keys.end());
-      sheet.title = title_block(store, zone, map, options, facts, without_terrain);
+      sheet.title = title_block(store, zone, map, options, facts);
       for (const char* ending : {".pdf", ".png"}) {
         const std::string name = fmt::format("sheet-{}-{}{}", map.name, profile::name_of(paper), ending);
         write_file(folder + "/" + name, profile::draw_map_sheet(sheet, name), true);

@@ -23,6 +23,7 @@ struct NamedPlace {
 struct ZtvSheetFacts {
   std::vector<NamedPlace> viewpoints;
   std::vector<std::string> themes;  ///< that screen
+  std::vector<SourceInfo> sources;  ///< within the study area
 };
 
 /// sheet-NAME-A3.pdf and .png of each map. Throws FileError, InputError (a scale that is too large), Cancelled.

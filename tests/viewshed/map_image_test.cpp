@@ -53,6 +53,27 @@ TEST(MapImage, DrawsCountsInSteps) {
   EXPECT_GT(blue_pixels(draw_map(s.tin, s.result, {.title = "Counts", .subtitle = "", .map_pixels = 400})), 1000U);
 }
 
+/// Cells without ground are striped, as nothing else is.
+TEST(MapImage, GroundWithoutDataLooksLikeNothingElse) {
+  const SurveyedHills s = survey(Mode::kVisible);
+  const auto striped = [&](const MapOptions& options) {
+    const MapImage image = draw_map(s.tin, s.result, options);
+    std::size_t pixels = 0;
+    for (std::size_t i = 0; i + 2 < image.rgb.size(); i += 3)
+      pixels += image.rgb[i] == 170 && image.rgb[i + 1] == 170 && image.rgb[i + 2] == 170 ? 1U : 0U;
+    return pixels;
+  };
+  MapOptions options;
+  options.map_pixels = 400;
+  const std::size_t before = striped(options);
+  options.no_data.assign(s.result.grid.cell_count(), 0);
+  EXPECT_EQ(striped(options), before);
+  std::fill_n(options.no_data.begin(), options.no_data.size() / 4, 1);
+  const std::size_t pixels = striped(options);  // a quarter of 160,000 pixels, and a key
+  EXPECT_GT(pixels, before + 5000);
+  EXPECT_LT(pixels, before + 20000);
+}
+
 TEST(MapImage, RefusesSizesOutOfRange) {
   const SurveyedHills s = survey(Mode::kVisible);
   EXPECT_THROW(draw_map(s.tin, s.result, {.title = "", .subtitle = "", .map_pixels = 199}), InputError);

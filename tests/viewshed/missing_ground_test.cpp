@@ -1,8 +1,10 @@
 // The one run that leaves lines across missing ground open, against the two in which these pass and are blocked.
 #include <cmath>
 #include <gmock/gmock.h>
+#include <numbers>
 #include <optional>
 #include <random>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -10,8 +12,12 @@
 
 #include <itin/error.hpp>
 #include <itin/import.hpp>
+#include <itin/triangulate.hpp>
+#include <viewshed/missing_ground.hpp>
 #include <viewshed/viewshed.hpp>
+#include <viewshed/zone_files.hpp>
 
+#include "bounds/pixel_heights.hpp"
 #include "compute/lattice_sectors.hpp"
 #include "support/full_detail.hpp"
 #include "support/raster_file.hpp"
@@ -182,6 +188,95 @@ TEST_F(VerdictsOverVoids, FeaturesChangeNothingOfThat) {
       EXPECT_EQ(parts.cells.undecided > 0, undecided);
     }
   }
+}
+
+/// Whether each cell lies in a field of view and has no ground, asked one by one.
+std::vector<std::uint8_t> without_ground(const Store& store, const Result& result) {
+  NoProgress progress;
+  std::vector<std::uint8_t> cells;
+  const std::vector<float> heights =
+      heights_at(triangulate(store, Window::all(), Detail::tolerance(0), progress), result.grid);
+  for (std::int64_t row = 0; row < result.grid.rows(); ++row)
+    for (std::int64_t column = 0; column < result.grid.columns(); ++column) {
+      const Point2 p = result.grid.centre(column, row);
+      bool in_view = false;
+      for (const Observer& o : result.request.observers) {
+        const double dx = p.x - o.position.x, dy = p.y - o.position.y;
+        const double azimuth = std::fmod(std::atan2(dx, dy) * 57.29577951308232 + 360, 360);
+        in_view = in_view || (std::hypot(dx, dy) <= o.radius.value_or(1e9) &&
+                              (!o.azimuth || (azimuth >= o.azimuth->from && azimuth <= o.azimuth->to)));
+      }
+      cells.push_back(in_view && std::isnan(heights[result.grid.index({column, row})]) ? 1 : 0);
+    }
+  return cells;
+}
+
+TEST_F(VerdictsOverVoids, CellsInViewWithoutGroundAreTold) {
+  const Store store(path());
+  Request request = look();
+  request.observers.front().azimuth = {200, 330};
+  request.observers.back().radius = 900;
+  for (const bool bounded : {false, true}) {
+    if (bounded) request.elevation = {-1.5, 0.5};
+    const Result result = test::compute_at_full_detail(store, request, {kMuch, true}, progress_).result;
+    const MissingGround missing = missing_ground(store, result, progress_);
+    EXPECT_EQ(missing.cells, without_ground(store, result));
+    EXPECT_GT(missing.without_ground, 0U);
+    EXPECT_LT(missing.without_ground, result.cells.outside);
+    EXPECT_EQ(missing.beyond, 0U);
+    EXPECT_FALSE(missing.warning("the area"));  // as far as there is ground
+  }
+}
+
+TEST_F(VerdictsOverVoids, AFieldOfViewMayReachBeyondTheData) {
+  const Store store(path());
+  Request request = look();
+  request.observers.erase(request.observers.begin() + 1, request.observers.end());
+  request.radius = 3000;
+  const Result result = test::compute_at_full_detail(store, request, {kMuch, true}, progress_).result;
+  const MissingGround missing = missing_ground(store, result, progress_);
+  const double disc = std::numbers::pi * 3000 * 3000;
+  EXPECT_NEAR(missing.missing_m2() + static_cast<double>(missing.with_ground) * 900, disc, 0.002 * disc);
+  EXPECT_GT(missing.beyond, 0U);
+  EXPECT_NEAR(missing.share(), 1 - static_cast<double>(missing.with_ground) * 900 / disc, 0.002);
+  EXPECT_THAT(missing.warning("the area").value(), testing::HasSubstr("`sea_level`"));
+  // Of very many cells beyond, with larger ones.
+  request.radius = 300000;
+  const Result far = test::compute_at_full_detail(store, request, {kMuch, true}, progress_).result;
+  const double all = std::numbers::pi * 3e5 * 3e5;
+  EXPECT_NEAR(missing_ground(store, far, progress_).missing_m2(), all, 0.001 * all);
+}
+
+TEST_F(VerdictsOverVoids, ZonesKnowWhatOfThemHasNoGround) {
+  const Store store(path());
+  ZoneRequest request;
+  request.cell_size = 50;
+  for (const auto& [x, y] : {std::pair{600, -600}, {2500, -1000}})
+    request.turbines.push_back({.number = request.turbines.size() + 1,
+                                .position = {kWest + x, kNorth + y},
+                                .tip_height = 100,
+                                .radius = 2000});
+  const Zone zone = survey_turbines(store, request, progress_);
+  const MissingGround missing = missing_ground(zone);
+  // Two discs 1,942 m apart.
+  const double d = std::hypot(1900, 400), r = 2000,
+               lens = 2 * r * r * std::acos(d / (2 * r)) - d / 2 * std::sqrt(4 * r * r - d * d),
+               area = 2 * std::numbers::pi * r * r - lens;
+  EXPECT_NEAR(missing.study_m2(), area, 0.003 * area);
+  EXPECT_GT(missing.without_ground, 100U);
+  EXPECT_GT(missing.beyond, 1000U);
+  // Rings and what of them has data make up the same.
+  std::istringstream table(area_table(zone));
+  std::string line;
+  std::getline(table, line);
+  double sum = 0;
+  while (std::getline(table, line)) {
+    std::vector<std::string> cells;
+    std::istringstream row(line);
+    for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+    if (cells[1] == "tip") sum += std::stod(cells[5]) / std::stod(cells[7]) * 100;
+  }
+  EXPECT_NEAR(sum * 1e6, missing.study_m2(), 0.002 * area);
 }
 
 }  // namespace

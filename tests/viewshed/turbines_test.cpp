@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <iostream>
 #include <random>
+#include <set>
 #include <sstream>
 
 #include <gdal_priv.h>
@@ -22,6 +23,7 @@
 #include "support/real_terrain.hpp"
 #include "support/seed.hpp"
 #include "support/terrain_tin.hpp"
+#include "turbines/farm_combinations.hpp"
 #include "turbines/turbine_view.hpp"
 #include "turbines/value_bands.hpp"
 
@@ -364,6 +366,48 @@ TEST(Bands, HoldEveryValueOnce) {
   EXPECT_EQ(band_of(limit_bands({10, 25}, "m"), 1000), 3U);
 }
 
+/// Of few farms the value is their bits, of many a number; it always has the name of those whose tips are seen.
+TEST(FarmCombinations, NameTheFarmsSeenHoweverMany) {
+  const Tin tin = test::fractal_tin(33, 50, 400, 0.5, 5);
+  for (const std::size_t farms : {3U, 9U, 40U}) {
+    ZoneRequest request;
+    request.cell_size = 50;
+    for (std::size_t n = 1; n <= farms + 5; ++n)
+      request.turbines.push_back(turbine(n, 30.0 * static_cast<double>(1 + n * 7 % 40),
+                                         30.0 * static_cast<double>(1 + n * 11 % 45), "F" + std::to_string(n % farms)));
+    const Zone zone = survey(tin, request);
+    const std::vector<std::string> names = farms_of(zone);
+    ASSERT_EQ(names.size(), farms);
+    const std::vector<std::uint32_t> values = farm_combinations(zone, zone.bare);
+    const std::vector<Combination> present = combinations_present(zone, {&values});
+    std::set<std::string> found;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      ASSERT_EQ(values[i] == kOutsideFarms, zone.bare.tip_count[i] == kCountOutside);
+      if (values[i] == kOutsideFarms) continue;
+      std::string expected;
+      for (const std::string& farm : names) {
+        bool seen = false;
+        for (const Turbine& t : zone.request.turbines) {
+          const TurbineBit bit = turbine_bit(t.number);
+          seen =
+              seen || (t.farm == farm && (zone.bare.turbines[bit.grid * zone.grid.cell_count() + i] & bit.mask) != 0);
+        }
+        if (seen) expected += (expected.empty() ? "" : " + ") + farm;
+      }
+      const auto combination =
+          std::find_if(present.begin(), present.end(), [&](const Combination& c) { return c.farms == values[i]; });
+      ASSERT_NE(combination, present.end());
+      EXPECT_EQ(combination->name, expected.empty() ? "none" : expected);
+      EXPECT_EQ(values[i] == 0, expected.empty());
+      found.insert(combination->name);
+    }
+    EXPECT_EQ(found.size(), present.size());
+    EXPECT_GT(found.size(), 2U);
+    const std::string table = combination_table(zone);
+    EXPECT_EQ(static_cast<std::size_t>(std::count(table.begin(), table.end(), '\n')), 1 + present.size());
+  }
+}
+
 TEST(Areas, SumUpToTheCellsWithAValue) {
   const Tin tin = test::fractal_tin(33, 50, 150, 0.5, 3);
   ZoneRequest request;
@@ -373,13 +417,15 @@ TEST(Areas, SumUpToTheCellsWithAValue) {
   std::istringstream table(area_table(zone));
   std::string line;
   std::getline(table, line);
-  EXPECT_EQ(line, "surface,seen,band,ring_from_km,ring_to_km,area_km2,share_of_ring_percent");
+  EXPECT_EQ(
+      line,
+      "surface,seen,band,ring_from_km,ring_to_km,area_km2,share_of_ring_with_data_percent,ring_with_data_percent");
   double hub = 0, tip = 0;
   while (std::getline(table, line)) {
     std::vector<std::string> cells;
     std::istringstream row(line);
     for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
-    ASSERT_EQ(cells.size(), 7U);
+    ASSERT_EQ(cells.size(), 8U);
     (cells[1] == "hub" ? hub : tip) += std::stod(cells[5]);
   }
   const auto cells = std::count_if(zone.bare.tip_count.begin(), zone.bare.tip_count.end(),

@@ -55,10 +55,15 @@ struct ImportOptions {
   std::string source_note;            ///< product, date and licence of the sources, for reports; default: the
                                       ///< copyright that a raster states
   bool repair = true;                 ///< import_lines() of contours: infer points where their triangles are flat
-  bool replace = false;               ///< these sources take the place of coarser ones within their coverage
-  std::vector<double> tolerances;     ///< metres; default: those of 0.5,1,2,4,8,16,32 that are no less than the
-                                      ///< resolution. An existing store keeps its own.
-  double resolution = 0.01;           ///< metres; an existing store keeps its own
+  /// Of rasters: ground that is missing within the box about them, voids included, is level ground at this elevation,
+  /// metres, on their datum: the sea. Any other ground takes its place, whenever it is imported. Nothing: it is
+  /// missing.
+  std::optional<double> sea_level;
+  std::string sea_area;            ///< polygons, as text or a file: only within them, and all of them
+  bool replace = false;            ///< these sources take the place of coarser ones within their coverage
+  std::vector<double> tolerances;  ///< metres; default: those of 0.5,1,2,4,8,16,32 that are no less than the
+                                   ///< resolution. An existing store keeps its own.
+  double resolution = 0.01;        ///< metres; an existing store keeps its own
 
   // Changes the speed only.
   std::uint64_t memory_bytes = std::uint64_t{4} << 30;
@@ -82,6 +87,7 @@ struct ImportReport {
   std::uint64_t flat_after = 0;     ///< those of flat_before that are left
   std::uint64_t inferred = 0;       ///< points of the store inferred from contours
   std::uint64_t vertices = 0;       ///< of the store now
+  std::uint64_t sea = 0;            ///< vertices of the sea among them
   std::uint64_t store_bytes = 0;
   double seconds = 0;
   std::vector<LevelInfo> levels;

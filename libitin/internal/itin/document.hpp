@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -29,6 +30,8 @@ Document error_interval(const CertifiedError& error);
 /// `surface`: tolerance, certified error and themes of the surface that a query at this detail sees. With rings the
 /// tolerance is the coarsest, the error covers all, and the rings are listed.
 Document surface_document(const StoreMetadata& metadata, const Detail& detail, const ThemeChoice& themes);
+/// `sources`: those that something was made of.
+Document sources_document(const std::vector<SourceInfo>& sources);
 /// `refraction`.
 Document earth_document(const Earth& earth);
 /// [xmin, ymin, xmax, ymax] with names.

@@ -8,21 +8,26 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/window_source.hpp>
 
 #include "gdal/source_path.hpp"
 #include "import/points/point_source.hpp"
 #include "import/rasters/raster_source.hpp"
+#include "import/rasters/sea_source.hpp"
 #include "import/source/source_context.hpp"
 #include "import/source/source_options.hpp"
 #include "import/source/terrain_source.hpp"
 #include "import/source/true_scale.hpp"
 #include "import/vectors/line_layer.hpp"
+#include "pyramid/pyramid.hpp"
 
 namespace itin {
 
 namespace {
 
 using SourceFiles = std::vector<std::unique_ptr<SourceFile>>;
+constexpr double kHighestSea = 10000;  // metres, above or below zero
+
 using OpenedFiles = std::vector<const OpenedFile*>;
 
 // Finer, and heights of 20 km would not fit; coarser, and the posts of detailed models would fall together.
@@ -159,6 +164,48 @@ Grid settle_grid(const ImportOptions& options, const StoreMetadata* existing, co
   return {{std::round(centre.x / step) * step + 0.0, std::round(centre.y / step) * step + 0.0}, options.resolution};
 }
 
+/// All that the files' posts are known to lie in, in the store's CRS.
+Box box_about(const OpenedFiles& files, const Crs& crs) {
+  Box box;
+  for (const OpenedFile* file : files) {
+    const PointTransform transform(file->crs().wkt, crs.wkt, file->path());
+    const Box extent = file->extent();
+    std::vector<Point2> places = places_in(extent);
+    for (const double x : {extent.xmin, extent.xmax})
+      for (const double y : {extent.ymin, extent.ymax}) places.push_back({x, y});
+    for (Point2& p : places) {
+      transform.transform(std::span(&p.x, 1), std::span(&p.y, 1));
+      if (std::isfinite(p.x) && std::isfinite(p.y)) box.extend(p);
+    }
+  }
+  return box;
+}
+
+/// A store has one sea: where two overlapped at different heights, neither would be level.
+void require_one_sea(double level, const StoreMetadata* existing) {
+  if (existing == nullptr) return;
+  for (const SourceInfo& source : existing->sources)
+    if (is_sea(source) && source.path != sea_name(level))
+      throw InputError(
+          fmt::format("`sea_level` {:g}: the store has the {} already; give the same, or import into a new "
+                      "store",
+                      level, source.path));
+}
+
+void fill_sea(const ImportOptions& options, const StoreMetadata* existing, const Box& box, const Crs& crs,
+              ImportPlan& plan) {
+  if (!options.sea_level) throw InputError("`sea_area`: give `sea_level` with it");
+  if (!std::isfinite(*options.sea_level) || std::abs(*options.sea_level) > kHighestSea)
+    throw InputError(
+        fmt::format("`sea_level` {0:g}: give metres between -{1:g} and {1:g}", *options.sea_level, kHighestSea));
+  require_one_sea(*options.sea_level, existing);
+  std::optional<Window> area;
+  if (!options.sea_area.empty()) area = window_from_polygon(options.sea_area, crs.wkt);
+  SeaFill sea(*options.sea_level, area, box, plan.grid);
+  for (std::unique_ptr<TerrainSource>& source : plan.sources) source = sea.watch(std::move(source));
+  plan.sources.push_back(std::move(sea).source());
+}
+
 }  // namespace
 
 ImportPlan::ImportPlan() = default;
@@ -191,7 +238,9 @@ ImportPlan plan_import(const ImportOptions& options, const StoreMetadata* existi
     std::vector<std::string> warnings = file->warnings();
     std::move(warnings.begin(), warnings.end(), std::back_inserter(plan.warnings));
   }
+  const Box box = options.sea_level ? box_about(opened, crs) : Box{};  // asked for before they are bound
   for (const auto& file : points) plan.sources.push_back(file->bind({plan.grid, plan.crs_wkt}));
+  if (options.sea_level || !options.sea_area.empty()) fill_sea(options, existing, box, crs, plan);
   return plan;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -25,7 +26,7 @@ namespace {
 SourceInfo recorded(SourceInfo source, const ImportOptions& options) {
   const std::filesystem::path path(source.path);
   source.path = (path.has_filename() ? path : path.parent_path()).filename().string();
-  if (!options.source_note.empty()) source.note = options.source_note;
+  if (!options.source_note.empty() && !is_sea(source)) source.note = options.source_note;
   return source;
 }
 
@@ -50,8 +51,12 @@ std::string directory_of(const std::string& path) {
 std::vector<SourceRank> ranks_for_sorting(const std::vector<SourceInfo>& sources) {
   const std::vector<std::uint32_t> order = ranks_of(sources);
   std::vector<SourceRank> ranks;
+  // Where the sea has a post and the ground, too, the ground's counts.
+  const auto spacing = [](const SourceInfo& s) {
+    return is_sea(s) ? std::numeric_limits<double>::infinity() : s.spacing;
+  };
   for (std::size_t s = 0; s < sources.size(); ++s)
-    ranks.push_back({sources[s].spacing, is_ground(sources[s]), !sources[s].theme.empty(), order[s]});
+    ranks.push_back({spacing(sources[s]), is_ground(sources[s]), !sources[s].theme.empty(), order[s]});
   return ranks;
 }
 
@@ -129,7 +134,7 @@ void StorePass::collect(Progress& progress) {
   for (const auto& source : additions_.plan.sources) {
     add_source(*source, call.step(1 / --left));
     sources_.push_back(recorded(source->info(), options_));
-    sources_.back().replaces = options_.replace;
+    sources_.back().replaces = options_.replace && !is_sea(sources_.back());
   }
   for (const auto& layer : additions_.plan.lines) {
     add_lines(*layer, call.step(1 / --left));
@@ -221,10 +226,11 @@ void StorePass::count(const PyramidReport& pyramid, const ThemeLines& lines) {
   report_.flat_before = pyramid.flat_before;
   report_.flat_after = pyramid.flat_after;
   if (repair_) report_.inferred = pyramid.vertices_of_source.back();
-  report_.vertices = 0;
+  report_.vertices = report_.sea = 0;
   for (std::size_t s = 0; s < sources_.size(); ++s) {
     sources_[s].vertices = pyramid.vertices_of_source[s];
     report_.vertices += sources_[s].vertices;
+    if (is_sea(sources_[s])) report_.sea += sources_[s].vertices;
   }
   require_ground(report_, options_);
 }

@@ -364,6 +364,10 @@ bool is_ground(const SourceInfo& source) {
   return source.theme.empty() ? source.kind != kInferred : source.kind == name_of(ThemeKind::Contours);
 }
 
+bool is_sea(const SourceInfo& source) {
+  return source.kind == kSea;
+}
+
 PyramidReport build_pyramid(const PyramidSources& of, StoreWriter& writer, Progress& progress) {
   return PyramidBuild(of, writer, progress).run();
 }

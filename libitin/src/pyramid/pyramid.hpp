@@ -16,6 +16,10 @@ namespace itin {
 /// The kind of a source of points that are inferred from contours. No file stands for it.
 inline constexpr const char* kInferred = "inferred";
 
+/// The kind of a source that fills missing ground with the sea. No file stands for it.
+inline constexpr const char* kSea = "sea";
+bool is_sea(const SourceInfo& source);
+
 /// Whether a source's points are ground by themselves: all but those of lines that add to it, and what is inferred in
 /// it.
 bool is_ground(const SourceInfo& source);

@@ -7,17 +7,25 @@
 #include <itin/parallel.hpp>
 
 #include "pyramid/grounded.hpp"
+#include "pyramid/pyramid.hpp"
 
 namespace itin {
 
 namespace {
+
+/// All ground takes the place of the sea, and nothing makes room for it.
+bool takes_place(const SourceInfo& source, const SourceInfo& of) {
+  if (is_sea(source)) return false;
+  if (is_sea(of)) return is_ground(source);
+  return source.replaces && source.spacing < of.spacing;
+}
 
 /// For each source, those that take its place. Empty sets are left out.
 std::map<std::uint16_t, Sources> replacing(const std::vector<SourceInfo>& sources) {
   std::map<std::uint16_t, Sources> result;
   for (std::size_t s = 0; s < sources.size(); ++s) {
     for (std::size_t r = 0; r < sources.size(); ++r) {
-      if (!sources[r].replaces || sources[r].spacing >= sources[s].spacing) continue;
+      if (!takes_place(sources[r], sources[s])) continue;
       result[static_cast<std::uint16_t>(s)].insert(static_cast<std::uint16_t>(r));
     }
   }

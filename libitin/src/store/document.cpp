@@ -45,4 +45,16 @@ Document box_document(const Box& box) {
   return {{"xmin", box.xmin}, {"ymin", box.ymin}, {"xmax", box.xmax}, {"ymax", box.ymax}};
 }
 
+Document sources_document(const std::vector<SourceInfo>& sources) {
+  Document list = Document::array();
+  for (const SourceInfo& source : sources) {
+    list.push_back({{"path", source.path},
+                    {"kind", source.kind},
+                    {"sha256", source.sha256},
+                    {"spacing_m", source.spacing},
+                    {"note", source.note.empty() ? Document(nullptr) : Document(source.note)}});
+  }
+  return list;
+}
+
 }  // namespace itin

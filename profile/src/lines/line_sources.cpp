@@ -1,41 +1,12 @@
 #include "lines/line_sources.hpp"
 
-#include <algorithm>
-#include <filesystem>
 #include <set>
-#include <utility>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <itin/progress.hpp>
 #include <itin/same_place.hpp>
-#include <itin/stated_heights.hpp>
 #include <itin/triangulate.hpp>
 
 namespace itin::profile {
-
-namespace {
-
-/// Names those of one sort in a line of text.
-constexpr std::size_t kMostNames = 8;
-
-/// All but the name of a source.
-std::string about(const SourceInfo& source, const StatedHeights& heights) {
-  std::string text = source.theme.empty() ? "" : fmt::format("{} in theme {}", source.kind, source.theme);
-  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
-  if (source.theme.empty() && source.spacing > 0) add(fmt::format("posts every {:.4g} m", source.spacing));
-  if (const auto axis = heights.of(source)) add(described(*axis));
-  if (!source.note.empty()) add(source.note);
-  return text;
-}
-
-std::string named(const SourceInfo& source) {
-  const std::string name = std::filesystem::path(source.path).filename().string();
-  return source.sha256.empty() ? name : fmt::format("{} (SHA-256 {})", name, source.sha256.substr(0, 12));
-}
-
-}  // namespace
 
 std::vector<SourceInfo> sources_under(const Store& store, const StoreLine& line) {
   const Grid& grid = store.metadata().grid;
@@ -48,24 +19,6 @@ std::vector<SourceInfo> sources_under(const Store& store, const StoreLine& line)
   for (const std::uint16_t number : std::set<std::uint16_t>(tin.sources.begin(), tin.sources.end()))
     sources.push_back(store.metadata().sources[number]);
   return sources;
-}
-
-std::vector<std::string> described(const std::vector<SourceInfo>& sources, const StoreMetadata& metadata) {
-  const StatedHeights heights(metadata);
-  std::vector<std::pair<std::vector<std::string>, std::string>> sorts;  // names, and what they have in common
-  for (const SourceInfo& source : sources) {
-    const std::string text = about(source, heights);
-    if (sorts.empty() || sorts.back().second != text) sorts.push_back({{}, text});
-    sorts.back().first.push_back(named(source));
-  }
-  std::vector<std::string> lines;
-  for (auto& [names, text] : sorts) {
-    const std::size_t more = names.size() - std::min(names.size(), kMostNames);
-    names.resize(names.size() - more);
-    const std::string rest = more > 0 ? fmt::format(" and {} more, which the JSON document lists", more) : "";
-    lines.push_back(fmt::format("{}{}{}{}", fmt::join(names, ", "), rest, text.empty() ? "" : ": ", text));
-  }
-  return lines;
 }
 
 }  // namespace itin::profile

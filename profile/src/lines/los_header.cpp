@@ -1,15 +1,19 @@
 #include "lines/los_header.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include <itin/coordinates.hpp>
 #include <itin/feature_at.hpp>
 #include <itin/geodesic.hpp>
+#include <itin/grid_reference.hpp>
 #include <itin/level_choice.hpp>
+#include <itin/sources_in.hpp>
 
 #include "lines/azimuth.hpp"
 #include "lines/line_sources.hpp"
@@ -77,12 +81,37 @@ std::string angle_text(double degrees) {
   return fmt::format("{:.3f}\xC2\xB0", degrees);
 }
 
-std::vector<std::string> lines_about(const LosEnd& end, const std::string& crs) {
+/// 51\xC2\xB032'37.3"N.
+std::string degrees_minutes_seconds(double degrees, char positive, char negative) {
+  const auto tenths = static_cast<std::int64_t>(std::llround(std::abs(degrees) * 36000));
+  return fmt::format("{}\xC2\xB0{:02}'{:02}.{}\"{}", tenths / 36000, tenths / 600 % 60, tenths / 10 % 60, tenths % 10,
+                     degrees < 0 ? negative : positive);
+}
+
+/// In the zone of the longitude; nothing where there is none, near the poles.
+std::optional<std::string> utm_reference(Point2 lon_lat) {
+  if (lon_lat.y < -80 || lon_lat.y > 84) return std::nullopt;
+  const int zone = std::clamp(static_cast<int>(std::floor((lon_lat.x + 180) / 6)) + 1, 1, 60);
+  const bool north = lon_lat.y >= 0;
+  const Point2 p = CoordinateTransform("EPSG:4326", fmt::format("EPSG:{}", (north ? 32600 : 32700) + zone))(lon_lat);
+  return fmt::format("UTM {}{} {:.0f} {:.0f}", zone, north ? "N" : "S", p.x, p.y);
+}
+
+/// A reference of the National Grid where the CRS is that, else of UTM.
+std::string grid_reference(const LosEnd::Site& site, const std::string& crs_wkt) {
+  const std::optional<std::string> reference =
+      is_national_grid(crs_wkt) ? national_grid_reference(site.position) : utm_reference(site.lon_lat);
+  return reference ? "; " + *reference : "";
+}
+
+std::vector<std::string> lines_about(const LosEnd& end, const std::string& crs, const std::string& crs_wkt) {
   const LosEnd::Site& site = *end.site;
   const std::string surface = end.on_surface ? fmt::format(", surface {:.2f} m", *end.surface_m) : "";
   return {fmt::format("{:.2f}, {:.2f} ({})", site.position.x, site.position.y, crs),
           fmt::format("{:.6f}\xC2\xB0 {}, {:.6f}\xC2\xB0 {} (WGS 84)", std::abs(site.lon_lat.y),
                       site.lon_lat.y < 0 ? "S" : "N", std::abs(site.lon_lat.x), site.lon_lat.x < 0 ? "W" : "E"),
+          degrees_minutes_seconds(site.lon_lat.y, 'N', 'S') + " " + degrees_minutes_seconds(site.lon_lat.x, 'E', 'W') +
+              grid_reference(site, crs_wkt),
           fmt::format("ground {:.2f} m{}, height {:.2f} m, elevation {:.2f} m", end.ground_m, surface, end.height_m,
                       end.elevation_m),
           fmt::format("azimuth {} grid, {} true; elevation angle {}", angle_text(site.azimuth_grid_deg),
@@ -100,8 +129,8 @@ void add_header(const Store& store, const StoreLine& line, LosReport& report) {
   report.sources = sources_under(store, line);
   report.facts = facts_about(store, line, report.sources);
   const std::string crs = crs_identifier(metadata.crs_wkt);
-  report.from_lines = lines_about(report.from, crs);
-  report.to_lines = lines_about(report.to, crs);
+  report.from_lines = lines_about(report.from, crs, metadata.crs_wkt);
+  report.to_lines = lines_about(report.to, crs, metadata.crs_wkt);
 }
 
 }  // namespace itin::profile

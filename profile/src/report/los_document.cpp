@@ -165,18 +165,6 @@ Document end_document(const LosEnd& end) {
           {"elevation_angle_deg", end.elevation_angle_deg}};
 }
 
-Document sources_document(const std::vector<SourceInfo>& sources) {
-  Document list = Document::array();
-  for (const SourceInfo& source : sources) {
-    list.push_back({{"path", source.path},
-                    {"kind", source.kind},
-                    {"sha256", source.sha256},
-                    {"spacing_m", source.spacing},
-                    {"note", source.note.empty() ? Document(nullptr) : Document(source.note)}});
-  }
-  return list;
-}
-
 }  // namespace
 
 Document los_document(const LosReport& report) {

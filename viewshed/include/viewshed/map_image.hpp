@@ -24,7 +24,10 @@ struct MapOptions {
   std::string seen = "Visible", unseen = "Hidden";  ///< in the legend, where cells are one of the two
   std::string observers = {};                       ///< what the legend calls them; empty: "Observers"
   std::string outside = "Outside the field of view, or no data";
-  int map_pixels = 1600;  ///< of the longer side of the map proper, 200 to 16000
+  std::vector<std::uint8_t> no_data = {};  ///< of the result's cells: 1 to stripe those without ground; or none
+  std::string no_data_text = "No ground data";
+  std::vector<std::string> sources = {};  ///< lines below the legend; more than six are counted
+  int map_pixels = 1600;                  ///< of the longer side of the map proper, 200 to 16000
 };
 
 /// 8-bit sRGB, row by row from the north-west.

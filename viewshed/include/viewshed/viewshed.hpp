@@ -21,6 +21,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -286,7 +287,9 @@ struct GeotiffOptions {
 void write_geotiff(const std::string& path, const Result& result, const GeotiffOptions& options);
 
 /// Writes what is seen as polygons to a GeoPackage, one per class as write_regions() does: visible and hidden; the
-/// undecided; a class for every count, nearest observer or theme that hides. Throws FileError.
-void write_polygons(const std::string& path, const Result& result, const std::string& crs_wkt, bool overwrite);
+/// undecided; a class for every count, nearest observer or theme that hides; and the cells where `no_data`, if it is
+/// given, is 1. Throws FileError.
+void write_polygons(const std::string& path, const Result& result, const std::string& crs_wkt, bool overwrite,
+                    std::span<const std::uint8_t> no_data = {});
 
 }  // namespace itin::viewshed

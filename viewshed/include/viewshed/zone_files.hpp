@@ -55,9 +55,12 @@ std::vector<ZoneFile> write_link_raster(const std::string& folder, const Zone& z
 std::vector<ZoneFile> write_zone_polygons(const std::string& folder, const Zone& zone, const ZoneFileOptions& options);
 
 /// km2 by band of counts and by ring of distance to the nearest turbine, as CSV. Every cell with a value is in one band
-/// and one ring.
+/// and one ring; shares are of the ring's part with data, whose share of the ring is the last column.
 std::string area_table(const Zone& zone);
 /// km2 over all rings by band of counts and by combination of farms, as CSV, with rows of any turbine seen and of all.
 std::string area_totals(const Zone& zone);
+
+/// What the values of farms.tif stand for and km2 of each, the largest first, as CSV.
+std::string combination_table(const Zone& zone);
 
 }  // namespace itin::viewshed

@@ -3,6 +3,7 @@
 
 #include <itin/document.hpp>
 #include <viewshed/horizon.hpp>
+#include <viewshed/missing_ground.hpp>
 #include <viewshed/viewshed.hpp>
 
 namespace itin::viewshed {
@@ -12,6 +13,10 @@ double decided_percent(const CellCounts& cells);
 
 /// `crs`, `surface`, `refraction`, `grid`, `cells`, `area_m2`, of a certified one `decided_percent`, and `statistics`.
 Document viewshed_document(const StoreMetadata& metadata, const Result& result);
+
+/// Adds to such a document how much of the area in view has no ground: `no_data` among `cells` and `area_m2`,
+/// `beyond_the_data`, and `share_without_data`.
+void add_missing_ground(const MissingGround& missing, Document& document);
 
 /// The horizon's targets.
 Document targets_document(const Horizon& horizon);

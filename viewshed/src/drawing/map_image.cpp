@@ -23,6 +23,7 @@ constexpr Colour kInk{30, 30, 30};
 constexpr Colour kFaint{95, 95, 95};
 constexpr Colour kMapPaper{255, 255, 255};
 constexpr Colour kVoid{244, 244, 244};
+constexpr Colour kVoidStripe{170, 170, 170};
 
 constexpr std::uint8_t kLevelGrey = 214;  ///< of level ground
 
@@ -62,10 +63,15 @@ class MapDrawing {
         width_(static_cast<int>(pixels_.columns())),
         height_(static_cast<int>(pixels_.rows())),
         unit_(std::max(10, static_cast<int>(std::lround(std::max(width_, height_) / 80.0)))),
-        canvas_(std::max(width_, 40 * unit_) + 4 * unit_, height_ + 14 * unit_, kMapPaper),
+        overlay_(result, options),
+        has_void_(std::find(options.no_data.begin(), options.no_data.end(), 1) != options.no_data.end()),
+        has_outside_(shows_outside()),
+        canvas_(std::max(width_, 40 * unit_) + 4 * unit_,
+                height_ + 14 * unit_ + further_rows() * key_height() +
+                    static_cast<int>(source_lines().size()) * source_height(),
+                kMapPaper),
         left_((canvas_.width() - width_) / 2),
-        top_(6 * unit_),
-        overlay_(result, options) {}
+        top_(6 * unit_) {}
 
   MapImage draw() {
     draw_ground();
@@ -92,6 +98,41 @@ class MapDrawing {
             box.height() / static_cast<double>(rows),
             columns,
             rows};
+  }
+
+  std::optional<std::size_t> cell_of(std::int64_t column, std::int64_t row) const {
+    const auto cell = result_.grid.cell_at(pixels_.centre(column, row));
+    return cell ? std::optional(result_.grid.index(*cell)) : std::nullopt;
+  }
+  bool lacks_ground(std::optional<std::size_t> cell) const {
+    return cell && *cell < options_.no_data.size() && options_.no_data[*cell] == 1;
+  }
+  /// In the middle of some pixel.
+  bool shows_outside() const {
+    for (std::int64_t y = 0; y < pixels_.rows(); ++y)
+      for (std::int64_t x = 0; x < pixels_.columns(); ++x)
+        if (const auto cell = cell_of(x, y); !lacks_ground(cell) && !(cell && overlay_.at(*cell))) return true;
+    return false;
+  }
+
+  int key_height() const { return 7 * unit_ / 4; }
+
+  /// Lines about sources, and one that counts the rest.
+  std::vector<std::string> source_lines() const {
+    constexpr std::size_t kMost = 6;
+    std::vector<std::string> lines = options_.sources;
+    if (lines.size() > kMost) {
+      lines.resize(kMost - 1);
+      lines.push_back(fmt::format("and {} more sorts of sources", options_.sources.size() - lines.size()));
+    }
+    if (!lines.empty()) lines.front() = "Ground: " + lines.front();
+    return lines;
+  }
+  int source_height() const { return 5 * unit_ / 4; }
+
+  /// Rows of the legend beyond the three that there is always room for.
+  int further_rows() const {
+    return std::max(0, static_cast<int>(overlay_.keys().size()) + (has_outside_ ? 1 : 0) + (has_void_ ? 1 : 0) - 3);
   }
 
   /// The mean of what a pixel's samples show.
@@ -136,7 +177,11 @@ class MapDrawing {
       for (int x = 0; x < width_; ++x) {
         const float shade = shades_[pixels_.index({x, y})];
         const int px = left_ + x, py = top_ + y;
-        if (std::isnan(shade)) {
+        if (lacks_ground(cell_of(x, y))) {
+          draw_void(px, py);
+          continue;
+        }
+        if (std::isnan(shade)) {  // beyond what was looked at, and so what was read
           canvas_.blend(px, py, kVoid, 1);
           continue;
         }
@@ -148,6 +193,11 @@ class MapDrawing {
         canvas_.blend(px, py, shown.colour(), shown.opacity);
       }
     }
+  }
+
+  /// Striped, unlike all that is known.
+  void draw_void(int x, int y) {
+    canvas_.blend(x, y, (x + y) % unit_ < std::max(2, unit_ / 4) ? kVoidStripe : kVoid, 1);
   }
 
   Point2 place_of(Point2 p) const { return {left_ + pixels_.column_at(p.x), top_ + pixels_.row_at(p.y)}; }
@@ -231,7 +281,7 @@ class MapDrawing {
 
   /// A patch of the map's colours over level ground, and what it means.
   void draw_key(int row, const std::vector<Tint>& tints, double fade, const std::string& text) {
-    const int x = left_, y = top_ + height_ + unit_ + row * 7 * unit_ / 4;
+    const int x = left_, y = top_ + height_ + unit_ + row * key_height();
     const int width = 2 * unit_, height = 5 * unit_ / 4, bands = static_cast<int>(tints.size());
     canvas_.fill_rectangle(x, y, width, height, {kLevelGrey, kLevelGrey, kLevelGrey});
     canvas_.fill_rectangle(x, y, width, height, kMapPaper, fade);
@@ -244,6 +294,15 @@ class MapDrawing {
     letters_.draw(canvas_, text, {x + 2.6 * unit_, y + 1.05 * unit_}, unit_, kInk);
   }
 
+  void draw_void_key(int row) {
+    const int x = left_, y = top_ + height_ + unit_ + row * key_height();
+    const int width = 2 * unit_, height = 5 * unit_ / 4;
+    for (int i = 0; i < width; ++i)
+      for (int j = 0; j < height; ++j) draw_void(x + i, y + j);
+    canvas_.frame(x, y, width, height, kFaint);
+    letters_.draw(canvas_, options_.no_data_text, {x + 2.6 * unit_, y + 1.05 * unit_}, unit_, kInk);
+  }
+
   std::string share_text(const std::string& what, std::uint64_t cells) const {
     const std::uint64_t decided =
         std::max<std::uint64_t>(1, result_.cells.visible + result_.cells.hidden + result_.cells.undecided);
@@ -254,8 +313,9 @@ class MapDrawing {
   void draw_legend() {
     int row = 0;
     for (const MapOverlay::Key& key : overlay_.keys()) draw_key(row++, key.tints, 0, share_text(key.text, key.cells));
-    if (row < 3 && result_.cells.outside > 0) draw_key(row, {}, kOutsideFade, options_.outside);
-    const double y = top_ + height_ + 6.9 * unit_;
+    if (has_outside_) draw_key(row++, {}, kOutsideFade, options_.outside);
+    if (has_void_) draw_void_key(row);
+    const double y = top_ + height_ + 6.9 * unit_ + further_rows() * key_height();
     draw_mark({left_ + 1.0 * unit_, y});
     const char* observers = result_.request.observers.size() == 1 ? "Observer" : "Observers";
     letters_.draw(canvas_, options_.observers.empty() ? observers : options_.observers,
@@ -263,6 +323,12 @@ class MapDrawing {
     const std::string earth = result_.request.earth.convention();
     letters_.draw(canvas_, earth, {static_cast<double>(left_ + width_), y + 0.4 * unit_},
                   fitting_size(earth, width_ / 2, unit_ * 9 / 10), kFaint, Align::kRight);
+    double below = y + 2.0 * unit_;
+    for (const std::string& line : source_lines()) {
+      letters_.draw(canvas_, line, {static_cast<double>(left_), below},
+                    fitting_size(line, canvas_.width() - 2 * left_, unit_ * 9 / 10), kFaint);
+      below += source_height();
+    }
     if (!overlay_.scale().empty()) draw_scale();
   }
 
@@ -287,9 +353,10 @@ class MapDrawing {
   std::vector<float> shades_;  ///< of the ground, per pixel
   int width_, height_;         ///< of the map proper, pixels
   int unit_;                   ///< everything else is measured in this, pixels
+  MapOverlay overlay_;
+  bool has_void_, has_outside_;  ///< the map shows places in view without ground, or outside the field of view
   Canvas canvas_;
   int left_, top_;  ///< of the map proper on the canvas
-  MapOverlay overlay_;
   Lettering letters_;
 };
 

@@ -67,6 +67,13 @@ Document viewshed_document(const StoreMetadata& metadata, const Result& result) 
   return document;
 }
 
+void add_missing_ground(const MissingGround& missing, Document& document) {
+  document["cells"]["no_data"] = missing.without_ground;
+  document["area_m2"]["no_data"] = static_cast<double>(missing.without_ground) * missing.cell_area;
+  document["area_m2"]["beyond_the_data"] = static_cast<double>(missing.beyond) * missing.cell_area;
+  document["share_without_data"] = missing.share();
+}
+
 Document targets_document(const Horizon& horizon) {
   Document targets = Document::array();
   for (const SightedTarget& t : horizon.targets)

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <limits>
 #include <set>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -57,15 +59,23 @@ RegionClasses classes_of_blockers(const Result& result) {
 
 }  // namespace
 
-void write_polygons(const std::string& path, const Result& result, const std::string& crs_wkt, bool overwrite) {
+void write_polygons(const std::string& path, const Result& result, const std::string& crs_wkt, bool overwrite,
+                    std::span<const std::uint8_t> no_data) {
   RegionDescription description{crs_wkt, "viewshed", {}, overwrite};
-  const auto write = [&](const auto& values, RegionClasses classes) {
+  const auto write = [&](const auto& codes, RegionClasses classes) {
+    using Code = std::remove_cv_t<typename decltype(std::span(codes))::element_type>;
+    // No class has this value: the greatest few are taken.
+    constexpr Code kNoData = std::numeric_limits<Code>::max() - 3;
+    std::vector<Code> values(codes.begin(), codes.end());
+    for (std::size_t i = 0; i < no_data.size(); ++i)
+      if (no_data[i] == 1) values[i] = kNoData;
     description.classes = std::move(classes);
     for (std::size_t i = 0; i < description.classes.size() && description.classes.size() > 1; ++i) {
       RegionClass& c = description.classes[i];
       set_distinct_colour(i, c.red, c.green, c.blue);
     }
-    write_regions(path, result.grid, std::span(values), description);
+    if (!no_data.empty()) description.classes.push_back({kNoData, "no ground data", 160, 160, 160});
+    write_regions(path, result.grid, std::span<const Code>(values), description);
   };
   switch (result.request.mode) {
     case Mode::kCount:

@@ -1,14 +1,18 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
 
 #include <fmt/format.h>
 
 #include <itin/parallel.hpp>
+#include <viewshed/missing_ground.hpp>
 #include <viewshed/zone_files.hpp>
 
+#include "request/cells_in_view.hpp"
 #include "turbines/value_bands.hpp"
+#include "turbines/zone_request.hpp"
 
 namespace itin::viewshed {
 
@@ -26,59 +30,94 @@ std::vector<double> ring_limits(const Zone& zone) {
   return limits;
 }
 
-/// Each cell has the ring about its nearest turbine; kNoRing where the cell has no value.
+/// The rings about the turbines: each place is in that of its nearest one.
+class Rings {
+ public:
+  explicit Rings(const Zone& zone) : turbines_(zone.request.turbines), limits_(ring_limits(zone)) {}
+
+  std::size_t size() const { return limits_.size(); }
+  double from(std::size_t ring) const { return ring == 0 ? 0 : limits_[ring - 1]; }
+  double to(std::size_t ring) const { return limits_[ring]; }
+  std::size_t of(Point2 p) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Turbine& t : turbines_) {
+      const double dx = t.position.x - p.x, dy = t.position.y - p.y;
+      nearest = std::min(nearest, dx * dx + dy * dy);
+    }
+    const auto ring = std::lower_bound(limits_.begin(), limits_.end(), std::sqrt(nearest) / 1000);
+    return static_cast<std::size_t>(std::min<std::ptrdiff_t>(ring - limits_.begin(), std::ssize(limits_) - 1));
+  }
+
+ private:
+  const std::vector<Turbine>& turbines_;
+  std::vector<double> limits_;
+};
+
+/// The ring of each cell that `asked` holds for; kNoRing for others.
 constexpr std::uint8_t kNoRing = 255;
-std::vector<std::uint8_t> rings_of_cells(const Zone& zone, const std::vector<double>& limits) {
-  std::vector<std::uint8_t> rings(zone.grid.cell_count(), kNoRing);
-  const std::vector<std::uint16_t>& counts = zone.bare.tip_count;
-  parallel_for(static_cast<std::size_t>(zone.grid.rows()), [&](std::size_t row) {
-    for (std::int64_t column = 0; column < zone.grid.columns(); ++column) {
+std::vector<std::uint8_t> rings_of_cells(const Rings& rings, const RasterGrid& grid,
+                                         const std::function<bool(std::size_t)>& asked) {
+  std::vector<std::uint8_t> found(grid.cell_count(), kNoRing);
+  parallel_for(static_cast<std::size_t>(grid.rows()), [&](std::size_t row) {
+    for (std::int64_t column = 0; column < grid.columns(); ++column) {
       const auto r = static_cast<std::int64_t>(row);
-      const std::size_t i = zone.grid.index({column, r});
-      if (counts[i] == kCountOutside) continue;
-      const Point2 p = zone.grid.centre(column, r);
-      double nearest = std::numeric_limits<double>::infinity();
-      for (const Turbine& t : zone.request.turbines) {
-        const double dx = t.position.x - p.x, dy = t.position.y - p.y;
-        nearest = std::min(nearest, dx * dx + dy * dy);
-      }
-      const double km = std::sqrt(nearest) / 1000;
-      const auto ring = std::lower_bound(limits.begin(), limits.end(), km);
-      rings[i] = static_cast<std::uint8_t>(std::min<std::ptrdiff_t>(ring - limits.begin(), std::ssize(limits) - 1));
+      const std::size_t i = grid.index({column, r});
+      if (asked(i)) found[i] = static_cast<std::uint8_t>(rings.of(grid.centre(column, r)));
     }
   });
-  return rings;
+  return found;
+}
+
+/// How many cells of each ring have no ground, on the raster and beyond it.
+std::vector<double> cells_without_ground(const Zone& zone, const Rings& rings) {
+  std::vector<double> counts(rings.size());
+  const auto add = [&](const RasterGrid& grid, const std::vector<std::uint8_t>& cells, double each) {
+    for (const std::uint8_t ring : rings_of_cells(rings, grid, [&](std::size_t i) { return cells[i] == 1; }))
+      if (ring != kNoRing) counts[ring] += each;
+  };
+  add(zone.grid, missing_ground(zone).cells, 1);
+  const CellsBeyond beyond = cells_beyond(view_of(zone.request), zone.grid);
+  if (!beyond.cells.empty()) add(beyond.grid, beyond.cells, beyond.each);
+  return counts;
 }
 
 class AreaTable {
  public:
   explicit AreaTable(const Zone& zone)
-      : zone_(zone), limits_(ring_limits(zone)), rings_(rings_of_cells(zone, limits_)) {
-    text_ = "surface,seen,band,ring_from_km,ring_to_km,area_km2,share_of_ring_percent\n";
+      : zone_(zone),
+        rings_(zone),
+        ring_of_(
+            rings_of_cells(rings_, zone.grid, [&](std::size_t i) { return zone.bare.tip_count[i] != kCountOutside; })),
+        without_ground_(cells_without_ground(zone, rings_)) {
+    text_ =
+        "surface,seen,band,ring_from_km,ring_to_km,area_km2,share_of_ring_with_data_percent,"
+        "ring_with_data_percent\n";
   }
 
   void add(const char* surface, const char* seen, const std::vector<std::uint16_t>& counts) {
     const auto bands = count_bands(zone_.request.turbines.size(), zone_.request.count_bands);
-    std::vector<std::vector<std::uint64_t>> cells(limits_.size(), std::vector<std::uint64_t>(bands.size()));
+    std::vector<std::vector<std::uint64_t>> cells(rings_.size(), std::vector<std::uint64_t>(bands.size()));
     for (std::size_t i = 0; i < counts.size(); ++i)
-      if (rings_[i] != kNoRing && counts[i] != kCountOutside) ++cells[rings_[i]][band_of(bands, counts[i])];
-    for (std::size_t r = 0; r < limits_.size(); ++r) {
+      if (ring_of_[i] != kNoRing && counts[i] != kCountOutside) ++cells[ring_of_[i]][band_of(bands, counts[i])];
+    for (std::size_t r = 0; r < rings_.size(); ++r) {
       std::uint64_t all = 0;
       for (const std::uint64_t n : cells[r]) all += n;
       if (all == 0) continue;
+      const auto with_data = static_cast<double>(all);
       for (std::size_t b = 0; b < bands.size(); ++b)
-        fmt::format_to(std::back_inserter(text_), "{},{},{},{:g},{:g},{:.6f},{:.3f}\n", surface, seen, bands[b].label,
-                       r == 0 ? 0 : limits_[r - 1], limits_[r],
-                       static_cast<double>(cells[r][b]) * zone_.grid.cell_area() / 1e6,
-                       100.0 * static_cast<double>(cells[r][b]) / static_cast<double>(all));
+        fmt::format_to(
+            std::back_inserter(text_), "{},{},{},{:g},{:g},{:.6f},{:.3f},{:.3f}\n", surface, seen, bands[b].label,
+            rings_.from(r), rings_.to(r), static_cast<double>(cells[r][b]) * zone_.grid.cell_area() / 1e6,
+            100.0 * static_cast<double>(cells[r][b]) / with_data, 100.0 * with_data / (with_data + without_ground_[r]));
     }
   }
   std::string text() && { return std::move(text_); }
 
  private:
   const Zone& zone_;
-  std::vector<double> limits_;
-  std::vector<std::uint8_t> rings_;
+  Rings rings_;
+  std::vector<std::uint8_t> ring_of_;   ///< each cell with ground
+  std::vector<double> without_ground_;  ///< cells of each ring
   std::string text_;
 };
 
@@ -87,7 +126,7 @@ class AreaTable {
 std::string area_table(const Zone& zone) {
   AreaTable table(zone);
   const auto add = [&](const char* surface, const Visibility& v) {
-    table.add(surface, "hub", v.hub_count);
+    if (knows_hubs(zone)) table.add(surface, "hub", v.hub_count);
     table.add(surface, "tip", v.tip_count);
   };
   add("bare", zone.bare);

@@ -1,12 +1,83 @@
 #include "turbines/farm_combinations.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <utility>
 
+#include <fmt/format.h>
+
+#include <itin/csv_cell.hpp>
 #include <itin/parallel.hpp>
 #include <viewshed/zone_files.hpp>
 
 namespace itin::viewshed {
+
+namespace {
+
+/// Farms by their bits in 32-bit words.
+using FarmSet = std::vector<std::uint32_t>;
+
+/// Tells which farms are seen from a cell.
+class FarmSets {
+ public:
+  explicit FarmSets(const Zone& zone) : zone_(zone), names_(farms_of(zone)), words_((names_.size() + 31) / 32) {
+    // Each farm has the words of its turbines' bits.
+    masks_.assign(names_.size(), std::vector<std::uint32_t>(zone.words));
+    for (const Turbine& t : zone.request.turbines) {
+      const auto farm = static_cast<std::size_t>(std::find(names_.begin(), names_.end(), t.farm) - names_.begin());
+      const TurbineBit bit = turbine_bit(t.number);
+      masks_[farm][bit.grid] |= bit.mask;
+    }
+  }
+
+  const std::vector<std::string>& names() const { return names_; }
+  FarmSet of(const Visibility& visibility, std::size_t cell) const {
+    FarmSet farms(words_);
+    for (std::size_t w = 0; w < zone_.words; ++w) {
+      const std::uint32_t seen = visibility.turbines[w * zone_.grid.cell_count() + cell];
+      for (std::size_t f = 0; seen != 0 && f < names_.size(); ++f)
+        if ((seen & masks_[f][w]) != 0) farms[f / 32] |= std::uint32_t{1} << f % 32;
+    }
+    return farms;
+  }
+  std::string name(const FarmSet& farms) const {
+    std::string name;
+    for (std::size_t f = 0; f < names_.size(); ++f) {
+      if ((farms[f / 32] >> f % 32 & 1) == 0) continue;
+      if (!name.empty()) name += " + ";
+      name += names_[f].empty() ? "(no farm)" : names_[f];
+    }
+    return name.empty() ? "none" : name;
+  }
+
+ private:
+  const Zone& zone_;
+  std::vector<std::string> names_;
+  std::size_t words_;
+  std::vector<std::vector<std::uint32_t>> masks_;
+};
+
+bool has_value(const Visibility& visibility, std::size_t cell) {
+  return visibility.tip_count[cell] != kCountOutside;
+}
+
+/// Those of the whole zone, bare or screened, in an order of their own: none is the first.
+std::vector<FarmSet> sets_present(const Zone& zone, const FarmSets& sets) {
+  std::set<FarmSet> present{FarmSet((sets.names().size() + 31) / 32)};
+  const auto add = [&](const Visibility& visibility) {
+    FarmSet last;  // neighbours mostly see the same farms
+    for (std::size_t cell = 0; cell < visibility.tip_count.size(); ++cell) {
+      if (!has_value(visibility, cell)) continue;
+      if (FarmSet farms = sets.of(visibility, cell); farms != last) present.insert(last = std::move(farms));
+    }
+  };
+  add(zone.bare);
+  if (zone.screened) add(*zone.screened);
+  return {present.begin(), present.end()};
+}
+
+}  // namespace
 
 std::vector<std::string> farms_of(const Zone& zone) {
   std::vector<std::string> farms;
@@ -16,25 +87,18 @@ std::vector<std::string> farms_of(const Zone& zone) {
 }
 
 std::vector<std::uint32_t> farm_combinations(const Zone& zone, const Visibility& visibility) {
-  const std::vector<std::string> farms = farms_of(zone);
-  const std::size_t cells = zone.grid.cell_count();
-  // Each farm has the words of its turbines' bits.
-  std::vector<std::vector<std::uint32_t>> masks(farms.size(), std::vector<std::uint32_t>(zone.words));
-  for (const Turbine& t : zone.request.turbines) {
-    const auto farm = static_cast<std::size_t>(std::find(farms.begin(), farms.end(), t.farm) - farms.begin());
-    const TurbineBit bit = turbine_bit(t.number);
-    masks[farm][bit.grid] |= bit.mask;
-  }
-  std::vector<std::uint32_t> result(cells, kOutsideFarms);
+  const FarmSets sets(zone);
+  const bool bits = sets.names().size() <= kMostFarms;
+  const std::vector<FarmSet> numbered = bits ? std::vector<FarmSet>{} : sets_present(zone, sets);
+  const auto code = [&](const FarmSet& farms) {
+    if (bits) return farms.front();
+    return static_cast<std::uint32_t>(std::lower_bound(numbered.begin(), numbered.end(), farms) - numbered.begin());
+  };
+  std::vector<std::uint32_t> result(zone.grid.cell_count(), kOutsideFarms);
   const auto columns = static_cast<std::size_t>(zone.grid.columns());
   parallel_for(static_cast<std::size_t>(zone.grid.rows()), [&](std::size_t row) {
-    for (std::size_t i = row * columns; i < (row + 1) * columns; ++i) {
-      if (visibility.tip_count[i] == kCountOutside) continue;
-      result[i] = 0;
-      for (std::size_t f = 0; f < farms.size() && f < kMostFarms; ++f)
-        for (std::size_t w = 0; w < zone.words; ++w)
-          if ((visibility.turbines[w * cells + i] & masks[f][w]) != 0) result[i] |= std::uint32_t{1} << f;
-    }
+    for (std::size_t i = row * columns; i < (row + 1) * columns; ++i)
+      if (has_value(visibility, i)) result[i] = code(sets.of(visibility, i));
   });
   return result;
 }
@@ -45,18 +109,36 @@ std::vector<Combination> combinations_present(const Zone& zone,
   for (const auto* raster : rasters)
     for (const std::uint32_t farms : *raster)
       if (farms != kOutsideFarms) present.insert(farms);
-  const std::vector<std::string> names = farms_of(zone);
+  const FarmSets sets(zone);
+  const bool bits = sets.names().size() <= kMostFarms;
+  const std::vector<FarmSet> numbered = bits ? std::vector<FarmSet>{} : sets_present(zone, sets);
   std::vector<Combination> result;
-  for (const std::uint32_t farms : present) {
-    Combination& c = result.emplace_back(Combination{farms, ""});
-    for (std::size_t f = 0; f < names.size() && f < kMostFarms; ++f) {
-      if ((farms >> f & 1) == 0) continue;
-      if (!c.name.empty()) c.name += " + ";
-      c.name += names[f].empty() ? "(no farm)" : names[f];
-    }
-    if (farms == 0) c.name = "none";
-  }
+  for (const std::uint32_t farms : present)
+    result.push_back({farms, sets.name(bits ? FarmSet{farms} : numbered[farms])});
   return result;
+}
+
+std::string combination_table(const Zone& zone) {
+  std::map<std::uint32_t, std::vector<std::uint64_t>> cells;  // bare, screened
+  const auto count = [&](const Visibility& visibility, std::size_t column) {
+    const std::vector<std::uint32_t> farms = farm_combinations(zone, visibility);
+    for (const std::uint32_t f : farms)
+      if (f != kOutsideFarms) cells.try_emplace(f, 2).first->second[column] += 1;
+    return farms;
+  };
+  const std::vector<std::uint32_t> bare = count(zone.bare, 0);
+  const std::vector<std::uint32_t> screened = zone.screened ? count(*zone.screened, 1) : std::vector<std::uint32_t>{};
+  std::vector<Combination> present = combinations_present(zone, {&bare, &screened});
+  std::stable_sort(present.begin(), present.end(), [&](const Combination& a, const Combination& b) {
+    return cells[a.farms].front() > cells[b.farms].front();
+  });
+  std::string text = std::string("value,farms_seen,bare_km2") + (zone.screened ? ",screened_km2\n" : "\n");
+  const auto km2 = [&](std::uint64_t n) { return static_cast<double>(n) * zone.grid.cell_area() / 1e6; };
+  for (const Combination& c : present) {
+    text += fmt::format("{},{},{:.6f}", c.farms, csv_cell(c.name), km2(cells[c.farms][0]));
+    text += zone.screened ? fmt::format(",{:.6f}\n", km2(cells[c.farms][1])) : "\n";
+  }
+  return text;
 }
 
 }  // namespace itin::viewshed

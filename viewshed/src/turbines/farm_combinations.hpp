@@ -1,4 +1,4 @@
-// Which farms are seen, as a number whose bits are farms, and the names of such numbers.
+// Which farms are seen, as a number, and the names of such numbers.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,8 @@
 
 namespace itin::viewshed {
 
-/// Bit f is farm f of farms_of(): at least one of its tips is seen. kOutsideFarms outside.
+/// Bit f is farm f of farms_of(): at least one of its tips is seen. Of more than kMostFarms farms it is the number of
+/// the combination among those that occur in the zone, bare or screened. 0 where none is seen, kOutsideFarms outside.
 inline constexpr std::uint32_t kOutsideFarms = 0xffffffff;
 inline constexpr std::size_t kMostFarms = 31;
 std::vector<std::uint32_t> farm_combinations(const Zone& zone, const Visibility& visibility);

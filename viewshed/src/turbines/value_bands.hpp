@@ -28,7 +28,7 @@ void set_distinct_colour(std::size_t index, std::uint8_t& red, std::uint8_t& gre
 /// A QGIS layer style that draws a raster of values in these bands, or of classes.
 std::string banded_style(const std::vector<ValueBand>& bands);
 struct StyleClass {
-  int value = 0;
+  std::int64_t value = 0;
   std::string label;
   std::uint8_t red = 0, green = 0, blue = 0, alpha = 255;
 };

@@ -6,6 +6,7 @@
 
 #include "turbines/farm_combinations.hpp"
 #include "turbines/value_bands.hpp"
+#include "turbines/zone_request.hpp"
 
 namespace itin::viewshed {
 
@@ -67,17 +68,14 @@ void add(std::vector<ZoneMap>& maps, ZoneMap map, const char* name, const char* 
 
 std::vector<ZoneMap> zone_maps(const Zone& zone, std::size_t most_combinations) {
   std::vector<ZoneMap> maps;
-  const auto& turbines = zone.request.turbines;
-  const bool hubs =
-      std::any_of(turbines.begin(), turbines.end(), [](const Turbine& t) { return t.hub_height.has_value(); });
   const std::size_t farms = farms_of(zone).size();
   const auto add_all = [&](const Visibility& v, bool screened) {
     add(maps, count_map(zone, v.tip_count), "tip-count", "Zone of theoretical visibility: blade tips",
         "Turbines with their blade tip visible", screened);
-    if (hubs)
+    if (knows_hubs(zone))
       add(maps, count_map(zone, v.hub_count), "hub-count", "Zone of theoretical visibility: hubs",
           "Turbines with their hub visible", screened);
-    if (farms > 1 && farms <= kMostFarms)
+    if (farms > 1)
       add(maps, farm_map(zone, v, most_combinations), "farms",
           "Cumulative zone of theoretical visibility: blade tips by wind farm", "Wind farms with a blade tip visible",
           screened);

@@ -5,6 +5,7 @@
 
 #include "turbines/farm_combinations.hpp"
 #include "turbines/value_bands.hpp"
+#include "turbines/zone_request.hpp"
 
 namespace itin::viewshed {
 
@@ -44,9 +45,11 @@ std::vector<ZoneFile> write_zone_polygons(const std::string& folder, const Zone&
   const auto write_all = [&](const Visibility& v, const std::string& suffix) {
     files.push_back({"tip-count" + suffix + ".gpkg", "where a band of turbines has its tips seen: polygons, m2"});
     write_bands(folder + "/" + files.back().name, "tip-count", zone, v.tip_count, options);
-    files.push_back({"hub-count" + suffix + ".gpkg", "where a band of turbines has its hubs seen: polygons, m2"});
-    write_bands(folder + "/" + files.back().name, "hub-count", zone, v.hub_count, options);
-    if (farms < 2 || farms > kMostFarms) return;
+    if (knows_hubs(zone)) {
+      files.push_back({"hub-count" + suffix + ".gpkg", "where a band of turbines has its hubs seen: polygons, m2"});
+      write_bands(folder + "/" + files.back().name, "hub-count", zone, v.hub_count, options);
+    }
+    if (farms < 2) return;
     files.push_back({"farms" + suffix + ".gpkg", "where a combination of farms has tips seen: polygons, m2"});
     write_farms(folder + "/" + files.back().name, zone, farm_combinations(zone, v), options);
   };

@@ -1,15 +1,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include <fmt/format.h>
 
 #include <itin/parallel.hpp>
+#include <viewshed/missing_ground.hpp>
 #include <viewshed/zone_files.hpp>
 
 #include "turbines/farm_combinations.hpp"
 #include "turbines/raster_folder.hpp"
 #include "turbines/value_bands.hpp"
+#include "turbines/zone_request.hpp"
 
 namespace itin::viewshed {
 
@@ -75,7 +78,8 @@ void write_counts(const Zone& zone, const Visibility& v, const std::string& suff
   const auto what = [](const char* part) {
     return fmt::format("how many turbines have their {} seen; 65535: {}", part, kNoValue);
   };
-  folder.write("hub-count" + suffix, what("hub"), v.hub_count, with_nodata(kCountOutside), banded_style(bands));
+  if (knows_hubs(zone))
+    folder.write("hub-count" + suffix, what("hub"), v.hub_count, with_nodata(kCountOutside), banded_style(bands));
   folder.write("tip-count" + suffix, what("tip"), v.tip_count, with_nodata(kCountOutside), banded_style(bands));
 }
 
@@ -119,8 +123,9 @@ void write_differences(const Zone& zone, RasterFolder& folder) {
     return fmt::format("{}: bare ground less screened; NaN: {}", of, kNoValue);
   };
   const Visibility &bare = zone.bare, &screened = *zone.screened;
-  folder.write("hub-count-difference", what("hubs seen"), difference(bare.hub_count, screened.hub_count, kCountOutside),
-               with_nodata(kNaN), banded_style(bands));
+  if (knows_hubs(zone))
+    folder.write("hub-count-difference", what("hubs seen"),
+                 difference(bare.hub_count, screened.hub_count, kCountOutside), with_nodata(kNaN), banded_style(bands));
   folder.write("tip-count-difference", what("tips seen"), difference(bare.tip_count, screened.tip_count, kCountOutside),
                with_nodata(kNaN), banded_style(bands));
   for (const Quantity& q : quantities()) {
@@ -132,13 +137,35 @@ void write_differences(const Zone& zone, RasterFolder& folder) {
   }
 }
 
-/// Up to seven farms are classes of a Byte raster, with names and colours; more are bits without.
+/// The commonest combinations in colours that are told apart.
+std::string style_of_commonest(const std::vector<std::uint32_t>& farms, std::vector<Combination> present) {
+  constexpr std::size_t kMostColours = 24;
+  std::map<std::uint32_t, std::uint64_t> cells;
+  for (const std::uint32_t f : farms) ++cells[f];
+  std::erase_if(present, [](const Combination& c) { return c.farms == 0; });
+  std::stable_sort(present.begin(), present.end(),
+                   [&](const Combination& a, const Combination& b) { return cells[a.farms] > cells[b.farms]; });
+  present.resize(std::min(present.size(), kMostColours));
+  std::vector<StyleClass> style{{0, "none", 0, 0, 0, 0}};
+  for (std::size_t i = 0; i < present.size(); ++i) {
+    StyleClass& entry = style.emplace_back(StyleClass{present[i].farms, present[i].name});
+    set_distinct_colour(i, entry.red, entry.green, entry.blue);
+  }
+  return class_style(style);
+}
+
+/// Up to seven farms are classes of a Byte raster, with names and colours; more are numbers, whose names farms.csv has.
 void write_farm_raster(const std::vector<std::uint32_t>& farms, const std::vector<Combination>& present,
                        std::size_t farm_count, const std::string& name, RasterFolder& folder) {
   constexpr std::size_t kClasses = 7;
   if (farm_count > kClasses) {
-    folder.write(name, "which farms have a tip seen: farm f of the list is bit f - 1; 4294967295: no value", farms,
-                 with_nodata(kOutsideFarms), "");
+    const char* what =
+        farm_count <= kMostFarms
+            ? "which farms have a tip seen: farm f of the list is bit f - 1; farms.csv has the names, the "
+              "style colours the commonest; 4294967295: no value"
+            : "which farms have a tip seen: the number of their combination in farms.csv; the style "
+              "colours the commonest; 4294967295: no value";
+    folder.write(name, what, farms, with_nodata(kOutsideFarms), style_of_commonest(farms, present));
     return;
   }
   constexpr std::uint8_t kOutsideClass = 255;
@@ -149,7 +176,7 @@ void write_farm_raster(const std::vector<std::uint32_t>& farms, const std::vecto
     RasterClass& entry = description.classes.emplace_back();
     entry.value = static_cast<int>(c.farms), entry.name = c.name, entry.alpha = c.farms == 0 ? 0 : 255;
     if (c.farms != 0) set_distinct_colour(index++, entry.red, entry.green, entry.blue);
-    style.push_back({entry.value, entry.name, entry.red, entry.green, entry.blue, entry.alpha});
+    style.push_back({c.farms, entry.name, entry.red, entry.green, entry.blue, entry.alpha});
   }
   std::vector<std::uint8_t> classes(farms.size());
   std::transform(farms.begin(), farms.end(), classes.begin(),
@@ -160,13 +187,28 @@ void write_farm_raster(const std::vector<std::uint32_t>& farms, const std::vecto
 
 void write_farms(const Zone& zone, RasterFolder& folder) {
   const std::size_t count = farms_of(zone).size();
-  if (count < 2 || count > kMostFarms) return;
+  if (count < 2) return;
   const std::vector<std::uint32_t> bare = farm_combinations(zone, zone.bare);
   std::vector<std::uint32_t> screened;
   if (zone.screened) screened = farm_combinations(zone, *zone.screened);
   const auto present = combinations_present(zone, {&bare, &screened});
   write_farm_raster(bare, present, count, "farms", folder);
   if (zone.screened) write_farm_raster(screened, present, count, "farms-screened", folder);
+}
+
+/// Beside the others, whose cells without a value may be either.
+void write_study_area(const Zone& zone, RasterFolder& folder) {
+  constexpr std::uint8_t kNoGround = 0, kGround = 1, kOutsideStudy = 255;
+  const std::vector<std::uint8_t> missing = missing_ground(zone).cells;
+  std::vector<std::uint8_t> values(missing.size(), kOutsideStudy);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (missing[i] == 1 || zone.bare.tip_count[i] != kCountOutside) values[i] = missing[i] == 1 ? kNoGround : kGround;
+  RasterDescription description = with_nodata(kOutsideStudy);
+  description.classes = {{kNoGround, "no ground data", 120, 120, 120, 255}, {kGround, "studied", 0, 0, 0, 0}};
+  folder.write("study-area",
+               "1 where turbines are looked for, 0 where there is no ground data; 255: outside every turbine's radius",
+               values, description,
+               class_style({{kNoGround, "no ground data", 120, 120, 120, 255}, {kGround, "studied", 0, 0, 0, 0}}));
 }
 
 }  // namespace
@@ -184,6 +226,7 @@ std::vector<ZoneFile> write_zone_rasters(const std::string& folder, const Zone& 
     write_differences(zone, files);
   }
   write_farms(zone, files);
+  write_study_area(zone, files);
   return std::move(files).files();
 }
 

@@ -93,6 +93,22 @@ void validate(const ZoneRequest& request) {
   request.earth.validate();
 }
 
+bool knows_hubs(const Zone& zone) {
+  return std::any_of(zone.request.turbines.begin(), zone.request.turbines.end(),
+                     [](const Turbine& turbine) { return turbine.hub_height.has_value(); });
+}
+
+Request view_of(const ZoneRequest& zone) {
+  Request request;
+  for (const Turbine& turbine : zone.turbines) {
+    Observer& observer = request.observers.emplace_back();
+    observer.position = turbine.position;
+    observer.radius = turbine.radius;
+  }
+  request.grid = zone.grid;
+  return request;
+}
+
 Zone lay_out(const ZoneRequest& request, const Box& coverage,
              const std::function<std::optional<double>(Point2)>& ground) {
   Zone zone;

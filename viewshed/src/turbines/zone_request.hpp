@@ -18,4 +18,10 @@ void validate(const ZoneRequest& request);
 Zone lay_out(const ZoneRequest& request, const Box& coverage,
              const std::function<std::optional<double>(Point2)>& ground);
 
+/// Whether any turbine's hub is known: otherwise nothing is said of hubs.
+bool knows_hubs(const Zone& zone);
+
+/// What the zone looks at, as observers' fields of view: the turbines' radii.
+Request view_of(const ZoneRequest& request);
+
 }  // namespace itin::viewshed

@@ -26,7 +26,6 @@ namespace itin {
 
 namespace {
 
-constexpr double kGapSteps = 1.5;         // a missing post leaves a hole, a diagonal does not
 constexpr double kSteadySteps = 1.25;     // steps that vary more than this earn a warning
 constexpr std::size_t kBatch = 1 << 16;   // posts placed at a time
 constexpr std::uint64_t kCacheShare = 8;  // of the memory, for GDAL's cache of blocks

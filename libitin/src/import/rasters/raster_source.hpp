@@ -13,6 +13,9 @@ class GDALDataset;
 
 namespace itin {
 
+/// Ground reaches across so many steps between posts: a missing post leaves a hole, a diagonal does not.
+inline constexpr double kGapSteps = 1.5;
+
 /// WKT 2; empty where the raster does not say its CRS.
 std::string crs_text(const GDALDataset& dataset);
 

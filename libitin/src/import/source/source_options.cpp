@@ -38,6 +38,8 @@ constexpr std::array kOptions{
     Option{"`to_crs`", [](const ImportOptions& o) { return !o.to_crs.empty(); }, kTerrain | kLines},
     Option{"`allow_mixed_vertical`", [](const ImportOptions& o) { return o.allow_mixed_vertical; }, kTerrain | kLines},
     Option{"`replace`", [](const ImportOptions& o) { return o.replace; }, kTerrain},
+    Option{"`sea_level`", [](const ImportOptions& o) { return o.sea_level.has_value(); }, kRasters},
+    Option{"`sea_area`", [](const ImportOptions& o) { return !o.sea_area.empty(); }, kRasters},
     Option{"`band`", [](const ImportOptions& o) { return o.band.has_value(); }, kRasters},
     Option{"`classes`", [](const ImportOptions& o) { return !o.classes.empty(); }, kLas},
     Option{"`max_gap`", [](const ImportOptions& o) { return o.max_gap > 0; }, kLas | kText | kPoints | kContours},

@@ -11,7 +11,8 @@ namespace itin {
 std::vector<std::uint32_t> ranks_of(std::span<const SourceInfo> sources) {
   const auto key = [&](std::uint32_t s) {
     const SourceInfo& i = sources[s];
-    return std::tuple(!is_ground(i), i.spacing, i.gap_basis, i.replaces, std::tie(i.kind, i.theme, i.sha256, i.path));
+    return std::tuple(is_sea(i), !is_ground(i), i.spacing, i.gap_basis, i.replaces,
+                      std::tie(i.kind, i.theme, i.sha256, i.path));
   };
   std::vector<std::uint32_t> order(sources.size());
   std::iota(order.begin(), order.end(), 0U);

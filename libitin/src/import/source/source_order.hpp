@@ -9,8 +9,8 @@
 
 namespace itin {
 
-/// The rank of each source: those that are ground by themselves come first, then what they hold decides. Equal ranks
-/// are of equal sources.
+/// The rank of each source: those that are ground by themselves come first, the sea last, then what they hold decides.
+/// Equal ranks are of equal sources.
 std::vector<std::uint32_t> ranks_of(std::span<const SourceInfo> sources);
 
 }  // namespace itin

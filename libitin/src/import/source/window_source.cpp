@@ -14,6 +14,7 @@
 
 #include "gdal/crs.hpp"
 #include "gdal/quiet_gdal.hpp"
+#include "import/source/source_layer.hpp"
 
 namespace itin {
 

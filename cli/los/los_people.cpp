@@ -1,0 +1,45 @@
+#include "los/los_people.hpp"
+
+#include <itin/error.hpp>
+
+#include "options/day_of_run.hpp"
+
+namespace itin::cli {
+
+void LosPeople::declare(CLI::App& app) {
+  app.add_option("--project", project_, "The project, at the head of the report")->type_name("TEXT");
+  app.add_option("--operator", operator_, "Who makes the report, or answers for it, likewise")->type_name("TEXT");
+  app.add_option(
+         "--date", date_,
+         "The date of the report, likewise (default: the day of the run, UTC, where a project or an operator is "
+         "given; else none, so that equal calls write equal bytes)")
+      ->type_name("TEXT");
+  app.add_option("--from-name", from_name_, "What the first end is called")->type_name("TEXT");
+  app.add_option("--to-name", to_name_, "What the second end is called")->type_name("TEXT");
+}
+
+void LosPeople::validate(bool links) {
+  if (links && !(from_name_.empty() && to_name_.empty()))
+    throw InputError("--from-name and --to-name are those of one line; with --links give columns name1 and name2");
+  if (date_.empty() && !(project_.empty() && operator_.empty())) date_ = day_of_run();
+}
+
+std::vector<std::pair<std::string, std::string>> LosPeople::facts() const {
+  std::vector<std::pair<std::string, std::string>> facts;
+  for (const auto& [name, value] : {std::pair("Project", project_), {"Operator", operator_}, {"Date", date_}})
+    if (!value.empty()) facts.emplace_back(name, value);
+  return facts;
+}
+
+Document LosPeople::parameters() const {
+  Document parameters = Document::object();
+  for (const auto& [name, value] : {std::pair("project", project_),
+                                    {"operator", operator_},
+                                    {"date", date_},
+                                    {"from_name", from_name_},
+                                    {"to_name", to_name_}})
+    if (!value.empty()) parameters[name] = value;
+  return parameters;
+}
+
+}  // namespace itin::cli

@@ -1,0 +1,29 @@
+// Whose report of a line it is: project, operator, date, and the names of its ends.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "program/verb.hpp"
+
+namespace itin::cli {
+
+class LosPeople {
+ public:
+  void declare(CLI::App& app);
+  /// Throws InputError: names of ends where a table of links has its own.
+  void validate(bool links);
+  /// What the report begins with: name, value.
+  std::vector<std::pair<std::string, std::string>> facts() const;
+  const std::string& from_name() const { return from_name_; }
+  const std::string& to_name() const { return to_name_; }
+  Document parameters() const;
+
+ private:
+  std::string project_, operator_, date_, from_name_, to_name_;
+};
+
+}  // namespace itin::cli

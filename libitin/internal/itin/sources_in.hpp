@@ -1,0 +1,22 @@
+// The sources of the surface within a box, and what reports say of sources.
+//
+//   for (const std::string& line : described(sources_in(store, grid.bounds(), themes), store.metadata()))
+//     std::cout << line << '\n';
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <itin/store.hpp>
+#include <itin/theme.hpp>
+
+namespace itin {
+
+/// Those that have a vertex in the box, metres, of the terrain or of the themes, in the store's order. Reads the points
+/// there until all sources are found. Throws CorruptStore.
+std::vector<SourceInfo> sources_in(const Store& store, const Box& box, const ThemeChoice& themes);
+
+/// A line of text for each sort of sources: their names, posting, vertical datum and note.
+std::vector<std::string> described(const std::vector<SourceInfo>& sources, const StoreMetadata& metadata);
+
+}  // namespace itin

@@ -1,0 +1,48 @@
+// How much of what observers look at has no ground: no data, and so neither seen nor hidden.
+//
+//   const MissingGround missing = missing_ground(store, result, progress);
+//   if (missing.share() > 0) std::cout << missing.text() << '\n';
+//
+// A raster of classes has one value for what lies outside every field of view and for what has no ground. This tells
+// them apart. Where no raster was asked for, it is cut to the data, so that what lies beyond counts besides.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <itin/progress.hpp>
+#include <itin/store.hpp>
+#include <viewshed/turbines.hpp>
+#include <viewshed/viewshed.hpp>
+
+namespace itin::viewshed {
+
+struct MissingGround {
+  std::vector<std::uint8_t> cells;  ///< of the raster: 1 where an observer looks and there is no ground
+  std::uint64_t without_ground = 0;
+  std::uint64_t with_ground = 0;  ///< cells of the raster that an observer looks at
+  std::uint64_t beyond = 0;       ///< cells of their size within observers' radii, but beyond the raster
+  double cell_area = 0;           ///< square metres
+  bool bounded = true;            ///< the request says how far observers look, and not: as far as there is ground
+
+  /// The part of all that observers look at, 0 to 1.
+  double share() const;
+  double study_m2() const { return static_cast<double>(with_ground + without_ground + beyond) * cell_area; }
+  double missing_m2() const { return static_cast<double>(without_ground + beyond) * cell_area; }
+  /// "12.3 % (4.6 km2)".
+  std::string text() const;
+  /// Says what share of `area` it is, and what decides; nothing where that is less than a thousandth, or the area is
+  /// wherever there is ground.
+  std::optional<std::string> warning(const std::string& area) const;
+};
+
+/// Cells out of view by their elevation alone have ground: where elevations bound the view, the coverage of the store
+/// tells. Beyond the raster cells are counted to a thousandth. Throws as triangulate() does.
+MissingGround missing_ground(const Store& store, const Result& result, Progress& progress);
+
+/// Within the radii of the turbines.
+MissingGround missing_ground(const Zone& zone);
+
+}  // namespace itin::viewshed

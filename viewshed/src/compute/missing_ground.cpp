@@ -1,0 +1,66 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <viewshed/missing_ground.hpp>
+
+#include "bounds/pixel_heights.hpp"
+#include "request/cells_in_view.hpp"
+#include "request/request.hpp"
+#include "window/retrieval.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+bool bounds_elevations(const Request& request) {
+  return request.elevation || std::any_of(request.observers.begin(), request.observers.end(),
+                                          [](const Observer& observer) { return observer.elevation.has_value(); });
+}
+
+/// Leaves those without ground.
+void leave_out_ground(const Tin& coverage, const RasterGrid& grid, std::vector<std::uint8_t>& cells) {
+  const std::vector<float> heights = heights_at(coverage, grid);
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    if (!std::isnan(heights[i])) cells[i] = 0;
+}
+
+}  // namespace
+
+double MissingGround::share() const {
+  const std::uint64_t missing = without_ground + beyond, all = missing + with_ground;
+  return all == 0 ? 0 : static_cast<double>(missing) / static_cast<double>(all);
+}
+
+std::string MissingGround::text() const {
+  const std::string percent = share() > 0 && share() < 0.001 ? "less than 0.1" : fmt::format("{:.1f}", 100 * share());
+  return fmt::format("{} % ({:.3g} km2)", percent, missing_m2() / 1e6);
+}
+
+std::optional<std::string> MissingGround::warning(const std::string& area) const {
+  if (share() < 0.001 || !bounded) return std::nullopt;
+  return fmt::format(
+      "{} of {} has no ground data: nothing is known of places there. `nodata` says what it does to sight lines that "
+      "cross it; import a larger source, or, where it is the sea, import with `sea_level`",
+      text(), area);
+}
+
+MissingGround missing_ground(const Store& store, const Result& result, Progress& progress) {
+  const Request& request = result.request;
+  const RasterGrid& grid = result.grid;
+  MissingGround missing;
+  missing.cell_area = grid.cell_area();
+  missing.cells = cells_in_view(
+      request, grid, [&](RasterGrid::Cell place) { return result.visible[grid.index(place)] == Verdict::kOutside; });
+  if (bounds_elevations(request) && std::find(missing.cells.begin(), missing.cells.end(), 1) != missing.cells.end())
+    leave_out_ground(coverage_of(store, Window::box(grid.bounds()), progress), grid, missing.cells);
+  missing.without_ground = static_cast<std::uint64_t>(std::count(missing.cells.begin(), missing.cells.end(), 1));
+  missing.with_ground = result.cells.visible + result.cells.hidden + result.cells.undecided;
+  missing.beyond = static_cast<std::uint64_t>(cells_beyond(request, grid).count());
+  missing.bounded = request.grid || std::all_of(request.observers.begin(), request.observers.end(),
+                                                [&](const Observer& o) { return radius_of(request, o).has_value(); });
+  return missing;
+}
+
+}  // namespace itin::viewshed
