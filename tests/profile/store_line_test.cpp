@@ -145,7 +145,7 @@ TEST_F(StoreLines, SayWhoTheyAreAbout) {
   EXPECT_EQ(cause_of(report, report.critical->theme, report.critical->feature), "buildings, feature 0");
   EXPECT_NEAR(report.from.site->azimuth_grid_deg, 90, 1e-9);
   EXPECT_NEAR(report.to.site->lon_lat.x, -3.4, 0.5);
-  EXPECT_EQ(report.from_lines.size(), 4U);
+  EXPECT_EQ(report.from_lines.size(), 5U);
   EXPECT_EQ(report.facts.front().second, "s.itin");
 }
 

@@ -251,11 +251,13 @@ TEST_F(VerdictsOverVoids, ZonesKnowWhatOfThemHasNoGround) {
   const Store store(path());
   ZoneRequest request;
   request.cell_size = 50;
-  for (const auto& [x, y] : {std::pair{600, -600}, {2500, -1000}})
-    request.turbines.push_back({.number = request.turbines.size() + 1,
-                                .position = {kWest + x, kNorth + y},
-                                .tip_height = 100,
-                                .radius = 2000});
+  for (const auto& [x, y] : {std::pair{600, -600}, {2500, -1000}}) {
+    Turbine turbine;
+    turbine.number = request.turbines.size() + 1;
+    turbine.position = {kWest + x, kNorth + y};
+    turbine.tip_height = 100, turbine.radius = 2000;
+    request.turbines.push_back(turbine);
+  }
   const Zone zone = survey_turbines(store, request, progress_);
   const MissingGround missing = missing_ground(zone);
   // Two discs 1,942 m apart.

@@ -43,17 +43,29 @@ std::vector<std::string> open_options(const std::string& path, ColumnTypes types
   return options;
 }
 
-/// What is wrong with a row that has more values than the header has names, or a comma in its position; empty where
-/// nothing is. GDAL drops what is left over, so that a decimal comma would shift values from column to column unseen,
-/// and it takes 318,000 for 318.
+/// Whether a comma in a number may be meant to part thousands: GDAL takes 318,000 for 318, as it takes 318000,5 for
+/// 318000.5.
+bool may_part_thousands(const std::string& number) {
+  const std::size_t comma = number.find(',');
+  if (comma == std::string::npos) return false;
+  const std::size_t digits = number.find_first_not_of("0123456789", comma + 1);
+  const std::size_t after = (digits == std::string::npos ? number.size() : digits) - comma - 1;
+  return number.find(',', comma + 1) != std::string::npos || after == 3;
+}
+
+/// What is wrong with a row that has more values than the header has names, or a position that may mean another number;
+/// empty where nothing is. GDAL drops what is left over, so that a decimal comma in a file with commas between its
+/// values would shift them from column to column unseen.
 std::string wrong_values(const CPLStringList& cells, int columns, const std::vector<int>& position) {
   if (cells.size() > columns)
     return "it has more values than the header has columns; write numbers with a decimal point, texts with a comma in "
            "quotes";
   for (const int column : position)
-    if (column < cells.size() && std::strchr(cells[column], ',') != nullptr)
-      return fmt::format("its position '{}' has a comma; write numbers with a decimal point and no other mark",
-                         cells[column]);
+    if (column < cells.size() && may_part_thousands(cells[column]))
+      return fmt::format(
+          "its position '{}' has a comma that may part thousands; write numbers with a decimal point and "
+          "no other mark",
+          cells[column]);
   return {};
 }
 
