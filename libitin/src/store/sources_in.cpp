@@ -20,6 +20,7 @@ std::size_t theme_of(const Leaf& leaf, const StoreMetadata& metadata) {
 std::vector<SourceInfo> sources_in(const Store& store, const Box& box, const ThemeChoice& themes) {
   const StoreMetadata& metadata = store.metadata();
   const GridBox within = metadata.grid.enclosing(box);
+  if (metadata.sources.size() == 1 && within.meets(metadata.bounds)) return metadata.sources;
   std::vector<Leaf> leaves;
   store.points().leaves(0, within, leaves);
   std::vector<bool> found(metadata.sources.size());

@@ -20,7 +20,8 @@
 namespace itin::viewshed {
 
 struct MissingGround {
-  std::vector<std::uint8_t> cells;  ///< of the raster: 1 where an observer looks and there is no ground
+  /// 1 for a cell of the raster where an observer looks and there is no ground. Empty where there is ground everywhere.
+  std::vector<std::uint8_t> cells;
   std::uint64_t without_ground = 0;
   std::uint64_t with_ground = 0;  ///< cells of the raster that an observer looks at
   std::uint64_t beyond = 0;       ///< cells of their size within observers' radii, but beyond the raster

@@ -51,8 +51,9 @@ MissingGround missing_ground(const Store& store, const Result& result, Progress&
   const RasterGrid& grid = result.grid;
   MissingGround missing;
   missing.cell_area = grid.cell_area();
-  missing.cells = cells_in_view(
-      request, grid, [&](RasterGrid::Cell place) { return result.visible[grid.index(place)] == Verdict::kOutside; });
+  if (result.cells.outside > 0)
+    missing.cells = cells_in_view(
+        request, grid, [&](RasterGrid::Cell place) { return result.visible[grid.index(place)] == Verdict::kOutside; });
   if (bounds_elevations(request) && std::find(missing.cells.begin(), missing.cells.end(), 1) != missing.cells.end())
     leave_out_ground(coverage_of(store, Window::box(grid.bounds()), progress), grid, missing.cells);
   missing.without_ground = static_cast<std::uint64_t>(std::count(missing.cells.begin(), missing.cells.end(), 1));

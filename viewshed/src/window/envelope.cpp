@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <itin/call_progress.hpp>
 #include <itin/certificate.hpp>
 #include <itin/level_choice.hpp>
 #include <itin/parallel.hpp>
 #include <itin/raster.hpp>
+#include <itin/silent_progress.hpp>
 #include <itin/triangulate.hpp>
 
+#include "progress/stage.hpp"
 #include "scene/rays/drift.hpp"
 
 namespace itin::viewshed {
@@ -97,14 +100,51 @@ class DiscIndex {
   std::vector<std::vector<std::uint32_t>> of_bin_;
 };
 
+/// A level over a window, in place of what coarser ones have within the discs.
+struct WantedPiece {
+  Window window;
+  int level = 0;
+  std::vector<FineDisc> discs;
+};
+
+struct Piece {
+  Tin tin;
+  std::vector<HeightBounds> bounds;  ///< of its vertices
+};
+
+/// The level of the request, and each finer one about the discs that have it, the coarsest first.
+std::vector<WantedPiece> wanted_pieces(const EnvelopeRequest& request) {
+  std::vector<WantedPiece> wanted{{request.window, request.level, {}}};
+  for (int level = request.level - 1; level >= 0; --level) {
+    std::vector<FineDisc> discs;
+    std::vector<Window::Polygon> parts;
+    for (const FineDisc& disc : request.discs) {
+      if (disc.level != level) continue;
+      discs.push_back(disc);
+      parts.push_back(Window::disc(disc.centre, disc.radius).parts().front());
+    }
+    if (!discs.empty()) wanted.push_back({Window::polygons(std::move(parts)), level, std::move(discs)});
+  }
+  return wanted;
+}
+
+/// All at once, for each of them alone hardly keeps the threads at work.
+std::vector<Piece> retrieve_pieces(const Store& store, const std::vector<WantedPiece>& wanted,
+                                   const ThemeChoice& themes, Progress& progress) {
+  std::vector<Piece> pieces(wanted.size());
+  for_each_step(wanted.size(), "triangulating", progress, [&](std::size_t i) {
+    SilentProgress silent(progress);
+    pieces[i].tin = triangulate(store, wanted[i].window, detail_of(store.metadata(), wanted[i].level), silent, themes);
+    pieces[i].bounds = vertex_bounds(store, wanted[i].level, pieces[i].tin);
+  });
+  return pieces;
+}
+
 class Builder {
  public:
-  Builder(const Store& store, const ThemeChoice& themes, Progress& progress)
-      : store_(store), themes_(themes), progress_(progress) {}
-
-  void add(const Window& window, int level) {
-    const Tin piece = triangulate(store_, window, detail_of(store_.metadata(), level), progress_, themes_);
-    const std::vector<HeightBounds> bounds = vertex_bounds(store_, level, piece);
+  void add(const Piece& of) {
+    const Tin& piece = of.tin;
+    const std::vector<HeightBounds>& bounds = of.bounds;
     const auto first = static_cast<std::uint32_t>(lower_.vertices.size());
     lower_.grid = piece.grid;
     firsts_.push_back(static_cast<std::uint32_t>(lower_.triangles.size()));
@@ -149,9 +189,6 @@ class Builder {
   }
 
  private:
-  const Store& store_;
-  const ThemeChoice& themes_;
-  Progress& progress_;
   Tin lower_;
   std::vector<std::int32_t> upper_;  ///< heights
   std::vector<BoundaryEdge> outline_;
@@ -162,22 +199,13 @@ class Builder {
 
 Envelope envelop(const Store& store, const EnvelopeRequest& request, Progress& progress) {
   CallProgress call(progress);
-  Builder builder(store, request.themes, call);
-  call.step(request.bare_ground ? 0.3 : 0.6);
-  builder.add(request.window, request.level);
-  builder.mark_outline();
-  for (int level = request.level - 1; level >= 0; --level) {
-    std::vector<FineDisc> discs;
-    std::vector<Window::Polygon> parts;
-    for (const FineDisc& disc : request.discs) {
-      if (disc.level != level) continue;
-      discs.push_back(disc);
-      parts.push_back(Window::disc(disc.centre, disc.radius).parts().front());
-    }
-    if (discs.empty()) continue;
-    builder.clear(discs);
-    call.step(0.5);
-    builder.add(Window::polygons(std::move(parts)), level);
+  const std::vector<WantedPiece> wanted = wanted_pieces(request);
+  std::vector<Piece> pieces = retrieve_pieces(store, wanted, request.themes, call.step(request.bare_ground ? 0.5 : 1));
+  Builder builder;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (i > 0) builder.clear(wanted[i].discs);
+    builder.add(std::exchange(pieces[i], {}));
+    if (i == 0) builder.mark_outline();
   }
   Envelope envelope = std::move(builder).finish(request.observers);
   envelope.exact = request.level == 0;
