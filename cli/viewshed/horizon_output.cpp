@@ -11,7 +11,6 @@
 #include <itin/output_file.hpp>
 #include <profile/chart.hpp>
 #include <viewshed/documents.hpp>
-#include <viewshed/surface.hpp>
 
 #include "options/site_list.hpp"
 #include "output/output_path.hpp"
@@ -82,6 +81,7 @@ void HorizonOutput::validate() {
       throw InputError(fmt::format("--horizon '{}': a horizon is written as .csv, .json, .svg, .png or .pdf", path));
   }
   if (!step_text_.empty()) step_deg_ = parse_number("--horizon-step", step_text_, Range::kPositive);
+  viewshed::require_whole_turn(step_deg_);
   if (paths_.empty() && !(sites_.path + step_text_).empty())
     throw InputError("--horizon-targets and --horizon-step are of use with --horizon FILE only");
   if (sites_.path.empty() && !(sites_.name_field + sites_.height_field).empty())
@@ -98,13 +98,13 @@ std::vector<viewshed::HorizonTarget> HorizonOutput::targets(const viewshed::Requ
   return targets;
 }
 
-Document HorizonOutput::write(viewshed::ViewshedWithSurface& computed, const StoreMetadata& metadata, bool overwrite,
+Document HorizonOutput::write(const Store& store, viewshed::ViewshedWithSurface& computed,
+                              const viewshed::Request& request, const viewshed::ComputeOptions& options, bool overwrite,
                               Progress& progress, std::vector<std::string>& warnings) const {
   if (paths_.empty()) return nullptr;
-  const viewshed::Request& request = computed.result.request;
-  const Tin& surface = computed.surface->listed(progress);
-  const viewshed::Horizon horizon = viewshed::horizon(surface, computed.ground ? *computed.ground : surface, request,
-                                                      {step_deg_, targets(request, metadata)}, progress);
+  const StoreMetadata& metadata = store.metadata();
+  const viewshed::Horizon horizon =
+      viewshed::horizon(store, computed, request, {step_deg_, targets(request, metadata)}, options, progress);
   for (const std::string& path : paths_) {
     const std::string ending = ending_of(path);
     const std::string bytes = ending == ".csv"    ? table(horizon, metadata)

@@ -22,10 +22,10 @@ class HorizonOutput {
   const std::vector<std::string>& paths() const { return paths_; }
 
   /// Computes and writes what was asked for, if anything; the document of the horizon's targets, or null. `warnings`
-  /// gets one where the sky line is the edge of the data. Throws
-  /// InputError, FileError.
-  Document write(viewshed::ViewshedWithSurface& computed, const StoreMetadata& metadata, bool overwrite,
-                 Progress& progress, std::vector<std::string>& warnings) const;
+  /// gets one where the sky line is the edge of the data. Throws InputError, FileError.
+  Document write(const Store& store, viewshed::ViewshedWithSurface& computed, const viewshed::Request& request,
+                 const viewshed::ComputeOptions& options, bool overwrite, Progress& progress,
+                 std::vector<std::string>& warnings) const;
 
  private:
   std::vector<viewshed::HorizonTarget> targets(const viewshed::Request& request, const StoreMetadata& metadata) const;

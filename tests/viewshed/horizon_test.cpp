@@ -7,9 +7,11 @@
 #include <gtest/gtest.h>
 
 #include <itin/error.hpp>
+#include <itin/triangulate.hpp>
 #include <viewshed/horizon.hpp>
 
 #include "support/exact_line_of_sight.hpp"
+#include "support/hills_and_town.hpp"
 #include "support/real_terrain.hpp"
 #include "support/terrain_tin.hpp"
 
@@ -135,6 +137,112 @@ TEST(Horizon, LooksOnlyWhereTheObserverLooks) {
   ASSERT_EQ(result.points.size(), 21U);
   EXPECT_EQ(result.points.front().azimuth_deg, 350);
   EXPECT_EQ(result.points.back().azimuth_deg, 10);
+}
+
+void expect_same_horizon(const Horizon& expected, const Horizon& found) {
+  EXPECT_EQ(expected.eye_elevation_m, found.eye_elevation_m);
+  ASSERT_EQ(expected.points.size(), found.points.size());
+  for (std::size_t i = 0; i < expected.points.size(); ++i) {
+    SCOPED_TRACE(expected.points[i].azimuth_deg);
+    const auto &e = expected.points[i].sky, &f = found.points[i].sky;
+    EXPECT_EQ(expected.points[i].azimuth_deg, found.points[i].azimuth_deg);
+    ASSERT_EQ(e.has_value(), f.has_value());
+    if (!e) continue;
+    EXPECT_EQ(e->elevation_deg, f->elevation_deg);
+    EXPECT_EQ(e->distance_m, f->distance_m);
+    EXPECT_EQ(e->position, f->position);
+    EXPECT_EQ(e->theme, f->theme);
+    EXPECT_EQ(e->data_edge, f->data_edge);
+  }
+  ASSERT_EQ(expected.targets.size(), found.targets.size());
+  for (std::size_t i = 0; i < expected.targets.size(); ++i) {
+    EXPECT_EQ(expected.targets[i].elevation_m, found.targets[i].elevation_m);
+    EXPECT_EQ(expected.targets[i].azimuth_deg, found.targets[i].azimuth_deg);
+    EXPECT_EQ(expected.targets[i].visible, found.targets[i].visible);
+  }
+}
+
+Horizon of_the_whole(const Store& store, const Request& request, const HorizonOptions& options) {
+  NoProgress progress;
+  const Tin surface = triangulate(store, Window::all(), request.detail, progress, request.themes);
+  const Tin ground = triangulate(store, Window::all(), request.detail, progress, ThemeChoice::none());
+  return horizon(surface, ground, request, options, progress);
+}
+
+/// With memory for the whole surface, and for some dozens of wedges of it.
+void expect_same_in_wedges(const Store& store, const Request& request, const HorizonOptions& options) {
+  NoProgress progress;
+  const Horizon whole = of_the_whole(store, request, options);
+  for (const std::uint64_t points : {100000, 4000})
+    expect_same_horizon(whole, horizon(store, request, options, {.memory_bytes = 480 * points}, progress));
+}
+
+/// Off the hole in the hills.
+std::vector<HorizonTarget> places_about(Point2 middle, double side) {
+  std::vector<HorizonTarget> targets;
+  for (int i = 0; i < 40; ++i) {
+    const Point2 p{middle.x + side * (i * 37 % 61 - 30) / 60, middle.y + side * (i * 23 % 61 - 30) / 60};
+    if (std::hypot(p.x - 301200, p.y - 201600) > 300) targets.push_back({std::to_string(i), p, i % 3 * 4.0});
+  }
+  return targets;
+}
+
+class HorizonInWedges : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { stores_ = new test::HillsAndTown; }
+  static void TearDownTestSuite() {
+    delete stores_;
+    stores_ = nullptr;
+  }
+  /// On a post, with lines along rows, columns and diagonals.
+  static Request over_hills() {
+    Request request = test::HillsAndTown::over_hills();
+    request.observers = {{"o", kPost, 5}};
+    return request;
+  }
+
+  static constexpr Point2 kPost{302010, 202010};
+  static inline test::HillsAndTown* stores_ = nullptr;
+};
+
+TEST_F(HorizonInWedges, IsThatOfAllHills) {
+  const Store hills(stores_->hills());
+  Request request = over_hills();
+  const HorizonOptions options{.step_deg = 1, .targets = places_about(kPost, 1500)};
+  expect_same_in_wedges(hills, request, options);
+  request.azimuth = AngleRange{300, 80};
+  request.radius = 1800;
+  expect_same_in_wedges(hills, request, options);
+  request.detail = Detail::tolerance(2);
+  expect_same_in_wedges(hills, request, options);
+}
+
+TEST_F(HorizonInWedges, IsThatOfTheWholeTown) {
+  const Store town(stores_->town());
+  Request request = test::HillsAndTown::over_town();
+  const Point2 eye{321733.4, 4297655.2};
+  request.observers = {{"o", eye, 12}};
+  request.radius = 150;
+  for (const bool on_surface : {false, true}) {
+    request.observers_on_surface = request.targets_on_surface = on_surface;
+    expect_same_in_wedges(town, request, {.step_deg = 4, .targets = places_about(eye, 120)});
+  }
+}
+
+TEST_F(HorizonInWedges, TakesTheSurfaceOfAViewshed) {
+  NoProgress progress;
+  const Store hills(stores_->hills());
+  Request request = over_hills();
+  request.cell_size = 200;
+  const HorizonOptions options{.step_deg = 10, .targets = {}};
+  const Horizon whole = of_the_whole(hills, request, options);
+  for (const ComputeOptions& compute : {ComputeOptions{std::uint64_t{1} << 30, true},
+                                        {std::uint64_t{1} << 30, false},
+                                        {std::uint64_t{4} << 20, true},
+                                        {std::uint64_t{4} << 20, false}}) {
+    ViewshedWithSurface computed = compute_with_surface(hills, request, compute, progress);
+    expect_same_horizon(whole, horizon(hills, computed, request, options, compute, progress));
+  }
 }
 
 TEST(Horizon, RefusesWhatCannotBe) {

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include <itin/store.hpp>
 #include <viewshed/viewshed.hpp>
 
 namespace itin::viewshed {
@@ -53,6 +54,9 @@ struct SightedTarget {
   bool visible = false;  ///< in line of sight, whatever the field of view
 };
 
+/// Throws InputError for a step that makes no turn, or is not from 0.001 to 10 degrees.
+void require_whole_turn(double step_deg);
+
 struct Horizon {
   double eye_elevation_m = 0;
   std::vector<HorizonPoint> points;  ///< from the start of the observer's azimuths, or from north, clockwise
@@ -61,10 +65,21 @@ struct Horizon {
 
 /// Computes the horizon of the request's one observer, on `surface` as far as its radius; observer and targets stand on
 /// `ground` unless the request says on the surface. Ground that is missing passes. Cost: a few microseconds per
-/// azimuth, besides 0.1 microseconds per triangle. Throws InputError (a step that makes no turn or is not from 0.001 to
-/// 10 degrees, an observer or target outside the data, an observer beneath a roof), Cancelled.
+/// azimuth, besides 0.1 microseconds per triangle. Throws InputError (as require_whole_turn() does; an observer or
+/// target outside the data, an observer beneath a roof), Cancelled.
 Horizon horizon(const Tin& surface, const Tin& ground, const Request& request, const HorizonOptions& options,
                 Progress& progress);
+
+/// As above, on the surface of a store at `request.detail` with `request.themes`. As much is read at once as the memory
+/// holds, one wedge of directions after another, and one direction at least. The answer is the same to the last bit.
+/// Throws what triangulate() throws, too.
+Horizon horizon(const Store& store, const Request& request, const HorizonOptions& options,
+                const ComputeOptions& compute_options, Progress& progress);
+
+/// As above, without reading the surface again that a viewshed of the request was computed over, where it is held as a
+/// whole and the memory holds its triangles.
+Horizon horizon(const Store& store, ViewshedWithSurface& computed, const Request& request,
+                const HorizonOptions& options, const ComputeOptions& compute_options, Progress& progress);
 
 /// The document that `itin viewshed --horizon FILE.json` writes, for the request that the horizon was computed for.
 /// `metadata` is that of the store that the surface was read from.

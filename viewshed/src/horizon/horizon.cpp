@@ -1,157 +1,220 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
+#include <span>
 
 #include <fmt/format.h>
 
+#include <itin/call_progress.hpp>
 #include <itin/error.hpp>
 #include <itin/geodesic.hpp>
 #include <itin/grid_units.hpp>
+#include <itin/level_choice.hpp>
+#include <itin/silent_progress.hpp>
+#include <itin/tin_heights.hpp>
+#include <itin/triangulate.hpp>
 #include <viewshed/horizon.hpp>
+#include <viewshed/surface.hpp>
 
-#include "bounds/height_pyramid.hpp"
-#include "bounds/surface_heights.hpp"
-#include "line/sight_line.hpp"
+#include "horizon/panorama.hpp"
 #include "modes/first_blocker.hpp"
+#include "plan/ground_tiles.hpp"
+#include "plan/memory.hpp"
+#include "plan/partition.hpp"
 #include "progress/stage.hpp"
 #include "request/eye.hpp"
 #include "request/request.hpp"
+#include "window/retrieval.hpp"
 
 namespace itin::viewshed {
 
 namespace {
 
-std::size_t azimuths_in_a_turn(double step) {
-  const double count = std::round(360 / step);
-  if (!(step >= 0.001 && step <= 10) || std::abs(count * step - 360) > 1e-6)
-    throw InputError(fmt::format(
-        "a step of {:g} degrees: give one from 0.001 to 10 that divides 360, for instance 0.1 or 0.25", step));
-  return static_cast<std::size_t>(count);
+using Heights = std::vector<std::optional<double>>;
+
+double clockwise(double degrees) {
+  return std::fmod(degrees + 720, 360);
 }
 
-/// Grid units: a step that rounding does not swallow, and that no triangle is thin enough to hide in.
-constexpr double kStepBehind = 1e-2;
+/// Metres: the request's radius, or as far as there is data.
+double reach_of(const Request& request, const Box& data) {
+  const Observer& observer = request.observers.front();
+  const Point2 p = observer.position;
+  if (const auto radius = radius_of(request, observer)) return *radius;
+  return std::hypot(std::max(p.x - data.xmin, data.xmax - p.x), std::max(p.y - data.ymin, data.ymax - p.y)) + 1;
+}
 
-class Panorama {
+/// Where to look: to the sky, or at a target.
+struct Direction {
+  double turn = 0;  ///< degrees clockwise from the first
+  std::size_t index = 0;
+  bool target = false;
+};
+using Directions = std::span<const Direction>;
+
+/// A horizon on its way: one stretch of its directions after another is looked at.
+class Survey {
  public:
-  Panorama(const Tin& surface, const Request& request, const Eye& eye)
-      : surface_(surface),
-        eye_(eye),
-        drop_(request.earth.drop_coefficient() * surface.grid.resolution),
-        grazing_(kGrazing / surface.grid.resolution),
-        reach_(radius_of(request, request.observers.front()).value_or(farthest()) / surface.grid.resolution),
-        pyramid_(surface) {}
-
-  std::optional<SkyPoint> sky(double azimuth) const {
-    const double x = std::sin(azimuth / kDegreesPerRadian), y = std::cos(azimuth / kDegreesPerRadian);
-    const auto line_to = [&](double end) {
-      return SightLine(eye_.units, {eye_.units.x + x * reach_, eye_.units.y + y * reach_, end}, drop_, grazing_);
-    };
-    // Far below all ground in sight.
-    const SightLine line = line_to(eye_.units.z);
-    LineBundle bundle(line);
-    bundle.end = eye_.units.z - 1e4 * reach_;
-    std::optional<std::uint32_t> highest;
-    pyramid_.search(bundle, [&](std::uint32_t triangle) {
-      const Triangle& t = surface_.triangles[triangle];
-      const double clear = line.clearing_end(surface_.vertices[t[0]], surface_.vertices[t[1]], surface_.vertices[t[2]]);
-      if (clear > bundle.end) bundle.end = clear, highest = triangle;
-    });
-    if (!highest) return std::nullopt;
-    if (std::isinf(bundle.end)) throw InputError("the observer stands beneath a roof or top: it has no horizon");
-    return point(line_to(bundle.end), *highest, azimuth, bundle.end);
+  /// `ground` is what is below the targets, metres. Request and eye must outlive it.
+  Survey(const Request& request, const HorizonOptions& options, const Grid& grid, const Eye& eye, double reach,
+         const Heights& ground)
+      : request_(request), grid_(grid), eye_(eye), reach_(reach) {
+    const auto& azimuths = request.observers.front().azimuth ? request.observers.front().azimuth : request.azimuth;
+    start_ = azimuths ? azimuths->from : 0;
+    result_.eye_elevation_m = eye.elevation;
+    add_points(static_cast<std::size_t>(std::lround(360 / options.step_deg)));
+    for (std::size_t i = 0; i < options.targets.size(); ++i) add_target(options.targets[i], ground[i]);
+    std::stable_sort(directions_.begin(), directions_.end(),
+                     [](const Direction& a, const Direction& b) { return a.turn < b.turn; });
   }
+
+  /// All of them, clockwise.
+  Directions directions() const { return directions_; }
+  /// The line in a direction ends there.
+  Point2 end_of(const Direction& direction) const {
+    if (direction.target) return result_.targets[direction.index].target.position;
+    const double azimuth = result_.points[direction.index].azimuth_deg / kDegreesPerRadian;
+    return {eye_.position.x + reach_ * std::sin(azimuth), eye_.position.y + reach_ * std::cos(azimuth)};
+  }
+
+  /// Looks in these directions over the surface under all their lines.
+  void look(const Tin& surface, Directions directions, Stage& stage) {
+    const Panorama panorama(surface, request_.earth, eye_, reach_);
+    std::optional<FirstBlocker> blockers;
+    if (std::any_of(directions.begin(), directions.end(), [](const Direction& d) { return d.target; }))
+      blockers.emplace(surface, request_.earth);
+    stage.for_each(directions.size(), [&](std::size_t i) -> std::size_t {
+      const Direction& d = directions[i];
+      if (d.target) {
+        const Point3 to = units_of(result_.targets[d.index]);
+        result_.targets[d.index].visible = eye_.stands_at({to.x, to.y}) || !blockers->find(eye_.units, to);
+      } else {
+        result_.points[d.index].sky = panorama.sky(result_.points[d.index].azimuth_deg);
+      }
+      return 1;
+    });
+  }
+
+  Horizon result() && { return std::move(result_); }
 
  private:
-  double farthest() const {
-    const Box box = surface_.bounds();
-    const Point2 p = eye_.position;
-    return std::hypot(std::max(p.x - box.xmin, box.xmax - p.x), std::max(p.y - box.ymin, box.ymax - p.y)) + 1;
+  void add_points(std::size_t turn) {
+    for (std::size_t i = 0; i < turn; ++i) {
+      const double degrees = 360.0 * static_cast<double>(i) / static_cast<double>(turn);
+      const double azimuth = std::fmod(start_ + degrees + 360, 360);
+      if (!eye_.view.faces(azimuth)) continue;
+      directions_.push_back({degrees, result_.points.size(), false});
+      result_.points.push_back({azimuth, std::nullopt});
+    }
   }
 
-  SkyPoint point(const SightLine& line, std::uint32_t triangle, double azimuth, double end) const {
-    const Triangle& t = surface_.triangles[triangle];
-    const double s = line.highest_at(surface_.vertices[t[0]], surface_.vertices[t[1]], surface_.vertices[t[2]]);
-    const double unit = surface_.grid.resolution, bulge = drop_ * reach_ * reach_;
-    const double rise = end - eye_.units.z, distance = s * reach_ * unit;
-    return {std::atan2(rise - bulge, reach_) * kDegreesPerRadian,
-            distance,
-            {eye_.position.x + distance * std::sin(azimuth / kDegreesPerRadian),
-             eye_.position.y + distance * std::cos(azimuth / kDegreesPerRadian),
-             (eye_.units.z + s * rise - bulge * s * (1 - s)) * unit},
-            surface_.theme(t),
-            ends_behind({eye_.units.x + s * line.dx(), eye_.units.y + s * line.dy()}, line)};
+  void add_target(const HorizonTarget& target, std::optional<double> ground) {
+    const Point2& p = target.position;
+    if (!ground || std::hypot(p.x - eye_.position.x, p.y - eye_.position.y) > reach_)
+      throw InputError(fmt::format("target {} at {:.10g},{:.10g}: there is no data there, or it lies beyond the radius",
+                                   target.name, p.x, p.y));
+    SightedTarget& sighted = result_.targets.emplace_back(SightedTarget{target});
+    sighted.elevation_m = request_.target_absolute ? target.height : *ground + target.height;
+    const Point3 to = units_of(sighted);
+    const auto [dx, dy] = eye_.offset_to(p, {to.x, to.y});
+    sighted.distance_m = std::hypot(dx, dy);
+    sighted.azimuth_deg = std::fmod(std::atan2(dx, dy) * kDegreesPerRadian + 360, 360);
+    sighted.elevation_deg = eye_.view.elevation(dx, dy, sighted.elevation_m - eye_.elevation);
+    directions_.push_back({clockwise(sighted.azimuth_deg - start_), result_.targets.size() - 1, true});
   }
 
-  /// Whether no ground lies behind a place in the line's direction, within reach.
-  bool ends_behind(Point2 place, const SightLine& line) const {
-    const double step = kStepBehind / std::hypot(line.dx(), line.dy());
-    const Point2 behind{place.x + step * line.dx(), place.y + step * line.dy()};
-    if (std::hypot(behind.x - eye_.units.x, behind.y - eye_.units.y) >= reach_) return false;
-    constexpr double kBelowAll = -1e12;
-    LineBundle bundle(SightLine({place.x, place.y, kBelowAll}, {behind.x, behind.y, kBelowAll}, drop_, grazing_));
-    bool ground = false;
-    pyramid_.search(bundle, [&](std::uint32_t triangle) {
-      const Triangle& t = surface_.triangles[triangle];
-      ground =
-          ground || height_over({surface_.vertices[t[0]], surface_.vertices[t[1]], surface_.vertices[t[2]]}, behind);
-    });
-    return !ground;
+  Point3 units_of(const SightedTarget& target) const {
+    const Point2 place = place_in_units(grid_, target.target.position);
+    return {place.x, place.y, target.elevation_m / grid_.resolution};
   }
 
-  const Tin& surface_;
+  const Request& request_;
+  Grid grid_;
   const Eye& eye_;
-  double drop_;     ///< grid units of drop per squared grid unit
-  double grazing_;  ///< grid units
-  double reach_;    ///< likewise
-  HeightPyramid pyramid_;
+  double reach_;      ///< metres
+  double start_ = 0;  ///< azimuth of the first direction, degrees
+  Horizon result_;
+  std::vector<Direction> directions_;
 };
 
-SightedTarget sighted(const HorizonTarget& target, const Tin& surface, const Tin& base, const Request& request,
-                      const Eye& eye, const FirstBlocker& blockers) {
-  const auto ground = height_on(base, target.position);
-  if (!ground)
-    throw InputError(fmt::format("target {} at {:.10g},{:.10g}: there is no data there, or it lies beyond the radius",
-                                 target.name, target.position.x, target.position.y));
-  SightedTarget result{target};
-  result.elevation_m = request.target_absolute ? target.height : *ground + target.height;
-  const Point3 to{easting_in_units(surface.grid, target.position.x), northing_in_units(surface.grid, target.position.y),
-                  result.elevation_m / surface.grid.resolution};
-  const auto [dx, dy] = eye.offset_to(target.position, {to.x, to.y});
-  result.distance_m = std::hypot(dx, dy);
-  result.azimuth_deg = std::fmod(std::atan2(dx, dy) * kDegreesPerRadian + 360, 360);
-  result.elevation_deg = eye.view.elevation(dx, dy, result.elevation_m - eye.elevation);
-  result.visible = eye.stands_at({to.x, to.y}) || !blockers.find(eye.units, to);
-  return result;
+void require_valid(const Request& request, const HorizonOptions& options) {
+  validate(request);
+  require_whole_turn(options.step_deg);
+  if (request.observers.size() != 1) throw InputError("a horizon is of one observer: give one");
+}
+
+std::vector<Point2> positions_of(const std::vector<HorizonTarget>& targets) {
+  std::vector<Point2> positions;
+  for (const HorizonTarget& target : targets) positions.push_back(target.position);
+  return positions;
+}
+
+/// Surfaces of triangles, with what finds the highest of them and what hides targets.
+std::uint64_t points_within(std::uint64_t memory, const Store& store, const Request& request) {
+  constexpr std::uint64_t kPyramids = 80;
+  return memory_beside_rasters(memory, store, request) / (bytes_per_point(Request()) + kPyramids);
 }
 
 }  // namespace
 
+void require_whole_turn(double step) {
+  if (!(step >= 0.001 && step <= 10) || std::abs(std::round(360 / step) * step - 360) > 1e-6)
+    throw InputError(fmt::format(
+        "a step of {:g} degrees: give one from 0.001 to 10 that divides 360, for instance 0.1 or 0.25", step));
+}
+
 Horizon horizon(const Tin& surface, const Tin& ground, const Request& request, const HorizonOptions& options,
                 Progress& progress) {
-  validate(request);
-  if (request.observers.size() != 1) throw InputError("a horizon is of one observer: give one");
-  const std::size_t turn = azimuths_in_a_turn(options.step_deg);
+  require_valid(request, options);
   const Observer& observer = request.observers.front();
   const Eye eye = eye_of(surface.grid, request, observer,
                          height_on(request.observers_on_surface ? surface : ground, observer.position));
-  Horizon result;
-  result.eye_elevation_m = eye.elevation;
-  const auto& azimuths = observer.azimuth ? observer.azimuth : request.azimuth;
-  const double start = azimuths ? azimuths->from : 0;
-  for (std::size_t i = 0; i < turn; ++i) {
-    const double azimuth = std::fmod(start + 360.0 * static_cast<double>(i) / static_cast<double>(turn) + 360, 360);
-    if (eye.view.faces(azimuth)) result.points.push_back({azimuth, std::nullopt});
+  Heights below;
+  for (const Point2& target : positions_of(options.targets))
+    below.push_back(height_on(request.targets_on_surface ? surface : ground, target));
+  Survey survey(request, options, surface.grid, eye, reach_of(request, surface.bounds()), below);
+  Stage stage("horizon", survey.directions().size(), progress);
+  survey.look(surface, survey.directions(), stage);
+  return std::move(survey).result();
+}
+
+Horizon horizon(const Store& store, const Request& request, const HorizonOptions& options,
+                const ComputeOptions& compute_options, Progress& progress) {
+  require_valid(request, options);
+  SilentProgress quiet(progress);
+  std::vector<double> heights;
+  const Eye eye = eyes_on_surface(store, request, request.detail, heights, quiet).front();
+  const Heights below = heights_at(store, positions_of(options.targets), request.detail,
+                                   request.targets_on_surface ? request.themes : ThemeChoice::none(), quiet);
+  Survey survey(request, options, store.metadata().grid, eye, reach_of(request, extent_of(store)), below);
+  const std::uint64_t most = points_within(compute_options.memory_bytes, store, request);
+  const GroundTiles ground(store, level_within(store.metadata(), request.detail.finest()),
+                           box_of_window(store, request));
+  Stage stage("horizon", survey.directions().size(), progress);
+  for (Directions left = survey.directions(); !left.empty();) {
+    const auto run = longest_run(
+        left.size(), TileSet(ground.count()),
+        [&](TileSet tiles, std::size_t i) {
+          ground.add_line(eye.position, survey.end_of(left[i]), tiles);
+          return tiles;
+        },
+        [&](const TileSet& tiles) { return ground.points(tiles) <= most; });
+    const Tin surface = triangulate(store, ground.window(run.sum), request.detail, quiet, request.themes);
+    survey.look(surface, left.first(run.count), stage);
+    left = left.subspan(run.count);
   }
-  const Panorama panorama(surface, request, eye);
-  for_each_step(result.points.size(), "horizon", progress,
-                [&](std::size_t i) { result.points[i].sky = panorama.sky(result.points[i].azimuth_deg); });
-  if (options.targets.empty()) return result;
-  const FirstBlocker blockers(surface, request.earth);
-  for (const HorizonTarget& target : options.targets)
-    result.targets.push_back(
-        sighted(target, surface, request.targets_on_surface ? surface : ground, request, eye, blockers));
-  return result;
+  return std::move(survey).result();
+}
+
+Horizon horizon(const Store& store, ViewshedWithSurface& computed, const Request& request,
+                const HorizonOptions& options, const ComputeOptions& compute_options, Progress& progress) {
+  const bool held = computed.whole &&
+                    (!computed.surface->lattice || points_about(store, request.detail, box_of_window(store, request)) <=
+                                                       points_within(compute_options.memory_bytes, store, request));
+  if (!held) return horizon(store, request, options, compute_options, progress);
+  CallProgress call(progress);
+  const Tin& surface = computed.surface->listed(call.step(0.5));
+  return horizon(surface, computed.ground ? *computed.ground : surface, request, options, call.step(1));
 }
 
 }  // namespace itin::viewshed
