@@ -163,8 +163,6 @@ class ViewshedVerb final : public Verb {
       throw InputError("--horizon is that of one observer; give one");
     outputs_.prepare(request_);
     viewshed::ViewshedWithSurface computed = survey(store, request_, progress);
-    if (!horizon_.paths().empty() && !computed.whole)
-      throw InputError("--horizon takes the whole surface in memory: give more --memory or a smaller --radius");
     const viewshed::MissingGround missing = viewshed::missing_ground(store, computed.result, progress);
     const std::vector<SourceInfo> sources = sources_in(store, computed.result.grid.bounds(), request_.themes);
     const ViewshedOutputs::Context context{metadata.crs_wkt,
@@ -180,13 +178,15 @@ class ViewshedVerb final : public Verb {
     if (const auto warning = missing.warning("the area in view")) result.warnings.push_back(in_options(*warning));
     warn_of_scale(metadata, result.warnings);
     outputs_.write(computed, context, result.warnings, progress);
-    write_viewshed_sheet(store, computed.result, sheet_, outputs_.overwrite(), progress);
+    write_viewshed_sheet(store, computed.result, sheet_, context.sources, outputs_.overwrite(), progress);
     outputs_.write_each([&](std::size_t i) { return compute_for_observer(store, computed, i, progress); }, context);
-    const Document targets = horizon_.write(computed, metadata, outputs_.overwrite(), progress, result.warnings);
     // Certified and exact answers are about the full surface.
-    const Detail detail = precise_ || certified_ ? Detail::tolerance(0) : request_.detail;
-    const Document features =
-        features_.write(store, computed.result.grid, {detail, request_.themes}, outputs_.overwrite(), progress);
+    viewshed::Request answered = computed.result.request;
+    if (precise_ || certified_) answered.detail = Detail::tolerance(0);
+    const Document targets =
+        horizon_.write(store, computed, answered, compute_options_, outputs_.overwrite(), progress, result.warnings);
+    const Document features = features_.write(store, computed.result.grid, {answered.detail, request_.themes},
+                                              outputs_.overwrite(), progress);
     result.document = viewshed::viewshed_document(metadata, computed.result);
     viewshed::add_missing_ground(missing, result.document);
     result.document["sources"] = sources_document(sources);
@@ -274,8 +274,6 @@ class ViewshedVerb final : public Verb {
   }
 
   void validate_precise() {
-    if (!horizon_.paths().empty() && (precise_ || certified_))
-      throw InputError("--horizon is that of the surface at --tolerance; leave out --precise and --mode certified");
     if (!memory_text_.empty()) compute_options_.memory_bytes = parse_bytes("--memory", memory_text_);
     if (!precise_) return;
     if (certified_)

@@ -9,7 +9,9 @@
 
 #include <itin/document.hpp>
 #include <itin/error.hpp>
+#include <itin/output_file.hpp>
 #include <viewshed/map_image.hpp>
+#include <viewshed/qgis_styles.hpp>
 
 #include "program/call_files.hpp"
 
@@ -21,16 +23,21 @@ bool is_polygons(const std::string& path) {
   return std::filesystem::path(path).extension() == ".gpkg";
 }
 
+std::string style_beside(const std::string& raster) {
+  return std::filesystem::path(raster).replace_extension(".qml").string();
+}
+
 }  // namespace
 
 void ViewshedOutputs::declare(CLI::App& app) {
-  writes(app.add_option(
-                "-o,--output", outputs_,
-                "A raster to write, a GeoTIFF (.tif), or the regions of its classes as polygons, a GeoPackage (.gpkg); "
-                "may be given again")
-             ->type_name("FILE")
-             ->expected(1)
-             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll));
+  writes(
+      app.add_option(
+             "-o,--output", outputs_,
+             "A raster to write, a GeoTIFF (.tif), with a QGIS style beside it (.qml) where it has no colours of its "
+             "own; or the regions of its classes as polygons, a GeoPackage (.gpkg); may be given again")
+          ->type_name("FILE")
+          ->expected(1)
+          ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll));
   writes(app.add_option("--image", image_, "A map to write (.png, .jpg)")->type_name("FILE"));
   writes(app.add_option("--each", each_, "Also write the raster of every observer alone, as DIR/NAME.tif")
              ->type_name("DIR"));
@@ -42,8 +49,7 @@ void ViewshedOutputs::validate(const std::vector<std::string>& others) {
   if (paths().empty() && each_.empty())
     throw InputError(
         "give an output: --output FILE.tif or FILE.gpkg, --image FILE.png, --sheet FILE.pdf, --each DIR, --horizon "
-        "FILE.csv, or "
-        "--features FILE.tif");
+        "FILE.csv, or --features FILE.tif");
   for (const std::string& path : outputs_) {
     const std::string ending = std::filesystem::path(path).extension().string();
     if (ending != ".tif" && ending != ".tiff" && ending != ".gpkg")
@@ -68,6 +74,19 @@ void ViewshedOutputs::prepare(const viewshed::Request& request) {
     }
   }
   for (const std::string& path : single_) policy_.claim(path);
+  if (viewshed::qgis_style(request).empty()) return;
+  for (const std::string& path : rasters()) {
+    policy_.claim(styles_.emplace_back(style_beside(path)));
+    if (folder_ && folder_->made() && fs::path(path).parent_path() == fs::path(each_))
+      in_new_folder_.emplace_back(styles_.back());
+  }
+}
+
+std::vector<std::string> ViewshedOutputs::rasters() const {
+  std::vector<std::string> rasters = single_;
+  std::copy_if(outputs_.begin(), outputs_.end(), std::back_inserter(rasters),
+               [](const std::string& path) { return !is_polygons(path); });
+  return rasters;
 }
 
 void ViewshedOutputs::write_raster(const std::string& path, const viewshed::Result& result,
@@ -78,6 +97,8 @@ void ViewshedOutputs::write_raster(const std::string& path, const viewshed::Resu
   options.metadata.insert(options.metadata.end(), context.parameters.begin(), context.parameters.end());
   options.overwrite = policy_.overwrite;
   viewshed::write_geotiff(path, result, options);
+  if (const std::string style = viewshed::qgis_style(result.request); !style.empty())
+    write_file(style_beside(path), style, policy_.overwrite);
 }
 
 void ViewshedOutputs::write(viewshed::ViewshedWithSurface& computed, const Context& context,
@@ -112,6 +133,7 @@ std::vector<std::string> ViewshedOutputs::paths() const {
   std::vector<std::string> paths = outputs_;
   if (!image_.empty()) paths.push_back(image_);
   paths.insert(paths.end(), single_.begin(), single_.end());
+  paths.insert(paths.end(), styles_.begin(), styles_.end());
   paths.insert(paths.end(), others_.begin(), others_.end());
   return paths;
 }

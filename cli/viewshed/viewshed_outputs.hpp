@@ -46,12 +46,14 @@ class ViewshedOutputs {
   bool overwrite() const { return policy_.overwrite; }
 
  private:
+  std::vector<std::string> rasters() const;
   void write_raster(const std::string& path, const viewshed::Result& result, const Context& context) const;
 
   std::vector<std::string> outputs_;
   std::string image_, each_;
   std::vector<std::string> others_;
   std::vector<std::string> single_;  ///< a path an observer, with --each
+  std::vector<std::string> styles_;  ///< beside rasters
   std::optional<NewFolder> folder_;  ///< of these
   std::deque<Unfinished> in_new_folder_;
   OutputPolicy policy_;

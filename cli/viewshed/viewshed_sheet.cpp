@@ -7,7 +7,6 @@
 
 #include <itin/coordinates.hpp>
 #include <itin/output_file.hpp>
-#include <itin/sources_in.hpp>
 #include <viewshed/result_map.hpp>
 
 #include "output/map_base.hpp"
@@ -52,7 +51,8 @@ std::string statement_of(const Store& store, const viewshed::Request& request) {
                      fmt::join(request.themes.names(themes), ", "));
 }
 
-profile::TitleBlock title_block(const Store& store, const viewshed::Result& result, const SheetOptions& options) {
+profile::TitleBlock title_block(const Store& store, const viewshed::Result& result, const SheetOptions& options,
+                                const std::vector<std::string>& sources) {
   const viewshed::Request& request = result.request;
   profile::TitleBlock block;
   block.project = options.project(), block.date = options.date();
@@ -66,7 +66,7 @@ profile::TitleBlock title_block(const Store& store, const viewshed::Result& resu
                  {"Coordinates", crs_title(store.metadata().crs_wkt)}};
   if (request.radius)
     block.facts.insert(block.facts.begin() + 2, {"Radius", fmt::format("{:g} km", *request.radius / 1000)});
-  block.sources = described(sources_in(store, result.grid.bounds(), request.themes), store.metadata());
+  block.sources = sources;
   block.made_by = fmt::format("Drawn by itin {}", ITIN_VERSION);
   return block;
 }
@@ -74,7 +74,7 @@ profile::TitleBlock title_block(const Store& store, const viewshed::Result& resu
 }  // namespace
 
 void write_viewshed_sheet(const Store& store, const viewshed::Result& result, const SheetOptions& options,
-                          bool overwrite, Progress& progress) {
+                          const std::vector<std::string>& sources, bool overwrite, Progress& progress) {
   if (options.file().empty()) return;
   const viewshed::ResultMap map = viewshed::result_map(result, {});
   profile::MapSheet sheet;
@@ -97,7 +97,7 @@ void write_viewshed_sheet(const Store& store, const viewshed::Result& result, co
   sheet.legend.push_back({SheetKey::Sample::kHeading, {}, "Map"});
   sheet.legend.push_back({SheetKey::Sample::kMast, kObserver, "Observer"});
   sheet.legend.insert(sheet.legend.end(), base.keys.begin(), base.keys.end());
-  sheet.title = title_block(store, result, options);
+  sheet.title = title_block(store, result, options, sources);
   write_file(options.file(), profile::draw_map_sheet(sheet, options.file()), overwrite);
 }
 

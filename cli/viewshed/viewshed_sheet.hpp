@@ -11,8 +11,8 @@
 
 namespace itin::cli {
 
-/// Throws FileError, InputError (a scale that is too large), Cancelled.
+/// `sources` are those of the surface, in words. Throws FileError, InputError (a scale that is too large), Cancelled.
 void write_viewshed_sheet(const Store& store, const viewshed::Result& result, const SheetOptions& options,
-                          bool overwrite, Progress& progress);
+                          const std::vector<std::string>& sources, bool overwrite, Progress& progress);
 
 }  // namespace itin::cli

@@ -7,7 +7,9 @@
 #include <itin/coordinates.hpp>
 #include <itin/document.hpp>
 #include <itin/error.hpp>
+#include <itin/output_file.hpp>
 #include <itin/store.hpp>
+#include <viewshed/qgis_styles.hpp>
 #include <viewshed/visibility_index.hpp>
 
 #include "options/detail_options.hpp"
@@ -34,12 +36,13 @@ class VisibilityVerb final : public Verb {
 
   void declare(CLI::App& app) override {
     reads(app.add_option("STORE", store_, "The store")->required());
-    writes(app.add_option(
-                  "-o,--output", output_,
-                  "The raster to write (.tif), two bands: the share of the ground within the radius that an observer "
-                  "at the cell's centre sees, 0 to 1, and its standard error")
-               ->type_name("FILE")
-               ->required());
+    writes(
+        app.add_option(
+               "-o,--output", output_,
+               "The raster to write (.tif), two bands: the share of the ground within the radius that an observer "
+               "at the cell's centre sees, 0 to 1, and its standard error; its QGIS style is written beside it (.qml)")
+            ->type_name("FILE")
+            ->required());
     app.add_option("--cell", cell_text_, "Distance of observers: the size of the raster's cells")
         ->type_name("METRES")
         ->required();
@@ -102,6 +105,7 @@ class VisibilityVerb final : public Verb {
 
   Result execute(Progress& progress) override {
     policy_.require_writable(output_);
+    policy_.claim(style());
     // A budget holds for what is kept of the store as well.
     const Store store(store_, {std::min(StoreOptions().cache_bytes, request_.memory_bytes / 4)});
     const StoreMetadata& metadata = store.metadata();
@@ -115,6 +119,7 @@ class VisibilityVerb final : public Verb {
     viewshed::write_geotiff(
         output_, index, request_,
         {metadata.crs_wkt, {{"itin", ITIN_VERSION}, {"surface", json_text(surface)}}, policy_.overwrite});
+    write_file(style(), viewshed::qgis_style_of_shares(), policy_.overwrite);
     Result result;
     warn_of_scale(metadata, result.warnings);
     Document& document = result.document;
@@ -124,7 +129,7 @@ class VisibilityVerb final : public Verb {
     document["observers"] = index.observers;
     document["mean_share"] = index.mean;
     document["mean_share_standard_error"] = index.mean_error;
-    document["outputs"] = {output_};
+    document["outputs"] = {output_, style()};
     document["statistics"] = {{"points_read", index.retrieval.points_read},
                               {"blocks_read", index.retrieval.blocks_read},
                               {"triangles", index.triangles},
@@ -138,6 +143,8 @@ class VisibilityVerb final : public Verb {
   }
 
  private:
+  std::string style() const { return std::filesystem::path(output_).replace_extension(".qml").string(); }
+
   std::string store_, output_, cell_text_, radius_text_, height_text_, target_text_, targets_text_, nodata_text_,
       memory_text_;
   WindowOptions window_;

@@ -1,0 +1,19 @@
+// Layer styles that QGIS takes from beside a raster, NAME.qml: bands of values in colours, where the raster itself can
+// hold no colours.
+//
+//   if (const std::string style = qgis_style(request); !style.empty()) write_file("seen.qml", style, false);
+#pragma once
+
+#include <string>
+
+#include <viewshed/viewshed.hpp>
+
+namespace itin::viewshed {
+
+/// That of the counts or probabilities that answer the request. Empty for every other mode: classes have their colours
+/// in the raster.
+std::string qgis_style(const Request& request);
+/// That of the share that write_geotiff() writes of a VisibilityIndex.
+std::string qgis_style_of_shares();
+
+}  // namespace itin::viewshed

@@ -1,0 +1,28 @@
+#include <viewshed/qgis_styles.hpp>
+
+#include "turbines/value_bands.hpp"
+
+namespace itin::viewshed {
+
+std::string qgis_style(const Request& request) {
+  switch (request.mode) {
+    case Mode::kCount:
+      return banded_style(count_bands(request.observers.size()));
+    case Mode::kProbability:
+      return banded_style(limit_bands({0.05, 0.25, 0.5, 0.75, 0.95}, "of the surfaces"));
+    case Mode::kVisible:
+    case Mode::kWhich:
+    case Mode::kAngle:
+    case Mode::kNearest:
+    case Mode::kBlocker:
+    case Mode::kHeight:
+      return "";
+  }
+  return "";
+}
+
+std::string qgis_style_of_shares() {
+  return banded_style(limit_bands({0.01, 0.02, 0.05, 0.1, 0.2, 0.5}, "of the ground"));
+}
+
+}  // namespace itin::viewshed
