@@ -13,7 +13,8 @@
 namespace itin::cli {
 
 void SheetOptions::declare(CLI::App& app) {
-  app.add_option("--sheets", papers_text_,
+  papers_option_ = "--sheets";
+  app.add_option(papers_option_, papers_text_,
                  "Maps on paper, to scale, with title block, legend, grid references and sources, as PDF and PNG on "
                  "A3, A1 or both; for viewpoints, sheets of wirelines besides (default: none)")
       ->type_name("A3,A1");
@@ -24,7 +25,8 @@ void SheetOptions::declare_file(CLI::App& app) {
   writes(app.add_option("--sheet", file_,
                         "A map on paper, to scale, with title block, legend, grid references and sources (.pdf, .png)")
              ->type_name("FILE"));
-  app.add_option("--paper", papers_text_, "Its size (default: A3)")->type_name("A3|A1");
+  papers_option_ = "--paper";
+  app.add_option(papers_option_, papers_text_, "Its size (default: A3)")->type_name("A3|A1");
   declare_title_block(app);
 }
 
@@ -45,8 +47,8 @@ void SheetOptions::validate() {
   if (papers_text_.empty()) return;
   std::istringstream names(papers_text_);
   for (std::string name; std::getline(names, name, ',');)
-    papers_.push_back(parse_choice("--sheets", name, {"A3", "A1"}) == 0 ? profile::PaperSize::kA3
-                                                                        : profile::PaperSize::kA1);
+    papers_.push_back(parse_choice(papers_option_, name, {"A3", "A1"}) == 0 ? profile::PaperSize::kA3
+                                                                            : profile::PaperSize::kA1);
 }
 
 Document SheetOptions::parameters() const {

@@ -33,7 +33,7 @@ class SheetOptions {
  private:
   void declare_title_block(CLI::App& app);
 
-  std::string file_, papers_text_, scale_text_, project_, date_;
+  std::string file_, papers_option_, papers_text_, scale_text_, project_, date_;
   std::vector<profile::PaperSize> papers_;
   double scale_ = 0;
 };

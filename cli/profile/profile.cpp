@@ -1,7 +1,6 @@
 // itin profile: the surface along a line or a path.
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -20,6 +19,7 @@
 #include "options/surface_options.hpp"
 #include "output/output_path.hpp"
 #include "output/store_document.hpp"
+#include "output/tin_export_options.hpp"
 #include "profile/profile_output.hpp"
 #include "program/call_files.hpp"
 #include "program/values.hpp"
@@ -212,11 +212,7 @@ class ProfileVerb final : public Verb {
 
   void write_triangles(const Store& store, const std::vector<Point2>& corners, const Detail& detail,
                        Progress& progress) const {
-    TinExportOptions options;
-    options.crs_wkt = store.metadata().crs_wkt;
-    options.overwrite = policy_.overwrite;
-    for (const ThemeInfo& theme : store.metadata().themes) options.theme_names.push_back(theme.name);
-    options.metadata_json = json_text(Document{{"itin", ITIN_VERSION}, {"command", parameters()}});
+    const auto options = tin_export_options(store.metadata(), {{"command", parameters()}}, policy_.overwrite);
     export_tin(triangles_along(store, corners, detail, themes_.choice(), progress), triangles_, options, progress);
   }
 
@@ -227,12 +223,8 @@ class ProfileVerb final : public Verb {
     document.update(found);
     document.erase("outputs");
     const Point2 a = corners.front(), b = corners.back();
-    std::vector<double> turns;
-    double length = 0;
-    for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-      length += std::hypot(corners[i].x - corners[i - 1].x, corners[i].y - corners[i - 1].y);
-      turns.push_back(length);
-    }
+    const std::vector<double> along = distances_along(corners);
+    const std::vector<double> turns(along.begin() + 1, along.end() - 1);
     std::string title = fmt::format("Profile from {:.10g}, {:.10g} to {:.10g}, {:.10g}", a.x, a.y, b.x, b.y);
     if (!turns.empty()) title += fmt::format(" with {} corner{}", turns.size(), turns.size() > 1 ? "s" : "");
     for (const std::string& output : outputs_) {

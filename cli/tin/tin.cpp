@@ -20,6 +20,7 @@
 #include "options/window_options.hpp"
 #include "output/output_path.hpp"
 #include "output/store_document.hpp"
+#include "output/tin_export_options.hpp"
 #include "program/call_files.hpp"
 #include "program/values.hpp"
 #include "program/verb.hpp"
@@ -131,11 +132,8 @@ class TinVerb final : public Verb {
 
   void write(const Tin& tin, const std::vector<std::uint16_t>& lines, const StoreMetadata& metadata,
              const Document& surface, Progress& progress) {
-    TinExportOptions options;
-    options.crs_wkt = metadata.crs_wkt;
-    options.overwrite = policy_.overwrite;
-    for (const ThemeInfo& theme : metadata.themes) options.theme_names.push_back(theme.name);
-    options.metadata_json = json_text(Document{{"itin", ITIN_VERSION}, {"command", query()}, {"surface", surface}});
+    const TinExportOptions options =
+        tin_export_options(metadata, {{"command", query()}, {"surface", surface}}, policy_.overwrite);
     if (!lines.empty()) {
       joined_ = export_lines(tin, lines, output_, options);
     } else if (kind_) {

@@ -151,6 +151,7 @@ class ZtvVerb final : public Verb {
     for (const viewshed::Misplaced& m : zone.misplaced)
       list_.bad.push_back({m.number, list_.features[m.number - 1], m.message});
     sources_ = sources_in(store, zone.grid.bounds(), request_.themes.value_or(ThemeChoice::none()));
+    missing_ = viewshed::missing_ground(zone);
     OutputFolder folder(output_, policy_);
     cli::Result result;
     result.document = document(zone, metadata);
@@ -233,6 +234,7 @@ class ZtvVerb final : public Verb {
     facts.viewpoints = seen_.places;
     if (request_.themes) facts.themes = request_.themes->names(metadata.themes);
     facts.sources = sources_;
+    facts.missing = missing_;
     return facts;
   }
 
@@ -268,6 +270,7 @@ class ZtvVerb final : public Verb {
                   of_surface["certified_error_m"][1].get<double>())
             : "Every point of the model is used.";
     facts.sources = sources_;
+    facts.missing = missing_;
     facts.wirelines = viewpoints_.draws_wirelines(), facts.sheets = sheets_.given();
     facts.radius = radius_.text();
     facts.further = radio_.methods(zone);
@@ -288,10 +291,9 @@ class ZtvVerb final : public Verb {
     document["turbines"] = bad_rows_document(turbines_.path(), list_.rows, zone.request.turbines.size(), list_.bad);
     document["turbines"]["sha256"] = list_.sha256;
     document["farms"] = viewshed::farms_of(zone);
-    const viewshed::MissingGround missing = viewshed::missing_ground(zone);
-    document["study_area"] = {{"km2", missing.study_m2() / 1e6},
-                              {"without_data_km2", missing.missing_m2() / 1e6},
-                              {"share_without_data", missing.share()}};
+    document["study_area"] = {{"km2", missing_.study_m2() / 1e6},
+                              {"without_data_km2", missing_.missing_m2() / 1e6},
+                              {"share_without_data", missing_.share()}};
     document["area_km2"]["bare"] = areas(zone, zone.bare);
     if (zone.screened) document["area_km2"]["screened"] = areas(zone, *zone.screened);
     document.update(radio_.document(zone));
@@ -328,7 +330,7 @@ class ZtvVerb final : public Verb {
 
   std::vector<std::string> warnings(const Zone& zone) const {
     std::vector<std::string> warnings = zone.warnings;
-    if (const auto warning = viewshed::missing_ground(zone).warning("the study area, all turbines' radii,"))
+    if (const auto warning = missing_.warning("the study area, all turbines' radii,"))
       warnings.push_back(in_options(*warning));
     for (const BadRow& bad : list_.bad) warnings.push_back(bad_row_warning(turbines_.path(), bad));
     for (const std::string& warning : list_.warnings) warnings.push_back(turbines_.path() + ": " + warning);
@@ -354,8 +356,7 @@ class ZtvVerb final : public Verb {
                                    zone.request.turbines.size(), counted(list_.rows, "turbine"), seen_from(bare),
                                    bare["studied"].get<double>());
     if (zone.screened) text += fmt::format("screened: a blade tip {}\n", seen_from(areas(zone, *zone.screened)));
-    if (const auto missing = viewshed::missing_ground(zone); missing.share() > 0)
-      text += fmt::format("no ground data: {} of the study area\n", missing.text());
+    if (missing_.share() > 0) text += fmt::format("no ground data: {} of the study area\n", missing_.text());
     text += fmt::format("{}, {}; {}\n", counted(zone.statistics.triangles, "triangle"),
                         counted(zone.statistics.lines, "sight line"), request_.earth.convention());
     return text;
@@ -376,6 +377,7 @@ class ZtvVerb final : public Verb {
   TurbineList list_;
   viewshed::ZoneRequest request_;
   std::vector<SourceInfo> sources_;  ///< of the surface
+  viewshed::MissingGround missing_;  ///< in the study area
   ViewpointOptions::Written seen_;
 };
 

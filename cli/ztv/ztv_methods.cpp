@@ -102,21 +102,19 @@ constexpr const char* kWirelines =
 constexpr const char* kSheets =
     " Wireline sheets have the fields of view, principal distances and paper sizes that are assumed for NatureScot's "
     "Visual Representation of Wind Farms, version 2.2: planar, 53.5 by 18.2 degrees at 812.5 mm, and cylindrical, 90 "
-    "by "
-    "14.2 degrees at 522 mm, on paper of 841 by 297 mm.";
+    "by 14.2 degrees at 522 mm, on paper of 841 by 297 mm.";
 
 std::string nodata_in_words(viewshed::NoData rule) {
   return rule == viewshed::NoData::kBlock ? "is taken to block them" : "is taken as clear";
 }
 
-std::string missing_in_words(const viewshed::Zone& zone) {
-  const viewshed::MissingGround missing = viewshed::missing_ground(zone);
+std::string missing_in_words(const viewshed::MissingGround& missing, viewshed::NoData rule) {
   if (missing.share() == 0) return "The terrain data cover the whole study area: all places within the radii.";
   return fmt::format(
       "{} of the study area, {:.1f} km2 within the radii, has no terrain data. Nothing is known of places there; they "
       "are no part of the areas and percentages given, which are of the area with data. Where sight lines cross ground "
       "without data, it {}.",
-      missing.text(), missing.study_m2() / 1e6, nodata_in_words(zone.request.nodata));
+      missing.text(), missing.study_m2() / 1e6, nodata_in_words(rule));
 }
 
 }  // namespace
@@ -133,8 +131,7 @@ std::string refraction_in_words(const Earth& earth) {
   return fmt::format(
       "The Earth's curvature and atmospheric refraction are allowed for: drop = d^2 (1 - k) / (2 R), with a refraction "
       "coefficient k = {:g}, where k is the ratio of the Earth's radius to that of the sight line, and R = {:g} km; "
-      "{}. "
-      "Guidance that states a coefficient in the form (1 - 2 k) means half as much by it: 0.075 there is k = 0.15 "
+      "{}. Guidance that states a coefficient in the form (1 - 2 k) means half as much by it: 0.075 there is k = 0.15 "
       "here.",
       earth.refraction, earth.radius / 1000, drops);
 }
@@ -154,19 +151,16 @@ std::string methods_text(const viewshed::Zone& zone, const StoreMetadata& metada
                   request.observer_height, zone.grid.cell_width(), zone.grid.cell_height()));
   paragraph("Study area",
             facts.radius + " Distances are horizontal; beyond its own distance a turbine is not counted.");
-  paragraph("Ground without data", missing_in_words(zone));
+  paragraph("Ground without data", missing_in_words(facts.missing, request.nodata));
   paragraph("Curvature and refraction", refraction_in_words(request.earth));
   paragraph(
       "Visibility",
       "For every observer and turbine the lowest point of the turbine's axis is found that a straight line from the "
-      "eye "
-      "reaches without passing below the surface. The result is exact for the surface: it follows from the triangles "
-      "themselves, without a step size; a line that touches the surface counts as clear. The blade tip is visible "
-      "where "
-      "this point is no higher than the tip, the hub likewise; the visible height is the part of the turbine above "
-      "this "
-      "point. Rotors are taken to face the observer. Haze, light and the acuity of the eye are not taken into "
-      "account.");
+      "eye reaches without passing below the surface. The result is exact for the surface: it follows from the "
+      "triangles themselves, without a step size; a line that touches the surface counts as clear. The blade tip is "
+      "visible where this point is no higher than the tip, the hub likewise; the visible height is the part of the "
+      "turbine above this point. Rotors are taken to face the observer. Haze, light and the acuity of the eye are not "
+      "taken into account.");
   paragraph("Screening", screening_in_words(zone, metadata, facts));
   if (facts.wirelines) paragraph("Wirelines", std::string(kWirelines) + (facts.sheets ? kSheets : ""));
   for (const std::string& further : facts.further) text += further + "\n\n";

@@ -6,6 +6,7 @@
 
 #include <itin/earth.hpp>
 #include <itin/store.hpp>
+#include <viewshed/missing_ground.hpp>
 #include <viewshed/turbines.hpp>
 
 namespace itin::cli {
@@ -14,6 +15,7 @@ struct ZtvMethods {
   std::string turbines_file, turbines_sha256;
   std::string surface;              ///< detail and certified error
   std::vector<SourceInfo> sources;  ///< of the terrain and of what screens, within the study area
+  viewshed::MissingGround missing;  ///< in the study area
   bool wirelines = false, sheets = false;
   std::string radius;  ///< sentence
   std::size_t rows = 0, bad = 0;

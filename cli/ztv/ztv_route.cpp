@@ -34,9 +34,7 @@ struct RoutePlace {
 
 /// One in the middle of every stretch of `every` metres, or of as many equal ones as are needed.
 std::vector<RoutePlace> places_along(const std::vector<Point2>& corners, double every) {
-  std::vector<double> at{0};
-  for (std::size_t i = 1; i < corners.size(); ++i)
-    at.push_back(at.back() + std::hypot(corners[i].x - corners[i - 1].x, corners[i].y - corners[i - 1].y));
+  const std::vector<double> at = distances_along(corners);
   const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(at.back() / every - 1e-9)));
   std::vector<RoutePlace> places;
   std::size_t side = 0;
@@ -198,8 +196,7 @@ std::vector<viewshed::ZoneFile> RouteOptions::write(const std::string& folder, c
   for (const Path& path : read_paths(path_, metadata.crs_wkt)) {
     Route route;
     route.name = path.name, route.number = ++number;
-    for (std::size_t i = 1; i < path.corners.size(); ++i)
-      route.length += std::hypot(path.corners[i].x - path.corners[i - 1].x, path.corners[i].y - path.corners[i - 1].y);
+    route.length = distances_along(path.corners).back();
     route.places = places_along(path.corners, every_);
     survey(route, ground, features ? &*features : nullptr, zone, progress);
     if (std::none_of(route.bare.begin(), route.bare.end(), [](const Found& f) { return f.has_value(); }))

@@ -12,7 +12,6 @@
 #include <itin/output_file.hpp>
 #include <itin/parallel.hpp>
 #include <itin/sources_in.hpp>
-#include <viewshed/missing_ground.hpp>
 #include <viewshed/zone_maps.hpp>
 
 #include "output/map_base.hpp"
@@ -195,9 +194,9 @@ std::string statement_of(const ZoneMap& map, const ZtvSheetFacts& facts) {
       fmt::join(facts.themes, ", "));
 }
 
-std::string without_terrain_in_words(double share) {
-  const std::string percent = share > 0 && share < 0.001 ? "less than 0.1" : fmt::format("{:.1f}", 100 * share);
-  return share > 0 ? fmt::format("; {} % of it has no terrain data and is not in the percentages", percent) : "";
+std::string without_terrain_in_words(const viewshed::MissingGround& missing) {
+  if (missing.share() == 0) return "";
+  return fmt::format("; {} of it has no terrain data and is not in the percentages", missing.percent());
 }
 
 std::string heights_in_words(const Zone& zone) {
@@ -223,16 +222,15 @@ profile::TitleBlock title_block(const Store& store, const Zone& zone, const Zone
   block.project = options.project(), block.date = options.date();
   block.title = map.title + (map.screened ? ", screened" : "");
   block.statement = statement_of(map, facts);
-  block.facts = {
-      {"Turbines", heights_in_words(zone)},
-      {"Study area", radii_in_words(zone) + without_terrain_in_words(viewshed::missing_ground(zone).share())},
-      {"Observer", fmt::format("eyes {:g} m above the ground at the centre of cells of {:g} m",
-                               zone.request.observer_height, zone.grid.cell_width())},
-      {"Earth", zone.request.earth.curvature
-                    ? "curvature and refraction are taken into account, " + zone.request.earth.convention()
-                    : "flat; curvature and refraction are not taken into account"},
-      {"Terrain", terrain_in_words(metadata, zone.request.detail)},
-      {"Coordinates", crs_title(metadata.crs_wkt)}};
+  block.facts = {{"Turbines", heights_in_words(zone)},
+                 {"Study area", radii_in_words(zone) + without_terrain_in_words(facts.missing)},
+                 {"Observer", fmt::format("eyes {:g} m above the ground at the centre of cells of {:g} m",
+                                          zone.request.observer_height, zone.grid.cell_width())},
+                 {"Earth", zone.request.earth.curvature
+                               ? "curvature and refraction are taken into account, " + zone.request.earth.convention()
+                               : "flat; curvature and refraction are not taken into account"},
+                 {"Terrain", terrain_in_words(metadata, zone.request.detail)},
+                 {"Coordinates", crs_title(metadata.crs_wkt)}};
   block.sources = described(facts.sources, metadata);
   block.made_by = fmt::format("Drawn by itin {}", ITIN_VERSION);
   return block;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <itin/store.hpp>
+#include <viewshed/missing_ground.hpp>
 #include <viewshed/turbines.hpp>
 #include <viewshed/zone_files.hpp>
 
@@ -24,6 +25,7 @@ struct ZtvSheetFacts {
   std::vector<NamedPlace> viewpoints;
   std::vector<std::string> themes;  ///< that screen
   std::vector<SourceInfo> sources;  ///< within the study area
+  viewshed::MissingGround missing;  ///< in the study area
 };
 
 /// sheet-NAME-A3.pdf and .png of each map. Throws FileError, InputError (a scale that is too large), Cancelled.

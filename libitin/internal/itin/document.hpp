@@ -1,7 +1,8 @@
 // Results as JSON documents, in the names that stay. What a library gives as text is one of these.
 //
-//   Document document{{"crs", crs_identifier(metadata.crs_wkt)}, {"surface", surface_document(metadata, detail,
-//   themes)}}; return result_text(document);
+//   Document document{{"crs", crs_identifier(metadata.crs_wkt)}};
+//   document["surface"] = surface_document(metadata, detail, themes);
+//   return result_text(document);
 #pragma once
 
 #include <string>

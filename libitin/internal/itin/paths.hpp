@@ -22,4 +22,7 @@ struct Path {
 /// understood (naming it), InputError for a CRS that is unknown.
 std::vector<Path> read_paths(const std::string& path, const std::string& to_crs);
 
+/// How far along the path each corner is, horizontally: 0 at the first, the path's length at the last.
+std::vector<double> distances_along(const std::vector<Point2>& corners);
+
 }  // namespace itin

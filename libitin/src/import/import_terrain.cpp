@@ -116,8 +116,7 @@ bool may_stand_on(const Store* store) {
 
 bool has_raised(const Store* store) {
   if (store == nullptr) return false;
-  const std::vector<ThemeInfo>& themes = store->metadata().themes;
-  return std::any_of(themes.begin(), themes.end(), [](const ThemeInfo& theme) { return theme.is_raised(); });
+  return ThemeChoice::all().includes_raised(store->metadata().themes);
 }
 
 /// Raised features need their ground finished first, and give vertices to lines of the ground where they cross them.

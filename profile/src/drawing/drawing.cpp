@@ -1,6 +1,7 @@
 #include "drawing/drawing.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
 #include <cairo.h>
@@ -135,6 +136,12 @@ void Drawing::polygon(std::span<const Point2> points, const Colour& fill) {
 void Drawing::rectangle(const Box& box, const Colour& fill) {
   const Point2 corners[] = {{box.xmin, box.ymin}, {box.xmax, box.ymin}, {box.xmax, box.ymax}, {box.xmin, box.ymax}};
   polygon(corners, fill);
+}
+
+void Drawing::outline(const Box& box, const Stroke& stroke) {
+  polyline(std::array{Point2{box.xmin, box.ymin}, Point2{box.xmax, box.ymin}, Point2{box.xmax, box.ymax},
+                      Point2{box.xmin, box.ymax}, Point2{box.xmin, box.ymin}},
+           stroke);
 }
 
 void Drawing::circle(Point2 centre, double radius, const Colour& fill) {

@@ -58,6 +58,7 @@ class Drawing {
   void polyline(std::span<const Point2> points, const Stroke& stroke);
   void polygon(std::span<const Point2> points, const Colour& fill);
   void rectangle(const Box& box, const Colour& fill);
+  void outline(const Box& box, const Stroke& stroke);
   void circle(Point2 centre, double radius, const Colour& fill);
   /// Cells of equal size over a box, unsmoothed, row by row from the top: 0xAARRGGBB, no colour yet times its alpha.
   void cells(const Box& box, int columns, int rows, std::span<const std::uint32_t> argb);

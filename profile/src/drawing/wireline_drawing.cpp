@@ -44,7 +44,7 @@ class WirelinePage {
                   },
                   {0, query_.width_deg, 6})
         .draw(*drawing_);
-    draw_farms();
+    draw_farm_names(*drawing_, query_, {frame_.xmax, frame_.ymin - 6}, 8, 10);
     draw_axes();
     return drawing_->finish();
   }
@@ -85,19 +85,6 @@ class WirelinePage {
     for (double e = std::ceil(low_); e <= high_; e += 1)
       drawing_->polyline(std::array{Point2{frame_.xmin, y_at(e)}, Point2{frame_.xmax, y_at(e)}},
                          {e == 0 ? kFaint : kDegreeLine, 0.5, {}});
-  }
-
-  /// The farms' names in their colours, where there are several.
-  void draw_farms() {
-    const std::vector<std::string> farms = farms_of(query_);
-    if (farms.size() < 2) return;
-    double x = frame_.xmax;
-    for (std::size_t f = farms.size(); f-- > 0;) {
-      const Lettering lettering{.size = 8, .colour = farm_colour(f), .align = Align::kRight, .bold = true};
-      const std::string name = farms[f].empty() ? "(no farm)" : farms[f];
-      drawing_->text({x, frame_.ymin - 6}, name, lettering);
-      x -= drawing_->text_width(name, lettering) + 10;
-    }
   }
 
   void draw_axes() {

@@ -57,6 +57,17 @@ Colour farm_colour(std::size_t farm) {
   return kColours[farm % kColours.size()];
 }
 
+void draw_farm_names(Drawing& drawing, const WirelineQuery& query, Point2 right_end, double size, double gap) {
+  const std::vector<std::string> farms = farms_of(query);
+  if (farms.size() < 2) return;
+  for (std::size_t f = farms.size(); f-- > 0;) {
+    const Lettering lettering{.size = size, .colour = farm_colour(f), .align = Align::kRight, .bold = true};
+    const std::string name = farms[f].empty() ? "(no farm)" : farms[f];
+    drawing.text(right_end, name, lettering);
+    right_end.x -= drawing.text_width(name, lettering) + gap;
+  }
+}
+
 WirelineScene::WirelineScene(const Wireline& view, const Box& frame, WirelineProjection projection, const Part& part)
     : view_(view),
       frame_(frame),

@@ -1,6 +1,6 @@
 // The terrain and turbines of a wireline in a frame, under any projection.
 //
-//   WirelineScene scene(view, frame, [&](double across, double elevation) { return Point2{...}; });
+//   WirelineScene scene(view, frame, [&](double across, double elevation) { return Point2{...}; }, {0, 90});
 //   scene.draw(drawing);
 #pragma once
 
@@ -28,6 +28,8 @@ std::vector<PlacedTurbine> placed_turbines(const WirelineQuery& query);
 /// Farms in the order of their first turbines, and the colour of each.
 std::vector<std::string> farms_of(const WirelineQuery& query);
 Colour farm_colour(std::size_t farm);
+/// Writes the farms' names in their colours on one line that ends at `right_end`, where there are several farms.
+void draw_farm_names(Drawing& drawing, const WirelineQuery& query, Point2 right_end, double size, double gap);
 
 class WirelineScene {
  public:

@@ -75,7 +75,7 @@ void MapFrame::draw(const MapSheet& sheet) {
       for (const SheetLine& line : lines->lines) label_line(line, lines->colour);
   drawing_.unclip();
   draw_grid(sheet.crs_wkt);
-  draw_frame();
+  drawing_.outline(paper_.frame, {kInk, 0.8 * paper_.type, {}});
 }
 
 void MapFrame::draw_layer(const SheetCells& cells) {
@@ -193,13 +193,6 @@ void MapFrame::draw_grid(const std::string& crs_wkt) {
         drawing_.text({p.x + 1, p.y - 1}, *reference, inside);
     }
   }
-}
-
-void MapFrame::draw_frame() {
-  const Box& f = paper_.frame;
-  drawing_.polyline(std::array{Point2{f.xmin, f.ymin}, Point2{f.xmax, f.ymin}, Point2{f.xmax, f.ymax},
-                               Point2{f.xmin, f.ymax}, Point2{f.xmin, f.ymin}},
-                    {kInk, 0.8 * paper_.type, {}});
 }
 
 }  // namespace itin::profile

@@ -33,7 +33,6 @@ class MapFrame {
   void label_line(const SheetLine& line, const SheetColour& colour);
   void label_marks(const SheetMarks& marks);
   void draw_grid(const std::string& crs_wkt);
-  void draw_frame();
 
   Drawing& drawing_;
   const Paper& paper_;

@@ -43,11 +43,7 @@ double scale_of(const MapSheet& sheet) {
 }
 
 Box ground_in_frame(const MapSheet& sheet) {
-  const Box frame = paper_of(sheet.paper).frame;
-  const double metres = scale_of(sheet) / (1000 * kPointsPerMillimetre);
-  const Point2 middle{(sheet.area.xmin + sheet.area.xmax) / 2, (sheet.area.ymin + sheet.area.ymax) / 2};
-  const double x = frame.width() * metres / 2, y = frame.height() * metres / 2;
-  return {middle.x - x, middle.y - y, middle.x + x, middle.y + y};
+  return ground_in(paper_of(sheet.paper).frame, sheet.area, scale_of(sheet));
 }
 
 void require_sheet_format(const std::string& path) {

@@ -20,4 +20,11 @@ Paper paper_of(PaperSize size) {
   return paper;
 }
 
+Box ground_in(const Box& frame, const Box& area, double scale) {
+  const double metres = scale / (1000 * kPointsPerMillimetre);
+  const Point2 middle{(area.xmin + area.xmax) / 2, (area.ymin + area.ymax) / 2};
+  const double x = frame.width() * metres / 2, y = frame.height() * metres / 2;
+  return {middle.x - x, middle.y - y, middle.x + x, middle.y + y};
+}
+
 }  // namespace itin::profile

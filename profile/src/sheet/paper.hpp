@@ -17,4 +17,7 @@ struct Paper {
 
 Paper paper_of(PaperSize size);
 
+/// The ground that a frame shows at 1 : scale, with the middle of `area` in its middle, metres.
+Box ground_in(const Box& frame, const Box& area, double scale);
+
 }  // namespace itin::profile

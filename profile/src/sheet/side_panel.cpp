@@ -46,10 +46,7 @@ void SidePanel::draw() {
   draw_scale();
   draw_notes();
   draw_foot();
-  const Box& p = paper_.panel;
-  drawing_.polyline(std::array{Point2{p.xmin, p.ymin}, Point2{p.xmax, p.ymin}, Point2{p.xmax, p.ymax},
-                               Point2{p.xmin, p.ymax}, Point2{p.xmin, p.ymin}},
-                    {kInk, 0.8 * paper_.type, {}});
+  drawing_.outline(paper_.panel, {kInk, 0.8 * paper_.type, {}});
 }
 
 void SidePanel::rule() {
@@ -88,10 +85,7 @@ void SidePanel::draw_key(const SheetKey& key) {
       const double wash = 0.84;  // of level ground in the relief
       drawing_.rectangle(patch, {wash, wash, wash});
       drawing_.rectangle(patch, drawn(key.colour));
-      drawing_.polyline(
-          std::array{Point2{patch.xmin, patch.ymin}, Point2{patch.xmax, patch.ymin}, Point2{patch.xmax, patch.ymax},
-                     Point2{patch.xmin, patch.ymax}, Point2{patch.xmin, patch.ymin}},
-          {kFaint, 0.3 * paper_.type, {}});
+      drawing_.outline(patch, {kFaint, 0.3 * paper_.type, {}});
       break;
     }
     case kLine:
@@ -149,9 +143,7 @@ void SidePanel::draw_scale() {
   for (int i = 0; i < kParts; ++i)
     drawing_.rectangle({left + bar * i / kParts, y_, left + bar * (i + 1) / kParts, y_ + height},
                        i % 2 == 0 ? kInk : kPaper);
-  drawing_.polyline(std::array{Point2{left, y_}, Point2{left + bar, y_}, Point2{left + bar, y_ + height},
-                               Point2{left, y_ + height}, Point2{left, y_}},
-                    {kInk, 0.4 * paper_.type, {}});
+  drawing_.outline({left, y_, left + bar, y_ + height}, {kInk, 0.4 * paper_.type, {}});
   for (const int i : {0, 2, 4})
     drawing_.text({left + bar * i / kParts, y_ + height + 8 * paper_.type},
                   fmt::format("{:g}{}", length * i / kParts / unit,

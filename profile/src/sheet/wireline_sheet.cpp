@@ -43,14 +43,7 @@ void draw_caption(Drawing& drawing, const Wireline& view, const WirelineSheet& s
   const double left = (kPageWidth - kImageWidth) / 2 * k, width = kImageWidth * k;
   double y = top_mm * k;
   drawing.text({left, y + 12}, sheet.title, {.size = 13, .colour = kInk, .bold = true});
-  const std::vector<std::string> farms = farms_of(view.query);
-  double x = left + width;
-  for (std::size_t f = farms.size(); farms.size() > 1 && f-- > 0;) {
-    const Lettering lettering{.size = 9, .colour = farm_colour(f), .align = Align::kRight, .bold = true};
-    const std::string name = farms[f].empty() ? "(no farm)" : farms[f];
-    drawing.text({x, y + 12}, name, lettering);
-    x -= drawing.text_width(name, lettering) + 12;
-  }
+  draw_farm_names(drawing, view.query, {left + width, y + 12}, 9, 12);
   y += 24;
   const double column = width / 5;
   const Lettering lettering{.size = 8, .colour = kInk};
@@ -148,10 +141,7 @@ std::string draw_viewpoint_sheet(const Wireline& view, const ViewpointSheet& she
   draw_table(drawing, sheet.farms, {left, y + 10}, width);
   Paper paper = paper_of(PaperSize::kA3);
   paper.frame = box_mm(255, 16, 150, 178);
-  const double metres = sheet.map.scale / (1000 * k);
-  const Point2 middle{(sheet.map.area.xmin + sheet.map.area.xmax) / 2, (sheet.map.area.ymin + sheet.map.area.ymax) / 2};
-  const double across = paper.frame.width() * metres / 2, up = paper.frame.height() * metres / 2;
-  MapFrame(drawing, paper, {middle.x - across, middle.y - up, middle.x + across, middle.y + up}).draw(sheet.map);
+  MapFrame(drawing, paper, ground_in(paper.frame, sheet.map.area, sheet.map.scale)).draw(sheet.map);
   drawing.text({paper.frame.xmin, paper.frame.ymax + 22},
                fmt::format("Location, 1:{:.0f} at A3; grid north is up", sheet.map.scale), name_of_fact);
   const double image = kWidth - 2 * kMargin, principal = image / (std::numbers::pi / 2);

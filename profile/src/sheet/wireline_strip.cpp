@@ -72,9 +72,7 @@ void draw_strip(Drawing& drawing, const Wireline& view, const WirelineStrip& str
                 },
                 {middle - half, middle + half, 6 + strip.weight, strip.weight})
       .draw(drawing);
-  drawing.polyline(std::array{Point2{f.xmin, f.ymin}, Point2{f.xmax, f.ymin}, Point2{f.xmax, f.ymax},
-                              Point2{f.xmin, f.ymax}, Point2{f.xmin, f.ymin}},
-                   {kInk, 0.7, {}});
+  drawing.outline(f, {kInk, 0.7, {}});
   draw_bearings(drawing, strip);
 }
 

@@ -32,6 +32,8 @@ struct MissingGround {
   double share() const;
   double study_m2() const { return static_cast<double>(with_ground + without_ground + beyond) * cell_area; }
   double missing_m2() const { return static_cast<double>(without_ground + beyond) * cell_area; }
+  /// The share: "12.3 %", "less than 0.1 %".
+  std::string percent() const;
   /// "12.3 % (4.6 km2)".
   std::string text() const;
   /// Says what share of `area` it is, and what decides; nothing where that is less than a thousandth, or the area is

@@ -14,11 +14,6 @@ namespace itin::viewshed {
 
 namespace {
 
-bool bounds_elevations(const Request& request) {
-  return request.elevation || std::any_of(request.observers.begin(), request.observers.end(),
-                                          [](const Observer& observer) { return observer.elevation.has_value(); });
-}
-
 /// Leaves those without ground.
 void leave_out_ground(const Tin& coverage, const RasterGrid& grid, std::vector<std::uint8_t>& cells) {
   const std::vector<float> heights = heights_at(coverage, grid);
@@ -33,9 +28,12 @@ double MissingGround::share() const {
   return all == 0 ? 0 : static_cast<double>(missing) / static_cast<double>(all);
 }
 
+std::string MissingGround::percent() const {
+  return share() > 0 && share() < 0.001 ? "less than 0.1 %" : fmt::format("{:.1f} %", 100 * share());
+}
+
 std::string MissingGround::text() const {
-  const std::string percent = share() > 0 && share() < 0.001 ? "less than 0.1" : fmt::format("{:.1f}", 100 * share());
-  return fmt::format("{} % ({:.3g} km2)", percent, missing_m2() / 1e6);
+  return fmt::format("{} ({:.3g} km2)", percent(), missing_m2() / 1e6);
 }
 
 std::optional<std::string> MissingGround::warning(const std::string& area) const {

@@ -76,8 +76,7 @@ class ParallelView {
 MapImage draw_oblique(const Tin& tin, const ObliqueOptions& options) {
   if (!(options.elevation > 0 && options.elevation <= 90) || !std::isfinite(options.azimuth))
     throw InputError("a view needs an azimuth, and an elevation above 0 and up to 90 degrees");
-  if (options.pixels < 200 || options.pixels > 16000) throw InputError("a view has 200 to 16000 pixels a side");
-  if (tin.triangles.empty()) throw InputError("there is no ground in the window, so nothing to draw");
+  require_drawable(tin, options.pixels);
   return ParallelView(tin, options).draw();
 }
 

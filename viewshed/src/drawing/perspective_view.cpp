@@ -19,7 +19,10 @@ constexpr double kHeightOfWidth = 9.0 / 16;
 class PerspectiveView {
  public:
   PerspectiveView(const Tin& tin, const PerspectiveOptions& options)
-      : tin_(tin), options_(options), drop_(options.earth.drop_coefficient()) {
+      : tin_(tin),
+        options_(options),
+        drop_(options.earth.drop_coefficient()),
+        focal_(options.pixels * SurfacePicture::kSamples / 2.0 / std::tan(options.field / 2 * kDegree)) {
     const double sin_a = std::sin(options.azimuth * kDegree), cos_a = std::cos(options.azimuth * kDegree);
     const double sin_p = std::sin(options.pitch * kDegree), cos_p = std::cos(options.pitch * kDegree);
     right_ = {cos_a, -sin_a, 0};
@@ -34,9 +37,10 @@ class PerspectiveView {
     for (std::uint32_t v = 0; v < tin_.vertices.size(); ++v) seen.push_back(project(tin_.point(v)));
     for (const Triangle& t : tin_.triangles) {
       const std::vector<Point3> corners = in_front({seen[t[0]], seen[t[1]], seen[t[2]]});
+      const Colour colour = colours.of(t);
       for (std::size_t i = 2; i < corners.size(); ++i)
         picture.fill({in_plane(corners[0], picture), in_plane(corners[i - 1], picture), in_plane(corners[i], picture)},
-                     colours.of(t), options_.edges);
+                     colour, options_.edges);
     }
     return picture.image();
   }
@@ -65,14 +69,14 @@ class PerspectiveView {
   }
 
   SurfacePicture::Corner in_plane(const Point3& p, const SurfacePicture& picture) const {
-    const double focal = picture.width() / 2 / std::tan(options_.field / 2 * kDegree);
     // The reciprocal of the distance is linear in the picture's plane.
-    return {picture.width() / 2 + focal * p.x / p.z, picture.height() / 2 - focal * p.y / p.z, -1 / p.z};
+    return {picture.width() / 2 + focal_ * p.x / p.z, picture.height() / 2 - focal_ * p.y / p.z, -1 / p.z};
   }
 
   const Tin& tin_;
   const PerspectiveOptions& options_;
   double drop_;
+  double focal_;  ///< samples
   Point3 right_, up_, forward_;
 };
 
@@ -82,8 +86,7 @@ MapImage draw_perspective(const Tin& tin, const PerspectiveOptions& options) {
   if (!std::isfinite(options.azimuth) || !(std::abs(options.pitch) < 90))
     throw InputError("a view needs an azimuth, and a pitch between -90 and 90 degrees");
   if (!(options.field >= 1 && options.field <= 150)) throw InputError("a view's field is 1 to 150 degrees wide");
-  if (options.pixels < 200 || options.pixels > 16000) throw InputError("a view has 200 to 16000 pixels a side");
-  if (tin.triangles.empty()) throw InputError("there is no ground in the window, so nothing to draw");
+  require_drawable(tin, options.pixels);
   return PerspectiveView(tin, options).draw();
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <itin/error.hpp>
+
 namespace itin::viewshed {
 
 namespace {
@@ -43,6 +45,11 @@ std::pair<double, double> range_in(const std::array<Corner, 3>& s, double y) {
 }
 
 }  // namespace
+
+void require_drawable(const Tin& tin, int pixels) {
+  if (pixels < 200 || pixels > 16000) throw InputError("a view has 200 to 16000 pixels a side");
+  if (tin.triangles.empty()) throw InputError("there is no ground in the window, so nothing to draw");
+}
 
 SurfacePicture::SurfacePicture(int width, int height, Colour background)
     : width_(width * kSamples), height_(height * kSamples) {

@@ -8,11 +8,15 @@
 #include <array>
 #include <vector>
 
+#include <itin/tin.hpp>
 #include <viewshed/map_image.hpp>
 
 #include "drawing/canvas.hpp"
 
 namespace itin::viewshed {
+
+/// Throws InputError for a width that pictures do not have, and for a surface without triangles.
+void require_drawable(const Tin& tin, int pixels);
 
 class SurfacePicture {
  public:

@@ -66,16 +66,21 @@ void write_polygons(const std::string& path, const Result& result, const std::st
     using Code = std::remove_cv_t<typename decltype(std::span(codes))::element_type>;
     // No class has this value: the greatest few are taken.
     constexpr Code kNoData = std::numeric_limits<Code>::max() - 3;
-    std::vector<Code> values(codes.begin(), codes.end());
-    for (std::size_t i = 0; i < no_data.size(); ++i)
-      if (no_data[i] == 1) values[i] = kNoData;
+    std::span<const Code> values(codes);
+    std::vector<Code> marked;
+    if (!no_data.empty()) {
+      marked.assign(codes.begin(), codes.end());
+      for (std::size_t i = 0; i < no_data.size(); ++i)
+        if (no_data[i] == 1) marked[i] = kNoData;
+      values = marked;
+    }
     description.classes = std::move(classes);
     for (std::size_t i = 0; i < description.classes.size() && description.classes.size() > 1; ++i) {
       RegionClass& c = description.classes[i];
       set_distinct_colour(i, c.red, c.green, c.blue);
     }
     if (!no_data.empty()) description.classes.push_back({kNoData, "no ground data", 160, 160, 160});
-    write_regions(path, result.grid, std::span<const Code>(values), description);
+    write_regions(path, result.grid, values, description);
   };
   switch (result.request.mode) {
     case Mode::kCount:

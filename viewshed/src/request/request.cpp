@@ -160,6 +160,11 @@ bool has_raised_features(const Store& store, const Request& request) {
   return request.themes.includes_raised(store.metadata().themes);
 }
 
+bool bounds_elevations(const Request& request) {
+  return request.elevation || std::any_of(request.observers.begin(), request.observers.end(),
+                                          [](const Observer& observer) { return observer.elevation.has_value(); });
+}
+
 RasterGrid cells_of(const Request& request, const Box& extent) {
   if (request.grid) return with_room_for_bands(request, *request.grid);
   Box area = extent;

@@ -37,6 +37,9 @@ std::vector<Point2> positions_of(const Request& request);
 /// How far the observer looks; nothing: as far as there is ground.
 std::optional<double> radius_of(const Request& request, const Observer& observer);
 
+/// Whether the angles between which an observer looks have bounds.
+bool bounds_elevations(const Request& request);
+
 /// The cells to decide: as given; or aligned, over the extent of all data, or the part of it about the discs within the
 /// observers' radii, where each has one. So they do not depend on what is read of the data. Throws InputError if there
 /// are none.

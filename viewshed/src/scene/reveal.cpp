@@ -11,6 +11,8 @@
 #include <itin/lattice_reader.hpp>
 #include <itin/parallel.hpp>
 
+#include "request/request.hpp"
+
 namespace itin::viewshed {
 
 namespace {
@@ -83,9 +85,7 @@ Revealed reveal(const Eye& eye, LatticeReader& reader, FullSurface& surface, std
 }
 
 bool asks_for_all_heights(const Request& request) {
-  return request.mode == Mode::kHeight || request.elevation ||
-         std::any_of(request.observers.begin(), request.observers.end(),
-                     [](const Observer& observer) { return observer.elevation.has_value(); });
+  return request.mode == Mode::kHeight || bounds_elevations(request);
 }
 
 LatticeReader::Heights heights_for(const Request& request, std::uint64_t posts) {

@@ -1,7 +1,6 @@
 #include "turbines/farm_combinations.hpp"
 
 #include <algorithm>
-#include <map>
 #include <set>
 #include <utility>
 
@@ -77,6 +76,11 @@ std::vector<FarmSet> sets_present(const Zone& zone, const FarmSets& sets) {
   return {present.begin(), present.end()};
 }
 
+std::uint64_t cells_of(const CombinationCells& cells, const Combination& combination) {
+  const auto found = cells.find(combination.farms);
+  return found == cells.end() ? 0 : found->second;
+}
+
 }  // namespace
 
 std::vector<std::string> farms_of(const Zone& zone) {
@@ -118,25 +122,30 @@ std::vector<Combination> combinations_present(const Zone& zone,
   return result;
 }
 
+CombinationCells cells_by_combination(const std::vector<std::uint32_t>& farms) {
+  CombinationCells cells;
+  for (const std::uint32_t f : farms)
+    if (f != kOutsideFarms) ++cells[f];
+  return cells;
+}
+
+std::vector<Combination> commonest_first(std::vector<Combination> combinations, const CombinationCells& cells) {
+  std::stable_sort(combinations.begin(), combinations.end(),
+                   [&](const Combination& a, const Combination& b) { return cells_of(cells, a) > cells_of(cells, b); });
+  return combinations;
+}
+
 std::string combination_table(const Zone& zone) {
-  std::map<std::uint32_t, std::vector<std::uint64_t>> cells;  // bare, screened
-  const auto count = [&](const Visibility& visibility, std::size_t column) {
-    const std::vector<std::uint32_t> farms = farm_combinations(zone, visibility);
-    for (const std::uint32_t f : farms)
-      if (f != kOutsideFarms) cells.try_emplace(f, 2).first->second[column] += 1;
-    return farms;
-  };
-  const std::vector<std::uint32_t> bare = count(zone.bare, 0);
-  const std::vector<std::uint32_t> screened = zone.screened ? count(*zone.screened, 1) : std::vector<std::uint32_t>{};
-  std::vector<Combination> present = combinations_present(zone, {&bare, &screened});
-  std::stable_sort(present.begin(), present.end(), [&](const Combination& a, const Combination& b) {
-    return cells[a.farms].front() > cells[b.farms].front();
-  });
+  const std::vector<std::uint32_t> bare = farm_combinations(zone, zone.bare);
+  const std::vector<std::uint32_t> screened =
+      zone.screened ? farm_combinations(zone, *zone.screened) : std::vector<std::uint32_t>{};
+  const CombinationCells bare_cells = cells_by_combination(bare), screened_cells = cells_by_combination(screened);
+  const auto present = commonest_first(combinations_present(zone, {&bare, &screened}), bare_cells);
   std::string text = std::string("value,farms_seen,bare_km2") + (zone.screened ? ",screened_km2\n" : "\n");
   const auto km2 = [&](std::uint64_t n) { return static_cast<double>(n) * zone.grid.cell_area() / 1e6; };
   for (const Combination& c : present) {
-    text += fmt::format("{},{},{:.6f}", c.farms, csv_cell(c.name), km2(cells[c.farms][0]));
-    text += zone.screened ? fmt::format(",{:.6f}\n", km2(cells[c.farms][1])) : "\n";
+    text += fmt::format("{},{},{:.6f}", c.farms, csv_cell(c.name), km2(cells_of(bare_cells, c)));
+    text += zone.screened ? fmt::format(",{:.6f}\n", km2(cells_of(screened_cells, c))) : "\n";
   }
   return text;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -22,5 +23,12 @@ struct Combination {
 /// Those that occur in the zone, bare or screened, by ascending number.
 std::vector<Combination> combinations_present(const Zone& zone,
                                               const std::vector<const std::vector<std::uint32_t>*>& rasters);
+
+/// How many cells have each combination, by its number.
+using CombinationCells = std::map<std::uint32_t, std::uint64_t>;
+/// Without the cells outside.
+CombinationCells cells_by_combination(const std::vector<std::uint32_t>& farms);
+/// Those of equally many cells keep their order.
+std::vector<Combination> commonest_first(std::vector<Combination> combinations, const CombinationCells& cells);
 
 }  // namespace itin::viewshed

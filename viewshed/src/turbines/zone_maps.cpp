@@ -30,13 +30,9 @@ ZoneMap count_map(const Zone& zone, const std::vector<std::uint16_t>& counts) {
 
 ZoneMap farm_map(const Zone& zone, const Visibility& visibility, std::size_t most) {
   const std::vector<std::uint32_t> farms = farm_combinations(zone, visibility);
-  std::map<std::uint32_t, std::uint64_t> cells;
-  for (const std::uint32_t f : farms)
-    if (f != kOutsideFarms) ++cells[f];
-  std::vector<Combination> present = combinations_present(zone, {&farms});
+  CombinationCells cells = cells_by_combination(farms);
+  std::vector<Combination> present = commonest_first(combinations_present(zone, {&farms}), cells);
   std::erase_if(present, [](const Combination& c) { return c.farms == 0; });
-  std::stable_sort(present.begin(), present.end(),
-                   [&](const Combination& a, const Combination& b) { return cells[a.farms] > cells[b.farms]; });
   ZoneMap map;
   map.classes.push_back({kNone, 0, 0, 0, 0, cells[0]});
   std::map<std::uint32_t, std::uint8_t> class_of{{0, 0}, {kOutsideFarms, kNoMapClass}};

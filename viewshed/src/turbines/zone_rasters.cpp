@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -140,11 +140,8 @@ void write_differences(const Zone& zone, RasterFolder& folder) {
 /// The commonest combinations in colours that are told apart.
 std::string style_of_commonest(const std::vector<std::uint32_t>& farms, std::vector<Combination> present) {
   constexpr std::size_t kMostColours = 24;
-  std::map<std::uint32_t, std::uint64_t> cells;
-  for (const std::uint32_t f : farms) ++cells[f];
+  present = commonest_first(std::move(present), cells_by_combination(farms));
   std::erase_if(present, [](const Combination& c) { return c.farms == 0; });
-  std::stable_sort(present.begin(), present.end(),
-                   [&](const Combination& a, const Combination& b) { return cells[a.farms] > cells[b.farms]; });
   present.resize(std::min(present.size(), kMostColours));
   std::vector<StyleClass> style{{0, "none", 0, 0, 0, 0}};
   for (std::size_t i = 0; i < present.size(); ++i) {

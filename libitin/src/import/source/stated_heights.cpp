@@ -30,7 +30,7 @@ std::optional<HeightAxis> StatedHeights::of(const SourceInfo& source) const {
 bool StatedHeights::lies_on_ground(const SourceInfo& source) const {
   const auto theme = std::find_if(metadata_.themes.begin(), metadata_.themes.end(),
                                   [&](const ThemeInfo& t) { return t.name == source.theme; });
-  return theme != metadata_.themes.end() && !is_terrain(theme->kind) && theme->footprint_blocks == 0;
+  return theme != metadata_.themes.end() && !is_terrain(theme->kind) && !theme->is_raised();
 }
 
 }  // namespace itin

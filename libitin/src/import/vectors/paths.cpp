@@ -1,3 +1,4 @@
+#include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
@@ -64,6 +65,14 @@ std::vector<Path> read_paths(const std::string& path, const std::string& to_crs)
     }
   }
   return paths;
+}
+
+std::vector<double> distances_along(const std::vector<Point2>& corners) {
+  std::vector<double> distances{0};
+  for (std::size_t i = 1; i < corners.size(); ++i)
+    distances.push_back(distances.back() +
+                        std::hypot(corners[i].x - corners[i - 1].x, corners[i].y - corners[i - 1].y));
+  return distances;
 }
 
 }  // namespace itin
