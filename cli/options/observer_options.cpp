@@ -22,7 +22,8 @@ void ObserverOptions::declare(CLI::App& app) {
   app.add_option("--where", sites_.where, "Only observers that this SQL condition holds for")->type_name("SQL");
   app.add_option("--height-field", sites_.height_field, "The field of that file that holds h")->type_name("FIELD");
   app.add_option("--name-field", sites_.name_field, "The field of that file that holds names")->type_name("FIELD");
-  app.add_option("--observer-height", height_text_, "h of observers that do not say (default: 2)")->type_name("METRES");
+  app.add_option("--observer-height", height_text_, "h of observers that have none of their own (default: 2)")
+      ->type_name("METRES");
   app.add_flag("--absolute-heights", absolute_heights_, "Every h is an elevation, not a height above the surface");
   app.add_option("--observer-on", observer_on_, "ground (default), or the surface with the roofs and tops of --themes")
       ->type_name("ground|surface");

@@ -49,7 +49,7 @@ class ObserverOptions {
   InCrs in_crs_;
   ViewFields views_;
 
-  double height_ = 2;  ///< of observers that do not say
+  double height_ = 2;  ///< of observers that have none of their own
   std::vector<Place> given_;
 };
 

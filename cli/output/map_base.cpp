@@ -71,9 +71,8 @@ void add_contours(const Heights& heights, MapBase& base) {
 
 }  // namespace
 
-MapBase map_base(const Store& store, const profile::MapSheet& sheet, Progress& progress) {
-  const Box frame = profile::ground_in_frame(sheet);
-  const double pixel = kPixel * profile::scale_of(sheet);
+MapBase map_base(const Store& store, const Box& frame, double scale, Progress& progress) {
+  const double pixel = kPixel * scale;
   const RasterGrid pixels({frame.xmin, frame.ymax}, pixel, pixel,
                           static_cast<std::int64_t>(std::ceil(frame.width() / pixel)),
                           static_cast<std::int64_t>(std::ceil(frame.height() / pixel)));

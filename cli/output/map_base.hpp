@@ -1,7 +1,6 @@
 // What lies below every map sheet: shaded relief and contours of a store's ground.
 //
-//   profile::MapSheet sheet = ...;              // paper, scale and area decide what is shown
-//   const MapBase base = map_base(store, sheet, progress);
+//   const MapBase base = map_base(store, profile::ground_in_frame(sheet), profile::scale_of(sheet), progress);
 #pragma once
 
 #include <functional>
@@ -15,12 +14,13 @@
 namespace itin::cli {
 
 struct MapBase {
-  viewshed::Relief ground;  ///< over all of the sheet's frame
+  viewshed::Relief ground;
   std::vector<profile::SheetLayer> contours;
   std::vector<profile::SheetKey> keys;  ///< of contours, and of missing ground where there is some
 };
 
-MapBase map_base(const Store& store, const profile::MapSheet& sheet, Progress& progress);
+/// Over all of a map's frame, at 1 : scale.
+MapBase map_base(const Store& store, const Box& frame, double scale, Progress& progress);
 
 /// The relief in grey, faded where `studied` does not hold. `studied` is asked about positions on any thread.
 profile::SheetCells shaded(const viewshed::Relief& ground, const std::function<bool(Point2)>& studied);

@@ -15,6 +15,7 @@
 
 #include "options/in_crs.hpp"
 #include "options/off_the_data.hpp"
+#include "options/picture_options.hpp"
 #include "options/store_scale.hpp"
 #include "options/surface_options.hpp"
 #include "output/output_path.hpp"
@@ -78,6 +79,7 @@ class ProfileVerb final : public Verb {
                    ->type_name("FILE")));
     writes(app.add_option("--triangles", triangles_, "Write the triangles that the line crosses, as itin tin does")
                ->type_name("FILE"));
+    picture_.declare(app, "the triangles that the line crosses");
     themes_.declare(app);
     policy_.declare(app);
   }
@@ -100,8 +102,10 @@ class ProfileVerb final : public Verb {
     if (!rings_text_.empty()) rings_ = parse_rings("--rings", rings_text_);
     if (tolerances_.empty()) tolerances_.push_back(0);
     for (const std::string& output : outputs_) require_profile_format(output);
-    if (!triangles_.empty() && tolerances_.size() > 1)
-      throw InputError("--triangles: the lines of several tolerances cross different ones; give one --tolerance");
+    if (wants_triangles() && tolerances_.size() > 1)
+      throw InputError(
+          "--triangles, --image: profiles of several tolerances cross different triangles; give one --tolerance");
+    picture_.validate();
     themes_.validate();
   }
 
@@ -128,6 +132,7 @@ class ProfileVerb final : public Verb {
   Result execute(Progress& progress) override {
     for (const std::string& output : outputs_) policy_.require_writable(output);
     if (!triangles_.empty()) require_tin_output(triangles_, policy_.overwrite);
+    if (!picture_.path().empty()) policy_.require_writable(picture_.path());
     const Store store(store_);
     const std::vector<Point2> corners = corners_in(store.metadata());
     Result result;
@@ -147,11 +152,11 @@ class ProfileVerb final : public Verb {
     }
     warn_of_scale(store.metadata(), result.warnings);
     result.document = profile::profile_document(store.metadata(), themes_.choice(), profiles);
-    if (!outputs_.empty() || !triangles_.empty()) result.document["outputs"] = outputs();
+    if (!outputs().empty()) result.document["outputs"] = outputs();
     result.document["statistics"] = {
         {"points_read", cost.read.points_read}, {"blocks_read", cost.read.blocks_read}, {"triangles", cost.triangles}};
     write(store.metadata(), profiles, ground, corners, result.document);
-    if (!triangles_.empty()) write_triangles(store, corners, profiles.front().detail, progress);
+    if (wants_triangles()) write_triangles(store, corners, profiles.front().detail, progress);
     result.text = text(profiles, cost.read);
     return result;
   }
@@ -206,14 +211,19 @@ class ProfileVerb final : public Verb {
 
   std::vector<std::string> outputs() const {
     std::vector<std::string> paths = outputs_;
-    if (!triangles_.empty()) paths.push_back(triangles_);
+    for (const std::string& path : {triangles_, picture_.path()})
+      if (!path.empty()) paths.push_back(path);
     return paths;
   }
+  bool wants_triangles() const { return !triangles_.empty() || !picture_.path().empty(); }
 
   void write_triangles(const Store& store, const std::vector<Point2>& corners, const Detail& detail,
                        Progress& progress) const {
+    const Tin crossed = triangles_along(store, corners, detail, themes_.choice(), progress);
+    if (!picture_.path().empty()) picture_.write(store, crossed, detail, policy_.overwrite, progress);
+    if (triangles_.empty()) return;
     const auto options = tin_export_options(store.metadata(), {{"command", parameters()}}, policy_.overwrite);
-    export_tin(triangles_along(store, corners, detail, themes_.choice(), progress), triangles_, options, progress);
+    export_tin(crossed, triangles_, options, progress);
   }
 
   void write(const StoreMetadata& metadata, const std::vector<SurfaceProfile>& profiles, const profile::Profile& ground,
@@ -255,6 +265,7 @@ class ProfileVerb final : public Verb {
   std::vector<double> tolerances_;
   std::vector<Ring> rings_;
   InCrs in_crs_;
+  PictureOptions picture_;
   ThemeOptions themes_;
   OutputPolicy policy_;
 };

@@ -223,10 +223,10 @@ int run(int argc, char** argv) {
     return report(error.what(), kFailed);
   } catch (const std::exception& error) {
     return report(
-        fmt::format("a mistake of itin's own ({}); please report it with the command that led to it", error.what()),
+        fmt::format("an internal error of itin ({}); please report it with the command that led to it", error.what()),
         kFailed);
   } catch (...) {
-    return report("a mistake of itin's own; please report it with the command that led to it", kFailed);
+    return report("an internal error of itin; please report it with the command that led to it", kFailed);
   }
 }
 

@@ -93,8 +93,9 @@ void SiteOptions::declare_demand(CLI::App& app) {
   app.add_option("--target-height", target_height_text_, "h of the targets (default: 2)")->type_name("METRES");
   app.add_option("--target-on", target_on_, "ground (default), or the surface with the roofs and tops of --themes")
       ->type_name("ground|surface");
-  app.add_option("--frequency", frequency_text_,
-                 "Served is what is in sight with its first Fresnel zone clear at this frequency; links likewise")
+  app.add_option(
+         "--frequency", frequency_text_,
+         "Serve only what is in sight with its first Fresnel zone clear at this frequency; links are judged so, too")
       ->type_name("GHZ");
   app.add_option("--fresnel", fresnel_text_, "So much of that zone's radius must be clear, 0 to 1 (default: 0.6)")
       ->type_name("FRACTION");
@@ -111,7 +112,9 @@ void SiteOptions::declare_choice(CLI::App& app) {
       ->type_name("METRES");
   reads(app.add_option("--existing", existing, "Sites that serve already, from a vector file")->type_name("FILE"));
   reads(app.add_option("--forbidden", forbidden, "No site in these polygons (a file, or WKT)")->type_name("AREA"));
-  app.add_option("--k-cover", cover_text_, "What fewer sites serve counts for nothing (default: 1)")->type_name("N");
+  app.add_option("--k-cover", cover_text_,
+                 "Count a target as served only where at least so many sites serve it (default: 1)")
+      ->type_name("N");
   app.add_flag("--intervisible", intervisible,
                "Chosen sites reach each other by links between them and existing ones; relays may be bought");
   app.add_option("--hub", hub_text_, "Chosen sites reach this place by such links (implies --intervisible)")
@@ -230,12 +233,11 @@ std::optional<viewshed::FresnelCriterion> SiteOptions::criterion() const {
 }
 
 std::string SiteOptions::meaning_of_served() const {
-  if (!frequency_ghz) return "Served is what has a clear line of sight to a site";
+  if (!frequency_ghz) return "A target is served if it has a clear line of sight to a site";
   return fmt::format(
-      "Served is what has a clear line of sight to a site that leaves at least {:g} of the first Fresnel zone's radius "
-      "clear of the surface everywhere between, at {:g} GHz (wavelength {:.6g} m = 0.299792458 / f; F1 = "
-      "sqrt(wavelength "
-      "d1 d2 / (d1 + d2)))",
+      "A target is served if it has a clear line of sight to a site that leaves at least {:g} of the first Fresnel "
+      "zone's radius clear of the surface everywhere between, at {:g} GHz (wavelength {:.6g} m = 0.299792458 / f; F1 = "
+      "sqrt(wavelength d1 d2 / (d1 + d2)))",
       fresnel, *frequency_ghz, profile::wavelength_m(*frequency_ghz));
 }
 

@@ -165,8 +165,7 @@ std::vector<SiteOutput> site_outputs(const std::string& directory, OutputPolicy&
         std::pair("coverage.tif", "what the choice and existing sites serve"),
         std::pair("redundancy.tif", "how many of them serve a cell"),
         std::pair("best-server.tif", "the nearest site that serves a cell"),
-        std::pair("coverage.png", "map of the same as coverage.tif"),
-        std::pair("redundancy.png", "map of the same as redundancy.tif"),
+        std::pair("coverage.png", "map of coverage.tif"), std::pair("redundancy.png", "map of redundancy.tif"),
         std::pair("report.html", "everything on one page"), std::pair("site.json", "the result as a document"),
         std::pair("parameters.json", "for --params: runs this again")}) {
     outputs.push_back({place(directory, name), what});

@@ -111,7 +111,7 @@ std::string sites_html(const SiteResult& r) {
 }
 
 std::string stages_html(const SiteResult& r) {
-  HtmlTable table({"Looked at", "Options that needed no more"}, 1);
+  HtmlTable table({"Looked at", "Options for which this was enough"}, 1);
   for (int stage = 0; stage <= r.coverage.last_stage(); ++stage) {
     std::size_t stayed = 0;
     for (std::size_t i = 0; i < r.inputs.options.size(); ++i) stayed += r.coverage.stage(i) == stage;

@@ -220,7 +220,7 @@ class ImportVerb final : public Verb {
 
   std::string text(const ImportReport& report, const StoreMetadata& metadata) const {
     std::string text =
-        fmt::format("{}: {} vertices in {}, {:.2f} bytes a vertex, {}{}\n", store_, grouped(report.vertices),
+        fmt::format("{}: {} vertices in {}, {:.2f} bytes per vertex, {}{}\n", store_, grouped(report.vertices),
                     readable_bytes(report.store_bytes), bytes_per_vertex(report), report.crs_name,
                     report.crs_chosen ? " (chosen; see --to-crs)" : "");
     text += fmt::format("read {} in {:.1f} s", text_of_read(report), report.seconds);

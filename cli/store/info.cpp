@@ -78,7 +78,7 @@ std::string info_text(const Store& store, const StatedHeights& heights) {
   if (const auto scale = scale_of(metadata))
     text += fmt::format("{:<12}{:.5f} to {:.5f} (grid distance / geodesic distance)\n", "scale", scale->least,
                         scale->greatest);
-  text += fmt::format("{:<12}{} in {}, {:.2f} bytes a vertex\n", "vertices", grouped(metadata.vertices),
+  text += fmt::format("{:<12}{} in {}, {:.2f} bytes per vertex\n", "vertices", grouped(metadata.vertices),
                       readable_bytes(store.file_bytes()), bytes_per_vertex(store));
   text += themes_table(metadata) + "\n";
   text += levels_table(metadata);

@@ -15,6 +15,7 @@
 #include <itin/triangulate.hpp>
 
 #include "options/detail_options.hpp"
+#include "options/picture_options.hpp"
 #include "options/store_scale.hpp"
 #include "options/surface_options.hpp"
 #include "options/window_options.hpp"
@@ -24,7 +25,6 @@
 #include "program/call_files.hpp"
 #include "program/values.hpp"
 #include "program/verb.hpp"
-#include "tin/picture_options.hpp"
 
 namespace itin::cli {
 
@@ -41,7 +41,7 @@ class TinVerb final : public Verb {
     writes(
         app.add_option("-o,--output", output_, "What to write: .ply, .obj, .glb, .gpkg or .geojson; a topology: .json")
             ->type_name("FILE"));
-    picture_.declare(app);
+    picture_.declare(app, "the surface");
     app.add_option("--topology", topology_, "Write this structure of the triangulation: triangle, vertex or edge")
         ->type_name("KIND");
     app.add_option("--lines", lines_, "Write the lines of these themes in place of triangles, joined (.gpkg)")

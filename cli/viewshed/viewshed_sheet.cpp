@@ -80,7 +80,7 @@ void write_viewshed_sheet(const Store& store, const viewshed::Result& result, co
   profile::MapSheet sheet;
   sheet.paper = options.papers().front(), sheet.scale = options.scale(), sheet.area = result.grid.bounds();
   sheet.crs_wkt = store.metadata().crs_wkt;
-  const MapBase base = map_base(store, sheet, progress);
+  const MapBase base = map_base(store, profile::ground_in_frame(sheet), profile::scale_of(sheet), progress);
   profile::SheetCells cells{result.grid, {}};
   for (const auto& colour : map.cells) cells.colours.push_back(drawn(colour));
   sheet.layers = {shaded(base.ground,

@@ -86,10 +86,10 @@ class ZtvVerb final : public Verb {
 
   void validate() override {
     turbines_.validate();
-    viewpoints_.validate(turbines_.in_crs());
+    sheets_.validate();
+    viewpoints_.validate(turbines_.in_crs(), sheets_);
     route_.validate();
     radio_.validate();
-    sheets_.validate();
     radius_.validate();
     detail_.validate();
     if (detail_.has_rings()) throw InputError("--rings lie about one observer; a ztv takes --tolerance");

@@ -249,7 +249,7 @@ std::vector<viewshed::ZoneFile> write_ztv_sheets(const std::string& folder, cons
     MapSheet sheet;
     sheet.paper = paper, sheet.scale = options.scale(), sheet.area = study_area(zone);
     sheet.crs_wkt = store.metadata().crs_wkt;
-    const MapBase base = map_base(store, sheet, progress);
+    const MapBase base = map_base(store, profile::ground_in_frame(sheet), profile::scale_of(sheet), progress);
     const profile::SheetCells relief = shaded(base.ground, [&](Point2 p) { return beyond_study_area(zone, p) <= 0; });
     for (const ZoneMap& map : maps) {
       sheet.layers = {relief, classes_of(zone, map)};

@@ -61,7 +61,7 @@ class TurbineOptions {
   std::string hub_field_ = "hub_height", rotor_field_ = "rotor_diameter", tip_field_ = "tip_height",
               farm_field_ = "farm";
   InCrs in_crs_;
-  std::optional<double> hub_, rotor_, tip_;  ///< of rows that do not say
+  std::optional<double> hub_, rotor_, tip_;  ///< of rows that give none
 };
 
 }  // namespace itin::cli

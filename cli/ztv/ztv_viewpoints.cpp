@@ -117,27 +117,40 @@ void ViewpointOptions::declare(CLI::App& app) {
                  "Bearing of every wireline's middle, from grid north (default: the middle of the turbines)")
       ->type_name("DEGREES");
   app.add_flag("--wireline-hidden", choice_.hidden_dashed, "Draw dashed in wirelines what hides of turbines");
+  app.add_option("--wireline-blades", blades_text_,
+                 "By how much a blade is turned from upright in wirelines; random: by another angle for each turbine "
+                 "(default: 0)")
+      ->type_name("DEGREES|random");
+  app.add_option("--wireline-pairs", choice_.alone,
+                 "Cylindrical sheets in pairs: above, this wind farm alone; below, all of them")
+      ->type_name("FARM");
   app.add_option("--wirelines", wirelines_text_, "Wirelines only from viewpoints of these names or numbers")
       ->type_name("NAME,...");
   app.add_flag("--no-wirelines", no_wirelines_, "Write tables of viewpoints alone");
 }
 
-void ViewpointOptions::validate(const InCrs& in_crs) {
+void ViewpointOptions::validate(const InCrs& in_crs, const SheetOptions& sheets) {
   query_.crs = in_crs.crs;
-  const bool any = !field_text_.empty() || !bearing_text_.empty() || !wirelines_text_.empty() || no_wirelines_ ||
-                   choice_.hidden_dashed;
-  if (any && !given())
-    throw InputError(fmt::format("{} is of use with --viewpoints only", !field_text_.empty()     ? "--wireline-field"
-                                                                        : !bearing_text_.empty() ? "--wireline-bearing"
-                                                                        : !wirelines_text_.empty() ? "--wirelines"
-                                                                        : no_wirelines_            ? "--no-wirelines"
-                                                                                        : "--wireline-hidden"));
+  const std::pair<bool, const char*> options[] = {
+      {!field_text_.empty(), "--wireline-field"},   {!bearing_text_.empty(), "--wireline-bearing"},
+      {!blades_text_.empty(), "--wireline-blades"}, {!choice_.alone.empty(), "--wireline-pairs"},
+      {!wirelines_text_.empty(), "--wirelines"},    {no_wirelines_, "--no-wirelines"},
+      {choice_.hidden_dashed, "--wireline-hidden"}};
+  for (const auto& [is_given, option] : options)
+    if (is_given && !given()) throw InputError(fmt::format("{} is of use with --viewpoints only", option));
   if (no_wirelines_ && !wirelines_text_.empty()) throw InputError("--wirelines and --no-wirelines exclude each other");
   if (!field_text_.empty()) choice_.least_width_deg = parse_number("--wireline-field", field_text_, Range::kPositive);
   if (choice_.least_width_deg > 360) throw InputError("--wireline-field: give at most 360 degrees");
   if (!bearing_text_.empty()) {
     choice_.bearing_deg = parse_number("--wireline-bearing", bearing_text_, Range::kNotNegative);
     if (*choice_.bearing_deg > 360) throw InputError("--wireline-bearing: give 0 to 360 degrees");
+  }
+  if (!choice_.alone.empty() && !sheets.given())
+    throw InputError("--wireline-pairs are sheets: give --sheets A3 or A1 with it");
+  if (blades_text_ == "random") {
+    choice_.blade_deg.reset();
+  } else if (!blades_text_.empty()) {
+    choice_.blade_deg = parse_number("--wireline-blades", blades_text_, Range::kNotNegative);
   }
   std::istringstream names(wirelines_text_);
   for (std::string name; std::getline(names, name, ',');) wirelines_.push_back(name);
@@ -148,6 +161,8 @@ Document ViewpointOptions::parameters() const {
   Document parameters{{"viewpoints", query_.path}, {"wireline_field_deg", choice_.least_width_deg}};
   if (choice_.bearing_deg) parameters["wireline_bearing_deg"] = *choice_.bearing_deg;
   if (choice_.hidden_dashed) parameters["wireline_hidden"] = true;
+  if (!blades_text_.empty()) parameters["wireline_blades"] = blades_text_;
+  if (!choice_.alone.empty()) parameters["wireline_pairs"] = choice_.alone;
   if (!wirelines_.empty()) parameters["wirelines"] = wirelines_;
   if (no_wirelines_) parameters["wirelines"] = Document::array();
   return parameters;
@@ -170,6 +185,13 @@ void ViewpointOptions::require_wirelines_known(const std::vector<NamedPlace>& pl
   }
 }
 
+void ViewpointOptions::require_farm_known(const Zone& zone) const {
+  const std::vector<std::string> farms = viewshed::farms_of(zone);
+  if (!choice_.alone.empty() && std::find(farms.begin(), farms.end(), choice_.alone) == farms.end())
+    throw InputError(fmt::format("--wireline-pairs: '{}' is no wind farm of the turbines; there is: {}", choice_.alone,
+                                 fmt::join(farms, ", ")));
+}
+
 ViewpointOptions::Written ViewpointOptions::write(const std::string& folder, const Store& store, const Zone& zone,
                                                   const SheetOptions& sheets, Progress& progress) const {
   Written written;
@@ -184,6 +206,7 @@ ViewpointOptions::Written ViewpointOptions::write(const std::string& folder, con
   }
   std::vector<std::string> theme_names;
   for (const ThemeInfo& theme : metadata.themes) theme_names.push_back(theme.name);
+  require_farm_known(zone);
   const bool national = is_national_grid(metadata.crs_wkt);
   std::string table = fmt::format("{}{}\n", kHeader, features ? kScreenedHeader : "");
   std::string summary = summary_header(features.has_value());

@@ -24,7 +24,7 @@ class ViewpointOptions {
  public:
   void declare(CLI::App& app);
   /// Throws InputError.
-  void validate(const InCrs& in_crs);
+  void validate(const InCrs& in_crs, const SheetOptions& sheets);
   bool given() const { return !query_.path.empty(); }
   bool draws_wirelines() const { return given() && !no_wirelines_; }
   Document parameters() const;
@@ -42,11 +42,12 @@ class ViewpointOptions {
                 Progress& progress) const;
 
  private:
+  void require_farm_known(const viewshed::Zone& zone) const;
   void require_wirelines_known(const std::vector<NamedPlace>& places) const;
   bool has_wireline(const Viewpoint& v) const;
 
   SiteQuery query_;
-  std::string field_text_, bearing_text_, wirelines_text_;
+  std::string field_text_, bearing_text_, blades_text_, wirelines_text_;
   std::vector<std::string> wirelines_;  ///< names; none: all
   bool no_wirelines_ = false;
   WirelineChoice choice_;

@@ -59,6 +59,12 @@ std::string turbine_in_words(const Turbine& t) {
                      t.farm.empty() ? "" : " of " + t.farm);
 }
 
+/// Degrees that look as if by chance, and are the turbine's own.
+double scattered_blade(std::size_t turbine) {
+  constexpr double kGoldenAngle = 137.50776405;
+  return std::fmod(kGoldenAngle * static_cast<double>(turbine), 120);
+}
+
 using Facts = std::vector<std::pair<std::string, std::string>>;
 
 Facts facts_of(const Viewpoint& v, const ViewedSurface& view, const Zone& zone, const std::vector<Sight>& sights,
@@ -96,8 +102,8 @@ profile::WirelineQuery query_of(const Viewpoint& v, const ViewedSurface& view, c
   double reach = 20000;
   for (std::size_t k = 0; k < sights.size(); ++k) {
     const Turbine& t = zone.request.turbines[k];
-    query.turbines.push_back(
-        {fmt::format("{}", t.number), t.position, zone.ground_m[k], t.hub_height, t.tip_height, sights[k].tip, t.farm});
+    query.turbines.push_back({fmt::format("{}", t.number), t.position, zone.ground_m[k], t.hub_height, t.tip_height,
+                              sights[k].tip, t.farm, choice.blade_deg.value_or(scattered_blade(t.number))});
     reach = std::max(reach, sights[k].distance + 5000);
   }
   query.reach_m = std::min(reach, 60000.0);
@@ -126,6 +132,11 @@ std::vector<std::vector<std::string>> farm_table(const Zone& zone, const std::ve
   return rows;
 }
 
+profile::Wireline of_one_farm(profile::Wireline view, const std::string& farm) {
+  std::erase_if(view.query.turbines, [&](const profile::WirelineTurbine& t) { return t.farm != farm; });
+  return view;
+}
+
 profile::MapSheet location_map(const Store& store, const Zone& zone, const Viewpoint& v,
                                const std::vector<Sight>& sights, Progress& progress) {
   const Seen seen = seen_of(zone, sights, all_turbines(zone));
@@ -137,7 +148,7 @@ profile::MapSheet location_map(const Store& store, const Zone& zone, const Viewp
   const double room = std::max(1000.0, 0.35 * sights[seen.nearest].distance);
   sheet.area = {sheet.area.xmin - room, sheet.area.ymin - room, sheet.area.xmax + room, sheet.area.ymax + room};
   sheet.scale = 2 * profile::scale_of(sheet);
-  const MapBase base = map_base(store, sheet, progress);
+  const MapBase base = map_base(store, profile::ground_in_location_map(sheet), sheet.scale, progress);
   sheet.layers = {shaded(base.ground, [](Point2) { return true; })};
   sheet.layers.insert(sheet.layers.end(), base.contours.begin(), base.contours.end());
   profile::SheetMarks turbines{profile::SheetSymbol::kTurbine, {170, 20, 20, 255}, {}};
@@ -184,8 +195,16 @@ void WirelineWriter::write(const Viewpoint& v, const ViewedSurface& view, const 
   add(planar, "sheet of 841 by 297 mm: planar wireline of 53.5 degrees from " + of,
       profile::draw_planar_sheet(wide, sheet, planar));
   std::string cylindrical = file_name("wireline", v, view.suffix + "-cylindrical.pdf");
-  add(cylindrical, fmt::format("sheets of 841 by 297 mm: {} of 90 degrees, cylindrical, from {}", fields, of),
-      profile::draw_cylindrical_sheets(wide, sheet, fields, cylindrical));
+  const profile::Wireline alone = of_one_farm(wide, choice_.alone);
+  std::vector<profile::WirelineField> drawn_fields;
+  for (const double middle : profile::cylinder_centres(centre, fields)) {
+    if (!choice_.alone.empty()) drawn_fields.push_back({alone, middle, choice_.alone + " alone"});
+    drawn_fields.push_back({wide, middle, choice_.alone.empty() ? "" : "All wind farms"});
+  }
+  add(cylindrical,
+      fmt::format("sheets of 841 by 297 mm: {} of 90 degrees{}, cylindrical, from {}", fields,
+                  choice_.alone.empty() ? "" : ", each with " + choice_.alone + " alone and with all wind farms", of),
+      profile::draw_cylindrical_sheets(drawn_fields, sheet, cylindrical));
   sheet.title = fmt::format("Viewpoint {}: {}", v.number, v.name);
   const std::string name = file_name("viewpoint", v, view.suffix + ".pdf");
   add(name, "sheet about " + of,

@@ -18,6 +18,8 @@ struct WirelineChoice {
   double least_width_deg = 53.5;
   std::optional<double> bearing_deg;  ///< of the middle; nothing: the turbines' middle
   bool hidden_dashed = false;
+  std::optional<double> blade_deg = 0;  ///< by which a blade is turned from upright; nothing: each turbine's another
+  std::string alone;                    ///< sheets in pairs: this farm alone, and all; empty: no pairs
 };
 
 /// A surface and what is written of the view over it.

@@ -16,7 +16,7 @@ namespace {
 [[noreturn]] void throw_file_error(const std::string& directory, const std::string& doing, int error) {
   const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
   throw FileError(directory, "cannot " + doing + " a temporary file: " + std::generic_category().message(error) +
-                                 (full ? "; free some space there, about 32 bytes a point, and try again" : ""));
+                                 (full ? "; free some space there, about 32 bytes per point, and try again" : ""));
 }
 
 }  // namespace

@@ -30,8 +30,9 @@ struct WirelineTurbine {
   double ground_m = 0;
   std::optional<double> hub_m;  ///< nothing: drawn as a mast
   double tip_m = 0;
-  bool seen = true;  ///< labelled
-  std::string farm;  ///< each has its colour
+  bool seen = true;      ///< labelled
+  std::string farm;      ///< each has its colour
+  double blade_deg = 0;  ///< by which a blade is turned from upright
 };
 
 struct WirelineQuery {

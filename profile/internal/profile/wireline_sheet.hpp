@@ -22,8 +22,16 @@ struct WirelineSheet {
 /// One sheet, 53.5 degrees about the middle, planar. As PDF. `view` must hold that field. Throws InputError.
 std::string draw_planar_sheet(const Wireline& view, const WirelineSheet& sheet, const std::string& path);
 
-/// As many fields of 90 degrees about the middle as `fields` says, two on a page, cylindrical. Likewise.
-std::string draw_cylindrical_sheets(const Wireline& view, const WirelineSheet& sheet, int fields,
+/// A field of 90 degrees.
+struct WirelineField {
+  const Wireline& view;
+  double centre_deg = 0;  ///< bearing of its middle, from grid north
+  std::string label;      ///< in its corner; may be empty
+};
+/// The middles of so many fields next to each other about a bearing.
+std::vector<double> cylinder_centres(double centre_deg, int fields);
+/// Two fields on a page, cylindrical; the last one's farms are named. Likewise.
+std::string draw_cylindrical_sheets(const std::vector<WirelineField>& fields, const WirelineSheet& sheet,
                                     const std::string& path);
 
 /// What a viewpoint's sheet holds besides a wireline of 90 degrees: facts, what is seen of each farm, where it lies.
@@ -32,6 +40,8 @@ struct ViewpointSheet {
   std::vector<std::vector<std::string>> farms;  ///< a table, its header first
   MapSheet map;                                 ///< its layers, scale and the middle of its area
 };
+/// The ground that its map shows: what layers may fill.
+Box ground_in_location_map(const MapSheet& map);
 std::string draw_viewpoint_sheet(const Wireline& view, const ViewpointSheet& sheet, const std::string& path);
 
 }  // namespace itin::profile

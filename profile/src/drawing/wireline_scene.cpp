@@ -15,7 +15,8 @@ namespace itin::profile {
 
 namespace {
 
-constexpr double kTellable = 0.06;  ///< points: a fiftieth of a millimetre
+constexpr double kTellable = 0.06;    ///< points: a fiftieth of a millimetre
+constexpr double kSteepestJoint = 4;  ///< of a crest between two lines of sight, rise over distance
 
 double elevation_of(const WirelineQuery& query, const PlacedTurbine& placed, double height) {
   return apparent_angle_deg(query.earth, placed.distance, placed.turbine->ground_m + height - query.eye_elevation_m);
@@ -87,6 +88,7 @@ void WirelineScene::draw(Drawing& drawing) const {
     for (; turbine != turbines_.end() && turbine->distance >= band->to_m - 0.5; ++turbine)
       draw_turbine(drawing, *turbine, false);
     draw_band(drawing, *band);
+    draw_joints(drawing, static_cast<std::size_t>(view_.bands.rend() - band) - 1);
   }
   for (; turbine != turbines_.end(); ++turbine) draw_turbine(drawing, *turbine, false);
   if (view_.query.hidden_dashed)
@@ -96,10 +98,7 @@ void WirelineScene::draw(Drawing& drawing) const {
 }
 
 void WirelineScene::draw_band(Drawing& drawing, const WirelineBand& band) const {
-  const double step = view_.query.step_deg;
-  const auto begin = static_cast<std::size_t>(std::max(0.0, std::floor(part_.from_deg / step)));
-  const std::size_t lines =
-      std::min(band.angle_deg.size(), static_cast<std::size_t>(std::ceil(part_.to_deg / step)) + 1);
+  const auto [begin, lines] = lines_within();
   for (std::size_t first = begin; first < lines;) {
     if (std::isnan(band.angle_deg[first])) {
       ++first;
@@ -112,12 +111,40 @@ void WirelineScene::draw_band(Drawing& drawing, const WirelineBand& band) const 
   }
 }
 
+/// A crest that goes on in another band ends in the one at a line of sight, and begins in the other at the next.
+void WirelineScene::draw_joints(Drawing& drawing, std::size_t nearer) const {
+  const WirelineBand& band = view_.bands[nearer];
+  const auto [begin, lines] = lines_within();
+  const double most = kSteepestJoint * view_.query.step_deg;
+  for (std::size_t i = begin; i + 1 < lines; ++i) {
+    if (band.crest[i] == band.crest[i + 1]) continue;
+    const std::size_t mine = band.crest[i] ? i : i + 1, other = band.crest[i] ? i + 1 : i;
+    const auto goes_on = [&](const WirelineBand& farther) {
+      return farther.crest[other] && !farther.crest[mine] &&
+             std::abs(farther.angle_deg[other] - band.angle_deg[mine]) <= most;
+    };
+    const auto next =
+        std::find_if(view_.bands.begin() + static_cast<std::ptrdiff_t>(nearer) + 1, view_.bands.end(), goes_on);
+    if (next != view_.bands.end())
+      drawing.polyline(std::array{place(mine, band), place(other, *next)}, stroke_of(band));
+  }
+}
+
+Point2 WirelineScene::place(std::size_t line, const WirelineBand& band) const {
+  return at_(std::min(static_cast<double>(line) * view_.query.step_deg, view_.query.width_deg), band.angle_deg[line]);
+}
+
+std::pair<std::size_t, std::size_t> WirelineScene::lines_within() const {
+  const double step = view_.query.step_deg;
+  return {static_cast<std::size_t>(std::max(0.0, std::floor(part_.from_deg / step))),
+          std::min(view_.bands.front().angle_deg.size(), static_cast<std::size_t>(std::ceil(part_.to_deg / step)) + 1)};
+}
+
 void WirelineScene::draw_stretch(Drawing& drawing, const WirelineBand& band, std::size_t first,
                                  std::size_t last) const {
   const double below = frame_.ymax + 20;
   const auto at = [&](std::size_t i) {
-    const Point2 p =
-        at_(std::min(static_cast<double>(i) * view_.query.step_deg, view_.query.width_deg), band.angle_deg[i]);
+    const Point2 p = place(i, band);
     return Point2{p.x, std::min(p.y, below - 1)};
   };
   std::vector<Point2> outline;
@@ -164,7 +191,8 @@ void WirelineScene::draw_turbine(Drawing& drawing, const PlacedTurbine& placed, 
   drawing.polyline(std::array{point(0, 0), point(0, hub)}, stroke);
   const auto on_rim = [&](double turn) { return point(radius * std::sin(turn), hub + radius * std::cos(turn)); };
   for (const double turn : {0.0, 2.0, 4.0})
-    drawing.polyline(std::array{point(0, hub), on_rim(turn * std::numbers::pi / 3)}, stroke);
+    drawing.polyline(std::array{point(0, hub), on_rim(turn * std::numbers::pi / 3 + t.blade_deg / kDegreesPerRadian)},
+                     stroke);
   if (dashed) return;
   std::vector<Point2> circle;
   for (int i = 0; i <= 48; ++i) circle.push_back(on_rim(i * 2 * std::numbers::pi / 48));

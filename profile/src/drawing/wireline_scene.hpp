@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <profile/wireline.hpp>
@@ -45,9 +46,14 @@ class WirelineScene {
 
  private:
   void draw_band(Drawing& drawing, const WirelineBand& band) const;
+  void draw_joints(Drawing& drawing, std::size_t nearer) const;
   void draw_stretch(Drawing& drawing, const WirelineBand& band, std::size_t first, std::size_t last) const;
   void draw_turbine(Drawing& drawing, const PlacedTurbine& placed, bool dashed) const;
   void draw_labels(Drawing& drawing) const;
+  /// Where a line of sight meets the band's greatest angle.
+  Point2 place(std::size_t line, const WirelineBand& band) const;
+  /// The first line of sight of the part, and the one after its last.
+  std::pair<std::size_t, std::size_t> lines_within() const;
   Stroke stroke_of(const WirelineBand& band) const;
   Colour colour_of(const WirelineTurbine& turbine) const;
   bool within(double across) const { return across >= part_.from_deg && across <= part_.to_deg; }

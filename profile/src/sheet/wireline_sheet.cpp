@@ -31,10 +31,13 @@ Drawing pdf(const std::string& path, double width_mm, double height_mm) {
   return {Drawing::Format::kPdf, width_mm * kPointsPerMillimetre, height_mm * kPointsPerMillimetre};
 }
 
-Box box_mm(double left, double top, double width, double height) {
+constexpr Box box_mm(double left, double top, double width, double height) {
   constexpr double k = kPointsPerMillimetre;
   return {left * k, top * k, (left + width) * k, (top + height) * k};
 }
+
+/// Where the location map stands on a viewpoint's sheet.
+constexpr Box kLocationFrame = box_mm(255, 16, 150, 178);
 
 /// Title and facts in columns below an image, from `top` on; and the farms' names in their colours.
 void draw_caption(Drawing& drawing, const Wireline& view, const WirelineSheet& sheet, const std::string& how,
@@ -79,25 +82,30 @@ std::string draw_planar_sheet(const Wireline& view, const WirelineSheet& sheet, 
   return drawing.finish();
 }
 
-std::string draw_cylindrical_sheets(const Wireline& view, const WirelineSheet& sheet, int fields,
+std::string draw_cylindrical_sheets(const std::vector<WirelineField>& fields, const WirelineSheet& sheet,
                                     const std::string& path) {
   Drawing drawing = pdf(path, kPageWidth, kPageHeight);
-  for (int i = 0; i < fields; ++i) {
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const WirelineField& field = fields[i];
     const bool upper = i % 2 == 0;
     if (upper) {
       if (i > 0) drawing.new_page();
       drawing.rectangle({0, 0, drawing.width(), drawing.height()}, kPaper);
-    }
-    const double centre = sheet.centre_deg + kCylinderField * (i - (fields - 1) / 2.0);
-    draw_strip(drawing, view,
-               {StripProjection::kCylindrical,
-                box_mm((kPageWidth - kImageWidth) / 2, upper ? 4 : 139.5, kImageWidth, kCylinderHeight),
-                kCylinderPrincipal, centre, kCylinderField, kWeight});
-    if (upper)
-      draw_caption(drawing, view, sheet, seen_from(kCylinderPrincipal, "Cylindrical", kCylinderField),
+      draw_caption(drawing, fields.back().view, sheet, seen_from(kCylinderPrincipal, "Cylindrical", kCylinderField),
                    2 * kCylinderHeight + 14);
+    }
+    const Box frame = box_mm((kPageWidth - kImageWidth) / 2, upper ? 4 : 139.5, kImageWidth, kCylinderHeight);
+    draw_strip(drawing, field.view,
+               {StripProjection::kCylindrical, frame, kCylinderPrincipal, field.centre_deg, kCylinderField, kWeight});
+    drawing.text({frame.xmin + 6, frame.ymin + 14}, field.label, {.size = 10, .colour = kInk, .bold = true, .rim = 2});
   }
   return drawing.finish();
+}
+
+std::vector<double> cylinder_centres(double centre_deg, int fields) {
+  std::vector<double> centres;
+  for (int i = 0; i < fields; ++i) centres.push_back(centre_deg + kCylinderField * (i - (fields - 1) / 2.0));
+  return centres;
 }
 
 namespace {
@@ -120,6 +128,10 @@ void draw_table(Drawing& drawing, const std::vector<std::vector<std::string>>& r
 
 }  // namespace
 
+Box ground_in_location_map(const MapSheet& map) {
+  return ground_in(kLocationFrame, map.area, map.scale);
+}
+
 std::string draw_viewpoint_sheet(const Wireline& view, const ViewpointSheet& sheet, const std::string& path) {
   constexpr double k = kPointsPerMillimetre, kWidth = 420, kHeight = 297, kMargin = 10, kStrip = 63;
   Drawing drawing = pdf(path, kWidth, kHeight);
@@ -140,8 +152,8 @@ std::string draw_viewpoint_sheet(const Wireline& view, const ViewpointSheet& she
   }
   draw_table(drawing, sheet.farms, {left, y + 10}, width);
   Paper paper = paper_of(PaperSize::kA3);
-  paper.frame = box_mm(255, 16, 150, 178);
-  MapFrame(drawing, paper, ground_in(paper.frame, sheet.map.area, sheet.map.scale)).draw(sheet.map);
+  paper.frame = kLocationFrame;
+  MapFrame(drawing, paper, ground_in_location_map(sheet.map)).draw(sheet.map);
   drawing.text({paper.frame.xmin, paper.frame.ymax + 22},
                fmt::format("Location, 1:{:.0f} at A3; grid north is up", sheet.map.scale), name_of_fact);
   const double image = kWidth - 2 * kMargin, principal = image / (std::numbers::pi / 2);

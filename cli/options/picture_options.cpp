@@ -1,4 +1,4 @@
-#include "tin/picture_options.hpp"
+#include "options/picture_options.hpp"
 
 #include <fmt/format.h>
 
@@ -10,8 +10,8 @@
 
 namespace itin::cli {
 
-void PictureOptions::declare(CLI::App& app) {
-  writes(app.add_option("--image", path_, "A picture of the surface (.png, .jpg, ...), seen obliquely from afar")
+void PictureOptions::declare(CLI::App& app, const std::string& of) {
+  writes(app.add_option("--image", path_, "A picture of " + of + " (.png, .jpg, ...), seen obliquely from afar")
              ->type_name("FILE"));
   app.add_flag("--edges", edges_, "Draw the edges of all triangles into the picture");
   app.add_option("--eye", eye_text_, "Draw what is seen from here, h metres above the ground")->type_name("x,y,h");

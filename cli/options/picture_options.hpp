@@ -16,7 +16,8 @@ namespace itin::cli {
 
 class PictureOptions {
  public:
-  void declare(CLI::App& app);
+  /// `of` is what it shows: "the surface".
+  void declare(CLI::App& app, const std::string& of);
   /// Throws InputError.
   void validate();
 
