@@ -34,6 +34,9 @@ void SheetOptions::declare_title_block(CLI::App& app) {
   app.add_option("--sheet-scale", scale_text_,
                  "Their scale's number, 100000 for 1:100,000 (default: the largest usual one that shows all)")
       ->type_name("NUMBER");
+  reads(app.add_option("--basemap", basemap_,
+                       "A georeferenced picture below these maps, in place of the shaded relief (.tif, ...)")
+            ->type_name("FILE"));
   app.add_option("--project", project_, "The project's name in title blocks")->type_name("NAME");
   app.add_option("--date", date_, "The date in title blocks (default: today, UTC)")->type_name("TEXT");
 }
@@ -41,6 +44,7 @@ void SheetOptions::declare_title_block(CLI::App& app) {
 void SheetOptions::validate() {
   if (date_.empty()) date_ = day_of_run();
   if (!file_.empty() && papers_text_.empty()) papers_text_ = "A3";
+  if (!basemap_.empty() && papers_text_.empty()) throw InputError("--basemap is of use with a sheet only");
   if (!scale_text_.empty() && papers_text_.empty()) throw InputError("--sheet-scale is of use with a sheet only");
   if (!file_.empty()) profile::require_sheet_format(file_);
   if (!scale_text_.empty()) scale_ = parse_number("--sheet-scale", scale_text_, Range::kPositive);
@@ -56,6 +60,7 @@ Document SheetOptions::parameters() const {
   if (!given()) return parameters;
   for (const profile::PaperSize paper : papers_) parameters["sheets"].push_back(profile::name_of(paper));
   if (scale_ > 0) parameters["sheet_scale"] = scale_;
+  if (!basemap_.empty()) parameters["basemap"] = basemap_;
   if (!project_.empty()) parameters["project"] = project_;
   return parameters;
 }

@@ -29,11 +29,13 @@ class SheetOptions {
   double scale() const { return scale_; }
   const std::string& project() const { return project_; }
   const std::string& date() const { return date_; }
+  /// A picture in place of the shaded relief; empty: none.
+  const std::string& basemap() const { return basemap_; }
 
  private:
   void declare_title_block(CLI::App& app);
 
-  std::string file_, papers_option_, papers_text_, scale_text_, project_, date_;
+  std::string file_, papers_option_, papers_text_, scale_text_, project_, date_, basemap_;
   std::vector<profile::PaperSize> papers_;
   double scale_ = 0;
 };

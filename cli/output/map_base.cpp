@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include <fmt/format.h>
 
 #include <itin/contour_lines.hpp>
+#include <itin/map_picture.hpp>
 #include <itin/parallel.hpp>
+#include <viewshed/relief.hpp>
 
 #include "output/store_document.hpp"
 
@@ -18,6 +21,7 @@ namespace {
 constexpr double kPixel = 0.00025;    ///< metres on paper
 constexpr std::int64_t kCoarser = 3;  ///< pixels a side, whose mean contours follow
 constexpr profile::SheetColour kContour{150, 105, 60, 150};
+constexpr profile::SheetColour kClear{0, 0, 0, 0};
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 struct Heights {
@@ -69,38 +73,69 @@ void add_contours(const Heights& heights, MapBase& base) {
   base.keys.push_back({profile::SheetKey::Sample::kLine, kContour, fmt::format("Contours every {:g} m", interval)});
 }
 
-}  // namespace
+/// Clear where there is no ground.
+profile::SheetCells shaded(const viewshed::Relief& ground) {
+  constexpr double kLevelGrey = 226, kContrast = 90;
+  profile::SheetCells cells{ground.pixels, std::vector<profile::SheetColour>(ground.pixels.cell_count(), kClear)};
+  for (std::size_t i = 0; i < cells.colours.size(); ++i) {
+    if (std::isnan(ground.shades[i])) continue;
+    const double grey = kLevelGrey + kContrast * (ground.shades[i] - viewshed::kLevelShade);
+    const auto level = static_cast<std::uint8_t>(std::lround(std::clamp(grey, 120.0, 250.0)));
+    cells.colours[i] = {level, level, level, 255};
+  }
+  return cells;
+}
 
-MapBase map_base(const Store& store, const Box& frame, double scale, Progress& progress) {
-  const double pixel = kPixel * scale;
-  const RasterGrid pixels({frame.xmin, frame.ymax}, pixel, pixel,
-                          static_cast<std::int64_t>(std::ceil(frame.width() / pixel)),
-                          static_cast<std::int64_t>(std::ceil(frame.height() / pixel)));
-  MapBase base{viewshed::relief(store, pixels, progress), {}, {}};
-  add_contours(smoothed(base.ground), base);
-  if (std::any_of(base.ground.heights_m.begin(), base.ground.heights_m.end(), [](float z) { return std::isnan(z); }))
+MapBase relief_base(const Store& store, const RasterGrid& pixels, Progress& progress) {
+  const viewshed::Relief ground = viewshed::relief(store, pixels, progress);
+  MapBase base{shaded(ground), {}, {}};
+  add_contours(smoothed(ground), base);
+  if (std::any_of(ground.heights_m.begin(), ground.heights_m.end(), [](float z) { return std::isnan(z); }))
     base.keys.push_back({profile::SheetKey::Sample::kPatch, {237, 237, 242, 255}, "No terrain data"});
   return base;
 }
 
-profile::SheetCells shaded(const viewshed::Relief& ground, const std::function<bool(Point2)>& studied) {
-  profile::SheetCells cells{ground.pixels, std::vector<profile::SheetColour>(ground.pixels.cell_count())};
-  parallel_for(static_cast<std::size_t>(ground.pixels.rows()), [&](std::size_t r) {
+MapBase picture_base(const std::string& basemap, const RasterGrid& pixels, const std::string& crs_wkt) {
+  MapBase base{{pixels, {}}, {}, {}};
+  for (const PictureColour& c : picture_at(basemap, pixels, crs_wkt))
+    base.picture.colours.push_back({c.red, c.green, c.blue, c.alpha});
+  return base;
+}
+
+profile::SheetColour faded(const profile::SheetColour& c) {
+  constexpr double kFade = 0.6;
+  const auto part = [](std::uint8_t v) { return static_cast<std::uint8_t>(std::lround(v + kFade * (255 - v))); };
+  return {part(c.red), part(c.green), part(c.blue), c.alpha};
+}
+
+}  // namespace
+
+MapBase map_base(const Store& store, const Box& frame, double scale, const std::string& basemap, Progress& progress) {
+  const double pixel = kPixel * scale;
+  const RasterGrid pixels({frame.xmin, frame.ymax}, pixel, pixel,
+                          static_cast<std::int64_t>(std::ceil(frame.width() / pixel)),
+                          static_cast<std::int64_t>(std::ceil(frame.height() / pixel)));
+  return basemap.empty() ? relief_base(store, pixels, progress)
+                         : picture_base(basemap, pixels, store.metadata().crs_wkt);
+}
+
+std::pair<std::string, std::string> basemap_fact(const std::string& basemap) {
+  return {"Base map", std::filesystem::path(basemap).filename().string()};
+}
+
+std::vector<profile::SheetLayer> layers_of(const MapBase& base, const std::function<bool(Point2)>& studied,
+                                           profile::SheetCells shown) {
+  profile::SheetCells picture = base.picture;
+  parallel_for(static_cast<std::size_t>(picture.grid.rows()), [&](std::size_t r) {
     const auto row = static_cast<std::int64_t>(r);
-    for (std::int64_t column = 0; column < ground.pixels.columns(); ++column) {
-      const std::size_t i = ground.pixels.index({column, row});
-      if (std::isnan(ground.shades[i])) {
-        cells.colours[i].alpha = 0;
-        continue;
-      }
-      constexpr double kLevelGrey = 226, kContrast = 90, kFade = 0.6;
-      double grey = std::clamp(kLevelGrey + kContrast * (ground.shades[i] - viewshed::kLevelShade), 120.0, 250.0);
-      if (!studied(ground.pixels.centre(column, row))) grey += kFade * (255 - grey);
-      const auto level = static_cast<std::uint8_t>(std::lround(grey));
-      cells.colours[i] = {level, level, level, 255};
+    for (std::int64_t column = 0; column < picture.grid.columns(); ++column) {
+      profile::SheetColour& colour = picture.colours[picture.grid.index({column, row})];
+      if (colour.alpha > 0 && !studied(picture.grid.centre(column, row))) colour = faded(colour);
     }
   });
-  return cells;
+  std::vector<profile::SheetLayer> layers{std::move(picture), std::move(shown)};
+  layers.insert(layers.end(), base.contours.begin(), base.contours.end());
+  return layers;
 }
 
 }  // namespace itin::cli

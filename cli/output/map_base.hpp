@@ -1,28 +1,35 @@
-// What lies below every map sheet: shaded relief and contours of a store's ground.
+// What lies below every map sheet: the shaded relief and contours of a store's ground, or a picture given for it.
 //
-//   const MapBase base = map_base(store, profile::ground_in_frame(sheet), profile::scale_of(sheet), progress);
+//   const MapBase base = map_base(store, profile::ground_in_frame(sheet), profile::scale_of(sheet), basemap, progress);
+//   sheet.layers = layers_of(base, [](Point2) { return true; }, std::move(cells));
 #pragma once
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <itin/store.hpp>
 #include <profile/map_sheet.hpp>
-#include <viewshed/relief.hpp>
 
 namespace itin::cli {
 
 struct MapBase {
-  viewshed::Relief ground;
-  std::vector<profile::SheetLayer> contours;
-  std::vector<profile::SheetKey> keys;  ///< of contours, and of missing ground where there is some
+  profile::SheetCells picture;
+  std::vector<profile::SheetLayer> contours;  ///< of the relief
+  std::vector<profile::SheetKey> keys;        ///< of contours, and of missing ground where there is some
 };
 
-/// Over all of a map's frame, at 1 : scale.
-MapBase map_base(const Store& store, const Box& frame, double scale, Progress& progress);
+/// Over all of a map's frame, at 1 : scale. `basemap` is a georeferenced picture in place of the relief; empty: none.
+/// Throws FileError for one that cannot be used.
+MapBase map_base(const Store& store, const Box& frame, double scale, const std::string& basemap, Progress& progress);
 
-/// The relief in grey, faded where `studied` does not hold. `studied` is asked about positions on any thread.
-profile::SheetCells shaded(const viewshed::Relief& ground, const std::function<bool(Point2)>& studied);
+/// Names the picture in a title block.
+std::pair<std::string, std::string> basemap_fact(const std::string& basemap);
+
+/// The picture, faded where `studied` does not hold; what is shown over it; contours. `studied` is asked about
+/// positions on any thread.
+std::vector<profile::SheetLayer> layers_of(const MapBase& base, const std::function<bool(Point2)>& studied,
+                                           profile::SheetCells shown);
 
 }  // namespace itin::cli

@@ -53,7 +53,7 @@ class SiteVerb final : public Verb {
     policy_ = options_.policy;
     policy_.overwrite = policy_.overwrite || (options_.resume && std::filesystem::exists(place("site.work")));
     const NewFolder folder(options_.directory);
-    outputs_ = site_outputs(options_.directory, policy_);
+    outputs_ = site_outputs(options_.directory, options_.sheets, policy_);
     // A budget holds for what is kept of the store as well.
     const Store store(options_.store, {std::min(StoreOptions().cache_bytes, options_.memory_bytes / 4)});
     options_.themes.choice().check(store.metadata().themes);
@@ -182,8 +182,9 @@ class SiteVerb final : public Verb {
       result.document["outputs"].push_back({{"path", profile.path}, {"what", "profile of the link " + profile.what}});
     const std::vector<SourceInfo> sources = sources_in(store, site.rasters.grid.bounds(), options_.themes.choice());
     result.document["sources"] = sources_document(sources);
-    write_site_report(site, profiles, parameters(), inputs_document_, described(sources, store.metadata()),
-                      options_.directory, policy_.overwrite);
+    const std::vector<std::string> in_words = described(sources, store.metadata());
+    write_site_sheets(store, site, in_words, options_.directory, policy_.overwrite, progress);
+    write_site_report(site, profiles, parameters(), inputs_document_, in_words, options_.directory, policy_.overwrite);
     Document whole{{"itin", ITIN_VERSION}, {"command", {{"verb", name()}}}};
     whole["command"].update(parameters());
     whole.update(result.document);

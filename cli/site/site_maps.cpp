@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <itin/coordinates.hpp>
 #include <itin/level_choice.hpp>
+#include <itin/output_file.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/map_image.hpp>
+#include <viewshed/result_map.hpp>
 
+#include "output/result_sheet.hpp"
 #include "output/store_document.hpp"
 #include "site/site_report.hpp"
 
@@ -25,7 +29,6 @@ Tin hillshade_surface(const Store& store, const RasterGrid& grid, Progress& prog
                      progress);
 }
 
-/// The choice as a viewshed's result, which is what maps are drawn of.
 viewshed::Result as_viewshed(const SiteResult& r) {
   viewshed::Result result;
   result.grid = r.rasters.grid;
@@ -46,19 +49,13 @@ viewshed::Result as_viewshed(const SiteResult& r) {
   return result;
 }
 
-}  // namespace
+struct SiteMap {
+  const char* name;
+  viewshed::Result result;  ///< the choice as a viewshed's, which is what maps are drawn of
+  viewshed::MapOptions options;
+};
 
-std::uint64_t bytes_of_site_maps(const Store& store, const RasterGrid& grid) {
-  // Bytes per cell: its nearest server, how far that is, how many serve it, and copies of these to draw and to write.
-  constexpr std::uint64_t kCell = 20, kPoint = 150;
-  return kCell * grid.cell_count() + kPoint * store.points_about(hillshade_level(store, grid), grid.bounds());
-}
-
-void write_site_maps(const Store& store, const SiteResult& r, const std::string& directory, bool overwrite,
-                     Progress& progress, std::vector<std::string>& warnings) {
-  namespace fs = std::filesystem;
-  progress.report("maps", 0);
-  const Tin tin = hillshade_surface(store, r.rasters.grid, progress);
+std::vector<SiteMap> site_maps(const SiteResult& r) {
   viewshed::Result result = as_viewshed(r);
   viewshed::MapOptions options;
   options.map_pixels = kMapPixels;
@@ -73,14 +70,70 @@ void write_site_maps(const Store& store, const SiteResult& r, const std::string&
       r.options.frequency_ghz ? fmt::format(", {:g} F1 clear at {:g} GHz", r.options.fresnel, *r.options.frequency_ghz)
                               : "",
       r.options.cover > 1 ? fmt::format(", by at least {} sites", r.options.cover) : "");
-  const viewshed::MapImage coverage = draw_map(tin, result, options);
-  warnings.insert(warnings.end(), coverage.warnings.begin(), coverage.warnings.end());
-  write_image((fs::path(directory) / "coverage.png").string(), coverage, overwrite);
+  std::vector<SiteMap> maps{{"coverage", result, options}};
   result.request.mode = viewshed::Mode::kCount;
   result.count = r.rasters.redundancy;
   options.title = "Sites that serve a place";
-  progress.report("maps", 0.5);
-  write_image((fs::path(directory) / "redundancy.png").string(), draw_map(tin, result, options), overwrite);
+  maps.push_back({"redundancy", std::move(result), std::move(options)});
+  return maps;
+}
+
+ResultSheet sheet_of(const Store& store, const SiteResult& r, const SiteMap& map,
+                     const std::vector<std::string>& sources) {
+  const StoreMetadata& metadata = store.metadata();
+  ResultSheet sheet{map.result.grid,
+                    viewshed::result_map(map.result, map.options),
+                    "Share of the places to serve",
+                    [&](std::size_t cell) { return map.result.visible[cell] != viewshed::Verdict::kOutside; },
+                    {profile::SheetSymbol::kMast, {213, 94, 0, 255}, {}},
+                    map.options.observers,
+                    {}};
+  for (const viewshed::Observer& site : map.result.request.observers)
+    sheet.marks.marks.push_back({site.position, site.name});
+  sheet.title.title = map.options.title;
+  sheet.title.statement = statement_of(metadata, r.options.themes.choice());
+  sheet.title.facts = {{"Served", r.options.meaning_of_served()},
+                       {"Targets", map.options.subtitle},
+                       {"Choice", fmt::format("{}, {:.1f} % of the demand served",
+                                              counted(r.choice.chosen.size(), "site"), r.served_percent())},
+                       {"Earth", r.options.earth.earth().convention()},
+                       {"Coordinates", crs_title(metadata.crs_wkt)}};
+  sheet.title.sources = sources;
+  return sheet;
+}
+
+}  // namespace
+
+std::uint64_t bytes_of_site_maps(const Store& store, const RasterGrid& grid) {
+  // Bytes per cell: its nearest server, how far that is, how many serve it, and copies of these to draw and to write.
+  constexpr std::uint64_t kCell = 20, kPoint = 150;
+  return kCell * grid.cell_count() + kPoint * store.points_about(hillshade_level(store, grid), grid.bounds());
+}
+
+void write_site_maps(const Store& store, const SiteResult& r, const std::string& directory, bool overwrite,
+                     Progress& progress, std::vector<std::string>& warnings) {
+  progress.report("maps", 0);
+  const Tin tin = hillshade_surface(store, r.rasters.grid, progress);
+  for (const SiteMap& map : site_maps(r)) {
+    const viewshed::MapImage image = draw_map(tin, map.result, map.options);
+    if (map.result.request.mode == viewshed::Mode::kVisible)
+      warnings.insert(warnings.end(), image.warnings.begin(), image.warnings.end());
+    write_image((std::filesystem::path(directory) / map.name).string() + ".png", image, overwrite);
+  }
+}
+
+void write_site_sheets(const Store& store, const SiteResult& r, const std::vector<std::string>& sources,
+                       const std::string& directory, bool overwrite, Progress& progress) {
+  if (!r.options.sheets.given()) return;
+  for (const SiteMap& map : site_maps(r)) {
+    const ResultSheet sheet = sheet_of(store, r, map, sources);
+    for (const profile::PaperSize paper : r.options.sheets.papers())
+      for (const char* ending : {"pdf", "png"}) {
+        const std::string name = fmt::format("sheet-{}-{}.{}", map.name, profile::name_of(paper), ending);
+        write_file((std::filesystem::path(directory) / name).string(),
+                   draw_result_sheet(store, sheet, paper, r.options.sheets, name, progress), overwrite);
+      }
+  }
 }
 
 }  // namespace itin::cli

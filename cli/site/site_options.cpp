@@ -36,8 +36,8 @@ std::string text_of(const std::string& key, const Document& value) {
 
 /// Whether an option is part of the run itself, and does not only say where and how the run is written.
 bool is_parameter(const std::string& name) {
-  for (const char* other :
-       {"help", "params", "output", "json", "quiet", "threads", "resume", "overwrite", "memory", "engine"})
+  for (const char* other : {"help", "params", "output", "json", "quiet", "threads", "resume", "overwrite", "memory",
+                            "engine", "sheets", "sheet-scale", "basemap", "project", "date"})
     if (name == other) return false;
   return true;
 }
@@ -136,6 +136,7 @@ void SiteOptions::declare_work(CLI::App& app) {
   app.add_option("--memory", memory_text_,
                  "Memory for surfaces, what every site serves, and maps; it changes the speed only (default: 1G)")
       ->type_name("SIZE");
+  sheets.declare(app);
   app.add_flag("--resume", resume, "Go on where a run with the same parameters was killed");
   policy.declare(app);
 }
@@ -162,6 +163,7 @@ void SiteOptions::apply_parameter_file() {
 }
 
 void SiteOptions::validate() {
+  sheets.validate();
   validate_candidates();
   validate_masts();
   validate_demand();

@@ -13,6 +13,7 @@
 #include "options/earth_options.hpp"
 #include "options/engine_option.hpp"
 #include "options/in_crs.hpp"
+#include "options/sheet_options.hpp"
 #include "options/surface_options.hpp"
 #include "output/output_path.hpp"
 #include "program/values.hpp"
@@ -42,6 +43,7 @@ class SiteOptions {
   std::string meaning_of_served() const;
 
   std::string store, directory;
+  SheetOptions sheets;
   // Candidates.
   SiteQuery candidates;
   std::string cost_field;

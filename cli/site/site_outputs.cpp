@@ -155,20 +155,28 @@ Document interval(const CoverageSummary& summary) {
 
 }  // namespace
 
-std::vector<SiteOutput> site_outputs(const std::string& directory, OutputPolicy& policy) {
+std::vector<SiteOutput> site_outputs(const std::string& directory, const SheetOptions& sheets, OutputPolicy& policy) {
+  std::vector<std::pair<std::string, std::string>> files{
+      {"sites.gpkg", "chosen sites, candidates, links between sites"},
+      {"sites.csv", "chosen sites in order, with gains and bounds"},
+      {"candidates.csv", "every candidate, its bounds and why it is chosen or not"},
+      {"links.csv", "lines of sight between chosen sites"},
+      {"coverage.tif", "what the choice and existing sites serve"},
+      {"redundancy.tif", "how many of them serve a cell"},
+      {"best-server.tif", "the nearest site that serves a cell"},
+      {"coverage.png", "map of coverage.tif"},
+      {"redundancy.png", "map of redundancy.tif"},
+      {"report.html", "everything on one page"},
+      {"site.json", "the result as a document"},
+      {"parameters.json", "for --params: runs this again"}};
+  for (const profile::PaperSize paper : sheets.papers())
+    for (const char* map : {"coverage", "redundancy"})
+      for (const char* ending : {"pdf", "png"})
+        files.emplace_back(fmt::format("sheet-{}-{}.{}", map, profile::name_of(paper), ending),
+                           fmt::format("{}.tif as a map on paper", map));
   std::vector<SiteOutput> outputs;
-  for (const auto& [name, what] :
-       {std::pair("sites.gpkg", "chosen sites, candidates, links between sites"),
-        std::pair("sites.csv", "chosen sites in order, with gains and bounds"),
-        std::pair("candidates.csv", "every candidate, its bounds and why it is chosen or not"),
-        std::pair("links.csv", "lines of sight between chosen sites"),
-        std::pair("coverage.tif", "what the choice and existing sites serve"),
-        std::pair("redundancy.tif", "how many of them serve a cell"),
-        std::pair("best-server.tif", "the nearest site that serves a cell"),
-        std::pair("coverage.png", "map of coverage.tif"), std::pair("redundancy.png", "map of redundancy.tif"),
-        std::pair("report.html", "everything on one page"), std::pair("site.json", "the result as a document"),
-        std::pair("parameters.json", "for --params: runs this again")}) {
-    outputs.push_back({place(directory, name), what});
+  for (const auto& [name, what] : files) {
+    outputs.push_back({place(directory, name.c_str()), what});
     policy.claim(outputs.back().path);
   }
   return outputs;

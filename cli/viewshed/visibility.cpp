@@ -1,5 +1,6 @@
 // itin visibility: how much is seen from everywhere in an area.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -8,16 +9,19 @@
 #include <itin/document.hpp>
 #include <itin/error.hpp>
 #include <itin/output_file.hpp>
+#include <itin/sources_in.hpp>
 #include <itin/store.hpp>
 #include <viewshed/qgis_styles.hpp>
 #include <viewshed/visibility_index.hpp>
 
 #include "options/detail_options.hpp"
 #include "options/earth_options.hpp"
+#include "options/sheet_options.hpp"
 #include "options/store_scale.hpp"
 #include "options/surface_options.hpp"
 #include "options/window_options.hpp"
 #include "output/output_path.hpp"
+#include "output/result_sheet.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
 #include "program/values.hpp"
@@ -53,6 +57,7 @@ class VisibilityVerb final : public Verb {
     app.add_option("--targets", targets_text_,
                    "Targets at random for every observer; four times as many halve the standard error (default: 128)")
         ->type_name("N");
+    sheet_.declare_file(app);
     window_.declare(app);
     detail_.declare(app);
     themes_.declare(app);
@@ -76,6 +81,7 @@ class VisibilityVerb final : public Verb {
       request_.targets = static_cast<unsigned>(parse_whole("--targets", targets_text_, 1, kMostTargets));
     if (std::filesystem::path(output_).extension() != ".tif")
       throw InputError(fmt::format("--output '{}': a visibility index is written as .tif", output_));
+    sheet_.validate();
     window_.validate();
     detail_.validate();
     if (detail_.has_rings()) throw InputError("--rings lie about one observer; give --tolerance");
@@ -96,6 +102,7 @@ class VisibilityVerb final : public Verb {
                         {"observer_height_m", request_.height},
                         {"target_height_m", request_.target_height},
                         {"targets", request_.targets}};
+    parameters.update(sheet_.parameters());
     parameters.update(window_.parameters());
     parameters.update(detail_.parameters());
     parameters.update(themes_.parameters());
@@ -106,6 +113,7 @@ class VisibilityVerb final : public Verb {
   Result execute(Progress& progress) override {
     policy_.require_writable(output_);
     policy_.claim(style());
+    if (!sheet_.file().empty()) policy_.require_writable(sheet_.file());
     // A budget holds for what is kept of the store as well.
     const Store store(store_, {std::min(StoreOptions().cache_bytes, request_.memory_bytes / 4)});
     const StoreMetadata& metadata = store.metadata();
@@ -120,6 +128,7 @@ class VisibilityVerb final : public Verb {
         output_, index, request_,
         {metadata.crs_wkt, {{"itin", ITIN_VERSION}, {"surface", json_text(surface)}}, policy_.overwrite});
     write_file(style(), viewshed::qgis_style_of_shares(), policy_.overwrite);
+    if (!sheet_.file().empty()) write_sheet(store, index, progress);
     Result result;
     warn_of_scale(metadata, result.warnings);
     Document& document = result.document;
@@ -130,6 +139,7 @@ class VisibilityVerb final : public Verb {
     document["mean_share"] = index.mean;
     document["mean_share_standard_error"] = index.mean_error;
     document["outputs"] = {output_, style()};
+    if (!sheet_.file().empty()) document["outputs"].push_back(sheet_.file());
     document["statistics"] = {{"points_read", index.retrieval.points_read},
                               {"blocks_read", index.retrieval.blocks_read},
                               {"triangles", index.triangles},
@@ -143,6 +153,29 @@ class VisibilityVerb final : public Verb {
   }
 
  private:
+  void write_sheet(const Store& store, const viewshed::VisibilityIndex& index, Progress& progress) const {
+    const StoreMetadata& metadata = store.metadata();
+    ResultSheet sheet{index.grid,
+                      viewshed::result_map(index),
+                      "Share of the ground within the radius that is seen",
+                      [&](std::size_t cell) { return !std::isnan(index.share[cell]); },
+                      {},
+                      "",
+                      {}};
+    profile::TitleBlock& block = sheet.title;
+    block.title = "How much is seen from everywhere";
+    block.statement = statement_of(metadata, request_.themes);
+    block.facts = {{"Observers", fmt::format("at the centres of cells of {:g} m, {:g} m above the ground",
+                                             request_.cell_size, request_.height)},
+                   {"Targets", fmt::format("{} at random for each observer, {:g} m above the ground", request_.targets,
+                                           request_.target_height)},
+                   {"Radius", fmt::format("{:g} km", request_.radius / 1000)},
+                   {"Earth", request_.earth.convention()},
+                   {"Coordinates", crs_title(metadata.crs_wkt)}};
+    block.sources = described(sources_in(store, index.grid.bounds(), request_.themes), metadata);
+    write_file(sheet_.file(), draw_result_sheet(store, sheet, sheet_.papers().front(), sheet_, sheet_.file(), progress),
+               policy_.overwrite);
+  }
   std::string style() const { return std::filesystem::path(output_).replace_extension(".qml").string(); }
 
   std::string store_, output_, cell_text_, radius_text_, height_text_, target_text_, targets_text_, nodata_text_,
@@ -151,6 +184,7 @@ class VisibilityVerb final : public Verb {
   DetailOptions detail_;
   ThemeOptions themes_;
   EarthOptions earth_;
+  SheetOptions sheet_;
   OutputPolicy policy_;
   viewshed::IndexRequest request_;
 };

@@ -231,6 +231,7 @@ profile::TitleBlock title_block(const Store& store, const Zone& zone, const Zone
                                : "flat; curvature and refraction are not taken into account"},
                  {"Terrain", terrain_in_words(metadata, zone.request.detail)},
                  {"Coordinates", crs_title(metadata.crs_wkt)}};
+  if (!options.basemap().empty()) block.facts.push_back(basemap_fact(options.basemap()));
   block.sources = described(facts.sources, metadata);
   block.made_by = fmt::format("Drawn by itin {}", ITIN_VERSION);
   return block;
@@ -249,11 +250,11 @@ std::vector<viewshed::ZoneFile> write_ztv_sheets(const std::string& folder, cons
     MapSheet sheet;
     sheet.paper = paper, sheet.scale = options.scale(), sheet.area = study_area(zone);
     sheet.crs_wkt = store.metadata().crs_wkt;
-    const MapBase base = map_base(store, profile::ground_in_frame(sheet), profile::scale_of(sheet), progress);
-    const profile::SheetCells relief = shaded(base.ground, [&](Point2 p) { return beyond_study_area(zone, p) <= 0; });
+    const MapBase base =
+        map_base(store, profile::ground_in_frame(sheet), profile::scale_of(sheet), options.basemap(), progress);
     for (const ZoneMap& map : maps) {
-      sheet.layers = {relief, classes_of(zone, map)};
-      sheet.layers.insert(sheet.layers.end(), base.contours.begin(), base.contours.end());
+      sheet.layers = layers_of(
+          base, [&](Point2 p) { return beyond_study_area(zone, p) <= 0; }, classes_of(zone, map));
       sheet.layers.insert(sheet.layers.end(), furniture.layers.begin(), furniture.layers.end());
       sheet.legend = class_keys(zone, map);
       sheet.legend.push_back({SheetKey::Sample::kHeading, {}, "Map"});

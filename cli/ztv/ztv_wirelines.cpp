@@ -138,7 +138,7 @@ profile::Wireline of_one_farm(profile::Wireline view, const std::string& farm) {
 }
 
 profile::MapSheet location_map(const Store& store, const Zone& zone, const Viewpoint& v,
-                               const std::vector<Sight>& sights, Progress& progress) {
+                               const std::vector<Sight>& sights, const std::string& basemap, Progress& progress) {
   const Seen seen = seen_of(zone, sights, all_turbines(zone));
   const Turbine& nearest = zone.request.turbines[seen.nearest];
   profile::MapSheet sheet;
@@ -148,8 +148,8 @@ profile::MapSheet location_map(const Store& store, const Zone& zone, const Viewp
   const double room = std::max(1000.0, 0.35 * sights[seen.nearest].distance);
   sheet.area = {sheet.area.xmin - room, sheet.area.ymin - room, sheet.area.xmax + room, sheet.area.ymax + room};
   sheet.scale = 2 * profile::scale_of(sheet);
-  const MapBase base = map_base(store, profile::ground_in_location_map(sheet), sheet.scale, progress);
-  sheet.layers = {shaded(base.ground, [](Point2) { return true; })};
+  const MapBase base = map_base(store, profile::ground_in_location_map(sheet), sheet.scale, basemap, progress);
+  sheet.layers = {base.picture};
   sheet.layers.insert(sheet.layers.end(), base.contours.begin(), base.contours.end());
   profile::SheetMarks turbines{profile::SheetSymbol::kTurbine, {170, 20, 20, 255}, {}};
   for (const Turbine& t : zone.request.turbines) turbines.marks.push_back({t.position, fmt::format("{}", t.number)});
@@ -209,7 +209,8 @@ void WirelineWriter::write(const Viewpoint& v, const ViewedSurface& view, const 
   const std::string name = file_name("viewpoint", v, view.suffix + ".pdf");
   add(name, "sheet about " + of,
       profile::draw_viewpoint_sheet(
-          wide, {sheet, farm_table(zone_, sights), location_map(store_, zone_, v, sights, progress)}, name));
+          wide, {sheet, farm_table(zone_, sights), location_map(store_, zone_, v, sights, sheets_.basemap(), progress)},
+          name));
 }
 
 }  // namespace itin::cli

@@ -19,7 +19,7 @@ namespace {
 const std::set<std::string> kInputs = {
     "STORE",   "SOURCE",     "--profile-csv", "--links",       "--observers", "--horizon-targets", "--path",
     "--route", "--params",   "--candidates",  "--search-area", "--demand",    "--existing",        "--radius-preset",
-    "--like",  "--turbines", "--viewpoints",  "--forbidden",   "--polygon",   "--sea-area"};
+    "--like",  "--turbines", "--viewpoints",  "--forbidden",   "--polygon",   "--sea-area",        "--basemap"};
 
 struct FileOption {
   std::string name;

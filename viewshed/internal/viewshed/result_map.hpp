@@ -9,6 +9,7 @@
 
 #include <viewshed/map_image.hpp>
 #include <viewshed/viewshed.hpp>
+#include <viewshed/visibility_index.hpp>
 
 namespace itin::viewshed {
 
@@ -27,5 +28,7 @@ struct ResultMap {
 };
 
 ResultMap result_map(const Result& result, const MapOptions& options);
+/// Its shares in bands; keys tell the area of each, and its part of all observers' cells.
+ResultMap result_map(const VisibilityIndex& index);
 
 }  // namespace itin::viewshed

@@ -6,6 +6,7 @@
 #include <viewshed/result_map.hpp>
 
 #include "drawing/map_overlay.hpp"
+#include "turbines/value_bands.hpp"
 
 namespace itin::viewshed {
 
@@ -14,6 +15,11 @@ namespace {
 ResultMap::Colour colour_of(const Tint& tint) {
   return {tint.colour.red, tint.colour.green, tint.colour.blue,
           static_cast<std::uint8_t>(std::lround(255 * tint.opacity))};
+}
+
+std::string key_text(const std::string& what, std::uint64_t cells, std::uint64_t of, double cell_area) {
+  return fmt::format("{}: {:.4g} km² ({:.1f} %)", what, static_cast<double>(cells) * cell_area / 1e6,
+                     100.0 * static_cast<double>(cells) / static_cast<double>(of));
 }
 
 }  // namespace
@@ -27,13 +33,32 @@ ResultMap result_map(const Result& result, const MapOptions& options) {
   const std::uint64_t decided =
       std::max<std::uint64_t>(1, result.cells.visible + result.cells.hidden + result.cells.undecided);
   for (const MapOverlay::Key& key : overlay.keys()) {
-    const double km2 = static_cast<double>(key.cells) * result.grid.cell_area() / 1e6;
     map.keys.push_back({key.tints.empty() ? ResultMap::Colour{} : colour_of(key.tints.back()),
-                        fmt::format("{}: {:.4g} km² ({:.1f} %)", key.text, km2,
-                                    100.0 * static_cast<double>(key.cells) / static_cast<double>(decided))});
+                        key_text(key.text, key.cells, decided, result.grid.cell_area())});
   }
   map.scale_title = overlay.scale_title();
   for (const MapOverlay::Step& step : overlay.scale()) map.scale.push_back({colour_of(step.tint), step.text});
+  return map;
+}
+
+ResultMap result_map(const VisibilityIndex& index) {
+  constexpr std::uint8_t kOverRelief = 165;
+  const std::vector<ValueBand> bands = share_bands();
+  std::vector<std::uint64_t> cells(bands.size());
+  ResultMap map;
+  map.cells.resize(index.share.size());
+  for (std::size_t i = 0; i < index.share.size(); ++i) {
+    if (std::isnan(index.share[i])) continue;
+    const std::size_t b = band_of(bands, index.share[i]);
+    ++cells[b];
+    if (bands[b].alpha > 0) map.cells[i] = {bands[b].red, bands[b].green, bands[b].blue, kOverRelief};
+  }
+  for (std::size_t b = 0; b < bands.size(); ++b) {
+    const std::uint8_t alpha = bands[b].alpha > 0 ? kOverRelief : std::uint8_t{0};
+    map.keys.push_back(
+        {{bands[b].red, bands[b].green, bands[b].blue, alpha},
+         key_text(bands[b].label, cells[b], std::max<std::uint64_t>(1, index.observers), index.grid.cell_area())});
+  }
   return map;
 }
 

@@ -22,7 +22,7 @@ std::string qgis_style(const Request& request) {
 }
 
 std::string qgis_style_of_shares() {
-  return banded_style(limit_bands({0.01, 0.02, 0.05, 0.1, 0.2, 0.5}, "of the ground"));
+  return banded_style(share_bands());
 }
 
 }  // namespace itin::viewshed

@@ -76,6 +76,10 @@ std::vector<ValueBand> limit_bands(const std::vector<double>& limits, const std:
   return bands;
 }
 
+std::vector<ValueBand> share_bands() {
+  return limit_bands({0.01, 0.02, 0.05, 0.1, 0.2, 0.5}, "of the ground");
+}
+
 std::size_t band_of(const std::vector<ValueBand>& bands, double value) {
   const auto band = std::find_if(bands.begin(), bands.end(), [&](const ValueBand& b) { return value <= b.to; });
   return static_cast<std::size_t>(std::min(band, bands.end() - 1) - bands.begin());

@@ -19,6 +19,8 @@ struct ValueBand {
 std::vector<ValueBand> count_bands(std::size_t most, std::vector<std::size_t> limits = {});
 /// 0 (clear of colour), then between the limits, the last open. `unit` as in "10 - 25 m".
 std::vector<ValueBand> limit_bands(const std::vector<double>& limits, const std::string& unit);
+/// Those of shares of the ground, 0 to 1.
+std::vector<ValueBand> share_bands();
 /// The band that holds a value: the first whose limit it does not exceed.
 std::size_t band_of(const std::vector<ValueBand>& bands, double value);
 

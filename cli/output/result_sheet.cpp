@@ -1,0 +1,67 @@
+#include "output/result_sheet.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "output/map_base.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+using profile::SheetKey;
+
+profile::SheetColour drawn(const viewshed::ResultMap::Colour& c) {
+  return {c.red, c.green, c.blue, c.alpha};
+}
+
+std::vector<SheetKey> keys_of(const ResultSheet& content) {
+  std::vector<SheetKey> keys;
+  const auto add = [&](const std::string& heading, const std::vector<viewshed::ResultMap::Key>& more) {
+    if (more.empty()) return;
+    keys.push_back({SheetKey::Sample::kHeading, {}, heading});
+    for (const auto& key : more) keys.push_back({SheetKey::Sample::kPatch, drawn(key.colour), key.text});
+  };
+  add(content.heading, content.map.keys);
+  add(content.map.scale_title, content.map.scale);
+  keys.push_back({SheetKey::Sample::kHeading, {}, "Map"});
+  if (!content.marks_key.empty()) keys.push_back({SheetKey::Sample::kMast, content.marks.colour, content.marks_key});
+  return keys;
+}
+
+}  // namespace
+
+std::string statement_of(const StoreMetadata& metadata, const ThemeChoice& themes) {
+  if (!themes.includes_raised(metadata.themes))
+    return "Bare ground: the screening effect of buildings, walls and vegetation is not taken into account.";
+  return fmt::format("Screening by {} as imported is taken into account; whatever else stands on the ground is not.",
+                     fmt::join(themes.names(metadata.themes), ", "));
+}
+
+std::string draw_result_sheet(const Store& store, const ResultSheet& content, profile::PaperSize paper,
+                              const SheetOptions& options, const std::string& name, Progress& progress) {
+  profile::MapSheet sheet;
+  sheet.paper = paper, sheet.scale = options.scale(), sheet.area = content.grid.bounds();
+  sheet.crs_wkt = store.metadata().crs_wkt;
+  const MapBase base =
+      map_base(store, profile::ground_in_frame(sheet), profile::scale_of(sheet), options.basemap(), progress);
+  profile::SheetCells cells{content.grid, {}};
+  for (const auto& colour : content.map.cells) cells.colours.push_back(drawn(colour));
+  const auto studied = [&](Point2 p) {
+    const auto cell = content.grid.cell_at(p);
+    return cell && content.studied(content.grid.index(*cell));
+  };
+  sheet.layers = layers_of(base, studied, std::move(cells));
+  sheet.layers.emplace_back(content.marks);
+  sheet.legend = keys_of(content);
+  sheet.legend.insert(sheet.legend.end(), base.keys.begin(), base.keys.end());
+  sheet.title = content.title;
+  if (!options.basemap().empty()) sheet.title.facts.push_back(basemap_fact(options.basemap()));
+  sheet.title.project = options.project(), sheet.title.date = options.date();
+  sheet.title.made_by = "Drawn by itin " ITIN_VERSION;
+  return profile::draw_map_sheet(sheet, name);
+}
+
+}  // namespace itin::cli
