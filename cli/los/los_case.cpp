@@ -39,6 +39,21 @@ void add_names(const LosHeader& header, Document& document) {
   if (!header.to_name.empty()) document["to"]["name"] = header.to_name;
 }
 
+/// What the report says of the call.
+void complete(profile::LosReport& report, const LosHeader& header) {
+  report.title = header.title;
+  add_facts(report);
+  report.facts.insert(report.facts.begin(), header.facts.begin(), header.facts.end());
+  add_names(header, report);
+}
+
+LosCase los_case(profile::LosReport report, Document document, const LosHeader& header) {
+  LosCase one{std::move(report), {}};
+  one.result.document = std::move(document);
+  add_names(header, one.result.document);
+  return one;
+}
+
 std::string text_of_findings(const profile::LosReport& report, const profile::LineFindings& found) {
   std::string text;
   for (const profile::Obstruction& o : found.obstructions) {
@@ -58,21 +73,16 @@ std::string text_of_findings(const profile::LosReport& report, const profile::Li
 }  // namespace
 
 LosCase los_case(profile::LosReport report, const LosHeader& header) {
-  LosCase one{std::move(report), {}};
-  one.report.title = header.title;
-  add_facts(one.report);
-  one.report.facts.insert(one.report.facts.begin(), header.facts.begin(), header.facts.end());
-  add_names(header, one.report);
-  one.result.document = profile::los_document(one.report);
-  add_names(header, one.result.document);
-  return one;
+  complete(report, header);
+  Document document = profile::los_document(report);
+  return los_case(std::move(report), std::move(document), header);
 }
 
 LosCase los_case(const Store& store, LosStoreOptions::Result line, const LosHeader& header) {
-  LosCase one = los_case(std::move(line.report), header);
+  complete(line.report, header);
+  Document document = profile::los_document(store.metadata(), line.line, line.report);
+  LosCase one = los_case(std::move(line.report), std::move(document), header);
   one.result.warnings = std::move(line.warnings);
-  one.result.document = profile::los_document(store.metadata(), line.line, one.report);
-  add_names(header, one.result.document);
   return one;
 }
 
