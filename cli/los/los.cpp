@@ -66,6 +66,7 @@ class LosVerb final : public Verb {
     query_.radio = radio_.radio(query_.earth);
     query_.criteria = radio_.criteria();
     query_.object = radio_.object();
+    query_.day = people_.day();
   }
 
   Document parameters() const override {
@@ -143,6 +144,7 @@ class LosVerb final : public Verb {
     const Store store(store_);
     LosCase one = los_case(store, line_.run(store, query_), header());
     warn_of_scale(store.metadata(), one.result.warnings);
+    warn_of_date(one.result);
     return one;
   }
 
@@ -157,6 +159,7 @@ class LosVerb final : public Verb {
                                                    [](const profile::Link& l) { return l.frequency_ghz.has_value(); });
     if (radio) warn_of_refraction(profile::effective_earth_km(query_.earth), survey.result);
     warn_of_scale(store.metadata(), survey.result.warnings);
+    warn_of_date(survey.result);
     // A link without a verdict has no report; the table says why.
     std::erase_if(jobs, [&](const LosReports::Job& job) { return !survey.computed[job.link]; });
     const auto work = [&](std::size_t i) {
@@ -179,6 +182,11 @@ class LosVerb final : public Verb {
                   {"Refraction", query_.earth.convention()},
                   {"Program", "itin " ITIN_VERSION}});
     return facts;
+  }
+
+  void warn_of_date(Result& result) const {
+    const std::string warning = people_.warning();
+    if (!warning.empty()) result.warnings.push_back(warning);
   }
 
   void warn_of_refraction(double effective_earth_km, Result& result) const {

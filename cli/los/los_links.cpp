@@ -92,7 +92,8 @@ LosLinks::Survey LosLinks::run(const Store& store, const LinkTable& table, const
                                  .radio = query.radio,
                                  .criteria = query.criteria,
                                  .object = query.object,
-                                 .nodata = surface.nodata()};
+                                 .nodata = surface.nodata(),
+                                 .day = query.day};
   const std::vector<LinkResult> results = profile::survey_links(store, table.links, links, progress);
   const profile::LinkSurvey written{table, results, links, metadata.crs_wkt, page.title, page.facts};
   for (const std::string& output : outputs_) profile::write_links(written, output, overwrite);

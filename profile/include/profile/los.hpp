@@ -10,6 +10,7 @@
 //   profile::write_report(report, "{}", "link.pdf", false);
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -90,6 +91,8 @@ struct LosQuery {
   /// The losses take the profile's points alone, as published cases have them; otherwise points are added on the
   /// straight ground between them, at most 100 m and a 50th of the length apart.
   bool points_as_given = false;
+  /// The day of the magnetic azimuths of a line over a store.
+  std::optional<std::chrono::year_month_day> day;
 };
 
 /// Where a line over a store runs, and over which surface.
@@ -112,6 +115,9 @@ struct LosEnd {
     Point2 position;                                    ///< in the store's CRS
     Point2 lon_lat;                                     ///< degrees on WGS 84
     double azimuth_grid_deg = 0, azimuth_true_deg = 0;  ///< towards the other end
+    /// Likewise from magnetic north, which lies `declination_deg` east of true north (World Magnetic Model 2025).
+    /// Nothing without a day, on a day outside 2025 to 2029, and close to the magnetic poles.
+    std::optional<double> azimuth_magnetic_deg, declination_deg;
   };
   std::optional<Site> site;
 };

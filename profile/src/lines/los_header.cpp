@@ -26,8 +26,17 @@ void add_sites(const StoreLine& line, LosReport& report) {
   const CoordinateTransform to_geographic(report.crs_wkt, "EPSG:4326");
   const Point2 a = to_geographic(line.from), b = to_geographic(line.to);
   const Geodesic between = geodesic(a, b);
-  report.from.site = {line.from, a, grid_azimuth_deg(line.from, line.to), between.azimuth_deg};
-  report.to.site = {line.to, b, grid_azimuth_deg(line.to, line.from), between.back_azimuth_deg};
+  const auto site = [&](Point2 position, Point2 towards, Point2 lon_lat, double azimuth_deg, double elevation_m) {
+    const std::optional<double> declination = declination_on(report.query.day, lon_lat, elevation_m);
+    return LosEnd::Site{position,
+                        lon_lat,
+                        grid_azimuth_deg(position, towards),
+                        azimuth_deg,
+                        magnetic_azimuth_deg(azimuth_deg, declination),
+                        declination};
+  };
+  report.from.site = site(line.from, line.to, a, between.azimuth_deg, report.antennas.from_m);
+  report.to.site = site(line.to, line.from, b, between.back_azimuth_deg, report.antennas.to_m);
   report.geodesic_m = between.distance_m;
 }
 
@@ -104,6 +113,29 @@ std::string grid_reference(const LosEnd::Site& site, const std::string& crs_wkt)
   return reference ? "; " + *reference : "";
 }
 
+std::string declination_text(const std::optional<double>& degrees) {
+  if (!degrees) return "none so close to the magnetic pole";
+  return fmt::format("{:.2f}\xC2\xB0 {}", std::abs(*degrees), *degrees < 0 ? "W" : "E");
+}
+
+/// Where the magnetic azimuths come from, or why there are none.
+std::string magnetic_fact(const LosReport& report) {
+  const auto& day = report.query.day;
+  if (!day) return "no azimuths from it, because the report has no date that is a day, such as 23 November 2026";
+  if (!has_declination(*day))
+    return fmt::format("no azimuths from it, because the report is of {}; {}", day_text(*day), magnetic_model_text());
+  return fmt::format("declination {} at A, {} at B, on {}; {}", declination_text(report.from.site->declination_deg),
+                     declination_text(report.to.site->declination_deg), day_text(*day), magnetic_model_text());
+}
+
+/// "31.100\xC2\xB0 grid, 32.440\xC2\xB0 true, 33.1\xC2\xB0 magnetic", the last with no more digits than its model is
+/// good for.
+std::string azimuths_text(const LosEnd::Site& site) {
+  const std::string text =
+      fmt::format("{} grid, {} true", angle_text(site.azimuth_grid_deg), angle_text(site.azimuth_true_deg));
+  return site.azimuth_magnetic_deg ? text + fmt::format(", {:.1f}\xC2\xB0 magnetic", *site.azimuth_magnetic_deg) : text;
+}
+
 std::vector<std::string> lines_about(const LosEnd& end, const std::string& crs, const std::string& crs_wkt) {
   const LosEnd::Site& site = *end.site;
   const std::string surface = end.on_surface ? fmt::format(", surface {:.2f} m", *end.surface_m) : "";
@@ -114,8 +146,7 @@ std::vector<std::string> lines_about(const LosEnd& end, const std::string& crs, 
               grid_reference(site, crs_wkt),
           fmt::format("ground {:.2f} m{}, height {:.2f} m, elevation {:.2f} m", end.ground_m, surface, end.height_m,
                       end.elevation_m),
-          fmt::format("azimuth {} grid, {} true; elevation angle {}", angle_text(site.azimuth_grid_deg),
-                      angle_text(site.azimuth_true_deg), angle_text(end.elevation_angle_deg))};
+          fmt::format("azimuth {}; elevation angle {}", azimuths_text(site), angle_text(end.elevation_angle_deg))};
 }
 
 }  // namespace
@@ -128,6 +159,7 @@ void add_header(const Store& store, const StoreLine& line, LosReport& report) {
   add_sites(line, report);
   report.sources = sources_under(store, line);
   report.facts = facts_about(store, line, report.sources);
+  report.facts.emplace_back("Magnetic north", magnetic_fact(report));
   const std::string crs = crs_identifier(metadata.crs_wkt);
   report.from_lines = lines_about(report.from, crs, metadata.crs_wkt);
   report.to_lines = lines_about(report.to, crs, metadata.crs_wkt);

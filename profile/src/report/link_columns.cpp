@@ -21,11 +21,18 @@ Value number(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? Value(*value) : Value();
 }
 
-std::optional<Geodesic> geodesic_of(const Link& link, const CoordinateTransform& to_geographic) {
+/// Fills in what needs longitude and latitude.
+void add_directions(LinkRow& row, const LinkQuery& query, const CoordinateTransform& to_geographic) {
+  if (row.found() == nullptr) return;
+  const Link& link = *row.link;
+  const EndGrounds& ground = row.result->stands_on;
   try {
-    return geodesic(to_geographic(link.from), to_geographic(link.to));
+    const Point2 from = to_geographic(link.from), to = to_geographic(link.to);
+    row.geodesic = geodesic(from, to);
+    row.from_declination_deg = declination_on(query.day, from, ground.from_m + link.from_height);
+    row.to_declination_deg = declination_on(query.day, to, ground.to_m + link.to_height);
   } catch (const InputError&) {
-    return std::nullopt;  // an end is no place on the ground
+    return;  // an end is no place on the ground
   }
 }
 
@@ -148,6 +155,18 @@ class ColumnList {
       of_geodesic(there ? "azimuth_true1_deg" : "azimuth_true2_deg",
                   there ? &Geodesic::azimuth_deg : &Geodesic::back_azimuth_deg);
     }
+    if (survey_.query.day) add_magnetic();
+  }
+  void add_magnetic() {
+    const auto of_end = [&](const char* azimuth, const char* declination, double Geodesic::*from_true,
+                            std::optional<double> LinkRow::*of_north) {
+      add(azimuth, kNumber, [from_true, of_north](const LinkRow& r) {
+        return r.geodesic ? number(magnetic_azimuth_deg((*r.geodesic).*from_true, r.*of_north)) : Value();
+      });
+      add(declination, kNumber, [of_north](const LinkRow& r) { return number(r.*of_north); });
+    };
+    of_end("azimuth_magnetic1_deg", "declination1_deg", &Geodesic::azimuth_deg, &LinkRow::from_declination_deg);
+    of_end("azimuth_magnetic2_deg", "declination2_deg", &Geodesic::back_azimuth_deg, &LinkRow::to_declination_deg);
   }
   void add_radio() {
     const auto of_radio = [&](const char* name, VectorLayer::Type type, std::function<Value(const RadioPath&)> value) {
@@ -242,8 +261,8 @@ std::vector<LinkRow> link_rows(const LinkSurvey& survey) {
     }
     const Link& link = survey.table.links[i];
     const LinkResult& result = survey.results[i];
-    rows.push_back({link.id, &link, &result, result.message, &link.others,
-                    result.found ? geodesic_of(link, to_geographic) : std::nullopt});
+    rows.push_back({link.id, &link, &result, result.message, &link.others, {}});
+    add_directions(rows.back(), survey.query, to_geographic);
     ++i;
   }
   return rows;

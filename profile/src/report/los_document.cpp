@@ -2,6 +2,7 @@
 #include <optional>
 
 #include <itin/coordinates.hpp>
+#include <itin/magnetic_north.hpp>
 #include <profile/documents.hpp>
 #include <profile/fresnel.hpp>
 
@@ -162,7 +163,19 @@ Document end_document(const LosEnd& end) {
           {"elevation_m", end.elevation_m},
           {"azimuth_grid_deg", of_site([](const LosEnd::Site& s) { return s.azimuth_grid_deg; })},
           {"azimuth_true_deg", of_site([](const LosEnd::Site& s) { return s.azimuth_true_deg; })},
+          {"azimuth_magnetic_deg", number_or_null(end.site ? end.site->azimuth_magnetic_deg : std::nullopt)},
+          {"declination_deg", number_or_null(end.site ? end.site->declination_deg : std::nullopt)},
           {"elevation_angle_deg", end.elevation_angle_deg}};
+}
+
+/// The model of the declinations, or null where there are none.
+Document magnetic_document(const LosReport& report) {
+  const auto& day = report.query.day;
+  if (!report.from.site || !day || !has_declination(*day)) return nullptr;
+  return {{"model", kMagneticModel},
+          {"day", iso_day_text(*day)},
+          {"valid_from", kMagneticFrom},
+          {"valid_until", kMagneticUntil}};
 }
 
 }  // namespace
@@ -173,6 +186,7 @@ Document los_document(const LosReport& report) {
   document["refraction"] = earth_document(report.query.earth);
   document["from"] = end_document(report.from);
   document["to"] = end_document(report.to);
+  document["magnetic_north"] = magnetic_document(report);
   document["distance_m"] = report.profile.length_m;
   document["geodesic_distance_m"] = number_or_null(report.geodesic_m);
   document.update(findings_document(report, report));
