@@ -11,7 +11,7 @@
 
 namespace itin {
 
-/// Of the Gregorian calendar.
+/// A day of the Gregorian calendar.
 using CalendarDay = std::chrono::year_month_day;
 
 /// "2026-11-23", or day, month and year with the month in words, whole or by its first three letters, in any case: "23

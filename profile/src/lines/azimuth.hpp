@@ -17,7 +17,7 @@ inline double grid_azimuth_deg(Point2 from, Point2 to) {
   return azimuth < 0 ? azimuth + 360 : azimuth;
 }
 
-/// Of magnetic north at longitude and latitude; nothing without a day, and where declination_deg() has nothing.
+/// Magnetic north's at longitude and latitude; nothing without a day, and where declination_deg() has nothing.
 inline std::optional<double> declination_on(const std::optional<std::chrono::year_month_day>& day, Point2 lon_lat,
                                             double elevation_m) {
   return day ? declination_deg(lon_lat, elevation_m, decimal_year(*day)) : std::nullopt;
