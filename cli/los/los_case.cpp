@@ -42,6 +42,7 @@ void add_names(const LosHeader& header, Document& document) {
 /// What the report says of the call.
 void complete(profile::LosReport& report, const LosHeader& header) {
   report.title = header.title;
+  report.table_spacing_m = header.table_spacing_m;
   add_facts(report);
   report.facts.insert(report.facts.begin(), header.facts.begin(), header.facts.end());
   add_names(header, report);
@@ -110,6 +111,9 @@ std::string text_of(const profile::LosReport& report) {
     text += fmt::format("free space {:.1f} dB, diffraction (delta-Bullington) {:.1f} dB; least clearance {:.2f} F1\n",
                         l.free_space_db, l.ld_db, report.fresnel ? report.fresnel->fraction : 0);
   }
+  if (report.reflection)
+    text += fmt::format("reflection point at {:.1f} m; reflected path {}\n", report.reflection->distance_m,
+                        screen_text(report));
   if (report.visible) {
     text +=
         fmt::format("of the object at the second end {:.1f} m are seen ({:.0f} %), up to its hub {:.1f} m ({:.0f} %)\n",

@@ -46,7 +46,8 @@ std::string LosPeople::warning() const {
     return fmt::format(
         "--date '{}' is no day such as 2026-11-23 or 23 November 2026, so that no magnetic azimuths are given", date_);
   if (has_declination(*day())) return {};
-  return fmt::format("--date '{}': no magnetic azimuths are given for this day; {}", date_, magnetic_model_text());
+  return fmt::format("no magnetic azimuths are given for {}, the report's date; {}", day_text(*day()),
+                     magnetic_model_text());
 }
 
 Document LosPeople::parameters() const {

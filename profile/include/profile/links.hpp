@@ -93,6 +93,7 @@ struct LinkResult {
   double gap_m = 0;                   ///< of the distance, without data
   std::optional<RadioPath> radio;
   std::optional<PathLosses> losses;  ///< nothing also where an antenna is within a feature
+  std::optional<Reflection> reflection;
   std::optional<VisibleHeight> visible;
   std::string message;  ///< of an error
 };

@@ -148,7 +148,8 @@ struct LosReport : LineFindings {
   EndGrounds stands_on;              ///< elevations of what the ends stand on
   Antennas antennas;                 ///< elevations
   LosEnd from, to;
-  std::optional<PathLosses> losses;  ///< nothing without a frequency, or where an antenna is within a feature
+  std::optional<PathLosses> losses;      ///< nothing without a frequency, or where an antenna is within a feature
+  std::optional<Reflection> reflection;  ///< nothing without a frequency, and where there is none
   std::optional<VisibleHeight> visible;
 
   // For the report's header and maps. Over a store analyse() fills in all but the title, otherwise the caller does.
@@ -158,7 +159,10 @@ struct LosReport : LineFindings {
   std::string crs_wkt;                                     ///< empty: the profile has no positions
   std::optional<double> geodesic_m;                        ///< between the ends on WGS 84, where they have positions
   std::vector<std::string> themes;                         ///< names by ProfilePoint::theme; 0 is the terrain
+  std::vector<ThemeKind> theme_kinds;                      ///< by ProfilePoint::theme - 1; over a store alone
   std::map<std::pair<std::uint16_t, std::int64_t>, std::string> features;  ///< names by theme and feature
+  /// Of the rows of the printed profile; nothing: about 30 of them; 0: no such table.
+  std::optional<double> table_spacing_m;
 
   // Known for a line over a store alone:
   std::vector<SourceInfo> sources;  ///< of the surface under the line, as triangulated there
@@ -196,13 +200,18 @@ double ray_elevation_m(const LosReport& report, double distance_m);
 std::string cause_of(const LosReport& report, std::uint16_t theme, std::int64_t feature = -1);
 
 /// A report as a file that a planner can hand in. By the name's ending: .json (the document as given), .csv (one row
-/// for each point of the profile), .svg, .pdf, .png (the drawing; the PDF has a second page of tables and the trade-off
-/// chart), .html (all of it, self-contained), .kml and .gpkg (the line, its ends, the critical point and the
-/// obstructions; for profiles with positions). Equal reports give equal bytes. Throws as require_report_format() does,
-/// and FileError.
+/// for each point of the profile), .txt (the profile for other programs: distance km, ground m, height of what stands
+/// there m, its kind, T vegetation, B anything else, N nothing), .svg, .pdf, .png (the drawing; the PDF has more pages,
+/// which are numbered: the drawing over the Earth of the worst fade that a criterion asks about, tables, the trade-off
+/// chart, the profile as a table), .html (all of it, self-contained), .kml and .gpkg (the line, its ends, the critical
+/// point, the point of reflection, the edges and the obstructions; for profiles with positions). Equal reports give
+/// equal bytes. Throws as require_report() does, and FileError.
 void write_report(const LosReport& report, const std::string& json, const std::string& path, bool overwrite);
 
 /// Throws InputError for another ending, and for .kml and .gpkg of a profile without positions.
 void require_report_format(const std::string& path, bool has_positions);
+/// Besides, for a .txt of a profile with gaps, and for a `table_spacing_m` that is negative, or of which the line has
+/// more than 10,000.
+void require_report(const LosReport& report, const std::string& path);
 
 }  // namespace itin::profile

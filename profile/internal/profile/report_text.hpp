@@ -18,6 +18,9 @@ std::string gap_text(const LosReport& report);
 std::string verdict_text(const LosReport& report);
 /// "meets by 0.40 F1 (3.10 m)", "fails by ...", "undecided".
 std::string outcome_text(const CriterionResult& result);
+/// "clear", "screened by terrain at 5.310 km, 12.00 m above it", or that nothing is known; of a report with a
+/// reflection.
+std::string screen_text(const LosReport& report);
 /// Metres with two decimals, never less than the height that is required; "none is enough".
 std::string required_text(const std::optional<double>& height_m);
 

@@ -24,12 +24,6 @@ double factor_of(const Earth& earth) {
   return drop == 0 ? std::numeric_limits<double>::infinity() : 1 / (2 * drop * earth.radius);
 }
 
-Earth earth_of(const Criterion& criterion, const Earth& earth) {
-  Earth result = Earth::effective_earth(criterion.k);
-  result.radius = earth.radius;
-  return result;
-}
-
 /// A ray on one Earth, at its critical point.
 struct Clearance {
   std::optional<LineClearance> line;
@@ -94,6 +88,12 @@ void require_valid(const Profile& profile, const LosQuery& query, const Profile&
       throw InputError("a criterion with a fraction of the Fresnel zone takes a frequency");
     }
   }
+}
+
+Earth earth_of(const Criterion& criterion, const Earth& earth) {
+  Earth result = Earth::effective_earth(criterion.k);
+  result.radius = earth.radius;
+  return result;
 }
 
 std::vector<NamedRequirement> requirements_of(const LosQuery& query) {

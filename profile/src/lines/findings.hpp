@@ -12,6 +12,9 @@ namespace itin::profile {
 /// part of the Fresnel zone without a frequency.
 void require_valid(const Profile& profile, const LosQuery& query, const Profile& ground);
 
+/// That of a criterion, of the radius of `earth`.
+Earth earth_of(const Criterion& criterion, const Earth& earth);
+
 struct NamedRequirement {
   std::string name;
   double k = 0;  ///< effective Earth factor; infinity without curvature

@@ -102,6 +102,10 @@ LosReport analyse(Profile profile, const LosQuery& query, Profile ground) {
   // Clutter is for the losses alone, which leave it out of horizons and smooth heights.
   const Profile* bare = clutter || report.ground.points.empty() ? nullptr : &report.ground;
   report.losses = losses_over(clutter ? report.ground : report.profile, report.antennas, query, bare);
+  if (query.radio) {
+    const Profile* under = report.ground.points.empty() ? nullptr : &report.ground;
+    report.reflection = reflection(report.profile, report.antennas, *query.radio, under);
+  }
   describe_ends(report);
   if (query.object) {
     report.visible = visible_height(report.profile, query.from_height_m, query.object->hub_m, query.object->tip_m,

@@ -118,14 +118,12 @@ std::string declination_text(const std::optional<double>& degrees) {
   return fmt::format("{:.2f}\xC2\xB0 {}", std::abs(*degrees), *degrees < 0 ? "W" : "E");
 }
 
-/// Where the magnetic azimuths come from, or why there are none.
-std::string magnetic_fact(const LosReport& report) {
-  const auto& day = report.query.day;
-  if (!day) return "no azimuths from it, because the report has no date that is a day, such as 23 November 2026";
-  if (!has_declination(*day))
-    return fmt::format("no azimuths from it, because the report is of {}; {}", day_text(*day), magnetic_model_text());
+/// Where the magnetic azimuths of a day come from, or why there are none.
+std::string magnetic_fact(const LosReport& report, const CalendarDay& day) {
+  if (!has_declination(day))
+    return fmt::format("no azimuths from it, because the report is of {}; {}", day_text(day), magnetic_model_text());
   return fmt::format("declination {} at A, {} at B, on {}; {}", declination_text(report.from.site->declination_deg),
-                     declination_text(report.to.site->declination_deg), day_text(*day), magnetic_model_text());
+                     declination_text(report.to.site->declination_deg), day_text(day), magnetic_model_text());
 }
 
 /// "31.100\xC2\xB0 grid, 32.440\xC2\xB0 true, 33.1\xC2\xB0 magnetic", the last with no more digits than its model is
@@ -155,11 +153,12 @@ void add_header(const Store& store, const StoreLine& line, LosReport& report) {
   const StoreMetadata& metadata = store.metadata();
   report.crs_wkt = metadata.crs_wkt;
   report.themes = theme_names(metadata);
+  for (const ThemeInfo& theme : metadata.themes) report.theme_kinds.push_back(theme.kind);
   name_features(store, report);
   add_sites(line, report);
   report.sources = sources_under(store, line);
   report.facts = facts_about(store, line, report.sources);
-  report.facts.emplace_back("Magnetic north", magnetic_fact(report));
+  if (const auto& day = report.query.day) report.facts.emplace_back("Magnetic north", magnetic_fact(report, *day));
   const std::string crs = crs_identifier(metadata.crs_wkt);
   report.from_lines = lines_about(report.from, crs, metadata.crs_wkt);
   report.to_lines = lines_about(report.to, crs, metadata.crs_wkt);

@@ -36,6 +36,11 @@ void add_directions(LinkRow& row, const LinkQuery& query, const CoordinateTransf
   }
 }
 
+const char* name_of_path(const Reflection& reflection) {
+  if (!reflection.ground_m) return "unknown";
+  return reflection.screen ? "screened" : "clear";
+}
+
 bool same(const Criterion& a, const Criterion& b) {
   return a.k == b.k && a.fraction == b.fraction;
 }
@@ -180,6 +185,12 @@ class ColumnList {
     of_result("fresnel_fraction_at_m",
               [](const LinkResult& r) { return r.found->fresnel ? Value(r.found->fresnel->distance_m) : Value(); });
     of_result("free_space_db", [](const LinkResult& r) { return r.losses ? Value(r.losses->free_space_db) : Value(); });
+    of_result("reflection_m",
+              [](const LinkResult& r) { return r.reflection ? Value(r.reflection->distance_m) : Value(); });
+    of_result(
+        "reflected_path",
+        [](const LinkResult& r) { return r.reflection ? Value(std::string(name_of_path(*r.reflection))) : Value(); },
+        kText);
   }
 
   static std::string name_of_criterion(const Criterion& c) { return fmt::format("k{:.4g}_{:g}_f1", c.k, c.fraction); }

@@ -6,6 +6,8 @@
 #include <profile/documents.hpp>
 #include <profile/fresnel.hpp>
 
+#include "lines/path_cover.hpp"
+
 namespace itin::profile {
 
 namespace {
@@ -96,6 +98,31 @@ Document heights_document(const LineFindings& found) {
   return list;
 }
 
+Document edge_document(const DiffractionEdge& edge) {
+  return {{"distance_m", edge.distance_m}, {"elevation_m", edge.elevation_m}, {"v", edge.v}, {"loss_db", edge.loss_db}};
+}
+
+Document edges_document(const PathLosses& losses) {
+  Document deygout = Document::array();
+  for (const DiffractionEdge& edge : losses.deygout) deygout.push_back(edge_document(edge));
+  return {{"bullington", losses.bullington ? edge_document(*losses.bullington) : Document(nullptr)},
+          {"deygout", deygout}};
+}
+
+Document reflection_document(const LosReport& report) {
+  if (!report.reflection) return nullptr;
+  const Reflection& r = *report.reflection;
+  Document screen = place_document(report, r.screen);
+  if (r.screen) screen["depth_m"] = r.screen_depth_m;
+  return {{"distance_m", r.distance_m},
+          {"ground_m", number_or_null(r.ground_m)},
+          {"theme", cause(report, r.theme)},
+          {"grazing_deg", r.grazing_deg},
+          {"longer_by_m", r.longer_by_m},
+          {"clear", r.ground_m ? Document(!r.screen) : Document(nullptr)},
+          {"screen", screen}};
+}
+
 Document radio_document(const LosReport& report) {
   const RadioPath& path = *report.query.radio;
   const PathLosses& losses = *report.losses;
@@ -127,7 +154,17 @@ Document radio_document(const LosReport& report) {
                         {"ldsph", losses.ldsph_db},
                         {"ld", losses.ld_db},
                         {"deygout", losses.deygout_db}};
+  radio["edges"] = edges_document(losses);
+  radio["reflection"] = reflection_document(report);
   return radio;
+}
+
+/// Metres by theme.
+Document cover_document(const LosReport& report) {
+  Document cover = Document::array();
+  for (const ThemeLength& part : path_cover(report.profile))
+    cover.push_back({{"theme", cause(report, part.theme)}, {"length_m", part.length_m}});
+  return cover;
 }
 
 Document visible_document(const LosReport& report) {
@@ -194,6 +231,7 @@ Document los_document(const LosReport& report) {
     document["bare"] = findings_document(report, *report.bare);
     if (report.bare->fresnel) document["bare"]["fresnel_fraction"] = report.bare->fresnel->fraction;
   }
+  document["cover"] = cover_document(report);
   if (report.losses) document["radio"] = radio_document(report);
   if (report.visible) document["visible_height"] = visible_document(report);
   document["gaps"] = gaps_document(report.profile);

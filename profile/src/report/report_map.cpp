@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <profile/report_text.hpp>
+
 #include "report/formats.hpp"
 #include "report/kml.hpp"
 #include "report/tables.hpp"
@@ -88,6 +90,32 @@ Point3 place_of(const ProfilePoint& p) {
   return {p.x, p.y, p.ground_m};
 }
 
+/// A point that the losses or the reflection name.
+struct PathPoint {
+  const char* what;
+  std::string name;
+  double distance_m;
+  Point3 place;
+};
+/// The point of reflection, and the edges of the losses.
+std::vector<PathPoint> path_points(const LosReport& report) {
+  std::vector<PathPoint> points;
+  const auto add = [&](const char* what, std::string name, double distance_m, double elevation_m) {
+    const Point2 p = position_at(report, distance_m);
+    points.push_back({what, std::move(name), distance_m, {p.x, p.y, elevation_m}});
+  };
+  const std::optional<Reflection>& r = report.reflection;
+  if (r && r->ground_m)
+    add("reflection", "Reflection point, reflected path " + screen_text(report), r->distance_m, *r->ground_m);
+  if (!report.losses) return points;
+  const auto add_edge = [&](const char* what, const char* name, const DiffractionEdge& e) {
+    add(what, fmt::format("{}, {:.2f} dB", name, e.loss_db), e.distance_m, e.elevation_m);
+  };
+  if (report.losses->bullington) add_edge("bullington", "Bullington's edge", *report.losses->bullington);
+  for (const DiffractionEdge& e : report.losses->deygout) add_edge("deygout", "Deygout's edge", e);
+  return points;
+}
+
 std::string gap_name(double from_m, double to_m) {
   return "No data, " + distance_text(to_m - from_m);
 }
@@ -105,6 +133,7 @@ std::string report_kml(const LosReport& report) {
   kml.point(fmt::format("A, {:g} m", report.query.from_height_m), path.ray(0));
   kml.point(fmt::format("B, {:g} m", report.query.to_height_m), path.ray(length));
   if (report.critical) kml.point("Critical point, " + critical_line(report), place_of(*report.critical));
+  for (const PathPoint& p : path_points(report)) kml.point(p.name, p.place);
   kml.line("Ray", "ray", path.ray_line());
   kml.line("Ground", "ground", path.ground_line());
   for (const Obstruction& o : report.obstructions) {
@@ -149,6 +178,8 @@ std::vector<VectorLayer> report_layers(const LosReport& report) {
       {{path.ray(report.profile.length_m)}, {std::string("to"), report.profile.length_m, report.query.to_height_m}});
   if (report.critical)
     ends.features.push_back({{place_of(*report.critical)}, {std::string("critical"), report.critical->distance_m, {}}});
+  for (const PathPoint& p : path_points(report))
+    ends.features.push_back({{p.place}, {std::string(p.what), p.distance_m, {}}});
   VectorLayer ground{"ground", Shape::kLines, {{"points", kWhole}}, {}};
   if (report.profile.points.size() > 1) {
     ground.features.push_back({path.ground_line(), {static_cast<std::int64_t>(report.profile.points.size())}});

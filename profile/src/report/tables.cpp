@@ -7,6 +7,8 @@
 
 #include <profile/report_text.hpp>
 
+#include "report/path_tables.hpp"
+
 namespace itin::profile {
 
 namespace {
@@ -86,7 +88,7 @@ Table heights_table(const LosReport& report, const LineFindings& found, const st
 Table losses_table(const LosReport& report) {
   const PathLosses& l = *report.losses;
   const auto db = [](double value) { return fmt::format("{:.2f} dB", value); };
-  Table table{"Losses", {}, {}, ""};
+  Table table{"Losses", {}, {}, "", true};
   table.rows = {{"Free space (P.525), slant path", db(l.free_space_db)},
                 {"Single knife edge J(v) (P.526 4.1)", db(l.knife_edge_db)},
                 {"Bullington over the terrain, Lba (P.452 4.2.1)", db(l.lba_db)},
@@ -103,7 +105,7 @@ Table losses_table(const LosReport& report) {
 Table geometry_table(const LosReport& report) {
   const PathLosses& l = *report.losses;
   const auto km = [](const std::optional<double>& v) { return v ? fmt::format("{:.3f} km", *v) : std::string("none"); };
-  Table table{"Path", {}, {}, ""};
+  Table table{"Path", {}, {}, "", true};
   table.rows = {
       {"Path (P.452)", l.horizons.trans_horizon ? "trans-horizon" : "line-of-sight"},
       {"Least clearance / F1",
@@ -184,7 +186,9 @@ std::vector<Table> result_tables(const LosReport& report) {
   if (!report.obstructions.empty()) tables.push_back(obstructions_table(report));
   if (!report.required.empty()) tables.push_back(heights_table(report, report, of));
   if (report.bare && !report.required.empty()) tables.push_back(heights_table(report, *report.bare, kBareGround));
+  const std::vector<Table> along = path_tables(report);
   if (report.losses) tables.push_back(geometry_table(report)), tables.push_back(losses_table(report));
+  tables.insert(tables.end(), along.begin(), along.end());
   if (report.visible) tables.push_back(object_table(report));
   return tables;
 }

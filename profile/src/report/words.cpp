@@ -58,6 +58,14 @@ std::string outcome_text(const CriterionResult& result) {
   return fmt::format("{} by {}", verdict, by);
 }
 
+std::string screen_text(const LosReport& report) {
+  const Reflection& r = *report.reflection;
+  if (!r.ground_m) return "unknown: there is no data at the point";
+  if (!r.screen) return report.profile.gaps.empty() ? "clear" : "clear over known ground";
+  return fmt::format("screened by {} at {}, {:.2f} m above it", cause_of(report, r.screen->theme),
+                     distance_text(r.screen->distance_m), r.screen_depth_m);
+}
+
 std::string required_text(const std::optional<double>& height_m) {
   if (!height_m || !std::isfinite(*height_m)) return "none is enough";
   // A ray that grazes is free: no centimetre more for a micrometre.
