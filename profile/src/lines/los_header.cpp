@@ -97,15 +97,6 @@ std::string degrees_minutes_seconds(double degrees, char positive, char negative
                      degrees < 0 ? negative : positive);
 }
 
-/// In the zone of the longitude; nothing where there is none, near the poles.
-std::optional<std::string> utm_reference(Point2 lon_lat) {
-  if (lon_lat.y < -80 || lon_lat.y > 84) return std::nullopt;
-  const int zone = std::clamp(static_cast<int>(std::floor((lon_lat.x + 180) / 6)) + 1, 1, 60);
-  const bool north = lon_lat.y >= 0;
-  const Point2 p = CoordinateTransform("EPSG:4326", fmt::format("EPSG:{}", (north ? 32600 : 32700) + zone))(lon_lat);
-  return fmt::format("UTM {}{} {:.0f} {:.0f}", zone, north ? "N" : "S", p.x, p.y);
-}
-
 /// A reference of the National Grid where the CRS is that, else of UTM.
 std::string grid_reference(const LosEnd::Site& site, const std::string& crs_wkt) {
   const std::optional<std::string> reference =
