@@ -98,7 +98,7 @@ LosLinks::Survey LosLinks::run(const Store& store, const LinkTable& table, const
   const StoreMetadata& metadata = store.metadata();
   const std::vector<LinkResult> results = profile::survey_links(store, table.links, query, progress);
   const profile::LinkSurvey written{table, results, query, metadata.crs_wkt, page.title, page.facts};
-  for (const std::string& output : outputs_) profile::write_links(written, output, overwrite);
+  profile::write_links(written, outputs_, overwrite);
   Survey survey;
   for (const LinkResult& r : results) survey.computed.push_back(r.found.has_value());
   Result& result = survey.result;

@@ -80,14 +80,22 @@ void require_link_format(const std::string& path) {
       fmt::format("'{}': links are written as a table, .csv, as lines, .gpkg or .kml, or as a page, .pdf", path));
 }
 
-void write_links(const LinkSurvey& survey, const std::string& path, bool overwrite) {
-  require_link_format(path);
+void write_links(const LinkSurvey& survey, const std::vector<std::string>& paths, bool overwrite) {
+  for (const std::string& path : paths) require_link_format(path);
   const std::vector<LinkRow> rows = link_rows(survey);
-  const std::string ending = ending_of(path);
-  if (ending == ".pdf") return write_file(path, link_summary(survey, rows), overwrite);
   const std::vector<LinkColumn> columns = link_columns(survey, rows);
-  if (ending == ".gpkg") return write_geopackage(path, survey.crs_wkt, {links_layer(rows, columns)}, overwrite);
-  write_file(path, ending == ".csv" ? links_csv(rows, columns) : links_kml(survey, rows, columns), overwrite);
+  for (const std::string& path : paths) {
+    const std::string ending = ending_of(path);
+    if (ending == ".gpkg") {
+      write_geopackage(path, survey.crs_wkt, {links_layer(rows, columns)}, overwrite);
+    } else {
+      write_file(path,
+                 ending == ".pdf"   ? link_summary(survey, rows)
+                 : ending == ".csv" ? links_csv(rows, columns)
+                                    : links_kml(survey, rows, columns),
+                 overwrite);
+    }
+  }
 }
 
 }  // namespace itin::profile
