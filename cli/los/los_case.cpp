@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <profile/documents.hpp>
+#include <profile/radio_text.hpp>
 #include <profile/report_text.hpp>
 
 namespace itin::cli {
@@ -62,7 +63,7 @@ std::string text_of_findings(const profile::LosReport& report, const profile::Li
                         o.depth_m, o.peak_at_m, cause_of(report, o.theme, o.feature));
   }
   for (const profile::CriterionResult& c : found.criteria)
-    text += fmt::format("K = {:.4g}, {:g} F1: {}\n", c.criterion.k, c.criterion.fraction, outcome_text(c));
+    text += fmt::format("K = {}, {:g} F1: {}\n", factor_text(c.criterion, c.k), c.criterion.fraction, outcome_text(c));
   for (const profile::NamedHeights& r : found.required) {
     text += fmt::format("for {}: first end {}, second end {}, both {}\n", r.name,
                         profile::required_text(r.heights.from_alone_m), profile::required_text(r.heights.to_alone_m),
@@ -116,7 +117,7 @@ std::string text_of(const profile::LosReport& report) {
                         screen_text(report));
   if (report.visible) {
     text +=
-        fmt::format("of the object at the second end {:.1f} m are seen ({:.0f} %), up to its hub {:.1f} m ({:.0f} %)\n",
+        fmt::format("{:.1f} m of the object at the second end are seen ({:.0f} %), {:.1f} m up to its hub ({:.0f} %)\n",
                     report.visible->tip_visible_m, 100 * report.visible->tip_fraction, report.visible->hub_visible_m,
                     100 * report.visible->hub_fraction);
   }

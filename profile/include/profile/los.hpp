@@ -53,9 +53,17 @@ struct Obstruction {
 struct Criterion {
   double k = 4.0 / 3;
   double fraction = 1;
+  bool fade = false;  ///< in place of k, fade_factor() of the line's length
+
+  friend bool operator==(const Criterion&, const Criterion&) = default;
 };
+/// The effective Earth factor that is exceeded for 99.9 % of the worst month on a path of this length, with d its
+/// kilometres: ke = 157 / (144 + 2670 / d), after the curve of ITU-R P.530 section 2.2, which begins at 10 km; nearer
+/// it is continued. The formula has not been confirmed from the recommendation's text.
+double fade_factor(double length_m);
 struct CriterionResult {
   Criterion criterion;
+  double k = 0;  ///< of the Earth on which it was judged
   CriterionVerdict verdict = CriterionVerdict::kMeets;
   // Over known ground, at the critical point on this Earth.
   std::optional<double> clearance_m;

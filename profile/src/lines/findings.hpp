@@ -12,8 +12,8 @@ namespace itin::profile {
 /// part of the Fresnel zone without a frequency.
 void require_valid(const Profile& profile, const LosQuery& query, const Profile& ground);
 
-/// That of a criterion, of the radius of `earth`.
-Earth earth_of(const Criterion& criterion, const Earth& earth);
+/// An effective Earth of this factor, of the radius of `earth`.
+Earth with_factor(double k, const Earth& earth);
 
 struct NamedRequirement {
   std::string name;
@@ -21,7 +21,7 @@ struct NamedRequirement {
   Requirement requirement;
 };
 /// A free line of sight, 0.6 F1 where there is a frequency, and each criterion.
-std::vector<NamedRequirement> requirements_of(const LosQuery& query);
+std::vector<NamedRequirement> requirements_of(const LosQuery& query, double length_m);
 
 /// A ray, and what it passes over.
 struct Sight {

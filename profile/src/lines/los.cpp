@@ -23,7 +23,7 @@ double degrees(double radians) {
 
 void add_curves(LosReport& report) {
   const PlannedHeights planned{report.query.from_height_m, report.query.to_height_m};
-  const std::vector<NamedRequirement> requirements = requirements_of(report.query);
+  const std::vector<NamedRequirement> requirements = requirements_of(report.query, report.profile.length_m);
   for (std::size_t i = 0; i < report.required.size(); ++i) {
     NamedHeights& named = report.required[i];
     named.curve = height_curve(report.profile, planned, requirements[i].requirement, named.heights.both_equal_m,

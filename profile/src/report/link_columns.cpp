@@ -41,18 +41,13 @@ const char* name_of_path(const Reflection& reflection) {
   return reflection.screen ? "screened" : "clear";
 }
 
-bool same(const Criterion& a, const Criterion& b) {
-  return a.k == b.k && a.fraction == b.fraction;
-}
-
 /// Those of all links, in the order in which they come.
 std::vector<Criterion> criteria_of(const std::vector<LinkRow>& rows) {
   std::vector<Criterion> all;
   for (const LinkRow& row : rows) {
     if (row.found() == nullptr) continue;
     for (const CriterionResult& c : row.found()->criteria)
-      if (std::none_of(all.begin(), all.end(), [&](const Criterion& other) { return same(c.criterion, other); }))
-        all.push_back(c.criterion);
+      if (std::find(all.begin(), all.end(), c.criterion) == all.end()) all.push_back(c.criterion);
   }
   return all;
 }
@@ -193,10 +188,12 @@ class ColumnList {
         kText);
   }
 
-  static std::string name_of_criterion(const Criterion& c) { return fmt::format("k{:.4g}_{:g}_f1", c.k, c.fraction); }
+  static std::string name_of_criterion(const Criterion& c) {
+    return fmt::format("k{}_{:g}_f1", c.fade ? "e" : fmt::format("{:.4g}", c.k), c.fraction);
+  }
   static const CriterionResult* result_of(const LinkRow& row, const Criterion& wanted) {
     for (const CriterionResult& c : row.found()->criteria)
-      if (same(c.criterion, wanted)) return &c;
+      if (c.criterion == wanted) return &c;
     return nullptr;
   }
   void add_criterion(const Criterion& criterion) {

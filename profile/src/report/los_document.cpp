@@ -69,7 +69,8 @@ Document obstructions_document(const LosReport& report, const LineFindings& foun
 Document criteria_document(const LineFindings& found) {
   Document list = Document::array();
   for (const CriterionResult& c : found.criteria) {
-    list.push_back({{"k", c.criterion.k},
+    list.push_back({{"k", c.k},
+                    {"fade", c.criterion.fade},
                     {"fraction", c.criterion.fraction},
                     {"verdict", name_of(c.verdict)},
                     {"clearance_m", number_or_null(c.clearance_m)},

@@ -71,7 +71,7 @@ class SightChart {
   void find_worst() {
     const CriterionResult* fade = worst_fade(report_);
     if (fade == nullptr) return;
-    worst_k_ = fade->criterion.k;
+    worst_k_ = fade->k;
     worst_drop_ = 1 / (2 * worst_k_ * report_.query.earth.radius);
   }
 
@@ -327,8 +327,8 @@ class SightChart {
       items.push_back({cause_of(report_, theme), {theme_colour(theme), 1, {}}, true});
     if (!report_.obstructions.empty()) items.push_back({"Above the ray", {kCut, 1, {}}, true});
     if (report_.visible) {
-      items.push_back({"Of the object at B: seen", {kChartSeen, 1, {}}, true});
-      items.push_back({"hidden", {kUnseen, 1, {}}, true});
+      items.push_back({"Object at B, seen", {kChartSeen, 1, {}}, true});
+      items.push_back({"Object at B, hidden", {kUnseen, 1, {}}, true});
     }
     items.push_back({"Equal elevation", {kReportFaint, 0.8, {}}, false});
     draw_legend(drawing_, {frame_.box.xmin, frame_.box.ymax + 43}, frame_.box.width(), items);
