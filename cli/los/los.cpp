@@ -195,8 +195,8 @@ class LosVerb final : public Verb {
   void warn_of_refraction(double effective_earth_km, Result& result) const {
     if (!earth_.is_default()) return;
     result.warnings.push_back(
-        fmt::format("radio at the refraction of light, an effective Earth of {:.0f} km; the usual one of radio is "
-                    "--effective-earth 4/3",
+        fmt::format("the refraction is that of light, with an effective Earth of {:.0f} km; radio links are usually "
+                    "planned with --effective-earth 4/3",
                     effective_earth_km));
   }
 

@@ -10,14 +10,13 @@
 namespace itin::cli {
 
 void LosPeople::declare(CLI::App& app) {
-  app.add_option("--project", project_, "The project, at the head of the report")->type_name("TEXT");
-  app.add_option("--operator", operator_, "Who makes the report, or answers for it, likewise")->type_name("TEXT");
-  app.add_option(
-         "--date", date_,
-         "The date of the report, likewise; of a day, such as 2026-11-23 or 23 November 2026, magnetic azimuths are "
-         "given "
-         "(default: the day of the run, UTC, where a project or an operator is given; else none, so that equal calls "
-         "write equal bytes)")
+  app.add_option("--project", project_, "The project, named at the head of the report")->type_name("TEXT");
+  app.add_option("--operator", operator_, "Who makes the report or answers for it, named there as well")
+      ->type_name("TEXT");
+  app.add_option("--date", date_,
+                 "The date of the report, named there as well; for a day, such as 2026-11-23 or 23 November 2026, "
+                 "magnetic azimuths are given (default: the day of the run, UTC, where a project or an operator is "
+                 "given; else none, so that equal calls write equal bytes)")
       ->type_name("TEXT");
   app.add_option("--from-name", from_name_, "What the first end is called")->type_name("TEXT");
   app.add_option("--to-name", to_name_, "What the second end is called")->type_name("TEXT");

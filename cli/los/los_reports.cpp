@@ -37,7 +37,7 @@ std::string failure_of(const std::vector<Written>& all) {
     if (failed++ == 0) first = one.failure;
   }
   if (failed < 2) return first;
-  return fmt::format("{}; so of {} of {}", first, failed, counted(all.size(), "link"));
+  return fmt::format("{}; the reports of {} of {} could not be written", first, failed, counted(all.size(), "link"));
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ std::vector<NamedPlace> named_places(const LosReport& report) {
   std::vector<NamedPlace> places = {{0, "A"}, {report.profile.length_m, "B"}};
   if (report.critical) places.push_back({report.critical->distance_m, "critical point"});
   for (const Obstruction& o : report.obstructions) places.push_back({o.peak_at_m, "obstruction"});
-  if (report.fresnel) places.push_back({report.fresnel->distance_m, "least of F1"});
+  if (report.fresnel) places.push_back({report.fresnel->distance_m, "least clearance / F1"});
   if (report.reflection) places.push_back({report.reflection->distance_m, "reflection"});
   if (!report.losses) return places;
   if (report.losses->bullington) places.push_back({report.losses->bullington->distance_m, "Bullington's edge"});
@@ -163,8 +163,8 @@ std::optional<Table> profile_table(const LosReport& report) {
               {},
               "Besides, whatever the spacing: the ends, the critical point, the deepest place of each obstruction"};
   if (report.query.radio) {
-    table.header.insert(table.header.end(), {"F1 m", "clearance m", "of F1"});
-    table.note += ", the least part of F1, the edges and the reflection point";
+    table.header.insert(table.header.end(), {"F1 m", "clearance m", "clearance / F1"});
+    table.note += ", the least clearance / F1, the edges and the reflection point";
   } else {
     table.header.emplace_back("clearance m");
   }

@@ -20,8 +20,8 @@ struct Table {
 
 /// The verdict, the distances and the critical point, in sentences.
 std::string verdict_line(const LosReport& report);
-/// The critical point: "4532.1 m: clearance 3.20 m, 0.45 F1; terrain". A ray that is cut has its least of F1 behind
-/// that, where it is elsewhere.
+/// The critical point: "4532.1 m: clearance 3.20 m, 0.45 F1; terrain". A ray that is cut has its least clearance / F1
+/// behind that, where it is elsewhere.
 std::string critical_line(const LosReport& report);
 
 Table facts_table(const LosReport& report);
