@@ -7,7 +7,7 @@
 
 namespace itin {
 
-/// Coefficients of degree n and order m, Schmidt semi-normalised: nT at the epoch, and nT a year.
+/// Coefficients of degree n and order m, Schmidt semi-normalised: nT at the epoch, and nT per year.
 struct GaussCoefficients {
   int n, m;
   double g, h;

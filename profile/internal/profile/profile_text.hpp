@@ -1,6 +1,6 @@
 // A profile as plain text for other programs of link planning.
 //
-// One line a point, in order of distance, four columns with tabs between them and no header:
+// One line for each point, in order of distance, four columns with tabs between them and no header:
 //
 //   1.250000	231.40	12.00	T      distance km, ground m, height of what stands there m, its kind
 //
