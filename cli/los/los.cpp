@@ -66,6 +66,7 @@ class LosVerb final : public Verb {
     query_.radio = radio_.radio(query_.earth);
     query_.criteria = radio_.criteria();
     query_.object = radio_.object();
+    query_.day = people_.day();
   }
 
   Document parameters() const override {
@@ -119,9 +120,11 @@ class LosVerb final : public Verb {
     return command;
   }
 
-  LosHeader header() const { return {reports_.title(), people_.facts(), people_.from_name(), people_.to_name()}; }
+  LosHeader header() const {
+    return {reports_.title(), people_.facts(), people_.from_name(), people_.to_name(), reports_.table_spacing_m()};
+  }
   LosHeader header(const profile::Link& link) const {
-    return {reports_.title(link.id), people_.facts(), link.from_name, link.to_name};
+    return {reports_.title(link.id), people_.facts(), link.from_name, link.to_name, reports_.table_spacing_m()};
   }
 
   LosCase run_profile() {
@@ -143,6 +146,7 @@ class LosVerb final : public Verb {
     const Store store(store_);
     LosCase one = los_case(store, line_.run(store, query_), header());
     warn_of_scale(store.metadata(), one.result.warnings);
+    warn_of_date(one.result);
     return one;
   }
 
@@ -152,17 +156,19 @@ class LosVerb final : public Verb {
     const profile::LinkTable table = links_.table(store, line_);
     std::vector<LosReports::Job> jobs = reports_.jobs(table.links, policy_);
     const LosLinks::Page page{reports_.title(), facts_of_links(store)};
-    LosLinks::Survey survey = links_.run(store, table, line_, query_, page, policy_.overwrite, progress);
+    const profile::LinkQuery links = links_.query(query_, line_);
+    LosLinks::Survey survey = links_.run(store, table, links, page, policy_.overwrite, progress);
     const bool radio = query_.radio || std::any_of(table.links.begin(), table.links.end(),
                                                    [](const profile::Link& l) { return l.frequency_ghz.has_value(); });
     if (radio) warn_of_refraction(profile::effective_earth_km(query_.earth), survey.result);
     warn_of_scale(store.metadata(), survey.result.warnings);
+    warn_of_date(survey.result);
     // A link without a verdict has no report; the table says why.
     std::erase_if(jobs, [&](const LosReports::Job& job) { return !survey.computed[job.link]; });
     const auto work = [&](std::size_t i) {
       const profile::Link& link = table.links[i];
-      LosCase one = los_case(store, line_.run(store, query_, {link.from, link.to, link.from_height, link.to_height}),
-                             header(link));
+      const LosStoreOptions::Ends ends{link.from, link.to, link.from_height, link.to_height};
+      LosCase one = los_case(store, line_.run(store, profile::los_query(link, links), ends), header(link));
       one.result.document["link"] = link.id;
       return one;
     };
@@ -181,11 +187,16 @@ class LosVerb final : public Verb {
     return facts;
   }
 
+  void warn_of_date(Result& result) const {
+    const std::string warning = people_.warning();
+    if (!warning.empty()) result.warnings.push_back(warning);
+  }
+
   void warn_of_refraction(double effective_earth_km, Result& result) const {
     if (!earth_.is_default()) return;
     result.warnings.push_back(
-        fmt::format("radio at the refraction of light, an effective Earth of {:.0f} km; the usual one of radio is "
-                    "--effective-earth 4/3",
+        fmt::format("the refraction is that of light, with an effective Earth of {:.0f} km; radio links are usually "
+                    "planned with --effective-earth 4/3",
                     effective_earth_km));
   }
 

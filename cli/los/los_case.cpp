@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <profile/documents.hpp>
+#include <profile/radio_text.hpp>
 #include <profile/report_text.hpp>
 
 namespace itin::cli {
@@ -39,6 +40,22 @@ void add_names(const LosHeader& header, Document& document) {
   if (!header.to_name.empty()) document["to"]["name"] = header.to_name;
 }
 
+/// What the report says of the call.
+void complete(profile::LosReport& report, const LosHeader& header) {
+  report.title = header.title;
+  report.table_spacing_m = header.table_spacing_m;
+  add_facts(report);
+  report.facts.insert(report.facts.begin(), header.facts.begin(), header.facts.end());
+  add_names(header, report);
+}
+
+LosCase los_case(profile::LosReport report, Document document, const LosHeader& header) {
+  LosCase one{std::move(report), {}};
+  one.result.document = std::move(document);
+  add_names(header, one.result.document);
+  return one;
+}
+
 std::string text_of_findings(const profile::LosReport& report, const profile::LineFindings& found) {
   std::string text;
   for (const profile::Obstruction& o : found.obstructions) {
@@ -46,7 +63,7 @@ std::string text_of_findings(const profile::LosReport& report, const profile::Li
                         o.depth_m, o.peak_at_m, cause_of(report, o.theme, o.feature));
   }
   for (const profile::CriterionResult& c : found.criteria)
-    text += fmt::format("K = {:.4g}, {:g} F1: {}\n", c.criterion.k, c.criterion.fraction, outcome_text(c));
+    text += fmt::format("K = {}, {:g} F1: {}\n", factor_text(c.criterion, c.k), c.criterion.fraction, outcome_text(c));
   for (const profile::NamedHeights& r : found.required) {
     text += fmt::format("for {}: first end {}, second end {}, both {}\n", r.name,
                         profile::required_text(r.heights.from_alone_m), profile::required_text(r.heights.to_alone_m),
@@ -58,21 +75,16 @@ std::string text_of_findings(const profile::LosReport& report, const profile::Li
 }  // namespace
 
 LosCase los_case(profile::LosReport report, const LosHeader& header) {
-  LosCase one{std::move(report), {}};
-  one.report.title = header.title;
-  add_facts(one.report);
-  one.report.facts.insert(one.report.facts.begin(), header.facts.begin(), header.facts.end());
-  add_names(header, one.report);
-  one.result.document = profile::los_document(one.report);
-  add_names(header, one.result.document);
-  return one;
+  complete(report, header);
+  Document document = profile::los_document(report);
+  return los_case(std::move(report), std::move(document), header);
 }
 
 LosCase los_case(const Store& store, LosStoreOptions::Result line, const LosHeader& header) {
-  LosCase one = los_case(std::move(line.report), header);
+  complete(line.report, header);
+  Document document = profile::los_document(store.metadata(), line.line, line.report);
+  LosCase one = los_case(std::move(line.report), std::move(document), header);
   one.result.warnings = std::move(line.warnings);
-  one.result.document = profile::los_document(store.metadata(), line.line, one.report);
-  add_names(header, one.result.document);
   return one;
 }
 
@@ -100,9 +112,12 @@ std::string text_of(const profile::LosReport& report) {
     text += fmt::format("free space {:.1f} dB, diffraction (delta-Bullington) {:.1f} dB; least clearance {:.2f} F1\n",
                         l.free_space_db, l.ld_db, report.fresnel ? report.fresnel->fraction : 0);
   }
+  if (report.reflection)
+    text += fmt::format("reflection point at {:.1f} m; reflected path {}\n", report.reflection->distance_m,
+                        screen_text(report));
   if (report.visible) {
     text +=
-        fmt::format("of the object at the second end {:.1f} m are seen ({:.0f} %), up to its hub {:.1f} m ({:.0f} %)\n",
+        fmt::format("{:.1f} m of the object at the second end are seen ({:.0f} %), {:.1f} m up to its hub ({:.0f} %)\n",
                     report.visible->tip_visible_m, 100 * report.visible->tip_fraction, report.visible->hub_visible_m,
                     100 * report.visible->hub_fraction);
   }

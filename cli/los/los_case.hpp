@@ -1,6 +1,7 @@
 // One line of sight worked out: its report, and the document that says the same to machines.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,6 +24,7 @@ struct LosHeader {
   std::string title;
   std::vector<std::pair<std::string, std::string>> facts = {};  ///< that come first: name, value
   std::string from_name = {}, to_name = {};                     ///< of the ends; may be empty
+  std::optional<double> table_spacing_m = {};                   ///< as LosReport has it
 };
 
 /// The case of a profile from a file.

@@ -80,26 +80,29 @@ LinkTable LosLinks::table(const Store& store, const LosStoreOptions& surface) co
   return profile::read_link_table(path_, store.metadata().crs_wkt, heights_, surface.in_crs());
 }
 
-LosLinks::Survey LosLinks::run(const Store& store, const LinkTable& table, const LosStoreOptions& surface,
-                               const profile::LosQuery& query, const Page& page, bool overwrite,
-                               Progress& progress) const {
+profile::LinkQuery LosLinks::query(const profile::LosQuery& line, const LosStoreOptions& surface) {
+  return {.earth = line.earth,
+          .detail = surface.detail(),
+          .themes = surface.themes(),
+          .from_on_surface = surface.from_on_surface(),
+          .to_on_surface = surface.to_on_surface(),
+          .radio = line.radio,
+          .criteria = line.criteria,
+          .object = line.object,
+          .nodata = surface.nodata(),
+          .day = line.day};
+}
+
+LosLinks::Survey LosLinks::run(const Store& store, const LinkTable& table, const profile::LinkQuery& query,
+                               const Page& page, bool overwrite, Progress& progress) const {
   const StoreMetadata& metadata = store.metadata();
-  const profile::LinkQuery links{.earth = query.earth,
-                                 .detail = surface.detail(),
-                                 .themes = surface.themes(),
-                                 .from_on_surface = surface.from_on_surface(),
-                                 .to_on_surface = surface.to_on_surface(),
-                                 .radio = query.radio,
-                                 .criteria = query.criteria,
-                                 .object = query.object,
-                                 .nodata = surface.nodata()};
-  const std::vector<LinkResult> results = profile::survey_links(store, table.links, links, progress);
-  const profile::LinkSurvey written{table, results, links, metadata.crs_wkt, page.title, page.facts};
-  for (const std::string& output : outputs_) profile::write_links(written, output, overwrite);
+  const std::vector<LinkResult> results = profile::survey_links(store, table.links, query, progress);
+  const profile::LinkSurvey written{table, results, query, metadata.crs_wkt, page.title, page.facts};
+  profile::write_links(written, outputs_, overwrite);
   Survey survey;
   for (const LinkResult& r : results) survey.computed.push_back(r.found.has_value());
   Result& result = survey.result;
-  result.document = profile::links_document(metadata, table, results, links);
+  result.document = profile::links_document(metadata, table, results, query);
   const Document refraction = std::exchange(result.document["refraction"], nullptr);
   result.document.erase("refraction");
   result.document["outputs"] = outputs_;
@@ -112,12 +115,12 @@ LosLinks::Survey LosLinks::run(const Store& store, const LinkTable& table, const
   result.text += "\n";
   for (const std::string& column : table.other_columns)
     result.warnings.push_back(
-        fmt::format("{}: the column '{}' means nothing to this program; it is kept", path_, column));
-  if (gaps > 0 && surface.nodata() != profile::NoData::kClear) {
+        fmt::format("{}: the column '{}' is not understood; the outputs keep it as it is", path_, column));
+  if (gaps > 0 && query.nodata != profile::NoData::kClear) {
     result.warnings.push_back(fmt::format(
         "{} of {} cross ground without data, which {}; see --nodata", gaps, counted(all, "link"),
-        surface.nodata() == profile::NoData::kBlock ? "counts as blocking"
-                                                    : "leaves undecided those that known ground does not hide"));
+        query.nodata == profile::NoData::kBlock ? "counts as blocking"
+                                                : "leaves those undecided that known ground does not hide"));
   }
   if (counts.error > 0)
     result.failure =

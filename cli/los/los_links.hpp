@@ -31,6 +31,9 @@ class LosLinks {
   /// In the store's CRS. Throws FileError, InputError.
   profile::LinkTable table(const Store& store, const LosStoreOptions& surface) const;
 
+  /// What is asked of every link that does not ask for something else itself.
+  static profile::LinkQuery query(const profile::LosQuery& line, const LosStoreOptions& surface);
+
   /// What the page says besides the links.
   struct Page {
     std::string title;
@@ -42,8 +45,8 @@ class LosLinks {
   };
   /// Writes the outputs. Where a link could not be computed the result says so as its failure. Throws FileError,
   /// InputError, CorruptStore, Cancelled.
-  Survey run(const Store& store, const profile::LinkTable& table, const LosStoreOptions& surface,
-             const profile::LosQuery& query, const Page& page, bool overwrite, Progress& progress) const;
+  Survey run(const Store& store, const profile::LinkTable& table, const profile::LinkQuery& query, const Page& page,
+             bool overwrite, Progress& progress) const;
 
  private:
   std::string path_, height_text_;

@@ -14,6 +14,7 @@
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
 #include "program/field_names.hpp"
+#include "program/values.hpp"
 
 namespace itin::cli {
 
@@ -36,27 +37,40 @@ std::string failure_of(const std::vector<Written>& all) {
     if (failed++ == 0) first = one.failure;
   }
   if (failed < 2) return first;
-  return fmt::format("{}; so of {} of {}", first, failed, counted(all.size(), "link"));
+  return fmt::format("{}; the reports of {} of {} could not be written", first, failed, counted(all.size(), "link"));
 }
 
 }  // namespace
 
 void LosReports::declare(CLI::App& app) {
   writes(app.add_option("--report", paths_,
-                        "Write the report, as its ending says: .json .csv .svg .pdf .png .html .kml .gpkg; may be "
-                        "given again. With "
-                        "--links one for each: {id} in the name stands for the link's")
+                        "Write the report, as its ending says: .json .csv .txt .svg .pdf .png .html .kml .gpkg; may be "
+                        "given again. The .txt is the profile for other programs: distance km, ground m, height of "
+                        "what stands there m, its kind (T vegetation, B anything else, N nothing). With --links one "
+                        "for each: {id} in the name stands for the link's")
              ->type_name("FILE")
              ->expected(1)
              ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll));
   app.add_option("--title", title_, "The report's title")->type_name("TEXT");
+  app.add_option(
+         "--table-spacing", table_spacing_text_,
+         "A row for each so many metres in the profile that PDF and HTML reports print; the ends, the critical "
+         "point, obstructions, edges and the reflection point have rows whatever the spacing; none leaves it out "
+         "(default: about 30 rows)")
+      ->type_name("METRES|none");
 }
 
-void LosReports::validate(bool has_positions) const {
+void LosReports::validate(bool has_positions) {
+  if (!table_spacing_text_.empty() && paths_.empty()) throw InputError("--table-spacing is of use with --report only");
+  if (table_spacing_text_ == "none") {
+    table_spacing_m_ = 0;
+  } else if (!table_spacing_text_.empty()) {
+    table_spacing_m_ = parse_number("--table-spacing", table_spacing_text_, Range::kPositive);
+  }
   for (const std::string& path : paths_) profile::require_report_format(path, has_positions);
 }
 
-void LosReports::validate_links() const {
+void LosReports::validate_links() {
   validate(true);
   for (const std::string& path : paths_) {
     if (path.find(kId) != std::string::npos) continue;
@@ -80,6 +94,7 @@ void LosReports::write(const LosCase& one, const Document& command, const std::v
   whole.update(one.result.document);
   whole["warnings"] = one.result.warnings;
   const std::string json = json_text(whole, 2) + "\n";
+  for (const std::string& path : paths) profile::require_report(one.report, path);
   for (const std::string& path : paths) profile::write_report(one.report, json, path, overwrite);
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,11 +24,13 @@ class LosReports {
   bool given() const { return !paths_.empty(); }
   const std::vector<std::string>& paths() const { return paths_; }
   /// Checks the options for one line. Throws InputError.
-  void validate(bool has_positions) const;
+  void validate(bool has_positions);
   /// Checks the options for links, each of which needs a file name of its own. Throws InputError.
-  void validate_links() const;
+  void validate_links();
   /// The title given, or "Line-of-sight report", of what.
   std::string title(const std::string& of = {}) const;
+  /// Metres between the rows of the printed profile, as LosReport has it.
+  const std::optional<double>& table_spacing_m() const { return table_spacing_m_; }
 
   /// `command`: the verb and its parameters, as documents have them. Throws FileError.
   void write(const LosCase& one, const Document& command, const std::vector<std::string>& paths, bool overwrite) const;
@@ -46,7 +49,8 @@ class LosReports {
 
  private:
   std::vector<std::string> paths_;
-  std::string title_;
+  std::string title_, table_spacing_text_;
+  std::optional<double> table_spacing_m_;
 };
 
 }  // namespace itin::cli

@@ -17,7 +17,9 @@ std::vector<std::string> warnings_about(const profile::LosReport& report) {
   const std::string gaps = gap_text(report);
   if (!gaps.empty() && report.query.nodata != profile::NoData::kClear) warnings.push_back(gaps + "; see --nodata");
   if (report.query.radio && !report.losses && report.profile.has_length())
-    warnings.emplace_back("an antenna is within a feature; no losses are given");
+    warnings.emplace_back(
+        "an antenna is inside something that stands on the ground, so that no losses are given; raise it, or see "
+        "--observer-on and --target-on");
   return warnings;
 }
 
@@ -33,7 +35,8 @@ void LosStoreOptions::declare(CLI::App& app) {
   app.add_option("--observer-on", from_on_,
                  "What the first end stands on: ground (default), or the surface with the roofs and tops of --themes")
       ->type_name("ground|surface");
-  app.add_option("--target-on", to_on_, "What the second end stands on, likewise")->type_name("ground|surface");
+  app.add_option("--target-on", to_on_, "What the second end stands on: ground (default) or surface")
+      ->type_name("ground|surface");
   in_crs_.declare(app);
   detail_.declare(app);
   themes_.declare(app);

@@ -1,9 +1,10 @@
 #include "options/day_of_run.hpp"
 
+#include <chrono>
 #include <cstdlib>
 #include <ctime>
 
-#include <fmt/chrono.h>
+#include <itin/calendar_day.hpp>
 
 #include "program/values.hpp"
 
@@ -13,7 +14,7 @@ std::string day_of_run() {
   std::time_t now = std::time(nullptr);
   if (const char* const given = std::getenv("SOURCE_DATE_EPOCH"))
     now = static_cast<std::time_t>(parse_number("SOURCE_DATE_EPOCH", given, Range::kNotNegative));
-  return fmt::format("{} {:%B %Y}", fmt::gmtime(now).tm_mday, fmt::gmtime(now));
+  return day_text(std::chrono::floor<std::chrono::days>(std::chrono::system_clock::from_time_t(now)));
 }
 
 }  // namespace itin::cli

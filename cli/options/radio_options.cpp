@@ -44,7 +44,8 @@ void RadioOptions::declare(CLI::App& app) {
   app.add_option("--over-sea", over_sea_text_, "Share of the path that is over sea, 0 to 1 (default: 0)")
       ->type_name("FRACTION");
   app.add_option("--criterion", criteria_text_,
-                 "Ask for this fraction of the first Fresnel zone on an Earth of this factor; may be given again")
+                 "Ask for this fraction of the first Fresnel zone on an Earth of this factor; may be given again. ke "
+                 "stands for the factor exceeded for 99.9 % of the worst month, 157 / (144 + 2670 / length in km)")
       ->type_name("K:FRACTION")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -96,7 +97,7 @@ Document RadioOptions::parameters() const {
   if (!criteria_.empty()) {
     parameters["criteria"] = Document::array();
     for (const profile::Criterion& c : criteria_) {
-      parameters["criteria"].push_back({{"k", c.k}, {"fraction", c.fraction}});
+      parameters["criteria"].push_back({{"k", c.fade ? Document("ke") : Document(c.k)}, {"fraction", c.fraction}});
     }
   }
   if (object_) parameters["visible_height_m"] = {{"hub", object_->hub_m}, {"tip", object_->tip_m}};

@@ -12,6 +12,7 @@
 #include <itin/store.hpp>
 #include <itin/tin_export.hpp>
 #include <profile/documents.hpp>
+#include <profile/profile_text.hpp>
 
 #include "options/in_crs.hpp"
 #include "options/off_the_data.hpp"
@@ -73,10 +74,13 @@ class ProfileVerb final : public Verb {
                  ->type_name("METRES"));
     app.add_option("--rings", rings_text_, "Tolerances that grow with the distance from --from, nearest ring first")
         ->type_name("RADIUS:TOLERANCE,...");
-    repeated(
-        writes(app.add_option("-o,--output", outputs_,
-                              "What to write: .csv, .json, .geojson, or a chart: .svg, .pdf, .png; may be given again")
-                   ->type_name("FILE")));
+    repeated(writes(
+        app.add_option(
+               "-o,--output", outputs_,
+               "What to write: .csv, .json, .geojson, a chart: .svg, .pdf, .png, or text for other programs: .txt, "
+               "distance km, ground m, height of what stands there m, its kind (T vegetation, B anything "
+               "else, N nothing); may be given again")
+            ->type_name("FILE")));
     writes(app.add_option("--triangles", triangles_, "Write the triangles that the line crosses, as itin tin does")
                ->type_name("FILE"));
     picture_.declare(app, "the triangles that the line crosses");
@@ -102,6 +106,9 @@ class ProfileVerb final : public Verb {
     if (!rings_text_.empty()) rings_ = parse_rings("--rings", rings_text_);
     if (tolerances_.empty()) tolerances_.push_back(0);
     for (const std::string& output : outputs_) require_profile_format(output);
+    const auto text = std::find_if(outputs_.begin(), outputs_.end(), is_text);
+    if (text != outputs_.end() && tolerances_.size() > 1)
+      throw InputError(fmt::format("-o '{}': text is of one profile; give one --tolerance", *text));
     if (wants_triangles() && tolerances_.size() > 1)
       throw InputError(
           "--triangles, --image: profiles of several tolerances cross different triangles; give one --tolerance");
@@ -142,7 +149,8 @@ class ProfileVerb final : public Verb {
       profiles.push_back({detail, label, along(store, corners, detail, themes_.choice(), cost, progress)});
     }
     profile::Profile ground;
-    if (std::any_of(outputs_.begin(), outputs_.end(), is_chart) &&
+    const auto has_ground = [](const std::string& output) { return is_chart(output) || is_text(output); };
+    if (std::any_of(outputs_.begin(), outputs_.end(), has_ground) &&
         themes_.choice().includes_raised(store.metadata().themes)) {
       ground = along(store, corners, profiles.front().detail, ThemeChoice::none(), cost, progress);
     }
@@ -150,6 +158,8 @@ class ProfileVerb final : public Verb {
       result.warnings.push_back("the line lies wholly outside the data; the profile is empty" +
                                 where_it_begins(store.metadata()));
     }
+    for (const std::string& output : outputs_)
+      if (is_text(output)) profile::require_profile_text(profiles.front().profile, fmt::format("-o '{}'", output));
     warn_of_scale(store.metadata(), result.warnings);
     result.document = profile::profile_document(store.metadata(), themes_.choice(), profiles);
     if (!outputs().empty()) result.document["outputs"] = outputs();

@@ -15,6 +15,7 @@
 #include <itin/output_file.hpp>
 #include <profile/chart.hpp>
 #include <profile/documents.hpp>
+#include <profile/profile_text.hpp>
 
 #include "output/output_path.hpp"
 #include "output/store_document.hpp"
@@ -89,6 +90,12 @@ std::string geojson(const ProfileOutput& output) {
   return json_text(document) + "\n";
 }
 
+std::string text(const ProfileOutput& output) {
+  std::vector<ThemeKind> kinds;
+  for (const ThemeInfo& theme : output.metadata.themes) kinds.push_back(theme.kind);
+  return profile::profile_text(output.profiles.front().profile, output.ground, kinds);
+}
+
 std::string chart(const ProfileOutput& output, const std::string& path) {
   profile::Chart chart;
   chart.title = output.title;
@@ -107,6 +114,7 @@ std::string bytes_of(const ProfileOutput& output, const std::string& path) {
   if (ending == ".csv") return csv(output.profiles, output.metadata);
   if (ending == ".json") return json_text(output.document, 2) + "\n";
   if (ending == ".geojson") return geojson(output);
+  if (ending == ".txt") return text(output);
   return chart(output, path);
 }
 
@@ -117,12 +125,16 @@ bool is_chart(const std::string& path) {
   return ending == ".svg" || ending == ".pdf" || ending == ".png";
 }
 
+bool is_text(const std::string& path) {
+  return ending_of(path) == ".txt";
+}
+
 void require_profile_format(const std::string& path) {
   const std::string ending = ending_of(path);
-  for (const char* known : {".csv", ".json", ".geojson", ".svg", ".pdf", ".png"}) {
+  for (const char* known : {".csv", ".txt", ".json", ".geojson", ".svg", ".pdf", ".png"}) {
     if (ending == known) return;
   }
-  throw InputError(fmt::format("-o '{}': a profile ends in .csv, .json, .geojson, .svg, .pdf or .png", path));
+  throw InputError(fmt::format("-o '{}': a profile ends in .csv, .txt, .json, .geojson, .svg, .pdf or .png", path));
 }
 
 void write_profile(const ProfileOutput& output, const std::string& path) {

@@ -17,18 +17,20 @@ using profile::SurfaceProfile;
 /// Throws InputError unless the ending is one of those below.
 void require_profile_format(const std::string& path);
 bool is_chart(const std::string& path);
+/// Whether it is text for other programs, which is of one profile.
+bool is_text(const std::string& path);
 
 struct ProfileOutput {
   const StoreMetadata& metadata;
   const std::vector<SurfaceProfile>& profiles;
-  const profile::Profile& ground;  ///< for charts: the first without standing features; empty where it has none
+  const profile::Profile& ground;  ///< for charts and text: the first without standing features; may be empty
   Document document;               ///< the whole, for .json
   std::string title;               ///< of charts
   std::vector<double> corners_m;   ///< of charts: where along the line it turns
   bool overwrite = false;
 };
 
-/// As the ending says: .csv, .json, .geojson; .svg, .pdf, .png. Throws InputError, FileError.
+/// As the ending says: .csv, .txt, .json, .geojson; .svg, .pdf, .png. Throws InputError, FileError.
 void write_profile(const ProfileOutput& output, const std::string& path);
 
 }  // namespace itin::cli

@@ -183,8 +183,7 @@ std::string times_examined(const SiteResult& r) {
   if (r.coverage.last_stage() == 0) return options + "; the first look at each was exact.";
   return fmt::format(
       "{}; {} of them were looked at again after the first look. The others could be left: what they serve at most "
-      "never "
-      "came first, so exact coverage of all would have led to the same choice.",
+      "never came first, so exact coverage of all would have led to the same choice.",
       options, r.refined());
 }
 
@@ -195,8 +194,7 @@ std::string summary(const SiteResult& r) {
                                    : "";
   return fmt::format(
       "<p class=\"figure\">Served: {} of a demand of {} ({:.1f} %){}. No choice within the same limits serves more "
-      "than "
-      "{}: at most {:.1f} % of that were missed.</p>\n<p>{}{}</p>\n",
+      "than {}: at most {:.1f} % of that were missed.</p>\n<p>{}{}</p>\n",
       amount(r.served()), amount(r.in_metric(r.inputs.total)), r.served_percent(), existing,
       amount(r.in_metric(r.choice.upper_bound + r.choice.existing)), viewshed::gap_percent(r.choice), times_examined(r),
       r.choice.swaps > 0 ? fmt::format(" More was gained by {} after greedy.", counted(r.choice.swaps, "exchange"))

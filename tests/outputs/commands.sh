@@ -34,6 +34,7 @@ itin profile garth.itin --from 309000,183000 --to 313500,188500 --tolerance 0,2,
 itin profile town.itin --from 321590,4297655 --to 321790,4297655 --themes buildings -o street.csv -o street.json
 itin los garth.itin --from 310375,183525,10 --to 314200,189900,15 --frequency 7.5 --effective-earth 4/3 --criterion 4/3:1.0 --criterion 2/3:0.3 --report link.csv --report link.svg --report link.kml --report link.html --json >link.json
 itin los town.itin --from 321590,4297655,2 --to 321790,4297662,2 --themes buildings --frequency 26 --effective-earth 4/3 --report street-link.csv --json >street-link.json
+itin los town.itin --from 321590,4297655,12 --to 321790,4297662,12 --frequency 26 --effective-earth 4/3 --criterion ke:0.3 --date '1 July 2027' --report street-dated.txt --report street-dated.html --report street-dated.kml --json >street-dated.json
 awk 'BEGIN { print "id,x1,y1,h1,x2,y2,h2"; for (i = 0; i < 500; ++i) print i "," 308100 + i * 37 % 9000 "," 182100 + i * 53 % 9000 ",5," 308100 + i * 71 % 9000 "," 182100 + i * 29 % 9000 ",20" }' >links.csv
 itin los garth.itin --links links.csv -o links-seen.csv
 itin los garth.itin --links links.csv -o links-coarse.csv --tolerance 4

@@ -8,6 +8,7 @@
 #include <itin/error.hpp>
 #include <profile/fresnel.hpp>
 #include <profile/los.hpp>
+#include <profile/radio_text.hpp>
 #include <profile/report_text.hpp>
 #include <profile/required_heights.hpp>
 
@@ -224,6 +225,23 @@ TEST(Analyse, JudgesCriteriaOnTheirOwnEarth) {
   EXPECT_EQ(report.criteria[2].verdict, CriterionVerdict::kFails);
 }
 
+TEST(Analyse, JudgesTheWorstFadeByTheLineItself) {
+  EXPECT_NEAR(fade_factor(20000), 0.5658, 1e-4);   // 157 / (144 + 133.5)
+  EXPECT_NEAR(fade_factor(100000), 0.9198, 1e-4);  // 157 / (144 + 26.7)
+  const Profile profile = even_profile(10000, {0, 20, 0});
+  LosQuery q = query(60, 60, Earth::effective_earth(4.0 / 3));
+  q.radio = RadioPath{.frequency_ghz = 6, .effective_earth_km = 8494.7};
+  q.criteria = {{.k = 157 / 277.5, .fraction = 0.3}, {.fraction = 0.3, .fade = true}};
+  const LosReport report = analyse(profile, q);
+  ASSERT_EQ(report.criteria.size(), 2U);
+  EXPECT_EQ(report.criteria[1].k, report.criteria[0].k);
+  EXPECT_EQ(report.criteria[1].clearance_m, report.criteria[0].clearance_m);
+  EXPECT_EQ(report.required[3].name, "K = 0.5658 (ke), 0.3 F1");
+  EXPECT_EQ(report.required[3].heights.both_equal_m, report.required[2].heights.both_equal_m);
+  EXPECT_EQ(parse_criterion("ke:0.3"), q.criteria[1]);
+  EXPECT_THROW(parse_criterion("kx:0.3"), InputError);
+}
+
 TEST(Analyse, LeavesOpenWhatTheCertificateCannotDecide) {
   LosQuery q = query(20, 20, Earth::flat());
   const Profile profile = even_profile(1000, {0, 15, 0});
@@ -248,7 +266,7 @@ TEST(Analyse, LeavesOpenWhatLiesBeyondKnownGround) {
   EXPECT_EQ(open.known_verdict, SightVerdict::kVisible);
   EXPECT_EQ(open.criteria[0].verdict, CriterionVerdict::kUndecided);
   EXPECT_EQ(gap_text(open),
-            "no data over 1000.0 m of the line, which leaves it undecided; nothing hides it on known ground");
+            "no data over 1000.0 m of the line, which leaves it undecided; known ground does not hide it");
   EXPECT_EQ(outcome_text(open.criteria[0]).substr(0, 17), "undecided; met by");
   q.nodata = NoData::kBlock;
   EXPECT_EQ(analyse(with_a_gap(), q).verdict, SightVerdict::kHidden);
@@ -296,7 +314,7 @@ TEST(RequiredText, NeverRoundsBelowWhatIsRequired) {
   EXPECT_EQ(required_text(14.661), "14.67 m");
   EXPECT_EQ(required_text(14.66), "14.66 m");
   EXPECT_EQ(required_text(0), "0.00 m");
-  EXPECT_EQ(required_text(std::nullopt), "none is enough");
+  EXPECT_EQ(required_text(std::nullopt), "no height is enough");
 }
 
 TEST(Analyse, TakesALineWithoutLength) {

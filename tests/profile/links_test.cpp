@@ -96,6 +96,11 @@ class Links : public testing::Test {
       EXPECT_EQ(results[i].losses ? std::optional(results[i].losses->ld_db) : std::nullopt,
                 expected.losses ? std::optional(expected.losses->ld_db) : std::nullopt);
       EXPECT_EQ(results[i].stands_on.to_m, expected.stands_on.to_m);
+      ASSERT_EQ(results[i].reflection.has_value(), expected.reflection.has_value());
+      if (expected.reflection) {
+        EXPECT_EQ(results[i].reflection->distance_m, expected.reflection->distance_m);
+        EXPECT_EQ(results[i].reflection->screen_depth_m, expected.reflection->screen_depth_m);
+      }
       if (i < 10) expect_same(*survey_link(*store_, links[i], query).found, expected);
       ASSERT_EQ(results[i].visible.has_value(), expected.visible.has_value());
       if (expected.visible) {

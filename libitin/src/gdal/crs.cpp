@@ -12,6 +12,7 @@
 #include <ogr_srs_api.h>
 
 #include <itin/error.hpp>
+#include <itin/grid_reference.hpp>
 #include <itin/parallel.hpp>
 
 #include "gdal/quiet_gdal.hpp"
@@ -176,11 +177,11 @@ Crs utm_zone(const Crs& crs, Point2 position, const std::string& place) {
   PointTransform(crs.wkt, wkt_of(*geographic), place).transform(std::span(&position.x, 1), std::span(&position.y, 1));
   const double longitude = position.x * geographic->GetAngularUnits() * 180 / M_PI;
   const double latitude = position.y * geographic->GetAngularUnits() * 180 / M_PI;
-  if (!(latitude >= -80 && latitude <= 84 && std::abs(longitude) <= 360))
+  const std::optional<int> zone = utm_zone_at({longitude, latitude});
+  if (!zone)
     throw InputError(
         fmt::format("{}: no UTM zone at longitude {:.4f}, latitude {:.4f}; give `to_crs`", place, longitude, latitude));
-  const int zone = std::min(60, static_cast<int>((std::remainder(longitude, 360) + 180) / 6) + 1);
-  return parse_crs(fmt::format("EPSG:{}", utm_base(*geographic, zone, latitude >= 0) + zone), place);
+  return parse_crs(fmt::format("EPSG:{}", utm_base(*geographic, *zone, latitude >= 0) + *zone), place);
 }
 
 class PointTransform::Impl {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -30,6 +31,19 @@ std::optional<std::string> national_grid_reference(Point2 position, int figures)
   const auto cut = [&](double v) { return static_cast<int>(std::fmod(v, kSquare) / step); };
   return fmt::format("{}{} {:0{}} {:0{}}", letter(down - down % 5 + (east + 10) / 5), letter(down * 5 % 25 + east % 5),
                      cut(position.x), figures, cut(position.y), figures);
+}
+
+std::optional<int> utm_zone_at(Point2 lon_lat) {
+  if (!(lon_lat.y >= -80 && lon_lat.y <= 84 && std::abs(lon_lat.x) <= 360)) return std::nullopt;
+  return std::min(60, static_cast<int>((std::remainder(lon_lat.x, 360) + 180) / 6) + 1);
+}
+
+std::optional<std::string> utm_reference(Point2 lon_lat) {
+  const std::optional<int> zone = utm_zone_at(lon_lat);
+  if (!zone) return std::nullopt;
+  const bool north = lon_lat.y >= 0;
+  const Point2 p = CoordinateTransform("EPSG:4326", fmt::format("EPSG:{}", (north ? 32600 : 32700) + *zone))(lon_lat);
+  return fmt::format("UTM {}{} {:.0f} {:.0f}", *zone, north ? "N" : "S", p.x, p.y);
 }
 
 }  // namespace itin

@@ -1,5 +1,5 @@
 // Losses of a radio path over a profile: free space, knife edges, and delta-Bullington with its smooth and spherical
-// parts, every intermediate value included.
+// parts, every intermediate value included; the edges that they were worked out from, and the point of reflection.
 //
 //   profile::RadioPath path;
 //   path.frequency_ghz = 2.5;
@@ -17,8 +17,10 @@
 // with_spacing().
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <itin/earth.hpp>
 #include <profile/fresnel.hpp>
@@ -77,6 +79,13 @@ struct Horizons {
 };
 Horizons horizons(const Profile& profile, const Antennas& antennas, const RadioPath& path);
 
+/// An edge in the way of a path, alone between two others or the antennas.
+struct DiffractionEdge {
+  double distance_m = 0, elevation_m = 0;
+  double v = 0;        ///< its diffraction parameter, greater than -0.78
+  double loss_db = 0;  ///< J(v)
+};
+
 struct PathLosses {
   Horizons horizons;
   SmoothHeights smooth;
@@ -87,6 +96,11 @@ struct PathLosses {
   double ldsph_db = 0;              ///< spherical Earth
   double ld_db = 0;                 ///< delta-Bullington: lba + max(ldsph - lbs, 0)
   double deygout_db = 0;
+  /// The single edge that Bullington puts in place of the terrain, where it costs anything: where the two horizons'
+  /// lines meet or, within sight, the point of the largest v.
+  std::optional<DiffractionEdge> bullington;
+  /// Those after Deygout that cost anything: the main one, and the largest of the spans before and behind it.
+  std::vector<DiffractionEdge> deygout;
 };
 
 /// P.452-17 section 4.2.3, P.1812-6 section 4.3.4. Throws InputError unless the path's length is positive, the
@@ -95,6 +109,25 @@ struct PathLosses {
 /// where the profile is that.
 PathLosses path_losses(const Profile& profile, const Antennas& antennas, const RadioPath& path,
                        const Profile* bare = nullptr);
+
+/// Where smooth ground reflects a path.
+struct Reflection {
+  double distance_m = 0;           ///< from the first antenna
+  std::optional<double> ground_m;  ///< elevation of what stands there; nothing where that is without data
+  std::uint16_t theme = 0;         ///< of it
+  double grazing_deg = 0;          ///< angle between the path and the ground
+  double longer_by_m = 0;          ///< than the direct path
+  /// Where the profile rises highest above the two straight lines from the antennas to the ground there; nothing where
+  /// it does not, and where ground_m is nothing.
+  std::optional<ProfilePoint> screen;
+  double screen_depth_m = 0;  ///< by how much; 0 without a screen
+};
+/// The specular point on the straight surface that fits the ground best (smooth_heights(), hst and hsr) over the
+/// effective Earth: angles of incidence and reflection are equal there. The profile is looked at as it is, with no
+/// points added: nothing is sampled. Nothing where an antenna is below that surface or the antennas do not see each
+/// other over it. `bare`: as for path_losses(). O(n).
+std::optional<Reflection> reflection(const Profile& profile, const Antennas& antennas, const RadioPath& path,
+                                     const Profile* bare = nullptr);
 
 /// Adds points until no two neighbours are farther apart than `most_m`, metres: a triangulated surface is straight
 /// between breakpoints, but the Earth below it is not, and the formulas look at points only.

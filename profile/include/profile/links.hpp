@@ -7,6 +7,7 @@
 //     std::cout << (row.found ? profile::name_of(row.found->verdict) : row.message) << '\n';
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
@@ -81,6 +82,8 @@ struct LinkQuery {
   std::vector<Criterion> criteria = {};   ///< with a fraction > 0 only for links with a frequency
   std::optional<TallObject> object = {};  ///< the object at each second end; gives visible
   NoData nodata = NoData::kUnknown;
+  /// The day of magnetic azimuths, which tables have besides the others where it is given.
+  std::optional<std::chrono::year_month_day> day = {};
 };
 
 struct LinkResult {
@@ -90,6 +93,7 @@ struct LinkResult {
   double gap_m = 0;                   ///< of the distance, without data
   std::optional<RadioPath> radio;
   std::optional<PathLosses> losses;  ///< nothing also where an antenna is within a feature
+  std::optional<Reflection> reflection;
   std::optional<VisibleHeight> visible;
   std::string message;  ///< of an error
 };

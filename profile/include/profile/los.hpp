@@ -10,6 +10,7 @@
 //   profile::write_report(report, "{}", "link.pdf", false);
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -52,9 +53,17 @@ struct Obstruction {
 struct Criterion {
   double k = 4.0 / 3;
   double fraction = 1;
+  bool fade = false;  ///< in place of k, fade_factor() of the line's length
+
+  friend bool operator==(const Criterion&, const Criterion&) = default;
 };
+/// The effective Earth factor that is exceeded for 99.9 % of the worst month on a path of this length, with d its
+/// kilometres: ke = 157 / (144 + 2670 / d), after the curve of ITU-R P.530 section 2.2, which begins at 10 km; nearer
+/// it is continued. The formula has not been confirmed from the recommendation's text.
+double fade_factor(double length_m);
 struct CriterionResult {
   Criterion criterion;
+  double k = 0;  ///< of the Earth on which it was judged
   CriterionVerdict verdict = CriterionVerdict::kMeets;
   // Over known ground, at the critical point on this Earth.
   std::optional<double> clearance_m;
@@ -90,6 +99,8 @@ struct LosQuery {
   /// The losses take the profile's points alone, as published cases have them; otherwise points are added on the
   /// straight ground between them, at most 100 m and a 50th of the length apart.
   bool points_as_given = false;
+  /// The day of the magnetic azimuths of a line over a store.
+  std::optional<std::chrono::year_month_day> day;
 };
 
 /// Where a line over a store runs, and over which surface.
@@ -112,6 +123,9 @@ struct LosEnd {
     Point2 position;                                    ///< in the store's CRS
     Point2 lon_lat;                                     ///< degrees on WGS 84
     double azimuth_grid_deg = 0, azimuth_true_deg = 0;  ///< towards the other end
+    /// Likewise from magnetic north, which lies `declination_deg` east of true north (World Magnetic Model 2025).
+    /// Nothing without a day, on a day outside 2025 to 2029, and close to the magnetic poles.
+    std::optional<double> azimuth_magnetic_deg, declination_deg;
   };
   std::optional<Site> site;
 };
@@ -142,7 +156,8 @@ struct LosReport : LineFindings {
   EndGrounds stands_on;              ///< elevations of what the ends stand on
   Antennas antennas;                 ///< elevations
   LosEnd from, to;
-  std::optional<PathLosses> losses;  ///< nothing without a frequency, or where an antenna is within a feature
+  std::optional<PathLosses> losses;      ///< nothing without a frequency, or where an antenna is within a feature
+  std::optional<Reflection> reflection;  ///< nothing without a frequency, and where there is none
   std::optional<VisibleHeight> visible;
 
   // For the report's header and maps. Over a store analyse() fills in all but the title, otherwise the caller does.
@@ -152,7 +167,10 @@ struct LosReport : LineFindings {
   std::string crs_wkt;                                     ///< empty: the profile has no positions
   std::optional<double> geodesic_m;                        ///< between the ends on WGS 84, where they have positions
   std::vector<std::string> themes;                         ///< names by ProfilePoint::theme; 0 is the terrain
+  std::vector<ThemeKind> theme_kinds;                      ///< by ProfilePoint::theme - 1; over a store alone
   std::map<std::pair<std::uint16_t, std::int64_t>, std::string> features;  ///< names by theme and feature
+  /// Of the rows of the printed profile; nothing: about 30 of them; 0: no such table.
+  std::optional<double> table_spacing_m;
 
   // Known for a line over a store alone:
   std::vector<SourceInfo> sources;  ///< of the surface under the line, as triangulated there
@@ -190,13 +208,18 @@ double ray_elevation_m(const LosReport& report, double distance_m);
 std::string cause_of(const LosReport& report, std::uint16_t theme, std::int64_t feature = -1);
 
 /// A report as a file that a planner can hand in. By the name's ending: .json (the document as given), .csv (one row
-/// for each point of the profile), .svg, .pdf, .png (the drawing; the PDF has a second page of tables and the trade-off
-/// chart), .html (all of it, self-contained), .kml and .gpkg (the line, its ends, the critical point and the
-/// obstructions; for profiles with positions). Equal reports give equal bytes. Throws as require_report_format() does,
-/// and FileError.
+/// for each point of the profile), .txt (the profile for other programs: distance km, ground m, height of what stands
+/// there m, its kind, T vegetation, B anything else, N nothing), .svg, .pdf, .png (the drawing; the PDF has more pages,
+/// which are numbered: the drawing over the Earth of the worst fade that a criterion asks about, tables, the trade-off
+/// chart, the profile as a table), .html (all of it, self-contained), .kml and .gpkg (the line, its ends, the critical
+/// point, the point of reflection, the edges and the obstructions; for profiles with positions). Equal reports give
+/// equal bytes. Throws as require_report() does, and FileError.
 void write_report(const LosReport& report, const std::string& json, const std::string& path, bool overwrite);
 
 /// Throws InputError for another ending, and for .kml and .gpkg of a profile without positions.
 void require_report_format(const std::string& path, bool has_positions);
+/// Besides, for a .txt of a profile with gaps, and for a `table_spacing_m` that is negative, or of which the line has
+/// more than 10,000.
+void require_report(const LosReport& report, const std::string& path);
 
 }  // namespace itin::profile

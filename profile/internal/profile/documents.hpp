@@ -16,9 +16,9 @@ Document profile_document(const StoreMetadata& metadata, const ThemeChoice& them
                           const std::vector<SurfaceProfile>& profiles);
 Document gaps_document(const Profile& profile);
 
-/// `crs`, `refraction`, `from`, `to`, `distance_m`, `verdict`, `known_verdict`, `clearance_m`, `critical`, `tightest`,
-/// `obstructions`, `criteria`, `required_heights`, likewise in `bare` for the ground without its clutter; `radio`,
-/// `visible_height`, `gaps`, `gap_m`. Positions are null in a profile without any.
+/// `crs`, `refraction`, `from`, `to`, `magnetic_north`, `distance_m`, `verdict`, `known_verdict`, `clearance_m`,
+/// `critical`, `tightest`, `obstructions`, `criteria`, `required_heights`, likewise in `bare` for the ground without
+/// its clutter; `cover`, `radio`, `visible_height`, `gaps`, `gap_m`. Positions are null in a profile without any.
 Document los_document(const LosReport& report);
 /// Adds `surface`, `sources` and `statistics`.
 Document los_document(const StoreMetadata& metadata, const StoreLine& line, const LosReport& report);

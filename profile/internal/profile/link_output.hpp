@@ -1,7 +1,7 @@
 // The table of many links, as files.
 //
 //   const LinkSurvey survey{table, results, query, store.metadata().crs_wkt, "Backhaul", {}};
-//   for (const char* path : {"links.csv", "links.gpkg", "links.kml", "links.pdf"}) write_links(survey, path, false);
+//   write_links(survey, {"links.csv", "links.gpkg", "links.kml", "links.pdf"}, false);
 #pragma once
 
 #include <string>
@@ -22,10 +22,10 @@ struct LinkSurvey {
   std::vector<std::pair<std::string, std::string>> facts;  ///< the inputs and the settings: name, value
 };
 
-/// By the name's ending: .csv (a row per row of the table), .gpkg and .kml (the links that could be computed, as
+/// Each by its name's ending: .csv (a row per row of the table), .gpkg and .kml (the links that could be computed, as
 /// lines), .pdf (one page: how many there are of which verdict, and those that want attention first). Equal surveys
 /// give equal bytes. Throws as require_link_format() does, and FileError.
-void write_links(const LinkSurvey& survey, const std::string& path, bool overwrite);
+void write_links(const LinkSurvey& survey, const std::vector<std::string>& paths, bool overwrite);
 
 /// Throws InputError for another ending.
 void require_link_format(const std::string& path);

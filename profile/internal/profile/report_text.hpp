@@ -11,14 +11,17 @@
 
 namespace itin::profile {
 
-/// "no data over 1.200 km of the line, which leaves it undecided; nothing hides it on known ground"; empty without
+/// "no data over 1.200 km of the line, which leaves it undecided; known ground does not hide it"; empty without
 /// gaps.
 std::string gap_text(const LosReport& report);
 /// "Visible", or "Undecided: " and why; after a colon as well what is without data.
 std::string verdict_text(const LosReport& report);
 /// "meets by 0.40 F1 (3.10 m)", "fails by ...", "undecided".
 std::string outcome_text(const CriterionResult& result);
-/// Metres with two decimals, never less than the height that is required; "none is enough".
+/// "clear", "screened by terrain at 5.310 km, 12.00 m above it", or that nothing is known; of a report with a
+/// reflection.
+std::string screen_text(const LosReport& report);
+/// Metres with two decimals, never less than the height that is required; "no height is enough".
 std::string required_text(const std::optional<double>& height_m);
 
 }  // namespace itin::profile

@@ -6,6 +6,7 @@
 
 #include <itin/error.hpp>
 #include <itin/grazing.hpp>
+#include <profile/radio_text.hpp>
 
 #include "lines/critical_point.hpp"
 #include "lines/line_clearance.hpp"
@@ -24,10 +25,9 @@ double factor_of(const Earth& earth) {
   return drop == 0 ? std::numeric_limits<double>::infinity() : 1 / (2 * drop * earth.radius);
 }
 
-Earth earth_of(const Criterion& criterion, const Earth& earth) {
-  Earth result = Earth::effective_earth(criterion.k);
-  result.radius = earth.radius;
-  return result;
+/// The factor of the Earth on which a line of this length is judged; a line without length is judged on any.
+double factor_of(const Criterion& c, double length_m) {
+  return c.fade && length_m > 0 ? fade_factor(length_m) : c.k;
 }
 
 /// A ray on one Earth, at its critical point.
@@ -62,9 +62,10 @@ CriterionVerdict criterion_verdict(const Sight& sight, const LosQuery& query, co
 }
 
 CriterionResult judge(const Sight& sight, const LosQuery& query, const Criterion& criterion) {
-  const Earth earth = earth_of(criterion, query.earth);
+  const double k = factor_of(criterion, sight.profile.length_m);
+  const Earth earth = with_factor(k, query.earth);
   const Clearance as_is = clearance_over(sight, query, earth);
-  CriterionResult result{criterion, criterion_verdict(sight, query, criterion, earth), {}, {}, {}, {}};
+  CriterionResult result{criterion, k, criterion_verdict(sight, query, criterion, earth), {}, {}, {}, {}};
   if (!as_is.critical) return result;
   result.clearance_m = result.margin_m = as_is.critical->clearance_m;
   if (!query.radio || !as_is.zone) return result;
@@ -78,8 +79,8 @@ CriterionResult judge(const Sight& sight, const LosQuery& query, const Criterion
   return result;
 }
 
-std::string criterion_name(const Criterion& c) {
-  return fmt::format("K = {:.4g}, {:.3g} F1", c.k, c.fraction);
+std::string criterion_name(const Criterion& c, double k) {
+  return fmt::format("K = {}, {:.3g} F1", factor_text(c, k), c.fraction);
 }
 
 }  // namespace
@@ -96,14 +97,26 @@ void require_valid(const Profile& profile, const LosQuery& query, const Profile&
   }
 }
 
-std::vector<NamedRequirement> requirements_of(const LosQuery& query) {
+double fade_factor(double length_m) {
+  return 157 / (144 + 2670 / (length_m / 1000));
+}
+
+Earth with_factor(double k, const Earth& earth) {
+  Earth result = Earth::effective_earth(k);
+  result.radius = earth.radius;
+  return result;
+}
+
+std::vector<NamedRequirement> requirements_of(const LosQuery& query, double length_m) {
   const auto with = [&](std::string name, const Earth& earth, double fraction) {
     return NamedRequirement{std::move(name), factor_of(earth), {earth, fraction, wavelength_of(query)}};
   };
   std::vector<NamedRequirement> all = {with("line of sight", query.earth, 0)};
   if (query.radio) all.push_back(with("0.6 F1", query.earth, 0.6));
-  for (const Criterion& c : query.criteria)
-    all.push_back(with(criterion_name(c), earth_of(c, query.earth), c.fraction));
+  for (const Criterion& c : query.criteria) {
+    const double k = factor_of(c, length_m);
+    all.push_back(with(criterion_name(c, k), with_factor(k, query.earth), c.fraction));
+  }
   return all;
 }
 
@@ -128,7 +141,7 @@ LineFindings findings(const Sight& sight, const LosQuery& query) {
 void add_required_heights(const Sight& sight, const LosQuery& query, LineFindings& found) {
   if (!sight.profile.has_length()) return;
   const PlannedHeights planned{query.from_height_m, query.to_height_m};
-  for (NamedRequirement& one : requirements_of(query)) {
+  for (NamedRequirement& one : requirements_of(query, sight.profile.length_m)) {
     const RequiredHeights heights = required_heights(sight.profile, planned, one.requirement, sight.stands_on);
     found.required.push_back({std::move(one.name), one.k, one.requirement.fraction, heights, {}});
   }

@@ -12,13 +12,16 @@ namespace itin::profile {
 /// part of the Fresnel zone without a frequency.
 void require_valid(const Profile& profile, const LosQuery& query, const Profile& ground);
 
+/// An effective Earth of this factor, of the radius of `earth`.
+Earth with_factor(double k, const Earth& earth);
+
 struct NamedRequirement {
   std::string name;
   double k = 0;  ///< effective Earth factor; infinity without curvature
   Requirement requirement;
 };
 /// A free line of sight, 0.6 F1 where there is a frequency, and each criterion.
-std::vector<NamedRequirement> requirements_of(const LosQuery& query);
+std::vector<NamedRequirement> requirements_of(const LosQuery& query, double length_m);
 
 /// A ray, and what it passes over.
 struct Sight {

@@ -42,6 +42,10 @@ LinkResult result_of(const Sections& sections, const LosQuery& query) {
   if (query.radio || !query.criteria.empty()) add_required_heights(sight, query, *result.found);
   result.losses =
       losses_over(sections.surface, antennas, query, sections.ground.points.empty() ? nullptr : &sections.ground);
+  if (query.radio) {
+    const Profile* under = sections.ground.points.empty() ? nullptr : &sections.ground;
+    result.reflection = reflection(sections.surface, antennas, *query.radio, under);
+  }
   if (query.object) {
     result.visible = visible_height(sections.surface, query.from_height_m, query.object->hub_m, query.object->tip_m,
                                     query.earth, result.stands_on);
@@ -142,7 +146,7 @@ LosQuery los_query(const Link& link, const LinkQuery& all) {
   query.from_on_surface = all.from_on_surface, query.to_on_surface = all.to_on_surface;
   query.earth = all.earth, query.nodata = all.nodata, query.object = all.object;
   query.criteria = link.criteria.empty() ? all.criteria : link.criteria;
-  query.radio = all.radio;
+  query.radio = all.radio, query.day = all.day;
   if (link.frequency_ghz) {
     if (!query.radio) query.radio.emplace().effective_earth_km = effective_earth_km(all.earth);
     query.radio->frequency_ghz = *link.frequency_ghz;

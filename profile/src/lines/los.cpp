@@ -23,7 +23,7 @@ double degrees(double radians) {
 
 void add_curves(LosReport& report) {
   const PlannedHeights planned{report.query.from_height_m, report.query.to_height_m};
-  const std::vector<NamedRequirement> requirements = requirements_of(report.query);
+  const std::vector<NamedRequirement> requirements = requirements_of(report.query, report.profile.length_m);
   for (std::size_t i = 0; i < report.required.size(); ++i) {
     NamedHeights& named = report.required[i];
     named.curve = height_curve(report.profile, planned, requirements[i].requirement, named.heights.both_equal_m,
@@ -102,6 +102,10 @@ LosReport analyse(Profile profile, const LosQuery& query, Profile ground) {
   // Clutter is for the losses alone, which leave it out of horizons and smooth heights.
   const Profile* bare = clutter || report.ground.points.empty() ? nullptr : &report.ground;
   report.losses = losses_over(clutter ? report.ground : report.profile, report.antennas, query, bare);
+  if (query.radio) {
+    const Profile* under = report.ground.points.empty() ? nullptr : &report.ground;
+    report.reflection = reflection(report.profile, report.antennas, *query.radio, under);
+  }
   describe_ends(report);
   if (query.object) {
     report.visible = visible_height(report.profile, query.from_height_m, query.object->hub_m, query.object->tip_m,

@@ -26,8 +26,17 @@ void add_sites(const StoreLine& line, LosReport& report) {
   const CoordinateTransform to_geographic(report.crs_wkt, "EPSG:4326");
   const Point2 a = to_geographic(line.from), b = to_geographic(line.to);
   const Geodesic between = geodesic(a, b);
-  report.from.site = {line.from, a, grid_azimuth_deg(line.from, line.to), between.azimuth_deg};
-  report.to.site = {line.to, b, grid_azimuth_deg(line.to, line.from), between.back_azimuth_deg};
+  const auto site = [&](Point2 position, Point2 towards, Point2 lon_lat, double azimuth_deg, double elevation_m) {
+    const std::optional<double> declination = declination_on(report.query.day, lon_lat, elevation_m);
+    return LosEnd::Site{position,
+                        lon_lat,
+                        grid_azimuth_deg(position, towards),
+                        azimuth_deg,
+                        magnetic_azimuth_deg(azimuth_deg, declination),
+                        declination};
+  };
+  report.from.site = site(line.from, line.to, a, between.azimuth_deg, report.antennas.from_m);
+  report.to.site = site(line.to, line.from, b, between.back_azimuth_deg, report.antennas.to_m);
   report.geodesic_m = between.distance_m;
 }
 
@@ -88,20 +97,32 @@ std::string degrees_minutes_seconds(double degrees, char positive, char negative
                      degrees < 0 ? negative : positive);
 }
 
-/// In the zone of the longitude; nothing where there is none, near the poles.
-std::optional<std::string> utm_reference(Point2 lon_lat) {
-  if (lon_lat.y < -80 || lon_lat.y > 84) return std::nullopt;
-  const int zone = std::clamp(static_cast<int>(std::floor((lon_lat.x + 180) / 6)) + 1, 1, 60);
-  const bool north = lon_lat.y >= 0;
-  const Point2 p = CoordinateTransform("EPSG:4326", fmt::format("EPSG:{}", (north ? 32600 : 32700) + zone))(lon_lat);
-  return fmt::format("UTM {}{} {:.0f} {:.0f}", zone, north ? "N" : "S", p.x, p.y);
-}
-
 /// A reference of the National Grid where the CRS is that, else of UTM.
 std::string grid_reference(const LosEnd::Site& site, const std::string& crs_wkt) {
   const std::optional<std::string> reference =
       is_national_grid(crs_wkt) ? national_grid_reference(site.position) : utm_reference(site.lon_lat);
   return reference ? "; " + *reference : "";
+}
+
+std::string declination_text(const std::optional<double>& degrees) {
+  if (!degrees) return "none so close to the magnetic pole";
+  return fmt::format("{:.2f}\xC2\xB0 {}", std::abs(*degrees), *degrees < 0 ? "W" : "E");
+}
+
+/// Where the magnetic azimuths of a day come from, or why there are none.
+std::string magnetic_fact(const LosReport& report, const CalendarDay& day) {
+  if (!has_declination(day))
+    return fmt::format("no azimuths from it, because the report is of {}; {}", day_text(day), magnetic_model_text());
+  return fmt::format("declination {} at A, {} at B, on {}; {}", declination_text(report.from.site->declination_deg),
+                     declination_text(report.to.site->declination_deg), day_text(day), magnetic_model_text());
+}
+
+/// "31.100\xC2\xB0 grid, 32.440\xC2\xB0 true, 33.1\xC2\xB0 magnetic", the last with no more digits than its model is
+/// good for.
+std::string azimuths_text(const LosEnd::Site& site) {
+  const std::string text =
+      fmt::format("{} grid, {} true", angle_text(site.azimuth_grid_deg), angle_text(site.azimuth_true_deg));
+  return site.azimuth_magnetic_deg ? text + fmt::format(", {:.1f}\xC2\xB0 magnetic", *site.azimuth_magnetic_deg) : text;
 }
 
 std::vector<std::string> lines_about(const LosEnd& end, const std::string& crs, const std::string& crs_wkt) {
@@ -114,8 +135,7 @@ std::vector<std::string> lines_about(const LosEnd& end, const std::string& crs, 
               grid_reference(site, crs_wkt),
           fmt::format("ground {:.2f} m{}, height {:.2f} m, elevation {:.2f} m", end.ground_m, surface, end.height_m,
                       end.elevation_m),
-          fmt::format("azimuth {} grid, {} true; elevation angle {}", angle_text(site.azimuth_grid_deg),
-                      angle_text(site.azimuth_true_deg), angle_text(end.elevation_angle_deg))};
+          fmt::format("azimuth {}; elevation angle {}", azimuths_text(site), angle_text(end.elevation_angle_deg))};
 }
 
 }  // namespace
@@ -124,10 +144,12 @@ void add_header(const Store& store, const StoreLine& line, LosReport& report) {
   const StoreMetadata& metadata = store.metadata();
   report.crs_wkt = metadata.crs_wkt;
   report.themes = theme_names(metadata);
+  for (const ThemeInfo& theme : metadata.themes) report.theme_kinds.push_back(theme.kind);
   name_features(store, report);
   add_sites(line, report);
   report.sources = sources_under(store, line);
   report.facts = facts_about(store, line, report.sources);
+  if (const auto& day = report.query.day) report.facts.emplace_back("Magnetic north", magnetic_fact(report, *day));
   const std::string crs = crs_identifier(metadata.crs_wkt);
   report.from_lines = lines_about(report.from, crs, metadata.crs_wkt);
   report.to_lines = lines_about(report.to, crs, metadata.crs_wkt);

@@ -18,6 +18,9 @@ struct Edge {
   double height_m;
 };
 
+/// Edges of no greater v cost nothing: P.526-15 equation (31).
+constexpr double kFreeV = -0.78;
+
 // The rounding error of kilometres in decimals, metres: a point given 50 m from an end is not nearer.
 constexpr double kHairM = 1e-6;
 
@@ -84,35 +87,59 @@ double steepest_from(const Edge& end, const Span& span, const std::vector<Edge>&
   return steepest;
 }
 
-/// The parameter of Bullington's single edge: equations (16), (18) to (20).
-double bullington_v(const Span& span, const std::vector<Edge>& edges) {
+DiffractionEdge with_loss(const Edge& edge, double v) {
+  return {edge.km * 1000, edge.height_m, v, knife_edge_loss_db(v)};
+}
+
+/// Bullington's single edge: equations (16), (18) to (20). Precondition: there are edges.
+DiffractionEdge bullington_edge(const Span& span, const std::vector<Edge>& edges) {
   const double d = span.length(), rise = span.b.height_m - span.a.height_m;
   const double from_a = steepest_from(span.a, span, edges);
-  if (from_a < rise / d) return span.v(*largest_v(span, edges));
+  if (from_a < rise / d) {
+    const Edge& edge = *largest_v(span, edges);
+    return with_loss(edge, span.v(edge));
+  }
   const double from_b = steepest_from(span.b, span, edges);
-  const double at = (rise + from_b * d) / (from_a + from_b);
-  return span.v_of(span.a.height_m + from_a * at - span.line_m(at, d - at), at, d - at);
+  const double at = (rise + from_b * d) / (from_a + from_b), top = span.a.height_m + from_a * at;
+  return with_loss({at, top - span.bulge_m(at, d - at)}, span.v_of(top - span.line_m(at, d - at), at, d - at));
 }
 
 double bullington(const Span& span, const std::vector<Edge>& edges) {
   if (edges.empty()) return 0;
-  const double single = knife_edge_loss_db(bullington_v(span, edges));
+  const double single = bullington_edge(span, edges).loss_db;
   return single + (1 - std::exp(-single / 6)) * (10 + 0.02 * span.length());  // equation (22)
 }
 
-double edge_loss(const Span& span, const std::vector<Edge>& edges) {
+/// The edge with the largest v, if it costs anything.
+std::optional<DiffractionEdge> costly_edge(const Span& span, const std::vector<Edge>& edges) {
   const Edge* edge = largest_v(span, edges);
-  return edge ? knife_edge_loss_db(span.v(*edge)) : 0;
+  if (edge == nullptr || span.v(*edge) <= kFreeV) return std::nullopt;
+  return with_loss(*edge, span.v(*edge));
 }
 
-double deygout(const Span& span, const std::vector<Edge>& edges) {
-  const Edge* main = largest_v(span, edges);
-  if (!main || span.v(*main) <= -0.78) return 0;
+double edge_loss(const Span& span, const std::vector<Edge>& edges) {
+  const auto edge = costly_edge(span, edges);
+  return edge ? edge->loss_db : 0;
+}
+
+/// The main edge, the one before it and the one behind it, as far as they cost anything.
+std::vector<DiffractionEdge> deygout_edges(const Span& span, const std::vector<Edge>& edges) {
+  const auto main = costly_edge(span, edges);
+  if (!main) return {};
   Span first = span, second = span;
-  first.b = second.a = *main;
-  const double of_main = knife_edge_loss_db(span.v(*main));
-  const double correction = 10 + 0.04 * span.length();
-  return of_main + (1 - std::exp(-of_main / 6)) * (edge_loss(first, edges) + edge_loss(second, edges) + correction);
+  first.b = second.a = *largest_v(span, edges);
+  std::vector<DiffractionEdge> found = {*main};
+  for (const Span& part : {first, second})
+    if (const auto edge = costly_edge(part, edges)) found.push_back(*edge);
+  return found;
+}
+
+double deygout(const Span& span, const std::vector<DiffractionEdge>& found) {
+  if (found.empty()) return 0;
+  double others = 0;
+  for (std::size_t i = 1; i < found.size(); ++i) others += found[i].loss_db;
+  const double of_main = found.front().loss_db, correction = 10 + 0.04 * span.length();
+  return of_main + (1 - std::exp(-of_main / 6)) * (others + correction);
 }
 
 /// Elevation angle of something `rise_m` higher at d km over the curved Earth, mrad: P.452-17 equation (152).
@@ -151,7 +178,7 @@ double free_space_loss_db(double distance_m, double wavelength) {
 }
 
 double knife_edge_loss_db(double v) {
-  if (v <= -0.78) return 0;
+  if (v <= kFreeV) return 0;
   return 6.9 + 20 * std::log10(std::sqrt((v - 0.1) * (v - 0.1) + 1) + v - 0.1);
 }
 
@@ -161,7 +188,8 @@ double bullington_loss_db(const Profile& profile, const Antennas& antennas, cons
 }
 
 double deygout_loss_db(const Profile& profile, const Antennas& antennas, const RadioPath& path) {
-  return deygout(whole_span(profile, antennas, path), edges_of(profile, Ground::kWithClutter));
+  const Span span = whole_span(profile, antennas, path);
+  return deygout(span, deygout_edges(span, edges_of(profile, Ground::kWithClutter)));
 }
 
 SmoothHeights smooth_heights(const Profile& profile, const Antennas& antennas) {
@@ -217,7 +245,9 @@ PathLosses path_losses(const Profile& profile, const Antennas& antennas, const R
       free_space_loss_db(std::hypot(profile.length_m, antennas.to_m - antennas.from_m), span.wavelength);
   if (const Edge* edge = largest_v(span, edges)) losses.largest_v = span.v(*edge);
   losses.knife_edge_db = edge_loss(span, edges);
-  losses.deygout_db = deygout(span, edges);
+  losses.deygout = deygout_edges(span, edges);
+  losses.deygout_db = deygout(span, losses.deygout);
+  if (!edges.empty() && bullington_edge(span, edges).v > kFreeV) losses.bullington = bullington_edge(span, edges);
   losses.lba_db = bullington(span, edges);
   // Equations (38a, 38b): the antennas above the smooth surface.
   const Antennas above{antennas.from_m - losses.smooth.hstd_m, antennas.to_m - losses.smooth.hsrd_m};

@@ -64,11 +64,17 @@ double parse_frequency_ghz(std::string_view text) {
 Criterion parse_criterion(std::string_view text) {
   const std::string given = lower_trimmed(text);
   const std::size_t colon = given.find(':');
-  const auto k = ratio(std::string_view(given).substr(0, colon));
+  const std::string_view factor = std::string_view(given).substr(0, colon);
+  const bool fade = factor == "ke";
+  const auto k = fade ? std::optional(Criterion().k) : ratio(factor);
   const auto fraction =
       colon == std::string::npos ? std::nullopt : positive_number(std::string_view(given).substr(colon + 1));
-  if (!k || *k == 0 || !fraction) throw InputError("expected K:fraction, such as 4/3:1.0");
-  return {*k, *fraction};
+  if (!k || *k == 0 || !fraction) throw InputError("expected K:fraction, such as 4/3:1.0 or ke:0.3");
+  return {*k, *fraction, fade};
+}
+
+std::string factor_text(const Criterion& criterion, double k) {
+  return fmt::format("{:.4g}{}", k, criterion.fade ? " (ke)" : "");
 }
 
 Polarisation parse_polarisation(std::string_view text) {

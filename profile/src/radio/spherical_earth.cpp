@@ -1,9 +1,10 @@
 // P.452-17 sections 4.2.2 and 4.2.2.1; equation numbers are those of that recommendation.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <profile/diffraction.hpp>
+
+#include "radio/smooth_path.hpp"
 
 namespace itin::profile {
 
@@ -44,10 +45,6 @@ double height_gain(double y, double beta, double k) {
   return std::max(gain, 2 + 20 * std::log10(k));
 }
 
-struct SmoothPath {
-  double distance_km, from_m, to_m;
-};
-
 /// Equation (37) over one kind of terrain.
 double first_term(const Terrain& terrain, const SmoothPath& smooth, double radius_km, const RadioPath& path) {
   const double k = admittance(terrain, radius_km, path), beta = surface_parameter(k);
@@ -70,12 +67,8 @@ struct SmoothClearance {
 
 /// Equations (24) to (26): the least clearance of a path within the horizon over a smooth Earth.
 SmoothClearance smooth_clearance(const SmoothPath& s, const RadioPath& path) {
-  const double sum = s.from_m + s.to_m, radius = path.effective_earth_km, d = s.distance_km;
-  const double c = (s.from_m - s.to_m) / sum, m = 250 * d * d / (radius * sum);
-  const double cosine = std::clamp(1.5 * c * std::sqrt(3 * m / std::pow(m + 1, 3)), -1.0, 1.0);
-  const double b =
-      m == 0 ? c : 2 * std::sqrt((m + 1) / (3 * m)) * std::cos(std::numbers::pi / 3 + std::acos(cosine) / 3);
-  const double d1 = d / 2 * (1 + b), d2 = d - d1;
+  const double radius = path.effective_earth_km, d = s.distance_km;
+  const double d1 = reflection_km(s, radius), d2 = d - d1;
   const double least = ((s.from_m - 500 * d1 * d1 / radius) * d2 + (s.to_m - 500 * d2 * d2 / radius) * d1) / d;
   return {least, 17.456 * std::sqrt(d1 * d2 * wavelength_m(path.frequency_ghz) / d)};
 }

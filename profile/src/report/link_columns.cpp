@@ -21,16 +21,24 @@ Value number(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? Value(*value) : Value();
 }
 
-std::optional<Geodesic> geodesic_of(const Link& link, const CoordinateTransform& to_geographic) {
+/// Fills in what needs longitude and latitude.
+void add_directions(LinkRow& row, const LinkQuery& query, const CoordinateTransform& to_geographic) {
+  if (row.found() == nullptr) return;
+  const Link& link = *row.link;
+  const EndGrounds& ground = row.result->stands_on;
   try {
-    return geodesic(to_geographic(link.from), to_geographic(link.to));
+    const Point2 from = to_geographic(link.from), to = to_geographic(link.to);
+    row.geodesic = geodesic(from, to);
+    row.from_declination_deg = declination_on(query.day, from, ground.from_m + link.from_height);
+    row.to_declination_deg = declination_on(query.day, to, ground.to_m + link.to_height);
   } catch (const InputError&) {
-    return std::nullopt;  // an end is no place on the ground
+    return;  // an end is no place on the ground
   }
 }
 
-bool same(const Criterion& a, const Criterion& b) {
-  return a.k == b.k && a.fraction == b.fraction;
+const char* name_of_path(const Reflection& reflection) {
+  if (!reflection.ground_m) return "unknown";
+  return reflection.screen ? "screened" : "clear";
 }
 
 /// Those of all links, in the order in which they come.
@@ -39,8 +47,7 @@ std::vector<Criterion> criteria_of(const std::vector<LinkRow>& rows) {
   for (const LinkRow& row : rows) {
     if (row.found() == nullptr) continue;
     for (const CriterionResult& c : row.found()->criteria)
-      if (std::none_of(all.begin(), all.end(), [&](const Criterion& other) { return same(c.criterion, other); }))
-        all.push_back(c.criterion);
+      if (std::find(all.begin(), all.end(), c.criterion) == all.end()) all.push_back(c.criterion);
   }
   return all;
 }
@@ -148,6 +155,18 @@ class ColumnList {
       of_geodesic(there ? "azimuth_true1_deg" : "azimuth_true2_deg",
                   there ? &Geodesic::azimuth_deg : &Geodesic::back_azimuth_deg);
     }
+    if (survey_.query.day) add_magnetic();
+  }
+  void add_magnetic() {
+    const auto of_end = [&](const char* azimuth, const char* declination, double Geodesic::*from_true,
+                            std::optional<double> LinkRow::*of_north) {
+      add(azimuth, kNumber, [from_true, of_north](const LinkRow& r) {
+        return r.geodesic ? number(magnetic_azimuth_deg((*r.geodesic).*from_true, r.*of_north)) : Value();
+      });
+      add(declination, kNumber, [of_north](const LinkRow& r) { return number(r.*of_north); });
+    };
+    of_end("azimuth_magnetic1_deg", "declination1_deg", &Geodesic::azimuth_deg, &LinkRow::from_declination_deg);
+    of_end("azimuth_magnetic2_deg", "declination2_deg", &Geodesic::back_azimuth_deg, &LinkRow::to_declination_deg);
   }
   void add_radio() {
     const auto of_radio = [&](const char* name, VectorLayer::Type type, std::function<Value(const RadioPath&)> value) {
@@ -161,12 +180,20 @@ class ColumnList {
     of_result("fresnel_fraction_at_m",
               [](const LinkResult& r) { return r.found->fresnel ? Value(r.found->fresnel->distance_m) : Value(); });
     of_result("free_space_db", [](const LinkResult& r) { return r.losses ? Value(r.losses->free_space_db) : Value(); });
+    of_result("reflection_m",
+              [](const LinkResult& r) { return r.reflection ? Value(r.reflection->distance_m) : Value(); });
+    of_result(
+        "reflected_path",
+        [](const LinkResult& r) { return r.reflection ? Value(std::string(name_of_path(*r.reflection))) : Value(); },
+        kText);
   }
 
-  static std::string name_of_criterion(const Criterion& c) { return fmt::format("k{:.4g}_{:g}_f1", c.k, c.fraction); }
+  static std::string name_of_criterion(const Criterion& c) {
+    return fmt::format("k{}_{:g}_f1", c.fade ? "e" : fmt::format("{:.4g}", c.k), c.fraction);
+  }
   static const CriterionResult* result_of(const LinkRow& row, const Criterion& wanted) {
     for (const CriterionResult& c : row.found()->criteria)
-      if (same(c.criterion, wanted)) return &c;
+      if (c.criterion == wanted) return &c;
     return nullptr;
   }
   void add_criterion(const Criterion& criterion) {
@@ -242,8 +269,8 @@ std::vector<LinkRow> link_rows(const LinkSurvey& survey) {
     }
     const Link& link = survey.table.links[i];
     const LinkResult& result = survey.results[i];
-    rows.push_back({link.id, &link, &result, result.message, &link.others,
-                    result.found ? geodesic_of(link, to_geographic) : std::nullopt});
+    rows.push_back({link.id, &link, &result, result.message, &link.others, {}});
+    add_directions(rows.back(), survey.query, to_geographic);
     ++i;
   }
   return rows;

@@ -4,13 +4,12 @@
 
 #include <fmt/format.h>
 
-#include <itin/coordinates.hpp>
 #include <itin/csv_cell.hpp>
 #include <itin/error.hpp>
 #include <itin/file_ending.hpp>
-#include <itin/markup.hpp>
 #include <itin/output_file.hpp>
 
+#include "report/kml.hpp"
 #include "report/link_columns.hpp"
 
 namespace itin::profile {
@@ -57,35 +56,19 @@ VectorLayer links_layer(const std::vector<LinkRow>& rows, const std::vector<Link
   return layer;
 }
 
-constexpr std::pair<const char*, const char*> kVerdictStyles[] = {
-    {"visible", "ff20a020"}, {"hidden", "ff2020d0"}, {"undecided", "ff20a0e0"}, {"error", "ff909090"}};
-
 std::string links_kml(const LinkSurvey& survey, const std::vector<LinkRow>& rows,
                       const std::vector<LinkColumn>& columns) {
-  const CoordinateTransform to_geographic(survey.crs_wkt, "EPSG:4326");
-  std::string kml = fmt::format(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<kml xmlns=\"http://www.opengis.net/kml/2.2\">\n<Document>\n"
-      "<name>{}</name>\n",
-      escaped_markup(survey.title));
-  for (const auto& [name, colour] : kVerdictStyles)
-    kml += fmt::format("<Style id=\"{}\"><LineStyle><color>{}</color><width>3</width></LineStyle></Style>\n", name,
-                       colour);
+  Kml kml(survey.crs_wkt, survey.title);
+  for (const SightVerdict verdict : {SightVerdict::kVisible, SightVerdict::kHidden, SightVerdict::kUndecided})
+    kml.style(name_of(verdict), verdict_colour(verdict), 3);
+  kml.style("error", "ff909090", 3);
   for (const LinkRow& row : rows) {
     if (row.found() == nullptr) continue;
-    kml += fmt::format("<Placemark><name>{}</name><styleUrl>#{}</styleUrl><ExtendedData>", escaped_markup(row.id),
-                       verdict_of(row));
-    for (const LinkColumn& column : columns)
-      kml += fmt::format("<Data name=\"{}\"><value>{}</value></Data>", escaped_markup(column.name),
-                         escaped_markup(as_text(column.value(row))));
-    kml += "</ExtendedData><LineString><altitudeMode>absolute</altitudeMode><coordinates>";
-    for (const Point3& p : line_of(row)) {
-      const Point2 lon_lat = to_geographic({p.x, p.y});
-      kml += fmt::format("{:.8f},{:.8f},{:.2f} ", lon_lat.x, lon_lat.y, p.z);
-    }
-    kml.back() = '<';
-    kml += "/coordinates></LineString></Placemark>\n";
+    Kml::Data data;
+    for (const LinkColumn& column : columns) data.emplace_back(column.name, as_text(column.value(row)));
+    kml.line(row.id, verdict_of(row), line_of(row), data);
   }
-  return kml + "</Document>\n</kml>\n";
+  return kml.finish();
 }
 
 }  // namespace
@@ -97,14 +80,22 @@ void require_link_format(const std::string& path) {
       fmt::format("'{}': links are written as a table, .csv, as lines, .gpkg or .kml, or as a page, .pdf", path));
 }
 
-void write_links(const LinkSurvey& survey, const std::string& path, bool overwrite) {
-  require_link_format(path);
+void write_links(const LinkSurvey& survey, const std::vector<std::string>& paths, bool overwrite) {
+  for (const std::string& path : paths) require_link_format(path);
   const std::vector<LinkRow> rows = link_rows(survey);
-  const std::string ending = ending_of(path);
-  if (ending == ".pdf") return write_file(path, link_summary(survey, rows), overwrite);
   const std::vector<LinkColumn> columns = link_columns(survey, rows);
-  if (ending == ".gpkg") return write_geopackage(path, survey.crs_wkt, {links_layer(rows, columns)}, overwrite);
-  write_file(path, ending == ".csv" ? links_csv(rows, columns) : links_kml(survey, rows, columns), overwrite);
+  for (const std::string& path : paths) {
+    const std::string ending = ending_of(path);
+    if (ending == ".gpkg") {
+      write_geopackage(path, survey.crs_wkt, {links_layer(rows, columns)}, overwrite);
+    } else {
+      write_file(path,
+                 ending == ".pdf"   ? link_summary(survey, rows)
+                 : ending == ".csv" ? links_csv(rows, columns)
+                                    : links_kml(survey, rows, columns),
+                 overwrite);
+    }
+  }
 }
 
 }  // namespace itin::profile

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <profile/radio_text.hpp>
 #include <profile/report_text.hpp>
 
 #include "report/link_columns.hpp"
@@ -57,9 +58,9 @@ std::vector<std::string> cells_of(const LinkRow& row) {
           found.clearance_m ? fmt::format("{:.2f}", *found.clearance_m) : "",
           found.fresnel ? fmt::format("{:.2f}", found.fresnel->fraction) : "",
           row.result->gap_m > 0 ? kilometres(row.result->gap_m) : "",
-          c == nullptr
-              ? ""
-              : fmt::format("K = {:.4g}, {:g} F1: {}", c->criterion.k, c->criterion.fraction, outcome_text(*c))};
+          c == nullptr ? ""
+                       : fmt::format("K = {}, {:g} F1: {}", factor_text(c->criterion, c->k), c->criterion.fraction,
+                                     outcome_text(*c))};
 }
 
 std::string counts_text(const std::vector<LinkRow>& rows) {
@@ -93,14 +94,14 @@ std::string link_summary(const LinkSurvey& survey, const std::vector<LinkRow>& r
   std::stable_sort(order.begin(), order.end(),
                    [](const LinkRow* a, const LinkRow* b) { return urgency(*a) < urgency(*b); });
   PageColumn column(drawing, kMargin, kWidth - 2 * kMargin, top);
-  Table table{"Links, those that want attention first",
-              {"id", "ends", "grid km", "geodesic km", "verdict", "clearance m", "of F1", "no data km",
-               "criterion that governs"},
+  Table table{"Links, the most urgent first",
+              {"id", "ends", "grid km", "geodesic km", "verdict", "clearance m", "clearance / F1", "no data km",
+               "governing criterion"},
               {},
-              "Clearance: at the critical point; of F1: the least over the line."};
+              "Clearance is that at the critical point, clearance / F1 the least over the line."};
   const std::size_t fitting = std::min(rows.size(), column.rows_that_fit(table, bottom - 30));
   for (std::size_t i = 0; i < fitting; ++i) table.rows.push_back(cells_of(*order[i]));
-  if (fitting < rows.size()) table.note += fmt::format(" {} more are in the table.", rows.size() - fitting);
+  if (fitting < rows.size()) table.note += fmt::format(" The table has {} more.", rows.size() - fitting);
   column.set(table);
   draw_facts(drawing, facts, bottom + 12);
   return drawing.finish();

@@ -2,8 +2,11 @@
 #include <optional>
 
 #include <itin/coordinates.hpp>
+#include <itin/magnetic_north.hpp>
 #include <profile/documents.hpp>
 #include <profile/fresnel.hpp>
+
+#include "lines/path_cover.hpp"
 
 namespace itin::profile {
 
@@ -66,7 +69,8 @@ Document obstructions_document(const LosReport& report, const LineFindings& foun
 Document criteria_document(const LineFindings& found) {
   Document list = Document::array();
   for (const CriterionResult& c : found.criteria) {
-    list.push_back({{"k", c.criterion.k},
+    list.push_back({{"k", c.k},
+                    {"fade", c.criterion.fade},
                     {"fraction", c.criterion.fraction},
                     {"verdict", name_of(c.verdict)},
                     {"clearance_m", number_or_null(c.clearance_m)},
@@ -93,6 +97,31 @@ Document heights_document(const LineFindings& found) {
                     {"curve", curve}});
   }
   return list;
+}
+
+Document edge_document(const DiffractionEdge& edge) {
+  return {{"distance_m", edge.distance_m}, {"elevation_m", edge.elevation_m}, {"v", edge.v}, {"loss_db", edge.loss_db}};
+}
+
+Document edges_document(const PathLosses& losses) {
+  Document deygout = Document::array();
+  for (const DiffractionEdge& edge : losses.deygout) deygout.push_back(edge_document(edge));
+  return {{"bullington", losses.bullington ? edge_document(*losses.bullington) : Document(nullptr)},
+          {"deygout", deygout}};
+}
+
+Document reflection_document(const LosReport& report) {
+  if (!report.reflection) return nullptr;
+  const Reflection& r = *report.reflection;
+  Document screen = place_document(report, r.screen);
+  if (r.screen) screen["depth_m"] = r.screen_depth_m;
+  return {{"distance_m", r.distance_m},
+          {"ground_m", number_or_null(r.ground_m)},
+          {"theme", cause(report, r.theme)},
+          {"grazing_deg", r.grazing_deg},
+          {"longer_by_m", r.longer_by_m},
+          {"clear", r.ground_m ? Document(!r.screen) : Document(nullptr)},
+          {"screen", screen}};
 }
 
 Document radio_document(const LosReport& report) {
@@ -126,7 +155,17 @@ Document radio_document(const LosReport& report) {
                         {"ldsph", losses.ldsph_db},
                         {"ld", losses.ld_db},
                         {"deygout", losses.deygout_db}};
+  radio["edges"] = edges_document(losses);
+  radio["reflection"] = reflection_document(report);
   return radio;
+}
+
+/// Metres by theme.
+Document cover_document(const LosReport& report) {
+  Document cover = Document::array();
+  for (const ThemeLength& part : path_cover(report.profile))
+    cover.push_back({{"theme", cause(report, part.theme)}, {"length_m", part.length_m}});
+  return cover;
 }
 
 Document visible_document(const LosReport& report) {
@@ -162,7 +201,19 @@ Document end_document(const LosEnd& end) {
           {"elevation_m", end.elevation_m},
           {"azimuth_grid_deg", of_site([](const LosEnd::Site& s) { return s.azimuth_grid_deg; })},
           {"azimuth_true_deg", of_site([](const LosEnd::Site& s) { return s.azimuth_true_deg; })},
+          {"azimuth_magnetic_deg", number_or_null(end.site ? end.site->azimuth_magnetic_deg : std::nullopt)},
+          {"declination_deg", number_or_null(end.site ? end.site->declination_deg : std::nullopt)},
           {"elevation_angle_deg", end.elevation_angle_deg}};
+}
+
+/// The model of the declinations, or null where there are none.
+Document magnetic_document(const LosReport& report) {
+  const auto& day = report.query.day;
+  if (!report.from.site || !day || !has_declination(*day)) return nullptr;
+  return {{"model", kMagneticModel},
+          {"day", iso_day_text(*day)},
+          {"valid_from", kMagneticFrom},
+          {"valid_until", kMagneticUntil}};
 }
 
 }  // namespace
@@ -173,6 +224,7 @@ Document los_document(const LosReport& report) {
   document["refraction"] = earth_document(report.query.earth);
   document["from"] = end_document(report.from);
   document["to"] = end_document(report.to);
+  document["magnetic_north"] = magnetic_document(report);
   document["distance_m"] = report.profile.length_m;
   document["geodesic_distance_m"] = number_or_null(report.geodesic_m);
   document.update(findings_document(report, report));
@@ -180,6 +232,7 @@ Document los_document(const LosReport& report) {
     document["bare"] = findings_document(report, *report.bare);
     if (report.bare->fresnel) document["bare"]["fresnel_fraction"] = report.bare->fresnel->fraction;
   }
+  document["cover"] = cover_document(report);
   if (report.losses) document["radio"] = radio_document(report);
   if (report.visible) document["visible_height"] = visible_document(report);
   document["gaps"] = gaps_document(report.profile);

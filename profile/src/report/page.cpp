@@ -3,16 +3,41 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
 namespace itin::profile {
 
 namespace {
 
-constexpr double kFactName = 62, kTitleRow = 16, kRow = 11.5, kNoteRow = 10;
+constexpr double kFactName = 76, kTitleRow = 16, kRow = 11.5, kNoteRow = 10;
 
 const Lettering kHeadline{10, kReportInk, Align::kLeft, false, 0}, kNote{7.5, kReportGrey, Align::kLeft, false, 0},
     kFact{8, kReportGrey, Align::kLeft, false, 0};
 
 }  // namespace
+
+Pages::Pages(int count) : drawing_(Drawing::Format::kPdf, kWidth, kHeight), count_(count) {
+  number();
+}
+
+void Pages::turn() {
+  drawing_.new_page();
+  ++page_;
+  number();
+}
+
+void Pages::number() {
+  drawing_.text({kWidth - kMargin, kHeight - 16}, fmt::format("Page {} of {}", page_, count_),
+                {7.5, kReportGrey, Align::kRight, false, 0});
+}
+
+std::string numbered_pdf(const std::function<void(Pages&)>& draw) {
+  Pages counted(0);
+  draw(counted);
+  Pages pages(counted.count());
+  draw(pages);
+  return pages.drawing().finish();
+}
 
 void draw_title(Drawing& drawing, const std::string& title) {
   Lettering lettering{16, kReportInk, Align::kLeft, true, 0};

@@ -1,6 +1,7 @@
 // The parts of a printed page: title, headline, columns of tables, facts.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,27 @@ namespace itin::profile {
 inline constexpr double kWidth = 842, kHeight = 595, kMargin = 36;
 
 inline const Lettering kPlain{8.5, kReportInk, Align::kLeft, false, 0}, kBold{8.5, kReportInk, Align::kLeft, true, 0};
+
+/// The pages of a PDF, each with its number: "Page 1 of 3".
+class Pages {
+ public:
+  /// `count`: how many there will be.
+  explicit Pages(int count);
+
+  Drawing& drawing() { return drawing_; }
+  /// Begins another one.
+  void turn();
+  /// So far.
+  int count() const { return page_; }
+
+ private:
+  void number();
+
+  Drawing drawing_;
+  int page_ = 1, count_;
+};
+/// The bytes of the PDF that `draw` draws; it is called twice, first to count the pages.
+std::string numbered_pdf(const std::function<void(Pages&)>& draw);
 
 /// Smaller where it would not fit, and cut where it must be.
 void draw_title(Drawing& drawing, const std::string& title);

@@ -1,10 +1,13 @@
-// The drawing as a page: SVG and PNG have one, the PDF adds tables and the trade-off chart.
+// The drawing as a page: SVG and PNG have one, the PDF adds that of the worst fade, tables, the trade-off chart, and
+// the profile as a table.
 #include <algorithm>
 
 #include <fmt/format.h>
 
+#include "report/fade.hpp"
 #include "report/formats.hpp"
 #include "report/page.hpp"
+#include "report/path_tables.hpp"
 #include "report/sight_chart.hpp"
 #include "report/tables.hpp"
 #include "report/trade_off_chart.hpp"
@@ -35,16 +38,28 @@ void draw_first_page(Drawing& drawing, const LosReport& report) {
   draw_facts(drawing, facts, kHeight - kMargin - facts_height + 12);
 }
 
+constexpr double kBelowTitle = 62;
+
+/// The drawing over the Earth of the worst fade that a criterion asks about.
+void draw_fade_page(Pages& pages, const LosReport& report) {
+  const CriterionResult* fade = worst_fade(report);
+  if (fade == nullptr) return;
+  pages.turn();
+  Drawing& drawing = pages.drawing();
+  draw_title(drawing, report.title);
+  const double top = draw_headline(drawing, fade_line(*fade)) + 12;
+  draw_sight_chart(drawing, {kMargin, top, kWidth - kMargin, kHeight - kMargin}, over_earth_of(report, *fade));
+}
+
 /// Two columns of tables per page, and as many pages as they take.
 class TablePages {
  public:
-  TablePages(Drawing& drawing, const LosReport& report) : drawing_(drawing), report_(report) { begin_page(); }
+  TablePages(Pages& pages, const LosReport& report) : pages_(pages), drawing_(pages.drawing()), report_(report) {
+    begin_page();
+  }
 
   void draw() {
-    for (const Table& table : result_tables(report_)) {
-      const bool losses = table.title == "Losses" || table.title == "Path";
-      place(table, losses ? 1 : 0).set(table);
-    }
+    for (const Table& table : result_tables(report_)) place(table, table.second_column ? 1 : 0).set(table);
     if (!has_trade_off(report_)) return;
     if (columns_[shorter()].y() + kLeastChart > kHeight - kMargin) begin_page();
     const std::size_t i = shorter();
@@ -53,16 +68,16 @@ class TablePages {
   }
 
  private:
-  static constexpr double kHalf = (kWidth - 3 * kMargin) / 2, kTop = 62, kLeastChart = 200;
+  static constexpr double kHalf = (kWidth - 3 * kMargin) / 2, kLeastChart = 200;
 
   static double left_of(std::size_t i) { return i == 0 ? kMargin : 2 * kMargin + kHalf; }
   std::size_t shorter() const { return columns_[0].y() < columns_[1].y() ? 0 : 1; }
 
   void begin_page() {
-    drawing_.new_page();
+    pages_.turn();
     draw_title(drawing_, report_.title);
     columns_.clear();
-    for (const std::size_t i : {0U, 1U}) columns_.emplace_back(drawing_, left_of(i), kHalf, kTop);
+    for (const std::size_t i : {0U, 1U}) columns_.emplace_back(drawing_, left_of(i), kHalf, kBelowTitle);
   }
 
   PageColumn& place(const Table& table, std::size_t preferred) {
@@ -73,18 +88,43 @@ class TablePages {
     return columns_[preferred];
   }
 
+  Pages& pages_;
   Drawing& drawing_;
   const LosReport& report_;
   std::vector<PageColumn> columns_;
 };
 
+void draw_profile_pages(Pages& pages, const LosReport& report) {
+  const std::optional<Table> whole = profile_table(report);
+  if (!whole) return;
+  for (auto row = whole->rows.begin(); row != whole->rows.end();) {
+    pages.turn();
+    draw_title(pages.drawing(), report.title);
+    PageColumn column(pages.drawing(), kMargin, kWidth - 2 * kMargin, kBelowTitle);
+    const bool first = row == whole->rows.begin();
+    Table part{whole->title + (first ? "" : ", continued"), whole->header, {}, whole->note};
+    const auto rest = static_cast<std::size_t>(whole->rows.end() - row);
+    const auto end = row + static_cast<std::ptrdiff_t>(std::min(rest, column.rows_that_fit(part, kHeight - kMargin)));
+    part.rows.assign(row, end);
+    column.set(part);
+    row = end;
+  }
+}
+
 }  // namespace
 
 std::string report_drawing(const LosReport& report, Drawing::Format format) {
-  Drawing drawing(format, kWidth, kHeight);
-  draw_first_page(drawing, report);
-  if (format == Drawing::Format::kPdf) TablePages(drawing, report).draw();
-  return drawing.finish();
+  if (format != Drawing::Format::kPdf) {
+    Drawing drawing(format, kWidth, kHeight);
+    draw_first_page(drawing, report);
+    return drawing.finish();
+  }
+  return numbered_pdf([&](Pages& pages) {
+    draw_first_page(pages.drawing(), report);
+    draw_fade_page(pages, report);
+    TablePages(pages, report).draw();
+    draw_profile_pages(pages, report);
+  });
 }
 
 }  // namespace itin::profile

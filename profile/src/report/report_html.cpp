@@ -6,7 +6,9 @@
 #include <itin/base64.hpp>
 #include <itin/markup.hpp>
 
+#include "report/fade.hpp"
 #include "report/formats.hpp"
+#include "report/path_tables.hpp"
 #include "report/sight_chart.hpp"
 #include "report/tables.hpp"
 #include "report/trade_off_chart.hpp"
@@ -53,12 +55,19 @@ std::string report_html(const LosReport& report) {
       escaped_markup(report.title), kStyle, escaped_markup(verdict_line(report)));
   html += image(842, 420, "Sight line over the terrain",
                 [&](Drawing& drawing, const Box& box) { draw_sight_chart(drawing, box, report); });
+  if (const CriterionResult* fade = worst_fade(report)) {
+    const LosReport there = over_earth_of(report, *fade);
+    html += fmt::format("<p>{}</p>\n", escaped_markup(fade_line(*fade)));
+    html += image(842, 420, "Sight line over the Earth of the worst fade",
+                  [&](Drawing& drawing, const Box& box) { draw_sight_chart(drawing, box, there); });
+  }
   html += html_table(ends_table(report));
   for (const Table& table : result_tables(report)) html += html_table(table);
   if (has_trade_off(report)) {
     html += image(620, 380, "Heights at A against B",
                   [&](Drawing& drawing, const Box& box) { draw_trade_off_chart(drawing, box, report); });
   }
+  if (const std::optional<Table> profile = profile_table(report)) html += html_table(*profile);
   return html + html_table(facts_table(report)) + "</body>\n</html>\n";
 }
 

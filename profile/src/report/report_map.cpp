@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include <itin/coordinates.hpp>
-#include <itin/markup.hpp>
+#include <profile/report_text.hpp>
 
 #include "report/formats.hpp"
+#include "report/kml.hpp"
 #include "report/tables.hpp"
 
 namespace itin::profile {
@@ -76,58 +76,44 @@ class Path {
   Point2 from_, to_;
 };
 
-class Kml {
- public:
-  explicit Kml(const LosReport& report) : to_geographic_(report.crs_wkt, "EPSG:4326") {
-    text_ = fmt::format(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<kml xmlns=\"http://www.opengis.net/kml/2.2\">\n<Document>\n"
-        "<name>{}</name>\n<description>{}</description>\n",
-        escaped_markup(report.title), escaped_markup(verdict_line(report)));
-    constexpr const char* kVerdictColours[] = {"ff20a020", "ff2020d0", "ff20a0e0"};  // green, red, amber
-    style("ray", kVerdictColours[static_cast<int>(report.verdict)], 3);
-    style("ground", "ff335577", 2);
-    style("cut", "ff0000ff", 5);
-    style("zone", "66e08040", 1);
-    style("gap", "ff909090", 5);
-  }
-  void point(const std::string& name, const Point3& p) {
-    open(name, "");
-    text_ += "<Point><altitudeMode>absolute</altitudeMode><coordinates>" + coordinates({p}) +
-             "</coordinates></Point></Placemark>\n";
-  }
-  void line(const std::string& name, const std::string& style_id, const std::vector<Point3>& points) {
-    open(name, style_id);
-    text_ += "<LineString><altitudeMode>absolute</altitudeMode><coordinates>" + coordinates(points) +
-             "</coordinates></LineString></Placemark>\n";
-  }
-  void open_folder(const std::string& name) { text_ += "<Folder><name>" + escaped_markup(name) + "</name>\n"; }
-  void close_folder() { text_ += "</Folder>\n"; }
-  std::string finish() { return text_ + "</Document>\n</kml>\n"; }
-
- private:
-  void style(const char* id, const char* colour, int width) {
-    text_ += fmt::format("<Style id=\"{}\"><LineStyle><color>{}</color><width>{}</width></LineStyle></Style>\n", id,
-                         colour, width);
-  }
-  void open(const std::string& name, const std::string& style_id) {
-    text_ += "<Placemark><name>" + escaped_markup(name) + "</name>";
-    if (!style_id.empty()) text_ += "<styleUrl>#" + style_id + "</styleUrl>";
-  }
-  std::string coordinates(const std::vector<Point3>& points) {
-    std::string text;
-    for (const Point3& p : points) {
-      const Point2 lon_lat = to_geographic_({p.x, p.y});
-      text += fmt::format("{}{:.8f},{:.8f},{:.2f}", text.empty() ? "" : " ", lon_lat.x, lon_lat.y, p.z);
-    }
-    return text;
-  }
-
-  CoordinateTransform to_geographic_;
-  std::string text_;
-};
+Kml kml_of(const LosReport& report) {
+  Kml kml(report.crs_wkt, report.title, verdict_line(report));
+  kml.style("ray", verdict_colour(report.verdict), 3);
+  kml.style("ground", "ff335577", 2);
+  kml.style("cut", "ff0000ff", 5);
+  kml.style("zone", "66e08040", 1);
+  kml.style("gap", "ff909090", 5);
+  return kml;
+}
 
 Point3 place_of(const ProfilePoint& p) {
   return {p.x, p.y, p.ground_m};
+}
+
+/// A point that the losses or the reflection name.
+struct PathPoint {
+  const char* what;
+  std::string name;
+  double distance_m;
+  Point3 place;
+};
+/// The point of reflection, and the edges of the losses.
+std::vector<PathPoint> path_points(const LosReport& report) {
+  std::vector<PathPoint> points;
+  const auto add = [&](const char* what, std::string name, double distance_m, double elevation_m) {
+    const Point2 p = position_at(report, distance_m);
+    points.push_back({what, std::move(name), distance_m, {p.x, p.y, elevation_m}});
+  };
+  const std::optional<Reflection>& r = report.reflection;
+  if (r && r->ground_m)
+    add("reflection", "Reflection point, reflected path " + screen_text(report), r->distance_m, *r->ground_m);
+  if (!report.losses) return points;
+  const auto add_edge = [&](const char* what, const char* name, const DiffractionEdge& e) {
+    add(what, fmt::format("{}, {:.2f} dB", name, e.loss_db), e.distance_m, e.elevation_m);
+  };
+  if (report.losses->bullington) add_edge("bullington", "Bullington's edge", *report.losses->bullington);
+  for (const DiffractionEdge& e : report.losses->deygout) add_edge("deygout", "Deygout's edge", e);
+  return points;
 }
 
 std::string gap_name(double from_m, double to_m) {
@@ -143,10 +129,11 @@ std::string obstruction_name(const LosReport& report, const Obstruction& o) {
 std::string report_kml(const LosReport& report) {
   const Path path(report);
   const double length = report.profile.length_m;
-  Kml kml(report);
+  Kml kml = kml_of(report);
   kml.point(fmt::format("A, {:g} m", report.query.from_height_m), path.ray(0));
   kml.point(fmt::format("B, {:g} m", report.query.to_height_m), path.ray(length));
   if (report.critical) kml.point("Critical point, " + critical_line(report), place_of(*report.critical));
+  for (const PathPoint& p : path_points(report)) kml.point(p.name, p.place);
   kml.line("Ray", "ray", path.ray_line());
   kml.line("Ground", "ground", path.ground_line());
   for (const Obstruction& o : report.obstructions) {
@@ -191,6 +178,8 @@ std::vector<VectorLayer> report_layers(const LosReport& report) {
       {{path.ray(report.profile.length_m)}, {std::string("to"), report.profile.length_m, report.query.to_height_m}});
   if (report.critical)
     ends.features.push_back({{place_of(*report.critical)}, {std::string("critical"), report.critical->distance_m, {}}});
+  for (const PathPoint& p : path_points(report))
+    ends.features.push_back({{p.place}, {std::string(p.what), p.distance_m, {}}});
   VectorLayer ground{"ground", Shape::kLines, {{"points", kWhole}}, {}};
   if (report.profile.points.size() > 1) {
     ground.features.push_back({path.ground_line(), {static_cast<std::int64_t>(report.profile.points.size())}});

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "drawing/theme_colour.hpp"
+#include "report/fade.hpp"
 #include "report/tables.hpp"
 
 namespace itin::profile {
@@ -21,6 +22,9 @@ constexpr Colour kChartGround{0.80, 0.74, 0.62, 1}, kGroundLine{0.42, 0.33, 0.20
     kWorst{0.75, 0.35, 0.05, 1}, kCut{0.80, 0.10, 0.10, 0.45}, kMarker{0.75, 0.05, 0.05, 1}, kNoData{0.9, 0.9, 0.9, 1},
     kWhite{1, 1, 1, 0.85}, kFeatureLine{0.30, 0.20, 0.20, 1}, kChartSeen{0.00, 0.62, 0.45, 1},
     kUnseen{0.62, 0.62, 0.62, 1};
+
+const Stroke kBullingtonLine{{0.45, 0.15, 0.55, 1}, 0.9, {5, 2, 1, 2}}, kDeygoutMark{{0.45, 0.15, 0.55, 1}, 2.2, {}},
+    kReflectedPath{{0.10, 0.45, 0.30, 1}, 0.8, {3, 2}};
 
 /// Everything drawn, in metres over the chord between the ends' verticals.
 class SightChart {
@@ -47,6 +51,8 @@ class SightChart {
     draw_zones();
     draw_cuts();
     draw_lines();
+    draw_edges();
+    draw_reflection();
     drawing_.unclip();
     draw_axes();
     draw_object();
@@ -62,12 +68,11 @@ class SightChart {
   Point2 at(double d, double height) const { return frame_.at(d, height); }
   Point2 at(const ProfilePoint& p) const { return at(p.distance_m, p.ground_m + bulge(p.distance_m)); }
 
-  /// The criterion with the largest bulge, if its Earth is more curved than the drawing's.
   void find_worst() {
-    for (const Criterion& c : report_.query.criteria) {
-      const double drop = 1 / (2 * c.k * report_.query.earth.radius);
-      if (drop > std::max(drop_, worst_drop_)) worst_drop_ = drop, worst_k_ = c.k;
-    }
+    const CriterionResult* fade = worst_fade(report_);
+    if (fade == nullptr) return;
+    worst_k_ = fade->k;
+    worst_drop_ = 1 / (2 * worst_k_ * report_.query.earth.radius);
   }
 
   std::pair<double, double> range() const {
@@ -79,6 +84,7 @@ class SightChart {
       high = std::max({high, p.ground_m + curve, ray(d) + radius(d)});
     }
     if (report_.query.object) high = std::max(high, report_.stands_on.to_m + report_.query.object->tip_m);
+    if (const auto edge = bullington()) high = std::max(high, edge->elevation_m + bulge(edge->distance_m));
     const double span = std::max({high - low, length_ / 200, 1.0});
     return {low - 0.10 * span, high + 0.22 * span};
   }
@@ -195,6 +201,33 @@ class SightChart {
     drawing_.polyline(sight, {kRay, 1.3, {}});
   }
 
+  std::optional<DiffractionEdge> bullington() const {
+    return report_.losses ? report_.losses->bullington : std::nullopt;
+  }
+  Point2 top_of(const DiffractionEdge& edge) const {
+    return at(edge.distance_m, edge.elevation_m + bulge(edge.distance_m));
+  }
+  /// A line from antenna to antenna by way of a point.
+  void draw_by_way_of(Point2 point, const Stroke& stroke) {
+    const Point2 line[] = {at(0, report_.antennas.from_m), point, at(length_, report_.antennas.to_m)};
+    drawing_.polyline(line, stroke);
+  }
+  void draw_edges() {
+    if (!report_.losses) return;
+    if (const auto edge = bullington()) draw_by_way_of(top_of(*edge), kBullingtonLine);
+    for (const DiffractionEdge& edge : report_.losses->deygout) {
+      const Point2 top = top_of(edge), mark[] = {{top.x, top.y - 9}, {top.x, top.y + 9}};
+      drawing_.polyline(mark, kDeygoutMark);
+    }
+  }
+  void draw_reflection() {
+    if (!report_.reflection || !report_.reflection->ground_m) return;
+    const double d = report_.reflection->distance_m;
+    const Point2 point = at(d, *report_.reflection->ground_m + bulge(d));
+    draw_by_way_of(point, kReflectedPath);
+    drawing_.circle(point, 2.4, kReflectedPath.colour);
+  }
+
   void draw_axes() {
     const bool km = length_ >= 2000;
     frame_.x_title = km ? "Distance from A, km" : "Distance from A, m";
@@ -285,12 +318,17 @@ class SightChart {
       items.push_back({"0.6 F1", {kZoneLine, 0.6, {3, 2}}, false});
     }
     if (worst_k_ > 0) items.push_back({fmt::format("Terrain at K = {:.4g}", worst_k_), {kWorst, 0.9, {4, 2}}, false});
+    if (bullington()) items.push_back({"Bullington's edge", kBullingtonLine, false});
+    if (report_.losses && !report_.losses->deygout.empty()) items.push_back({"Deygout's edges", kDeygoutMark, false});
+    if (report_.reflection && report_.reflection->ground_m)
+      items.push_back(
+          {"Reflected path, " + std::string(report_.reflection->screen ? "screened" : "clear"), kReflectedPath, false});
     for (const std::uint16_t theme : themes_)
       items.push_back({cause_of(report_, theme), {theme_colour(theme), 1, {}}, true});
     if (!report_.obstructions.empty()) items.push_back({"Above the ray", {kCut, 1, {}}, true});
     if (report_.visible) {
-      items.push_back({"Of the object at B: seen", {kChartSeen, 1, {}}, true});
-      items.push_back({"hidden", {kUnseen, 1, {}}, true});
+      items.push_back({"Object at B, seen", {kChartSeen, 1, {}}, true});
+      items.push_back({"Object at B, hidden", {kUnseen, 1, {}}, true});
     }
     items.push_back({"Equal elevation", {kReportFaint, 0.8, {}}, false});
     draw_legend(drawing_, {frame_.box.xmin, frame_.box.ymax + 43}, frame_.box.width(), items);

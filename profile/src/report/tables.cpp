@@ -5,7 +5,10 @@
 
 #include <fmt/format.h>
 
+#include <profile/radio_text.hpp>
 #include <profile/report_text.hpp>
+
+#include "report/path_tables.hpp"
 
 namespace itin::profile {
 
@@ -25,13 +28,12 @@ constexpr const char *kWithClutter = ", with clutter", *kBareGround = ", bare gr
 
 std::vector<std::string> criterion_row(const CriterionResult& c) {
   const bool open = c.verdict == CriterionVerdict::kUndecided;
-  return {fmt::format("{:.4g}", c.criterion.k), fmt::format("{:g} F1", c.criterion.fraction),
-          clearance_text(c.clearance_m), c.clearance_f1 ? fraction_text(*c.clearance_f1) : "",
-          open ? name_of(c.verdict) : outcome_text(c)};
+  return {factor_text(c.criterion, c.k), fmt::format("{:g} F1", c.criterion.fraction), clearance_text(c.clearance_m),
+          c.clearance_f1 ? fraction_text(*c.clearance_f1) : "", open ? name_of(c.verdict) : outcome_text(c)};
 }
 
 Table criteria_table(const LosReport& report, const LineFindings& found, const std::string& of) {
-  Table table{"Verdicts" + of, {"K", "wanted", "clearance", "least of F1", "verdict"}, {}, ""};
+  Table table{"Verdicts" + of, {"K", "wanted", "clearance", "clearance / F1", "verdict"}, {}, ""};
   const double drop = report.query.earth.drop_coefficient();
   const std::string k = drop == 0 ? "flat" : fmt::format("{:.4g}", 1 / (2 * drop * report.query.earth.radius));
   table.rows.push_back({k, "line of sight", clearance_text(found.clearance_m),
@@ -40,8 +42,9 @@ Table criteria_table(const LosReport& report, const LineFindings& found, const s
   table.note = gap_text(report);
   if (!table.note.empty()) table.note[0] = 'N', table.note += ".";
   if (report.query.clearance_error_m > 0) {
-    table.note += fmt::format("{}Undecided: the surface's certified error of {:.2f} m leaves it open.",
-                              table.note.empty() ? "" : " ", report.query.clearance_error_m);
+    table.note += fmt::format(
+        "{}Where the verdict is undecided, the surface's certified error, {:.2f} m, is greater than the margin.",
+        table.note.empty() ? "" : " ", report.query.clearance_error_m);
   }
   return table;
 }
@@ -65,7 +68,7 @@ Table obstructions_table(const LosReport& report) {
   return table;
 }
 
-constexpr const char* kKnownGround = " Over known ground alone: what has no data may ask for more.";
+constexpr const char* kKnownGround = " Only known ground is counted; ground without data may ask for more.";
 
 Table heights_table(const LosReport& report, const LineFindings& found, const std::string& of) {
   const LosQuery& query = report.query;
@@ -78,7 +81,8 @@ Table heights_table(const LosReport& report, const LineFindings& found, const st
     table.rows.push_back({named.name, required_text(named.heights.from_alone_m),
                           required_text(named.heights.to_alone_m), required_text(named.heights.both_equal_m)});
   }
-  table.note = "Alone: the other end stays at its planned height. Where criteria differ the greatest height governs.";
+  table.note =
+      "One end alone: the other stays at its planned height. Where criteria differ, the greatest height governs.";
   if (!report.profile.gaps.empty()) table.note += kKnownGround;
   return table;
 }
@@ -86,7 +90,7 @@ Table heights_table(const LosReport& report, const LineFindings& found, const st
 Table losses_table(const LosReport& report) {
   const PathLosses& l = *report.losses;
   const auto db = [](double value) { return fmt::format("{:.2f} dB", value); };
-  Table table{"Losses", {}, {}, ""};
+  Table table{"Losses", {}, {}, "", true};
   table.rows = {{"Free space (P.525), slant path", db(l.free_space_db)},
                 {"Single knife edge J(v) (P.526 4.1)", db(l.knife_edge_db)},
                 {"Bullington over the terrain, Lba (P.452 4.2.1)", db(l.lba_db)},
@@ -95,7 +99,7 @@ Table losses_table(const LosReport& report) {
                 {"Delta-Bullington, Ld (P.452 4.2.3)", db(l.ld_db)},
                 {"For comparison: Deygout, three edges (P.526-12 4.4.2)", db(l.deygout_db)},
                 {"Free space + delta-Bullington", db(l.free_space_db + l.ld_db)}};
-  if (report.bare) table.note = fmt::format("With clutter, but within {:g} m of the ends.", kClutterFreeM);
+  if (report.bare) table.note = fmt::format("With clutter, except within {:g} m of the ends.", kClutterFreeM);
   if (!report.profile.gaps.empty()) table.note += kKnownGround;
   return table;
 }
@@ -103,7 +107,7 @@ Table losses_table(const LosReport& report) {
 Table geometry_table(const LosReport& report) {
   const PathLosses& l = *report.losses;
   const auto km = [](const std::optional<double>& v) { return v ? fmt::format("{:.3f} km", *v) : std::string("none"); };
-  Table table{"Path", {}, {}, ""};
+  Table table{"Path", {}, {}, "", true};
   table.rows = {
       {"Path (P.452)", l.horizons.trans_horizon ? "trans-horizon" : "line-of-sight"},
       {"Least clearance / F1",
@@ -119,14 +123,14 @@ Table geometry_table(const LosReport& report) {
 Table object_table(const LosReport& report) {
   const VisibleHeight& seen = *report.visible;
   const TallObject& object = *report.query.object;
-  return {"Seen of the object at the second end",
+  return {"What is seen of the object at the second end",
           {},
           {{"Hidden below", fmt::format("{:.2f} m above its {}", seen.from_m, base_name(report.query.to_on_surface))},
            {fmt::format("Up to the hub, {:g} m", object.hub_m),
             fmt::format("{:.2f} m, {:.0f} %", seen.hub_visible_m, 100 * seen.hub_fraction)},
            {fmt::format("Up to the tip, {:g} m", object.tip_m),
             fmt::format("{:.2f} m, {:.0f} %", seen.tip_visible_m, 100 * seen.tip_fraction)}},
-          report.profile.gaps.empty() ? "" : "Over known ground alone: what has no data may hide more."};
+          report.profile.gaps.empty() ? "" : "Only known ground is counted; ground without data may hide more."};
 }
 
 }  // namespace
@@ -148,7 +152,7 @@ std::string critical_line(const LosReport& report) {
   const std::string fraction = fraction_text(report.fresnel->fraction);
   const std::string at = distance_text(report.fresnel->distance_m);
   if (at == distance_text(p.distance_m)) return fmt::format("{}, {}; {}", place, fraction, cause);
-  return fmt::format("{}; {}; least of F1 {} at {}", place, cause, fraction, at);
+  return fmt::format("{}; {}; least clearance {} at {}", place, cause, fraction, at);
 }
 
 std::string verdict_line(const LosReport& report) {
@@ -184,7 +188,9 @@ std::vector<Table> result_tables(const LosReport& report) {
   if (!report.obstructions.empty()) tables.push_back(obstructions_table(report));
   if (!report.required.empty()) tables.push_back(heights_table(report, report, of));
   if (report.bare && !report.required.empty()) tables.push_back(heights_table(report, *report.bare, kBareGround));
+  const std::vector<Table> along = path_tables(report);
   if (report.losses) tables.push_back(geometry_table(report)), tables.push_back(losses_table(report));
+  tables.insert(tables.end(), along.begin(), along.end());
   if (report.visible) tables.push_back(object_table(report));
   return tables;
 }

@@ -14,18 +14,20 @@ struct Table {
   std::string title;
   std::vector<std::string> header;  ///< empty: rows of name and value
   std::vector<std::vector<std::string>> rows;
-  std::string note;  ///< below the rows; may be empty
+  std::string note;            ///< below the rows; may be empty
+  bool second_column = false;  ///< where it stands on a page that has two, if there is room
 };
 
 /// The verdict, the distances and the critical point, in sentences.
 std::string verdict_line(const LosReport& report);
-/// The critical point: "4532.1 m: clearance 3.20 m, 0.45 F1; terrain". A ray that is cut has its least of F1 behind
-/// that, where it is elsewhere.
+/// The critical point: "4532.1 m: clearance 3.20 m, 0.45 F1; terrain". A ray that is cut has its least clearance / F1
+/// behind that, where it is elsewhere.
 std::string critical_line(const LosReport& report);
 
 Table facts_table(const LosReport& report);
 Table ends_table(const LosReport& report);
-/// Verdicts, obstructions, required heights, radio and losses, the tall object: those there are.
+/// Verdicts, obstructions, required heights, what the path crosses, radio, losses, edges and reflection, the tall
+/// object: those there are.
 std::vector<Table> result_tables(const LosReport& report);
 
 /// The base that an end's heights count from: "ground" or "surface".

@@ -31,8 +31,8 @@ std::string gap_text(const LosReport& report) {
   if (report.known_verdict == SightVerdict::kHidden) return none + "; known ground hides it";
   return fmt::format("{}, which {}; {}", none, meaning_of(report.query.nodata),
                      report.known_verdict == SightVerdict::kVisible
-                         ? "nothing hides it on known ground"
-                         : "the certified error leaves known ground open as well");
+                         ? "known ground does not hide it"
+                         : "the surface's certified error leaves open whether known ground hides it");
 }
 
 std::string verdict_text(const LosReport& report) {
@@ -41,8 +41,8 @@ std::string verdict_text(const LosReport& report) {
   const std::string gaps = gap_text(report);
   if (!gaps.empty()) return text + ": " + gaps;
   if (report.verdict != SightVerdict::kUndecided) return text;
-  return text +
-         fmt::format(": the surface's certified error of {:.2f} m leaves it open", report.query.clearance_error_m);
+  return text + fmt::format(": the surface's certified error, {:.2f} m, is greater than the margin",
+                            report.query.clearance_error_m);
 }
 
 std::string outcome_text(const CriterionResult& result) {
@@ -58,8 +58,16 @@ std::string outcome_text(const CriterionResult& result) {
   return fmt::format("{} by {}", verdict, by);
 }
 
+std::string screen_text(const LosReport& report) {
+  const Reflection& r = *report.reflection;
+  if (!r.ground_m) return "unknown: there is no data at the point";
+  if (!r.screen) return report.profile.gaps.empty() ? "clear" : "clear over known ground";
+  return fmt::format("screened by {} at {}, {:.2f} m above it", cause_of(report, r.screen->theme),
+                     distance_text(r.screen->distance_m), r.screen_depth_m);
+}
+
 std::string required_text(const std::optional<double>& height_m) {
-  if (!height_m || !std::isfinite(*height_m)) return "none is enough";
+  if (!height_m || !std::isfinite(*height_m)) return "no height is enough";
   // A ray that grazes is free: no centimetre more for a micrometre.
   return fmt::format("{:.2f} m", std::max(0.0, std::ceil((*height_m - kGrazing) * 100) / 100));
 }

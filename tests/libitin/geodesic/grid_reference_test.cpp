@@ -21,6 +21,21 @@ TEST(GridReference, NothingBeyondTheSquares) {
   EXPECT_EQ(national_grid_reference({300000, 1300000}), std::nullopt);
 }
 
+TEST(UtmReference, IsOfTheZoneOfTheLongitude) {
+  EXPECT_EQ(utm_zone_at({-180, 0}), 1);
+  EXPECT_EQ(utm_zone_at({-3.001, 51}), 30);
+  EXPECT_EQ(utm_zone_at({-0.001, 51}), 30);
+  EXPECT_EQ(utm_zone_at({0, 51}), 31);
+  EXPECT_EQ(utm_zone_at({180, 0}), 60);
+  EXPECT_EQ(utm_zone_at({0, 84.1}), std::nullopt);
+  EXPECT_EQ(utm_zone_at({0, -80.1}), std::nullopt);
+  // On the middle meridian of zone 31, whose arc from the equator to 45 degrees, 4,984,944.38 m on WGS 84, has the
+  // scale 0.9996.
+  EXPECT_EQ(utm_reference({3, 45}), "UTM 31N 500000 4982950");
+  EXPECT_EQ(utm_reference({3, -45}), "UTM 31S 500000 5017050");
+  EXPECT_EQ(utm_reference({3, 85}), std::nullopt);
+}
+
 }  // namespace
 
 }  // namespace itin
