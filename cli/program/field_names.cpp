@@ -43,6 +43,7 @@ constexpr std::array kNames{
     Names{"scale", "--sheet-scale"},
     Names{"sea_area", "--sea-area"},
     Names{"sea_level", "--sea-level"},
+    Names{"target_height", "--target-height"},
     Names{"theme", "--theme"},
     Names{"thickness", "--thickness"},
     Names{"to", "--to"},

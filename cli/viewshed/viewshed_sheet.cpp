@@ -12,6 +12,7 @@
 
 #include "output/map_base.hpp"
 #include "output/store_document.hpp"
+#include "viewshed/viewshed_radio.hpp"
 
 namespace itin::cli {
 
@@ -56,7 +57,7 @@ profile::TitleBlock title_block(const Store& store, const viewshed::Result& resu
   const viewshed::Request& request = result.request;
   profile::TitleBlock block;
   block.project = options.project(), block.date = options.date();
-  block.title = result.certified ? "Certified viewshed" : "Viewshed";
+  block.title = radio_title(request).value_or(result.certified ? "Certified viewshed" : "Viewshed");
   block.statement = statement_of(store, request);
   block.facts = {{"Observers", observers_in_words(request)},
                  {"Targets", fmt::format("{:g} m {}", request.target_height,
@@ -66,6 +67,7 @@ profile::TitleBlock title_block(const Store& store, const viewshed::Result& resu
                  {"Coordinates", crs_title(store.metadata().crs_wkt)}};
   if (request.radius)
     block.facts.insert(block.facts.begin() + 2, {"Radius", fmt::format("{:g} km", *request.radius / 1000)});
+  if (const auto criterion = radio_criterion(request)) block.facts.emplace_back("Radio", *criterion);
   block.sources = described(sources_in(store, result.grid.bounds(), request.themes), store.metadata());
   block.made_by = fmt::format("Drawn by itin {}", ITIN_VERSION);
   return block;

@@ -1,5 +1,5 @@
-// What diffraction over a profile costs a radio path: the one place where it is computed, for single lines, for links
-// in great number and for viewsheds (law 4).
+// The loss of a radio path by diffraction over a profile: the one place where it is computed, for single lines, for
+// links in great number and for viewsheds (law 4).
 //
 //   const PathEnds ends{12000, 120.5, 98};
 //   const DeltaBullington loss = delta_bullington(tops, ground, ends, {.frequency_ghz = 2.5});
