@@ -5,7 +5,7 @@
 #include <itin/error.hpp>
 #include <viewshed/documents.hpp>
 
-#include "program/values.hpp"
+#include "output/store_document.hpp"
 
 namespace itin::cli {
 
