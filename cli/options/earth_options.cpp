@@ -36,6 +36,12 @@ void EarthOptions::require_no_refraction() const {
   refuse(effective_km_text_, "--effective-earth-km");
 }
 
+void EarthOptions::warn_of_light(std::vector<std::string>& warnings) const {
+  if (is_default())
+    warnings.emplace_back(
+        "the refraction is that of light; radio links are usually planned with --effective-earth 4/3");
+}
+
 void EarthOptions::validate() {
   if (!effective_km_text_.empty() && !(refraction_text_.empty() && effective_text_.empty())) {
     throw InputError("--effective-earth-km excludes --effective-earth and --refraction: they state the same");

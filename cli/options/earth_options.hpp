@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -21,6 +22,8 @@ class EarthOptions {
   const Earth& earth() const { return earth_; }
   /// Whether nothing was said about refraction.
   bool is_default() const { return refraction_text_.empty() && effective_text_.empty() && effective_km_text_.empty(); }
+  /// Where nothing was said about refraction, and radio is asked for.
+  void warn_of_light(std::vector<std::string>& warnings) const;
 
  private:
   void require_no_refraction() const;

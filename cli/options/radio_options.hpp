@@ -9,12 +9,10 @@
 
 #include <profile/los.hpp>
 
+#include "options/wave_options.hpp"
 #include "program/verb.hpp"
 
 namespace itin::cli {
-
-/// The value of --frequency, GHz. Throws InputError.
-double parse_frequency(const std::string& text);
 
 class RadioOptions {
  public:
@@ -24,15 +22,15 @@ class RadioOptions {
   /// Throws InputError where a criterion takes a frequency and there is none: links may bring their own.
   void require_frequency() const;
   /// With the effective radius of this Earth; nothing without a frequency. Throws InputError for a flat Earth.
-  std::optional<profile::RadioPath> radio(const Earth& earth) const;
+  std::optional<RadioPath> radio(const Earth& earth) const { return wave_.path(earth); }
   const std::vector<profile::Criterion>& criteria() const { return criteria_; }
   const std::optional<profile::TallObject>& object() const { return object_; }
   Document parameters() const;
 
  private:
-  std::string frequency_text_, polarisation_text_, over_sea_text_, object_text_;
+  WaveOptions wave_;
+  std::string object_text_;
   std::vector<std::string> criteria_text_;
-  std::optional<profile::RadioPath> radio_;
   std::vector<profile::Criterion> criteria_;
   std::optional<profile::TallObject> object_;
 };

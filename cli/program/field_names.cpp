@@ -44,6 +44,7 @@ constexpr std::array kNames{
     Names{"sea_area", "--sea-area"},
     Names{"sea_level", "--sea-level"},
     Names{"table_spacing_m", "--table-spacing"},
+    Names{"target_height", "--target-height"},
     Names{"theme", "--theme"},
     Names{"thickness", "--thickness"},
     Names{"to", "--to"},

@@ -11,7 +11,10 @@
 #include <string_view>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include <itin/detail.hpp>
+#include <itin/error.hpp>
 #include <itin/geometry.hpp>
 
 namespace itin::cli {
@@ -73,6 +76,16 @@ struct Place {
   std::string crs = {};  ///< of the position; empty: as the call says
 };
 Place parse_place(std::string_view option, std::string_view text);
+
+/// The value that a library's parse(text) makes of an option's text; its complaint names the option.
+template <class Parse>
+auto parsed_by(std::string_view option, const std::string& text, const Parse& parse) {
+  try {
+    return parse(text);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{} '{}': {}", option, text, error.what()));
+  }
+}
 
 /// Whether `text` could be a place: no more than a hint, to tell it from a file name.
 bool may_be_place(std::string_view text);

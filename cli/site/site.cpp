@@ -202,9 +202,7 @@ class SiteVerb final : public Verb {
   }
 
   void warn(const SiteResult& site, std::vector<std::string>& warnings) const {
-    if (options_.frequency_ghz && options_.earth.is_default())
-      warnings.emplace_back(
-          "the refraction is that of light; radio links are usually planned with --effective-earth 4/3");
+    if (options_.frequency_ghz) options_.earth.warn_of_light(warnings);
     const std::vector<std::string>& rejected = site.inputs.rejected;
     for (std::size_t i = 0; i < std::min(rejected.size(), kMostWarnings); ++i)
       warnings.push_back("left out: " + rejected[i]);

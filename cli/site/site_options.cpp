@@ -10,7 +10,7 @@
 #include <itin/error.hpp>
 #include <profile/fresnel.hpp>
 
-#include "options/radio_options.hpp"
+#include "options/wave_options.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
 
@@ -217,10 +217,8 @@ void SiteOptions::validate_links() {
     if (!fresnel_text_.empty()) throw InputError("--fresnel takes a --frequency: the zone's radius depends on it");
     return;
   }
-  fresnel = number("--fresnel", fresnel_text_, Range::kPositive).value_or(fresnel);
-  if (fresnel > 1) throw InputError(fmt::format("--fresnel '{}': more than the zone; give 0 to 1", fresnel_text_));
-  if (earth.earth().drop_coefficient() == 0)
-    throw InputError("--frequency takes a curved Earth; leave out --curvature off");
+  if (!fresnel_text_.empty()) fresnel = parse_fresnel(fresnel_text_);
+  require_curved(earth.earth());
   // No clearance at all where the zone ends on the ground.
   if (target_height == 0)
     throw InputError("--frequency takes a --target-height above 0: no link to the ground is clear");

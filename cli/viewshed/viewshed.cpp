@@ -27,6 +27,7 @@
 #include "viewshed/feature_raster.hpp"
 #include "viewshed/horizon_output.hpp"
 #include "viewshed/viewshed_outputs.hpp"
+#include "viewshed/viewshed_radio.hpp"
 #include "viewshed/viewshed_sheet.hpp"
 
 namespace itin::cli {
@@ -88,6 +89,7 @@ class ViewshedVerb final : public Verb {
     app.add_option("--error-correlation", correlation_text_,
                    "L: errors x apart are correlated as exp(-x / L) (default: 0, independent)")
         ->type_name("METRES");
+    radio_.declare(app);
     detail_.declare(app);
     themes_.declare(app);
     earth_.declare(app);
@@ -115,7 +117,9 @@ class ViewshedVerb final : public Verb {
     earth_.validate();
     request_.earth = earth_.earth();
     request_.engine = engine_.engine();
+    radio_.validate();
     if (!mode_text_.empty()) parse_mode();
+    if (radio_.is_given()) radio_.complete(request_);
     if (!nodata_text_.empty()) {
       using enum viewshed::NoData;
       constexpr viewshed::NoData kChoices[] = {kUnknown, kBlock, kClear};
@@ -141,6 +145,7 @@ class ViewshedVerb final : public Verb {
       parameters["vertical_error_m"] = request_.vertical_error.sigma;
       parameters["error_correlation_m"] = request_.vertical_error.correlation_length;
     }
+    parameters.update(radio_.parameters());
     if (request_.cell_size) parameters["cell_m"] = *request_.cell_size;
     if (!like_.empty()) parameters["like"] = like_;
     parameters["observer_on"] = request_.observers_on_surface ? "surface" : "ground";
@@ -177,6 +182,7 @@ class ViewshedVerb final : public Verb {
     result.warnings = computed.result.warnings;
     if (const auto warning = missing.warning("the area in view")) result.warnings.push_back(in_options(*warning));
     warn_of_scale(metadata, result.warnings);
+    if (radio_.is_given()) earth_.warn_of_light(result.warnings);
     outputs_.write(computed, context, result.warnings, progress);
     write_viewshed_sheet(store, computed.result, sheet_, context.sources, outputs_.overwrite(), progress);
     outputs_.write_each([&](std::size_t i) { return compute_for_observer(store, computed, i, progress); }, context);
@@ -247,14 +253,18 @@ class ViewshedVerb final : public Verb {
     }
   }
 
-  /// Those of viewshed::Mode, and then what tells the visible by certificates.
-  static constexpr std::string_view kModes[] = {"visible", "count",  "which",       "angle",    "nearest",
-                                                "blocker", "height", "probability", "certified"};
+  /// Those of viewshed::Mode; radio's come last, and have options of their own.
+  static constexpr std::string_view kModes[] = {"visible", "count",  "which",       "angle",   "nearest",
+                                                "blocker", "height", "probability", "fresnel", "loss"};
+  static constexpr std::size_t kModesOfRadio = 2;
 
   void parse_mode() {
-    const auto mode =
-        static_cast<std::size_t>(parse_choice("--mode", mode_text_, {std::begin(kModes), std::end(kModes)}));
-    certified_ = kModes[mode] == "certified";
+    if (radio_.is_given())
+      throw InputError("--frequency judges Fresnel zones, or losses with --loss, and nothing else: leave out --mode");
+    std::vector<std::string_view> choices(std::begin(kModes), std::end(kModes) - kModesOfRadio);
+    choices.emplace_back("certified");  // what tells the visible by certificates
+    const std::size_t mode = parse_choice("--mode", mode_text_, choices);
+    certified_ = choices[mode] == "certified";
     request_.mode = certified_ ? viewshed::Mode::kVisible : static_cast<viewshed::Mode>(mode);
   }
   std::string mode_name() const {
@@ -331,9 +341,11 @@ class ViewshedVerb final : public Verb {
             "undecided at this tolerance, or across ground without data: --mode visible decides the former, "
             "--nodata block or clear the latter\n";
     } else {
-      text +=
-          fmt::format("visible: {} of {} ({:.1f} %), {:.2f} km2\n", grouped(cells.visible), counted(decided, "cell"),
-                      share, static_cast<double>(cells.visible) * result.grid.cell_area() / 1e6);
+      if (radio_.is_given()) text += radio_text(result);
+      if (result.request.mode != viewshed::Mode::kFresnel)
+        text +=
+            fmt::format("visible: {} of {} ({:.1f} %), {:.2f} km2\n", grouped(cells.visible), counted(decided, "cell"),
+                        share, static_cast<double>(cells.visible) * result.grid.cell_area() / 1e6);
       if (cells.undecided > 0)
         text += fmt::format("undecided: {}, across ground without data; --nodata block or clear decides them\n",
                             counted(cells.undecided, "cell"));
@@ -355,6 +367,7 @@ class ViewshedVerb final : public Verb {
   ThemeOptions themes_;
   EarthOptions earth_;
   EngineOption engine_;
+  ViewshedRadio radio_;
   ViewshedOutputs outputs_;
   SheetOptions sheet_;
   HorizonOutput horizon_;

@@ -14,6 +14,7 @@
 #include <viewshed/qgis_styles.hpp>
 
 #include "program/call_files.hpp"
+#include "viewshed/viewshed_radio.hpp"
 
 namespace itin::cli {
 
@@ -109,6 +110,7 @@ void ViewshedOutputs::write(viewshed::ViewshedWithSurface& computed, const Conte
     options.sources = context.sources;
     options.no_data = context.missing.cells;
     options.outside = "Outside the field of view";
+    if (const auto title = radio_title(computed.result.request)) options.title = *title;
     if (context.missing.share() > 0)
       options.no_data_text += fmt::format(": {} of the area in view", context.missing.text());
     map = viewshed::draw_map(*computed.surface, computed.result, progress, options);

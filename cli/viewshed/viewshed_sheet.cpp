@@ -10,6 +10,7 @@
 
 #include "output/result_sheet.hpp"
 #include "output/store_document.hpp"
+#include "viewshed/viewshed_radio.hpp"
 
 namespace itin::cli {
 
@@ -31,7 +32,7 @@ profile::TitleBlock title_block(const Store& store, const viewshed::Result& resu
                                 const std::vector<std::string>& sources) {
   const viewshed::Request& request = result.request;
   profile::TitleBlock block;
-  block.title = result.certified ? "Certified viewshed" : "Viewshed";
+  block.title = radio_title(request).value_or(result.certified ? "Certified viewshed" : "Viewshed");
   block.statement = statement_of(store.metadata(), request.themes);
   block.facts = {{"Observers", observers_in_words(request)},
                  {"Targets", fmt::format("{:g} m {}", request.target_height,
@@ -41,6 +42,7 @@ profile::TitleBlock title_block(const Store& store, const viewshed::Result& resu
                  {"Coordinates", crs_title(store.metadata().crs_wkt)}};
   if (request.radius)
     block.facts.insert(block.facts.begin() + 2, {"Radius", fmt::format("{:g} km", *request.radius / 1000)});
+  if (const auto criterion = radio_criterion(request)) block.facts.emplace_back("Radio", *criterion);
   block.sources = sources;
   return block;
 }

@@ -11,7 +11,7 @@
 #include <viewshed/link_exclusion.hpp>
 
 #include "options/off_the_data.hpp"
-#include "options/radio_options.hpp"
+#include "options/wave_options.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
 

@@ -5,7 +5,7 @@ turbines, coverage of sites, and sight lines.
     tests/fuzz/agreement.py FIRST_SEED COUNT      with build/test/bin/itin, or ITIN_PROGRAM; needs gdal-bin python3-gdal
 
 Every seed imports terrain (raster, contours or scattered points) and features in a random order, checks the store, looks
-from three places, at turbines, and from the best of three sites, and in every mode from cell centres, posts, corners of
+from three places, by radio from two, at turbines, and from the best of three sites, and in every mode from cell centres, posts, corners of
 what stands and the data's edge, or a little beside them. What disagrees, fails or takes ten minutes is printed; its
 folder in build/fuzz is kept.
 """
@@ -25,7 +25,7 @@ gdal.UseExceptions()
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 ITIN = os.environ.get("ITIN_PROGRAM", ROOT + "/build/test/bin/itin")
 X0, Y0 = 300000, 200000
-HIDDEN, VISIBLE, UNDECIDED, OUTSIDE = 0, 1, 2, 255
+HIDDEN, VISIBLE, UNDECIDED, ZONE_CUT, OUTSIDE = 0, 1, 2, 3, 255
 COUNT_OUTSIDE, NO_BLOCKER = 65535, 0xffffffff
 ROUNDING_M = 2e-6
 GRID_STEP_M = 0.01
@@ -241,6 +241,37 @@ class Trial:
             if (precise[row, column] == VISIBLE) != sees:
                 self.faults.append(f"cell {row},{column}: precise {precise[row, column]}, los clears by {clearance}")
 
+    def look_at_radio(self):
+        """Zones and losses of cells must be those of the lines to them, however little memory they are found in."""
+        r = self.random
+        bounds = json.loads(itin("info", self.store, "--json"))["bounds"]
+        eye = round(r.uniform(bounds["xmin"], bounds["xmax"]), 3), round(r.uniform(bounds["ymin"], bounds["ymax"]), 3)
+        height, target, fraction = r.choice([1.5, 6, 30]), r.choice([1.5, 10]), r.choice([0.3, 0.6, 1])
+        shared = self.shared_options()
+        shared += ["--target-on", r.choice(["ground", "surface"]), "--observer-on", r.choice(["ground", "surface"])]
+        shared += ["--frequency", r.choice([0.15, 0.9, 6])]
+        call = ["viewshed", self.store, "--observer", f"{eye[0]},{eye[1]},{height}", "--target-height", target,
+                "--cell", self.cell_size(), "--overwrite", "--quiet", *shared]
+        self.log(*call)
+        itin(*call, "--fresnel", fraction, "--memory", r.choice(["8M", "20M", "1G"]), "-o", self.path("zones.tif"))
+        itin(*call, "--loss", "--memory", r.choice(["20M", "1G"]), "-o", self.path("losses.tif"))
+        zones, (losses, in_free_space) = self.raster("zones.tif"), self.raster("losses.tif")
+        cells = np.argwhere(zones != OUTSIDE)
+        if len(cells) == 0:
+            return
+        cells = self.drawn(cells, 250)
+        targets = self.centres("zones.tif", cells)
+        blocked = shared[shared.index("--nodata") + 1] == "block"
+        for (row, column), link in zip(cells, self.links([(eye, height, t, target) for t in targets], shared)):
+            clear = float(link["fresnel_fraction"] or "inf")
+            expected = HIDDEN if link["verdict"] == "hidden" else VISIBLE if clear >= fraction else ZONE_CUT
+            if zones[row, column] != expected and abs(clear - fraction) > 1e-4:
+                self.faults.append(f"zone of cell {row},{column}: {zones[row, column]}, los {link['verdict']} {clear}")
+            known = link["ld_db"] and not (blocked and float(link["gap_m"]) > 0)
+            said = [float(link[name]) if known else math.nan for name in ("ld_db", "free_space_db")]
+            if not np.allclose([losses[row, column], in_free_space[row, column]], said, 0, 0.006, equal_nan=True):
+                self.faults.append(f"loss of cell {row},{column}: {losses[row, column]}, los {link['ld_db']}")
+
     def look_for_heights(self, call, target, precise):
         """The least height seen must say what is seen at the target's, however little memory it is found in."""
         heights = []
@@ -387,8 +418,8 @@ class Trial:
         west, size, _, north, _, down = gdal.Open(self.path(name)).GetGeoTransform()
         return [(west + (column + 0.5) * size, north + (row + 0.5) * down) for row, column in cells]
 
-    def lines(self, ends, options):
-        """Of each (place, height, place, height): whether it is a line of sight, and its clearance in metres."""
+    def links(self, ends, options):
+        """What is said of each (place, height, place, height), as rows of a table."""
         with open(self.path("links.csv"), "w", encoding="ascii") as file:
             print("id,x1,y1,h1,x2,y2,h2", file=file)
             for i, (a, up, b, over) in enumerate(ends):
@@ -400,8 +431,12 @@ class Trial:
             self.log("refused:", refusal)
         with open(self.path("los.csv"), encoding="utf-8") as file:
             links = {int(link["id"]): link for link in csv.DictReader(file)}
+        return [links[i] for i in range(len(ends))]
+
+    def lines(self, ends, options):
+        """Of each (place, height, place, height): whether it is a line of sight, and its clearance in metres."""
         return [(link["verdict"] == "visible", float(link["clearance_m"] or "nan")) if link["verdict"] else None
-                for link in (links[i] for i in range(len(ends)))]
+                for link in self.links(ends, options)]
 
     def run(self):
         self.import_terrain()
@@ -409,7 +444,7 @@ class Trial:
         for what in self.random.sample(kinds, self.random.randint(0, 5)):
             self.add(what)
         itin("check", self.store, "--quiet")
-        for ask in [self.look] * 3 + [self.refine] * 3 + [self.look_at_turbines, self.choose_site]:
+        for ask in [self.look] * 3 + [self.look_at_radio] * 2 + [self.refine] * 3 + [self.look_at_turbines, self.choose_site]:
             try:
                 ask()
             except Refusal as refusal:

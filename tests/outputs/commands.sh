@@ -58,6 +58,8 @@ view which 5000 --mode which --observer 313000,188000,10 309000,186000,30
 view nearest 5000 --mode nearest --observer 313000,188000,10 309000,186000,30
 view blocker 2000 --mode blocker
 view probability 1500 --mode probability --vertical-error 2
+view zones 4000 --target-height 2 --frequency 5.8 --effective-earth 4/3
+view losses 2000 --target-height 2 --frequency 5.8 --loss --effective-earth 4/3
 view wedge 5000 --azimuth 350,80 --elevation -5,2 --min-radius 300
 view blocked 5000 --nodata block
 itin viewshed garth.itin --absolute-heights --observer 310375,183525,320 --target-height 250 --radius 4000 --cell 25 -o absolute.tif
@@ -68,6 +70,8 @@ itin viewshed town.itin --observer 321800,4297750,2 --themes all --cell 2 --mode
 itin viewshed town.itin --observer 321800,4297750,2 --themes all --cell 2 --precise --memory 5M --target-on surface -o roofs.tif
 itin viewshed town.itin --observer 321800,4297750,2 --themes all --cell 2 --mode blocker -o streets-blocker.tif
 itin viewshed town.itin --observer 321800,4297750,2 --themes all --cell 2 --mode height -o streets-height.tif
+itin viewshed town.itin --observer 321800,4297750,12 --target-height 1.5 --themes all --cell 3 --frequency 26 --effective-earth 4/3 -o streets-zones.tif -o streets-zones.gpkg --image streets-zones.png
+itin viewshed town.itin --observer 321800,4297750,12 --target-height 1.5 --themes all --cell 4 --frequency 26 --loss --effective-earth 4/3 -o streets-losses.tif --image streets-losses.png
 itin viewshed points.itin --observer 311500,190500,2 --target-height 2 --cell 20 -o points.tif
 itin viewshed contours.itin --observer 310375,183525,2 --target-height 2 --radius 3000 --cell 25 -o contours.tif
 itin viewshed contours.itin --observer 310375,183525,2 --target-height 2 --radius 3000 --cell 25 --mode certified --tolerance 4 -o contours-certified.tif

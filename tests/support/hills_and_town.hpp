@@ -16,7 +16,8 @@ namespace itin::test {
 
 inline constexpr viewshed::Mode kEveryMode[] = {
     viewshed::Mode::kVisible, viewshed::Mode::kCount,   viewshed::Mode::kWhich,  viewshed::Mode::kAngle,
-    viewshed::Mode::kNearest, viewshed::Mode::kBlocker, viewshed::Mode::kHeight, viewshed::Mode::kProbability};
+    viewshed::Mode::kNearest, viewshed::Mode::kBlocker, viewshed::Mode::kHeight, viewshed::Mode::kProbability,
+    viewshed::Mode::kFresnel, viewshed::Mode::kLoss};
 
 class HillsAndTown {
  public:
@@ -60,6 +61,7 @@ class HillsAndTown {
     request.target_height = 2;
     request.cell_size = 13;
     request.vertical_error = {0.5, 40};
+    add_radio(request);
     return request;
   }
 
@@ -67,12 +69,20 @@ class HillsAndTown {
     viewshed::Request request;
     request.observers = {{"street", {321800, 4297750}, 2}, {"roof", {321692.34, 4297619.88}, 25}};
     request.cell_size = 3;
+    request.target_height = 0.5;
     request.vertical_error = {0.3, 10};
+    add_radio(request);
     request.themes = ThemeChoice::all();
     return request;
   }
 
  private:
+  static void add_radio(viewshed::Request& request) {
+    request.radio.frequency_ghz = 2.5;
+    request.radio.effective_earth_km = effective_earth_km(request.earth);
+    request.fresnel.wavelength = wavelength_m(request.radio.frequency_ghz);
+  }
+
   const TemporaryDirectory directory_;
 };
 

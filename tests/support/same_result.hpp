@@ -32,6 +32,9 @@ inline void expect_same_result(const viewshed::Result& expected, const viewshed:
   EXPECT_TRUE(found.blocker_feature == expected.blocker_feature);
   EXPECT_TRUE(same_values(found.least_height_m, expected.least_height_m));
   EXPECT_TRUE(same_values(found.probability, expected.probability));
+  EXPECT_TRUE(same_values(found.loss_db, expected.loss_db));
+  EXPECT_TRUE(same_values(found.free_space_db, expected.free_space_db));
+  EXPECT_EQ(found.cells.zone_cut, expected.cells.zone_cut);
   EXPECT_EQ(found.cells.visible, expected.cells.visible);
   EXPECT_EQ(found.cells.hidden, expected.cells.hidden);
   EXPECT_EQ(found.cells.undecided, expected.cells.undecided);

@@ -1,8 +1,10 @@
-// Earth curvature and refraction, as one parabola.
+// Earth curvature and refraction, as one parabola; and the radio waves that run over it.
 //
 //   const Earth earth;                                         // curved, k = 0.13, R = 6371 km
 //   const double light = earth.drop(40000);                    // 109.2 m
 //   const Earth radio = Earth::effective_earth(4.0 / 3);       // radio.drop(40000): 94.2 m
+//   const RadioPath path{.frequency_ghz = 7.5, .effective_earth_km = effective_earth_km(radio)};
+//   const double wavelength = wavelength_m(path.frequency_ghz);   // 0.03997 m
 //
 // A point at horizontal distance d from the observer appears lower by drop = d^2 (1 - k) / (2 R), or by d^2 / (2 K R)
 // with the effective Earth factor K = 1 / (1 - k). The parabola departs from the sphere by less than d^4 / (8 R^3):
@@ -32,6 +34,26 @@ struct Earth {
   double drop(double distance) const { return drop_coefficient() * distance * distance; }
   /// One line for results, for example "drop = d^2 (1 - k) / (2 R), k = 0.13, R = 6371000 m".
   std::string convention() const;
+};
+
+/// Radius of the Earth over which rays are straight. Precondition: its surface drops.
+double effective_earth_km(const Earth& earth);
+
+/// The speed of light, metres times GHz.
+inline constexpr double kSpeedOfLight = 0.299792458;
+
+/// The wavelength, metres.
+constexpr double wavelength_m(double frequency_ghz) {
+  return kSpeedOfLight / frequency_ghz;
+}
+
+enum class Polarisation { kHorizontal, kVertical };
+
+struct RadioPath {
+  double frequency_ghz = 0;          ///< > 0
+  double effective_earth_km = 8500;  ///< effective radius ae; > 0, infinity for a flat Earth
+  Polarisation polarisation = Polarisation::kHorizontal;
+  double over_sea = 0;  ///< share of the path, 0 to 1
 };
 
 }  // namespace itin

@@ -41,4 +41,8 @@ std::string Earth::convention() const {
   return fmt::format("drop = d^2 (1 - k) / (2 R), k = {:.6g}, R = {:.10g} m", refraction, radius);
 }
 
+double effective_earth_km(const Earth& earth) {
+  return 1 / (2 * earth.drop_coefficient()) / 1000;
+}
+
 }  // namespace itin

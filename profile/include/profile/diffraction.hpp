@@ -28,21 +28,13 @@
 
 namespace itin::profile {
 
-enum class Polarisation { kHorizontal, kVertical };
-
-struct RadioPath {
-  double frequency_ghz = 0;          ///< > 0
-  double effective_earth_km = 8500;  ///< effective radius ae; > 0, infinity for a flat Earth
-  Polarisation polarisation = Polarisation::kHorizontal;
-  double over_sea = 0;  ///< share of the path, 0 to 1
-};
+using itin::effective_earth_km;
+using itin::Polarisation;
+using itin::RadioPath;
 
 inline constexpr double kClutterFreeM = 50;
 /// Elevation of the obstacle at a point of the profile: its ground, and its clutter unless an end is too near.
 double clutter_top_m(const Profile& profile, const ProfilePoint& point);
-
-/// Radius of the Earth over which rays are straight. Precondition: its surface drops.
-double effective_earth_km(const Earth& earth);
 
 /// P.525-4 section 2.3: 20 log10(4 pi d / lambda), dB.
 double free_space_loss_db(double distance_m, double wavelength);

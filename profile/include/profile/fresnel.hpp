@@ -18,13 +18,8 @@
 
 namespace itin::profile {
 
-/// The speed of light, metres times GHz.
-inline constexpr double kSpeedOfLight = 0.299792458;
-
-/// The wavelength, metres.
-constexpr double wavelength_m(double frequency_ghz) {
-  return kSpeedOfLight / frequency_ghz;
-}
+using itin::kSpeedOfLight;
+using itin::wavelength_m;
 
 /// Radius of the first Fresnel zone at distances d1 and d2 from the ends, all metres: sqrt(lambda d1 d2 / (d1 + d2)).
 double fresnel_radius_m(double d1_m, double d2_m, double wavelength);

@@ -2,10 +2,10 @@
 
 #include <itin/geodesic.hpp>
 #include <itin/grazing.hpp>
+#include <itin/smooth_path.hpp>
 #include <profile/diffraction.hpp>
 
 #include "lines/line_clearance.hpp"
-#include "radio/smooth_path.hpp"
 
 namespace itin::profile {
 

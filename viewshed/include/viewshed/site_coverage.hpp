@@ -47,12 +47,6 @@ struct SitePosition {
 std::vector<std::optional<double>> ground_under(const Store& store, const std::vector<Point2>& positions,
                                                 const ThemeChoice& themes, Progress& progress);
 
-/// A link is clear if at least this fraction of the first Fresnel zone's radius is free of ground, everywhere.
-struct FresnelCriterion {
-  double wavelength = 0;  ///< metres
-  double fraction = 0.6;
-};
-
 /// One of the two: the centres of a raster's cells, or points. Element numbers: see element_of() and SiteCoverage.
 struct SiteTargets {
   std::optional<RasterGrid> grid;

@@ -58,8 +58,8 @@ struct Observer {
 
 /// How ground without data affects sight lines.
 enum class NoData {
-  /// Mode kVisible: a line that nothing known hides is undecided. Other modes: it passes, and a warning says so if any
-  /// could be concerned.
+  /// Modes kVisible, kFresnel and kLoss: a line that nothing known hides is undecided. Other modes: it passes, and a
+  /// warning says so if any could be concerned.
   kUnknown,
   kBlock,  ///< none passes: the edge of the surface is a curtain up to the sky
   kClear   ///< they pass
@@ -74,21 +74,24 @@ enum class Engine {
 
 /// The value that a cell gets from the observers that see it.
 enum class Mode {
-  kVisible,     ///< whether any does
-  kCount,       ///< how many do
-  kWhich,       ///< which do
-  kAngle,       ///< the greatest elevation angle of their sight lines
-  kNearest,     ///< the nearest of them, and its distance
-  kBlocker,     ///< where none does, what hides the cell from the nearest observer that looks there
-  kHeight,      ///< the least height above the ground at which a target is seen by any of them
-  kProbability  ///< how probably any of them does where heights are uncertain: the greatest of theirs
+  kVisible,      ///< whether any does
+  kCount,        ///< how many do
+  kWhich,        ///< which do
+  kAngle,        ///< the greatest elevation angle of their sight lines
+  kNearest,      ///< the nearest of them, and its distance
+  kBlocker,      ///< where none does, what hides the cell from the nearest observer that looks there
+  kHeight,       ///< the least height above the ground at which a target is seen by any of them
+  kProbability,  ///< how probably any of them does where heights are uncertain: the greatest of theirs
+  kFresnel,      ///< whether any does with its first Fresnel zone clear
+  kLoss          ///< what a radio path loses by diffraction: of the observer with the least loss in all
 };
 
-/// Says whether a line of sight is clear, as far as that is known. Rasters hold these numbers.
+/// Says whether a line of sight is clear, or the zone about it, as far as that is known. Rasters hold these numbers.
 enum class Verdict : std::uint8_t {
   kHidden = 0,
   kVisible = 1,
   kUndecided = 2,  ///< at the detail asked for, or for want of ground
+  kZoneCut = 3,    ///< in sight, but something rises into the Fresnel zone; kFresnel alone
   kOutside = 255   ///< outside every field of view, or no ground to look at
 };
 
@@ -98,6 +101,12 @@ enum class Verdict : std::uint8_t {
 struct VerticalError {
   double sigma = 0;               ///< metres, positive
   double correlation_length = 0;  ///< metres
+};
+
+/// A link is clear if at least this fraction of the first Fresnel zone's radius is free of ground, everywhere.
+struct FresnelCriterion {
+  double wavelength = 0;  ///< metres
+  double fraction = 0.6;  ///< positive, at most 1
 };
 
 struct Request {
@@ -124,6 +133,8 @@ struct Request {
   Engine engine = Engine::kAuto;
   Mode mode = Mode::kVisible;
   VerticalError vertical_error;  ///< kProbability
+  FresnelCriterion fresnel;      ///< kFresnel: a visible cell is one whose zone is clear
+  RadioPath radio;               ///< kLoss; its effective radius is that of `earth`
 };
 
 inline constexpr int kDefaultCells = 2048;
@@ -145,11 +156,13 @@ struct CellCounts {
   std::uint64_t hidden = 0;
   std::uint64_t undecided = 0;
   std::uint64_t outside = 0;
+  std::uint64_t zone_cut = 0;  ///< in sight of at least one, with no clear zone; kFresnel
 
   CellCounts& operator+=(const CellCounts& c) {
-    visible += c.visible, hidden += c.hidden, undecided += c.undecided, outside += c.outside;
+    visible += c.visible, hidden += c.hidden, undecided += c.undecided, outside += c.outside, zone_cut += c.zone_cut;
     return *this;
   }
+  std::uint64_t in_view() const { return visible + hidden + undecided + zone_cut; }
 };
 
 struct Statistics {
@@ -164,8 +177,8 @@ struct Statistics {
 struct Result {
   Request request;  ///< as understood
   RasterGrid grid;
-  /// In every mode. Undecided in kVisible alone: what only ground without data leaves open, under NoData::kUnknown, and
-  /// in certified results what the level leaves open.
+  /// In every mode. Undecided in kVisible, kFresnel and kLoss alone: what only ground without data leaves open, under
+  /// NoData::kUnknown, and in certified results what the level leaves open.
   std::vector<Verdict> visible;
   bool certified = false;              ///< made by compute_certified(): verdicts at a level are certain
   std::vector<std::uint16_t> count;    ///< kCount: how many observers see the cell, or kCountOutside
@@ -187,6 +200,12 @@ struct Result {
   /// kProbability: that the whole line is clear, with a standard error of at most 0.022, alike in neighbouring cells; 0
   /// for a target at an elevation below the ground; NaN outside.
   std::vector<float> probability;
+  /// kLoss, dB: delta-Bullington diffraction by ITU-R P.526 (profile/diffraction.hpp), and the loss in free space along
+  /// the slant line, of the observer for whom their sum is least. NaN outside; at an observer's own place; where a
+  /// standing feature holds an end; and where a line crosses ground without data, unless NoData::kClear lets it pass or
+  /// NoData::kBlock leaves that observer out.
+  std::vector<float> loss_db;
+  std::vector<float> free_space_db;
   std::vector<std::string> theme_names;  ///< from a store: of theme 1 and so on
   CellCounts cells;                      ///< areas are these times grid.cell_area()
   std::vector<double> ground_m;          ///< of each observer
@@ -210,6 +229,7 @@ constexpr std::size_t which_grids(std::size_t observers) {
 
 /// On a given surface. The Tin must hold every triangle that sight lines cross; where it ends there is no data.
 /// Cost: O(n) for n triangles (about 0.1 microseconds each) and about 50 ns per cell and observer, in mode kHeight 150;
+/// in mode kLoss each cell takes all triangles under its line, about 60 nanoseconds each;
 /// memory 9 bytes per post of a raster, 50 per triangle of others, and a tenth of a megabyte per thread. The result
 /// does not depend on the number of threads. Throws InputError (an observer outside the data, by name; an unusable
 /// radius, cell size or angle; more than 65534 observers to count), Cancelled.
@@ -281,14 +301,14 @@ struct GeotiffOptions {
   bool overwrite = false;
 };
 
-/// As write_raster() writes them: Byte classes (Verdict, nodata 255), UInt16 counts (nodata 65535), UInt32
-/// bits without nodata (0 where none sees, a band for every 32 observers), Float32 angles (nodata NaN), Float32 bands
-/// of distance and number of the nearest (nodata NaN). Throws FileError.
+/// As write_raster() writes them: Byte classes (Verdict, nodata 255; of kFresnel, too), UInt16 counts (nodata 65535),
+/// UInt32 bits without nodata (0 where none sees, a band for every 32 observers), Float32 angles (nodata NaN), Float32
+/// bands of distance and number of the nearest, and of both losses (nodata NaN). Throws FileError.
 void write_geotiff(const std::string& path, const Result& result, const GeotiffOptions& options);
 
 /// Writes what is seen as polygons to a GeoPackage, one per class as write_regions() does: visible and hidden; the
-/// undecided; a class for every count, nearest observer or theme that hides; and the cells where `no_data`, if it is
-/// given, is 1. Throws FileError.
+/// undecided; those in sight whose zone is cut; a class for every count, nearest observer or theme that hides; and the
+/// cells where `no_data`, if it is given, is 1. Throws FileError.
 void write_polygons(const std::string& path, const Result& result, const std::string& crs_wkt, bool overwrite,
                     std::span<const std::uint8_t> no_data = {});
 

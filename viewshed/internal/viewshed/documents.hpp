@@ -11,6 +11,9 @@ namespace itin::viewshed {
 /// How many of the cells within fields of view are decided.
 double decided_percent(const CellCounts& cells);
 
+/// How many of the cells in view have no loss, in mode kLoss.
+std::uint64_t cells_without_loss(const Result& result);
+
 /// `crs`, `surface`, `refraction`, `grid`, `cells`, `area_m2`, of a certified one `decided_percent`, and `statistics`.
 Document viewshed_document(const StoreMetadata& metadata, const Result& result);
 

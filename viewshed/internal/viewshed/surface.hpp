@@ -52,8 +52,8 @@ std::optional<Surface> retrieve_lattice(const Store& store, const Window& window
                                         const ThemeChoice& themes, LatticeReader::Heights heights,
                                         std::uint64_t most_posts, Progress& progress);
 
-/// As on a Tin; on a lattice, if the mode is neither kBlocker nor kProbability, for a tenth of the memory and a third
-/// of the time. `ground` may be null. Reads those heights of the lattice that are asked for and have not been read, so
+/// As on a Tin; on a lattice, in modes that ask for sight lines alone, for a tenth of the memory and a third of the
+/// time. `ground` may be null. Reads those heights of the lattice that are asked for and have not been read, so
 /// it is not for several threads at once.
 Result compute(const Surface& surface, const Tin* ground, const Request& request, Progress& progress);
 

@@ -87,18 +87,8 @@ std::optional<HeightPyramid::Hit> HeightPyramid::hit_at(Point2 units) const {
     if (height) hit = {t, *height};
     return !height;
   };
-  const double column = bin_grid_.column_at(units_.origin.x + units.x * units_.resolution),
-               row = bin_grid_.row_at(units_.origin.y + units.y * units_.resolution);
-  const auto at = [](double v, std::int64_t count) {
-    return static_cast<std::uint32_t>(std::clamp(v, 0.0, static_cast<double>(count - 1)));
-  };
-  // One bin; of a lattice's, which know nothing of their neighbours, up to four at its edges.
-  const double slack = lattice_ != nullptr ? kHair : 0;
-  const std::uint32_t east = at(column + slack, bin_grid_.columns()), south = at(row + slack, bin_grid_.rows());
-  for (std::uint32_t r = at(row - slack, bin_grid_.rows()); r <= south; ++r)
-    for (std::uint32_t c = at(column - slack, bin_grid_.columns()); c <= east; ++c)
-      if (!for_each_triangle({0, c, r}, misses)) return hit;
-  return std::nullopt;
+  for_each_triangle_near(units, misses);
+  return hit;
 }
 
 HeightPyramid::Track HeightPyramid::track_of(const LineBundle& bundle) const {

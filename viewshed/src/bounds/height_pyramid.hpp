@@ -83,6 +83,10 @@ class HeightPyramid {
   std::array<GridPoint, 3> corners(std::uint32_t triangle) const {
     return lattice_ != nullptr ? lattice_->corners(triangle) : tin_->corners(triangle);
   }
+  /// Calls visit(triangle) for those near a position in grid units, among them all that hold it, until one call returns
+  /// false; returns whether none did.
+  template <class Visit>
+  bool for_each_triangle_near(Point2 units, const Visit& visit) const;
   /// A triangle that holds a position in grid units, if there is one.
   std::optional<std::uint32_t> triangle_at(Point2 units) const;
   /// The surface's height there, grid units.
@@ -206,6 +210,22 @@ void HeightPyramid::search(const Lines& bundle, const Visit& visit) const {
       return true;
     });
   }
+}
+
+template <class Visit>
+bool HeightPyramid::for_each_triangle_near(Point2 units, const Visit& visit) const {
+  const double column = bin_grid_.column_at(units_.origin.x + units.x * units_.resolution),
+               row = bin_grid_.row_at(units_.origin.y + units.y * units_.resolution);
+  const auto at = [](double v, std::int64_t count) {
+    return static_cast<std::uint32_t>(std::clamp(v, 0.0, static_cast<double>(count - 1)));
+  };
+  // One bin; of a lattice's, which know nothing of their neighbours, up to four at its edges.
+  const double slack = lattice_ != nullptr ? kHair : 0;
+  const std::uint32_t east = at(column + slack, bin_grid_.columns()), south = at(row + slack, bin_grid_.rows());
+  for (std::uint32_t r = at(row - slack, bin_grid_.rows()); r <= south; ++r)
+    for (std::uint32_t c = at(column - slack, bin_grid_.columns()); c <= east; ++c)
+      if (!for_each_triangle({0, c, r}, visit)) return false;
+  return true;
 }
 
 template <class Visit>

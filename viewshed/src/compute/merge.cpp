@@ -63,8 +63,7 @@ class Merge::Rasters {
   }
 
   Result take() {
-    const CellCounts& c = result_.cells;
-    result_.cells.outside += result_.grid.cell_count() - (c.visible + c.hidden + c.undecided + c.outside);
+    result_.cells.outside = result_.grid.cell_count() - result_.cells.in_view();
     if (result_.request.mode == Mode::kBlocker) blockers_.give(result_);
     return std::move(result_);
   }
@@ -81,6 +80,8 @@ class Merge::Rasters {
     fill(result_.blocker_feature, kNoBlocker);
     fill(result_.least_height_m, kNone);
     fill(result_.probability, kNone);
+    fill(result_.loss_db, kNone);
+    fill(result_.free_space_db, kNone);
   }
 
   void add_cells(const Segment& segment, const Result& part) {
@@ -91,6 +92,8 @@ class Merge::Rasters {
     copy(segment, part.blocker_feature, result_.blocker_feature);
     copy(segment, part.least_height_m, result_.least_height_m);
     copy(segment, part.probability, result_.probability);
+    copy(segment, part.loss_db, result_.loss_db);
+    copy(segment, part.free_space_db, result_.free_space_db);
     copy(segment, part.nearest, result_.nearest,
          [&](std::uint32_t from_1) { return from_1 == 0 ? 0 : segment.observers[from_1 - 1] + 1; });
     const std::vector<std::uint32_t> numbers = blockers_.numbers_of(part.blockers);

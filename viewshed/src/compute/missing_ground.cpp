@@ -55,7 +55,7 @@ MissingGround missing_ground(const Store& store, const Result& result, Progress&
   if (bounds_elevations(request) && std::find(missing.cells.begin(), missing.cells.end(), 1) != missing.cells.end())
     leave_out_ground(coverage_of(store, Window::box(grid.bounds()), progress), grid, missing.cells);
   missing.without_ground = static_cast<std::uint64_t>(std::count(missing.cells.begin(), missing.cells.end(), 1));
-  missing.with_ground = result.cells.visible + result.cells.hidden + result.cells.undecided;
+  missing.with_ground = result.cells.in_view();
   missing.beyond = static_cast<std::uint64_t>(cells_beyond(request, grid).count());
   missing.bounded = request.grid || std::all_of(request.observers.begin(), request.observers.end(),
                                                 [&](const Observer& o) { return radius_of(request, o).has_value(); });

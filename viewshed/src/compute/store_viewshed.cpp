@@ -17,7 +17,10 @@ namespace itin::viewshed {
 namespace {
 
 /// Shares of the time that is left, about, for one observer.
-constexpr double kReadingPosts = 0.3, kTriangulating = 0.6;
+constexpr double kReadingPosts = 0.3;
+double share_of_triangulating(const Request& request) {
+  return request.mode == Mode::kLoss ? 0.05 : 0.6;
+}
 
 ViewshedWithSurface survey(const Request& request, ViewshedWithSurface computed, double seconds, Progress& progress) {
   computed.result = compute(*computed.surface, computed.ground ? &*computed.ground : nullptr, request, progress);
@@ -45,13 +48,15 @@ ViewshedWithSurface compute_over_tin(const Store& store, const Request& request,
   ViewshedWithSurface computed;
   computed.surface = std::make_shared<Surface>();
   Tin& tin = computed.surface->tin;
-  tin = triangulate(store, window_of(request), request.detail, call.step(kTriangulating), request.themes);
+  tin = triangulate(store, window_of(request), request.detail, call.step(share_of_triangulating(request)),
+                    request.themes);
   computed.surface->extent = extent_of(store);
   const double seconds = watch.lap();
   // Beside a feature the surface is not to the last digit the ground, also where the window holds no part of it.
-  if (has_raised_features(store, request) && !(request.observers_on_surface && request.targets_on_surface))
-    computed.ground =
-        triangulate(store, window_of(request), request.detail, call.step(kTriangulating), ThemeChoice::none());
+  const bool on_ground = !(request.observers_on_surface && request.targets_on_surface);
+  if (has_raised_features(store, request) && (on_ground || needs_bare_lines(request)))
+    computed.ground = triangulate(store, window_of(request), request.detail, call.step(share_of_triangulating(request)),
+                                  ThemeChoice::none());
   return survey(request, std::move(computed), seconds, call.step(1));
 }
 

@@ -146,8 +146,10 @@ class TinSegments {
     const auto shadow = shadow_of(eye, rim_, result);
     for (const auto& [cells, ground] : segments(eye, needed)) {
       const OwnedSurface segment = refine(cells, ground);
+      std::optional<Tin> bare;
+      if (features_ && needs_bare_lines(request_)) bare = triangulated(ground_->window(ground), ThemeChoice::none());
       std::optional<TriangleStudies> studies;
-      if (needs_triangles(request_)) studies.emplace(request_, segment.surface.tin);
+      if (needs_triangles(request_)) studies.emplace(request_, segment.surface.tin, bare ? &*bare : nullptr);
       const ExactJudge judge(segment.full, {eye, segment.full.view_from(eye), shadow});
       result.statistics.lines += observe(judge, observer, all_cells(result.grid, tiles_, cells), observations_,
                                          studies ? &*studies : nullptr, *stage_);

@@ -61,7 +61,7 @@ Result compute(const SurfaceInMemory& over, const Request& request, Progress& pr
   find_voids(over.units(), surface.rim(), result);
   result.statistics.scene_seconds = watch.lap();
   std::optional<TriangleStudies> studies;
-  if (needs_triangles(request)) studies.emplace(request, *over.tin);
+  if (needs_triangles(request)) studies.emplace(request, *over.tin, over.bare);
   std::vector<RadialSweep::View> views;
   if (over.reader != nullptr && !all_read(*over.reader))
     for (const Eye& eye : eyes) views.push_back(reveal(eye, *over.reader, surface, kAnyTiles, call).view);

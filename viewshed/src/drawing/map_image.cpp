@@ -304,8 +304,7 @@ class MapDrawing {
   }
 
   std::string share_text(const std::string& what, std::uint64_t cells) const {
-    const std::uint64_t decided =
-        std::max<std::uint64_t>(1, result_.cells.visible + result_.cells.hidden + result_.cells.undecided);
+    const std::uint64_t decided = std::max<std::uint64_t>(1, result_.cells.in_view());
     return fmt::format("{}: {} ({:.1f} %)", what, area_text(static_cast<double>(cells) * result_.grid.cell_area()),
                        100.0 * static_cast<double>(cells) / static_cast<double>(decided));
   }

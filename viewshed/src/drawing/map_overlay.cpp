@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -62,6 +63,7 @@ std::optional<Tint> MapOverlay::at(std::size_t cell) const {
   const Verdict seen = result_.visible[cell];
   if (seen == Verdict::kOutside) return std::nullopt;
   if (seen == Verdict::kUndecided) return Tint{kUndecidedColour, kOpacity};
+  if (seen == Verdict::kZoneCut) return Tint{kZoneCutColour, kOpacity};
   if (steps_.empty()) return Tint{kSeenColour, seen == Verdict::kVisible ? kOpacity : 0};
   const double v = value(cell);
   if (std::isnan(v)) return Tint{};
@@ -94,7 +96,10 @@ double MapOverlay::value(std::size_t cell) const {
       return result_.least_height_m[cell];
     case Mode::kProbability:
       return result_.probability[cell];
+    case Mode::kLoss:
+      return result_.loss_db[cell];
     case Mode::kVisible:
+    case Mode::kFresnel:
       break;
   }
   return kNoValue;
@@ -126,7 +131,10 @@ void MapOverlay::make_scale() {
       return scale_heights();
     case Mode::kProbability:
       return scale_probabilities();
+    case Mode::kLoss:
+      return scale_losses();
     case Mode::kVisible:
+    case Mode::kFresnel:
       return;
   }
 }
@@ -223,15 +231,30 @@ void MapOverlay::scale_probabilities() {
     add_step(percent / 100.0, {kSeenColour, percent == 5 ? 0 : 0.85 * (percent - 5) / 95}, fmt::format("{}", percent));
 }
 
+void MapOverlay::scale_losses() {
+  title_ = "Diffraction loss, up to dB";
+  // Amber is for the undecided.
+  constexpr std::array<std::pair<int, Colour>, 5> kSteps{
+      {{0, kPalette[0]}, {6, kPalette[4]}, {15, kPalette[2]}, {30, kPalette[6]}, {50, kPalette[5]}}};
+  for (const auto& [most, colour] : kSteps) add_step(most, {colour, kOpacity}, fmt::format("{}", most));
+  add_step(std::numeric_limits<double>::infinity(), {kPalette[3], kOpacity}, fmt::format("> {}", kSteps.back().first));
+}
+
 void MapOverlay::make_keys(const MapOptions& options) {
   const CellCounts& cells = result_.cells;
   std::vector<Tint> seen;
   const Mode mode = result_.request.mode;
-  if (mode != Mode::kBlocker && mode != Mode::kHeight && mode != Mode::kProbability)
+  const bool zones = mode == Mode::kFresnel;
+  if (mode != Mode::kBlocker && mode != Mode::kHeight && mode != Mode::kProbability && mode != Mode::kLoss)
     for (const Step& step : steps_) seen.push_back(step.tint);
   if (seen.empty()) seen.push_back({kSeenColour, kOpacity});
-  keys_ = {{std::move(seen), result_.certified ? "Certainly visible" : options.seen, cells.visible},
-           {{}, result_.certified ? "Certainly hidden" : options.unseen, cells.hidden}};
+  keys_ = {{std::move(seen),
+            result_.certified ? "Certainly visible"
+            : zones           ? fmt::format("In sight, {:g} F1 clear", result_.request.fresnel.fraction)
+                              : options.seen,
+            cells.visible}};
+  if (zones) keys_.push_back({{{kZoneCutColour, kOpacity}}, "In sight, zone cut", cells.zone_cut});
+  keys_.push_back({{}, result_.certified ? "Certainly hidden" : options.unseen, cells.hidden});
   if (cells.undecided > 0 || result_.certified)
     keys_.push_back({{{kUndecidedColour, kOpacity}}, "Undecided", cells.undecided});
 }

@@ -16,6 +16,7 @@ namespace itin::viewshed {
 /// is hidden, for grey print.
 inline constexpr Colour kSeenColour{0, 114, 178};
 inline constexpr Colour kUndecidedColour{230, 159, 0};
+inline constexpr Colour kZoneCutColour{204, 121, 167};
 
 struct Tint {
   Colour colour = kSeenColour;
@@ -56,6 +57,7 @@ class MapOverlay {
   void scale_blockers();
   void scale_heights();
   void scale_probabilities();
+  void scale_losses();
   double blocker_value(std::uint32_t theme) const;
   void add_step(double most, Tint tint, std::string text);
   void make_keys(const MapOptions& options);

@@ -30,8 +30,7 @@ ResultMap result_map(const Result& result, const MapOptions& options) {
   map.cells.resize(result.grid.cell_count());
   for (std::size_t i = 0; i < map.cells.size(); ++i)
     if (const auto tint = overlay.at(i)) map.cells[i] = colour_of(*tint);
-  const std::uint64_t decided =
-      std::max<std::uint64_t>(1, result.cells.visible + result.cells.hidden + result.cells.undecided);
+  const std::uint64_t decided = std::max<std::uint64_t>(1, result.cells.in_view());
   for (const MapOverlay::Key& key : overlay.keys()) {
     map.keys.push_back({key.tints.empty() ? ResultMap::Colour{} : colour_of(key.tints.back()),
                         key_text(key.text, key.cells, decided, result.grid.cell_area())});

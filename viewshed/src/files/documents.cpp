@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <itin/coordinates.hpp>
 #include <viewshed/documents.hpp>
 
@@ -5,11 +7,15 @@ namespace itin::viewshed {
 
 namespace {
 
-Document of_verdicts(const CellCounts& cells, const auto& value) {
-  return {{"visible", value(cells.visible)},
-          {"hidden", value(cells.hidden)},
-          {"undecided", value(cells.undecided)},
-          {"outside", value(cells.outside)}};
+Document of_verdicts(const Result& result, const auto& value) {
+  const CellCounts& cells = result.cells;
+  Document document{{"visible", value(cells.visible)},
+                    {"hidden", value(cells.hidden)},
+                    {"undecided", value(cells.undecided)},
+                    {"outside", value(cells.outside)}};
+  if (result.request.mode == Mode::kFresnel) document["zone_cut"] = value(cells.zone_cut);
+  if (result.request.mode == Mode::kLoss) document["without_loss"] = value(cells_without_loss(result));
+  return document;
 }
 
 Document grid_document(const RasterGrid& grid) {
@@ -51,6 +57,13 @@ double decided_percent(const CellCounts& cells) {
   return all == 0 ? 100 : 100.0 * static_cast<double>(decided) / static_cast<double>(all);
 }
 
+std::uint64_t cells_without_loss(const Result& result) {
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; i < result.loss_db.size(); ++i)
+    count += std::isnan(result.loss_db[i]) && result.visible[i] != Verdict::kOutside ? 1 : 0;
+  return count;
+}
+
 Document viewshed_document(const StoreMetadata& metadata, const Result& result) {
   const Request& request = result.request;
   const double area = result.grid.cell_area();
@@ -59,9 +72,8 @@ Document viewshed_document(const StoreMetadata& metadata, const Result& result) 
   document["surface"] = surface_document(metadata, request.detail, request.themes);
   document["refraction"] = earth_document(request.earth);
   document["grid"] = grid_document(result.grid);
-  document["cells"] = of_verdicts(result.cells, [](std::uint64_t cells) { return cells; });
-  document["area_m2"] =
-      of_verdicts(result.cells, [&](std::uint64_t cells) { return static_cast<double>(cells) * area; });
+  document["cells"] = of_verdicts(result, [](std::uint64_t cells) { return cells; });
+  document["area_m2"] = of_verdicts(result, [&](std::uint64_t cells) { return static_cast<double>(cells) * area; });
   if (result.certified) document["decided_percent"] = decided_percent(result.cells);
   document["statistics"] = statistics_document(result.statistics);
   return document;

@@ -65,6 +65,16 @@ Metadata metadata_of(const Result& result) {
     items.emplace_back("vertical_error_m", fmt::format("{:.12g}", r.vertical_error.sigma));
     items.emplace_back("error_correlation_m", fmt::format("{:.12g}", r.vertical_error.correlation_length));
   }
+  if (r.mode == Mode::kFresnel) {
+    items.emplace_back("wavelength_m", fmt::format("{:.12g}", r.fresnel.wavelength));
+    items.emplace_back("fresnel", fmt::format("{:.12g}", r.fresnel.fraction));
+  }
+  if (r.mode == Mode::kLoss) {
+    items.emplace_back("frequency_ghz", fmt::format("{:.12g}", r.radio.frequency_ghz));
+    items.emplace_back("effective_earth_km", fmt::format("{:.12g}", r.radio.effective_earth_km));
+    items.emplace_back("polarisation", r.radio.polarisation == Polarisation::kVertical ? "v" : "h");
+    items.emplace_back("over_sea", fmt::format("{:.12g}", r.radio.over_sea));
+  }
   if (r.mode == Mode::kBlocker) {
     for (std::size_t i = 0; i < result.theme_names.size(); ++i)
       items.emplace_back(fmt::format("theme_{}", i + 1), result.theme_names[i]);
@@ -73,6 +83,14 @@ Metadata metadata_of(const Result& result) {
 }
 
 using RasterClasses = std::vector<RasterClass>;
+
+RasterClasses raster_classes_of_zones() {
+  return {{code_of(Verdict::kHidden), "hidden", 225, 225, 225, 255},
+          {code_of(Verdict::kVisible), "in sight, zone clear", 0, 114, 178, 255},
+          {code_of(Verdict::kUndecided), "undecided", 230, 159, 0, 255},
+          {code_of(Verdict::kZoneCut), "in sight, zone cut", 204, 121, 167, 255},
+          {code_of(Verdict::kOutside), "outside or no data", 0, 0, 0, 0}};
+}
 
 RasterClasses raster_classes_of_verdicts(bool certified) {
   const std::string certainly = certified ? "certainly " : "";
@@ -92,6 +110,15 @@ class Writer {
     description_.classes = raster_classes_of_verdicts(result_.certified);
     write<std::uint8_t>({result_.certified ? "certified" : "visible"}, code_of(Verdict::kOutside),
                         codes_of(result_.visible));
+  }
+  void zones() {
+    description_.classes = raster_classes_of_zones();
+    write<std::uint8_t>({"first Fresnel zone"}, code_of(Verdict::kOutside), codes_of(result_.visible));
+  }
+  void losses() {
+    std::vector<float> values = result_.loss_db;
+    values.insert(values.end(), result_.free_space_db.begin(), result_.free_space_db.end());
+    write<float>({"diffraction loss (ITU-R P.526, delta-Bullington), dB", "free-space loss, dB"}, kNaN, values);
   }
   void counts() { write<std::uint16_t>({"observers that see the cell"}, kCountOutside, result_.count); }
   void angles() {
@@ -184,6 +211,10 @@ void write_geotiff(const std::string& path, const Result& result, const GeotiffO
       return writer.heights();
     case Mode::kProbability:
       return writer.probabilities();
+    case Mode::kFresnel:
+      return writer.zones();
+    case Mode::kLoss:
+      return writer.losses();
   }
 }
 

@@ -24,6 +24,13 @@ RegionClasses region_classes_of_verdicts(bool certified) {
           {code_of(Verdict::kUndecided), "undecided"}};
 }
 
+RegionClasses region_classes_of_zones() {
+  return {{code_of(Verdict::kVisible), "in sight, zone clear"},
+          {code_of(Verdict::kZoneCut), "in sight, zone cut"},
+          {code_of(Verdict::kHidden), "hidden"},
+          {code_of(Verdict::kUndecided), "undecided"}};
+}
+
 RegionClasses classes_of_counts(const Result& result) {
   const std::set<std::uint16_t> counts(result.count.begin(), result.count.end());
   RegionClasses classes;
@@ -89,11 +96,14 @@ void write_polygons(const std::string& path, const Result& result, const std::st
       return write(result.nearest, classes_of_observers(result));
     case Mode::kBlocker:
       return write(result.blocker_theme, classes_of_blockers(result));
+    case Mode::kFresnel:
+      return write(codes_of(result.visible), region_classes_of_zones());
     case Mode::kVisible:
     case Mode::kWhich:
     case Mode::kAngle:
     case Mode::kHeight:
     case Mode::kProbability:
+    case Mode::kLoss:
       return write(codes_of(result.visible), region_classes_of_verdicts(result.certified));
   }
 }

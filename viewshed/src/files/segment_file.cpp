@@ -17,8 +17,9 @@ template <class Archive, class R>
 void exchange(Archive& archive, R& result) {
   archive(result.visible, result.count, result.which, result.angle_deg, result.nearest, result.distance_m,
           result.blockers, result.blocker, result.blocker_theme, result.blocker_feature, result.least_height_m,
-          result.probability, result.theme_names, result.cells.visible, result.cells.hidden, result.cells.undecided,
-          result.cells.outside, result.ground_m, result.crosses_voids, result.warnings);
+          result.probability, result.loss_db, result.free_space_db, result.theme_names, result.cells.visible,
+          result.cells.hidden, result.cells.undecided, result.cells.outside, result.cells.zone_cut, result.ground_m,
+          result.crosses_voids, result.warnings);
   auto& s = result.statistics;
   archive(s.retrieval.points_read, s.retrieval.blocks_read, s.triangles, s.lines, s.retrieval_seconds, s.scene_seconds,
           s.lines_seconds);

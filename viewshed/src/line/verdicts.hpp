@@ -23,8 +23,8 @@ inline std::span<const std::uint8_t> codes_of(const std::vector<Verdict>& verdic
   return {reinterpret_cast<const std::uint8_t*>(verdicts.data()), verdicts.size()};
 }
 
-/// Every observer's verdict on a cell, made one: the first of visible, undecided, hidden and outside that any of them
-/// has. At first nobody looks.
+/// Every observer's verdict on a cell, made one: the first of visible, undecided, zone cut, hidden and outside that any
+/// of them has. At first nobody looks.
 class Verdicts {
  public:
   Verdicts() { values_.fill(Verdict::kOutside); }
@@ -37,7 +37,8 @@ class Verdicts {
     // Without branches, so that many cells are added at once.
     const Verdict value = values_[cell];
     const bool kept = of_observer == Verdict::kOutside || value == Verdict::kVisible ||
-                      (of_observer == Verdict::kHidden && value != Verdict::kOutside);
+                      (of_observer == Verdict::kHidden && value != Verdict::kOutside) ||
+                      (of_observer == Verdict::kZoneCut && value == Verdict::kUndecided);
     values_[cell] = kept ? value : of_observer;
   }
   void add(const TileValues<Verdict>& of_observer) {
@@ -63,8 +64,9 @@ class Verdicts {
       for_each_cell(tile, [&](std::size_t cell, RasterGrid::Cell) { found += values_[cell] == verdict ? 1 : 0; });
       return found;
     };
-    CellCounts counts{count(Verdict::kVisible), count(Verdict::kHidden), count(Verdict::kUndecided), 0};
-    counts.outside = all - counts.visible - counts.hidden - counts.undecided;
+    CellCounts counts{count(Verdict::kVisible), count(Verdict::kHidden), count(Verdict::kUndecided)};
+    counts.zone_cut = count(Verdict::kZoneCut);
+    counts.outside = all - counts.in_view();
     return counts;
   }
 

@@ -7,7 +7,9 @@
 
 #include "modes/blocker_observation.hpp"
 #include "modes/least_height_observation.hpp"
+#include "modes/loss_observation.hpp"
 #include "modes/probability_observation.hpp"
+#include "modes/zone_observation.hpp"
 #include "request/field_of_view.hpp"
 
 namespace itin::viewshed {
@@ -124,6 +126,7 @@ std::uint64_t Observation::observe(const TileView& tile) {
     if (open(view)) values[view.cell] = Verdict::kUndecided;
   });
   const std::uint64_t lines = tile.work.judge(tile.number, values);
+  qualify(tile, values);
   verdicts_.add(values);
   tile.for_each_cell([&](CellView view) {
     const Verdict verdict = values[view.cell];
@@ -156,6 +159,7 @@ void Observation::prepare(Result& result) {
   if (mode == Mode::kBlocker) result.blocker.resize(cells);
   if (mode == Mode::kProbability) result.probability.resize(cells);
   if (mode == Mode::kHeight) result.least_height_m.resize(cells);
+  if (mode == Mode::kLoss) result.loss_db.resize(cells), result.free_space_db.resize(cells);
   if (mode == Mode::kNearest) result.nearest.resize(cells), result.distance_m.resize(cells);
 }
 
@@ -191,6 +195,10 @@ std::unique_ptr<Observation> Observations::of_tile() {
       return std::make_unique<LeastHeightObservation>();
     case Mode::kProbability:
       return std::make_unique<ProbabilityObservation>(request_.nodata);
+    case Mode::kFresnel:
+      return std::make_unique<ZoneObservation>();
+    case Mode::kLoss:
+      return std::make_unique<LossObservation>(request_.nodata);
     case Mode::kVisible:
       break;
   }

@@ -83,6 +83,8 @@ class Observation {
   const Verdicts& verdicts() const { return verdicts_; }
 
  private:
+  /// Qualifies an eye's verdicts by what else the mode asks of its lines, before they are added.
+  virtual void qualify(const TileView&, TileValues<Verdict>&) {}
   /// The target is seen; its verdict has been added.
   virtual void keep(const CellView&) {}
   /// Studies a target that is seen or hidden, and that is not straight above or below the eye.

@@ -6,21 +6,28 @@
 #include <itin/tin.hpp>
 #include <viewshed/viewshed.hpp>
 
+#include "judge/clear_zone.hpp"
 #include "modes/first_blocker.hpp"
+#include "modes/line_losses.hpp"
 #include "modes/visibility_probability.hpp"
 
 namespace itin::viewshed {
 
 struct TriangleStudies {
-  /// Those that the request's mode needs; both must outlive it.
-  TriangleStudies(const Request& request, const Tin& surface) : tin(surface) {
+  /// Those that the request's mode needs. `bare` is the ground under what stands on the surface; null where nothing
+  /// does. All must outlive it.
+  TriangleStudies(const Request& request, const Tin& surface, const Tin* bare) : tin(surface) {
     if (request.mode == Mode::kBlocker) blockers.emplace(surface, request.earth);
     if (request.mode == Mode::kProbability) odds.emplace(surface, request.earth, request.vertical_error);
+    if (request.mode == Mode::kFresnel) zone.emplace(surface, nullptr, request.earth, request.fresnel);
+    if (request.mode == Mode::kLoss) losses.emplace(surface, bare, request.radio);
   }
 
   const Tin& tin;
   std::optional<FirstBlocker> blockers;
   std::optional<VisibilityProbability> odds;
+  std::optional<ClearZone> zone;
+  std::optional<LineLosses> losses;
 };
 
 }  // namespace itin::viewshed

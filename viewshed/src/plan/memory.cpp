@@ -16,6 +16,7 @@ std::uint64_t bytes_per_cell(const Request& request) {
   constexpr std::uint64_t kVerdict = 6;
   switch (request.mode) {
     case Mode::kVisible:
+    case Mode::kFresnel:
       return kVerdict;
     case Mode::kCount:
       return kVerdict + 4;
@@ -25,6 +26,8 @@ std::uint64_t bytes_per_cell(const Request& request) {
     case Mode::kHeight:
     case Mode::kProbability:
       return kVerdict + 8;
+    case Mode::kLoss:
+      return kVerdict + 20;
     case Mode::kNearest:
       return kVerdict + 20;
     case Mode::kBlocker:
@@ -43,7 +46,8 @@ bool takes_a_lattice(const Store& store, const Request& request) {
 
 std::uint64_t bytes_per_point(const Request& request) {
   constexpr std::uint64_t kTriangles = 400, kStudies = 150, kRays = 1500;
-  return kTriangles + (needs_triangles(request) ? kStudies : 0) + (casts_rays(request) ? kRays : 0);
+  const std::uint64_t studies = needs_bare_lines(request) ? 2 : needs_triangles(request) ? 1 : 0;
+  return kTriangles + studies * kStudies + (casts_rays(request) ? kRays : 0);
 }
 
 std::uint64_t points_about(const Store& store, const Detail& detail, const Box& box) {

@@ -57,6 +57,14 @@ class Text {
     const auto& [sigma, correlation_length] = v;
     add(sigma, correlation_length);
   }
+  void put(const FresnelCriterion& v) {
+    const auto& [wavelength, fraction] = v;
+    add(wavelength, fraction);
+  }
+  void put(const RadioPath& v) {
+    const auto& [frequency_ghz, effective_earth_km, polarisation, over_sea] = v;
+    add(frequency_ghz, effective_earth_km, polarisation, over_sea);
+  }
   void put(const Segment& v) {
     const auto& [north_west, columns, rows, observers, distance_m, points] = v;
     add(north_west.column, north_west.row, columns, rows, observers, distance_m, points);
@@ -67,11 +75,11 @@ class Text {
 
 void add_request(Text& text, const Request& request, const std::vector<ThemeInfo>& themes) {
   const auto& [observers, target_height, target_absolute, radius, min_radius, azimuth, elevation, cell_size, grid,
-               earth, detail, choice, observers_on_surface, targets_on_surface, nodata, engine, mode, vertical_error] =
-      request;
+               earth, detail, choice, observers_on_surface, targets_on_surface, nodata, engine, mode, vertical_error,
+               fresnel, radio] = request;
   text.add(observers, target_height, target_absolute, radius, min_radius, azimuth, elevation, cell_size,
            grid.has_value(), earth, detail.centre(), detail.rings(), choice.names(themes), observers_on_surface,
-           targets_on_surface, nodata, engine, mode, vertical_error);
+           targets_on_surface, nodata, engine, mode, vertical_error, fresnel, radio);
 }
 
 /// A store has no digest of its own: what tells it from others is what was imported, and what became of it.

@@ -105,6 +105,40 @@ RasterGrid with_room_for_bands(const Request& request, RasterGrid grid) {
   return grid;
 }
 
+void validate_errors(const VerticalError& e) {
+  if (!positive(e.sigma))
+    throw InputError(fmt::format("vertical error {:g}: give a positive number of metres", e.sigma));
+  if (!(std::isfinite(e.correlation_length) && e.correlation_length >= 0))
+    throw InputError(
+        fmt::format("correlation length {:g}: give 0 or a positive number of metres", e.correlation_length));
+}
+
+/// The zone ends at both ends of a line: on the ground nothing of it is clear.
+void validate_zones(const Request& request) {
+  const FresnelCriterion& zone = request.fresnel;
+  if (!positive(zone.wavelength))
+    throw InputError(fmt::format("wavelength {:g}: give a positive number of metres", zone.wavelength));
+  if (!positive(zone.fraction) || zone.fraction > 1)
+    throw InputError(fmt::format("fraction {:g} of the Fresnel zone: give a number above 0, 1 at most", zone.fraction));
+  for (const Observer& observer : request.observers) {
+    if (!observer.absolute && observer.height == 0)
+      refuse(observer, "its height is 0, and no link from the ground has a clear Fresnel zone; give more");
+    if (!request.target_absolute && observer.target_height.value_or(request.target_height) == 0)
+      throw InputError("no link to the ground has a clear Fresnel zone: give a `target_height` above 0");
+  }
+}
+
+void validate_radio(const Request& request) {
+  const RadioPath& radio = request.radio;
+  if (!positive(radio.frequency_ghz))
+    throw InputError(fmt::format("frequency {:g}: give a positive number of GHz", radio.frequency_ghz));
+  if (!(radio.over_sea >= 0 && radio.over_sea <= 1))
+    throw InputError(fmt::format("share over sea {:g}: give 0 to 1", radio.over_sea));
+  if (radio.effective_earth_km != effective_earth_km(request.earth))
+    throw InputError(fmt::format("the effective Earth radius of {:g} km is not that of the sight lines, {:g} km",
+                                 radio.effective_earth_km, effective_earth_km(request.earth)));
+}
+
 bool all_bounded(const Request& request) {
   return std::all_of(request.observers.begin(), request.observers.end(),
                      [&](const Observer& o) { return radius_of(request, o).has_value(); });
@@ -117,7 +151,16 @@ bool casts_rays(const Request& request) {
 }
 
 bool needs_triangles(const Request& request) {
-  return request.mode == Mode::kBlocker || request.mode == Mode::kProbability;
+  return request.mode == Mode::kBlocker || request.mode == Mode::kProbability || request.mode == Mode::kFresnel ||
+         request.mode == Mode::kLoss;
+}
+
+bool leaves_open(const Request& request) {
+  return request.mode == Mode::kVisible || request.mode == Mode::kFresnel || request.mode == Mode::kLoss;
+}
+
+bool needs_bare_lines(const Request& request) {
+  return request.mode == Mode::kLoss;
 }
 
 std::vector<Point2> positions_of(const Request& request) {
@@ -140,15 +183,10 @@ void validate(const Request& request) {
   validate_cells(request);
   if (request.engine == Engine::kRays && request.mode == Mode::kHeight)
     throw InputError("rays tell whether a target is seen, not from what height on: give the engine sweep or auto");
-  if (request.mode == Mode::kProbability) {
-    const VerticalError& e = request.vertical_error;
-    if (!positive(e.sigma))
-      throw InputError(fmt::format("vertical error {:g}: give a positive number of metres", e.sigma));
-    if (!(std::isfinite(e.correlation_length) && e.correlation_length >= 0))
-      throw InputError(
-          fmt::format("correlation length {:g}: give 0 or a positive number of metres", e.correlation_length));
-  }
   request.earth.validate();
+  if (request.mode == Mode::kProbability) validate_errors(request.vertical_error);
+  if (request.mode == Mode::kFresnel) validate_zones(request);
+  if (request.mode == Mode::kLoss) validate_radio(request);
 }
 
 void validate_certified(const Request& request) {
@@ -278,7 +316,7 @@ void find_voids(const Grid& units, const std::vector<RimEdge>& rim, Result& resu
                                                                    hull_about(observer.position, result.grid.bounds()));
   }
   const Request& request = result.request;
-  if (result.crosses_voids && request.nodata == NoData::kUnknown && request.mode != Mode::kVisible)
+  if (result.crosses_voids && request.nodata == NoData::kUnknown && !leaves_open(request))
     result.warnings.emplace_back(kVoidsWarning);
 }
 

@@ -5,6 +5,9 @@
 #include <numbers>
 
 #include <itin/same_place.hpp>
+
+#include "request/request.hpp"
+
 namespace itin::viewshed {
 
 namespace {
@@ -15,7 +18,7 @@ constexpr double kTurn = 2 * std::numbers::pi;
 }  // namespace
 
 NoData missing_ground_rule(const Request& request) {
-  return request.mode == Mode::kVisible ? request.nodata : decided_missing_ground_rule(request.nodata);
+  return leaves_open(request) ? request.nodata : decided_missing_ground_rule(request.nodata);
 }
 
 NoData decided_missing_ground_rule(NoData rule) {

@@ -19,7 +19,7 @@
 namespace itin::viewshed {
 
 /// The rule for lines that cross ground without data and come back: the request's own, but kClear in place of kUnknown
-/// in every mode but kVisible, which alone leaves anything open.
+/// in modes that leave nothing open (leaves_open()).
 NoData missing_ground_rule(const Request& request);
 /// For answers that leave nothing open: what is not known hides nothing.
 NoData decided_missing_ground_rule(NoData rule);

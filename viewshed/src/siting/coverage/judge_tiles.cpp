@@ -8,9 +8,9 @@
 #include <itin/parallel.hpp>
 #include <viewshed/viewshed.hpp>
 
+#include "judge/zone_cut.hpp"
 #include "progress/stage.hpp"
 #include "siting/coverage/cell_blocks.hpp"
-#include "siting/coverage/zone_cut.hpp"
 
 namespace itin::viewshed {
 
@@ -79,7 +79,8 @@ void close(const TileValues<Verdict>& values, TileCover& cover) {
       const auto bit = static_cast<unsigned>(std::countr_zero(rest));
       const Verdict value = values[cell_in_tile(b, bit)];
       if (value == Verdict::kVisible) cover.certain[b] |= std::uint64_t{1} << bit;
-      if (value == Verdict::kHidden || value == Verdict::kOutside) cover.possible[b] &= ~(std::uint64_t{1} << bit);
+      if (value == Verdict::kHidden || value == Verdict::kZoneCut || value == Verdict::kOutside)
+        cover.possible[b] &= ~(std::uint64_t{1} << bit);
     }
   }
 }

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "judge/clear_zone.hpp"
 #include "judge/tile_judge.hpp"
-#include "siting/coverage/clear_zone.hpp"
 #include "siting/coverage/group_survey.hpp"
 
 namespace itin::viewshed {

@@ -8,10 +8,10 @@
 #include <itin/parallel.hpp>
 
 #include "bounds/surface_heights.hpp"
+#include "judge/clear_zone.hpp"
 #include "judge/envelope_scene.hpp"
 #include "line/sight_line.hpp"
 #include "progress/stage.hpp"
-#include "siting/coverage/clear_zone.hpp"
 #include "siting/coverage/group_survey.hpp"
 #include "siting/coverage/point_bins.hpp"
 

@@ -2,11 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <profile/diffraction.hpp>
+#include <itin/diffraction.hpp>
+#include <itin/smooth_path.hpp>
 
-#include "radio/smooth_path.hpp"
-
-namespace itin::profile {
+namespace itin {
 
 namespace {
 
@@ -75,7 +74,7 @@ SmoothClearance smooth_clearance(const SmoothPath& s, const RadioPath& path) {
 
 }  // namespace
 
-double spherical_earth_loss_db(double distance_km, double from_height_m, double to_height_m, const RadioPath& path) {
+double spherical_earth_db(double distance_km, double from_height_m, double to_height_m, const RadioPath& path) {
   const SmoothPath smooth{distance_km, from_height_m, to_height_m};
   const double roots = std::sqrt(from_height_m) + std::sqrt(to_height_m);
   const double horizon_km = std::sqrt(2 * path.effective_earth_km) * std::sqrt(0.001) * roots;  // equation (23)
@@ -87,4 +86,4 @@ double spherical_earth_loss_db(double distance_km, double from_height_m, double 
   return loss < 0 ? 0 : (1 - clearance.least_m / clearance.required_m) * loss;  // equation (28)
 }
 
-}  // namespace itin::profile
+}  // namespace itin

@@ -1,7 +1,7 @@
 // A path over a smooth Earth.
 #pragma once
 
-namespace itin::profile {
+namespace itin {
 
 /// Antennas over a smooth surface; one of them, at least, above it.
 struct SmoothPath {
@@ -14,4 +14,4 @@ struct SmoothPath {
 /// see each other over the surface.
 double reflection_km(const SmoothPath& path, double effective_earth_km);
 
-}  // namespace itin::profile
+}  // namespace itin

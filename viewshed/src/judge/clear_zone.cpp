@@ -1,4 +1,4 @@
-#include "siting/coverage/clear_zone.hpp"
+#include "judge/clear_zone.hpp"
 
 #include <algorithm>
 #include <array>

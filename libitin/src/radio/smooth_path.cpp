@@ -1,10 +1,10 @@
-#include "radio/smooth_path.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace itin::profile {
+#include <itin/smooth_path.hpp>
+
+namespace itin {
 
 double reflection_km(const SmoothPath& path, double effective_earth_km) {
   const double sum = path.from_m + path.to_m, d = path.distance_km;
@@ -15,4 +15,4 @@ double reflection_km(const SmoothPath& path, double effective_earth_km) {
   return d / 2 * (1 + b);
 }
 
-}  // namespace itin::profile
+}  // namespace itin

@@ -1,4 +1,4 @@
-#include "siting/coverage/zone_cut.hpp"
+#include "judge/zone_cut.hpp"
 
 #include <cmath>
 
@@ -31,7 +31,7 @@ class ZonePacket {
     const unsigned open = low_.active == 0 ? 0 : low_.active & ~zone_.certainly_clear(low_);
     for (unsigned i = 0; i < SightLines::kSize; ++i) {
       Verdict& value = values[(row + i / kPacketSide) * Tile::kSide + column + i % kPacketSide];
-      if ((cut >> i & 1) != 0) value = Verdict::kHidden;
+      if ((cut >> i & 1) != 0) value = Verdict::kZoneCut;
       if ((open >> i & 1) != 0) value = Verdict::kUndecided;
     }
   }

@@ -1,0 +1,43 @@
+// A radio wave: `--frequency`, `--polarisation`, `--over-sea`.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include <itin/earth.hpp>
+
+#include "program/verb.hpp"
+
+namespace itin::cli {
+
+/// The value of --frequency, GHz. Throws InputError.
+double parse_frequency(const std::string& text);
+
+/// The value of --fresnel, the part of the first Fresnel zone's radius that must be clear: above 0, at most 1. Throws
+/// InputError.
+double parse_fresnel(const std::string& text);
+
+/// Throws InputError where rays at a frequency would run over a flat Earth.
+void require_curved(const Earth& earth);
+
+class WaveOptions {
+ public:
+  /// `frequency_help` is what the verb does at that frequency.
+  void declare(CLI::App& app, const std::string& frequency_help);
+  /// Throws InputError.
+  void validate();
+  bool has_frequency() const { return wave_.has_value(); }
+  /// Whether more than a frequency was given.
+  bool is_detailed() const { return !polarisation_text_.empty() || !over_sea_text_.empty(); }
+  /// With the effective radius of this Earth; nothing without a frequency. Throws as require_curved() does.
+  std::optional<RadioPath> path(const Earth& earth) const;
+  Document parameters() const;
+
+ private:
+  std::string frequency_text_, polarisation_text_, over_sea_text_;
+  std::optional<RadioPath> wave_;
+};
+
+}  // namespace itin::cli

@@ -1,0 +1,38 @@
+// A viewshed of radio: `--frequency`, `--fresnel`, `--loss`, `--polarisation`, `--over-sea`.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <viewshed/viewshed.hpp>
+
+#include "options/wave_options.hpp"
+
+namespace itin::cli {
+
+class ViewshedRadio {
+ public:
+  void declare(CLI::App& app);
+  /// Throws InputError.
+  void validate();
+  /// Whether it is radio that is asked for, which has modes of its own.
+  bool is_given() const { return wave_.has_frequency(); }
+  /// Precondition: it is given. Throws InputError for a flat Earth.
+  void complete(viewshed::Request& request) const;
+  Document parameters() const;
+
+ private:
+  WaveOptions wave_;
+  std::string fresnel_text_;
+  bool loss_ = false;
+  double fraction_ = 0.6;
+};
+
+/// The title of a map of radio, and what its cells are judged by; nothing in other modes.
+std::optional<std::string> radio_title(const viewshed::Request& request);
+std::optional<std::string> radio_criterion(const viewshed::Request& request);
+
+/// The line of a call's text that says how many cells each class has.
+std::string radio_text(const viewshed::Result& result);
+
+}  // namespace itin::cli

@@ -1,0 +1,84 @@
+#include "modes/line_losses.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <itin/grazing.hpp>
+#include <itin/section_line.hpp>
+
+namespace itin::viewshed {
+
+namespace {
+
+using Pieces = std::vector<SurfacePieces::Piece>;
+
+Point2 metres(const Grid& grid, const Point3& units) {
+  return {grid.origin.x + units.x * grid.resolution, grid.origin.y + units.y * grid.resolution};
+}
+
+/// As seen from the line's other end.
+void turn_round(double length_m, Pieces& pieces) {
+  std::reverse(pieces.begin(), pieces.end());
+  for (auto& [from, to] : pieces) {
+    std::swap(from, to);
+    from.distance_m = length_m - from.distance_m, to.distance_m = length_m - to.distance_m;
+  }
+}
+
+/// The profile that pieces of a surface make, in order of distance, no two points farther apart than `most_m` where
+/// they are joined. Returns whether all of them are.
+bool chain(const Pieces& pieces, double most_m, std::vector<PathPoint>& points) {
+  points.clear();
+  bool whole = true;
+  for (const SurfacePieces::Piece& piece : pieces) {
+    const PathPoint &from = piece.from, &to = piece.to;
+    // A triangle again, or another beside an edge that the line runs along or a corner that it passes over.
+    if (!points.empty() && to.distance_m <= points.back().distance_m) continue;
+    const bool joined = !points.empty() && points.back().distance_m == from.distance_m;
+    whole = whole && (joined || from.distance_m == 0);
+    if (!joined || points.back().height_m != from.height_m) points.push_back(from);
+    for_each_place_between(from.distance_m, to.distance_m, most_m, [&](double t) {
+      points.push_back(
+          {from.distance_m + (to.distance_m - from.distance_m) * t, from.height_m + (to.height_m - from.height_m) * t});
+    });
+    if (to.distance_m > from.distance_m) points.push_back(to);
+  }
+  return whole;
+}
+
+bool reaches_from_end_to_end(const std::vector<PathPoint>& points, double length_m) {
+  return !points.empty() && points.front().distance_m == 0 && points.back().distance_m == length_m;
+}
+
+}  // namespace
+
+LineLosses::LineLosses(const Tin& surface, const Tin* bare, const RadioPath& path) : surface_(surface), path_(path) {
+  if (bare != nullptr) bare_.emplace(*bare);
+}
+
+LineLosses::Outcome LineLosses::of_line(const Line& line, Scratch& scratch) const {
+  const Grid& grid = surface_.grid();
+  const SectionLine section(grid, metres(grid, line.from), metres(grid, line.to));
+  const double length = section.length();
+  const auto profile = [&](const SurfacePieces& over, double most_m, std::vector<PathPoint>& points) {
+    over.along(section, scratch.pieces_);
+    if (section.is_mirrored()) turn_round(length, scratch.pieces_);
+    return chain(scratch.pieces_, most_m, points);
+  };
+  Outcome outcome;
+  outcome.over_missing = !profile(surface_, greatest_spacing_m(length), scratch.tops_);
+  if (!reaches_from_end_to_end(scratch.tops_, length)) return outcome;
+  PathEnds ends{length, line.from.z * grid.resolution, line.to.z * grid.resolution};
+  // An antenna on the surface stands on it but for rounding.
+  const double from_top = scratch.tops_.front().height_m, to_top = scratch.tops_.back().height_m;
+  if (ends.from_m < from_top - kGrazing || ends.to_m < to_top - kGrazing) return outcome;
+  ends.from_m = std::max(ends.from_m, from_top), ends.to_m = std::max(ends.to_m, to_top);
+  if (bare_) profile(*bare_, std::numeric_limits<double>::infinity(), scratch.ground_);
+  const std::vector<PathPoint>& ground = bare_ ? scratch.ground_ : scratch.tops_;
+  outcome.loss = Loss{delta_bullington(scratch.tops_, ground, ends, path_).ld_db,
+                      free_space_db(std::hypot(length, ends.to_m - ends.from_m), wavelength_m(path_.frequency_ghz))};
+  return outcome;
+}
+
+}  // namespace itin::viewshed

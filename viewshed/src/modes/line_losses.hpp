@@ -1,0 +1,58 @@
+// The losses of a radio path over a line, by the profile that its triangles make.
+//
+//   const LineLosses losses(tin, nullptr, {.frequency_ghz = 2.5});
+//   LineLosses::Scratch scratch;  // for many lines
+//   if (const auto loss = losses.of_line({eye, target}, scratch)) ...
+//
+// The profile has the places where the line crosses the surface's edges, as SectionLine finds them for cross-sections,
+// and further ones between them as a report of the line has them: both come to one loss (itin/diffraction.hpp).
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <itin/diffraction.hpp>
+#include <itin/tin.hpp>
+
+#include "modes/surface_pieces.hpp"
+
+namespace itin::viewshed {
+
+/// Safe for concurrent use.
+class LineLosses {
+ public:
+  /// `bare`: the ground under what stands on the surface; null where nothing does. Both must outlive it. Cost and
+  /// memory: those of SurfacePieces.
+  LineLosses(const Tin& surface, const Tin* bare, const RadioPath& path);
+
+  /// Grid units; they differ horizontally.
+  struct Line {
+    Point3 from, to;
+  };
+  struct Loss {
+    double diffraction_db = 0;  ///< delta-Bullington
+    double free_space_db = 0;
+  };
+  struct Outcome {
+    std::optional<Loss> loss;   ///< over known ground; nothing where an end is within a standing feature
+    bool over_missing = false;  ///< the line crosses ground without data
+  };
+  class Scratch;
+  /// Cost: all triangles under the line, about 60 nanoseconds each.
+  Outcome of_line(const Line& line, Scratch& scratch) const;
+
+ private:
+  SurfacePieces surface_;
+  std::optional<SurfacePieces> bare_;
+  RadioPath path_;
+};
+
+/// Memory to use again, for one thread.
+class LineLosses::Scratch {
+ private:
+  friend class LineLosses;
+  std::vector<SurfacePieces::Piece> pieces_;
+  std::vector<PathPoint> tops_, ground_;
+};
+
+}  // namespace itin::viewshed

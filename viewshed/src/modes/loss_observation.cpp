@@ -1,0 +1,47 @@
+#include "modes/loss_observation.hpp"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace itin::viewshed {
+
+namespace {
+
+constexpr float kNoLoss = std::numeric_limits<float>::infinity();
+
+}  // namespace
+
+LossObservation::LossObservation(NoData nodata) : nodata_(nodata) {
+  diffraction_.fill(kNoLoss);
+  free_space_.fill(kNoLoss);
+}
+
+void LossObservation::qualify(const TileView&, TileValues<Verdict>& values) {
+  for (std::size_t cell = 0; cell < values.size(); ++cell)
+    if (values[cell] == Verdict::kUndecided) unknown_.set(cell);
+}
+
+void LossObservation::study(const TileView& tile, const CellView& view, const Sight& sight) {
+  const LineLosses::Outcome outcome = tile.studies->losses->of_line({sight.from, sight.to}, scratch_);
+  if (outcome.over_missing && nodata_ == NoData::kUnknown) unknown_.set(view.cell);
+  if (!outcome.loss || (outcome.over_missing && nodata_ != NoData::kClear)) return;
+  const auto diffraction = static_cast<float>(outcome.loss->diffraction_db);
+  const auto free_space = static_cast<float>(outcome.loss->free_space_db);
+  // Among observers with one sum the one with the clearer line counts, whichever comes first.
+  float& least = diffraction_[view.cell];
+  float& beside = free_space_[view.cell];
+  if (std::pair(diffraction + free_space, diffraction) < std::pair(least + beside, least))
+    least = diffraction, beside = free_space;
+}
+
+void LossObservation::store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const {
+  constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
+  for (std::size_t i = 0; i < columns; ++i) {
+    const bool known = !unknown_[cell + i] && !std::isinf(diffraction_[cell + i]);
+    result.loss_db[place + i] = known ? diffraction_[cell + i] : kNoValue;
+    result.free_space_db[place + i] = known ? free_space_[cell + i] : kNoValue;
+  }
+}
+
+}  // namespace itin::viewshed

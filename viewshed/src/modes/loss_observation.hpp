@@ -1,0 +1,26 @@
+// The loss mode: what a radio path from the best observer to each cell loses.
+#pragma once
+
+#include <bitset>
+
+#include "modes/line_losses.hpp"
+#include "modes/observation.hpp"
+
+namespace itin::viewshed {
+
+class LossObservation final : public Observation {
+ public:
+  explicit LossObservation(NoData nodata);
+
+ private:
+  void qualify(const TileView& tile, TileValues<Verdict>& values) override;
+  void study(const TileView& tile, const CellView& view, const Sight& sight) override;
+  void store_row(std::size_t cell, std::size_t columns, std::size_t place, Result& result) const override;
+
+  NoData nodata_;
+  LineLosses::Scratch scratch_;
+  TileValues<float> diffraction_, free_space_;      ///< infinity where no observer has a known one
+  std::bitset<Tile::kSide * Tile::kSide> unknown_;  ///< where an observer's is not
+};
+
+}  // namespace itin::viewshed

@@ -1,0 +1,97 @@
+#include "modes/surface_pieces.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include <itin/grid_units.hpp>
+#include <itin/topology.hpp>
+
+#include "line/sight_line.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// A place on the line counts as left of it.
+bool lies_left(const SectionLine& line, const GridPoint& p) {
+  return line.side(p) >= 0;
+}
+
+void add(const SectionLine& line, const SectionCrossing& in, const SectionCrossing& out,
+         std::vector<SurfacePieces::Piece>& pieces) {
+  if (const auto piece = line.clip(in, out))
+    pieces.push_back({{piece->from.distance, piece->from.position.z}, {piece->to.distance, piece->to.position.z}});
+}
+
+Point2 in_units(const Grid& grid, const Point2& p) {
+  return {easting_in_units(grid, p.x), northing_in_units(grid, p.y)};
+}
+
+}  // namespace
+
+SurfacePieces::SurfacePieces(const Tin& tin) : tin_(tin), pyramid_(tin), neighbours_(adjacent_triangles(tin)) {}
+
+void SurfacePieces::along(const SectionLine& line, std::vector<Piece>& pieces) const {
+  if (!walk(line, pieces)) search(line, pieces);
+}
+
+bool SurfacePieces::walk(const SectionLine& line, std::vector<Piece>& pieces) const {
+  pieces.clear();
+  std::optional<Stop> at = first_stop(line);
+  while (at) {
+    const SectionCrossing out = line.crossing(corner(at->triangle, at->exit), corner(at->triangle, at->exit + 1));
+    add(line, at->in, out, pieces);
+    if (out.place == SectionCrossing::Place::kBeyond || out.t >= 1) return true;
+    const std::uint32_t next = neighbours_[at->triangle][at->exit];
+    if (next == kNoNeighbour) return false;
+    const auto& around = neighbours_[next];
+    const auto entry =
+        static_cast<std::uint32_t>(std::find(around.begin(), around.end(), at->triangle) - around.begin());
+    // The corner before the entry's edge lies left of the line, the one behind it right: the third decides.
+    const bool left = lies_left(line, corner(next, entry + 2));
+    at = Stop{next, (entry + (left ? 1 : 2)) % 3, out};
+  }
+  return false;
+}
+
+/// A triangle that the line has entered at its start or before, and not left.
+std::optional<SurfacePieces::Stop> SurfacePieces::first_stop(const SectionLine& line) const {
+  using Place = SectionCrossing::Place;
+  std::optional<Stop> first;
+  pyramid_.for_each_triangle_near(in_units(tin_.grid, line.start()), [&](std::uint32_t t) {
+    const std::array<bool, 3> left{lies_left(line, corner(t, 0)), lies_left(line, corner(t, 1)),
+                                   lies_left(line, corner(t, 2))};
+    std::uint32_t entry = 3, exit = 3;
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      if (left[i] && !left[(i + 1) % 3]) entry = i;
+      if (!left[i] && left[(i + 1) % 3]) exit = i;
+    }
+    if (exit == 3) return true;
+    const SectionCrossing in = line.crossing(corner(t, entry), corner(t, entry + 1));
+    const SectionCrossing out = line.crossing(corner(t, exit), corner(t, exit + 1));
+    if ((in.place != Place::kBefore && in.t > 0) || out.place == Place::kBefore) return true;
+    first = Stop{t, exit, in};
+    return false;
+  });
+  return first;
+}
+
+void SurfacePieces::search(const SectionLine& line, std::vector<Piece>& pieces) const {
+  pieces.clear();
+  const Point2 from = in_units(tin_.grid, line.start()), to = in_units(tin_.grid, line.end());
+  LineBundle bundle(SightLine({from.x, from.y, 0}, {to.x, to.y, 0}, 0, 0));
+  bundle.margin = std::numeric_limits<double>::infinity();  // however far below
+  // Most triangles lie in several bins.
+  std::array<std::uint32_t, 256> before;
+  before.fill(std::numeric_limits<std::uint32_t>::max());
+  pyramid_.search(bundle, [&](std::uint32_t t) {
+    if (std::exchange(before[t % before.size()], t) == t) return;
+    if (const auto chord = line.chord(tin_.corners(t))) add(line, chord->from, chord->to, pieces);
+  });
+  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
+    return std::pair(a.from.distance_m, a.to.distance_m) < std::pair(b.from.distance_m, b.to.distance_m);
+  });
+}
+
+}  // namespace itin::viewshed
