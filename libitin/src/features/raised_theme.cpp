@@ -16,9 +16,10 @@
 #include <itin/triangulate.hpp>
 
 #include "base/stoppable.hpp"
+#include "features/cell_features.hpp"
 #include "features/feature_mesh.hpp"
 #include "features/footprint_arrangement.hpp"
-#include "features/hot_pixel.hpp"
+#include "features/ground_coverage.hpp"
 #include "features/mask_index.hpp"
 #include "features/terrain_heights.hpp"
 #include "geometry/cell.hpp"
@@ -60,32 +61,6 @@ GridBox widened(const GridBox& box, std::int32_t by) {
   };
   return {cut(std::int64_t{box.xmin} - by), cut(std::int64_t{box.ymin} - by), cut(std::int64_t{box.xmax} + by),
           cut(std::int64_t{box.ymax} + by)};
-}
-
-std::vector<Segment> outline_near(const Store& ground, const GridBox& box) {
-  std::vector<Segment> segments;
-  ground.points().segments(box, segments);
-  std::erase_if(segments, [](const Segment& s) { return s.theme != kCoverage; });
-  return segments;
-}
-
-/// Closed segments.
-bool touch(const Segment& s, Position p, Position q) {
-  const Position a{s.ax, s.ay}, b{s.bx, s.by};
-  return crosses(s, p, q) || on_segment(a, b, p) || on_segment(a, b, q) || on_segment(p, q, a) || on_segment(p, q, b);
-}
-
-/// Whether all of a polygon is ground: it touches no outline, and one of its positions is ground.
-bool lies_on_ground(const GridPolygon& polygon, const std::vector<Segment>& outline, const TerrainHeights& terrain) {
-  const GridBox box = box_about(polygon);
-  for (const Segment& s : outline) {
-    const GridBox of_segment{std::min(s.ax, s.bx), std::min(s.ay, s.by), std::max(s.ax, s.bx), std::max(s.ay, s.by)};
-    if (!of_segment.meets(box)) continue;
-    bool meets = side_of(polygon, {s.ax, s.ay}) != Side::outside;
-    for_each_edge(polygon, [&](Position a, Position b) { meets = meets || touch(s, a, b); });
-    if (meets) return false;
-  }
-  return terrain.height_at(polygon.outline.front()).has_value();
 }
 
 /// Sets of features, by union-find.
@@ -330,7 +305,12 @@ class Standing {
 
 RaisedFeatureTheme stand(const Store& ground, std::span<const StoredFootprint> footprints, std::uint64_t memory_bytes,
                          Progress& progress) {
-  return Standing(ground, footprints, memory_bytes).run(progress);
+  CellFeatures made = with_patches(ground, footprints, memory_bytes, progress);
+  RaisedFeatureTheme theme =
+      Standing(ground, made.any ? std::span<const StoredFootprint>(made.footprints) : footprints, memory_bytes)
+          .run(progress);
+  theme.reports.insert(theme.reports.begin(), made.reports.begin(), made.reports.end());
+  return theme;
 }
 
 }  // namespace itin
