@@ -151,6 +151,7 @@ CellFeatures with_patches(const Store& ground, std::span<const StoredFootprint> 
       patches += parts[i].footprints.size(), corners += parts[i].corners;
       if (some[i].feature.cells) require_room_for(some[i], patches, corners, memory_bytes);
       if (parts[i].beyond > 0) beyond[{some[i].source, some[i].feature.name}] += parts[i].beyond;
+      result.is_patch.resize(result.footprints.size() + parts[i].footprints.size(), some[i].feature.cells.has_value());
       std::move(parts[i].footprints.begin(), parts[i].footprints.end(), std::back_inserter(result.footprints));
     }
   }

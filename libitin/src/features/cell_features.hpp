@@ -20,6 +20,7 @@ namespace itin {
 struct CellFeatures {
   bool any = false;                         ///< whether there are rasters; else there are no footprints here
   std::vector<StoredFootprint> footprints;  ///< those that were given, with patches in place of rasters
+  std::vector<bool> is_patch;               ///< by footprint
   std::vector<RaisedReport> reports;
 };
 
