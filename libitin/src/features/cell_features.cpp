@@ -24,7 +24,7 @@ namespace {
 
 constexpr double kMillimetres = 1000;  ///< in a metre
 /// Memory while patches are raised, for each corner of theirs. Measured, rounded up.
-constexpr std::uint64_t kBytesPerCorner = 2500;
+constexpr std::uint64_t kBytesPerCorner = 2000;
 constexpr std::size_t kPortion = 64;  ///< parts of rasters
 
 /// A part of a raster on the ground about it.

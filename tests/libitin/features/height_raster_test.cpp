@@ -202,6 +202,24 @@ TEST_F(HeightRaster, LeavesOutWhatReachesBeyondTheGround) {
   EXPECT_GT(store.greatest_feature_height(ThemeChoice::all(), {300228, 199890, 300229, 199891}), 20);
 }
 
+/// As houses do, it stands as soon as there is ground.
+TEST_F(HeightRaster, WaitsForItsGround) {
+  import_hills();
+  const RasterShape east{300240, 199900, 5, 6, 6, 27700};
+  const ImportReport report =
+      import_lines(path("s.itin"), heights(ThemeKind::Vegetation, east, [](int, int) { return 5; }), progress_);
+  EXPECT_THAT(report.warnings, testing::Contains(testing::HasSubstr("lies wholly beyond the ground of the store")));
+  EXPECT_EQ(report.features, 0U);
+  test::expect_sound(Store(path("s.itin")));
+  test::write_raster(path("more.tif"), {300200, 200000, 10, 24, 24, 27700}, [](int, int) { return 40; });
+  ImportOptions more;
+  more.sources = {path("more.tif")};
+  import_terrain(path("s.itin"), more, progress_);
+  const Store store(path("s.itin"));
+  test::expect_sound(store);
+  EXPECT_EQ(store.metadata().themes[0].features, 1U);
+}
+
 TEST_F(HeightRaster, RefusesWhatItCannotRaise) {
   import_hills();
   const RasterShape shape{300060, 199940, 5, 20, 20, 27700};
@@ -220,10 +238,6 @@ TEST_F(HeightRaster, RefusesWhatItCannotRaise) {
                  "no cell is as high as `height_threshold`, 2 m; the highest has 1.5 m");
   expect_refused(heights(ThemeKind::Vegetation, shape, [](int c, int) { return c == 7 ? 1500 : 5; }),
                  "column 7, row 0 has 1500 m above the ground");
-  RasterShape elsewhere = shape;
-  elsewhere.xmin = 310000;
-  expect_refused(heights(ThemeKind::Vegetation, elsewhere, [](int, int) { return 5; }),
-                 "lies wholly beyond the ground of the store");
   RasterShape utm = shape;
   utm.epsg = 32630;
   expect_refused(heights(ThemeKind::Vegetation, utm, [](int, int) { return 5; }), "gdalwarp -t_srs");
@@ -256,19 +270,19 @@ TEST_F(HeightRaster, OfARealWoodIsAsHighAsItsCells) {
   const GDALDatasetUniquePtr whole(GDALDataset::Open((data + "fingle_woods_vom.tif").c_str()));
   std::array<double, 6> affine{};
   whole->GetGeoTransform(affine.data());
-  constexpr int kSide = 130, kColumn = 200, kRow = 250;
-  std::vector<double> cells(kSide * kSide);
-  ASSERT_EQ(whole->GetRasterBand(1)->RasterIO(GF_Read, kColumn, kRow, kSide, kSide, cells.data(), kSide, kSide,
-                                              GDT_Float64, 0, 0, nullptr),
+  constexpr int kSideOfWood = 130, kColumn = 200, kRow = 250;
+  std::vector<double> cells(kSideOfWood * kSideOfWood);
+  ASSERT_EQ(whole->GetRasterBand(1)->RasterIO(GF_Read, kColumn, kRow, kSideOfWood, kSideOfWood, cells.data(),
+                                              kSideOfWood, kSideOfWood, GDT_Float64, 0, 0, nullptr),
             CE_None);
   ImportOptions options;
   options.sources = {data + "tiles/sx78.zip", data + "tiles/sx79.zip"};
   import_terrain(path("s.itin"), options, progress_);
-  const ImportReport report =
-      import_lines(path("s.itin"),
-                   heights(ThemeKind::Vegetation, {affine[0] + kColumn, affine[3] - kRow, 1, kSide, kSide, 27700},
-                           [&](int c, int r) { return cells[static_cast<std::size_t>(r * kSide + c)]; }),
-                   progress_);
+  const ImportReport report = import_lines(
+      path("s.itin"),
+      heights(ThemeKind::Vegetation, {affine[0] + kColumn, affine[3] - kRow, 1, kSideOfWood, kSideOfWood, 27700},
+              [&](int c, int r) { return cells[static_cast<std::size_t>(r * kSideOfWood + c)]; }),
+      progress_);
   const Store store(path("s.itin"));
   test::expect_sound(store);
   const RasterValues raster = read_raster_values(path("heights.tif"), store.metadata().crs_wkt);
@@ -277,8 +291,8 @@ TEST_F(HeightRaster, OfARealWoodIsAsHighAsItsCells) {
             tin = triangulate(store, window, Detail::tolerance(0), progress_, ThemeChoice::all());
   const TerrainHeights low(bare), high(tin);
   double worst = 0, rise = 0, measured = 0;
-  for (int row = 0; row < kSide; ++row)
-    for (int column = 0; column < kSide; ++column) {
+  for (int row = 0; row < kSideOfWood; ++row)
+    for (int column = 0; column < kSideOfWood; ++column) {
       const Point2 centre = raster.grid.centre(column, row);
       const GridPoint p = bare.grid.quantise({centre.x, centre.y, 0});
       const double h = raster.values[raster.grid.index({column, row})],
@@ -287,8 +301,8 @@ TEST_F(HeightRaster, OfARealWoodIsAsHighAsItsCells) {
       rise += above, measured += h < 2 ? 0 : h;
     }
   std::cout << report.features << " features in " << report.seconds << " s; off by up to " << worst
-            << " m from steps; mean canopy " << rise / (kSide * kSide) << " m, measured " << measured / (kSide * kSide)
-            << " m\n";
+            << " m from steps; mean canopy " << rise / (kSideOfWood * kSideOfWood) << " m, measured "
+            << measured / (kSideOfWood * kSideOfWood) << " m\n";
   EXPECT_LT(worst, 0.03);
   EXPECT_NEAR(rise / measured, 1, 0.01);
 }

@@ -80,8 +80,10 @@ TEST(PolygonSides, PartsOfASegmentAlongASideEndWhereTheSideDoes) {
                              std::pair{Point2{30, 0}, Point2{30, 40}}, std::pair{Point2{0, 10}, Point2{40, 10}}}) {
     for (const auto& [from, to] : sides.inside_parts(p, q)) {
       for (const Point2& end : {from, to}) {
-        EXPECT_GE(end.x, 10), EXPECT_LE(end.x, 30);
-        EXPECT_GE(end.y, 10), EXPECT_LE(end.y, 30);
+        EXPECT_GE(end.x, 10);
+        EXPECT_LE(end.x, 30);
+        EXPECT_GE(end.y, 10);
+        EXPECT_LE(end.y, 30);
       }
     }
   }

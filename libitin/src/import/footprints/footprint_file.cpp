@@ -42,7 +42,9 @@ FeatureKind feature_kind(ThemeKind kind) {
 bool is_height_raster(const std::string& path, const ImportOptions& options) {
   const bool may_be = options.kind == ThemeKind::Surface || options.kind == ThemeKind::Vegetation ||
                       options.kind == ThemeKind::Buildings;
-  return may_be && is_raster(path);
+  if (!may_be) return false;
+  require_plain_file(path);
+  return is_raster(path);
 }
 
 SourceKind kind_of(const std::string& path, const ImportOptions& options) {

@@ -101,7 +101,9 @@ class HeightRasterReading {
       for (const double row : {0, rows_}) box.extend(rule_.corner_at(column, row));
     const Box ground = store.grid.box(store.bounds);
     if (box.xmin > ground.xmax || box.xmax < ground.xmin || box.ymin > ground.ymax || box.ymax < ground.ymin)
-      throw InputError(query_.path + ": lies wholly beyond the ground of the store; import terrain under it first");
+      result_.footprints.warnings.push_back(query_.path +
+                                            ": lies wholly beyond the ground of the store; none of its cells stands "
+                                            "before terrain is imported under it");
   }
 
   void take(const RasterWindow& window, const std::vector<double>& values) {

@@ -37,8 +37,8 @@ struct HeightRaster {
 
 /// Heights are in the unit of the band, else as source_heights() has it. Parts without any height are left out; of
 /// heights above the ground those of cells that do not stand are no heights. Throws FileError for a file that cannot be
-/// read or holds no height; InputError for a step or threshold out of range, a raster in another CRS than the store or
-/// beyond its ground, elevations on another datum, heights above the ground of more than 1000 m, cells that are all
+/// read or holds no height; InputError for a step or threshold out of range, a raster in another CRS than the store,
+/// elevations on another datum, heights above the ground of more than 1000 m, cells that are all
 /// lower than the threshold, and more cells than the memory has room for; Cancelled.
 HeightRaster read_height_raster(const HeightRasterQuery& query, const StoreMetadata& store, Progress& progress);
 
