@@ -31,7 +31,9 @@ class ImportVerb final : public Verb {
            "--kind", kind_,
            "What the sources are: terrain (default); contours, breaklines or water, which are lines with heights "
            "and become part of the terrain; roads, which are lines on it; buildings, walls or vegetation, which "
-           "stand on it where they have heights (--height-field, --height, CityJSON), and else are lines on it")
+           "stand on it where they have heights (--height-field, --height, CityJSON, rasters of heights above the "
+           "ground), and else are lines on it; surface, a raster of a digital surface model, which stands where it is "
+           "above the terrain")
         ->type_name("KIND");
     app.add_option("--theme", options_.theme, "Name of the lines' theme (default: the kind)")->type_name("NAME");
     app.add_option(
@@ -64,6 +66,17 @@ class ImportVerb final : public Verb {
     app.add_option("--roof", roof_, "Buildings: flat (default), gabled, hipped or skeleton")->type_name("KIND");
     app.add_option("--thickness", thickness_, "Of walls and hedges that are given as lines (default: 0.3)")
         ->type_name("METRES");
+    app.add_option("--height-step", height_step_,
+                   "Rasters of buildings, vegetation or a surface: cells stand a multiple of this above the terrain, "
+                   "and those of equal height together are a feature; more features take more memory (default: 2)")
+        ->type_name("METRES");
+    app.add_option("--height-threshold", height_threshold_,
+                   "Such rasters: cells that are lower do not stand (default: 2)")
+        ->type_name("METRES");
+    app.add_option("--height-rounding", height_rounding_,
+                   "Such rasters: to the nearest step (default), up, never lower than the raster, or down, never "
+                   "higher")
+        ->type_name("WAY");
     app.add_option("--name-field", options_.name_field, "What messages call a building, wall or wood")
         ->type_name("FIELD");
     app.add_option("--layer", options_.layer, "Vector files: the layer to read")->type_name("NAME");
@@ -109,8 +122,9 @@ class ImportVerb final : public Verb {
   }
 
   void validate() override {
-    parse_choice("--kind", kind_,
-                 {"terrain", "contours", "breaklines", "buildings", "vegetation", "walls", "roads", "water"});
+    parse_choice(
+        "--kind", kind_,
+        {"terrain", "contours", "breaklines", "buildings", "vegetation", "walls", "surface", "roads", "water"});
     if (kind_ != "terrain") {
       options_.kind = theme_kind(kind_);
       if (options_.theme.empty()) options_.theme = kind_;
@@ -144,6 +158,9 @@ class ImportVerb final : public Verb {
     given("base", base_);
     given("roof", roof_);
     if (options_.thickness) parameters["thickness_m"] = *options_.thickness;
+    if (options_.height_step) parameters["height_step_m"] = *options_.height_step;
+    if (options_.height_threshold) parameters["height_threshold_m"] = *options_.height_threshold;
+    given("height_rounding", height_rounding_);
     given("source_note", options_.source_note);
     if (options_.band) parameters["band"] = *options_.band;
     given("name_field", options_.name_field);
@@ -177,6 +194,12 @@ class ImportVerb final : public Verb {
   void validate_raised() {
     if (!height_.empty()) options_.height = parse_height("--height", height_, Range::kPositive);
     if (!thickness_.empty()) options_.thickness = parse_number("--thickness", thickness_, Range::kPositive);
+    if (!height_step_.empty()) options_.height_step = parse_height("--height-step", height_step_, Range::kPositive);
+    if (!height_threshold_.empty())
+      options_.height_threshold = parse_height("--height-threshold", height_threshold_, Range::kNotNegative);
+    parse_choice("--height-rounding", height_rounding_.empty() ? "nearest" : height_rounding_,
+                 {"nearest", "up", "down"});
+    if (!height_rounding_.empty()) options_.height_rounding = itin::height_rounding(height_rounding_);
     parse_choice("--roof", roof_.empty() ? "flat" : roof_, {"flat", "gabled", "hipped", "skeleton"});
     if (!roof_.empty()) options_.roof = roof_kind(roof_);
     parse_choice("--base", base_.empty() ? "minimum" : base_, {"minimum", "mean", "maximum", "terrain-following"});
@@ -204,6 +227,10 @@ class ImportVerb final : public Verb {
     document["isolated"] = report.isolated;
     document["features"] = report.features;
     document["refused"] = report.refused;
+    if (report.cells > 0) {
+      document["cells"] = {{"read", report.cells}, {"low", report.low_cells}};
+      document["height_error_m"] = {-report.height_error_low, report.height_error_high};
+    }
     document["crossings"] = report.crossings;
     document["segments_left_out"] = report.left_out;
     document["flat_triangles"] = {{"before", report.flat_before}, {"after", report.flat_after}};
@@ -236,15 +263,27 @@ class ImportVerb final : public Verb {
     mention(report.refused, "feature", "that cannot stand");
     mention(report.crossings, "crossing", "resolved");
     mention(report.left_out, "segment", "of lines left out beyond the ground");
-    text += flat_text(report);
+    text += flat_text(report) + cells_text(report);
     text += metadata.themes.empty() ? "\n\n" : "\n" + themes_table(metadata) + "\n";
     return text + levels_table(metadata);
   }
 
   static std::string text_of_read(const ImportReport& report) {
+    if (report.cells > 0 && report.read_features == 0) return counted(report.cells, "cell");
     if (report.read_features == 0) return counted(report.read, "point");
     return fmt::format("{} with {}", counted(report.read_features, "feature"),
                        counted(report.read, "vertex", "vertices"));
+  }
+
+  static std::string cells_text(const ImportReport& report) {
+    if (report.cells == 0) return "";
+    const double low = report.height_error_low, high = report.height_error_high;
+    const std::string error = low == 0    ? fmt::format("0 to {:g} m higher", high)
+                              : high == 0 ? fmt::format("0 to {:g} m lower", low)
+                                          : fmt::format("up to {:g} m higher or lower", std::max(low, high));
+    return fmt::format(
+        "\n{} with heights, {} known to be below the threshold; the others stand {} than the raster says",
+        counted(report.cells, "cell"), grouped(report.low_cells), error);
   }
 
   static std::string flat_text(const ImportReport& report) {
@@ -262,7 +301,7 @@ class ImportVerb final : public Verb {
   std::string kind_ = "terrain";
   bool no_repair_ = false;
   std::string classes_, band_, sea_level_, max_gap_, levels_, resolution_, memory_;
-  std::string height_, base_, roof_, thickness_;
+  std::string height_, base_, roof_, thickness_, height_step_, height_threshold_, height_rounding_;
   ImportOptions options_;
 };
 

@@ -48,6 +48,12 @@ struct ImportOptions {
   std::optional<RoofKind> roof;     ///< default: flat
   std::optional<double> thickness;  ///< metres; of what stands on lines; default: 0.3
 
+  // For rasters of heights that stand only: heights above the ground, of buildings and vegetation, and the elevations
+  // of a surface.
+  std::optional<double> height_step;       ///< metres, whole millimetres: cells stand in multiples of it; default: 2
+  std::optional<double> height_threshold;  ///< metres above the ground: lower cells do not stand; default: 2
+  std::optional<HeightRounding> height_rounding;  ///< default: nearest
+
   std::vector<int> classes;           ///< LAS classes to keep; empty: all but noise (7, 18)
   double max_gap = 0;                 ///< metres, scattered points: ground is not triangulated over longer edges;
                                       ///< 0: 100 times the mean spacing of the source
@@ -81,6 +87,10 @@ struct ImportReport {
   std::uint64_t isolated = 0;       ///< points left out now because no ground could be triangulated about them
   std::uint64_t features = 0;       ///< line features read, or features that stand now
   std::uint64_t refused = 0;        ///< features that could not stand, of all imports so far; warnings say why
+  std::uint64_t cells = 0;          ///< of rasters of heights that stand, read with a height
+  std::uint64_t low_cells = 0;      ///< those of them that are known not to reach the threshold
+  double height_error_low = 0;      ///< metres: by how much cells stand lower than their rasters say, at most,
+  double height_error_high = 0;     ///< or higher, besides the rounding to millimetres and the store's grid
   std::uint64_t crossings = 0;      ///< further pairs of segments that cross, of any themes, and were given a vertex
   std::uint64_t left_out = 0;       ///< further segments, of any theme, that do not lie wholly on the ground
   std::uint64_t flat_before = 0;    ///< triangles that are level because their corners lie on contours
@@ -115,6 +125,13 @@ ImportReport import_terrain(const std::string& store_path, const ImportOptions& 
 /// warning. At full detail they only raise the surface: outside of footprints it stays what it is, within it is nowhere
 /// lower, but for rounding to the grid. The store keeps their footprints, and stands them up again whenever its terrain
 /// changes.
+///
+/// Rasters stand as well: of heights above the ground (canopies, buildings), or of a surface, whose heights above the
+/// ground are its elevations less those of the terrain under the middles of cells. A cell stands as high above the
+/// terrain as its height says, in whole steps, and not at all below the threshold. Cells of equal height that hang
+/// together are a feature. The store keeps the heights of the cells, and makes the features anew as its terrain
+/// changes. The raster must be in the CRS of the store. Cells that reach beyond the ground are left out, with a
+/// warning.
 ImportReport import_lines(const std::string& store_path, const ImportOptions& options, Progress& progress);
 
 /// Whether features that import_lines() imports with these options stand on the ground.

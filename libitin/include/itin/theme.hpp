@@ -6,7 +6,8 @@
 // Lines of terrain themes (contours, breaklines, water) have heights and are part of the full surface, whatever a query
 // chooses. Those of the other kinds lie on it, and are part of a query's triangulation only where it names their theme
 // and asks for lines on the ground. A theme of buildings, walls or vegetation may stand on it instead, with roofs and
-// tops: what of the terrain and of other themes lies under them then makes way.
+// tops: what of the terrain and of other themes lies under them then makes way. A theme of the kind surface always
+// stands: it has all that a raster of a digital surface model shows above the ground.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@
 
 namespace itin {
 
-enum class ThemeKind : std::uint8_t { Contours, Breaklines, Water, Roads, Walls, Buildings, Vegetation };
+enum class ThemeKind : std::uint8_t { Contours, Breaklines, Water, Roads, Walls, Buildings, Vegetation, Surface };
 
 /// "contours", "breaklines", ...
 std::string_view name_of(ThemeKind kind);
@@ -33,10 +34,16 @@ enum class RoofKind : std::uint8_t { flat, gabled, hipped, skeleton };
 /// terrain_following takes the mean, too. The building's foot lies on the terrain whatever the rule.
 enum class BaseRule : std::uint8_t { minimum, mean, maximum, terrain_following };
 
+/// How the heights of a raster's cells become whole steps: the nearest step (the upper one of two equally near), the
+/// next step that is no lower, or the next that is no higher.
+enum class HeightRounding : std::uint8_t { nearest, up, down };
+
 /// "flat", "gabled", "hipped", "skeleton". Throws InputError.
 RoofKind roof_kind(std::string_view name);
 /// "minimum", "mean", "maximum", "terrain-following". Throws InputError.
 BaseRule base_rule(std::string_view name);
+/// "nearest", "up", "down". Throws InputError.
+HeightRounding height_rounding(std::string_view name);
 
 struct ThemeInfo {
   std::string name;
@@ -58,7 +65,7 @@ struct ThemePart {
 };
 
 /// Whether the standing theme a takes the ground of b where both are chosen: buildings come before walls, and those
-/// before vegetation; among equals the name decides.
+/// before vegetation, and that before surfaces; among equals the name decides.
 bool comes_before(const ThemeInfo& a, const ThemeInfo& b);
 
 /// Which themes a query wants besides those of the terrain. Lines that only lie on the ground (roads, and whatever was

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,8 +15,10 @@ namespace {
 constexpr std::array<std::string_view, 4> kRoofs{"flat", "gabled", "hipped", "skeleton"};
 constexpr std::array<std::string_view, 4> kBases{"minimum", "mean", "maximum", "terrain-following"};
 
-std::size_t index_of(std::string_view what, const std::array<std::string_view, 4>& names, std::string_view name) {
-  const auto* found = std::find(names.begin(), names.end(), name);
+constexpr std::array<std::string_view, 3> kRoundings{"nearest", "up", "down"};
+
+std::size_t index_of(std::string_view what, std::span<const std::string_view> names, std::string_view name) {
+  const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end())
     throw InputError(fmt::format("{} '{}': give one of {}", what, name, fmt::join(names, ", ")));
   return static_cast<std::size_t>(found - names.begin());
@@ -29,6 +32,10 @@ RoofKind roof_kind(std::string_view name) {
 
 BaseRule base_rule(std::string_view name) {
   return static_cast<BaseRule>(index_of("base", kBases, name));
+}
+
+HeightRounding height_rounding(std::string_view name) {
+  return static_cast<HeightRounding>(index_of("rounding of heights", kRoundings, name));
 }
 
 }  // namespace itin

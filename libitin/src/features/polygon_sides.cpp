@@ -194,13 +194,20 @@ std::vector<std::pair<Point2, Point2>> PolygonSides::inside_parts(Point2 p, Poin
   for (const std::uint32_t e : near) {
     const auto& [a, b] = edges_[e];
     const double sa = dx * (a.y - p.y) - dy * (a.x - p.x), sb = dx * (b.y - p.y) - dy * (b.x - p.x);
-    if ((sa > 0) == (sb > 0)) continue;
-    const double s = sa / (sa - sb);
-    const double x = a.x + s * (double{1} * b.x - a.x) - p.x, y = a.y + s * (double{1} * b.y - a.y) - p.y;
-    const double t = (x * dx + y * dy) / (dx * dx + dy * dy);
-    if (t > 0 && t < 1) cuts.push_back(t);
+    if ((sa > 0 && sb > 0) || (sa < 0 && sb < 0)) continue;
+    const auto cut = [&](double x, double y) {
+      const double t = ((x - p.x) * dx + (y - p.y) * dy) / (dx * dx + dy * dy);
+      if (t > 0 && t < 1) cuts.push_back(t);
+    };
+    if (sa == sb) {  // along the segment: what is inside may end at either corner
+      cut(a.x, a.y), cut(b.x, b.y);
+    } else {
+      const double s = sa / (sa - sb);
+      cut(a.x + s * (double{1} * b.x - a.x), a.y + s * (double{1} * b.y - a.y));
+    }
   }
   std::sort(cuts.begin(), cuts.end());
+  cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
   const auto position = [&](double t) { return Point2{p.x + t * dx, p.y + t * dy}; };
   std::vector<std::pair<Point2, Point2>> parts;
   for (std::size_t i = 1; i < cuts.size(); ++i)

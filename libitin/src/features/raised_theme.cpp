@@ -16,9 +16,10 @@
 #include <itin/triangulate.hpp>
 
 #include "base/stoppable.hpp"
+#include "features/cell_features.hpp"
 #include "features/feature_mesh.hpp"
 #include "features/footprint_arrangement.hpp"
-#include "features/hot_pixel.hpp"
+#include "features/ground_coverage.hpp"
 #include "features/mask_index.hpp"
 #include "features/terrain_heights.hpp"
 #include "geometry/cell.hpp"
@@ -62,32 +63,6 @@ GridBox widened(const GridBox& box, std::int32_t by) {
           cut(std::int64_t{box.ymax} + by)};
 }
 
-std::vector<Segment> outline_near(const Store& ground, const GridBox& box) {
-  std::vector<Segment> segments;
-  ground.points().segments(box, segments);
-  std::erase_if(segments, [](const Segment& s) { return s.theme != kCoverage; });
-  return segments;
-}
-
-/// Closed segments.
-bool touch(const Segment& s, Position p, Position q) {
-  const Position a{s.ax, s.ay}, b{s.bx, s.by};
-  return crosses(s, p, q) || on_segment(a, b, p) || on_segment(a, b, q) || on_segment(p, q, a) || on_segment(p, q, b);
-}
-
-/// Whether all of a polygon is ground: it touches no outline, and one of its positions is ground.
-bool lies_on_ground(const GridPolygon& polygon, const std::vector<Segment>& outline, const TerrainHeights& terrain) {
-  const GridBox box = box_about(polygon);
-  for (const Segment& s : outline) {
-    const GridBox of_segment{std::min(s.ax, s.bx), std::min(s.ay, s.by), std::max(s.ax, s.bx), std::max(s.ay, s.by)};
-    if (!of_segment.meets(box)) continue;
-    bool meets = side_of(polygon, {s.ax, s.ay}) != Side::outside;
-    for_each_edge(polygon, [&](Position a, Position b) { meets = meets || touch(s, a, b); });
-    if (meets) return false;
-  }
-  return terrain.height_at(polygon.outline.front()).has_value();
-}
-
 /// Sets of features, by union-find.
 class Blocks {
  public:
@@ -105,10 +80,45 @@ class Blocks {
   std::vector<std::uint32_t> parent_;
 };
 
+/// Where a feature stands wall to wall with a higher one, whose eaves its wall reaches up to.
+struct PartyWall {
+  std::uint32_t higher = 0, lower = 0;
+  std::int32_t height = 0;  ///< of the eaves above the ground, grid units
+};
+
+std::vector<PartyWall> party_walls(const FeatureMesh& mesh, const MaskIndex& masks, const TerrainHeights& terrain) {
+  const auto above_ground = [&](const GridPoint& p) {
+    const auto ground = terrain.height_at({p.x, p.y});
+    return ground ? static_cast<std::int32_t>(std::ceil(p.z - *ground / terrain.grid().resolution)) : 0;
+  };
+  std::vector<PartyWall> walls;
+  for (const FeatureSegment& s : mesh.segments) {
+    stop_if_asked();
+    if (s.kind != SegmentClass::eaves) continue;
+    const GridPoint &a = mesh.vertices[s.from], &b = mesh.vertices[s.to];
+    const double x = double{1} * b.x - a.x, y = double{1} * b.y - a.y, length = std::hypot(x, y);
+    // One and a half grid steps beside the middle: within the wall.
+    const auto dx = static_cast<std::int32_t>(std::lround(3 * y / length)),
+               dy = static_cast<std::int32_t>(std::lround(-3 * x / length));
+    for (const int side : {1, -1}) {
+      const auto mask = masks.about_middle({a.x + side * dx, a.y + side * dy}, {b.x, b.y});
+      if (mask && mesh.masks[*mask].feature != s.feature)
+        walls.push_back({s.feature, mesh.masks[*mask].feature, std::max(above_ground(a), above_ground(b))});
+    }
+  }
+  return walls;
+}
+
 class Standing {
  public:
-  Standing(const Store& ground, std::span<const StoredFootprint> footprints, std::uint64_t memory_bytes)
-      : ground_(ground), footprints_(footprints), memory_bytes_(memory_bytes), grid_(ground.metadata().grid) {
+  /// `is_patch` by footprint, or empty.
+  Standing(const Store& ground, std::span<const StoredFootprint> footprints, std::vector<bool> is_patch,
+           std::uint64_t memory_bytes)
+      : ground_(ground),
+        footprints_(footprints),
+        is_patch_(std::move(is_patch)),
+        memory_bytes_(memory_bytes),
+        grid_(ground.metadata().grid) {
     options_.grid = grid_;
     options_.wall_offset = std::max(kWallOffset, 2 * grid_.resolution);
     for (const LevelInfo& level : ground.metadata().levels)
@@ -128,6 +138,7 @@ class Standing {
                 [&](const GridPoint& a, const GridPoint& b) { return code(a) < code(b); });
       theme_.parts.push_back(std::move(part));
     }
+    report_patches();
     return std::move(theme_);
   }
 
@@ -213,7 +224,7 @@ class Standing {
     for (auto beyond = beyond_ground(mesh, outline, terrain); !beyond.empty();
          beyond = beyond_ground(mesh, outline, terrain)) {
       for (const std::uint32_t f : beyond) {
-        report(numbers[f], features[f].name + ": left out: reaches beyond the ground");
+        report(numbers[f], "left out: reaches beyond the ground");
         features[f].rings.clear();
         features[f].surfaces.clear();
       }
@@ -221,14 +232,31 @@ class Standing {
       mesh = build_feature_mesh(features, options_, &terrain, quiet);
     }
     for (const FeatureReport& r : mesh.reports)
-      if (!left_out.contains(r.feature)) report(numbers[r.feature], r.text);
+      if (!left_out.contains(r.feature)) report(numbers[r.feature], r.text.substr(features[r.feature].name.size() + 2));
     theme_.built += mesh.built;
     theme_.refused += mesh.refused;
     add(mesh, terrain, numbers);
   }
 
-  void report(std::uint32_t footprint, std::string text) {
-    theme_.reports.push_back({footprints_[footprint].source, std::move(text)});
+  void report(std::uint32_t footprint, const std::string& finding) {
+    const auto& [feature, source] = footprints_[footprint];
+    if (is_patch_.empty() || !is_patch_[footprint]) {
+      theme_.reports.push_back({source, fmt::format("{}: {}", feature.name, finding)});
+      return;
+    }
+    const auto [at, fresh] = of_patches_.try_emplace({source, finding}, 0, feature.name);
+    ++at->second.first;
+  }
+
+  /// A raster has thousands of patches: what is found of several of them is said once.
+  void report_patches() {
+    for (const auto& [found, of] : of_patches_) {
+      const auto& [source, finding] = found;
+      const auto& [count, first] = of;
+      theme_.reports.push_back({source, count == 1
+                                            ? fmt::format("{}: {}", first, finding)
+                                            : fmt::format("{} and {} other patches: {}", first, count - 1, finding)});
+    }
   }
 
   static std::set<std::uint32_t> beyond_ground(const FeatureMesh& mesh, const std::vector<Segment>& outline,
@@ -242,7 +270,11 @@ class Standing {
 
   void add(const FeatureMesh& mesh, const TerrainHeights& terrain, const Numbers& numbers) {
     theme_.ground.append(mesh.ground);
-    const std::vector<int> levels = levels_of(mesh, numbers.size());
+    std::vector<GridPolygon> masks;
+    for (const FeatureMask& mask : mesh.masks) masks.push_back(mask.polygon);
+    const MaskIndex index(masks);
+    const std::vector<PartyWall> walls = party_walls(mesh, index, terrain);
+    const std::vector<int> levels = levels_of(mesh, walls, numbers.size());
     std::vector<std::int32_t> top(numbers.size(), std::numeric_limits<std::int32_t>::min());
     std::vector<int> level_of_vertex(mesh.vertices.size(), -1);
     for (const FeatureSegment& s : mesh.segments) {
@@ -253,9 +285,6 @@ class Standing {
       part.segments.push_back({a, b, s.kind == SegmentClass::foot});
       level_of_vertex[s.from] = level_of_vertex[s.to] = levels[s.feature];
     }
-    std::vector<GridPolygon> masks;
-    for (const FeatureMask& mask : mesh.masks) masks.push_back(mask.polygon);
-    const MaskIndex index(masks);
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
       stop_if_asked();
       const GridPoint& p = mesh.vertices[v];
@@ -269,11 +298,13 @@ class Standing {
       }
       parts_.at(level_of_vertex[v]).vertices.push_back(p);
     }
+    std::vector<std::int32_t> beside(numbers.size(), 0);
+    for (const PartyWall& wall : walls) beside[wall.lower] = std::max(beside[wall.lower], wall.height);
     std::vector<std::int32_t> heights(mesh.masks.size());
     parallel_for(mesh.masks.size(), [&](std::size_t m) {
       const auto low = terrain.base_height({mesh.masks[m].polygon}, BaseRule::minimum);
       const std::int32_t ground = low ? static_cast<std::int32_t>(std::floor(*low / grid_.resolution)) : 0;
-      heights[m] = std::max(0, top[mesh.masks[m].feature] - ground);
+      heights[m] = std::max(beside[mesh.masks[m].feature], top[mesh.masks[m].feature] - ground);
     });
     for (std::size_t m = 0; m < mesh.masks.size(); ++m) {
       const auto found = parts_.find(levels[mesh.masks[m].feature]);
@@ -291,8 +322,9 @@ class Standing {
   }
 
   /// The coarsest level of each feature.
-  std::vector<int> levels_of(const FeatureMesh& mesh, std::size_t count) const {
+  std::vector<int> levels_of(const FeatureMesh& mesh, const std::vector<PartyWall>& walls, std::size_t count) const {
     Blocks blocks(count);
+    for (const PartyWall& wall : walls) blocks.join(wall.higher, wall.lower);
     std::vector<std::uint32_t> first(mesh.vertices.size(), static_cast<std::uint32_t>(count));
     for (const FeatureSegment& s : mesh.segments) {
       for (const std::uint32_t v : {s.from, s.to}) {
@@ -318,6 +350,9 @@ class Standing {
 
   const Store& ground_;
   std::span<const StoredFootprint> footprints_;
+  std::vector<bool> is_patch_;
+  /// Findings of patches by source, each with how many it is of and the first one's name.
+  std::map<std::pair<std::uint16_t, std::string>, std::pair<std::uint64_t, std::string>> of_patches_;
   std::uint64_t memory_bytes_;
   Grid grid_;
   FeatureOptions options_;
@@ -330,7 +365,12 @@ class Standing {
 
 RaisedFeatureTheme stand(const Store& ground, std::span<const StoredFootprint> footprints, std::uint64_t memory_bytes,
                          Progress& progress) {
-  return Standing(ground, footprints, memory_bytes).run(progress);
+  CellFeatures made = with_patches(ground, footprints, memory_bytes, progress);
+  RaisedFeatureTheme theme = Standing(ground, made.any ? std::span<const StoredFootprint>(made.footprints) : footprints,
+                                      std::move(made.is_patch), memory_bytes)
+                                 .run(progress);
+  theme.reports.insert(theme.reports.begin(), made.reports.begin(), made.reports.end());
+  return theme;
 }
 
 }  // namespace itin

@@ -12,8 +12,8 @@ namespace itin {
 
 namespace {
 
-constexpr std::array<std::string_view, 7> kKinds{"contours", "breaklines", "water",     "roads",
-                                                 "walls",    "buildings",  "vegetation"};
+constexpr std::array<std::string_view, 8> kKinds{"contours", "breaklines", "water",      "roads",
+                                                 "walls",    "buildings",  "vegetation", "surface"};
 
 }  // namespace
 
@@ -30,7 +30,16 @@ ThemeKind theme_kind(std::string_view name) {
 
 bool comes_before(const ThemeInfo& a, const ThemeInfo& b) {
   const auto rank = [](const ThemeInfo& theme) {
-    return theme.kind == ThemeKind::Buildings ? 0 : theme.kind == ThemeKind::Walls ? 1 : 2;
+    switch (theme.kind) {
+      case ThemeKind::Buildings:
+        return 0;
+      case ThemeKind::Walls:
+        return 1;
+      case ThemeKind::Surface:
+        return 3;
+      default:
+        return 2;
+    }
   };
   return std::pair(rank(a), std::string_view(a.name)) < std::pair(rank(b), std::string_view(b.name));
 }

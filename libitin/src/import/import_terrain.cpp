@@ -68,7 +68,8 @@ void check_resolution(const ImportOptions& options, const Store* existing) {
 }
 
 bool may_stand(ThemeKind kind) {
-  return kind == ThemeKind::Buildings || kind == ThemeKind::Vegetation || kind == ThemeKind::Walls;
+  return kind == ThemeKind::Buildings || kind == ThemeKind::Vegetation || kind == ThemeKind::Walls ||
+         kind == ThemeKind::Surface;
 }
 
 /// Names stand in lists with commas, beside `all` and `none`.

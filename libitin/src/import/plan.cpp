@@ -18,6 +18,7 @@
 #include "import/source/source_options.hpp"
 #include "import/source/terrain_source.hpp"
 #include "import/source/true_scale.hpp"
+#include "import/source/vertical_datums.hpp"
 #include "import/vectors/line_layer.hpp"
 #include "pyramid/pyramid.hpp"
 
@@ -118,34 +119,10 @@ StoreCrs settle_crs(const ImportOptions& options, const StoreMetadata* existing,
                       error_in_words(scale), zone.name)};
 }
 
-/// Heights on different datums differ by metres, which no CRS of a store would show. Unknown datums are trusted.
-class VerticalDatums {
- public:
-  void add(const std::string& datum, const std::string& place) {
-    if (datum.empty()) return;
-    if (datum_.empty()) datum_ = datum, place_ = place;
-    if (datum != datum_)
-      throw InputError(
-          fmt::format("{}: heights refer to {}, but those of {} to {}; convert one of them, or take them as they are "
-                      "with `allow_mixed_vertical`",
-                      place, datum, place_, datum_));
-  }
-
- private:
-  std::string datum_, place_;
-};
-
-std::string datum_of(const Crs& crs) {
-  return crs.heights ? crs.heights->datum : "";
-}
-
 void check_vertical_datums(const OpenedFiles& opened, const ImportOptions& options, const StoreMetadata* existing) {
-  VerticalDatums datums;
-  if (existing)
-    for (const SourceInfo& source : existing->sources)
-      if (!source.source_crs.empty()) datums.add(datum_of(parse_crs(source.source_crs, source.path)), source.path);
-  if (!options.to_crs.empty()) datums.add(datum_of(parse_crs(options.to_crs, "`to_crs`")), "`to_crs`");
-  for (const OpenedFile* file : opened) datums.add(datum_of(file->crs()), file->path());
+  VerticalDatums datums = existing ? VerticalDatums(*existing) : VerticalDatums();
+  if (!options.to_crs.empty()) datums.add(parse_crs(options.to_crs, "`to_crs`"), "`to_crs`");
+  for (const OpenedFile* file : opened) datums.add(file->crs(), file->path());
 }
 
 Grid settle_grid(const ImportOptions& options, const StoreMetadata* existing, const OpenedFile& first, const Crs& crs) {

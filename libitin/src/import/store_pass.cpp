@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include <itin/call_progress.hpp>
@@ -185,8 +186,12 @@ void StorePass::add_lines(LineLayer& layer, Progress& progress) {
 
 void StorePass::add_footprints(FootprintFile& file) {
   const std::uint32_t theme = collection_.theme(options_.theme, *options_.kind, true);
-  report_.read_features += file.footprints.features.size();
-  report_.read += file.vertices;
+  report_.read_features += file.cells > 0 ? 0 : file.footprints.features.size();
+  report_.read += file.vertices + file.cells;
+  report_.voids += file.voids;
+  report_.cells += file.cells;
+  report_.low_cells += file.low_cells;
+  if (file.cells > 0) std::tie(report_.height_error_low, report_.height_error_high) = height_error_of(options_);
   report_.filtered += file.footprints.filtered;
   for (FootprintFeature& feature : file.footprints.features)
     collection_.add_footprint(theme, {std::move(feature), next_number()});

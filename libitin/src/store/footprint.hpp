@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,13 +15,35 @@
 
 namespace itin {
 
-enum class FeatureKind { building, vegetation, wall, terrace };
+/// `cells`: a part of a raster of heights, of which features are made when they are raised.
+enum class FeatureKind { building, vegetation, wall, terrace, cells };
 
 using PlanRing = std::vector<Point2>;
 
 /// A plane piece of a roof with its elevations; the first ring is its outline, all others are holes.
 struct RoofSurface {
   std::vector<std::vector<Point3>> rings;
+};
+
+/// No height of a cell.
+inline constexpr std::int32_t kNoHeight = std::numeric_limits<std::int32_t>::min();
+
+/// Heights of the cells of a part of a raster, and the rule by which they become steps (features/cell_patches.hpp).
+/// Heights, step and threshold are whole millimetres.
+struct HeightCells {
+  /// The raster's first corner, and what leads from a cell to the next one of its row and of its column; metres.
+  Point2 corner, across, down;
+  std::int32_t first_column = 0, first_row = 0, columns = 0, rows = 0;  ///< of the raster, in this part
+  bool absolute = false;                                                ///< elevations; else heights above the ground
+  std::int32_t step = 0, threshold = 0;
+  HeightRounding rounding = HeightRounding::nearest;
+  std::vector<std::int32_t> heights;  ///< row by row, kNoHeight where there is none
+
+  /// Where corners of cells lie: equal for the corners that parts of a raster share. Counted from this part's first.
+  Point2 corner_at(double column, double row) const {
+    const double c = first_column + column, r = first_row + row;
+    return {corner.x + c * across.x + r * down.x, corner.y + c * across.y + r * down.y};
+  }
 };
 
 struct FootprintFeature {
@@ -33,6 +56,7 @@ struct FootprintFeature {
   std::optional<double> eaves;   ///< of the eaves above the base; default: from height and pitch
   RoofKind roof = RoofKind::flat;
   std::vector<RoofSurface> surfaces;  ///< a measured roof; takes the place of height, eaves and roof
+  std::optional<HeightCells> cells;   ///< of the kind `cells`, whose ring goes about them all
 };
 
 inline std::uint64_t vertex_count(const FootprintFeature& feature) {

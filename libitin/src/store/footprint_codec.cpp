@@ -1,6 +1,7 @@
 #include "store/footprint_codec.hpp"
 
 #include <bit>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -12,7 +13,11 @@ namespace itin {
 namespace {
 
 constexpr std::size_t kMostFootprintBytes = std::size_t{1} << 30;
-constexpr std::uint64_t kLast = 3;  ///< of every enumeration here
+constexpr auto kLastKind = static_cast<std::uint64_t>(FeatureKind::cells);
+constexpr auto kLastRoof = static_cast<std::uint64_t>(RoofKind::skeleton);
+constexpr auto kLastBase = static_cast<std::uint64_t>(BaseRule::terrain_following);
+constexpr auto kLastRounding = static_cast<std::uint64_t>(HeightRounding::down);
+constexpr std::uint64_t kMostCells = 0x7fffffff;
 
 class Writer {
  public:
@@ -25,6 +30,8 @@ class Writer {
     whole(v ? 1 : 0);
     if (v) number(*v);
   }
+  void change(std::int64_t v) { put_varint(bytes_, zigzag(v)); }
+  void place(Point2 p) { number(p.x), number(p.y); }
   void text(const std::string& s) {
     whole(s.size());
     bytes_.insert(bytes_.end(), s.begin(), s.end());
@@ -46,6 +53,12 @@ class Reader {
     for (int shift = 0; shift < 64; shift += 8) bits |= static_cast<std::uint64_t>(in_.byte()) << shift;
     return std::bit_cast<double>(bits);
   }
+  std::int32_t small(std::uint64_t most) { return static_cast<std::int32_t>(whole(most)); }
+  std::int64_t change() { return in_.signed_varint(); }
+  Point2 place() {
+    const double x = number(), y = number();
+    return {x, y};
+  }
   std::optional<double> optional() { return whole(1) == 1 ? std::optional(number()) : std::nullopt; }
   std::string text() {
     std::string s;
@@ -57,6 +70,21 @@ class Reader {
  private:
   ByteReader in_;
 };
+
+void write(Writer& out, const HeightCells& c) {
+  for (const Point2& p : {c.corner, c.across, c.down}) out.place(p);
+  for (const std::int32_t v : {c.first_column, c.first_row, c.columns, c.rows, c.step, c.threshold})
+    out.whole(static_cast<std::uint64_t>(v));
+  out.whole(c.absolute ? 1 : 0);
+  out.whole(static_cast<std::uint64_t>(c.rounding));
+  std::int64_t before = 0;
+  for (const std::int32_t h : c.heights) {
+    out.whole(h == kNoHeight ? 0 : 1);
+    if (h == kNoHeight) continue;
+    out.change(h - before);
+    before = h;
+  }
+}
 
 void write(Writer& out, const FootprintFeature& f) {
   out.text(f.name);
@@ -79,6 +107,29 @@ void write(Writer& out, const FootprintFeature& f) {
       for (const Point3& p : ring) out.number(p.x), out.number(p.y), out.number(p.z);
     }
   }
+  if (f.cells) write(out, *f.cells);
+}
+
+HeightCells read_cells(Reader& in) {
+  HeightCells c;
+  for (Point2* p : {&c.corner, &c.across, &c.down}) *p = in.place();
+  for (std::int32_t* v : {&c.first_column, &c.first_row, &c.columns, &c.rows, &c.step, &c.threshold})
+    *v = in.small(kMostCells);
+  c.absolute = in.whole(1) == 1;
+  c.rounding = static_cast<HeightRounding>(in.whole(kLastRounding));
+  std::int64_t before = 0;
+  for (std::int64_t n = std::int64_t{c.columns} * c.rows; n > 0; --n) {
+    if (in.whole(1) == 0) {
+      c.heights.push_back(kNoHeight);
+      continue;
+    }
+    before += in.change();
+    if (before <= kNoHeight || before > std::numeric_limits<std::int32_t>::max())
+      throw DecodeError("a height is out of range");
+    c.heights.push_back(static_cast<std::int32_t>(before));
+  }
+  if (c.step == 0) throw DecodeError("a step of heights is 0");
+  return c;
 }
 
 RoofSurface read_surface(Reader& in) {
@@ -98,9 +149,9 @@ StoredFootprint read(Reader& in) {
   FootprintFeature& f = footprint.feature;
   footprint.source = static_cast<std::uint16_t>(in.whole(0xffff));
   f.name = in.text();
-  f.kind = static_cast<FeatureKind>(in.whole(kLast));
-  f.roof = static_cast<RoofKind>(in.whole(kLast));
-  f.base_rule = static_cast<BaseRule>(in.whole(kLast));
+  f.kind = static_cast<FeatureKind>(in.whole(kLastKind));
+  f.roof = static_cast<RoofKind>(in.whole(kLastRoof));
+  f.base_rule = static_cast<BaseRule>(in.whole(kLastBase));
   f.base = in.optional();
   f.height = in.optional();
   f.eaves = in.optional();
@@ -112,6 +163,7 @@ StoredFootprint read(Reader& in) {
     }
   }
   for (std::size_t n = in.count(); n > 0; --n) f.surfaces.push_back(read_surface(in));
+  if (f.kind == FeatureKind::cells) f.cells = read_cells(in);
   return footprint;
 }
 

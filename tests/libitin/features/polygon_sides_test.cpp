@@ -72,6 +72,28 @@ void expect_same_sides(const GridPolygon& polygon, std::mt19937& random) {
   }
 }
 
+/// Segments along its sides have no parts beyond their ends: a terrain's edge may run along the edge of a footprint.
+TEST(PolygonSides, PartsOfASegmentAlongASideEndWhereTheSideDoes) {
+  const PolygonSides sides(GridPolygon{{{10, 10}, {30, 10}, {30, 20}, {20, 20}, {20, 30}, {10, 30}}, {}});
+  for (const auto& [p, q] : {std::pair{Point2{20, 40}, Point2{20, 0}}, std::pair{Point2{20, 0}, Point2{20, 40}},
+                             std::pair{Point2{0, 20}, Point2{40, 20}}, std::pair{Point2{10, 40}, Point2{10, 0}},
+                             std::pair{Point2{30, 0}, Point2{30, 40}}, std::pair{Point2{0, 10}, Point2{40, 10}}}) {
+    for (const auto& [from, to] : sides.inside_parts(p, q)) {
+      for (const Point2& end : {from, to}) {
+        EXPECT_GE(end.x, 10);
+        EXPECT_LE(end.x, 30);
+        EXPECT_GE(end.y, 10);
+        EXPECT_LE(end.y, 30);
+      }
+    }
+  }
+  const auto through = sides.inside_parts({20, 40}, {20, 0});
+  double length = 0;
+  for (const auto& [from, to] : through) length += std::abs(from.y - to.y);
+  EXPECT_GE(length, 10);
+  EXPECT_LE(length, 20);
+}
+
 void expect_same_parts(const GridPolygon& polygon, std::mt19937& random) {
   const PolygonSides sides(polygon);
   const auto off = [&] { return static_cast<double>(random() % 4000) / 7 - 200; };

@@ -109,6 +109,20 @@ class ImportOrder : public testing::Test {
     return {"points", options};
   }
 
+  /// Part of it beyond the coarse ground now and then, part of it too low to stand.
+  Source heights(ThemeKind kind) {
+    const RasterShape shape{in(299950, 300900), in(199100, 200050), in(3, 9), 12, 10, 27700};
+    const std::string file = path("heights" + std::to_string(files_++) + ".tif");
+    const double ground = kind == ThemeKind::Surface ? 100 : 0;
+    test::write_raster(file, shape, [&](int, int) { return chance(9) ? std::nan("") : ground + in(-3, 25); });
+    ImportOptions options;
+    options.sources = {file};
+    options.kind = kind;
+    options.theme = name_of(kind);
+    options.height_step = 4;
+    return {options.theme + " raster", options};
+  }
+
   Source lines(ThemeKind kind, const std::string& theme, const std::vector<LineFeature>& features, bool standing) {
     const std::string file = path(theme + std::to_string(files_++) + ".geojson");
     test::write_lines(file, features);
@@ -181,7 +195,9 @@ class ImportOrder : public testing::Test {
         [&] { return lines(ThemeKind::Buildings, "houses", random_boxes(8, 60), true); },
         [&] { return lines(ThemeKind::Buildings, "houses", random_boxes(8, 60), true); },
         [&] { return lines(ThemeKind::Buildings, "sheds", random_boxes(4, 20), true); },
-        [&] { return lines(ThemeKind::Vegetation, "woods", random_boxes(3, 150), true); }};
+        [&] { return lines(ThemeKind::Vegetation, "woods", random_boxes(3, 150), true); },
+        [&] { return heights(ThemeKind::Vegetation); },
+        [&] { return heights(ThemeKind::Surface); }};
     std::vector<std::size_t> chosen(kinds.size());
     std::iota(chosen.begin(), chosen.end(), std::size_t{0});
     std::shuffle(chosen.begin(), chosen.end(), random_);

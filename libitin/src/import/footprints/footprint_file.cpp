@@ -9,8 +9,11 @@
 
 #include <itin/error.hpp>
 #include <itin/file_digest.hpp>
+#include <itin/raster_values.hpp>
 
+#include "gdal/source_path.hpp"
 #include "import/footprints/city_json.hpp"
+#include "import/footprints/height_raster.hpp"
 #include "import/points/scattered_source.hpp"
 #include "import/source/source_options.hpp"
 
@@ -35,13 +38,20 @@ FeatureKind feature_kind(ThemeKind kind) {
   return kind == ThemeKind::Vegetation ? FeatureKind::vegetation : FeatureKind::building;
 }
 
-std::vector<SourceKind> kinds_of(const ImportOptions& options) {
-  std::vector<SourceKind> kinds;
-  for (const std::string& path : options.sources)
-    kinds.push_back(is_city_json(path)                     ? SourceKind::city_model
-                    : options.kind == ThemeKind::Buildings ? SourceKind::buildings
-                                                           : SourceKind::walls);
-  return kinds;
+/// A raster of heights that stand. Walls are lines in any case.
+bool is_height_raster(const std::string& path, const ImportOptions& options) {
+  const bool may_be = options.kind == ThemeKind::Surface || options.kind == ThemeKind::Vegetation ||
+                      options.kind == ThemeKind::Buildings;
+  if (!may_be) return false;
+  require_plain_file(path);
+  return is_raster(path);
+}
+
+SourceKind kind_of(const std::string& path, const ImportOptions& options) {
+  if (is_city_json(path)) return SourceKind::city_model;
+  if (options.kind == ThemeKind::Surface) return SourceKind::surface;
+  if (is_height_raster(path, options)) return SourceKind::canopy;
+  return options.kind == ThemeKind::Buildings ? SourceKind::buildings : SourceKind::walls;
 }
 
 FootprintSource read_model(const std::string& path, const ImportOptions& options, const StoreMetadata& store) {
@@ -73,6 +83,43 @@ FootprintSource read_layer(const std::string& path, const ImportOptions& options
   return read_footprints(query, store.crs_wkt, store.grid, progress);
 }
 
+constexpr double kDefaultStep = 2, kDefaultThreshold = 2;  // metres
+
+FootprintFile read_raster(const std::string& path, const ImportOptions& options, const StoreMetadata& store,
+                          Progress& progress) {
+  if (!is_raster(path)) {
+    if (is_missing(path)) throw FileError(path, "there is no such file");
+    throw InputError(path +
+                     ": is no raster, as `kind` surface takes; import footprints with `kind` buildings, walls or "
+                     "vegetation");
+  }
+  HeightRasterQuery query;
+  query.path = path;
+  query.crs = options.crs;
+  query.band = options.band;
+  query.absolute = options.kind == ThemeKind::Surface;
+  query.step = options.height_step.value_or(kDefaultStep);
+  query.threshold = options.height_threshold.value_or(kDefaultThreshold);
+  query.rounding = options.height_rounding.value_or(query.rounding);
+  query.allow_mixed_vertical = options.allow_mixed_vertical;
+  query.memory_bytes = options.memory_bytes;
+  HeightRaster raster = read_height_raster(query, store, progress);
+  FootprintFile file;
+  file.footprints = std::move(raster.footprints);
+  file.cells = raster.cells, file.voids = raster.voids, file.low_cells = raster.low;
+  return file;
+}
+
+FootprintFile read_file(const std::string& path, SourceKind kind, const ImportOptions& options,
+                        const StoreMetadata& store, Progress& progress) {
+  if (kind == SourceKind::canopy || kind == SourceKind::surface) return read_raster(path, options, store, progress);
+  FootprintFile file;
+  file.footprints =
+      kind == SourceKind::city_model ? read_model(path, options, store) : read_layer(path, options, store, progress);
+  for (const FootprintFeature& feature : file.footprints.features) file.vertices += vertex_count(feature);
+  return file;
+}
+
 std::string why_empty(const std::vector<std::string>& warnings) {
   const auto passed_over = std::find_if(warnings.begin(), warnings.end(), [](const std::string& line) {
     return line.find("passed over") != std::string::npos;
@@ -83,25 +130,38 @@ std::string why_empty(const std::vector<std::string>& warnings) {
 }  // namespace
 
 bool builds_features(const ImportOptions& options) {
+  if (options.kind == ThemeKind::Surface) return true;
   if (options.kind != ThemeKind::Buildings && options.kind != ThemeKind::Vegetation && options.kind != ThemeKind::Walls)
     return false;
   return options.height || !options.height_field.empty() || !options.eaves_field.empty() ||
-         std::any_of(options.sources.begin(), options.sources.end(), is_city_json);
+         std::any_of(options.sources.begin(), options.sources.end(),
+                     [&](const std::string& path) { return is_city_json(path) || is_height_raster(path, options); });
+}
+
+std::pair<double, double> height_error_of(const ImportOptions& options) {
+  const double step = options.height_step.value_or(kDefaultStep);
+  switch (options.height_rounding.value_or(HeightRounding::nearest)) {
+    case HeightRounding::up:
+      return {0, step};
+    case HeightRounding::down:
+      return {step, 0};
+    default:
+      return {step / 2, step / 2};
+  }
 }
 
 std::vector<FootprintFile> read_footprint_files(const ImportOptions& options, const StoreMetadata& store,
                                                 Progress& progress) {
-  require_useful_options(options, kinds_of(options));
+  std::vector<SourceKind> kinds;
+  for (const std::string& path : options.sources) kinds.push_back(kind_of(path, options));
+  require_useful_options(options, kinds);
   std::vector<FootprintFile> files;
-  for (const std::string& path : options.sources) {
-    FootprintFile& file = files.emplace_back();
-    file.footprints =
-        is_city_json(path) ? read_model(path, options, store) : read_layer(path, options, store, progress);
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    const std::string& path = options.sources[i];
+    FootprintFile& file = files.emplace_back(read_file(path, kinds[i], options, store, progress));
     if (file.footprints.features.empty()) throw FileError(path, why_empty(file.footprints.warnings));
-    for (FootprintFeature& feature : file.footprints.features) {
+    for (FootprintFeature& feature : file.footprints.features)
       feature.base_rule = options.base.value_or(BaseRule::minimum);
-      file.vertices += vertex_count(feature);
-    }
     file.info.path = path;
     file.info.kind = name_of(*options.kind);
     file.info.theme = options.theme;

@@ -1,6 +1,7 @@
 // The files of an import whose features stand on the ground.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include <itin/import.hpp>
@@ -13,11 +14,16 @@ namespace itin {
 struct FootprintFile {
   FootprintSource footprints;
   std::uint64_t vertices = 0;  ///< of all footprints and roofs
+  /// Of a raster: its cells with a height and without one, and those known not to reach the threshold.
+  std::uint64_t cells = 0, voids = 0, low_cells = 0;
   SourceInfo info;
 };
 
-/// Reads options.sources: CityJSON, or vector layers. Throws FileError, InputError, Cancelled.
+/// Reads options.sources: CityJSON, rasters, or vector layers. Throws FileError, InputError, Cancelled.
 std::vector<FootprintFile> read_footprint_files(const ImportOptions& options, const StoreMetadata& store,
                                                 Progress& progress);
+
+/// By how much, in metres, cells of rasters imported with these options may stand lower, and higher, than they are.
+std::pair<double, double> height_error_of(const ImportOptions& options);
 
 }  // namespace itin

@@ -19,6 +19,7 @@
 
 #include "gdal/quiet_gdal.hpp"
 #include "gdal/raster_file.hpp"
+#include "import/rasters/raster_lattice.hpp"
 #include "import/rasters/raster_windows.hpp"
 #include "import/source/height_band.hpp"
 
@@ -30,22 +31,6 @@ constexpr double kSteadySteps = 1.25;     // steps that vary more than this earn
 constexpr std::size_t kBatch = 1 << 16;   // posts placed at a time
 constexpr std::uint64_t kCacheShare = 8;  // of the memory, for GDAL's cache of blocks
 
-/// Post (column, row) lies at origin + column u + row v, in the raster's own CRS.
-struct Lattice {
-  int columns = 0, rows = 0;
-  Point2 origin, u, v;
-
-  Point2 post(double column, double row) const {
-    return {origin.x + column * u.x + row * v.x, origin.y + column * u.y + row * v.y};
-  }
-  Box box(const RasterWindow& part) const {
-    Box box;
-    for (const int column : {part.column, part.column + part.columns - 1})
-      for (const int row : {part.row, part.row + part.rows - 1}) box.extend(post(column, row));
-    return box;
-  }
-};
-
 std::vector<std::string> rasters_in_archive(const std::string& archive) {
   std::vector<std::string> found;
   const CPLStringList entries(VSIReadDirRecursive(archive.c_str()));
@@ -53,17 +38,6 @@ std::vector<std::string> rasters_in_archive(const std::string& archive) {
     if (const std::string path = archive + "/" + entries[i]; is_raster(path)) found.push_back(path);
   std::sort(found.begin(), found.end());
   return found;
-}
-
-Lattice lattice_of(GDALDataset& dataset, const std::string& path) {
-  std::array<double, 6> t{};
-  if (dataset.GetGeoTransform(t.data()) != CE_None || t[1] * t[5] - t[2] * t[4] == 0)
-    throw InputError(path + ": has no georeference; give it one, with gdal_translate -a_ullr or gdalwarp");
-  return {dataset.GetRasterXSize(),
-          dataset.GetRasterYSize(),
-          {t[0] + (t[1] + t[2]) / 2, t[3] + (t[4] + t[5]) / 2},
-          {t[1], t[4]},
-          {t[2], t[5]}};
 }
 
 /// Lends GDAL's cache of blocks, which the whole process shares, no more than this source may take.
@@ -106,7 +80,7 @@ struct OpenedRaster {
   std::string path;
   std::optional<int> band;  ///< as the call says
   std::uint64_t memory_bytes = 0;
-  Lattice lattice;
+  RasterLattice lattice;
   Crs crs;
   SourceHeights heights;
   std::string copyright;  ///< as the file states it
@@ -158,7 +132,7 @@ class RasterTerrain final : public TerrainSource {
 
   std::string path_;
   std::optional<int> band_;
-  Lattice lattice_;
+  RasterLattice lattice_;
   std::uint64_t memory_bytes_;
   Placement placement_;
   SourceInfo info_;

@@ -24,9 +24,10 @@ constexpr Kinds kRasters = only(SourceKind::raster), kLas = only(SourceKind::las
                 kPoints = only(SourceKind::points), kContours = only(SourceKind::contours),
                 kTerrainLines = only(SourceKind::terrain_lines), kGroundLines = only(SourceKind::ground_lines),
                 kBuildings = only(SourceKind::buildings), kWalls = only(SourceKind::walls),
-                kCityModels = only(SourceKind::city_model);
+                kCityModels = only(SourceKind::city_model), kCanopies = only(SourceKind::canopy),
+                kSurfaces = only(SourceKind::surface);
 constexpr Kinds kTerrain = kRasters | kLas | kText | kPoints, kLines = kContours | kTerrainLines | kGroundLines,
-                kFootprints = kBuildings | kWalls;
+                kFootprints = kBuildings | kWalls, kCells = kCanopies | kSurfaces;
 
 struct Option {
   const char* name;
@@ -36,11 +37,12 @@ struct Option {
 
 constexpr std::array kOptions{
     Option{"`to_crs`", [](const ImportOptions& o) { return !o.to_crs.empty(); }, kTerrain | kLines},
-    Option{"`allow_mixed_vertical`", [](const ImportOptions& o) { return o.allow_mixed_vertical; }, kTerrain | kLines},
+    Option{"`allow_mixed_vertical`", [](const ImportOptions& o) { return o.allow_mixed_vertical; },
+           kTerrain | kLines | kSurfaces},
     Option{"`replace`", [](const ImportOptions& o) { return o.replace; }, kTerrain},
     Option{"`sea_level`", [](const ImportOptions& o) { return o.sea_level.has_value(); }, kRasters},
     Option{"`sea_area`", [](const ImportOptions& o) { return !o.sea_area.empty(); }, kRasters},
-    Option{"`band`", [](const ImportOptions& o) { return o.band.has_value(); }, kRasters},
+    Option{"`band`", [](const ImportOptions& o) { return o.band.has_value(); }, kRasters | kCells},
     Option{"`classes`", [](const ImportOptions& o) { return !o.classes.empty(); }, kLas},
     Option{"`max_gap`", [](const ImportOptions& o) { return o.max_gap > 0; }, kLas | kText | kPoints | kContours},
     Option{"`z_field`", [](const ImportOptions& o) { return !o.z_field.empty(); },
@@ -55,10 +57,13 @@ constexpr std::array kOptions{
     Option{"`thickness`", [](const ImportOptions& o) { return o.thickness.has_value(); }, kFootprints},
     Option{"`base_field`", [](const ImportOptions& o) { return !o.base_field.empty(); }, kBuildings},
     Option{"`base`", [](const ImportOptions& o) { return o.base.has_value(); }, kBuildings | kCityModels},
+    Option{"`height_step`", [](const ImportOptions& o) { return o.height_step.has_value(); }, kCells},
+    Option{"`height_threshold`", [](const ImportOptions& o) { return o.height_threshold.has_value(); }, kCells},
+    Option{"`height_rounding`", [](const ImportOptions& o) { return o.height_rounding.has_value(); }, kCells},
     Option{"`roof`", [](const ImportOptions& o) { return o.roof.has_value(); }, kBuildings},
 };
 
-constexpr std::array<const char*, 10> kTitles{"rasters",
+constexpr std::array<const char*, 12> kTitles{"rasters",
                                               "LAS",
                                               "delimited text",
                                               "layers of points",
@@ -67,7 +72,9 @@ constexpr std::array<const char*, 10> kTitles{"rasters",
                                               "lines and outlines without heights",
                                               "buildings with heights",
                                               "walls and vegetation with heights",
-                                              "CityJSON"};
+                                              "CityJSON",
+                                              "rasters of heights above the ground",
+                                              "rasters of a digital surface model"};
 
 std::vector<std::string> titles_of(Kinds kinds) {
   std::vector<std::string> titles;

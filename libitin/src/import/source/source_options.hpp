@@ -19,7 +19,9 @@ enum class SourceKind : std::uint16_t {
   ground_lines,   ///< of lines and outlines that lie on it
   buildings,      ///< a layer of footprints that stand
   walls,          ///< a layer of walls or vegetation
-  city_model      ///< CityJSON
+  city_model,     ///< CityJSON
+  canopy,         ///< a raster of heights above the ground, of what stands
+  surface         ///< a raster of elevations, of the ground and what stands on it
 };
 
 /// Throws InputError, naming the option, where one is given that none of the sources makes use of.

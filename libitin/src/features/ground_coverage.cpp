@@ -1,0 +1,40 @@
+#include "features/ground_coverage.hpp"
+
+#include <algorithm>
+
+#include "features/hot_pixel.hpp"
+#include "features/mask_index.hpp"
+#include "triangulate/apex.hpp"
+
+namespace itin {
+
+namespace {
+
+/// Closed segments.
+bool touch(const Segment& s, Position p, Position q) {
+  const Position a{s.ax, s.ay}, b{s.bx, s.by};
+  return crosses(s, p, q) || on_segment(a, b, p) || on_segment(a, b, q) || on_segment(p, q, a) || on_segment(p, q, b);
+}
+
+}  // namespace
+
+std::vector<Segment> outline_near(const Store& ground, const GridBox& box) {
+  std::vector<Segment> segments;
+  ground.points().segments(box, segments);
+  std::erase_if(segments, [](const Segment& s) { return s.theme != kCoverage; });
+  return segments;
+}
+
+bool lies_on_ground(const GridPolygon& polygon, const std::vector<Segment>& outline, const TerrainHeights& terrain) {
+  const GridBox box = box_about(polygon);
+  for (const Segment& s : outline) {
+    const GridBox of_segment{std::min(s.ax, s.bx), std::min(s.ay, s.by), std::max(s.ax, s.bx), std::max(s.ay, s.by)};
+    if (!of_segment.meets(box)) continue;
+    bool meets = side_of(polygon, {s.ax, s.ay}) != Side::outside;
+    for_each_edge(polygon, [&](Position a, Position b) { meets = meets || touch(s, a, b); });
+    if (meets) return false;
+  }
+  return terrain.height_at(polygon.outline.front()).has_value();
+}
+
+}  // namespace itin

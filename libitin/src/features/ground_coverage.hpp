@@ -1,0 +1,20 @@
+// Whether something lies wholly on the ground of a store: against the outline of what its sources cover.
+#pragma once
+
+#include <vector>
+
+#include <itin/store.hpp>
+
+#include "features/plan_overlay.hpp"
+#include "features/terrain_heights.hpp"
+#include "store/point_index.hpp"
+
+namespace itin {
+
+/// The segments of the outline that may meet the box.
+std::vector<Segment> outline_near(const Store& ground, const GridBox& box);
+
+/// Whether all of a polygon is ground: it touches no outline, and one of its positions is ground.
+bool lies_on_ground(const GridPolygon& polygon, const std::vector<Segment>& outline, const TerrainHeights& terrain);
+
+}  // namespace itin

@@ -1,0 +1,27 @@
+// The vertical datums that the heights of a store and of its new sources refer to.
+#pragma once
+
+#include <string>
+
+#include <itin/store.hpp>
+
+#include "gdal/crs.hpp"
+
+namespace itin {
+
+/// Heights on different datums differ by metres, which no CRS of a store would show. Unknown datums are trusted.
+class VerticalDatums {
+ public:
+  VerticalDatums() = default;
+  /// Those of a store's sources.
+  explicit VerticalDatums(const StoreMetadata& store);
+
+  /// Throws InputError, which begins with `place` and names `allow_mixed_vertical`, where another datum was added
+  /// before.
+  void add(const Crs& crs, const std::string& place);
+
+ private:
+  std::string datum_, place_;
+};
+
+}  // namespace itin
