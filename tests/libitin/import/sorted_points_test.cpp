@@ -167,7 +167,7 @@ TEST(PointSorter, SaysThatTheDiskIsFull) {
   setrlimit(RLIMIT_FSIZE, &before);
   signal(SIGXFSZ, handler);
   EXPECT_EQ(message,
-            "/tmp: cannot write a temporary file: File too large; free some space there, about 32 bytes a point, and "
+            "/tmp: cannot write a temporary file: File too large; free some space there, about 32 bytes per point, and "
             "try again");
 }
 
