@@ -10,8 +10,8 @@
 
 namespace itin::viewshed {
 
-/// That of the counts or probabilities that answer the request. Empty for every other mode: classes have their colours
-/// in the raster.
+/// That of the counts, probabilities or losses that answer the request. Empty for every other mode: classes have their
+/// colours in the raster.
 std::string qgis_style(const Request& request);
 /// That of the share that write_geotiff() writes of a VisibilityIndex.
 std::string qgis_style_of_shares();
