@@ -1,4 +1,5 @@
 // Runs the cases of tests/cli/cases; their form is described in command_case.hpp.
+#include <algorithm>
 #include <regex>
 
 #include <gtest/gtest.h>
@@ -46,8 +47,21 @@ void make_store(const Shell& shell) {
   ASSERT_EQ(made.status, 0) << made.err;
 }
 
+/// A sanitizer's own memory lies beyond every limit of the address space.
+bool limits_address_space(const CommandCase& test) {
+  return std::any_of(test.runs.begin(), test.runs.end(),
+                     [](const std::string& run) { return run.find("ulimit -v") != std::string::npos; });
+}
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+
 TEST_P(CommandLine, Case) {
   const CommandCase& test = GetParam();
+  if (kSanitized && limits_address_space(test)) GTEST_SKIP() << "a sanitizer takes no limited address space";
   SCOPED_TRACE(test.file + ":" + std::to_string(test.line) + ": " + test.name);
   const Shell shell;
   write_hill(shell.directory() / "hill.asc");
