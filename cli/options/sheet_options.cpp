@@ -65,4 +65,9 @@ Document SheetOptions::parameters() const {
   return parameters;
 }
 
+std::vector<std::string> sheet_names(const std::string& map, profile::PaperSize paper) {
+  const std::string name = fmt::format("sheet-{}-{}", map, profile::name_of(paper));
+  return {name + ".pdf", name + ".png"};
+}
+
 }  // namespace itin::cli

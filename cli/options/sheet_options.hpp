@@ -40,4 +40,7 @@ class SheetOptions {
   double scale_ = 0;
 };
 
+/// The files of a map on one paper: "sheet-coverage-A3.pdf" and its picture.
+std::vector<std::string> sheet_names(const std::string& map, profile::PaperSize paper);
+
 }  // namespace itin::cli

@@ -102,7 +102,7 @@ MapBase picture_base(const std::string& basemap, const RasterGrid& pixels, const
   return base;
 }
 
-profile::SheetColour faded(const profile::SheetColour& c) {
+profile::SheetColour paler(const profile::SheetColour& c) {
   constexpr double kFade = 0.6;
   const auto part = [](std::uint8_t v) { return static_cast<std::uint8_t>(std::lround(v + kFade * (255 - v))); };
   return {part(c.red), part(c.green), part(c.blue), c.alpha};
@@ -123,17 +123,20 @@ std::pair<std::string, std::string> basemap_fact(const std::string& basemap) {
   return {"Base map", std::filesystem::path(basemap).filename().string()};
 }
 
-std::vector<profile::SheetLayer> layers_of(const MapBase& base, const std::function<bool(Point2)>& studied,
-                                           profile::SheetCells shown) {
-  profile::SheetCells picture = base.picture;
+MapBase faded(MapBase base, const std::function<bool(Point2)>& studied) {
+  profile::SheetCells& picture = base.picture;
   parallel_for(static_cast<std::size_t>(picture.grid.rows()), [&](std::size_t r) {
     const auto row = static_cast<std::int64_t>(r);
     for (std::int64_t column = 0; column < picture.grid.columns(); ++column) {
       profile::SheetColour& colour = picture.colours[picture.grid.index({column, row})];
-      if (colour.alpha > 0 && !studied(picture.grid.centre(column, row))) colour = faded(colour);
+      if (colour.alpha > 0 && !studied(picture.grid.centre(column, row))) colour = paler(colour);
     }
   });
-  std::vector<profile::SheetLayer> layers{std::move(picture), std::move(shown)};
+  return base;
+}
+
+std::vector<profile::SheetLayer> layers_of(const MapBase& base, profile::SheetCells shown) {
+  std::vector<profile::SheetLayer> layers{base.picture, std::move(shown)};
   layers.insert(layers.end(), base.contours.begin(), base.contours.end());
   return layers;
 }

@@ -1,7 +1,7 @@
 // What lies below every map sheet: the shaded relief and contours of a store's ground, or a picture given for it.
 //
 //   const MapBase base = map_base(store, profile::ground_in_frame(sheet), profile::scale_of(sheet), basemap, progress);
-//   sheet.layers = layers_of(base, [](Point2) { return true; }, std::move(cells));
+//   sheet.layers = layers_of(faded(base, studied), std::move(cells));
 #pragma once
 
 #include <functional>
@@ -27,9 +27,10 @@ MapBase map_base(const Store& store, const Box& frame, double scale, const std::
 /// Names the picture in a title block.
 std::pair<std::string, std::string> basemap_fact(const std::string& basemap);
 
-/// The picture, faded where `studied` does not hold; what is shown over it; contours. `studied` is asked about
-/// positions on any thread.
-std::vector<profile::SheetLayer> layers_of(const MapBase& base, const std::function<bool(Point2)>& studied,
-                                           profile::SheetCells shown);
+/// Its picture faded where `studied` does not hold, which is asked about positions on any thread.
+MapBase faded(MapBase base, const std::function<bool(Point2)>& studied);
+
+/// The picture, what is shown over it, contours.
+std::vector<profile::SheetLayer> layers_of(const MapBase& base, profile::SheetCells shown);
 
 }  // namespace itin::cli

@@ -27,6 +27,9 @@ class OutputPolicy {
   std::optional<CallFiles> files_;
 };
 
+/// The QGIS style that is written beside a raster.
+std::string style_beside(const std::string& raster);
+
 /// The name with an underscore for each character that some file systems do not allow.
 std::string file_name(const std::string& name);
 

@@ -5,13 +5,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "output/map_base.hpp"
+#include <itin/coordinates.hpp>
 
 namespace itin::cli {
 
 namespace {
 
 using profile::SheetKey;
+
+constexpr profile::SheetColour kMast{213, 94, 0, 255};
 
 profile::SheetColour drawn(const viewshed::ResultMap::Colour& c) {
   return {c.red, c.green, c.blue, c.alpha};
@@ -27,8 +29,17 @@ std::vector<SheetKey> keys_of(const ResultSheet& content) {
   add(content.heading, content.map.keys);
   add(content.map.scale_title, content.map.scale);
   keys.push_back({SheetKey::Sample::kHeading, {}, "Map"});
-  if (!content.marks_key.empty()) keys.push_back({SheetKey::Sample::kMast, content.marks.colour, content.marks_key});
+  if (!content.masts_key.empty()) keys.push_back({SheetKey::Sample::kMast, kMast, content.masts_key});
   return keys;
+}
+
+/// Without layers, legend and title.
+profile::MapSheet empty_sheet(const Store& store, const ResultSheet& content, profile::PaperSize paper,
+                              const SheetOptions& options) {
+  profile::MapSheet sheet;
+  sheet.paper = paper, sheet.scale = options.scale(), sheet.area = content.grid.bounds();
+  sheet.crs_wkt = store.metadata().crs_wkt;
+  return sheet;
 }
 
 }  // namespace
@@ -40,28 +51,38 @@ std::string statement_of(const StoreMetadata& metadata, const ThemeChoice& theme
                      fmt::join(themes.names(metadata.themes), ", "));
 }
 
-std::string draw_result_sheet(const Store& store, const ResultSheet& content, profile::PaperSize paper,
-                              const SheetOptions& options, const std::string& name, Progress& progress) {
-  profile::MapSheet sheet;
-  sheet.paper = paper, sheet.scale = options.scale(), sheet.area = content.grid.bounds();
-  sheet.crs_wkt = store.metadata().crs_wkt;
-  const MapBase base =
-      map_base(store, profile::ground_in_frame(sheet), profile::scale_of(sheet), options.basemap(), progress);
+MapBase base_of(const Store& store, const ResultSheet& content, profile::PaperSize paper, const SheetOptions& options,
+                Progress& progress) {
+  const profile::MapSheet sheet = empty_sheet(store, content, paper, options);
+  return faded(map_base(store, profile::ground_in_frame(sheet), profile::scale_of(sheet), options.basemap(), progress),
+               [&](Point2 p) {
+                 const auto cell = content.grid.cell_at(p);
+                 return cell && content.studied(content.grid.index(*cell));
+               });
+}
+
+profile::MapSheet map_sheet(const Store& store, const ResultSheet& content, const MapBase& base,
+                            profile::PaperSize paper, const SheetOptions& options) {
+  profile::MapSheet sheet = empty_sheet(store, content, paper, options);
   profile::SheetCells cells{content.grid, {}};
   for (const auto& colour : content.map.cells) cells.colours.push_back(drawn(colour));
-  const auto studied = [&](Point2 p) {
-    const auto cell = content.grid.cell_at(p);
-    return cell && content.studied(content.grid.index(*cell));
-  };
-  sheet.layers = layers_of(base, studied, std::move(cells));
-  sheet.layers.emplace_back(content.marks);
+  sheet.layers = layers_of(base, std::move(cells));
+  sheet.layers.emplace_back(profile::SheetMarks{profile::SheetSymbol::kMast, kMast, content.masts});
   sheet.legend = keys_of(content);
   sheet.legend.insert(sheet.legend.end(), base.keys.begin(), base.keys.end());
   sheet.title = content.title;
+  sheet.title.facts.emplace_back("Earth", content.earth.convention());
+  sheet.title.facts.emplace_back("Coordinates", crs_title(store.metadata().crs_wkt));
   if (!options.basemap().empty()) sheet.title.facts.push_back(basemap_fact(options.basemap()));
   sheet.title.project = options.project(), sheet.title.date = options.date();
   sheet.title.made_by = "Drawn by itin " ITIN_VERSION;
-  return profile::draw_map_sheet(sheet, name);
+  return sheet;
+}
+
+std::string draw_result_sheet(const Store& store, const ResultSheet& content, profile::PaperSize paper,
+                              const SheetOptions& options, const std::string& name, Progress& progress) {
+  const MapBase base = base_of(store, content, paper, options, progress);
+  return profile::draw_map_sheet(map_sheet(store, content, base, paper, options), name);
 }
 
 }  // namespace itin::cli

@@ -3,13 +3,16 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
+#include <itin/earth.hpp>
 #include <itin/raster.hpp>
 #include <itin/store.hpp>
 #include <profile/map_sheet.hpp>
 #include <viewshed/result_map.hpp>
 
 #include "options/sheet_options.hpp"
+#include "output/map_base.hpp"
 
 namespace itin::cli {
 
@@ -18,16 +21,25 @@ struct ResultSheet {
   viewshed::ResultMap map;                   ///< of its cells
   std::string heading;                       ///< of the map's keys
   std::function<bool(std::size_t)> studied;  ///< whether a cell is part of the study: the others' relief is faded
-  profile::SheetMarks marks;
-  std::string marks_key;  ///< empty where there are none
-  profile::TitleBlock title;
+  std::vector<profile::SheetMark> masts;
+  std::string masts_key;  ///< empty where there are none
+  Earth earth;
+  profile::TitleBlock title;  ///< without what every sheet says: the Earth, coordinates, project, date, maker
 };
 
 /// What screens on a map, and what does not.
 std::string statement_of(const StoreMetadata& metadata, const ThemeChoice& themes);
 
-/// The bytes of a .pdf or .png, by the ending of `name`. Throws FileError (a basemap), InputError (a scale that is too
-/// large), Cancelled.
+/// What lies below a result's map on this paper. Results of equal grids and studied cells may share it. Throws
+/// FileError (a basemap), InputError (a scale that is too large), Cancelled.
+MapBase base_of(const Store& store, const ResultSheet& content, profile::PaperSize paper, const SheetOptions& options,
+                Progress& progress);
+
+/// The sheet, for profile::draw_map_sheet().
+profile::MapSheet map_sheet(const Store& store, const ResultSheet& content, const MapBase& base,
+                            profile::PaperSize paper, const SheetOptions& options);
+
+/// The bytes of a .pdf or .png, by the ending of `name`. Throws as base_of() does.
 std::string draw_result_sheet(const Store& store, const ResultSheet& content, profile::PaperSize paper,
                               const SheetOptions& options, const std::string& name, Progress& progress);
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <itin/coordinates.hpp>
 #include <itin/level_choice.hpp>
 #include <itin/output_file.hpp>
 #include <itin/triangulate.hpp>
@@ -85,19 +84,17 @@ ResultSheet sheet_of(const Store& store, const SiteResult& r, const SiteMap& map
                     viewshed::result_map(map.result, map.options),
                     "Share of the places to serve",
                     [&](std::size_t cell) { return map.result.visible[cell] != viewshed::Verdict::kOutside; },
-                    {profile::SheetSymbol::kMast, {213, 94, 0, 255}, {}},
+                    {},
                     map.options.observers,
+                    r.options.earth.earth(),
                     {}};
-  for (const viewshed::Observer& site : map.result.request.observers)
-    sheet.marks.marks.push_back({site.position, site.name});
+  for (const viewshed::Observer& site : map.result.request.observers) sheet.masts.push_back({site.position, site.name});
   sheet.title.title = map.options.title;
   sheet.title.statement = statement_of(metadata, r.options.themes.choice());
   sheet.title.facts = {{"Served", r.options.meaning_of_served()},
                        {"Targets", map.options.subtitle},
                        {"Choice", fmt::format("{}, {:.1f} % of the demand served",
-                                              counted(r.choice.chosen.size(), "site"), r.served_percent())},
-                       {"Earth", r.options.earth.earth().convention()},
-                       {"Coordinates", crs_title(metadata.crs_wkt)}};
+                                              counted(r.choice.chosen.size(), "site"), r.served_percent())}};
   sheet.title.sources = sources;
   return sheet;
 }
@@ -125,14 +122,15 @@ void write_site_maps(const Store& store, const SiteResult& r, const std::string&
 void write_site_sheets(const Store& store, const SiteResult& r, const std::vector<std::string>& sources,
                        const std::string& directory, bool overwrite, Progress& progress) {
   if (!r.options.sheets.given()) return;
-  for (const SiteMap& map : site_maps(r)) {
-    const ResultSheet sheet = sheet_of(store, r, map, sources);
-    for (const profile::PaperSize paper : r.options.sheets.papers())
-      for (const char* ending : {"pdf", "png"}) {
-        const std::string name = fmt::format("sheet-{}-{}.{}", map.name, profile::name_of(paper), ending);
-        write_file((std::filesystem::path(directory) / name).string(),
-                   draw_result_sheet(store, sheet, paper, r.options.sheets, name, progress), overwrite);
-      }
+  const SheetOptions& options = r.options.sheets;
+  const std::vector<SiteMap> maps = site_maps(r);
+  for (const profile::PaperSize paper : options.papers()) {
+    const MapBase base = base_of(store, sheet_of(store, r, maps.front(), sources), paper, options, progress);
+    for (const SiteMap& map : maps) {
+      const profile::MapSheet sheet = map_sheet(store, sheet_of(store, r, map, sources), base, paper, options);
+      for (const std::string& name : sheet_names(map.name, paper))
+        write_file((std::filesystem::path(directory) / name).string(), profile::draw_map_sheet(sheet, name), overwrite);
+    }
   }
 }
 

@@ -171,9 +171,8 @@ std::vector<SiteOutput> site_outputs(const std::string& directory, const SheetOp
       {"parameters.json", "for --params: runs this again"}};
   for (const profile::PaperSize paper : sheets.papers())
     for (const char* map : {"coverage", "redundancy"})
-      for (const char* ending : {"pdf", "png"})
-        files.emplace_back(fmt::format("sheet-{}-{}.{}", map, profile::name_of(paper), ending),
-                           fmt::format("{}.tif as a map on paper", map));
+      for (const std::string& name : sheet_names(map, paper))
+        files.emplace_back(name, fmt::format("{}.tif as a map on paper", map));
   std::vector<SiteOutput> outputs;
   for (const auto& [name, what] : files) {
     outputs.push_back({place(directory, name.c_str()), what});

@@ -24,10 +24,6 @@ bool is_polygons(const std::string& path) {
   return std::filesystem::path(path).extension() == ".gpkg";
 }
 
-std::string style_beside(const std::string& raster) {
-  return std::filesystem::path(raster).replace_extension(".qml").string();
-}
-
 }  // namespace
 
 void ViewshedOutputs::declare(CLI::App& app) {

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <itin/coordinates.hpp>
 #include <itin/output_file.hpp>
 #include <viewshed/result_map.hpp>
 
@@ -15,8 +14,6 @@
 namespace itin::cli {
 
 namespace {
-
-constexpr profile::SheetColour kObserver{213, 94, 0, 255};
 
 std::string observers_in_words(const viewshed::Request& request) {
   const viewshed::Observer& first = request.observers.front();
@@ -37,9 +34,7 @@ profile::TitleBlock title_block(const Store& store, const viewshed::Result& resu
   block.facts = {{"Observers", observers_in_words(request)},
                  {"Targets", fmt::format("{:g} m {}", request.target_height,
                                          request.target_absolute ? "above datum" : "above the ground")},
-                 {"Cells", fmt::format("{:g} m, decided at their centres", result.grid.cell_width())},
-                 {"Earth", request.earth.convention()},
-                 {"Coordinates", crs_title(store.metadata().crs_wkt)}};
+                 {"Cells", fmt::format("{:g} m, decided at their centres", result.grid.cell_width())}};
   if (request.radius)
     block.facts.insert(block.facts.begin() + 2, {"Radius", fmt::format("{:g} km", *request.radius / 1000)});
   if (const auto criterion = radio_criterion(request)) block.facts.emplace_back("Radio", *criterion);
@@ -56,10 +51,11 @@ void write_viewshed_sheet(const Store& store, const viewshed::Result& result, co
                     viewshed::result_map(result, {}),
                     "Share of the cells with terrain data in view",
                     [&](std::size_t cell) { return result.visible[cell] != viewshed::Verdict::kOutside; },
-                    {profile::SheetSymbol::kMast, kObserver, {}},
+                    {},
                     "Observer",
+                    result.request.earth,
                     title_block(store, result, sources)};
-  for (const viewshed::Observer& o : result.request.observers) sheet.marks.marks.push_back({o.position, o.name});
+  for (const viewshed::Observer& o : result.request.observers) sheet.masts.push_back({o.position, o.name});
   write_file(options.file(),
              draw_result_sheet(store, sheet, options.papers().front(), options, options.file(), progress), overwrite);
 }

@@ -112,7 +112,7 @@ class VisibilityVerb final : public Verb {
 
   Result execute(Progress& progress) override {
     policy_.require_writable(output_);
-    policy_.claim(style());
+    policy_.claim(style_beside(output_));
     if (!sheet_.file().empty()) policy_.require_writable(sheet_.file());
     // A budget holds for what is kept of the store as well.
     const Store store(store_, {std::min(StoreOptions().cache_bytes, request_.memory_bytes / 4)});
@@ -127,7 +127,7 @@ class VisibilityVerb final : public Verb {
     viewshed::write_geotiff(
         output_, index, request_,
         {metadata.crs_wkt, {{"itin", ITIN_VERSION}, {"surface", json_text(surface)}}, policy_.overwrite});
-    write_file(style(), viewshed::qgis_style_of_shares(), policy_.overwrite);
+    write_file(style_beside(output_), viewshed::qgis_style_of_shares(), policy_.overwrite);
     if (!sheet_.file().empty()) write_sheet(store, index, progress);
     Result result;
     warn_of_scale(metadata, result.warnings);
@@ -138,7 +138,7 @@ class VisibilityVerb final : public Verb {
     document["observers"] = index.observers;
     document["mean_share"] = index.mean;
     document["mean_share_standard_error"] = index.mean_error;
-    document["outputs"] = {output_, style()};
+    document["outputs"] = {output_, style_beside(output_)};
     if (!sheet_.file().empty()) document["outputs"].push_back(sheet_.file());
     document["statistics"] = {{"points_read", index.retrieval.points_read},
                               {"blocks_read", index.retrieval.blocks_read},
@@ -161,6 +161,7 @@ class VisibilityVerb final : public Verb {
                       [&](std::size_t cell) { return !std::isnan(index.share[cell]); },
                       {},
                       "",
+                      request_.earth,
                       {}};
     profile::TitleBlock& block = sheet.title;
     block.title = "How much is seen from everywhere";
@@ -169,14 +170,11 @@ class VisibilityVerb final : public Verb {
                                              request_.cell_size, request_.height)},
                    {"Targets", fmt::format("{} at random for each observer, {:g} m above the ground", request_.targets,
                                            request_.target_height)},
-                   {"Radius", fmt::format("{:g} km", request_.radius / 1000)},
-                   {"Earth", request_.earth.convention()},
-                   {"Coordinates", crs_title(metadata.crs_wkt)}};
+                   {"Radius", fmt::format("{:g} km", request_.radius / 1000)}};
     block.sources = described(sources_in(store, index.grid.bounds(), request_.themes), metadata);
     write_file(sheet_.file(), draw_result_sheet(store, sheet, sheet_.papers().front(), sheet_, sheet_.file(), progress),
                policy_.overwrite);
   }
-  std::string style() const { return std::filesystem::path(output_).replace_extension(".qml").string(); }
 
   std::string store_, output_, cell_text_, radius_text_, height_text_, target_text_, targets_text_, nodata_text_,
       memory_text_;

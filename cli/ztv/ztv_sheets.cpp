@@ -12,6 +12,7 @@
 #include <itin/output_file.hpp>
 #include <itin/parallel.hpp>
 #include <itin/sources_in.hpp>
+#include <viewshed/result_map.hpp>
 #include <viewshed/zone_maps.hpp>
 
 #include "output/map_base.hpp"
@@ -30,7 +31,6 @@ using viewshed::Zone;
 using viewshed::ZoneMap;
 
 constexpr SheetColour kRing{70, 70, 70, 255}, kStudyArea{20, 20, 20, 255}, kViewpoint{20, 60, 140, 255};
-constexpr std::uint8_t kOverRelief = 165;  ///< alpha of classes
 constexpr std::size_t kMostFarmColours = 8;
 
 /// Metres beyond its radius of the turbine that is farthest within it: not above 0 in the study area.
@@ -151,7 +151,7 @@ profile::SheetCells classes_of(const Zone& zone, const ZoneMap& map) {
   for (std::size_t i = 0; i < cells.colours.size(); ++i) {
     if (map.class_of_cell[i] == viewshed::kNoMapClass) continue;
     const ZoneMap::Class& c = map.classes[map.class_of_cell[i]];
-    if (c.alpha > 0) cells.colours[i] = {c.red, c.green, c.blue, kOverRelief};
+    if (c.alpha > 0) cells.colours[i] = {c.red, c.green, c.blue, viewshed::kAlphaOverRelief};
   }
   return cells;
 }
@@ -169,7 +169,7 @@ std::vector<SheetKey> class_keys(const Zone& zone, const ZoneMap& map) {
     const double km2 = static_cast<double>(c.cells) * zone.grid.cell_area() / 1e6;
     keys.push_back(
         {SheetKey::Sample::kPatch,
-         {c.red, c.green, c.blue, c.alpha > 0 ? kOverRelief : std::uint8_t{0}},
+         {c.red, c.green, c.blue, c.alpha > 0 ? viewshed::kAlphaOverRelief : std::uint8_t{0}},
          fmt::format("{}: {} km² ({:.1f} %)", c.label, readable_area(km2),
                      100.0 * static_cast<double>(c.cells) / static_cast<double>(std::max<std::uint64_t>(1, all)))});
   }
@@ -251,18 +251,17 @@ std::vector<viewshed::ZoneFile> write_ztv_sheets(const std::string& folder, cons
     sheet.paper = paper, sheet.scale = options.scale(), sheet.area = study_area(zone);
     sheet.crs_wkt = store.metadata().crs_wkt;
     const MapBase base =
-        map_base(store, profile::ground_in_frame(sheet), profile::scale_of(sheet), options.basemap(), progress);
+        faded(map_base(store, profile::ground_in_frame(sheet), profile::scale_of(sheet), options.basemap(), progress),
+              [&](Point2 p) { return beyond_study_area(zone, p) <= 0; });
     for (const ZoneMap& map : maps) {
-      sheet.layers = layers_of(
-          base, [&](Point2 p) { return beyond_study_area(zone, p) <= 0; }, classes_of(zone, map));
+      sheet.layers = layers_of(base, classes_of(zone, map));
       sheet.layers.insert(sheet.layers.end(), furniture.layers.begin(), furniture.layers.end());
       sheet.legend = class_keys(zone, map);
       sheet.legend.push_back({SheetKey::Sample::kHeading, {}, "Map"});
       sheet.legend.insert(sheet.legend.end(), furniture.keys.begin(), furniture.keys.end());
       sheet.legend.insert(sheet.legend.end(), base.keys.begin(), base.keys.end());
       sheet.title = title_block(store, zone, map, options, facts);
-      for (const char* ending : {".pdf", ".png"}) {
-        const std::string name = fmt::format("sheet-{}-{}{}", map.name, profile::name_of(paper), ending);
+      for (const std::string& name : sheet_names(map.name, paper)) {
         write_file(folder + "/" + name, profile::draw_map_sheet(sheet, name), true);
         files.push_back({name, fmt::format("map sheet: {}, {} at 1:{:.0f}", sheet.title.title, profile::name_of(paper),
                                            profile::scale_of(sheet))});

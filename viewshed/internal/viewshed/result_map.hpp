@@ -13,6 +13,9 @@
 
 namespace itin::viewshed {
 
+/// How much a class hides the relief below it, 0 to 255.
+inline constexpr std::uint8_t kAlphaOverRelief = 165;
+
 struct ResultMap {
   struct Colour {
     std::uint8_t red = 0, green = 0, blue = 0, alpha = 0;

@@ -41,7 +41,6 @@ ResultMap result_map(const Result& result, const MapOptions& options) {
 }
 
 ResultMap result_map(const VisibilityIndex& index) {
-  constexpr std::uint8_t kOverRelief = 165;
   const std::vector<ValueBand> bands = share_bands();
   std::vector<std::uint64_t> cells(bands.size());
   ResultMap map;
@@ -50,10 +49,10 @@ ResultMap result_map(const VisibilityIndex& index) {
     if (std::isnan(index.share[i])) continue;
     const std::size_t b = band_of(bands, index.share[i]);
     ++cells[b];
-    if (bands[b].alpha > 0) map.cells[i] = {bands[b].red, bands[b].green, bands[b].blue, kOverRelief};
+    if (bands[b].alpha > 0) map.cells[i] = {bands[b].red, bands[b].green, bands[b].blue, kAlphaOverRelief};
   }
   for (std::size_t b = 0; b < bands.size(); ++b) {
-    const std::uint8_t alpha = bands[b].alpha > 0 ? kOverRelief : std::uint8_t{0};
+    const std::uint8_t alpha = bands[b].alpha > 0 ? kAlphaOverRelief : std::uint8_t{0};
     map.keys.push_back(
         {{bands[b].red, bands[b].green, bands[b].blue, alpha},
          key_text(bands[b].label, cells[b], std::max<std::uint64_t>(1, index.observers), index.grid.cell_area())});
