@@ -33,8 +33,8 @@ struct RoutePlace {
 };
 
 /// One in the middle of every stretch of `every` metres, or of as many equal ones as are needed.
-std::vector<RoutePlace> places_along(const std::vector<Point2>& corners, double every) {
-  const std::vector<double> at = distances_along(corners);
+/// `at` are the corners' distances along the route.
+std::vector<RoutePlace> places_along(const std::vector<Point2>& corners, const std::vector<double>& at, double every) {
   const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(at.back() / every - 1e-9)));
   std::vector<RoutePlace> places;
   std::size_t side = 0;
@@ -196,8 +196,9 @@ std::vector<viewshed::ZoneFile> RouteOptions::write(const std::string& folder, c
   for (const Path& path : read_paths(path_, metadata.crs_wkt)) {
     Route route;
     route.name = path.name, route.number = ++number;
-    route.length = distances_along(path.corners).back();
-    route.places = places_along(path.corners, every_);
+    const std::vector<double> at = distances_along(path.corners);
+    route.length = at.back();
+    route.places = places_along(path.corners, at, every_);
     survey(route, ground, features ? &*features : nullptr, zone, progress);
     if (std::none_of(route.bare.begin(), route.bare.end(), [](const Found& f) { return f.has_value(); }))
       throw InputError(fmt::format("{}: route {} lies off the data", path_, route.name));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -195,15 +196,16 @@ void WirelineWriter::write(const Viewpoint& v, const ViewedSurface& view, const 
   add(planar, "sheet of 841 by 297 mm: planar wireline of 53.5 degrees from " + of,
       profile::draw_planar_sheet(wide, sheet, planar));
   std::string cylindrical = file_name("wireline", v, view.suffix + "-cylindrical.pdf");
-  const profile::Wireline alone = of_one_farm(wide, choice_.alone);
+  std::optional<profile::Wireline> alone;
+  if (!choice_.alone.empty()) alone = of_one_farm(wide, choice_.alone);
   std::vector<profile::WirelineField> drawn_fields;
   for (const double middle : profile::cylinder_centres(centre, fields)) {
-    if (!choice_.alone.empty()) drawn_fields.push_back({alone, middle, choice_.alone + " alone"});
-    drawn_fields.push_back({wide, middle, choice_.alone.empty() ? "" : "All wind farms"});
+    if (alone) drawn_fields.push_back({*alone, middle, choice_.alone + " alone"});
+    drawn_fields.push_back({wide, middle, alone ? "All wind farms" : ""});
   }
   add(cylindrical,
       fmt::format("sheets of 841 by 297 mm: {} of 90 degrees{}, cylindrical, from {}", fields,
-                  choice_.alone.empty() ? "" : ", each with " + choice_.alone + " alone and with all wind farms", of),
+                  alone ? ", each with " + choice_.alone + " alone and with all wind farms" : "", of),
       profile::draw_cylindrical_sheets(drawn_fields, sheet, cylindrical));
   sheet.title = fmt::format("Viewpoint {}: {}", v.number, v.name);
   const std::string name = file_name("viewpoint", v, view.suffix + ".pdf");

@@ -38,6 +38,8 @@ struct PathEdge {
   double height_m = 0;
 };
 std::vector<PathEdge> edges_of(std::span<const PathPoint> profile, double length_m);
+/// All of them on the smooth surface itself, as section 4.2.3 has it.
+std::vector<PathEdge> levelled(std::vector<PathEdge> edges);
 
 /// The stretch between two places that see each other or not: antennas, or an edge and an antenna.
 struct PathSpan {
@@ -101,9 +103,10 @@ SmoothEnds smooth_ends(std::span<const PathPoint> ground, const PathEnds& ends);
 
 struct DeltaBullington {
   SmoothEnds smooth;
-  double lba_db = 0, lbs_db = 0;  ///< Bullington over the tops and over the smooth surface
-  double ldsph_db = 0;            ///< spherical Earth
-  double ld_db = 0;               ///< lba + max(ldsph - lbs, 0): equation (40)
+  std::optional<BullingtonEdge> edge;  ///< over the tops
+  double lba_db = 0, lbs_db = 0;       ///< Bullington over the tops and over the smooth surface
+  double ldsph_db = 0;                 ///< spherical Earth
+  double ld_db = 0;                    ///< lba + max(ldsph - lbs, 0): equation (40)
 };
 /// Section 4.2.3. `tops` is what diffracts; `ground` is what the smooth surface fits, the same where nothing stands on
 /// it. Preconditions: both reach from end to end, no antenna is below them, and the length, the frequency and the

@@ -17,6 +17,10 @@ constexpr double kReferenceRadius = 6371200;
 /// Below this horizontal field declinations mean nothing: the model's blackout zones, nT.
 constexpr double kLeastHorizontal = 2000;
 
+bool is_of_the_model(double year) {
+  return year >= kMagneticFrom && year < kMagneticUntil;
+}
+
 /// A point in geocentric coordinates.
 struct Geocentric {
   double radius_m;
@@ -88,15 +92,14 @@ MagneticField magnetic_field(Point2 lon_lat, double height_m, double year) {
 }
 
 std::optional<double> declination_deg(Point2 lon_lat, double height_m, double year) {
-  if (!(year >= kMagneticFrom && year < kMagneticUntil)) return std::nullopt;
+  if (!is_of_the_model(year)) return std::nullopt;
   const MagneticField field = magnetic_field(lon_lat, height_m, year);
   if (std::hypot(field.north_nt, field.east_nt) < kLeastHorizontal) return std::nullopt;
   return std::atan2(field.east_nt, field.north_nt) * kDegreesPerRadian;
 }
 
 bool has_declination(const CalendarDay& day) {
-  const double year = decimal_year(day);
-  return year >= kMagneticFrom && year < kMagneticUntil;
+  return is_of_the_model(decimal_year(day));
 }
 
 std::string magnetic_model_text() {

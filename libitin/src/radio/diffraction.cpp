@@ -17,10 +17,11 @@ double steepest_from(const PathEdge& end, const PathSpan& span, std::span<const 
   return steepest;
 }
 
-/// The smooth surface itself, as section 4.2.3 has it.
-std::vector<PathEdge> levelled(std::vector<PathEdge> edges) {
-  for (PathEdge& e : edges) e.height_m = 0;
-  return edges;
+/// Equation (22).
+double loss_over(const std::optional<BullingtonEdge>& edge, const PathSpan& span) {
+  if (!edge) return 0;
+  const double single = knife_edge_db(edge->v);
+  return single + (1 - std::exp(-single / 6)) * (10 + 0.02 * span.length());
 }
 
 }  // namespace
@@ -30,6 +31,11 @@ std::vector<PathEdge> edges_of(std::span<const PathPoint> profile, double length
   edges.reserve(profile.size());
   for (const PathPoint& p : profile)
     if (p.distance_m > 0 && p.distance_m < length_m) edges.push_back({p.distance_m / 1000, p.height_m});
+  return edges;
+}
+
+std::vector<PathEdge> levelled(std::vector<PathEdge> edges) {
+  for (PathEdge& e : edges) e.height_m = 0;
   return edges;
 }
 
@@ -67,10 +73,7 @@ std::optional<BullingtonEdge> bullington_edge(const PathSpan& span, std::span<co
 }
 
 double bullington_db(const PathSpan& span, std::span<const PathEdge> edges) {
-  const auto edge = bullington_edge(span, edges);
-  if (!edge) return 0;
-  const double single = knife_edge_db(edge->v);
-  return single + (1 - std::exp(-single / 6)) * (10 + 0.02 * span.length());  // equation (22)
+  return loss_over(bullington_edge(span, edges), span);
 }
 
 SmoothEnds smooth_ends(std::span<const PathPoint> ground, const PathEnds& ends) {
@@ -102,7 +105,8 @@ DeltaBullington delta_bullington(std::span<const PathPoint> tops, std::span<cons
   DeltaBullington loss;
   loss.smooth = smooth_ends(ground, ends);
   std::vector<PathEdge> edges = edges_of(tops, ends.length_m);
-  loss.lba_db = bullington_db(span, edges);
+  loss.edge = bullington_edge(span, edges);
+  loss.lba_db = loss_over(loss.edge, span);
   // Equations (38a, 38b): the antennas above the smooth surface.
   const PathEnds above{ends.length_m, ends.from_m - loss.smooth.hstd_m, ends.to_m - loss.smooth.hsrd_m};
   loss.lbs_db = bullington_db(PathSpan(above, path), levelled(std::move(edges)));

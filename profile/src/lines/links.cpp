@@ -40,12 +40,9 @@ LinkResult result_of(const Sections& sections, const LosQuery& query) {
   result.found = findings(sight, query);
   result.found->obstructions = {};
   if (query.radio || !query.criteria.empty()) add_required_heights(sight, query, *result.found);
-  result.losses =
-      losses_over(sections.surface, antennas, query, sections.ground.points.empty() ? nullptr : &sections.ground);
-  if (query.radio) {
-    const Profile* under = sections.ground.points.empty() ? nullptr : &sections.ground;
-    result.reflection = reflection(sections.surface, antennas, *query.radio, under);
-  }
+  const Profile* under = sections.ground.points.empty() ? nullptr : &sections.ground;
+  result.losses = losses_over(sections.surface, antennas, query, under);
+  if (query.radio) result.reflection = reflection(sections.surface, antennas, *query.radio, under);
   if (query.object) {
     result.visible = visible_height(sections.surface, query.from_height_m, query.object->hub_m, query.object->tip_m,
                                     query.earth, result.stands_on);

@@ -100,12 +100,10 @@ LosReport analyse(Profile profile, const LosQuery& query, Profile ground) {
   static_cast<LineFindings&>(report) = all_findings({report.profile, report.antennas, report.stands_on}, query);
   add_curves(report);
   // Clutter is for the losses alone, which leave it out of horizons and smooth heights.
-  const Profile* bare = clutter || report.ground.points.empty() ? nullptr : &report.ground;
-  report.losses = losses_over(clutter ? report.ground : report.profile, report.antennas, query, bare);
-  if (query.radio) {
-    const Profile* under = report.ground.points.empty() ? nullptr : &report.ground;
-    report.reflection = reflection(report.profile, report.antennas, *query.radio, under);
-  }
+  const Profile* under = report.ground.points.empty() ? nullptr : &report.ground;
+  report.losses =
+      losses_over(clutter ? report.ground : report.profile, report.antennas, query, clutter ? nullptr : under);
+  if (query.radio) report.reflection = reflection(report.profile, report.antennas, *query.radio, under);
   describe_ends(report);
   if (query.object) {
     report.visible = visible_height(report.profile, query.from_height_m, query.object->hub_m, query.object->tip_m,

@@ -109,10 +109,8 @@ double knife_edge_loss_db(double v) {
 }
 
 double bullington_loss_db(const Profile& profile, const Antennas& antennas, const RadioPath& path, bool smooth) {
-  std::vector<PathEdge> edges = edges_of(profile, Ground::kWithClutter);
-  if (smooth)
-    for (PathEdge& e : edges) e.height_m = 0;
-  return bullington_db(PathSpan(path_ends(profile, antennas), path), edges);
+  const std::vector<PathEdge> edges = edges_of(profile, Ground::kWithClutter);
+  return bullington_db(PathSpan(path_ends(profile, antennas), path), smooth ? levelled(edges) : edges);
 }
 
 double spherical_earth_loss_db(double distance_km, double from_height_m, double to_height_m, const RadioPath& path) {
@@ -160,10 +158,10 @@ PathLosses path_losses(const Profile& profile, const Antennas& antennas, const R
   if (const auto edge = costly_edge(span, edges)) losses.knife_edge_db = edge->loss_db;
   losses.deygout = deygout_edges(span, edges);
   losses.deygout_db = deygout(span, losses.deygout);
-  if (const auto single = bullington_edge(span, edges)) losses.bullington = costly(single->edge, single->v);
   const DeltaBullington delta =
       delta_bullington(tops, points_of(bare != nullptr ? *bare : profile, Ground::kBare), ends, path);
   losses.smooth = smooth_heights(delta.smooth);
+  if (delta.edge) losses.bullington = costly(delta.edge->edge, delta.edge->v);
   losses.lba_db = delta.lba_db, losses.lbs_db = delta.lbs_db;
   losses.ldsph_db = delta.ldsph_db, losses.ld_db = delta.ld_db;
   return losses;

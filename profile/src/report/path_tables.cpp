@@ -9,6 +9,7 @@
 #include <itin/geodesic.hpp>
 #include <profile/report_text.hpp>
 
+#include "drawing/axis.hpp"
 #include "lines/path_cover.hpp"
 
 namespace itin::profile {
@@ -16,7 +17,8 @@ namespace itin::profile {
 namespace {
 
 /// They leave room on a page for the places that have names, where the report leaves the spacing open.
-constexpr double kUsualRows = 30, kMostRows = 10000;
+constexpr int kUsualRows = 30;
+constexpr double kMostRows = 10000;
 /// Nearer places are one row, metres: no digit tells them apart.
 constexpr double kOneRow = 0.05;
 
@@ -85,16 +87,10 @@ std::vector<NamedPlace> named_places(const LosReport& report) {
   return places;
 }
 
-/// 1, 2 or 5 times a power of ten, at most kUsualRows of which make up the length.
-double usual_spacing(double length_m) {
-  const double least = length_m / kUsualRows, power = std::pow(10, std::floor(std::log10(least)));
-  for (const double step : {1.0, 2.0, 5.0})
-    if (step * power >= least) return step * power;
-  return 10 * power;
-}
-
+/// As asked for, or 1, 2 or 5 times a power of ten, at most kUsualRows of which make up the length.
 double spacing_of(const LosReport& report) {
-  const double length = report.profile.length_m, spacing = report.table_spacing_m.value_or(usual_spacing(length));
+  const double length = report.profile.length_m,
+               spacing = report.table_spacing_m.value_or(Axis{0, length}.step(kUsualRows));
   if (!(spacing > 0) || length / spacing > kMostRows)
     throw InputError(fmt::format("`table_spacing_m` {:g}: over {:.1f} m it must be at least {:g}", spacing, length,
                                  length / kMostRows));

@@ -91,15 +91,15 @@ Point3 place_of(const ProfilePoint& p) {
 }
 
 /// A point that the losses or the reflection name.
-struct PathPoint {
+struct PointOfPath {
   const char* what;
   std::string name;
   double distance_m;
   Point3 place;
 };
 /// The point of reflection, and the edges of the losses.
-std::vector<PathPoint> path_points(const LosReport& report) {
-  std::vector<PathPoint> points;
+std::vector<PointOfPath> path_points(const LosReport& report) {
+  std::vector<PointOfPath> points;
   const auto add = [&](const char* what, std::string name, double distance_m, double elevation_m) {
     const Point2 p = position_at(report, distance_m);
     points.push_back({what, std::move(name), distance_m, {p.x, p.y, elevation_m}});
@@ -133,7 +133,7 @@ std::string report_kml(const LosReport& report) {
   kml.point(fmt::format("A, {:g} m", report.query.from_height_m), path.ray(0));
   kml.point(fmt::format("B, {:g} m", report.query.to_height_m), path.ray(length));
   if (report.critical) kml.point("Critical point, " + critical_line(report), place_of(*report.critical));
-  for (const PathPoint& p : path_points(report)) kml.point(p.name, p.place);
+  for (const PointOfPath& p : path_points(report)) kml.point(p.name, p.place);
   kml.line("Ray", "ray", path.ray_line());
   kml.line("Ground", "ground", path.ground_line());
   for (const Obstruction& o : report.obstructions) {
@@ -178,7 +178,7 @@ std::vector<VectorLayer> report_layers(const LosReport& report) {
       {{path.ray(report.profile.length_m)}, {std::string("to"), report.profile.length_m, report.query.to_height_m}});
   if (report.critical)
     ends.features.push_back({{place_of(*report.critical)}, {std::string("critical"), report.critical->distance_m, {}}});
-  for (const PathPoint& p : path_points(report))
+  for (const PointOfPath& p : path_points(report))
     ends.features.push_back({{p.place}, {std::string(p.what), p.distance_m, {}}});
   VectorLayer ground{"ground", Shape::kLines, {{"points", kWhole}}, {}};
   if (report.profile.points.size() > 1) {

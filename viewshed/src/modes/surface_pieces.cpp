@@ -24,10 +24,6 @@ void add(const SectionLine& line, const SectionCrossing& in, const SectionCrossi
     pieces.push_back({{piece->from.distance, piece->from.position.z}, {piece->to.distance, piece->to.position.z}});
 }
 
-Point2 in_units(const Grid& grid, const Point2& p) {
-  return {easting_in_units(grid, p.x), northing_in_units(grid, p.y)};
-}
-
 }  // namespace
 
 SurfacePieces::SurfacePieces(const Tin& tin) : tin_(tin), pyramid_(tin), neighbours_(adjacent_triangles(tin)) {}
@@ -59,7 +55,7 @@ bool SurfacePieces::walk(const SectionLine& line, std::vector<Piece>& pieces) co
 std::optional<SurfacePieces::Stop> SurfacePieces::first_stop(const SectionLine& line) const {
   using Place = SectionCrossing::Place;
   std::optional<Stop> first;
-  pyramid_.for_each_triangle_near(in_units(tin_.grid, line.start()), [&](std::uint32_t t) {
+  pyramid_.for_each_triangle_near(place_in_units(tin_.grid, line.start()), [&](std::uint32_t t) {
     const std::array<bool, 3> left{lies_left(line, corner(t, 0)), lies_left(line, corner(t, 1)),
                                    lies_left(line, corner(t, 2))};
     std::uint32_t entry = 3, exit = 3;
@@ -79,7 +75,7 @@ std::optional<SurfacePieces::Stop> SurfacePieces::first_stop(const SectionLine& 
 
 void SurfacePieces::search(const SectionLine& line, std::vector<Piece>& pieces) const {
   pieces.clear();
-  const Point2 from = in_units(tin_.grid, line.start()), to = in_units(tin_.grid, line.end());
+  const Point2 from = place_in_units(tin_.grid, line.start()), to = place_in_units(tin_.grid, line.end());
   LineBundle bundle(SightLine({from.x, from.y, 0}, {to.x, to.y, 0}, 0, 0));
   bundle.margin = std::numeric_limits<double>::infinity();  // however far below
   // Most triangles lie in several bins.

@@ -83,8 +83,6 @@ FootprintSource read_layer(const std::string& path, const ImportOptions& options
   return read_footprints(query, store.crs_wkt, store.grid, progress);
 }
 
-constexpr double kDefaultStep = 2, kDefaultThreshold = 2;  // metres
-
 FootprintFile read_raster(const std::string& path, const ImportOptions& options, const StoreMetadata& store,
                           Progress& progress) {
   if (!is_raster(path)) {
@@ -98,8 +96,8 @@ FootprintFile read_raster(const std::string& path, const ImportOptions& options,
   query.crs = options.crs;
   query.band = options.band;
   query.absolute = options.kind == ThemeKind::Surface;
-  query.step = options.height_step.value_or(kDefaultStep);
-  query.threshold = options.height_threshold.value_or(kDefaultThreshold);
+  query.step = options.height_step.value_or(query.step);
+  query.threshold = options.height_threshold.value_or(query.threshold);
   query.rounding = options.height_rounding.value_or(query.rounding);
   query.allow_mixed_vertical = options.allow_mixed_vertical;
   query.memory_bytes = options.memory_bytes;
@@ -139,7 +137,7 @@ bool builds_features(const ImportOptions& options) {
 }
 
 std::pair<double, double> height_error_of(const ImportOptions& options) {
-  const double step = options.height_step.value_or(kDefaultStep);
+  const double step = options.height_step.value_or(HeightRasterQuery{}.step);
   switch (options.height_rounding.value_or(HeightRounding::nearest)) {
     case HeightRounding::up:
       return {0, step};
