@@ -183,7 +183,7 @@ class ViewshedVerb final : public Verb {
     if (const auto warning = missing.warning("the area in view")) result.warnings.push_back(in_options(*warning));
     warn_of_scale(metadata, result.warnings);
     if (radio_.is_given()) earth_.warn_of_light(result.warnings);
-    outputs_.write(computed, context, result.warnings, progress);
+    outputs_.write(store, computed, context, result.warnings, progress);
     write_viewshed_sheet(store, computed.result, sheet_, context.sources, outputs_.overwrite(), progress);
     outputs_.write_each([&](std::size_t i) { return compute_for_observer(store, computed, i, progress); }, context);
     // Certified and exact answers are about the full surface.

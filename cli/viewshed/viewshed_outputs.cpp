@@ -98,13 +98,16 @@ void ViewshedOutputs::write_raster(const std::string& path, const viewshed::Resu
     write_file(style_beside(path), style, policy_.overwrite);
 }
 
-void ViewshedOutputs::write(viewshed::ViewshedWithSurface& computed, const Context& context,
+void ViewshedOutputs::write(const Store& store, viewshed::ViewshedWithSurface& computed, const Context& context,
                             std::vector<std::string>& warnings, Progress& progress) const {
+  std::vector<std::uint8_t> no_data;
+  if (!image_.empty() || std::any_of(outputs_.begin(), outputs_.end(), is_polygons))
+    no_data = viewshed::cells_without_ground(store, computed.result, progress);
   std::optional<viewshed::MapImage> map;
   if (!image_.empty()) {
     viewshed::MapOptions options;
     options.sources = context.sources;
-    options.no_data = context.missing.cells;
+    options.no_data = no_data;
     options.outside = "Outside the field of view";
     if (const auto title = radio_title(computed.result.request)) options.title = *title;
     if (context.missing.share() > 0)
@@ -114,7 +117,7 @@ void ViewshedOutputs::write(viewshed::ViewshedWithSurface& computed, const Conte
   }
   for (const std::string& path : outputs_) {
     if (is_polygons(path)) {
-      viewshed::write_polygons(path, computed.result, context.crs_wkt, policy_.overwrite, context.missing.cells);
+      viewshed::write_polygons(path, computed.result, context.crs_wkt, policy_.overwrite, no_data);
     } else {
       write_raster(path, computed.result, context);
     }

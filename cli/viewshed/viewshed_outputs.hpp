@@ -35,8 +35,8 @@ class ViewshedOutputs {
     const viewshed::MissingGround& missing;
     std::vector<std::string> sources;  ///< of the surface: sorts of them
   };
-  void write(viewshed::ViewshedWithSurface& computed, const Context& context, std::vector<std::string>& warnings,
-             Progress& progress) const;
+  void write(const Store& store, viewshed::ViewshedWithSurface& computed, const Context& context,
+             std::vector<std::string>& warnings, Progress& progress) const;
   /// Calls compute(observer) for every observer whose own raster is wanted.
   using Compute = std::function<viewshed::Result(std::size_t)>;
   void write_each(const Compute& compute, const Context& context);

@@ -220,7 +220,9 @@ TEST_F(VerdictsOverVoids, CellsInViewWithoutGroundAreTold) {
     if (bounded) request.elevation = {-1.5, 0.5};
     const Result result = test::compute_at_full_detail(store, request, {kMuch, true}, progress_).result;
     const MissingGround missing = missing_ground(store, result, progress_);
-    EXPECT_EQ(missing.cells, without_ground(store, result));
+    const std::vector<std::uint8_t> cells = cells_without_ground(store, result, progress_);
+    EXPECT_EQ(cells, without_ground(store, result));
+    EXPECT_EQ(missing.without_ground, static_cast<std::uint64_t>(std::count(cells.begin(), cells.end(), 1)));
     EXPECT_GT(missing.without_ground, 0U);
     EXPECT_LT(missing.without_ground, result.cells.outside);
     EXPECT_EQ(missing.beyond, 0U);

@@ -20,13 +20,11 @@
 namespace itin::viewshed {
 
 struct MissingGround {
-  /// 1 for a cell of the raster where an observer looks and there is no ground. Empty where there is ground everywhere.
-  std::vector<std::uint8_t> cells;
-  std::uint64_t without_ground = 0;
-  std::uint64_t with_ground = 0;  ///< cells of the raster that an observer looks at
-  std::uint64_t beyond = 0;       ///< cells of their size within observers' radii, but beyond the raster
-  double cell_area = 0;           ///< square metres
-  bool bounded = true;            ///< the request says how far observers look, and not: as far as there is ground
+  std::uint64_t without_ground = 0;  ///< cells of the raster that an observer looks at, and that have no ground
+  std::uint64_t with_ground = 0;     ///< those that have
+  std::uint64_t beyond = 0;          ///< cells of their size within observers' radii, but beyond the raster
+  double cell_area = 0;              ///< square metres
+  bool bounded = true;               ///< the request says how far observers look, and not: as far as there is ground
 
   /// The part of all that observers look at, 0 to 1.
   double share() const;
@@ -44,8 +42,12 @@ struct MissingGround {
 /// Cells out of view by their elevation alone have ground: where elevations bound the view, the coverage of the store
 /// tells. Beyond the raster cells are counted to a thousandth. Throws as triangulate() does.
 MissingGround missing_ground(const Store& store, const Result& result, Progress& progress);
+/// 1 for a cell of the raster where an observer looks and there is no ground, else 0. Empty where there is ground
+/// everywhere. Throws likewise.
+std::vector<std::uint8_t> cells_without_ground(const Store& store, const Result& result, Progress& progress);
 
 /// Within the radii of the turbines.
 MissingGround missing_ground(const Zone& zone);
+std::vector<std::uint8_t> cells_without_ground(const Zone& zone);
 
 }  // namespace itin::viewshed

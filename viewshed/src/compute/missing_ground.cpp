@@ -14,11 +14,27 @@ namespace itin::viewshed {
 
 namespace {
 
+/// Calls found(place) on any thread for cells that are in view but for their elevation, and outside the result. Returns
+/// how many they are.
+template <class Found>
+std::uint64_t for_each_outside(const Result& result, const Found& found) {
+  if (result.cells.outside == 0) return 0;
+  return for_each_cell_in_view(
+      result.request, result.grid,
+      [&](RasterGrid::Cell place) { return result.visible[result.grid.index(place)] == Verdict::kOutside; }, found);
+}
+
 /// Leaves those without ground.
 void leave_out_ground(const Tin& coverage, const RasterGrid& grid, std::vector<std::uint8_t>& cells) {
   const std::vector<float> heights = heights_at(coverage, grid);
   for (std::size_t i = 0; i < cells.size(); ++i)
     if (!std::isnan(heights[i])) cells[i] = 0;
+}
+
+std::uint64_t count_without_ground(const Store& store, const Result& result, Progress& progress) {
+  if (!bounds_elevations(result.request)) return for_each_outside(result, [](RasterGrid::Cell) {});
+  const std::vector<std::uint8_t> cells = cells_without_ground(store, result, progress);
+  return static_cast<std::uint64_t>(std::count(cells.begin(), cells.end(), 1));
 }
 
 }  // namespace
@@ -44,17 +60,22 @@ std::optional<std::string> MissingGround::warning(const std::string& area) const
       text(), area);
 }
 
+std::vector<std::uint8_t> cells_without_ground(const Store& store, const Result& result, Progress& progress) {
+  if (result.cells.outside == 0) return {};
+  const RasterGrid& grid = result.grid;
+  std::vector<std::uint8_t> cells(grid.cell_count());
+  for_each_outside(result, [&](RasterGrid::Cell place) { cells[grid.index(place)] = 1; });
+  if (bounds_elevations(result.request) && std::find(cells.begin(), cells.end(), 1) != cells.end())
+    leave_out_ground(coverage_of(store, Window::box(grid.bounds()), progress), grid, cells);
+  return cells;
+}
+
 MissingGround missing_ground(const Store& store, const Result& result, Progress& progress) {
   const Request& request = result.request;
   const RasterGrid& grid = result.grid;
   MissingGround missing;
   missing.cell_area = grid.cell_area();
-  if (result.cells.outside > 0)
-    missing.cells = cells_in_view(
-        request, grid, [&](RasterGrid::Cell place) { return result.visible[grid.index(place)] == Verdict::kOutside; });
-  if (bounds_elevations(request) && std::find(missing.cells.begin(), missing.cells.end(), 1) != missing.cells.end())
-    leave_out_ground(coverage_of(store, Window::box(grid.bounds()), progress), grid, missing.cells);
-  missing.without_ground = static_cast<std::uint64_t>(std::count(missing.cells.begin(), missing.cells.end(), 1));
+  missing.without_ground = count_without_ground(store, result, progress);
   missing.with_ground = result.cells.in_view();
   missing.beyond = static_cast<std::uint64_t>(cells_beyond(request, grid).count());
   missing.bounded = request.grid || std::all_of(request.observers.begin(), request.observers.end(),

@@ -1,6 +1,7 @@
 #include "line/cell_tiles.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <itin/grid_units.hpp>
 
@@ -48,6 +49,12 @@ Box box_of_cell(const RasterGrid& grid, RasterGrid::Cell cell) {
 double squared_distance(Point2 position, const Box& box) {
   const double dx = position.x - std::clamp(position.x, box.xmin, box.xmax),
                dy = position.y - std::clamp(position.y, box.ymin, box.ymax);
+  return dx * dx + dy * dy;
+}
+
+double greatest_squared_distance(Point2 position, const Box& box) {
+  const double dx = std::max(std::abs(position.x - box.xmin), std::abs(position.x - box.xmax)),
+               dy = std::max(std::abs(position.y - box.ymin), std::abs(position.y - box.ymax));
   return dx * dx + dy * dy;
 }
 

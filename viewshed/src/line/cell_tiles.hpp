@@ -94,6 +94,8 @@ Box box_of_cell(const RasterGrid& grid, RasterGrid::Cell cell);
 
 /// From a position to the nearest place of a box, metres squared; 0 within it.
 double squared_distance(Point2 position, const Box& box);
+/// To the farthest place of it.
+double greatest_squared_distance(Point2 position, const Box& box);
 
 inline Point2 middle_of(const Box& box) {
   return {(box.xmin + box.xmax) / 2, (box.ymin + box.ymax) / 2};

@@ -2,36 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include <itin/parallel.hpp>
-
-#include "line/cell_tiles.hpp"
-#include "request/field_of_view.hpp"
 #include "request/request.hpp"
 
 namespace itin::viewshed {
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// An observer's field of view on the map.
-struct MapView {
-  Point2 position;
-  FieldOfView view;
-
-  bool reaches(const Box& box) const { return view.reaches(squared_distance(position, box)); }
-  bool holds(Point2 p) const {
-    return view.contains(p.x - position.x, p.y - position.y, -kInfinity, kInfinity).value_or(true);
-  }
-};
-
-std::vector<MapView> views_of(const Request& request) {
-  std::vector<MapView> views;
-  for (const Observer& observer : request.observers) views.push_back({observer.position, {request, observer}});
-  return views;
-}
 
 /// Nothing where an observer has no radius.
 Box box_of_radii(const Request& request) {
@@ -46,26 +22,21 @@ Box box_of_radii(const Request& request) {
 
 }  // namespace
 
-std::vector<std::uint8_t> cells_in_view(const Request& request, const RasterGrid& grid,
-                                        const std::function<bool(RasterGrid::Cell)>& asked) {
-  const std::vector<MapView> all = views_of(request);
-  std::vector<std::uint8_t> cells(grid.cell_count());
-  const RasterGrid tiles = grid_of_tiles(grid);
-  parallel_for(tiles.cell_count(), [&](std::size_t i) {
-    const Tile tile = tile_at(grid, tiles, i);
-    const Box box = box_of_centres(grid, tile);
-    std::vector<const MapView*> near;
-    for (const MapView& view : all)
-      if (view.reaches(box)) near.push_back(&view);
-    if (near.empty()) return;
-    for_each_cell(tile, [&](std::size_t, RasterGrid::Cell place) {
-      if (!asked(place)) return;
-      const Point2 centre = grid.centre(place.column, place.row);
-      cells[grid.index(place)] =
-          std::any_of(near.begin(), near.end(), [&](const MapView* view) { return view->holds(centre); }) ? 1 : 0;
-    });
-  });
-  return cells;
+std::vector<MapView> views_of(const Request& request) {
+  std::vector<MapView> views;
+  for (const Observer& observer : request.observers) views.push_back({observer.position, {request, observer}});
+  return views;
+}
+
+TileInView::TileInView(const std::vector<MapView>& views, const Box& centres) {
+  for (const MapView& view : views) {
+    all_ = all_ || view.holds(centres);
+    if (view.reaches(centres)) near_.push_back(&view);
+  }
+}
+
+bool TileInView::holds(Point2 centre) const {
+  return all_ || std::any_of(near_.begin(), near_.end(), [&](const MapView* view) { return view->holds(centre); });
 }
 
 double CellsBeyond::count() const {
@@ -80,8 +51,16 @@ CellsBeyond cells_beyond(const Request& request, const RasterGrid& grid) {
   const double cells = box.width() / grid.cell_width() * (box.height() / grid.cell_height());
   const double larger = std::max(1.0, std::ceil(std::sqrt(cells / kMostCells)));
   const RasterGrid wide = RasterGrid::aligned(box, grid.cell_width() * larger);
-  const auto beyond = [&](RasterGrid::Cell c) { return !grid.cell_at(wide.centre(c.column, c.row)); };
-  return {wide, cells_in_view(request, wide, beyond), larger * larger};
+  CellsBeyond beyond{wide, std::vector<std::uint8_t>(wide.cell_count()), larger * larger};
+  const Box within = grid.bounds();
+  const auto lies_beyond = [&](RasterGrid::Cell place) {
+    const Point2 p = wide.centre(place.column, place.row);
+    const bool inside = p.x > within.xmin && p.x < within.xmax && p.y > within.ymin && p.y < within.ymax;
+    return !inside && !grid.cell_at(p);
+  };
+  for_each_cell_in_view(request, wide, lies_beyond,
+                        [&](RasterGrid::Cell place) { beyond.cells[wide.index(place)] = 1; });
+  return beyond;
 }
 
 }  // namespace itin::viewshed

@@ -1,18 +1,73 @@
-// Which cells lie within observers' distances and azimuths, whether or not there is ground.
+// Which cells lie within observers' distances and azimuths, whether or not there is ground, tile by tile.
+//
+//   const auto asked = [&](RasterGrid::Cell place) { return counts[grid.index(place)] == kCountOutside; };
+//   for_each_cell_in_view(request, grid, asked, [&](RasterGrid::Cell place) { cells[grid.index(place)] = 1; });
 #pragma once
 
+#include <atomic>
 #include <cstdint>
-#include <functional>
+#include <limits>
 #include <vector>
 
+#include <itin/parallel.hpp>
 #include <itin/raster.hpp>
 #include <viewshed/viewshed.hpp>
 
+#include "line/cell_tiles.hpp"
+#include "request/field_of_view.hpp"
+
 namespace itin::viewshed {
 
-/// 1 for those cells that `asked` holds for and that some observer looks at, at whatever elevation; else 0.
-std::vector<std::uint8_t> cells_in_view(const Request& request, const RasterGrid& grid,
-                                        const std::function<bool(RasterGrid::Cell)>& asked);
+/// An observer's field of view on the map, at whatever elevation.
+struct MapView {
+  Point2 position;
+  FieldOfView view;
+
+  bool reaches(const Box& box) const { return view.reaches(squared_distance(position, box)); }
+  bool holds(const Box& box) const {
+    return view.holds(squared_distance(position, box), greatest_squared_distance(position, box));
+  }
+  bool holds(Point2 p) const {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    return view.contains(p.x - position.x, p.y - position.y, -kInfinity, kInfinity).value_or(true);
+  }
+};
+
+/// What of a tile's cells observers look at.
+class TileInView {
+ public:
+  TileInView(const std::vector<MapView>& views, const Box& centres);
+
+  bool empty() const { return !all_ && near_.empty(); }
+  bool holds(Point2 centre) const;
+
+ private:
+  bool all_ = false;
+  std::vector<const MapView*> near_;
+};
+
+std::vector<MapView> views_of(const Request& request);
+
+/// Calls found(place) on any thread for those cells that asked(place) holds for and that some observer looks at.
+/// Returns how many they are.
+template <class Asked, class Found>
+std::uint64_t for_each_cell_in_view(const Request& request, const RasterGrid& grid, const Asked& asked,
+                                    const Found& found) {
+  const std::vector<MapView> views = views_of(request);
+  const RasterGrid tiles = grid_of_tiles(grid);
+  std::atomic<std::uint64_t> count = 0;
+  parallel_for(tiles.cell_count(), [&](std::size_t i) {
+    const Tile tile = tile_at(grid, tiles, i);
+    const TileInView in_view(views, box_of_centres(grid, tile));
+    if (in_view.empty()) return;
+    std::uint64_t of_tile = 0;
+    for_each_cell(tile, [&](std::size_t, RasterGrid::Cell place) {
+      if (asked(place) && in_view.holds(grid.centre(place.column, place.row))) found(place), ++of_tile;
+    });
+    count += of_tile;
+  });
+  return count;
+}
 
 /// Cells beyond a grid.
 struct CellsBeyond {

@@ -75,7 +75,7 @@ std::vector<double> cells_without_ground(const Zone& zone, const Rings& rings) {
     for (const std::uint8_t ring : rings_of_cells(rings, grid, [&](std::size_t i) { return cells[i] == 1; }))
       if (ring != kNoRing) counts[ring] += each;
   };
-  add(zone.grid, missing_ground(zone).cells, 1);
+  add(zone.grid, cells_without_ground(zone), 1);
   const CellsBeyond beyond = cells_beyond(view_of(zone.request), zone.grid);
   if (!beyond.cells.empty()) add(beyond.grid, beyond.cells, beyond.each);
   return counts;

@@ -196,7 +196,7 @@ void write_farms(const Zone& zone, RasterFolder& folder) {
 /// Beside the others, whose cells without a value may be either.
 void write_study_area(const Zone& zone, RasterFolder& folder) {
   constexpr std::uint8_t kNoGround = 0, kGround = 1, kOutsideStudy = 255;
-  const std::vector<std::uint8_t> missing = missing_ground(zone).cells;
+  const std::vector<std::uint8_t> missing = cells_without_ground(zone);
   std::vector<std::uint8_t> values(missing.size(), kOutsideStudy);
   for (std::size_t i = 0; i < values.size(); ++i)
     if (missing[i] == 1 || zone.bare.tip_count[i] != kCountOutside) values[i] = missing[i] == 1 ? kNoGround : kGround;
