@@ -55,7 +55,8 @@ class LosVerb final : public Verb {
     radio_.validate();
     people_.validate(links_.given());
     if (links_.given()) {
-      if (store_.empty() || line_.given()) throw InputError("--links takes a STORE, and the place of --from and --to");
+      if (store_.empty() || line_.given())
+        throw InputError("--links needs a STORE; leave out --from and --to, whose place it takes");
       reports_.validate_links();
       links_.validate(radio_.object());
       line_.validate_surface();
@@ -99,8 +100,8 @@ class LosVerb final : public Verb {
   void validate_line() {
     if (store_.empty() == profile_csv_.empty()) throw InputError("give a STORE with --from and --to, or --profile-csv");
     if (store_.empty()) {
-      if (line_.given()) throw InputError("--from and --to take a STORE; with --profile-csv give --heights h1,h2");
-      if (heights_text_.empty()) throw InputError("--profile-csv takes --heights h1,h2");
+      if (line_.given()) throw InputError("--from and --to need a STORE; with --profile-csv give --heights h1,h2");
+      if (heights_text_.empty()) throw InputError("--profile-csv needs --heights h1,h2");
       heights_ = parse_tuple("--heights", heights_text_, 2, "h1,h2");
       for (const double height : heights_) require_height(height, "--heights");
       if (heights_[0] < 0 || heights_[1] < 0) throw InputError("--heights: a height must not be negative");

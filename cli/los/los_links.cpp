@@ -53,7 +53,7 @@ void LosLinks::declare(CLI::App& app) {
 }
 
 void LosLinks::validate(const std::optional<profile::TallObject>& object) {
-  if (outputs_.empty()) throw InputError("--links takes -o FILE.csv: the table to write");
+  if (outputs_.empty()) throw InputError("--links needs -o FILE.csv, the table to write");
   for (const std::string& output : outputs_) {
     try {
       profile::require_link_format(output);

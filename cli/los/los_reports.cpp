@@ -52,11 +52,10 @@ void LosReports::declare(CLI::App& app) {
              ->expected(1)
              ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll));
   app.add_option("--title", title_, "The report's title")->type_name("TEXT");
-  app.add_option(
-         "--table-spacing", table_spacing_text_,
-         "A row for each so many metres in the profile that PDF and HTML reports print; the ends, the critical "
-         "point, obstructions, edges and the reflection point have rows whatever the spacing; none leaves it out "
-         "(default: about 30 rows)")
+  app.add_option("--table-spacing", table_spacing_text_,
+                 "Distance between rows of the profile that PDF and HTML reports print; the ends, the critical point, "
+                 "obstructions, edges and the reflection point have rows besides; none leaves the profile out "
+                 "(default: about 30 rows)")
       ->type_name("METRES|none");
 }
 

@@ -44,7 +44,7 @@ void RadioOptions::validate() {
 void RadioOptions::require_frequency() const {
   for (const profile::Criterion& c : criteria_) {
     if (c.fraction > 0 && !wave_.has_frequency())
-      throw InputError("--criterion with a fraction of the Fresnel zone takes a --frequency");
+      throw InputError("--criterion with a fraction of the Fresnel zone needs a --frequency");
   }
 }
 

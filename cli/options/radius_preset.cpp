@@ -20,7 +20,8 @@ constexpr const char* kBuiltinSource = "radii by tip height assumed after UK pra
 }  // namespace
 
 void RadiusOptions::declare(CLI::App& app) {
-  app.add_option("--radius", radius_text_, "How far every turbine is looked for (default: by its tip height)")
+  app.add_option("--radius", radius_text_,
+                 "How far from each turbine its visibility is assessed (default: by its tip height)")
       ->type_name("METRES");
   reads(app.add_option(
                "--radius-preset", preset_path_,

@@ -20,7 +20,7 @@ double parse_fresnel(const std::string& text) {
 }
 
 void require_curved(const Earth& earth) {
-  if (earth.drop_coefficient() == 0) throw InputError("--frequency takes a curved Earth; leave out --curvature off");
+  if (earth.drop_coefficient() == 0) throw InputError("--frequency needs a curved Earth; leave out --curvature off");
 }
 
 void WaveOptions::declare(CLI::App& app, const std::string& frequency_help) {

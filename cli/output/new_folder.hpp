@@ -17,7 +17,7 @@ class NewFolder {
   explicit NewFolder(const std::string& path) {
     std::error_code error;
     if (std::filesystem::create_directory(path, error)) made_.emplace(path, Unfinished::Kind::folder_if_empty);
-    if (!std::filesystem::is_directory(path)) throw FileError(path, "cannot be made a directory; name another place");
+    if (!std::filesystem::is_directory(path)) throw FileError(path, "the directory cannot be made; name another place");
   }
 
   /// Whether it was not there before.

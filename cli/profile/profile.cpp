@@ -108,7 +108,7 @@ class ProfileVerb final : public Verb {
     for (const std::string& output : outputs_) require_profile_format(output);
     const auto text = std::find_if(outputs_.begin(), outputs_.end(), is_text);
     if (text != outputs_.end() && tolerances_.size() > 1)
-      throw InputError(fmt::format("-o '{}': text is of one profile; give one --tolerance", *text));
+      throw InputError(fmt::format("-o '{}': a .txt holds one profile; give one --tolerance", *text));
     if (wants_triangles() && tolerances_.size() > 1)
       throw InputError(
           "--triangles, --image: profiles of several tolerances cross different triangles; give one --tolerance");

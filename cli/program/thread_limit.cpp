@@ -28,7 +28,7 @@ void require_threads() {
   if (refusal.empty()) return;
   throw Error(
       fmt::format("{} of {} threads can be had ({}); raise the limits on processes and memory (ulimit -u, -v, "
-                  "-s), or give fewer --threads; 1 is one in all",
+                  "-s), or give fewer --threads; 1 is the main thread alone",
                   threads.size() + 1, wanted, refusal));
 }
 

@@ -97,14 +97,14 @@ void SiteOptions::declare_demand(CLI::App& app) {
          "--frequency", frequency_text_,
          "Serve only what is in sight with its first Fresnel zone clear at this frequency; links are judged so, too")
       ->type_name("GHZ");
-  app.add_option("--fresnel", fresnel_text_, "So much of that zone's radius must be clear, 0 to 1 (default: 0.6)")
+  app.add_option("--fresnel", fresnel_text_, "Share of that zone's radius that must be clear, 0 to 1 (default: 0.6)")
       ->type_name("FRACTION");
   app.add_option("--radius", radius_text_, "How far a site serves (default: 10000)")->type_name("METRES");
   app.add_option("--cell", cell_text_, "Size of the cells, of the rasters too (default: 50)")->type_name("METRES");
 }
 
 void SiteOptions::declare_choice(CLI::App& app) {
-  app.add_option("--count", count_text_, "Choose so many sites")->type_name("K");
+  app.add_option("--count", count_text_, "How many sites to choose")->type_name("K");
   app.add_option("--budget", budget_text_, "Choose sites whose costs sum up to this at most")->type_name("COST");
   app.add_option("--share", share_text_, "Choose sites until this share of the demand is served (0.8, or 80%)")
       ->type_name("SHARE");
@@ -112,8 +112,7 @@ void SiteOptions::declare_choice(CLI::App& app) {
       ->type_name("METRES");
   reads(app.add_option("--existing", existing, "Sites that serve already, from a vector file")->type_name("FILE"));
   reads(app.add_option("--forbidden", forbidden, "No site in these polygons (a file, or WKT)")->type_name("AREA"));
-  app.add_option("--k-cover", cover_text_,
-                 "Count a target as served only where at least so many sites serve it (default: 1)")
+  app.add_option("--k-cover", cover_text_, "How many sites must serve a target for it to count as served (default: 1)")
       ->type_name("N");
   app.add_flag("--intervisible", intervisible,
                "Chosen sites reach each other by links between them and existing ones; relays may be bought");
@@ -214,17 +213,17 @@ void SiteOptions::validate_demand() {
 void SiteOptions::validate_links() {
   if (!frequency_text_.empty()) frequency_ghz = parse_frequency(frequency_text_);
   if (!frequency_ghz) {
-    if (!fresnel_text_.empty()) throw InputError("--fresnel takes a --frequency: the zone's radius depends on it");
+    if (!fresnel_text_.empty()) throw InputError("--fresnel needs a --frequency: the zone's radius depends on it");
     return;
   }
   if (!fresnel_text_.empty()) fresnel = parse_fresnel(fresnel_text_);
   require_curved(earth.earth());
   // No clearance at all where the zone ends on the ground.
   if (target_height == 0)
-    throw InputError("--frequency takes a --target-height above 0: no link to the ground is clear");
+    throw InputError("--frequency needs a --target-height above 0: no link to the ground is clear");
   for (const Mast& mast : masts)
     if (mast.height == 0)
-      throw InputError("--frequency takes a --mast-height above 0: no link from the ground is clear");
+      throw InputError("--frequency needs a --mast-height above 0: no link from the ground is clear");
 }
 
 std::optional<viewshed::FresnelCriterion> SiteOptions::criterion() const {

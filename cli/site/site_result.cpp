@@ -130,7 +130,7 @@ std::string SiteResult::reason(std::size_t option) const {
   const double unit = inputs.demand.in_metric(1);
   return fmt::format("at step {} it gains {} {:.10g}{}, the one taken {:.10g}", margin->step + 1,
                      exact ? "exactly" : "at most", margin->upper * unit,
-                     options.budget         ? " a unit of cost"
+                     options.budget         ? " for each unit of cost"
                      : options.intervisible ? " per site of its way"
                                             : "",
                      margin->chosen * unit);

@@ -27,7 +27,7 @@ class CheckVerb final : public Verb {
     reads(app.add_option("STORE", store_, "The store")->required());
     app.add_flag("--quick", quick_,
                  fmt::format("Compare surfaces with what certificates and heights of features say in {} tiles spread "
-                             "over the store, not everywhere; all bytes are read all the same",
+                             "over the store, not everywhere; every byte is read in any case",
                              kSample));
   }
   void validate() override {}

@@ -36,10 +36,9 @@ class ImportVerb final : public Verb {
            "above the terrain")
         ->type_name("KIND");
     app.add_option("--theme", options_.theme, "Name of the lines' theme (default: the kind)")->type_name("NAME");
-    app.add_option(
-           "--crs", options_.crs,
-           "CRS of the sources, whatever they say themselves; a part that it has not, horizontal or vertical, stays "
-           "theirs")
+    app.add_option("--crs", options_.crs,
+                   "CRS of the sources, in place of what they say themselves; a part that it lacks, horizontal or "
+                   "vertical, stays theirs")
         ->type_name("CRS");
     app.add_option(
            "--to-crs", options_.to_crs,
@@ -53,7 +52,7 @@ class ImportVerb final : public Verb {
                    "Buildings, walls, vegetation: the field of their height above the base, in the unit of the CRS's "
                    "heights (metres or feet)")
         ->type_name("FIELD");
-    app.add_option("--height", height_, "Of those without a height in the fields")->type_name("METRES");
+    app.add_option("--height", height_, "Height of those that have none in the fields")->type_name("METRES");
     app.add_option("--eaves-field", options_.eaves_field, "Buildings: the field of the eaves' height above the base")
         ->type_name("FIELD");
     app.add_option("--base-field", options_.base_field, "Buildings: the field of the base's elevation")
@@ -256,7 +255,8 @@ class ImportVerb final : public Verb {
     };
     mention(report.voids, "post", "without data");
     if (report.filtered > 0) text += fmt::format(", {} filtered out", grouped(report.filtered));
-    if (report.duplicates > 0) text += fmt::format(", {} at places of others", counted(report.duplicates, "point"));
+    if (report.duplicates > 0)
+      text += fmt::format(", {} where another point was already", counted(report.duplicates, "point"));
     if (report.sea > 0) text += fmt::format(", {} of the sea", counted(report.sea, "vertex", "vertices"));
     mention(report.replaced, "coarser point", "replaced");
     mention(report.isolated, "isolated point", "left out");

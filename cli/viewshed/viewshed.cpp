@@ -74,7 +74,7 @@ class ViewshedVerb final : public Verb {
     app.add_option(
            "--mode", mode_text_,
            "visible (to any observer; the default); count (how many see it); certified (certainly visible, "
-           "certainly hidden, or undecided at this tolerance); which (one bit an observer, in UInt32 bands of "
+           "certainly hidden, or undecided at this tolerance); which (one bit for each observer, in UInt32 bands of "
            "32); angle (elevation angle of the sight line, degrees, the greatest of several observers; of an "
            "observer's own place -90 or 90, or 0 of the eye); "
            "nearest (two bands: distance and number of the nearest visible observer); blocker (two bands: theme and "
@@ -223,7 +223,8 @@ class ViewshedVerb final : public Verb {
         ->type_name("FROM,TO");
     app.add_option("--elevation", elevation_text_, "The field of view, degrees above the horizontal")
         ->type_name("FROM,TO");
-    app.add_option("--cell", cell_text_, "Size of the raster's cells (default: a round size for at most 2048 a side)")
+    app.add_option("--cell", cell_text_,
+                   "Size of the raster's cells (default: a round size for at most 2048 cells on a side)")
         ->type_name("METRES");
     reads(app.add_option("--like", like_, "Take the cells of this raster")->type_name("FILE"));
   }

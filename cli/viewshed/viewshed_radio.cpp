@@ -30,11 +30,11 @@ std::string zone_text(const viewshed::Result& result) {
 std::string loss_text(const viewshed::Result& result) {
   const std::uint64_t in_view = result.cells.in_view(), without = viewshed::cells_without_loss(result);
   std::string text =
-      fmt::format("diffraction loss known: {} of {}\n", grouped(in_view - without), counted(in_view, "cell"));
+      fmt::format("diffraction loss known in {} of {}\n", grouped(in_view - without), counted(in_view, "cell"));
   if (without > 0)
     text += fmt::format(
-        "without a loss: {} ({:.1f} %), where a line crosses ground without data (--nodata block or clear decides "
-        "that), a feature holds an end, or the observer stands\n",
+        "without a loss: {} ({:.1f} %): the line crosses ground without data (--nodata block or clear decides that), "
+        "an end lies within a feature, or the cell is the observer's own\n",
         counted(without, "cell"), percent(without, in_view));
   return text;
 }
@@ -45,7 +45,7 @@ void ViewshedRadio::declare(CLI::App& app) {
   wave_.declare(app,
                 "Tell in sight with the first Fresnel zone clear at this frequency (1) from in sight with the zone cut "
                 "(3): GHz, or 7500MHz");
-  app.add_option("--fresnel", fresnel_text_, "So much of that zone's radius must be clear, 0 to 1 (default: 0.6)")
+  app.add_option("--fresnel", fresnel_text_, "Share of that zone's radius that must be clear, 0 to 1 (default: 0.6)")
       ->type_name("FRACTION");
   app.add_flag("--loss", loss_,
                "With --frequency, what a radio path to each cell loses instead, dB, in two bands: diffraction "
@@ -55,8 +55,8 @@ void ViewshedRadio::declare(CLI::App& app) {
 void ViewshedRadio::validate() {
   wave_.validate();
   if (!wave_.has_frequency() && !fresnel_text_.empty())
-    throw InputError("--fresnel takes a --frequency: the zone's radius depends on it");
-  if (!wave_.has_frequency() && loss_) throw InputError("--loss takes a --frequency: losses depend on it");
+    throw InputError("--fresnel needs a --frequency: the zone's radius depends on it");
+  if (!wave_.has_frequency() && loss_) throw InputError("--loss needs a --frequency: losses depend on it");
   if (loss_ && !fresnel_text_.empty())
     throw InputError("--loss and --fresnel exclude each other: a loss is of the whole path; give one of them");
   if (!loss_ && wave_.is_detailed()) throw InputError("--polarisation and --over-sea are of use with --loss only");

@@ -51,7 +51,7 @@ class ZtvVerb final : public Verb {
  public:
   std::string name() const override { return "ztv"; }
   std::string summary() const override {
-    return "Write from where wind turbines are visible: maps, sheets, tables, wirelines";
+    return "Write where wind turbines are visible from: maps, sheets, tables, wirelines";
   }
 
   void declare(CLI::App& app) override {

@@ -151,7 +151,7 @@ std::vector<std::string> ZtvRadioOptions::warnings(const Zone& zone) const {
       std::count_if(turbines.begin(), turbines.end(), [](const Turbine& t) { return !t.rotor_diameter; });
   if (unknown > 0)
     warnings.push_back(
-        fmt::format("the rotor diameter is unknown for {}: of these, links are kept clear of the axis alone",
+        fmt::format("the rotor diameter is unknown for {}: links are kept clear of the axes of these alone",
                     counted(static_cast<std::uint64_t>(unknown), "turbine")));
   return warnings;
 }

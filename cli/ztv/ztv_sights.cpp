@@ -115,7 +115,7 @@ std::string before_the_eye(const SectionSurface& surface, const Viewpoint& from,
           "above the eye: nothing is seen beyond it.",
           what, p.position.z - from.ground);
     return fmt::format(
-        "A feature of '{}' stands {:.0f} m before the eye in the direction of the nearest turbine; it "
+        "A feature of '{}' stands {:.0f} m in front of the eye, in the direction of the nearest turbine; it "
         "rises {:.1f} m above the eye there.",
         what, p.distance, p.position.z - eye);
   }

@@ -116,7 +116,7 @@ void ViewpointOptions::declare(CLI::App& app) {
   app.add_option("--wireline-bearing", bearing_text_,
                  "Bearing of every wireline's middle, from grid north (default: the middle of the turbines)")
       ->type_name("DEGREES");
-  app.add_flag("--wireline-hidden", choice_.hidden_dashed, "Draw dashed in wirelines what hides of turbines");
+  app.add_flag("--wireline-hidden", choice_.hidden_dashed, "Draw the hidden parts of turbines dashed in wirelines");
   app.add_option("--wireline-blades", blades_text_,
                  "By how much a blade is turned from upright in wirelines; random: by another angle for each turbine "
                  "(default: 0)")

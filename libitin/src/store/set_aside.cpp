@@ -76,7 +76,7 @@ SetAsideLines decode_set_aside_lines(std::span<const std::uint8_t> bytes) {
   }
   Segment last;
   for (std::size_t n = count(in); n > 0; --n) lines.made.push_back(last = made_after(last, in));
-  if (!in.rest().empty()) throw DecodeError("has bytes too many");
+  if (!in.rest().empty()) throw DecodeError("has too many bytes");
   return lines;
 }
 
@@ -98,7 +98,7 @@ SetAsideList decode_set_aside_list(std::span<const std::uint8_t> bytes) {
   SetAsideCounts& counts = list.counts;
   for (std::uint64_t* number : {&counts.replaced, &counts.isolated, &counts.segments, &counts.crossings})
     *number = in.varint();
-  if (!in.rest().empty()) throw DecodeError("has bytes too many");
+  if (!in.rest().empty()) throw DecodeError("has too many bytes");
   return list;
 }
 

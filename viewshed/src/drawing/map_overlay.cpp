@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <viewshed/documents.hpp>
 #include <viewshed/viewshed.hpp>
 
 namespace itin::viewshed {
@@ -242,10 +243,23 @@ void MapOverlay::scale_losses() {
 
 void MapOverlay::make_keys(const MapOptions& options) {
   const CellCounts& cells = result_.cells;
+  if (result_.request.mode == Mode::kLoss) {
+    // Undecided cells have none, either, and a key of their own.
+    if (const std::uint64_t without = cells_without_loss(result_); without > cells.undecided)
+      keys_.push_back({{}, "No loss known", without - cells.undecided});
+  } else {
+    add_verdict_keys(options);
+  }
+  if (cells.undecided > 0 || result_.certified)
+    keys_.push_back({{{kUndecidedColour, kOpacity}}, "Undecided", cells.undecided});
+}
+
+void MapOverlay::add_verdict_keys(const MapOptions& options) {
+  const CellCounts& cells = result_.cells;
   std::vector<Tint> seen;
   const Mode mode = result_.request.mode;
   const bool zones = mode == Mode::kFresnel;
-  if (mode != Mode::kBlocker && mode != Mode::kHeight && mode != Mode::kProbability && mode != Mode::kLoss)
+  if (mode != Mode::kBlocker && mode != Mode::kHeight && mode != Mode::kProbability)
     for (const Step& step : steps_) seen.push_back(step.tint);
   if (seen.empty()) seen.push_back({kSeenColour, kOpacity});
   keys_ = {{std::move(seen),
@@ -255,8 +269,6 @@ void MapOverlay::make_keys(const MapOptions& options) {
             cells.visible}};
   if (zones) keys_.push_back({{{kZoneCutColour, kOpacity}}, "In sight, zone cut", cells.zone_cut});
   keys_.push_back({{}, result_.certified ? "Certainly hidden" : options.unseen, cells.hidden});
-  if (cells.undecided > 0 || result_.certified)
-    keys_.push_back({{{kUndecidedColour, kOpacity}}, "Undecided", cells.undecided});
 }
 
 }  // namespace itin::viewshed

@@ -61,6 +61,7 @@ class MapOverlay {
   double blocker_value(std::uint32_t theme) const;
   void add_step(double most, Tint tint, std::string text);
   void make_keys(const MapOptions& options);
+  void add_verdict_keys(const MapOptions& options);
 
   const Result& result_;
   std::string title_;

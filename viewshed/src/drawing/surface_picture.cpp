@@ -47,7 +47,7 @@ std::pair<double, double> range_in(const std::array<Corner, 3>& s, double y) {
 }  // namespace
 
 void require_drawable(const Tin& tin, int pixels) {
-  if (pixels < 200 || pixels > 16000) throw InputError("a view has 200 to 16000 pixels a side");
+  if (pixels < 200 || pixels > 16000) throw InputError("a view has 200 to 16000 pixels on each side");
   if (tin.triangles.empty()) throw InputError("there is no ground in the window, so nothing to draw");
 }
 

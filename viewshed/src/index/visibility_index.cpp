@@ -35,7 +35,7 @@ void validate(const IndexRequest& request) {
   require(std::isfinite(request.cell_size) && request.cell_size > 0, "the cell size must be positive, in metres");
   require(std::isfinite(request.radius) && request.radius > 0, "the radius must be positive, in metres");
   require(request.height >= 0 && request.target_height >= 0, "heights above the ground must not be negative");
-  require(request.targets > 0, "at least one target an observer is needed");
+  require(request.targets > 0, "give at least one target for each observer");
   require(request.nodata != NoData::kUnknown, "ground without data must block or be clear for a visibility index");
 }
 

@@ -95,10 +95,11 @@ void write_bits(const Zone& zone, const Visibility& v, const std::string& suffix
   const auto name = [](std::size_t word) { return fmt::format("turbines {} to {}", 32 * word + 1, 32 * word + 32); };
   description.band_name = name(0);
   for (std::size_t w = 1; w < zone.words; ++w) description.further_bands.push_back(name(w));
-  folder.write("turbines" + suffix,
-               "which turbines have their tip seen: turbine k of the file is bit k - 1, 32 turbines a band; no nodata "
-               "value, 0 where none is seen",
-               v.turbines, description, seen_style());
+  folder.write(
+      "turbines" + suffix,
+      "which turbines have their tip seen: turbine k of the file is bit k - 1, 32 turbines in each band; no nodata "
+      "value, 0 where none is seen",
+      v.turbines, description, seen_style());
 }
 
 void write_quantities(const Visibility& v, const std::string& suffix, RasterFolder& folder) {

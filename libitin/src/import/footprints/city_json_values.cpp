@@ -87,7 +87,8 @@ Json parse_city_json(const std::string& path) {
     model = Json::parse(file);
   } catch (const Json::parse_error& error) {
     throw FileError(
-        path, fmt::format("is no JSON: what stands at byte {} belongs not there, or the file ends early", error.byte));
+        path,
+        fmt::format("is no JSON: what stands at byte {} does not belong there, or the file ends early", error.byte));
   } catch (const Json::exception&) {
     throw FileError(path, "holds a number beyond all bounds");
   }

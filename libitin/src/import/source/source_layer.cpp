@@ -64,8 +64,8 @@ namespace {
   // OGR's own SQL, then SQLite's: the contract tells an unknown field from a clause that makes no sense.
   if (reason.find("not recognised as an available field") != std::string::npos ||
       reason.find("no such column") != std::string::npos)
-    throw FileError(
-        path, fmt::format("`where` {} names a field that layer '{}' has not: {}", where, layer.GetName(), reason));
+    throw FileError(path, fmt::format("`where` {} names a field that layer '{}' does not have: {}", where,
+                                      layer.GetName(), reason));
   throw InputError(fmt::format("{}: `where` {} is not understood: {}", path, where, reason));
 }
 
