@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <profile/fresnel.hpp>
 #include <profile/required_heights.hpp>
@@ -28,31 +29,37 @@ class Demand {
         bulge_(requirement.earth.drop_coefficient() * profile.length_m * profile.length_m),
         radius_(requirement.fraction == 0
                     ? 0
-                    : requirement.fraction * std::sqrt(requirement.wavelength * profile.length_m)) {}
+                    : requirement.fraction * std::sqrt(requirement.wavelength * profile.length_m)) {
+    nodes_.reserve(profile.points.size());
+    for (const ProfilePoint& p : profile.points) {
+      const double t = p.distance_m / profile.length_m;
+      nodes_.push_back({t, p.ground_m, above_ground(t), above_ground_slope(t)});
+    }
+  }
 
   /// The least factor such that base + factor * weight meets the demand everywhere; infinity where none does, and
   /// minus infinity where every one does.
   double peak(const Line& base, const Line& weight) const {
     double best = -kInfinity;
-    for (std::size_t i = 0; i < profile_.points.size(); ++i) {
-      const double t = profile_.points[i].distance_m / profile_.length_m;
-      best = std::max(best, ratio_at(i, t, base, weight));
-      if (i + 1 == profile_.points.size()) break;
-      const double next = profile_.points[i + 1].distance_m / profile_.length_m;
-      if (next > t && profile_.joined(i)) best = std::max(best, ratio_inside(piece(i, t, next), base, weight));
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      best = std::max(best, ratio_at(i, base, weight));
+      if (i + 1 < nodes_.size() && has_piece(i)) best = std::max(best, ratio_inside(i, base, weight, best));
     }
     return best;
   }
 
  private:
-  struct Piece {
-    double from, to;
-    double height, slope;  ///< of the ground at `from`
+  /// A point of the profile.
+  struct Node {
+    double t;
+    double ground;
+    double above, above_slope;  ///< of the demand over the ground
   };
 
-  Piece piece(std::size_t i, double from, double to) const {
-    const double rise = profile_.points[i + 1].ground_m - profile_.points[i].ground_m;
-    return {from, to, profile_.points[i].ground_m, rise / (to - from)};
+  /// Whether there is ground between this point and the next.
+  bool has_piece(std::size_t i) const { return nodes_[i + 1].t > nodes_[i].t && profile_.joined(i); }
+  double ground_slope(std::size_t i) const {
+    return (nodes_[i + 1].ground - nodes_[i].ground) / (nodes_[i + 1].t - nodes_[i].t);
   }
   double above_ground(double t) const { return bulge_ * t * (1 - t) + radius_ * std::sqrt(t * (1 - t)); }
   double above_ground_slope(double t) const {
@@ -65,41 +72,52 @@ class Demand {
 
   /// At an end where the weight is 0 no factor helps: what is missing there makes the demand impossible, and where
   /// ray and ground just meet, the ratio has a limit (L'Hopital), which the piece beside it determines.
-  double ratio_at(std::size_t i, double t, const Line& base, const Line& weight) const {
-    const double missing = profile_.points[i].ground_m + above_ground(t) - base.at(t);
-    if (weight.at(t) > 0) return missing / weight.at(t);
+  double ratio_at(std::size_t i, const Line& base, const Line& weight) const {
+    const Node& n = nodes_[i];
+    const double missing = n.ground + n.above - base.at(n.t);
+    if (weight.at(n.t) > 0) return missing / weight.at(n.t);
     if (missing != 0) return missing > 0 ? kInfinity : -kInfinity;
-    return limit_at_end(i, t, base, weight);
+    return limit_at_end(i, base, weight);
   }
-  double limit_at_end(std::size_t i, double t, const Line& base, const Line& weight) const {
-    const std::size_t first = t < 0.5 ? i : i - 1;
-    if (first + 1 >= profile_.points.size() || !profile_.joined(first)) return -kInfinity;
-    const double from = profile_.points[first].distance_m / profile_.length_m;
-    const double to = profile_.points[first + 1].distance_m / profile_.length_m;
-    if (to <= from) return -kInfinity;
-    return (piece(first, from, to).slope + above_ground_slope(t) - base.slope()) / weight.slope();
+  double limit_at_end(std::size_t i, const Line& base, const Line& weight) const {
+    const std::size_t first = nodes_[i].t < 0.5 ? i : i - 1;
+    if (first + 1 >= nodes_.size() || !has_piece(first)) return -kInfinity;
+    return (ground_slope(first) + nodes_[i].above_slope - base.slope()) / weight.slope();
   }
 
-  /// The derivative's numerator falls along the piece: a maximum lies inside only if it changes sign.
-  double ratio_inside(const Piece& p, const Line& base, const Line& weight) const {
-    const auto missing = [&](double t) { return p.height + p.slope * (t - p.from) + above_ground(t) - base.at(t); };
-    const auto rising = [&](double t) {
-      const double slope = p.slope + above_ground_slope(t) - base.slope();
-      if (std::isinf(slope)) return slope > 0;
-      return slope * weight.at(t) > missing(t) * weight.slope();
+  /// The derivative's numerator falls along the piece: a maximum lies inside only if it changes sign. Not sought where
+  /// it is certainly less than `best`.
+  double ratio_inside(std::size_t i, const Line& base, const Line& weight, double best) const {
+    const Node &from = nodes_[i], &to = nodes_[i + 1];
+    const double slope_of_ground = ground_slope(i);
+    const auto missing = [&](double t, double above) {
+      return from.ground + slope_of_ground * (t - from.t) + above - base.at(t);
     };
-    double low = p.from, high = p.to;
-    if (!rising(low) || rising(high)) return -kInfinity;
+    const auto rising = [&](double t, double above, double above_slope) {
+      const double slope = slope_of_ground + above_slope - base.slope();
+      if (std::isinf(slope)) return slope > 0;
+      return slope * weight.at(t) > missing(t, above) * weight.slope();
+    };
+    if (!rising(from.t, from.above, from.above_slope) || rising(to.t, to.above, to.above_slope)) return -kInfinity;
+    // Below its tangent at the piece's beginning, as all that is concave.
+    constexpr double kRounding = 1e-6;
+    const double most = missing(from.t, from.above) +
+                        std::max(0.0, slope_of_ground + from.above_slope - base.slope()) * (to.t - from.t);
+    const double divisor =
+        most > 0 ? std::min(weight.at(from.t), weight.at(to.t)) : std::max(weight.at(from.t), weight.at(to.t));
+    if (divisor > 0 && most / divisor < best - kRounding) return -kInfinity;
+    double low = from.t, high = to.t;
     while (true) {
       const double middle = low + (high - low) / 2;
       if (middle <= low || middle >= high) break;
-      (rising(middle) ? low : high) = middle;
+      (rising(middle, above_ground(middle), above_ground_slope(middle)) ? low : high) = middle;
     }
-    return weight.at(low) > 0 ? missing(low) / weight.at(low) : -kInfinity;
+    return weight.at(low) > 0 ? missing(low, above_ground(low)) / weight.at(low) : -kInfinity;
   }
 
   const Profile& profile_;
   double bulge_, radius_;
+  std::vector<Node> nodes_;
 };
 
 /// Demands on heights above the grounds of the two ends.
