@@ -30,9 +30,10 @@ class ImportVerb final : public Verb {
     app.add_option(
            "--kind", kind_,
            "What the sources are: terrain (default); contours, breaklines or water, which are lines with heights "
-           "and become part of the terrain; roads, which are lines on it; buildings, walls or vegetation, which "
-           "stand on it where they have heights (--height-field, --height, CityJSON, rasters of heights above the "
-           "ground), and else are lines on it; surface, a raster of a digital surface model, which stands where it is "
+           "and become part of the terrain; roads, which are lines on it; buildings, terraces, walls or vegetation, "
+           "which stand on it where they have heights (--height-field, --height, CityJSON, rasters of heights above "
+           "the ground), and else are lines on it (a building has one base; terraces, walls and vegetation follow the "
+           "terrain); surface, a raster of a digital surface model, which stands where it is "
            "above the terrain")
         ->type_name("KIND");
     app.add_option("--theme", options_.theme, "Name of the lines' theme (default: the kind)")->type_name("NAME");
@@ -121,9 +122,9 @@ class ImportVerb final : public Verb {
   }
 
   void validate() override {
-    parse_choice(
-        "--kind", kind_,
-        {"terrain", "contours", "breaklines", "buildings", "vegetation", "walls", "surface", "roads", "water"});
+    parse_choice("--kind", kind_,
+                 {"terrain", "contours", "breaklines", "buildings", "terraces", "vegetation", "walls", "surface",
+                  "roads", "water"});
     if (kind_ != "terrain") {
       options_.kind = theme_kind(kind_);
       if (options_.theme.empty()) options_.theme = kind_;

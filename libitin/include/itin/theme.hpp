@@ -17,7 +17,17 @@
 
 namespace itin {
 
-enum class ThemeKind : std::uint8_t { Contours, Breaklines, Water, Roads, Walls, Buildings, Vegetation, Surface };
+enum class ThemeKind : std::uint8_t {
+  Contours,
+  Breaklines,
+  Water,
+  Roads,
+  Walls,
+  Buildings,
+  Vegetation,
+  Surface,
+  Terraces
+};
 
 /// "contours", "breaklines", ...
 std::string_view name_of(ThemeKind kind);
@@ -26,6 +36,12 @@ ThemeKind theme_kind(std::string_view name);
 /// Whether lines of this kind are part of the full surface.
 constexpr bool is_terrain(ThemeKind kind) {
   return kind == ThemeKind::Contours || kind == ThemeKind::Breaklines || kind == ThemeKind::Water;
+}
+/// Whether features of this kind stand on the ground where they have heights. Each building has one base; terraces
+/// (rows of houses that climb a slope), walls and vegetation follow the ground at their height above it.
+constexpr bool may_stand(ThemeKind kind) {
+  return kind == ThemeKind::Buildings || kind == ThemeKind::Terraces || kind == ThemeKind::Walls ||
+         kind == ThemeKind::Vegetation || kind == ThemeKind::Surface;
 }
 
 /// How a building on its footprint is closed above.

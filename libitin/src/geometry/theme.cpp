@@ -12,8 +12,8 @@ namespace itin {
 
 namespace {
 
-constexpr std::array<std::string_view, 8> kKinds{"contours", "breaklines", "water",      "roads",
-                                                 "walls",    "buildings",  "vegetation", "surface"};
+constexpr std::array<std::string_view, 9> kKinds{"contours",  "breaklines", "water",   "roads",   "walls",
+                                                 "buildings", "vegetation", "surface", "terraces"};
 
 }  // namespace
 
@@ -32,6 +32,7 @@ bool comes_before(const ThemeInfo& a, const ThemeInfo& b) {
   const auto rank = [](const ThemeInfo& theme) {
     switch (theme.kind) {
       case ThemeKind::Buildings:
+      case ThemeKind::Terraces:
         return 0;
       case ThemeKind::Walls:
         return 1;

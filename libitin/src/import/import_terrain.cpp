@@ -67,11 +67,6 @@ void check_resolution(const ImportOptions& options, const Store* existing) {
   }
 }
 
-bool may_stand(ThemeKind kind) {
-  return kind == ThemeKind::Buildings || kind == ThemeKind::Vegetation || kind == ThemeKind::Walls ||
-         kind == ThemeKind::Surface;
-}
-
 /// Names stand in lists with commas, beside `all` and `none`.
 void require_theme_name(const std::string& name) {
   if (name == "all" || name == "none" || name.find(',') != std::string::npos)

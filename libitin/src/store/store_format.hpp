@@ -11,9 +11,9 @@
 namespace itin::format {
 
 inline constexpr std::uint32_t kApplicationId = 0x4954494e;  // "ITIN"
-inline constexpr std::uint32_t kVersion = 5;                 ///< of stores with rasters of heights that stand
+inline constexpr std::uint32_t kVersion = 5;  ///< of stores with rasters of heights or terraces that stand
 /// Of all others: readers of that version read them.
-inline constexpr std::uint32_t kVersionWithoutCells = 4;
+inline constexpr std::uint32_t kEarlierVersion = 4;
 /// Earlier ones kept nothing of what their surfaces left out.
 inline constexpr int kFirstVersionThatSetsAside = 4;
 inline constexpr int kPageSize = 16384;

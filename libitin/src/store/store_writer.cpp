@@ -25,6 +25,11 @@ static_assert(kLeafCapacity <= kMaxBlockPoints);
 
 namespace {
 
+/// Readers of kEarlierVersion know no footprints of these kinds, or no theme of them.
+bool is_new(FeatureKind kind) {
+  return kind == FeatureKind::cells || kind == FeatureKind::terrace;
+}
+
 /// To the leaves, which tile the root along the curve, that the reach's box meets.
 void raise(std::vector<Leaf>& leaves, const FeatureReach& reach) {
   const MortonRange range(reach.box);
@@ -87,7 +92,7 @@ StoreWriter::Impl::Impl(std::unique_ptr<ReplacementFile> file, const std::string
   for (const double t : tolerances) metadata_.levels.push_back({t, lateral_tolerance(t), 0, {}});
   database_.execute("PRAGMA page_size=" + std::to_string(format::kPageSize) + ";PRAGMA encoding='UTF-8';");
   database_.execute("PRAGMA application_id=" + std::to_string(format::kApplicationId) +
-                    ";PRAGMA user_version=" + std::to_string(format::kVersionWithoutCells) + ";");
+                    ";PRAGMA user_version=" + std::to_string(format::kEarlierVersion) + ";");
   database_.execute(std::string("BEGIN;") + format::kSchema);
   insert_block_ = database_.prepare("INSERT INTO block(key, data) VALUES(?, ?)");
   insert_chunk_ = database_.prepare("INSERT INTO directory(key, data) VALUES(?, ?)");
@@ -194,7 +199,7 @@ std::uint32_t StoreWriter::Impl::add_footprints(std::uint16_t theme, std::span<c
   std::uint32_t blocks = 0;
   for (; !footprints.empty(); ++blocks) {
     const auto some = footprints.first(std::min(footprints.size(), kFootprintsInBlock));
-    if (std::any_of(some.begin(), some.end(), [](const StoredFootprint& f) { return f.feature.cells.has_value(); }))
+    if (std::any_of(some.begin(), some.end(), [](const StoredFootprint& f) { return is_new(f.feature.kind); }))
       database_.execute("PRAGMA user_version=" + std::to_string(format::kVersion));
     insert(*insert_block_, BlobKind::Block, format::footprint_key(theme, blocks), encode_footprints(some));
     footprints = footprints.subspan(some.size());

@@ -222,7 +222,7 @@ TEST_F(RaisedFeatures, WindowEqualsWholeWithAllThatStands) {
     return low + (high - low) * static_cast<double>(random() % 100000) / 100000;
   };
   ground(10, rolling);
-  std::vector<LineFeature> houses, woods, walls, roads, ridges;
+  std::vector<LineFeature> houses, woods, rows, walls, roads, ridges;
   for (int i = 0; i < 25; ++i) {  // they touch, overlap and leave the data
     const double x = 300000 + std::round(in(-5, 58)) * 10, y = 199400 + std::round(in(-5, 58)) * 10;
     houses.push_back(box(x, y, x + in(2, 40), y + in(2, 40), in(2, 30)));
@@ -247,19 +247,24 @@ TEST_F(RaisedFeatures, WindowEqualsWholeWithAllThatStands) {
     roads.push_back(line("{}"));
     ridges.push_back(line("{}"));
   }
+  for (int i = 0; i < 6; ++i) {
+    const double x = in(300020, 300400), y = in(199420, 199900);
+    rows.push_back(box(x, y, x + in(40, 150), y + in(6, 12), in(4, 12)));
+  }
   add(ThemeKind::Roads, "roads", roads);
   raise(ThemeKind::Vegetation, "woods", woods);
   const ImportReport report = raise(ThemeKind::Buildings, "houses", houses);
   EXPECT_GT(report.features, 20u);
   raise(ThemeKind::Walls, "walls", walls);
+  raise(ThemeKind::Terraces, "rows", rows);
   add(ThemeKind::Breaklines, "ridges", ridges);  // the ground changes under all of them
   expect_sound();
   const Store store(path("s.itin"));
-  EXPECT_EQ(store.metadata().themes.size(), 5u);
+  EXPECT_EQ(store.metadata().themes.size(), 6u);
   expect_windows_of_the_whole(
       store, random,
       {ThemeChoice::none(), ThemeChoice::all(), ThemeChoice::all().with_ground_lines(), ThemeChoice::parse("houses"),
-       ThemeChoice::parse("woods"), ThemeChoice::parse("roads,walls").with_ground_lines()});
+       ThemeChoice::parse("woods,rows"), ThemeChoice::parse("roads,walls").with_ground_lines()});
 }
 
 TEST_F(RaisedFeatures, AHouseHasItsHeightAndTheGroundItsOwn) {
@@ -346,6 +351,32 @@ TEST_F(RaisedFeatures, WoodsFollowTheTerrainAndGiveWayToHouses) {
     for (double y = 199604; y < 199797; y += 8.1) EXPECT_NEAR(height(wood, x, y) - height(bare, x, y), 15, 0.05);
   EXPECT_NEAR(height(all, 300190, 199690), height(whole(ThemeChoice::parse("houses")), 300190, 199690), 1e-9);
   EXPECT_NEAR(height(all, 300120, 199620) - height(bare, 300120, 199620), 15, 0.05);
+}
+
+TEST_F(RaisedFeatures, TerracesFollowTheTerrainWhereHousesAreLevel) {
+  ground(10, rolling);
+  const Tin bare = whole(ThemeChoice::none());
+  const std::vector<LineFeature> rows{box(300103, 199603, 300297, 199615, 30)};
+  EXPECT_EQ(raise(ThemeKind::Terraces, "rows", rows).features, 1u);
+  const Tin terrace = whole(ThemeChoice::parse("rows"));
+  double lowest = 1e9, highest = -1e9;
+  for (double x = 300104; x < 300297; x += 3.7)
+    for (double y = 199604; y < 199615; y += 2.1) {
+      EXPECT_NEAR(height(terrace, x, y) - height(bare, x, y), 30, 0.05) << x << ' ' << y;
+      lowest = std::min(lowest, height(terrace, x, y)), highest = std::max(highest, height(terrace, x, y));
+    }
+  EXPECT_GT(highest - lowest, 5);
+  // One house of that footprint has a level roof.
+  raise(ThemeKind::Buildings, "houses", rows);
+  const Tin house = whole(ThemeChoice::parse("houses"));
+  EXPECT_NEAR(height(house, 300110, 199609), height(house, 300290, 199609), 1e-9);
+  // Its walls stand where the terrace's do.
+  EXPECT_NEAR(height(house, 300102.9, 199609), height(terrace, 300102.9, 199609), 1e-9);
+  expect_sound();
+  const Store store(path("s.itin"));
+  EXPECT_EQ(store.metadata().format_version, 5);
+  EXPECT_EQ(store.metadata().themes.at(0).kind, ThemeKind::Buildings);
+  EXPECT_EQ(store.metadata().themes.at(1).kind, ThemeKind::Terraces);
 }
 
 TEST_F(RaisedFeatures, FeaturesFollowWhenTheirGroundChanges) {

@@ -34,8 +34,16 @@ bool is_city_json(const std::string& path) {
 }
 
 FeatureKind feature_kind(ThemeKind kind) {
-  if (kind == ThemeKind::Walls) return FeatureKind::wall;
-  return kind == ThemeKind::Vegetation ? FeatureKind::vegetation : FeatureKind::building;
+  switch (kind) {
+    case ThemeKind::Walls:
+      return FeatureKind::wall;
+    case ThemeKind::Vegetation:
+      return FeatureKind::vegetation;
+    case ThemeKind::Terraces:
+      return FeatureKind::terrace;
+    default:
+      return FeatureKind::building;
+  }
 }
 
 /// A raster of heights that stand. Walls are lines in any case.
@@ -88,8 +96,8 @@ FootprintFile read_raster(const std::string& path, const ImportOptions& options,
   if (!is_raster(path)) {
     if (is_missing(path)) throw FileError(path, "there is no such file");
     throw InputError(path +
-                     ": is no raster, as `kind` surface takes; import footprints with `kind` buildings, walls or "
-                     "vegetation");
+                     ": is no raster, as `kind` surface takes; import footprints with `kind` buildings, terraces, "
+                     "walls or vegetation");
   }
   HeightRasterQuery query;
   query.path = path;
@@ -129,8 +137,7 @@ std::string why_empty(const std::vector<std::string>& warnings) {
 
 bool builds_features(const ImportOptions& options) {
   if (options.kind == ThemeKind::Surface) return true;
-  if (options.kind != ThemeKind::Buildings && options.kind != ThemeKind::Vegetation && options.kind != ThemeKind::Walls)
-    return false;
+  if (!options.kind || !may_stand(*options.kind)) return false;
   return options.height || !options.height_field.empty() || !options.eaves_field.empty() ||
          std::any_of(options.sources.begin(), options.sources.end(),
                      [&](const std::string& path) { return is_city_json(path) || is_height_raster(path, options); });

@@ -71,7 +71,7 @@ constexpr std::array<const char*, 12> kTitles{"rasters",
                                               "lines with heights",
                                               "lines and outlines without heights",
                                               "buildings with heights",
-                                              "walls and vegetation with heights",
+                                              "terraces, walls and vegetation with heights",
                                               "CityJSON",
                                               "rasters of heights above the ground",
                                               "rasters of a digital surface model"};
