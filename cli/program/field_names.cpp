@@ -20,6 +20,8 @@ constexpr std::array kNames{
     Names{"base_field", "--base-field"},
     Names{"cell_size", "--cell"},
     Names{"classes", "--class"},
+    Names{"compatible", "the spacing (--rotor-spacing, --min-spacing)"},
+    Names{"count", "--count"},
     Names{"crs", "--crs"},
     Names{"eaves_field", "--eaves-field"},
     Names{"elevations", "--absolute-heights"},

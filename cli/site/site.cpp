@@ -27,7 +27,9 @@
 #include "site/site_outputs.hpp"
 #include "site/site_report.hpp"
 #include "site/site_result.hpp"
+#include "site/site_wording.hpp"
 #include "site/site_work.hpp"
+#include "site/visible_heights.hpp"
 
 namespace itin::cli {
 
@@ -53,7 +55,7 @@ class SiteVerb final : public Verb {
     policy_ = options_.policy;
     policy_.overwrite = policy_.overwrite || (options_.resume && std::filesystem::exists(place("site.work")));
     const NewFolder folder(options_.directory);
-    outputs_ = site_outputs(options_.directory, options_.sheets, policy_);
+    outputs_ = site_outputs(options_, policy_);
     // A budget holds for what is kept of the store as well.
     const Store store(options_.store, {std::min(StoreOptions().cache_bytes, options_.memory_bytes / 4)});
     options_.themes.choice().check(store.metadata().themes);
@@ -62,6 +64,7 @@ class SiteVerb final : public Verb {
     require_memory(store, inputs);
     const std::optional<viewshed::SitePosition> hub_position = hub(store, progress);
     viewshed::ChoiceGoal goal = this->goal(store, inputs, hub_position, progress);
+    require_enough(inputs);
     viewshed::check_goal(inputs.options, goal);
 
     viewshed::SiteCoverage coverage(store, site_survey(options_, inputs), progress);
@@ -69,10 +72,20 @@ class SiteVerb final : public Verb {
     coverage.on_refined = [&](std::size_t option, int stage, const viewshed::CoverageBounds& bounds) {
       work.add(option, stage, bounds);
     };
-    coverage.explore();
-    add_existing(inputs, coverage, goal);
-    SiteResult site{options_, inputs, coverage, {}, {}, {}, {}};
-    site.choice = viewshed::choose(inputs.demand, inputs.options, coverage, goal, progress);
+    const bool heights = options_.placement.sums_heights();
+    viewshed::Demand shown;
+    if (heights) shown = viewshed::Demand(summed_visible_heights(store, options_, inputs, progress));
+    SiteResult site{options_, inputs, coverage, heights ? shown : inputs.demand, {}, {}, {}, {}};
+    if (!heights) coverage.explore();
+    for (std::size_t i = inputs.options.size(); i < inputs.positions.size(); ++i) refine_fully(coverage, i);
+    if (heights) {
+      OwnElements own(inputs.options.size());
+      site.choice = viewshed::choose(shown, inputs.options, own, goal, progress);
+      for (const viewshed::ChosenSite& chosen : site.choice.chosen) refine_fully(coverage, chosen.option);
+    } else {
+      add_existing(inputs, coverage, goal);
+      site.choice = viewshed::choose(inputs.demand, inputs.options, coverage, goal, progress);
+    }
     coverage.release_surfaces();
     site.links = site_links(store, options_, inputs, site.choice, hub_position, progress);
     site.ground_m = site_grounds(store, inputs, site.choice, progress);
@@ -91,7 +104,7 @@ class SiteVerb final : public Verb {
   Document hash_inputs(Progress& progress) const {
     Document inputs = Document::array();
     for (const std::string& path : {options_.store, options_.candidates.path, options_.search_area, options_.demand,
-                                    options_.existing, options_.forbidden}) {
+                                    options_.existing, options_.forbidden, options_.placement.dwellings}) {
       std::error_code none;
       if (path.empty() || !std::filesystem::is_regular_file(path, none)) continue;
       inputs.push_back({{"path", path}, {"sha256", file_sha256(path, progress)}});
@@ -112,6 +125,16 @@ class SiteVerb final : public Verb {
         "give a greater --cell, a smaller --radius, fewer sites, or more",
         grouped(grid.cell_count()), counted(inputs.positions.size(), "site"), static_cast<double>(needed) / 1e9,
         static_cast<double>(options_.memory_bytes) / 1e9));
+  }
+
+  /// As many candidates as turbines, before distances between them count.
+  void require_enough(const SiteInputs& inputs) const {
+    if (!options_.placement.given() || inputs.candidates.size() >= *options_.count) return;
+    std::string why;
+    for (const Barred& barred : inputs.barred)
+      why += fmt::format("{} {} {}", why.empty() ? ":" : ",", grouped(barred.count), barred.why);
+    throw Error(fmt::format("--count: {} asked for, but only {} may carry a turbine{}",
+                            counted(*options_.count, "turbine"), counted(inputs.candidates.size(), "candidate"), why));
   }
 
   /// Tells runs apart whose results could differ.
@@ -141,18 +164,23 @@ class SiteVerb final : public Verb {
     goal.cover = options_.cover;
     goal.exact_chosen = options_.exact_final;
     goal.swaps = options_.swaps;
-    if (options_.min_spacing)
+    goal.objective = options_.objective();
+    if (options_.min_spacing || options_.placement.spacing())
       goal.compatible = [this, &inputs](std::size_t a, std::size_t b) {
-        const Point2 p = inputs.positions[a].position, q = inputs.positions[b].position;
-        return std::hypot(p.x - q.x, p.y - q.y) >= *options_.min_spacing;
+        return options_.may_both_stand(inputs.positions[a].position, inputs.positions[b].position);
       };
     if (options_.intervisible) goal.network = link_network(store, options_, inputs, hub_position, progress);
     return goal;
   }
 
-  void add_existing(const SiteInputs& inputs, viewshed::SiteCoverage& coverage, viewshed::ChoiceGoal& goal) const {
+  static void refine_fully(viewshed::SiteCoverage& coverage, std::size_t option) {
+    while (!coverage.bounds(option).exact) coverage.refine({&option, 1});
+  }
+
+  /// Takes what existing sites serve out of the demand.
+  void add_existing(const SiteInputs& inputs, const viewshed::SiteCoverage& coverage,
+                    viewshed::ChoiceGoal& goal) const {
     for (std::size_t i = inputs.options.size(); i < inputs.positions.size(); ++i) {
-      while (!coverage.bounds(i).exact) coverage.refine({&i, 1});
       const viewshed::DemandSet& served = coverage.bounds(i).certain;
       goal.existing.push_back(inputs.cells.empty() ? served : intersection(served, inputs.cells));
     }
@@ -168,7 +196,7 @@ class SiteVerb final : public Verb {
   Result write(const Store& store, const SiteResult& site, Progress& progress) {
     const std::string& crs = store.metadata().crs_wkt;
     Result result;
-    warn(site, result.warnings);
+    warn(site, store.metadata(), result.warnings);
     warn_of_scale(store.metadata(), result.warnings);
     result.document = site_document(site, store.metadata());
     for (const SiteOutput& output : outputs_)
@@ -201,14 +229,42 @@ class SiteVerb final : public Verb {
     return result;
   }
 
-  void warn(const SiteResult& site, std::vector<std::string>& warnings) const {
-    if (options_.frequency_ghz) options_.earth.warn_of_light(warnings);
-    const std::vector<std::string>& rejected = site.inputs.rejected;
-    for (std::size_t i = 0; i < std::min(rejected.size(), kMostWarnings); ++i)
-      warnings.push_back("left out: " + rejected[i]);
-    if (rejected.size() > kMostWarnings)
+  void warn_of_left_out(const SiteInputs& inputs, std::vector<std::string>& warnings) const {
+    std::vector<std::string> lines = inputs.rejected;
+    // Proposed candidates are none of the caller's: how many were left out is enough.
+    for (std::size_t i = options_.search_area.empty() ? 0 : inputs.barred.size(); i-- > 0;) {
+      const Barred& barred = inputs.barred[i];
+      const auto first = lines.begin() + static_cast<std::ptrdiff_t>(barred.first);
+      *first = fmt::format("{}, each of which {}; all are listed in {}", counted(barred.count, "proposed candidate"),
+                           barred.why, place("site.json"));
+      lines.erase(first + 1, first + static_cast<std::ptrdiff_t>(barred.count));
+    }
+    for (std::size_t i = 0; i < std::min(lines.size(), kMostWarnings); ++i) warnings.push_back("left out: " + lines[i]);
+    if (lines.size() > kMostWarnings)
       warnings.push_back(
-          fmt::format("left out: {} more; all are listed in {}", rejected.size() - kMostWarnings, place("site.json")));
+          fmt::format("left out: {} more; all are listed in {}", lines.size() - kMostWarnings, place("site.json")));
+  }
+
+  /// Nothing is known of what sees a turbine beyond the data.
+  void warn_of_reach(const SiteResult& site, const StoreMetadata& metadata, std::vector<std::string>& warnings) const {
+    const Box data = metadata.grid.box(metadata.bounds);
+    std::size_t beyond = 0;
+    for (const viewshed::SitePosition& place : site.inputs.positions) {
+      const Point2 p = place.position;
+      beyond += std::min({p.x - data.xmin, data.xmax - p.x, p.y - data.ymin, data.ymax - p.y}) < options_.radius;
+    }
+    if (beyond > 0)
+      warnings.push_back(fmt::format(
+          "the radius of {:g} m reaches beyond the data from {} of {}: demand there is not counted, so that places "
+          "near "
+          "the edge of the data seem less seen than they are; import a larger source, or give a smaller --radius",
+          options_.radius, counted(beyond, "place"), site.inputs.positions.size()));
+  }
+
+  void warn(const SiteResult& site, const StoreMetadata& metadata, std::vector<std::string>& warnings) const {
+    if (options_.frequency_ghz) options_.earth.warn_of_light(warnings);
+    warn_of_left_out(site.inputs, warnings);
+    if (options_.placement.given() && options_.demand == "cells") warn_of_reach(site, metadata, warnings);
     if (site.inputs.demand_without_ground > 0)
       warnings.push_back(fmt::format("no ground is under {} of the demand, which cannot be served",
                                      counted(site.inputs.demand_without_ground, "point")));
@@ -220,6 +276,17 @@ class SiteVerb final : public Verb {
       warnings.emplace_back("the wanted share is not reached: no further site that may be taken gains anything");
   }
 
+  std::string outcome(const SiteResult& site) const {
+    if (options_.placement.given()) return least_in_words(site) + "\n";
+    return fmt::format("served: {:.10g} of {:.10g} ({:.1f} %){}; no choice serves more than {:.10g} (gap {:.1f} %)\n",
+                       site.served(), site.in_metric(site.inputs.total), site.served_percent(),
+                       site.choice.existing > 0
+                           ? fmt::format(", {:.10g} of it by existing sites", site.in_metric(site.choice.existing))
+                           : "",
+                       site.in_metric(site.choice.upper_bound + site.choice.existing),
+                       viewshed::gap_percent(site.choice));
+  }
+
   std::string text(const SiteResult& site, std::size_t files) const {
     std::string text;
     for (const viewshed::ChosenSite& chosen : site.choice.chosen) {
@@ -228,13 +295,7 @@ class SiteVerb final : public Verb {
           fmt::format("{:<16} {:>12.2f} {:>12.2f}  {:>5g} m  +{:<10.10g} {:.10g}\n", place.name, place.position.x,
                       place.position.y, place.height, site.in_metric(chosen.gain), site.in_metric(chosen.cumulative));
     }
-    text +=
-        fmt::format("served: {:.10g} of {:.10g} ({:.1f} %){}; no choice serves more than {:.10g} (gap {:.1f} %)\n",
-                    site.served(), site.in_metric(site.inputs.total), site.served_percent(),
-                    site.choice.existing > 0
-                        ? fmt::format(", {:.10g} of it by existing sites", site.in_metric(site.choice.existing))
-                        : "",
-                    site.in_metric(site.choice.upper_bound + site.choice.existing), viewshed::gap_percent(site.choice));
+    text += outcome(site);
     text += fmt::format(
         "{}, {}, {} looked at again; {} left out\n", counted(site.inputs.candidates.size(), "candidate"),
         counted(site.inputs.options.size(), "option"), grouped(site.refined()), grouped(site.inputs.rejected.size()));

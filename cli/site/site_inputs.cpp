@@ -10,6 +10,7 @@
 #include <itin/raster_values.hpp>
 #include <itin/window_source.hpp>
 #include <viewshed/site_proposal.hpp>
+#include <viewshed/turbine_layout.hpp>
 
 #include "options/off_the_data.hpp"
 #include "options/site_list.hpp"
@@ -31,10 +32,13 @@ class InputReader {
     } else {
       read_candidates();
     }
+    const std::vector<Site> existing = read_existing();
     leave_out_forbidden();
+    leave_out_near_dwellings();
+    leave_out_near(existing);
     stand();
     if (inputs_.options.empty()) throw InputError(nothing_left());
-    read_existing();
+    stand_existing(existing);
     read_demand();
     return std::move(inputs_);
   }
@@ -52,6 +56,15 @@ class InputReader {
 
   void propose() {
     const Window area = window_from_polygon(options_.search_area, crs_, options_.in_crs.crs);
+    if (options_.placement.given()) {
+      for (const Point2 place : viewshed::spaced_positions(area, *options_.spacing))
+        inputs_.candidates.push_back({.id = fmt::format("{}", inputs_.candidates.size()),
+                                      .position = place,
+                                      .height = std::nullopt,
+                                      .cost = 0,
+                                      .why = "spaced"});
+      return;
+    }
     viewshed::ProposalRequest request;
     request.spacing = *options_.spacing;
     request.radius = options_.radius;
@@ -85,13 +98,53 @@ class InputReader {
     }
   }
 
+  /// Tells why a candidate may not be chosen; `why` follows its name.
+  template <class Unfit>
+  void leave_out(const std::string& why, const Unfit& unfit) {
+    const std::size_t first = inputs_.rejected.size();
+    const std::size_t left_out = std::erase_if(inputs_.candidates, [&](const Candidate& candidate) {
+      const bool is_unfit = unfit(candidate.position);
+      if (is_unfit) reject(fmt::format("candidate {}: {}", candidate.id, why));
+      return is_unfit;
+    });
+    if (left_out > 0) inputs_.barred.push_back({why, first, left_out});
+  }
+
   void leave_out_forbidden() {
     if (options_.forbidden.empty()) return;
     const Window area = window_from_polygon(options_.forbidden, crs_, options_.in_crs.crs);
-    std::erase_if(inputs_.candidates, [&](const Candidate& candidate) {
-      const bool inside = viewshed::lies_in(area, candidate.position);
-      if (inside) reject(fmt::format("candidate {}: lies in a forbidden area", candidate.id));
-      return inside;
+    leave_out("lies in a forbidden area", [&](Point2 p) { return viewshed::lies_in(area, p); });
+  }
+
+  void leave_out_near_dwellings() {
+    const PlacementOptions& placement = options_.placement;
+    if (placement.dwellings.empty()) return;
+    const viewshed::Dwellings dwellings = read_dwellings();
+    leave_out(fmt::format("stands nearer than {:g} m to a dwelling", placement.setback()),
+              [&](Point2 p) { return dwellings.any_within(p, placement.setback()); });
+  }
+
+  /// Points, or polygons. No dwelling may be left out.
+  viewshed::Dwellings read_dwellings() const {
+    SiteQuery query;
+    query.path = options_.placement.dwellings;
+    query.crs = options_.in_crs.crs;
+    std::vector<std::string> no_points;
+    std::vector<Point2> points;
+    for (const Site& site : read_sites(query, crs_, no_points)) points.push_back(site.position);
+    if (points.empty() && no_points.empty()) throw InputError(none_in(query, "dwelling"));
+    if (points.empty()) return {{}, window_from_polygon(query.path, crs_)};
+    if (!no_points.empty())
+      throw InputError(fmt::format("{}; give dwellings that are all points, or all polygons", no_points.front()));
+    return {std::move(points), std::nullopt};
+  }
+
+  /// Turbines that stand keep others away, too.
+  void leave_out_near(const std::vector<Site>& existing) {
+    if (!options_.placement.given()) return;
+    leave_out("stands too near an existing turbine", [&](Point2 p) {
+      return std::any_of(existing.begin(), existing.end(),
+                         [&](const Site& site) { return !options_.may_both_stand(p, site.position); });
     });
   }
 
@@ -126,8 +179,8 @@ class InputReader {
     inputs_.candidates = std::move(kept);
   }
 
-  void read_existing() {
-    if (options_.existing.empty()) return;
+  std::vector<Site> read_existing() {
+    if (options_.existing.empty()) return {};
     SiteQuery query;
     query.path = options_.existing;
     query.height_field = options_.candidates.height_field;
@@ -135,13 +188,17 @@ class InputReader {
     const std::size_t rejected = inputs_.rejected.size();
     const std::vector<Site> sites = read_sites(query, crs_, inputs_.rejected);
     if (sites.empty() && inputs_.rejected.size() == rejected) throw InputError(none_in(query, "site"));
+    return sites;
+  }
+
+  void stand_existing(const std::vector<Site>& sites) {
     std::vector<Point2> positions;
     for (const Site& site : sites) positions.push_back(site.position);
     const auto ground = viewshed::ground_under(store_, positions, ground_themes(), progress_);
     for (std::size_t i = 0; i < sites.size(); ++i) {
       const double height = sites[i].height.value_or(options_.masts.front().height);
       if (!ground[i] || height < 0) {
-        reject(fmt::format("{}: feature {}: {}", query.path, sites[i].feature,
+        reject(fmt::format("{}: feature {}: {}", options_.existing, sites[i].feature,
                            ground[i] ? "its height is negative" : "there is no data there"));
       } else {
         inputs_.positions.push_back({sites[i].name, sites[i].position, height, *ground[i]});

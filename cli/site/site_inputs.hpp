@@ -20,6 +20,12 @@ struct Candidate {
   std::string why;  ///< it was proposed; empty for those given
 };
 
+/// Candidates that may not be chosen, all for one reason.
+struct Barred {
+  std::string why;                   ///< to follow "candidate 3 "
+  std::size_t first = 0, count = 0;  ///< of SiteInputs::rejected
+};
+
 struct SiteInputs {
   std::vector<Candidate> candidates;
   // Options are a candidate with a mast, in order; existing sites follow in `stands`.
@@ -30,6 +36,7 @@ struct SiteInputs {
   viewshed::DemandSet cells;              ///< where cells are the demand: those with ground within an option's radius
   viewshed::Weight total = 0;             ///< all demand
   std::vector<std::string> rejected;      ///< a line for each row that is not used, and why
+  std::vector<Barred> barred;             ///< which of these are candidates that lie where no site may stand
   std::size_t demand_without_ground = 0;  ///< points
 
   std::size_t existing() const { return positions.size() - options.size(); }

@@ -60,6 +60,7 @@ profile::Link link_between(const SitePosition& from, const SitePosition& to) {
 std::vector<SiteLink> site_links(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
                                  const viewshed::Choice& choice, const std::optional<SitePosition>& hub,
                                  Progress& progress) {
+  if (options.placement.given()) return {};  // turbines need not see each other
   std::vector<SitePosition> ends;
   for (const viewshed::ChosenSite& site : choice.chosen) ends.push_back(inputs.positions[site.option]);
   for (std::size_t i = inputs.options.size(); i < inputs.positions.size() && options.intervisible; ++i) {

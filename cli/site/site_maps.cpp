@@ -11,6 +11,7 @@
 #include "output/result_sheet.hpp"
 #include "output/store_document.hpp"
 #include "site/site_report.hpp"
+#include "site/site_wording.hpp"
 
 namespace itin::cli {
 
@@ -60,10 +61,13 @@ std::vector<SiteMap> site_maps(const SiteResult& r) {
   options.map_pixels = kMapPixels;
   // Where demand is weighted, its area is another share than what is served.
   const bool of_area = r.options.demand != "cells";
-  options.seen = of_area ? "Area served" : "Served", options.unseen = of_area ? "Area not served" : "Not served";
-  options.observers = result.request.observers.size() == 1 ? "Site" : "Sites";
-  options.outside = "Nothing to serve, or no data";
-  options.title = fmt::format("Served by {}", counted(r.choice.chosen.size(), "site"));
+  const SiteWording wording = wording_of(r.options);
+  const bool turbines = r.options.placement.given();
+  options.seen = of_area && !turbines ? "Area served" : wording.served;
+  options.unseen = of_area && !turbines ? "Area not served" : wording.unserved;
+  options.observers = wording.mark + (result.request.observers.size() == 1 ? "" : "s");
+  options.outside = wording.nothing;
+  options.title = fmt::format("{} {}", wording.by, counted(r.choice.chosen.size(), wording.one));
   options.subtitle = fmt::format(
       "radius {:g} km, targets {:g} m up{}{}", r.options.radius / 1000, r.options.target_height,
       r.options.frequency_ghz ? fmt::format(", {:g} F1 clear at {:g} GHz", r.options.fresnel, *r.options.frequency_ghz)
@@ -72,7 +76,8 @@ std::vector<SiteMap> site_maps(const SiteResult& r) {
   std::vector<SiteMap> maps{{"coverage", result, options}};
   result.request.mode = viewshed::Mode::kCount;
   result.count = r.rasters.redundancy;
-  options.title = "Sites that serve a place";
+  options.title = wording.how_many;
+  if (turbines) options.counts = "Turbines";
   maps.push_back({"redundancy", std::move(result), std::move(options)});
   return maps;
 }
@@ -82,7 +87,7 @@ ResultSheet sheet_of(const Store& store, const SiteResult& r, const SiteMap& map
   const StoreMetadata& metadata = store.metadata();
   ResultSheet sheet{map.result.grid,
                     viewshed::result_map(map.result, map.options),
-                    "Share of the places to serve",
+                    wording_of(r.options).share,
                     [&](std::size_t cell) { return map.result.visible[cell] != viewshed::Verdict::kOutside; },
                     {},
                     map.options.observers,
@@ -91,10 +96,14 @@ ResultSheet sheet_of(const Store& store, const SiteResult& r, const SiteMap& map
   for (const viewshed::Observer& site : map.result.request.observers) sheet.masts.push_back({site.position, site.name});
   sheet.title.title = map.options.title;
   sheet.title.statement = statement_of(metadata, r.options.themes.choice());
-  sheet.title.facts = {{"Served", r.options.meaning_of_served()},
-                       {"Targets", map.options.subtitle},
-                       {"Choice", fmt::format("{}, {:.1f} % of the demand served",
-                                              counted(r.choice.chosen.size(), "site"), r.served_percent())}};
+  const bool turbines = r.options.placement.given();
+  const std::string one = wording_of(r.options).one;
+  sheet.title.facts = {
+      {turbines ? "Least" : "Served", r.options.meaning_of_served()},
+      {"Targets", map.options.subtitle},
+      {"Choice",
+       fmt::format("{}, {}", counted(r.choice.chosen.size(), one),
+                   turbines ? least_in_words(r) : fmt::format("{:.1f} % of the demand served", r.served_percent()))}};
   sheet.title.sources = sources;
   return sheet;
 }

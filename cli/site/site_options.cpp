@@ -10,6 +10,7 @@
 #include <itin/error.hpp>
 #include <profile/fresnel.hpp>
 
+#include "options/radius_preset.hpp"
 #include "options/wave_options.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
@@ -53,6 +54,7 @@ void SiteOptions::declare(CLI::App& app) {
   reads(app.add_option("--params", params_, "Options from a JSON file, by name; those of the call come before them")
             ->type_name("FILE"));
   declare_candidates(app);
+  placement.declare(app);
   declare_demand(app);
   declare_choice(app);
   declare_work(app);
@@ -73,7 +75,8 @@ void SiteOptions::declare_candidates(CLI::App& app) {
   reads(app.add_option("--search-area", search_area,
                        "Propose candidates in these polygons (a file, or WKT) from the terrain")
             ->type_name("AREA"));
-  app.add_option("--spacing", spacing_text_, "Of proposed candidates: about two for each square of this side")
+  app.add_option("--spacing", spacing_text_,
+                 "Of proposed candidates: about two for each square of this side; with --turbines one, in its middle")
       ->type_name("METRES");
   app.add_option("--mast-height", mast_height_text_, "Height of the masts, or several to choose from (default: 20)")
       ->type_name("H[,H...]");
@@ -99,12 +102,16 @@ void SiteOptions::declare_demand(CLI::App& app) {
       ->type_name("GHZ");
   app.add_option("--fresnel", fresnel_text_, "Share of that zone's radius that must be clear, 0 to 1 (default: 0.6)")
       ->type_name("FRACTION");
-  app.add_option("--radius", radius_text_, "How far a site serves (default: 10000)")->type_name("METRES");
+  app.add_option(
+         "--radius", radius_text_,
+         "How far a site serves (default: 10000), or turbines are looked for (default: by their tips, as ztv has "
+         "it)")
+      ->type_name("METRES");
   app.add_option("--cell", cell_text_, "Size of the cells, of the rasters too (default: 50)")->type_name("METRES");
 }
 
 void SiteOptions::declare_choice(CLI::App& app) {
-  app.add_option("--count", count_text_, "How many sites to choose")->type_name("K");
+  app.add_option("--count", count_text_, "How many sites to choose, or turbines to place")->type_name("K");
   app.add_option("--budget", budget_text_, "Choose sites whose costs sum up to this at most")->type_name("COST");
   app.add_option("--share", share_text_, "Choose sites until this share of the demand is served (0.8, or 80%)")
       ->type_name("SHARE");
@@ -163,6 +170,7 @@ void SiteOptions::apply_parameter_file() {
 
 void SiteOptions::validate() {
   sheets.validate();
+  placement.validate();
   validate_candidates();
   validate_masts();
   validate_demand();
@@ -188,6 +196,10 @@ void SiteOptions::validate_candidates() {
 void SiteOptions::validate_masts() {
   if (!candidates.height_field.empty() && !mast_height_text_.empty())
     throw InputError("--height-field and --mast-height exclude each other");
+  if (placement.given()) {
+    masts = {{placement.height_looked_for(), 1}};
+    return;
+  }
   const std::vector<double> heights = mast_height_text_.empty()
                                           ? std::vector<double>{20}
                                           : parse_heights("--mast-height", mast_height_text_, Range::kNotNegative);
@@ -204,6 +216,11 @@ void SiteOptions::validate_demand() {
   if (!target_height_text_.empty())
     target_height = parse_height("--target-height", target_height_text_, Range::kNotNegative);
   targets_on_surface = parse_choice("--target-on", target_on_, {"ground", "surface"}) == 1;
+  if (placement.given()) {
+    RadiusOptions by_tip;
+    by_tip.validate();
+    radius = by_tip.radius(placement.tip_height());
+  }
   if (!radius_text_.empty()) radius = parse_radius("--radius", radius_text_);
   cell = number("--cell", cell_text_, Range::kPositive);
   if (cell.value_or(0) > radius) throw InputError(fmt::format("--cell '{}': larger than the radius", cell_text_));
@@ -231,7 +248,19 @@ std::optional<viewshed::FresnelCriterion> SiteOptions::criterion() const {
   return viewshed::FresnelCriterion{profile::wavelength_m(*frequency_ghz), fresnel};
 }
 
+bool SiteOptions::may_both_stand(Point2 a, Point2 b) const {
+  if (min_spacing && std::hypot(a.x - b.x, a.y - b.y) < *min_spacing) return false;
+  return !placement.spacing() || placement.spacing()->keeps_apart(a, b);
+}
+
 std::string SiteOptions::meaning_of_served() const {
+  if (placement.given() && placement.minimised() == Minimised::kHeight)
+    return "Least is the sum, over all turbines and over the demand with its weights, of the part of a turbine from "
+           "its "
+           "tip down that is seen, in metres; what is seen of several turbines from one place counts for each";
+  if (placement.given())
+    return fmt::format("Least is the demand that has a clear line of sight to {} of at least one turbine",
+                       placement.part_looked_for());
   if (!frequency_ghz) return "A target is served if it has a clear line of sight to a site";
   return fmt::format(
       "A target is served if it has a clear line of sight to a site that leaves at least {:g} of the first Fresnel "
@@ -289,7 +318,10 @@ Document SiteOptions::parameters() const {
   Document p{{"store", store}};
   if (!candidates.path.empty()) p["candidates"] = candidates.path;
   if (!search_area.empty()) p["search_area"] = search_area, p["spacing_m"] = *spacing;
-  if (candidates.height_field.empty()) {
+  if (placement.given()) {
+    p["turbines"] = true;
+    p.update(placement.parameters());
+  } else if (candidates.height_field.empty()) {
     for (const Mast& mast : masts) p["masts"].push_back({{"height_m", mast.height}, {"cost", mast.cost}});
   } else {
     p["height_field"] = candidates.height_field;

@@ -18,6 +18,7 @@
 #include "output/output_path.hpp"
 #include "program/values.hpp"
 #include "program/verb.hpp"
+#include "site/placement_options.hpp"
 
 namespace itin::cli {
 
@@ -39,7 +40,12 @@ class SiteOptions {
   Document parameters() const;
   /// The part of the Fresnel zone that a link must leave clear, if any.
   std::optional<viewshed::FresnelCriterion> criterion() const;
-  /// When a target is served, in a sentence.
+  viewshed::Objective objective() const {
+    return placement.given() ? viewshed::Objective::kLeast : viewshed::Objective::kMost;
+  }
+  /// Whether sites at both places may be chosen, as far as distances go.
+  bool may_both_stand(Point2 a, Point2 b) const;
+  /// When a target is served, or which see turbines, in a sentence.
   std::string meaning_of_served() const;
 
   std::string store, directory;
@@ -49,7 +55,8 @@ class SiteOptions {
   std::string cost_field;
   std::string search_area;
   std::optional<double> spacing;
-  std::vector<Mast> masts;  ///< none where a height field is given
+  std::vector<Mast> masts;  ///< none where a height field is given; of turbines one, as high as what is looked for
+  PlacementOptions placement;
   bool on_surface = false;
   InCrs in_crs;
   // Demand.

@@ -13,6 +13,7 @@
 #include <itin/vector_export.hpp>
 
 #include "output/store_document.hpp"
+#include "site/site_wording.hpp"
 
 namespace itin::cli {
 
@@ -149,33 +150,85 @@ VectorLayer links_layer(const SiteResult& r) {
   return layer;
 }
 
+/// As `itin ztv --turbines` reads them.
+std::string turbines_csv(const SiteResult& r) {
+  const PlacementOptions& placement = r.options.placement;
+  std::string text = "name,x,y,hub_height,rotor_diameter,tip_height,farm\n";
+  for (const viewshed::ChosenSite& site : r.choice.chosen) {
+    const viewshed::SitePosition& place = r.place_of(site);
+    text += fmt::format("{},{},{},{},{},{},{}\n", csv_cell(place.name), place.position.x, place.position.y,
+                        placement.hub_height(), placement.rotor_diameter(), placement.tip_height(),
+                        csv_cell(placement.farm));
+  }
+  return text;
+}
+
+VectorLayer turbines_layer(const SiteResult& r) {
+  const PlacementOptions& placement = r.options.placement;
+  VectorLayer layer{"turbines",
+                    VectorLayer::Shape::kPoints,
+                    {{"name", Type::kText},
+                     {"hub_height", Type::kNumber},
+                     {"rotor_diameter", Type::kNumber},
+                     {"tip_height", Type::kNumber},
+                     {"farm", Type::kText}},
+                    {}};
+  for (const viewshed::ChosenSite& site : r.choice.chosen) {
+    const viewshed::SitePosition& place = r.place_of(site);
+    layer.features.push_back(
+        {{{place.position.x, place.position.y, place.ground}},
+         {place.name, placement.hub_height(), placement.rotor_diameter(), placement.tip_height(), placement.farm}});
+  }
+  return layer;
+}
+
 Document interval(const CoverageSummary& summary) {
   return Document::array({summary.certain, summary.possible});
 }
 
 }  // namespace
 
-std::vector<SiteOutput> site_outputs(const std::string& directory, const SheetOptions& sheets, OutputPolicy& policy) {
-  std::vector<std::pair<std::string, std::string>> files{
-      {"sites.gpkg", "chosen sites, candidates, links between sites"},
-      {"sites.csv", "chosen sites in order, with gains and bounds"},
-      {"candidates.csv", "every candidate, its bounds and why it is chosen or not"},
-      {"links.csv", "lines of sight between chosen sites"},
-      {"coverage.tif", "what the choice and existing sites serve"},
-      {"redundancy.tif", "how many of them serve a cell"},
-      {"best-server.tif", "the nearest site that serves a cell"},
-      {"coverage.png", "map of coverage.tif"},
-      {"redundancy.png", "map of redundancy.tif"},
-      {"report.html", "everything on one page"},
-      {"site.json", "the result as a document"},
-      {"parameters.json", "for --params: runs this again"}};
-  for (const profile::PaperSize paper : sheets.papers())
+namespace {
+
+using NamesAndContents = std::vector<std::pair<std::string, std::string>>;
+
+NamesAndContents files_of_sites() {
+  return {{"sites.gpkg", "chosen sites, candidates, links between sites"},
+          {"sites.csv", "chosen sites in order, with gains and bounds"},
+          {"candidates.csv", "every candidate, its bounds and why it is chosen or not"},
+          {"links.csv", "lines of sight between chosen sites"},
+          {"coverage.tif", "what the choice and existing sites serve"},
+          {"redundancy.tif", "how many of them serve a cell"},
+          {"best-server.tif", "the nearest site that serves a cell"}};
+}
+
+NamesAndContents files_of_turbines() {
+  return {{"turbines.csv", "the turbines, as itin ztv --turbines reads them"},
+          {"turbines.gpkg", "the same for a GIS"},
+          {"sites.gpkg", "turbines and candidates"},
+          {"sites.csv", "turbines in order, with what each adds"},
+          {"candidates.csv", "every candidate, its bounds and why it is chosen or not"},
+          {"coverage.tif", "what sees the turbines, existing ones too"},
+          {"redundancy.tif", "how many of them a cell sees"},
+          {"best-server.tif", "the nearest of them that a cell sees"}};
+}
+
+}  // namespace
+
+std::vector<SiteOutput> site_outputs(const SiteOptions& options, OutputPolicy& policy) {
+  NamesAndContents files = options.placement.given() ? files_of_turbines() : files_of_sites();
+  files.insert(files.end(), {{"coverage.png", "map of coverage.tif"},
+                             {"redundancy.png", "map of redundancy.tif"},
+                             {"report.html", "everything on one page"},
+                             {"site.json", "the result as a document"},
+                             {"parameters.json", "for --params: runs this again"}});
+  for (const profile::PaperSize paper : options.sheets.papers())
     for (const char* map : {"coverage", "redundancy"})
       for (const std::string& name : sheet_names(map, paper))
         files.emplace_back(name, fmt::format("{}.tif as a map on paper", map));
   std::vector<SiteOutput> outputs;
   for (const auto& [name, what] : files) {
-    outputs.push_back({place(directory, name.c_str()), what});
+    outputs.push_back({place(options.directory, name.c_str()), what});
     policy.claim(outputs.back().path);
   }
   return outputs;
@@ -186,13 +239,21 @@ Document site_document(const SiteResult& r, const StoreMetadata& metadata) {
   document["crs"] = crs_identifier(metadata.crs_wkt);
   document["surface"] = surface_document(metadata, Detail::tolerance(0), r.options.themes.choice());
   document["refraction"] = earth_document(r.options.earth.earth());
-  document["served"] = r.options.meaning_of_served();
+  const bool turbines = r.options.placement.given();
+  document[turbines ? "minimised" : "served"] = r.options.meaning_of_served();
   document["value"] = r.in_metric(r.choice.value);
-  document["upper_bound"] = r.in_metric(r.choice.upper_bound);
+  if (turbines) {
+    document["lower_bound"] = r.in_metric(r.choice.lower_bound);
+    document["proved_least"] = r.is_best();
+  } else {
+    document["upper_bound"] = r.in_metric(r.choice.upper_bound);
+  }
   document["gap_percent"] = viewshed::gap_percent(r.choice);
-  document["demand"] = r.in_metric(r.inputs.total);
-  document["served_percent"] = r.served_percent();
-  document["served_by_existing"] = r.in_metric(r.choice.existing);
+  document["demand"] = r.inputs.demand.in_metric(r.inputs.total);
+  if (!r.options.placement.sums_heights()) {
+    document[turbines ? "seen_percent" : "served_percent"] = r.served_percent();
+    document[turbines ? "seen_by_existing" : "served_by_existing"] = r.in_metric(r.choice.existing);
+  }
   document["chosen"] = Document::array();
   for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
     const viewshed::ChosenSite& site = r.choice.chosen[i];
@@ -241,18 +302,29 @@ Document site_document(const SiteResult& r, const StoreMetadata& metadata) {
 void write_site_tables(const SiteResult& result, const std::string& directory, bool overwrite) {
   write_file(place(directory, "sites.csv"), sites_csv(result), overwrite);
   write_file(place(directory, "candidates.csv"), candidates_table(result), overwrite);
-  write_file(place(directory, "links.csv"), links_csv(result), overwrite);
+  if (result.options.placement.given()) {
+    write_file(place(directory, "turbines.csv"), turbines_csv(result), overwrite);
+  } else {
+    write_file(place(directory, "links.csv"), links_csv(result), overwrite);
+  }
 }
 
 void write_site_layers(const SiteResult& result, const std::string& directory, const std::string& crs_wkt,
                        bool overwrite) {
-  write_geopackage(place(directory, "sites.gpkg"), crs_wkt,
-                   {sites_layer(result), candidates_layer(result), links_layer(result)}, overwrite);
+  std::vector<VectorLayer> layers{sites_layer(result), candidates_layer(result)};
+  if (result.options.placement.given()) {
+    write_geopackage(place(directory, "turbines.gpkg"), crs_wkt, {turbines_layer(result)}, overwrite);
+  } else {
+    layers.push_back(links_layer(result));
+  }
+  write_geopackage(place(directory, "sites.gpkg"), crs_wkt, layers, overwrite);
 }
 
 void write_site_rasters(const SiteResult& r, const std::string& directory, const std::string& crs_wkt,
                         const std::string& parameters, bool overwrite) {
   const SiteRasters& rasters = r.rasters;
+  const SiteWording wording = wording_of(r.options);
+  const bool turbines = r.options.placement.given();
   RasterDescription description;
   description.crs_wkt = crs_wkt;
   description.overwrite = overwrite;
@@ -263,16 +335,17 @@ void write_site_rasters(const SiteResult& r, const std::string& directory, const
     served[i] = n == SiteRasters::kNoDemand ? 255 : static_cast<std::uint8_t>(n >= r.options.cover);
   }
   RasterDescription classes = description;
-  classes.band_name = "served";
+  classes.band_name = turbines ? "seen" : "served";
   classes.nodata = 255;
-  classes.classes = {
-      {0, "not served", 225, 225, 225, 255}, {1, "served", 0, 114, 178, 255}, {255, "no data", 0, 0, 0, 0}};
+  classes.classes = {{0, turbines ? wording.unserved : "not served", 225, 225, 225, 255},
+                     {1, turbines ? wording.served : "served", 0, 114, 178, 255},
+                     {255, "no data", 0, 0, 0, 0}};
   write_raster(place(directory, "coverage.tif"), rasters.grid, std::span<const std::uint8_t>(served), classes);
   description.nodata = SiteRasters::kNoDemand;
-  description.band_name = "sites that serve the cell";
+  description.band_name = wording.count;
   write_raster(place(directory, "redundancy.tif"), rasters.grid, std::span<const std::uint16_t>(rasters.redundancy),
                description);
-  description.band_name = "nearest site that serves the cell; 0 none";
+  description.band_name = wording.nearest;
   for (std::size_t i = 0; i < r.choice.chosen.size(); ++i)
     description.metadata.emplace_back(fmt::format("site_{}", i + 1), r.place_of(r.choice.chosen[i]).name);
   for (std::size_t i = 0; i < r.inputs.existing(); ++i)

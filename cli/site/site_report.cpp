@@ -1,6 +1,7 @@
 #include "site/site_report.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -15,6 +16,7 @@
 #include <itin/output_file.hpp>
 
 #include "output/store_document.hpp"
+#include "site/site_wording.hpp"
 
 namespace itin::cli {
 
@@ -54,7 +56,9 @@ class HtmlTable {
 std::string curve(const SiteResult& r) {
   constexpr double kWidth = 900, kHeight = 300, kLeft = 60, kRight = 20, kTop = 20, kBottom = 40;
   const std::size_t n = r.choice.chosen.size();
-  const double total = std::max(1.0, static_cast<double>(r.inputs.total));
+  // Heights seen have no whole but what the choice shows.
+  const bool heights = r.options.placement.sums_heights();
+  const double total = std::max(1.0, static_cast<double>(heights ? r.choice.value : r.inputs.total));
   const double most = std::max<double>(static_cast<double>(r.choice.upper_bound), 1) / total * 1.08;
   const auto x = [&](double i) {
     return kLeft + (kWidth - kLeft - kRight) * i / static_cast<double>(std::max<std::size_t>(n, 1));
@@ -83,11 +87,12 @@ std::string curve(const SiteResult& r) {
         escaped_markup(r.place_of(r.choice.chosen[i]).name));
   }
   svg += fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"#0072b2\" stroke-width=\"2.5\"/>\n", line);
-  const double bound = static_cast<double>(r.choice.upper_bound) / total;
+  const bool turbines = r.options.placement.given();
+  const double bound = static_cast<double>(turbines ? r.choice.lower_bound : r.choice.upper_bound) / total;
   svg += fmt::format(
       "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#d55e00\" stroke-dasharray=\"6 4\"/>"
-      "<text x=\"{:.1f}\" y=\"{:.1f}\" fill=\"#d55e00\">no choice serves more than {:.1f} %</text>\n",
-      kLeft, y(bound), kWidth - kRight, y(bound), kLeft + 8, y(bound) - 5, 100 * bound);
+      "<text x=\"{:.1f}\" y=\"{:.1f}\" fill=\"#d55e00\">{} {:.1f} %</text>\n",
+      kLeft, y(bound), kWidth - kRight, y(bound), kLeft + 8, y(bound) - 5, wording_of(r.options).bound, 100 * bound);
   return svg + "</svg>\n";
 }
 
@@ -110,6 +115,22 @@ std::string sites_html(const SiteResult& r) {
   return table.finish();
 }
 
+std::string turbines_html(const SiteResult& r) {
+  const bool heights = r.options.placement.sums_heights();
+  HtmlTable table(
+      {"", "Turbine", "Easting", "Northing", "Ground m", heights ? "Shows m" : "Adds", "Together", "Seen from, alone"},
+      2);
+  for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
+    const viewshed::ChosenSite& site = r.choice.chosen[i];
+    const viewshed::SitePosition& place = r.place_of(site);
+    table.add({fmt::format("{}", i + 1), place.name, fmt::format("{:.0f}", place.position.x),
+               fmt::format("{:.0f}", place.position.y), fmt::format("{:.1f}", r.ground_m[i]),
+               amount(r.in_metric(site.gain)), amount(r.in_metric(site.cumulative)),
+               amount(r.summary(r.coverage.bounds(site.option)).certain)});
+  }
+  return table.finish();
+}
+
 std::string stages_html(const SiteResult& r) {
   HtmlTable table({"Looked at", "Options for which this was enough"}, 1);
   for (int stage = 0; stage <= r.coverage.last_stage(); ++stage) {
@@ -125,7 +146,7 @@ std::string closest_html(const SiteResult& r) {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < r.inputs.options.size(); ++i) {
     const auto& margin = r.choice.closest[i];
-    if (margin && !r.is_chosen(i)) order.emplace_back(-margin->upper / margin->chosen, i);
+    if (margin && !r.is_chosen(i)) order.emplace_back(-closeness(*margin, r.options.objective()), i);
   }
   std::sort(order.begin(), order.end());
   HtmlTable table({"Candidate", "Looked at", "Outcome"}, 3);
@@ -180,14 +201,27 @@ std::string left_out(const SiteResult& r) {
 std::string times_examined(const SiteResult& r) {
   const std::string options =
       counted(r.inputs.candidates.size(), "candidate") + ", " + counted(r.inputs.options.size(), "option");
+  if (r.options.placement.sums_heights()) return options + "; every one was looked at exactly.";
   if (r.coverage.last_stage() == 0) return options + "; the first look at each was exact.";
   return fmt::format(
-      "{}; {} of them were looked at again after the first look. The others could be left: what they serve at most "
-      "never came first, so exact coverage of all would have led to the same choice.",
-      options, r.refined());
+      "{}; {} of them were looked at again after the first look. The others could be left: {}, so exact coverage of "
+      "all "
+      "would have led to the same choice.",
+      options, r.refined(), wording_of(r.options).sufficient);
+}
+
+std::string exchanges(const SiteResult& r) {
+  return r.choice.swaps > 0 ? fmt::format(" More was gained by {} after greedy.", counted(r.choice.swaps, "exchange"))
+                            : "";
 }
 
 std::string summary(const SiteResult& r) {
+  if (r.options.placement.given()) {
+    std::string least = least_in_words(r);
+    least.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(least.front())));
+    return fmt::format("<p class=\"figure\">{}.</p>\n<p>{}{}</p>\n", escaped_markup(least), times_examined(r),
+                       exchanges(r));
+  }
   const std::string existing = r.choice.existing > 0
                                    ? fmt::format(", {} of it by {}", amount(r.in_metric(r.choice.existing)),
                                                  counted(r.inputs.existing(), "existing site"))
@@ -197,8 +231,7 @@ std::string summary(const SiteResult& r) {
       "than {}: at most {:.1f} % of that were missed.</p>\n<p>{}{}</p>\n",
       amount(r.served()), amount(r.in_metric(r.inputs.total)), r.served_percent(), existing,
       amount(r.in_metric(r.choice.upper_bound + r.choice.existing)), viewshed::gap_percent(r.choice), times_examined(r),
-      r.choice.swaps > 0 ? fmt::format(" More was gained by {} after greedy.", counted(r.choice.swaps, "exchange"))
-                         : "");
+      exchanges(r));
 }
 
 }  // namespace
@@ -206,19 +239,25 @@ std::string summary(const SiteResult& r) {
 void write_site_report(const SiteResult& r, const std::vector<SiteProfile>& profiles, const Document& parameters,
                        const Document& inputs, const std::vector<std::string>& sources, const std::string& directory,
                        bool overwrite) {
+  const SiteWording wording = wording_of(r.options);
+  const bool turbines = r.options.placement.given();
   std::string html = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Sites</title><style>{}</style></head>"
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{}s</title><style>{}</style></head>"
       "<body>\n<h1>{} chosen from {}</h1>\n",
-      kStyle, counted(r.choice.chosen.size(), "site"), counted(r.inputs.candidates.size(), "candidate"));
+      wording.mark, kStyle, counted(r.choice.chosen.size(), wording.one),
+      counted(r.inputs.candidates.size(), "candidate"));
   html += summary(r);
-  html += map(directory, "coverage.png", "map of what the choice serves");
-  html += "<h2>Coverage curve</h2>\n" + curve(r);
-  html += "<h2>Sites, in the order in which they gain most</h2>\n" + sites_html(r);
-  html += "<h2>How closely candidates had to be looked at</h2>\n" + stages_html(r);
+  html += map(directory, "coverage.png", turbines ? "map of what sees the turbines" : "map of what the choice serves");
+  html += "<h2>" + wording.coverage_curve + "</h2>\n" + curve(r);
+  html += "<h2>" + wording.order + "</h2>\n" + (turbines ? turbines_html(r) : sites_html(r));
+  if (!r.options.placement.sums_heights())
+    html += "<h2>How closely candidates had to be looked at</h2>\n" + stages_html(r);
   html += "<h2>Those that came nearest</h2>\n" + closest_html(r);
   if (!r.links.empty()) html += "<h2>Lines of sight between sites</h2>\n" + links_html(r);
   html += drawings(profiles);
-  html += "<h2>Redundancy</h2>\n" + map(directory, "redundancy.png", "map of how many sites serve a place");
+  html += "<h2>" + wording.count_heading + "</h2>\n" +
+          map(directory, "redundancy.png",
+              turbines ? "map of how many turbines a place sees" : "map of how many sites serve a place");
   html += left_out(r);
   html += "<h2>Sources of the ground</h2>\n<ul class=\"note\">\n";
   for (const std::string& source : sources) html += "<li>" + escaped_markup(source) + "</li>\n";

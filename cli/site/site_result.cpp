@@ -124,10 +124,16 @@ bool SiteResult::is_chosen(std::size_t option) const {
 
 std::string SiteResult::reason(std::size_t option) const {
   if (is_chosen(option)) return "chosen";
-  const bool exact = coverage.bounds(option).exact;
+  const bool exact = coverage.bounds(option).exact || options.placement.sums_heights();
   const std::optional<viewshed::Margin>& margin = choice.closest[option];
-  if (!margin) return "out of the question at every step (spacing, links, cost, or another mast of its place)";
-  const double unit = inputs.demand.in_metric(1);
+  if (!margin)
+    return options.placement.given() ? "out of the question at every step (spacing)"
+                                     : "out of the question at every step (spacing, links, cost, or another mast of "
+                                       "its place)";
+  const double unit = measure.in_metric(1);
+  if (options.placement.given())
+    return fmt::format("at step {} it adds {} {:.10g}, the one taken {:.10g}", margin->step + 1,
+                       exact ? "exactly" : "at least", margin->upper * unit, margin->chosen * unit);
   return fmt::format("at step {} it gains {} {:.10g}{}, the one taken {:.10g}", margin->step + 1,
                      exact ? "exactly" : "at most", margin->upper * unit,
                      options.budget         ? " for each unit of cost"

@@ -32,6 +32,7 @@ struct SiteResult {
   const SiteOptions& options;
   const SiteInputs& inputs;
   const viewshed::SiteCoverage& coverage;
+  const viewshed::Demand& measure;  ///< of the choice's value and gains: the demand, or the heights seen of turbines
   viewshed::Choice choice;
   std::vector<SiteLink> links;
   SiteRasters rasters;
@@ -45,11 +46,13 @@ struct SiteResult {
     return {inputs.demand.in_metric(inputs.demand.weight(bounds.certain)),
             inputs.demand.in_metric(inputs.demand.weight(bounds.possible))};
   }
-  double in_metric(viewshed::Weight weight) const { return inputs.demand.in_metric(weight); }
+  double in_metric(viewshed::Weight weight) const { return measure.in_metric(weight); }
   /// By the chosen and the existing sites together, in the demand's own measure, and as a share of all demand.
   double served() const;
   double served_percent() const;
   std::size_t refined() const;
+  /// Whether no choice within the goal is better.
+  bool is_best() const { return choice.lower_bound == choice.upper_bound; }
   /// Why an option is not part of the choice, in words.
   std::string reason(std::size_t option) const;
   bool is_chosen(std::size_t option) const;

@@ -1,7 +1,6 @@
 #include "ztv/ztv_turbines.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <utility>
 
@@ -22,32 +21,8 @@ namespace {
 
 enum Field : std::size_t { kHub, kRotor, kTip, kFarm, kName };
 
-std::optional<double> number(const char* name, const std::optional<std::string>& text,
-                             const std::optional<double>& otherwise) {
-  return text ? parse_height(name, *text, Range::kPositive) : otherwise;
-}
-
-/// Completes the one of hub, rotor and tip that the other two imply.
-void complete(std::optional<double>& hub, std::optional<double>& rotor, std::optional<double>& tip) {
-  if (!tip) {
-    if (!hub || !rotor) throw InputError("it has neither tip_height nor both hub_height and rotor_diameter");
-    tip = *hub + *rotor / 2;
-  } else if (hub && *hub > *tip) {
-    throw InputError(fmt::format("its hub_height {:g} lies above its tip_height {:g}", *hub, *tip));
-  } else if (hub && !rotor && *tip > *hub) {
-    rotor = 2 * (*tip - *hub);
-  } else if (!hub && rotor) {
-    hub = *tip - *rotor / 2;
-  }
-  if (hub && *hub <= 0)
-    throw InputError("its rotor_diameter is more than twice its tip_height: the hub would lie below the ground");
-  if (hub && rotor && *rotor / 2 > *hub)
-    throw InputError(fmt::format("its blades would reach {:g} m below the ground: hub {:g}, rotor {:g}",
-                                 *rotor / 2 - *hub, *hub, *rotor));
-  if (hub && rotor && std::abs(*hub + *rotor / 2 - *tip) > 1)
-    throw InputError(
-        fmt::format("its heights contradict each other: hub {:g} and half the rotor {:g} are not the tip {:g}", *hub,
-                    *rotor / 2, *tip));
+std::optional<double> number(const char* name, const std::optional<std::string>& text) {
+  return text ? std::optional(parse_height(name, *text, Range::kPositive)) : std::nullopt;
 }
 
 }  // namespace
@@ -103,51 +78,32 @@ void TurbineOptions::declare(CLI::App& app) {
   field("--rotor-diameter-field", rotor_field_, "rotor diameters");
   field("--tip-height-field", tip_field_, "heights of blade tips");
   field("--farm-field", farm_field_, "farms");
-  app.add_option("--hub-height", hub_text_, "Hub height of turbines whose row gives none")->type_name("METRES");
-  app.add_option("--rotor-diameter", rotor_text_, "Rotor diameter of turbines whose row gives none")
-      ->type_name("METRES");
-  app.add_option("--tip-height", tip_text_, "Height of the highest blade tip, of turbines whose row gives none")
-      ->type_name("METRES");
+  size_.declare(app, "of turbines whose row gives none");
   app.add_option("--farm", farm_, "Farm of turbines whose row gives none")->type_name("NAME");
   in_crs_.declare(app);
 }
 
 void TurbineOptions::validate() {
-  if (!hub_text_.empty()) hub_ = parse_height("--hub-height", hub_text_, Range::kPositive);
-  if (!rotor_text_.empty()) rotor_ = parse_height("--rotor-diameter", rotor_text_, Range::kPositive);
-  if (!tip_text_.empty()) tip_ = parse_height("--tip-height", tip_text_, Range::kPositive);
+  size_.validate();
   query_.crs = in_crs_.crs;
-  require_options_of_one_turbine();
-}
-
-void TurbineOptions::require_options_of_one_turbine() const {
-  if (!tip_ || !(hub_ || rotor_)) return;
-  std::optional<double> hub = hub_, rotor = rotor_, tip = tip_;
-  try {
-    complete(hub, rotor, tip);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format(
-        "--hub-height, --rotor-diameter, --tip-height: no turbine can have these, {}; leave out or correct one of them",
-        in_options(error.what())));
-  }
 }
 
 viewshed::Turbine TurbineOptions::turbine_of(const SiteRow& row) const {
   if (!row.position) throw InputError(row.error);
-  std::optional<double> hub = number("its hub_height", row.values[kHub], std::nullopt);
-  std::optional<double> rotor = number("its rotor_diameter", row.values[kRotor], std::nullopt);
-  std::optional<double> tip = number("its tip_height", row.values[kTip], std::nullopt);
+  TurbineSize size{number("its hub_height", row.values[kHub]), number("its rotor_diameter", row.values[kRotor]),
+                   number("its tip_height", row.values[kTip])};
   // Options fill in what the row leaves open, not what two of its own values settle.
-  const bool settled = (hub && rotor) || (tip && (hub || rotor));
+  const bool settled = (size.hub && size.rotor) || (size.tip && (size.hub || size.rotor));
   if (!settled) {
-    if (!hub) hub = hub_;
-    if (!rotor && !(hub && tip)) rotor = rotor_;
-    if (!tip && !(hub && rotor)) tip = tip_;
+    const TurbineSize& otherwise = size_.size();
+    if (!size.hub) size.hub = otherwise.hub;
+    if (!size.rotor && !(size.hub && size.tip)) size.rotor = otherwise.rotor;
+    if (!size.tip && !(size.hub && size.rotor)) size.tip = otherwise.tip;
   }
-  complete(hub, rotor, tip);
+  size.complete();
   viewshed::Turbine turbine;
   turbine.position = *row.position;
-  turbine.tip_height = *tip, turbine.hub_height = hub, turbine.rotor_diameter = rotor;
+  turbine.tip_height = *size.tip, turbine.hub_height = size.hub, turbine.rotor_diameter = size.rotor;
   turbine.farm = row.values[kFarm].value_or(farm_);
   return turbine;
 }
@@ -185,11 +141,8 @@ Document TurbineOptions::parameters() const {
   const auto text = [&](const char* name, const std::string& value) {
     if (!value.empty()) parameters[name] = value;
   };
-  const auto metres = [&](const char* name, const std::optional<double>& value) {
-    if (value) parameters[name] = *value;
-  };
   text("layer", query_.layer), text("where", query_.where), text("name_field", query_.name_field);
-  metres("hub_height_m", hub_), metres("rotor_diameter_m", rotor_), metres("tip_height_m", tip_);
+  parameters.update(size_.parameters());
   if (hub_field_ != "hub_height") parameters["hub_height_field"] = hub_field_;
   if (rotor_field_ != "rotor_diameter") parameters["rotor_diameter_field"] = rotor_field_;
   if (tip_field_ != "tip_height") parameters["tip_height_field"] = tip_field_;

@@ -14,6 +14,7 @@
 #include <viewshed/turbines.hpp>
 
 #include "options/in_crs.hpp"
+#include "options/turbine_size.hpp"
 #include "program/verb.hpp"
 
 namespace itin::cli {
@@ -52,16 +53,15 @@ class TurbineOptions {
   Document parameters() const;
 
  private:
-  void require_options_of_one_turbine() const;
   /// Throws InputError with what is wrong with the row.
   viewshed::Turbine turbine_of(const SiteRow& row) const;
 
   SiteQuery query_;
-  std::string hub_text_, rotor_text_, tip_text_, farm_;
+  std::string farm_;
   std::string hub_field_ = "hub_height", rotor_field_ = "rotor_diameter", tip_field_ = "tip_height",
               farm_field_ = "farm";
   InCrs in_crs_;
-  std::optional<double> hub_, rotor_, tip_;  ///< of rows that give none
+  TurbineSizeOptions size_;  ///< of rows that give none
 };
 
 }  // namespace itin::cli

@@ -83,6 +83,7 @@ class ZoneParts : public testing::Test {
     EXPECT_EQ(a.hub_count, b.hub_count);
     EXPECT_EQ(a.tip_count, b.tip_count);
     EXPECT_EQ(a.turbines, b.turbines);
+    EXPECT_EQ(a.height_sums_m, b.height_sums_m);
     for (const auto field :
          {&Visibility::visible_height_m, &Visibility::vertical_angle_deg, &Visibility::vertical_angle_sum_deg,
           &Visibility::horizontal_angle_deg, &Visibility::horizontal_from_deg, &Visibility::horizontal_occupied_deg,
@@ -151,6 +152,36 @@ TEST_F(ZoneParts, MakeTheWhole) {
 TEST_F(ZoneParts, LikewiseWhereWhatIsMissingHides) {
   request_.nodata = NoData::kBlock;
   expect_parts_make_the_whole();
+}
+
+/// The slow way: each turbine by itself, its visible heights summed up.
+TEST_F(ZoneParts, SumUpWhatEachTurbineShows) {
+  const Zone unweighted = survey(std::nullopt);
+  EXPECT_TRUE(unweighted.bare.height_sums_m.empty());
+  request_.cell_size.reset();
+  request_.grid = unweighted.grid;
+  std::mt19937 random(test::seed());
+  std::uniform_real_distribution<double> weight(0, 3);
+  for (std::size_t i = 0; i < request_.grid->cell_count(); ++i) request_.weights.push_back(weight(random));
+  const Zone whole = survey(std::nullopt);
+  const std::vector<Turbine> turbines = request_.turbines;
+  for (std::size_t k = 0; k < turbines.size(); ++k) {
+    request_.turbines = {turbines[k]};
+    const Zone alone = survey(std::nullopt);
+    double bare = 0, screened = 0;
+    for (std::size_t i = 0; i < request_.weights.size(); ++i) {
+      if (std::isnan(alone.bare.visible_height_m[i])) continue;
+      bare += request_.weights[i] * static_cast<double>(alone.bare.visible_height_m[i]);
+      screened += request_.weights[i] * static_cast<double>(alone.screened->visible_height_m[i]);
+    }
+    EXPECT_GT(bare, screened);
+    EXPECT_NEAR(whole.bare.height_sums_m[k], bare, 1e-6 * bare);
+    EXPECT_NEAR(whole.screened->height_sums_m[k], screened, 1e-6 * bare);
+  }
+  request_.turbines = turbines;
+  expect_same(survey_in_parts(whole, 0.4), whole);
+  request_.weights.pop_back();
+  EXPECT_THROW(survey(std::nullopt), InputError);
 }
 
 TEST_F(ZoneParts, HoldWhatARadarSees) {

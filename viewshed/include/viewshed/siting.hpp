@@ -17,6 +17,20 @@
 //
 // Over a network of links a step takes an option with the relays on its cheapest way, the best by gain per site (or per
 // unit of cost), and sites that have become needless are given up. Every choice on the way is connected.
+//
+// Turbines are placed where the fewest see them: Objective::kLeast asks for so many options that together serve the
+// least. The options that `compatible` keeps apart are the edges of a graph. Greedy adds the option that serves the
+// least more, among those that leave room for as many as are still missing (a set of options that fits is carried
+// along), and the same swaps follow. Both look only at lower bounds until an option comes first, so that one which may
+// serve much is never refined.
+//
+// The bound from below shares out the weight of each element among the options that serve it, by multipliers u of the
+// options: one that serves it pays u / Z, where Z is the sum of the greatest u that one choice could bring together
+// there. No choice pays more for an element than its weight, so that the options of the least payment, one of each
+// group that excludes each other, pay no more than the least choice serves. This is a Lagrangian bound; raising u of
+// the options that pay least tightens it. Branch and bound follows for as long as a second or so: first the node of the
+// least bound, at an option where the payments are most wrong. Where it ends before that, as it does among a few
+// dozens of options, the choice is proved to be the least; otherwise the bound of the best open node is what is proved.
 #pragma once
 
 #include <cstddef>
@@ -79,7 +93,13 @@ class LinkNetwork {
   std::vector<Link> links_;  ///< of each pair
 };
 
+enum class Objective {
+  kMost,   ///< the sites serve as much as they can
+  kLeast,  ///< exactly `count` sites serve as little as they can; no budget, share, network or k-coverage
+};
+
 struct ChoiceGoal {
+  Objective objective = Objective::kMost;
   // At least one; the choice ends at the first that is reached.
   std::optional<std::size_t> count{};
   std::optional<double> budget{};  ///< of the sum of costs
@@ -101,21 +121,27 @@ struct ChosenSite {
 
 /// Why an option needed no more than its bounds.
 struct Margin {
-  double upper = 0;   ///< the gain that its bounds allowed it, a unit of cost under a budget
+  double upper = 0;  ///< the best gain that its bounds allowed it (the least for kLeast), a unit of cost under a budget
   double chosen = 0;  ///< that of the one taken instead
   std::size_t step = 0;
 };
 
+/// 1 where the option could have been taken as well, less the farther it was from that.
+double closeness(const Margin& margin, Objective objective);
+
 struct Choice {
   std::vector<ChosenSite> chosen;  ///< in greedy order
   Weight value = 0;                ///< served by the choice and not by existing sites alone; a lower bound if not exact
-  Weight upper_bound = 0;          ///< no choice of as many sites, or of the budget, has a greater value
-  Weight existing = 0;             ///< served by existing sites alone
+  // The value of the best choice of as many sites, or of the budget, lies between these, one of which is `value`.
+  Weight lower_bound = 0;
+  Weight upper_bound = 0;
+  Weight existing = 0;  ///< served by existing sites alone
   std::size_t swaps = 0;
   std::vector<std::optional<Margin>> closest;  ///< of each option: the step at which it came nearest to being taken
 };
 
-/// Throws InputError for a goal without an end, and Error where no choice within the goal reaches the network's hub.
+/// Throws InputError for a goal without an end, or one that its objective does not take, and Error where no choice
+/// within the goal reaches the network's hub, or not as many options as the least are asked of may be chosen together.
 void check_goal(const std::vector<SiteOption>& options, const ChoiceGoal& goal);
 
 /// Throws what check_goal() throws, Cancelled, and whatever refine() and the network throw.
@@ -125,7 +151,7 @@ Choice choose(const Demand& demand, const std::vector<SiteOption>& options, Cove
 /// The weight of what at least `cover` of the sets hold.
 Weight served_by(const Demand& demand, const std::vector<DemandSet>& sets, int cover);
 
-/// 100 (upper_bound - value) / upper_bound; 0 where there is nothing to gain.
+/// 100 (upper_bound - lower_bound) / upper_bound; 0 where there is nothing to gain.
 double gap_percent(const Choice& choice);
 
 }  // namespace itin::viewshed

@@ -56,6 +56,8 @@ struct ZoneRequest {
   /// The greatest number of turbines in each band of maps and tables, ascending; none: bands of equal width.
   std::vector<std::size_t> count_bands;
   std::optional<Observer> radar;  ///< whose horizon is looked for besides, over bare ground
+  /// A weight, not negative, for each cell of the grid, to sum up what each turbine shows of itself. Empty: no sums.
+  std::vector<double> weights;
 };
 
 /// One value for each cell of the zone's grid. Floats are NaN, counts kCountOutside outside.
@@ -71,6 +73,9 @@ struct Visibility {
   std::vector<float> horizontal_occupied_deg;  ///< of the arc, the part that rotors take up
   std::vector<float> share;                    ///< tips seen, of all turbines of the request
   std::vector<float> nearest_m;                ///< horizontal distance to the nearest turbine seen; NaN where none is
+  /// A sum over all cells for each turbine of the request, where it has weights: visible height times the cell's
+  /// weight.
+  std::vector<double> height_sums_m;
 };
 
 /// Where Visibility::turbines keeps turbine `number` (from 1).

@@ -69,6 +69,7 @@ Visibility nothing_seen(const Zone& zone) {
        {&v.visible_height_m, &v.vertical_angle_deg, &v.vertical_angle_sum_deg, &v.horizontal_angle_deg,
         &v.horizontal_from_deg, &v.horizontal_occupied_deg, &v.share, &v.nearest_m})
     floats->assign(cells, std::numeric_limits<float>::quiet_NaN());
+  if (!zone.request.weights.empty()) v.height_sums_m.assign(zone.request.turbines.size(), 0);
   return v;
 }
 
@@ -90,6 +91,8 @@ void validate(const ZoneRequest& request) {
     throw InputError("give a cell size or a grid, and not both");
   if (request.cell_size && !is_positive(*request.cell_size))
     throw InputError(fmt::format("cell size {:g}: give a positive number of metres", *request.cell_size));
+  if (!request.weights.empty() && (!request.grid || request.weights.size() != request.grid->cell_count()))
+    throw InputError("weights are of the cells of a grid, one each");
   request.earth.validate();
 }
 

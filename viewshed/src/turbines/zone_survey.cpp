@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numeric>
+#include <utility>
 
 #include <itin/grid_units.hpp>
 #include <itin/parallel.hpp>
@@ -28,6 +30,7 @@ struct ZoneSurvey::TileWork {
   TileValues<std::uint16_t> hubs, tips;
   TileValues<double> height, angle, angle_sum, nearest;
   std::vector<TileValues<std::uint32_t>> seen;
+  std::vector<double> sums;  ///< by turbine
   std::uint64_t lines = 0;
 };
 
@@ -50,11 +53,23 @@ std::uint64_t ZoneSurvey::run(const Screen& screen, std::span<const std::size_t>
                               Stage& stage) const {
   const Views views = views_over(screen.sweep);
   std::atomic<std::uint64_t> lines = 0;
+  std::vector<std::vector<double>> sums(tiles.size());
   stage.for_each(tiles.size(), [&](std::size_t i) {
-    lines += decide(tiles[i], screen, views, result);
+    lines += decide(tiles[i], screen, views, result, sums[i]);
     return std::size_t{1};
   });
+  if (!zone_.request.weights.empty()) add_sums(sums, result);
   return lines;
+}
+
+/// Rounded so that sums are exact: the result depends on no order, and so on no division into parts.
+void ZoneSurvey::add_sums(const std::vector<std::vector<double>>& of_tiles, Visibility& result) const {
+  double tallest = 0;
+  for (const Turbine& t : zone_.request.turbines) tallest = std::max(tallest, t.tip_height);
+  const double most = tallest * std::accumulate(zone_.request.weights.begin(), zone_.request.weights.end(), 1.0) + 1;
+  const double unit = std::exp2(std::ilogb(most) - 50);
+  for (const std::vector<double>& sums : of_tiles)
+    for (std::size_t k = 0; k < sums.size(); ++k) result.height_sums_m[k] += std::nearbyint(sums[k] / unit) * unit;
 }
 
 ZoneSurvey::Views ZoneSurvey::views_over(const RadialSweep& sweep) const {
@@ -68,7 +83,8 @@ ZoneSurvey::Views ZoneSurvey::views_over(const RadialSweep& sweep) const {
   return views;
 }
 
-std::uint64_t ZoneSurvey::decide(std::size_t tile, const Screen& screen, const Views& views, Visibility& result) const {
+std::uint64_t ZoneSurvey::decide(std::size_t tile, const Screen& screen, const Views& views, Visibility& result,
+                                 std::vector<double>& sums) const {
   const Tile place = tile_at(zone_.grid, ground_.tiles(), tile);
   std::vector<std::size_t> near;
   for (std::size_t k = 0; k < axes_.size(); ++k)
@@ -77,8 +93,10 @@ std::uint64_t ZoneSurvey::decide(std::size_t tile, const Screen& screen, const V
   const auto work = std::make_unique<TileWork>(ground_, tile, zone_.words);
   const double eye_height = zone_.request.observer_height / ground_.units().resolution;
   for (std::size_t i = 0; i < work->ground.size(); ++i) work->place->targets[i] = work->ground[i] + eye_height;
+  if (!zone_.request.weights.empty()) work->sums.resize(axes_.size());
   for (const std::size_t k : near) observe(k, screen, *views[k], *work);
   store(*work, result);
+  sums = std::move(work->sums);
   return work->lines;
 }
 
@@ -102,6 +120,9 @@ void ZoneSurvey::observe(std::size_t turbine, const Screen& screen, const Radial
     if (std::isnan(least)) return;
     const Point2 eye = work.centres.at(cell);
     if (!screen.shadows.empty() && screen.shadows[turbine].holds(eye.x, eye.y)) return;
+    if (!work.sums.empty())
+      work.sums[turbine] += zone_.request.weights[zone_.grid.index(place)] *
+                            (axis.tip - (beneath ? axis.base : least)) * ground_.units().resolution;
     record(turbine, cell, beneath ? 0 : std::sqrt(squared), beneath ? axis.base : least, work);
   });
 }

@@ -43,7 +43,10 @@ class ZoneSurvey {
   /// The turbines over a surface.
   using Views = std::vector<std::optional<RadialSweep::View>>;
   Views views_over(const RadialSweep& sweep) const;
-  std::uint64_t decide(std::size_t tile, const Screen& screen, const Views& views, Visibility& result) const;
+  /// `sums` are the tile's part of the visible heights; empty where the request has no weights.
+  std::uint64_t decide(std::size_t tile, const Screen& screen, const Views& views, Visibility& result,
+                       std::vector<double>& sums) const;
+  void add_sums(const std::vector<std::vector<double>>& of_tiles, Visibility& result) const;
   bool in_reach(const Axis& axis, const Tile& tile) const;
   void observe(std::size_t turbine, const Screen& screen, const RadialSweep::View& view, TileWork& work) const;
   void record(std::size_t turbine, std::size_t cell, double distance, double least, TileWork& work) const;

@@ -39,10 +39,13 @@ struct ChoiceRules {
   }
 };
 
+class Conflicts;
+
 struct ChoiceProblem : ChoiceRules {
   const Demand& demand;
   Coverage& coverage;
   Progress& progress;
+  const Conflicts* conflicts = nullptr;  ///< of Objective::kLeast
 
   void refine_fully(std::size_t option) const {
     while (!coverage.bounds(option).exact) coverage.refine({&option, 1});
@@ -64,8 +67,8 @@ struct ServedBounds {
 /// What greedy steps are compared by: a step takes an option, over a network with the relays on its way.
 enum class StepMeasure { kGain, kGainPerSite, kGainPerCost };
 
-/// Adds sites to `chosen` until the goal is reached or nothing is gained: the best by the measure. `closest` is kept up
-/// to date.
+/// Adds sites to `chosen` until the goal is reached or nothing is gained: the best by the measure, or the one that adds
+/// least. `closest` is kept up to date.
 void extend_greedily(const ChoiceProblem& problem, StepMeasure measure, std::vector<std::size_t>& chosen,
                      std::vector<std::optional<Margin>>& closest);
 
@@ -78,6 +81,14 @@ void drop_needless(const ChoiceProblem& problem, std::vector<std::size_t>& chose
 
 /// Gives up sites that serve nothing by themselves and that no link needs. Returns how many.
 std::size_t drop_idle(const ChoiceProblem& problem, std::vector<std::size_t>& chosen);
+
+/// Searches for a better choice where the least is wanted, puts it in place of `chosen` where there is one, and returns
+/// a bound on the value of every choice within the goal. Every chosen one must be exact.
+struct LeastProof {
+  Weight bound = 0;
+  std::size_t swaps = 0;  ///< that followed
+};
+LeastProof prove_least(const ChoiceProblem& problem, std::vector<std::size_t>& chosen);
 
 /// A bound on the value of every choice of `open` options within the goal, by their gains alone.
 Weight bound_gains(const ChoiceProblem& problem, const std::vector<bool>& open);

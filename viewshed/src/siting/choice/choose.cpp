@@ -1,8 +1,12 @@
 #include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
 
 #include <itin/error.hpp>
 
 #include "siting/choice/choice_state.hpp"
+#include "siting/choice/conflicts.hpp"
 #include "siting/choice/greatest_gain.hpp"
 #include "siting/choice/ways.hpp"
 
@@ -125,17 +129,18 @@ class Attempts {
   std::size_t part_ = 0;
 };
 
-/// The order in which they gain most, each linked with those before it, and what they gain.
+/// The order in which they gain most (or add least), each linked with those before it, and what they gain.
 std::vector<ChosenSite> in_order(const ChoiceProblem& problem, std::vector<std::size_t> rest, bool keep) {
   ServedBounds served(problem, {});
   const Weight existing = served.least.value();
+  const Weight sign = problem.goal.objective == Objective::kLeast ? -1 : 1;
   std::vector<ChosenSite> result;
   std::vector<std::size_t> order;
   while (!rest.empty()) {
     std::optional<std::size_t> best;
     Weight most = 0;
     for (std::size_t i = 0; i < rest.size() && !(keep && best); ++i) {
-      const Weight gain = served.least.gain(problem.coverage.bounds(rest[i]).certain);
+      const Weight gain = sign * served.least.gain(problem.coverage.bounds(rest[i]).certain);
       if (best && (gain < most || (gain == most && rest[i] > rest[*best]))) continue;
       order.push_back(rest[i]);
       if (problem.holds_together(order)) best = i, most = gain;
@@ -150,6 +155,22 @@ std::vector<ChosenSite> in_order(const ChoiceProblem& problem, std::vector<std::
   return result;
 }
 
+/// Throws what check_goal() does of Objective::kLeast.
+void check_least(const std::vector<SiteOption>& options, const ChoiceGoal& goal) {
+  if (!goal.count || goal.budget || goal.wanted || goal.cover != 1 || goal.network || !goal.exact_chosen)
+    throw InputError("the least is asked of a `count` of sites alone, whose coverage is exact");
+  const Conflicts conflicts({options, goal, {}}, *goal.count);
+  const std::size_t found = conflicts.fitting().size();
+  if (found >= *goal.count) return;
+  throw Error(
+      fmt::format("`count`: {} asked for, but {}: `compatible` keeps the others apart", *goal.count,
+                  found == conflicts.most()
+                      ? fmt::format("no more than {} of {} options can be chosen together", found, options.size())
+                      : fmt::format("only {} of {} options were found that can be chosen together, and no more "
+                                    "than {} can",
+                                    found, options.size(), conflicts.most())));
+}
+
 }  // namespace
 
 void check_goal(const std::vector<SiteOption>& options, const ChoiceGoal& goal) {
@@ -158,6 +179,7 @@ void check_goal(const std::vector<SiteOption>& options, const ChoiceGoal& goal) 
   if (goal.cover < 1 || goal.cover > 255) throw InputError("an element is served by 1 to 255 sites");
   for (const SiteOption& option : options)
     if (!(option.cost > 0)) throw InputError("the cost of a site must be a positive number");
+  if (goal.objective == Objective::kLeast) check_least(options, goal);
   if (!goal.network || !goal.network->hub()) return;
   const std::vector<bool> open = extensions({options, goal, {}}, {}, goal.count.value_or(options.size())).open;
   if (std::find(open.begin(), open.end(), true) == open.end())
@@ -169,14 +191,25 @@ void check_goal(const std::vector<SiteOption>& options, const ChoiceGoal& goal) 
 Choice choose(const Demand& demand, const std::vector<SiteOption>& options, Coverage& coverage, const ChoiceGoal& goal,
               Progress& progress) {
   check_goal(options, goal);
-  const ChoiceProblem problem{{options, goal, {}}, demand, coverage, progress};
+  ChoiceProblem problem{{options, goal, {}}, demand, coverage, progress};
+  const bool least = goal.objective == Objective::kLeast;
+  std::optional<Conflicts> conflicts;
+  if (least) problem.conflicts = &conflicts.emplace(problem, *goal.count);
   Choice choice;
   choice.closest.resize(options.size());
   Attempt best = Attempts(problem, choice.closest).best();
-  choice.swaps = best.swaps;
+  LeastProof proof;
+  if (least) proof = prove_least(problem, best.chosen);
+  choice.swaps = best.swaps + proof.swaps;
   choice.existing = value_of(problem, {});
-  choice.chosen = in_order(problem, std::move(best.chosen), choice.swaps == 0 && !goal.budget && !goal.network);
+  const bool in_greedy_order = choice.swaps == 0 && !goal.budget && !goal.network && !least;
+  choice.chosen = in_order(problem, std::move(best.chosen), in_greedy_order);
   choice.value = choice.chosen.empty() ? 0 : choice.chosen.back().cumulative;
+  choice.lower_bound = choice.upper_bound = choice.value;
+  if (least) {
+    choice.lower_bound = std::min(choice.value, proof.bound);
+    return choice;
+  }
   std::vector<std::size_t> order;
   for (const ChosenSite& site : choice.chosen) order.push_back(site.option);
   choice.upper_bound = std::max(choice.value, bound_optimum(problem, order));
@@ -190,9 +223,15 @@ Weight served_by(const Demand& demand, const std::vector<DemandSet>& sets, int c
 }
 
 double gap_percent(const Choice& choice) {
-  return choice.upper_bound == 0
-             ? 0
-             : 100 * static_cast<double>(choice.upper_bound - choice.value) / static_cast<double>(choice.upper_bound);
+  return choice.upper_bound == 0 ? 0
+                                 : 100 * static_cast<double>(choice.upper_bound - choice.lower_bound) /
+                                       static_cast<double>(choice.upper_bound);
+}
+
+double closeness(const Margin& margin, Objective objective) {
+  const double tiny = std::numeric_limits<double>::min();
+  return objective == Objective::kLeast ? margin.chosen / std::max(margin.upper, tiny)
+                                        : margin.upper / std::max(margin.chosen, tiny);
 }
 
 }  // namespace itin::viewshed

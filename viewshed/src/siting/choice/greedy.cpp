@@ -1,16 +1,19 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <itin/parallel.hpp>
 
 #include "siting/choice/choice_state.hpp"
+#include "siting/choice/conflicts.hpp"
 #include "siting/choice/ways.hpp"
 
 namespace itin::viewshed {
 
 namespace {
 
-/// The gain of an option with the relays on its way, by the measure of steps.
+/// The gain of an option with the relays on its way, by the measure of steps; where the least is wanted, less than
+/// nothing.
 struct Bid {
   std::size_t option = 0;
   double upper = 0;
@@ -35,7 +38,11 @@ class Greedy {
         chosen_(chosen),
         closest_(closest),
         served_(problem, chosen),
-        ways_(next_ways()) {}
+        ways_(next_ways()) {
+    if (least()) room_.emplace(*problem.conflicts, *problem.goal.count);
+    for (const std::size_t option : chosen)
+      if (room_) room_->take(option);
+  }
 
   void run() {
     while (!reached()) {
@@ -48,6 +55,7 @@ class Greedy {
   }
 
  private:
+  bool least() const { return problem_.goal.objective == Objective::kLeast; }
   bool reached() const {
     const ChoiceGoal& goal = problem_.goal;
     if (goal.count && chosen_.size() >= *goal.count) return true;
@@ -84,6 +92,13 @@ class Greedy {
       certain.push_back(&bounds.certain), possible.push_back(&bounds.possible);
       exact = exact && bounds.exact;
     }
+    if (least()) {
+      const double most = -static_cast<double>(served_.least.gain(certain));
+      return {.option = option,
+              .upper = most,
+              .lower = exact ? most : -static_cast<double>(served_.least.gain(possible)),
+              .open = true};
+    }
     const double unit = unit_of(*way);
     const double upper = static_cast<double>(served_.least.gain(possible)) / unit;
     const double lower = exact ? upper : static_cast<double>(served_.most.gain(certain)) / unit;
@@ -99,20 +114,22 @@ class Greedy {
     return bids;
   }
 
+  bool joins(const Bid& b) { return problem_.may_join(b.option, chosen_) && (!room_ || room_->left_by(b.option)); }
+
   /// The option that exact coverage would have chosen; nothing where none gains.
   std::optional<Bid> best() {
     std::vector<Bid> bids = all_bids();
     for (;;) {
       std::vector<Bid> order;
       std::copy_if(bids.begin(), bids.end(), std::back_inserter(order),
-                   [](const Bid& b) { return b.open && b.upper > 0; });
+                   [&](const Bid& b) { return b.open && (least() || b.upper > 0); });
       std::sort(order.begin(), order.end());
-      const auto joins = [&](const Bid& b) { return problem_.may_join(b.option, chosen_); };
-      const auto first = std::find_if(order.begin(), order.end(), joins);
+      const auto may_join = [&](const Bid& b) { return joins(b); };
+      const auto first = std::find_if(order.begin(), order.end(), may_join);
       if (first == order.end()) return std::nullopt;
       // One whose gain may be nothing is not taken before that is known.
-      const auto second = std::find_if(first + 1, order.end(), joins);
-      if (first->lower > 0 && (second == order.end() || first->surely_before(*second))) {
+      const auto second = std::find_if(first + 1, order.end(), may_join);
+      if ((least() || first->lower > 0) && (second == order.end() || first->surely_before(*second))) {
         remember(order, *first);
         return *first;
       }
@@ -123,10 +140,10 @@ class Greedy {
   /// The first of the order and those that may come before it.
   void refine(std::span<const Bid> order, std::vector<Bid>& bids) {
     std::vector<std::size_t> batch;
-    double known = 0;
+    double known = -std::numeric_limits<double>::infinity();
     for (const Bid& b : order.first(std::min(order.size(), 4 * problem_.goal.batch))) {
       if (b.upper < known || batch.size() >= problem_.goal.batch) break;
-      if (problem_.may_join(b.option, chosen_)) add_open(ways_.to(b.option), batch);
+      if (joins(b)) add_open(ways_.to(b.option), batch);
       known = std::max(known, b.lower);
     }
     if (!batch.empty()) {
@@ -151,10 +168,10 @@ class Greedy {
   void remember(const std::vector<Bid>& order, const Bid& taken) {
     for (const Bid& b : order) {
       if (b.option == taken.option) continue;
-      const double chosen = std::max(taken.lower, std::numeric_limits<double>::min());
+      const Margin now{.upper = std::abs(b.upper), .chosen = std::abs(taken.lower), .step = chosen_.size()};
       std::optional<Margin>& margin = closest_[b.option];
-      if (!margin || b.upper / chosen > margin->upper / margin->chosen)
-        margin = Margin{.upper = b.upper, .chosen = chosen, .step = chosen_.size()};
+      if (!margin || closeness(now, problem_.goal.objective) > closeness(*margin, problem_.goal.objective))
+        margin = now;
     }
   }
 
@@ -162,6 +179,7 @@ class Greedy {
     for (const std::size_t option : ways_.to(next.option)) {
       if (problem_.goal.exact_chosen || problem_.goal.wanted) problem_.refine_fully(option);
       chosen_.push_back(option);
+      if (room_) room_->take(option);
       served_.add(problem_.coverage.bounds(option));
     }
   }
@@ -171,7 +189,8 @@ class Greedy {
   std::vector<std::size_t>& chosen_;
   std::vector<std::optional<Margin>>& closest_;
   ServedBounds served_;
-  Ways ways_;  ///< from what is chosen
+  Ways ways_;                 ///< from what is chosen
+  std::optional<Room> room_;  ///< of kLeast
   bool all_exact_ = true;
 };
 

@@ -8,7 +8,7 @@ namespace itin::viewshed {
 
 namespace {
 
-/// An exchange of the chosen site number `out` for option `in`.
+/// An exchange of the chosen site number `out` for option `in`. It betters the choice by as much as this.
 struct Exchange {
   std::size_t out = 0;
   std::size_t in = 0;
@@ -29,6 +29,7 @@ std::vector<std::size_t> after(const Exchange& exchange, std::vector<std::size_t
 /// Those that may gain, in order.
 std::vector<Exchange> exchanges(const ChoiceProblem& problem, const std::vector<std::size_t>& chosen) {
   const Served all = ServedBounds(problem, chosen).least;
+  const bool least = problem.goal.objective == Objective::kLeast;
   std::vector<std::vector<Exchange>> of_site(chosen.size());
   parallel_for(chosen.size(), [&](std::size_t s) {
     Served others = all;
@@ -42,9 +43,12 @@ std::vector<Exchange> exchanges(const ChoiceProblem& problem, const std::vector<
           !problem.affordable(spent + problem.options[option].cost))
         continue;
       const CoverageBounds& bounds = problem.coverage.bounds(option);
-      const Weight upper = others.gain(bounds.possible) - loss;
+      const Weight upper = least ? loss - others.gain(bounds.certain) : others.gain(bounds.possible) - loss;
       if (upper <= 0) continue;
-      of_site[s].push_back({s, option, upper, bounds.exact ? upper : others.gain(bounds.certain) - loss});
+      const Weight lower = bounds.exact ? upper
+                           : least      ? loss - others.gain(bounds.possible)
+                                        : others.gain(bounds.certain) - loss;
+      of_site[s].push_back({s, option, upper, lower});
     }
   });
   std::vector<Exchange> result;

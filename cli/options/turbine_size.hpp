@@ -1,0 +1,38 @@
+// `--hub-height`, `--rotor-diameter`, `--tip-height`: how high a turbine is.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "program/verb.hpp"
+
+namespace itin::cli {
+
+/// Metres; two imply the third.
+struct TurbineSize {
+  std::optional<double> hub, rotor, tip;
+
+  /// Completes what the other two imply. Throws InputError where the tip stays open, or they contradict each other.
+  void complete();
+};
+
+class TurbineSizeOptions {
+ public:
+  /// `which` says in the help whose these are: "of turbines whose row gives none".
+  void declare(CLI::App& app, const std::string& which);
+  /// Throws InputError.
+  void validate();
+  /// As given: not completed.
+  const TurbineSize& size() const { return size_; }
+  Document parameters() const;
+
+ private:
+  void require_one_turbine() const;
+
+  std::string hub_text_, rotor_text_, tip_text_;
+  TurbineSize size_;
+};
+
+}  // namespace itin::cli

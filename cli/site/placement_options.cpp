@@ -1,0 +1,99 @@
+#include "site/placement_options.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+
+#include "program/call_files.hpp"
+#include "program/values.hpp"
+
+namespace itin::cli {
+
+void PlacementOptions::declare(CLI::App& app) {
+  app_ = &app;
+  app.add_flag("--turbines", given_, "Place wind turbines where the demand sees least of them");
+  size_options_.declare(app, "of the turbines that are placed");
+  app.add_option("--minimise", minimised_text_,
+                 "What is to be least: the demand that sees a tip (default) or a hub, or the visible height of every "
+                 "turbine, summed over the demand")
+      ->type_name("tips|hubs|height");
+  app.add_option("--rotor-spacing", spacing_text_,
+                 "No turbine stands within an ellipse about another: half its axes are A rotor diameters along the "
+                 "wind and B across it (A alone: a circle)")
+      ->type_name("A[xB]");
+  app.add_option("--wind-from", wind_text_, "Where the prevailing wind comes from, degrees from grid north")
+      ->type_name("BEARING");
+  reads(
+      app.add_option("--dwellings", dwellings, "Dwellings to keep away from: points, or polygons")->type_name("FILE"));
+  app.add_option("--setback", setback_text_, "No turbine stands nearer to a dwelling")->type_name("METRES");
+  app.add_option("--farm", farm, "The farm's name in turbines.csv (default: proposed)")->type_name("NAME");
+}
+
+void PlacementOptions::validate() {
+  if (!given_) {
+    for (const char* option : {"--hub-height", "--rotor-diameter", "--tip-height", "--minimise", "--rotor-spacing",
+                               "--wind-from", "--dwellings", "--setback", "--farm"})
+      if (app_->get_option(option)->count() > 0)
+        throw InputError(fmt::format("{}: is of use with --turbines only", option));
+    return;
+  }
+  refuse_others();
+  size_options_.validate();
+  size_ = size_options_.size();
+  try {
+    size_.complete();
+  } catch (const InputError&) {
+    throw InputError("--turbines: give two of --hub-height, --rotor-diameter and --tip-height");
+  }
+  if (!size_.hub || !size_.rotor)
+    throw InputError("--turbines: give two of --hub-height, --rotor-diameter and --tip-height");
+  constexpr Minimised kChoices[] = {Minimised::kTips, Minimised::kHubs, Minimised::kHeight};
+  minimised_ = kChoices[parse_choice("--minimise", minimised_text_, {"tips", "hubs", "height"})];
+  validate_spacing();
+  if (dwellings.empty() != setback_text_.empty()) throw InputError("--dwellings and --setback go together: give both");
+  if (!setback_text_.empty()) setback_ = parse_number("--setback", setback_text_, Range::kPositive);
+}
+
+void PlacementOptions::refuse_others() const {
+  if (app_->get_option("--count")->count() == 0) throw InputError("--turbines: give their number by --count K");
+  for (const char* option :
+       {"--height-field", "--cost-field", "--mast-height", "--mast-cost", "--observer-on", "--frequency", "--fresnel",
+        "--budget", "--share", "--k-cover", "--intervisible", "--hub", "--exact-final"})
+    if (app_->get_option(option)->count() > 0)
+      throw InputError(fmt::format("{}: is of no use with --turbines; leave it out", option));
+}
+
+void PlacementOptions::validate_spacing() {
+  if (spacing_text_.empty()) {
+    if (!wind_text_.empty()) throw InputError("--wind-from is of use with --rotor-spacing AxB only");
+    return;
+  }
+  const std::size_t cross = spacing_text_.find('x');
+  const double along = parse_number("--rotor-spacing", spacing_text_.substr(0, cross), Range::kPositive);
+  const double across = cross == std::string::npos
+                            ? along
+                            : parse_number("--rotor-spacing", spacing_text_.substr(cross + 1), Range::kPositive);
+  if (along != across && wind_text_.empty())
+    throw InputError(fmt::format("--rotor-spacing '{}': give --wind-from BEARING too", spacing_text_));
+  spacing_ = {along * rotor_diameter(), across * rotor_diameter(), 0};
+  if (!wind_text_.empty()) spacing_->wind_from_deg = parse_number("--wind-from", wind_text_);
+}
+
+Document PlacementOptions::parameters() const {
+  Document parameters{{"hub_height_m", hub_height()},
+                      {"rotor_diameter_m", rotor_diameter()},
+                      {"tip_height_m", tip_height()},
+                      {"minimise", minimised_text_}};
+  if (spacing_) {
+    parameters["spacing_along_wind_m"] = spacing_->along;
+    parameters["spacing_across_wind_m"] = spacing_->across;
+    parameters["wind_from_deg"] = spacing_->wind_from_deg;
+  }
+  if (!dwellings.empty()) parameters["dwellings"] = dwellings, parameters["setback_m"] = setback_;
+  parameters["farm"] = farm;
+  return parameters;
+}
+
+}  // namespace itin::cli

@@ -1,0 +1,74 @@
+#include "site/site_wording.hpp"
+
+#include <fmt/format.h>
+
+#include "output/store_document.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+SiteWording of_sites() {
+  return {.one = "site",
+          .mark = "Site",
+          .served = "Served",
+          .unserved = "Not served",
+          .nothing = "Nothing to serve, or no data",
+          .share = "Share of the places to serve",
+          .by = "Served by",
+          .how_many = "Sites that serve a place",
+          .count = "sites that serve the cell",
+          .nearest = "nearest site that serves the cell; 0 none",
+          .coverage_curve = "Coverage curve",
+          .order = "Sites, in the order in which they gain most",
+          .count_heading = "Redundancy",
+          .bound = "no choice serves more than",
+          .sufficient = "what they serve at most never came first"};
+}
+
+SiteWording of_turbines(const PlacementOptions& placement) {
+  const bool hubs = placement.minimised() == Minimised::kHubs;
+  const std::string part = hubs ? "hub" : "tip";
+  return {.one = "turbine",
+          .mark = "Turbine",
+          .served = fmt::format("A {} is seen", part),
+          .unserved = fmt::format("No {} is seen", part),
+          .nothing = "No demand, or no data",
+          .share = "Share of the places that count",
+          .by = fmt::format("Where a {} is seen:", part),
+          .how_many = fmt::format("How many {}s are seen", part),
+          .count = fmt::format("turbines whose {} is seen from the cell", part),
+          .nearest = fmt::format("nearest turbine whose {} is seen from the cell; 0 none", part),
+          .coverage_curve = "What sees them, turbine by turbine",
+          .order = "Turbines, in the order in which they add least",
+          .count_heading = fmt::format("How many {}s are seen", part),
+          .bound = "no choice has less than",
+          .sufficient = "what sees them at least was never the least"};
+}
+
+}  // namespace
+
+SiteWording wording_of(const SiteOptions& options) {
+  return options.placement.given() ? of_turbines(options.placement) : of_sites();
+}
+
+std::string least_in_words(const SiteResult& r) {
+  const PlacementOptions& placement = r.options.placement;
+  const std::string proved = r.is_best() ? "proved to be the least there is"
+                                         : fmt::format("no choice has less than {:.10g} (gap {:.1f} %)",
+                                                       r.in_metric(r.choice.lower_bound), gap_percent(r.choice));
+  if (placement.minimised() == Minimised::kHeight)
+    return fmt::format("visible height, summed: {:.10g} m; {}", r.in_metric(r.choice.value), proved);
+  const std::string existing =
+      r.choice.existing > 0
+          ? fmt::format(", besides {:.10g} that {} already", r.in_metric(r.choice.existing),
+                        r.inputs.existing() == 1 ? "an existing one is seen from" : "existing ones are seen from")
+          : "";
+  return fmt::format(
+      "{} of a turbine is seen from {:.10g} of {:.10g} ({:.1f} %){}; {}", placement.part_looked_for(),
+      r.in_metric(r.choice.value), r.in_metric(r.inputs.total),
+      r.inputs.total == 0 ? 0 : 100 * static_cast<double>(r.choice.value) / static_cast<double>(r.inputs.total),
+      existing, proved);
+}
+
+}  // namespace itin::cli

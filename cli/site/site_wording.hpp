@@ -1,0 +1,29 @@
+// What results of siting are called: of sites that serve, and of turbines that are seen.
+#pragma once
+
+#include <string>
+
+#include "site/site_result.hpp"
+
+namespace itin::cli {
+
+struct SiteWording {
+  std::string one, mark;         ///< that is chosen; `mark` with a capital
+  std::string served, unserved;  ///< places, on maps; capitals
+  std::string nothing;           ///< places without demand
+  std::string share;             ///< of the places that count, on sheets
+  std::string by;                ///< heads the map, before how many are chosen
+  std::string how_many;          ///< heads the map of counts
+  std::string count, nearest;    ///< bands
+  std::string coverage_curve;    ///< a heading
+  std::string order, count_heading;
+  std::string bound;       ///< "no choice serves more than"
+  std::string sufficient;  ///< why a first look was enough for some
+};
+
+SiteWording wording_of(const SiteOptions& options);
+
+/// Of turbines: what sees them, or how much of them is seen, and what is proved of that; a sentence or two.
+std::string least_in_words(const SiteResult& result);
+
+}  // namespace itin::cli

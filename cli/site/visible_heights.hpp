@@ -1,0 +1,29 @@
+// What every candidate turbine shows of itself to the demand. Visible heights of turbines add, so that each turbine is
+// an element of its own, weighing its sum, and the least of them is a choice that serves the least.
+#pragma once
+
+#include <vector>
+
+#include <itin/store.hpp>
+#include <viewshed/siting.hpp>
+
+#include "site/site_inputs.hpp"
+
+namespace itin::cli {
+
+/// Metres from its tip down that are seen, times the weight of what sees them, summed over the demand within the
+/// radius; of each option. Cells as `itin ztv` has them, points as its viewpoints. Throws as survey_turbines() does.
+std::vector<double> summed_visible_heights(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
+                                           Progress& progress);
+
+class OwnElements final : public viewshed::Coverage {
+ public:
+  explicit OwnElements(std::size_t options);
+  const viewshed::CoverageBounds& bounds(std::size_t option) const override { return bounds_[option]; }
+  void refine(std::span<const std::size_t>) override {}
+
+ private:
+  std::vector<viewshed::CoverageBounds> bounds_;
+};
+
+}  // namespace itin::cli

@@ -1,0 +1,61 @@
+// Which options exclude each other, and how many of them can be chosen together.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "siting/choice/choice_state.hpp"
+
+namespace itin::viewshed {
+
+class Conflicts {
+ public:
+  /// Looks for `count` options that can be chosen together: first those that exclude the fewest others, then by branch
+  /// and bound for as long as a second or so. O(n^2) calls of `compatible`.
+  Conflicts(const ChoiceRules& rules, std::size_t count);
+
+  std::size_t size() const { return with_.size(); }
+  bool between(std::size_t a, std::size_t b) const { return pairs_[a * size() + b]; }
+  /// The options that this one excludes, ascending.
+  const std::vector<std::size_t>& with(std::size_t option) const { return with_[option]; }
+  /// Each option's group, any two of which exclude each other.
+  const std::vector<std::size_t>& groups() const { return groups_; }
+
+  /// As many of the options asked for as were found that can be chosen together.
+  const std::vector<std::size_t>& fitting() const { return fitting_; }
+  /// No more can be.
+  std::size_t most() const { return most_; }
+
+  /// At most `count` of the `open` options that can be chosen together: always the one that excludes the fewest of
+  /// what is left.
+  std::vector<std::size_t> pack(std::vector<bool> open, std::size_t count) const;
+
+ private:
+  std::vector<bool> pairs_;
+  std::vector<std::vector<std::size_t>> with_;
+  std::vector<std::size_t> groups_, fitting_;
+  std::size_t most_ = 0;
+};
+
+/// Whether a choice on its way leaves room for as many options as are still missing.
+class Room {
+ public:
+  Room(const Conflicts& conflicts, std::size_t count);
+
+  /// Whether as many as are missing can join after the option, which must be compatible with what was taken: certain
+  /// where it says so. Some option always leaves room.
+  bool left_by(std::size_t option);
+  void take(std::size_t option);
+
+ private:
+  enum class Left : unsigned char { kUnknown, kNo, kYes };
+  std::vector<std::size_t> completion(std::size_t option) const;
+
+  const Conflicts& conflicts_;
+  std::size_t missing_;
+  std::vector<bool> open_;            ///< not taken, and not excluded by what was
+  std::vector<std::size_t> fitting_;  ///< open options that fill the choice
+  std::vector<Left> left_;            ///< by the options, since the last was taken
+};
+
+}  // namespace itin::viewshed

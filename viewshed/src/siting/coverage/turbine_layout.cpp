@@ -1,0 +1,79 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+#include <itin/geodesic.hpp>
+#include <itin/raster.hpp>
+#include <viewshed/site_proposal.hpp>
+#include <viewshed/turbine_layout.hpp>
+
+#include "line/cell_tiles.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+constexpr double kMostPlaces = 1e6;
+
+double distance_to_edge(Point2 p, Point2 a, Point2 b) {
+  const double dx = b.x - a.x, dy = b.y - a.y, squared = dx * dx + dy * dy;
+  const double t = squared == 0 ? 0 : std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / squared, 0.0, 1.0);
+  return std::hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
+}
+
+bool any_edge_within(const Window::Ring& ring, Point2 position, double metres) {
+  for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++)
+    if (distance_to_edge(position, ring[j], ring[i]) < metres) return true;
+  return false;
+}
+
+}  // namespace
+
+std::vector<Point2> spaced_positions(const Window& area, double side) {
+  const Box box = area.bounds();
+  if (box.width() / side * (box.height() / side) > kMostPlaces)
+    throw InputError(fmt::format("a spacing of {:g} m makes more than {:g} places in the search area: give a greater",
+                                 side, kMostPlaces));
+  const RasterGrid squares = RasterGrid::aligned(box, side);
+  std::vector<Point2> places;
+  for (std::int64_t row = 0; row < squares.rows(); ++row)
+    for (std::int64_t column = 0; column < squares.columns(); ++column)
+      if (const Point2 middle = squares.centre(column, row); lies_in(area, middle)) places.push_back(middle);
+  if (places.empty())
+    throw InputError(
+        fmt::format("no middle of a square of {:g} m lies in the search area: give a smaller spacing", side));
+  return places;
+}
+
+bool TurbineSpacing::keeps_apart(Point2 a, Point2 b) const {
+  const double east = b.x - a.x, north = b.y - a.y, wind = wind_from_deg / kDegreesPerRadian;
+  const double with_wind = (east * std::sin(wind) + north * std::cos(wind)) / along;
+  const double beside = (east * std::cos(wind) - north * std::sin(wind)) / across;
+  return with_wind * with_wind + beside * beside >= 1 - 1e-9;
+}
+
+Dwellings::Dwellings(std::vector<Point2> points, std::optional<Window> polygons) : points_(std::move(points)) {
+  if (!polygons) return;
+  for (const Window::Polygon& part : polygons->parts()) {
+    const Window outline = Window::polygons({part});
+    polygons_.push_back({outline, outline.bounds()});
+  }
+}
+
+bool Dwellings::any_within(Point2 position, double metres) const {
+  const auto point_within = [&](Point2 p) { return std::hypot(p.x - position.x, p.y - position.y) < metres; };
+  const auto polygon_within = [&](const Polygon& polygon) {
+    if (squared_distance(position, polygon.bounds) > metres * metres) return false;
+    const Window::Polygon& part = polygon.outline.parts().front();
+    return lies_in(polygon.outline, position) || any_edge_within(part.outer, position, metres) ||
+           std::any_of(part.holes.begin(), part.holes.end(),
+                       [&](const Window::Ring& hole) { return any_edge_within(hole, position, metres); });
+  };
+  return std::any_of(points_.begin(), points_.end(), point_within) ||
+         std::any_of(polygons_.begin(), polygons_.end(), polygon_within);
+}
+
+}  // namespace itin::viewshed
