@@ -43,11 +43,10 @@ void TurbineSizeOptions::validate() {
   if (!hub_text_.empty()) size_.hub = parse_height("--hub-height", hub_text_, Range::kPositive);
   if (!rotor_text_.empty()) size_.rotor = parse_height("--rotor-diameter", rotor_text_, Range::kPositive);
   if (!tip_text_.empty()) size_.tip = parse_height("--tip-height", tip_text_, Range::kPositive);
-  require_one_turbine();
+  if (size_.tip && (size_.hub || size_.rotor)) completed();
 }
 
-void TurbineSizeOptions::require_one_turbine() const {
-  if (!size_.tip || !(size_.hub || size_.rotor)) return;
+TurbineSize TurbineSizeOptions::completed() const {
   TurbineSize size = size_;
   try {
     size.complete();
@@ -56,6 +55,7 @@ void TurbineSizeOptions::require_one_turbine() const {
         "--hub-height, --rotor-diameter, --tip-height: no turbine can have these, {}; leave out or correct one of them",
         in_options(error.what())));
   }
+  return size;
 }
 
 Document TurbineSizeOptions::parameters() const {

@@ -26,11 +26,11 @@ class TurbineSizeOptions {
   void validate();
   /// As given: not completed.
   const TurbineSize& size() const { return size_; }
+  /// Throws InputError where the options are not enough, or no turbine can have these.
+  TurbineSize completed() const;
   Document parameters() const;
 
  private:
-  void require_one_turbine() const;
-
   std::string hub_text_, rotor_text_, tip_text_;
   TurbineSize size_;
 };

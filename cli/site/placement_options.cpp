@@ -41,14 +41,11 @@ void PlacementOptions::validate() {
   }
   refuse_others();
   size_options_.validate();
-  size_ = size_options_.size();
-  try {
-    size_.complete();
-  } catch (const InputError&) {
+  const TurbineSize& size = size_options_.size();
+  if (size.hub.has_value() + size.rotor.has_value() + size.tip.has_value() < 2)
     throw InputError("--turbines: give two of --hub-height, --rotor-diameter and --tip-height");
-  }
-  if (!size_.hub || !size_.rotor)
-    throw InputError("--turbines: give two of --hub-height, --rotor-diameter and --tip-height");
+  size_ = size_options_.completed();
+  if (!(size_.rotor > 0)) throw InputError("--tip-height: the tip is no higher than the hub; give --rotor-diameter");
   constexpr Minimised kChoices[] = {Minimised::kTips, Minimised::kHubs, Minimised::kHeight};
   minimised_ = kChoices[parse_choice("--minimise", minimised_text_, {"tips", "hubs", "height"})];
   validate_spacing();
@@ -71,10 +68,16 @@ void PlacementOptions::validate_spacing() {
     return;
   }
   const std::size_t cross = spacing_text_.find('x');
-  const double along = parse_number("--rotor-spacing", spacing_text_.substr(0, cross), Range::kPositive);
-  const double across = cross == std::string::npos
-                            ? along
-                            : parse_number("--rotor-spacing", spacing_text_.substr(cross + 1), Range::kPositive);
+  const auto multiple = [&](const std::string& text) {
+    try {
+      return parse_number("", text, Range::kPositive);
+    } catch (const InputError&) {
+      throw InputError(
+          fmt::format("--rotor-spacing '{}': give positive multiples of the rotor's diameter, as 5x3", spacing_text_));
+    }
+  };
+  const double along = multiple(spacing_text_.substr(0, cross));
+  const double across = cross == std::string::npos ? along : multiple(spacing_text_.substr(cross + 1));
   if (along != across && wind_text_.empty())
     throw InputError(fmt::format("--rotor-spacing '{}': give --wind-from BEARING too", spacing_text_));
   spacing_ = {along * rotor_diameter(), across * rotor_diameter(), 0};

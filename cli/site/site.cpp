@@ -27,6 +27,7 @@
 #include "site/site_outputs.hpp"
 #include "site/site_report.hpp"
 #include "site/site_result.hpp"
+#include "site/site_warnings.hpp"
 #include "site/site_wording.hpp"
 #include "site/site_work.hpp"
 #include "site/visible_heights.hpp"
@@ -34,8 +35,6 @@
 namespace itin::cli {
 
 namespace {
-
-constexpr std::size_t kMostWarnings = 20;
 
 class SiteVerb final : public Verb {
  public:
@@ -132,7 +131,7 @@ class SiteVerb final : public Verb {
     if (!options_.placement.given() || inputs.candidates.size() >= *options_.count) return;
     std::string why;
     for (const Barred& barred : inputs.barred)
-      why += fmt::format("{} {} {}", why.empty() ? ":" : ",", grouped(barred.count), barred.why);
+      why += fmt::format("{} each of {} {}", why.empty() ? ":" : ",", counted(barred.count, "other"), barred.why);
     throw Error(fmt::format("--count: {} asked for, but only {} may carry a turbine{}",
                             counted(*options_.count, "turbine"), counted(inputs.candidates.size(), "candidate"), why));
   }
@@ -196,7 +195,7 @@ class SiteVerb final : public Verb {
   Result write(const Store& store, const SiteResult& site, Progress& progress) {
     const std::string& crs = store.metadata().crs_wkt;
     Result result;
-    warn(site, store.metadata(), result.warnings);
+    warn_of(site, store.metadata(), result.warnings);
     warn_of_scale(store.metadata(), result.warnings);
     result.document = site_document(site, store.metadata());
     for (const SiteOutput& output : outputs_)
@@ -227,53 +226,6 @@ class SiteVerb final : public Verb {
                                      {"lines", statistics.lines}};
     result.text = text(site, result.document["outputs"].size());
     return result;
-  }
-
-  void warn_of_left_out(const SiteInputs& inputs, std::vector<std::string>& warnings) const {
-    std::vector<std::string> lines = inputs.rejected;
-    // Proposed candidates are none of the caller's: how many were left out is enough.
-    for (std::size_t i = options_.search_area.empty() ? 0 : inputs.barred.size(); i-- > 0;) {
-      const Barred& barred = inputs.barred[i];
-      const auto first = lines.begin() + static_cast<std::ptrdiff_t>(barred.first);
-      *first = fmt::format("{}, each of which {}; all are listed in {}", counted(barred.count, "proposed candidate"),
-                           barred.why, place("site.json"));
-      lines.erase(first + 1, first + static_cast<std::ptrdiff_t>(barred.count));
-    }
-    for (std::size_t i = 0; i < std::min(lines.size(), kMostWarnings); ++i) warnings.push_back("left out: " + lines[i]);
-    if (lines.size() > kMostWarnings)
-      warnings.push_back(
-          fmt::format("left out: {} more; all are listed in {}", lines.size() - kMostWarnings, place("site.json")));
-  }
-
-  /// Nothing is known of what sees a turbine beyond the data.
-  void warn_of_reach(const SiteResult& site, const StoreMetadata& metadata, std::vector<std::string>& warnings) const {
-    const Box data = metadata.grid.box(metadata.bounds);
-    std::size_t beyond = 0;
-    for (const viewshed::SitePosition& place : site.inputs.positions) {
-      const Point2 p = place.position;
-      beyond += std::min({p.x - data.xmin, data.xmax - p.x, p.y - data.ymin, data.ymax - p.y}) < options_.radius;
-    }
-    if (beyond > 0)
-      warnings.push_back(fmt::format(
-          "the radius of {:g} m reaches beyond the data from {} of {}: demand there is not counted, so that places "
-          "near "
-          "the edge of the data seem less seen than they are; import a larger source, or give a smaller --radius",
-          options_.radius, counted(beyond, "place"), site.inputs.positions.size()));
-  }
-
-  void warn(const SiteResult& site, const StoreMetadata& metadata, std::vector<std::string>& warnings) const {
-    if (options_.frequency_ghz) options_.earth.warn_of_light(warnings);
-    warn_of_left_out(site.inputs, warnings);
-    if (options_.placement.given() && options_.demand == "cells") warn_of_reach(site, metadata, warnings);
-    if (site.inputs.demand_without_ground > 0)
-      warnings.push_back(fmt::format("no ground is under {} of the demand, which cannot be served",
-                                     counted(site.inputs.demand_without_ground, "point")));
-    if (options_.count && site.choice.chosen.size() < *options_.count)
-      warnings.push_back(fmt::format("{} chosen, not {}: no other that may be taken gains anything",
-                                     counted(site.choice.chosen.size(), "site"), *options_.count));
-    if (options_.share && site.inputs.demand.in_metric(site.choice.value + site.choice.existing) <
-                              *options_.share * site.inputs.demand.in_metric(site.inputs.total))
-      warnings.emplace_back("the wanted share is not reached: no further site that may be taken gains anything");
   }
 
   std::string outcome(const SiteResult& site) const {

@@ -99,7 +99,7 @@ ResultSheet sheet_of(const Store& store, const SiteResult& r, const SiteMap& map
   const bool turbines = r.options.placement.given();
   const std::string one = wording_of(r.options).one;
   sheet.title.facts = {
-      {turbines ? "Least" : "Served", r.options.meaning_of_served()},
+      {turbines ? "Objective" : "Served", r.options.meaning_of_served()},
       {"Targets", map.options.subtitle},
       {"Choice",
        fmt::format("{}, {}", counted(r.choice.chosen.size(), one),

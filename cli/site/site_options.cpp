@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include <fmt/format.h>
 
-#include <itin/document.hpp>
 #include <itin/error.hpp>
 #include <profile/fresnel.hpp>
 
@@ -21,26 +19,6 @@ namespace {
 
 std::optional<double> number(const char* option, const std::string& text, Range range) {
   return text.empty() ? std::nullopt : std::optional(parse_number(option, text, range));
-}
-
-std::string text_of(const std::string& key, const Document& value) {
-  if (value.is_string()) return value.get<std::string>();
-  if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
-  if (value.is_number()) return json_text(value);
-  if (value.is_array()) {
-    std::string list;
-    for (const Document& item : value) list += (list.empty() ? "" : ",") + text_of(key, item);
-    return list;
-  }
-  throw InputError(fmt::format("--params: '{}' holds no text, number or list of them", key));
-}
-
-/// Whether an option is part of the run itself, and does not only say where and how the run is written.
-bool is_parameter(const std::string& name) {
-  for (const char* other : {"help", "params", "output", "json", "quiet", "threads", "resume", "overwrite", "memory",
-                            "engine", "sheets", "sheet-scale", "basemap", "project", "date"})
-    if (name == other) return false;
-  return true;
 }
 
 }  // namespace
@@ -147,27 +125,6 @@ void SiteOptions::declare_work(CLI::App& app) {
   policy.declare(app);
 }
 
-void SiteOptions::apply_parameter_file() {
-  if (params_.empty()) return;
-  std::ifstream file(params_);
-  if (!file) throw FileError(params_, "cannot be read");
-  const Document parameters = Document::parse(file, nullptr, false);
-  if (!parameters.is_object()) throw InputError(params_ + ": is no JSON object of options");
-  for (const auto& [key, value] : parameters.items()) {
-    if (key == "store" || key == "inputs" || key == "itin") continue;  // echoed by runs; the call names the store
-    CLI::Option* option = app_->get_option_no_throw("--" + key);
-    if (option == nullptr || !is_parameter(key)) throw InputError(fmt::format("{}: no option '{}'", params_, key));
-    if (option->count() > 0) continue;
-    const std::string text = text_of(key, value);
-    try {
-      option->add_result(text);
-      option->run_callback();
-    } catch (const CLI::ParseError&) {
-      throw InputError(fmt::format("{}: '{}' is no value of the option '{}'", params_, text, key));
-    }
-  }
-}
-
 void SiteOptions::validate() {
   sheets.validate();
   placement.validate();
@@ -254,12 +211,11 @@ bool SiteOptions::may_both_stand(Point2 a, Point2 b) const {
 }
 
 std::string SiteOptions::meaning_of_served() const {
-  if (placement.given() && placement.minimised() == Minimised::kHeight)
-    return "Least is the sum, over all turbines and over the demand with its weights, of the part of a turbine from "
-           "its "
-           "tip down that is seen, in metres; what is seen of several turbines from one place counts for each";
+  if (placement.sums_heights())
+    return "To be least: the part of a turbine from its tip down that is seen, in metres, summed over all turbines and "
+           "over the demand with its weights; what one place sees of several turbines counts for each";
   if (placement.given())
-    return fmt::format("Least is the demand that has a clear line of sight to {} of at least one turbine",
+    return fmt::format("To be least: the demand that has a clear line of sight to {} of at least one turbine",
                        placement.part_looked_for());
   if (!frequency_ghz) return "A target is served if it has a clear line of sight to a site";
   return fmt::format(
@@ -298,20 +254,6 @@ void SiteOptions::validate_work() {
     nodata = kChoices[parse_choice("--nodata", nodata_text_, {"unknown", "block", "clear"})];
   }
   if (!memory_text_.empty()) memory_bytes = parse_bytes("--memory", memory_text_);
-}
-
-Document SiteOptions::given() const {
-  Document result = Document::object();
-  for (const CLI::Option* option : app_->get_options()) {
-    const std::string name = option->get_single_name();
-    if (option->count() == 0 || name == "STORE" || !is_parameter(name)) continue;
-    if (option->get_type_size() == 0) {
-      result[name] = true;
-    } else {
-      result[name] = option->results().back();
-    }
-  }
-  return result;
 }
 
 Document SiteOptions::parameters() const {

@@ -211,8 +211,10 @@ std::string times_examined(const SiteResult& r) {
 }
 
 std::string exchanges(const SiteResult& r) {
-  return r.choice.swaps > 0 ? fmt::format(" More was gained by {} after greedy.", counted(r.choice.swaps, "exchange"))
-                            : "";
+  if (r.choice.swaps == 0) return {};
+  const std::string count = counted(r.choice.swaps, "exchange");
+  return r.options.placement.given() ? fmt::format(" {} after greedy made it less.", count)
+                                     : fmt::format(" More was gained by {} after greedy.", count);
 }
 
 std::string summary(const SiteResult& r) {

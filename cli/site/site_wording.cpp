@@ -60,12 +60,11 @@ std::string least_in_words(const SiteResult& r) {
   if (placement.minimised() == Minimised::kHeight)
     return fmt::format("visible height, summed: {:.10g} m; {}", r.in_metric(r.choice.value), proved);
   const std::string existing =
-      r.choice.existing > 0
-          ? fmt::format(", besides {:.10g} that {} already", r.in_metric(r.choice.existing),
-                        r.inputs.existing() == 1 ? "an existing one is seen from" : "existing ones are seen from")
-          : "";
+      r.choice.existing > 0 ? fmt::format(", besides {:.10g} that {} already", r.in_metric(r.choice.existing),
+                                          r.inputs.existing() == 1 ? "sees an existing one" : "sees existing ones")
+                            : "";
   return fmt::format(
-      "{} of a turbine is seen from {:.10g} of {:.10g} ({:.1f} %){}; {}", placement.part_looked_for(),
+      "{} of a turbine is seen from {:.10g} of a demand of {:.10g} ({:.1f} %){}; {}", placement.part_looked_for(),
       r.in_metric(r.choice.value), r.in_metric(r.inputs.total),
       r.inputs.total == 0 ? 0 : 100 * static_cast<double>(r.choice.value) / static_cast<double>(r.inputs.total),
       existing, proved);

@@ -257,7 +257,7 @@ TEST_F(LeastServed, RefusesWhatDoesNotFitTogetherAndSaysHowManyDo) {
       choose_on_bounds(field, goal, 0);
       FAIL() << most << " fit";
     } catch (const Error& error) {
-      EXPECT_THAT(error.what(), testing::HasSubstr(std::to_string(most) + " of 12 options can be chosen together"));
+      EXPECT_THAT(error.what(), testing::HasSubstr(std::to_string(most) + " of 12 sites can be chosen together"));
       ++refused;
     }
     EXPECT_EQ(choose_on_bounds(field, goal_of(field, most), 0).chosen.size(), most);

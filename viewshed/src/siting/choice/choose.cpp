@@ -162,13 +162,12 @@ void check_least(const std::vector<SiteOption>& options, const ChoiceGoal& goal)
   const Conflicts conflicts({options, goal, {}}, *goal.count);
   const std::size_t found = conflicts.fitting().size();
   if (found >= *goal.count) return;
-  throw Error(
-      fmt::format("`count`: {} asked for, but {}: `compatible` keeps the others apart", *goal.count,
-                  found == conflicts.most()
-                      ? fmt::format("no more than {} of {} options can be chosen together", found, options.size())
-                      : fmt::format("only {} of {} options were found that can be chosen together, and no more "
-                                    "than {} can",
-                                    found, options.size(), conflicts.most())));
+  throw Error(fmt::format("`count`: {} asked for, but {}: `compatible` keeps the others apart", *goal.count,
+                          found == conflicts.most()
+                              ? fmt::format("no more than {} of {} sites can be chosen together", found, options.size())
+                              : fmt::format("only {} of {} sites were found that can be chosen together, and no more "
+                                            "than {} can",
+                                            found, options.size(), conflicts.most())));
 }
 
 }  // namespace

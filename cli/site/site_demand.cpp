@@ -1,0 +1,124 @@
+#include "site/site_demand.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <itin/error.hpp>
+#include <itin/raster_values.hpp>
+#include <itin/sites.hpp>
+
+namespace itin::cli {
+
+namespace {
+
+class DemandReader {
+ public:
+  DemandReader(const Store& store, const SiteOptions& options, SiteInputs& inputs, Progress& progress)
+      : store_(store), options_(options), crs_(store.metadata().crs_wkt), inputs_(inputs), progress_(progress) {}
+
+  void read() {
+    inputs_.targets.height = options_.target_height;
+    inputs_.targets.on_surface = options_.targets_on_surface;
+    if (options_.demand == "cells") {
+      read_cells();
+    } else if (is_raster(options_.demand)) {
+      read_weights(read_raster_values(options_.demand, crs_));
+    } else {
+      read_points();
+    }
+    if (inputs_.total == 0) throw InputError("there is no demand within the data: nothing to serve");
+  }
+
+ private:
+  void read_cells() {
+    const std::vector<viewshed::SitePosition> of_options(
+        inputs_.positions.begin(), inputs_.positions.begin() + static_cast<std::ptrdiff_t>(inputs_.options.size()));
+    const RasterGrid grid = viewshed::grid_of_reach(store_, of_options, options_.radius, options_.cell_size());
+    inputs_.targets.grid = grid;
+    inputs_.demand = viewshed::Demand(viewshed::element_count(grid));
+    const viewshed::DemandSet ground = viewshed::with_ground(store_, inputs_.targets, progress_);
+    std::vector<std::uint64_t> reached(inputs_.demand.block_count());
+    for (std::size_t i = 0; i < of_options.size(); ++i) {
+      if (i > 0 && inputs_.options[i].place == inputs_.options[i - 1].place) continue;
+      const viewshed::DemandSet reach =
+          viewshed::within_reach(inputs_.targets, of_options[i].position, options_.radius);
+      for (const auto& block : reach.blocks()) reached[block.number] |= block.members;
+    }
+    for (const auto& block : ground.blocks()) inputs_.cells.add(block.number, block.members & reached[block.number]);
+    inputs_.total = inputs_.demand.weight(inputs_.cells);
+  }
+
+  void read_weights(RasterValues weights) {
+    const RasterGrid& grid = weights.grid;
+    inputs_.targets.grid = grid;
+    std::vector<double> of_element(viewshed::element_count(grid));
+    for (std::int64_t row = 0; row < grid.rows(); ++row) {
+      for (std::int64_t column = 0; column < grid.columns(); ++column) {
+        const double value = weights.values[grid.index({column, row})];
+        if (!std::isnan(value)) of_element[viewshed::element_of(grid, {column, row})] = value;
+      }
+    }
+    try {
+      inputs_.demand = viewshed::Demand(of_element);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: {}", options_.demand, error.what()));
+    }
+    inputs_.total = inputs_.demand.total();
+  }
+
+  void read_points() {
+    SiteQuery query;
+    query.path = options_.demand;
+    query.crs = options_.in_crs.crs;
+    if (!options_.weight_field.empty()) query.numbers.push_back({options_.weight_field});
+    std::vector<std::pair<Point2, double>> points;
+    for (const Site& site : read_sites(query, crs_, inputs_.rejected)) {
+      const double weight = site.numbers.empty() ? 1 : site.numbers.front().value_or(-1);
+      if (!(weight >= 0)) {
+        inputs_.rejected.push_back(
+            fmt::format("{}: feature {}: its weight is missing or negative", query.path, site.feature));
+      } else {
+        points.emplace_back(site.position, weight);
+      }
+    }
+    if (points.empty()) throw InputError(query.path + ": holds no point to serve");
+    sort_by_place(points);
+    std::vector<double> weights;
+    for (const auto& [position, weight] : points) {
+      inputs_.targets.points.push_back(position);
+      weights.push_back(weight);
+    }
+    inputs_.demand = viewshed::Demand(weights);
+    inputs_.total = inputs_.demand.total();
+    const std::size_t on_ground = viewshed::with_ground(store_, inputs_.targets, progress_).size();
+    inputs_.demand_without_ground = points.size() - on_ground;
+  }
+
+  /// Neighbours next to each other, in strips to and fro: their sight lines are judged together.
+  static void sort_by_place(std::vector<std::pair<Point2, double>>& points) {
+    Box box;
+    for (const auto& [p, weight] : points) box.extend(p);
+    const double strip =
+        std::max(box.height() / std::max(1.0, std::sqrt(static_cast<double>(points.size()) / 8)), 1e-3);
+    std::stable_sort(points.begin(), points.end(), [&](const auto& a, const auto& b) {
+      const double sa = std::floor((a.first.y - box.ymin) / strip), sb = std::floor((b.first.y - box.ymin) / strip);
+      return sa != sb ? sa < sb : a.first.x != b.first.x ? a.first.x < b.first.x : a.first.y < b.first.y;
+    });
+  }
+
+  const Store& store_;
+  const SiteOptions& options_;
+  std::string crs_;
+  SiteInputs& inputs_;
+  Progress& progress_;
+};
+
+}  // namespace
+
+void read_site_demand(const Store& store, const SiteOptions& options, SiteInputs& inputs, Progress& progress) {
+  DemandReader(store, options, inputs, progress).read();
+}
+
+}  // namespace itin::cli

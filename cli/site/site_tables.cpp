@@ -1,0 +1,202 @@
+#include <filesystem>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include <itin/csv_cell.hpp>
+#include <itin/output_file.hpp>
+#include <itin/vector_export.hpp>
+
+#include "site/site_outputs.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+std::string in_folder(const std::string& directory, const char* name) {
+  return (std::filesystem::path(directory) / name).string();
+}
+
+std::string sites_csv(const SiteResult& r) {
+  std::string text =
+      "order,id,x,y,height_m,ground_m,cost,gain,cumulative,coverage,first_certain,first_possible,stands_on_m\n";
+  const auto out = std::back_inserter(text);
+  for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
+    const viewshed::ChosenSite& site = r.choice.chosen[i];
+    const viewshed::SitePosition& place = r.place_of(site);
+    const CoverageSummary now = r.summary(r.coverage.bounds(site.option)),
+                          first = r.summary(r.coverage.first_bounds(site.option));
+    fmt::format_to(out, "{},{},{},{},{},{:.3f},{},{},{},{},{},{},{:.3f}\n", i + 1, csv_cell(place.name),
+                   place.position.x, place.position.y, place.height, r.ground_m[i], r.inputs.options[site.option].cost,
+                   r.in_metric(site.gain), r.in_metric(site.cumulative), now.certain, first.certain, first.possible,
+                   place.ground);
+  }
+  return text;
+}
+
+std::string candidates_table(const SiteResult& r) {
+  std::string text =
+      "id,x,y,height_m,cost,looked_at,first_certain,first_possible,certain,possible,proposed_as,outcome\n";
+  const auto out = std::back_inserter(text);
+  for (std::size_t i = 0; i < r.inputs.options.size(); ++i) {
+    const viewshed::SitePosition& place = r.inputs.positions[i];
+    const CoverageSummary now = r.summary(r.coverage.bounds(i)), first = r.summary(r.coverage.first_bounds(i));
+    fmt::format_to(out, "{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(place.name), place.position.x,
+                   place.position.y, place.height, r.inputs.options[i].cost,
+                   csv_cell(r.coverage.stage_name(r.coverage.stage(i))), first.certain, first.possible, now.certain,
+                   now.possible, r.candidate(i).why, csv_cell(r.reason(i)));
+  }
+  return text;
+}
+
+bool is_clear(const SiteResult& r, const SiteLink& link) {
+  return link_rules(r.options).met_by(link.found());
+}
+
+std::string links_csv(const SiteResult& r) {
+  std::string text = "from,to,distance_m,verdict,clearance_m,critical_x,critical_y,critical_z";
+  text += r.options.frequency_ghz ? ",fresnel_fraction,clear,gap_m\n" : ",gap_m\n";
+  const auto out = std::back_inserter(text);
+  for (const SiteLink& link : r.links) {
+    const profile::LineFindings& found = link.found();
+    fmt::format_to(out, "{},{},{:.3f},{}", csv_cell(link.from.name), csv_cell(link.to.name), link.line.distance_m,
+                   name_of(found.verdict));
+    if (found.critical) {
+      fmt::format_to(out, ",{:.3f},{:.3f},{:.3f},{:.3f}", *found.clearance_m, found.critical->x, found.critical->y,
+                     found.critical->ground_m);
+    } else {
+      text += ",,,,";
+    }
+    if (r.options.frequency_ghz) {
+      text += found.fresnel ? fmt::format(",{:.4f}", found.fresnel->fraction) : ",";
+      text += is_clear(r, link) ? ",yes" : ",no";
+    }
+    fmt::format_to(out, ",{:.3f}\n", link.line.gap_m);
+  }
+  return text;
+}
+
+using Type = VectorLayer::Type;
+
+VectorLayer sites_layer(const SiteResult& r) {
+  VectorLayer layer{"sites",
+                    VectorLayer::Shape::kPoints,
+                    {{"rank", Type::kWhole},
+                     {"id", Type::kText},
+                     {"height_m", Type::kNumber},
+                     {"cost", Type::kNumber},
+                     {"gain", Type::kNumber},
+                     {"cumulative", Type::kNumber}},
+                    {}};
+  for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
+    const viewshed::ChosenSite& site = r.choice.chosen[i];
+    const viewshed::SitePosition& place = r.place_of(site);
+    layer.features.push_back(
+        {{{place.position.x, place.position.y, place.ground}},
+         {static_cast<std::int64_t>(i + 1), place.name, place.height, r.inputs.options[site.option].cost,
+          r.in_metric(site.gain), r.in_metric(site.cumulative)}});
+  }
+  return layer;
+}
+
+VectorLayer candidates_layer(const SiteResult& r) {
+  VectorLayer layer{"candidates",
+                    VectorLayer::Shape::kPoints,
+                    {{"id", Type::kText},
+                     {"height_m", Type::kNumber},
+                     {"cost", Type::kNumber},
+                     {"looked_at", Type::kText},
+                     {"certain", Type::kNumber},
+                     {"possible", Type::kNumber},
+                     {"outcome", Type::kText}},
+                    {}};
+  for (std::size_t i = 0; i < r.inputs.options.size(); ++i) {
+    const viewshed::SitePosition& place = r.inputs.positions[i];
+    const CoverageSummary now = r.summary(r.coverage.bounds(i));
+    layer.features.push_back({{{place.position.x, place.position.y, place.ground}},
+                              {place.name, place.height, r.inputs.options[i].cost,
+                               r.coverage.stage_name(r.coverage.stage(i)), now.certain, now.possible, r.reason(i)}});
+  }
+  return layer;
+}
+
+VectorLayer links_layer(const SiteResult& r) {
+  VectorLayer layer{"links",
+                    VectorLayer::Shape::kLines,
+                    {{"from_id", Type::kText},
+                     {"to_id", Type::kText},
+                     {"distance_m", Type::kNumber},
+                     {"verdict", Type::kText},
+                     {"clearance_m", Type::kNumber},
+                     {"fresnel_fraction", Type::kNumber},
+                     {"gap_m", Type::kNumber}},
+                    {}};
+  for (const SiteLink& link : r.links) {
+    const viewshed::SitePosition &a = link.from, &b = link.to;
+    VectorLayer::Value clearance, fraction;
+    if (link.found().clearance_m) clearance = *link.found().clearance_m;
+    if (link.found().fresnel) fraction = link.found().fresnel->fraction;
+    layer.features.push_back(
+        {{{a.position.x, a.position.y, a.elevation()}, {b.position.x, b.position.y, b.elevation()}},
+         {a.name, b.name, link.line.distance_m, std::string(name_of(link.found().verdict)), clearance, fraction,
+          link.line.gap_m}});
+  }
+  return layer;
+}
+
+/// As `itin ztv --turbines` reads them.
+std::string turbines_csv(const SiteResult& r) {
+  const PlacementOptions& placement = r.options.placement;
+  std::string text = "name,x,y,hub_height,rotor_diameter,tip_height,farm\n";
+  for (const viewshed::ChosenSite& site : r.choice.chosen) {
+    const viewshed::SitePosition& place = r.place_of(site);
+    text += fmt::format("{},{},{},{},{},{},{}\n", csv_cell(place.name), place.position.x, place.position.y,
+                        placement.hub_height(), placement.rotor_diameter(), placement.tip_height(),
+                        csv_cell(placement.farm));
+  }
+  return text;
+}
+
+VectorLayer turbines_layer(const SiteResult& r) {
+  const PlacementOptions& placement = r.options.placement;
+  VectorLayer layer{"turbines",
+                    VectorLayer::Shape::kPoints,
+                    {{"name", Type::kText},
+                     {"hub_height", Type::kNumber},
+                     {"rotor_diameter", Type::kNumber},
+                     {"tip_height", Type::kNumber},
+                     {"farm", Type::kText}},
+                    {}};
+  for (const viewshed::ChosenSite& site : r.choice.chosen) {
+    const viewshed::SitePosition& place = r.place_of(site);
+    layer.features.push_back(
+        {{{place.position.x, place.position.y, place.ground}},
+         {place.name, placement.hub_height(), placement.rotor_diameter(), placement.tip_height(), placement.farm}});
+  }
+  return layer;
+}
+
+}  // namespace
+
+void write_site_tables(const SiteResult& result, const std::string& directory, bool overwrite) {
+  write_file(in_folder(directory, "sites.csv"), sites_csv(result), overwrite);
+  write_file(in_folder(directory, "candidates.csv"), candidates_table(result), overwrite);
+  if (result.options.placement.given()) {
+    write_file(in_folder(directory, "turbines.csv"), turbines_csv(result), overwrite);
+  } else {
+    write_file(in_folder(directory, "links.csv"), links_csv(result), overwrite);
+  }
+}
+
+void write_site_layers(const SiteResult& result, const std::string& directory, const std::string& crs_wkt,
+                       bool overwrite) {
+  std::vector<VectorLayer> layers{sites_layer(result), candidates_layer(result)};
+  if (result.options.placement.given()) {
+    write_geopackage(in_folder(directory, "turbines.gpkg"), crs_wkt, {turbines_layer(result)}, overwrite);
+  } else {
+    layers.push_back(links_layer(result));
+  }
+  write_geopackage(in_folder(directory, "sites.gpkg"), crs_wkt, layers, overwrite);
+}
+
+}  // namespace itin::cli

@@ -1,0 +1,71 @@
+#include "site/site_warnings.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "output/store_document.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+constexpr std::size_t kMostWarnings = 20;
+
+void warn_of_left_out(const SiteResult& site, std::vector<std::string>& warnings) {
+  const std::string all = (std::filesystem::path(site.options.directory) / "site.json").string();
+  std::vector<std::string> lines = site.inputs.rejected;
+  // Proposed candidates are none of the caller's: how many were left out is enough.
+  for (std::size_t i = site.options.search_area.empty() ? 0 : site.inputs.barred.size(); i-- > 0;) {
+    const Barred& barred = site.inputs.barred[i];
+    const auto first = lines.begin() + static_cast<std::ptrdiff_t>(barred.first);
+    *first = fmt::format("{}, each of which {}; all are listed in {}", counted(barred.count, "proposed candidate"),
+                         barred.why, all);
+    lines.erase(first + 1, first + static_cast<std::ptrdiff_t>(barred.count));
+  }
+  for (std::size_t i = 0; i < std::min(lines.size(), kMostWarnings); ++i) warnings.push_back("left out: " + lines[i]);
+  if (lines.size() > kMostWarnings)
+    warnings.push_back(fmt::format("left out: {} more; all are listed in {}", lines.size() - kMostWarnings, all));
+}
+
+/// Nothing is known of what sees a turbine beyond the data.
+void warn_of_reach(const SiteResult& site, const StoreMetadata& metadata, std::vector<std::string>& warnings) {
+  const Box data = metadata.grid.box(metadata.bounds);
+  const std::vector<viewshed::SitePosition>& places = site.inputs.positions;
+  const auto beyond = std::count_if(places.begin(), places.end(), [&](const viewshed::SitePosition& place) {
+    const Point2 p = place.position;
+    return std::min({p.x - data.xmin, data.xmax - p.x, p.y - data.ymin, data.ymax - p.y}) < site.options.radius;
+  });
+  if (beyond == 0) return;
+  warnings.push_back(
+      fmt::format("the radius of {:g} m reaches beyond the data from {} of {}: demand there is not counted, so that "
+                  "places near the "
+                  "edge of the data seem less seen than they are; import a larger source, or give a smaller --radius",
+                  site.options.radius, grouped(static_cast<std::uint64_t>(beyond)), counted(places.size(), "place")));
+}
+
+void warn_of_too_few(const SiteResult& site, std::vector<std::string>& warnings) {
+  const SiteOptions& options = site.options;
+  if (options.count && site.choice.chosen.size() < *options.count)
+    warnings.push_back(fmt::format("{} chosen, not {}: no other that may be taken gains anything",
+                                   counted(site.choice.chosen.size(), "site"), *options.count));
+  if (options.share && site.inputs.demand.in_metric(site.choice.value + site.choice.existing) <
+                           *options.share * site.inputs.demand.in_metric(site.inputs.total))
+    warnings.emplace_back("the wanted share is not reached: no further site that may be taken gains anything");
+}
+
+}  // namespace
+
+void warn_of(const SiteResult& site, const StoreMetadata& metadata, std::vector<std::string>& warnings) {
+  const SiteOptions& options = site.options;
+  if (options.frequency_ghz) options.earth.warn_of_light(warnings);
+  warn_of_left_out(site, warnings);
+  if (options.placement.given() && options.demand == "cells") warn_of_reach(site, metadata, warnings);
+  if (site.inputs.demand_without_ground > 0)
+    warnings.push_back(fmt::format("no ground is under {} of the demand, which cannot be served",
+                                   counted(site.inputs.demand_without_ground, "point")));
+  warn_of_too_few(site, warnings);
+}
+
+}  // namespace itin::cli

@@ -1,0 +1,16 @@
+// What to beware of in the result of a siting run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <itin/store.hpp>
+
+#include "site/site_result.hpp"
+
+namespace itin::cli {
+
+/// Adds a line each.
+void warn_of(const SiteResult& site, const StoreMetadata& metadata, std::vector<std::string>& warnings);
+
+}  // namespace itin::cli
