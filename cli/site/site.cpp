@@ -39,7 +39,7 @@ namespace {
 class SiteVerb final : public Verb {
  public:
   std::string name() const override { return "site"; }
-  std::string summary() const override { return "Choose the few best of many sites, with proof"; }
+  std::string summary() const override { return "Choose the few best of many sites, or where turbines are seen least, with proof"; }
   void declare(CLI::App& app) override { options_.declare(app); }
   void complete() override { options_.apply_parameter_file(); }
   void validate() override { options_.validate(); }
