@@ -39,7 +39,9 @@ namespace {
 class SiteVerb final : public Verb {
  public:
   std::string name() const override { return "site"; }
-  std::string summary() const override { return "Choose the few best of many sites, or where turbines are seen least, with proof"; }
+  std::string summary() const override {
+    return "Choose the few best of many sites, or where turbines are seen least, with proof";
+  }
   void declare(CLI::App& app) override { options_.declare(app); }
   void complete() override { options_.apply_parameter_file(); }
   void validate() override { options_.validate(); }
@@ -66,25 +68,17 @@ class SiteVerb final : public Verb {
     require_enough(inputs);
     viewshed::check_goal(inputs.options, goal);
 
+    const bool heights = options_.placement.sums_heights();
+    viewshed::Demand shown;
+    if (heights) shown = viewshed::Demand(summed_visible_heights(store, options_, inputs, progress));
     viewshed::SiteCoverage coverage(store, site_survey(options_, inputs), progress);
     SiteWork work(place("site.work"), key(), options_.resume, inputs.positions.size(), coverage);
     coverage.on_refined = [&](std::size_t option, int stage, const viewshed::CoverageBounds& bounds) {
       work.add(option, stage, bounds);
     };
-    const bool heights = options_.placement.sums_heights();
-    viewshed::Demand shown;
-    if (heights) shown = viewshed::Demand(summed_visible_heights(store, options_, inputs, progress));
     SiteResult site{options_, inputs, coverage, heights ? shown : inputs.demand, {}, {}, {}, {}};
-    if (!heights) coverage.explore();
-    for (std::size_t i = inputs.options.size(); i < inputs.positions.size(); ++i) refine_fully(coverage, i);
-    if (heights) {
-      OwnElements own(inputs.options.size());
-      site.choice = viewshed::choose(shown, inputs.options, own, goal, progress);
-      for (const viewshed::ChosenSite& chosen : site.choice.chosen) refine_fully(coverage, chosen.option);
-    } else {
-      add_existing(inputs, coverage, goal);
-      site.choice = viewshed::choose(inputs.demand, inputs.options, coverage, goal, progress);
-    }
+    site.choice = heights ? choose_by_heights(inputs, coverage, shown, goal, progress)
+                          : choose_by_coverage(inputs, coverage, goal, progress);
     coverage.release_surfaces();
     site.links = site_links(store, options_, inputs, site.choice, hub_position, progress);
     site.ground_m = site_grounds(store, inputs, site.choice, progress);
@@ -176,14 +170,28 @@ class SiteVerb final : public Verb {
     while (!coverage.bounds(option).exact) coverage.refine({&option, 1});
   }
 
-  /// Takes what existing sites serve out of the demand.
-  void add_existing(const SiteInputs& inputs, const viewshed::SiteCoverage& coverage,
-                    viewshed::ChoiceGoal& goal) const {
+  /// Out of the demand that existing sites do not serve.
+  viewshed::Choice choose_by_coverage(const SiteInputs& inputs, viewshed::SiteCoverage& coverage,
+                                      viewshed::ChoiceGoal& goal, Progress& progress) const {
+    coverage.explore();
     for (std::size_t i = inputs.options.size(); i < inputs.positions.size(); ++i) {
+      refine_fully(coverage, i);
       const viewshed::DemandSet& served = coverage.bounds(i).certain;
       goal.existing.push_back(inputs.cells.empty() ? served : intersection(served, inputs.cells));
     }
     if (options_.share) goal.wanted = wanted(inputs, goal);
+    return viewshed::choose(inputs.demand, inputs.options, coverage, goal, progress);
+  }
+
+  /// Coverage is for the maps alone.
+  static viewshed::Choice choose_by_heights(const SiteInputs& inputs, viewshed::SiteCoverage& coverage,
+                                            const viewshed::Demand& shown, const viewshed::ChoiceGoal& goal,
+                                            Progress& progress) {
+    OwnElements own(inputs.options.size());
+    viewshed::Choice choice = viewshed::choose(shown, inputs.options, own, goal, progress);
+    for (const viewshed::ChosenSite& chosen : choice.chosen) refine_fully(coverage, chosen.option);
+    for (std::size_t i = inputs.options.size(); i < inputs.positions.size(); ++i) refine_fully(coverage, i);
+    return choice;
   }
 
   /// The share is of all demand; what existing sites serve counts towards it.

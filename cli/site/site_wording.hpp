@@ -23,7 +23,7 @@ struct SiteWording {
 
 SiteWording wording_of(const SiteOptions& options);
 
-/// Of turbines: what sees them, or how much of them is seen, and what is proved of that; a sentence or two.
+/// What sees the turbines, or how much of them is seen, and what is proved of that; a sentence or two.
 std::string least_in_words(const SiteResult& result);
 
 }  // namespace itin::cli

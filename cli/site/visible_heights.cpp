@@ -74,7 +74,8 @@ std::vector<double> heights_over_points(const Store& store, const SiteOptions& o
     const Viewpoint eye{p, {}, points[p], options.target_height, *grounds[p]};
     const std::vector<Sight> sights = sights_to_all(surface, eye, near);
     for (std::size_t k = 0; k < numbers.size(); ++k)
-      if (sights[k].tip) sums[numbers[k]] += weight_of(inputs.demand, p) * sights[k].visible;
+      if (sights[k].tip && !(sights[k].gaps && options.nodata == viewshed::NoData::kBlock))
+        sums[numbers[k]] += weight_of(inputs.demand, p) * sights[k].visible;
   }
   return sums;
 }

@@ -77,7 +77,9 @@ TEST(Dwellings, AreAsFarAsTheirNearestPoint) {
     for (const double metres : {20.0, 80.0}) {
       if (std::abs(least - metres) < 0.5) continue;  // between the points of the slow way
       EXPECT_EQ(polygons.any_within(p, metres), least < metres) << p.x << ' ' << p.y;
-      if (least > 0) EXPECT_EQ(points.any_within(p, metres), least < metres);
+      if (least > 0) {
+        EXPECT_EQ(points.any_within(p, metres), least < metres);
+      }
       near += least < metres;
     }
   }

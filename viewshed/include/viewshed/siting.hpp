@@ -30,7 +30,8 @@
 // group that excludes each other, pay no more than the least choice serves. This is a Lagrangian bound; raising u of
 // the options that pay least tightens it. Branch and bound follows for as long as a second or so: first the node of the
 // least bound, at an option where the payments are most wrong. Where it ends before that, as it mostly does among some
-// hundreds of options, the choice is proved to be the least; otherwise the bound of the best open node is what is proved.
+// hundreds of options, the choice is proved to be the least; otherwise the bound of the best open node is what is
+// proved.
 #pragma once
 
 #include <cstddef>

@@ -16,6 +16,8 @@ constexpr std::size_t kMostLeastNodes = 5000;
 /// How often shares are raised, and by how much: chosen by trial on simulated viewsheds.
 constexpr int kRootRounds = 40, kRounds = 5;
 constexpr double kRaise = 1.3;
+/// Far beyond what shares differ by, far below what a double holds.
+constexpr double kGreatestShare = 1e100;
 
 /// The least whole weight that is not below a sum of payments, whatever its rounding.
 Weight at_least(double payments) {
@@ -112,7 +114,10 @@ class LeastSearch {
       offer(choice, by_payment.taken);
       if (node.bound >= known_) return false;
       node.branch = choice.open[most_wrong(choice, by_payment.taken, gains, payments)];
-      for (const std::size_t place : by_payment.taken) choice.shares[choice.open[place]] *= kRaise;
+      for (const std::size_t place : by_payment.taken) {
+        double& share = choice.shares[choice.open[place]];
+        share = std::min(kRaise * share, kGreatestShare);
+      }
       const double others = by_payment.sum - by_payment.last;
       leave_out(choice, [&](std::size_t place) { return served + at_least(payments[place] + others) >= known_; });
       if (payments_.work() >= most_work_) break;
@@ -129,7 +134,7 @@ class LeastSearch {
   }
 
   /// What the open options serve, after those that serve as much as the limit by themselves are left out.
-  std::vector<Weight> gains_of(OpenChoice& choice, Weight limit) const {
+  std::vector<Weight> gains_of(OpenChoice& choice, Weight limit) {
     std::vector<Weight> gains;
     for (const std::size_t option : choice.open) gains.push_back(payments_.gain(option));
     leave_out(choice, [&](std::size_t place) { return gains[place] >= limit; });

@@ -17,7 +17,7 @@ Weight Payments::serve(const std::vector<std::size_t>& chosen) {
   return sum;
 }
 
-Weight Payments::gain(std::size_t option) const {
+Weight Payments::gain(std::size_t option) {
   Weight sum = 0;
   for (const std::uint32_t c : demand_.of_option[option])
     if (!served_[c]) sum += demand_.weights[c];

@@ -22,7 +22,7 @@ class Payments {
   /// Takes what the chosen ones serve as served. Returns its weight.
   Weight serve(const std::vector<std::size_t>& chosen);
   /// What an option serves besides.
-  Weight gain(std::size_t option) const;
+  Weight gain(std::size_t option);
   /// What each open option pays where `count` of them are still to be chosen.
   std::vector<double> of(const OpenChoice& choice, std::size_t count);
 
@@ -34,7 +34,7 @@ class Payments {
   std::vector<bool> served_;  ///< by class
   std::vector<double> sums_;  ///< of shares, by class
   std::vector<std::uint32_t> payers_;
-  mutable double work_ = 0;
+  double work_ = 0;
 };
 
 }  // namespace itin::viewshed
