@@ -18,8 +18,6 @@ namespace itin::cli {
 
 namespace {
 
-using viewshed::SitePosition;
-
 class InputReader {
  public:
   InputReader(const Store& store, const SiteOptions& options, Progress& progress)

@@ -60,9 +60,10 @@ std::string least_in_words(const SiteResult& r) {
   if (placement.minimised() == Minimised::kHeight)
     return fmt::format("visible height, summed: {:.10g} m; {}", r.in_metric(r.choice.value), proved);
   const std::string existing =
-      r.choice.existing > 0 ? fmt::format(", besides {:.10g} that {} already", r.in_metric(r.choice.existing),
-                                          r.inputs.existing() == 1 ? "sees an existing one" : "sees existing ones")
-                            : "";
+      r.choice.existing > 0
+          ? fmt::format(", besides {:.10g} from which {} already", r.in_metric(r.choice.existing),
+                        r.inputs.existing() == 1 ? "an existing one is seen" : "existing ones are seen")
+          : "";
   return fmt::format(
       "{} of a turbine is seen from {:.10g} of a demand of {:.10g} ({:.1f} %){}; {}", placement.part_looked_for(),
       r.in_metric(r.choice.value), r.in_metric(r.inputs.total),
