@@ -53,7 +53,7 @@ class SiteVerb final : public Verb {
     policy_ = options_.policy;
     policy_.overwrite = policy_.overwrite || (options_.resume && std::filesystem::exists(place("site.work")));
     const NewFolder folder(options_.directory);
-    outputs_ = site_outputs(options_.directory, options_.sheets, policy_);
+    outputs_ = site_outputs(options_.directory, options_.sheets, options_.hub.has_value(), policy_);
     // A budget holds for what is kept of the store as well.
     const Store store(options_.store, {std::min(StoreOptions().cache_bytes, options_.memory_bytes / 4)});
     options_.themes.choice().check(store.metadata().themes);
@@ -71,15 +71,16 @@ class SiteVerb final : public Verb {
     };
     coverage.explore();
     add_existing(inputs, coverage, goal);
-    SiteResult site{options_, inputs, coverage, {}, {}, {}, {}};
+    SiteResult site{options_, inputs, coverage, {}, {}, {}, {}, {}};
     site.choice = viewshed::choose(inputs.demand, inputs.options, coverage, goal, progress);
     coverage.release_surfaces();
-    site.links = site_links(store, options_, inputs, site.choice, hub_position, progress);
+    site.network = site_network(store, options_, inputs, site.choice, hub_position, progress);
+    site.routes = site_routes(options_, site.network);
     site.ground_m = site_grounds(store, inputs, site.choice, progress);
     site.rasters = site_rasters(store, options_, inputs, coverage, site.choice, progress);
     Result result = write(store, site, progress);
     if (work.restored() > 0)
-      result.text += fmt::format("used of an earlier run: {}\n", counted(work.restored(), "result"));
+      result.text += fmt::format("taken over from an earlier run: {}\n", counted(work.restored(), "result"));
     work.remove();
     return result;
   }
@@ -109,7 +110,7 @@ class SiteVerb final : public Verb {
     if (needed <= options_.memory_bytes) return;
     throw InputError(fmt::format(
         "maps of {} cells, and what {} may serve of them, take some {:.2g} GB, more than the {:.2g} GB of --memory: "
-        "give a greater --cell, a smaller --radius, fewer sites, or more",
+        "give a greater --cell, a smaller --radius, fewer sites, or more memory",
         grouped(grid.cell_count()), counted(inputs.positions.size(), "site"), static_cast<double>(needed) / 1e9,
         static_cast<double>(options_.memory_bytes) / 1e9));
   }
@@ -184,7 +185,8 @@ class SiteVerb final : public Verb {
     result.document["sources"] = sources_document(sources);
     const std::vector<std::string> in_words = described(sources, store.metadata());
     write_site_sheets(store, site, in_words, options_.directory, policy_.overwrite, progress);
-    write_site_report(site, profiles, parameters(), inputs_document_, in_words, options_.directory, policy_.overwrite);
+    write_site_report(site, {site_figures(store, site, progress), profiles, parameters(), in_words}, options_.directory,
+                      policy_.overwrite);
     Document whole{{"itin", ITIN_VERSION}, {"command", {{"verb", name()}}}};
     whole["command"].update(parameters());
     whole.update(result.document);
@@ -210,14 +212,15 @@ class SiteVerb final : public Verb {
       warnings.push_back(
           fmt::format("left out: {} more; all are listed in {}", rejected.size() - kMostWarnings, place("site.json")));
     if (site.inputs.demand_without_ground > 0)
-      warnings.push_back(fmt::format("no ground is under {} of the demand, which cannot be served",
+      warnings.push_back(fmt::format("{} of the demand cannot be served: there is no ground data",
                                      counted(site.inputs.demand_without_ground, "point")));
     if (options_.count && site.choice.chosen.size() < *options_.count)
-      warnings.push_back(fmt::format("{} chosen, not {}: no other that may be taken gains anything",
+      warnings.push_back(fmt::format("{} chosen, not {}: no other site that may be chosen serves anything more",
                                      counted(site.choice.chosen.size(), "site"), *options_.count));
     if (options_.share && site.inputs.demand.in_metric(site.choice.value + site.choice.existing) <
                               *options_.share * site.inputs.demand.in_metric(site.inputs.total))
-      warnings.emplace_back("the wanted share is not reached: no further site that may be taken gains anything");
+      warnings.emplace_back(
+          "the share asked for is not reached: no further site that may be chosen serves anything more");
   }
 
   std::string text(const SiteResult& site, std::size_t files) const {
@@ -236,9 +239,17 @@ class SiteVerb final : public Verb {
                         : "",
                     site.in_metric(site.choice.upper_bound + site.choice.existing), viewshed::gap_percent(site.choice));
     text += fmt::format(
-        "{}, {}, {} looked at again; {} left out\n", counted(site.inputs.candidates.size(), "candidate"),
+        "{}, {}, {} surveyed more closely; {} left out\n", counted(site.inputs.candidates.size(), "candidate"),
         counted(site.inputs.options.size(), "option"), grouped(site.refined()), grouped(site.inputs.rejected.size()));
+    if (options_.hub) text += routes_text(site);
     return text + fmt::format("{}: {}; open report.html\n", options_.directory, counted(files, "file"));
+  }
+
+  static std::string routes_text(const SiteResult& site) {
+    std::size_t reached = 0, hops = 0;
+    for (const SiteRoute& route : site.routes) reached += !route.hops.empty(), hops = std::max(hops, route.hops.size());
+    return fmt::format("routes to the hub: {} of {}, of at most {}\n", reached, counted(site.routes.size(), "site"),
+                       counted(hops, "hop"));
   }
 
   SiteOptions options_;

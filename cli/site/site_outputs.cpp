@@ -13,6 +13,7 @@
 #include <itin/vector_export.hpp>
 
 #include "output/store_document.hpp"
+#include "site/site_link_outputs.hpp"
 
 namespace itin::cli {
 
@@ -50,33 +51,6 @@ std::string candidates_table(const SiteResult& r) {
                    place.position.y, place.height, r.inputs.options[i].cost,
                    csv_cell(r.coverage.stage_name(r.coverage.stage(i))), first.certain, first.possible, now.certain,
                    now.possible, r.candidate(i).why, csv_cell(r.reason(i)));
-  }
-  return text;
-}
-
-bool is_clear(const SiteResult& r, const SiteLink& link) {
-  return link_rules(r.options).met_by(link.found());
-}
-
-std::string links_csv(const SiteResult& r) {
-  std::string text = "from,to,distance_m,verdict,clearance_m,critical_x,critical_y,critical_z";
-  text += r.options.frequency_ghz ? ",fresnel_fraction,clear,gap_m\n" : ",gap_m\n";
-  const auto out = std::back_inserter(text);
-  for (const SiteLink& link : r.links) {
-    const profile::LineFindings& found = link.found();
-    fmt::format_to(out, "{},{},{:.3f},{}", csv_cell(link.from.name), csv_cell(link.to.name), link.line.distance_m,
-                   name_of(found.verdict));
-    if (found.critical) {
-      fmt::format_to(out, ",{:.3f},{:.3f},{:.3f},{:.3f}", *found.clearance_m, found.critical->x, found.critical->y,
-                     found.critical->ground_m);
-    } else {
-      text += ",,,,";
-    }
-    if (r.options.frequency_ghz) {
-      text += found.fresnel ? fmt::format(",{:.4f}", found.fresnel->fraction) : ",";
-      text += is_clear(r, link) ? ",yes" : ",no";
-    }
-    fmt::format_to(out, ",{:.3f}\n", link.line.gap_m);
   }
   return text;
 }
@@ -125,37 +99,14 @@ VectorLayer candidates_layer(const SiteResult& r) {
   return layer;
 }
 
-VectorLayer links_layer(const SiteResult& r) {
-  VectorLayer layer{"links",
-                    VectorLayer::Shape::kLines,
-                    {{"from_id", Type::kText},
-                     {"to_id", Type::kText},
-                     {"distance_m", Type::kNumber},
-                     {"verdict", Type::kText},
-                     {"clearance_m", Type::kNumber},
-                     {"fresnel_fraction", Type::kNumber},
-                     {"gap_m", Type::kNumber}},
-                    {}};
-  for (const SiteLink& link : r.links) {
-    const viewshed::SitePosition &a = link.from, &b = link.to;
-    VectorLayer::Value clearance, fraction;
-    if (link.found().clearance_m) clearance = *link.found().clearance_m;
-    if (link.found().fresnel) fraction = link.found().fresnel->fraction;
-    layer.features.push_back(
-        {{{a.position.x, a.position.y, a.elevation()}, {b.position.x, b.position.y, b.elevation()}},
-         {a.name, b.name, link.line.distance_m, std::string(name_of(link.found().verdict)), clearance, fraction,
-          link.line.gap_m}});
-  }
-  return layer;
-}
-
 Document interval(const CoverageSummary& summary) {
   return Document::array({summary.certain, summary.possible});
 }
 
 }  // namespace
 
-std::vector<SiteOutput> site_outputs(const std::string& directory, const SheetOptions& sheets, OutputPolicy& policy) {
+std::vector<SiteOutput> site_outputs(const std::string& directory, const SheetOptions& sheets, bool has_hub,
+                                     OutputPolicy& policy) {
   std::vector<std::pair<std::string, std::string>> files{
       {"sites.gpkg", "chosen sites, candidates, links between sites"},
       {"sites.csv", "chosen sites in order, with gains and bounds"},
@@ -169,6 +120,7 @@ std::vector<SiteOutput> site_outputs(const std::string& directory, const SheetOp
       {"report.html", "everything on one page"},
       {"site.json", "the result as a document"},
       {"parameters.json", "for --params: runs this again"}};
+  if (has_hub) files.emplace_back("routes.csv", "the route of every site to the hub, hop by hop");
   for (const profile::PaperSize paper : sheets.papers())
     for (const char* map : {"coverage", "redundancy"})
       for (const std::string& name : sheet_names(map, paper))
@@ -223,18 +175,8 @@ Document site_document(const SiteResult& r, const StoreMetadata& metadata) {
     for (std::size_t i = 0; i < r.inputs.options.size(); ++i) stayed += r.coverage.stage(i) == stage;
     document["looks"].push_back({{"at", r.coverage.stage_name(stage)}, {"options_that_needed_no_more", stayed}});
   }
-  document["links"] = Document::array();
-  for (const SiteLink& link : r.links) {
-    Document entry{{"from", link.from.name},
-                   {"to", link.to.name},
-                   {"distance_m", link.line.distance_m},
-                   {"verdict", name_of(link.found().verdict)},
-                   {"gap_m", link.line.gap_m}};
-    if (link.found().clearance_m) entry["clearance_m"] = *link.found().clearance_m;
-    if (link.found().fresnel) entry["fresnel_fraction"] = link.found().fresnel->fraction;
-    if (r.options.frequency_ghz) entry["clear"] = is_clear(r, link);
-    document["links"].push_back(std::move(entry));
-  }
+  document["links"] = links_document(r);
+  if (r.options.hub) document["routes"] = routes_document(r);
   return document;
 }
 
@@ -242,6 +184,7 @@ void write_site_tables(const SiteResult& result, const std::string& directory, b
   write_file(place(directory, "sites.csv"), sites_csv(result), overwrite);
   write_file(place(directory, "candidates.csv"), candidates_table(result), overwrite);
   write_file(place(directory, "links.csv"), links_csv(result), overwrite);
+  if (result.options.hub) write_file(place(directory, "routes.csv"), routes_csv(result), overwrite);
 }
 
 void write_site_layers(const SiteResult& result, const std::string& directory, const std::string& crs_wkt,

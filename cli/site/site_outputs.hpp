@@ -21,7 +21,8 @@ struct SiteOutput {
 
 /// Every file of the folder, which is there. Throws FileError where one may not be written, InputError where the call
 /// reads one.
-std::vector<SiteOutput> site_outputs(const std::string& directory, const SheetOptions& sheets, OutputPolicy& policy);
+std::vector<SiteOutput> site_outputs(const std::string& directory, const SheetOptions& sheets, bool has_hub,
+                                     OutputPolicy& policy);
 
 /// `value`, `upper_bound`, `chosen` and the rest of the contract's document, without what the program adds.
 Document site_document(const SiteResult& result, const StoreMetadata& metadata);

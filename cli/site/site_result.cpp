@@ -126,12 +126,12 @@ std::string SiteResult::reason(std::size_t option) const {
   if (is_chosen(option)) return "chosen";
   const bool exact = coverage.bounds(option).exact;
   const std::optional<viewshed::Margin>& margin = choice.closest[option];
-  if (!margin) return "out of the question at every step (spacing, links, cost, or another mast of its place)";
+  if (!margin) return "ruled out at every step: by spacing, links, cost, or another mast at its place";
   const double unit = inputs.demand.in_metric(1);
-  return fmt::format("at step {} it gains {} {:.10g}{}, the one taken {:.10g}", margin->step + 1,
+  return fmt::format("at step {} it would add {} {:.10g}{}; the one taken adds {:.10g}", margin->step + 1,
                      exact ? "exactly" : "at most", margin->upper * unit,
                      options.budget         ? " for each unit of cost"
-                     : options.intervisible ? " per site of its way"
+                     : options.intervisible ? " for each site on its way"
                                             : "",
                      margin->chosen * unit);
 }

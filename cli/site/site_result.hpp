@@ -9,6 +9,7 @@
 
 #include "site/site_inputs.hpp"
 #include "site/site_links.hpp"
+#include "site/site_routes.hpp"
 
 namespace itin::cli {
 
@@ -33,7 +34,8 @@ struct SiteResult {
   const SiteInputs& inputs;
   const viewshed::SiteCoverage& coverage;
   viewshed::Choice choice;
-  std::vector<SiteLink> links;
+  SiteNetwork network;
+  std::vector<SiteRoute> routes;  ///< of the network's sites to the hub; none without one
   SiteRasters rasters;
   std::vector<double> ground_m;  ///< elevation of the ground under each chosen site, which may stand on a roof
 

@@ -23,6 +23,7 @@ struct MapOptions {
   std::string subtitle;                             ///< empty: observer and target heights, radius, refraction
   std::string seen = "Visible", unseen = "Hidden";  ///< in the legend, where cells are one of the two
   std::string observers = {};                       ///< what the legend calls them; empty: "Observers"
+  std::string counts = "Seen by observers";         ///< what cells are counted by, above the steps of a count
   std::string outside = "Outside the field of view, or no data";
   std::vector<std::uint8_t> no_data = {};  ///< of the result's cells: 1 to stripe those without ground; or none
   std::string no_data_text = "No ground data";

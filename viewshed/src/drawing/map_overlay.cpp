@@ -56,7 +56,7 @@ Extremes extremes_of(const std::vector<float>& values) {
 }  // namespace
 
 MapOverlay::MapOverlay(const Result& result, const MapOptions& options) : result_(result) {
-  make_scale();
+  make_scale(options);
   make_keys(options);
 }
 
@@ -117,11 +117,11 @@ void MapOverlay::add_step(double most, Tint tint, std::string text) {
   steps_.push_back({tint, std::move(text)});
 }
 
-void MapOverlay::make_scale() {
+void MapOverlay::make_scale(const MapOptions& options) {
   switch (result_.request.mode) {
     case Mode::kCount:
     case Mode::kWhich:
-      return scale_counts();
+      return scale_counts(options);
     case Mode::kAngle:
       return scale_angles();
     case Mode::kNearest:
@@ -140,8 +140,8 @@ void MapOverlay::make_scale() {
   }
 }
 
-void MapOverlay::scale_counts() {
-  title_ = "Seen by observers";
+void MapOverlay::scale_counts(const MapOptions& options) {
+  title_ = options.counts;
   int most = 1;
   for (std::size_t i = 0; i < result_.visible.size(); ++i)
     if (const double v = result_.visible[i] == Verdict::kVisible ? value(i) : 0; v > most) most = static_cast<int>(v);

@@ -49,8 +49,8 @@ class MapOverlay {
  private:
   /// The value that the scale shows; NaN where it shows none.
   double value(std::size_t cell) const;
-  void make_scale();
-  void scale_counts();
+  void make_scale(const MapOptions& options);
+  void scale_counts(const MapOptions& options);
   void scale_angles();
   void scale_observers();
   void scale_distances();
