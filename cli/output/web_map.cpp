@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 #include <set>
 
 #include <fmt/format.h>
@@ -48,8 +47,8 @@ class WebLabels {
  public:
   WebLabels(const Box& frame, const std::vector<profile::SheetLayer>& layers) : frame_(frame) {
     // What is drawn last matters most.
-    for (const profile::SheetLayer& layer : std::ranges::reverse_view(layers))
-      if (const auto* some = std::get_if<profile::SheetMarks>(&layer))
+    for (std::size_t i = layers.size(); i-- > 0;)
+      if (const auto* some = std::get_if<profile::SheetMarks>(&layers[i]))
         for (const SheetMark& mark : some->marks) marks_.push_back(&mark);
   }
 
