@@ -18,9 +18,9 @@ struct OutlineDetail {
   double least = 0;      ///< rings that are smaller than this from west to east and from south to north are left out
 };
 
-/// Closed rings, courtyards among them, of all buildings of the chosen themes that meet the box; where a building has
-/// measured roofs but no footprint, the outlines of their planes. Empty where buildings do not stand on the ground.
-/// Reads all footprints of these themes, about a microsecond each. Throws CorruptStore.
+/// Closed rings, courtyards among them, of all buildings and terraces of the chosen themes that meet the box; where a
+/// building has measured roofs but no footprint, the outlines of their planes. Empty where buildings do not stand on
+/// the ground. Reads all footprints of these themes, about a microsecond each. Throws CorruptStore.
 std::vector<std::vector<Point2>> building_outlines(const Store& store, const ThemeChoice& themes, const Box& box,
                                                    const OutlineDetail& detail);
 

@@ -46,7 +46,8 @@ std::vector<std::vector<Point2>> building_outlines(const Store& store, const The
   OutlineCollection outlines(box, detail);
   const std::vector<ThemeInfo>& known = store.metadata().themes;
   for (std::size_t t = 0; t < known.size(); ++t) {
-    if (known[t].kind != ThemeKind::Buildings || !themes.includes(known[t])) continue;
+    const bool houses = known[t].kind == ThemeKind::Buildings || known[t].kind == ThemeKind::Terraces;
+    if (!houses || !themes.includes(known[t])) continue;
     for (std::uint32_t block = 0; block < known[t].footprint_blocks; ++block)
       for (const StoredFootprint& footprint : stored_footprints(store, static_cast<std::uint16_t>(t + 1), block))
         outlines.add(footprint.feature);

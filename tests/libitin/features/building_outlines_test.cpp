@@ -79,6 +79,12 @@ TEST_F(BuildingOutlines, AreThoseOfEveryFootprintOfAChosenThemeOfBuildings) {
   EXPECT_TRUE(boxes_of(ThemeChoice::none(), all, {}).empty());
 }
 
+TEST_F(BuildingOutlines, AreThoseOfTerracesToo) {
+  const Box row{300010, 199260, 300040, 199268};
+  import("rows", ThemeKind::Terraces, {row});
+  expect_same(boxes_of(ThemeChoice::parse("rows"), row, {}), {row});
+}
+
 TEST_F(BuildingOutlines, LeavesOutWhatLiesElsewhereOrIsSmaller) {
   const Box part{300200, 199400, 300420, 199600};
   std::vector<Box> expected;
