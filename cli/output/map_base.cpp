@@ -86,12 +86,16 @@ profile::SheetCells shaded(const viewshed::Relief& ground) {
   return cells;
 }
 
+void add_key_of_missing(const viewshed::Relief& ground, MapBase& base) {
+  if (std::any_of(ground.heights_m.begin(), ground.heights_m.end(), [](float z) { return std::isnan(z); }))
+    base.keys.push_back({profile::SheetKey::Sample::kPatch, {237, 237, 242, 255}, "No terrain data"});
+}
+
 MapBase relief_base(const Store& store, const RasterGrid& pixels, Progress& progress) {
   const viewshed::Relief ground = viewshed::relief(store, pixels, progress);
   MapBase base{shaded(ground), {}, {}};
   add_contours(smoothed(ground), base);
-  if (std::any_of(ground.heights_m.begin(), ground.heights_m.end(), [](float z) { return std::isnan(z); }))
-    base.keys.push_back({profile::SheetKey::Sample::kPatch, {237, 237, 242, 255}, "No terrain data"});
+  add_key_of_missing(ground, base);
   return base;
 }
 
@@ -109,6 +113,13 @@ profile::SheetColour paler(const profile::SheetColour& c) {
 }
 
 }  // namespace
+
+MapBase plain_base(const Store& store, const RasterGrid& pixels, Progress& progress) {
+  const viewshed::Relief ground = viewshed::relief(store, pixels, progress);
+  MapBase base{shaded(ground), {}, {}};
+  add_key_of_missing(ground, base);
+  return base;
+}
 
 MapBase map_base(const Store& store, const Box& frame, double scale, const std::string& basemap, Progress& progress) {
   const double pixel = kPixel * scale;

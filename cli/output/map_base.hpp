@@ -24,6 +24,9 @@ struct MapBase {
 /// Throws FileError for one that cannot be used.
 MapBase map_base(const Store& store, const Box& frame, double scale, const std::string& basemap, Progress& progress);
 
+/// The shaded relief alone, at these pixels.
+MapBase plain_base(const Store& store, const RasterGrid& pixels, Progress& progress);
+
 /// Names the picture in a title block.
 std::pair<std::string, std::string> basemap_fact(const std::string& basemap);
 

@@ -13,36 +13,25 @@ namespace {
 
 using profile::SheetKey;
 
-constexpr profile::SheetColour kMast{213, 94, 0, 255};
-
 profile::SheetColour drawn(const viewshed::ResultMap::Colour& c) {
   return {c.red, c.green, c.blue, c.alpha};
-}
-
-std::vector<SheetKey> keys_of(const ResultSheet& content) {
-  std::vector<SheetKey> keys;
-  const auto add = [&](const std::string& heading, const std::vector<viewshed::ResultMap::Key>& more) {
-    if (more.empty()) return;
-    keys.push_back({SheetKey::Sample::kHeading, {}, heading});
-    for (const auto& key : more) keys.push_back({SheetKey::Sample::kPatch, drawn(key.colour), key.text});
-  };
-  add(content.heading, content.map.keys);
-  add(content.map.scale_title, content.map.scale);
-  keys.push_back({SheetKey::Sample::kHeading, {}, "Map"});
-  if (!content.masts_key.empty()) keys.push_back({SheetKey::Sample::kMast, kMast, content.masts_key});
-  return keys;
 }
 
 /// Without layers, legend and title.
 profile::MapSheet empty_sheet(const Store& store, const ResultSheet& content, profile::PaperSize paper,
                               const SheetOptions& options) {
   profile::MapSheet sheet;
-  sheet.paper = paper, sheet.scale = options.scale(), sheet.area = content.grid.bounds();
+  sheet.paper = paper, sheet.scale = options.scale(), sheet.area = content.area;
   sheet.crs_wkt = store.metadata().crs_wkt;
   return sheet;
 }
 
 }  // namespace
+
+MapObjects mast_objects(std::vector<profile::SheetMark> masts, std::string key) {
+  return {profile::SheetMarks{profile::SheetSymbol::kMast, kMastColour, std::move(masts)},
+          {SheetKey::Sample::kMark, kMastColour, std::move(key)}};
+}
 
 std::string statement_of(const StoreMetadata& metadata, const ThemeChoice& themes) {
   if (!themes.includes_raised(metadata.themes))
@@ -54,22 +43,45 @@ std::string statement_of(const StoreMetadata& metadata, const ThemeChoice& theme
 MapBase base_of(const Store& store, const ResultSheet& content, profile::PaperSize paper, const SheetOptions& options,
                 Progress& progress) {
   const profile::MapSheet sheet = empty_sheet(store, content, paper, options);
-  return faded(map_base(store, profile::ground_in_frame(sheet), profile::scale_of(sheet), options.basemap(), progress),
-               [&](Point2 p) {
-                 const auto cell = content.grid.cell_at(p);
-                 return cell && content.studied(content.grid.index(*cell));
-               });
+  return faded_for(
+      map_base(store, profile::ground_in_frame(sheet), profile::scale_of(sheet), options.basemap(), progress), content);
+}
+
+MapBase faded_for(MapBase base, const ResultSheet& content) {
+  return faded(std::move(base), [&](Point2 p) {
+    const auto cell = content.grid.cell_at(p);
+    return cell && content.studied(content.grid.index(*cell));
+  });
+}
+
+std::vector<profile::SheetLayer> layers_of(const MapBase& base, const ResultSheet& content) {
+  profile::SheetCells cells{content.grid, {}};
+  for (const auto& colour : content.map.cells) cells.colours.push_back(drawn(colour));
+  std::vector<profile::SheetLayer> layers = layers_of(base, std::move(cells));
+  for (const MapObjects& objects : content.objects) layers.push_back(objects.layer);
+  return layers;
+}
+
+std::vector<SheetKey> keys_of(const MapBase& base, const ResultSheet& content) {
+  std::vector<SheetKey> keys;
+  const auto add = [&](const std::string& heading, const std::vector<viewshed::ResultMap::Key>& more) {
+    if (more.empty()) return;
+    keys.push_back({SheetKey::Sample::kHeading, {}, heading});
+    for (const auto& key : more) keys.push_back({SheetKey::Sample::kPatch, drawn(key.colour), key.text});
+  };
+  add(content.heading, content.map.keys);
+  add(content.map.scale_title, content.map.scale);
+  keys.push_back({SheetKey::Sample::kHeading, {}, "Map"});
+  for (const MapObjects& objects : content.objects) keys.push_back(objects.key);
+  keys.insert(keys.end(), base.keys.begin(), base.keys.end());
+  return keys;
 }
 
 profile::MapSheet map_sheet(const Store& store, const ResultSheet& content, const MapBase& base,
                             profile::PaperSize paper, const SheetOptions& options) {
   profile::MapSheet sheet = empty_sheet(store, content, paper, options);
-  profile::SheetCells cells{content.grid, {}};
-  for (const auto& colour : content.map.cells) cells.colours.push_back(drawn(colour));
-  sheet.layers = layers_of(base, std::move(cells));
-  sheet.layers.emplace_back(profile::SheetMarks{profile::SheetSymbol::kMast, kMast, content.masts});
-  sheet.legend = keys_of(content);
-  sheet.legend.insert(sheet.legend.end(), base.keys.begin(), base.keys.end());
+  sheet.layers = layers_of(base, content);
+  sheet.legend = keys_of(base, content);
   sheet.title = content.title;
   sheet.title.facts.emplace_back("Earth", content.earth.convention());
   sheet.title.facts.emplace_back("Coordinates", crs_title(store.metadata().crs_wkt));

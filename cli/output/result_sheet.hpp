@@ -16,13 +16,23 @@
 
 namespace itin::cli {
 
+/// Lines or marks, and what stands for them in the legend.
+struct MapObjects {
+  profile::SheetLayer layer;
+  profile::SheetKey key;
+};
+
+inline constexpr profile::SheetColour kMastColour{213, 94, 0, 255};
+/// Masts or eyes, as all maps mark them.
+MapObjects mast_objects(std::vector<profile::SheetMark> masts, std::string key);
+
 struct ResultSheet {
   RasterGrid grid;
+  Box area;                                  ///< that the map shows at least, metres
   viewshed::ResultMap map;                   ///< of its cells
   std::string heading;                       ///< of the map's keys
   std::function<bool(std::size_t)> studied;  ///< whether a cell is part of the study: the others' relief is faded
-  std::vector<profile::SheetMark> masts;
-  std::string masts_key;  ///< empty where there are none
+  std::vector<MapObjects> objects;           ///< over the cells, the lowest first
   Earth earth;
   profile::TitleBlock title;  ///< without what every sheet says: the Earth, coordinates, project, date, maker
 };
@@ -34,6 +44,13 @@ std::string statement_of(const StoreMetadata& metadata, const ThemeChoice& theme
 /// FileError (a basemap), InputError (a scale that is too large), Cancelled.
 MapBase base_of(const Store& store, const ResultSheet& content, profile::PaperSize paper, const SheetOptions& options,
                 Progress& progress);
+
+/// The base with the relief of cells that are not studied faded.
+MapBase faded_for(MapBase base, const ResultSheet& content);
+
+/// All that is drawn over such a base, the base lowest, and its legend.
+std::vector<profile::SheetLayer> layers_of(const MapBase& base, const ResultSheet& content);
+std::vector<profile::SheetKey> keys_of(const MapBase& base, const ResultSheet& content);
 
 /// The sheet, for profile::draw_map_sheet().
 profile::MapSheet map_sheet(const Store& store, const ResultSheet& content, const MapBase& base,

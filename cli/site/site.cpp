@@ -76,16 +76,17 @@ class SiteVerb final : public Verb {
     coverage.on_refined = [&](std::size_t option, int stage, const viewshed::CoverageBounds& bounds) {
       work.add(option, stage, bounds);
     };
-    SiteResult site{options_, inputs, coverage, heights ? shown : inputs.demand, {}, {}, {}, {}};
+    SiteResult site{options_, inputs, coverage, heights ? shown : inputs.demand, {}, {}, {}, {}, {}};
     site.choice = heights ? choose_by_heights(inputs, coverage, shown, goal, progress)
                           : choose_by_coverage(inputs, coverage, goal, progress);
     coverage.release_surfaces();
-    site.links = site_links(store, options_, inputs, site.choice, hub_position, progress);
+    site.network = site_network(store, options_, inputs, site.choice, hub_position, progress);
+    site.routes = site_routes(options_, site.network);
     site.ground_m = site_grounds(store, inputs, site.choice, progress);
     site.rasters = site_rasters(store, options_, inputs, coverage, site.choice, progress);
     Result result = write(store, site, progress);
     if (work.restored() > 0)
-      result.text += fmt::format("used of an earlier run: {}\n", counted(work.restored(), "result"));
+      result.text += fmt::format("taken over from an earlier run: {}\n", counted(work.restored(), "result"));
     work.remove();
     return result;
   }
@@ -115,7 +116,7 @@ class SiteVerb final : public Verb {
     if (needed <= options_.memory_bytes) return;
     throw InputError(fmt::format(
         "maps of {} cells, and what {} may serve of them, take some {:.2g} GB, more than the {:.2g} GB of --memory: "
-        "give a greater --cell, a smaller --radius, fewer sites, or more",
+        "give a greater --cell, a smaller --radius, fewer sites, or more memory",
         grouped(grid.cell_count()), counted(inputs.positions.size(), "site"), static_cast<double>(needed) / 1e9,
         static_cast<double>(options_.memory_bytes) / 1e9));
   }
@@ -219,7 +220,8 @@ class SiteVerb final : public Verb {
     result.document["sources"] = sources_document(sources);
     const std::vector<std::string> in_words = described(sources, store.metadata());
     write_site_sheets(store, site, in_words, options_.directory, policy_.overwrite, progress);
-    write_site_report(site, profiles, parameters(), inputs_document_, in_words, options_.directory, policy_.overwrite);
+    write_site_report(site, {site_figures(store, site, progress), profiles, parameters(), in_words}, options_.directory,
+                      policy_.overwrite);
     Document whole{{"itin", ITIN_VERSION}, {"command", {{"verb", name()}}}};
     whole["command"].update(parameters());
     whole.update(result.document);
@@ -257,9 +259,17 @@ class SiteVerb final : public Verb {
     }
     text += outcome(site);
     text += fmt::format(
-        "{}, {}, {} looked at again; {} left out\n", counted(site.inputs.candidates.size(), "candidate"),
+        "{}, {}, {} surveyed more closely; {} left out\n", counted(site.inputs.candidates.size(), "candidate"),
         counted(site.inputs.options.size(), "option"), grouped(site.refined()), grouped(site.inputs.rejected.size()));
+    if (options_.hub) text += routes_text(site);
     return text + fmt::format("{}: {}; open report.html\n", options_.directory, counted(files, "file"));
+  }
+
+  static std::string routes_text(const SiteResult& site) {
+    std::size_t reached = 0, hops = 0;
+    for (const SiteRoute& route : site.routes) reached += !route.hops.empty(), hops = std::max(hops, route.hops.size());
+    return fmt::format("routes to the hub: {} of {}, of at most {}\n", reached, counted(site.routes.size(), "site"),
+                       counted(hops, "hop"));
   }
 
   SiteOptions options_;

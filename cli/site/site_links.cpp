@@ -57,27 +57,28 @@ profile::Link link_between(const SitePosition& from, const SitePosition& to) {
   return {{}, from.position, from.height, to.position, to.height};
 }
 
-std::vector<SiteLink> site_links(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
-                                 const viewshed::Choice& choice, const std::optional<SitePosition>& hub,
-                                 Progress& progress) {
-  if (options.placement.given()) return {};  // turbines need not see each other
-  std::vector<SitePosition> ends;
-  for (const viewshed::ChosenSite& site : choice.chosen) ends.push_back(inputs.positions[site.option]);
-  for (std::size_t i = inputs.options.size(); i < inputs.positions.size() && options.intervisible; ++i) {
-    ends.push_back(inputs.positions[i]);
-    ends.back().name = "existing " + ends.back().name;
+SiteNetwork site_network(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
+                         const viewshed::Choice& choice, const std::optional<SitePosition>& hub, Progress& progress) {
+  using enum LinkEnd::Kind;
+  SiteNetwork network;
+  std::vector<LinkEnd>& ends = network.ends;
+  for (const viewshed::ChosenSite& site : choice.chosen) ends.push_back({kChosen, inputs.positions[site.option]});
+  for (std::size_t i = inputs.options.size(); i < inputs.positions.size(); ++i) {
+    ends.push_back({kExisting, inputs.positions[i]});
+    ends.back().place.name = "existing " + ends.back().place.name;
   }
-  if (hub) ends.push_back(*hub);
+  if (hub) ends.push_back({kHub, *hub});
+  if (options.placement.given()) return network;  // turbines need not see each other
   const profile::LinkQuery query = link_rules(options).query;
-  std::vector<SiteLink> result;
-  for (std::size_t i = 0; i < ends.size(); ++i) {
-    for (std::size_t j = i + 1; j < ends.size(); ++j) {
+  const std::size_t linked = options.intervisible ? ends.size() : choice.chosen.size();
+  for (std::size_t i = 0; i < linked; ++i) {
+    for (std::size_t j = i + 1; j < linked; ++j) {
       progress.throw_if_cancelled();
-      result.push_back({ends[i], ends[j], survey_link(store, link_between(ends[i], ends[j]), query)});
+      network.links.push_back({i, j, survey_link(store, link_between(ends[i].place, ends[j].place), query)});
     }
-    progress.report("links", static_cast<double>(i + 1) / static_cast<double>(ends.size()));
+    progress.report("links", static_cast<double>(i + 1) / static_cast<double>(linked));
   }
-  return result;
+  return network;
 }
 
 std::shared_ptr<viewshed::LinkNetwork> link_network(const Store& store, const SiteOptions& options,

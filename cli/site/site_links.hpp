@@ -29,18 +29,32 @@ LinkRules link_rules(const SiteOptions& options);
 /// Between antennas or eyes at two sites.
 profile::Link link_between(const viewshed::SitePosition& from, const viewshed::SitePosition& to);
 
-/// A line of sight between two sites, or a site and the hub.
+struct LinkEnd {
+  enum class Kind { kChosen, kExisting, kHub };
+  Kind kind = Kind::kChosen;
+  viewshed::SitePosition place;
+};
+
+/// A line of sight between two ends of a network, by their numbers.
 struct SiteLink {
-  viewshed::SitePosition from, to;
+  std::size_t from = 0, to = 0;
   profile::LinkResult line;
 
   const profile::LineFindings& found() const { return *line.found; }
 };
 
-/// Between all chosen sites, and to the hub; where links hold the choice together, existing sites take part.
-std::vector<SiteLink> site_links(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
-                                 const viewshed::Choice& choice, const std::optional<viewshed::SitePosition>& hub,
-                                 Progress& progress);
+struct SiteNetwork {
+  std::vector<LinkEnd> ends;  ///< chosen sites in their order, existing ones, the hub
+  std::vector<SiteLink> links;
+
+  const viewshed::SitePosition& from(const SiteLink& link) const { return ends[link.from].place; }
+  const viewshed::SitePosition& to(const SiteLink& link) const { return ends[link.to].place; }
+};
+
+/// With the lines between all chosen sites; where links hold the choice together, between all ends.
+SiteNetwork site_network(const Store& store, const SiteOptions& options, const SiteInputs& inputs,
+                         const viewshed::Choice& choice, const std::optional<viewshed::SitePosition>& hub,
+                         Progress& progress);
 
 /// The links among options, existing sites and the hub that meet the rules. Refers to the store and the progress.
 std::shared_ptr<viewshed::LinkNetwork> link_network(const Store& store, const SiteOptions& options,

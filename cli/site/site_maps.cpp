@@ -10,6 +10,8 @@
 
 #include "output/result_sheet.hpp"
 #include "output/store_document.hpp"
+#include "output/web_map.hpp"
+#include "site/site_map_objects.hpp"
 #include "site/site_report.hpp"
 #include "site/site_wording.hpp"
 
@@ -77,7 +79,7 @@ std::vector<SiteMap> site_maps(const SiteResult& r) {
   result.request.mode = viewshed::Mode::kCount;
   result.count = r.rasters.redundancy;
   options.title = wording.how_many;
-  if (turbines) options.counts = "Turbines";
+  options.counts = turbines ? "Turbines" : "Served by sites";
   maps.push_back({"redundancy", std::move(result), std::move(options)});
   return maps;
 }
@@ -86,14 +88,14 @@ ResultSheet sheet_of(const Store& store, const SiteResult& r, const SiteMap& map
                      const std::vector<std::string>& sources) {
   const StoreMetadata& metadata = store.metadata();
   ResultSheet sheet{map.result.grid,
+                    shown_area(r),
                     viewshed::result_map(map.result, map.options),
                     wording_of(r.options).share,
                     [&](std::size_t cell) { return map.result.visible[cell] != viewshed::Verdict::kOutside; },
-                    {},
-                    map.options.observers,
+                    site_map_objects(store, r),
                     r.options.earth.earth(),
                     {}};
-  for (const viewshed::Observer& site : map.result.request.observers) sheet.masts.push_back({site.position, site.name});
+  if (map.result.cells.outside > 0) sheet.map.keys.push_back({{255, 255, 255, 153}, map.options.outside});
   sheet.title.title = map.options.title;
   sheet.title.statement = statement_of(metadata, r.options.themes.choice());
   const bool turbines = r.options.placement.given();
@@ -112,7 +114,7 @@ ResultSheet sheet_of(const Store& store, const SiteResult& r, const SiteMap& map
 
 std::uint64_t bytes_of_site_maps(const Store& store, const RasterGrid& grid) {
   // Bytes per cell: its nearest server, how far that is, how many serve it, and copies of these to draw and to write.
-  constexpr std::uint64_t kCell = 20, kPoint = 150;
+  constexpr std::uint64_t kCell = 24, kPoint = 150;
   return kCell * grid.cell_count() + kPoint * store.points_about(hillshade_level(store, grid), grid.bounds());
 }
 
@@ -126,6 +128,14 @@ void write_site_maps(const Store& store, const SiteResult& r, const std::string&
       warnings.insert(warnings.end(), image.warnings.begin(), image.warnings.end());
     write_image((std::filesystem::path(directory) / map.name).string() + ".png", image, overwrite);
   }
+}
+
+std::vector<std::string> site_figures(const Store& store, const SiteResult& r, Progress& progress) {
+  WebMaps maps(store, shown_area(r), progress);
+  std::vector<std::string> figures;
+  for (const SiteMap& map : site_maps(r))
+    figures.push_back(maps.figure(sheet_of(store, r, map, {}), map.options.subtitle));
+  return figures;
 }
 
 void write_site_sheets(const Store& store, const SiteResult& r, const std::vector<std::string>& sources,

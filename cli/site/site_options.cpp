@@ -54,7 +54,7 @@ void SiteOptions::declare_candidates(CLI::App& app) {
                        "Propose candidates in these polygons (a file, or WKT) from the terrain")
             ->type_name("AREA"));
   app.add_option("--spacing", spacing_text_,
-                 "Of proposed candidates: about two for each square of this side; with --turbines one, in its middle")
+                 "Propose about two candidates in each square of this side; with --turbines one, in its middle")
       ->type_name("METRES");
   app.add_option("--mast-height", mast_height_text_, "Height of the masts, or several to choose from (default: 20)")
       ->type_name("H[,H...]");
@@ -71,7 +71,8 @@ void SiteOptions::declare_demand(CLI::App& app) {
             ->type_name("cells|FILE"));
   app.add_option("--weight-field", weight_field, "The field of the points that holds weights (default: 1 each)")
       ->type_name("FIELD");
-  app.add_option("--target-height", target_height_text_, "h of the targets (default: 2)")->type_name("METRES");
+  app.add_option("--target-height", target_height_text_, "Height of the targets above what they stand on (default: 2)")
+      ->type_name("METRES");
   app.add_option("--target-on", target_on_, "ground (default), or the surface with the roofs and tops of --themes")
       ->type_name("ground|surface");
   app.add_option(
@@ -85,32 +86,34 @@ void SiteOptions::declare_demand(CLI::App& app) {
          "How far a site serves (default: 10000), or turbines are looked for (default: by their tips, as ztv has "
          "it)")
       ->type_name("METRES");
-  app.add_option("--cell", cell_text_, "Size of the cells, of the rasters too (default: 50)")->type_name("METRES");
+  app.add_option("--cell", cell_text_, "Size of the cells of the demand and of the rasters (default: 50)")
+      ->type_name("METRES");
 }
 
 void SiteOptions::declare_choice(CLI::App& app) {
   app.add_option("--count", count_text_, "How many sites to choose, or turbines to place")->type_name("K");
-  app.add_option("--budget", budget_text_, "Choose sites whose costs sum up to this at most")->type_name("COST");
+  app.add_option("--budget", budget_text_, "Choose sites whose costs add up to at most this")->type_name("COST");
   app.add_option("--share", share_text_, "Choose sites until this share of the demand is served (0.8, or 80%)")
       ->type_name("SHARE");
-  app.add_option("--min-spacing", min_spacing_text_, "No two chosen sites are nearer to each other")
+  app.add_option("--min-spacing", min_spacing_text_, "No two chosen sites are nearer to each other than this")
       ->type_name("METRES");
   reads(app.add_option("--existing", existing, "Sites that serve already, from a vector file")->type_name("FILE"));
   reads(app.add_option("--forbidden", forbidden, "No site in these polygons (a file, or WKT)")->type_name("AREA"));
   app.add_option("--k-cover", cover_text_, "How many sites must serve a target for it to count as served (default: 1)")
       ->type_name("N");
-  app.add_flag("--intervisible", intervisible,
-               "Chosen sites reach each other by links between them and existing ones; relays may be bought");
+  app.add_flag(
+      "--intervisible", intervisible,
+      "Chosen sites reach each other by links between them and existing ones; sites may be chosen as relays alone");
   app.add_option("--hub", hub_text_, "Chosen sites reach this place by such links (implies --intervisible)")
       ->type_name("x,y[,h]");
   app.add_option("--exact-final", exact_final_text_, "The chosen sites' coverage is exact (default: on)")
       ->type_name("on|off");
-  app.add_option("--swap", swap_text_, "Exchange chosen sites for better ones after greedy (default: on)")
+  app.add_option("--swap", swap_text_, "Exchange chosen sites for better ones after the first selection (default: on)")
       ->type_name("on|off");
 }
 
 void SiteOptions::declare_work(CLI::App& app) {
-  app.add_option("--tolerance", tolerance_text_, "Detail of the first look at all candidates (default: by size)")
+  app.add_option("--tolerance", tolerance_text_, "Detail of the first estimate of all candidates (default: by size)")
       ->type_name("METRES");
   themes.declare(app);
   earth.declare(app);
@@ -180,8 +183,10 @@ void SiteOptions::validate_demand() {
   }
   if (!radius_text_.empty()) radius = parse_radius("--radius", radius_text_);
   cell = number("--cell", cell_text_, Range::kPositive);
-  if (cell.value_or(0) > radius) throw InputError(fmt::format("--cell '{}': larger than the radius", cell_text_));
-  if (demand == "cells" && !weight_field.empty()) throw InputError("--weight-field is of use with points only");
+  if (cell.value_or(0) > radius)
+    throw InputError(fmt::format("--cell '{}': larger than the radius; give a smaller one", cell_text_));
+  if (demand == "cells" && !weight_field.empty())
+    throw InputError("--weight-field is of use with points only: give them by --demand FILE");
 }
 
 void SiteOptions::validate_links() {
@@ -234,7 +239,8 @@ void SiteOptions::validate_choice() {
     share = parse_number("--share", digits, Range::kPositive) / (percent ? 100 : 1);
     if (*share > 1) throw InputError(fmt::format("--share '{}': more than all; give 0.8 or 80%", share_text_));
   }
-  if (!count && !budget && !share) throw InputError("how many sites? give --count, --budget or --share");
+  if (!count && !budget && !share)
+    throw InputError("nothing says how many sites to choose: give --count, --budget or --share");
   min_spacing = number("--min-spacing", min_spacing_text_, Range::kPositive);
   if (!cover_text_.empty()) cover = parse_whole("--k-cover", cover_text_, 1, 255);
   if (!hub_text_.empty()) hub = parse_place("--hub", hub_text_);

@@ -7,6 +7,7 @@
 #include <itin/coordinates.hpp>
 
 #include "output/store_document.hpp"
+#include "site/site_link_outputs.hpp"
 
 namespace itin::cli {
 
@@ -48,6 +49,7 @@ std::vector<SiteOutput> site_outputs(const SiteOptions& options, OutputPolicy& p
                              {"report.html", "everything on one page"},
                              {"site.json", "the result as a document"},
                              {"parameters.json", "for --params: runs this again"}});
+  if (options.hub) files.emplace_back("routes.csv", "the route of every site to the hub, hop by hop");
   for (const profile::PaperSize paper : options.sheets.papers())
     for (const char* map : {"coverage", "redundancy"})
       for (const std::string& name : sheet_names(map, paper))
@@ -110,18 +112,8 @@ Document site_document(const SiteResult& r, const StoreMetadata& metadata) {
     for (std::size_t i = 0; i < r.inputs.options.size(); ++i) stayed += r.coverage.stage(i) == stage;
     document["looks"].push_back({{"at", r.coverage.stage_name(stage)}, {"options_that_needed_no_more", stayed}});
   }
-  document["links"] = Document::array();
-  for (const SiteLink& link : r.links) {
-    Document entry{{"from", link.from.name},
-                   {"to", link.to.name},
-                   {"distance_m", link.line.distance_m},
-                   {"verdict", name_of(link.found().verdict)},
-                   {"gap_m", link.line.gap_m}};
-    if (link.found().clearance_m) entry["clearance_m"] = *link.found().clearance_m;
-    if (link.found().fresnel) entry["fresnel_fraction"] = link.found().fresnel->fraction;
-    if (r.options.frequency_ghz) entry["clear"] = link_rules(r.options).met_by(link.found());
-    document["links"].push_back(std::move(entry));
-  }
+  document["links"] = links_document(r);
+  if (r.options.hub) document["routes"] = routes_document(r);
   return document;
 }
 

@@ -1,5 +1,6 @@
 #include "site/site_profiles.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include <itin/error.hpp>
 #include <profile/los.hpp>
+#include <profile/sight_svg.hpp>
 
 #include "output/output_path.hpp"
 
@@ -16,6 +18,8 @@ namespace itin::cli {
 namespace {
 
 using viewshed::SitePosition;
+
+constexpr double kProfileWidth = 842, kProfileHeight = 300;  ///< of a sight line in the report, points
 
 profile::LosReport report_of(const Store& store, const SiteOptions& options, const SitePosition& from,
                              const SitePosition& to) {
@@ -32,6 +36,27 @@ profile::LosReport report_of(const Store& store, const SiteOptions& options, con
   return report;
 }
 
+bool is_drawn(const SiteLink& link) {
+  return link.found().verdict != profile::SightVerdict::kHidden && link.line.distance_m > 0;
+}
+
+/// Whether the report shows the profile of each link.
+std::vector<char> shown_in_report(const SiteResult& r) {
+  std::vector<char> shown(r.network.links.size());
+  if (r.options.hub) {
+    const std::vector<std::size_t> routes = routes_over_links(r.network, r.routes);
+    for (std::size_t i = 0; i < shown.size(); ++i) shown[i] = routes[i] > 0;
+    return shown;
+  }
+  std::vector<std::pair<double, std::size_t>> shortest;
+  for (std::size_t i = 0; i < shown.size(); ++i)
+    if (is_drawn(r.network.links[i])) shortest.emplace_back(r.network.links[i].line.distance_m, i);
+  std::sort(shortest.begin(), shortest.end());
+  if (shortest.size() > kMostProfiles) shortest.resize(kMostProfiles);
+  for (const auto& [distance, i] : shortest) shown[i] = true;
+  return shown;
+}
+
 }  // namespace
 
 std::vector<SiteProfile> write_site_profiles(const Store& store, const SiteResult& r, const std::string& directory,
@@ -40,21 +65,24 @@ std::vector<SiteProfile> write_site_profiles(const Store& store, const SiteResul
   const fs::path folder = fs::path(directory) / "links";
   std::vector<SiteProfile> profiles;
   std::set<std::string> taken;
-  for (const SiteLink& link : r.links) {
+  const std::vector<char> in_report = shown_in_report(r);
+  for (std::size_t i = 0; i < r.network.links.size(); ++i) {
+    const SiteLink& link = r.network.links[i];
     progress.throw_if_cancelled();
-    if (link.found().verdict == profile::SightVerdict::kHidden || link.line.distance_m == 0) continue;
-    const SitePosition &from = link.from, &to = link.to;
+    if (!is_drawn(link)) continue;
+    const SitePosition &from = r.network.from(link), &to = r.network.to(link);
     std::error_code failed;
     fs::create_directory(folder, failed);
     if (failed) throw FileError(folder.string(), "cannot be made (" + failed.message() + "); name another place");
     std::string name = file_name(from.name + "--" + to.name);
-    if (!taken.insert(name).second) name += fmt::format("-{}", &link - r.links.data() + 1);
+    if (!taken.insert(name).second) name += fmt::format("-{}", i + 1);
     taken.insert(name);
     const std::string path = (folder / (name + ".svg")).string();
-    profile::write_report(report_of(store, r.options, from, to), {}, path, overwrite);
-    profiles.push_back({path, fmt::format("{} to {}, {:.1f} km", from.name, to.name, link.line.distance_m / 1000)});
-    progress.report("profiles of links",
-                    static_cast<double>(&link - r.links.data() + 1) / static_cast<double>(r.links.size()));
+    const profile::LosReport report = report_of(store, r.options, from, to);
+    profile::write_report(report, {}, path, overwrite);
+    profiles.push_back({path, fmt::format("{} to {}, {:.1f} km", from.name, to.name, link.line.distance_m / 1000),
+                        in_report[i] ? profile::sight_svg(report, kProfileWidth, kProfileHeight) : ""});
+    progress.report("profiles of links", static_cast<double>(i + 1) / static_cast<double>(r.network.links.size()));
   }
   return profiles;
 }

@@ -127,17 +127,16 @@ std::string SiteResult::reason(std::size_t option) const {
   const bool exact = coverage.bounds(option).exact || options.placement.sums_heights();
   const std::optional<viewshed::Margin>& margin = choice.closest[option];
   if (!margin)
-    return options.placement.given() ? "out of the question at every step (spacing)"
-                                     : "out of the question at every step (spacing, links, cost, or another mast of "
-                                       "its place)";
+    return options.placement.given() ? "ruled out at every step by the spacing"
+                                     : "ruled out at every step: by spacing, links, cost, or another mast at its place";
   const double unit = measure.in_metric(1);
   if (options.placement.given())
-    return fmt::format("at step {} it adds {} {:.10g}, the one taken {:.10g}", margin->step + 1,
+    return fmt::format("at step {} it would add {} {:.10g}; the one taken adds {:.10g}", margin->step + 1,
                        exact ? "exactly" : "at least", margin->upper * unit, margin->chosen * unit);
-  return fmt::format("at step {} it gains {} {:.10g}{}, the one taken {:.10g}", margin->step + 1,
+  return fmt::format("at step {} it would add {} {:.10g}{}; the one taken adds {:.10g}", margin->step + 1,
                      exact ? "exactly" : "at most", margin->upper * unit,
                      options.budget         ? " for each unit of cost"
-                     : options.intervisible ? " per site of its way"
+                     : options.intervisible ? " for each site on its way"
                                             : "",
                      margin->chosen * unit);
 }

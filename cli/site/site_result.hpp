@@ -9,6 +9,7 @@
 
 #include "site/site_inputs.hpp"
 #include "site/site_links.hpp"
+#include "site/site_routes.hpp"
 
 namespace itin::cli {
 
@@ -34,7 +35,8 @@ struct SiteResult {
   const viewshed::SiteCoverage& coverage;
   const viewshed::Demand& measure;  ///< of the choice's value and gains: the demand, or the heights seen of turbines
   viewshed::Choice choice;
-  std::vector<SiteLink> links;
+  SiteNetwork network;
+  std::vector<SiteRoute> routes;  ///< of the network's sites to the hub; none without one
   SiteRasters rasters;
   std::vector<double> ground_m;  ///< elevation of the ground under each chosen site, which may stand on a roof
 

@@ -7,6 +7,7 @@
 #include <itin/output_file.hpp>
 #include <itin/vector_export.hpp>
 
+#include "site/site_link_outputs.hpp"
 #include "site/site_outputs.hpp"
 
 namespace itin::cli {
@@ -45,33 +46,6 @@ std::string candidates_table(const SiteResult& r) {
                    place.position.y, place.height, r.inputs.options[i].cost,
                    csv_cell(r.coverage.stage_name(r.coverage.stage(i))), first.certain, first.possible, now.certain,
                    now.possible, r.candidate(i).why, csv_cell(r.reason(i)));
-  }
-  return text;
-}
-
-bool is_clear(const SiteResult& r, const SiteLink& link) {
-  return link_rules(r.options).met_by(link.found());
-}
-
-std::string links_csv(const SiteResult& r) {
-  std::string text = "from,to,distance_m,verdict,clearance_m,critical_x,critical_y,critical_z";
-  text += r.options.frequency_ghz ? ",fresnel_fraction,clear,gap_m\n" : ",gap_m\n";
-  const auto out = std::back_inserter(text);
-  for (const SiteLink& link : r.links) {
-    const profile::LineFindings& found = link.found();
-    fmt::format_to(out, "{},{},{:.3f},{}", csv_cell(link.from.name), csv_cell(link.to.name), link.line.distance_m,
-                   name_of(found.verdict));
-    if (found.critical) {
-      fmt::format_to(out, ",{:.3f},{:.3f},{:.3f},{:.3f}", *found.clearance_m, found.critical->x, found.critical->y,
-                     found.critical->ground_m);
-    } else {
-      text += ",,,,";
-    }
-    if (r.options.frequency_ghz) {
-      text += found.fresnel ? fmt::format(",{:.4f}", found.fresnel->fraction) : ",";
-      text += is_clear(r, link) ? ",yes" : ",no";
-    }
-    fmt::format_to(out, ",{:.3f}\n", link.line.gap_m);
   }
   return text;
 }
@@ -120,30 +94,6 @@ VectorLayer candidates_layer(const SiteResult& r) {
   return layer;
 }
 
-VectorLayer links_layer(const SiteResult& r) {
-  VectorLayer layer{"links",
-                    VectorLayer::Shape::kLines,
-                    {{"from_id", Type::kText},
-                     {"to_id", Type::kText},
-                     {"distance_m", Type::kNumber},
-                     {"verdict", Type::kText},
-                     {"clearance_m", Type::kNumber},
-                     {"fresnel_fraction", Type::kNumber},
-                     {"gap_m", Type::kNumber}},
-                    {}};
-  for (const SiteLink& link : r.links) {
-    const viewshed::SitePosition &a = link.from, &b = link.to;
-    VectorLayer::Value clearance, fraction;
-    if (link.found().clearance_m) clearance = *link.found().clearance_m;
-    if (link.found().fresnel) fraction = link.found().fresnel->fraction;
-    layer.features.push_back(
-        {{{a.position.x, a.position.y, a.elevation()}, {b.position.x, b.position.y, b.elevation()}},
-         {a.name, b.name, link.line.distance_m, std::string(name_of(link.found().verdict)), clearance, fraction,
-          link.line.gap_m}});
-  }
-  return layer;
-}
-
 /// As `itin ztv --turbines` reads them.
 std::string turbines_csv(const SiteResult& r) {
   const PlacementOptions& placement = r.options.placement;
@@ -185,6 +135,7 @@ void write_site_tables(const SiteResult& result, const std::string& directory, b
     write_file(in_folder(directory, "turbines.csv"), turbines_csv(result), overwrite);
   } else {
     write_file(in_folder(directory, "links.csv"), links_csv(result), overwrite);
+    if (result.options.hub) write_file(in_folder(directory, "routes.csv"), routes_csv(result), overwrite);
   }
 }
 

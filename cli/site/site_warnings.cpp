@@ -40,19 +40,20 @@ void warn_of_reach(const SiteResult& site, const StoreMetadata& metadata, std::v
   if (beyond == 0) return;
   warnings.push_back(
       fmt::format("the radius of {:g} m reaches beyond the data from {} of {}: demand there is not counted, so that "
-                  "places near the "
-                  "edge of the data seem less seen than they are; import a larger source, or give a smaller --radius",
+                  "places near the edge of the data seem less seen than they are; import a larger source, or give a "
+                  "smaller --radius",
                   site.options.radius, grouped(static_cast<std::uint64_t>(beyond)), counted(places.size(), "place")));
 }
 
 void warn_of_too_few(const SiteResult& site, std::vector<std::string>& warnings) {
   const SiteOptions& options = site.options;
   if (options.count && site.choice.chosen.size() < *options.count)
-    warnings.push_back(fmt::format("{} chosen, not {}: no other that may be taken gains anything",
+    warnings.push_back(fmt::format("{} chosen, not {}: no other site that may be chosen serves anything more",
                                    counted(site.choice.chosen.size(), "site"), *options.count));
   if (options.share && site.inputs.demand.in_metric(site.choice.value + site.choice.existing) <
                            *options.share * site.inputs.demand.in_metric(site.inputs.total))
-    warnings.emplace_back("the wanted share is not reached: no further site that may be taken gains anything");
+    warnings.emplace_back(
+        "the share asked for is not reached: no further site that may be chosen serves anything more");
 }
 
 }  // namespace
@@ -63,7 +64,7 @@ void warn_of(const SiteResult& site, const StoreMetadata& metadata, std::vector<
   warn_of_left_out(site, warnings);
   if (options.placement.given() && options.demand == "cells") warn_of_reach(site, metadata, warnings);
   if (site.inputs.demand_without_ground > 0)
-    warnings.push_back(fmt::format("no ground is under {} of the demand, which cannot be served",
+    warnings.push_back(fmt::format("{} of the demand cannot be served: there is no ground data",
                                    counted(site.inputs.demand_without_ground, "point")));
   warn_of_too_few(site, warnings);
 }

@@ -19,11 +19,11 @@ SiteWording of_sites() {
           .how_many = "Sites that serve a place",
           .count = "sites that serve the cell",
           .nearest = "nearest site that serves the cell; 0 none",
-          .coverage_curve = "Coverage curve",
-          .order = "Sites, in the order in which they gain most",
-          .count_heading = "Redundancy",
+          .coverage_curve = "Share served by number of sites",
+          .order = "Chosen sites, in the order in which they add most",
+          .count_heading = "How many sites serve each place",
           .bound = "no choice serves more than",
-          .sufficient = "what they serve at most never came first"};
+          .sufficient = "even the most that they may serve never came first"};
 }
 
 SiteWording of_turbines(const PlacementOptions& placement) {
@@ -43,7 +43,7 @@ SiteWording of_turbines(const PlacementOptions& placement) {
           .order = "Turbines, in the order in which they add least",
           .count_heading = fmt::format("How many {}s are seen", part),
           .bound = "no choice has less than",
-          .sufficient = "what sees them at least was never the least"};
+          .sufficient = "even the least that sees them was never the least"};
 }
 
 }  // namespace

@@ -48,14 +48,16 @@ void write_viewshed_sheet(const Store& store, const viewshed::Result& result, co
                           const std::vector<std::string>& sources, bool overwrite, Progress& progress) {
   if (options.file().empty()) return;
   ResultSheet sheet{result.grid,
+                    result.grid.bounds(),
                     viewshed::result_map(result, {}),
                     "Share of the cells with terrain data in view",
                     [&](std::size_t cell) { return result.visible[cell] != viewshed::Verdict::kOutside; },
                     {},
-                    "Observer",
                     result.request.earth,
                     title_block(store, result, sources)};
-  for (const viewshed::Observer& o : result.request.observers) sheet.masts.push_back({o.position, o.name});
+  std::vector<profile::SheetMark> observers;
+  for (const viewshed::Observer& o : result.request.observers) observers.push_back({o.position, o.name});
+  sheet.objects.push_back(mast_objects(std::move(observers), "Observer"));
   write_file(options.file(),
              draw_result_sheet(store, sheet, options.papers().front(), options, options.file(), progress), overwrite);
 }

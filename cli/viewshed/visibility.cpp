@@ -156,11 +156,11 @@ class VisibilityVerb final : public Verb {
   void write_sheet(const Store& store, const viewshed::VisibilityIndex& index, Progress& progress) const {
     const StoreMetadata& metadata = store.metadata();
     ResultSheet sheet{index.grid,
+                      index.grid.bounds(),
                       viewshed::result_map(index),
                       "Share of the ground within the radius that is seen",
                       [&](std::size_t cell) { return !std::isnan(index.share[cell]); },
                       {},
-                      "",
                       request_.earth,
                       {}};
     profile::TitleBlock& block = sheet.title;

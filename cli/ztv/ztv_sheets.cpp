@@ -101,7 +101,7 @@ class Furniture {
     for (const NamedPlace& v : facts.viewpoints)
       marks.marks.push_back({v.position, fmt::format("{} {}", v.number, v.name)});
     layers.emplace_back(std::move(marks));
-    keys.push_back({SheetKey::Sample::kViewpoint, kViewpoint, "Viewpoint"});
+    keys.push_back({SheetKey::Sample::kMark, kViewpoint, "Viewpoint", profile::SheetSymbol::kViewpoint});
   }
 
   std::vector<profile::SheetLayer> layers;
@@ -133,8 +133,8 @@ class Furniture {
       for (const Turbine& t : zone.request.turbines)
         if (single || t.farm == farms[f]) marks.marks.push_back({t.position, fmt::format("{}", t.number)});
       const std::string turbines = counted(marks.marks.size(), "wind turbine") + ", numbered";
-      keys.push_back({SheetKey::Sample::kTurbine, marks.colour,
-                      farms[f].empty() ? turbines : fmt::format("{}: {}", farms[f], turbines)});
+      keys.push_back({SheetKey::Sample::kMark, marks.colour,
+                      farms[f].empty() ? turbines : fmt::format("{}: {}", farms[f], turbines), marks.symbol});
       layers.emplace_back(std::move(marks));
     }
   }

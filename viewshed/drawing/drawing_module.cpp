@@ -13,13 +13,13 @@ namespace itin::viewshed {
 namespace {
 
 OIIO::ImageSpec spec_of(const Picture& picture) {
-  return {picture.width, picture.height, 3, OIIO::TypeDesc::UINT8};
+  return {picture.width, picture.height, picture.channels, OIIO::TypeDesc::UINT8};
 }
 
 void draw_text(const Picture& picture, const char* text, const Font& font, int x, int y, int align,
                const float* colour) {
   using OIIO::ImageBufAlgo::TextAlignX;
-  OIIO::ImageBuf image(spec_of(picture), picture.rgb);
+  OIIO::ImageBuf image(spec_of(picture), picture.samples);
   const TextAlignX side = align == 0 ? TextAlignX::Left : align == 1 ? TextAlignX::Center : TextAlignX::Right;
   OIIO::ImageBufAlgo::render_text(image, x, y, text, font.size, font.path, {colour, 3}, side);
 }
@@ -35,12 +35,15 @@ bool knows_format(const char* path) {
 }
 
 // Into memory: several of the libraries beneath take no notice of a full disk, and libjpeg ends the program.
-const char* encode(const Picture& picture, const char* path, void* to, Append append) {
+const char* encode(const Picture& picture, const char* path, int quality, void* to, Append append) {
   static thread_local std::string reason;
+  OIIO::ImageSpec spec = spec_of(picture);
+  spec.attribute("CompressionQuality", quality);
+  spec.attribute("oiio:UnassociatedAlpha", 1);
   const auto output = OIIO::ImageOutput::create(path);
   OIIO::Filesystem::IOVecOutput bytes;
-  const bool encoded = output && output->set_ioproxy(&bytes) && output->open(path, spec_of(picture)) &&
-                       output->write_image(OIIO::TypeDesc::UINT8, picture.rgb) && output->close();
+  const bool encoded = output && output->set_ioproxy(&bytes) && output->open(path, spec) &&
+                       output->write_image(OIIO::TypeDesc::UINT8, picture.samples) && output->close();
   if (encoded) {
     append(to, bytes.buffer().data(), bytes.buffer().size());
     return nullptr;

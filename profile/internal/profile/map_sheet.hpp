@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
@@ -48,7 +49,10 @@ struct SheetLines {
   bool dashed = false;
 };
 
-enum class SheetSymbol { kTurbine, kViewpoint, kMast };
+enum class SheetSymbol { kTurbine, kViewpoint, kMast, kRelay, kExistingMast, kHub };
+/// About its place, y downwards, for a height of 1. Empty for discs and for turbines.
+std::span<const Point2> corners_of(SheetSymbol symbol);
+
 /// Labels that would cover another label or a mark are left out, those of later marks first.
 struct SheetMark {
   Point2 at;
@@ -64,10 +68,11 @@ using SheetLayer = std::variant<SheetCells, SheetLines, SheetMarks>;
 
 /// One row of the legend; what is shown before the text looks as it does on the map.
 struct SheetKey {
-  enum class Sample { kPatch, kLine, kDashes, kTurbine, kViewpoint, kMast, kHeading };
+  enum class Sample { kPatch, kLine, kDashes, kMark, kHeading };
   Sample sample = Sample::kPatch;
   SheetColour colour;
   std::string text;
+  SheetSymbol symbol = SheetSymbol::kMast;  ///< of a mark
 };
 
 struct TitleBlock {

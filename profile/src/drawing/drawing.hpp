@@ -1,4 +1,4 @@
-// Line drawings as SVG, PDF or PNG: the only face Cairo shows to the rest of the library.
+// Line drawings as SVG, PDF or PNG.
 //
 //   Drawing drawing(Drawing::format_of("chart.pdf"), 800, 400);
 //   drawing.polyline({{10, 10}, {100, 50}}, {kBlack, 1.5});
@@ -18,6 +18,8 @@
 #include <itin/geometry.hpp>
 
 namespace itin::profile {
+
+class Surface;
 
 struct Colour {
   double red = 0, green = 0, blue = 0, alpha = 1;
@@ -39,6 +41,7 @@ struct Lettering {
   double turn_deg = 0;  ///< counterclockwise about the anchor
   double rim = 0;       ///< width of a white edge that keeps what is below from the letters
 };
+inline constexpr Colour kRim{1, 1, 1, 0.85};
 
 class Drawing {
  public:
@@ -61,6 +64,7 @@ class Drawing {
   void outline(const Box& box, const Stroke& stroke);
   void circle(Point2 centre, double radius, const Colour& fill);
   /// Cells of equal size over a box, unsmoothed, row by row from the top: 0xAARRGGBB, no colour yet times its alpha.
+  /// Only for PDF and PNG.
   void cells(const Box& box, int columns, int rows, std::span<const std::uint32_t> argb);
   /// The anchor is on the baseline, at the text's left end, centre or right end.
   void text(Point2 anchor, const std::string& text, const Lettering& lettering);
@@ -81,7 +85,6 @@ class Drawing {
   std::string finish();
 
  private:
-  struct Surface;
   double width_, height_;
   std::unique_ptr<Surface> surface_;
 };

@@ -6,10 +6,10 @@
 #include <numbers>
 
 #include <itin/geodesic.hpp>
+#include <itin/label_places.hpp>
+#include <itin/simplified.hpp>
 
-#include "drawing/label_places.hpp"
 #include "drawing/palette.hpp"
-#include "drawing/simplified.hpp"
 
 namespace itin::profile {
 

@@ -5,11 +5,11 @@
 
 #include <itin/base64.hpp>
 #include <itin/markup.hpp>
+#include <profile/sight_svg.hpp>
 
 #include "report/fade.hpp"
 #include "report/formats.hpp"
 #include "report/path_tables.hpp"
-#include "report/sight_chart.hpp"
 #include "report/tables.hpp"
 #include "report/trade_off_chart.hpp"
 
@@ -24,11 +24,17 @@ constexpr const char* kStyle =
     "border-bottom:1px solid #ddd}img{width:100%;height:auto}.note{color:#666;font-size:.9em}"
     ".verdict{font-size:1.1rem;font-weight:600}@media print{body{margin:0;max-width:none}h2{break-after:avoid}}";
 
-template <class Draw>
-std::string image(double width, double height, const char* what, Draw draw) {
+constexpr double kChartWidth = 842, kChartHeight = 420;
+
+std::string image(const char* what, const std::string& svg) {
+  return fmt::format("<img alt=\"{}\" src=\"data:image/svg+xml;base64,{}\">\n", what, base64(svg));
+}
+
+std::string trade_off_svg(const LosReport& report) {
+  constexpr double width = 620, height = 380;
   Drawing drawing(Drawing::Format::kSvg, width, height);
-  draw(drawing, Box{0, 0, width, height});
-  return fmt::format("<img alt=\"{}\" src=\"data:image/svg+xml;base64,{}\">\n", what, base64(drawing.finish()));
+  draw_trade_off_chart(drawing, {0, 0, width, height}, report);
+  return drawing.finish();
 }
 
 std::string html_table(const Table& table) {
@@ -53,20 +59,15 @@ std::string report_html(const LosReport& report) {
       "content=\"width=device-width\">\n<title>{0}</title>\n<style>{1}</style></head>\n<body>\n<h1>{0}</h1>\n"
       "<p class=\"verdict\">{2}</p>\n",
       escaped_markup(report.title), kStyle, escaped_markup(verdict_line(report)));
-  html += image(842, 420, "Sight line over the terrain",
-                [&](Drawing& drawing, const Box& box) { draw_sight_chart(drawing, box, report); });
+  html += image("Sight line over the terrain", sight_svg(report, kChartWidth, kChartHeight));
   if (const CriterionResult* fade = worst_fade(report)) {
-    const LosReport there = over_earth_of(report, *fade);
     html += fmt::format("<p>{}</p>\n", escaped_markup(fade_line(*fade)));
-    html += image(842, 420, "Sight line over the Earth of the worst fade",
-                  [&](Drawing& drawing, const Box& box) { draw_sight_chart(drawing, box, there); });
+    html += image("Sight line over the Earth of the worst fade",
+                  sight_svg(over_earth_of(report, *fade), kChartWidth, kChartHeight));
   }
   html += html_table(ends_table(report));
   for (const Table& table : result_tables(report)) html += html_table(table);
-  if (has_trade_off(report)) {
-    html += image(620, 380, "Heights at A against B",
-                  [&](Drawing& drawing, const Box& box) { draw_trade_off_chart(drawing, box, report); });
-  }
+  if (has_trade_off(report)) html += image("Heights at A against B", trade_off_svg(report));
   if (const std::optional<Table> profile = profile_table(report)) html += html_table(*profile);
   return html + html_table(facts_table(report)) + "</body>\n</html>\n";
 }

@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <profile/sight_svg.hpp>
+
 #include "drawing/theme_colour.hpp"
 #include "report/fade.hpp"
 #include "report/tables.hpp"
@@ -348,6 +350,12 @@ class SightChart {
 
 void draw_sight_chart(Drawing& drawing, const Box& area, const LosReport& report) {
   SightChart(drawing, area, report).draw();
+}
+
+std::string sight_svg(const LosReport& report, double width, double height) {
+  Drawing drawing(Drawing::Format::kSvg, width, height);
+  draw_sight_chart(drawing, {0, 0, width, height}, report);
+  return drawing.finish();
 }
 
 }  // namespace itin::profile

@@ -36,6 +36,16 @@ std::uint32_t argb(const SheetColour& c) {
 
 }  // namespace
 
+std::span<const Point2> corners_of(SheetSymbol symbol) {
+  static constexpr std::array<Point2, 4> kSquare{{{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}};
+  static constexpr std::array<Point2, 4> kDiamond{{{0, -0.62}, {0.62, 0}, {0, 0.62}, {-0.62, 0}}};
+  static constexpr std::array<Point2, 3> kTriangle{{{0, -0.6}, {0.6, 0.45}, {-0.6, 0.45}}};
+  if (symbol == SheetSymbol::kHub) return kSquare;
+  if (symbol == SheetSymbol::kRelay) return kDiamond;
+  if (symbol == SheetSymbol::kExistingMast) return kTriangle;
+  return {};
+}
+
 void draw_symbol(Drawing& drawing, SheetSymbol symbol, Point2 at, double size, const SheetColour& colour) {
   const Colour fill = drawn(colour);
   if (symbol == SheetSymbol::kTurbine) {
@@ -49,6 +59,16 @@ void draw_symbol(Drawing& drawing, SheetSymbol symbol, Point2 at, double size, c
     };
     blades({{1, 1, 1, 0.9}, 0.34 * size, {}});
     blades({fill, 0.15 * size, {}});
+    return;
+  }
+  if (const std::span<const Point2> corners = corners_of(symbol); !corners.empty()) {
+    std::vector<Point2> outer, inner;
+    for (const Point2& c : corners) {
+      outer.push_back({at.x + size * c.x, at.y + size * c.y});
+      inner.push_back({at.x + 0.82 * size * c.x, at.y + 0.82 * size * c.y});
+    }
+    drawing.polygon(outer, kPaper);
+    drawing.polygon(inner, fill);
     return;
   }
   drawing.circle(at, 0.5 * size, kPaper);

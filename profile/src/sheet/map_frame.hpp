@@ -2,10 +2,10 @@
 #pragma once
 
 #include <itin/geometry.hpp>
+#include <itin/label_places.hpp>
 #include <profile/map_sheet.hpp>
 
 #include "drawing/drawing.hpp"
-#include "drawing/label_places.hpp"
 #include "sheet/paper.hpp"
 
 namespace itin::profile {

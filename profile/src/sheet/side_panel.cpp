@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <itin/coordinates.hpp>
+#include <itin/round_length.hpp>
 
 #include "drawing/palette.hpp"
 #include "sheet/map_frame.hpp"
@@ -20,12 +21,6 @@ std::string with_commas(double number) {
   std::string digits = fmt::format("{:.0f}", number);
   for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, 1, ',');
   return digits;
-}
-
-/// 1, 2 or 5 times a power of ten, at most v.
-double round_down(double v) {
-  const double decade = std::pow(10, std::floor(std::log10(v)));
-  return v >= 5 * decade ? 5 * decade : v >= 2 * decade ? 2 * decade : decade;
 }
 
 }  // namespace
@@ -96,14 +91,10 @@ void SidePanel::draw_key(const SheetKey& key) {
       drawing_.polyline(std::array{Point2{patch.xmin, middle}, Point2{patch.xmax, middle}}, stroke);
       break;
     }
-    case kTurbine:
-      draw_symbol(drawing_, SheetSymbol::kTurbine, {x + width / 2, middle + 0.4 * size}, size, key.colour);
-      break;
-    case kViewpoint:
-      draw_symbol(drawing_, SheetSymbol::kViewpoint, {x + width / 2, middle}, size, key.colour);
-      break;
-    default:
-      draw_symbol(drawing_, SheetSymbol::kMast, {x + width / 2, middle}, size, key.colour);
+    default: {
+      const double up = key.symbol == SheetSymbol::kTurbine ? 0.4 * size : 0;
+      draw_symbol(drawing_, key.symbol, {x + width / 2, middle + up}, size, key.colour);
+    }
   }
   const Lettering lettering{.size = 7 * paper_.type, .colour = kInk};
   const double text = x + width + 2 * kPointsPerMillimetre * paper_.type;
@@ -130,7 +121,7 @@ void SidePanel::draw_legend(double bottom) {
 
 void SidePanel::draw_scale() {
   const double top = y_, points_per_metre = 1000 * kPointsPerMillimetre / scale_;
-  const double length = round_down(46 * kPointsPerMillimetre * paper_.type / points_per_metre),
+  const double length = round_length(46 * kPointsPerMillimetre * paper_.type / points_per_metre),
                bar = length * points_per_metre;
   const double unit = length >= 2000 ? 1000 : 1;
   const Lettering small{.size = 6.5 * paper_.type, .colour = kInk, .align = Align::kCentre};

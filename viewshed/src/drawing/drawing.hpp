@@ -11,10 +11,10 @@
 
 namespace itin::viewshed {
 
-/// 8-bit sRGB, row by row from the top.
+/// 8-bit samples, row by row from the top: one a pixel is grey, three are red, green and blue, the fourth is alpha.
 struct Picture {
-  std::uint8_t* rgb;
-  int width, height;
+  std::uint8_t* samples;
+  int width, height, channels;
 };
 
 /// A font's path and its height in pixels.
@@ -26,14 +26,15 @@ struct Font {
 using Append = void (*)(void* to, const void* bytes, std::size_t count);
 
 struct Drawing {
-  /// From (x, y), or about it, or up to it, for align 0, 1, 2.
+  /// From (x, y), or about it, or up to it, for align 0, 1, 2; on three channels.
   void (*draw_text)(const Picture& picture, const char* text, const Font& font, int x, int y, int align,
                     const float* colour);
   int (*text_width)(const char* text, const Font& font);
   /// Whether the path's ending names a format.
   bool (*knows_format)(const char* path);
-  /// A file's bytes, of the format that the path's ending names. Null, or why it failed: until the thread's next call.
-  const char* (*encode)(const Picture& picture, const char* path, void* to, Append append);
+  /// A file's bytes, of the format that the path's ending names; `quality` is that of a JPEG, 1 to 100. Null, or why it
+  /// failed: until the thread's next call.
+  const char* (*encode)(const Picture& picture, const char* path, int quality, void* to, Append append);
 };
 
 /// The table that the module exports as `itin_drawing`; loads it. Throws FileError where it is missing or broken.

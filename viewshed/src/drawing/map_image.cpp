@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/round_length.hpp>
 #include <viewshed/map_image.hpp>
 #include <viewshed/surface.hpp>
 
@@ -41,14 +42,6 @@ std::string area_text(double square_metres) {
 void require_possible(const MapOptions& options) {
   if (options.map_pixels < 200 || options.map_pixels > 16000)
     throw InputError(fmt::format("map of {} pixels: give 200 to 16000", options.map_pixels));
-}
-
-/// 1, 2 or 5 times a power of ten, at most v.
-double round_length(double v) {
-  const double decade = std::pow(10, std::floor(std::log10(v)));
-  for (const double step : {5.0, 2.0})
-    if (step * decade <= v) return step * decade;
-  return decade;
 }
 
 class MapDrawing {

@@ -10,6 +10,7 @@
 #include <itin/error.hpp>
 #include <itin/output_file.hpp>
 #include <viewshed/map_image.hpp>
+#include <viewshed/picture_bytes.hpp>
 
 #include "drawing/drawing.hpp"
 #include "drawing/lettering.hpp"
@@ -51,7 +52,7 @@ void Lettering::draw(Canvas& canvas, const std::string& text, Point2 baseline, i
   if (!available()) return;
   const std::array<float, 3> rgb{colour.red / 255.0F, colour.green / 255.0F, colour.blue / 255.0F};
   const int side = align == Align::kLeft ? 0 : align == Align::kCentre ? 1 : 2;
-  drawing().draw_text({canvas.rgb().data(), canvas.width(), canvas.height()}, plain_text(text).c_str(),
+  drawing().draw_text({canvas.rgb().data(), canvas.width(), canvas.height(), 3}, plain_text(text).c_str(),
                       {font_.c_str(), size}, static_cast<int>(baseline.x), static_cast<int>(baseline.y), side,
                       rgb.data());
 }
@@ -73,17 +74,22 @@ void require_image_format(const std::string& path) {
                                  fs::path(path).extension().string()));
 }
 
-void write_image(const std::string& path, const MapImage& image, bool overwrite) {
-  require_image_format(path);
+std::string picture_bytes(const PictureSamples& samples, const std::string& path, int quality) {
   // The module does not change what it encodes.
-  const Picture picture{const_cast<std::uint8_t*>(image.rgb.data()), image.width, image.height};
+  const Picture picture{const_cast<std::uint8_t*>(samples.values.data()), samples.width, samples.height,
+                        samples.channels};
   std::string bytes;
   const char* const failed =
-      drawing().encode(picture, path.c_str(), &bytes, [](void* to, const void* from, std::size_t count) {
+      drawing().encode(picture, path.c_str(), quality, &bytes, [](void* to, const void* from, std::size_t count) {
         static_cast<std::string*>(to)->assign(static_cast<const char*>(from), count);
       });
   if (failed != nullptr) throw FileError(path, std::string("cannot be written: ") + failed);
-  write_file(path, bytes, overwrite);
+  return bytes;
+}
+
+void write_image(const std::string& path, const MapImage& image, bool overwrite) {
+  require_image_format(path);
+  write_file(path, picture_bytes({image.rgb, image.width, image.height, 3}, path), overwrite);
 }
 
 }  // namespace itin::viewshed

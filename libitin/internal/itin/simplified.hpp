@@ -6,10 +6,10 @@
 
 #include <itin/geometry.hpp>
 
-namespace itin::profile {
+namespace itin {
 
 /// Some of the points, both ends among them, so that none left out is farther than `tolerance` from the line (Douglas
 /// and Peucker).
 std::vector<Point2> simplified(std::span<const Point2> points, double tolerance);
 
-}  // namespace itin::profile
+}  // namespace itin

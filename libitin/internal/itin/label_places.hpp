@@ -6,7 +6,7 @@
 
 #include <itin/geometry.hpp>
 
-namespace itin::profile {
+namespace itin {
 
 class LabelPlaces {
  public:
@@ -22,4 +22,4 @@ class LabelPlaces {
   std::vector<Box> taken_;
 };
 
-}  // namespace itin::profile
+}  // namespace itin

@@ -1,5 +1,3 @@
-#include "drawing/simplified.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
-namespace itin::profile {
+#include <itin/simplified.hpp>
+
+namespace itin {
 
 namespace {
 
@@ -41,4 +41,4 @@ TEST(Simplified, LeavesOutWhatLiesOnALine) {
 
 }  // namespace
 
-}  // namespace itin::profile
+}  // namespace itin

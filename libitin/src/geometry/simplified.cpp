@@ -1,10 +1,10 @@
-#include "drawing/simplified.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-namespace itin::profile {
+#include <itin/simplified.hpp>
+
+namespace itin {
 
 namespace {
 
@@ -41,4 +41,4 @@ std::vector<Point2> simplified(std::span<const Point2> points, double tolerance)
   return result;
 }
 
-}  // namespace itin::profile
+}  // namespace itin

@@ -1,0 +1,143 @@
+#include "output/web_layers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <itin/base64.hpp>
+#include <itin/svg_path.hpp>
+#include <viewshed/picture_bytes.hpp>
+
+namespace itin::cli {
+
+namespace {
+
+constexpr int kJpegQuality = 80;
+constexpr double kPathUnits = 10 * kWebGroundPixels;  ///< of a path, over the frame's width
+constexpr SvgPrecision kTenthOfAPixel{.tolerance = 1, .step = 1};
+constexpr double kPixelsPerMillimetre = 96 / 25.4, kMarkPixels = 14;
+constexpr profile::SheetColour kNoGround{237, 237, 242, 255};
+
+/// The cells themselves, or where they are many, those at the centres of as many pixels as a page shows.
+profile::SheetCells few_enough(const profile::SheetCells& cells) {
+  const std::int64_t longer = std::max(cells.grid.columns(), cells.grid.rows());
+  if (longer <= kWebMostCells) return cells;
+  const auto fewer = [&](std::int64_t count) { return std::max<std::int64_t>(1, count * kWebMostCells / longer); };
+  const std::int64_t columns = fewer(cells.grid.columns()), rows = fewer(cells.grid.rows());
+  const Box box = cells.grid.bounds();
+  profile::SheetCells few{{{box.xmin, box.ymax},
+                           box.width() / static_cast<double>(columns),
+                           box.height() / static_cast<double>(rows),
+                           columns,
+                           rows},
+                          {}};
+  for (std::int64_t row = 0; row < rows; ++row)
+    for (std::int64_t column = 0; column < columns; ++column)
+      few.colours.push_back(cells.colours[cells.grid.index(*cells.grid.cell_at(few.grid.centre(column, row)))]);
+  return few;
+}
+
+std::string embedded(const RasterGrid& grid, const std::vector<std::uint8_t>& samples, int channels,
+                     const std::string& type) {
+  const viewshed::PictureSamples picture{samples, static_cast<int>(grid.columns()), static_cast<int>(grid.rows()),
+                                         channels};
+  return fmt::format("data:image/{};base64,{}", type,
+                     base64(viewshed::picture_bytes(picture, "map." + type, kJpegQuality)));
+}
+
+/// In grey where the ground is relief.
+std::string opaque_picture(const profile::SheetCells& cells) {
+  std::vector<std::uint8_t> grey, colours;
+  bool coloured = false;
+  for (const profile::SheetColour& cell : cells.colours) {
+    const profile::SheetColour c = cell.alpha > 0 ? cell : kNoGround;
+    coloured = coloured || (cell.alpha > 0 && (c.red != c.green || c.green != c.blue));
+    grey.push_back(c.green);
+    for (const std::uint8_t v : {c.red, c.green, c.blue}) colours.push_back(v);
+  }
+  return coloured ? embedded(cells.grid, colours, 3, "jpeg") : embedded(cells.grid, grey, 1, "jpeg");
+}
+
+std::string clear_picture(const profile::SheetCells& cells) {
+  std::vector<std::uint8_t> samples;
+  for (const profile::SheetColour& c : cells.colours)
+    for (const std::uint8_t v : {c.red, c.green, c.blue, c.alpha}) samples.push_back(v);
+  return embedded(cells.grid, samples, 4, "png");
+}
+
+class WebLayer {
+ public:
+  WebLayer(const Box& frame, WebPicture picture) : frame_(frame), picture_(picture) {}
+
+  std::string operator()(const profile::SheetCells& all) const {
+    const profile::SheetCells cells = few_enough(all);
+    const Box box = cells.grid.bounds();
+    const bool ground = picture_ == WebPicture::kGround;
+    return fmt::format(
+        "<image{} x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" href=\"{}\"/>\n",
+        ground ? "" : " class=\"cells\"", web_percent(across(box.xmin)), web_percent(down(box.ymax)),
+        web_percent(across(box.xmax) - across(box.xmin)), web_percent(down(box.ymin) - down(box.ymax)),
+        ground ? opaque_picture(cells) : clear_picture(cells));
+  }
+
+  std::string operator()(const profile::SheetLines& lines) const {
+    const double height = std::round(kPathUnits * frame_.height() / frame_.width());
+    std::string path;
+    for (const profile::SheetLine& line : lines.lines) {
+      std::vector<Point2> points;
+      for (const Point2& p : line.points) points.push_back({across(p.x) * kPathUnits, down(p.y) * height});
+      path += svg_path(points, kTenthOfAPixel);
+    }
+    const double width = lines.width_mm * kPixelsPerMillimetre;
+    return fmt::format(
+        "<svg width=\"100%\" height=\"100%\" viewBox=\"0 0 {} {}\" preserveAspectRatio=\"none\"><path fill=\"none\" "
+        "stroke=\"{}\" stroke-opacity=\"{:.2g}\" stroke-width=\"{:.2g}\"{} vector-effect=\"non-scaling-stroke\" "
+        "d=\"{}\"/></svg>\n",
+        kPathUnits, height, web_colour(lines.colour), lines.colour.alpha / 255.0, width,
+        lines.dashed ? " stroke-dasharray=\"8 5\"" : "", path);
+  }
+
+  std::string operator()(const profile::SheetMarks& marks) const {
+    std::string svg;
+    for (const profile::SheetMark& mark : marks.marks)
+      svg += fmt::format("<svg x=\"{}\" y=\"{}\" overflow=\"visible\">{}</svg>\n", web_percent(across(mark.at.x)),
+                         web_percent(down(mark.at.y)), web_mark(marks.symbol, marks.colour));
+    return svg;
+  }
+
+ private:
+  double across(double x) const { return (x - frame_.xmin) / frame_.width(); }
+  double down(double y) const { return (frame_.ymax - y) / frame_.height(); }
+
+  Box frame_;
+  WebPicture picture_;
+};
+
+}  // namespace
+
+std::string web_layer(const Box& frame, const profile::SheetLayer& layer, WebPicture picture) {
+  return std::visit(WebLayer(frame, picture), layer);
+}
+
+std::string web_mark(profile::SheetSymbol symbol, const profile::SheetColour& colour) {
+  const std::string paint =
+      fmt::format("fill=\"{}\" stroke=\"#fff\" stroke-width=\"1.5\" paint-order=\"stroke\"", web_colour(colour));
+  const std::span<const Point2> corners = profile::corners_of(symbol);
+  if (corners.empty()) return fmt::format("<circle r=\"{}\" {}/>", 0.45 * kMarkPixels, paint);
+  std::string points;
+  for (const Point2& c : corners) points += fmt::format("{:.1f},{:.1f} ", kMarkPixels * c.x, kMarkPixels * c.y);
+  points.pop_back();
+  return fmt::format("<polygon points=\"{}\" {}/>", points, paint);
+}
+
+std::string web_colour(const profile::SheetColour& c) {
+  return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue);
+}
+
+std::string web_percent(double share) {
+  return fmt::format("{:.2f}%", 100 * share);
+}
+
+}  // namespace itin::cli

@@ -1,0 +1,156 @@
+#include "output/web_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include <itin/label_places.hpp>
+#include <itin/markup.hpp>
+#include <itin/round_length.hpp>
+
+#include "output/web_layers.hpp"
+
+namespace itin::cli {
+
+const char* const kWebMapStyle =
+    "figure{margin:.8rem 0}.map{display:block;width:100%;height:auto;background:#ededf2;outline:1px solid #555}"
+    ".map .cells{image-rendering:pixelated}.map text{font:600 12px system-ui,sans-serif;fill:#1e1e1e;stroke:#fff;"
+    "stroke-width:3px;paint-order:stroke;stroke-linejoin:round}.scale{box-sizing:border-box;border:1px solid #1e1e1e;"
+    "border-top:0;text-align:center;font-size:.8rem;margin:.3rem 0 .5rem;line-height:1.1}.key{list-style:none;"
+    "margin:.3rem 0;padding:0;display:flex;flex-wrap:wrap;gap:.15rem 1.3rem;font-size:.9rem}"
+    ".key li{display:flex;align-items:center;gap:.4rem}.key .heading{width:100%;font-weight:600}"
+    ".key svg{width:24px;height:16px;flex:none}@media(max-width:600px){.map .roomy{display:none}}";
+
+namespace {
+
+using profile::SheetKey;
+using profile::SheetMark;
+
+constexpr double kPageWidth = 990, kPhoneWidth = 358;  ///< of a map, pixels
+constexpr double kLetterWidth = 7.2, kLetterHeight = 14, kBeside = 10;
+
+RasterGrid ground_pixels(const Box& frame) {
+  const double pixel = std::max(frame.width(), frame.height()) / kWebGroundPixels;
+  const auto count = [&](double length) { return std::max<std::int64_t>(1, std::llround(length / pixel)); };
+  const std::int64_t columns = count(frame.width()), rows = count(frame.height());
+  return {{frame.xmin, frame.ymax},
+          frame.width() / static_cast<double>(columns),
+          frame.height() / static_cast<double>(rows),
+          columns,
+          rows};
+}
+
+/// The labels of marks, beside them and none over another; on a phone, where there is less room, fewer.
+class WebLabels {
+ public:
+  WebLabels(const Box& frame, const std::vector<profile::SheetLayer>& layers) : frame_(frame) {
+    // What is drawn last matters most.
+    for (std::size_t i = layers.size(); i-- > 0;)
+      if (const auto* some = std::get_if<profile::SheetMarks>(&layers[i]))
+        for (const SheetMark& mark : some->marks) marks_.push_back(&mark);
+  }
+
+  std::string svg() const {
+    const std::set<const SheetMark*> roomy = that_fit(kPageWidth), all = that_fit(kPhoneWidth);
+    std::string text;
+    for (const SheetMark* mark : marks_) {
+      if (!roomy.contains(mark)) continue;
+      const bool left = is_left(*mark);
+      text += fmt::format("<text{} x=\"{}\" y=\"{}\" dx=\"{}\" dy=\"4\"{}>{}</text>\n",
+                          all.contains(mark) ? "" : " class=\"roomy\"", web_percent(across(*mark)),
+                          web_percent(down(*mark)), left ? -kBeside : kBeside, left ? " text-anchor=\"end\"" : "",
+                          escaped_markup(mark->label));
+    }
+    return text;
+  }
+
+ private:
+  double across(const SheetMark& mark) const { return (mark.at.x - frame_.xmin) / frame_.width(); }
+  double down(const SheetMark& mark) const { return (frame_.ymax - mark.at.y) / frame_.height(); }
+  bool is_left(const SheetMark& mark) const { return across(mark) > 0.7; }
+
+  std::set<const SheetMark*> that_fit(double width) const {
+    const double height = width * frame_.height() / frame_.width();
+    const auto at = [&](const SheetMark& mark) { return Point2{across(mark) * width, down(mark) * height}; };
+    LabelPlaces places;
+    for (const SheetMark* mark : marks_) {
+      const Point2 p = at(*mark);
+      places.take({p.x - kBeside / 2, p.y - kBeside / 2, p.x + kBeside / 2, p.y + kBeside / 2});
+    }
+    std::set<const SheetMark*> fit;
+    for (const SheetMark* mark : marks_) {
+      const Point2 p = at(*mark);
+      const double length = kLetterWidth * static_cast<double>(mark->label.size());
+      const double from = is_left(*mark) ? p.x - kBeside - length : p.x + kBeside;
+      const Box box{from, p.y - kLetterHeight / 2, from + length, p.y + kLetterHeight / 2};
+      if (mark->label.empty() || !places.free(box)) continue;
+      places.take(box);
+      fit.insert(mark);
+    }
+    return fit;
+  }
+
+  Box frame_;
+  std::vector<const SheetMark*> marks_;
+};
+
+std::string key_html(const SheetKey& key) {
+  using enum SheetKey::Sample;
+  const std::string text = escaped_markup(key.text), colour = web_colour(key.colour);
+  if (key.sample == kHeading) return fmt::format("<li class=\"heading\">{}</li>\n", text);
+  std::string sample;
+  if (key.sample == kMark) {
+    sample = fmt::format("<g transform=\"translate(12 8)\">{}</g>", web_mark(key.symbol, key.colour));
+  } else if (key.sample == kPatch) {
+    sample = fmt::format(
+        "<rect x=\".5\" y=\".5\" width=\"23\" height=\"15\" fill=\"#d6d6d6\"/><rect x=\".5\" y=\".5\" width=\"23\" "
+        "height=\"15\" fill=\"{}\" fill-opacity=\"{:.2g}\" stroke=\"#5f5f5f\"/>",
+        colour, key.colour.alpha / 255.0);
+  } else {
+    sample = fmt::format("<path d=\"M0 8h24\" stroke=\"{}\" stroke-width=\"2\"{}/>", colour,
+                         key.sample == kDashes ? " stroke-dasharray=\"8 5\"" : "");
+  }
+  return fmt::format("<li><svg aria-hidden=\"true\">{}</svg>{}</li>\n", sample, text);
+}
+
+std::string scale_bar(const Box& frame) {
+  const double length = round_length(0.25 * frame.width());
+  return fmt::format("<div class=\"scale\" style=\"width:{}\">{}</div>\n", web_percent(length / frame.width()),
+                     length >= 1000 ? fmt::format("{:g} km", length / 1000) : fmt::format("{:g} m", length));
+}
+
+constexpr const char* kNorthArrow =
+    "<svg x=\"100%\" overflow=\"visible\"><circle cx=\"-26\" cy=\"28\" r=\"20\" fill=\"#fff\" fill-opacity=\".8\"/>"
+    "<path d=\"M-26 20l8 22-8-6-8 6z\" fill=\"#1e1e1e\"/><text x=\"-26\" y=\"18\" "
+    "text-anchor=\"middle\">N</text></svg>\n";
+
+}  // namespace
+
+WebMaps::WebMaps(const Store& store, const Box& frame, Progress& progress)
+    : frame_(frame), base_(plain_base(store, ground_pixels(frame), progress)) {}
+
+std::string WebMaps::part(std::string svg) {
+  const auto [known, added] = parts_.emplace(std::move(svg), parts_.size() + 1);
+  if (!added) return fmt::format("<use href=\"#map-part-{}\"/>\n", known->second);
+  return fmt::format("<g id=\"map-part-{}\">{}</g>\n", known->second, known->first);
+}
+
+std::string WebMaps::figure(const ResultSheet& content, const std::string& about) {
+  const std::vector<profile::SheetLayer> layers = layers_of(faded_for(base_, content), content);
+  std::string html =
+      fmt::format("<figure>\n<svg class=\"map\" style=\"aspect-ratio:{:.6g}\" role=\"img\" aria-label=\"{}\">\n",
+                  frame_.width() / frame_.height(), escaped_markup("Map: " + content.title.title));
+  for (const profile::SheetLayer& layer : layers)
+    html += part(web_layer(frame_, layer, &layer == &layers.front() ? WebPicture::kGround : WebPicture::kCells));
+  html += part(WebLabels(frame_, layers).svg()) + part(kNorthArrow);
+  html += "</svg>\n<figcaption>" + scale_bar(frame_);
+  html +=
+      fmt::format("<p><b>{}</b>: {}. <span class=\"note\">{}</span></p>\n<ul class=\"key\">\n",
+                  escaped_markup(content.title.title), escaped_markup(about), escaped_markup(content.title.statement));
+  for (const SheetKey& key : keys_of(base_, content)) html += key_html(key);
+  return html + "</ul></figcaption>\n</figure>\n";
+}
+
+}  // namespace itin::cli

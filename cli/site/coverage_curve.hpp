@@ -1,0 +1,13 @@
+// The share of the demand that the choice serves against the number of its sites.
+#pragma once
+
+#include <string>
+
+#include "site/site_result.hpp"
+
+namespace itin::cli {
+
+/// As an SVG as wide as the page, below the bound on every choice.
+std::string coverage_curve(const SiteResult& result);
+
+}  // namespace itin::cli

@@ -1,0 +1,93 @@
+#include "site/site_map_objects.hpp"
+
+#include <algorithm>
+
+#include <itin/building_outlines.hpp>
+
+#include "site/site_wording.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+using profile::SheetColour;
+using profile::SheetKey;
+using profile::SheetSymbol;
+using Sample = SheetKey::Sample;
+
+constexpr SheetColour kBuilding{70, 60, 55, 255}, kBackhaul{160, 55, 0, 255}, kExistingSite{110, 50, 130, 255},
+    kHubMark{25, 25, 25, 255};
+
+/// To a tenth of a picture's pixel where it is 1000 pixels long; what is smaller than two pixels would be a blot.
+MapObjects building_objects(const Store& store, const SiteResult& r) {
+  const Box frame = shown_area(r);
+  const double pixel = std::max(frame.width(), frame.height()) / 1000;
+  profile::SheetLines lines{{}, kBuilding, 0.2, false};
+  for (auto& ring : building_outlines(store, r.options.themes.choice(), frame, {0.1 * pixel, 2 * pixel}))
+    lines.lines.push_back({std::move(ring), ""});
+  return {std::move(lines), {Sample::kLine, kBuilding, "Building outline"}};
+}
+
+MapObjects link_objects(const SiteResult& r) {
+  const SiteNetwork& network = r.network;
+  const LinkRules rules = link_rules(r.options);
+  const std::vector<std::size_t> routes = routes_over_links(network, r.routes);
+  profile::SheetLines lines{{}, kBackhaul, 0.6, false};
+  for (std::size_t i = 0; i < network.links.size() && r.options.intervisible; ++i) {
+    const SiteLink& link = network.links[i];
+    if (r.options.hub ? routes[i] > 0 : rules.met_by(link.found()))
+      lines.lines.push_back({{network.from(link).position, network.to(link).position}, ""});
+  }
+  const char* const what = r.options.hub ? "Link on a route to the hub" : "Link between sites";
+  return {std::move(lines), {Sample::kLine, kBackhaul, what}};
+}
+
+/// The ends of a network that `is_one` takes.
+template <class IsOne>
+MapObjects marks(const SiteNetwork& network, SheetSymbol symbol, const SheetColour& colour, const std::string& what,
+                 const IsOne& is_one) {
+  profile::SheetMarks marks{symbol, colour, {}};
+  for (std::size_t i = 0; i < network.ends.size(); ++i)
+    if (is_one(i)) marks.marks.push_back({network.ends[i].place.position, network.ends[i].place.name});
+  return {std::move(marks), {Sample::kMark, colour, what, symbol}};
+}
+
+bool is_empty(const MapObjects& objects) {
+  if (const auto* lines = std::get_if<profile::SheetLines>(&objects.layer)) return lines->lines.empty();
+  return std::get<profile::SheetMarks>(objects.layer).marks.empty();
+}
+
+}  // namespace
+
+Box shown_area(const SiteResult& r) {
+  Box area = r.rasters.grid.bounds();
+  const double about = 0.03 * std::max(area.width(), area.height());
+  for (const LinkEnd& end : r.network.ends) {
+    const Point2 p = end.place.position;
+    area.extend(Point2{p.x - about, p.y - about});
+    area.extend(Point2{p.x + about, p.y + about});
+  }
+  return area;
+}
+
+std::vector<MapObjects> site_map_objects(const Store& store, const SiteResult& r) {
+  using enum LinkEnd::Kind;
+  const SiteNetwork& network = r.network;
+  const SiteWording wording = wording_of(r.options);
+  const std::vector<std::size_t> through = routes_through_ends(network, r.routes);
+  const auto is = [&](std::size_t i, LinkEnd::Kind kind) { return network.ends[i].kind == kind; };
+  std::vector<MapObjects> objects{
+      building_objects(store, r),
+      link_objects(r),
+      marks(network, SheetSymbol::kExistingMast, kExistingSite, "Existing " + wording.one,
+            [&](std::size_t i) { return is(i, kExisting); }),
+      marks(network, SheetSymbol::kMast, kMastColour, "Chosen " + wording.one,
+            [&](std::size_t i) { return is(i, kChosen) && through[i] == 0; }),
+      marks(network, SheetSymbol::kRelay, kMastColour, "Chosen site that relays others",
+            [&](std::size_t i) { return is(i, kChosen) && through[i] > 0; }),
+      marks(network, SheetSymbol::kHub, kHubMark, "Hub", [&](std::size_t i) { return is(i, kHub); })};
+  std::erase_if(objects, is_empty);
+  return objects;
+}
+
+}  // namespace itin::cli

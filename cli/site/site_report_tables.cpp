@@ -1,0 +1,148 @@
+#include "site/site_report_tables.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <itin/markup.hpp>
+
+#include "output/store_document.hpp"
+
+namespace itin::cli {
+
+namespace {
+
+/// A table of text and, from column `numbers` on, of figures. Where it is `wide`, no cell is broken into lines.
+class HtmlTable {
+ public:
+  HtmlTable(const std::vector<std::string>& header, std::size_t numbers, bool wide = false)
+      : numbers_(numbers), wide_(wide) {
+    add(header, "th");
+  }
+  void add(const std::vector<std::string>& cells, const char* tag = "td") {
+    html_ += "<tr>";
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      html_ += fmt::format("<{0}{1}>{2}</{0}>", tag, i >= numbers_ ? " class=\"n\"" : "", escaped_markup(cells[i]));
+    html_ += "</tr>\n";
+  }
+  std::string finish() const {
+    return fmt::format("<div class=\"scroll{}\"><table>\n{}</table></div>\n", wide_ ? " wide" : "", html_);
+  }
+
+ private:
+  std::size_t numbers_;
+  bool wide_;
+  std::string html_;
+};
+
+std::string metres_clear(const SiteLink& link) {
+  return link.found().clearance_m ? fmt::format("{:.2f}", *link.found().clearance_m) : "";
+}
+std::string fraction_clear(const SiteLink& link) {
+  return link.found().fresnel ? fmt::format("{:.2f}", link.found().fresnel->fraction) : "";
+}
+
+}  // namespace
+
+std::string amount(double v) {
+  return v == std::floor(v) && v < 1e15 ? grouped(static_cast<std::uint64_t>(v)) : fmt::format("{:.6g}", v);
+}
+
+std::string sites_html(const SiteResult& r) {
+  HtmlTable table({"", "Site", "Easting", "Northing", "Mast m", "Ground m", "Mast base m", "Cost", "Adds",
+                   "Served together", "First estimate: at least", "at most", "Serves alone"},
+                  2);
+  for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
+    const viewshed::ChosenSite& site = r.choice.chosen[i];
+    const viewshed::SitePosition& place = r.place_of(site);
+    const CoverageSummary first = r.summary(r.coverage.first_bounds(site.option)),
+                          now = r.summary(r.coverage.bounds(site.option));
+    table.add({fmt::format("{}", i + 1), place.name, fmt::format("{:.0f}", place.position.x),
+               fmt::format("{:.0f}", place.position.y), fmt::format("{:g}", place.height),
+               fmt::format("{:.1f}", r.ground_m[i]), fmt::format("{:.1f}", place.ground),
+               fmt::format("{:g}", r.inputs.options[site.option].cost), amount(r.in_metric(site.gain)),
+               amount(r.in_metric(site.cumulative)), amount(first.certain), amount(first.possible),
+               amount(now.certain)});
+  }
+  return table.finish();
+}
+
+std::string turbines_html(const SiteResult& r) {
+  const bool heights = r.options.placement.sums_heights();
+  HtmlTable table(
+      {"", "Turbine", "Easting", "Northing", "Ground m", heights ? "Shows m" : "Adds", "Together", "Seen from, alone"},
+      2);
+  for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
+    const viewshed::ChosenSite& site = r.choice.chosen[i];
+    const viewshed::SitePosition& place = r.place_of(site);
+    table.add({fmt::format("{}", i + 1), place.name, fmt::format("{:.0f}", place.position.x),
+               fmt::format("{:.0f}", place.position.y), fmt::format("{:.1f}", r.ground_m[i]),
+               amount(r.in_metric(site.gain)), amount(r.in_metric(site.cumulative)),
+               amount(r.summary(r.coverage.bounds(site.option)).certain)});
+  }
+  return table.finish();
+}
+
+std::string stages_html(const SiteResult& r) {
+  HtmlTable table({"Survey", "Options for which it was enough"}, 1);
+  for (int stage = 0; stage <= r.coverage.last_stage(); ++stage) {
+    std::size_t stayed = 0;
+    for (std::size_t i = 0; i < r.inputs.options.size(); ++i) stayed += r.coverage.stage(i) == stage;
+    table.add({r.coverage.stage_name(stage), grouped(stayed)});
+  }
+  return table.finish();
+}
+
+std::string closest_html(const SiteResult& r) {
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < r.inputs.options.size(); ++i) {
+    const auto& margin = r.choice.closest[i];
+    if (margin && !r.is_chosen(i)) order.emplace_back(-closeness(*margin, r.options.objective()), i);
+  }
+  std::sort(order.begin(), order.end());
+  HtmlTable table({"Candidate", r.options.placement.given() ? "Tip m" : "Mast m", "Survey", "Why it was not chosen"},
+                  4);
+  for (std::size_t i = 0; i < std::min<std::size_t>(order.size(), 10); ++i) {
+    const std::size_t option = order[i].second;
+    table.add({r.inputs.positions[option].name, fmt::format("{:g}", r.inputs.positions[option].height),
+               r.coverage.stage_name(r.coverage.stage(option)), r.reason(option)});
+  }
+  return table.finish();
+}
+
+std::string routes_html(const SiteResult& r) {
+  const SiteNetwork& network = r.network;
+  HtmlTable table({"Site", "Route", "Hops km", "In all km", "Worst hop", "Clearance m", "of F1", "No data m"}, 5, true);
+  for (const SiteRoute& route : r.routes) {
+    std::vector<std::string> row{network.ends[route.site].place.name, in_words(network, route)};
+    row.resize(8);
+    double gap = 0;
+    for (const RouteHop& hop : route.hops) {
+      const profile::LinkResult& line = network.links[hop.link].line;
+      row[2] += (row[2].empty() ? "" : " + ") + fmt::format("{:.2f}", line.distance_m / 1000);
+      gap += line.gap_m;
+    }
+    if (!route.hops.empty()) row[3] = fmt::format("{:.2f}", length_m(network, route) / 1000);
+    if (const auto worst = worst_hop(network, route)) {
+      const SiteLink& link = network.links[worst->link];
+      row[4] = network.ends[worst->from].place.name + " to " + network.ends[worst->to].place.name;
+      row[5] = metres_clear(link), row[6] = fraction_clear(link);
+    }
+    if (gap > 0) row[7] = fmt::format("{:.0f}", gap);
+    table.add(row);
+  }
+  return table.finish();
+}
+
+std::string links_html(const SiteResult& r) {
+  HtmlTable table({"From", "To", "Verdict", "km", "Clearance m", "of F1", "No data m"}, 3);
+  for (const SiteLink& link : r.network.links) {
+    table.add({r.network.from(link).name, r.network.to(link).name, outcome_of(r.options, link),
+               fmt::format("{:.3f}", link.line.distance_m / 1000), metres_clear(link), fraction_clear(link),
+               link.line.gap_m > 0 ? fmt::format("{:.0f}", link.line.gap_m) : ""});
+  }
+  return table.finish();
+}
+
+}  // namespace itin::cli

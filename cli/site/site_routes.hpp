@@ -1,0 +1,36 @@
+// The backhaul: by which links each site reaches the hub.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "site/site_links.hpp"
+
+namespace itin::cli {
+
+/// From one end of a network to another, by their numbers and that of the link.
+struct RouteHop {
+  std::size_t from = 0, to = 0, link = 0;
+};
+
+/// A chosen or an existing site's route to the hub.
+struct SiteRoute {
+  std::size_t site = 0;        ///< an end of the network
+  std::vector<RouteHop> hops;  ///< none: it does not reach the hub
+};
+
+/// Over links that meet the rules: the fewest hops, among those the shortest. One for each site in the order of the
+/// network's ends; none without a hub.
+std::vector<SiteRoute> site_routes(const SiteOptions& options, const SiteNetwork& network);
+
+double length_m(const SiteNetwork& network, const SiteRoute& route);
+/// "a → b → hub", or that there is no route.
+std::string in_words(const SiteNetwork& network, const SiteRoute& route);
+/// The hop that leaves the least fraction of the first Fresnel zone clear; without a frequency, the least clearance.
+std::optional<RouteHop> worst_hop(const SiteNetwork& network, const SiteRoute& route);
+/// How many routes go over each link, and through each end on the way from another site.
+std::vector<std::size_t> routes_over_links(const SiteNetwork& network, const std::vector<SiteRoute>& routes);
+std::vector<std::size_t> routes_through_ends(const SiteNetwork& network, const std::vector<SiteRoute>& routes);
+
+}  // namespace itin::cli

@@ -1,0 +1,35 @@
+// What a Drawing draws on: a page of Cairo's, or the text of an SVG. Lengths, anchors and colours are those of
+// drawing.hpp.
+//
+//   const std::unique_ptr<Surface> page = cairo_surface(Drawing::Format::kPdf, 842, 595, 1);
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "drawing/drawing.hpp"
+
+namespace itin::profile {
+
+class Surface {
+ public:
+  virtual ~Surface() = default;
+  virtual void polyline(std::span<const Point2> points, const Stroke& stroke) = 0;
+  virtual void polygon(std::span<const Point2> points, const Colour& fill) = 0;
+  virtual void circle(Point2 centre, double radius, const Colour& fill) = 0;
+  virtual void cells(const Box& box, int columns, int rows, std::span<const std::uint32_t> argb) = 0;
+  virtual void text(Point2 anchor, const std::string& text, const Lettering& lettering) = 0;
+  virtual double text_width(const std::string& text, const Lettering& lettering) const = 0;
+  virtual void clip(const Box& box) = 0;
+  virtual void unclip() = 0;
+  virtual void new_page() = 0;
+  virtual std::string finish() = 0;
+};
+
+/// A PDF or a PNG.
+std::unique_ptr<Surface> cairo_surface(Drawing::Format format, double width, double height, double pixels_per_point);
+std::unique_ptr<Surface> svg_surface(double width, double height);
+
+}  // namespace itin::profile

@@ -1,0 +1,99 @@
+// Outlines for maps, against the footprints that were imported.
+#include <algorithm>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <itin/building_outlines.hpp>
+#include <itin/import.hpp>
+
+#include "support/raster_file.hpp"
+#include "support/seed.hpp"
+#include "support/temporary_directory.hpp"
+#include "support/vector_file.hpp"
+
+namespace itin {
+namespace {
+
+class BuildingOutlines : public testing::Test {
+ protected:
+  void SetUp() override {
+    test::write_raster(directory_.file("flat.tif"), {300000, 200000, 20, 40, 40, 27700}, [](int, int) { return 50.0; });
+    ImportOptions terrain;
+    terrain.sources = {directory_.file("flat.tif")};
+    import_terrain(store_, terrain, progress_);
+    const auto metres = [&](int most) { return static_cast<double>(random_() % static_cast<unsigned>(most)); };
+    for (int i = 0; i < 300; ++i) {
+      const double x = 300050 + 34 * (i % 20) + metres(5), y = 199250 + 46 * (i / 20) + metres(5);
+      footprints_.push_back({x, y, x + 1 + metres(26), y + 1 + metres(36)});
+    }
+    import("houses", ThemeKind::Buildings, footprints_);
+    import("woods", ThemeKind::Vegetation, {{ 300010, 199210, 300040, 199240 }});
+  }
+
+  void import(const std::string& theme, ThemeKind kind, const std::vector<Box>& boxes) {
+    std::vector<test::LineFeature> features;
+    for (const Box& b : boxes) features.push_back(test::box(b.xmin, b.ymin, b.xmax, b.ymax, 8));
+    test::write_lines(directory_.file(theme + ".geojson"), features, true);
+    ImportOptions options;
+    options.sources = {directory_.file(theme + ".geojson")};
+    options.kind = kind, options.theme = theme, options.height_field = "h";
+    import_lines(store_, options, progress_);
+  }
+
+  std::vector<Box> boxes_of(const ThemeChoice& themes, const Box& box, const OutlineDetail& detail) {
+    std::vector<Box> boxes;
+    for (const std::vector<Point2>& ring : building_outlines(Store(store_), themes, box, detail)) {
+      EXPECT_EQ(ring.front().x, ring.back().x);
+      EXPECT_EQ(ring.front().y, ring.back().y);
+      EXPECT_EQ(ring.size(), 5U);
+      boxes.emplace_back();
+      for (const Point2& p : ring) boxes.back().extend(p);
+    }
+    return boxes;
+  }
+
+  /// Both in the order of import.
+  static void expect_same(const std::vector<Box>& found, const std::vector<Box>& expected) {
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_NEAR(found[i].xmin, expected[i].xmin, 0.01);
+      EXPECT_NEAR(found[i].ymin, expected[i].ymin, 0.01);
+      EXPECT_NEAR(found[i].xmax, expected[i].xmax, 0.01);
+      EXPECT_NEAR(found[i].ymax, expected[i].ymax, 0.01);
+    }
+  }
+
+  std::mt19937 random_{test::seed()};
+  test::TemporaryDirectory directory_;
+  std::string store_ = directory_.file("s.itin");
+  std::vector<Box> footprints_;
+  NoProgress progress_;
+};
+
+TEST_F(BuildingOutlines, AreThoseOfEveryFootprintOfAChosenThemeOfBuildings) {
+  const Box all{299000, 198000, 302000, 201000};
+  expect_same(boxes_of(ThemeChoice::all(), all, {}), footprints_);
+  expect_same(boxes_of(ThemeChoice::parse("houses"), all, {0.5, 0}), footprints_);
+  EXPECT_TRUE(boxes_of(ThemeChoice::parse("woods"), all, {}).empty());
+  EXPECT_TRUE(boxes_of(ThemeChoice::none(), all, {}).empty());
+}
+
+TEST_F(BuildingOutlines, AreThoseOfTerracesToo) {
+  const Box row{300010, 199260, 300040, 199268};
+  import("rows", ThemeKind::Terraces, {row});
+  expect_same(boxes_of(ThemeChoice::parse("rows"), row, {}), {row});
+}
+
+TEST_F(BuildingOutlines, LeavesOutWhatLiesElsewhereOrIsSmaller) {
+  const Box part{300200, 199400, 300420, 199600};
+  std::vector<Box> expected;
+  std::copy_if(footprints_.begin(), footprints_.end(), std::back_inserter(expected),
+               [&](const Box& b) { return part.meets(b) && (b.width() >= 12 || b.height() >= 12); });
+  ASSERT_FALSE(expected.empty());
+  ASSERT_LT(expected.size(), footprints_.size());
+  expect_same(boxes_of(ThemeChoice::all(), part, {0.1, 12}), expected);
+}
+
+}  // namespace
+}  // namespace itin
