@@ -166,7 +166,7 @@ TEST_F(PointLayer, UnknownNamesAreAnsweredWithTheKnown) {
   options.where = "no such = 'thing";
   EXPECT_THAT(refusal<InputError>(path, options), HasSubstr("`where`"));
   options.where = "elevation > 100";
-  EXPECT_THAT(refusal<FileError>(path, options), HasSubstr("a field that layer 'spots' has not"));
+  EXPECT_THAT(refusal<FileError>(path, options), HasSubstr("a field that layer 'spots' does not have"));
   options.where = "h > 100";
   EXPECT_THAT(refusal<InputError>(path, options),
               HasSubstr("`where` h > 100 leaves none of 2 features of layer 'spots'"));
