@@ -85,14 +85,14 @@ std::vector<SiteMap> site_maps(const SiteResult& r) {
 }
 
 ResultSheet sheet_of(const Store& store, const SiteResult& r, const SiteMap& map,
-                     const std::vector<std::string>& sources) {
+                     const std::vector<MapObjects>& objects, const std::vector<std::string>& sources) {
   const StoreMetadata& metadata = store.metadata();
   ResultSheet sheet{map.result.grid,
                     shown_area(r),
                     viewshed::result_map(map.result, map.options),
                     wording_of(r.options).share,
                     [&](std::size_t cell) { return map.result.visible[cell] != viewshed::Verdict::kOutside; },
-                    site_map_objects(store, r),
+                    objects,
                     r.options.earth.earth(),
                     {}};
   if (map.result.cells.outside > 0) sheet.map.keys.push_back({{255, 255, 255, 153}, map.options.outside});
@@ -108,6 +108,15 @@ ResultSheet sheet_of(const Store& store, const SiteResult& r, const SiteMap& map
                    turbines ? least_in_words(r) : fmt::format("{:.1f} % of the demand served", r.served_percent()))}};
   sheet.title.sources = sources;
   return sheet;
+}
+
+/// One for each map, to which it refers.
+std::vector<ResultSheet> sheets_of(const Store& store, const SiteResult& r, const std::vector<SiteMap>& maps,
+                                   const std::vector<std::string>& sources) {
+  const std::vector<MapObjects> objects = site_map_objects(store, r);
+  std::vector<ResultSheet> sheets;
+  for (const SiteMap& map : maps) sheets.push_back(sheet_of(store, r, map, objects, sources));
+  return sheets;
 }
 
 }  // namespace
@@ -131,10 +140,11 @@ void write_site_maps(const Store& store, const SiteResult& r, const std::string&
 }
 
 std::vector<std::string> site_figures(const Store& store, const SiteResult& r, Progress& progress) {
-  WebMaps maps(store, shown_area(r), progress);
+  WebMaps web(store, shown_area(r), progress);
+  const std::vector<SiteMap> maps = site_maps(r);
+  const std::vector<ResultSheet> sheets = sheets_of(store, r, maps, {});
   std::vector<std::string> figures;
-  for (const SiteMap& map : site_maps(r))
-    figures.push_back(maps.figure(sheet_of(store, r, map, {}), map.options.subtitle));
+  for (std::size_t i = 0; i < maps.size(); ++i) figures.push_back(web.figure(sheets[i], maps[i].options.subtitle));
   return figures;
 }
 
@@ -143,11 +153,12 @@ void write_site_sheets(const Store& store, const SiteResult& r, const std::vecto
   if (!r.options.sheets.given()) return;
   const SheetOptions& options = r.options.sheets;
   const std::vector<SiteMap> maps = site_maps(r);
+  const std::vector<ResultSheet> sheets = sheets_of(store, r, maps, sources);
   for (const profile::PaperSize paper : options.papers()) {
-    const MapBase base = base_of(store, sheet_of(store, r, maps.front(), sources), paper, options, progress);
-    for (const SiteMap& map : maps) {
-      const profile::MapSheet sheet = map_sheet(store, sheet_of(store, r, map, sources), base, paper, options);
-      for (const std::string& name : sheet_names(map.name, paper))
+    const MapBase base = base_of(store, sheets.front(), paper, options, progress);
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+      const profile::MapSheet sheet = map_sheet(store, sheets[i], base, paper, options);
+      for (const std::string& name : sheet_names(maps[i].name, paper))
         write_file((std::filesystem::path(directory) / name).string(), profile::draw_map_sheet(sheet, name), overwrite);
     }
   }

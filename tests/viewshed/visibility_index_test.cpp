@@ -14,6 +14,7 @@
 #include "index/index_plan.hpp"
 #include "index/sampled_surface.hpp"
 #include "index/visibility_sampler.hpp"
+#include "support/houses.hpp"
 #include "support/raster_file.hpp"
 #include "support/real_terrain.hpp"
 #include "support/same_bits.hpp"
@@ -48,14 +49,7 @@ class VisibilityIndexTest : public testing::Test {
       const double x = 300500 + 71 * (i % 8) * 5, y = 199500 - 613 * (i / 8);
       houses.push_back(test::box(x, y, x + 30, y + 20, 12));
     }
-    test::write_lines(directory_.file("h.geojson"), houses, true);
-    ImportOptions options;
-    options.sources = {directory_.file("h.geojson")};
-    options.kind = ThemeKind::Buildings;
-    options.theme = "houses";
-    options.height_field = "h";
-    NoProgress progress;
-    import_lines(path_, options, progress);
+    test::import_houses(path_, directory_.file("h.geojson"), houses);
   }
 
   static void expect_same(const VisibilityIndex& a, const VisibilityIndex& b) {

@@ -11,6 +11,7 @@
 #include <itin/import.hpp>
 #include <viewshed/turbines.hpp>
 
+#include "support/houses.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
@@ -59,13 +60,7 @@ class ZoneParts : public testing::Test {
       const double x = kZoneCorner.x + place(random), y = kZoneCorner.y - place(random);
       houses.push_back(test::box(x, y, x + 20, y + 12, 15));
     }
-    test::write_lines(directory_.file("h.geojson"), houses, true);
-    ImportOptions options;
-    options.sources = {directory_.file("h.geojson")};
-    options.kind = ThemeKind::Buildings;
-    options.theme = "houses";
-    options.height_field = "h";
-    import_lines(path(), options, progress_);
+    test::import_houses(path(), directory_.file("h.geojson"), houses);
   }
 
   Zone survey(std::optional<std::uint64_t> memory) {

@@ -1,20 +1,9 @@
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
+#include <itin/segment_distance.hpp>
 #include <itin/simplified.hpp>
 
 namespace itin {
-
-namespace {
-
-double distance_to_segment(Point2 p, Point2 a, Point2 b) {
-  const double dx = b.x - a.x, dy = b.y - a.y, length = dx * dx + dy * dy;
-  const double share = length > 0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / length, 0.0, 1.0) : 0;
-  return std::hypot(p.x - a.x - share * dx, p.y - a.y - share * dy);
-}
-
-}  // namespace
 
 std::vector<Point2> simplified(std::span<const Point2> points, double tolerance) {
   if (points.size() < 3) return {points.begin(), points.end()};

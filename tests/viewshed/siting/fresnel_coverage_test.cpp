@@ -10,6 +10,7 @@
 #include <profile/links.hpp>
 #include <viewshed/site_coverage.hpp>
 
+#include "support/houses.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
@@ -48,13 +49,7 @@ class FresnelSites : public ::testing::Test {
       const double x = kNorthWest.x + draw(200, side_ * kStep - 200), y = kNorthWest.y - draw(200, side_ * kStep - 200);
       houses.push_back(test::box(x, y, x + draw(10, 60), y + draw(10, 60), draw(4, 25)));
     }
-    test::write_lines(directory_.file("houses.geojson"), houses, true);
-    ImportOptions options;
-    options.sources = {directory_.file("houses.geojson")};
-    options.kind = ThemeKind::Buildings;
-    options.theme = "houses";
-    options.height_field = "h";
-    import_lines(path(), options, progress_);
+    test::import_houses(path(), directory_.file("houses.geojson"), houses);
     survey_.themes = ThemeChoice::all();
   }
 

@@ -11,6 +11,7 @@
 #include <viewshed/turbine_layout.hpp>
 #include <viewshed/turbines.hpp>
 
+#include "support/houses.hpp"
 #include "support/raster_file.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/vector_file.hpp"
@@ -45,13 +46,7 @@ class LeastSeen : public ::testing::Test {
       const double x = kCropCorner.x + 1500 + 300 * i, y = kCropCorner.y - 3000 - 40 * i;
       houses.push_back(test::box(x, y, x + 150, y + 30, 30));
     }
-    test::write_lines(directory_.file("h.geojson"), houses, true);
-    ImportOptions options;
-    options.sources = {directory_.file("h.geojson")};
-    options.kind = ThemeKind::Buildings;
-    options.theme = "houses";
-    options.height_field = "h";
-    import_lines(directory_.file("t.itin"), options, progress_);
+    test::import_houses(directory_.file("t.itin"), directory_.file("h.geojson"), houses);
     store_.emplace(directory_.file("t.itin"));
 
     const double west = kCropCorner.x + 2600, north = kCropCorner.y - 2600;

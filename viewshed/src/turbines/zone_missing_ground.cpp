@@ -7,21 +7,29 @@
 
 namespace itin::viewshed {
 
+namespace {
+
+/// Calls found(place) on any thread for cells within the radii without ground. Returns how many they are.
+template <class Found>
+std::uint64_t for_each_without_ground(const Zone& zone, const Found& found) {
+  return for_each_cell_in_view(
+      view_of(zone.request), zone.grid,
+      [&](RasterGrid::Cell place) { return zone.bare.tip_count[zone.grid.index(place)] == kCountOutside; }, found);
+}
+
+}  // namespace
+
 std::vector<std::uint8_t> cells_without_ground(const Zone& zone) {
   std::vector<std::uint8_t> cells(zone.grid.cell_count());
-  for_each_cell_in_view(
-      view_of(zone.request), zone.grid,
-      [&](RasterGrid::Cell place) { return zone.bare.tip_count[zone.grid.index(place)] == kCountOutside; },
-      [&](RasterGrid::Cell place) { cells[zone.grid.index(place)] = 1; });
+  for_each_without_ground(zone, [&](RasterGrid::Cell place) { cells[zone.grid.index(place)] = 1; });
   return cells;
 }
 
 MissingGround missing_ground(const Zone& zone) {
   const std::vector<std::uint16_t>& counts = zone.bare.tip_count;
-  const std::vector<std::uint8_t> without = cells_without_ground(zone);
   MissingGround missing;
   missing.cell_area = zone.grid.cell_area();
-  missing.without_ground = static_cast<std::uint64_t>(std::count(without.begin(), without.end(), 1));
+  missing.without_ground = for_each_without_ground(zone, [](RasterGrid::Cell) {});
   missing.with_ground =
       counts.size() - static_cast<std::uint64_t>(std::count(counts.begin(), counts.end(), kCountOutside));
   missing.beyond = static_cast<std::uint64_t>(cells_beyond(view_of(zone.request), zone.grid).count());

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -155,13 +156,14 @@ std::vector<ChosenSite> in_order(const ChoiceProblem& problem, std::vector<std::
   return result;
 }
 
-/// Throws what check_goal() does of Objective::kLeast.
-void check_least(const std::vector<SiteOption>& options, const ChoiceGoal& goal) {
+/// What excludes each other of the options, of which the least can be asked. Throws what check_goal() does of
+/// Objective::kLeast.
+Conflicts checked_conflicts(const std::vector<SiteOption>& options, const ChoiceGoal& goal) {
   if (!goal.count || goal.budget || goal.wanted || goal.cover != 1 || goal.network || !goal.exact_chosen)
     throw InputError("the least is asked of a `count` of sites alone, whose coverage is exact");
-  const Conflicts conflicts({options, goal, {}}, *goal.count);
+  Conflicts conflicts({options, goal, {}}, *goal.count);
   const std::size_t found = conflicts.fitting().size();
-  if (found >= *goal.count) return;
+  if (found >= *goal.count) return conflicts;
   throw Error(fmt::format("`count`: {} asked for, but {}: `compatible` keeps the others apart", *goal.count,
                           found == conflicts.most()
                               ? fmt::format("no more than {} of {} sites can be chosen together", found, options.size())
@@ -170,30 +172,35 @@ void check_least(const std::vector<SiteOption>& options, const ChoiceGoal& goal)
                                             found, options.size(), conflicts.most())));
 }
 
-}  // namespace
-
-void check_goal(const std::vector<SiteOption>& options, const ChoiceGoal& goal) {
+/// As check_goal(). Returns the conflicts of Objective::kLeast.
+std::optional<Conflicts> checked(const std::vector<SiteOption>& options, const ChoiceGoal& goal) {
   if (!goal.count && !goal.budget && !goal.wanted)
     throw InputError("the choice has no end: give a count, a budget or a share of the demand");
   if (goal.cover < 1 || goal.cover > 255) throw InputError("an element is served by 1 to 255 sites");
   for (const SiteOption& option : options)
     if (!(option.cost > 0)) throw InputError("the cost of a site must be a positive number");
-  if (goal.objective == Objective::kLeast) check_least(options, goal);
-  if (!goal.network || !goal.network->hub()) return;
+  if (goal.objective == Objective::kLeast) return checked_conflicts(options, goal);
+  if (!goal.network || !goal.network->hub()) return std::nullopt;
   const std::vector<bool> open = extensions({options, goal, {}}, {}, goal.count.value_or(options.size())).open;
   if (std::find(open.begin(), open.end(), true) == open.end())
     throw Error(
         "`hub`: no choice reaches it: no site that may be chosen has a clear link with it, or with an existing site "
         "that has; move it, or raise it or the masts");
+  return std::nullopt;
+}
+
+}  // namespace
+
+void check_goal(const std::vector<SiteOption>& options, const ChoiceGoal& goal) {
+  checked(options, goal);
 }
 
 Choice choose(const Demand& demand, const std::vector<SiteOption>& options, Coverage& coverage, const ChoiceGoal& goal,
               Progress& progress) {
-  check_goal(options, goal);
+  const std::optional<Conflicts> conflicts = checked(options, goal);
   ChoiceProblem problem{{options, goal, {}}, demand, coverage, progress};
-  const bool least = goal.objective == Objective::kLeast;
-  std::optional<Conflicts> conflicts;
-  if (least) problem.conflicts = &conflicts.emplace(problem, *goal.count);
+  const bool least = conflicts.has_value();
+  if (least) problem.conflicts = &*conflicts;
   Choice choice;
   choice.closest.resize(options.size());
   Attempt best = Attempts(problem, choice.closest).best();

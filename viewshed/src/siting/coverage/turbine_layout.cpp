@@ -7,6 +7,7 @@
 #include <itin/error.hpp>
 #include <itin/geodesic.hpp>
 #include <itin/raster.hpp>
+#include <itin/segment_distance.hpp>
 #include <viewshed/site_proposal.hpp>
 #include <viewshed/turbine_layout.hpp>
 
@@ -18,15 +19,9 @@ namespace {
 
 constexpr double kMostPlaces = 1e6;
 
-double distance_to_edge(Point2 p, Point2 a, Point2 b) {
-  const double dx = b.x - a.x, dy = b.y - a.y, squared = dx * dx + dy * dy;
-  const double t = squared == 0 ? 0 : std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / squared, 0.0, 1.0);
-  return std::hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
-}
-
 bool any_edge_within(const Window::Ring& ring, Point2 position, double metres) {
   for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++)
-    if (distance_to_edge(position, ring[j], ring[i]) < metres) return true;
+    if (distance_to_segment(position, ring[j], ring[i]) < metres) return true;
   return false;
 }
 
