@@ -3,16 +3,12 @@
 #include <fmt/format.h>
 
 #include <itin/coordinates.hpp>
-#include <itin/error.hpp>
 
 namespace itin::cli {
 
 std::optional<GridScale> scale_of(const StoreMetadata& metadata) {
-  try {
-    return grid_scale(metadata.crs_wkt, metadata.grid.box(metadata.bounds));
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
+  if (metadata.scale) return metadata.scale;
+  return grid_scale_if_known(metadata.crs_wkt, metadata.grid.box(metadata.bounds));
 }
 
 Document scale_document(const std::optional<GridScale>& scale) {

@@ -1,4 +1,4 @@
-// Coordinate reference systems by name, and points from one to another.
+// Coordinate reference systems by name, points from one to another, and how true lengths are on a CRS's grid.
 //
 //   CoordinateTransform to_store("EPSG:4326", store.metadata().crs_wkt);
 //   const Point2 cardiff = to_store({-3.18, 51.48});  // longitude, latitude
@@ -6,6 +6,8 @@
 // Axis order is the one of maps and files, whatever the authority says: easting, northing; longitude, latitude.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 
@@ -36,5 +38,18 @@ std::string crs_identifier(const std::string& wkt);
 
 /// The name that people use for a CRS: "OSGB36 / British National Grid".
 std::string crs_title(const std::string& wkt);
+
+/// Where lengths are wrong by more than this, an import takes no CRS for a store: in general, and in a CRS about the
+/// equator.
+inline constexpr double kGreatestScaleError = 0.005, kGreatestScaleErrorOfWorld = 0.002;
+
+/// Distance on the grid over the geodesic one on the CRS's own ellipsoid, for short lines in whatever direction.
+struct GridScale {
+  double least = 1, greatest = 1;
+  double allowed = kGreatestScaleError;  ///< error, in this CRS
+
+  double error() const { return std::max(std::abs(least - 1), std::abs(greatest - 1)); }
+  bool is_true() const { return error() <= allowed; }
+};
 
 }  // namespace itin

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include <itin/coordinates.hpp>
 #include <itin/geometry.hpp>
 #include <itin/progress.hpp>
 #include <itin/theme.hpp>
@@ -62,6 +63,7 @@ struct StoreMetadata {
   std::string crs_wkt;
   Grid grid;
   GridBox bounds;                   ///< of all vertices
+  std::optional<GridScale> scale;   ///< over the bounds; nothing where the CRS does not tell, and in older stores
   std::vector<LevelInfo> levels;    ///< level 0 (tolerance 0) first, then coarser and coarser
   std::vector<SourceInfo> sources;  ///< also the import history, in order
   std::vector<ThemeInfo> themes;    ///< those of the terrain first, then by name

@@ -7,27 +7,13 @@
 // as they are. Mercator's projection, and others about the equator that show the whole world, must be true to 0.2 %.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string>
 
+#include <itin/coordinates.hpp>
 #include <itin/geometry.hpp>
 
 namespace itin {
-
-/// Where lengths are wrong by more than this, an import takes no CRS for a store: in general, and in a CRS about the
-/// equator.
-inline constexpr double kGreatestScaleError = 0.005, kGreatestScaleErrorOfWorld = 0.002;
-
-/// Distance on the grid over the geodesic one on the CRS's own ellipsoid, for short lines in whatever direction.
-struct GridScale {
-  double least = 1, greatest = 1;
-  double allowed = kGreatestScaleError;  ///< error, in this CRS
-
-  double error() const { return std::max(std::abs(least - 1), std::abs(greatest - 1)); }
-  bool is_true() const { return error() <= allowed; }
-};
 
 /// "up to 60.4 % too long".
 std::string error_in_words(const GridScale& scale);
@@ -36,5 +22,8 @@ std::string error_in_words(const GridScale& scale);
 /// Nothing where none of them has a place on the ground. Throws InputError for a CRS that is not understood, or whose
 /// axes are not in metres.
 std::optional<GridScale> grid_scale(const std::string& crs, const Box& area);
+
+/// As grid_scale(), but nothing also for a CRS that is not understood.
+std::optional<GridScale> grid_scale_if_known(const std::string& crs, const Box& area);
 
 }  // namespace itin

@@ -36,6 +36,14 @@ LevelInfo level_from_json(const json& j, double resolution) {
   return level;
 }
 
+ordered_json scale_to_json(const GridScale& scale) {
+  return {{"least", scale.least}, {"greatest", scale.greatest}, {"allowed_error", scale.allowed}};
+}
+
+GridScale scale_from_json(const json& j) {
+  return {j.at("least").get<double>(), j.at("greatest").get<double>(), j.at("allowed_error").get<double>()};
+}
+
 ordered_json source_to_json(const SourceInfo& source) {
   ordered_json j{{"path", source.path},         {"kind", source.kind},
                  {"theme", source.theme},       {"imported", source.imported},
@@ -84,6 +92,7 @@ StoreMetadata read_document(const json& j) {
   metadata.grid.resolution = j.at("grid").at("resolution_m").get<double>();
   const auto bounds = j.at("bounds").get<std::array<std::int32_t, 4>>();
   metadata.bounds = {bounds[0], bounds[1], bounds[2], bounds[3]};
+  if (j.contains("scale")) metadata.scale = scale_from_json(j.at("scale"));
   for (const json& level : j.at("levels")) {
     metadata.levels.push_back(level_from_json(level, metadata.grid.resolution));
   }
@@ -110,6 +119,7 @@ std::string metadata_to_json(const StoreMetadata& metadata) {
                {"origin_y", metadata.grid.origin.y},
                {"resolution_m", metadata.grid.resolution}};
   j["bounds"] = {metadata.bounds.xmin, metadata.bounds.ymin, metadata.bounds.xmax, metadata.bounds.ymax};
+  if (metadata.scale) j["scale"] = scale_to_json(*metadata.scale);
   j["levels"] = ordered_json::array();
   for (const LevelInfo& level : metadata.levels) {
     j["levels"].push_back(level_to_json(level, metadata.grid.resolution));

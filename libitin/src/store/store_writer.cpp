@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include <itin/grid_scale.hpp>
+
 #include "base/stoppable.hpp"
 #include "geometry/morton_range.hpp"
 #include "store/block_codec.hpp"
@@ -247,6 +249,8 @@ void StoreWriter::Impl::commit(std::vector<SourceInfo> sources, std::vector<Them
   metadata_.sources = std::move(sources);
   metadata_.themes = std::move(themes);
   metadata_.parts = std::move(parts);
+  if (metadata_.vertices > 0)
+    metadata_.scale = grid_scale_if_known(metadata_.crs_wkt, metadata_.grid.box(metadata_.bounds));
   const std::string text = metadata_to_json(metadata_);
   {
     Statement statement = database_.prepare("INSERT INTO metadata(name, value, checksum) VALUES('store', ?, ?)");

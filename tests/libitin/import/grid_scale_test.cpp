@@ -8,8 +8,12 @@
 #include <itin/error.hpp>
 #include <itin/geodesic.hpp>
 #include <itin/grid_scale.hpp>
+#include <itin/import.hpp>
+#include <itin/store.hpp>
 
+#include "support/raster_file.hpp"
 #include "support/seed.hpp"
+#include "support/temporary_directory.hpp"
 
 namespace itin {
 namespace {
@@ -68,6 +72,28 @@ TEST(GridScale, IsNoneWhereThereIsNoGround) {
 TEST(GridScale, SaysTheErrorInWords) {
   EXPECT_EQ(error_in_words({1.6, 1.604}), "up to 60.4 % too long");
   EXPECT_EQ(error_in_words({0.99, 1.0012}), "up to 1.00 % too short");
+}
+
+/// A store knows its scale, so that no question about it has to ask PROJ.
+TEST(GridScale, IsKeptWithAStoreAndMeasuredAgainAsItGrows) {
+  const test::TemporaryDirectory directory;
+  const auto import = [&](const char* name, double xmin) {
+    test::write_raster(directory.file(name), {.xmin = xmin, .columns = 10, .rows = 10}, [](int, int) { return 10.0; });
+    ImportOptions options;
+    options.sources = {directory.file(name)};
+    NoProgress progress;
+    import_terrain(directory.file("s.itin"), options, progress);
+    return Store(directory.file("s.itin")).metadata();
+  };
+  const StoreMetadata first = import("a.tif", 300000), second = import("b.tif", 600000);
+  for (const StoreMetadata& m : {first, second}) {
+    const GridScale expected = scale("EPSG:27700", m.grid.box(m.bounds));
+    ASSERT_TRUE(m.scale);
+    EXPECT_NEAR(m.scale->least, expected.least, 1e-9);
+    EXPECT_NEAR(m.scale->greatest, expected.greatest, 1e-9);
+    EXPECT_EQ(m.scale->allowed, kGreatestScaleError);
+  }
+  EXPECT_GT(second.scale->greatest - first.scale->greatest, 1e-5);
 }
 
 /// Lines some kilometres long, anywhere in a zone: what the scale says of the box about them holds.

@@ -67,6 +67,7 @@ TEST_F(StoreTest, MetadataIsWhatWasWritten) {
   EXPECT_EQ(m.format_version, 4);
   EXPECT_EQ(m.crs_wkt, "LOCAL_CS[\"test\"]");
   EXPECT_EQ(m.grid, given_.grid);
+  EXPECT_FALSE(m.scale);
   EXPECT_EQ(m.sources.size(), 3u);
   EXPECT_EQ(m.sources[1].path, "b.tif");
   EXPECT_EQ(m.sources[1].gap_basis, (std::array<double, 4>{75, 0, 0, 75.5}));

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "import/source/scale_meter.hpp"
+#include "gdal/scale_meter.hpp"
 #include "import/source/source_context.hpp"
 
 namespace itin {

@@ -11,7 +11,7 @@
 #include <itin/grid_scale.hpp>
 
 #include "gdal/quiet_gdal.hpp"
-#include "import/source/scale_meter.hpp"
+#include "gdal/scale_meter.hpp"
 
 namespace itin {
 
@@ -112,6 +112,14 @@ std::string error_in_words(const GridScale& scale) {
 
 std::optional<GridScale> grid_scale(const std::string& crs, const Box& area) {
   return ScaleMeter(parse_crs(crs, "CRS")).at(places_in(area));
+}
+
+std::optional<GridScale> grid_scale_if_known(const std::string& crs, const Box& area) {
+  try {
+    return grid_scale(crs, area);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace itin
