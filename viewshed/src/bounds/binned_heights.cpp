@@ -166,7 +166,8 @@ void BinnedHeights::bound_tile(std::uint32_t tile) {
 
 void BinnedHeights::bound_tin() {
   const Tin& tin = *tin_;
-  listed_.emplace(Listed{TriangleBins(tin, grid_), std::vector<UpperPlane>(grid_.cell_count()), {}});
+  listed_.emplace(Listed{TriangleBins(tin, grid_), {}, {}});
+  listed_->upper_planes.resize(grid_.cell_count(), {-kFloatInfinity, 0, 0});
   for (std::uint32_t t = 0; t < tin.triangles.size(); ++t) {
     const auto [a, b, c] = tin.corners(t);
     listed_->tops.push_back(std::max({a.z, b.z, c.z}));
@@ -202,11 +203,13 @@ BinnedHeights::Range BinnedHeights::bound_bin(RasterGrid::Cell bin) {
     area += facet.doubled_area(), rise_x += facet.rise_x(), rise_y += facet.rise_y();
   }
   // Sloping as the triangles do on average; rows count southwards.
-  const double slope_x = area > 0 ? rise_x / area : 0, slope_y = area > 0 ? rise_y / area : 0;
+  const auto per_column = static_cast<float>(area > 0 ? rise_x / area * bin_size() : 0),
+             per_row = static_cast<float>(area > 0 ? -rise_y / area * bin_size() : 0);
+  const double slope_x = per_column / bin_size(), slope_y = -per_row / bin_size();
   double above = -kFloatInfinity;
   for (const std::uint32_t t : listed)
     above = std::max(above, Facet(tin_->corners(t), square).range_above(slope_x, slope_y).second);
-  listed_->upper_planes[number] = {above, slope_x * bin_size(), -slope_y * bin_size()};
+  listed_->upper_planes[number] = {rounded_up(above), per_column, per_row};
   return {rounded_down(low), rounded_up(high)};
 }
 

@@ -27,7 +27,7 @@ namespace itin::viewshed {
 
 class BinnedHeights : public BinBounds {
  public:
-  /// The surface must outlive it. A bin has about two triangles' worth, at 50 bytes per triangle, or less where cells
+  /// The surface must outlive it. A bin has about two triangles' worth, at 40 bytes per triangle, or less where cells
   /// of this area, square metres, are far smaller: many lines are decided by what is known of bins. A lattice's bins
   /// are its cells, for a fraction of that.
   explicit BinnedHeights(const Tin& tin, double cell_area = std::numeric_limits<double>::infinity());
@@ -52,7 +52,9 @@ class BinnedHeights : public BinBounds {
     return std::max(std::max(upper[0], upper[1]), std::max(lower[0], lower[1])) <= height;
   }
   UpperPlane upper_plane(RasterGrid::Cell bin) const {
-    return lattice_ != nullptr ? upper_plane_of_cell(*lattice_, cell(bin)) : listed_->upper_planes[grid_.index(bin)];
+    if (lattice_ != nullptr) return upper_plane_of_cell(*lattice_, cell(bin));
+    const auto& [middle, per_column, per_row] = listed_->upper_planes[grid_.index(bin)];
+    return {middle, per_column, per_row};
   }
   /// Calls visit(triangle) for those that meet the bin, or nearly meet it, kSlack bins away at least, and may rise
   /// above a height, grid units. Ends when one call returns false, and returns whether none did.
@@ -83,8 +85,8 @@ class BinnedHeights : public BinBounds {
   /// These are computed once for a Tin that is no lattice.
   struct Listed {
     TriangleBins bins;
-    std::vector<UpperPlane> upper_planes;  ///< per bin
-    std::vector<std::int32_t> tops;        ///< per triangle: its highest vertex
+    std::vector<std::array<float, 3>> upper_planes;  ///< per bin: what UpperPlane has
+    std::vector<std::int32_t> tops;                  ///< per triangle: its highest vertex
   };
   std::uint32_t cell(RasterGrid::Cell bin) const {
     return lattice_->cell(static_cast<std::uint32_t>(bin.column), static_cast<std::uint32_t>(bin.row));

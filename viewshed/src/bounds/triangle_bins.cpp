@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -45,6 +46,7 @@ TriangleBins::TriangleBins(const Tin& tin, const RasterGrid& grid) {
     for_each_entry(chunk, [&](std::uint32_t, std::size_t bin) { ++places[chunk][bin]; });
   });
   first_.resize(bins + 1);
+  std::uint64_t entries = 0;
   for (std::size_t bin = 0; bin < bins; ++bin) {
     std::uint32_t total = 0;
     for (auto& chunk : places) {
@@ -52,7 +54,9 @@ TriangleBins::TriangleBins(const Tin& tin, const RasterGrid& grid) {
       chunk[bin] = total;
       total += own;
     }
-    first_[bin + 1] = first_[bin] + total;
+    entries += total;
+    if (entries > std::numeric_limits<std::uint32_t>::max()) throw std::length_error("too many triangles to bin");
+    first_[bin + 1] = static_cast<std::uint32_t>(entries);
   }
   triangles_.resize(first_[bins]);
   parallel_for(chunks, [&](std::size_t chunk) {

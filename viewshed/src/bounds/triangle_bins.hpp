@@ -16,7 +16,7 @@ RasterGrid location_grid(const Tin& tin);
 class TriangleBins {
  public:
   /// A triangle is listed in every cell of `grid` that it meets, or nearly meets, by ascending number. O(n) plus the
-  /// entries.
+  /// entries. Throws std::length_error for 2^32 entries and more.
   TriangleBins(const Tin& tin, const RasterGrid& grid);
 
   std::span<const std::uint32_t> triangles(std::size_t bin) const {
@@ -24,7 +24,7 @@ class TriangleBins {
   }
 
  private:
-  std::vector<std::size_t> first_;  ///< of bin b: [first_[b], first_[b + 1])
+  std::vector<std::uint32_t> first_;  ///< of bin b: [first_[b], first_[b + 1])
   std::vector<std::uint32_t> triangles_;
 };
 
