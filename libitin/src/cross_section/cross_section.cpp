@@ -7,10 +7,10 @@
 #include <itin/store.hpp>
 
 #include "cross_section/nearby_apex.hpp"
-#include "cross_section/read_once.hpp"
 #include "cross_section/retrieval.hpp"
 #include "cross_section/section_walk.hpp"
 #include "triangulate/raised_index.hpp"
+#include "triangulate/read_once.hpp"
 #include "triangulate/region.hpp"
 
 namespace itin {

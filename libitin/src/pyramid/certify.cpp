@@ -13,6 +13,9 @@
 #include <itin/error.hpp>
 #include <itin/parallel.hpp>
 
+#include "pyramid/lattice_difference.hpp"
+#include "triangulate/read_once.hpp"
+
 namespace itin {
 
 namespace {
@@ -102,29 +105,45 @@ struct CellOutcome {
 class CellVerification {
  public:
   CellVerification(const WorkingIndex& index, const std::vector<std::int32_t>& tolerances, const Task& task)
-      : index_(index), tolerances_(tolerances), task_(task) {}
+      : index_(index), points_(index), tolerances_(tolerances), task_(task) {}
 
   /// Replaces the leaves' bounds. If `mend`, points of the cell are raised until the levels hold in the box.
   CellOutcome run(bool mend, LeafBounds& bounds) {
-    fine_ = triangulate_region(index_, levels_from(0, tolerances_), task_.box);
-    if (!fine_.mesh.triangles.empty()) edges_ = std::make_unique<FineEdges>(fine_);
-    find_leaves();
+    if (auto posts = WholeLattice::about(points_, task_.box)) lattice_.emplace(std::move(*posts));
     for (int k = static_cast<int>(tolerances_.size()) - 1; k >= 1; --k) {
       if (!(task_.levels >> k & 1)) continue;
-      clear(k, bounds);
-      if (edges_ == nullptr) continue;
-      Difference d = compare(k);
-      while (mend && raise(k, d)) d = compare(k);
-      record(k, d, bounds);
+      for_each_leaf([&](std::uint32_t leaf) { bounds.at(leaf, k) = {}; });
+      if (lattice_ || make_mesh()) verify(k, mend, bounds);
     }
     return {std::move(raised_), std::move(left_to_others_)};
   }
 
  private:
-  Difference compare(int k) const {
-    const RaisedIndex raised(index_, raised_);
-    const RegionMesh coarse = triangulate_region(raised, levels_from(k, tolerances_), box_of(fine_));
-    return difference(fine_, *edges_, coarse, tolerances_[static_cast<std::size_t>(k)]);
+  void verify(int k, bool mend, LeafBounds& bounds) {
+    const std::int32_t tolerance = tolerances_[static_cast<std::size_t>(k)];
+    while (true) {
+      const RaisedIndex raised(points_, raised_);
+      const RegionMesh coarse = triangulate_region(raised, levels_from(k, tolerances_),
+                                                   lattice_ ? lattice_->posts().bounds() : box_of(fine_));
+      // What fails is mended by triangles.
+      if (lattice_ && lattice_->compare(coarse) && (!mend || lattice_->whole().size() <= tolerance)) {
+        forget_left(k);
+        return record(k, *lattice_, bounds);
+      }
+      make_mesh();
+      const Difference d = difference(fine_, *edges_, coarse, tolerance);
+      if (!mend || !raise(k, d)) return record(k, d, bounds);
+    }
+  }
+
+  /// Returns whether there is any ground.
+  bool make_mesh() {
+    if (edges_ != nullptr) return true;
+    fine_ = triangulate_region(points_, levels_from(0, tolerances_), task_.box);
+    if (fine_.mesh.triangles.empty()) return false;
+    edges_ = std::make_unique<FineEdges>(fine_);
+    find_leaves();
+    return true;
   }
 
   std::uint64_t code(std::uint32_t v) const { return morton(fine_.vertices[v].point.x, fine_.vertices[v].point.y); }
@@ -133,7 +152,7 @@ class CellVerification {
   /// more than the tolerance off. True when there was any.
   bool raise(int k, const Difference& d) {
     bool any = false;
-    std::erase_if(left_to_others_, [&](const auto& p) { return p.second == k; });
+    forget_left(k);
     const auto raise_own = [&](std::uint32_t v) {
       if (!task_.cell.cell.contains(code(v))) {
         left_to_others_.emplace_back(code(v), k);
@@ -145,6 +164,10 @@ class CellVerification {
     for (const std::uint32_t v : worst_by_face(d, tolerances_[static_cast<std::size_t>(k)])) raise_own(v);
     for (const std::uint32_t v : remedies(d)) raise_own(v);
     return any;
+  }
+
+  void forget_left(int k) {
+    std::erase_if(left_to_others_, [&](const auto& p) { return p.second == k; });
   }
 
   static std::vector<std::uint32_t> worst_by_face(const Difference& d, std::int32_t tolerance) {
@@ -200,12 +223,17 @@ class CellVerification {
     return std::nullopt;
   }
 
-  void clear(int k, LeafBounds& bounds) const {
+  template <class Visit>
+  void for_each_leaf(const Visit& visit) const {
     const auto& ranges = index_.ranges();
     for (std::uint32_t leaf = index_.leaf_of(task_.cell.cell.code);
          leaf < ranges.size() && ranges[leaf].cell.code < task_.cell.cell.end(); ++leaf) {
-      if (task_.covers(ranges[leaf].cell)) bounds.at(leaf, k) = {};
+      if (task_.covers(ranges[leaf].cell)) visit(leaf);
     }
+  }
+
+  void record(int k, const LatticeDifference& d, LeafBounds& bounds) const {
+    for_each_leaf([&](std::uint32_t leaf) { bounds.at(leaf, k).add(d.over(square_of(index_.ranges()[leaf].cell))); });
   }
 
   /// Every leaf that a fine triangle may meet takes the triangle's range.
@@ -230,9 +258,11 @@ class CellVerification {
   }
 
   const WorkingIndex& index_;
+  const ReadOnce points_;  ///< those of the index
   const std::vector<std::int32_t>& tolerances_;
   Task task_;
-  RegionMesh fine_;
+  std::optional<LatticeDifference> lattice_;  ///< where the full surface is a lattice
+  RegionMesh fine_;                           ///< else, and where a level fails
   std::unique_ptr<FineEdges> edges_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> triangles_of_leaves_;
   Levels raised_;

@@ -8,14 +8,11 @@
 
 #include <itin/error.hpp>
 
+#include "geometry/whole_division.hpp"
+
 namespace itin {
 
 namespace {
-
-std::int32_t floor_divide(Int128 numerator, Int128 positive) {
-  const Int128 quotient = numerator / positive;
-  return static_cast<std::int32_t>(quotient - (numerator % positive < 0));
-}
 
 /// How far v lies above the triangle's plane. The weights are exact, so the double result is off by less than 1e-6;
 /// next to a whole number integers decide.
@@ -33,7 +30,8 @@ DifferenceRange above_plane(const RegionMesh& m, std::uint32_t triangle, const G
   }
   const Int128 weight = Int128{wa} + wb + wc,
                numerator = v.z * weight - (Int128{wa} * pa.z + Int128{wb} * pb.z + Int128{wc} * pc.z);
-  return {floor_divide(numerator, weight), -floor_divide(-numerator, weight)};
+  return {static_cast<std::int32_t>(floor_divide(numerator, weight)),
+          static_cast<std::int32_t>(ceil_divide(numerator, weight))};
 }
 
 /// T0 - Tk where fine edge uv crosses coarse edge pq: weights exact, heights below 2^31, so rounding stays below 1e-5.

@@ -13,6 +13,7 @@
 
 #include <itin/error.hpp>
 
+#include "geometry/whole_division.hpp"
 #include "import/rasters/raster_source.hpp"
 #include "import/source/source_context.hpp"
 #include "pyramid/pyramid.hpp"
@@ -34,10 +35,6 @@ struct PostLattice {
     return std::tuple(-a.spacing, a.x, a.y) < std::tuple(-b.spacing, b.x, b.y);
   }
 };
-
-std::int64_t floor_divided(std::int64_t a, std::int64_t b) {
-  return a / b - (a % b < 0 ? 1 : 0);
-}
 
 /// Places of a lattice, in squares of 64 by 64 that have some.
 class Places {
@@ -85,7 +82,7 @@ class SeaFill::Lattices {
     coarsest_ = std::max(coarsest_, info.spacing);
     const auto step = upright_step(info, grid_.resolution);
     if (!step || points.empty()) return;
-    const auto phase = [&](std::int32_t v) { return v - floor_divided(v, *step) * *step; };
+    const auto phase = [&](std::int32_t v) { return v - floor_divide(std::int64_t{v}, *step) * *step; };
     const PostLattice lattice{*step, phase(points.front().x), phase(points.front().y)};
     Places& places = seen_[lattice];
     for (const GridPoint& p : points)
@@ -106,8 +103,8 @@ class SeaFill::Lattices {
     const PostLattice lattice = this->lattice();
     const auto seen = seen_.find(lattice);
     const GridBox box = grid_.enclosing(box_);
-    const auto first = [&](std::int64_t v, std::int64_t phase) { return -floor_divided(phase - v, lattice.spacing); };
-    const auto last = [&](std::int64_t v, std::int64_t phase) { return floor_divided(v - phase, lattice.spacing); };
+    const auto first = [&](std::int64_t v, std::int64_t phase) { return ceil_divide(v - phase, lattice.spacing); };
+    const auto last = [&](std::int64_t v, std::int64_t phase) { return floor_divide(v - phase, lattice.spacing); };
     const std::int64_t west = first(box.xmin, lattice.x), east = last(box.xmax, lattice.x),
                        south = first(box.ymin, lattice.y), north = last(box.ymax, lattice.y);
     require_few(static_cast<double>(east - west + 1) * static_cast<double>(north - south + 1));

@@ -1,4 +1,4 @@
-// An index whose blocks one line reads, and counts, once, whatever asks for them.
+// An index whose blocks are read, and counted, once, whatever asks for them.
 #pragma once
 
 #include <memory>
