@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <queue>
+#include <optional>
+#include <tuple>
+#include <utility>
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
@@ -38,37 +40,88 @@ using Triangulation = CGAL::Delaunay_triangulation_2<
 using Face = Triangulation::Face_handle;
 using Vertex = Triangulation::Vertex_handle;
 
-/// A point to insert: the worst one of a face, or one that breaks up the worst edge.
+/// A point to insert: the worst one of a face, or one that breaks up the worst edge between two points.
 struct Insertion {
   double error;
   std::uint32_t point;
-  std::uint32_t version;  ///< of the face
-  Face face;
-  Vertex edge_from, edge_to;  ///< null for a face's proposal
-  /// Greatest error first, then the first point in order.
-  bool operator<(const Insertion& p) const { return error != p.error ? error < p.error : point > p.point; }
+  std::uint32_t version;   ///< of the face
+  Face face;               ///< null for an edge's proposal
+  std::uint32_t from, to;  ///< of the edge
+  bool of_edge() const { return face == Face(); }
+  /// Greatest error first, then the first point in order; the rest only makes the order one.
+  bool operator<(const Insertion& p) const {
+    if (error != p.error) return error < p.error;
+    if (point != p.point) return point > p.point;
+    return std::tuple(of_edge(), from, to) > std::tuple(p.of_edge(), p.from, p.to);
+  }
+};
+
+/// What is to be inserted, level by level: a level's queue holds nothing that waits for a finer one.
+class Insertions {
+ public:
+  /// `tolerances` ascending, that of level 0 first. Begins with the coarsest level.
+  explicit Insertions(std::span<const double> tolerances)
+      : tolerances_(tolerances), level_(tolerances.size() - 1), waiting_(tolerances.size()) {}
+
+  /// What no level asks for is forgotten.
+  void push(const Insertion& insertion) {
+    const auto above = std::lower_bound(tolerances_.begin(), tolerances_.end(), insertion.error) - tolerances_.begin();
+    const std::size_t coarsest = static_cast<std::size_t>(std::max<std::ptrdiff_t>(above, 1)) - 1;
+    if (coarsest >= level_) {
+      queue_.push_back(insertion);
+      std::push_heap(queue_.begin(), queue_.end());
+    } else if (coarsest > 0) {
+      waiting_[coarsest].push_back(insertion);
+    }
+  }
+
+  /// The worst one that is more than this level's tolerance off; nothing where none is.
+  std::optional<Insertion> pop() {
+    if (queue_.empty()) return std::nullopt;
+    std::pop_heap(queue_.begin(), queue_.end());
+    const Insertion worst = queue_.back();
+    queue_.pop_back();
+    return worst;
+  }
+
+  /// From now on for this level, the next finer one. Forgets what is_stale().
+  template <class IsStale>
+  void begin_level(std::size_t level, const IsStale& is_stale) {
+    level_ = level;
+    const auto waiting = std::exchange(waiting_[level], {});
+    std::copy_if(waiting.begin(), waiting.end(), std::back_inserter(queue_),
+                 [&](const Insertion& insertion) { return !is_stale(insertion); });
+    std::make_heap(queue_.begin(), queue_.end());
+  }
+
+ private:
+  std::span<const double> tolerances_;
+  std::size_t level_;
+  std::vector<Insertion> queue_;
+  std::vector<std::vector<Insertion>> waiting_;  ///< by level
 };
 
 class GreedyInsertion {
  public:
-  GreedyInsertion(const RegionMesh& fine, std::span<const Candidacy> candidacy)
+  GreedyInsertion(const RegionMesh& fine, std::span<const Candidacy> candidacy, std::span<const double> tolerances)
       : fine_(fine),
         candidacy_(candidacy),
         walk_(fine),
         next_(fine.vertices.size(), kNone),
-        inserted_(fine.vertices.size(), 0) {}
+        vertices_(fine.vertices.size()),
+        insertions_(tolerances) {}
 
   /// Starts from these vertices, whose hull must contain all candidates; false while they are collinear.
   bool start(const std::vector<std::uint32_t>& vertices) {
     Face hint;
     for (const std::uint32_t v : vertices) {
-      if (inserted_[v]) continue;
-      inserted_[v] = 1;
-      hint = triangulation_.insert(position(v), hint)->face();
+      if (is_inserted(v)) continue;
+      vertices_[v] = triangulation_.insert(position(v), hint);
+      hint = vertices_[v]->face();
     }
     if (triangulation_.dimension() < 2) return false;
     for (std::uint32_t p = 0; p < candidacy_.size(); ++p) {
-      if (inserted_[p] || candidacy_[p] == Candidacy::kNone) continue;
+      if (is_inserted(p) || candidacy_[p] == Candidacy::kNone) continue;
       hint = locate(p, hint);
       link(p, hint);
     }
@@ -80,31 +133,33 @@ class GreedyInsertion {
     return true;
   }
 
+  /// Before the vertices of each level are inserted, from the coarsest to level 1.
+  void begin_level(std::size_t level) {
+    insertions_.begin_level(level, [&](const Insertion& insertion) { return is_stale(insertion); });
+  }
+
   /// Inserts these vertices, if they are not yet in.
   void insert_given(const std::vector<std::uint32_t>& vertices) {
     Face hint;
     for (const std::uint32_t v : vertices) {
-      if (inserted_[v]) continue;
+      if (is_inserted(v)) continue;
       hint = locate(v, hint);
       hint = insert(v, hint);
     }
   }
 
-  /// Inserts what is worst until nothing is more than `tolerance` off; calls on_insert(point) for each.
+  /// Inserts what is worst until nothing is more than the level's tolerance off; calls on_insert(point) for each.
   template <class OnInsert>
-  void refine(double tolerance, const OnInsert& on_insert) {
-    while (!queue_.empty() && queue_.top().error > tolerance) {
-      const Insertion top = queue_.top();
-      queue_.pop();
-      const bool of_edge = top.edge_from != Vertex();
-      if (of_edge ? !triangulation_.is_edge(top.edge_from, top.edge_to) : top.face->info().version != top.version)
-        continue;
-      if (!inserted_[top.point]) {
-        insert(top.point, of_edge ? locate(top.point, top.edge_from->face()) : top.face);
-        on_insert(top.point);
+  void refine(const OnInsert& on_insert) {
+    while (const auto worst = insertions_.pop()) {
+      if (is_stale(*worst)) continue;
+      const bool of_edge = worst->of_edge();
+      if (!is_inserted(worst->point)) {
+        insert(worst->point, of_edge ? locate(worst->point, vertices_[worst->from]->face()) : worst->face);
+        on_insert(worst->point);
       }
       // An edge that has outlived the insertion needs another one.
-      if (of_edge && triangulation_.is_edge(top.edge_from, top.edge_to)) propose_edge(top.edge_from, top.edge_to);
+      if (of_edge && !is_stale(*worst)) propose_edge(vertices_[worst->from], vertices_[worst->to]);
     }
   }
 
@@ -112,6 +167,12 @@ class GreedyInsertion {
   TraitsPoint position(std::uint32_t p) const { return {point(p).x, point(p).y, p}; }
   const GridPoint& point(std::uint32_t p) const { return fine_.vertices[p].point; }
   const GridPoint& corner(Face f, int i) const { return point(f->vertex(i)->point().vertex); }
+  bool is_inserted(std::uint32_t p) const { return vertices_[p] != Vertex(); }
+  /// Whether its face or edge is no more.
+  bool is_stale(const Insertion& insertion) const {
+    return insertion.of_edge() ? !triangulation_.is_edge(vertices_[insertion.from], vertices_[insertion.to])
+                               : insertion.face->info().version != insertion.version;
+  }
 
   void link(std::uint32_t p, Face f) {
     next_[p] = f->info().first;
@@ -126,7 +187,6 @@ class GreedyInsertion {
 
   /// Returns a face at p.
   Face insert(std::uint32_t p, Face start) {
-    inserted_[p] = 1;
     conflicts_.clear();
     boundary_.clear();
     triangulation_.get_conflicts_and_boundary(position(p), std::back_inserter(conflicts_),
@@ -140,6 +200,7 @@ class GreedyInsertion {
     }
     const Vertex v =
         triangulation_.star_hole(position(p), boundary_.begin(), boundary_.end(), conflicts_.begin(), conflicts_.end());
+    vertices_[p] = v;
     resettle(v);
     return v->face();
   }
@@ -200,7 +261,7 @@ class GreedyInsertion {
         worst_point = q;
       }
     }
-    queue_.push({worst - kPointError, worst_point, f->info().version, f, Vertex(), Vertex()});
+    insertions_.push({worst - kPointError, worst_point, f->info().version, f, kNone, kNone});
   }
 
   /// Proposes what would break up edge ab: at its worst crossing with a fine edge, the end of that edge nearer to it,
@@ -227,7 +288,8 @@ class GreedyInsertion {
       worst = error;
       remedy = found;
     });
-    if (remedy != kNone) queue_.push({worst + kCrossingError, remedy, 0, Face(), from, to});
+    if (remedy != kNone)
+      insertions_.push({worst + kCrossingError, remedy, 0, Face(), from->point().vertex, to->point().vertex});
   }
 
   std::uint32_t opposite(std::uint32_t triangle, std::uint32_t p, std::uint32_t q) const {
@@ -238,7 +300,7 @@ class GreedyInsertion {
 
   std::uint32_t first_free(std::initializer_list<std::uint32_t> vertices) const {
     for (const std::uint32_t v : vertices) {
-      if (v != kNone && !inserted_[v] && candidacy_[v] != Candidacy::kNone) return v;
+      if (v != kNone && !is_inserted(v) && candidacy_[v] != Candidacy::kNone) return v;
     }
     return kNone;
   }
@@ -247,9 +309,9 @@ class GreedyInsertion {
   std::span<const Candidacy> candidacy_;
   VertexWalk walk_;
   std::vector<std::uint32_t> next_;
-  std::vector<std::uint8_t> inserted_;
   Triangulation triangulation_;
-  std::priority_queue<Insertion> queue_;
+  std::vector<Vertex> vertices_;  ///< by point; null until it is inserted
+  Insertions insertions_;
   // Kept between insertions for their memory.
   std::vector<Face> conflicts_;
   std::vector<Triangulation::Edge> boundary_;
@@ -282,12 +344,12 @@ std::vector<std::uint8_t> greedy_levels(const RegionMesh& fine, std::span<const 
   first.insert(first.end(), given[static_cast<std::size_t>(coarsest)].begin(),
                given[static_cast<std::size_t>(coarsest)].end());
   for (const std::uint32_t p : first) levels[p] = static_cast<std::uint8_t>(coarsest);
-  GreedyInsertion greedy(fine, candidacy);
+  GreedyInsertion greedy(fine, candidacy, tolerances);
   if (!greedy.start(first)) return levels;
   for (int k = coarsest; k >= 1; --k) {
+    greedy.begin_level(static_cast<std::size_t>(k));
     greedy.insert_given(given[static_cast<std::size_t>(k)]);
-    greedy.refine(tolerances[static_cast<std::size_t>(k)],
-                  [&](std::uint32_t p) { levels[p] = static_cast<std::uint8_t>(k); });
+    greedy.refine([&](std::uint32_t p) { levels[p] = static_cast<std::uint8_t>(k); });
   }
   return levels;
 }
