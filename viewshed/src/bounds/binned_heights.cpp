@@ -21,7 +21,7 @@ constexpr std::size_t kBinsPerChunk = 4096;
 /// A bin for every two triangles; or, for cells that are far smaller, a bin for so many of them, as long as triangles
 /// have no more bins than that, and all together no more than take but a moment.
 double bin_count(double triangles, double cells) {
-  constexpr double kTrianglesPerBin = 2, kCellsPerBin = 16, kBinsPerTriangle = 64, kMostFineBins = 1 << 20;
+  constexpr double kTrianglesPerBin = 2, kCellsPerBin = 16, kBinsPerTriangle = 64, kMostFineBins = 1 << 19;
   return std::max(triangles / kTrianglesPerBin,
                   std::min({cells / kCellsPerBin, triangles * kBinsPerTriangle, kMostFineBins}));
 }
